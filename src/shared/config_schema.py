@@ -1,0 +1,228 @@
+"""Typed, frozen configurations: one line a field; YAML spells the keys in kebab-case."""
+
+from typing import Literal, Self
+
+from pydantic import AliasChoices, BaseModel, ConfigDict, Field, model_validator
+
+Precision = Literal["no", "bf16", "fp16"]
+
+
+def _kebab(name: str) -> str:
+    return name.replace("_", "-")
+
+
+class Config(BaseModel):
+    """Base of every configuration: frozen, strict about keys, kebab-case in YAML."""
+
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", populate_by_name=True, alias_generator=_kebab
+    )
+
+
+class DiffusionConfig(Config):
+    """Forward process, prediction target and sampler (SPEC rulings 12 to 15)."""
+
+    timesteps: int = Field(
+        1000, ge=2, validation_alias=AliasChoices("timesteps", "num-timesteps", "num_timesteps")
+    )
+    beta_schedule: Literal["linear", "cosine", "sqrt"] = "cosine"
+    beta_start: float = Field(1e-4, gt=0, lt=1)
+    beta_end: float = Field(0.02, gt=0, lt=1)
+    prediction_type: Literal["epsilon", "sample", "v"] = "epsilon"
+    loss_type: Literal["mse", "l1", "huber"] = "mse"
+    clip_sigma: float | None = Field(6.0, gt=0)  # limit on predicted x0, in standard deviations
+    timestep_spacing: Literal["leading", "linspace", "trailing"] = "trailing"
+    sampler: Literal["ddpm", "ddim", "dpm-solver++"] = "ddim"
+    sampling_steps: int = Field(20, ge=1)
+    eta: float = Field(0.0, ge=0, le=1)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _accept_predict_epsilon(cls, data: object) -> object:
+        """REF spells the prediction type as a flag, TECH says `x0` for `sample`."""
+        if isinstance(data, dict):
+            data = dict(data)
+            for key in ("predict-epsilon", "predict_epsilon"):
+                if key in data:
+                    flag = data.pop(key)
+                    data.setdefault("prediction-type", "epsilon" if flag else "sample")
+            for key in ("prediction-type", "prediction_type"):
+                if data.get(key) == "x0":
+                    data[key] = "sample"
+        return data
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.beta_end <= self.beta_start:
+            raise ValueError(f"beta-end {self.beta_end} must exceed beta-start {self.beta_start}")
+        if self.sampling_steps > self.timesteps:
+            raise ValueError(
+                f"sampling-steps {self.sampling_steps} exceeds the {self.timesteps} training steps"
+            )
+        return self
+
+
+class PostProcessingConfig(Config):
+    """What happens to a sample before it becomes quaternions (TEXT, inference only)."""
+
+    smoothing_kernel: int = Field(3, ge=1)  # frames; odd; 1 = off
+    max_velocity: float | None = Field(None, gt=0)  # rad/s per joint
+    foot_lock: bool = False
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.smoothing_kernel % 2 == 0:
+            raise ValueError(f"smoothing-kernel {self.smoothing_kernel} must be odd")
+        return self
+
+
+class GenerationConfig(Config):
+    """The motion denoiser and its diffusion process (TEXT, generation network)."""
+
+    num_heads: int = Field(4, ge=1)
+    num_layers: int = Field(3, ge=1)
+    num_bones: int = Field(22, ge=1)
+    motion_channels: int = Field(6, ge=1)
+    diffusion_steps: int = Field(100, ge=2)
+    dropout: float = Field(0.1, ge=0, lt=1)
+    text_conditioning: Literal["pooled", "tokens"] = "pooled"  # ruling 22
+    prediction_type: Literal["epsilon", "sample", "v"] = "epsilon"  # ruling 15
+    beta_schedule: Literal["linear", "cosine", "sqrt"] = "cosine"
+    sampler: Literal["ddpm", "ddim", "dpm-solver++"] = "ddim"
+    sampling_steps: int = Field(20, ge=1)
+    guidance_scale: float = Field(2.5, ge=0)
+    timestep_spacing: Literal["leading", "linspace", "trailing"] = "trailing"
+    clip_sigma: float | None = Field(6.0, gt=0)
+    post_processing: PostProcessingConfig = PostProcessingConfig()
+
+    def diffusion(self) -> DiffusionConfig:
+        """The diffusion core's own configuration; raises ValueError when steps do not fit."""
+        return DiffusionConfig(
+            timesteps=self.diffusion_steps,
+            beta_schedule=self.beta_schedule,
+            prediction_type=self.prediction_type,
+            sampler=self.sampler,
+            sampling_steps=min(self.sampling_steps, self.diffusion_steps),
+            timestep_spacing=self.timestep_spacing,
+            clip_sigma=self.clip_sigma,
+        )
+
+
+class ClipConfig(Config):
+    """The text tower and the motion tower that share one space (TEXT, CLIP alignment)."""
+
+    motion_num_heads: int = Field(4, ge=1)
+    motion_num_layers: int = Field(2, ge=1)
+    text_model: str = "xlm-roberta-base"  # hub name, folder, or "small": random-init XLM-R
+    text_hidden_size: int = Field(192, ge=8)  # the four below shape "small" only
+    text_num_layers: int = Field(3, ge=1)
+    text_num_heads: int = Field(4, ge=1)
+    text_vocab_size: int = Field(4000, ge=64)
+    max_tokens: int = Field(48, ge=4)
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.text_hidden_size % self.text_num_heads:
+            raise ValueError(
+                f"text-num-heads {self.text_num_heads} must divide"
+                f" text-hidden-size {self.text_hidden_size}"
+            )
+        return self
+
+
+class NetworkConfig(Config):
+    """One profile of network.yaml."""
+
+    embed_dim: int = Field(128, ge=8)
+    root_track: bool = True  # ruling 19
+    generation: GenerationConfig = GenerationConfig()
+    clip: ClipConfig = ClipConfig()
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for key, heads in (
+            ("generation.num-heads", self.generation.num_heads),
+            ("clip.motion-num-heads", self.clip.motion_num_heads),
+        ):
+            if self.embed_dim % heads:
+                raise ValueError(f"{key} {heads} must divide embed-dim {self.embed_dim}")
+        if (self.embed_dim // self.generation.num_heads) % 2:
+            raise ValueError(
+                f"embed-dim {self.embed_dim} over generation.num-heads"
+                f" {self.generation.num_heads} must be even for rotary positions"
+            )
+        return self
+
+    @property
+    def motion_rows(self) -> int:
+        """Rows of the motion tensor: K bones, and the root track when it is on."""
+        return self.generation.num_bones + int(self.root_track)
+
+
+class TrainConfig(Config):
+    """What every training stage shares."""
+
+    data: str = "synthetic"  # prepared folder, or "synthetic": made on the spot
+    output: str = "runs/run"
+    profile: str = "lightweight"
+    seed: int = 0
+    steps: int = Field(2000, ge=1)
+    batch_size: int = Field(64, ge=1)
+    gradient_accumulation: int = Field(1, ge=1)
+    learning_rate: float = Field(1e-3, gt=0)
+    weight_decay: float = Field(0.01, ge=0)
+    warmup_steps: int = Field(100, ge=0)
+    lr_schedule: Literal["cosine", "linear", "constant"] = "cosine"
+    gradient_clip: float = Field(1.0, gt=0)
+    ema_decay: float = Field(0.999, ge=0, lt=1)
+    precision: Precision = "no"
+    device: Literal["auto", "cuda", "mps", "cpu"] = "auto"
+    threads: int | None = Field(None, ge=1)
+    num_workers: int = Field(0, ge=0)
+    log_every: int = Field(20, ge=1)
+    validate_every: int = Field(500, ge=1)
+    validation_batches: int = Field(8, ge=1)
+    save_every: int = Field(500, ge=1)
+    keep_checkpoints: int = Field(2, ge=1)
+    min_frames: int = Field(32, ge=8)
+    max_frames: int = Field(128, ge=8)
+    balance: float = Field(0.5, ge=0, le=1)  # 0 = by clip, 1 = every label group alike
+    languages: tuple[str, ...] = ("en", "es", "fr", "de", "ja", "zh")
+
+    @model_validator(mode="after")
+    def _check_frames(self) -> Self:
+        if self.max_frames < self.min_frames:
+            raise ValueError(
+                f"max-frames {self.max_frames} is below min-frames {self.min_frames}"
+            )
+        return self
+
+
+class TrainClipConfig(TrainConfig):
+    """train_clip.yaml: aligning text and motion (ruling 20)."""
+
+    temperature: float = Field(0.1, gt=0)
+    cosine_weight: float = Field(0.2, ge=0)
+    word_dropout: float = Field(0.1, ge=0, lt=1)
+
+
+class LossWeights(Config):
+    """Weights of the generation losses; 0 = off (ruling 21)."""
+
+    reconstruction: float = Field(1.0, ge=0)
+    velocity: float = Field(0.0, ge=0)
+    geodesic: float = Field(0.0, ge=0)
+    position: float = Field(0.0, ge=0)
+    foot_contact: float = Field(0.0, ge=0)
+    foot_slide: float = Field(0.0, ge=0)
+
+
+class TrainGenerationConfig(TrainConfig):
+    """train_generation.yaml: the denoiser with a frozen text tower."""
+
+    clip: str = "runs/clip"  # folder written by train_clip
+    condition_dropout: float = Field(0.1, ge=0, lt=1)  # ruling 14
+    tag_dropout: float = Field(0.5, ge=0, le=1)
+    word_dropout: float = Field(0.1, ge=0, lt=1)
+    losses: LossWeights = LossWeights()
+    validation_prompts: tuple[str, ...] = ("a person walks forward", "a person waves")
