@@ -1,0 +1,111 @@
+"""The feature tensor of the text branch: 22 rotations in 6D and one root row (SPEC ruling 19).
+
+T frames, K = 22 joints. Row K holds forward and lateral velocity (m/s, heading frame, lateral
+positive to the character's left), pelvis height (m), yaw rate (rad/s, positive turns left) and
+left and right contact. Differences are forward (ruling 6); the last frame repeats its neighbour.
+"""
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from src.shared.motion.motion import Motion
+from src.shared.motion.rotations import (
+    heading_angle,
+    matrix_to_quaternion,
+    matrix_to_rotation_6d,
+    quaternion_continuous,
+    quaternion_to_matrix,
+    rotation_6d_to_matrix,
+    yaw_to_matrix,
+)
+from src.shared.motion.skeleton import NUM_JOINTS, REST_PELVIS_HEIGHT
+
+FORWARD, LATERAL, HEIGHT, YAW_RATE, LEFT_CONTACT, RIGHT_CONTACT = range(6)
+ROOT_ROW = NUM_JOINTS  # index of the root track among the rows
+
+
+def headings(matrices: Tensor) -> Tensor:
+    """Unwrapped heading [T] in radians of pelvis rotations [T,3,3]."""
+    angle = heading_angle(matrices)
+    return torch.as_tensor(np.unwrap(angle.numpy()), dtype=matrices.dtype)
+
+
+def _forward_difference(values: Tensor) -> Tensor:
+    steps = values[1:] - values[:-1]
+    return torch.cat((steps, steps[-1:] if len(steps) else torch.zeros_like(values)))
+
+
+def encode_features(motion: Motion) -> Tensor:
+    """Features [T,23,6] float32 of a motion; where it stands and faces at first is dropped."""
+    local = quaternion_to_matrix(torch.as_tensor(motion.quaternions))  # T K 3 3
+    position = torch.as_tensor(motion.root_position)  # T 3
+    heading = headings(local[:, 0])  # T
+    to_heading = yaw_to_matrix(-heading)  # T 3 3
+    local = torch.cat(((to_heading @ local[:, 0])[:, None], local[:, 1:]), 1)
+    velocity = _forward_difference(position) * motion.fps
+    velocity = (to_heading @ velocity[..., None]).squeeze(-1)
+    root = torch.cat(
+        (
+            velocity[:, [2]],
+            velocity[:, [0]],
+            position[:, [1]],
+            _forward_difference(heading)[:, None] * motion.fps,
+            torch.as_tensor(motion.contacts),
+        ),
+        1,
+    )  # T 6
+    return torch.cat((matrix_to_rotation_6d(local), root[:, None]), 1).float()
+
+
+def integrate_root(
+    root: Tensor,
+    fps: float,
+    start_position: tuple[float, float] = (0.0, 0.0),
+    start_heading: float = 0.0,
+) -> tuple[Tensor, Tensor]:
+    """Root rows [...,T,6] → pelvis path [...,T,3] in metres and heading [...,T] in radians."""
+
+    def accumulate(rate: Tensor) -> Tensor:
+        total = torch.cumsum(rate / fps, -1)
+        return torch.cat((torch.zeros_like(total[..., :1]), total[..., :-1]), -1)
+
+    heading = start_heading + accumulate(root[..., YAW_RATE])
+    sine, cosine = torch.sin(heading), torch.cos(heading)
+    forward, lateral = root[..., FORWARD], root[..., LATERAL]
+    x = start_position[0] + accumulate(forward * sine + lateral * cosine)
+    z = start_position[1] + accumulate(forward * cosine - lateral * sine)
+    return torch.stack((x, root[..., HEIGHT], z), -1), heading
+
+
+def decode_features(
+    features: Tensor,
+    *,
+    fps: float = 30.0,
+    start_position: tuple[float, float] = (0.0, 0.0),
+    start_heading: float = 0.0,
+    text: str = "",
+) -> Motion:
+    """Features [T,23,6], or [T,22,6] without a root track (stands in place) → Motion.
+
+    Args:
+        start_position: x and z of the pelvis in the first frame, metres.
+        start_heading: radians about +Y.
+    """
+    features = features.detach().float().cpu()
+    if features.shape[1] == NUM_JOINTS:
+        root = torch.zeros(len(features), 6)
+        root[:, HEIGHT] = REST_PELVIS_HEIGHT
+    else:
+        root = features[:, ROOT_ROW]
+    position, heading = integrate_root(root, fps, start_position, start_heading)
+    local = rotation_6d_to_matrix(features[:, :NUM_JOINTS])
+    local = torch.cat(((yaw_to_matrix(heading) @ local[:, 0])[:, None], local[:, 1:]), 1)
+    quaternions = quaternion_continuous(matrix_to_quaternion(local), dim=0)
+    return Motion(
+        quaternions=quaternions.numpy(),
+        root_position=position.numpy(),
+        contacts=root[:, LEFT_CONTACT:].clamp(0, 1).numpy(),
+        fps=fps,
+        text=text,
+    )
