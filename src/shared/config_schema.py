@@ -15,7 +15,11 @@ class Config(BaseModel):
     """Base of every configuration: frozen, strict about keys, kebab-case in YAML."""
 
     model_config = ConfigDict(
-        frozen=True, extra="forbid", populate_by_name=True, alias_generator=_kebab
+        frozen=True,
+        extra="forbid",
+        populate_by_name=True,
+        alias_generator=_kebab,
+        allow_inf_nan=False,
     )
 
 

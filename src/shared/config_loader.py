@@ -1,0 +1,309 @@
+"""YAML files and command-line overrides become frozen, typed configurations.
+
+The only file of the project that reads YAML. Every mistake is one line that names the file (or
+the command line), the key, its value and, for an unknown key, the nearest valid one.
+"""
+
+import difflib
+import json
+import re
+from collections.abc import Iterator, Sequence
+from importlib.resources import files
+from pathlib import Path
+from typing import Any, ClassVar, TypeVar, get_args
+
+import yaml
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from src.shared.config_schema import Config, NetworkConfig, TrainConfig
+from src.shared.errors import UsageError
+
+COMMAND_LINE = "command line"
+
+ConfigT = TypeVar("ConfigT", bound=Config)
+TrainConfigT = TypeVar("TrainConfigT", bound=TrainConfig)
+
+
+# ---------------------------------------------------------------- YAML
+
+_Base: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+
+class _Loader(_Base):
+    """YAML 1.2 scalars: `no` stays a word, `1e-3` is a number; a repeated key is an error."""
+
+    # a copy per class: the resolvers of yaml.SafeLoader stay as they are
+    yaml_implicit_resolvers: ClassVar[dict[str, Any]] = {
+        first: [(tag, regexp) for tag, regexp in pairs if not tag.endswith((":bool", ":float"))]
+        for first, pairs in _Base.yaml_implicit_resolvers.items()
+    }
+
+    def construct_mapping(self, node: Any, deep: bool = False) -> dict[Any, Any]:
+        seen: set[Any] = set()
+        for key_node, _ in node.value:
+            key = self.construct_object(key_node, deep=True)
+            if key in seen and key != "<<":
+                raise yaml.constructor.ConstructorError(
+                    None, None, f"key {key!r} appears twice", key_node.start_mark
+                )
+            seen.add(key)
+        return dict(super().construct_mapping(node, deep=deep))
+
+
+_Loader.add_implicit_resolver(
+    "tag:yaml.org,2002:bool", re.compile(r"^(?:true|True|TRUE|false|False|FALSE)$"), list("tTfF")
+)
+_Loader.add_implicit_resolver(
+    "tag:yaml.org,2002:float",
+    re.compile(
+        r"^(?:[-+]?(?:[0-9]+\.[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?|[-+]?[0-9]+[eE][-+]?[0-9]+"
+        r"|[-+]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN))$"
+    ),
+    list("-+0123456789."),
+)
+
+
+def parse_yaml(text: str, source: str) -> Any:
+    """Parse one YAML document; `source` names it in the error.
+
+    Raises:
+        UsageError: the text is not YAML.
+    """
+    try:
+        return yaml.load(text, Loader=_Loader)
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        where = f" line {mark.line + 1}" if mark else ""
+        what = getattr(error, "problem", None) or str(error).splitlines()[0]
+        raise UsageError(f"{source}{where}: not valid YAML: {what}") from error
+
+
+def load_yaml(path: Path | str) -> dict[str, Any]:
+    """Read a YAML file whose top level is a mapping (an empty file is an empty mapping).
+
+    Raises:
+        UsageError: the file is missing, unreadable, no YAML, or no mapping.
+    """
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "not UTF-8 text"
+        raise UsageError(f"{path}: cannot read it ({reason}); give an existing file") from error
+    value = parse_yaml(text, str(path))
+    if value is None:
+        return {}
+    if not isinstance(value, dict):
+        raise UsageError(f"{path}: expected `key: value` lines, found {type(value).__name__}")
+    return value
+
+
+def packaged_config(name: str) -> Path:
+    """Path of a file in src/configs, installed or in the source tree."""
+    return Path(str(files("src.configs") / name))
+
+
+# ---------------------------------------------------------------- overrides
+
+
+def parse_overrides(overrides: Sequence[str]) -> dict[str, Any]:
+    """`key.sub-key=value` strings as a flat mapping from dotted key to parsed value.
+
+    Raises:
+        UsageError: no `=`, or an empty key.
+    """
+    flat: dict[str, Any] = {}
+    for text in overrides:
+        key, equals, value = text.partition("=")
+        if not equals or not key.strip():
+            raise UsageError(f"{COMMAND_LINE}: {text!r} is not of the form key=value")
+        flat[key.strip()] = parse_yaml(value, f"{COMMAND_LINE}: {key.strip()}={value}")
+    return flat
+
+
+def split_network_overrides(overrides: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Part a training command's overrides into its own and those of the network (`network.…`)."""
+    prefix = "network."
+    network = [text.removeprefix(prefix) for text in overrides if text.startswith(prefix)]
+    return [text for text in overrides if not text.startswith(prefix)], network
+
+
+def _kebab(key: Any) -> str:
+    """`numHeads` and `num_heads` are other spellings of `num-heads` (TEXT uses two of them)."""
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "-", str(key)).replace("_", "-").lower()
+
+
+def _normalise(values: dict[Any, Any], source: str, prefix: str = "") -> dict[str, Any]:
+    """Kebab-case keys on every level; the same key in two spellings is an error."""
+    result: dict[str, Any] = {}
+    for key, value in values.items():
+        name = _kebab(key)
+        if name in result:
+            raise UsageError(f"{source}: {prefix}{name} is given twice, in two spellings")
+        nested = isinstance(value, dict)
+        result[name] = _normalise(value, source, f"{prefix}{name}.") if nested else value
+    return result
+
+
+def _apply(values: dict[str, Any], dotted: str, value: Any) -> None:
+    """Set one dotted key, making the sections on the way."""
+    *sections, last = [_kebab(part) for part in dotted.split(".")]
+    for section in sections:
+        inner = values.get(section)
+        if not isinstance(inner, dict):
+            inner = values[section] = {}
+        values = inner
+    if isinstance(value, dict) and isinstance(values.get(last), dict):
+        for key, inner_value in value.items():
+            _apply(values[last], str(key), inner_value)
+    else:
+        values[last] = value
+
+
+# ---------------------------------------------------------------- errors
+
+
+def _section_class(annotation: Any) -> type[Config] | None:
+    """The Config inside an annotation such as `Config` or `Config | None`."""
+    for candidate in (annotation, *get_args(annotation)):
+        if isinstance(candidate, type) and issubclass(candidate, Config):
+            return candidate
+    return None
+
+
+def config_keys(model_class: type[Config], prefix: str = "") -> Iterator[str]:
+    """Every key of a configuration, dotted, in kebab-case."""
+    for name, field in model_class.model_fields.items():
+        key = prefix + _kebab(name)
+        yield key
+        if section := _section_class(field.annotation):
+            yield from config_keys(section, key + ".")
+
+
+def nearest(word: str, candidates: Sequence[str]) -> str:
+    """The candidate most like `word`; candidates must not be empty."""
+    close = difflib.get_close_matches(word, candidates, n=1, cutoff=0.0)
+    return close[0] if close else candidates[0]
+
+
+def _nearest_key(model_class: type[Config], key: str) -> str:
+    """The valid key most like `key`; the right name in the wrong section comes first."""
+    keys = list(config_keys(model_class))
+    same_name = [k for k in keys if k.rpartition(".")[2] == key.rpartition(".")[2]]
+    return nearest(key, same_name or keys)
+
+
+def _describe(error: ErrorDetails, model_class: type[Config], source: str) -> str:
+    """One pydantic error as one line."""
+    key = ".".join(_kebab(part) for part in error["loc"])
+    value = json.dumps(error["input"], ensure_ascii=False, default=str)
+    if error["type"] == "extra_forbidden":
+        return (
+            f"{source}: unknown key {key} (value {value});"
+            f" the nearest valid key is {_nearest_key(model_class, key)}"
+        )
+    message = error["msg"].removeprefix("Value error, ").replace("Input should be", "should be")
+    message = message.replace("an object", "a section of keys")
+    if error["type"] == "missing":
+        return f"{source}: {key} is missing"
+    if isinstance(error["input"], dict) and error["type"] == "value_error":
+        return f"{source}: {key + ': ' if key else ''}{message}"
+    return f"{source}: {key} = {value} {message}"
+
+
+def load_config(
+    model_class: type[ConfigT],
+    values: dict[str, Any],
+    source: str,
+    overrides: Sequence[str] = (),
+) -> ConfigT:
+    """Validate `values` with `overrides` on top.
+
+    Args:
+        model_class: the configuration to make.
+        values: what a YAML file says; kebab-case, snake_case and camelCase keys are the same.
+        source: names the file in errors.
+        overrides: `key.sub-key=value`, values in YAML.
+
+    Raises:
+        UsageError: an unknown key, a wrong type or range, settings that do not fit together.
+    """
+    merged = _normalise(values, source)
+    flat = parse_overrides(overrides)
+    for key, value in flat.items():
+        _apply(merged, key, value)
+    try:
+        # strict, so that `true` is no number; through JSON, so that a list may be a tuple
+        return model_class.model_validate_json(json.dumps(merged, default=str), strict=True)
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        key = ".".join(_kebab(part) for part in first["loc"])
+        given = [_kebab(k) for k in flat]
+        overridden = any(k == key or key.startswith(k + ".") for k in given) or (
+            # a clash of two keys names its section only: blame the override that names a key in it
+            isinstance(first["input"], dict)
+            and any(k.rpartition(".")[2] in first["msg"] for k in given)
+        )
+        where = COMMAND_LINE if overridden else source
+        raise UsageError(_describe(first, model_class, where)) from None
+
+
+# ---------------------------------------------------------------- the project's own files
+
+
+def profile_names(path: Path | str | None = None) -> list[str]:
+    """Names of the profiles in a network file."""
+    return list(_profiles(path or packaged_config("network.yaml")))
+
+
+def _profiles(path: Path | str) -> dict[str, Any]:
+    profiles = load_yaml(path).get("profiles")
+    if not isinstance(profiles, dict) or not profiles:
+        raise UsageError(f"{path}: expected a `profiles:` section with one entry a profile")
+    return profiles
+
+
+def load_network(
+    profile: str = "default", path: Path | str | None = None, overrides: Sequence[str] = ()
+) -> NetworkConfig:
+    """One profile of network.yaml.
+
+    Args:
+        profile: default, spark, lightweight, or one of the user's own file.
+        path: another network file; None is the one that ships.
+        overrides: `generation.num-heads=8` and the like.
+
+    Raises:
+        UsageError: unknown profile or key, wrong type, range or head count.
+    """
+    path = path or packaged_config("network.yaml")
+    profiles = _profiles(path)
+    if profile not in profiles:
+        raise UsageError(
+            f"{path}: unknown profile {profile!r}; the nearest is"
+            f" {nearest(profile, list(profiles))!r} (there are: {', '.join(profiles)})"
+        )
+    values = profiles[profile] or {}
+    source = f"{path} profile {profile}"
+    if not isinstance(values, dict):
+        raise UsageError(f"{source}: expected a mapping, found {values!r}")
+    return load_config(NetworkConfig, values, source, overrides)
+
+
+def load_train(
+    path: Path | str | None, model_class: type[TrainConfigT], overrides: Sequence[str] = ()
+) -> TrainConfigT:
+    """A training configuration; path None is the file that ships for this class.
+
+    Raises:
+        UsageError: as `load_config`.
+    """
+    if path is None:
+        stem = _kebab(model_class.__name__.removesuffix("Config")).replace("-", "_")
+        path = packaged_config(f"{stem}.yaml")
+    return load_config(model_class, load_yaml(path), str(path), overrides)
+
+
+def dump_config(config: Config) -> dict[str, Any]:
+    """A configuration as plain data with kebab-case keys: what checkpoints and models carry."""
+    return config.model_dump(mode="json", by_alias=True)
