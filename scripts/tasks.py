@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+"""The project's everyday tasks, each with all the set-up it needs; the Makefile calls this.
+
+python scripts/tasks.py TASK [further arguments]
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import setup
+
+PROMPTS = (
+    "a person walks forward",
+    "una persona saluda con la mano derecha",  # waves with the right hand
+    "someone runs forward quickly",
+    "人が左に曲がる",  # turns left
+)
+
+
+def run(program: Path, *arguments: str, threads: int | None = None) -> int:
+    """Run a program of the environment in the project's folder."""
+    environment = dict(os.environ)
+    if threads is not None:
+        environment["OMP_NUM_THREADS"] = str(threads)
+    return subprocess.call([str(program), *arguments], cwd=setup.ROOT, env=environment)
+
+
+def python(*arguments: str, threads: int | None = None) -> int:
+    """Run the environment's interpreter."""
+    return run(setup.venv_tool("python"), *arguments, threads=threads)
+
+
+def demo(arguments: list[str]) -> int:
+    """Generate a few motions, in three languages, into outputs/demo."""
+    setup.main([])
+    prompts = [word for prompt in PROMPTS for word in ("--prompt", prompt)]
+    options = ["--seconds", "4", "--format", "bvh,glb,npz,html", "--out", "outputs/demo"]
+    return python("-m", "src.cli.tools", "generate", *prompts, *options, *arguments)
+
+
+def pytest(marks: str, arguments: list[str]) -> int:
+    """Run the tests with these marks, one worker a core."""
+    setup.main(["--dev"])
+    # One thread a worker: two busy thread pools on two cores slow each other down tenfold.
+    return python("-m", "pytest", "-n", "auto", "-q", "-m", marks, *arguments, threads=1)
+
+
+def test(arguments: list[str]) -> int:
+    """Every test that takes seconds."""
+    return pytest("not slow", arguments)
+
+
+def test_slow(arguments: list[str]) -> int:
+    """The tests that take minutes, training from files to motions among them."""
+    return pytest("slow", arguments)
+
+
+def lint(_arguments: list[str]) -> int:
+    """Style, formatting, types and the import contracts; every one runs, any one fails."""
+    setup.main(["--dev"])
+    commands = (
+        ["ruff", "check", "."],
+        ["ruff", "format", "--check", "."],
+        ["mypy"],
+        ["lint-imports", "--no-logo"],
+    )
+    codes = []
+    for command in commands:
+        print("lint:", *command, flush=True)
+        codes.append(run(setup.venv_tool(command[0]), *command[1:]))
+    return max(codes)
+
+
+def format(_arguments: list[str]) -> int:
+    """Let ruff mend what it can."""
+    setup.main(["--dev"])
+    ruff = setup.venv_tool("ruff")
+    return max(run(ruff, "check", "--fix", "."), run(ruff, "format", "."))
+
+
+def benchmark(arguments: list[str]) -> int:
+    """Time sampling against a plain transformer of MDM's size, and the whole command."""
+    setup.main([])
+    return python("benchmarks/speed.py", *arguments)
+
+
+def train_small(arguments: list[str]) -> int:
+    """Train both stages on the built-in synthetic motions, small, into runs/small."""
+    setup.main([])
+    data, clip, model = "runs/small/data", "runs/small/clip", "runs/small/generation"
+    prepare = ["-m", "src.cli.tools", "prepare", "--synthetic", "400", "--out", data]
+    train_clip = ["-m", "src.train.train_clip", "--data", data, "--output", clip]
+    train_generation = ["-m", "src.train.train_generation", "--data", data, "--clip", clip]
+    for stage in (prepare, train_clip, [*train_generation, "--output", model, *arguments]):
+        if code := python(*stage):
+            return code
+    print(f"trained: try  motion-tools generate --model {model} --prompt 'a person walks forward'")
+    return 0
+
+
+def clean(_arguments: list[str]) -> int:
+    """Remove the environment, caches and outputs; training runs stay."""
+    for name in (".venv", ".pytest_cache", ".mypy_cache", ".ruff_cache", ".hypothesis", "outputs"):
+        shutil.rmtree(setup.ROOT / name, ignore_errors=True)
+    return 0
+
+
+TASKS: dict[str, Callable[[list[str]], int]] = {
+    task.__name__.replace("_", "-"): task
+    for task in (demo, test, test_slow, lint, format, benchmark, train_small, clean)
+}
+
+
+def main() -> int:
+    """Run the task named by the first argument; the rest is handed on to it."""
+    if len(sys.argv) < 2 or sys.argv[1] not in TASKS:
+        print(__doc__)
+        for name, task in TASKS.items():
+            print(f"  {name:12} {str(task.__doc__).splitlines()[0]}")
+        return 2
+    try:
+        return TASKS[sys.argv[1]](sys.argv[2:])
+    except KeyboardInterrupt:
+        print("interrupted", file=sys.stderr)
+        return 130
+
+
+if __name__ == "__main__":
+    sys.exit(main())
