@@ -1,0 +1,215 @@
+"""The judge: a small text-motion model that shares nothing with the models it scores.
+
+Design choices:
+- motion side reads joint positions and velocities (the generator reads 6D rotations), through
+  strided convolutions and a bidirectional GRU (the generator's CLIP is a transformer);
+- text side is a bag of hashed n-grams and an MLP (the generator's is an XLM-R);
+- own mean and standard deviation, own training run, train split only;
+- 32 dimensions, so that Fréchet distances need no projection and about a thousand samples.
+
+Letters: B batch, T frames, S = ceil(T / 4) steps, F features, H hidden, D = 32 embedding channels.
+"""
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Self
+
+import torch
+import torch.nn.functional as F
+from safetensors.torch import load_file, save_file
+from torch import Tensor, nn
+
+from src.shared.config_schema import Config
+from src.shared.errors import UserError
+from src.shared.evaluation.joint_features import NUM_FEATURES, joint_features
+from src.shared.evaluation.text_hashing import NUM_BUCKETS, bag
+from src.shared.files import atomic_write, sha256_file, write_json
+from src.shared.motion.motion import Motion
+from src.shared.motion.root_track import encode_features
+
+PRETRAINED = Path(__file__).resolve().parents[1] / "pretrained"
+WEIGHTS = "model.safetensors"
+
+
+class EvaluatorConfig(Config):
+    """Sizes of the evaluator."""
+
+    embed_dim: int = 32
+    hidden_size: int = 128
+    text_size: int = 64
+    num_buckets: int = NUM_BUCKETS
+    num_features: int = NUM_FEATURES
+    dropout: float = 0.1
+
+
+class MotionEncoder(nn.Module):
+    """[B, T, F] and mask [B, T] to unit vectors [B, D]."""
+
+    def __init__(self, config: EvaluatorConfig) -> None:
+        super().__init__()
+        width = config.hidden_size
+        self.register_buffer("mean", torch.zeros(config.num_features))
+        self.register_buffer("std", torch.ones(config.num_features))
+        self.conv_in = nn.Conv1d(config.num_features, width, 5, stride=2, padding=2)
+        self.conv_down = nn.Conv1d(width, width, 5, stride=2, padding=2)
+        self.norm_in = nn.LayerNorm(width)
+        self.norm_down = nn.LayerNorm(width)
+        self.gru = nn.GRU(width, width // 2, batch_first=True, bidirectional=True)
+        self.dropout = nn.Dropout(config.dropout)
+        self.project = nn.Linear(2 * width, config.embed_dim)
+
+    def forward(self, joints: Tensor, mask: Tensor) -> Tensor:
+        """Padded frames never reach a real one's convolution, step or pool."""
+        x = (joints - self.mean) / self.std  # [B, T, F]
+        x, mask = self._convolve(self.conv_in, self.norm_in, x, mask)  # [B, T/2, H]
+        x, mask = self._convolve(self.conv_down, self.norm_down, x, mask)  # [B, S, H]
+        steps = self._recur(self.dropout(x), mask)  # [B, S, H]
+        weight = mask.unsqueeze(-1)
+        mean = (steps * weight).sum(1) / weight.sum(1).clamp(min=1)  # [B, H]
+        peak = steps.masked_fill(~weight, -1.0).amax(1)  # [B, H]; GRU outputs stay in -1..1
+        pooled = self.dropout(torch.cat([mean, peak], dim=-1))  # [B, 2H]
+        return F.normalize(self.project(pooled), dim=-1)  # [B, D]
+
+    @staticmethod
+    def _convolve(
+        conv: nn.Conv1d, norm: nn.LayerNorm, x: Tensor, mask: Tensor
+    ) -> tuple[Tensor, Tensor]:
+        x = conv((x * mask.unsqueeze(-1)).transpose(1, 2)).transpose(1, 2)
+        mask = mask[:, ::2]
+        return F.gelu(norm(x)) * mask.unsqueeze(-1), mask
+
+    def _recur(self, x: Tensor, mask: Tensor) -> Tensor:
+        lengths = mask.sum(1).clamp(min=1).cpu()
+        packed = nn.utils.rnn.pack_padded_sequence(
+            x, lengths, batch_first=True, enforce_sorted=False
+        )
+        steps, _ = self.gru(packed)
+        return nn.utils.rnn.pad_packed_sequence(
+            steps, batch_first=True, total_length=x.shape[1]
+        )[0]
+
+
+class TextEncoder(nn.Module):
+    """Captions to unit vectors [B, D]; word order counts only within word pairs."""
+
+    def __init__(self, config: EvaluatorConfig) -> None:
+        super().__init__()
+        self.num_buckets = config.num_buckets
+        self.bag = nn.EmbeddingBag(config.num_buckets, config.text_size, mode="mean")
+        nn.init.normal_(self.bag.weight, std=0.1)
+        self.norm = nn.LayerNorm(config.text_size)
+        self.dropout = nn.Dropout(config.dropout)
+        self.expand = nn.Linear(config.text_size, 2 * config.text_size)
+        self.project = nn.Linear(2 * config.text_size, config.embed_dim)
+
+    def forward(self, captions: Sequence[str]) -> Tensor:
+        """Captions in any of the six languages; an empty one gets the vector of no words."""
+        indices, offsets = bag(captions, self.num_buckets)
+        device = self.bag.weight.device
+        x = self.norm(self.bag(indices.to(device), offsets.to(device)))  # [B, H]
+        x = F.gelu(self.expand(self.dropout(x)))  # [B, 2H]
+        return F.normalize(self.project(self.dropout(x)), dim=-1)  # [B, D]
+
+
+class Evaluator(nn.Module):
+    """Text and motion encoders into one 32-dimensional space."""
+
+    def __init__(self, config: EvaluatorConfig | None = None) -> None:
+        super().__init__()
+        self.config = config or EvaluatorConfig()
+        self.motion = MotionEncoder(self.config)
+        self.text = TextEncoder(self.config)
+        self.content_hash = "untrained"
+
+    @property
+    def device(self) -> torch.device:
+        """Where the weights are."""
+        return self.motion.mean.device
+
+    @torch.no_grad()
+    def fit_statistics(self, joints: Tensor, *, floor: float = 0.02) -> None:
+        """Take mean and deviation from real frames [N, F]; `floor` keeps still joints finite."""
+        self.motion.mean.copy_(joints.mean(0))
+        self.motion.std.copy_(joints.std(0).clamp(min=floor))
+
+    @torch.inference_mode()
+    def embed_text(self, captions: Sequence[str]) -> Tensor:
+        """Unit vectors [B, D] on the CPU."""
+        self.eval()
+        return self.text(list(captions)).float().cpu()
+
+    @torch.inference_mode()
+    def embed_features(self, features: Tensor, mask: Tensor) -> Tensor:
+        """Raw motion features [B, T, K + 1, 6] and mask [B, T] to unit vectors [B, D] on the CPU."""
+        self.eval()
+        # Padded frames repeat nothing real: zero 6D rows would make FK divide by zero.
+        safe = torch.where(mask[..., None, None], features, features[:, :1])
+        joints = joint_features(safe.to(self.device))
+        return self.motion(joints, mask.to(self.device)).float().cpu()
+
+    def embed_motion(self, motions: Sequence[Motion], *, batch_size: int = 64) -> Tensor:
+        """Unit vectors [N, D] on the CPU, sorted by length into batches, in the order given."""
+        order = sorted(range(len(motions)), key=lambda i: motions[i].num_frames)
+        result = torch.zeros(len(motions), self.config.embed_dim)
+        for start in range(0, len(order), batch_size):
+            rows = order[start : start + batch_size]
+            features = [encode_features(motions[row]).float() for row in rows]
+            padded = nn.utils.rnn.pad_sequence(features, batch_first=True)
+            lengths = torch.tensor([len(item) for item in features])
+            mask = torch.arange(padded.shape[1])[None] < lengths[:, None]
+            result[rows] = self.embed_features(padded, mask)
+        return result
+
+    def save_pretrained(self, folder: Path | str, *, notes: dict[str, object] | None = None) -> None:
+        """Write `config.json` (with `notes`: data hash, steps, figures) and fp16 weights."""
+        folder = Path(folder)
+        folder.mkdir(parents=True, exist_ok=True)
+        state = {
+            key: value.detach().cpu().half().contiguous()
+            for key, value in self.state_dict().items()
+        }
+        with atomic_write(folder / WEIGHTS) as path:
+            save_file(state, path)
+        content = {"kind": "evaluator", "evaluator": self.config.model_dump(), **(notes or {})}
+        write_json(folder / "config.json", content)
+
+    @classmethod
+    def from_pretrained(cls, name: Path | str, device: str | torch.device = "cpu") -> Self:
+        """Load a shipped evaluator by name or any folder that `save_pretrained` wrote.
+
+        Raises:
+            UserError: no such folder, another kind of model, or weights that do not fit.
+        """
+        folder = Path(name) if Path(name).is_dir() else PRETRAINED / str(name)
+        try:
+            content = json.loads((folder / "config.json").read_text(encoding="utf-8"))
+            weights = load_file(folder / WEIGHTS)
+        except (OSError, ValueError) as error:
+            raise UserError(
+                f"no evaluator at {folder} ({error}): train one with src.train.train_evaluator"
+            ) from error
+        if content.get("kind") != "evaluator":
+            raise UserError(f"{folder} holds a {content.get('kind')!r}, not an evaluator")
+        model = cls(EvaluatorConfig.model_validate(content["evaluator"]))
+        try:
+            model.load_state_dict({key: value.float() for key, value in weights.items()})
+        except RuntimeError as error:
+            raise UserError(f"weights in {folder} do not fit its config.json: {error}") from error
+        model.content_hash = sha256_file(folder / WEIGHTS)[:12]
+        return model.to(device).eval()
+
+
+def contrastive_loss(text: Tensor, motion: Tensor, same: Tensor, scale: Tensor | float) -> Tensor:
+    """Symmetric InfoNCE with several positives a row (SupCon, Khosla et al. 2020, eq. 2).
+
+    Args:
+        text, motion: [B, D] unit vectors.
+        same: [B, B] bool, pairs that belong together; true on the diagonal.
+        scale: factor on the cosines (1 / temperature).
+    """
+    logits = scale * text @ motion.T  # [B, B]
+    target = same.to(logits.dtype)
+    rows = -(logits.log_softmax(1) * target / target.sum(1, keepdim=True)).sum(1)
+    columns = -(logits.log_softmax(0) * target / target.sum(0, keepdim=True)).sum(0)
+    return (rows.mean() + columns.mean()) / 2

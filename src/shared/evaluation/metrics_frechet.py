@@ -1,0 +1,136 @@
+"""Fréchet distance between two samples of embeddings, also jointly with text and per label.
+
+Letters: N samples, D channels. All in float64 NumPy: this never runs on a model's device.
+Keep D at 32 or less and N at 1000 or more: at N = 270 two samples of one distribution are already
+18 apart in 128 dimensions, so each figure stands beside a real-against-real one.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+
+def _moments(samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    if samples.ndim != 2 or len(samples) < 2:
+        raise ValueError(f"a sample of shape {samples.shape} needs [N >= 2, D]")
+    if not np.isfinite(samples).all():
+        raise ValueError("embeddings hold NaN or infinity: look at the motions they came from")
+    values = samples.astype(np.float64)
+    return values.mean(0), np.atleast_2d(np.cov(values, rowvar=False))
+
+
+def _symmetric_root(matrix: np.ndarray) -> np.ndarray:
+    values, vectors = np.linalg.eigh(matrix)
+    return (vectors * np.sqrt(values.clip(min=0))) @ vectors.T
+
+
+def gaussian_frechet(
+    mean_a: np.ndarray, cov_a: np.ndarray, mean_b: np.ndarray, cov_b: np.ndarray
+) -> float:
+    """|m_a - m_b|^2 + Tr(S_a + S_b - 2 (S_a S_b)^1/2) (Dowson and Landau 1982; Heusel et al. 2017).
+
+    Tr (S_a S_b)^1/2 equals Tr (S_a^1/2 S_b S_a^1/2)^1/2, whose argument is symmetric, so two
+    eigen-decompositions give it without the complex square root of a singular matrix.
+    """
+    root = _symmetric_root(cov_a)
+    cross = np.linalg.eigvalsh(root @ cov_b @ root).clip(min=0)
+    distance = ((mean_a - mean_b) ** 2).sum() + np.trace(cov_a) + np.trace(cov_b)
+    return float(max(distance - 2 * np.sqrt(cross).sum(), 0.0))
+
+
+def frechet_distance(a: np.ndarray, b: np.ndarray) -> float:
+    """Fréchet distance of two samples [N, D] and [M, D]; raises ValueError on NaN or N < 2."""
+    return gaussian_frechet(*_moments(a), *_moments(b))
+
+
+@dataclass(frozen=True)
+class Projection:
+    """Principal axes fitted on real samples: `mean` [D], `axes` [D, C] orthonormal."""
+
+    mean: np.ndarray
+    axes: np.ndarray
+
+    @classmethod
+    def fit(cls, samples: np.ndarray, num_axes: int) -> "Projection":
+        """Keep the `num_axes` directions of largest variance of samples [N, D]."""
+        mean, covariance = _moments(samples)
+        _, vectors = np.linalg.eigh(covariance)
+        return cls(mean, vectors[:, ::-1][:, :num_axes])
+
+    def __call__(self, samples: np.ndarray) -> np.ndarray:
+        """[N, D] to [N, C]."""
+        return (samples.astype(np.float64) - self.mean) @ self.axes
+
+
+class JointFrechet:
+    """Fréchet distance of (text, motion) pairs, which sees whether the labels fit.
+
+    The distance of motions alone cannot: shuffling the labels leaves it unchanged. Text and motion
+    embeddings are each reduced to `num_axes` principal axes of the real sample and put side by
+    side, so a wrong pairing shows in the cross-covariance (joint form of Soloveitchik et al. 2021).
+    """
+
+    def __init__(self, text: np.ndarray, motion: np.ndarray, *, num_axes: int = 16) -> None:
+        self.text_axes = Projection.fit(text, num_axes)
+        self.motion_axes = Projection.fit(motion, num_axes)
+        self.reference = _moments(self._join(text, motion))
+
+    def _join(self, text: np.ndarray, motion: np.ndarray) -> np.ndarray:
+        if len(text) != len(motion):
+            raise ValueError(f"{len(text)} texts and {len(motion)} motions must be aligned")
+        return np.concatenate([self.text_axes(text), self.motion_axes(motion)], axis=1)
+
+    def __call__(self, text: np.ndarray, motion: np.ndarray) -> float:
+        """Distance of pairs (text [N, D], motion [N, D]) to the real pairs given at the start."""
+        return gaussian_frechet(*_moments(self._join(text, motion)), *self.reference)
+
+
+@dataclass(frozen=True)
+class GroupFrechet:
+    """Mean Fréchet distance over label groups: to the same group, and to a wrong one."""
+
+    matched: float
+    mismatched: float
+    num_groups: int
+    num_axes: int
+
+
+def group_frechet(
+    generated: np.ndarray,
+    generated_labels: Sequence[str],
+    real: np.ndarray,
+    real_labels: Sequence[str],
+    *,
+    num_axes: int = 8,
+    min_size: int = 24,
+    seed: int = 0,
+) -> GroupFrechet | None:
+    """Fréchet distance label by label, beside the same with the labels shuffled.
+
+    Only labels with `min_size` samples on both sides take part, in `num_axes` principal axes of the
+    real sample, because a small group in many dimensions measures its own size. The shuffled value
+    pairs every label with the next one of a random cycle, so none meets itself.
+
+    Returns:
+        None when fewer than two labels are large enough.
+    """
+    project = Projection.fit(real, min(num_axes, real.shape[1]))
+    made, true = np.asarray(generated_labels), np.asarray(real_labels)
+    names = [
+        name
+        for name in sorted(set(generated_labels) & set(real_labels))
+        if min((made == name).sum(), (true == name).sum()) >= min_size
+    ]
+    if len(names) < 2:
+        return None
+    a = {name: _moments(project(generated[made == name])) for name in names}
+    b = {name: _moments(project(real[true == name])) for name in names}
+    cycle = np.random.default_rng(seed).permutation(len(names))
+    wrong = {names[i]: names[j] for i, j in zip(cycle, np.roll(cycle, 1), strict=True)}
+    return GroupFrechet(
+        matched=float(np.mean([gaussian_frechet(*a[n], *b[n]) for n in names])),
+        mismatched=float(np.mean([gaussian_frechet(*a[n], *b[wrong[n]]) for n in names])),
+        num_groups=len(names),
+        num_axes=project.axes.shape[1],
+    )

@@ -1,0 +1,108 @@
+"""Retrieval between texts and motions: R-precision and matching distance (Guo et al. 2022).
+
+Letters: N pairs, D embedding channels, M pairs in one batch (32 in the protocol).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import gammaln
+
+BATCH = 32
+TOP = (1, 2, 3)
+
+
+@dataclass(frozen=True)
+class Retrieval:
+    """R-precision at 1, 2, 3 (fractions) and the mean distance of matching pairs."""
+
+    r_precision: tuple[float, float, float]
+    matching_distance: float
+    num_batches: int
+
+
+def hit_probability(distances: np.ndarray, relevant: np.ndarray, k: int) -> float:
+    """Chance that one of the relevant items is among the k nearest, equal distances in any order.
+
+    Args:
+        distances: [M] of one query to each candidate; must be finite.
+        relevant: [M] bool, the candidates that count as right.
+        k: how many candidates are looked at.
+
+    With `better` candidates nearer than the best relevant one and `tied` wrong, `right` relevant
+    ones at exactly its distance, the hypergeometric law gives the mean over all orders of the ties.
+    """
+    if not relevant.any():
+        return 0.0
+    best = distances[relevant].min()
+    better = int((distances < best).sum())
+    right = int(((distances == best) & relevant).sum())
+    tied = int(((distances == best) & ~relevant).sum())
+    places = k - better
+    if places <= 0:
+        return 0.0
+    if places > tied:
+        return 1.0
+    log_miss = (
+        gammaln(tied + 1) - gammaln(tied - places + 1)
+        - gammaln(tied + right + 1) + gammaln(tied + right - places + 1)
+    )
+    return float(1.0 - np.exp(log_miss))
+
+
+def pair_distances(text: np.ndarray, motion: np.ndarray) -> np.ndarray:
+    """Euclidean distances [M, M] of texts [M, D] (rows) to motions [M, D] (columns)."""
+    difference = text[:, None].astype(np.float64) - motion[None].astype(np.float64)
+    return np.sqrt((difference**2).sum(-1))
+
+
+def guo_retrieval(
+    text: np.ndarray,
+    motion: np.ndarray,
+    labels: Sequence[object],
+    *,
+    batch: int = BATCH,
+    seed: int = 0,
+) -> Retrieval:
+    """R-precision in random batches of 32: each text ranks the motions of its batch.
+
+    A motion counts as right when its label equals the text's label, so a caption that describes
+    several clips of one batch has several right answers (their number is part of the chance row,
+    which is computed by the same rule). The last, incomplete batch is left out, as in the protocol.
+
+    Args:
+        text, motion: [N, D], row i belongs together.
+        labels: N values; equal values mean the caption fits both.
+
+    Raises:
+        ValueError: fewer pairs than one batch, shapes that differ, or values that are not finite.
+    """
+    if text.shape != motion.shape or len(labels) != len(text):
+        raise ValueError(
+            f"texts {text.shape}, motions {motion.shape} and {len(labels)} labels must be aligned"
+        )
+    if len(text) < batch:
+        raise ValueError(f"{len(text)} pairs are fewer than one batch of {batch}: add samples")
+    if not (np.isfinite(text).all() and np.isfinite(motion).all()):
+        raise ValueError("embeddings hold NaN or infinity: look at the motions they came from")
+    _, ids = np.unique(np.asarray([str(label) for label in labels]), return_inverse=True)
+    order = np.random.default_rng(seed).permutation(len(text))
+    num_batches = len(text) // batch
+    hits = np.zeros(len(TOP))
+    matching = 0.0
+    for rows in order[: num_batches * batch].reshape(num_batches, batch):
+        distances = pair_distances(text[rows], motion[rows])
+        relevant = ids[rows][:, None] == ids[rows][None]
+        for query in range(batch):
+            hits += [hit_probability(distances[query], relevant[query], k) for k in TOP]
+        matching += float(np.diag(distances).sum())
+    count = num_batches * batch
+    at_1, at_2, at_3 = (hits / count).tolist()
+    return Retrieval((at_1, at_2, at_3), matching / count, num_batches)
+
+
+def normalised_score(generated: float, chance: float, real: float) -> float:
+    """(generated - chance) / (real - chance): 0 at chance, 1 at real motion; NaN without a gap."""
+    gap = real - chance
+    return (generated - chance) / gap if gap > 1e-9 else float("nan")
