@@ -1,0 +1,168 @@
+"""MotionClip: a text tower (XLM-R) and a motion tower (TemporalUNet) in one space (TEXT).
+
+Letters: B batch, L tokens, T frames, K rows (bones, root track), C channels, D embed dim.
+"""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import torch
+from torch import Tensor, nn
+from torch.nn.functional import normalize
+
+from src.shared.config_schema import ClipConfig, NetworkConfig
+from src.shared.errors import UserError
+from src.shared.model.layers.masking import masked_mean
+from src.shared.model.layers.temporal_unet import TemporalUNet
+
+if TYPE_CHECKING:
+    from transformers import PreTrainedModel, XLMRobertaConfig
+
+SMALL = "small"  # text-model name of the random-init tower
+INITIAL_TEMPERATURE = 0.1  # TMR's value
+MAX_LOGIT_SCALE = math.log(100.0)  # Radford et al. 2021, section 2.5
+
+
+@dataclass(frozen=True)
+class TextFeatures:
+    """Texts as the denoiser sees them: pooled [B, D] unit-norm, tokens [B, L, D], mask [B, L]."""
+
+    pooled: Tensor
+    tokens: Tensor
+    mask: Tensor  # bool, True = real token
+
+    def __len__(self) -> int:
+        return len(self.pooled)
+
+    def __getitem__(self, rows: Tensor | slice) -> "TextFeatures":
+        """The chosen rows of the batch."""
+        return TextFeatures(self.pooled[rows], self.tokens[rows], self.mask[rows])
+
+    def to(self, device: torch.device | str) -> "TextFeatures":
+        """The same on another device."""
+        moved = (part.to(device) for part in (self.pooled, self.tokens, self.mask))
+        return TextFeatures(*moved)
+
+
+def cat_text(first: TextFeatures, second: TextFeatures) -> TextFeatures:
+    """Two batches of equal token length, one after the other."""
+    return TextFeatures(
+        torch.cat([first.pooled, second.pooled]),
+        torch.cat([first.tokens, second.tokens]),
+        torch.cat([first.mask, second.mask]),
+    )
+
+
+class TextTower(nn.Module):
+    """XLM-R, masked mean, `text_proj` to D.
+
+    Args:
+        config: `text_model` "small" is a random-init XLM-R of the `text-*` sizes; any other
+            value is a folder or hub name whose weights are read by transformers.
+        embed_dim: D.
+        pretrained: False builds the named architecture without reading its weights, for a
+            state dict that follows.
+
+    Raises:
+        UserError: the named model is not on this machine and cannot be fetched.
+    """
+
+    def __init__(self, config: ClipConfig, embed_dim: int, *, pretrained: bool = True) -> None:
+        super().__init__()
+        self.encoder = _build_encoder(config, pretrained=pretrained)
+        self.text_proj = nn.Linear(self.encoder.config.hidden_size, embed_dim)
+
+    def forward(self, input_ids: Tensor, attention_mask: Tensor) -> TextFeatures:
+        """input_ids [B, L] long, attention_mask [B, L] (1 = real) -> TextFeatures."""
+        mask = attention_mask.bool()
+        hidden = self.encoder(
+            input_ids=input_ids, attention_mask=attention_mask
+        ).last_hidden_state  # [B, L, H_text]
+        tokens = self.text_proj(hidden)  # [B, L, D]
+        pooled = self.text_proj(masked_mean(hidden, mask))  # [B, D]
+        return TextFeatures(normalize(pooled.float(), dim=-1), tokens, mask)
+
+    def freeze(self) -> "TextTower":
+        """Fix the weights and switch dropout off for good (generation training)."""
+        self.requires_grad_(False)
+        return self.eval()
+
+
+class MotionClip(nn.Module):
+    """Both towers and the learned inverse temperature of the contrastive loss."""
+
+    def __init__(self, config: NetworkConfig, *, pretrained: bool = True) -> None:
+        super().__init__()
+        dim, clip = config.embed_dim, config.clip
+        self.config = config
+        self.text = TextTower(clip, dim, pretrained=pretrained)
+        self.motion = TemporalUNet(
+            config.motion_rows * config.generation.motion_channels,
+            dim,
+            num_heads=clip.motion_num_heads,
+            num_layers=clip.motion_num_layers,
+        )
+        self.motion_proj = nn.Linear(dim, dim)
+        self.logit_scale = nn.Parameter(torch.tensor(-math.log(INITIAL_TEMPERATURE)))
+
+    def encode_text(self, input_ids: Tensor, attention_mask: Tensor) -> Tensor:
+        """[B, L] ids and mask -> [B, D] unit-norm."""
+        features: TextFeatures = self.text(input_ids, attention_mask)
+        return features.pooled
+
+    def encode_motion(self, motion: Tensor, mask: Tensor | None = None) -> Tensor:
+        """Normalised motion [B, T, K, C], mask [B, T] bool or None -> [B, D] unit-norm."""
+        features = self.motion_proj(self.motion(motion, mask))  # [B, D]
+        return normalize(features.float(), dim=-1)
+
+    def scale(self) -> Tensor:
+        """Inverse temperature [], at most 100."""
+        return self.logit_scale.clamp(max=MAX_LOGIT_SCALE).exp()
+
+    def forward(
+        self, input_ids: Tensor, attention_mask: Tensor, motion: Tensor, mask: Tensor | None = None
+    ) -> tuple[Tensor, Tensor]:
+        """Text and motion embeddings [B, D], unit-norm (one call for DDP)."""
+        return self.encode_text(input_ids, attention_mask), self.encode_motion(motion, mask)
+
+
+def small_text_config(config: ClipConfig) -> "XLMRobertaConfig":
+    """The XLM-R configuration of "small", with XLM-R's own special ids."""
+    from transformers.models.xlm_roberta.configuration_xlm_roberta import XLMRobertaConfig
+
+    return XLMRobertaConfig(
+        vocab_size=config.text_vocab_size,
+        hidden_size=config.text_hidden_size,
+        num_hidden_layers=config.text_num_layers,
+        num_attention_heads=config.text_num_heads,
+        intermediate_size=4 * config.text_hidden_size,
+        max_position_embeddings=config.max_tokens + 2,  # XLM-R counts positions from pad id + 1
+        type_vocab_size=1,
+        bos_token_id=0,
+        pad_token_id=1,
+        eos_token_id=2,
+    )
+
+
+def _build_encoder(config: ClipConfig, *, pretrained: bool) -> "PreTrainedModel":
+    # Only XLM-R's own module: the Auto classes cost seconds more to import.
+    if config.text_model == SMALL:
+        from transformers.models.xlm_roberta.modeling_xlm_roberta import XLMRobertaModel
+
+        return XLMRobertaModel(small_text_config(config), add_pooling_layer=False)
+
+    from transformers import AutoConfig, AutoModel
+
+    try:
+        if not pretrained:
+            return AutoModel.from_config(AutoConfig.from_pretrained(config.text_model))
+        return AutoModel.from_pretrained(config.text_model, use_safetensors=True)
+    except (OSError, ValueError) as error:
+        where = "folder" if Path(config.text_model).exists() else "hub model"
+        raise UserError(
+            f"clip.text-model: cannot load the {where} {config.text_model!r}"
+            f" ({str(error).splitlines()[0]}); download it once, name a local folder,"
+            " or set clip.text-model to small"
+        ) from error

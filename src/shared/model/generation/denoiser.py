@@ -1,0 +1,160 @@
+"""MotionDenoiser: the diffusion network of the text branch, layer by layer (TEXT).
+
+Letters: B batch, T frames, K rows (bones, root track), C channels, D embed dim,
+L text tokens, H heads.
+"""
+
+import torch
+from torch import Tensor, nn
+from torch.nn.functional import silu
+
+from src.shared.config_schema import NetworkConfig
+from src.shared.model.clip.core import TextFeatures
+from src.shared.model.layers.adaln import AdaLN
+from src.shared.model.layers.attention import CrossAttention, KeyValue, MultiHeadAttention
+from src.shared.model.layers.film import FiLM
+from src.shared.model.layers.masking import without_full_mask
+from src.shared.model.layers.temporal_layer import TemporalLayer
+from src.shared.model.layers.timestep import TagEmbedding, TimestepEmbedding
+from src.shared.model.layers.transform_layer import TransformLayer
+
+
+class DenoiserBlock(nn.Module):
+    """TemporalLayer, FiLM, LayerNorm, MHA with RoPE, AdaLN, TransformLayer (TEXT's order).
+
+    With `tokens` a cross-attention to the text follows the MHA (ruling 22).
+    """
+
+    def __init__(self, dim: int, num_heads: int, *, dropout: float, tokens: bool) -> None:
+        super().__init__()
+        self.temporal = TemporalLayer(dim, num_heads, dropout=dropout, rotary=True)
+        self.film = FiLM(dim, 2 * dim)
+        self.norm = nn.LayerNorm(dim)
+        self.attention = MultiHeadAttention(dim, num_heads, rotary=True)
+        self.cross_norm = nn.LayerNorm(dim) if tokens else None
+        self.cross_attention = CrossAttention(dim, num_heads) if tokens else None
+        self.adaln = AdaLN(dim, 2 * dim)
+        self.transform = TransformLayer(dim, dropout=dropout)
+        self.dropout = nn.Dropout(dropout)
+
+    def forward(
+        self,
+        h: Tensor,
+        condition: Tensor,
+        mask: Tensor | None = None,
+        text: KeyValue | None = None,
+        text_mask: Tensor | None = None,
+    ) -> Tensor:
+        """h [B, T, D], condition [B, 2D], masks [B, T] and [B, L] -> [B, T, D]."""
+        h = self.temporal(h, mask)  # [B, T, D]
+        h = self.film(h, condition)  # [B, T, D]
+        h = h + self.dropout(self.attention(self.norm(h), mask))  # [B, T, D]
+        if self.cross_attention is not None and self.cross_norm is not None:
+            assert text is not None, "a block with cross-attention needs the text tokens"
+            heard = self.cross_attention(self.cross_norm(h), text, text_mask)  # [B, T, D]
+            h = h + self.dropout(heard)
+        h = self.adaln(h, condition)  # [B, T, D]
+        return self.transform(h)  # [B, T, D]
+
+
+class MotionDenoiser(nn.Module):
+    """Noisy motion, step, text and tag -> noise, clean motion or v, as the config says.
+
+    The output projection starts at zero, so the first prediction is the mean motion.
+    """
+
+    def __init__(self, config: NetworkConfig, num_tags: int) -> None:
+        super().__init__()
+        generation, dim = config.generation, config.embed_dim
+        self.config = config
+        self.num_tags = num_tags
+        self.uses_tokens = generation.text_conditioning == "tokens"
+        motion_dim = config.motion_rows * generation.motion_channels
+
+        self.motion_proj = nn.Linear(motion_dim, dim)
+        self.text_scale = nn.Parameter(torch.tensor(float(dim) ** 0.5))  # unit-norm -> unit RMS
+        self.text_proj = nn.Linear(dim, dim)
+        self.null_pooled = nn.Parameter(torch.randn(dim) * dim**-0.5)  # ruling 14
+        if self.uses_tokens:
+            self.token_norm = nn.LayerNorm(dim)
+            self.null_token = nn.Parameter(torch.randn(dim))
+        self.timestep_embed = TimestepEmbedding(dim)
+        self.tag_embed = TagEmbedding(num_tags, dim)
+        self.blocks = nn.ModuleList(
+            DenoiserBlock(
+                dim, generation.num_heads, dropout=generation.dropout, tokens=self.uses_tokens
+            )
+            for _ in range(generation.num_layers)
+        )
+        self.output_norm = nn.LayerNorm(dim)
+        self.output_proj = nn.Linear(dim, motion_dim)
+        nn.init.zeros_(self.output_proj.weight)
+        nn.init.zeros_(self.output_proj.bias)
+
+    def forward(
+        self,
+        noisy: Tensor,
+        timesteps: Tensor,
+        text: TextFeatures,
+        tag: Tensor,
+        mask: Tensor | None = None,
+        *,
+        keys_values: list[KeyValue] | None = None,
+    ) -> Tensor:
+        """One prediction.
+
+        Args:
+            noisy: [B, T, K, C] z-scored motion with noise.
+            timesteps: [B] diffusion steps.
+            text: B texts; see TextFeatures.
+            tag: [B] long, `num_tags` where there is none.
+            mask: [B, T] bool, True = real frame, or None.
+            keys_values: what `text_keys_values(text)` gave, to spare computing it each step.
+
+        Returns:
+            [B, T, K, C] in float32 outside autocast.
+        """
+        mask = without_full_mask(mask)
+        motion_h = self.motion_proj(noisy.flatten(2))  # [B, T, D]
+        text_h = self.text_proj(text.pooled * self.text_scale)[:, None]  # [B, 1, D]
+        h = motion_h + text_h  # [B, T, D]
+        condition = torch.cat(
+            [self.timestep_embed(timesteps), self.tag_embed(tag)], dim=-1
+        )  # [B, 2D]
+        condition = silu(condition)
+        if keys_values is None:
+            keys_values = self.text_keys_values(text)
+        for index, block in enumerate(self.blocks):
+            heard = keys_values[index] if keys_values else None
+            h = block(h, condition, mask, heard, text.mask)  # [B, T, D]
+        out = self.output_proj(self.output_norm(h))  # [B, T, K*C]
+        return out.view_as(noisy)  # [B, T, K, C]
+
+    def text_keys_values(self, text: TextFeatures) -> list[KeyValue]:
+        """Keys and values of every block's cross-attention; empty for pooled conditioning."""
+        if not self.uses_tokens:
+            return []
+        tokens = self.token_norm(text.tokens)  # [B, L, D]
+        layers = [block.cross_attention for block in self.blocks]
+        return [layer.keys_values(tokens) for layer in layers if isinstance(layer, CrossAttention)]
+
+    def null_text(self, batch_size: int, num_tokens: int = 1) -> TextFeatures:
+        """The learned "no text" (ruling 14): pooled [B, D], tokens [B, L, D], one of them real."""
+        dim, device = self.null_pooled.shape[0], self.null_pooled.device
+        token = self.null_token if self.uses_tokens else torch.zeros(dim, device=device)
+        mask = torch.zeros(batch_size, num_tokens, dtype=torch.bool, device=device)
+        mask[:, 0] = True
+        return TextFeatures(
+            self.null_pooled.expand(batch_size, dim),
+            token.expand(batch_size, num_tokens, dim),
+            mask,
+        )
+
+    def drop_text(self, text: TextFeatures, drop: Tensor) -> TextFeatures:
+        """The same texts with the learned null where drop [B] bool is True."""
+        null = self.null_text(len(text), text.tokens.shape[1])
+        return TextFeatures(
+            torch.where(drop[:, None], null.pooled, text.pooled),
+            torch.where(drop[:, None, None], null.tokens, text.tokens),
+            torch.where(drop[:, None], null.mask, text.mask),
+        )

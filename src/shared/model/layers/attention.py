@@ -1,0 +1,70 @@
+"""Multi-head attention over time (Vaswani et al. 2017), on PyTorch's fused kernel.
+
+Letters: B batch, T frames, L context tokens, D embed dim, H heads, d = D/H.
+Attention weights are not dropped out: the fused CPU kernel has no such path, and dropping
+the residual branch regularises as well at this size.
+"""
+
+from torch import Tensor, nn
+from torch.nn.functional import scaled_dot_product_attention
+
+from src.shared.model.layers.rope import RotaryEmbedding
+
+KeyValue = tuple[Tensor, Tensor]  # each [B, H, L, d]
+
+
+def _check_heads(dim: int, num_heads: int) -> None:
+    assert dim % num_heads == 0, f"embed dim {dim} must be divisible by the {num_heads} heads"
+
+
+def _key_mask(mask: Tensor | None) -> Tensor | None:
+    return None if mask is None else mask[:, None, None, :]  # [B, 1, 1, L]
+
+
+class MultiHeadAttention(nn.Module):
+    """Self-attention; `rotary` turns q and k by their positions inside (ruling 22)."""
+
+    def __init__(self, dim: int, num_heads: int, *, rotary: bool = False) -> None:
+        super().__init__()
+        _check_heads(dim, num_heads)
+        self.num_heads = num_heads
+        self.qkv = nn.Linear(dim, 3 * dim)
+        self.rotary = RotaryEmbedding(dim // num_heads) if rotary else None
+        self.out = nn.Linear(dim, dim)
+
+    def forward(self, x: Tensor, mask: Tensor | None = None) -> Tensor:
+        """x [B, T, D], mask [B, T] bool (True = real) or None -> [B, T, D]."""
+        qkv = self.qkv(x).unflatten(-1, (3 * self.num_heads, -1))  # [B, T, 3H, d]
+        if self.rotary is None:
+            query, key, value = qkv.chunk(3, dim=2)  # [B, T, H, d] each
+        else:
+            positioned, value = qkv.split([2 * self.num_heads, self.num_heads], dim=2)
+            query, key = self.rotary(positioned).chunk(2, dim=2)  # [B, T, H, d] each
+        mixed = scaled_dot_product_attention(
+            query.transpose(1, 2), key.transpose(1, 2), value.transpose(1, 2), _key_mask(mask)
+        )  # [B, H, T, d]
+        return self.out(mixed.transpose(1, 2).flatten(2))
+
+
+class CrossAttention(nn.Module):
+    """Attention from frames to a context of its own length; keys and values can be kept."""
+
+    def __init__(self, dim: int, num_heads: int) -> None:
+        super().__init__()
+        _check_heads(dim, num_heads)
+        self.num_heads = num_heads
+        self.query = nn.Linear(dim, dim)
+        self.key_value = nn.Linear(dim, 2 * dim)
+        self.out = nn.Linear(dim, dim)
+
+    def keys_values(self, context: Tensor) -> KeyValue:
+        """Context [B, L, D] -> keys and values, which need computing once a sample only."""
+        heads = self.key_value(context).unflatten(-1, (2 * self.num_heads, -1))  # [B, L, 2H, d]
+        key, value = heads.transpose(1, 2).chunk(2, dim=1)  # [B, H, L, d] each
+        return key, value
+
+    def forward(self, x: Tensor, keys_values: KeyValue, mask: Tensor | None = None) -> Tensor:
+        """x [B, T, D], keys and values of the context, its mask [B, L] -> [B, T, D]."""
+        query = self.query(x).unflatten(-1, (self.num_heads, -1)).transpose(1, 2)  # [B, H, T, d]
+        mixed = scaled_dot_product_attention(query, *keys_values, _key_mask(mask))  # [B, H, T, d]
+        return self.out(mixed.transpose(1, 2).flatten(2))
