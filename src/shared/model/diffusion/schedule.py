@@ -1,0 +1,108 @@
+"""Noise schedules: how fast the signal fades, and which steps a sampler visits.
+
+Everything here is NumPy in float64; the diffusion process rounds to float32 once, at the end.
+
+Letters: S training steps, N sampling steps. Timestep t runs from 0 (almost clean) to S-1.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from src.shared.config_schema import DiffusionConfig
+from src.shared.errors import UsageError
+
+Array = NDArray[np.float64]
+
+COSINE_OFFSET = 0.008  # s of Nichol & Dhariwal 2021, eq. 17
+MAX_FINAL_SIGNAL = 0.02  # sqrt(alpha_bar) at the last step stays below this (SPEC ruling 15)
+
+
+def get_beta_schedule(
+    schedule: str, timesteps: int, beta_start: float = 1e-4, beta_end: float = 0.02
+) -> Array:
+    """Noise added at each training step, float64 [S] (TECH 3.2.2).
+
+    `linear` and `sqrt` are stated for 1000 steps and scaled by 1000/S, and every schedule ends in
+    noise: TECH's `sqrt` would keep 2.7% of the signal (SPEC ruling 15). Betas of `cosine` are
+    clipped to [1e-4, 0.9999] (Nichol & Dhariwal 2021, eq. 17; SPEC ruling 13).
+
+    Raises:
+        UsageError: the schedule is not one of linear, cosine, sqrt.
+    """
+    if schedule == "cosine":
+        progress = np.linspace(0.0, 1.0, timesteps + 1)
+        signal = np.cos((progress + COSINE_OFFSET) / (1 + COSINE_OFFSET) * np.pi / 2) ** 2
+        betas = 1.0 - signal[1:] / signal[:-1]
+    elif schedule == "linear":
+        betas = np.linspace(beta_start, beta_end, timesteps) * (1000 / timesteps)
+    elif schedule == "sqrt":
+        roots = np.linspace(beta_start**0.5, beta_end**0.5, timesteps)
+        betas = roots**2 * (1000 / timesteps)
+    else:
+        raise UsageError(
+            f"beta-schedule {schedule!r} is unknown; choose one of linear, cosine, sqrt"
+        )
+    lowest = 1e-4 if schedule == "cosine" else 1e-8
+    return _end_in_noise(np.clip(betas, lowest, 0.9999))
+
+
+def _end_in_noise(betas: Array) -> Array:
+    """Raise every alpha to the one power that keeps sqrt(alpha_bar_S) under the limit."""
+    log_signal = 0.5 * float(np.log1p(-betas).sum())
+    power = np.log(0.95 * MAX_FINAL_SIGNAL) / log_signal
+    return betas if power <= 1 else -np.expm1(power * np.log1p(-betas))
+
+
+@dataclass(frozen=True)
+class NoiseSchedule:
+    """The betas [S] and their running product of alphas [S], both float64."""
+
+    betas: Array
+    alphas_cumprod: Array
+
+    @classmethod
+    def from_config(cls, config: DiffusionConfig) -> "NoiseSchedule":
+        """Build the schedule that a configuration names."""
+        betas = get_beta_schedule(
+            config.beta_schedule, config.timesteps, config.beta_start, config.beta_end
+        )
+        return cls(betas=betas, alphas_cumprod=np.cumprod(1.0 - betas, dtype=np.float64))
+
+    @property
+    def num_timesteps(self) -> int:
+        """S."""
+        return len(self.betas)
+
+    def alpha_bar(self, t: int) -> float:
+        """Share of signal variance left at step t; exactly 1 before step 0 (SPEC ruling 12)."""
+        return 1.0 if t < 0 else float(self.alphas_cumprod[t])
+
+
+def sampling_timesteps(num_timesteps: int, num_steps: int, spacing: str) -> tuple[int, ...]:
+    """The N of S steps that a sampler visits, largest first (Lin et al. 2023, table 2).
+
+    `trailing` always starts at S-1, where training ends; `leading` never does and is here for
+    checkpoints that were tuned with it. One step starts at S-1 under `linspace` as well.
+
+    Raises:
+        UsageError: N is not within 1 ... S, or the spacing is unknown.
+    """
+    if not 1 <= num_steps <= num_timesteps:
+        raise UsageError(
+            f"steps {num_steps} is not within 1 ... {num_timesteps}, the steps of the model's"
+            " training"
+        )
+    count = np.arange(num_steps)
+    if spacing == "trailing":
+        steps = np.round(num_timesteps - count * (num_timesteps / num_steps)) - 1
+    elif spacing == "linspace":
+        steps = np.round(np.linspace(num_timesteps - 1, 0, num_steps))
+    elif spacing == "leading":
+        steps = count[::-1] * (num_timesteps // num_steps)
+    else:
+        raise UsageError(
+            f"timestep-spacing {spacing!r} is unknown; choose one of leading, linspace, trailing"
+        )
+    return tuple(int(step) for step in steps)
