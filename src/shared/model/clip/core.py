@@ -4,9 +4,10 @@ Letters: B batch, L tokens, T frames, K rows (bones, root track), C channels, D 
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import torch
 from torch import Tensor, nn
@@ -60,19 +61,38 @@ class TextTower(nn.Module):
 
     Args:
         config: `text_model` "small" is a random-init XLM-R of the `text-*` sizes; any other
-            value is a folder or hub name whose weights are read by transformers.
+            value is a folder or hub name whose weights transformers reads.
         embed_dim: D.
-        pretrained: False builds the named architecture without reading its weights, for a
-            state dict that follows.
+        encoder_config: transformers' own configuration from a model folder; builds that
+            architecture without reading weights, for a state dict that follows.
 
     Raises:
         UserError: the named model is not on this machine and cannot be fetched.
     """
 
-    def __init__(self, config: ClipConfig, embed_dim: int, *, pretrained: bool = True) -> None:
+    def __init__(
+        self,
+        config: ClipConfig,
+        embed_dim: int,
+        *,
+        encoder_config: Mapping[str, Any] | None = None,
+    ) -> None:
         super().__init__()
-        self.encoder = _build_encoder(config, pretrained=pretrained)
+        self.config = config
+        self.encoder = _build_encoder(config, encoder_config)
         self.text_proj = nn.Linear(self.encoder.config.hidden_size, embed_dim)
+
+    @property
+    def embed_dim(self) -> int:
+        """D."""
+        return self.text_proj.out_features
+
+    def encoder_config(self) -> dict[str, Any] | None:
+        """What a model folder must keep to rebuild the encoder; None for "small"."""
+        if self.config.text_model == SMALL:
+            return None
+        kept: dict[str, Any] = self.encoder.config.to_dict()
+        return kept
 
     def forward(self, input_ids: Tensor, attention_mask: Tensor) -> TextFeatures:
         """input_ids [B, L] long, attention_mask [B, L] (1 = real) -> TextFeatures."""
@@ -93,11 +113,13 @@ class TextTower(nn.Module):
 class MotionClip(nn.Module):
     """Both towers and the learned inverse temperature of the contrastive loss."""
 
-    def __init__(self, config: NetworkConfig, *, pretrained: bool = True) -> None:
+    def __init__(
+        self, config: NetworkConfig, *, encoder_config: Mapping[str, Any] | None = None
+    ) -> None:
         super().__init__()
         dim, clip = config.embed_dim, config.clip
         self.config = config
-        self.text = TextTower(clip, dim, pretrained=pretrained)
+        self.text = TextTower(clip, dim, encoder_config=encoder_config)
         self.motion = TemporalUNet(
             config.motion_rows * config.generation.motion_channels,
             dim,
@@ -146,7 +168,9 @@ def small_text_config(config: ClipConfig) -> "XLMRobertaConfig":
     )
 
 
-def _build_encoder(config: ClipConfig, *, pretrained: bool) -> "PreTrainedModel":
+def _build_encoder(
+    config: ClipConfig, encoder_config: Mapping[str, Any] | None
+) -> "PreTrainedModel":
     # Only XLM-R's own module: the Auto classes cost seconds more to import.
     if config.text_model == SMALL:
         from transformers.models.xlm_roberta.modeling_xlm_roberta import XLMRobertaModel
@@ -155,10 +179,11 @@ def _build_encoder(config: ClipConfig, *, pretrained: bool) -> "PreTrainedModel"
 
     from transformers import AutoConfig, AutoModel
 
+    if encoder_config is not None:
+        rest = {key: value for key, value in encoder_config.items() if key != "model_type"}
+        return AutoModel.from_config(AutoConfig.for_model(encoder_config["model_type"], **rest))
     try:
-        if not pretrained:
-            return AutoModel.from_config(AutoConfig.from_pretrained(config.text_model))
-        return AutoModel.from_pretrained(config.text_model, use_safetensors=True)
+        return AutoModel.from_pretrained(config.text_model)
     except (OSError, ValueError) as error:
         where = "folder" if Path(config.text_model).exists() else "hub model"
         raise UserError(

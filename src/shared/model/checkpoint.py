@@ -1,0 +1,173 @@
+"""A model folder: config.json (the card), model.safetensors, and what else the model needs.
+
+Reading a card imports no torch, so that listing models is quick. Weights are only ever
+safetensors; the card holds their SHA-256.
+"""
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from pydantic import Field, ValidationError
+
+from src.shared.config_schema import Config, NetworkConfig
+from src.shared.errors import UserError
+from src.shared.files import atomic_write, sha256_file, write_json
+
+if TYPE_CHECKING:
+    from torch import Tensor, nn
+
+CARD_FILE = "config.json"
+WEIGHTS_FILE = "model.safetensors"
+
+
+class WeightsInfo(Config):
+    """What the weights file must be."""
+
+    sha256: str
+    bytes: int
+    dtype: Literal["float32", "float16"] = "float32"
+
+
+class ModelCard(Config):
+    """What a model folder says about itself."""
+
+    format_version: Literal[1] = 1
+    kind: str  # motion-generator | motion-clip
+    name: str = ""
+    description: str = ""
+    licence: str = ""
+    trained: bool = False
+    network: NetworkConfig = NetworkConfig()
+    tags: tuple[str, ...] = ()
+    languages: tuple[str, ...] = ()
+    max_seconds: float | None = None  # longest clip seen in training
+    fps: float = 30.0
+    data: str = ""  # manifest hash of the training data
+    training: dict[str, Any] = Field(default_factory=dict)  # command, steps, seconds, figures
+    text_encoder: dict[str, Any] | None = None  # transformers' own config, unless "small"
+    weights: WeightsInfo | None = None
+
+
+def read_card(folder: Path) -> ModelCard:
+    """The card of a model folder.
+
+    Raises:
+        UserError: no card there, or not one this version reads.
+    """
+    path = Path(folder) / CARD_FILE
+    try:
+        return ModelCard.model_validate(json.loads(path.read_text(encoding="utf-8")))
+    except FileNotFoundError as error:
+        raise UserError(f"{folder} is no model folder: it has no {CARD_FILE}") from error
+    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
+        raise UserError(f"{path} cannot be read ({error}); copy the model folder again") from error
+    except ValidationError as error:
+        first = error.errors()[0]
+        key = ".".join(map(str, first["loc"]))
+        raise UserError(
+            f"{path}: {key}: {first['msg']} (got {first['input']!r:.60}); this version cannot read"
+            " the model; copy the folder again or train anew"
+        ) from error
+
+
+def write_checkpoint(
+    folder: Path, card: ModelCard, tensors: Mapping[str, "Tensor"], *, half: bool = False
+) -> ModelCard:
+    """Write weights, then the card that vouches for them; returns the finished card.
+
+    Args:
+        folder: made when absent.
+        card: its `weights` are filled in here.
+        tensors: name -> tensor, any device.
+        half: store floating-point tensors as float16.
+
+    Raises:
+        UserError: the folder cannot be written.
+    """
+    import torch
+    from safetensors.torch import save_file
+
+    folder = Path(folder)
+    stored = {}
+    for name, tensor in tensors.items():
+        half_this = half and tensor.is_floating_point()
+        stored[name] = tensor.detach().to("cpu", torch.float16 if half_this else None).contiguous()
+    path = folder / WEIGHTS_FILE
+    with atomic_write(path) as temporary:
+        save_file(stored, temporary, metadata={"format": "pt", "kind": card.kind})
+    weights = WeightsInfo(
+        sha256=sha256_file(path),
+        bytes=path.stat().st_size,
+        dtype="float16" if half else "float32",
+    )
+    card = card.model_copy(update={"weights": weights})
+    write_json(folder / CARD_FILE, card.model_dump(mode="json", by_alias=True))
+    return card
+
+
+def read_tensors(folder: Path, card: ModelCard) -> dict[str, "Tensor"]:
+    """The weights of a model folder in float32 on the CPU.
+
+    Raises:
+        UserError: the file is missing, truncated, or not the one the card vouches for.
+    """
+    from safetensors import SafetensorError
+    from safetensors.torch import load_file
+
+    path = Path(folder) / WEIGHTS_FILE
+    if card.weights is None or not path.is_file():
+        raise UserError(f"{folder} holds no weights; train it, or copy {WEIGHTS_FILE} there too")
+    size = path.stat().st_size
+    if size != card.weights.bytes:
+        raise UserError(
+            f"{path} has {size} bytes, {CARD_FILE} says {card.weights.bytes}: the file is cut off"
+            " or another one; copy the model folder again"
+        )
+    if sha256_file(path) != card.weights.sha256:
+        raise UserError(
+            f"{path} does not match the SHA-256 in {CARD_FILE}: it is damaged or another file;"
+            " copy the model folder again"
+        )
+    try:
+        tensors = load_file(path)
+    except SafetensorError as error:
+        raise UserError(f"{path} is not a safetensors file ({error})") from error
+    return {
+        name: tensor.float() if tensor.is_floating_point() else tensor
+        for name, tensor in tensors.items()
+    }
+
+
+def load_state(
+    module: "nn.Module", tensors: Mapping[str, "Tensor"], prefix: str, folder: Path
+) -> None:
+    """Fill a module from the tensors whose names start with `prefix.`; every key must fit.
+
+    Raises:
+        UserError: a tensor is missing, left over, or of another shape.
+    """
+    start = prefix + "."
+    given = {name[len(start) :]: t for name, t in tensors.items() if name.startswith(start)}
+    wanted = module.state_dict()
+    for name, tensor in wanted.items():
+        if name not in given:
+            raise UserError(f"{folder}: the weights lack {start}{name}; copy the folder again")
+        if given[name].shape != tensor.shape:
+            raise UserError(
+                f"{folder}: {start}{name} has shape {tuple(given[name].shape)}, the configuration"
+                f" asks for {tuple(tensor.shape)}; {CARD_FILE} and the weights belong together"
+            )
+    extra = sorted(given.keys() - wanted.keys())
+    if extra:
+        raise UserError(
+            f"{folder}: the weights have {start}{extra[0]}, which the configuration has no place"
+            f" for; {CARD_FILE} and the weights belong together"
+        )
+    module.load_state_dict(given)
+
+
+def with_prefix(prefix: str, tensors: Mapping[str, "Tensor"]) -> dict[str, "Tensor"]:
+    """The same tensors, named `prefix.name`."""
+    return {f"{prefix}.{name}": tensor for name, tensor in tensors.items()}

@@ -1,0 +1,118 @@
+"""ClipBundle: MotionClip with its tokenizer and statistics, as one folder on disk."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Self
+
+import torch
+from torch import Tensor
+
+from src.shared.errors import UserError
+from src.shared.model.checkpoint import (
+    ModelCard,
+    load_state,
+    read_card,
+    read_tensors,
+    with_prefix,
+    write_checkpoint,
+)
+from src.shared.model.clip.core import MotionClip, TextTower
+from src.shared.model.clip.tokenizer import PromptTokenizer
+
+KIND = "motion-clip"
+TOKENIZER_FOLDER = "tokenizer"
+
+
+@dataclass
+class ClipBundle:
+    """What CLIP pretraining leaves behind.
+
+    Attributes:
+        clip: both towers.
+        tokenizer: the text tower's.
+        mean: [K(+1), 6] of the data; motion goes in z-scored.
+        std: [K(+1), 6].
+        card: name, network, training summary.
+    """
+
+    clip: MotionClip
+    tokenizer: PromptTokenizer
+    mean: Tensor
+    std: Tensor
+    card: ModelCard
+
+    def save_pretrained(self, folder: str | Path, *, half: bool = False) -> None:
+        """Write the folder; raises UserError when that fails."""
+        self.tokenizer.save_pretrained(Path(folder) / TOKENIZER_FOLDER)
+        card = self.card.model_copy(
+            update={
+                "kind": KIND,
+                "network": self.clip.config,
+                "text_encoder": self.clip.text.encoder_config(),
+            }
+        )
+        tensors = with_prefix("clip", self.clip.state_dict())
+        tensors |= {"statistics.mean": self.mean, "statistics.std": self.std}
+        self.card = write_checkpoint(Path(folder), card, tensors, half=half)
+
+    @classmethod
+    def from_pretrained(cls, folder: str | Path) -> Self:
+        """Read what `save_pretrained` wrote; the towers come in eval mode.
+
+        Raises:
+            UserError: no such folder, another kind of model, damaged or wrong weights.
+        """
+        folder = Path(folder)
+        card = read_card(folder)
+        if card.kind != KIND:
+            raise UserError(
+                f"{folder} holds a {card.kind}, not a {KIND}; train one with train_clip"
+            )
+        tensors = read_tensors(folder, card)
+        clip = MotionClip(card.network, encoder_config=card.text_encoder)
+        load_state(clip, tensors, "clip", folder)
+        return cls(
+            clip=clip.eval(),
+            tokenizer=PromptTokenizer.from_pretrained(folder / TOKENIZER_FOLDER),
+            mean=tensors["statistics.mean"],
+            std=tensors["statistics.std"],
+            card=card,
+        )
+
+
+def load_text_tower(folder: str | Path, embed_dim: int) -> tuple[TextTower, PromptTokenizer]:
+    """The frozen text tower of a CLIP folder, for a denoiser of width `embed_dim`.
+
+    Raises:
+        UserError: the two widths differ, or the folder cannot be read.
+    """
+    card = read_card(Path(folder))
+    check_embed_dims(card.network.embed_dim, embed_dim, f"the CLIP model in {folder}")
+    bundle = ClipBundle.from_pretrained(folder)
+    return bundle.clip.text.freeze(), bundle.tokenizer
+
+
+def check_embed_dims(text_dim: int, denoiser_dim: int, where: str) -> None:
+    """TEXT's constraint, caught at load.
+
+    Raises:
+        UserError: naming both numbers.
+    """
+    if text_dim != denoiser_dim:
+        raise UserError(
+            f"embed-dim mismatch: {where} gives text embeddings of {text_dim}, the denoiser takes"
+            f" {denoiser_dim}; train both with one profile, or set embed-dim to {text_dim}"
+        )
+
+
+@torch.no_grad()
+def encode_captions(
+    tower: TextTower, tokenizer: PromptTokenizer, captions: list[str], *, batch_size: int = 256
+) -> Tensor:
+    """Pooled embeddings [N, D] unit-norm of many captions, float32 on the CPU."""
+    device = next(tower.parameters()).device
+    parts = []
+    for start in range(0, len(captions), batch_size):
+        ids, mask = tokenizer(captions[start : start + batch_size])
+        parts.append(tower(ids.to(device), mask.to(device)).pooled.cpu())
+    return torch.cat(parts) if parts else torch.zeros(0, tower.embed_dim)

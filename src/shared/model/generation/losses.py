@@ -1,0 +1,187 @@
+"""What the denoiser is trained on (ruling 21): each term masked, computed only if its weight > 0.
+
+Letters: B batch, T frames, K joints, R = K + 1 rows with the root track.
+"""
+
+from collections.abc import Callable
+
+import torch
+from torch import Tensor, nn
+
+from src.shared.config_schema import LossWeights
+from src.shared.errors import UsageError
+from src.shared.model.diffusion.gaussian import GaussianDiffusion
+from src.shared.motion.kinematics import forward_kinematics
+from src.shared.motion.root_track import HEIGHT, LEFT_CONTACT, ROOT_ROW, integrate_root
+from src.shared.motion.rotations import rotation_6d_to_matrix, yaw_to_matrix
+from src.shared.motion.skeleton import FOOT_JOINTS, NUM_JOINTS, PARENTS, canonical_skeleton
+
+NEED_ROOT_TRACK = ("foot_contact", "foot_slide")
+
+
+class GenerationLoss(nn.Module):
+    """Weighted sum of the losses of one noised batch.
+
+    Args:
+        weights: 0 switches a term off.
+        diffusion: knows the network's target and what motion an output stands for.
+        mean: [R, 6] of the training data, to leave z-scores.
+        std: [R, 6].
+        fps: frames per second of the data.
+
+    Raises:
+        UsageError: a foot term is on, yet the motion has no root track.
+    """
+
+    mean: Tensor
+    std: Tensor
+    offsets: Tensor
+
+    def __init__(
+        self,
+        weights: LossWeights,
+        diffusion: GaussianDiffusion,
+        mean: Tensor,
+        std: Tensor,
+        *,
+        fps: float = 30.0,
+    ) -> None:
+        super().__init__()
+        for key in NEED_ROOT_TRACK:
+            if getattr(weights, key) > 0 and len(mean) <= ROOT_ROW:
+                name = key.replace("_", "-")
+                raise UsageError(f"losses.{name} needs root-track: true; set it to 0 or turn it on")
+        self.weights = weights
+        self.diffusion = diffusion
+        self.fps = fps
+        self.register_buffer("mean", mean, persistent=False)
+        self.register_buffer("std", std, persistent=False)
+        offsets = torch.as_tensor(canonical_skeleton().offsets)
+        self.register_buffer("offsets", offsets, persistent=False)
+
+    def forward(
+        self,
+        output: Tensor,
+        clean: Tensor,
+        noisy: Tensor,
+        noise: Tensor,
+        timesteps: Tensor,
+        mask: Tensor | None = None,
+    ) -> dict[str, Tensor]:
+        """The terms that are on, and their weighted sum as `loss`; all scalars.
+
+        Args:
+            output: what the denoiser returned, [B, T, R, 6].
+            clean: z-scored motion [B, T, R, 6].
+            noisy: `q_sample(clean, timesteps, noise)`.
+            noise: what was mixed in, [B, T, R, 6].
+            timesteps: [B].
+            mask: [B, T] bool, True = real frame; None = all.
+        """
+        output = output.float()
+        if mask is None:
+            mask = torch.ones(clean.shape[:2], dtype=torch.bool, device=clean.device)
+        terms = {}
+        if self.weights.reconstruction > 0:
+            target = self.diffusion.target(clean, noise, timesteps)
+            terms["reconstruction"] = self.diffusion.loss(output, target, mask=mask)
+        others: dict[str, Callable[[Motions], Tensor]] = {
+            "velocity": velocity_loss,
+            "geodesic": geodesic_loss,
+            "position": position_loss,
+            "foot_contact": foot_contact_loss,
+            "foot_slide": foot_slide_loss,
+        }
+        active = {name: term for name, term in others.items() if getattr(self.weights, name) > 0}
+        if active:
+            # Limiting what is the output itself would only stop its gradient.
+            clip = self.diffusion.config.prediction_type != "sample"
+            predicted = self.diffusion.predict_x0(output, noisy, timesteps, clip=clip)
+            motions = Motions(predicted, clean, mask, self)
+            terms |= {name: term(motions) for name, term in active.items()}
+        total = sum(getattr(self.weights, name) * value for name, value in terms.items())
+        return {"loss": torch.as_tensor(total, device=clean.device), **terms}
+
+
+class Motions:
+    """Predicted and true motion, z-scored and raw, and their joints once somebody asks."""
+
+    def __init__(self, predicted: Tensor, true: Tensor, mask: Tensor, owner: GenerationLoss):
+        self.predicted, self.true, self.mask = predicted, true, mask
+        self.raw_predicted = predicted * owner.std + owner.mean
+        self.raw_true = true * owner.std + owner.mean
+        self.fps = owner.fps
+        self._offsets = owner.offsets
+        self._joints: tuple[Tensor, Tensor] | None = None
+
+    def rotations(self) -> tuple[Tensor, Tensor]:
+        """Local rotations [B, T, K, 3, 3], predicted and true."""
+        predicted, true = (
+            self.raw_predicted[..., :NUM_JOINTS, :],
+            self.raw_true[..., :NUM_JOINTS, :],
+        )
+        return rotation_6d_to_matrix(predicted), rotation_6d_to_matrix(true)
+
+    def joints(self) -> tuple[Tensor, Tensor]:
+        """Joints [B, T, K, 3] in the heading frame: pelvis over the origin, metres."""
+        if self._joints is None:
+            rotations = torch.stack(self.rotations())  # [2, B, T, K, 3, 3]
+            pelvis = rotations.new_zeros(*rotations.shape[:3], 3)
+            if self.true.shape[2] > ROOT_ROW:
+                raw = torch.stack((self.raw_predicted, self.raw_true))
+                pelvis[..., 1] = raw[..., ROOT_ROW, HEIGHT]
+            positions, _ = forward_kinematics(rotations, pelvis, self._offsets, PARENTS)
+            self._joints = (positions[0], positions[1])
+        return self._joints
+
+
+def masked_frames_mean(values: Tensor, mask: Tensor) -> Tensor:
+    """Mean over the real frames: values [B, T, ...], mask [B, T] bool -> scalar."""
+    weights = mask.view(*mask.shape, *(1,) * (values.ndim - 2))
+    per_frame = values[0, 0].numel()
+    return (values * weights).sum() / (mask.sum() * per_frame).clamp_min(1)
+
+
+def velocity_loss(motions: Motions) -> Tensor:
+    """MSE of frame differences, z-scored (Tevet et al. 2023, MDM, equation 5)."""
+    error = motions.predicted - motions.true
+    pairs = motions.mask[:, 1:] & motions.mask[:, :-1]
+    return masked_frames_mean((error[:, 1:] - error[:, :-1]).square(), pairs)
+
+
+def geodesic_loss(motions: Motions) -> Tensor:
+    """Mean angle in radians between predicted and true local rotations."""
+    predicted, true = motions.rotations()
+    trace = (predicted * true).sum(dim=(-1, -2))  # trace(P' Q)
+    cosine = ((trace - 1) / 2).clamp(-1 + 1e-6, 1 - 1e-6)  # acos has no gradient at its ends
+    return masked_frames_mean(cosine.acos(), motions.mask)
+
+
+def position_loss(motions: Motions) -> Tensor:
+    """Mean squared joint distance per axis in m^2, heading frame (MDM, equation 3)."""
+    predicted, true = motions.joints()
+    return masked_frames_mean((predicted - true).square(), motions.mask)
+
+
+def foot_contact_loss(motions: Motions) -> Tensor:
+    """MSE of the two contact channels on their raw 0 ... 1 scale."""
+    contacts = slice(LEFT_CONTACT, LEFT_CONTACT + 2)
+    error = (
+        motions.raw_predicted[:, :, ROOT_ROW, contacts] - motions.raw_true[:, :, ROOT_ROW, contacts]
+    )
+    return masked_frames_mean(error.square(), motions.mask)
+
+
+def foot_slide_loss(motions: Motions) -> Tensor:
+    """Mean squared world speed (m/s)^2 of feet that truly stand (MDM, equation 4)."""
+    joints, _ = motions.joints()
+    balls = joints[:, :, [ball for _, ball in FOOT_JOINTS]]  # [B, T, 2, 3]
+    root = motions.raw_predicted[:, :, ROOT_ROW]  # [B, T, 6]
+    path, heading = integrate_root(root, motions.fps)  # [B, T, 3], [B, T]
+    turned = (yaw_to_matrix(heading)[:, :, None] @ balls[..., None]).squeeze(-1)
+    ground = path * path.new_tensor([1.0, 0.0, 1.0])  # the height is in the joints already
+    world = turned + ground[:, :, None]  # [B, T, 2, 3]
+    speed = (world[:, 1:] - world[:, :-1]) * motions.fps  # [B, T-1, 2, 3]
+    stands = motions.raw_true[:, :, ROOT_ROW, LEFT_CONTACT:] > 0.5  # [B, T, 2]
+    pairs = motions.mask[:, 1:, None] & stands[:, 1:] & stands[:, :-1]  # [B, T-1, 2]
+    return (speed.square().sum(dim=-1) * pairs).sum() / pairs.sum().clamp_min(1)
