@@ -1,0 +1,102 @@
+"""Captions that a user gives for their clips: CSV, TSV or JSON."""
+
+import csv
+import json
+from pathlib import Path
+from typing import Any
+
+from src.shared.errors import UserError
+
+Captions = dict[str, dict[str, list[str]]]  # clip -> language -> captions
+_CLIP_KEYS = ("clip", "file", "id", "name")
+_CAPTION_KEYS = ("caption", "text", "description")
+
+
+def read_captions(path: Path) -> Captions:
+    """Captions by clip name (file name without folder and ending) and language.
+
+    CSV and TSV: columns clip, caption and, optionally, language (default en), with or without a
+    header line; several lines a clip are several captions. JSON: {clip: text}, {clip: [texts]},
+    {clip: {language: text or texts}} or a list of {clip, caption, language}.
+
+    Raises:
+        UserError: missing file, unknown ending, a line without clip or caption.
+    """
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        raise UserError(
+            f"captions {path}: cannot read it ({error}); give a UTF-8 CSV, TSV or JSON file"
+        ) from None
+    ending = path.suffix.lower()
+    if ending == ".json":
+        rows = _json_rows(path, text)
+    elif ending in (".csv", ".tsv"):
+        rows = _table_rows(path, text, "\t" if ending == ".tsv" else ",")
+    else:
+        raise UserError(f"captions {path}: unknown ending {ending!r}; use .csv, .tsv or .json")
+    captions: Captions = {}
+    for where, clip, language, caption in rows:
+        caption = " ".join(caption.split())
+        if not clip.strip() or not caption:
+            raise UserError(f"captions {path}, {where}: no clip or no caption; give both")
+        clip = Path(clip.strip().replace("\\", "/")).name
+        clip = clip[: -len(".bvh")] if clip.lower().endswith(".bvh") else clip
+        captions.setdefault(clip, {}).setdefault(language or "en", []).append(caption)
+    if not captions:
+        raise UserError(f"captions {path}: no captions in it; expected clip and caption columns")
+    return captions
+
+
+def _table_rows(path: Path, text: str, delimiter: str) -> list[tuple[str, str, str, str]]:
+    quoting = csv.QUOTE_NONE if delimiter == "\t" else csv.QUOTE_MINIMAL
+    lines = [
+        (number, row)
+        for number, row in enumerate(
+            csv.reader(text.splitlines(), delimiter=delimiter, quoting=quoting), 1
+        )
+        if any(cell.strip() for cell in row)
+    ]
+    columns = {"clip": 0, "caption": 1, "language": 2}
+    header = [cell.strip().lower() for cell in lines[0][1]] if lines else []
+    if set(header) & set(_CLIP_KEYS) and set(header) & set(_CAPTION_KEYS):
+        columns = {
+            "clip": next(header.index(key) for key in _CLIP_KEYS if key in header),
+            "caption": next(header.index(key) for key in _CAPTION_KEYS if key in header),
+            "language": header.index("language") if "language" in header else len(header),
+        }
+        lines = lines[1:]
+
+    def cell(row: list[str], name: str) -> str:
+        return row[columns[name]].strip() if columns[name] < len(row) else ""
+
+    return [
+        (f"line {number}", cell(row, "clip"), cell(row, "language"), cell(row, "caption"))
+        for number, row in lines
+    ]
+
+
+def _json_rows(path: Path, text: str) -> list[tuple[str, str, str, str]]:
+    try:
+        content: Any = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise UserError(f"captions {path}, line {error.lineno}: not JSON: {error.msg}") from None
+    rows: list[tuple[str, str, str, str]] = []
+    if isinstance(content, list):
+        for number, entry in enumerate(content):
+            if not isinstance(entry, dict):
+                raise UserError(f"captions {path}, entry {number}: expected an object")
+            clip = next((str(entry[key]) for key in _CLIP_KEYS if key in entry), "")
+            caption = next((str(entry[key]) for key in _CAPTION_KEYS if key in entry), "")
+            rows.append((f"entry {number}", clip, str(entry.get("language", "en")), caption))
+        return rows
+    if not isinstance(content, dict):
+        raise UserError(f"captions {path}: expected an object or a list")
+    for clip, value in content.items():
+        by_language = value if isinstance(value, dict) else {"en": value}
+        for language, texts in by_language.items():
+            for caption in texts if isinstance(texts, list) else [texts]:
+                if not isinstance(caption, str):
+                    raise UserError(f"captions {path}, {clip!r}: {caption!r} is not text")
+                rows.append((f"{clip!r}", clip, language, caption))
+    return rows

@@ -1,0 +1,321 @@
+"""Folders of motions → shards, manifest, captions, splits and statistics.
+
+The folder that `prepare` writes:
+
+    manifest.json           version, options, shards with SHA-256, tags, counts
+    clips.jsonl             one ClipRecord a line, mirrored copies included
+    captions.json           group -> language -> captions
+    shards/NNNNN.safetensors  "features" [N,23,6] float32, clips one after the other
+    statistics.safetensors  mean, std [23,6] over the training clips and their mirror images
+    report.json             what was skipped and why, counts by source and split
+
+Work is done a shard at a time by worker processes. A finished shard is kept beside its record
+(shards/NNNNN.json) under a key made of all that went into it, so that a second run, or a run
+after an interruption, does only what is missing.
+"""
+
+import hashlib
+import json
+import multiprocessing
+import os
+from collections import Counter
+from collections.abc import Callable, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import torch
+from safetensors.torch import load_file, save_file
+
+from src.shared.data.captions import CaptionBook, mirror_labels
+from src.shared.data.labels import group_of
+from src.shared.data.records import SPLITS, ClipRecord
+from src.shared.data.sources import Skipped, Source, all_items
+from src.shared.data.splits import assign_splits, orbit
+from src.shared.errors import UserError
+from src.shared.files import atomic_write, sha256_file, write_json, write_text
+from src.shared.motion.mirror import mirror_features
+from src.shared.motion.root_track import encode_features
+
+VERSION = 1
+CLIPS_PER_SHARD = 128
+CAPTIONS_PER_GROUP = 16  # and language
+STD_FLOOR = 0.05  # a channel that hardly moves is not blown up
+
+Progress = Callable[[int, int], None]  # (clips done, clips in all)
+
+
+@dataclass(frozen=True)
+class _Job:
+    sources: tuple[Source, ...]
+    items: tuple[tuple[int, str], ...]
+    path: Path
+    key: str
+
+
+def prepare(
+    sources: Sequence[Source],
+    out: Path,
+    *,
+    templates: Path | None = None,
+    mirror: bool = True,
+    seed: int = 0,
+    workers: int | None = None,
+    progress: Progress = lambda done, total: None,
+) -> dict[str, Any]:
+    """Prepare all clips of `sources` into the folder `out`; returns the report.
+
+    Args:
+        templates: caption templates of the user's own (see src/configs/captions).
+        mirror: add the mirror image of each clip, with left and right swapped in its captions.
+        seed: of splits and captions.
+        workers: processes; default: one a CPU core.
+        progress: called after each shard.
+
+    Raises:
+        UserError: a source or table is faulty, or no clip at all could be read.
+    """
+    book = CaptionBook.load(templates)
+    sources = tuple(sources)
+    items = list(all_items(list(sources)))
+    jobs = _jobs(sources, items, out)
+    _run(jobs, workers or os.cpu_count() or 1, progress, len(items))
+
+    clips, skipped = _collect(jobs)
+    if not clips:
+        reasons = Counter(entry["reason"] for entry in skipped)
+        example = f"; most often: {reasons.most_common(1)[0][0]}" if reasons else ""
+        write_json(out / "report.json", {"skipped": skipped})
+        raise UserError(f"none of the {len(items)} clips could be used{example} (see {out}/report.json)")
+    records = _records(clips, mirror=mirror, seed=seed, book=book)
+    lines = "".join(json.dumps(r.to_json(), ensure_ascii=False) + "\n" for r in records)
+    write_text(out / "clips.jsonl", lines)
+    write_json(out / "captions.json", _group_captions(records, book, seed))
+    _write_statistics(out, records)
+    _remove_stale_shards(out, jobs)
+    report = _report(records, skipped)
+    write_json(out / "report.json", report)
+    write_json(out / "manifest.json", _manifest(out, jobs, records, seed=seed, mirror=mirror))
+    return report
+
+
+# ---------------------------------------------------------------- shards
+
+
+def _jobs(sources: tuple[Source, ...], items: list[tuple[int, str]], out: Path) -> list[_Job]:
+    jobs = []
+    for number, start in enumerate(range(0, len(items), CLIPS_PER_SHARD)):
+        part = tuple(items[start : start + CLIPS_PER_SHARD])
+        digest = hashlib.sha256(f"{VERSION}".encode())
+        for index, item in part:
+            digest.update(f"{sources[index].name}:{sources[index].fingerprint(item)}".encode())
+        # Everything else a source is made of (rules, captions, mapping) shapes the clip too.
+        digest.update(repr([sources[index] for index in sorted({i for i, _ in part})]).encode())
+        path = out / "shards" / f"{number:05d}.safetensors"
+        jobs.append(_Job(sources, part, path, digest.hexdigest()))
+    return jobs
+
+
+def _finished(job: _Job) -> bool:
+    sidecar = job.path.with_suffix(".json")
+    if not sidecar.exists() or not job.path.exists():
+        return False
+    try:
+        content = json.loads(sidecar.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return False
+    return content.get("key") == job.key and content.get("sha256") == sha256_file(job.path)
+
+
+def _run(jobs: list[_Job], workers: int, progress: Progress, total: int) -> None:
+    todo = [job for job in jobs if not _finished(job)]
+    done = total - sum(len(job.items) for job in todo)
+    progress(done, total)
+    if workers == 1 or len(todo) <= 1:
+        for job in todo:
+            _make_shard(job)
+            progress(done := done + len(job.items), total)
+        return
+    context = multiprocessing.get_context("spawn")  # forking a process with torch threads hangs
+    with ProcessPoolExecutor(min(workers, len(todo)), context, _start_worker) as pool:
+        pending: dict[Future[None], _Job] = {pool.submit(_make_shard, job): job for job in todo}
+        try:
+            while pending:
+                for future in wait(pending, return_when=FIRST_COMPLETED).done:
+                    future.result()
+                    progress(done := done + len(pending.pop(future).items), total)
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+
+
+def _start_worker() -> None:
+    torch.set_num_threads(1)
+
+
+def _make_shard(job: _Job) -> None:
+    """Read the clips of one shard; a clip that cannot be read is recorded, not fatal."""
+    features, clips, skipped, offset = [], [], [], 0
+    for index, item in job.items:
+        source = job.sources[index]
+        try:
+            clip = source.read(item)
+            values = encode_features(clip.motion)
+            if not torch.isfinite(values).all():
+                raise ValueError("the motion holds values that are not finite")
+        except Skipped as decision:
+            skipped.append({"clip": f"{source.name}/{item}", "reason": str(decision)})
+            continue
+        except (UserError, ValueError, OSError) as error:
+            skipped.append({"clip": f"{source.name}/{item}", "reason": f"unreadable: {error}"})
+            continue
+        features.append(values)
+        clips.append(
+            {
+                "id": f"{source.name}/{clip.id}",
+                "source": source.name,
+                "take": f"{source.name}/{clip.take}",
+                "labels": clip.labels,
+                "captions": clip.captions,
+                "num_frames": len(values),
+                "shard": job.path.name,
+                "offset": offset,
+            }
+        )
+        offset += len(values)
+    stacked = torch.cat(features) if features else torch.zeros(0, 23, 6)
+    with atomic_write(job.path) as temporary:
+        save_file({"features": stacked}, temporary)
+    sidecar = {"key": job.key, "sha256": sha256_file(job.path), "clips": clips, "skipped": skipped}
+    write_json(job.path.with_suffix(".json"), sidecar)
+
+
+def _collect(jobs: list[_Job]) -> tuple[list[dict[str, Any]], list[dict[str, str]]]:
+    clips: list[dict[str, Any]] = []
+    skipped: list[dict[str, str]] = []
+    for job in jobs:
+        content = json.loads(job.path.with_suffix(".json").read_text(encoding="utf-8"))
+        clips += content["clips"]
+        skipped += content["skipped"]
+    return clips, skipped
+
+
+def _remove_stale_shards(out: Path, jobs: list[_Job]) -> None:
+    """Shards of an earlier, larger run."""
+    wanted = {job.path.stem for job in jobs}
+    for path in (out / "shards").iterdir():
+        if path.stem not in wanted and not path.name.startswith("."):
+            path.unlink()
+
+
+# ---------------------------------------------------------------- records
+
+
+def _first_caption(captions: dict[str, list[str]]) -> str:
+    return next((texts[0] for texts in captions.values() if texts), "")
+
+
+def _records(
+    clips: list[dict[str, Any]], *, mirror: bool, seed: int, book: CaptionBook
+) -> list[ClipRecord]:
+    orbits = [
+        (clip["take"], orbit(clip["labels"], _first_caption(clip["captions"])), clip["labels"])
+        for clip in clips
+    ]
+    split = assign_splits(orbits, seed)
+    records = []
+    for clip in clips:
+        for mirrored in (False, True) if mirror else (False,):
+            labels, captions = clip["labels"], clip["captions"]
+            if mirrored:
+                labels = mirror_labels(labels)
+                captions = {
+                    language: [book.mirror_text(text, language) for text in texts]
+                    for language, texts in captions.items()
+                }
+            records.append(
+                ClipRecord(
+                    id=clip["id"] + ("~mirrored" if mirrored else ""),
+                    source=clip["source"],
+                    take=clip["take"],
+                    tag=labels.get("action", ""),
+                    group=group_of(labels, _first_caption(captions)),
+                    labels=labels,
+                    mirrored=mirrored,
+                    split=split[clip["take"]],
+                    num_frames=clip["num_frames"],
+                    shard=clip["shard"],
+                    offset=clip["offset"],
+                    captions=captions,
+                )
+            )
+    return records
+
+
+def _group_captions(
+    records: list[ClipRecord], book: CaptionBook, seed: int
+) -> dict[str, dict[str, list[str]]]:
+    labels_of = {record.group: record.labels for record in records if record.labels}
+    return {
+        group: book.captions(labels, num=CAPTIONS_PER_GROUP, seed=seed)
+        for group, labels in sorted(labels_of.items())
+    }
+
+
+def _write_statistics(out: Path, records: list[ClipRecord]) -> None:
+    """Mean and standard deviation per channel, over training clips and their mirror images."""
+    shards: dict[str, torch.Tensor] = {}
+    count, total, squares = 0, torch.zeros(23, 6), torch.zeros(23, 6)
+    wanted = [r for r in records if r.split == "train"] or records
+    for record in sorted(wanted, key=lambda r: (r.shard, r.offset)):
+        if record.shard not in shards:
+            shards = {record.shard: load_file(out / "shards" / record.shard)["features"]}
+        values = shards[record.shard][record.offset : record.offset + record.num_frames]
+        if record.mirrored:
+            values = mirror_features(values)
+        count += len(values)
+        total += values.sum(0)
+        squares += values.square().sum(0)
+    mean = total / count
+    std = (squares / count - mean.square()).clamp_min(0).sqrt().clamp_min(STD_FLOOR)
+    with atomic_write(out / "statistics.safetensors") as temporary:
+        save_file({"mean": mean, "std": std}, temporary)
+
+
+def _report(records: list[ClipRecord], skipped: list[dict[str, str]]) -> dict[str, Any]:
+    originals = [record for record in records if not record.mirrored]
+    return {
+        "clips": len(originals),
+        "records": len(records),
+        "seconds": round(sum(record.num_frames for record in originals) / 30.0, 1),
+        "groups": len({record.group for record in records}),
+        "by_source": dict(Counter(record.source for record in originals)),
+        "by_split": {split: sum(r.split == split for r in records) for split in SPLITS},
+        "held_back_groups": sorted({r.group for r in records if r.split == "test_unseen"}),
+        "skipped": skipped,
+    }
+
+
+def _manifest(
+    out: Path, jobs: list[_Job], records: list[ClipRecord], *, seed: int, mirror: bool
+) -> dict[str, Any]:
+    return {
+        "version": VERSION,
+        "fps": 30.0,
+        "seed": seed,
+        "mirror": mirror,
+        "sources": [source.name for source in jobs[0].sources],
+        "tags": sorted({record.tag for record in records if record.tag}),
+        "files": {
+            path.relative_to(out).as_posix(): sha256_file(path)
+            for path in (
+                *(job.path for job in jobs),
+                out / "clips.jsonl",
+                out / "captions.json",
+                out / "statistics.safetensors",
+            )
+        },
+    }
+
+

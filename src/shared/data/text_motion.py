@@ -1,0 +1,162 @@
+"""Captioned windows of motion, in batches that depend only on (seed, step, rank).
+
+B batch, T frames. Batches are made on demand, so that a resumed run continues with the very
+batch it would have seen, without any loader state.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from src.shared.data.prepared import PreparedData
+from src.shared.data.records import ClipRecord
+from src.shared.motion.root_track import ROOT_ROW, YAW_RATE
+
+_TURN_TRIES = 4
+
+
+@dataclass(frozen=True, eq=False)
+class TextMotionBatch:
+    """One padded batch.
+
+    Attributes:
+        motion: normalised features [B,T,23,6] float32, zero where padded.
+        mask: True on real frames [B,T].
+        captions, languages: B strings each.
+        tag: index of the action label [B]; the number of tags where there is none.
+        group: index of the label combination [B].
+        records: the B records behind it.
+    """
+
+    motion: Tensor
+    mask: Tensor
+    captions: list[str]
+    languages: list[str]
+    tag: Tensor
+    group: Tensor
+    records: list[ClipRecord]
+
+    def __len__(self) -> int:
+        return len(self.captions)
+
+
+class TextMotionDataset:
+    """Windows of one split with one caption each."""
+
+    def __init__(
+        self,
+        data: PreparedData,
+        split: str,
+        *,
+        min_frames: int = 32,
+        max_frames: int = 128,
+        languages: tuple[str, ...] = ("en", "es", "fr", "de", "ja", "zh"),
+        balance: float = 0.5,
+        seed: int = 0,
+    ) -> None:
+        """Select the records of a split.
+
+        Args:
+            balance: 0 draws clips alike, 1 draws label combinations alike, between: a mixture
+                of exponents (a combination of n clips has weight n^(1-balance)).
+
+        Raises:
+            ValueError: no clip of the split is long enough or has a caption in `languages`.
+        """
+        self.data, self.seed = data, seed
+        self.min_frames, self.max_frames, self.languages = min_frames, max_frames, languages
+        self.records = [
+            record
+            for record in data.records(split)
+            if record.num_frames >= min(min_frames, max_frames)
+            and any(data.captions(record).get(language) for language in languages)
+        ]
+        if not self.records:
+            raise ValueError(
+                f"split {split!r} of {data.folder} has no clip of at least {min_frames} frames"
+                f" with a caption in {', '.join(languages)}"
+            )
+        groups = sorted({record.group for record in self.records})
+        self._group_index = {name: index for index, name in enumerate(groups)}
+        self._tag_index = {name: index for index, name in enumerate(data.tags)}
+        counts = np.bincount([self._group_index[r.group] for r in self.records])
+        weights = np.array(
+            [counts[self._group_index[r.group]] ** -balance for r in self.records], np.float64
+        )
+        self._probabilities = weights / weights.sum()
+
+    def __len__(self) -> int:
+        return len(self.records)
+
+    def _caption(self, record: ClipRecord, rng: np.random.Generator) -> tuple[str, str]:
+        captions = self.data.captions(record)
+        available = [language for language in self.languages if captions.get(language)]
+        language = available[rng.integers(len(available))]
+        texts = captions[language]
+        return texts[rng.integers(len(texts))], language
+
+    def window(self, record: ClipRecord, frames: int, rng: np.random.Generator) -> Tensor:
+        """A random window [≤frames,23,6] of raw features.
+
+        Where the labels tell of a turn, the window of several that turns most is taken: a crop
+        without the turn would contradict its caption.
+        """
+        values = self.data.features(record)
+        spare = len(values) - frames
+        if spare <= 0:
+            return values
+        if "turn" not in record.labels and record.labels.get("action") != "turn":
+            start = int(rng.integers(spare + 1))
+            return values[start : start + frames]
+        yaw = torch.nn.functional.pad(values[:, ROOT_ROW, YAW_RATE].cumsum(0), (1, 0))
+        starts = rng.integers(spare + 1, size=_TURN_TRIES)
+        start = int(max(starts, key=lambda s: abs(float(yaw[s + frames] - yaw[s]))))
+        return values[start : start + frames]
+
+    def batch(self, step: int, size: int, *, rank: int = 0) -> TextMotionBatch:
+        """The batch of one step; all its windows share one target length.
+
+        One length a batch keeps padding small; lengths are spread evenly over the steps.
+        """
+        shared = np.random.default_rng((self.seed, step))
+        longest = int(shared.integers(self.min_frames, self.max_frames + 1))
+        rng = np.random.default_rng((self.seed, step, rank, 1))
+        chosen = rng.choice(len(self.records), size=size, p=self._probabilities)
+        return self.collate([self.records[i] for i in chosen], longest, rng)
+
+    def collate(
+        self, records: list[ClipRecord], frames: int, rng: np.random.Generator
+    ) -> TextMotionBatch:
+        """Windows of at most `frames` of these records as one batch."""
+        windows = [self.window(record, frames, rng) for record in records]
+        longest = max(len(window) for window in windows)
+        motion = torch.zeros(len(records), longest, *self.data.mean.shape)
+        mask = torch.zeros(len(records), longest, dtype=torch.bool)
+        for row, window in enumerate(windows):
+            motion[row, : len(window)] = (window - self.data.mean) / self.data.std
+            mask[row, : len(window)] = True
+        captions, languages = zip(*(self._caption(r, rng) for r in records), strict=True)
+        none = len(self._tag_index)
+        return TextMotionBatch(
+            motion=motion,
+            mask=mask,
+            captions=list(captions),
+            languages=list(languages),
+            tag=torch.tensor([self._tag_index.get(r.tag, none) for r in records]),
+            group=torch.tensor([self._group_index[r.group] for r in records]),
+            records=records,
+        )
+
+    def fixed_batches(self, size: int, num: int) -> list[TextMotionBatch]:
+        """The same batches every time, each record at most once while they last."""
+        rng = np.random.default_rng((self.seed, 2))
+        order = rng.permutation(len(self.records))
+        batches = []
+        for number in range(num):
+            chosen = order[number * size : (number + 1) * size]
+            if len(chosen) == 0 or (number and len(chosen) < 2):
+                break
+            batches.append(self.collate([self.records[i] for i in chosen], self.max_frames, rng))
+        return batches
