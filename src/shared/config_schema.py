@@ -4,7 +4,7 @@ from typing import Literal, Self
 
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field, model_validator
 
-Precision = Literal["no", "bf16", "fp16"]
+Precision = Literal["auto", "no", "bf16", "fp16"]
 
 
 def _kebab(name: str) -> str:
@@ -179,10 +179,13 @@ class TrainConfig(Config):
     lr_schedule: Literal["cosine", "linear", "constant"] = "cosine"
     gradient_clip: float = Field(1.0, gt=0)
     ema_decay: float = Field(0.999, ge=0, lt=1)
-    precision: Precision = "no"
+    adam_betas: tuple[float, float] = (0.9, 0.99)
+    precision: Precision = "auto"  # bf16 where the hardware multiplies it natively
     device: Literal["auto", "cuda", "mps", "cpu"] = "auto"
-    threads: int | None = Field(None, ge=1)
-    num_workers: int = Field(0, ge=0)
+    threads: int | None = Field(None, ge=1)  # CPU threads; None = torch's own choice
+    processes: int | None = Field(None, ge=1)  # how many must have been launched; None = any
+    num_workers: int = Field(0, ge=0)  # batches made ahead of time, in as many threads
+    tensorboard: bool = True
     log_every: int = Field(20, ge=1)
     validate_every: int = Field(500, ge=1)
     validation_batches: int = Field(8, ge=1)

@@ -132,7 +132,7 @@ def test_missing_and_binary_files(tmp_path: Path) -> None:
 
 
 def test_unknown_profile_names_the_nearest() -> None:
-    with pytest.raises(UsageError, match="'lightwait'.*'lightweight'"):
+    with pytest.raises(UsageError, match=r"'lightwait'.*'lightweight'"):
         load_network("lightwait")
 
 

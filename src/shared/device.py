@@ -1,0 +1,102 @@
+"""Where to compute and how precisely: cuda > mps > cpu, bf16 where the hardware has it.
+
+Every choice comes with its reason, which the caller prints.
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import torch
+
+from src.shared.errors import UsageError
+
+DeviceName = Literal["cuda", "mps", "cpu"]
+
+
+@dataclass(frozen=True)
+class ComputeChoice:
+    """A device and an autocast precision (`no` is float32), with the reason for each."""
+
+    device: DeviceName
+    device_reason: str
+    precision: Literal["no", "bf16", "fp16"]
+    precision_reason: str
+
+    def __str__(self) -> str:
+        name = {"no": "float32"}.get(self.precision, self.precision)
+        return f"{self.device} ({self.device_reason}), {name} ({self.precision_reason})"
+
+
+def choose_device(requested: str = "auto") -> tuple[DeviceName, str]:
+    """The device to use and why.
+
+    Args:
+        requested: auto, cuda, mps or cpu.
+
+    Raises:
+        UsageError: the requested device does not exist here.
+    """
+    available = {
+        "cuda": torch.cuda.is_available(),
+        "mps": torch.backends.mps.is_available(),
+        "cpu": True,
+    }
+    if requested == "auto":
+        if available["cuda"]:
+            return "cuda", torch.cuda.get_device_name()
+        return ("mps", "Apple GPU found") if available["mps"] else ("cpu", "no GPU found")
+    if requested not in available:
+        raise UsageError(f"device {requested!r} is unknown; use auto, cuda, mps or cpu")
+    if not available[requested]:
+        here = ", ".join(name for name, there in available.items() if there)
+        raise UsageError(f"device {requested!r} is not available here; use auto or one of: {here}")
+    return requested, "as requested"  # type: ignore[return-value]
+
+
+def _native_bf16(device: DeviceName) -> tuple[bool, str]:
+    """Whether bf16 products run in hardware, in words."""
+    if device == "cuda":
+        major, minor = torch.cuda.get_device_capability()
+        return major >= 8, f"compute capability {major}.{minor}"
+    if device == "mps":
+        return False, "float32 is as fast on Apple GPUs at this size and works on every macOS"
+    # private, but the only way torch tells; a missing function counts as a missing instruction
+    for function, name in (
+        ("_is_amx_tile_supported", "AMX"),
+        ("_is_avx512_bf16_supported", "AVX512-BF16"),
+    ):
+        if getattr(torch.cpu, function, lambda: False)():
+            return True, f"this CPU has {name}"
+    return False, "this CPU has no bf16 instructions"
+
+
+def choose_compute(device: str = "auto", precision: str = "auto") -> ComputeChoice:
+    """Device and precision together.
+
+    Args:
+        device: auto, cuda, mps or cpu.
+        precision: auto, no (float32), bf16 or fp16.
+
+    Raises:
+        UsageError: the device does not exist here, or cannot compute in that precision.
+    """
+    name, reason = choose_device(device)
+    native, detail = _native_bf16(name)
+    if precision == "auto":
+        return ComputeChoice(name, reason, "bf16" if native else "no", detail)
+    if precision not in ("no", "bf16", "fp16"):
+        raise UsageError(f"precision {precision!r} is unknown; use auto, no, bf16 or fp16")
+    if precision == "fp16" and name == "cpu":
+        raise UsageError("precision 'fp16' needs a GPU; use bf16 or no on the CPU")
+    why = "as requested" if precision != "bf16" or native else f"as requested, though {detail}"
+    return ComputeChoice(name, reason, precision, why)  # type: ignore[arg-type]
+
+
+def set_threads(threads: int | None) -> int:
+    """Set torch's CPU threads and return how many there are.
+
+    On a machine that others use too, one thread can be faster than two.
+    """
+    if threads is not None:
+        torch.set_num_threads(threads)
+    return torch.get_num_threads()

@@ -1,0 +1,137 @@
+"""Checkpoints: one folder a step, safetensors and JSON only (no pickle), whole or absent.
+
+`checkpoints/step-00000500/` holds model, ema and optimizer tensors and `state.json`: step,
+configuration, hash of the data, and the SHA-256 of each file. A folder is written beside and
+renamed, so `kill -9` leaves either the old state or the new one.
+"""
+
+import json
+import os
+import shutil
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import torch
+from safetensors.torch import load_file, save_file
+from torch import Tensor, nn
+
+from src.shared.errors import UserError
+from src.shared.files import sha256_file, write_json
+
+_PARTIAL = ".part"
+_FILES = ("model", "ema", "optimizer")
+
+
+@dataclass(frozen=True)
+class Checkpoint:
+    """A complete checkpoint on disk and the plain data of its state.json."""
+
+    folder: Path
+    state: dict[str, Any]
+
+    @property
+    def step(self) -> int:
+        """Optimizer steps done."""
+        return int(self.state["step"])
+
+    def tensors(self, name: str) -> dict[str, Tensor]:
+        """The tensors of one file: model, ema or optimizer."""
+        return load_file(self.folder / f"{name}.safetensors")
+
+
+def optimizer_tensors(optimizer: torch.optim.Optimizer) -> dict[str, Tensor]:
+    """The optimizer's state as a flat mapping `parameter number.name`."""
+    state = optimizer.state_dict()["state"]
+    return {
+        f"{index}.{name}": value
+        for index, values in state.items()
+        for name, value in values.items()
+        if isinstance(value, Tensor)
+    }
+
+
+def load_optimizer(optimizer: torch.optim.Optimizer, tensors: dict[str, Tensor]) -> None:
+    """Inverse of `optimizer_tensors`; hyper-parameters stay those of the configuration."""
+    state: dict[int, dict[str, Tensor]] = {}
+    for key, value in tensors.items():
+        index, name = key.split(".", 1)
+        state.setdefault(int(index), {})[name] = value
+    groups = optimizer.state_dict()["param_groups"]
+    optimizer.load_state_dict({"state": state, "param_groups": groups})
+
+
+def _contiguous(tensors: dict[str, Tensor]) -> dict[str, Tensor]:
+    """Copies safetensors accepts: on the CPU, contiguous, sharing no memory."""
+    return {name: value.detach().cpu().contiguous().clone() for name, value in tensors.items()}
+
+
+def save_checkpoint(
+    root: Path,
+    *,
+    model: nn.Module,
+    ema: nn.Module,
+    optimizer: torch.optim.Optimizer,
+    state: dict[str, Any],
+    keep: int,
+) -> Path:
+    """Write `root/step-N` for `state["step"]` and remove all but the newest `keep`.
+
+    Raises:
+        UserError: the folder cannot be written.
+    """
+    target = root / f"step-{state['step']:08d}"
+    partial = root / f".{target.name}{_PARTIAL}"
+    contents = (model.state_dict(), ema.state_dict(), optimizer_tensors(optimizer))
+    try:
+        shutil.rmtree(partial, ignore_errors=True)
+        partial.mkdir(parents=True)
+        for name, tensors in zip(_FILES, contents, strict=True):
+            save_file(_contiguous(tensors), partial / f"{name}.safetensors")
+        hashes = {f"{n}.safetensors": sha256_file(partial / f"{n}.safetensors") for n in _FILES}
+        write_json(partial / "state.json", {**state, "sha256": hashes})
+        shutil.rmtree(target, ignore_errors=True)
+        os.replace(partial, target)
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise UserError(
+            f"cannot write checkpoint {target}: {reason}; free space and run again with --resume"
+        ) from error
+    for old in _folders(root)[keep:]:
+        shutil.rmtree(old, ignore_errors=True)
+    return target
+
+
+def _folders(root: Path) -> list[Path]:
+    """Complete checkpoint folders, newest first."""
+    return sorted((p for p in root.glob("step-*") if p.is_dir()), reverse=True)
+
+
+def _damage(folder: Path) -> str | None:
+    """What is wrong with a checkpoint folder, or None."""
+    try:
+        state = json.loads((folder / "state.json").read_text(encoding="utf-8"))
+        for name, expected in state["sha256"].items():
+            if sha256_file(folder / name) != expected:
+                return f"{name} does not match its SHA-256"
+    except (OSError, ValueError, KeyError) as error:
+        return f"state.json or a file it names is unreadable ({error})"
+    return None
+
+
+def latest_checkpoint(root: Path) -> Checkpoint | None:
+    """The newest undamaged checkpoint; names each damaged one on stderr, None if there is none.
+
+    Raises:
+        UserError: there are checkpoints, and all are damaged.
+    """
+    folders = _folders(root)
+    for folder in folders:
+        if (damage := _damage(folder)) is None:
+            state = json.loads((folder / "state.json").read_text(encoding="utf-8"))
+            return Checkpoint(folder, state)
+        print(f"warning: skipping checkpoint {folder}: {damage}", file=sys.stderr)
+    if folders:
+        raise UserError(f"every checkpoint in {root} is damaged; delete the folder and start again")
+    return None

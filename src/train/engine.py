@@ -1,0 +1,278 @@
+"""The one training loop: accelerate on CPU, MPS, one GPU or several, for every stage.
+
+Design: a `Task` says what is learned from which batch; the `Trainer` does the rest. Everything
+random is a function of (seed, step, part), so that `--resume` continues bit-exactly on the CPU
+from tensors and a step number alone. A step consumes one global batch, cut into
+`processes × gradient-accumulation` parts: two processes equal one with twice the batch.
+"""
+
+import math
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any, Generic, TypeVar
+
+import torch
+from torch import Tensor
+
+from src.shared.config_schema import TrainConfig
+from src.shared.device import choose_compute, set_threads
+from src.shared.errors import UserError
+from src.shared.files import write_json
+from src.train.batches import ahead, to_device
+from src.train.checkpoint import Checkpoint, latest_checkpoint, load_optimizer, save_checkpoint
+from src.train.ema import ExponentialMovingAverage
+from src.train.interrupt import Interrupted, InterruptGuard
+from src.train.learning_rate import learning_rate_factor
+from src.train.resume import refuse_to_overwrite, require_same_run, run_identity
+from src.train.run_log import RunLog, console
+from src.train.seeding import mix_seed
+from src.train.setup import make_accelerator, make_optimizer
+from src.train.task import Part, Task
+
+_STOP_CHECK_EVERY = 10  # steps between agreeing on a stop, with several processes
+
+
+ConfigT = TypeVar("ConfigT", bound=TrainConfig)
+
+
+class Trainer(Generic[ConfigT]):
+    """Runs one task to its end, or from where it was stopped.
+
+    Args:
+        config: the stage's settings.
+        build: makes the task; called on the main process first, so that it may fill a cache.
+        command: the command line that continues this run, printed on Ctrl-C.
+        resume: continue the run in the output folder.
+
+    Raises:
+        UsageError: a device, precision or number of processes that does not exist here; the
+            output folder holds a run and `resume` is off.
+    """
+
+    def __init__(
+        self,
+        config: ConfigT,
+        build: Callable[[ConfigT], Task],
+        *,
+        command: str,
+        resume: bool = False,
+    ) -> None:
+        self.config = config
+        self.command = command
+        self.resume = resume
+        self.output = Path(config.output)
+        refuse_to_overwrite(self.output, resume=resume)
+        compute = choose_compute(config.device, config.precision)
+        threads = set_threads(config.threads)
+        self.accelerator = make_accelerator(config, compute)
+        processes = self.accelerator.num_processes
+        self._say(f"computing on {compute}; {threads} CPU threads; {processes} process(es)")
+        with self.accelerator.main_process_first():
+            torch.manual_seed(mix_seed("weights", config.seed))
+            self.task = build(config)
+        self.module = self.task.module.to(self.accelerator.device)
+        self.task.to(self.accelerator.device)
+        self.ema = ExponentialMovingAverage(self.module, config.ema_decay)
+        optimizer = make_optimizer(self.module, config, self.accelerator.device.type)
+        self.wrapped, self.optimizer = self.accelerator.prepare(self.module, optimizer)
+        self._sums: dict[str, Tensor] = {}
+
+    # ------------------------------------------------------------ the loop
+
+    def train(self) -> None:
+        """Train to the last step and write the pretrained folder.
+
+        Raises:
+            UsageError: the run in the output folder had other settings.
+            UserError: the loss is not finite.
+            Interrupted: stopped by a signal, after saving.
+        """
+        config = self.config
+        start = self._restore()
+        if start is None:
+            return
+        main = self.accelerator.is_main_process
+        with (
+            InterruptGuard() as guard,
+            RunLog(
+                self.output,
+                start=start,
+                steps=config.steps,
+                main=main,
+                tensorboard=config.tensorboard,
+            ) as log,
+        ):
+            batches = ahead(self.task.batch, self._parts(start), config.num_workers)
+            since, since_step = time.perf_counter(), start
+            for step in range(start + 1, config.steps + 1):
+                self._optimize(step, batches)
+                log.advance(step)
+                last = step == config.steps
+                if step % config.log_every == 0 or last:
+                    seconds = time.perf_counter() - since
+                    log.write(step, self._averages(step, (step - since_step) / seconds))
+                    since, since_step = time.perf_counter(), step
+                stop = self._stop_requested(guard, step)
+                if (step % config.validate_every == 0 or last) and not stop:
+                    self._validate(step, log)
+                    since, since_step = time.perf_counter(), step
+                if step % config.save_every == 0 or last or stop:
+                    self._save(step)
+                    since, since_step = time.perf_counter(), step
+                if stop:
+                    raise self._interrupted(step, guard)
+            self._finish()
+
+    def _parts(self, start: int) -> Iterator[Part]:
+        """The parts this process works on, from the step after `start` on."""
+        world, rank = self.accelerator.num_processes, self.accelerator.process_index
+        count = world * self.config.gradient_accumulation
+        for step in range(start + 1, self.config.steps + 1):
+            for index in range(rank, count, world):
+                yield Part(step, index, count)
+
+    def _optimize(self, step: int, batches: Iterator[Any]) -> None:
+        """One optimizer step."""
+        config, accelerator = self.config, self.accelerator
+        # dropout draws from torch's own generator: start it anew for each step and process
+        torch.manual_seed(mix_seed("step", config.seed, step, accelerator.process_index))
+        factor = learning_rate_factor(
+            step - 1, steps=config.steps, warmup=config.warmup_steps, schedule=config.lr_schedule
+        )
+        for group in self.optimizer.param_groups:
+            group["lr"] = config.learning_rate * factor
+        for _ in range(config.gradient_accumulation):
+            batch = to_device(next(batches), accelerator.device)
+            with accelerator.accumulate(self.wrapped):
+                metrics = self.task.training_step(self.wrapped, batch)
+                accelerator.backward(metrics["loss"])
+                if accelerator.sync_gradients:
+                    weights = self.module.parameters()
+                    norm = accelerator.clip_grad_norm_(weights, config.gradient_clip)
+                self.optimizer.step()
+                self.optimizer.zero_grad()
+            self._add(metrics)
+        self._add({"grad-norm": norm})
+        self.ema.update(step - 1)
+
+    # ------------------------------------------------------------ figures
+
+    def _add(self, metrics: dict[str, Tensor]) -> None:
+        """Sum figures on the device: reading one would make the CPU wait for a GPU."""
+        with torch.no_grad():
+            for key, value in metrics.items():
+                pair = torch.stack(
+                    [value.detach().float(), torch.ones_like(value.detach().float())]
+                )
+                self._sums[key] = self._sums[key] + pair if key in self._sums else pair
+
+    def _averages(self, step: int, speed: float) -> dict[str, float]:
+        """Means since the last call, over processes; a loss that is not finite is a UserError."""
+        keys = list(self._sums)
+        sums = self.accelerator.reduce(torch.stack([self._sums[key] for key in keys]), "sum")
+        self._sums.clear()
+        result = {key: float(total / count) for key, (total, count) in zip(keys, sums, strict=True)}
+        self._require_finite(result["loss"], step)
+        result["learning-rate"] = self.optimizer.param_groups[0]["lr"]
+        result["steps-per-second"] = speed
+        return result
+
+    def _require_finite(self, loss: float, step: int) -> None:
+        if math.isfinite(loss):
+            return
+        newest = latest_checkpoint(self.output / "checkpoints")
+        kept = f"the last good checkpoint is {newest.folder}" if newest else "nothing was saved yet"
+        raise UserError(
+            f"the loss is {loss} at or before step {step}; {kept}: lower learning-rate"
+            f" {self.config.learning_rate:g}, raise warmup-steps, or use precision=no"
+        )
+
+    def _validate(self, step: int, log: RunLog) -> None:
+        """Figures and samples of the averaged weights, on the main process."""
+        if self.accelerator.is_main_process:
+            torch.manual_seed(mix_seed("validation", self.config.seed))
+            with torch.no_grad():
+                values = self.task.validation(self.ema.module)
+                log.write(step, {f"validation/{key}": value for key, value in values.items()})
+                self.task.export_samples(self.ema.module, self.output / "samples" / f"{step:08d}")
+        self.accelerator.wait_for_everyone()
+
+    # ------------------------------------------------------------ saving and resuming
+
+    def _identity(self) -> dict[str, Any]:
+        return run_identity(self.config, self.task.identity(), self.accelerator.num_processes)
+
+    def _save(self, step: int) -> None:
+        """Write a checkpoint, unless the loss since the last log line is not finite."""
+        if "loss" in self._sums:
+            total, count = self.accelerator.reduce(self._sums["loss"], "sum").tolist()
+            self._require_finite(total / count, step)
+        if self.accelerator.is_main_process:
+            state: dict[str, Any] = {"step": step, "identity": self._identity()}
+            if self.accelerator.scaler is not None:
+                state["scaler"] = self.accelerator.scaler.state_dict()
+            save_checkpoint(
+                self.output / "checkpoints",
+                model=self.module,
+                ema=self.ema.module,
+                optimizer=self.optimizer.optimizer,
+                state=state,
+                keep=self.config.keep_checkpoints,
+            )
+        self.accelerator.wait_for_everyone()
+
+    def _restore(self) -> int | None:
+        """The step to continue after, or None when there is nothing left to do."""
+        checkpoint = latest_checkpoint(self.output / "checkpoints")
+        if checkpoint is None:
+            if self.resume:
+                self._say(f"nothing to resume in {self.output}: starting at step 0")
+            if self.accelerator.is_main_process:
+                self.output.mkdir(parents=True, exist_ok=True)
+                write_json(self.output / "config.json", self._identity())
+            self.accelerator.wait_for_everyone()
+            return 0
+        require_same_run(checkpoint, self._identity())
+        if (self.output / "finished.json").exists() and checkpoint.step >= self.config.steps:
+            self._say(f"{self.output} is finished ({checkpoint.step} steps): nothing to do")
+            return None
+        self._load(checkpoint)
+        self._say(f"resuming {self.output} after step {checkpoint.step}")
+        return checkpoint.step
+
+    def _load(self, checkpoint: Checkpoint) -> None:
+        self.module.load_state_dict(checkpoint.tensors("model"))
+        self.ema.module.load_state_dict(checkpoint.tensors("ema"))
+        load_optimizer(self.optimizer.optimizer, checkpoint.tensors("optimizer"))
+        if self.accelerator.scaler is not None and "scaler" in checkpoint.state:
+            self.accelerator.scaler.load_state_dict(checkpoint.state["scaler"])
+
+    def _finish(self) -> None:
+        """Write the pretrained folder and mark the run as finished."""
+        if self.accelerator.is_main_process:
+            self.task.save_pretrained(self.ema.module, self.output)
+            write_json(self.output / "finished.json", {"steps": self.config.steps})
+            self._say(f"finished: {self.output} is ready to use")
+        self.accelerator.wait_for_everyone()
+
+    # ------------------------------------------------------------ stopping
+
+    def _stop_requested(self, guard: InterruptGuard, step: int) -> bool:
+        """Whether any process was told to stop; all must agree, or the others would hang."""
+        if self.accelerator.num_processes == 1:
+            return guard.signal_number is not None
+        if step % _STOP_CHECK_EVERY:
+            return False
+        flag = torch.tensor(float(guard.signal_number or 0), device=self.accelerator.device)
+        return bool(self.accelerator.reduce(flag, "sum").item())
+
+    def _interrupted(self, step: int, guard: InterruptGuard) -> Interrupted:
+        return Interrupted(
+            f"stopped and saved at step {step}; continue with: {self.command}",
+            guard.signal_number or 2,
+        )
+
+    def _say(self, text: str) -> None:
+        if self.accelerator.is_main_process:
+            console.print(text, markup=False)

@@ -1,0 +1,110 @@
+"""The command line that every training stage shares: parse, check, train, report."""
+
+import shlex
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, TypeVar
+
+import typer
+
+from src.shared.config_loader import load_network, load_train, split_network_overrides
+from src.shared.config_schema import NetworkConfig, TrainConfig
+from src.shared.errors import UserError
+from src.train.interrupt import Interrupted
+
+if TYPE_CHECKING:
+    from src.train.task import Task
+
+ConfigT = TypeVar("ConfigT", bound=TrainConfig)
+Builder = Callable[[ConfigT, NetworkConfig], "Task"]
+
+
+def resume_command(module: str, arguments: list[str]) -> str:
+    """The shell command that continues the run started with these arguments."""
+    kept = [argument for argument in arguments if argument != "--resume"]
+    return shlex.join(["accelerate", "launch", "-m", module, *kept, "--resume"])
+
+
+def run_stage(
+    model_class: type[ConfigT],
+    build: Builder[ConfigT],
+    *,
+    module: str,
+    config: Path | None,
+    overrides: list[str],
+    resume: bool,
+    network_file: Path | None = None,
+) -> None:
+    """Load the configurations and train.
+
+    Raises:
+        UserError, Interrupted: see `Trainer`.
+    """
+    own, network_overrides = split_network_overrides(overrides)
+    settings = load_train(config, model_class, own)
+    network = load_network(settings.profile, network_file, network_overrides)
+    from src.train.engine import Trainer  # every check that needs no torch comes before this
+
+    command = resume_command(module, sys.argv[1:])
+    Trainer(settings, lambda c: build(c, network), command=command, resume=resume).train()
+
+
+def stage_app(
+    model_class: type[ConfigT], build: Builder[ConfigT], module: str, about: str
+) -> typer.Typer:
+    """A typer application with the flags of a training stage.
+
+    Args:
+        model_class: configuration of the stage.
+        build: makes its task.
+        module: what stands after `accelerate launch -m`.
+        about: help text.
+    """
+    app = typer.Typer(add_completion=False)
+    example = f"Example: accelerate launch -m {module} --network-profile lightweight steps=500"
+
+    @app.command(help=f"{about}\n\n{example}")
+    def train(
+        overrides: Annotated[
+            list[str] | None, typer.Argument(metavar="KEY=VALUE", help="settings to change")
+        ] = None,
+        config: Annotated[Path | None, typer.Option(help="YAML file of settings")] = None,
+        data: Annotated[str | None, typer.Option(help="prepared folder, or: synthetic")] = None,
+        output: Annotated[str | None, typer.Option(help="folder of this run")] = None,
+        network_profile: Annotated[str | None, typer.Option(help="profile of network.yaml")] = None,
+        network_file: Annotated[Path | None, typer.Option(help="another network.yaml")] = None,
+        resume: Annotated[
+            bool, typer.Option("--resume", help="continue the run in output")
+        ] = False,
+    ) -> None:
+        flags = {"data": data, "output": output, "profile": network_profile}
+        given = [f"{key}={_quoted(value)}" for key, value in flags.items() if value is not None]
+        try:
+            run_stage(
+                model_class,
+                build,
+                module=module,
+                config=config,
+                overrides=[*(overrides or []), *given],
+                resume=resume,
+                network_file=network_file,
+            )
+        except Interrupted as stop:
+            raise _leave(str(stop), stop.exit_code) from None
+        except UserError as error:
+            raise _leave(f"error: {error}", error.exit_code) from None
+        except KeyboardInterrupt:
+            raise _leave("stopped at once, without saving", 130) from None
+
+    return app
+
+
+def _quoted(text: str) -> str:
+    """A flag's text as a YAML string, so that `--output 7` is a name and no number."""
+    return "'" + text.replace("'", "''") + "'"
+
+
+def _leave(message: str, code: int) -> typer.Exit:
+    print(message, file=sys.stderr)
+    return typer.Exit(code)

@@ -1,0 +1,123 @@
+"""What a training run reports: log.jsonl, TensorBoard, and progress on stderr."""
+
+import json
+import math
+import os
+import sys
+import time
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
+
+from src.shared.files import atomic_write
+
+console = Console(stderr=True, highlight=False, soft_wrap=True)
+
+
+def truncate_log(path: Path, step: int) -> None:
+    """Drop entries after `step` and a line cut off by a kill: resuming writes them again."""
+    if not path.exists():
+        return
+    kept = []
+    for line in path.read_text(encoding="utf-8").splitlines():
+        try:
+            if json.loads(line)["step"] <= step:
+                kept.append(line)
+        except (ValueError, KeyError, TypeError):
+            continue
+    with atomic_write(path) as temporary:
+        temporary.write_text("".join(line + "\n" for line in kept), encoding="utf-8")
+
+
+def _tensorboard_writer(folder: Path, start: int) -> Any | None:
+    """A SummaryWriter that hides points after `start`, or None when TensorBoard is missing."""
+    # TensorBoard would load TensorFlow where it is installed, for seconds and for nothing
+    os.environ.setdefault("TF_CPP_MIN_LOG_LEVEL", "3")
+    try:
+        from torch.utils.tensorboard import SummaryWriter
+    except ImportError:
+        console.print("tensorboard is not installed: only log.jsonl is written")
+        return None
+    return SummaryWriter(log_dir=str(folder), purge_step=start + 1 if start else None)
+
+
+class RunLog:
+    """Scalars of one run; a context manager, silent on all processes but the main one."""
+
+    def __init__(
+        self, folder: Path, *, start: int, steps: int, main: bool, tensorboard: bool
+    ) -> None:
+        self._main = main
+        self._seconds = time.perf_counter()
+        self._interactive = main and sys.stderr.isatty()
+        self._writer: Any | None = None
+        self._progress = Progress(
+            TextColumn("{task.description}"),
+            BarColumn(),
+            MofNCompleteColumn(),
+            TimeElapsedColumn(),
+            TimeRemainingColumn(),
+            console=console,
+            disable=not self._interactive,
+        )
+        self._bar = self._progress.add_task("training", total=steps, completed=start)
+        if main:
+            truncate_log(folder / "log.jsonl", start)
+            self._stream = (folder / "log.jsonl").open("a", encoding="utf-8")
+            self._writer = (
+                _tensorboard_writer(folder / "tensorboard", start) if tensorboard else None
+            )
+
+    def __enter__(self) -> "RunLog":
+        self._progress.start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._progress.stop()
+        if self._main:
+            self._stream.close()
+        if self._writer is not None:
+            self._writer.close()
+
+    def advance(self, step: int) -> None:
+        """Move the progress bar to a finished step."""
+        if self._interactive:
+            self._progress.update(self._bar, completed=step)
+
+    def write(self, step: int, values: dict[str, float]) -> None:
+        """One line of log.jsonl, the same in TensorBoard, and a short form on stderr.
+
+        Not-finite values (an undefined metric) are written as null, which JSON has.
+        """
+        if not self._main:
+            return
+        rounded = {k: float(f"{v:.6g}") if math.isfinite(v) else None for k, v in values.items()}
+        print(json.dumps({"step": step, **rounded}), file=self._stream, flush=True)
+        for key, value in rounded.items():
+            if self._writer is not None and value is not None:
+                self._writer.add_scalar(key, value, step)
+        text = "  ".join(f"{key} {value:.4g}" for key, value in values.items())
+        if self._interactive and "loss" in values:
+            self._progress.update(self._bar, description=f"loss {values['loss']:.4f}")
+        else:
+            self.say(f"step {step}  {text}")
+
+    def say(self, text: str) -> None:
+        """One line on stderr, above the progress bar."""
+        if self._main:
+            self._progress.console.print(text, markup=False)

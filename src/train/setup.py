@@ -1,0 +1,49 @@
+"""The accelerator and the optimizer that a training configuration asks for."""
+
+import os
+
+import torch
+from accelerate import Accelerator, DistributedDataParallelKwargs
+from accelerate.state import AcceleratorState
+from torch import nn
+
+from src.shared.config_schema import TrainConfig
+from src.shared.device import ComputeChoice
+from src.shared.errors import UsageError
+
+
+def make_accelerator(config: TrainConfig, compute: ComputeChoice) -> Accelerator:
+    """An Accelerator on the chosen device; raises UsageError on a wrong number of processes."""
+    if int(os.environ.get("WORLD_SIZE", "1")) == 1:
+        # accelerate keeps one state a process: a second stage may want another precision
+        AcceleratorState._reset_state(reset_partial_state=True)
+    accelerator = Accelerator(
+        cpu=compute.device == "cpu",
+        mixed_precision=compute.precision,
+        gradient_accumulation_steps=config.gradient_accumulation,
+        kwargs_handlers=[DistributedDataParallelKwargs(find_unused_parameters=True)],
+    )
+    expected = config.processes or int(os.environ.get("WORLD_SIZE", "1"))
+    if accelerator.num_processes != expected:
+        raise UsageError(
+            f"{accelerator.num_processes} process(es) are running, {expected} were asked for;"
+            " `accelerate launch --cpu --num_processes N` starts only one:"
+            " use ACCELERATE_USE_CPU=true accelerate launch --multi_gpu --num_processes N"
+        )
+    return accelerator
+
+
+def make_optimizer(module: nn.Module, config: TrainConfig, device: str) -> torch.optim.AdamW:
+    """AdamW that leaves biases, norms and other vectors undecayed."""
+    weights = [weight for weight in module.parameters() if weight.requires_grad]
+    groups = [
+        {"params": [w for w in weights if w.ndim >= 2], "weight_decay": config.weight_decay},
+        {"params": [w for w in weights if w.ndim < 2], "weight_decay": 0.0},
+    ]
+    return torch.optim.AdamW(
+        [group for group in groups if group["params"]],
+        lr=config.learning_rate,
+        betas=config.adam_betas,
+        fused=device != "mps",
+        foreach=True if device == "mps" else None,
+    )

@@ -1,0 +1,151 @@
+"""kill -9, Ctrl-C and several processes, on real processes."""
+
+import os
+import shlex
+import signal
+import socket
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+import torch
+from safetensors.torch import load_file
+
+ROOT = Path(__file__).parents[2]
+PROGRAM = str(Path(__file__).with_name("tiny_task.py"))
+SETTINGS = """
+device: cpu
+precision: no
+threads: 1
+batch-size: 4
+steps: 16
+save-every: 2
+log-every: 4
+warmup-steps: 2
+tensorboard: false
+"""
+
+
+def arguments(output: Path) -> list[str]:
+    """The program's flags for a run in `output`."""
+    config = output.with_suffix(".yaml")
+    config.write_text(SETTINGS)
+    return ["--config", str(config), "--output", str(output)]
+
+
+def environment(**extra: str) -> dict[str, str]:
+    return {**os.environ, "PYTHONPATH": str(ROOT), "OMP_NUM_THREADS": "1", **extra}
+
+
+def start(output: Path, *more: str, **extra: str) -> "subprocess.Popen[str]":
+    return subprocess.Popen(
+        [sys.executable, PROGRAM, *arguments(output), *more],
+        env=environment(**extra),
+        cwd=ROOT,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def finish(output: Path, *more: str, **extra: str) -> str:
+    process = start(output, *more, **extra)
+    _, errors = process.communicate(timeout=120)
+    assert process.returncode == 0, errors
+    return errors
+
+
+def wait_for_checkpoint(process: "subprocess.Popen[str]", output: Path) -> None:
+    deadline = time.monotonic() + 60
+    while not list(output.glob("checkpoints/step-*")):
+        assert process.poll() is None and time.monotonic() < deadline
+        time.sleep(0.01)
+
+
+def final(output: Path, name: str) -> dict[str, torch.Tensor]:
+    return load_file(output / "checkpoints" / "step-00000016" / f"{name}.safetensors")
+
+
+def assert_same_run(first: Path, second: Path) -> None:
+    for name in ("model", "ema", "optimizer"):
+        one, other = final(first, name), final(second, name)
+        assert one.keys() == other.keys()
+        assert all(torch.equal(one[key], other[key]) for key in one), name
+
+
+def test_resume_after_kill_9_is_bitwise_the_same(tmp_path: Path) -> None:
+    finish(tmp_path / "whole")
+    killed = start(tmp_path / "killed", TINY_SLEEP="0.05")
+    wait_for_checkpoint(killed, tmp_path / "killed")
+    killed.send_signal(signal.SIGKILL)
+    killed.communicate()
+    assert killed.returncode == -signal.SIGKILL
+    assert not (tmp_path / "killed" / "finished.json").exists()
+    errors = finish(tmp_path / "killed", "--resume")
+    assert "resuming" in errors
+    assert_same_run(tmp_path / "whole", tmp_path / "killed")
+
+
+def test_ctrl_c_saves_prints_the_command_and_exits_130(tmp_path: Path) -> None:
+    process = start(tmp_path / "stopped", TINY_SLEEP="0.05")
+    wait_for_checkpoint(process, tmp_path / "stopped")
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert "Traceback" not in errors
+    command = shlex.split(errors.strip().splitlines()[-1].partition("continue with: ")[2])
+    assert command[:3] == ["accelerate", "launch", "-m"] and command[-1] == "--resume"
+    assert str(tmp_path / "stopped") in command
+    finish(tmp_path / "whole")
+    finish(tmp_path / "stopped", "--resume")
+    assert_same_run(tmp_path / "whole", tmp_path / "stopped")
+
+
+def test_a_mistake_is_one_line_and_exit_code_2(tmp_path: Path) -> None:
+    process = start(tmp_path / "wrong", "stepz=3")
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 2
+    assert errors.strip().splitlines() == [
+        "error: command line: unknown key stepz (value 3); the nearest valid key is steps"
+    ]
+
+
+def _free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("launcher", ["accelerate", "torchrun"])
+def test_two_processes_equal_one_with_twice_the_batch(tmp_path: Path, launcher: str) -> None:
+    port = str(_free_port())
+    if launcher == "accelerate":
+        module = "accelerate.commands.launch"
+        flags = ["--multi_gpu", "--num_processes", "2", "--main_process_port", port]
+    else:
+        module, flags = "torch.distributed.run", ["--nproc_per_node", "2", "--master_port", port]
+    done = subprocess.run(
+        [
+            sys.executable,
+            "-m",
+            module,
+            *flags,
+            PROGRAM,
+            *arguments(tmp_path / "two"),
+            "processes=2",
+        ],
+        env=environment(TINY_DROPOUT="0", ACCELERATE_USE_CPU="true"),
+        cwd=ROOT,
+        stderr=subprocess.PIPE,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert "2 process(es)" in done.stderr
+    finish(tmp_path / "one", "batch-size=8", TINY_DROPOUT="0")
+    for name in ("model", "ema"):
+        two, one = final(tmp_path / "two", name), final(tmp_path / "one", name)
+        assert all(torch.allclose(two[key], one[key], atol=1e-5) for key in one)
