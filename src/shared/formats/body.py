@@ -71,3 +71,11 @@ BODY: tuple[Part, ...] = _build()
 JOINT_SIDES: tuple[str, ...] = tuple(
     {"l_": "left", "r_": "right"}.get(name[:2], "centre") for name in JOINT_NAMES
 )
+# Tips of the chains, for formats that want an end to every bone: joint → offset in metres.
+END_SITES: dict[int, Point] = {
+    JOINT_INDEX["head"]: (0.0, 0.18, 0.0),
+    JOINT_INDEX["l_wrist"]: (0.17, 0.0, 0.0),
+    JOINT_INDEX["r_wrist"]: (-0.17, 0.0, 0.0),
+    JOINT_INDEX["l_foot"]: (0.0, 0.0, 0.08),
+    JOINT_INDEX["r_foot"]: (0.0, 0.0, 0.08),
+}

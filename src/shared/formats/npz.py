@@ -1,0 +1,102 @@
+"""NPZ in and out: one motion as plain arrays for Python, no pickles.
+
+Arrays of the file (T frames, 22 joints):
+
+| name           | shape      | type    | meaning                                                  |
+|----------------|------------|---------|----------------------------------------------------------|
+| format_version | ()         | int32   | 1                                                        |
+| quaternions    | [T,22,4]   | float32 | local rotations w, x, y, z; joint 0 in the world         |
+| root_position  | [T,3]      | float32 | pelvis in the world, metres, +Y up                       |
+| contacts       | [T,2]      | float32 | left and right foot on the ground, 0 to 1                |
+| positions      | [T,22,3]   | float32 | world joint positions, metres (follows from the others)  |
+| fps            | ()         | float32 | frames a second                                          |
+| text           | ()         | str     | caption or prompt                                        |
+| joint_names    | [22]       | str     | SMPL order                                               |
+| parents        | [22]       | int32   | parent of each joint, -1 for the root                    |
+| offsets        | [22,3]     | float32 | rest offsets from the parent (T-pose facing +Z), metres  |
+"""
+
+from pathlib import Path
+
+import numpy as np
+
+from src.shared.errors import UserError
+from src.shared.files import atomic_write
+from src.shared.motion.motion import Motion
+from src.shared.motion.skeleton import JOINT_NAMES, NUM_JOINTS, canonical_skeleton
+
+FORMAT_VERSION = 1
+_SHAPES = {"quaternions": (NUM_JOINTS, 4), "root_position": (3,), "contacts": (2,)}
+MAX_VALUE = 1e6  # metres
+
+
+def write_npz(motion: Motion, path: str | Path) -> Path:
+    """Write one motion with the arrays of the module's table.
+
+    Raises:
+        UserError: the file cannot be written.
+    """
+    skeleton = canonical_skeleton()
+    with atomic_write(Path(path)) as temporary, temporary.open("wb") as stream:
+        np.savez_compressed(
+            stream,
+            format_version=np.int32(FORMAT_VERSION),
+            quaternions=motion.quaternions.astype(np.float32),
+            root_position=motion.root_position.astype(np.float32),
+            contacts=motion.contacts.astype(np.float32),
+            positions=motion.positions().astype(np.float32),
+            fps=np.float32(motion.fps),
+            text=np.array(motion.text),
+            joint_names=np.array(skeleton.names),
+            parents=np.array(skeleton.parents, dtype=np.int32),
+            offsets=skeleton.offsets.astype(np.float32),
+        )
+    return Path(path)
+
+
+def read_npz(path: str | Path) -> Motion:
+    """Read a motion that `write_npz` wrote; quaternions are normalised again.
+
+    Raises:
+        UserError: missing, damaged, not ours, or with arrays of another shape or NaN.
+    """
+    path = Path(path)
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            arrays = {name: archive[name] for name in archive.files}
+    except OSError as error:
+        raise UserError(f"{path}: cannot be read: {error.strerror or error}") from error
+    except Exception as error:  # a damaged archive fails in zipfile, zlib or numpy, in any way
+        raise UserError(f"{path}: is not a whole NPZ file ({error}); write it again") from error
+    for name in ("format_version", "fps", "text", "joint_names", *_SHAPES):
+        if name not in arrays:
+            raise UserError(f"{path}: has no array {name!r}; is it a motion of this project?")
+    if tuple(arrays["joint_names"].tolist()) != JOINT_NAMES:
+        raise UserError(f"{path}: joint_names are not the 22 joints of this project")
+    num_frames = len(np.atleast_1d(arrays["quaternions"]))
+    for name, shape in _SHAPES.items():
+        _check(path, name, arrays[name], (num_frames, *shape))
+    _check(path, "fps", arrays["fps"], ())
+    fps = float(arrays["fps"])
+    if num_frames < 1 or not 0 < fps <= 10_000:
+        raise UserError(f"{path}: {num_frames} frames at {fps:g} frames a second is no motion")
+    quaternions = arrays["quaternions"].astype(np.float64)
+    norms = np.linalg.norm(quaternions, axis=-1, keepdims=True)
+    if norms.min() < 1e-3:
+        raise UserError(f"{path}: quaternions holds zeros, which are no rotations")
+    return Motion(
+        (quaternions / norms).astype(np.float32),
+        arrays["root_position"].astype(np.float32),
+        arrays["contacts"].astype(np.float32),
+        fps,
+        str(arrays["text"]),
+    )
+
+
+def _check(path: Path, name: str, array: np.ndarray, shape: tuple[int, ...]) -> None:
+    """Refuse an array of another shape or type, or with values that cannot be."""
+    if array.shape != shape or array.dtype.kind not in "fiu":
+        raise UserError(f"{path}: {name} is {array.dtype}{list(array.shape)}, expected numbers "
+                        f"of shape {list(shape)}")  # fmt: skip
+    if array.size and not np.abs(array.astype(np.float64)).max() < MAX_VALUE:
+        raise UserError(f"{path}: {name} holds NaN or impossibly large values")
