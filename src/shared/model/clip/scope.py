@@ -1,0 +1,246 @@
+"""PromptScope: is a prompt near anything the model was trained on, and to which actions?
+
+A prompt is known when it has a key word of some action. The key words of an action are a small
+set of telling words that covers its training captions (greedy set cover), so "turn" is one and
+the "make" of "make a turn" is not. A text tower trained from nothing puts nonsense somewhere too,
+so its cosine only ranks the actions; a pretrained tower also knows synonyms, so there a close
+embedding is enough.
+
+Letters: N captions, A actions, D embed dim.
+"""
+
+import json
+import math
+import re
+import unicodedata
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Self
+
+import numpy as np
+
+from src.shared.errors import UserError
+from src.shared.files import atomic_write, write_json
+
+TABLE_FILE, META_FILE = "scope.safetensors", "scope.json"
+COVERAGES = (0.9, 0.95, 0.98, 0.99, 1.0)  # share of an action's captions its key words cover
+MAX_FALSE_ALARMS = 0.01  # share of held-out captions judged unknown
+HELD_OUT = 10  # every tenth caption calibrates
+MIN_TELLING = 0.5  # of log A, the evidence of a word that one action alone uses
+SAME_STEM = 0.65  # share of the longer word that two forms of one word begin alike
+MIN_STEM = 4  # letters
+MIN_SEEN = 0.5  # share of words seen in training that a likeness to a key word needs around it
+NUM_NEAREST = 3
+
+_CJK = re.compile(r"[\u3040-\u30ff\u3400-\u9fff]")
+_HAN = re.compile(r"[\u3400-\u9fff]")
+_RUNS = re.compile(r"[\u3040-\u30ff\u3400-\u9fff]+|[^\W\u3040-\u30ff\u3400-\u9fff]+")
+
+KeyWords = dict[str, tuple[int, ...]]  # word -> the actions it tells of
+
+
+@dataclass(frozen=True)
+class ScopeResult:
+    """Verdict on one prompt; `nearest` names known actions, nearest first."""
+
+    known: bool
+    nearest: list[str]
+
+
+def words_of(text: str) -> list[str]:
+    """The words of a text; Chinese and Japanese go by two characters, and by one Chinese one.
+
+    `Wave 手を` -> ["wave", "手を", "手"].
+    """
+    words: list[str] = []
+    for run in _RUNS.findall(unicodedata.normalize("NFKC", text).casefold()):
+        if _CJK.match(run):
+            words += [run[i : i + 2] for i in range(len(run) - 1)]
+            words += _HAN.findall(run)
+        else:
+            words.append(run)
+    return words
+
+
+@dataclass(frozen=True, eq=False)
+class PromptScope:
+    """What the training captions were about.
+
+    Attributes:
+        actions: A names.
+        key_words: word -> indices of the actions it tells of.
+        words: all words of the training captions.
+        means: [A, D] float32 unit-norm mean text embeddings.
+        false_alarms: share of held-out captions it called unknown.
+        min_cosine: for a pretrained text tower, enough on its own; None otherwise.
+    """
+
+    actions: tuple[str, ...]
+    key_words: KeyWords
+    words: frozenset[str]
+    means: np.ndarray
+    false_alarms: float = 0.0
+    min_cosine: float | None = None
+
+    @classmethod
+    def fit(
+        cls,
+        captions: Sequence[str],
+        actions: Sequence[str],
+        embeddings: np.ndarray,
+        *,
+        pretrained_tower: bool = False,
+    ) -> Self:
+        """Learn from N training captions of any languages, their actions and embeddings [N, D].
+
+        How many key words it takes is calibrated on every tenth caption, with key words of the
+        others: as few as leave at most 1% of them unknown.
+
+        Raises:
+            UserError: there are no captions.
+        """
+        if not captions:
+            raise UserError("cannot learn what prompts are known: no captions in the data")
+        names = tuple(sorted(set(actions)))
+        labels = np.array([names.index(action) for action in actions])
+        means = _unit(np.stack([embeddings[labels == a].mean(axis=0) for a in range(len(names))]))
+        cosines = (_unit(embeddings) @ means.T).max(axis=1)
+
+        texts = [frozenset(words_of(caption)) for caption in captions]
+        held = np.arange(len(texts)) % HELD_OUT == HELD_OUT - 1
+        kept = [text for text, out in zip(texts, held, strict=True) if not out]
+        judged = [text for text, out in zip(texts, held, strict=True) if out] or texts
+        for coverage in COVERAGES:
+            trial = _key_words(kept, labels[~held], len(names), coverage)
+            seen = frozenset[str]().union(*kept)
+            false_alarms = sum(not _known(text, trial, seen) for text in judged) / len(judged)
+            if false_alarms <= MAX_FALSE_ALARMS:
+                break
+        return cls(
+            actions=names,
+            key_words=_key_words(texts, labels, len(names), coverage),
+            words=frozenset[str]().union(*texts),
+            means=means.astype(np.float32),
+            false_alarms=false_alarms,
+            min_cosine=float(np.quantile(cosines, 0.01)) if pretrained_tower else None,
+        )
+
+    def check(self, prompt: str, embedding: np.ndarray) -> ScopeResult:
+        """Judge one prompt by its words and its pooled text embedding [D]."""
+        cosines = self.means @ _unit(embedding)
+        known = _known(frozenset(words_of(prompt)), self.key_words, self.words)
+        if self.min_cosine is not None:
+            known = known or float(cosines.max()) >= self.min_cosine
+        nearest = np.argsort(-cosines, kind="stable")[:NUM_NEAREST]
+        return ScopeResult(known, [self.actions[index] for index in nearest])
+
+    def save_pretrained(self, folder: str | Path) -> None:
+        """Write scope.safetensors and scope.json into a model folder."""
+        from safetensors.numpy import save_file
+
+        folder = Path(folder)
+        with atomic_write(folder / TABLE_FILE) as temporary:
+            save_file({"means": self.means.astype(np.float16)}, temporary)
+        meta = {
+            "actions": self.actions,
+            "false-alarms": self.false_alarms,
+            "min-cosine": self.min_cosine,
+            "key-words": self.key_words,
+            "words": sorted(self.words),
+        }
+        write_json(folder / META_FILE, meta)
+
+    @classmethod
+    def from_pretrained(cls, folder: str | Path) -> Self | None:
+        """Read a scope; None where the folder has none.
+
+        Raises:
+            UserError: the files are damaged.
+        """
+        from safetensors import SafetensorError
+        from safetensors.numpy import load_file
+
+        folder = Path(folder)
+        if not (folder / META_FILE).is_file():
+            return None
+        try:
+            meta = json.loads((folder / META_FILE).read_text(encoding="utf-8"))
+            return cls(
+                actions=tuple(meta["actions"]),
+                key_words={word: tuple(rows) for word, rows in meta["key-words"].items()},
+                words=frozenset(meta["words"]),
+                means=load_file(folder / TABLE_FILE)["means"].astype(np.float32),
+                false_alarms=float(meta["false-alarms"]),
+                min_cosine=meta["min-cosine"],
+            )
+        except (OSError, ValueError, KeyError, TypeError, SafetensorError) as error:
+            raise UserError(
+                f"{folder / META_FILE} or {TABLE_FILE} is damaged ({error});"
+                " copy the model folder again"
+            ) from error
+
+
+def _unit(vectors: np.ndarray) -> np.ndarray:
+    norms = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    unit: np.ndarray = vectors / np.maximum(norms, 1e-12)
+    return unit
+
+
+def _key_words(
+    texts: Sequence[frozenset[str]], labels: np.ndarray, num_actions: int, coverage: float
+) -> KeyWords:
+    """Telling words that together cover `coverage` of each action's captions."""
+    captions = np.bincount(labels, minlength=num_actions).clip(min=1)
+    counts: dict[str, np.ndarray] = {}
+    for text, label in zip(texts, labels, strict=True):
+        for word in text:
+            counts.setdefault(word, np.zeros(num_actions))[label] += 1
+    rates = {word: row / captions for word, row in counts.items()}
+    telling = MIN_TELLING * math.log(num_actions)
+    found: dict[str, list[int]] = {}
+    for action in range(num_actions):
+        evidence = {
+            word: math.log(num_actions * rate[action] / rate.sum())
+            for word, rate in rates.items()
+            if rate[action] > 0
+        }
+        strength = {word: value for word, value in evidence.items() if value >= telling}
+        mine = [text for text, label in zip(texts, labels, strict=True) if label == action]
+        for word in _cover(mine, strength, coverage):
+            found.setdefault(word, []).append(action)
+    return {word: tuple(actions) for word, actions in sorted(found.items())}
+
+
+def _cover(
+    texts: Sequence[frozenset[str]], strength: Mapping[str, float], coverage: float
+) -> list[str]:
+    """Greedy set cover: the strongest word of the most captions still uncovered, and so on."""
+    uncovered = [text & strength.keys() for text in texts]
+    target = (1 - coverage) * len(uncovered)
+    chosen: list[str] = []
+    while len(uncovered) > target:
+        gains = Counter(word for text in uncovered for word in text)
+        if not gains:
+            break
+        best = max(gains, key=lambda word: (gains[word] * (0.1 + strength[word]), word))
+        chosen.append(best)
+        uncovered = [text for text in uncovered if best not in text]
+    return chosen
+
+
+def _known(
+    prompt: frozenset[str], key_words: Mapping[str, tuple[int, ...]], seen: frozenset[str]
+) -> bool:
+    """Whether a word is a key word, or another form of one among mostly familiar words."""
+    if not prompt.isdisjoint(key_words):
+        return True
+    alike = {word for word in prompt if any(_same_stem(word, key) for key in key_words)}
+    return bool(alike) and len(prompt & seen | alike) >= MIN_SEEN * len(prompt)
+
+
+def _same_stem(first: str, second: str) -> bool:
+    longer = max(len(first), len(second))
+    needed = max(MIN_STEM, math.ceil(SAME_STEM * longer))
+    return min(len(first), len(second)) >= needed and first[:needed] == second[:needed]
