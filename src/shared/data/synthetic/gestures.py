@@ -1,0 +1,205 @@
+"""Actions on planted feet with arms and trunk: stand, wave, raise, clap, bow, punch.
+
+T frames; key poses in degrees.
+"""
+
+import numpy as np
+
+from src.shared.data.synthetic.curves import Array, bump, keyframes, min_jerk, ramp, smooth_noise
+from src.shared.data.synthetic.rig import (
+    ABDUCT,
+    DEVIATE,
+    ELBOW,
+    FLEX,
+    LEFT,
+    PRONATE,
+    RIGHT,
+    TWIST,
+    WRIST,
+    Body,
+)
+from src.shared.data.synthetic.scene import Scene
+
+_PACE = {"slow": 0.62, "normal": 1.0, "fast": 1.6}
+
+
+def pace_of(scene: Scene) -> float:
+    """How many times faster than normal the labels and the tempo ask to move."""
+    return _PACE[scene.labels.get("speed", "normal")] * scene.params["tempo"]
+
+
+def sides_of(scene: Scene) -> tuple[int, ...]:
+    """The hands or feet that the labels name."""
+    return {"left": (LEFT,), "right": (RIGHT,), "both": (LEFT, RIGHT)}[scene.labels["side"]]
+
+
+def shift_weight(scene: Scene, body: Body, metres: float, period: float) -> None:
+    """Let the pelvis wander over the planted feet."""
+    for axis, share in ((0, 1.0), (2, 0.5)):
+        body.position[:, axis] += smooth_noise(scene.rng, scene.t, share * metres, period)
+    body.roll[:] -= 0.6 * body.position[:, 0]
+    body.spine[:, 2] += 0.6 * body.position[:, 0]
+    body.yaw[:] += scene.wander(1.5, 3.0)
+
+
+def pose_arm(body: Body, side: int, weight: Array, **degrees: Array | float) -> None:
+    """Blend an arm towards a key pose, given by angle names in degrees, by `weight` [T]."""
+    index = {
+        "flex": FLEX, "abduct": ABDUCT, "twist": TWIST, "elbow": ELBOW,
+        "pronate": PRONATE, "wrist": WRIST, "deviate": DEVIATE,
+    }  # fmt: skip
+    for name, value in degrees.items():
+        joint = body.arms[:, side, index[name]]
+        joint += weight * (np.radians(value) - joint)
+
+
+def stand(scene: Scene) -> Body:
+    """Quiet standing: weight shifts, breathing, a look around."""
+    body = scene.standing()
+    shift_weight(scene, body, 0.022, 2.5)
+    body.head[:, 1] += scene.wander(14.0, 2.5)
+    return body
+
+
+def raise_hands(scene: Scene) -> Body:
+    """Raise one or both hands high, hold, and mostly lower them again."""
+    body, t, pace = scene.standing(), scene.t, pace_of(scene)
+    shift_weight(scene, body, 0.012, 2.5)
+    rise = 0.95 / pace
+    start = 0.25 + 0.4 * scene.params["variant"]
+    up = ramp(t, start, rise)
+    if scene.params["entry"] > 0.35:
+        up = up * (1 - ramp(t, t[-1] - 0.25 - 1.1 * rise, 1.1 * rise))
+    high = 148.0 + 22.0 * scene.params["length"]
+    out = 12.0 + 16.0 * scene.params["amplitude"] * scene.params["variant"]
+    for side in sides_of(scene):
+        sway = scene.wander(5.0, 2.0)
+        pose_arm(body, side, up, flex=high, abduct=out, twist=8.0, elbow=14.0, pronate=20.0)
+        body.arms[:, side, FLEX] += up * sway
+        body.arms[:, side, ELBOW] += np.radians(35.0) * bump(up) * (up < 1)
+    _answer_in_trunk(body, sides_of(scene), up)
+    return body
+
+
+def _answer_in_trunk(body: Body, sides: tuple[int, ...], up: Array) -> None:
+    """The trunk stretches and leans a little away from a raised hand; the head looks up."""
+    body.spine[:, 0] -= np.radians(4.0) * up
+    body.head[:, 0] -= np.radians(7.0) * up
+    if len(sides) == 1:
+        toward = 1.0 if sides[0] == LEFT else -1.0
+        body.spine[:, 2] += toward * np.radians(4.0) * up
+        body.roll[:] -= toward * np.radians(1.0) * up
+        body.position[:, 0] -= toward * 0.012 * up
+
+
+def wave(scene: Scene) -> Body:
+    """Wave with one or both hands beside the head."""
+    body, t, pace = scene.standing(), scene.t, pace_of(scene)
+    shift_weight(scene, body, 0.012, 2.5)
+    rise = 0.75 / pace**0.5
+    start = 0.2 + 0.3 * scene.params["variant"]
+    entry = scene.params["entry"]
+    up = ramp(t, -2.0 if entry < 0.35 else start, rise)
+    if entry > 0.5:
+        up = up * (1 - ramp(t, t[-1] - 0.2 - rise, rise))
+    rate = 1.55 * pace
+    size = scene.params["amplitude"] * (0.9 if pace > 1.3 else 1.05)
+    for side in sides_of(scene):
+        swing = np.sin(2 * np.pi * rate * (t - start - 0.4 * rise)) * min_jerk((up - 0.5) * 2)
+        pose_arm(
+            body, side, up, flex=28.0, abduct=78.0 + 18.0 * scene.params["length"], twist=84.0,
+            elbow=78.0, pronate=0.0, wrist=-6.0,
+        )  # fmt: skip
+        body.arms[:, side, ELBOW] += np.radians(25.0 * size) * swing
+        body.arms[:, side, ABDUCT] -= np.radians(5.0 * size) * swing
+        lagging = np.sin(2 * np.pi * rate * (t - start - 0.4 * rise) - 0.7)
+        body.arms[:, side, DEVIATE] -= np.radians(14.0 * size) * lagging * up
+    _answer_in_trunk(body, sides_of(scene), 0.5 * up)
+    return body
+
+
+def clap(scene: Scene) -> Body:
+    """Clap `count` times in front of the chest."""
+    body, t = scene.standing(), scene.t
+    shift_weight(scene, body, 0.010, 2.5)
+    count, tempo = int(scene.labels["count"]), scene.params["tempo"]
+    rise, beat = 0.7 / tempo, 0.52 / tempo
+    start = 0.3 + 0.3 * scene.params["variant"]
+    strikes = start + rise + 0.45 * beat + beat * np.arange(count)
+    end = strikes[-1] + 0.4 * beat
+    up = ramp(t, start, rise) * (1 - ramp(t, end, 1.1 * rise))
+    near = np.zeros_like(t)
+    for strike in strikes:
+        near = np.maximum(near, bump((t - strike + 0.5 * beat) / beat))
+    apart = 1 - near
+    lift = 8.0 * scene.params["length"]
+    for side in (LEFT, RIGHT):
+        twist = -55.0 + (28.0 + 10.0 * scene.params["amplitude"]) * apart
+        pose_arm(
+            body, side, up, flex=34.0 + lift, abduct=14.0, twist=twist, elbow=82.0 + lift,
+            pronate=-30.0, wrist=-34.0 + 20.0 * apart, deviate=2.0,
+        )  # fmt: skip
+    body.head[:, 0] += np.radians(6.0) * up
+    body.spine[:, 0] += np.radians(1.5) * up * near
+    return body
+
+
+def bow(scene: Scene) -> Body:
+    """Bow `count` times from the hips with a flat back; the hips move back for balance."""
+    body, t = scene.standing(width=0.15), scene.t
+    count, tempo = int(scene.labels["count"]), scene.params["tempo"]
+    down = (0.72 if count == 1 else 0.58) / tempo
+    hold = (0.45 if count == 1 else 0.15) / tempo
+    start, keys = 0.3 + 0.3 * scene.params["variant"], []
+    for index in range(count):
+        at = start + index * (2.1 * down + hold + 0.12)
+        keys += [(at, 0.0), (at + down, 1.0), (at + down + hold, 1.0)]
+        keys += [(at + 2.1 * down + hold, 0.0)]
+    bent = keyframes(t, keys)
+    degrees = (46.0 + 16.0 * scene.params["length"]) * scene.params["amplitude"] ** 0.5
+    body.pitch[:] += np.radians(0.68 * degrees) * bent
+    body.spine[:, 0] += np.radians(0.42 * degrees) * bent
+    body.head[:, 0] += np.radians(0.9 * degrees) * bent
+    body.position[:, 2] -= 0.11 * degrees / 50 * bent
+    body.position[:, 1] -= 0.012 * bent
+    for side in (LEFT, RIGHT):
+        # Half way between hanging down and staying along the body.
+        body.arms[:, side, FLEX] += np.radians(0.5 * degrees) * bent
+        body.arms[:, side, ABDUCT] -= np.radians(2.0) * bent
+    return body
+
+
+def punch(scene: Scene) -> Body:
+    """Punch `count` times straight ahead out of a boxer's guard."""
+    body, t = scene.standing(width=0.24), scene.t
+    count, tempo = int(scene.labels["count"]), scene.params["tempo"]
+    (side,) = sides_of(scene)
+    sign = 1.0 if side == LEFT else -1.0
+    guard_time, out, back = 0.5 / tempo, 0.20 / tempo, 0.34 / tempo
+    start = 0.25 + 0.25 * scene.params["variant"]
+    first = start + guard_time + 0.12
+    keys, wind = [(first, 0.0)], [(first - 0.2, 0.0)]
+    for index in range(count):
+        at = first + index * (out + back + 0.22)
+        wind += [(at, 1.0), (at + out, 0.0)]
+        keys += [(at, 0.0), (at + out, 1.0), (at + out + 0.05, 1.0), (at + out + 0.05 + back, 0.0)]
+        wind += [(at + out + back, 0.0)]
+    thrust, windup = keyframes(t, keys), keyframes(t, wind)
+    end = keys[-1][0] + 0.1
+    guard = ramp(t, start, guard_time) * (1 - ramp(t, end, 0.65))
+    for arm in (LEFT, RIGHT):
+        pose_arm(
+            body, arm, guard, flex=38.0, abduct=16.0, twist=-22.0, elbow=122.0, pronate=25.0,
+            wrist=4.0,
+        )  # fmt: skip
+    height = 80.0 + 10.0 * scene.params["length"]
+    pose_arm(body, side, thrust, flex=height, abduct=4.0, twist=-10.0, elbow=9.0, pronate=75.0)
+    body.arms[:, side, FLEX] -= np.radians(12.0) * windup
+    drive = scene.params["amplitude"] * (thrust - 0.45 * windup)
+    body.spine[:, 1] -= sign * np.radians(24.0) * drive
+    body.yaw[:] -= sign * np.radians(9.0) * drive
+    body.spine[:, 0] += np.radians(5.0) * guard + np.radians(4.0) * drive
+    body.position[:, 2] += 0.045 * drive
+    body.position[:, 1] -= 0.035 * guard
+    body.head[:, 1] += sign * np.radians(4.0) * drive
+    return body

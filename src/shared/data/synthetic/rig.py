@@ -1,0 +1,226 @@
+"""From control curves to joint rotations: the body that the synthetic actions move.
+
+T frames. `Body` holds angles in radians and positions in metres; `solve` turns it into a
+`Motion`: legs by two-bone inverse kinematics to the planned feet, arms by shoulder angles,
+the pelvis lowered where a leg would not reach.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+
+from src.shared.data.synthetic.curves import Array, upper_envelope
+from src.shared.motion.motion import Motion
+from src.shared.motion.rotations import matrix_to_quaternion, quaternion_continuous
+from src.shared.motion.skeleton import (
+    JOINT_INDEX,
+    LEG_LENGTH,
+    NUM_JOINTS,
+    REST_FOOT_HEIGHT,
+    REST_PELVIS_HEIGHT,
+    canonical_skeleton,
+)
+
+FPS = 30.0
+FLEX, ABDUCT, TWIST, ELBOW, PRONATE, WRIST, DEVIATE = range(7)
+"""Arm angles: raise forward, raise sideways, outward turn about the upper arm (from hanging
+with the palm inward), elbow bend, forearm turn (thumb inward), palm towards forearm, hand
+towards the thumb."""
+LEFT, RIGHT = 0, 1
+
+_OFFSETS = canonical_skeleton().offsets.astype(np.float64)
+_HIP = np.stack([_OFFSETS[JOINT_INDEX["l_hip"]], _OFFSETS[JOINT_INDEX["r_hip"]]])
+_ANKLE_TO_BALL = _OFFSETS[JOINT_INDEX["l_foot"]]
+_THIGH = -float(_OFFSETS[JOINT_INDEX["l_knee"]][1])
+_SHIN = -float(_OFFSETS[JOINT_INDEX["l_ankle"]][1])
+_LONGEST_REACH = 0.995 * LEG_LENGTH
+_SHORTEST_REACH = 0.36 * LEG_LENGTH
+_MIRROR = np.diag([-1.0, 1.0, 1.0])
+_SPINE_SHARE = (0.3, 0.35, 0.35)  # of spine1, spine2, spine3
+_GAZE_HOLD = 0.75  # share of the trunk's lean and turn that neck and head take back
+
+
+def rotation(axis: int, angle: Array) -> Array:
+    """Rotation matrices [T,3,3] about x (0), y (1) or z (2)."""
+    matrix = np.zeros((*np.shape(angle), 3, 3))
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+    matrix[..., axis, axis] = 1.0
+    matrix[..., i, i] = matrix[..., j, j] = np.cos(angle)
+    matrix[..., j, i] = np.sin(angle)
+    matrix[..., i, j] = -matrix[..., j, i]
+    return matrix
+
+
+@dataclass
+class Body:
+    """Control curves of one clip; `standing` gives neutral ones to add to.
+
+    Attributes:
+        position: pelvis [T,3]; its height is what is wished for, the legs may lower it.
+        yaw, pitch, roll: pelvis [T]; pitch leans forward, roll lifts the left side.
+        spine: pitch, yaw, roll [T,3] of the chest against the pelvis, same signs.
+        head: pitch (down), yaw (left), roll [T,3] added to the stabilised gaze.
+        arms: [T,2,7] left and right, indices FLEX … DEVIATE.
+        ball: ball of the foot [T,2,3]; foot_yaw, foot_pitch (toes up), knee_out [T,2].
+        toes_flat: [T,2] in [0,1], how far the toes stay level while the heel is up.
+        contacts: [T,2] 1 while the foot is planted.
+    """
+
+    position: Array
+    yaw: Array
+    pitch: Array
+    roll: Array
+    spine: Array
+    head: Array
+    arms: Array
+    ball: Array
+    foot_yaw: Array
+    foot_pitch: Array
+    knee_out: Array
+    toes_flat: Array
+    contacts: Array
+
+    @classmethod
+    def standing(cls, num_frames: int, width: float = 0.2, toe_out: float = 0.12) -> "Body":
+        """Standing at the origin, facing +Z, arms hanging, feet `width` metres apart."""
+        frames = (num_frames,)
+        arms = np.zeros((*frames, 2, 7))
+        arms[..., :5] = np.radians((4.0, 9.0, -12.0, 16.0, 12.0))
+        arms[..., WRIST] = np.radians(6.0)
+        ball = np.zeros((*frames, 2, 3))
+        ball[:, LEFT, 0], ball[:, RIGHT, 0] = width / 2, -width / 2
+        ball[..., 1] = REST_FOOT_HEIGHT
+        ball[..., 2] = BALL_LEAD
+        position = np.zeros((*frames, 3))
+        position[:, 1] = REST_PELVIS_HEIGHT - 0.012
+        pair = np.zeros((*frames, 2))
+        return cls(
+            position=position,
+            yaw=np.zeros(frames),
+            pitch=np.zeros(frames),
+            roll=np.zeros(frames),
+            spine=np.zeros((*frames, 3)),
+            head=np.zeros((*frames, 3)),
+            arms=arms,
+            ball=ball,
+            foot_yaw=pair + np.array([toe_out, -toe_out]),
+            foot_pitch=pair.copy(),
+            knee_out=pair.copy(),
+            toes_flat=pair + 1.0,
+            contacts=pair + 1.0,
+        )
+
+    def add_arms(self, joint: int, value: Array | float) -> None:
+        """Add the same curve [T] to both arms."""
+        self.arms[..., joint] += np.asarray(value)[..., None]
+
+
+BALL_LEAD = 0.085  # metres of the ball of the foot in front of the pelvis in quiet standing
+
+
+def solve(body: Body) -> Motion:
+    """The motion of a body, moved so that its pelvis starts above the origin."""
+    local = np.broadcast_to(np.eye(3), (len(body.yaw), NUM_JOINTS, 3, 3)).copy()
+    pelvis = rotation(1, body.yaw) @ rotation(0, body.pitch) @ rotation(2, body.roll)
+    local[:, 0] = pelvis
+    _pose_trunk(body, local)
+    for side in (LEFT, RIGHT):
+        _pose_arm(body.arms[:, side], side, local)
+    feet = rotation(1, body.foot_yaw) @ rotation(0, -body.foot_pitch)
+    ankles = body.ball - feet @ _ANKLE_TO_BALL
+    hips = (pelvis[:, None] @ _HIP[..., None]).squeeze(-1)
+    position = _lower_pelvis(body.position, hips, ankles)
+    for side in (LEFT, RIGHT):
+        reach = ankles[:, side] - position - hips[:, side]
+        _pose_leg(body, side, pelvis, reach, feet[:, side], local)
+    quaternions = quaternion_continuous(matrix_to_quaternion(torch.from_numpy(local)), dim=0)
+    position = position - position[0] * np.array([1.0, 0.0, 1.0])
+    return Motion(
+        quaternions=quaternions.numpy().astype(np.float32),
+        root_position=position.astype(np.float32),
+        contacts=body.contacts.astype(np.float32),
+        fps=FPS,
+    )
+
+
+def _pose_trunk(body: Body, local: Array) -> None:
+    pitch, yaw, roll = body.spine.T
+    for name, share in zip(("spine1", "spine2", "spine3"), _SPINE_SHARE, strict=True):
+        turn = rotation(1, share * yaw) @ rotation(0, share * pitch) @ rotation(2, share * roll)
+        local[:, JOINT_INDEX[name]] = turn
+    head_pitch = body.head[:, 0] - _GAZE_HOLD * (pitch + body.pitch)
+    head_yaw = body.head[:, 1] - _GAZE_HOLD * yaw
+    head_roll = body.head[:, 2] - _GAZE_HOLD * (roll + body.roll)
+    for name, share in (("neck", 0.4), ("head", 0.6)):
+        local[:, JOINT_INDEX[name]] = (
+            rotation(1, share * head_yaw)
+            @ rotation(0, share * head_pitch)
+            @ rotation(2, share * head_roll)
+        )
+
+
+def _pose_arm(angles: Array, side: int, local: Array) -> None:
+    flex, abduct, twist, elbow, pronate, wrist, deviate = angles.T
+    # The collar bone follows the upper arm upwards beyond about 40° (scapulohumeral rhythm).
+    lift = np.maximum(np.hypot(flex, abduct) - 0.7, 0.0)
+    forward = np.clip(flex - 0.5, 0.0, 1.0) * 0.12
+    collar = rotation(1, -forward) @ rotation(2, 0.2 * lift)
+    hang = rotation(2, np.full_like(flex, -np.pi / 2))
+    chest = rotation(0, -flex) @ rotation(2, abduct) @ rotation(1, twist) @ hang
+    rotations = {
+        "collar": collar,
+        "shoulder": collar.swapaxes(-1, -2) @ chest,
+        "elbow": rotation(1, -elbow) @ rotation(0, 0.5 * pronate),
+        "wrist": rotation(0, 0.5 * pronate) @ rotation(2, -wrist) @ rotation(1, -deviate),
+    }
+    for name, matrix in rotations.items():
+        if side == RIGHT:
+            matrix = _MIRROR @ matrix @ _MIRROR
+        local[:, JOINT_INDEX["lr"[side] + "_" + name]] = matrix
+
+
+def _lower_pelvis(wish: Array, hips: Array, ankles: Array) -> Array:
+    """The wished pelvis path [T,3], lowered smoothly where a leg would be too short."""
+    gap = ankles - hips - wish[:, None]
+    sideways = np.minimum(gap[..., 0] ** 2 + gap[..., 2] ** 2, (0.9 * _LONGEST_REACH) ** 2)
+    highest = (ankles - hips)[..., 1] + np.sqrt(_LONGEST_REACH**2 - sideways)
+    deficit = np.maximum(wish[:, 1] - highest.min(1), 0.0)
+    position = wish.copy()
+    position[:, 1] -= upper_envelope(deficit, 3)
+    return position
+
+
+def _frame(hinge: Array, bone: Array) -> Array:
+    """Rotation [T,3,3] that takes a bone lying along -Y with hinge +X to the given directions."""
+    return np.stack((hinge, -bone, np.cross(hinge, -bone)), -1)
+
+
+def _unit(vector: Array) -> Array:
+    return vector / np.maximum(np.linalg.norm(vector, axis=-1, keepdims=True), 1e-9)
+
+
+def _pose_leg(
+    body: Body, side: int, pelvis: Array, reach: Array, foot: Array, local: Array
+) -> None:
+    """Two-bone inverse kinematics; the knee bends about a hinge that follows hip and foot."""
+    distance = np.linalg.norm(reach, axis=-1)
+    clipped = np.clip(distance, _SHORTEST_REACH, 0.9995 * LEG_LENGTH)
+    toward = reach / np.maximum(distance, 1e-9)[:, None]
+    outward = body.knee_out[:, side] * (1 if side == LEFT else -1)
+    foot_turn = np.angle(np.exp(1j * (body.foot_yaw[:, side] - body.yaw)))
+    hinge = pelvis @ rotation(1, 0.6 * foot_turn + outward)[..., 0][..., None]
+    hinge = hinge.squeeze(-1)
+    hinge = _unit(hinge - (hinge * toward).sum(-1, keepdims=True) * toward)
+    bend = np.cross(toward, hinge)
+    along = (clipped**2 + _THIGH**2 - _SHIN**2) / (2 * clipped)
+    across = np.sqrt(np.maximum(_THIGH**2 - along**2, 0.0))
+    knee = along[:, None] * toward + across[:, None] * bend
+    thigh = _frame(hinge, _unit(knee))
+    shin = _frame(hinge, _unit(clipped[:, None] * toward - knee))
+    letter = "lr"[side]
+    local[:, JOINT_INDEX[letter + "_hip"]] = pelvis.swapaxes(-1, -2) @ thigh
+    local[:, JOINT_INDEX[letter + "_knee"]] = thigh.swapaxes(-1, -2) @ shin
+    local[:, JOINT_INDEX[letter + "_ankle"]] = shin.swapaxes(-1, -2) @ foot
+    level = np.minimum(body.foot_pitch[:, side], 0.0) * body.toes_flat[:, side]
+    local[:, JOINT_INDEX[letter + "_foot"]] = rotation(0, level)
