@@ -1,0 +1,102 @@
+"""From sampled features to a motion: smoothing, Gram–Schmidt, quaternions, clamp, foot lock.
+
+TEXT, inference only. Order: depthwise smoothing → Gram–Schmidt → quaternion → optional velocity
+clamp → optional foot lock.
+
+Letters: B batch, T frames, R = K bones and, with a root track, one row more; C channels.
+"""
+
+import math
+from dataclasses import replace
+from typing import Any
+
+import torch
+from torch import Tensor, nn
+from torch.nn import functional as F
+
+from src.shared.config_schema import PostProcessingConfig
+from src.shared.motion.foot_lock import lock_feet
+from src.shared.motion.motion import Motion
+from src.shared.motion.root_track import LEFT_CONTACT, ROOT_ROW, decode_features
+from src.shared.motion.rotations import (
+    quaternion_conjugate,
+    quaternion_continuous,
+    quaternion_exp,
+    quaternion_log,
+    quaternion_multiply,
+)
+
+
+def smooth_features(features: Tensor, kernel_size: int) -> Tensor:
+    """Binomial average over time, [...,T,R,C] → the same; the ends repeat their last frame.
+
+    6D rows leave the sphere a little, which Gram–Schmidt mends. Contacts are left as they are:
+    a foot is on the ground or not.
+
+    Args:
+        features: any number of leading dimensions; crop padding first.
+        kernel_size: frames, odd; 1 = off.
+    """
+    if kernel_size == 1:
+        return features
+    frames, rows, channels = features.shape[-3:]
+    weights = features.new_tensor(
+        [math.comb(kernel_size - 1, k) / 2 ** (kernel_size - 1) for k in range(kernel_size)]
+    )
+    series = features.reshape(-1, frames, rows * channels).transpose(1, 2)  # B R*C T
+    padded = F.pad(series, (kernel_size // 2, kernel_size // 2), mode="replicate")
+    depthwise = weights.expand(rows * channels, 1, kernel_size)
+    smooth = F.conv1d(padded, depthwise, groups=rows * channels)
+    smooth = smooth.transpose(1, 2).reshape(features.shape)
+    if rows > ROOT_ROW:
+        smooth[..., ROOT_ROW, LEFT_CONTACT:] = features[..., ROOT_ROW, LEFT_CONTACT:]
+    return smooth
+
+
+def clamp_velocity(quaternions: Tensor, max_velocity: float | None, fps: float) -> Tensor:
+    """Rotations that no joint turns faster than allowed, [...,T,K,4] → the same.
+
+    Each frame follows the wanted rotation along the geodesic, as far as one frame allows, so a
+    jump becomes a ramp that arrives late. Frames within the limit are returned untouched.
+
+    Args:
+        quaternions: unit, w x y z.
+        max_velocity: rad/s; None = no limit.
+        fps: frames per second.
+    """
+    if max_velocity is None:
+        return quaternions
+    limit = max_velocity / fps  # radians a frame
+    wanted = quaternions.unbind(-3)
+    path = [wanted[0]]
+    for target in wanted[1:]:
+        step = quaternion_log(quaternion_multiply(quaternion_conjugate(path[-1]), target))
+        angle = step.norm(dim=-1, keepdim=True)
+        reachable = step * (limit / angle.clamp_min(limit))
+        limited = quaternion_multiply(path[-1], quaternion_exp(reachable))
+        path.append(torch.where(angle > limit, limited, target))
+    return quaternion_continuous(torch.stack(path, -3), dim=-3)
+
+
+class MotionPostProcessor(nn.Module):
+    """All of it, as configured."""
+
+    def __init__(self, config: PostProcessingConfig) -> None:
+        super().__init__()
+        self.config = config
+
+    def smooth(self, features: Tensor) -> Tensor:
+        """Features [...,T,R,C] smoothed over time."""
+        return smooth_features(features, self.config.smoothing_kernel)
+
+    def forward(self, features: Tensor, **options: Any) -> Motion:
+        """One sample's features [T,K+1,6] or [T,K,6], not z-scored → Motion.
+
+        `options` go to `decode_features`: fps, start_position, start_heading, text.
+        """
+        motion = decode_features(self.smooth(features), **options)
+        if self.config.max_velocity is not None:
+            quaternions = torch.as_tensor(motion.quaternions)
+            clamped = clamp_velocity(quaternions, self.config.max_velocity, motion.fps)
+            motion = replace(motion, quaternions=clamped.numpy())
+        return lock_feet(motion) if self.config.foot_lock else motion

@@ -1,0 +1,135 @@
+"""Smoothing, the velocity clamp, and the chain from features to a motion."""
+
+import numpy as np
+import pytest
+import torch
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.ndimage import convolve1d
+
+from src.shared.config_schema import PostProcessingConfig
+from src.shared.motion.motion import Motion
+from src.shared.motion.postprocess import MotionPostProcessor, clamp_velocity, smooth_features
+from src.shared.motion.root_track import decode_features, encode_features
+from src.shared.motion.rotations import (
+    quaternion_conjugate,
+    quaternion_exp,
+    quaternion_log,
+    quaternion_multiply,
+)
+from src.shared.motion.skeleton import NUM_JOINTS, REST_PELVIS_HEIGHT
+
+
+def some_motion(frames: int = 40, seed: int = 0) -> Motion:
+    """Every joint swings at its own pace; the feet take turns."""
+    rng = np.random.default_rng(seed)
+    time = torch.arange(frames)[:, None, None] / 30
+    swing = torch.as_tensor(rng.normal(0, 0.3, (1, NUM_JOINTS, 3)), dtype=torch.float32)
+    quaternions = quaternion_exp(swing * torch.sin(4 * time))
+    path = np.zeros((frames, 3), dtype=np.float32)
+    path[:, 1], path[:, 2] = REST_PELVIS_HEIGHT, 0.02 * np.arange(frames)
+    left = (np.arange(frames) % 20 < 10).astype(np.float32)
+    return Motion(quaternions.numpy(), path, np.stack((left, 1 - left), -1))
+
+
+def turn_rates(quaternions: torch.Tensor, fps: float) -> torch.Tensor:
+    steps = quaternion_multiply(quaternion_conjugate(quaternions[:-1]), quaternions[1:])
+    return quaternion_log(steps).norm(dim=-1) * fps
+
+
+@pytest.mark.parametrize(
+    ("size", "weights"), [(3, [1, 2, 1]), (5, [1, 4, 6, 4, 1]), (7, [1, 6, 15, 20, 15, 6, 1])]
+)
+def test_smoothing_equals_scipy(size: int, weights: list[int]) -> None:
+    features = torch.randn(2, 20, 22, 6)
+    expected = convolve1d(
+        features.numpy(), np.array(weights) / sum(weights), axis=1, mode="nearest"
+    )
+    np.testing.assert_allclose(smooth_features(features, size).numpy(), expected, atol=1e-5)
+
+
+@pytest.mark.parametrize("shape", [(12, 22, 6), (12, 23, 6), (3, 12, 23, 6), (2, 1, 23, 6)])
+def test_smoothing_keeps_shape_constants_and_contacts(shape: tuple[int, ...]) -> None:
+    features = torch.randn(shape)
+    smooth = smooth_features(features, 5)
+    assert smooth.shape == features.shape
+    torch.testing.assert_close(smooth_features(torch.full(shape, 0.7), 5), torch.full(shape, 0.7))
+    if shape[-2] == 23:
+        assert torch.equal(smooth[..., 22, 4:], features[..., 22, 4:])
+        if shape[-3] > 1:
+            assert not torch.equal(smooth[..., 22, :4], features[..., 22, :4])
+
+
+def test_a_kernel_of_one_is_off() -> None:
+    features = torch.randn(12, 23, 6)
+    assert smooth_features(features, 1) is features
+
+
+def test_smoothing_takes_jitter_out() -> None:
+    features = encode_features(some_motion())
+    noisy = features + 0.05 * torch.randn(
+        features.shape, generator=torch.Generator().manual_seed(0)
+    )
+    before = (noisy - features)[:, :22].square().mean()
+    after = (smooth_features(noisy, 5) - features)[:, :22].square().mean()
+    assert after < 0.4 * before
+
+
+def test_the_clamp_without_a_limit_is_off() -> None:
+    quaternions = torch.as_tensor(some_motion().quaternions)
+    assert clamp_velocity(quaternions, None, 30.0) is quaternions
+
+
+def test_the_clamp_leaves_slow_motion_alone() -> None:
+    quaternions = torch.as_tensor(some_motion().quaternions)
+    fastest = float(turn_rates(quaternions, 30.0).max())
+    assert torch.equal(clamp_velocity(quaternions, 1.1 * fastest, 30.0), quaternions)
+
+
+@settings(deadline=None, max_examples=30)
+@given(seed=st.integers(0, 1000), limit=st.floats(0.5, 20.0), fps=st.sampled_from([20.0, 30.0]))
+def test_the_clamp_bounds_every_joint(seed: int, limit: float, fps: float) -> None:
+    generator = torch.Generator().manual_seed(seed)
+    quaternions = torch.randn(15, 4, 4, generator=generator)
+    quaternions = quaternions / quaternions.norm(dim=-1, keepdim=True)
+    clamped = clamp_velocity(quaternions, limit, fps)
+    assert float(turn_rates(clamped, fps).max()) <= limit * 1.001 + 1e-3
+    torch.testing.assert_close(clamped.norm(dim=-1), torch.ones(15, 4), rtol=0, atol=1e-5)
+    assert ((clamped[1:] * clamped[:-1]).sum(-1) > -1e-6).all()
+    batched = clamp_velocity(quaternions.expand(2, -1, -1, -1), limit, fps)
+    torch.testing.assert_close(batched[1], clamped)
+
+
+def test_a_jump_becomes_a_ramp_that_arrives() -> None:
+    angle = torch.zeros(31)
+    angle[10:] = 1.0
+    about_y = torch.stack((torch.zeros(31), angle, torch.zeros(31)), -1)[:, None]
+    clamped = clamp_velocity(quaternion_exp(about_y), 3.0, 30.0)
+    expected = (0.1 * (torch.arange(31) - 9)).clamp(0, 1)
+    torch.testing.assert_close(quaternion_log(clamped)[:, 0, 1], expected, rtol=0, atol=1e-5)
+
+
+def test_the_chain_does_nothing_when_all_is_off() -> None:
+    features = encode_features(some_motion())
+    processor = MotionPostProcessor(PostProcessingConfig(smoothing_kernel=1))
+    motion, plain = processor(features, text="a prompt"), decode_features(features)
+    np.testing.assert_array_equal(motion.quaternions, plain.quaternions)
+    np.testing.assert_array_equal(motion.root_position, plain.root_position)
+    assert motion.text == "a prompt"
+
+
+@pytest.mark.parametrize("rows", [22, 23])
+def test_the_whole_chain_gives_a_motion(rows: int) -> None:
+    config = PostProcessingConfig(smoothing_kernel=3, max_velocity=6.0, foot_lock=True)
+    features = encode_features(some_motion())[:, :rows]
+    noisy = features + 0.1 * torch.randn(features.shape, generator=torch.Generator().manual_seed(0))
+    motion = MotionPostProcessor(config)(noisy, fps=30.0)
+    assert motion.quaternions.shape == (40, 22, 4)
+    assert motion.quaternions.dtype == motion.root_position.dtype == np.float32
+    assert np.isfinite(motion.positions()).all()
+    arms = torch.as_tensor(motion.quaternions)[:, 12:]
+    assert float(turn_rates(arms, 30.0).max()) <= 6.01
+
+
+def test_the_module_holds_no_weights() -> None:
+    assert not MotionPostProcessor(PostProcessingConfig()).state_dict()
