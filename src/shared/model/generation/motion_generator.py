@@ -1,0 +1,337 @@
+"""MotionGenerator: prompts in, motions out; everything a trained text branch needs in one object.
+
+Letters: B batch, T frames, K rows (bones, root track), C channels, D embed dim, L text tokens.
+"""
+
+import logging
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, Self
+
+import torch
+from torch import Tensor
+
+from src.shared.device import choose_device
+from src.shared.errors import UserError
+from src.shared.model.checkpoint import (
+    ModelCard,
+    load_state,
+    read_card,
+    read_tensors,
+    with_prefix,
+    write_checkpoint,
+)
+from src.shared.model.clip.core import TextFeatures, TextTower
+from src.shared.model.clip.pretrained import TOKENIZER_FOLDER, check_embed_dims
+from src.shared.model.clip.scope import PromptScope
+from src.shared.model.clip.tokenizer import PromptTokenizer
+from src.shared.model.diffusion.gaussian import GaussianDiffusion
+from src.shared.model.diffusion.guidance import guided
+from src.shared.model.generation.denoiser import MotionDenoiser
+from src.shared.model.generation.requests import SampleRequest, batches, make_requests
+from src.shared.model.zoo import resolve_model
+from src.shared.motion.motion import Motion
+from src.shared.motion.postprocess import MotionPostProcessor
+
+KIND = "motion-generator"
+MAX_BATCH = 64  # motions sampled at once
+
+log = logging.getLogger(__name__)
+
+
+class MotionGenerator:
+    """Samples motions from prompts.
+
+    Args:
+        denoiser: trained with `mean` and `std`.
+        text: its frozen text tower.
+        tokenizer: the tower's.
+        mean: [K, C] of the training data.
+        std: [K, C].
+        card: tags, licence, whether it is trained, longest clip seen.
+        scope: what prompts it knows, if that was learned.
+        device: auto, cuda, mps or cpu.
+
+    Raises:
+        UserError: the tower and the denoiser differ in width.
+    """
+
+    def __init__(
+        self,
+        denoiser: MotionDenoiser,
+        text: TextTower,
+        tokenizer: PromptTokenizer,
+        *,
+        mean: Tensor,
+        std: Tensor,
+        card: ModelCard,
+        scope: PromptScope | None = None,
+        device: str | None = None,
+    ) -> None:
+        check_embed_dims(text.embed_dim, denoiser.config.embed_dim, "the text tower")
+        self.device = torch.device(choose_device(device or "auto")[0])
+        self.network = denoiser.config
+        self.denoiser = denoiser.to(self.device).eval()
+        self.text = text.to(self.device).eval()
+        self.tokenizer = tokenizer
+        self.mean, self.std = mean.to(self.device), std.to(self.device)
+        self.card = card
+        self.scope = scope
+        self.diffusion = GaussianDiffusion(self.network.generation.diffusion()).to(self.device)
+        self._told: set[str] = set()  # prompts whose warning the caller has
+
+    # Generating
+
+    def generate(
+        self,
+        prompts: Sequence[str],
+        *,
+        seconds: float | Sequence[float] = 4.0,
+        tags: Sequence[str | None] | None = None,
+        num_samples: int = 1,
+        seed: int = 0,
+        steps: int | None = None,
+        sampler: str | None = None,
+        guidance_scale: float | None = None,
+        foot_lock: bool | None = None,
+    ) -> list[Motion]:
+        """Motions for the prompts, prompt-major: all samples of the first one come first.
+
+        Each motion depends on the seed, its prompt and its number among the samples of that
+        prompt, not on what else is generated with it.
+
+        Args:
+            prompts: in any language the model was trained on.
+            seconds: one length for all, or one a prompt.
+            tags: action labels beside the prompts, None for none.
+            num_samples: motions a prompt.
+            seed: 0 or more.
+            steps: sampling steps; what is None here and below is the model's own setting.
+            sampler: ddim, ddpm or dpm-solver++.
+            guidance_scale: 1 = no guidance.
+            foot_lock: hold standing feet in place.
+
+        Raises:
+            UserError: the model is untrained, or an argument cannot be worked with.
+        """
+        features = self.sample_features(
+            prompts,
+            seconds=seconds,
+            tags=tags,
+            num_samples=num_samples,
+            seed=seed,
+            steps=steps,
+            sampler=sampler,
+            guidance_scale=guidance_scale,
+        )
+        for warning in self.scope_warnings(prompts, again=False):
+            if warning is not None:
+                log.warning("%s", warning)
+        settings = self.network.generation.post_processing
+        if foot_lock is not None:
+            settings = settings.model_copy(update={"foot_lock": foot_lock})
+        finish = MotionPostProcessor(settings)
+        texts = [prompt for prompt in prompts for _ in range(num_samples)]
+        return [
+            finish(sample, fps=self.card.fps, text=text)
+            for sample, text in zip(features, texts, strict=True)
+        ]
+
+    @torch.inference_mode()
+    def sample_features(
+        self,
+        prompts: Sequence[str],
+        *,
+        seconds: float | Sequence[float] = 4.0,
+        tags: Sequence[str | None] | None = None,
+        num_samples: int = 1,
+        seed: int = 0,
+        steps: int | None = None,
+        sampler: str | None = None,
+        guidance_scale: float | None = None,
+    ) -> list[Tensor]:
+        """Like `generate`, before post-processing: raw features [T, K, C] on the CPU."""
+        self._require_trained()
+        requests = make_requests(
+            prompts,
+            seconds=seconds,
+            tags=tags,
+            known_tags=self.card.tags,
+            num_samples=num_samples,
+            seed=seed,
+            fps=self.card.fps,
+        )
+        self._warn_of_length(max(request.frames for request in requests))
+        row_of = {prompt: row for row, prompt in enumerate(dict.fromkeys(prompts))}
+        text = self.encode_prompts(list(row_of))
+        sampler = sampler or self.diffusion.config.sampler
+        draws_on_the_way = sampler == "ddpm" or self.diffusion.config.eta > 0
+        scale = self.network.generation.guidance_scale if guidance_scale is None else guidance_scale
+        samples: dict[int, Tensor] = {}
+        for batch in batches(requests, MAX_BATCH, equal_lengths=draws_on_the_way):
+            chosen = [requests[index] for index in batch]
+            rows = torch.tensor([row_of[request.prompt] for request in chosen], device=self.device)
+            features = self._sample_batch(chosen, text[rows], scale, sampler, steps)
+            for index, sample in zip(batch, features, strict=True):
+                samples[index] = sample[: requests[index].frames]
+        return [samples[index] for index in range(len(requests))]
+
+    def _sample_batch(
+        self,
+        requests: list[SampleRequest],
+        text: TextFeatures,
+        scale: float,
+        sampler: str,
+        steps: int | None,
+    ) -> Tensor:
+        """Raw features [B, T, K, C] on the CPU, T the longest of the batch."""
+        rows, channels = self.mean.shape
+        lengths = torch.tensor([request.frames for request in requests])
+        longest = int(lengths.max())
+        noise = torch.zeros(len(requests), longest, rows, channels)  # [B, T, K, C]
+        for row, request in zip(noise, requests, strict=True):
+            row[: request.frames] = request.noise(rows, channels)
+        padded = bool((lengths < longest).any())
+        mask = (torch.arange(longest) < lengths[:, None]).to(self.device) if padded else None
+
+        tag = torch.tensor([request.tag for request in requests], device=self.device)
+        no_tag = torch.full_like(tag, self.denoiser.num_tags)
+        null = self.denoiser.null_text(len(requests), text.mask.shape[1])
+        model_fn = guided(
+            self.denoiser,
+            self._condition(text, tag, mask),
+            self._condition(null, no_tag, mask),
+            scale,
+        )
+        z_scored = self.diffusion.sample(
+            model_fn,
+            noise.shape,
+            sampler=sampler,
+            num_steps=steps,
+            generator=[request.generator() for request in requests],
+            x_T=noise.to(self.device),
+        )  # [B, T, K, C]
+        return (z_scored * self.std + self.mean).cpu()
+
+    def _condition(self, text: TextFeatures, tag: Tensor, mask: Tensor | None) -> dict[str, Any]:
+        keys_values = self.denoiser.text_keys_values(text)  # once a sample, not once a step
+        return {"text": text, "tag": tag, "mask": mask, "keys_values": keys_values}
+
+    # Prompts
+
+    @torch.inference_mode()
+    def encode_prompts(self, prompts: Sequence[str]) -> TextFeatures:
+        """What the text tower makes of the prompts.
+
+        Raises:
+            UserError: a prompt is empty.
+        """
+        ids, mask = self.tokenizer(prompts)
+        features: TextFeatures = self.text(ids.to(self.device), mask.to(self.device))
+        return features
+
+    def scope_warnings(self, prompts: Sequence[str], *, again: bool = True) -> list[str | None]:
+        """For each prompt that is far from anything trained, a line naming the nearest actions.
+
+        Args:
+            prompts: as for `generate`, which then does not log the same lines.
+            again: also for prompts that were warned of before.
+        """
+        fresh = [prompt for prompt in dict.fromkeys(prompts) if again or prompt not in self._told]
+        if self.scope is None or not fresh:
+            return [None] * len(prompts)
+        embeddings = self.encode_prompts(fresh).pooled.cpu().numpy()
+        warnings = {}
+        for prompt, embedding in zip(fresh, embeddings, strict=True):
+            result = self.scope.check(prompt, embedding)
+            if not result.known:
+                warnings[prompt] = (
+                    f"prompt {prompt!r} is far from anything this model was trained on;"
+                    f" nearest known actions: {', '.join(result.nearest)}"
+                )
+        self._told.update(prompts)
+        return [warnings.get(prompt) for prompt in prompts]
+
+    def _require_trained(self) -> None:
+        if not self.card.trained:
+            name = self.card.name or "this model"
+            raise UserError(
+                f"{name} is untrained and would only give noise; train it with"
+                " `accelerate launch -m src.train.train_generation`, or use a model that `models`"
+                " lists"
+            )
+
+    def _warn_of_length(self, frames: int) -> None:
+        longest = self.card.max_seconds
+        if longest is not None and frames > round(longest * self.card.fps):
+            log.warning(
+                "%.1f s is longer than the %.1f s this model was trained on;"
+                " the end may lose the prompt",
+                frames / self.card.fps,
+                longest,
+            )
+
+    # Folders
+
+    def save_pretrained(self, folder: str | Path, *, half: bool = False) -> None:
+        """Write weights, card, tokenizer and scope into a folder.
+
+        Args:
+            folder: made when absent.
+            half: store float16; computing stays float32.
+
+        Raises:
+            UserError: the folder cannot be written.
+        """
+        folder = Path(folder)
+        self.tokenizer.save_pretrained(folder / TOKENIZER_FOLDER)
+        if self.scope is not None:
+            self.scope.save_pretrained(folder)
+        card = self.card.model_copy(
+            update={
+                "kind": KIND,
+                "network": self.network,
+                "text_encoder": self.text.encoder_config(),
+            }
+        )
+        tensors = with_prefix("denoiser", self.denoiser.state_dict())
+        tensors |= with_prefix("text", self.text.state_dict())
+        tensors |= {"statistics.mean": self.mean, "statistics.std": self.std}
+        self.card = write_checkpoint(folder, card, tensors, half=half)
+
+    @classmethod
+    def from_pretrained(cls, name_or_folder: str | Path, *, device: str | None = None) -> Self:
+        """A generator by the name of a shipped model, or from a folder.
+
+        Raises:
+            UserError: no such model, another kind, or damaged or unfitting weights.
+        """
+        folder = resolve_model(name_or_folder)
+        card = read_card(folder)
+        if card.kind != KIND:
+            raise UserError(f"{folder} holds a {card.kind}, not a {KIND}; name another folder")
+        tensors = read_tensors(folder, card)
+        _check_widths(tensors, folder)
+        denoiser = MotionDenoiser(card.network, len(card.tags))
+        load_state(denoiser, tensors, "denoiser", folder)
+        text = TextTower(
+            card.network.clip, card.network.embed_dim, encoder_config=card.text_encoder
+        )
+        load_state(text, tensors, "text", folder)
+        return cls(
+            denoiser,
+            text.freeze(),
+            PromptTokenizer.from_pretrained(folder / TOKENIZER_FOLDER),
+            mean=tensors["statistics.mean"],
+            std=tensors["statistics.std"],
+            card=card,
+            scope=PromptScope.from_pretrained(folder),
+            device=device,
+        )
+
+
+def _check_widths(tensors: dict[str, Tensor], folder: Path) -> None:
+    """The text tower in the file must fit the denoiser in the file (TEXT's constraint)."""
+    tower, denoiser = tensors.get("text.text_proj.weight"), tensors.get("denoiser.text_proj.weight")
+    if tower is not None and denoiser is not None:
+        check_embed_dims(len(tower), denoiser.shape[1], f"the text tower in {folder}")

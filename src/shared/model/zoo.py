@@ -1,0 +1,99 @@
+"""The model zoo: which models there are, where a name leads, and fresh networks by profile.
+
+Listing and resolving read cards only and import no torch.
+"""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from src.shared.config_loader import load_network, nearest, profile_names
+from src.shared.errors import UsageError, UserError
+from src.shared.model.checkpoint import CARD_FILE, ModelCard, read_card
+
+if TYPE_CHECKING:
+    from torch import nn
+
+PRETRAINED = Path(__file__).resolve().parents[1] / "pretrained"
+RUNS = Path("runs")
+KINDS = ("motion-denoiser", "motion-clip")
+
+
+def list_models() -> list[dict[str, Any]]:
+    """The shipped models by name, then those under runs/ by folder; damaged cards are left out.
+
+    Keys: name, kind, trained, licence, size (MB), languages, description.
+    """
+    shipped = [
+        (path.parent.name, path.parent) for path in sorted(PRETRAINED.glob(f"*/{CARD_FILE}"))
+    ]
+    found = [*RUNS.glob(f"*/{CARD_FILE}"), *RUNS.glob(f"*/*/{CARD_FILE}")]
+    own = [(str(path.parent), path.parent) for path in sorted(found)]
+    rows = []
+    for name, folder in [*shipped, *own]:
+        try:
+            rows.append(_row(name, read_card(folder)))
+        except UserError:
+            continue
+    return rows
+
+
+def _row(name: str, card: ModelCard) -> dict[str, Any]:
+    size = card.weights.bytes / 1e6 if card.weights else 0.0
+    return {
+        "name": name,
+        "kind": card.kind,
+        "trained": card.trained,
+        "licence": card.licence,
+        "size": f"{size:.1f} MB",
+        "languages": ", ".join(card.languages),
+        "description": card.description,
+    }
+
+
+def resolve_model(name_or_folder: str | Path) -> Path:
+    """The folder of a model: a folder that holds one, or a shipped name.
+
+    Raises:
+        UserError: neither; an untrained profile says how to train it.
+    """
+    folder = Path(name_or_folder)
+    if (folder / CARD_FILE).is_file():
+        return folder
+    name = str(name_or_folder)
+    if folder.name == name and (PRETRAINED / name / CARD_FILE).is_file():
+        return PRETRAINED / name
+    shipped = sorted(path.parent.name for path in PRETRAINED.glob(f"*/{CARD_FILE}"))
+    if name in profile_names():
+        use = f", or use --model {shipped[0]}" if shipped else ""
+        raise UserError(
+            f"profile {name!r} is untrained: no weights of it are shipped; train it with"
+            f" `accelerate launch -m src.train.train_generation --profile {name}` and name the"
+            f" run's folder{use}"
+        )
+    if folder.is_dir():
+        raise UserError(f"{folder} is no model folder: it has no {CARD_FILE}")
+    hint = f"; did you mean {nearest(name, shipped)!r}? `models` lists all" if shipped else ""
+    raise UserError(f"no model named {name!r}, and no such folder{hint}")
+
+
+def create_model(kind: str, profile: str, *, num_tags: int = 0) -> "nn.Module":
+    """A fresh, untrained network of a profile.
+
+    Args:
+        kind: motion-denoiser or motion-clip.
+        profile: a profile of network.yaml.
+        num_tags: action labels of the data, for the denoiser.
+
+    Raises:
+        UsageError: an unknown kind or profile.
+    """
+    if kind not in KINDS:
+        raise UsageError(f"no model kind {kind!r}; choose from {', '.join(KINDS)}")
+    network = load_network(profile)
+    if kind == "motion-clip":
+        from src.shared.model.clip.core import MotionClip
+
+        return MotionClip(network)
+    from src.shared.model.generation.denoiser import MotionDenoiser
+
+    return MotionDenoiser(network, num_tags)
