@@ -38,7 +38,8 @@ class EvaluatorTask:
         self.config = config
         self.data = open_data(config.data, Path(config.output).parent)
         self.train = self._pairs("train", config.balance)
-        self.held_back = self._pairs("val", 1.0)
+        # A folder of few takes keeps none for validation; training goes on without figures.
+        self.held_back = self._pairs("val", 1.0) if self.data.records("val") else None
         self.module: nn.Module = Evaluator(
             EvaluatorConfig(hidden_size=config.hidden_size, embed_dim=config.embed_dim)
         )
@@ -81,6 +82,8 @@ class EvaluatorTask:
 
     def validation(self, module: nn.Module) -> dict[str, float]:
         """R-precision of held-back real clips in batches of 32 (group-equal counts)."""
+        if self.held_back is None:
+            return {}
         module.eval()
         device = next(module.parameters()).device
         hits, losses = [], []

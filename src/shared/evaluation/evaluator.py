@@ -11,6 +11,7 @@ Letters: B batch, T frames, S = ceil(T / 4) steps, F features, H hidden, D = 32 
 """
 
 import json
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Self
@@ -30,6 +31,7 @@ from src.shared.motion.root_track import encode_features
 
 PRETRAINED = Path(__file__).resolve().parents[1] / "pretrained"
 WEIGHTS = "model.safetensors"
+MAX_SCALE = 50.0
 
 
 class EvaluatorConfig(Config):
@@ -41,10 +43,14 @@ class EvaluatorConfig(Config):
     num_buckets: int = NUM_BUCKETS
     num_features: int = NUM_FEATURES
     dropout: float = 0.1
+    initial_scale: float = 10.0  # factor on cosines; learned, at most 50
 
 
 class MotionEncoder(nn.Module):
     """[B, T, F] and mask [B, T] to unit vectors [B, D]."""
+
+    mean: Tensor
+    std: Tensor
 
     def __init__(self, config: EvaluatorConfig) -> None:
         super().__init__()
@@ -85,9 +91,7 @@ class MotionEncoder(nn.Module):
             x, lengths, batch_first=True, enforce_sorted=False
         )
         steps, _ = self.gru(packed)
-        return nn.utils.rnn.pad_packed_sequence(
-            steps, batch_first=True, total_length=x.shape[1]
-        )[0]
+        return nn.utils.rnn.pad_packed_sequence(steps, batch_first=True, total_length=x.shape[1])[0]
 
 
 class TextEncoder(nn.Module):
@@ -115,12 +119,21 @@ class TextEncoder(nn.Module):
 class Evaluator(nn.Module):
     """Text and motion encoders into one 32-dimensional space."""
 
+    motion: MotionEncoder
+    text: TextEncoder
+
     def __init__(self, config: EvaluatorConfig | None = None) -> None:
         super().__init__()
         self.config = config or EvaluatorConfig()
         self.motion = MotionEncoder(self.config)
         self.text = TextEncoder(self.config)
+        self.log_scale = nn.Parameter(torch.tensor(math.log(self.config.initial_scale)))
         self.content_hash = "untrained"
+
+    def forward(self, captions: Sequence[str], joints: Tensor, mask: Tensor) -> tuple[Tensor, ...]:
+        """Text [B, D], motion [B, D] and the factor on their cosines (training)."""
+        scale = self.log_scale.exp().clamp(max=MAX_SCALE)
+        return self.text(captions), self.motion(joints, mask), scale
 
     @property
     def device(self) -> torch.device:
@@ -140,28 +153,30 @@ class Evaluator(nn.Module):
         return self.text(list(captions)).float().cpu()
 
     @torch.inference_mode()
-    def embed_features(self, features: Tensor, mask: Tensor) -> Tensor:
-        """Raw motion features [B, T, K + 1, 6] and mask [B, T] to unit vectors [B, D] on the CPU."""
-        self.eval()
-        # Padded frames repeat nothing real: zero 6D rows would make FK divide by zero.
-        safe = torch.where(mask[..., None, None], features, features[:, :1])
-        joints = joint_features(safe.to(self.device))
-        return self.motion(joints, mask.to(self.device)).float().cpu()
+    def embed_features(self, clips: Sequence[Tensor], *, batch_size: int = 64) -> Tensor:
+        """Raw motion features [T, K + 1, 6] of N clips to unit vectors [N, D] on the CPU.
 
-    def embed_motion(self, motions: Sequence[Motion], *, batch_size: int = 64) -> Tensor:
-        """Unit vectors [N, D] on the CPU, sorted by length into batches, in the order given."""
-        order = sorted(range(len(motions)), key=lambda i: motions[i].num_frames)
-        result = torch.zeros(len(motions), self.config.embed_dim)
+        Clips are sorted by length into batches; the result is in the order given.
+        """
+        self.eval()
+        order = sorted(range(len(clips)), key=lambda row: len(clips[row]))
+        result = torch.zeros(len(clips), self.config.embed_dim)
         for start in range(0, len(order), batch_size):
             rows = order[start : start + batch_size]
-            features = [encode_features(motions[row]).float() for row in rows]
-            padded = nn.utils.rnn.pad_sequence(features, batch_first=True)
-            lengths = torch.tensor([len(item) for item in features])
-            mask = torch.arange(padded.shape[1])[None] < lengths[:, None]
-            result[rows] = self.embed_features(padded, mask)
+            joints = joint_features([clips[row].float().to(self.device) for row in rows])
+            lengths = torch.tensor([len(clip) for clip in joints], device=self.device)
+            padded = nn.utils.rnn.pad_sequence(joints, batch_first=True)
+            mask = torch.arange(padded.shape[1], device=self.device)[None] < lengths[:, None]
+            result[rows] = self.motion(padded, mask).float().cpu()
         return result
 
-    def save_pretrained(self, folder: Path | str, *, notes: dict[str, object] | None = None) -> None:
+    def embed_motion(self, motions: Sequence[Motion]) -> Tensor:
+        """Unit vectors [N, D] on the CPU."""
+        return self.embed_features([encode_features(motion) for motion in motions])
+
+    def save_pretrained(
+        self, folder: Path | str, *, notes: dict[str, object] | None = None
+    ) -> None:
         """Write `config.json` (with `notes`: data hash, steps, figures) and fp16 weights."""
         folder = Path(folder)
         folder.mkdir(parents=True, exist_ok=True)

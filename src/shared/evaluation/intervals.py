@@ -31,7 +31,9 @@ def replicated(values: Sequence[float]) -> Estimate:
     return Estimate(mean, mean - half, mean + half, len(data))
 
 
-def bootstrap_mean(values: Sequence[float], *, num_resamples: int = 1000, seed: int = 0) -> Estimate:
+def bootstrap_mean(
+    values: Sequence[float], *, num_resamples: int = 1000, seed: int = 0
+) -> Estimate:
     """Mean with its percentile bootstrap interval (Efron 1979); NaN entries are left out."""
     data = np.asarray(values, dtype=np.float64)
     data = data[~np.isnan(data)]
@@ -43,7 +45,7 @@ def bootstrap_mean(values: Sequence[float], *, num_resamples: int = 1000, seed: 
 
 
 def success_rate(successes: int, trials: int) -> Estimate:
-    """A proportion with its Wilson (1927) interval, which stays inside 0..1 at 0 of n and n of n."""
+    """A proportion with its Wilson (1927) interval, which stays in 0..1 at 0 of n and n of n."""
     if trials == 0:
         return Estimate(math.nan, math.nan, math.nan, 0)
     rate = successes / trials

@@ -8,6 +8,8 @@ the pelvis in the heading frame (m), 21 joint velocities in that frame (m/s), fo
 velocity (m/s), yaw rate (rad/s).
 """
 
+from collections.abc import Sequence
+
 import torch
 from torch import Tensor
 
@@ -21,10 +23,10 @@ NUM_FEATURES = 1 + 2 * 3 * (NUM_JOINTS - 1) + 3
 
 
 def heading_positions(features: Tensor) -> Tensor:
-    """Joint positions [..., T, K, 3] relative to the pelvis, in the heading frame, in metres.
+    """Joint positions [T, K, 3] in metres, relative to the pelvis, in the heading frame.
 
     Args:
-        features: [..., T, K + 1, 6] raw motion features; row 0 holds no heading (ruling 19).
+        features: [T, K + 1, 6] raw motion features; row 0 holds no heading (ruling 19).
     """
     skeleton = canonical_skeleton()
     local = rotation_6d_to_matrix(features[..., :NUM_JOINTS, :])
@@ -33,26 +35,31 @@ def heading_positions(features: Tensor) -> Tensor:
     return forward_kinematics(local, origin, offsets, skeleton.parents)[0]
 
 
-def joint_features(features: Tensor) -> Tensor:
-    """[..., T, K + 1, 6] raw motion features to [..., T, F] of what the evaluator reads.
+def joint_features(clips: Sequence[Tensor]) -> list[Tensor]:
+    """Raw motion features [T, K + 1, 6] of each clip to [T, F] of what the evaluator reads.
 
-    Velocities are forward differences; the last frame repeats (ruling 6).
+    The kinematics of all clips run at once. Velocities are forward differences; the last frame
+    repeats (ruling 6).
 
     Raises:
-        ValueError: the root track is missing, or the shape is another.
+        ValueError: the root track is missing, or a shape is another.
     """
-    if features.shape[-2:] != (NUM_JOINTS + 1, 6):
-        raise ValueError(
-            f"the evaluator reads [..., T, {NUM_JOINTS + 1}, 6] with a root track,"
-            f" not {tuple(features.shape)}"
-        )
-    joints = heading_positions(features)[..., 1:, :].flatten(-2)
-    velocities = (joints[..., 1:, :] - joints[..., :-1, :]) * FPS
-    if features.shape[-3] > 1:
-        velocities = torch.cat([velocities, velocities[..., -1:, :]], dim=-2)
-    else:
-        velocities = torch.zeros_like(joints)
-    root = features[..., NUM_JOINTS, :]
-    height = root[..., HEIGHT : HEIGHT + 1]
-    track = root[..., [FORWARD, LATERAL, YAW_RATE]]
-    return torch.cat([height, joints, velocities, track], dim=-1)
+    for clip in clips:
+        if clip.ndim != 3 or clip.shape[1:] != (NUM_JOINTS + 1, 6):
+            raise ValueError(
+                f"the evaluator reads [T, {NUM_JOINTS + 1}, 6] with a root track,"
+                f" not {tuple(clip.shape)}"
+            )
+    positions = heading_positions(torch.cat(list(clips))).split([len(clip) for clip in clips])
+    return [_assemble(clip, joints) for clip, joints in zip(clips, positions, strict=True)]
+
+
+def _assemble(features: Tensor, positions: Tensor) -> Tensor:
+    joints = positions[:, 1:].flatten(1)  # [T, 63]
+    velocities = torch.zeros_like(joints)
+    if len(joints) > 1:
+        velocities[:-1] = (joints[1:] - joints[:-1]) * FPS
+        velocities[-1] = velocities[-2]
+    root = features[:, NUM_JOINTS]
+    track = root[:, [FORWARD, LATERAL, YAW_RATE]]
+    return torch.cat([root[:, HEIGHT : HEIGHT + 1], joints, velocities, track], dim=-1)

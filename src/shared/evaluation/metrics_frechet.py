@@ -74,7 +74,11 @@ class JointFrechet:
     def __init__(self, text: np.ndarray, motion: np.ndarray, *, num_axes: int = 16) -> None:
         self.text_axes = Projection.fit(text, num_axes)
         self.motion_axes = Projection.fit(motion, num_axes)
-        self.reference = _moments(self._join(text, motion))
+        self.reference = self.moments(text, motion)
+
+    def moments(self, text: np.ndarray, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Mean and covariance of pairs [N, D] in the reduced joint space."""
+        return _moments(self._join(text, motion))
 
     def _join(self, text: np.ndarray, motion: np.ndarray) -> np.ndarray:
         if len(text) != len(motion):
@@ -83,7 +87,7 @@ class JointFrechet:
 
     def __call__(self, text: np.ndarray, motion: np.ndarray) -> float:
         """Distance of pairs (text [N, D], motion [N, D]) to the real pairs given at the start."""
-        return gaussian_frechet(*_moments(self._join(text, motion)), *self.reference)
+        return gaussian_frechet(*self.moments(text, motion), *self.reference)
 
 
 @dataclass(frozen=True)

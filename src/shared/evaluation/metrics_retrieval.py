@@ -45,8 +45,10 @@ def hit_probability(distances: np.ndarray, relevant: np.ndarray, k: int) -> floa
     if places > tied:
         return 1.0
     log_miss = (
-        gammaln(tied + 1) - gammaln(tied - places + 1)
-        - gammaln(tied + right + 1) + gammaln(tied + right - places + 1)
+        gammaln(tied + 1)
+        - gammaln(tied - places + 1)
+        - gammaln(tied + right + 1)
+        + gammaln(tied + right - places + 1)
     )
     return float(1.0 - np.exp(log_miss))
 
@@ -60,40 +62,43 @@ def pair_distances(text: np.ndarray, motion: np.ndarray) -> np.ndarray:
 def guo_retrieval(
     text: np.ndarray,
     motion: np.ndarray,
-    labels: Sequence[object],
+    equal_by: Sequence[Sequence[object]],
     *,
     batch: int = BATCH,
     seed: int = 0,
 ) -> Retrieval:
     """R-precision in random batches of 32: each text ranks the motions of its batch.
 
-    A motion counts as right when its label equals the text's label, so a caption that describes
-    several clips of one batch has several right answers (their number is part of the chance row,
-    which is computed by the same rule). The last, incomplete batch is left out, as in the protocol.
+    A motion also counts as right when it shares the text's value in one of the columns of
+    `equal_by` (label group, caption), because that caption fits it just as well. Several right
+    answers in a batch make guessing easier; the chance row is computed by the same rule. The last,
+    incomplete batch is left out, as in the protocol.
 
     Args:
         text, motion: [N, D], row i belongs together.
-        labels: N values; equal values mean the caption fits both.
+        equal_by: columns of N values each; none: only row i is right for text i.
 
     Raises:
         ValueError: fewer pairs than one batch, shapes that differ, or values that are not finite.
     """
-    if text.shape != motion.shape or len(labels) != len(text):
+    if text.shape != motion.shape or any(len(column) != len(text) for column in equal_by):
+        sizes = [len(column) for column in equal_by]
         raise ValueError(
-            f"texts {text.shape}, motions {motion.shape} and {len(labels)} labels must be aligned"
+            f"texts {text.shape}, motions {motion.shape} and labels {sizes} must be aligned"
         )
     if len(text) < batch:
         raise ValueError(f"{len(text)} pairs are fewer than one batch of {batch}: add samples")
     if not (np.isfinite(text).all() and np.isfinite(motion).all()):
         raise ValueError("embeddings hold NaN or infinity: look at the motions they came from")
-    _, ids = np.unique(np.asarray([str(label) for label in labels]), return_inverse=True)
+    columns = [np.unique([str(v) for v in c], return_inverse=True)[1] for c in equal_by]
+    columns.append(np.arange(len(text)))
     order = np.random.default_rng(seed).permutation(len(text))
     num_batches = len(text) // batch
     hits = np.zeros(len(TOP))
     matching = 0.0
     for rows in order[: num_batches * batch].reshape(num_batches, batch):
         distances = pair_distances(text[rows], motion[rows])
-        relevant = ids[rows][:, None] == ids[rows][None]
+        relevant = np.any([ids[rows][:, None] == ids[rows][None] for ids in columns], axis=0)
         for query in range(batch):
             hits += [hit_probability(distances[query], relevant[query], k) for k in TOP]
         matching += float(np.diag(distances).sum())

@@ -8,6 +8,7 @@ import re
 import unicodedata
 import zlib
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
 import torch
 from torch import Tensor
@@ -26,7 +27,7 @@ def _pieces(text: str) -> Iterator[str]:
     words = _WORD.findall(_CJK.sub(" ", plain))
     yield from (f"w{word}" for word in words)
     yield from (f"s{word[:STEM]}" for word in words if len(word) > STEM)
-    yield from (f"p{a} {b}" for a, b in zip(words, words[1:], strict=False))
+    yield from (f"p{a} {b}" for a, b in pairwise(words))
 
 
 def caption_buckets(text: str, num_buckets: int = NUM_BUCKETS) -> list[int]:

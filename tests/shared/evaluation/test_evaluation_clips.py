@@ -1,0 +1,77 @@
+"""Choosing real clips, cutting them, and batching generated ones by length."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import torch
+
+from src.shared.data.prepared import PreparedData, open_data
+from src.shared.data.records import ClipRecord
+from src.shared.errors import UserError
+from src.shared.evaluation.clips import (
+    choose_caption,
+    chunked_by_length,
+    crop,
+    frozen,
+    real_clips,
+    spread_over_groups,
+)
+from src.shared.evaluation.training_set import PairSet, drop_words
+from src.shared.motion.root_track import ROOT_ROW, decode_features
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory: pytest.TempPathFactory) -> PreparedData:
+    return open_data("synthetic", tmp_path_factory.mktemp("data"), synthetic_clips=120)
+
+
+def test_clips_carry_their_captions_and_stay_within_the_frames(data: PreparedData) -> None:
+    clips = real_clips(data, "train", num=40, max_frames=64)
+    assert len(clips) == 40 and max(clips.num_frames) <= 64
+    assert all(length % 8 == 0 for length in clips.num_frames)
+    assert all(clips.captions) and len(set(clips.groups)) >= 30
+    again = real_clips(data, "train", num=40, max_frames=64)
+    assert again.captions == clips.captions
+    assert clips.rows([3, 3]).groups == [clips.groups[3]] * 2
+    with pytest.raises(UserError, match="'xx' caption"):
+        real_clips(data, "train", num=4, max_frames=64, language="xx")
+
+
+def test_groups_come_in_turn_until_they_are_empty() -> None:
+    base = ClipRecord("", "", "", "", "", {}, False, "train", 10, "", 0)
+    records = [replace(base, id=str(i), group="big" if i < 8 else "small") for i in range(10)]
+    chosen = spread_over_groups(records, 4, seed=0)
+    assert sorted(record.group for record in chosen) == ["big", "big", "small", "small"]
+    assert len({record.id for record in spread_over_groups(records, 99, seed=0)}) == 10
+
+
+def test_small_helpers() -> None:
+    assert len(crop(torch.zeros(37, 23, 6), 128)) == 32
+    assert len(crop(torch.zeros(500, 23, 6), 128)) == 128
+    assert len(crop(torch.zeros(5, 23, 6), 128)) == 5
+    assert chunked_by_length([16, 24, 16, 16], 2) == [[0, 2], [3], [1]]
+    assert choose_caption(["a", "b"], "id", 1) == choose_caption(["a", "b"], "id", 1)
+    rng = np.random.default_rng(0)
+    assert drop_words("walk to the left", 0.0, rng) == "walk to the left"
+    assert set(drop_words("a b c d e f g h", 0.5, rng).split()) < set("abcdefgh")
+    assert set(drop_words("左に歩く", 0.5, rng)) <= set("左に歩く")
+
+
+def test_a_frozen_clip_does_not_move(data: PreparedData) -> None:
+    record = data.records("train")[0]
+    still = frozen(data.features(record))
+    positions = decode_features(still).positions()
+    assert np.abs(positions - positions[:1]).max() < 1e-4
+    assert (still[:, ROOT_ROW, 2] == still[0, ROOT_ROW, 2]).all()
+
+
+def test_batches_depend_on_nothing_but_their_generator(data: PreparedData) -> None:
+    pairs = PairSet(data, "train", min_frames=16, max_frames=48, languages=("en",))
+    first, again = (pairs.batch(8, np.random.default_rng(5)) for _ in range(2))
+    assert first.captions == again.captions and torch.equal(first.joints, again.joints)
+    assert first.joints.shape[:2] == first.mask.shape and first.mask.shape[1] <= 48
+    assert first.same.diagonal().all() and torch.equal(first.same, first.same.T)
+    assert torch.isfinite(pairs.frames()).all()
+    with pytest.raises(UserError, match="captions in xx"):
+        PairSet(data, "train", min_frames=16, max_frames=48, languages=("xx",))
