@@ -1,0 +1,39 @@
+"""The command line. Each command lives in its own file: it parses, calls, and prints.
+
+Nothing heavy is imported here: `--help` and shell completion answer at once.
+"""
+
+import sys
+from pathlib import Path
+
+import typer
+
+from src.cli.evaluate import evaluate
+from src.cli.generate import generate
+from src.cli.guard import guarded
+from src.cli.models import models
+from src.cli.prepare import prepare
+from src.cli.shape_check import shape_check
+
+PROGRAM = "motion-tools"
+
+app = typer.Typer(
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    # Completion calls the program by its name, which `python -m` does not have.
+    add_completion=Path(sys.argv[0]).stem == PROGRAM,
+    help="From a prompt to a moving character, and from your own mocap to your own model.",
+    epilog=f'Start here:  {PROGRAM} generate --prompt "a person waves"',
+)
+for command in (generate, prepare, shape_check, evaluate, models):
+    app.command()(guarded(command))
+
+
+def main() -> None:
+    """Entry point of the console script."""
+    app()
+
+
+if __name__ == "__main__":
+    main()

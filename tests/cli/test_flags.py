@@ -1,0 +1,67 @@
+"""The public flags are a promise: whoever changes one changes this list, and the changelog."""
+
+import inspect
+
+import typer
+from typer.main import get_command
+
+from src.cli.tools import app
+
+FLAGS = {
+    "generate": (
+        "--device --foot-lock --format --guidance-scale --json --model --no-foot-lock"
+        " --num-samples --out --prompt --sampler --seconds --seed --steps --tag --threads"
+    ),
+    "prepare": (
+        "--captions --json --labels --mapping --mirror --no-mirror --out --seed --synthetic"
+        " --templates --workers SOURCE"
+    ),
+    "shape-check": (
+        "--device --full --json --network-file --network-profile --no-root-track --root-track"
+        " OVERRIDES"
+    ),
+    "evaluate": (
+        "--control-seeds --data --device --evaluator --guidance-scale --json --model --num-samples"
+        " --out --quick --replications --sampler --seed --steps --threads"
+    ),
+    "models": "--json",
+}
+
+
+def public_flags(app: typer.Typer) -> dict[str, str]:
+    """Each command's options and, in capitals, its arguments."""
+    commands = get_command(app).commands  # type: ignore[attr-defined]
+    return {
+        name: " ".join(
+            sorted(
+                flag
+                for parameter in command.params
+                for flag in (
+                    [*parameter.opts, *parameter.secondary_opts]
+                    if parameter.param_type_name == "option"
+                    else [parameter.name.upper()]
+                )
+            )
+        )
+        for name, command in commands.items()
+    }
+
+
+def test_flags_are_frozen() -> None:
+    assert public_flags(app) == FLAGS
+
+
+def test_every_flag_has_a_help_text() -> None:
+    for command in get_command(app).commands.values():  # type: ignore[attr-defined]
+        for parameter in command.params:
+            assert parameter.help, f"{command.name} {parameter.name}"
+
+
+def test_flags_are_used() -> None:
+    """A flag that is parsed and ignored would not show up in the function's code."""
+    for registered in app.registered_commands:
+        function = inspect.unwrap(registered.callback)  # type: ignore[arg-type]
+        body = function.__code__.co_names + function.__code__.co_varnames
+        source = inspect.getsource(function).partition('"""')[2]
+        for name in inspect.signature(function).parameters:
+            assert name in body and name in source, f"{function.__name__}: {name}"

@@ -1,0 +1,93 @@
+"""`generate` refuses wrong usage with exit code 2, before any model is loaded."""
+
+import string
+import sys
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from typer.testing import CliRunner
+
+from src.cli import generate as command
+from src.cli.tools import app
+from src.shared.errors import UsageError
+
+runner = CliRunner()
+WAVE = ["generate", "--prompt", "a person waves"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [
+        (["generate"], "--prompt"),
+        (["generate", "--prompt", "  "], "--prompt"),
+        ([*WAVE, "--format", "bvh,fbx"], "'fbx'"),
+        ([*WAVE, "--format", ","], "--format"),
+        ([*WAVE, "--seconds", "0"], "--seconds 0"),
+        ([*WAVE, "--seconds", "nan"], "--seconds nan"),
+        ([*WAVE, "--num-samples", "0"], "--num-samples 0"),
+        ([*WAVE, "--steps", "0"], "--steps 0"),
+        ([*WAVE, "--guidance-scale", "-1"], "--guidance-scale -1"),
+        ([*WAVE, "--tag", "walk", "--tag", "run"], "--tag"),
+        ([*WAVE, "--out", "pyproject.toml/x"], "is a file"),
+        ([*WAVE, "--colour", "red"], "--colour"),
+        (["prepare", "--out", "somewhere"], "SOURCE"),
+        (["prepare", "x", "--out", "y", "--workers", "0"], "--workers"),
+        (["shape-check", "--network-profile", "defualt"], "'default'"),
+        (["shape-check", "generation.num-head=2"], "generation.num-heads"),
+        (["shape-check", "embed-dim=130"], "embed-dim 130"),
+        (["shape-check", "--full", "generation.motion-channels=5"], "motion-channels is 5"),
+        (["shape-check", "--device", "tpu"], "'tpu'"),
+    ],
+)
+def test_wrong_usage_is_one_line_and_exit_code_2(arguments: list[str], named: str) -> None:
+    result = runner.invoke(app, arguments)
+    assert result.exit_code == 2
+    assert named in result.stderr
+    assert result.stdout == ""
+    assert "Traceback" not in result.stderr
+    if result.stderr.startswith("error:"):
+        assert len(result.stderr.splitlines()) == 1
+
+
+def test_unknown_format_is_told_before_the_model_loads() -> None:
+    assert runner.invoke(app, [*WAVE, "--format", "fbx", "--model", "none"]).exit_code == 2
+
+
+def test_formats_are_taken_once_each_in_the_order_given() -> None:
+    assert command.checked_formats(" GLB,bvh,glb ") == ["glb", "bvh"]
+
+
+def test_one_tag_serves_all_prompts() -> None:
+    assert command.checked_tags(["walk"], 3) == ["walk"] * 3
+    assert command.checked_tags(None, 3) is None
+    with pytest.raises(UsageError, match="3 prompts"):
+        command.checked_tags(["walk", "run"], 3)
+
+
+@given(st.text())
+def test_slug_is_a_safe_file_name(text: str) -> None:
+    name = command.slug(text)
+    assert 0 < len(name) <= 40
+    assert not set(name) & set(string.punctuation.replace("-", "") + string.whitespace)
+    assert not name.startswith("-") and not name.endswith("-")
+
+
+def test_file_names_tell_prompts_and_samples_apart() -> None:
+    prompts = ["A person waves!"] * 2 + ["人が手を振る"] * 2
+    assert command.stems(prompts, 2) == [
+        "01-a-person-waves",
+        "01-a-person-waves-2",
+        "02-人が手を振る",
+        "02-人が手を振る-2",
+    ]
+
+
+def test_interrupt_ends_with_130_and_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(sys.modules["src.cli.generate"], "checked_prompts", interrupted)
+    result = runner.invoke(app, WAVE)
+    assert result.exit_code == 130
+    assert result.stderr.startswith("interrupted") and len(result.stderr.splitlines()) == 1
