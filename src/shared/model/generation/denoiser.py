@@ -12,6 +12,7 @@ from src.shared.config_schema import NetworkConfig
 from src.shared.model.clip.core import TextFeatures
 from src.shared.model.layers.adaln import AdaLN
 from src.shared.model.layers.attention import CrossAttention, KeyValue, MultiHeadAttention
+from src.shared.model.layers.dropout import ChannelDropout
 from src.shared.model.layers.film import FiLM
 from src.shared.model.layers.masking import without_full_mask
 from src.shared.model.layers.temporal_layer import TemporalLayer
@@ -35,7 +36,7 @@ class DenoiserBlock(nn.Module):
         self.cross_attention = CrossAttention(dim, num_heads) if tokens else None
         self.adaln = AdaLN(dim, 2 * dim)
         self.transform = TransformLayer(dim, dropout=dropout)
-        self.dropout = nn.Dropout(dropout)
+        self.dropout = ChannelDropout(dropout)
 
     def forward(
         self,

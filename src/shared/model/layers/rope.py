@@ -20,11 +20,11 @@ class RotaryEmbedding(nn.Module):
         self._sin: Tensor | None = None
 
     def forward(self, heads: Tensor) -> Tensor:
-        """[..., T, H, d] -> the same, rotated; computed in float32, returned in its own dtype."""
-        cos, sin = self._tables(heads.shape[-3], heads.device)  # [T, 1, d/2] each
-        first, second = heads.float().chunk(2, dim=-1)
-        turned = torch.cat([first * cos - second * sin, second * cos + first * sin], dim=-1)
-        return turned.to(heads.dtype)
+        """[..., T, H, d] -> the same, rotated, in its own dtype; angles are float32 always."""
+        tables = self._tables(heads.shape[-3], heads.device)  # [T, 1, d/2] each
+        cos, sin = (table.to(heads.dtype) for table in tables)
+        first, second = heads.chunk(2, dim=-1)
+        return torch.cat([first * cos - second * sin, second * cos + first * sin], dim=-1)
 
     def _tables(self, length: int, device: torch.device) -> tuple[Tensor, Tensor]:
         if self._cos is None or len(self._cos) < length or self._cos.device != device:

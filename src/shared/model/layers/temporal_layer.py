@@ -6,6 +6,7 @@ Letters: B batch, T frames, D embed dim, H heads.
 from torch import Tensor, nn
 
 from src.shared.model.layers.attention import MultiHeadAttention
+from src.shared.model.layers.dropout import ChannelDropout
 from src.shared.model.layers.transform_layer import TransformLayer
 
 
@@ -24,7 +25,7 @@ class TemporalLayer(nn.Module):
         super().__init__()
         self.attention_norm = nn.LayerNorm(dim)
         self.attention = MultiHeadAttention(dim, num_heads, rotary=rotary)
-        self.dropout = nn.Dropout(dropout)
+        self.dropout = ChannelDropout(dropout)
         self.feed_forward_norm = nn.LayerNorm(dim)
         self.feed_forward = TransformLayer(dim, expansion=expansion, dropout=dropout)
         self.feed_forward.residual = False  # the residual goes around the norm

@@ -5,6 +5,8 @@ Letters: B batch, T frames, D embed dim.
 
 from torch import Tensor, nn
 
+from src.shared.model.layers.dropout import ChannelDropout
+
 
 class TransformLayer(nn.Module):
     """Two linear maps around a GELU; adds its input when the two widths match."""
@@ -18,7 +20,7 @@ class TransformLayer(nn.Module):
         self.expand = nn.Linear(dim, expansion * dim)
         self.activation = nn.GELU()
         self.contract = nn.Linear(expansion * dim, out_dim)
-        self.dropout = nn.Dropout(dropout)
+        self.dropout = ChannelDropout(dropout)
 
     def forward(self, x: Tensor) -> Tensor:
         """x [B, T, D] -> [B, T, out_dim]."""
