@@ -100,3 +100,9 @@ def set_threads(threads: int | None) -> int:
     if threads is not None:
         torch.set_num_threads(threads)
     return torch.get_num_threads()
+
+
+def autocast(compute: ComputeChoice) -> torch.autocast:
+    """A context in which a frozen model computes in the chosen precision."""
+    dtype = {"no": torch.float32, "bf16": torch.bfloat16, "fp16": torch.float16}[compute.precision]
+    return torch.autocast(compute.device, dtype, enabled=compute.precision != "no")

@@ -114,14 +114,15 @@ class Trainer(Generic[ConfigT]):
                     log.write(step, self._averages(step, (step - since_step) / seconds))
                     since, since_step = time.perf_counter(), step
                 stop = self._stop_requested(guard, step)
-                if (step % config.validate_every == 0 or last) and not stop:
-                    self._validate(step, log)
-                    since, since_step = time.perf_counter(), step
+                finished = time.perf_counter()
                 if step % config.save_every == 0 or last or stop:
                     self._save(step)
-                    since, since_step = time.perf_counter(), step
                 if stop:
                     raise self._interrupted(step, guard)
+                if step % config.validate_every == 0 and not last:
+                    self._validate(step, log)
+                since += time.perf_counter() - finished  # speed is that of the steps alone
+            self._validate(config.steps, log)
             self._finish()
 
     def _parts(self, start: int) -> Iterator[Part]:
@@ -230,7 +231,7 @@ class Trainer(Generic[ConfigT]):
                 self._say(f"nothing to resume in {self.output}: starting at step 0")
             if self.accelerator.is_main_process:
                 self.output.mkdir(parents=True, exist_ok=True)
-                write_json(self.output / "config.json", self._identity())
+                write_json(self.output / "run.json", self._identity())
             self.accelerator.wait_for_everyone()
             return 0
         require_same_run(checkpoint, self._identity())

@@ -1,0 +1,66 @@
+"""What both text-branch stages need: the data, its rows, and figures shared by their tasks."""
+
+from pathlib import Path
+
+import numpy as np
+import torch
+
+from src.shared.config_schema import NetworkConfig, TrainConfig
+from src.shared.data.prepared import PreparedData, open_data
+from src.shared.data.text_motion import TextMotionDataset
+from src.shared.errors import UsageError, UserError
+from src.shared.motion.skeleton import NUM_JOINTS
+from src.train.seeding import mix_seed
+
+
+def open_training_data(config: TrainConfig, network: NetworkConfig) -> PreparedData:
+    """The data of a stage; synthetic data is made once beside the run's folder.
+
+    Raises:
+        UsageError: the network has another number of bones than the data.
+        UserError: no prepared data there.
+    """
+    if network.generation.num_bones != NUM_JOINTS:
+        raise UsageError(
+            f"generation.num-bones {network.generation.num_bones} does not fit the data, which"
+            f" has {NUM_JOINTS}; set it to {NUM_JOINTS}"
+        )
+    return open_data(config.data, Path(config.output).parent)
+
+
+def training_set(config: TrainConfig, data: PreparedData) -> TextMotionDataset:
+    """The train split; raises UserError when no clip of it can be used."""
+    try:
+        return _dataset(config, data, "train")
+    except ValueError as error:
+        raise UserError(f"{error}; lower min-frames or prepare more data") from error
+
+
+def validation_set(config: TrainConfig, data: PreparedData) -> TextMotionDataset | None:
+    """The val split, or None where little data left none."""
+    try:
+        return _dataset(config, data, "val")
+    except ValueError:
+        return None
+
+
+def _dataset(config: TrainConfig, data: PreparedData, split: str) -> TextMotionDataset:
+    return TextMotionDataset(
+        data,
+        split,
+        min_frames=config.min_frames,
+        max_frames=config.max_frames,
+        languages=config.languages,
+        balance=config.balance,
+        seed=mix_seed("data", config.seed),
+    )
+
+
+def numpy_generator(*parts: int | str) -> np.random.Generator:
+    """A NumPy generator that depends on every part."""
+    return np.random.default_rng(mix_seed(*parts))
+
+
+def motion_rows(motion: torch.Tensor, network: NetworkConfig) -> torch.Tensor:
+    """Features [..., 23, 6] without the root track where the profile has none."""
+    return motion[..., : network.motion_rows, :]

@@ -1,0 +1,186 @@
+"""CLIP pretraining: a text tower and a motion tower learn one space (TEXT; ruling 20).
+
+accelerate launch -m src.train.train_clip [key=value ...] [--resume]
+
+The tokenizer is trained on the training captions when `clip.text-model` is "small". With several
+processes the contrastive loss sees the embeddings of all of them.
+"""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import torch
+import torch.distributed
+from torch import Tensor, nn
+
+from src.shared.config_schema import NetworkConfig, TrainClipConfig
+from src.shared.data.text_motion import TextMotionBatch
+from src.shared.data.word_dropout import drop_words
+from src.shared.evaluation.metrics_retrieval import BATCH, TOP, guo_retrieval
+from src.shared.model.checkpoint import ModelCard
+from src.shared.model.clip.core import SMALL, MotionClip
+from src.shared.model.clip.losses import clip_loss
+from src.shared.model.clip.pretrained import KIND, ClipBundle
+from src.shared.model.clip.tokenizer import PromptTokenizer
+from src.train.launch import stage_app
+from src.train.task import Part
+from src.train.text_motion import (
+    motion_rows,
+    numpy_generator,
+    open_training_data,
+    training_set,
+    validation_set,
+)
+
+
+@dataclass(frozen=True)
+class ClipBatch:
+    """input_ids, attention_mask [B,L]; motion [B,T,R,6] normalised; mask [B,T]; groups [B]."""
+
+    input_ids: Tensor
+    attention_mask: Tensor
+    motion: Tensor
+    mask: Tensor
+    groups: Tensor
+
+
+class ClipObjective(nn.Module):
+    """MotionClip with its temperature in the output, so that one call holds every weight (DDP)."""
+
+    def __init__(self, clip: MotionClip) -> None:
+        super().__init__()
+        self.clip = clip
+
+    def forward(self, batch: ClipBatch) -> tuple[Tensor, Tensor, Tensor]:
+        """Text [B,D], motion [B,D], inverse temperature []."""
+        text, motion = self.clip(batch.input_ids, batch.attention_mask, batch.motion, batch.mask)
+        return text, motion, self.clip.scale()
+
+
+def gather(values: Tensor) -> Tensor:
+    """Rows of all processes, in their order, with gradients; [B, ...] -> [W*B, ...].
+
+    Every process then computes the same loss. The gradients that come back are summed over the
+    W processes and averaged again by DDP: those of one process with the whole batch.
+    """
+    if not (torch.distributed.is_available() and torch.distributed.is_initialized()):
+        return values
+    from torch.distributed.nn.functional import all_gather
+
+    return torch.cat(all_gather(values.contiguous()))
+
+
+class ClipTask:
+    """What the trainer needs to know (src/train/task.py)."""
+
+    def __init__(self, config: TrainClipConfig, network: NetworkConfig) -> None:
+        self.config, self.network = config, network
+        self.data = open_training_data(config, network)
+        self.train = training_set(config, self.data)
+        self.held_back = validation_set(config, self.data)
+        self.tokenizer = self._tokenizer()
+        clip = MotionClip(network)
+        nn.init.constant_(clip.logit_scale, -math.log(config.temperature))
+        self.module: nn.Module = ClipObjective(clip)
+        self.figures: dict[str, float] = {}
+
+    def _tokenizer(self) -> PromptTokenizer:
+        clip = self.network.clip
+        if clip.text_model != SMALL:
+            return PromptTokenizer.from_pretrained(clip.text_model, max_tokens=clip.max_tokens)
+        captions = self.data.all_captions("train")
+        used = [text for language in self.config.languages for text in captions.get(language, [])]
+        return PromptTokenizer.train(used, clip.text_vocab_size, max_tokens=clip.max_tokens)
+
+    def identity(self) -> dict[str, Any]:
+        """A resumed run must have the same network and see the same clips."""
+        network = self.network.model_dump(mode="json", by_alias=True)
+        return {"network": network, "data-hash": self.data.manifest_hash}
+
+    def to(self, device: torch.device) -> None:
+        """Nothing but the module has weights."""
+
+    def batch(self, part: Part) -> ClipBatch:
+        """Clips with shortened captions."""
+        clips = self.train.batch(part.step, self.config.batch_size, rank=part.index)
+        rng = numpy_generator("words", self.config.seed, part.step, part.index)
+        share = self.config.word_dropout
+        return self._tokenized(clips, [drop_words(text, share, rng) for text in clips.captions])
+
+    def _tokenized(self, clips: TextMotionBatch, captions: list[str]) -> ClipBatch:
+        motion = motion_rows(clips.motion, self.network)
+        return ClipBatch(*self.tokenizer(captions), motion, clips.mask, clips.group)
+
+    def training_step(self, module: nn.Module, batch: ClipBatch) -> dict[str, Tensor]:
+        """Contrastive and cosine loss over the batch of all processes."""
+        text, motion, scale = module(batch)
+        text, motion, groups = gather(text), gather(motion), gather(batch.groups)
+        weight = self.config.cosine_weight
+        losses = clip_loss(text, motion, groups, scale, cosine_weight=weight)
+        return {**losses, "scale": scale}
+
+    def validation(self, module: nn.Module) -> dict[str, float]:
+        """Loss and R@k of held-back clips in batches of 32, beside what guessing gives."""
+        if self.held_back is None:
+            return {}
+        device = next(module.parameters()).device
+        texts, motions, captions, groups, losses = [], [], [], [], []
+        size = max(BATCH, self.config.batch_size)
+        for clips in self.held_back.fixed_batches(size, self.config.validation_batches):
+            batch = self._tokenized(clips, clips.captions)
+            batch = ClipBatch(*(value.to(device) for value in vars(batch).values()))
+            text, motion, scale = module(batch)
+            weight = self.config.cosine_weight
+            loss = clip_loss(text, motion, batch.groups, scale, cosine_weight=weight)["loss"]
+            losses.append(loss.item())
+            texts.append(text.cpu().float())
+            motions.append(motion.cpu().float())
+            captions += clips.captions
+            groups += clips.group.tolist()
+        columns = [groups, captions]
+        found = _recalls(torch.cat(texts), torch.cat(motions), columns)
+        blind = torch.zeros(len(groups), 1)  # every distance a tie
+        guessed = _recalls(blind, blind, columns)
+        self.figures = {"loss": sum(losses) / len(losses)}
+        for k, value, chance in zip(TOP, found, guessed, strict=True):
+            self.figures |= {f"r-at-{k}": value, f"chance-at-{k}": chance}
+        return self.figures
+
+    def export_samples(self, module: nn.Module, folder: Path) -> None:
+        """Two towers make nothing to look at."""
+
+    def save_pretrained(self, module: nn.Module, folder: Path) -> None:
+        """Both towers, tokenizer and statistics: the folder that train_generation reads."""
+        assert isinstance(module, ClipObjective)
+        card = ModelCard(
+            kind=KIND,
+            name=folder.name,
+            trained=True,
+            network=self.network,
+            tags=self.data.tags,
+            languages=self.config.languages,
+            max_seconds=self.config.max_frames / 30.0,
+            data=self.data.manifest_hash,
+            training={"steps": self.config.steps, "validation": self.figures},
+        )
+        mean, std = (motion_rows(v, self.network) for v in (self.data.mean, self.data.std))
+        ClipBundle(module.clip, self.tokenizer, mean, std, card).save_pretrained(folder)
+
+
+def _recalls(text: Tensor, motion: Tensor, columns: list[Any]) -> tuple[float, ...]:
+    """R@1, 2, 3 within batches of 32, or of all where there are fewer."""
+    size = min(BATCH, len(text))
+    return guo_retrieval(text.numpy(), motion.numpy(), columns, batch=size).r_precision
+
+
+app = stage_app(
+    TrainClipConfig,
+    ClipTask,
+    "src.train.train_clip",
+    "Train the text tower and the motion tower that share one space.",
+)
+
+if __name__ == "__main__":
+    app()

@@ -1,0 +1,266 @@
+"""Generation training: the denoiser behind a frozen text tower (TEXT; rulings 13 to 15, 19, 21).
+
+accelerate launch -m src.train.train_generation [key=value ...] [--resume]
+
+Captions are encoded batch by batch, without gradients: with a small tower that is a few percent
+of a step, it lets words be dropped, and it is the same after a resume.
+
+Letters: B batch, T frames, R rows of a frame, L tokens, S diffusion steps.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import torch
+from torch import Tensor, nn
+
+from src.shared.config_schema import NetworkConfig, TrainGenerationConfig
+from src.shared.data.text_motion import TextMotionBatch
+from src.shared.data.word_dropout import drop_words
+from src.shared.device import autocast, choose_compute
+from src.shared.files import sha256_file
+from src.shared.model.checkpoint import WEIGHTS_FILE, ModelCard
+from src.shared.model.clip.core import SMALL, TextFeatures
+from src.shared.model.clip.pretrained import encode_captions, load_text_tower
+from src.shared.model.clip.scope import PromptScope
+from src.shared.model.diffusion.gaussian import GaussianDiffusion
+from src.shared.model.generation.denoiser import MotionDenoiser
+from src.shared.model.generation.losses import GenerationLoss
+from src.shared.model.generation.motion_generator import KIND, MotionGenerator
+from src.train.launch import stage_app
+from src.train.seeding import generator
+from src.train.task import Part
+from src.train.text_motion import (
+    motion_rows,
+    numpy_generator,
+    open_training_data,
+    training_set,
+    validation_set,
+)
+
+SCOPE_CAPTIONS = 20_000  # at most so many captions teach PromptScope
+SAMPLE_SECONDS = 4.0
+NOISE_LEVELS = ("low", "middle", "high")  # thirds of the diffusion steps, in validation
+
+
+@dataclass(frozen=True)
+class DenoiserBatch:
+    """Everything random is drawn already, on the CPU, so that it is the same on every device.
+
+    Attributes:
+        clean, noise: [B,T,R,6] z-scored; mask [B,T] bool.
+        timesteps, tag: [B] long.
+        drop: [B] bool, rows that see no text.
+        input_ids, attention_mask: [B,L] captions.
+    """
+
+    clean: Tensor
+    noise: Tensor
+    mask: Tensor
+    timesteps: Tensor
+    tag: Tensor
+    drop: Tensor
+    input_ids: Tensor
+    attention_mask: Tensor
+
+
+class GuidedDenoiser(nn.Module):
+    """The denoiser with condition dropout inside, so that DDP sees the learned null too."""
+
+    def __init__(self, denoiser: MotionDenoiser) -> None:
+        super().__init__()
+        self.denoiser = denoiser
+
+    def forward(
+        self,
+        noisy: Tensor,
+        timesteps: Tensor,
+        text: TextFeatures,
+        tag: Tensor,
+        mask: Tensor,
+        drop: Tensor,
+    ) -> Tensor:
+        """As MotionDenoiser.forward; rows where drop [B] is True see the null text."""
+        heard = self.denoiser.drop_text(text, drop)
+        output: Tensor = self.denoiser(noisy, timesteps, heard, tag, mask)
+        return output
+
+
+def spread_timesteps(num: int, steps: int, draws: torch.Generator) -> Tensor:
+    """Uniform steps [num] that cover [0, steps) evenly: less variance than independent draws.
+
+    Kingma et al. 2021 (Variational Diffusion Models), appendix I.1.
+    """
+    places = torch.randperm(num, generator=draws) + torch.rand(1, generator=draws)
+    return (places / num * steps).long().clamp(max=steps - 1)
+
+
+class GenerationTask:
+    """What the trainer needs to know (src/train/task.py)."""
+
+    def __init__(self, config: TrainGenerationConfig, network: NetworkConfig) -> None:
+        self.config, self.network = config, network
+        self.tower, self.tokenizer = load_text_tower(config.clip, network.embed_dim)
+        self.data = open_training_data(config, network)
+        self.train = training_set(config, self.data)
+        self.held_back = validation_set(config, self.data)
+        self.mean = motion_rows(self.data.mean, network)
+        self.std = motion_rows(self.data.std, network)
+        self.num_tags = len(self.data.tags)
+        self.diffusion = GaussianDiffusion(network.generation.diffusion())
+        self.loss = GenerationLoss(config.losses, self.diffusion, self.mean, self.std)
+        self.module: nn.Module = GuidedDenoiser(MotionDenoiser(network, self.num_tags))
+        self.compute = choose_compute(config.device, config.precision)
+        self.figures: dict[str, float] = {}
+
+    def identity(self) -> dict[str, Any]:
+        """A resumed run must have the same network and text tower and see the same clips."""
+        return {
+            "network": self.network.model_dump(mode="json", by_alias=True),
+            "data-hash": self.data.manifest_hash,
+            "clip-hash": sha256_file(Path(self.config.clip) / WEIGHTS_FILE),
+        }
+
+    def to(self, device: torch.device) -> None:
+        """Frozen parts follow the module."""
+        self.tower.to(device)
+        self.loss.to(device)  # the diffusion process with it
+
+    # ------------------------------------------------------------ batches
+
+    def batch(self, part: Part) -> DenoiserBatch:
+        """Clips with captions, noise, steps and what is dropped."""
+        config, size = self.config, self.config.batch_size
+        clips = self.train.batch(part.step, size, rank=part.index)
+        rng = numpy_generator("words", config.seed, part.step, part.index)
+        captions = [drop_words(text, config.word_dropout, rng) for text in clips.captions]
+        draws = generator("noise", config.seed, part.step, part.index)
+        timesteps = spread_timesteps(size, self.diffusion.config.timesteps, draws)
+        drop = torch.rand(size, generator=draws) < config.condition_dropout
+        # rows without text have no tag either: the null of guidance knows neither
+        untagged = drop | (torch.rand(size, generator=draws) < config.tag_dropout)
+        tag = clips.tag.masked_fill(untagged, self.num_tags)
+        return self._noised(clips, captions, timesteps, tag, drop, draws)
+
+    def _noised(
+        self,
+        clips: TextMotionBatch,
+        captions: list[str],
+        timesteps: Tensor,
+        tag: Tensor,
+        drop: Tensor,
+        draws: torch.Generator,
+    ) -> DenoiserBatch:
+        clean = motion_rows(clips.motion, self.network)
+        noise = torch.randn(clean.shape, generator=draws)
+        return DenoiserBatch(
+            clean, noise, clips.mask, timesteps, tag, drop, *self.tokenizer(captions)
+        )
+
+    # ------------------------------------------------------------ learning
+
+    def training_step(self, module: nn.Module, batch: DenoiserBatch) -> dict[str, Tensor]:
+        """The weighted losses of one noised batch."""
+        with torch.no_grad(), autocast(self.compute):
+            text = self.tower(batch.input_ids, batch.attention_mask)
+        noisy = self.diffusion.q_sample(batch.clean, batch.timesteps, batch.noise)
+        output = module(noisy, batch.timesteps, text, batch.tag, batch.mask, batch.drop)
+        losses: dict[str, Tensor] = self.loss(
+            output, batch.clean, noisy, batch.noise, batch.timesteps, batch.mask
+        )
+        return losses
+
+    def validation(self, module: nn.Module) -> dict[str, float]:
+        """Losses on held-back clips at fixed steps and noise, overall and by noise level."""
+        if self.held_back is None:
+            return {}
+        device = next(module.parameters()).device
+        steps, thirds = self.diffusion.config.timesteps, len(NOISE_LEVELS)
+        sums: dict[str, list[float]] = {}
+        batches = self.held_back.fixed_batches(
+            self.config.batch_size, self.config.validation_batches
+        )
+        for index, clips in enumerate(batches):
+            for third, level in enumerate(NOISE_LEVELS):
+                draws = generator("validation", index, third)
+                spread = spread_timesteps(len(clips), max(1, steps // thirds), draws)
+                timesteps = (spread + third * steps // thirds).clamp(max=steps - 1)
+                none = torch.full_like(clips.tag, self.num_tags)
+                drop = torch.zeros(len(clips), dtype=torch.bool)
+                batch = self._noised(clips, clips.captions, timesteps, none, drop, draws)
+                batch = DenoiserBatch(*(value.to(device) for value in vars(batch).values()))
+                for key, value in self.training_step(module, batch).items():
+                    sums.setdefault(key, []).append(value.item())
+                    if key == "loss":
+                        sums.setdefault(f"loss-{level}", []).append(value.item())
+        self.figures = {key: sum(values) / len(values) for key, values in sums.items()}
+        return self.figures
+
+    # ------------------------------------------------------------ results
+
+    def _generator(self, module: nn.Module, *, scope: PromptScope | None) -> MotionGenerator:
+        assert isinstance(module, GuidedDenoiser)
+        card = ModelCard(
+            kind=KIND,
+            name=Path(self.config.output).name,
+            trained=True,
+            network=self.network,
+            tags=self.data.tags,
+            languages=self.config.languages,
+            max_seconds=self.config.max_frames / 30.0,
+            data=self.data.manifest_hash,
+            training={"steps": self.config.steps, "validation": self.figures},
+        )
+        return MotionGenerator(
+            module.denoiser,
+            self.tower,
+            self.tokenizer,
+            mean=self.mean,
+            std=self.std,
+            card=card,
+            scope=scope,
+            device=next(module.parameters()).device.type,
+        )
+
+    def export_samples(self, module: nn.Module, folder: Path) -> None:
+        """The validation prompts as BVH, and side by side as HTML."""
+        from src.shared.formats.registry import write_motion, write_preview
+
+        seconds = min(SAMPLE_SECONDS, self.config.max_frames / 30.0)
+        maker = self._generator(module, scope=None)
+        motions = maker.generate(self.config.validation_prompts, seconds=seconds)
+        folder.mkdir(parents=True, exist_ok=True)
+        for number, motion in enumerate(motions, start=1):
+            write_motion(motion, folder / f"{number:02d}.bvh")
+        write_preview(motions, folder / "index.html")
+
+    def save_pretrained(self, module: nn.Module, folder: Path) -> None:
+        """A folder that `MotionGenerator.from_pretrained` and `generate --model` read."""
+        self._generator(module, scope=self._scope()).save_pretrained(folder)
+
+    def _scope(self) -> PromptScope:
+        """What prompts the training captions are near."""
+        action_of: dict[str, str] = {}
+        for record in {record.group: record for record in self.train.records}.values():
+            captions = self.data.captions(record)
+            for language in self.config.languages:
+                for text in captions.get(language, []):
+                    action_of.setdefault(text, record.tag)
+        texts = sorted(action_of)
+        texts = texts[:: -(-len(texts) // SCOPE_CAPTIONS)]
+        embeddings = encode_captions(self.tower, self.tokenizer, texts).numpy()
+        actions = [action_of[text] for text in texts]
+        pretrained = self.tower.config.text_model != SMALL
+        return PromptScope.fit(texts, actions, embeddings, pretrained_tower=pretrained)
+
+
+app = stage_app(
+    TrainGenerationConfig,
+    GenerationTask,
+    "src.train.train_generation",
+    "Train the motion denoiser behind the frozen text tower of a train_clip run.",
+)
+
+if __name__ == "__main__":
+    app()
