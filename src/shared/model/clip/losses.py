@@ -24,7 +24,8 @@ def multi_positive_info_nce(text: Tensor, motion: Tensor, groups: Tensor, scale:
     Returns:
         Scalar loss; 0 when the batch holds one group only.
     """
-    similarity = scale * (text.float() @ motion.float().T)  # [B, B]
+    with torch.autocast(text.device.type, enabled=False):
+        similarity = scale * (text.float() @ motion.float().T)  # [B, B]
     positive = groups[:, None] == groups[None, :]  # [B, B]
     return 0.5 * (_one_way(similarity, positive) + _one_way(similarity.T, positive))
 

@@ -1,9 +1,13 @@
 """What the denoiser is trained on (ruling 21): each term masked, computed only if its weight > 0.
 
+All but the reconstruction look at the predicted clean motion, which only `prediction-type: sample`
+gives at every step; with epsilon they weigh the noisiest steps out of proportion.
+
 Letters: B batch, T frames, K joints, R = K + 1 rows with the root track.
 """
 
 from collections.abc import Callable
+from functools import cached_property
 
 import torch
 from torch import Tensor, nn
@@ -78,9 +82,20 @@ class GenerationLoss(nn.Module):
             timesteps: [B].
             mask: [B, T] bool, True = real frame; None = all.
         """
-        output = output.float()
         if mask is None:
             mask = torch.ones(clean.shape[:2], dtype=torch.bool, device=clean.device)
+        with torch.autocast(clean.device.type, enabled=False):  # metres do not fit into bf16
+            return self._terms(output.float(), clean, noisy, noise, timesteps, mask)
+
+    def _terms(
+        self,
+        output: Tensor,
+        clean: Tensor,
+        noisy: Tensor,
+        noise: Tensor,
+        timesteps: Tensor,
+        mask: Tensor,
+    ) -> dict[str, Tensor]:
         terms = {}
         if self.weights.reconstruction > 0:
             target = self.diffusion.target(clean, noise, timesteps)
@@ -103,36 +118,36 @@ class GenerationLoss(nn.Module):
         return {"loss": torch.as_tensor(total, device=clean.device), **terms}
 
 
+class RawMotion:
+    """One side, predicted or true, out of z-scores; what several losses need is made once."""
+
+    def __init__(self, features: Tensor, owner: GenerationLoss) -> None:
+        self.features = features * owner.std + owner.mean  # [B, T, R, 6]
+        self._offsets = owner.offsets
+
+    @cached_property
+    def rotations(self) -> Tensor:
+        """Local rotations [B, T, K, 3, 3]."""
+        return rotation_6d_to_matrix(self.features[..., :NUM_JOINTS, :])
+
+    @cached_property
+    def joints(self) -> Tensor:
+        """Joints [B, T, K, 3] in the heading frame, pelvis over the origin, metres."""
+        pelvis = self.features.new_zeros(*self.features.shape[:2], 3)
+        if self.features.shape[2] > ROOT_ROW:
+            pelvis[..., 1] = self.features[..., ROOT_ROW, HEIGHT]
+        positions, _ = forward_kinematics(self.rotations, pelvis, self._offsets, PARENTS)
+        return positions
+
+
 class Motions:
-    """Predicted and true motion, z-scored and raw, and their joints once somebody asks."""
+    """Predicted and true motion [B, T, R, 6], z-scored and raw, with their mask [B, T]."""
 
     def __init__(self, predicted: Tensor, true: Tensor, mask: Tensor, owner: GenerationLoss):
         self.predicted, self.true, self.mask = predicted, true, mask
-        self.raw_predicted = predicted * owner.std + owner.mean
-        self.raw_true = true * owner.std + owner.mean
+        self.raw_predicted = RawMotion(predicted, owner)
+        self.raw_true = RawMotion(true, owner)
         self.fps = owner.fps
-        self._offsets = owner.offsets
-        self._joints: tuple[Tensor, Tensor] | None = None
-
-    def rotations(self) -> tuple[Tensor, Tensor]:
-        """Local rotations [B, T, K, 3, 3], predicted and true."""
-        predicted, true = (
-            self.raw_predicted[..., :NUM_JOINTS, :],
-            self.raw_true[..., :NUM_JOINTS, :],
-        )
-        return rotation_6d_to_matrix(predicted), rotation_6d_to_matrix(true)
-
-    def joints(self) -> tuple[Tensor, Tensor]:
-        """Joints [B, T, K, 3] in the heading frame: pelvis over the origin, metres."""
-        if self._joints is None:
-            rotations = torch.stack(self.rotations())  # [2, B, T, K, 3, 3]
-            pelvis = rotations.new_zeros(*rotations.shape[:3], 3)
-            if self.true.shape[2] > ROOT_ROW:
-                raw = torch.stack((self.raw_predicted, self.raw_true))
-                pelvis[..., 1] = raw[..., ROOT_ROW, HEIGHT]
-            positions, _ = forward_kinematics(rotations, pelvis, self._offsets, PARENTS)
-            self._joints = (positions[0], positions[1])
-        return self._joints
 
 
 def masked_frames_mean(values: Tensor, mask: Tensor) -> Tensor:
@@ -151,7 +166,7 @@ def velocity_loss(motions: Motions) -> Tensor:
 
 def geodesic_loss(motions: Motions) -> Tensor:
     """Mean angle in radians between predicted and true local rotations."""
-    predicted, true = motions.rotations()
+    predicted, true = motions.raw_predicted.rotations, motions.raw_true.rotations
     trace = (predicted * true).sum(dim=(-1, -2))  # trace(P' Q)
     cosine = ((trace - 1) / 2).clamp(-1 + 1e-6, 1 - 1e-6)  # acos has no gradient at its ends
     return masked_frames_mean(cosine.acos(), motions.mask)
@@ -159,29 +174,25 @@ def geodesic_loss(motions: Motions) -> Tensor:
 
 def position_loss(motions: Motions) -> Tensor:
     """Mean squared joint distance per axis in m^2, heading frame (MDM, equation 3)."""
-    predicted, true = motions.joints()
-    return masked_frames_mean((predicted - true).square(), motions.mask)
+    error = motions.raw_predicted.joints - motions.raw_true.joints
+    return masked_frames_mean(error.square(), motions.mask)
 
 
 def foot_contact_loss(motions: Motions) -> Tensor:
     """MSE of the two contact channels on their raw 0 ... 1 scale."""
-    contacts = slice(LEFT_CONTACT, LEFT_CONTACT + 2)
-    error = (
-        motions.raw_predicted[:, :, ROOT_ROW, contacts] - motions.raw_true[:, :, ROOT_ROW, contacts]
-    )
-    return masked_frames_mean(error.square(), motions.mask)
+    error = motions.raw_predicted.features - motions.raw_true.features
+    return masked_frames_mean(error[:, :, ROOT_ROW, LEFT_CONTACT:].square(), motions.mask)
 
 
 def foot_slide_loss(motions: Motions) -> Tensor:
     """Mean squared world speed (m/s)^2 of feet that truly stand (MDM, equation 4)."""
-    joints, _ = motions.joints()
-    balls = joints[:, :, [ball for _, ball in FOOT_JOINTS]]  # [B, T, 2, 3]
-    root = motions.raw_predicted[:, :, ROOT_ROW]  # [B, T, 6]
+    balls = motions.raw_predicted.joints[:, :, [ball for _, ball in FOOT_JOINTS]]  # [B, T, 2, 3]
+    root = motions.raw_predicted.features[:, :, ROOT_ROW]  # [B, T, 6]
     path, heading = integrate_root(root, motions.fps)  # [B, T, 3], [B, T]
     turned = (yaw_to_matrix(heading)[:, :, None] @ balls[..., None]).squeeze(-1)
     ground = path * path.new_tensor([1.0, 0.0, 1.0])  # the height is in the joints already
     world = turned + ground[:, :, None]  # [B, T, 2, 3]
     speed = (world[:, 1:] - world[:, :-1]) * motions.fps  # [B, T-1, 2, 3]
-    stands = motions.raw_true[:, :, ROOT_ROW, LEFT_CONTACT:] > 0.5  # [B, T, 2]
+    stands = motions.raw_true.features[:, :, ROOT_ROW, LEFT_CONTACT:] > 0.5  # [B, T, 2]
     pairs = motions.mask[:, 1:, None] & stands[:, 1:] & stands[:, :-1]  # [B, T-1, 2]
     return (speed.square().sum(dim=-1) * pairs).sum() / pairs.sum().clamp_min(1)
