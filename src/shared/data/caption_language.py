@@ -1,0 +1,276 @@
+"""One language's captions: choose frame, verb and wording for a set of labels, write them out."""
+
+import random
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from itertools import product
+from typing import Any
+
+from src.shared.data.caption_grammar import (
+    Sequence,
+    normalised,
+    parse,
+    pick,
+    render,
+    slots_in,
+    tidy,
+)
+from src.shared.data.caption_mirror import TextMirror
+from src.shared.data.caption_schema import (
+    OTHER,
+    Action,
+    Frame,
+    LanguageFile,
+    Paraphrases,
+    Phrase,
+    SlotTables,
+)
+
+Labels = dict[str, str]
+SENTENCE_RATE = 0.3  # share of captions written as a sentence: capital letter and full stop
+_BRACES = re.compile(r"(\{[^{}]*\})")
+
+
+@dataclass(frozen=True)
+class Wording:
+    """One way to say it: a sentence frame and the (verb, rest) pairs that fit the labels in it."""
+
+    frame: Frame
+    text: Sequence
+    pairs: tuple[tuple[Sequence, Sequence], ...]
+
+
+class CaptionLanguage:
+    """Captions, held-out paraphrases and mirrored text of one language."""
+
+    def __init__(self, content: LanguageFile) -> None:
+        self.content = content
+        self.code = content.language
+        self.mirror = TextMirror(content.mirror, content.spaces)
+        self._slots = {
+            name: self._with_mirrored(_laid_over(content.slots, action.slots))
+            for name, action in content.actions.items()
+        }
+        self._plan = lru_cache(maxsize=4096)(self._make_plan)
+
+    # -------------------------------------------------------------- what callers ask for
+
+    def captions(self, labels: Labels, num: int, rng: random.Random) -> list[str]:
+        """Up to `num` different captions; fewer only where the templates allow no more."""
+        plan = self._plan(self._key(labels))
+        found: dict[str, str] = {}
+        for _ in range(30 * num):
+            if len(found) >= num:
+                break
+            text = self._write(labels, plan, rng)
+            found.setdefault(normalised(text), text)
+        return list(found.values())
+
+    def canonical(self, labels: Labels) -> str:
+        """The plainest caption: first frame, first verb, first words."""
+        return self._write(labels, self._plan(self._key(labels)), None)
+
+    def paraphrases(self, labels: Labels) -> list[str]:
+        """Held-out sentences of the most specific entry whose labels are all among `labels`."""
+        wanted = labels | {"action": self.find_action(labels.get("action", ""))}
+        best: list[str] = []
+        most = 0
+        for entry in self.control_tasks:
+            fits = all(wanted.get(key) == value for key, value in entry.labels.items())
+            if fits and len(entry.labels) > most:
+                best, most = entry.text, len(entry.labels)
+        return list(best)
+
+    @cached_property
+    def control_tasks(self) -> list[Paraphrases]:
+        """The paraphrase entries, with the mirror image of each entry that is not written out."""
+        entries = list(self.content.paraphrases)
+        written = [entry.labels for entry in entries]
+        for entry in self.content.paraphrases:
+            labels = mirror_labels(entry.labels)
+            if labels not in written:
+                text = [self.mirror(line) for line in entry.text]
+                entries.append(Paraphrases(labels=labels, text=text))
+        return entries
+
+    def find_action(self, action: str) -> str:
+        """The entry that words an action: its own name, that of an alias, or 'other'."""
+        name = re.sub(r"[\s_]+", "-", action.strip().lower())
+        if name in self.content.actions:
+            return name
+        for key, entry in self.content.actions.items():
+            if name in entry.aliases:
+                return key
+        return OTHER
+
+    def slot_table(self, action: str, name: str) -> dict[str, list[str]] | None:
+        """The synonyms of a slot by label value; the action's own words win."""
+        return self._slots[action].get(name)
+
+    # -------------------------------------------------------------- choosing
+
+    @staticmethod
+    def _key(labels: Labels) -> tuple[tuple[str, str], ...]:
+        return tuple(sorted((key, str(value)) for key, value in labels.items()))
+
+    def _make_plan(self, key: tuple[tuple[str, str], ...]) -> tuple[Wording, ...]:
+        """All wordings that state every label once; where there are none, the fullest ones."""
+        labels = dict(key)
+        name = self.find_action(labels.get("action", ""))
+        stated = frozenset(
+            label for label in labels if label != "action" and self._says(name, label, labels)
+        )
+        scored = [
+            (wording, missing)
+            for wording, missing in self._wordings(self.content.actions[name], labels, stated)
+        ]
+        fewest = min(missing for _, missing in scored)
+        return tuple(wording for wording, missing in scored if missing == fewest)
+
+    def _says(self, action: str, label: str, labels: Labels) -> bool:
+        """Whether any slot of this label has words for its value."""
+        return any(
+            any(self._entries(action, name, labels))
+            for name in self._slots[action]
+            if name.split(".")[0] == label
+        )
+
+    def _entries(self, action: str, name: str, labels: Labels) -> list[str]:
+        label = name.split(".")[0]
+        value = labels.get(label, "")
+        table = self.slot_table(action, name)
+        if not value or table is None:
+            return []
+        return table.get(str(value)) or table.get(OTHER) or []
+
+    def _wordings(
+        self, action: Action, labels: Labels, stated: frozenset[str]
+    ) -> Iterator[tuple[Wording, int]]:
+        phrases = [phrase for phrase in action.phrases if _allowed(phrase, labels)]
+        if not phrases:
+            phrases = list(action.phrases)
+        for frame in self.content.frames:
+            form = self.content.forms.index(frame.form)
+            for template in frame.text:
+                text = parse(template)
+                by_missing: dict[int, list[tuple[Sequence, Sequence]]] = {}
+                for phrase in phrases:
+                    if phrase.forms is not None and frame.form not in phrase.forms:
+                        continue
+                    for verb, rest in product(phrase.verbs, phrase.rest):
+                        words = verb.split("|")[form].strip()
+                        parts = (text, parse(words), parse(rest))
+                        missing = _missing(parts, phrase, stated, labels)
+                        if words != "-" and missing is not None:
+                            pairs = by_missing.setdefault(missing, [])
+                            pairs += [(parts[1], parts[2])] * phrase.weight
+                for missing, pairs in by_missing.items():
+                    wording = Wording(frame, text, tuple(pairs))
+                    for _ in range(frame.weight):
+                        yield wording, missing
+
+    # -------------------------------------------------------------- writing
+
+    def _write(self, labels: Labels, plan: tuple[Wording, ...], rng: random.Random | None) -> str:
+        wording = pick(plan, rng)
+        verb, rest = pick(wording.pairs, rng)
+        action = self.find_action(labels.get("action", ""))
+        chosen: dict[str, str] = {}  # a word is chosen once for the whole sentence
+
+        def fill(name: str) -> str:
+            if name == "verb":
+                return render(verb, fill, rng)
+            if name == "rest":
+                return render(rest, fill, rng)
+            label = name.split(".")[0]
+            if name == "action":
+                return labels.get("action", "").replace("-", " ").replace("_", " ")
+            words = wording.frame.words.get(name) or self.content.words.get(name)
+            if words:
+                if name not in chosen:
+                    chosen[name] = render(parse(pick(words, rng)), fill, rng)
+                return chosen[name]
+            entries = self._entries(action, name, labels)
+            if not entries:
+                return ""
+            text = pick(entries, rng).replace("{value}", str(labels[label]).replace("-", " "))
+            return render(parse(text), fill, rng)
+
+        text = tidy(render(wording.text, fill, rng), self.content.spaces)
+        for pattern, contracted in self.content.contractions:
+            text = re.sub(pattern, contracted, text)
+        if rng is not None and rng.random() < SENTENCE_RATE:
+            text = text[:1].upper() + text[1:] + self.content.sentence_end
+        return text
+
+    def _with_mirrored(self, tables: SlotTables) -> SlotTables:
+        """Fill in `right` from `left`, and so on, where a table words only one side."""
+        result: SlotTables = {}
+        for name, table in tables.items():
+            full = dict(table)
+            for value, entries in table.items():
+                other = mirror_value(value)
+                if other not in table:
+                    full[other] = [self._mirror_template(entry) for entry in entries]
+            result[name] = full
+        return result
+
+    def _mirror_template(self, template: str) -> str:
+        parts = _BRACES.split(template)
+        return "".join(part if part.startswith("{") else self.mirror(part) for part in parts)
+
+
+def _laid_over(general: SlotTables, own: SlotTables) -> SlotTables:
+    return {name: general.get(name, {}) | own.get(name, {}) for name in general.keys() | own.keys()}
+
+
+def _allowed(phrase: Phrase, labels: Labels) -> bool:
+    if any(labels.get(label) not in _values(values) for label, values in phrase.when.items()):
+        return False
+    return all(labels.get(label) not in _values(values) for label, values in phrase.unless.items())
+
+
+def _values(values: Any) -> list[str]:
+    return [values] if isinstance(values, str) else list(values)
+
+
+def _missing(
+    parts: tuple[Sequence, ...], phrase: Phrase, stated: frozenset[str], labels: Labels
+) -> int | None:
+    """How many labels this wording leaves out; None if it would say one twice.
+
+    A dotted slot ("with {side.hand}") makes no sense without its label: that counts double.
+    """
+    names = [set(slots_in(sequence)) for sequence in parts]
+    used = [label for each in names for label in {name.split(".")[0] for name in each}]
+    used += phrase.when
+    mentioned = [label for label in used if label in stated]
+    if len(mentioned) > len(set(mentioned)):
+        return None
+    dangling = {name for each in names for name in each if "." in name and not _given(name, labels)}
+    return len(stated) - len(mentioned) + 2 * len(dangling)
+
+
+def _given(slot: str, labels: Labels) -> bool:
+    return bool(labels.get(slot.split(".")[0]))
+
+
+_SIDES = re.compile(r"(?<![a-z])(left|right|clockwise|counterclockwise)(?![a-z])")
+_OPPOSITE = {
+    "left": "right",
+    "right": "left",
+    "clockwise": "counterclockwise",
+    "counterclockwise": "clockwise",
+}
+
+
+def mirror_value(value: str) -> str:
+    """A label value with left and right exchanged."""
+    return _SIDES.sub(lambda match: _OPPOSITE[match.group()], value)
+
+
+def mirror_labels(labels: Labels) -> Labels:
+    """Labels of the mirrored motion: `left` and `right` exchanged in every value."""
+    return {key: mirror_value(str(value)) for key, value in labels.items()}
