@@ -94,7 +94,7 @@ def train_small(arguments: list[str]) -> int:
     data, clip, model = "runs/small/data", "runs/small/clip", "runs/small/generation"
     prepare = ["-m", "src.cli.tools", "prepare", "--synthetic", "400", "--out", data]
     train_clip = ["-m", "src.train.train_clip", "--data", data, "--output", clip]
-    train_generation = ["-m", "src.train.train_generation", "--data", data, "--clip", clip]
+    train_generation = ["-m", "src.train.train_generation", "--data", data, f"clip={clip}"]
     for stage in (prepare, train_clip, [*train_generation, "--output", model, *arguments]):
         if code := python(*stage):
             return code

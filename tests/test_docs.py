@@ -1,0 +1,60 @@
+"""The documentation is true: names import, snippets run, links lead somewhere, commands exist."""
+
+import importlib
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+from typer.main import get_command
+
+from src.cli.tools import app
+
+ROOT = Path(__file__).parent.parent
+PAGES = [ROOT / name for name in ("README.md", "CONTRIBUTING.md")] + sorted(ROOT.glob("docs/*.md"))
+API_MAP = (ROOT / "docs" / "api-map.md").read_text(encoding="utf-8")
+OURS = sorted(set(re.findall(r"\| `(src\.[\w.]+)` \|$", API_MAP, re.MULTILINE)))
+SNIPPETS = re.findall(r"```python\n(.*?)```", API_MAP, re.DOTALL)
+SEEDS = ROOT.parent / "shared" / "seeds"
+
+
+@pytest.mark.parametrize("name", OURS)
+def test_mapped_names_exist(name: str) -> None:
+    module, _, attribute = name.rpartition(".")
+    if not attribute[0].isupper() and not attribute.startswith("load_"):
+        importlib.import_module(name)
+        return
+    assert hasattr(importlib.import_module(module), attribute)
+
+
+@pytest.mark.parametrize("snippet", SNIPPETS, ids=range(len(SNIPPETS)))
+def test_the_documents_snippets_run_through_the_map(snippet: str) -> None:
+    exec(compile(snippet, "docs/api-map.md", "exec"), {"__name__": "snippet"})  # asserts inside
+
+
+@pytest.mark.skipif(not SEEDS.is_dir(), reason="the source documents are not beside this checkout")
+def test_every_printed_import_is_in_the_map() -> None:
+    for path in SEEDS.glob("*.txt"):
+        for line in path.read_text(encoding="utf-8").splitlines():
+            found = re.match(r"from (cc_\w+[\w.]*) import (.+)", line.strip())
+            for name in found[2].split(",") if found else []:
+                row = rf"from {re.escape(found[1])} import [^`]*\b{name.strip()}\b"
+                assert re.search(row, API_MAP), f"{path.name}: {line}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_lead_somewhere(page: Path) -> None:
+    for target in re.findall(r"\]\(([^)#]+)", page.read_text(encoding="utf-8")):
+        if not target.startswith(("http://", "https://", "mailto:")):
+            assert (page.parent / target).exists(), f"{page.name}: {target}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_commands_in_the_docs_have_only_real_flags(page: Path) -> None:
+    commands = get_command(app).commands  # type: ignore[attr-defined]
+    text = re.sub(r"\\\n\s*", " ", page.read_text(encoding="utf-8"))
+    for name, rest in re.findall(r"(?:motion-tools|src\.cli\.tools) ([a-z][\w-]*)([^\n`|]*)", text):
+        assert name in commands, f"{page.name}: {name}"
+        known = {f for p in commands[name].params for f in [*p.opts, *p.secondary_opts, "--help"]}
+        used = {w for w in shlex.split(rest.replace("…", ""), comments=True) if w.startswith("--")}
+        assert used <= known, f"{page.name}: {name} {used - known}"
