@@ -48,8 +48,8 @@ SPEED_METRES: dict[tuple[str, str], tuple[float, float, float]] = {
     ("walk", "left"): (0.4, 0.65, 0.95),
     ("walk", "right"): (0.4, 0.65, 0.95),
     ("run", "forward"): (2.4, 3.2, 4.2),
-    ("side-step", "left"): (0.22, 0.36, 0.56),
-    ("side-step", "right"): (0.22, 0.36, 0.56),
+    ("side-step", "left"): (0.25, 0.39, 0.60),
+    ("side-step", "right"): (0.25, 0.39, 0.60),
     ("crouch-walk", "forward"): (0.45, 0.75, 1.1),
 }
 

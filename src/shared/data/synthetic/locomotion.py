@@ -3,11 +3,20 @@
 T frames; angles in degrees where a name or table says so, radians elsewhere.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from src.shared.data.synthetic.curves import Array, min_jerk, ramp, smooth_noise
+from src.shared.data.synthetic.gaits import (
+    Gait,
+    backward_gait,
+    crouched_gait,
+    run_gait,
+    sideways_gait,
+    stepping_in_place,
+    walk_gait,
+)
 from src.shared.data.synthetic.rig import (
     ABDUCT,
     ELBOW,
@@ -18,174 +27,8 @@ from src.shared.data.synthetic.rig import (
     Body,
 )
 from src.shared.data.synthetic.scene import Scene
-from src.shared.data.synthetic.steps import BALL_LEAD, Path, Stepping, plan_feet, time_grid
+from src.shared.data.synthetic.steps import Path, Stepping, plan_feet, time_grid
 from src.shared.motion.skeleton import REST_PELVIS_HEIGHT
-
-
-@dataclass(frozen=True)
-class Gait:
-    """How a travelling body moves; lengths in metres, angles in degrees.
-
-    `bob` is positive where the pelvis is highest over the standing leg (walking) and negative
-    where it is lowest (running).
-    """
-
-    period: float  # seconds a stride
-    duty: float  # share of the stride that a foot stands
-    width: float
-    sink: float  # below straight-legged standing
-    bob: float
-    sway: float
-    lean: float
-    pelvis_yaw: float
-    chest_yaw: float
-    pelvis_roll: float
-    arm_swing: float
-    elbow: float
-    elbow_swing: float
-    clearance: float
-    toe_off: float
-    strike: float
-    lead: float = BALL_LEAD
-    arm_out: float = 0.0
-    peak: float = 0.4
-    heel_off: float = 0.45
-
-
-def _walk(speed: float) -> Gait:
-    pace = speed / 1.2
-    return Gait(
-        period=2 * 0.51 * speed**-0.45,
-        duty=0.62 - 0.02 * (pace - 1),
-        width=0.15,
-        sink=0.012,
-        bob=0.016 * pace**0.8,
-        sway=0.026 / pace**0.5,
-        lean=1.5 + 1.5 * pace,
-        pelvis_yaw=5.0 * pace**0.6,
-        chest_yaw=5.0 * pace**0.6,
-        pelvis_roll=3.0,
-        arm_swing=20.0 * pace**0.7,
-        elbow=6.0 * pace,
-        elbow_swing=8.0 * pace,
-        clearance=0.035,
-        toe_off=-42.0 * pace**0.3,
-        heel_off=0.5,
-        strike=19.0 * pace**0.4,
-        lead=0.035,
-    )
-
-
-def _run(speed: float) -> Gait:
-    pace = speed / 3.2
-    return Gait(
-        period=0.86 - 0.055 * speed,
-        duty=0.335 - 0.15 * (pace - 1),
-        width=0.11,
-        sink=0.065,
-        bob=-0.034,
-        sway=0.012,
-        lean=9.0 * pace**0.7,
-        pelvis_yaw=8.0,
-        chest_yaw=10.0,
-        pelvis_roll=4.0,
-        arm_swing=34.0 * pace**0.5,
-        elbow=68.0,
-        elbow_swing=12.0,
-        clearance=0.27 * pace**0.8,
-        toe_off=-62.0,
-        strike=6.0,
-        lead=0.0,
-        arm_out=5.0,
-        peak=0.42,
-        heel_off=0.35,
-    )
-
-
-def _backward(speed: float) -> Gait:
-    return replace(
-        _walk(speed + 0.3),
-        period=0.95 - 0.12 * speed,
-        sink=0.03,
-        bob=0.010,
-        lean=3.0,
-        pelvis_yaw=2.5,
-        chest_yaw=2.0,
-        arm_swing=8.0,
-        elbow_swing=3.0,
-        clearance=0.05,
-        toe_off=-8.0,
-        strike=-16.0,
-        lead=0.09,
-        width=0.18,
-    )
-
-
-def _sideways(speed: float, discrete: bool) -> Gait:
-    period = (1.0 - 0.35 * speed) if discrete else (1.1 - 0.32 * speed)
-    return replace(
-        _walk(0.7),
-        period=period,
-        duty=0.62,
-        width=0.13 + 0.5 * speed * period,
-        sink=0.035,
-        bob=0.010,
-        sway=0.012,
-        lean=2.0,
-        pelvis_yaw=0.0,
-        chest_yaw=0.0,
-        pelvis_roll=2.0,
-        arm_swing=2.0,
-        elbow=8.0,
-        elbow_swing=0.0,
-        clearance=0.07,
-        toe_off=-12.0,
-        strike=-6.0,
-        lead=BALL_LEAD,
-        arm_out=5.0,
-    )
-
-
-def _crouched(speed: float) -> Gait:
-    return replace(
-        _walk(speed),
-        period=1.12 - 0.22 * speed,
-        width=0.2,
-        sink=0.27,
-        bob=0.008,
-        lean=24.0,
-        pelvis_roll=2.0,
-        arm_swing=9.0,
-        elbow=48.0,
-        clearance=0.06,
-        toe_off=-30.0,
-        strike=8.0,
-        lead=0.10,
-        arm_out=8.0,
-    )
-
-
-def _stepping_in_place(period: float, quick: bool) -> Gait:
-    return replace(
-        _walk(0.7),
-        period=period,
-        duty=0.6,
-        width=0.19,
-        sink=0.022,
-        bob=0.007,
-        sway=0.02,
-        lean=1.0,
-        pelvis_yaw=0.0,
-        chest_yaw=0.0,
-        arm_swing=3.0,
-        elbow=14.0 if quick else 4.0,
-        elbow_swing=0.0,
-        clearance=0.06,
-        toe_off=-20.0,
-        strike=0.0,
-        lead=BALL_LEAD,
-        arm_out=14.0 if quick else 3.0,
-    )
 
 
 def travel(scene: Scene) -> Body:
@@ -193,15 +36,15 @@ def travel(scene: Scene) -> Body:
     action, direction = scene.labels["action"], scene.labels["direction"]
     speed = scene.params["speed"]
     if action == "run":
-        gait = _run(speed)
+        gait = run_gait(speed)
     elif action == "crouch-walk":
-        gait = _crouched(speed)
+        gait = crouched_gait(speed)
     elif direction == "backward":
-        gait = _backward(speed)
+        gait = backward_gait(speed)
     elif direction in ("left", "right"):
-        gait = _sideways(speed, discrete=action == "side-step")
+        gait = sideways_gait(speed, discrete=action == "side-step")
     else:
-        gait = _walk(speed)
+        gait = walk_gait(speed)
     half = 0.5 * gait.period / scene.params["tempo"] ** 0.5
     gait = replace(gait, period=2 * half)
     start, stop = _start_and_stop(scene, half, action)
@@ -349,7 +192,7 @@ def turn_in_place(scene: Scene) -> Body:
     grid = time_grid(-4.0, scene.t[-1] + 4.0)
     rate = total * np.gradient(min_jerk((grid - start) / duration), grid[1] - grid[0])
     path = Path(grid, np.zeros_like(grid), np.zeros_like(grid), rate)
-    gait = _stepping_in_place(2 * half, spin)
+    gait = stepping_in_place(2 * half, spin)
     envelope = ramp(scene.t, start - 0.1, 0.4) * (1 - ramp(scene.t, start + duration - 0.3, 0.5))
     first = LEFT if sign > 0 else RIGHT
     body = _stride(scene, gait, path, first, start, start + duration, 1.0, envelope)

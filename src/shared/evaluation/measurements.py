@@ -1,0 +1,289 @@
+"""What a motion does, read off its joints: travel, turning, hands, feet, crouches, flights.
+
+T frames. Positions by forward kinematics on the canonical skeleton; nothing learned. Left comes
+before right in every pair.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import torch
+
+from src.shared.motion.motion import Motion
+from src.shared.motion.root_track import headings
+from src.shared.motion.rotations import quaternion_to_matrix
+from src.shared.motion.skeleton import JOINT_INDEX, REST_PELVIS_HEIGHT, canonical_skeleton
+
+Array = np.ndarray
+Pair = tuple[float, float]
+Figures = dict[str, Any]  # some of the fields of `Measurements`
+
+_OFFSETS = canonical_skeleton().offsets
+ARM_LENGTH = float(
+    np.abs(_OFFSETS[JOINT_INDEX["l_elbow"], 0]) + np.abs(_OFFSETS[JOINT_INDEX["l_wrist"], 0])
+)
+
+
+@dataclass(frozen=True)
+class Measurements:
+    """Figures of one motion; metres, seconds, radians.
+
+    Attributes:
+        seconds: length of the motion.
+        angular_speed: mean over joints and frames of how fast local rotations change, rad/s.
+        upright: share of frames with the pelvis at a bodily height and its up axis upwards.
+        forward, lateral: distance travelled in the momentary heading frame (+ = forward, left).
+        forward_net, lateral_net: net displacement in the frame of the first heading.
+        forward_speed, lateral_speed: the two distances over the time spent moving.
+        speed: mean ground speed while moving. cruise: the speed it settles at (70th percentile).
+        stride: half the range of the distance between the ankles along the direction of travel.
+        yaw: heading gained, + = left.
+        hand_high: seconds each wrist spends above its shoulder.
+        hand_peak: how far each wrist gets above its shoulder, in arm lengths (95th percentile).
+        hand_travel: metres each wrist travels relative to the chest.
+        hand_swings: times each raised wrist changes its direction of travel.
+        foot_peak: greatest height of each ankle above the other one.
+        kicks: times each foot is kicked up in front.
+        punches: times each fist shoots forward to a stretched arm.
+        claps: times the hands meet in front of the body.
+        bows: times the chest bends forward and comes up again.
+        squats: times the pelvis goes deep and comes up again with the feet on the ground.
+        jumps: times both feet leave the ground together with the pelvis above standing height.
+        pelvis_low: lowest pelvis height over standing height, by median.
+        flight: seconds with both feet clear of the ground.
+    """
+
+    seconds: float
+    angular_speed: float
+    upright: float
+    forward: float
+    lateral: float
+    forward_net: float
+    lateral_net: float
+    forward_speed: float
+    lateral_speed: float
+    speed: float
+    cruise: float
+    stride: float
+    yaw: float
+    hand_high: Pair
+    hand_peak: Pair
+    hand_travel: Pair
+    hand_swings: tuple[int, int]
+    foot_peak: Pair
+    kicks: tuple[int, int]
+    punches: tuple[int, int]
+    claps: int
+    bows: int
+    squats: int
+    jumps: int
+    pelvis_low: float
+    flight: float
+
+
+@dataclass(frozen=True)
+class _Tracks:
+    """Smoothed curves that the figures are read from."""
+
+    fps: float
+    joints: Array  # T K 3, world
+    heading: Array  # T, unwrapped and smoothed
+    chest: Array  # T 3 3, world rotation of the chest
+    body: Array  # T K 3, joints seen from the pelvis in the heading frame
+
+    def joint(self, name: str) -> Array:
+        return np.asarray(self.joints[:, JOINT_INDEX[name]])
+
+    def seen(self, name: str) -> Array:
+        return np.asarray(self.body[:, JOINT_INDEX[name]])
+
+
+def smooth(values: Array, frames: int) -> Array:
+    """Centred moving average over the first axis, `frames` long; the ends are repeated."""
+    frames = max(min(frames, len(values)) // 2 * 2 + 1, 1)
+    half = frames // 2
+    padding = [(half + 1, half)] + [(0, 0)] * (values.ndim - 1)
+    total = np.cumsum(np.pad(values, padding, mode="edge"), axis=0)
+    return np.asarray((total[frames:] - total[:-frames]) / frames)
+
+
+def count_peaks(values: Array, high: float, low: float) -> int:
+    """Times a curve [T] rises above `high`; it must have been below `low` before each time."""
+    count, armed = 0, bool(values[0] <= high)
+    for value in values:
+        if armed and value > high:
+            count, armed = count + 1, False
+        elif value < low:
+            armed = True
+    return count
+
+
+def _tracks(motion: Motion) -> _Tracks:
+    joints = motion.positions().astype(np.float64)
+    window = round(0.1 * motion.fps)
+    rotations = motion.global_rotations().astype(np.float64)
+    pelvis = quaternion_to_matrix(torch.as_tensor(motion.quaternions[:, 0]))
+    heading = smooth(headings(pelvis).numpy().astype(np.float64), round(0.5 * motion.fps))
+    joints = smooth(joints, window)
+    seen = joints - joints[:, :1]
+    sine, cosine = np.sin(heading)[:, None], np.cos(heading)[:, None]
+    body = np.stack(
+        (
+            seen[..., 0] * cosine - seen[..., 2] * sine,
+            seen[..., 1],
+            seen[..., 0] * sine + seen[..., 2] * cosine,
+        ),
+        -1,
+    )
+    return _Tracks(motion.fps, joints, heading, rotations[:, JOINT_INDEX["spine3"]], body)
+
+
+def measure(motion: Motion) -> Measurements:
+    """All figures of a motion of at least two frames."""
+    tracks = _tracks(motion)
+    return Measurements(
+        seconds=motion.seconds,
+        **_credibility(motion),
+        **_travel(tracks),
+        **_hands(tracks),
+        **_arms_at_work(tracks),
+        **_feet(tracks),
+        **_heights(tracks),
+    )
+
+
+def _credibility(motion: Motion) -> Figures:
+    q = motion.quaternions.astype(np.float64)
+    cosine = np.clip(np.abs((q[1:] * q[:-1]).sum(-1)), 0.0, 1.0)
+    angular_speed = 2 * np.arccos(cosine).mean() * motion.fps
+    w, x, y, z = q[:, 0].T
+    up = (1 - 2 * (x * x + z * z)) / np.maximum(w * w + x * x + y * y + z * z, 1e-9)
+    height = motion.root_position[:, 1]
+    bodily = (up > 0.3) & (height > 0.2) & (height < 2.0)
+    return {"angular_speed": float(angular_speed), "upright": float(bodily.mean())}
+
+
+def _travel(tracks: _Tracks) -> Figures:
+    path = smooth(tracks.joints[:, 0], round(0.3 * tracks.fps))
+    step = np.diff(path, axis=0)
+    heading = tracks.heading
+    sine, cosine = np.sin(heading[:-1]), np.cos(heading[:-1])
+    forward = step[:, 0] * sine + step[:, 2] * cosine
+    lateral = step[:, 0] * cosine - step[:, 2] * sine
+    ground = np.hypot(step[:, 0], step[:, 2])
+    moving = ground * tracks.fps > 0.12
+    seconds = max(moving.sum() / tracks.fps, 0.5)
+    net = path[-1] - path[0]
+    s0, c0 = np.sin(heading[0]), np.cos(heading[0])
+    total = np.array([lateral.sum(), forward.sum()])
+    along = total / max(float(np.hypot(*total)), 1e-6)
+    apart = tracks.seen("l_ankle") - tracks.seen("r_ankle")
+    apart_along = apart[:, 0] * along[0] + apart[:, 2] * along[1]
+    low, high = np.percentile(apart_along, (3, 97))
+    return {
+        "forward": float(forward.sum()),
+        "lateral": float(lateral.sum()),
+        "forward_net": float(net[0] * s0 + net[2] * c0),
+        "lateral_net": float(net[0] * c0 - net[2] * s0),
+        "forward_speed": float(forward[moving].sum() / seconds),
+        "lateral_speed": float(lateral[moving].sum() / seconds),
+        "speed": float(ground[moving].sum() / seconds),
+        "cruise": float(np.percentile(ground[moving], 70) * tracks.fps) if moving.any() else 0.0,
+        "stride": float(high - low) / 2,
+        "yaw": float(heading[-1] - heading[0]),
+    }
+
+
+def _hands(tracks: _Tracks) -> Figures:
+    high, peak, travel, swings = [], [], [], []
+    for letter in "lr":
+        wrist, shoulder = tracks.joint(f"{letter}_wrist"), tracks.joint(f"{letter}_shoulder")
+        above = (wrist - shoulder)[:, 1] / ARM_LENGTH
+        seen = tracks.seen(f"{letter}_wrist") - tracks.seen("spine3")
+        high.append(float((above > 0.0).sum() / tracks.fps))
+        peak.append(float(np.percentile(above, 95)))
+        travel.append(float(np.linalg.norm(np.diff(seen, axis=0), axis=-1).sum()))
+        swings.append(_swings(seen[above > -0.1]))
+    return {
+        "hand_high": tuple(high),
+        "hand_peak": tuple(peak),
+        "hand_travel": tuple(travel),
+        "hand_swings": tuple(swings),
+    }
+
+
+def _swings(points: Array) -> int:
+    """Times `points` [N,3] change direction along one of their main axes, 6 cm or more apart."""
+    if len(points) < 4:
+        return 0
+    centred = points - smooth(points, 31)
+    _, _, axes = np.linalg.svd(centred - centred.mean(0), full_matrices=False)
+    curves = (centred @ axes[:2].T).T
+    return max(count_peaks(c, 0.03, -0.03) + count_peaks(-c, 0.03, -0.03) for c in curves)
+
+
+def _arms_at_work(tracks: _Tracks) -> Figures:
+    punches = []
+    up = tracks.chest[:, :, 1]
+    for letter in "lr":
+        arm = tracks.joint(f"{letter}_wrist") - tracks.joint(f"{letter}_shoulder")
+        reach = np.linalg.norm(arm, axis=-1) / ARM_LENGTH
+        level = np.abs((arm * up).sum(-1)) < 0.6 * np.linalg.norm(arm, axis=-1)
+        ahead = tracks.seen(f"{letter}_wrist") - tracks.seen(f"{letter}_shoulder")
+        speed = np.gradient(reach, 1 / tracks.fps)
+        fast = smooth((speed > 1.5).astype(float), round(0.4 * tracks.fps)) > 0.05
+        extended = np.where(level & (ahead[:, 2] > 0.25) & fast, reach, np.minimum(reach, 0.7))
+        punches.append(count_peaks(extended, 0.85, 0.72))
+    left, right = tracks.joint("l_wrist"), tracks.joint("r_wrist")
+    gap = np.linalg.norm(left - right, axis=-1)
+    middle = (tracks.seen("l_wrist") + tracks.seen("r_wrist")) / 2
+    in_front = (middle[:, 2] > 0.12) & (middle[:, 1] > 0.05)
+    claps = count_peaks(np.where(in_front, -gap, -1.0), -0.17, -0.24)
+    tilt = np.degrees(np.arcsin(np.clip((up[:, [0, 2]] * _ahead(tracks)).sum(-1), -1, 1)))
+    tall = tracks.joints[:, 0, 1] > 0.83 * REST_PELVIS_HEIGHT  # else it is a squat or a jump
+    tilt = np.where(tall & (_ground_speed(tracks) < 0.5), tilt, np.minimum(tilt, 25.0))
+    return {
+        "punches": tuple(punches),
+        "claps": claps,
+        "bows": count_peaks(smooth(tilt, 5), 35.0, 18.0),
+    }
+
+
+def _ground_speed(tracks: _Tracks) -> Array:
+    path = smooth(tracks.joints[:, 0], round(0.3 * tracks.fps))
+    return np.asarray(np.linalg.norm(np.gradient(path[:, [0, 2]], axis=0), axis=-1) * tracks.fps)
+
+
+def _ahead(tracks: _Tracks) -> Array:
+    return np.stack((np.sin(tracks.heading), np.cos(tracks.heading)), -1)
+
+
+def _feet(tracks: _Tracks) -> Figures:
+    left, right = tracks.joint("l_ankle"), tracks.joint("r_ankle")
+    lead = (left - right)[:, 1]
+    kicks = []
+    for letter, height in (("l", lead), ("r", -lead)):
+        ahead = tracks.seen(f"{letter}_ankle")[:, 2]
+        kicked = np.where(ahead > 0.3, height, np.minimum(height, 0.2))
+        kicks.append(count_peaks(kicked, 0.33, 0.25))
+    return {"foot_peak": (float(lead.max()), float((-lead).max())), "kicks": tuple(kicks)}
+
+
+def _heights(tracks: _Tracks) -> Figures:
+    pelvis = tracks.joints[:, 0, 1]
+    balls = np.stack((tracks.joint("l_foot")[:, 1], tracks.joint("r_foot")[:, 1]), -1)
+    floor = np.percentile(balls.min(1), 10)
+    clear = (balls - floor).min(1)
+    ankles = tracks.seen("l_ankle") - tracks.seen("r_ankle")
+    together = np.linalg.norm(ankles[:, 1:], axis=-1) < 0.3  # a runner's feet are further apart
+    leaps = (pelvis > REST_PELVIS_HEIGHT + 0.03) & together & (_ground_speed(tracks) < 2.6)
+    flying = np.where(leaps, clear, 0.0)
+    standing = REST_PELVIS_HEIGHT
+    grounded = np.where(clear < 0.06, standing - pelvis, 0.0)
+    return {
+        "squats": count_peaks(grounded, 0.27, 0.12),
+        "jumps": count_peaks(flying, 0.05, 0.02),
+        "pelvis_low": float(pelvis.min() / standing),
+        "flight": float((clear > 0.03).sum() / tracks.fps),
+    }
