@@ -14,9 +14,10 @@ from torch import Tensor, nn
 
 from src.shared.config_schema import NetworkConfig, TrainConfig
 from src.shared.data.prepared import open_data
+from src.shared.data.word_dropout import drop_words
 from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig, contrastive_loss
 from src.shared.evaluation.metrics_retrieval import guo_retrieval
-from src.shared.evaluation.training_set import PairBatch, PairSet, drop_words
+from src.shared.evaluation.training_set import PairBatch, PairSet
 from src.train.launch import stage_app
 from src.train.seeding import mix_seed
 from src.train.task import Part
@@ -113,6 +114,7 @@ class EvaluatorTask:
             "steps": self.config.steps,
             "seed": self.config.seed,
             "validation": self.figures,
+            "groups": sorted({record.group for record in self.train.records}),
         }
         module.save_pretrained(folder, notes=notes)
 

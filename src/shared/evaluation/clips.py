@@ -15,7 +15,6 @@ from src.shared.errors import UserError
 from src.shared.motion.motion import Motion
 from src.shared.motion.root_track import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, decode_features
 
-STEP = 8  # frames: lengths are cut to multiples of this, so that few lengths make full batches
 # Prompts and their numbers of frames, with a seed, to one motion each, in the same order.
 Sampler = Callable[[Sequence[str], Sequence[int], int], list[Motion]]
 
@@ -28,6 +27,7 @@ class Clips:
     captions: list[str]
     groups: list[str]
     tags: list[str]
+    labels: list[dict[str, str]]
 
     def __len__(self) -> int:
         return len(self.motions)
@@ -44,6 +44,7 @@ class Clips:
             captions=[self.captions[i] for i in index],
             groups=[self.groups[i] for i in index],
             tags=[self.tags[i] for i in index],
+            labels=[self.labels[i] for i in index],
         )
 
     def with_motions(self, motions: list[Motion]) -> "Clips":
@@ -76,15 +77,9 @@ def spread_over_groups(records: Sequence[ClipRecord], num: int, seed: int) -> li
     return chosen[:num]
 
 
-def crop(features: Tensor, max_frames: int) -> Tensor:
-    """The first frames [T, K + 1, 6], at most `max_frames`, cut to a multiple of 8."""
-    length = min(len(features), max_frames)
-    return features[: max(length - length % STEP, min(length, STEP))]
-
-
 def real_clips(
     data: PreparedData,
-    split: str,
+    records: Sequence[ClipRecord],
     *,
     num: int,
     max_frames: int,
@@ -92,26 +87,29 @@ def real_clips(
     min_frames: int = 16,
     seed: int = 0,
 ) -> Clips:
-    """At most `num` clips of a split that have a caption in the language, spread over groups.
+    """At most `num` of these clips that have a caption in the language, spread over groups.
+
+    Of longer clips the first `max_frames` count.
 
     Raises:
-        UserError: the split holds no such clip.
+        UserError: there is no such clip.
     """
     usable = [
         record
-        for record in data.records(split)
+        for record in records
         if record.num_frames >= min_frames and data.captions(record).get(language)
     ]
     if not usable:
-        raise UserError(f"split {split!r} holds no clip with a {language!r} caption to evaluate")
+        raise UserError(f"no clip of {min_frames} frames with a {language!r} caption to evaluate")
     chosen = spread_over_groups(usable, num, seed)
     return Clips(
-        motions=[decode_features(crop(data.features(record), max_frames)) for record in chosen],
+        motions=[decode_features(data.features(record)[:max_frames]) for record in chosen],
         captions=[
             choose_caption(data.captions(record)[language], record.id, seed) for record in chosen
         ],
         groups=[record.group for record in chosen],
         tags=[record.tag for record in chosen],
+        labels=[record.labels for record in chosen],
     )
 
 
@@ -120,16 +118,3 @@ def frozen(features: Tensor) -> Tensor:
     still = features[:1].expand_as(features).clone()
     still[:, ROOT_ROW, [FORWARD, LATERAL, YAW_RATE]] = 0
     return still
-
-
-def chunked_by_length(num_frames: Sequence[int], batch: int) -> list[list[int]]:
-    """Rows with equal length in batches, shortest first."""
-    order = sorted(range(len(num_frames)), key=lambda row: num_frames[row])
-    chunks: list[list[int]] = []
-    for row in order:
-        last = chunks[-1] if chunks else []
-        if last and len(last) < batch and num_frames[last[0]] == num_frames[row]:
-            last.append(row)
-        else:
-            chunks.append([row])
-    return chunks

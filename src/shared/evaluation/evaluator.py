@@ -14,7 +14,7 @@ import json
 import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Self
+from typing import Any, Self
 
 import torch
 import torch.nn.functional as F
@@ -129,6 +129,7 @@ class Evaluator(nn.Module):
         self.text = TextEncoder(self.config)
         self.log_scale = nn.Parameter(torch.tensor(math.log(self.config.initial_scale)))
         self.content_hash = "untrained"
+        self.notes: dict[str, Any] = {}  # what config.json says of the training
 
     def forward(self, captions: Sequence[str], joints: Tensor, mask: Tensor) -> tuple[Tensor, ...]:
         """Text [B, D], motion [B, D] and the factor on their cosines (training)."""
@@ -139,6 +140,11 @@ class Evaluator(nn.Module):
     def device(self) -> torch.device:
         """Where the weights are."""
         return self.motion.mean.device
+
+    @property
+    def trained_groups(self) -> frozenset[str]:
+        """Label combinations it was trained on."""
+        return frozenset(self.notes.get("groups", ()))
 
     @torch.no_grad()
     def fit_statistics(self, joints: Tensor, *, floor: float = 0.02) -> None:
@@ -174,9 +180,7 @@ class Evaluator(nn.Module):
         """Unit vectors [N, D] on the CPU."""
         return self.embed_features([encode_features(motion) for motion in motions])
 
-    def save_pretrained(
-        self, folder: Path | str, *, notes: dict[str, object] | None = None
-    ) -> None:
+    def save_pretrained(self, folder: Path | str, *, notes: dict[str, Any] | None = None) -> None:
         """Write `config.json` (with `notes`: data hash, steps, figures) and fp16 weights."""
         folder = Path(folder)
         folder.mkdir(parents=True, exist_ok=True)
@@ -211,6 +215,7 @@ class Evaluator(nn.Module):
             model.load_state_dict({key: value.float() for key, value in weights.items()})
         except RuntimeError as error:
             raise UserError(f"weights in {folder} do not fit its config.json: {error}") from error
+        model.notes = {k: v for k, v in content.items() if k not in ("kind", "evaluator")}
         model.content_hash = sha256_file(folder / WEIGHTS)[:12]
         return model.to(device).eval()
 

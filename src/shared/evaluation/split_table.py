@@ -9,14 +9,22 @@ from dataclasses import asdict, dataclass, fields
 import numpy as np
 
 from src.shared.evaluation.clips import Clips, Sampler
+from src.shared.evaluation.controllability import check
 from src.shared.evaluation.evaluator import Evaluator
-from src.shared.evaluation.intervals import bootstrap_mean, replicated
+from src.shared.evaluation.intervals import bootstrap_mean, replicated, success_rate
+from src.shared.evaluation.measurements import measure
 from src.shared.evaluation.metrics_frechet import JointFrechet, frechet_distance, group_frechet
 from src.shared.evaluation.metrics_physical import Physics, physics
 from src.shared.evaluation.metrics_retrieval import BATCH, guo_retrieval, normalised_score
 from src.shared.evaluation.metrics_spread import diversity
 from src.shared.evaluation.metrics_travel import Travel, travel, travel_error
 
+KINDS = {
+    **dict.fromkeys(("forward", "backward", "left", "right", "forward-jump"), "direction"),
+    **dict.fromkeys(("turn-left", "turn-right"), "turn"),
+    **dict.fromkeys(("left-hand", "right-hand", "both-hands"), "hand"),
+    **{name: name for name in ("count", "speed", "angle")},
+}
 Row = dict[str, dict[str, float | int]]  # column to value, low, high, count
 
 
@@ -93,7 +101,26 @@ def physical_columns(sample: Clips, references: Sequence[Travel]) -> Row:
     errors = travel_error([travel(motion) for motion in sample.motions], references)
     for name, values in asdict(errors).items():
         row[f"{name}_error"] = bootstrap_mean(values).as_dict()
-    return row
+    return row | obedience(sample)
+
+
+def obedience(clips: Clips) -> Row:
+    """Share of each kind of check that the labels ask for and the motions pass.
+
+    Kinds: travel direction, turning, hand, action, count, speed class, angle, and `all` checks of
+    a clip at once; labels that cannot be measured (style) ask for nothing.
+    """
+    passed: dict[str, list[bool]] = {}
+    for motion, labels in zip(clips.motions, clips.labels, strict=True):
+        answers = check(labels, measure(motion))
+        for name, answer in answers.items():
+            passed.setdefault(KINDS.get(name, "action"), []).append(answer)
+        if answers:
+            passed.setdefault("all", []).append(all(answers.values()))
+    return {
+        f"obeys_{kind}": success_rate(sum(found), len(found)).as_dict()
+        for kind, found in passed.items()
+    }
 
 
 def same_group_partner(clips: Clips, seed: int) -> Iterator[tuple[int, int]]:
@@ -153,30 +180,26 @@ def generated_row(
     num_samples: int,
     replications: int,
     seed: int,
-) -> tuple[Row, Clips]:
+) -> Row:
     """Motions made for the split's captions at the clips' lengths, `num_samples` a replication.
 
     With fewer clips than samples the captions come round again, with other noise.
-
-    Returns:
-        The row, and the clips of the first replication.
     """
     real = reference.real
     index = [row % len(real.clips) for row in range(num_samples)]
     prompts = real.clips.rows(index)
     prompted = Embedded(prompts, real.text[index], real.motion[index])
     columns: list[dict[str, float]] = []
-    made: list[Clips] = []
+    first: Clips | None = None
     for replication in range(replications):
         run = seed + 1000 * replication
         clips = prompts.with_motions(sampler(prompts.captions, prompts.num_frames, run))
-        made.append(clips)
+        first = first or clips
         columns.append(
             learned_columns(prompted.with_motions(evaluator, clips), reference, seed + replication)
         )
-    row = _replicate(columns)
-    row |= physical_columns(made[0], [reference.travels[i] for i in index])
-    return row, made[0]
+    assert first is not None
+    return _replicate(columns) | physical_columns(first, [reference.travels[i] for i in index])
 
 
 def scores(rows: dict[str, Row], name: str) -> dict[str, float]:

@@ -101,13 +101,3 @@ class PairSet:
         spare = len(joints) - self.max_frames
         start = int(rng.integers(spare + 1)) if spare > 0 and rng.random() < 0.5 else 0
         return joints[start : start + self.max_frames]
-
-
-def drop_words(caption: str, share: float, rng: np.random.Generator) -> str:
-    """The caption without a random share of its words (characters where there are no spaces)."""
-    if share <= 0:
-        return caption
-    joint = " " if " " in caption else ""
-    words = caption.split(" ") if joint else list(caption)
-    kept = [word for word in words if rng.random() >= share]
-    return joint.join(kept) if kept else caption

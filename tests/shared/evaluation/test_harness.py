@@ -1,0 +1,183 @@
+"""The harness on samplers whose score is known: a perfect one, a deaf one, a still one."""
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from io import StringIO
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+
+from src.shared.data.captions import CaptionBook
+from src.shared.data.prepared import PreparedData, open_data
+from src.shared.data.synthetic import generate_clip
+from src.shared.data.synthetic.spec import spec_for
+from src.shared.errors import UserError
+from src.shared.evaluation import control_table as control
+from src.shared.evaluation.clips import Sampler
+from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig, contrastive_loss
+from src.shared.evaluation.harness import QuickSettings, evaluate_quick
+from src.shared.evaluation.held_out import HeldOut
+from src.shared.evaluation.report import markdown, print_report, tables
+from src.shared.evaluation.split_table import scores
+from src.shared.evaluation.training_set import PairSet
+from src.shared.motion.motion import Motion
+
+SETTINGS = QuickSettings(
+    num_samples=96,
+    replications=2,
+    max_frames=64,
+    language_samples=0,
+    control_seeds=0,
+    languages=("en", "es"),
+)
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory: pytest.TempPathFactory) -> PreparedData:
+    return open_data("synthetic", tmp_path_factory.mktemp("data"), synthetic_clips=150)
+
+
+@pytest.fixture(scope="module")
+def held_out(data: PreparedData) -> HeldOut:
+    train = data.records("train")
+    return HeldOut(data, {"seen": train[:128], "unseen": []}, "test clips")
+
+
+@pytest.fixture(scope="module")
+def judge(data: PreparedData) -> Evaluator:
+    """A judge after 40 steps: far above chance, far from good."""
+    torch.manual_seed(0)
+    pairs = PairSet(data, "train", min_frames=16, max_frames=64, languages=("en",), balance=1.0)
+    model = Evaluator(EvaluatorConfig(hidden_size=48, num_buckets=1024, dropout=0.0))
+    model.fit_statistics(pairs.frames())
+    optimizer = torch.optim.AdamW(model.parameters(), 5e-3)
+    rng = np.random.default_rng(0)
+    for _ in range(40):
+        batch = pairs.batch(48, rng)
+        text, motion, scale = model(batch.captions, batch.joints, batch.mask)
+        loss = contrastive_loss(text, motion, batch.same, scale)
+        optimizer.zero_grad()
+        loss.backward()
+        optimizer.step()
+    return model.eval()
+
+
+def copying_sampler(held_out: HeldOut, *, deaf: bool) -> Sampler:
+    """Returns real clips: those of the caption asked for, or any."""
+    from src.shared.evaluation.clips import real_clips
+
+    clips = real_clips(held_out.data, held_out.records["seen"], num=999, max_frames=64)
+    by_caption: dict[str, list[Motion]] = {}
+    for caption, motion in zip(clips.captions, clips.motions, strict=True):
+        by_caption.setdefault(caption, []).append(motion)
+
+    def sample(prompts: Sequence[str], num_frames: Sequence[int], seed: int) -> list[Motion]:
+        rng = np.random.default_rng(seed)
+        choices = [clips.motions if deaf else by_caption[prompt] for prompt in prompts]
+        return [motions[int(rng.integers(len(motions)))] for motions in choices]
+
+    return sample
+
+
+def test_a_perfect_and_a_deaf_sampler_get_one_and_zero(held_out: HeldOut, judge: Evaluator) -> None:
+    samplers = {
+        "perfect": copying_sampler(held_out, deaf=False),
+        "deaf": copying_sampler(held_out, deaf=True),
+    }
+    report = evaluate_quick(samplers, held_out, judge, settings=SETTINGS, about={"model": "x"})
+    seen = report["splits"]["seen"]
+    rows = seen["rows"]
+    assert rows["real"]["r_at_3"]["value"] > 0.6 > 0.3 > rows["chance"]["r_at_3"]["value"]
+    perfect, deaf = seen["scores"]["perfect"], seen["scores"]["deaf"]
+    assert perfect["normalised_r_at_3"] == pytest.approx(1, abs=0.12)
+    assert deaf["normalised_r_at_3"] == pytest.approx(0, abs=0.15)
+    assert perfect["frechet_joint_ratio"] < 0.15 < 0.6 < deaf["frechet_joint_ratio"]
+    assert perfect["support_slide_ratio"] == pytest.approx(1, abs=0.2)
+    assert rows["perfect"]["obeys_all"]["value"] > rows["deaf"]["obeys_all"]["value"] + 0.3
+    assert rows["perfect"]["speed_error"]["value"] < 0.1 < rows["chance"]["speed_error"]["value"]
+    assert rows["frozen pose"]["speed"]["value"] == pytest.approx(0, abs=1e-3)
+    assert "missing" in report["splits"]["unseen"]
+
+
+def test_the_report_is_json_markdown_and_tables(held_out: HeldOut, judge: Evaluator) -> None:
+    from rich.console import Console
+
+    settings = replace(SETTINGS, num_samples=32, replications=1, language_samples=32)
+    sampler = copying_sampler(held_out, deaf=False)
+    two = {"seen": held_out.records["seen"][:48], "unseen": held_out.records["seen"][64:112]}
+    only = replace(held_out, records=two)
+    report = evaluate_quick(
+        {"generated": lambda p, n, s: copying_sampler(held_out, deaf=True)(p, n, s)},
+        only,
+        judge,
+        settings=replace(settings, languages=("en",)),
+    )
+    del sampler
+    json.dumps(report)
+    text = markdown(report)
+    assert "data-hash" in text and "| chance |" in text and "unseen" in text
+    assert report["languages"]["en"]["num_samples"] == 32
+    assert len(list(tables(report))) == 9
+    stream = StringIO()
+    print_report(report, Console(file=stream, width=200))
+    assert "frozen pose" in stream.getvalue()
+
+
+def test_scores_of_an_absent_column_are_not_a_number() -> None:
+    rows = {name: {} for name in ("real", "chance", "generated")}
+    assert all(math.isnan(value) for value in scores(rows, "generated").values())
+
+
+def oracle_sampler(book: CaptionBook, num_seeds: int, languages: Sequence[str]) -> Sampler:
+    """The synthetic source, asked with the labels behind each prompt."""
+    asked: dict[str, dict[str, str]] = {}
+    for language in languages:
+        for wording in control.WORDINGS:
+            for task in control.CONTROL_TASKS:
+                for labels in (*task.labels, *([task.versus] if task.versus else [])):
+                    for prompt in control.prompts_of(book, labels, language, wording, 0):
+                        asked.setdefault(prompt, labels)
+
+    def sample(prompts: Sequence[str], num_frames: Sequence[int], seed: int) -> list[Motion]:
+        full = {"walk": {"speed": "normal"}, "run": {"speed": "normal"}}
+        made = []
+        for index, prompt in enumerate(prompts):
+            labels = asked[prompt]
+            labels = labels | full.get(labels["action"], {"speed": "normal"})
+            if labels["action"] == "turn":
+                labels = {key: labels.get(key, "90") for key in ("action", "direction", "angle")}
+            made.append(generate_clip(spec_for(labels, seed + index), seed + index))
+        return made
+
+    return sample
+
+
+def test_an_obedient_sampler_passes_the_control_tasks() -> None:
+    book = CaptionBook.load(None)
+    sampler = oracle_sampler(book, 4, ["en"])
+    table = control.control_table(sampler, book, None, languages=["en", "xx"], num_seeds=4)
+    assert table["languages"] == ["en"]
+    assert table["means"]["en"]["templates"]["value"] >= 0.9
+    assert table["means"]["en"]["paraphrases"]["count"] == 4 * len(table["tasks"])
+    assert table["means"]["chance"]["value"] < 0.4
+    assert table["means"]["still"]["value"] == 0
+    assert all(math.isnan(task["real"]["value"]) for task in table["tasks"].values())
+
+
+def test_held_out_synthetic_clips_are_told_apart_by_what_was_trained_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from src.shared.evaluation import held_out as module
+
+    monkeypatch.setattr(module, "FRESH_CLIPS", 12)
+    first = module.open_held_out("synthetic", tmp_path, frozenset())
+    assert first.records["seen"] == [] and len(first.records["unseen"]) == 24
+    groups = frozenset(record.group for record in first.records["unseen"][:6])
+    second = module.open_held_out("synthetic", tmp_path, groups)
+    assert {record.group for record in second.records["seen"]} == groups
+    with pytest.raises(UserError):
+        module.open_held_out(str(tmp_path / "absent"), tmp_path, frozenset())
