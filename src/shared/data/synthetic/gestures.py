@@ -106,9 +106,10 @@ def wave(scene: Scene) -> Body:
     size = scene.params["amplitude"] * (0.9 if pace > 1.3 else 1.05)
     for side in sides_of(scene):
         swing = np.sin(2 * np.pi * rate * (t - start - 0.4 * rise)) * min_jerk((up - 0.5) * 2)
+        out = 58.0 + 36.0 * scene.params["length"]
         pose_arm(
-            body, side, up, flex=28.0, abduct=78.0 + 18.0 * scene.params["length"], twist=84.0,
-            elbow=78.0, pronate=0.0, wrist=-6.0,
+            body, side, up, flex=28.0, abduct=out, twist=84.0, elbow=160.0 - out, pronate=0.0,
+            wrist=-6.0,
         )  # fmt: skip
         body.arms[:, side, ELBOW] += np.radians(25.0 * size) * swing
         body.arms[:, side, ABDUCT] -= np.radians(5.0 * size) * swing
@@ -136,7 +137,7 @@ def clap(scene: Scene) -> Body:
     for side in (LEFT, RIGHT):
         twist = -55.0 + (28.0 + 10.0 * scene.params["amplitude"]) * apart
         pose_arm(
-            body, side, up, flex=34.0 + lift, abduct=14.0, twist=twist, elbow=82.0 + lift,
+            body, side, up, flex=40.0 + lift, abduct=14.0, twist=twist, elbow=86.0 + lift,
             pronate=-30.0, wrist=-34.0 + 20.0 * apart, deviate=2.0,
         )  # fmt: skip
     body.head[:, 0] += np.radians(6.0) * up
@@ -159,7 +160,7 @@ def bow(scene: Scene) -> Body:
     degrees = (46.0 + 16.0 * scene.params["length"]) * scene.params["amplitude"] ** 0.5
     body.pitch[:] += np.radians(0.68 * degrees) * bent
     body.spine[:, 0] += np.radians(0.42 * degrees) * bent
-    body.head[:, 0] += np.radians(0.9 * degrees) * bent
+    body.head[:, 0] += np.radians(0.55 * degrees) * bent
     body.position[:, 2] -= 0.11 * degrees / 50 * bent
     body.position[:, 1] -= 0.012 * bent
     for side in (LEFT, RIGHT):
@@ -192,7 +193,7 @@ def punch(scene: Scene) -> Body:
             body, arm, guard, flex=38.0, abduct=16.0, twist=-22.0, elbow=122.0, pronate=25.0,
             wrist=4.0,
         )  # fmt: skip
-    height = 80.0 + 10.0 * scene.params["length"]
+    height = 91.0 + 9.0 * scene.params["length"]
     pose_arm(body, side, thrust, flex=height, abduct=4.0, twist=-10.0, elbow=9.0, pronate=75.0)
     body.arms[:, side, FLEX] -= np.radians(12.0) * windup
     drive = scene.params["amplitude"] * (thrust - 0.45 * windup)

@@ -137,8 +137,10 @@ def _carry(
     t, params = scene.t, scene.params
     x, z, heading = path.at(t)
     sway = -gait.sway * envelope * np.cos(phase)
-    body.position[:, 0] = x + sway * np.cos(heading)
-    body.position[:, 2] = z - sway * np.sin(heading)
+    # A walker is slowest over the standing leg.
+    surge = -0.4 * max(gait.bob, 0.0) * sign * envelope * np.sin(2 * phase)
+    body.position[:, 0] = x + sway * np.cos(heading) + surge * np.sin(heading)
+    body.position[:, 2] = z - sway * np.sin(heading) + surge * np.cos(heading)
     bob = gait.bob * params["bounce"] * np.cos(2 * phase)
     body.position[:, 1] = REST_PELVIS_HEIGHT - 0.012 + (bob - gait.sink) * envelope
     swing = np.sin(phase - 0.15) * envelope * (sign if gait.arm_swing > 5 else 1.0)

@@ -62,7 +62,6 @@ class Stepping:
         toe_out: radians. clearance: metres the ball rises.
         toe_off, strike: foot pitch in radians when it leaves (negative) and lands.
         stride: metres of a full-sized swing; shorter ones pitch and rise less.
-        trail: metres the trailing foot of a sideways gait is set forward, so that feet can pass.
     """
 
     lifts: Array
