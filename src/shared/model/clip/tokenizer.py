@@ -6,6 +6,8 @@ Letters: B batch, L tokens. Special ids are XLM-R's: bos 0, pad 1, eos 2, unk 3.
 import io
 import json
 import logging
+import unicodedata
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, Protocol, Self
@@ -19,8 +21,8 @@ from src.shared.files import atomic_write, write_json
 BOS, PAD, EOS, UNK = 0, 1, 2, 3
 MODEL_FILE = "sentencepiece.bpe.model"
 META_FILE = "prompt_tokenizer.json"
-# Every character a piece of its own if the vocabulary has room; rarer ones become bytes if not.
-CHARACTER_COVERAGES = (1.0, 0.999, 0.99, 0.98)
+BYTES_AND_SPECIALS = 256 + 4
+CHARACTER_SHARE = 0.75  # of the other pieces may be single characters; rarer ones become bytes
 
 log = logging.getLogger(__name__)
 
@@ -71,11 +73,17 @@ class _Pretrained:
 
         try:
             self.tokenizer: Any = AutoTokenizer.from_pretrained(name)
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, ImportError) as error:
             raise UserError(
                 f"cannot load the tokenizer of {name!r} ({str(error).splitlines()[0]});"
                 " download the model once, name a local folder, or set clip.text-model to small"
             ) from error
+        if self.encode("walk forward") == self.encode("jump back"):
+            # transformers can make an all-unknown tokenizer of a folder it half understands
+            raise UserError(
+                f"the tokenizer of {name!r} gives different prompts the same ids; its folder needs"
+                " tokenizer.json beside the weights"
+            )
         self.vocab_size = len(self.tokenizer)
         pad = self.tokenizer.pad_token_id
         self.pad_id = PAD if pad is None else int(pad)
@@ -113,33 +121,30 @@ class PromptTokenizer:
         corpus = sorted({caption.strip() for caption in captions} - {""})
         if not corpus:
             raise UserError("cannot train a tokenizer: no captions; prepare the data with captions")
-        problem: Exception | None = None
-        for coverage in CHARACTER_COVERAGES:
-            proto = io.BytesIO()
-            try:
-                SentencePieceTrainer.train(
-                    sentence_iterator=iter(corpus),
-                    model_writer=proto,
-                    model_type="unigram",
-                    vocab_size=vocab_size,
-                    hard_vocab_limit=False,
-                    character_coverage=coverage,
-                    byte_fallback=True,
-                    normalization_rule_name="nmt_nfkc_cf",
-                    num_threads=1,
-                    bos_id=BOS,
-                    pad_id=PAD,
-                    eos_id=EOS,
-                    unk_id=UNK,
-                    minloglevel=2,
-                )
-                return cls(_SentencePiece(proto.getvalue()), max_tokens)
-            except RuntimeError as error:
-                problem = error
-        raise UserError(
-            f"clip.text-vocab-size {vocab_size} is too small for {len(corpus)} captions;"
-            f" raise it ({str(problem).splitlines()[-1].strip()})"
-        )
+        proto = io.BytesIO()
+        try:
+            SentencePieceTrainer.train(
+                sentence_iterator=iter(_without_rare_characters(corpus, vocab_size)),
+                model_writer=proto,
+                model_type="unigram",
+                vocab_size=vocab_size,
+                hard_vocab_limit=False,
+                character_coverage=1.0,
+                byte_fallback=True,
+                normalization_rule_name="nmt_nfkc_cf",
+                num_threads=1,
+                bos_id=BOS,
+                pad_id=PAD,
+                eos_id=EOS,
+                unk_id=UNK,
+                minloglevel=2,
+            )
+        except RuntimeError as error:
+            raise UserError(
+                f"clip.text-vocab-size {vocab_size} is too small for {len(corpus)} captions;"
+                f" raise it ({str(error).splitlines()[-1].strip()})"
+            ) from error
+        return cls(_SentencePiece(proto.getvalue()), max_tokens)
 
     @classmethod
     def from_pretrained(cls, name: str | Path, *, max_tokens: int = 48) -> Self:
@@ -208,3 +213,18 @@ class PromptTokenizer:
             )
             tokens = [*tokens[: self.max_tokens - 1], tokens[-1]]
         return tokens
+
+
+def _without_rare_characters(corpus: Sequence[str], vocab_size: int) -> list[str]:
+    """The corpus with blanks for the characters that the vocabulary has no room for."""
+    texts = [unicodedata.normalize("NFKC", text).casefold() for text in corpus]
+    room = int(CHARACTER_SHARE * (vocab_size - BYTES_AND_SPECIALS))
+    counts = Counter(character for text in texts for character in text)
+    if len(counts) <= room:
+        return list(corpus)
+    common = {character for character, _ in sorted(counts.items(), key=_by_count)[: max(room, 0)]}
+    return ["".join(c if c in common else " " for c in text) for text in texts]
+
+
+def _by_count(item: tuple[str, int]) -> tuple[int, str]:
+    return -item[1], item[0]
