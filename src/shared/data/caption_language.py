@@ -73,13 +73,16 @@ class CaptionLanguage:
         return self._write(labels, self._plan(self._key(labels)), None)
 
     def paraphrases(self, labels: Labels) -> list[str]:
-        """Held-out sentences of the most specific entry whose labels are all among `labels`."""
+        """Held-out sentences of the most specific entry whose labels are all among `labels`.
+
+        Of equally specific ones the last counts: a file goes from the general to the special.
+        """
         wanted = labels | {"action": self.find_action(labels.get("action", ""))}
         best: list[str] = []
         most = 0
         for entry in self.control_tasks:
             fits = all(wanted.get(key) == value for key, value in entry.labels.items())
-            if fits and len(entry.labels) > most:
+            if fits and len(entry.labels) >= most:
                 best, most = entry.text, len(entry.labels)
         return list(best)
 

@@ -1,9 +1,10 @@
 """The shape of a caption file, and how its mistakes are reported; the format is told in en.yaml."""
 
+import re
 from collections.abc import Iterator
 from typing import Any, Self
 
-from pydantic import ConfigDict, Field, ValidationError, model_validator
+from pydantic import ConfigDict, Field, ValidationError, field_validator, model_validator
 
 from src.shared.config_schema import Config
 from src.shared.data.caption_grammar import parse, slots_in
@@ -60,6 +61,16 @@ class MirrorTable(_Section):
     pairs: list[tuple[str, str]] = Field(min_length=1)
     one_way: list[tuple[str, str]] = Field([])
     keep: list[str] = Field([])
+
+    @field_validator("keep")
+    @classmethod
+    def _compiles(cls, keep: list[str]) -> list[str]:
+        for pattern in keep:
+            try:
+                re.compile(pattern)
+            except re.error as error:
+                raise ValueError(f"{pattern!r} is no regular expression: {error}") from error
+        return keep
 
 
 class LanguageFile(_Section):
