@@ -42,7 +42,7 @@ def evaluate(
     seed: Annotated[int, typer.Option(help="Of captions, samples and shuffles.")] = 0,
     device: Annotated[str, typer.Option(help="auto, cpu, cuda or mps.")] = "auto",
     threads: Annotated[int | None, typer.Option(help="CPU threads to use.")] = None,
-    out: Annotated[Path | None, typer.Option(help="Write the whole report here, JSON.")] = None,
+    out: Annotated[Path | None, typer.Option(help="Report file: .json, or .md for tables.")] = None,
     json: Annotated[bool, typer.Option("--json", help="The report on stdout.")] = False,
 ) -> None:
     """Score a model on held-back motions.
@@ -67,7 +67,6 @@ def evaluate(
     from src.shared.device import set_threads
     from src.shared.evaluation.evaluator import Evaluator
     from src.shared.evaluation.harness import QuickSettings, evaluate_quick
-    from src.shared.files import write_json
     from src.shared.model.generation.motion_generator import MotionGenerator
 
     set_threads(threads)
@@ -82,11 +81,11 @@ def evaluate(
         progress=lambda text: complain(f"evaluate: {text}"),
     )
     if out is not None:
-        write_json(out, report)
+        write_report(report, out)
     if json:
         print_json(report)
     else:
-        print_report(report)
+        print_tables(report)
 
 
 def as_sampler(generator: "MotionGenerator", options: dict[str, Any]) -> Any:
@@ -111,8 +110,26 @@ def print_json(report: dict[str, Any]) -> None:
     print(json.dumps(report, indent=1, ensure_ascii=False, default=str))
 
 
-def print_report(report: dict[str, Any]) -> None:
-    """The tables in plain aligned columns."""
-    from src.shared.evaluation.report import render_text
+def write_report(report: dict[str, Any], path: Path) -> None:
+    """JSON, or Markdown tables when the name ends in .md."""
+    from src.shared.evaluation.report import markdown
+    from src.shared.files import write_json, write_text
 
-    print(render_text(report))
+    if path.suffix == ".md":
+        write_text(path, markdown(report))
+    else:
+        write_json(path, report)
+
+
+def print_tables(report: dict[str, Any]) -> None:
+    """Drawn tables in a terminal, Markdown in a pipe, where drawn ones would be cut off."""
+    import sys
+
+    from src.shared.evaluation.report import markdown, print_report
+
+    if not sys.stdout.isatty():
+        print(markdown(report))
+        return
+    from rich.console import Console
+
+    print_report(report, Console())

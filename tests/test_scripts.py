@@ -1,0 +1,140 @@
+"""Set-up without installing anything: which packages, from where, and when nothing is to do."""
+
+import importlib.util
+import re
+import sys
+from pathlib import Path
+from types import ModuleType, SimpleNamespace
+
+import pytest
+from packaging.requirements import Requirement
+
+ROOT = Path(__file__).parent.parent
+
+
+def load(name: str) -> ModuleType:
+    """A script as a module; `tasks` imports `setup` by that name."""
+    spec = importlib.util.spec_from_file_location(name, ROOT / "scripts" / f"{name}.py")
+    assert spec and spec.loader
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture
+def setup(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> ModuleType:
+    """The set-up script with an empty environment folder of its own and no real commands."""
+    module = load("setup")
+    folder = tmp_path / ".venv"
+    monkeypatch.setattr(module, "VENV", folder)
+    monkeypatch.setattr(module, "STAMP", folder / "setup.json")
+    monkeypatch.setattr(module, "LOG", folder / "setup.log")
+    monkeypatch.delenv("TORCH_INDEX", raising=False)
+
+    def run(command: list[str], *, check: bool = True) -> bool:
+        if "venv" in command:
+            module.venv_tool("python").parent.mkdir(parents=True)
+            module.venv_tool("python").touch()
+        return True
+
+    monkeypatch.setattr(module, "run", run)
+    return module
+
+
+@pytest.fixture
+def installed(setup: ModuleType, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """What pip would be asked for, line by line."""
+    asked: list[str] = []
+
+    def pip(*arguments: str, check: bool = True) -> bool:
+        for index, argument in enumerate(arguments):
+            if argument == "-r":
+                asked.extend(Path(arguments[index + 1]).read_text().splitlines())
+        asked.append(" ".join(arguments))
+        return True
+
+    monkeypatch.setattr(setup, "pip", pip)
+    return asked
+
+
+def names(lines: list[str]) -> set[str]:
+    return {line.partition("==")[0] for line in lines if "==" in line}
+
+
+def test_locked_packages_are_requirements_with_markers(setup: ModuleType) -> None:
+    main, both = setup.locked_packages({"main"}), setup.locked_packages({"main", "dev"})
+    assert all(Requirement(line).specifier for line in both)
+    assert {"torch", "transformers", "typer"} <= names(main)
+    assert "pytest" in names(both) - names(main)
+    windows = next(line for line in both if line.startswith("colorama=="))
+    assert Requirement(windows).marker is not None, "a marker of each group, joined by `or`"
+
+
+def test_cpu_torch_leaves_the_cuda_packages_out(
+    setup: ModuleType, installed: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(setup, "install_cpu_torch", lambda _: True)
+    assert setup.install({"main"}) == "cpu"
+    assert not any(name.startswith(("nvidia-", "cuda-", "triton")) for name in names(installed))
+    assert "torch" not in names(installed)
+
+
+def test_without_a_cpu_wheel_the_whole_lock_is_installed(
+    setup: ModuleType, installed: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Leaving the CUDA packages out would break the import of the CUDA build."""
+    monkeypatch.setattr(setup, "install_cpu_torch", lambda _: False)
+    assert setup.install({"main"}) == "locked"
+    assert {"torch", "nvidia-cublas", "triton"} <= names(installed)
+
+
+def test_torch_index_is_used_when_named(
+    setup: ModuleType, installed: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("TORCH_INDEX", "somewhere")
+    answer = SimpleNamespace(stdout="2.13.0+cpu\n")
+    monkeypatch.setattr(setup.subprocess, "run", lambda *_, **__: answer)
+    assert setup.install_cpu_torch("torch==2.13.0")
+    assert installed == ["torch==2.13.0 --index-url somewhere"]
+
+
+def test_second_run_does_nothing_until_the_lock_changes(
+    setup: ModuleType, installed: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(setup, "install_cpu_torch", lambda _: True)
+    setup.main([])
+    assert installed
+    installed.clear()
+    setup.main([])
+    assert not installed
+    setup.main(["--dev"])
+    assert "pytest" in names(installed)
+    installed.clear()
+    setup.main([])  # what is there already serves
+    assert not installed
+    setup.STAMP.write_text("{}")
+    setup.main([])
+    assert installed
+
+
+def test_supported_versions_are_the_projects(setup: ModuleType) -> None:
+    assert [setup.supported(version) for version in ((3, 10), (3, 11), (3, 13), (3, 14))] == [
+        False, True, True, False,
+    ]  # fmt: skip
+    assert 'requires-python = ">=3.11,<3.14"' in (ROOT / "pyproject.toml").read_text()
+
+
+def test_every_make_target_is_a_task_and_the_other_way_round() -> None:
+    load("setup")
+    tasks = load("tasks").TASKS
+    makefile = (ROOT / "Makefile").read_text()
+    declared = set(re.search(r"\.PHONY: (.*)", makefile)[1].split())  # type: ignore[index]
+    assert declared == set(tasks) | {"help", "setup"}
+
+
+def test_demo_has_three_prompts_and_not_all_in_english() -> None:
+    load("setup")
+    prompts = load("tasks").PROMPTS
+    assert len(prompts) >= 3
+    assert any(not prompt.isascii() for prompt in prompts)
