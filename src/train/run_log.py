@@ -104,7 +104,7 @@ class RunLog:
 
         Not-finite values (an undefined metric) are written as null, which JSON has.
         """
-        if not self._main:
+        if not self._main or not values:
             return
         rounded = {k: float(f"{v:.6g}") if math.isfinite(v) else None for k, v in values.items()}
         print(json.dumps({"step": step, **rounded}), file=self._stream, flush=True)

@@ -10,6 +10,7 @@ from src.shared.data.prepared import PreparedData, open_data
 from src.shared.data.text_motion import TextMotionDataset
 from src.shared.errors import UsageError, UserError
 from src.shared.motion.skeleton import NUM_JOINTS
+from src.train.run_log import console
 from src.train.seeding import mix_seed
 
 
@@ -31,20 +32,22 @@ def open_training_data(config: TrainConfig, network: NetworkConfig) -> PreparedD
 def training_set(config: TrainConfig, data: PreparedData) -> TextMotionDataset:
     """The train split; raises UserError when no clip of it can be used."""
     try:
-        return _dataset(config, data, "train")
+        return split_set(config, data, "train")
     except ValueError as error:
         raise UserError(f"{error}; lower min-frames or prepare more data") from error
 
 
 def validation_set(config: TrainConfig, data: PreparedData) -> TextMotionDataset | None:
-    """The val split, or None where little data left none."""
+    """The val split; None, with a word on stderr, where little data left nothing in it."""
     try:
-        return _dataset(config, data, "val")
+        return split_set(config, data, "val")
     except ValueError:
+        console.print("no validation: the data is too little to hold clips back", markup=False)
         return None
 
 
-def _dataset(config: TrainConfig, data: PreparedData, split: str) -> TextMotionDataset:
+def split_set(config: TrainConfig, data: PreparedData, split: str) -> TextMotionDataset:
+    """One split as the configuration wants it; raises ValueError when nothing in it fits."""
     return TextMotionDataset(
         data,
         split,

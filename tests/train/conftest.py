@@ -1,6 +1,29 @@
-"""Lets the tests of this folder import the tiny task beside them."""
+"""Lets the tests of this folder import the tiny task beside them; a little prepared data."""
 
 import sys
 from pathlib import Path
 
+import pytest
+
 sys.path.insert(0, str(Path(__file__).parent))
+
+
+@pytest.fixture
+def held_back(monkeypatch: pytest.MonkeyPatch) -> None:
+    """So little data has an empty val split: validate on the unseen label groups instead."""
+    from src.train import train_clip, train_generation
+    from src.train.text_motion import split_set
+
+    for stage in (train_clip, train_generation):
+        monkeypatch.setattr(stage, "validation_set", lambda c, d: split_set(c, d, "test_unseen"))
+
+
+@pytest.fixture(scope="session")
+def prepared(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A prepared folder of 120 synthetic clips and their mirror images."""
+    from src.shared.data.prepare import prepare
+    from src.shared.data.sources import SyntheticSource
+
+    folder = tmp_path_factory.mktemp("prepared") / "data"
+    prepare([SyntheticSource(120)], folder, workers=1)
+    return folder

@@ -1,0 +1,23 @@
+"""Dropping words never leaves nothing and never invents anything."""
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from src.shared.data.word_dropout import drop_words
+
+
+@given(st.text(min_size=1, max_size=60), st.floats(0, 0.99), st.integers(0, 1000))
+def test_what_is_left_is_part_of_the_caption(caption: str, share: float, seed: int) -> None:
+    left = drop_words(caption, share, np.random.default_rng(seed))
+    assert left == caption or left.strip()
+    rest = iter(caption)
+    assert all(letter in rest for letter in left if not letter.isspace())  # in order
+
+
+def test_words_and_characters_go_at_the_given_rate() -> None:
+    rng = np.random.default_rng(0)
+    words = " ".join(["word"] * 1000)
+    assert 680 < len(drop_words(words, 0.3, rng).split()) < 720 + 20
+    assert 660 < len(drop_words("歩" * 1000, 0.3, rng)) < 740
+    assert drop_words(words, 0.0, rng) == words

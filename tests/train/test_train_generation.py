@@ -1,0 +1,119 @@
+"""Generation training on a little data: it learns, resumes exactly, its folder generates."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+from hypothesis import given
+from hypothesis import strategies as st
+from safetensors.torch import load_file
+from tiny_stage import clip_config, generation_config, tiny_network, train_clip, train_generation
+
+from src.shared.errors import UserError
+from src.shared.model.generation.motion_generator import MotionGenerator
+from src.train.seeding import generator
+from src.train.task import Part
+from src.train.train_generation import GenerationTask, spread_timesteps
+
+
+@pytest.fixture(scope="session")
+def clip(prepared: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("runs") / "clip"
+    train_clip(clip_config(prepared, folder, "steps=2"))
+    return folder
+
+
+@pytest.mark.usefixtures("held_back")
+def test_it_learns_and_its_folder_generates(prepared: Path, clip: Path, tmp_path: Path) -> None:
+    settings = ("steps=40", "learning-rate=0.005", "log-every=10", "validate-every=20")
+    train_generation(generation_config(prepared, clip, tmp_path, *settings))
+    lines = [json.loads(line) for line in (tmp_path / "log.jsonl").read_text().splitlines()]
+    losses = [line["validation/loss"] for line in lines if "validation/loss" in line]
+    assert len(losses) == 2 and losses[1] < losses[0]
+    for step in ("00000020", "00000040"):
+        samples = tmp_path / "samples" / step
+        assert (samples / "01.bvh").exists() and (samples / "index.html").exists()
+
+    made = MotionGenerator.from_pretrained(tmp_path, device="cpu")
+    prompts = ["a person walks forward", "una persona salta"]
+    motions = made.generate(prompts, seconds=1.0, num_samples=2)
+    assert [motion.text for motion in motions] == [prompts[0]] * 2 + [prompts[1]] * 2
+    assert all(np.isfinite(m.quaternions).all() and m.num_frames == 30 for m in motions)
+    assert made.card.trained and made.scope is not None and made.card.tags
+
+
+@pytest.mark.parametrize("precision", ["no", "bf16"])
+def test_resuming_is_bitwise_the_same(
+    prepared: Path, clip: Path, tmp_path: Path, precision: str
+) -> None:
+    same = (f"precision={precision}", "lr-schedule=constant", "validation-prompts=[jump]")
+    whole, halves = tmp_path / "whole", tmp_path / "halves"
+    train_generation(generation_config(prepared, clip, whole, *same))
+    train_generation(generation_config(prepared, clip, halves, *same, "steps=4"))
+    train_generation(generation_config(prepared, clip, halves, *same), resume=True)
+    for name in ("model", "ema", "optimizer"):
+        file = f"checkpoints/step-00000006/{name}.safetensors"
+        first, second = load_file(whole / file), load_file(halves / file)
+        assert all(torch.equal(first[key], second[key]) for key in first)
+
+
+def test_tokens_epsilon_and_all_losses(prepared: Path, clip: Path, tmp_path: Path) -> None:
+    network = tiny_network(
+        "generation.text-conditioning=tokens", "generation.prediction-type=epsilon"
+    )
+    losses = "{velocity: 1, geodesic: 1, position: 1, foot-contact: 1, foot-slide: 1}"
+    config = generation_config(prepared, clip, tmp_path, "steps=2", f"losses={losses}")
+    train_generation(config, network)
+    line = json.loads((tmp_path / "log.jsonl").read_text().splitlines()[0])
+    assert {"reconstruction", "velocity", "geodesic", "foot_slide"} <= line.keys()
+    MotionGenerator.from_pretrained(tmp_path, device="cpu")
+
+
+def test_without_a_root_track(prepared: Path, tmp_path: Path) -> None:
+    network = tiny_network("root-track=false")
+    train_clip(clip_config(prepared, tmp_path / "clip", "steps=2"), network)
+    config = generation_config(prepared, tmp_path / "clip", tmp_path / "generation", "steps=2")
+    train_generation(config, network)
+    made = MotionGenerator.from_pretrained(tmp_path / "generation", device="cpu")
+    assert made.sample_features(["wave"], seconds=1.0)[0].shape == (30, 22, 6)
+
+
+def test_dropped_rows_have_neither_text_nor_tag(prepared: Path, clip: Path, tmp_path: Path) -> None:
+    config = generation_config(
+        prepared, clip, tmp_path, "condition-dropout=0.5", "tag-dropout=0", "batch-size=64"
+    )
+    task = GenerationTask(config, tiny_network())
+    batch = task.batch(Part(1, 0, 1))
+    assert 10 < int(batch.drop.sum()) < 54
+    assert torch.equal(batch.tag == task.num_tags, batch.drop)
+
+
+def test_the_text_tower_is_not_trained(prepared: Path, clip: Path, tmp_path: Path) -> None:
+    task = train_generation(generation_config(prepared, clip, tmp_path, "steps=2"))
+    before, after = load_file(clip / "model.safetensors"), task.tower.state_dict()
+    assert all(torch.equal(before[f"clip.text.{key}"], value) for key, value in after.items())
+    saved = load_file(tmp_path / "checkpoints" / "step-00000002" / "model.safetensors")
+    assert not any("encoder" in key for key in saved)
+
+
+def test_another_width_than_the_text_tower(prepared: Path, clip: Path, tmp_path: Path) -> None:
+    config = generation_config(prepared, clip, tmp_path)
+    with pytest.raises(UserError, match=r"embed-dim.*32.*64"):
+        GenerationTask(config, tiny_network("embed-dim=64"))
+
+
+def test_no_clip_folder(prepared: Path, tmp_path: Path) -> None:
+    config = generation_config(prepared, tmp_path / "nowhere", tmp_path)
+    with pytest.raises(UserError, match="nowhere"):
+        GenerationTask(config, tiny_network())
+
+
+@given(st.integers(1, 80), st.integers(1, 1000), st.integers(0, 99))
+def test_timesteps_cover_the_whole_range_evenly(num: int, steps: int, seed: int) -> None:
+    drawn = spread_timesteps(num, steps, generator(seed)).sort().values
+    assert bool(((drawn >= 0) & (drawn < steps)).all())
+    width = steps / num
+    low = torch.arange(num) * width
+    assert bool((drawn >= low.floor() - 1).all() and (drawn <= low + width + 1).all())
