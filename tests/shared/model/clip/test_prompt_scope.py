@@ -1,0 +1,112 @@
+"""PromptScope: nonsense is flagged, paraphrases are not, and it survives saving."""
+
+import numpy as np
+import pytest
+
+from src.shared.errors import UserError
+from src.shared.model.clip.scope import META_FILE, PromptScope, words_of
+
+LABELS = [
+    {"action": "walk", "direction": "forward", "speed": "slow"},
+    {"action": "walk", "direction": "backward"},
+    {"action": "walk", "turn": "left"},
+    {"action": "run", "speed": "fast"},
+    {"action": "turn", "direction": "right", "angle": "90"},
+    {"action": "wave", "side": "left"},
+    {"action": "raise", "side": "both"},
+    {"action": "jump", "count": "2"},
+    {"action": "kick", "side": "right"},
+    {"action": "bow"},
+    {"action": "dance"},
+]
+
+
+@pytest.fixture(scope="module")
+def book():
+    from src.shared.data.captions import CaptionBook
+
+    return CaptionBook.load()
+
+
+@pytest.fixture(scope="module")
+def scope(book) -> PromptScope:
+    captions, actions = [], []
+    for labels in LABELS:
+        for texts in book.captions(labels, num=60, seed=0).values():
+            captions += texts
+            actions += [labels["action"]] * len(texts)
+    names = sorted(set(actions))
+    one_hot = np.eye(len(names))[[names.index(action) for action in actions]]
+    return PromptScope.fit(captions, actions, one_hot)
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    [
+        "purple quarterly tax report",
+        "make me a sandwich",
+        "a person reads a book",
+        "the stock market crashed",
+        "a person",
+        "informe trimestral de impuestos",
+        "税務報告書を書いて",
+        "给我做一个三明治",
+        "?!",
+    ],
+)
+def test_far_prompts_are_flagged(scope: PromptScope, prompt: str):
+    embedding = np.eye(len(scope.actions))[scope.actions.index("bow")]
+    result = scope.check(prompt, embedding)
+    assert not result.known
+    assert result.nearest[0] == "bow"
+    assert len(result.nearest) == 3
+
+
+def test_paraphrases_are_known_in_every_language(scope: PromptScope, book):
+    sentences = [
+        text for labels in LABELS for texts in book.paraphrases(labels).values() for text in texts
+    ]
+    flagged = [text for text in sentences if not scope.check(text, np.ones(9)).known]
+    assert len(sentences) > 20
+    assert len(flagged) <= 0.05 * len(sentences), flagged
+
+
+def test_held_out_captions_calibrate_it(scope: PromptScope):
+    assert scope.false_alarms <= 0.01
+
+
+def test_other_forms_of_a_word_count_among_known_words(scope: PromptScope):
+    assert scope.check("a person walked", np.ones(9)).known
+
+
+def test_a_pretrained_tower_knows_synonyms(scope: PromptScope):
+    captions, actions = ["walks", "runs"] * 10, ["walk", "run"] * 10
+    embeddings = np.tile(np.eye(2), (10, 1))
+    with_tower = PromptScope.fit(captions, actions, embeddings, pretrained_tower=True)
+    without = PromptScope.fit(captions, actions, embeddings)
+    assert with_tower.check("ambles", np.array([0.0, 1.0])).known
+    assert not with_tower.check("ambles", np.array([0.5, -0.5])).known
+    assert not without.check("ambles", np.array([0.0, 1.0])).known
+
+
+def test_words_of_six_scripts():
+    assert words_of("Éric's WAVE ２") == ["éric", "s", "wave", "2"]
+    assert words_of("手を振る") == ["手を", "を振", "振る", "手", "振"]
+    assert words_of("") == []
+
+
+def test_saving_keeps_the_verdicts(scope: PromptScope, tmp_path):
+    scope.save_pretrained(tmp_path)
+    loaded = PromptScope.from_pretrained(tmp_path)
+    assert loaded is not None
+    assert (loaded.key_words, loaded.words) == (scope.key_words, scope.words)
+    assert np.allclose(loaded.means, scope.means, atol=1e-3)
+    (tmp_path / META_FILE).write_text("{}")
+    with pytest.raises(UserError, match="damaged"):
+        PromptScope.from_pretrained(tmp_path)
+    assert PromptScope.from_pretrained(tmp_path / "nowhere") is None
+
+
+def test_no_captions_is_an_error():
+    with pytest.raises(UserError, match="no captions"):
+        PromptScope.fit([], [], np.zeros((0, 4)))

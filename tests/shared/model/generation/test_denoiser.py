@@ -1,0 +1,167 @@
+"""MotionDenoiser: TEXT's order and sizes, masks, the learned null, and that it learns."""
+
+import pytest
+import torch
+from torch.nn.functional import normalize
+
+from src.shared.model.clip.core import TextFeatures
+from src.shared.model.generation.denoiser import DenoiserBlock, MotionDenoiser
+
+B, T, L, D, TAGS = 3, 12, 5, 32, 4
+
+
+def text(batch: int = B) -> TextFeatures:
+    mask = torch.arange(L) < torch.tensor([5, 2, 3])[:batch, None]
+    return TextFeatures(normalize(torch.randn(batch, D), dim=-1), torch.randn(batch, L, D), mask)
+
+
+def alive(denoiser: MotionDenoiser) -> MotionDenoiser:
+    """The same with modulations and output away from their zeros."""
+    for name, parameter in denoiser.named_parameters():
+        if "modulation" in name or "output_proj" in name:
+            torch.nn.init.normal_(parameter, std=0.2)
+    return denoiser.eval()
+
+
+@pytest.fixture(scope="module", params=["pooled", "tokens"])
+def denoiser(request, make_network) -> MotionDenoiser:
+    torch.manual_seed(0)
+    return alive(MotionDenoiser(make_network(text_conditioning=request.param), TAGS))
+
+
+def inputs(batch: int = B):
+    return torch.randn(batch, T, 23, 6), torch.randint(0, 50, (batch,)), text(batch)
+
+
+@pytest.mark.parametrize("root_track", [True, False])
+def test_shapes_are_the_documents(make_network, root_track: bool):
+    network = make_network().model_copy(update={"root_track": root_track})
+    motion = torch.randn(B, T, network.motion_rows, 6)
+    out = MotionDenoiser(network, 0)(
+        motion, torch.zeros(B, dtype=torch.long), text(), torch.zeros(B, dtype=torch.long)
+    )
+    assert out.shape == motion.shape
+    assert torch.equal(out, torch.zeros_like(out))  # the output projection starts at zero
+
+
+def test_layer_sizes_are_the_documents(make_network):
+    block = MotionDenoiser(make_network(), TAGS).blocks[0]
+    assert block.temporal.feed_forward.expand.out_features == 4 * D
+    assert block.transform.expand.out_features == 4 * D
+    for layer in (block.film, block.adaln.film):
+        assert (layer.modulation.in_features, layer.modulation.out_features) == (2 * D, 2 * D)
+
+
+def test_layers_run_in_the_documents_order():
+    block = DenoiserBlock(D, 2, dropout=0.0, tokens=False)
+    called: list[str] = []
+    for name, module in block.named_children():
+        module.register_forward_hook(lambda *_, name=name: called.append(name))
+    block(torch.randn(1, T, D), torch.randn(1, 2 * D))
+    assert called == ["temporal", "film", "norm", "attention", "dropout", "adaln", "transform"]
+
+
+def test_every_condition_matters(denoiser):
+    noisy, timesteps, features = inputs()
+    tag = torch.tensor([0, 1, TAGS])
+    out = denoiser(noisy, timesteps, features, tag)
+    others = [
+        denoiser(noisy + 0.1, timesteps, features, tag),
+        denoiser(noisy, (timesteps + 7) % 50, features, tag),
+        denoiser(noisy, timesteps, text(), tag),
+        denoiser(noisy, timesteps, features, torch.tensor([1, TAGS, 0])),
+        denoiser(noisy.flip(1), timesteps, features, tag).flip(1),
+    ]
+    for other in others:
+        assert (out - other).abs().amax(dim=(1, 2, 3)).min() > 1e-4
+
+
+def test_only_tokens_conditioning_reads_the_tokens(make_network):
+    noisy, timesteps, features = inputs()
+    tag = torch.full((B,), TAGS)
+    other = TextFeatures(features.pooled, torch.randn_like(features.tokens), features.mask)
+    for conditioning, differs in (("pooled", False), ("tokens", True)):
+        model = alive(MotionDenoiser(make_network(text_conditioning=conditioning), TAGS))
+        same = torch.allclose(
+            model(noisy, timesteps, features, tag), model(noisy, timesteps, other, tag), atol=1e-6
+        )
+        assert same is not differs
+
+
+def test_padded_frames_and_tokens_do_not_matter(denoiser):
+    noisy, timesteps, features = inputs()
+    tag = torch.full((B,), TAGS)
+    mask = torch.arange(T) < torch.tensor([[12], [7], [9]])
+    out = denoiser(noisy, timesteps, features, tag, mask)
+    garbage = torch.where(features.mask[..., None], features.tokens, 9.0)
+    changed = TextFeatures(features.pooled, garbage, features.mask)
+    noise = torch.where(mask[..., None, None], noisy, torch.randn_like(noisy))
+    again = denoiser(noise, timesteps, changed, tag, mask)
+    assert torch.allclose(out[mask], again[mask], atol=1e-5)
+    alone = denoiser(noisy[1:2, :7], timesteps[1:2], features[1:2], tag[1:2])
+    assert torch.allclose(out[1:2, :7], alone, atol=1e-5)
+
+
+def test_keys_and_values_kept_give_the_same(denoiser):
+    noisy, timesteps, features = inputs()
+    tag = torch.full((B,), TAGS)
+    kept = denoiser.text_keys_values(features)
+    assert len(kept) == (len(denoiser.blocks) if denoiser.uses_tokens else 0)
+    out = denoiser(noisy, timesteps, features, tag, keys_values=kept)
+    assert torch.allclose(out, denoiser(noisy, timesteps, features, tag), atol=1e-6)
+
+
+def test_dropped_rows_are_the_null_and_others_stay(denoiser):
+    noisy, timesteps, features = inputs()
+    tag = torch.full((B,), TAGS)
+    dropped = denoiser.drop_text(features, torch.tensor([True, False, True]))
+    out = denoiser(noisy, timesteps, dropped, tag)
+    null = denoiser(noisy, timesteps, denoiser.null_text(B), tag)
+    plain = denoiser(noisy, timesteps, features, tag)
+    assert torch.allclose(out[[0, 2]], null[[0, 2]], atol=1e-5)
+    assert torch.allclose(out[1], plain[1], atol=1e-5)
+    assert not torch.allclose(null[1], plain[1], atol=1e-3)
+
+
+def test_all_weights_get_gradients_once_some_text_is_dropped(make_network):
+    for conditioning in ("pooled", "tokens"):
+        model = MotionDenoiser(make_network(text_conditioning=conditioning), TAGS)
+        alive(model).train()
+        noisy, timesteps, features = inputs()
+        dropped = model.drop_text(features, torch.tensor([True, False, False]))
+        model(noisy, timesteps, dropped, torch.tensor([0, 1, TAGS])).square().sum().backward()
+        without = [
+            name
+            for name, p in model.named_parameters()
+            if p.grad is None or not torch.isfinite(p.grad).all()
+        ]
+        assert without == []
+
+
+def test_it_learns_one_motion_a_text(make_network):
+    torch.manual_seed(0)
+    model = MotionDenoiser(make_network(dropout=0.0), TAGS)
+    features, targets = text(2), torch.randn(2, 1, 23, 6).expand(2, T, 23, 6)
+    tag = torch.full((2,), TAGS)
+    optimizer = torch.optim.AdamW(model.parameters(), 3e-3)
+    for _ in range(80):
+        noisy = torch.randn(2, T, 23, 6)
+        loss = (model(noisy, torch.full((2,), 49), features, tag) - targets).square().mean()
+        optimizer.zero_grad()
+        loss.backward()
+        optimizer.step()
+    assert loss.item() < 0.3
+
+
+def test_autocast_stays_close_to_float32(denoiser):
+    noisy, timesteps, features = inputs()
+    tag = torch.full((B,), TAGS)
+    out = denoiser(noisy, timesteps, features, tag)
+    with torch.autocast("cpu", torch.bfloat16):
+        low = denoiser(noisy, timesteps, features, tag)
+    assert (low.float() - out).abs().max() < 0.1 * out.abs().max()
+
+
+def test_no_float64_anywhere(denoiser):
+    tensors = [*denoiser.state_dict().values(), *denoiser.buffers()]
+    assert all(tensor.dtype != torch.float64 for tensor in tensors)
