@@ -3,6 +3,7 @@
 Every choice comes with its reason, which the caller prints.
 """
 
+import os
 from dataclasses import dataclass
 from typing import Literal
 
@@ -73,6 +74,9 @@ def _native_bf16(device: DeviceName) -> tuple[bool, str]:
 def choose_compute(device: str = "auto", precision: str = "auto") -> ComputeChoice:
     """Device and precision together.
 
+    Where the caller leaves it open, what `accelerate launch --cpu --mixed_precision` asked for
+    (it speaks through the environment) comes first.
+
     Args:
         device: auto, cuda, mps or cpu.
         precision: auto, no (float32), bf16 or fp16.
@@ -80,6 +84,16 @@ def choose_compute(device: str = "auto", precision: str = "auto") -> ComputeChoi
     Raises:
         UsageError: the device does not exist here, or cannot compute in that precision.
     """
+    if device == "auto" and os.environ.get("ACCELERATE_USE_CPU", "").lower() in (
+        "true",
+        "1",
+        "yes",
+    ):
+        device = "cpu"
+    # "no" is what the launcher says when nobody asked for anything
+    launcher = os.environ.get("ACCELERATE_MIXED_PRECISION", "no")
+    if precision == "auto" and launcher in ("bf16", "fp16"):
+        precision = launcher
     name, reason = choose_device(device)
     native, detail = _native_bf16(name)
     if precision == "auto":

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import torch
+from safetensors import SafetensorError
 from safetensors.torch import load_file, save_file
 from torch import Tensor, nn
 
@@ -85,7 +86,8 @@ def save_checkpoint(
     partial = root / f".{target.name}{_PARTIAL}"
     contents = (model.state_dict(), ema.state_dict(), optimizer_tensors(optimizer))
     try:
-        shutil.rmtree(partial, ignore_errors=True)
+        for leftover in root.glob(f".step-*{_PARTIAL}"):  # of a killed run
+            shutil.rmtree(leftover, ignore_errors=True)
         partial.mkdir(parents=True)
         for name, tensors in zip(_FILES, contents, strict=True):
             save_file(_contiguous(tensors), partial / f"{name}.safetensors")
@@ -93,8 +95,8 @@ def save_checkpoint(
         write_json(partial / "state.json", {**state, "sha256": hashes})
         shutil.rmtree(target, ignore_errors=True)
         os.replace(partial, target)
-    except OSError as error:
-        reason = error.strerror or str(error)
+    except (OSError, SafetensorError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
         raise UserError(
             f"cannot write checkpoint {target}: {reason}; free space and run again with --resume"
         ) from error

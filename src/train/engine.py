@@ -17,7 +17,7 @@ from torch import Tensor
 
 from src.shared.config_schema import TrainConfig
 from src.shared.device import choose_compute, set_threads
-from src.shared.errors import UserError
+from src.shared.errors import UsageError, UserError
 from src.shared.files import write_json
 from src.train.batches import ahead, to_device
 from src.train.checkpoint import Checkpoint, latest_checkpoint, load_optimizer, save_checkpoint
@@ -235,9 +235,14 @@ class Trainer(Generic[ConfigT]):
             self.accelerator.wait_for_everyone()
             return 0
         require_same_run(checkpoint, self._identity())
-        if (self.output / "finished.json").exists() and checkpoint.step >= self.config.steps:
+        if (self.output / "finished.json").exists() and checkpoint.step == self.config.steps:
             self._say(f"{self.output} is finished ({checkpoint.step} steps): nothing to do")
             return None
+        if checkpoint.step > self.config.steps:
+            raise UsageError(
+                f"steps {self.config.steps} is below step {checkpoint.step}, where {self.output}"
+                " already is; raise steps"
+            )
         self._load(checkpoint)
         self._say(f"resuming {self.output} after step {checkpoint.step}")
         return checkpoint.step

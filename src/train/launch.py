@@ -94,6 +94,9 @@ def stage_app(
             raise _leave(str(stop), stop.exit_code) from None
         except UserError as error:
             raise _leave(f"error: {error}", error.exit_code) from None
+        except OSError as error:
+            what = f"{error.filename or 'a file of this run'}: {error.strerror or error}"
+            raise _leave(f"error: cannot read or write {what}", 1) from None
         except KeyboardInterrupt:
             raise _leave("stopped at once, without saving", 130) from None
 

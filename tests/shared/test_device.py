@@ -76,3 +76,14 @@ def test_threads_are_set_and_told() -> None:
         assert set_threads(None) == 1
     finally:
         torch.set_num_threads(before)
+
+
+@pytest.mark.usefixtures("only_cpu")
+def test_what_the_launcher_asks_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ACCELERATE_MIXED_PRECISION", "bf16")
+    assert choose_compute().precision == "bf16"
+    assert choose_compute("auto", "no").precision == "no"
+    monkeypatch.setattr(torch.backends.mps, "is_available", lambda: True)
+    monkeypatch.setenv("ACCELERATE_USE_CPU", "true")
+    assert choose_compute().device == "cpu"
+    assert choose_compute("mps").device == "mps"

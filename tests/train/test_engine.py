@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 import torch
+from safetensors import SafetensorError
 from safetensors.torch import load_file
 from tiny_task import TinyTask
 
@@ -101,6 +102,27 @@ def test_resuming_with_other_settings_names_the_setting(tmp_path: Path) -> None:
     run(tmp_path)
     with pytest.raises(UsageError, match=r"batch-size was 4 and is now 8"):
         run(tmp_path, resume=True, batch_size=8)
+
+
+def test_fewer_steps_than_done_is_refused(tmp_path: Path) -> None:
+    run(tmp_path)
+    with pytest.raises(UsageError, match=r"steps 8 is below step 12"):
+        run(tmp_path, resume=True, steps=8)
+
+
+def test_a_full_disk_is_one_line_and_leaves_no_checkpoint(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: object) -> None:
+        raise SafetensorError("I/O error: No space left on device")
+
+    (tmp_path / "checkpoints" / ".step-00000001.part").mkdir(parents=True)  # of a killed run
+    monkeypatch.setattr("src.train.checkpoint.save_file", full)
+    with pytest.raises(UserError, match=r"step-00000004: .*No space left.*--resume"):
+        run(tmp_path)
+    monkeypatch.undo()
+    run(tmp_path, resume=True)
+    assert not list((tmp_path / "checkpoints").glob(".*"))
 
 
 def test_a_damaged_checkpoint_is_skipped_and_named(
