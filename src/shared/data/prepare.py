@@ -38,7 +38,7 @@ from src.shared.files import atomic_write, sha256_file, write_json, write_text
 from src.shared.motion.mirror import mirror_features
 from src.shared.motion.root_track import encode_features
 
-VERSION = 1
+VERSION = 2
 CLIPS_PER_SHARD = 128
 CAPTIONS_PER_GROUP = 16  # and language
 STD_FLOOR = 0.05  # a channel that hardly moves is not blown up

@@ -96,6 +96,9 @@ def _leg_length(clip: BvhClip, mapping: SkeletonMapping) -> float:
     )
 
 
+CALIBRATION_JUMP = 0.15  # radians a joint, mean, between the first two frames
+
+
 @lru_cache
 def _hip_centre() -> np.ndarray:
     offsets = canonical_skeleton().offsets
@@ -149,8 +152,20 @@ def retarget(clip: BvhClip, mapping: SkeletonMapping, *, fps: float = 30.0) -> M
     motion = Motion(
         quaternions, root, np.zeros((len(root), 2), np.float32), fps=1.0 / clip.frame_time
     )
-    motion = resample_motion(motion, fps)
-    return _ground(motion)
+    return _ground(resample_motion(_without_calibration(motion), fps))
+
+
+def _without_calibration(motion: Motion) -> Motion:
+    """Drop a first frame that jumps: many files begin with one frame of T-pose."""
+    if motion.num_frames < 3:
+        return motion
+    q = np.abs((motion.quaternions[:2] * motion.quaternions[1:3]).sum(-1)).clip(0, 1)
+    first, second = 2 * np.arccos(q).mean(-1)  # radians a joint
+    if first < CALIBRATION_JUMP or first < 5 * second:
+        return motion
+    return Motion(
+        motion.quaternions[1:], motion.root_position[1:], motion.contacts[1:], motion.fps
+    )
 
 
 def _ground(motion: Motion) -> Motion:

@@ -11,6 +11,7 @@ from src.shared.data.labels import Labels, group_of
 VAL_FRACTION = 0.04
 TEST_FRACTION = 0.10
 UNSEEN_FRACTION = 0.08
+MIN_SUPPORT = 0.5  # share of a label's combinations that stays in training
 MIN_TAKES = 5  # a combination with fewer takes keeps them all for training
 
 
@@ -29,7 +30,8 @@ def orbit(labels: Labels, caption: str) -> str:
 def unseen_orbits(clips: Sequence[tuple[str, Labels]], seed: int) -> set[str]:
     """Combinations to hold back whole, chosen so that each of their labels is seen elsewhere.
 
-    Only combinations of three labels or more qualify: "walk forward" alone must be learned.
+    Only combinations of three labels or more qualify, and none that another one extends: the
+    plain "walk forward, turning left" must be learned, "…, tired" can be composed.
 
     Args:
         clips: (orbit, labels) of every clip.
@@ -44,8 +46,9 @@ def unseen_orbits(clips: Sequence[tuple[str, Labels]], seed: int) -> set[str]:
         name
         for name, labels in labels_of.items()
         if len(labels) >= 3
+        and not any(labels.items() < other.items() for other in labels_of.values())
         and all(
-            len(support[labels.get("action", ""), key, value]) >= 3
+            len(support[labels.get("action", ""), key, value]) >= 2
             for key, value in labels.items()
             if key != "action"
         )
@@ -55,12 +58,9 @@ def unseen_orbits(clips: Sequence[tuple[str, Labels]], seed: int) -> set[str]:
         if len(chosen) >= round(UNSEEN_FRACTION * len(labels_of)):
             break
         labels = labels_of[name]
-        left = [
-            support[labels.get("action", ""), key, value] - chosen - {name}
-            for key, value in labels.items()
-            if key != "action"
-        ]
-        if all(len(others) >= 2 for others in left):
+        keys = [(labels.get("action", ""), k, v) for k, v in labels.items() if k != "action"]
+        left = [(len(support[key] - chosen - {name}), len(support[key])) for key in keys]
+        if all(stays >= max(1, MIN_SUPPORT * of) for stays, of in left):
             chosen.add(name)
     return chosen
 

@@ -15,6 +15,12 @@ from src.shared.data.records import ClipRecord
 from src.shared.motion.root_track import ROOT_ROW, YAW_RATE
 
 _TURN_TRIES = 4
+# Labels that speak of the whole clip: a window of it would contradict them.
+_WHOLE_CLIP_LABELS = frozenset(("count", "angle"))
+
+
+def _whole(record: ClipRecord) -> bool:
+    return not _WHOLE_CLIP_LABELS.isdisjoint(record.labels)
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,6 +77,7 @@ class TextMotionDataset:
             record
             for record in data.records(split)
             if record.num_frames >= min(min_frames, max_frames)
+            and not (_whole(record) and record.num_frames > max_frames)
             and any(data.captions(record).get(language) for language in languages)
         ]
         if not self.records:
@@ -85,7 +92,8 @@ class TextMotionDataset:
         weights = np.array(
             [counts[self._group_index[r.group]] ** -balance for r in self.records], np.float64
         )
-        self._probabilities = weights / weights.sum()
+        self._weights = weights
+        self._least = np.array([r.num_frames if _whole(r) else 0 for r in self.records])
 
     def __len__(self) -> int:
         return len(self.records)
@@ -118,12 +126,16 @@ class TextMotionDataset:
     def batch(self, step: int, size: int, *, rank: int = 0) -> TextMotionBatch:
         """The batch of one step; all its windows share one target length.
 
-        One length a batch keeps padding small; lengths are spread evenly over the steps.
+        One length a batch keeps padding small; lengths are spread evenly over the steps. Clips
+        that are not to be cut (a counted action) take part in the batches that hold them whole.
         """
         shared = np.random.default_rng((self.seed, step))
         longest = int(shared.integers(self.min_frames, self.max_frames + 1))
         rng = np.random.default_rng((self.seed, step, rank, 1))
-        chosen = rng.choice(len(self.records), size=size, p=self._probabilities)
+        weights = np.where(self._least <= longest, self._weights, 0.0)
+        if not weights.any():  # nothing but long, whole clips
+            weights, longest = self._weights, self.max_frames
+        chosen = rng.choice(len(self.records), size=size, p=weights / weights.sum())
         return self.collate([self.records[i] for i in chosen], longest, rng)
 
     def collate(
