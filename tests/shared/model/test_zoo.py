@@ -1,0 +1,78 @@
+"""The zoo: names, listing without torch, fresh networks by profile."""
+
+import subprocess
+import sys
+
+import pytest
+
+from src.shared.config_loader import profile_names
+from src.shared.errors import UsageError, UserError
+from src.shared.model import zoo
+from src.shared.model.checkpoint import CARD_FILE
+
+
+@pytest.fixture
+def shipped(generator, tmp_path, monkeypatch):
+    """A zoo with one shipped model, `tiny`, and one under runs/."""
+    monkeypatch.setattr(zoo, "PRETRAINED", tmp_path / "pretrained")
+    monkeypatch.setattr(zoo, "RUNS", tmp_path / "runs")
+    generator.save_pretrained(tmp_path / "pretrained" / "tiny", half=True)
+    generator.save_pretrained(tmp_path / "runs" / "mine" / "model")
+    broken = tmp_path / "runs" / "broken"
+    broken.mkdir()
+    (broken / CARD_FILE).write_text("{}")
+    return tmp_path
+
+
+def test_listing_tells_what_a_user_needs_and_skips_damaged_cards(shipped):
+    rows = zoo.list_models()
+    assert [row["name"] for row in rows] == ["tiny", str(shipped / "runs" / "mine" / "model")]
+    assert rows[0]["kind"] == "motion-generator"
+    assert rows[0]["trained"] is True
+    assert rows[0]["size"].endswith(" MB")
+    assert {"licence", "languages", "description"} <= set(rows[0])
+
+
+def test_names_and_folders_resolve(shipped):
+    assert zoo.resolve_model("tiny") == shipped / "pretrained" / "tiny"
+    folder = shipped / "runs" / "mine" / "model"
+    assert zoo.resolve_model(folder) == zoo.resolve_model(str(folder)) == folder
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("tiiny", "did you mean 'tiny'"),
+        ("default", "profile 'default' is untrained.*train_generation.*--model tiny"),
+        ("/nowhere", "no such folder"),
+        ("../pretrained/tiny", "no such folder"),
+    ],
+)
+def test_what_is_not_there_says_what_to_do(shipped, name: str, message: str):
+    with pytest.raises(UserError, match=message):
+        zoo.resolve_model(name)
+
+
+def test_a_folder_without_a_card(shipped, tmp_path):
+    with pytest.raises(UserError, match=r"has no config.json"):
+        zoo.resolve_model(tmp_path)
+
+
+@pytest.mark.parametrize("kind", zoo.KINDS)
+def test_fresh_networks_by_profile(kind: str):
+    assert "lightweight" in profile_names()
+    model = zoo.create_model(kind, "lightweight", num_tags=3)
+    assert sum(parameter.numel() for parameter in model.parameters()) > 100_000
+
+
+def test_unknown_kinds_and_profiles():
+    with pytest.raises(UsageError, match="no model kind 'gan'"):
+        zoo.create_model("gan", "lightweight")
+    with pytest.raises(UsageError, match="lightweigt"):
+        zoo.create_model("motion-clip", "lightweigt")
+
+
+def test_listing_imports_no_torch():
+    code = "import sys; from src.shared.model.zoo import list_models; list_models();"
+    code += "sys.exit('torch' in sys.modules or 'transformers' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
