@@ -40,7 +40,7 @@ from src.shared.motion.root_track import encode_features
 
 VERSION = 2
 CLIPS_PER_SHARD = 128
-CAPTIONS_PER_GROUP = 16  # and language
+CAPTIONS_PER_GROUP = 24  # and language
 STD_FLOOR = 0.05  # a channel that hardly moves is not blown up
 
 Progress = Callable[[int, int], None]  # (clips done, clips in all)
