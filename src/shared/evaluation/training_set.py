@@ -14,6 +14,8 @@ from src.shared.data.prepared import PreparedData
 from src.shared.errors import UserError
 from src.shared.evaluation.joint_features import joint_features
 
+CHUNK = 256  # clips
+
 
 @dataclass(frozen=True)
 class PairBatch:
@@ -61,8 +63,10 @@ class PairSet:
                 f" with captions in {', '.join(languages)}"
             )
         self.languages = languages
-        features = [data.features(record).float() for record in self.records]
-        self.joints = [joints.half() for joints in joint_features(features)]
+        self.joints: list[Tensor] = []
+        for start in range(0, len(self.records), CHUNK):  # kinematics need room: a part at a time
+            some = [data.features(record).float() for record in self.records[start : start + CHUNK]]
+            self.joints += [joints.half() for joints in joint_features(some)]
         names = sorted({record.group for record in self.records})
         lookup = {name: index for index, name in enumerate(names)}
         self.groups = np.array([lookup[record.group] for record in self.records])
