@@ -136,6 +136,16 @@ class PromptScope:
         nearest = np.argsort(-cosines, kind="stable")[:NUM_NEAREST]
         return ScopeResult(known, [self.actions[index] for index in nearest])
 
+    def warning(self, prompt: str, embedding: np.ndarray) -> str | None:
+        """A line for the user when the prompt is far from anything trained, else None."""
+        result = self.check(prompt, embedding)
+        if result.known:
+            return None
+        return (
+            f"prompt {prompt!r} is far from anything this model was trained on;"
+            f" nearest known actions: {', '.join(result.nearest)}"
+        )
+
     def save_pretrained(self, folder: str | Path) -> None:
         """Write scope.safetensors and scope.json into a model folder."""
         from safetensors.numpy import save_file

@@ -6,7 +6,7 @@ Letters: B batch, T frames, K rows (bones, root track), C channels, D embed dim,
 import logging
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, Self
+from typing import Self
 
 import torch
 from torch import Tensor
@@ -26,9 +26,9 @@ from src.shared.model.clip.pretrained import TOKENIZER_FOLDER, check_embed_dims
 from src.shared.model.clip.scope import PromptScope
 from src.shared.model.clip.tokenizer import PromptTokenizer
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
-from src.shared.model.diffusion.guidance import guided
 from src.shared.model.generation.denoiser import MotionDenoiser
-from src.shared.model.generation.requests import SampleRequest, batches, make_requests
+from src.shared.model.generation.requests import batches, make_requests
+from src.shared.model.generation.sampling import sample_batch
 from src.shared.model.zoo import resolve_model
 from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess import MotionPostProcessor
@@ -164,58 +164,27 @@ class MotionGenerator:
         self._warn_of_length(max(request.frames for request in requests))
         row_of = {prompt: row for row, prompt in enumerate(dict.fromkeys(prompts))}
         text = self.encode_prompts(list(row_of))
-        sampler = sampler or self.diffusion.config.sampler
+        settings = self.network.generation
+        sampler = sampler or settings.sampler
+        scale = settings.guidance_scale if guidance_scale is None else guidance_scale
         draws_on_the_way = sampler == "ddpm" or self.diffusion.config.eta > 0
-        scale = self.network.generation.guidance_scale if guidance_scale is None else guidance_scale
         samples: dict[int, Tensor] = {}
         for batch in batches(requests, MAX_BATCH, equal_lengths=draws_on_the_way):
             chosen = [requests[index] for index in batch]
             rows = torch.tensor([row_of[request.prompt] for request in chosen], device=self.device)
-            features = self._sample_batch(chosen, text[rows], scale, sampler, steps)
+            z_scored = sample_batch(
+                self.denoiser,
+                self.diffusion,
+                chosen,
+                text[rows],
+                guidance_scale=scale,
+                sampler=sampler,
+                steps=steps,
+            )
+            features = (z_scored * self.std + self.mean).cpu()
             for index, sample in zip(batch, features, strict=True):
                 samples[index] = sample[: requests[index].frames]
         return [samples[index] for index in range(len(requests))]
-
-    def _sample_batch(
-        self,
-        requests: list[SampleRequest],
-        text: TextFeatures,
-        scale: float,
-        sampler: str,
-        steps: int | None,
-    ) -> Tensor:
-        """Raw features [B, T, K, C] on the CPU, T the longest of the batch."""
-        rows, channels = self.mean.shape
-        lengths = torch.tensor([request.frames for request in requests])
-        longest = int(lengths.max())
-        noise = torch.zeros(len(requests), longest, rows, channels)  # [B, T, K, C]
-        for row, request in zip(noise, requests, strict=True):
-            row[: request.frames] = request.noise(rows, channels)
-        padded = bool((lengths < longest).any())
-        mask = (torch.arange(longest) < lengths[:, None]).to(self.device) if padded else None
-
-        tag = torch.tensor([request.tag for request in requests], device=self.device)
-        no_tag = torch.full_like(tag, self.denoiser.num_tags)
-        null = self.denoiser.null_text(len(requests), text.mask.shape[1])
-        model_fn = guided(
-            self.denoiser,
-            self._condition(text, tag, mask),
-            self._condition(null, no_tag, mask),
-            scale,
-        )
-        z_scored = self.diffusion.sample(
-            model_fn,
-            noise.shape,
-            sampler=sampler,
-            num_steps=steps,
-            generator=[request.generator() for request in requests],
-            x_T=noise.to(self.device),
-        )  # [B, T, K, C]
-        return (z_scored * self.std + self.mean).cpu()
-
-    def _condition(self, text: TextFeatures, tag: Tensor, mask: Tensor | None) -> dict[str, Any]:
-        keys_values = self.denoiser.text_keys_values(text)  # once a sample, not once a step
-        return {"text": text, "tag": tag, "mask": mask, "keys_values": keys_values}
 
     # Prompts
 
@@ -241,14 +210,8 @@ class MotionGenerator:
         if self.scope is None or not fresh:
             return [None] * len(prompts)
         embeddings = self.encode_prompts(fresh).pooled.cpu().numpy()
-        warnings = {}
-        for prompt, embedding in zip(fresh, embeddings, strict=True):
-            result = self.scope.check(prompt, embedding)
-            if not result.known:
-                warnings[prompt] = (
-                    f"prompt {prompt!r} is far from anything this model was trained on;"
-                    f" nearest known actions: {', '.join(result.nearest)}"
-                )
+        found = map(self.scope.warning, fresh, embeddings)
+        warnings = dict(zip(fresh, found, strict=True))
         self._told.update(prompts)
         return [warnings.get(prompt) for prompt in prompts]
 
