@@ -61,7 +61,7 @@ def stage_app(
         module: what stands after `accelerate launch -m`.
         about: help text.
     """
-    app = typer.Typer(add_completion=False)
+    app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
     example = f"Example: accelerate launch -m {module} --network-profile lightweight steps=500"
 
     @app.command(help=f"{about}\n\n{example}")

@@ -14,9 +14,10 @@ from src.shared.errors import UsageError
 
 def make_accelerator(config: TrainConfig, compute: ComputeChoice) -> Accelerator:
     """An Accelerator on the chosen device; raises UsageError on a wrong number of processes."""
-    if int(os.environ.get("WORLD_SIZE", "1")) == 1:
-        # accelerate keeps one state a process: a second stage may want another precision
-        AcceleratorState._reset_state(reset_partial_state=True)
+    alone = int(os.environ.get("WORLD_SIZE", "1")) == 1
+    # accelerate keeps one state a process, yet a second stage may want another precision;
+    # what connects several processes must stay
+    AcceleratorState._reset_state(reset_partial_state=alone)
     accelerator = Accelerator(
         cpu=compute.device == "cpu",
         mixed_precision=compute.precision,

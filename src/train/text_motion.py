@@ -1,5 +1,6 @@
 """What both text-branch stages need: the data, its rows, and figures shared by their tasks."""
 
+import os
 from pathlib import Path
 
 import numpy as np
@@ -42,7 +43,8 @@ def validation_set(config: TrainConfig, data: PreparedData) -> TextMotionDataset
     try:
         return split_set(config, data, "val")
     except ValueError:
-        console.print("no validation: the data is too little to hold clips back", markup=False)
+        if os.environ.get("RANK", "0") == "0":
+            console.print("no validation: the data is too little to hold clips back", markup=False)
         return None
 
 

@@ -23,7 +23,7 @@ def test_it_learns_and_leaves_a_folder(prepared: Path, tmp_path: Path) -> None:
     task = train_clip(clip_config(prepared, tmp_path, *settings, "cosine-weight=0"))
     lines = [json.loads(line) for line in (tmp_path / "log.jsonl").read_text().splitlines()]
     losses = [line["loss"] for line in lines if "loss" in line]
-    assert losses[-1] < losses[0] - 0.3
+    assert losses[-1] < losses[0] - 0.1
     figures = task.figures
     assert 0 < figures["chance-at-1"] < figures["chance-at-3"] < 1
     assert figures["r-at-3"] > figures["chance-at-3"]

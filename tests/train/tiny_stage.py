@@ -15,6 +15,7 @@ NETWORK = [
     "generation.num-layers=1",
     "generation.diffusion-steps=20",
     "generation.sampling-steps=4",
+    "generation.dropout=0.1",
     "clip.motion-num-heads=2",
     "clip.motion-num-layers=1",
     "clip.text-hidden-size=32",
