@@ -8,6 +8,8 @@ import torch
 from src.shared.motion.motion import Motion
 from src.shared.motion.rotations import quaternion_continuous, quaternion_slerp
 
+SAME_RATE = 1e-3  # relative; files say 0.033333 s for 30 fps
+
 
 def resample_motion(motion: Motion, fps: float) -> Motion:
     """The same motion at `fps`; the first frame stays, the last lies within one frame.
@@ -17,7 +19,7 @@ def resample_motion(motion: Motion, fps: float) -> Motion:
     """
     if fps <= 0:
         raise ValueError(f"fps {fps} must be positive")
-    if fps == motion.fps or motion.num_frames < 2:
+    if abs(fps / motion.fps - 1) < SAME_RATE or motion.num_frames < 2:
         return replace(motion, fps=fps)
     last = motion.num_frames - 1
     times = np.arange(int(last / motion.fps * fps + 1e-6) + 1) * (motion.fps / fps)

@@ -1,0 +1,64 @@
+"""Captions of the user's own: every accepted form, and what is said of the others."""
+
+from pathlib import Path
+
+import pytest
+
+from src.shared.data.caption_files import read_captions
+from src.shared.errors import UserError
+
+
+def write(tmp_path: Path, name: str, text: str) -> Path:
+    path = tmp_path / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("a.csv", 'clip,caption\nwalk.bvh,"walks, then stops"\nwave,waves\n'),
+        ("a.csv", 'walk,"walks, then stops"\r\nwave,waves'),
+        ("a.tsv", "caption\tid\nwalks, then stops\tdata/walk.bvh\nwaves\twave.BVH\n"),
+        ("a.json", '{"walk": "walks, then stops", "wave.bvh": ["waves"]}'),
+        ("a.json", '[{"file": "walk.bvh", "text": "walks, then stops"},'
+                   ' {"clip": "wave", "caption": "waves"}]'),
+        ("a.json", '{"walk": {"en": "walks, then stops"}, "wave": {"en": ["waves"]}}'),
+    ],
+)  # fmt: skip
+def test_accepted_forms(tmp_path: Path, name: str, text: str) -> None:
+    captions = read_captions(write(tmp_path, name, text))
+    assert captions == {"walk": {"en": ["walks, then stops"]}, "wave": {"en": ["waves"]}}
+
+
+def test_languages_and_several_captions(tmp_path: Path) -> None:
+    text = "clip,caption,language\nwalk,walks,en\nwalk,geht,de\nwalk,strolls,\n"
+    captions = read_captions(write(tmp_path, "a.csv", text))
+    assert captions == {"walk": {"en": ["walks", "strolls"], "de": ["geht"]}}
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "message"),
+    [
+        ("a.csv", "", "no captions"),
+        ("a.csv", "walk,walks\nrun,\n", "line 2: no clip or no caption"),
+        ("a.txt", "walk,walks\n", "unknown ending '.txt'"),
+        ("a.json", '{"walk": \n 3', "line 2: not JSON"),
+        ("a.json", '{"walk": 3}', "'walk': 3 is not text"),
+        ("a.json", "3", "expected an object or a list"),
+        ("a.json", "[3]", "entry 0"),
+    ],
+)
+def test_faults_are_named(tmp_path: Path, name: str, text: str, message: str) -> None:
+    path = write(tmp_path, name, text)
+    with pytest.raises(UserError, match=message) as error:
+        read_captions(path)
+    assert str(path) in str(error.value)
+
+
+def test_a_missing_or_binary_file(tmp_path: Path) -> None:
+    with pytest.raises(UserError, match="cannot read"):
+        read_captions(tmp_path / "none.csv")
+    (tmp_path / "b.csv").write_bytes(b"\xff\xfe\x00\x80")
+    with pytest.raises(UserError, match="UTF-8"):
+        read_captions(tmp_path / "b.csv")

@@ -1,0 +1,260 @@
+"""From a folder of BVH to datasets: splits, captions, resuming, and what is skipped and why."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+
+from src.shared.data import prepare as prepare_module
+from src.shared.data.captions import mirror_labels
+from src.shared.data.labels import group_of, load_label_rules
+from src.shared.data.prepare import prepare
+from src.shared.data.prepared import PreparedData, open_data
+from src.shared.data.sources import BvhFolder, SyntheticSource
+from src.shared.data.splits import assign_splits, orbit
+from src.shared.data.synthetic import generate_clip, sample_specs
+from src.shared.data.text_motion import TextMotionDataset
+from src.shared.errors import UserError
+from src.shared.formats.bvh_writer import write_bvh
+from src.shared.motion.mirror import mirror_features
+from src.shared.motion.root_track import ROOT_ROW, YAW_RATE, encode_features
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory: pytest.TempPathFactory) -> PreparedData:
+    folder = tmp_path_factory.mktemp("prepared")
+    prepare([SyntheticSource(300)], folder, workers=1)
+    return PreparedData.open(folder)
+
+
+def bvh_folder(folder: Path, num: int = 6) -> Path:
+    folder.mkdir(parents=True, exist_ok=True)
+    lines = ["clip,caption"]
+    for number, spec in enumerate(sample_specs(num, seed=1)):
+        write_bvh(generate_clip(spec, seed=number), folder / f"take{number}.bvh")
+        lines.append(f"take{number},a person raises the left hand number {number}")
+    (folder / "captions.csv").write_text("\n".join(lines), encoding="utf-8")
+    return folder
+
+
+def test_features_survive_the_shards(data: PreparedData) -> None:
+    source = SyntheticSource(300)
+    for record in data.records()[::97]:
+        clip = source.read(record.id.partition("/")[2].removesuffix("~mirrored"))
+        expected = encode_features(clip.motion)
+        expected = mirror_features(expected) if record.mirrored else expected
+        torch.testing.assert_close(data.features(record), expected)
+
+
+def test_mirror_images_swap_left_and_right_in_every_language(data: PreparedData) -> None:
+    pairs = [
+        (a, b)
+        for a, b in zip(data.records()[::2], data.records()[1::2], strict=True)
+        if a.labels.get("side") == "left"
+    ]
+    assert pairs
+    for plain, mirrored in pairs[:5]:
+        assert mirrored.mirrored and mirrored.labels == mirror_labels(plain.labels)
+        assert mirrored.labels["side"] == "right" and mirrored.split == plain.split
+        texts = data.captions(mirrored)
+        assert {"en", "es", "fr", "de", "ja", "zh"} <= set(texts)
+        assert any("right" in text for text in texts["en"])
+        assert not any("left" in text for text in texts["en"])
+        assert any("右" in text for text in texts["ja"]) and any("右" in t for t in texts["zh"])
+
+
+def test_splits_part_takes_and_whole_combinations(data: PreparedData) -> None:
+    takes = {
+        split: {r.take for r in data.records(split)} for split in ("train", "val", "test_seen")
+    }
+    assert not takes["train"] & takes["test_seen"] and not takes["train"] & takes["val"]
+    held_back = {record.group for record in data.records("test_unseen")}
+    assert held_back
+    for split in ("train", "val", "test_seen"):
+        assert not held_back & {record.group for record in data.records(split)}
+    assert {r.group for r in data.records("test_seen")} <= {r.group for r in data.records("train")}
+    for record in data.records("test_unseen"):
+        assert group_of(mirror_labels(record.labels)) in held_back
+
+
+def test_a_split_does_not_depend_on_other_clips() -> None:
+    clips = [(f"take{i}", "action=walk", {"action": "walk"}) for i in range(40)]
+    more = clips + [(f"other{i}", "action=run", {"action": "run"}) for i in range(9)]
+    few, many = assign_splits(clips, 0), assign_splits(more, 0)
+    assert all(many[take] == split for take, split in few.items())
+    assert sum(split == "test_seen" for split in few.values()) == 4
+    assert set(assign_splits(clips[:4], 0).values()) == {"train"}
+
+
+def test_captions_without_labels_share_an_orbit_with_their_mirror_image() -> None:
+    assert orbit({}, "Waves the left hand") == orbit({}, "waves the  right hand")
+
+
+def test_prepare_twice_does_nothing_twice(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    root = bvh_folder(tmp_path / "in")
+    source = BvhFolder.open(root, captions=root / "captions.csv")
+    prepare([source], tmp_path / "out", workers=1)
+    before = {p.name: p.read_bytes() for p in (tmp_path / "out").iterdir() if p.is_file()}
+    made = []
+    monkeypatch.setattr(prepare_module, "_make_shard", made.append)
+    prepare([source], tmp_path / "out", workers=1)
+    after = {p.name: p.read_bytes() for p in (tmp_path / "out").iterdir() if p.is_file()}
+    assert not made and before == after
+
+
+def test_an_interrupted_run_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(prepare_module, "CLIPS_PER_SHARD", 2)
+    root = bvh_folder(tmp_path / "in")
+    source = BvhFolder.open(root, captions=root / "captions.csv")
+    prepare([source], tmp_path / "whole", workers=1)
+    real, calls = prepare_module._make_shard, []
+
+    def stops_at_the_third(job: prepare_module._Job) -> None:
+        if len(calls) == 2:
+            raise KeyboardInterrupt
+        calls.append(job)
+        real(job)
+
+    monkeypatch.setattr(prepare_module, "_make_shard", stops_at_the_third)
+    with pytest.raises(KeyboardInterrupt):
+        prepare([source], tmp_path / "out", workers=1)
+    assert not (tmp_path / "out" / "manifest.json").exists()
+    monkeypatch.setattr(prepare_module, "_make_shard", lambda job: (calls.append(job), real(job)))
+    prepare([source], tmp_path / "out", workers=1)
+    assert len(calls) == 3
+    for name in ("clips.jsonl", "captions.json", "statistics.safetensors", "manifest.json"):
+        assert (tmp_path / "out" / name).read_bytes() == (tmp_path / "whole" / name).read_bytes()
+
+
+def test_workers_do_not_change_the_result(tmp_path: Path) -> None:
+    prepare([SyntheticSource(260)], tmp_path / "one", workers=1)
+    prepare([SyntheticSource(260)], tmp_path / "two", workers=2)
+    one, two = (json.loads((tmp_path / n / "manifest.json").read_text()) for n in ("one", "two"))
+    assert one == two and len(one["files"]) == 6
+
+
+def test_what_is_skipped_is_named_with_its_reason(tmp_path: Path) -> None:
+    root = bvh_folder(tmp_path / "in", 3)
+    (root / "broken.bvh").write_text("HIERARCHY\nROOT x\n{")
+    (root / "silent.bvh").write_bytes((root / "take0.bvh").read_bytes())
+    with (root / "captions.csv").open("a") as stream:
+        stream.write("\nbroken,breaks\n")
+    report = prepare([BvhFolder.open(root, captions=root / "captions.csv")], tmp_path / "out")
+    reasons = {entry["clip"]: entry["reason"] for entry in report["skipped"]}
+    assert report["clips"] == 3 and set(reasons) == {"in/broken.bvh", "in/silent.bvh"}
+    assert "unreadable" in reasons["in/broken.bvh"]
+    assert "no caption and no label" in reasons["in/silent.bvh"]
+    assert json.loads((tmp_path / "out" / "report.json").read_text()) == report
+
+
+def test_nothing_usable_is_an_error(tmp_path: Path) -> None:
+    root = tmp_path / "in"
+    root.mkdir()
+    with pytest.raises(UserError, match="no .bvh file"):
+        BvhFolder.open(root)
+    (root / "a.bvh").write_text("no")
+    with pytest.raises(UserError, match="none of the 1 clips"):
+        prepare([BvhFolder.open(root)], tmp_path / "out", workers=1)
+    with pytest.raises(UserError, match="does not exist"):
+        BvhFolder.open(tmp_path / "nowhere")
+
+
+def test_a_damaged_folder_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(UserError, match="not prepared data"):
+        PreparedData.open(tmp_path)
+    data = open_data("synthetic", tmp_path, synthetic_clips=8)
+    shard = next((data.folder / "shards").glob("*.safetensors"))
+    raw = bytearray(shard.read_bytes())
+    raw[-1] ^= 1
+    shard.write_bytes(raw)
+    with pytest.raises(UserError, match="is damaged"):
+        PreparedData.open(data.folder)
+    shard.unlink()
+    with pytest.raises(UserError, match="is missing"):
+        PreparedData.open(data.folder)
+
+
+def test_labels_come_from_file_names_and_captions() -> None:
+    rules = load_label_rules()
+    assert rules.of_file("dataset-2_walk-turn-left_tired_001")[0] == {
+        "action": "walk", "direction": "forward", "turn": "left", "style": "tired",
+    }  # fmt: skip
+    swapped, _ = rules.of_file("dataset-2_walk-turn-left_masculine_006")
+    assert swapped["turn"] == "right"
+    assert rules.of_file("dataset-2_walk-turn-right_normal_032")[1]
+    assert rules.of_file("dataset-1_run_normal_001")[0] == {"action": "run", "direction": "forward"}
+    assert rules.of_caption("Slow walk")["speed"] == "slow"
+    assert rules.of_file("my_own_file") == ({}, None)
+
+
+def dataset(data: PreparedData, **options: object) -> TextMotionDataset:
+    return TextMotionDataset(data, "train", max_frames=90, **options)  # type: ignore[arg-type]
+
+
+def test_batches_depend_on_seed_step_and_rank_alone(data: PreparedData) -> None:
+    one, two = dataset(data).batch(7, 8), dataset(data).batch(7, 8)
+    assert torch.equal(one.motion, two.motion) and one.captions == two.captions
+    assert dataset(data).batch(8, 8).captions != one.captions
+    other = dataset(data).batch(7, 8, rank=1)
+    assert other.captions != one.captions
+    assert dataset(data, seed=1).batch(7, 8).captions != one.captions
+
+
+def test_a_batch_is_masked_normalised_and_labelled(data: PreparedData) -> None:
+    batch = dataset(data, min_frames=60).batch(3, 16)
+    assert batch.motion.shape[:2] == batch.mask.shape and batch.motion.shape[1] <= 90
+    assert not batch.motion[~batch.mask].any()
+    for row, record in enumerate(batch.records):
+        length = int(batch.mask[row].sum())
+        raw = batch.motion[row, :length] * data.std + data.mean
+        values = data.features(record)
+        starts = [
+            s for s in range(len(values) - length + 1)
+            if torch.allclose(values[s : s + length], raw, atol=1e-4)
+        ]  # fmt: skip
+        assert starts
+        assert batch.captions[row] in data.captions(record)[batch.languages[row]]
+        assert data.tags[batch.tag[row]] == record.labels["action"]
+    same = [a.group == b.group for a in batch.records for b in batch.records]
+    assert same == (batch.group[:, None] == batch.group[None]).flatten().tolist()
+
+
+def test_counted_actions_are_never_cut(data: PreparedData) -> None:
+    train = dataset(data, min_frames=40)
+    seen = 0
+    for step in range(12):
+        batch = train.batch(step, 16)
+        for row, record in enumerate(batch.records):
+            if "count" in record.labels or "angle" in record.labels:
+                assert batch.mask[row].sum() == record.num_frames
+                seen += 1
+    assert seen
+
+
+def test_a_turn_stays_in_its_window(data: PreparedData) -> None:
+    train = dataset(data)
+    rng = np.random.default_rng(0)
+    turns = [r for r in data.records() if "turn" in r.labels and r.num_frames > 110]
+    assert turns
+    for record in turns[:8]:
+        whole = data.features(record)[:, ROOT_ROW, YAW_RATE].sum()
+        part = train.window(record, 90, rng)[:, ROOT_ROW, YAW_RATE].sum()
+        assert part.sign() == whole.sign() and part.abs() > 0.3 * whole.abs()
+
+
+def test_balance_evens_the_combinations(data: PreparedData) -> None:
+    def spread(balance: float) -> float:
+        train = dataset(data, balance=balance)
+        groups = torch.cat([train.batch(step, 64).group for step in range(20)])
+        return float(torch.bincount(groups).float().std())
+
+    assert spread(1.0) < spread(0.0)
+
+
+def test_an_empty_split_says_so(data: PreparedData) -> None:
+    with pytest.raises(ValueError, match="no clip of at least 5000 frames"):
+        TextMotionDataset(data, "val", min_frames=5000, max_frames=6000)
