@@ -196,8 +196,15 @@ class Trainer(Generic[ConfigT]):
             with torch.no_grad():
                 values = self.task.validation(self.ema.module)
                 log.write(step, {f"validation/{key}": value for key, value in values.items()})
-                self.task.export_samples(self.ema.module, self.output / "samples" / f"{step:08d}")
+                self._export(self.output / "samples" / f"{step:08d}")
         self.accelerator.wait_for_everyone()
+
+    def _export(self, folder: Path) -> None:
+        """Samples are a by-product: what goes wrong with them is told, and training goes on."""
+        try:
+            self.task.export_samples(self.ema.module, folder)
+        except Exception as error:
+            self._say(f"warning: no samples in {folder}: {type(error).__name__}: {error}")
 
     # ------------------------------------------------------------ saving and resuming
 

@@ -197,6 +197,18 @@ def test_a_loss_that_is_not_finite_stops_the_run(
     assert saved == (["step-00000004"] if spoilt == 7 else [])
 
 
+def test_failing_samples_do_not_end_a_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    def broken(*_: object) -> None:
+        raise RuntimeError("no paint")
+
+    monkeypatch.setattr(TinyTask, "export_samples", broken)
+    run(tmp_path)
+    assert "RuntimeError: no paint" in capfd.readouterr().err
+    assert (tmp_path / "finished.json").exists()
+
+
 def test_wrong_number_of_processes_is_refused(tmp_path: Path) -> None:
     with pytest.raises(UsageError, match=r"1 process.* 2 were asked for"):
         run(tmp_path, processes=2)
