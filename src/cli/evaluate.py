@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from src.cli import options
 from src.cli.guard import complain
 from src.shared.errors import UsageError
 
@@ -18,11 +19,9 @@ def evaluate(
     quick: Annotated[
         bool, typer.Option("--quick", help="The short harness, the only one so far.")
     ] = False,
-    model: Annotated[
-        str, typer.Option(help="A name that `models` lists, or a folder from training.")
-    ] = "starter",
+    model: options.Model = "starter",
     data: Annotated[
-        str, typer.Option(help="A prepared folder, or synthetic: made on the spot.")
+        str, typer.Option(help="A prepared folder, or synthetic: fresh clips.")
     ] = "synthetic",
     evaluator: Annotated[
         str, typer.Option(help="The judge: a shipped name, or a folder from train_evaluator.")
@@ -32,18 +31,14 @@ def evaluate(
     ] = None,
     replications: Annotated[int | None, typer.Option(help="Repeats, for intervals.")] = None,
     control_seeds: Annotated[int | None, typer.Option(help="Samples a controlled task.")] = None,
-    steps: Annotated[int | None, typer.Option(help="Sampling steps; the model's own.")] = None,
-    sampler: Annotated[
-        str | None, typer.Option(help="ddim, ddpm or dpm-solver++; the model's own.")
-    ] = None,
-    guidance_scale: Annotated[
-        float | None, typer.Option(help="How strictly to follow the prompt; the model's own.")
-    ] = None,
+    steps: options.Steps = None,
+    sampler: options.Sampler = None,
+    guidance_scale: options.GuidanceScale = None,
     seed: Annotated[int, typer.Option(help="Of captions, samples and shuffles.")] = 0,
-    device: Annotated[str, typer.Option(help="auto, cpu, cuda or mps.")] = "auto",
-    threads: Annotated[int | None, typer.Option(help="CPU threads to use.")] = None,
+    device: options.Device = "auto",
+    threads: options.Threads = None,
     out: Annotated[Path | None, typer.Option(help="Report file: .json, or .md for tables.")] = None,
-    json: Annotated[bool, typer.Option("--json", help="The report on stdout.")] = False,
+    json: options.Json = False,
 ) -> None:
     """Score a model on held-back motions.
 
@@ -56,30 +51,16 @@ def evaluate(
     """
     if not quick:
         raise UsageError("give --quick: the full harness is not there yet")
-    chosen: dict[str, Any] = {
+    amount: dict[str, Any] = {
         "num_samples": num_samples,
         "replications": replications,
         "control_seeds": control_seeds,
         "seed": seed,
     }
-
-    from src.shared.data.prepared import open_data
-    from src.shared.device import set_threads
-    from src.shared.evaluation.evaluator import Evaluator
-    from src.shared.evaluation.harness import QuickSettings, evaluate_quick
-    from src.shared.model.generation.motion_generator import MotionGenerator
-
-    set_threads(threads)
-    options = {"steps": steps, "sampler": sampler, "guidance_scale": guidance_scale}
-    generator = MotionGenerator.from_pretrained(model, device=device)
-    report = evaluate_quick(
-        {model: as_sampler(generator, options)},
-        open_data(data, Path("runs")),
-        Evaluator.from_pretrained(evaluator, device=str(generator.device)),
-        settings=QuickSettings(**{k: v for k, v in chosen.items() if v is not None}),
-        about={"model": model, "model_hash": weights_hash(generator), **options},
-        progress=lambda text: complain(f"evaluate: {text}"),
-    )
+    sampling = {"steps": steps, "sampler": sampler, "guidance_scale": guidance_scale}
+    options.check_ranges(threads=threads, steps=steps, guidance_scale=guidance_scale, **amount)
+    given = {name: value for name, value in amount.items() if value is not None}
+    report = judge_model(model, evaluator, data, given, sampling, device=device, threads=threads)
     if out is not None:
         write_report(report, out)
     if json:
@@ -88,12 +69,42 @@ def evaluate(
         print_tables(report)
 
 
-def as_sampler(generator: "MotionGenerator", options: dict[str, Any]) -> Any:
+def judge_model(
+    model: str,
+    evaluator: str,
+    data: str,
+    amount: dict[str, Any],
+    sampling: dict[str, Any],
+    *,
+    device: str,
+    threads: int | None,
+) -> dict[str, Any]:
+    """Load model, judge and held-back clips, and run the harness."""
+    from src.shared.device import set_threads
+    from src.shared.evaluation.evaluator import Evaluator
+    from src.shared.evaluation.harness import QuickSettings, evaluate_quick
+    from src.shared.evaluation.held_out import open_held_out
+    from src.shared.model.generation.motion_generator import MotionGenerator
+
+    set_threads(threads)
+    generator = MotionGenerator.from_pretrained(model, device=device)
+    judge = Evaluator.from_pretrained(evaluator, device=generator.device)
+    return evaluate_quick(
+        {model: as_sampler(generator, sampling)},
+        open_held_out(data, Path("runs"), judge.trained_groups),
+        judge,
+        settings=QuickSettings(**amount),
+        about={"model": model, "model_hash": weights_hash(generator), **sampling},
+        progress=lambda text: complain(f"evaluate: {text}"),
+    )
+
+
+def as_sampler(generator: "MotionGenerator", sampling: dict[str, Any]) -> Any:
     """The generator as the harness calls it: prompts and their frames to one motion each."""
 
     def sample(prompts: Sequence[str], frames: Sequence[int], seed: int) -> "list[Motion]":
         seconds = [count / generator.card.fps for count in frames]
-        return generator.generate(prompts, seconds=seconds, seed=seed, **options)
+        return generator.generate(prompts, seconds=seconds, seed=seed, **sampling)
 
     return sample
 

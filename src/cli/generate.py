@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from src.cli import options
 from src.cli.guard import complain
 from src.shared.errors import UsageError
 
@@ -27,13 +28,9 @@ def generate(
     seconds: Annotated[float, typer.Option(help="Length of each motion.")] = 4.0,
     num_samples: Annotated[int, typer.Option(help="Motions for each prompt.")] = 1,
     seed: Annotated[int, typer.Option(help="Same seed, same motions (on the CPU).")] = 0,
-    steps: Annotated[int | None, typer.Option(help="Sampling steps; the model's own.")] = None,
-    sampler: Annotated[
-        str | None, typer.Option(help="ddim, ddpm or dpm-solver++; the model's own.")
-    ] = None,
-    guidance_scale: Annotated[
-        float | None, typer.Option(help="How strictly to follow the prompt; the model's own.")
-    ] = None,
+    steps: options.Steps = None,
+    sampler: options.Sampler = None,
+    guidance_scale: options.GuidanceScale = None,
     foot_lock: Annotated[
         bool | None,
         typer.Option("--foot-lock/--no-foot-lock", help="Hold feet still while they stand."),
@@ -42,12 +39,10 @@ def generate(
         str, typer.Option(help="Any of bvh, glb, npz, html, with commas between.")
     ] = "bvh,glb,npz,html",
     out: Annotated[Path, typer.Option(help="Folder for the files.")] = Path("outputs"),
-    model: Annotated[
-        str, typer.Option(help="A name that `models` lists, or a folder from training.")
-    ] = "starter",
-    device: Annotated[str, typer.Option(help="auto, cpu, cuda or mps.")] = "auto",
-    threads: Annotated[int | None, typer.Option(help="CPU threads to use.")] = None,
-    json: Annotated[bool, typer.Option("--json", help="Result as JSON on stdout.")] = False,
+    model: options.Model = "starter",
+    device: options.Device = "auto",
+    threads: options.Threads = None,
+    json: options.Json = False,
 ) -> None:
     """Turn prompts into motion files.
 
@@ -55,56 +50,82 @@ def generate(
     Example:
       motion-tools generate --prompt "a person walks forward" --prompt "saluda con la mano"
     """
-    started = time.perf_counter()
-    prompts = checked_prompts(prompt)
-    tags = checked_tags(tag, len(prompts))
-    formats = checked_formats(format)
-    check_range("--seconds", seconds, 0.3, 60.0)
-    check_range("--num-samples", num_samples, 1, 1000)
-    check_range("--steps", steps, 1, 1000)
-    check_range("--guidance-scale", guidance_scale, 0.0, 30.0)
-    check_range("--threads", threads, 1, 1024)
-    check_folder(out)
-
-    from src.shared.device import set_threads
-    from src.shared.model.generation.motion_generator import MotionGenerator
-
-    set_threads(threads)
-    generator = MotionGenerator.from_pretrained(model, device=device)
-    loaded = time.perf_counter()
-    warnings = generator.scope_warnings(prompts)
-    for warning in filter(None, warnings):
-        complain(f"warning: {warning}")
-    motions = generator.generate(
-        prompts,
+    options.check_ranges(
         seconds=seconds,
-        tags=tags,
         num_samples=num_samples,
         seed=seed,
         steps=steps,
-        sampler=sampler,
         guidance_scale=guidance_scale,
-        foot_lock=foot_lock,
+        threads=threads,
     )
-    sampled = time.perf_counter()
-    written = write_motions(motions, num_samples, formats, out)
-    done = time.perf_counter()
-    timings = {  # seconds
-        "load": round(loaded - started, 3),
-        "sample": round(sampled - loaded, 3),
-        "write": round(done - sampled, 3),
-        "total": round(done - started, 3),
+    wanted = {
+        "prompts": checked_prompts(prompt),
+        "tags": checked_tags(tag, len(prompt or ())),
+        "seconds": seconds,
+        "num_samples": num_samples,
+        "seed": seed,
+        "steps": steps,
+        "sampler": sampler,
+        "guidance_scale": guidance_scale,
+        "foot_lock": foot_lock,
     }
+    formats = checked_formats(format)
+    options.check_folder("--out", out)
+    result = produce(wanted, formats, out, model=model, device=device, threads=threads)
     if json:
-        print_json(model, seed, motions, num_samples, written, warnings, timings)
-        return
-    for paths in written:
-        print(*paths.values(), sep="\n")
-    complain(
-        f"{len(motions)} motions of {seconds:g} s in {timings['total']:.1f} s"
-        f" (load {timings['load']:.1f}, sample {timings['sample']:.1f},"
-        f" write {timings['write']:.1f})"
-    )
+        print_json(result)
+    else:
+        print_files(result)
+
+
+def produce(
+    wanted: dict[str, Any],
+    formats: list[str],
+    out: Path,
+    *,
+    model: str,
+    device: str,
+    threads: int | None,
+) -> dict[str, Any]:
+    """Load, sample, write; says which motion lies in which files and how long each part took."""
+    clock = Stopwatch()
+    from src.shared.device import set_threads
+    from src.shared.model.generation.motion_generator import MotionGenerator
+
+    clock.lap("import")
+    set_threads(threads)
+    generator = MotionGenerator.from_pretrained(model, device=device)
+    clock.lap("load")
+    warnings = generator.scope_warnings(wanted["prompts"])
+    for warning in filter(None, warnings):
+        complain(f"warning: {warning}")
+    motions = generator.generate(**wanted)
+    clock.lap("sample")
+    rows = write_motions(motions, wanted["num_samples"], formats, out)
+    for number, row in enumerate(rows):
+        row |= {"seed": wanted["seed"], "warning": warnings[number // wanted["num_samples"]]}
+    index = write_index(motions, out) if "html" in formats and len(motions) > 1 else None
+    clock.lap("write")
+    about = {"model": model, "device": str(generator.device), "seed": wanted["seed"]}
+    return about | {"motions": rows, "index": index, "timings": clock.seconds()}
+
+
+class Stopwatch:
+    """Seconds by part, and in all."""
+
+    def __init__(self) -> None:
+        self.started = self.last = time.perf_counter()
+        self.laps: dict[str, float] = {}
+
+    def lap(self, name: str) -> None:
+        """End the part that began with the last lap."""
+        now = time.perf_counter()
+        self.laps[name], self.last = now - self.last, now
+
+    def seconds(self) -> dict[str, float]:
+        """Every part and the total, to the millisecond."""
+        parts = self.laps | {"total": self.last - self.started}
+        return {name: round(value, 3) for name, value in parts.items()}
 
 
 # ---------------------------------------------------------------- arguments
@@ -144,21 +165,6 @@ def checked_formats(text: str) -> list[str]:
     return names
 
 
-def check_range(flag: str, value: float | None, low: float, high: float) -> None:
-    """A number outside its range is wrong usage."""
-    if value is not None and not low <= value <= high:  # also refuses NaN
-        raise UsageError(f"{flag} {value:g} is out of range; choose from {low:g} to {high:g}")
-
-
-def check_folder(out: Path) -> None:
-    """Fail before the model loads when the folder cannot be one."""
-    for folder in (out, *out.parents):
-        if folder.exists():
-            if not folder.is_dir():
-                raise UsageError(f"--out {out}: {folder} is a file; name a folder")
-            return
-
-
 # ---------------------------------------------------------------- results
 
 
@@ -180,56 +186,54 @@ def stems(prompts: Sequence[str], num_samples: int) -> list[str]:
 
 def write_motions(
     motions: "Sequence[Motion]", num_samples: int, formats: list[str], out: Path
-) -> list[dict[str, str]]:
-    """Write every motion in every format; paths by format, motion by motion.
+) -> list[dict[str, Any]]:
+    """Write every motion in every format; a row of facts and paths for each."""
+    from src.shared.formats.registry import write_motion
 
-    With several motions and HTML, `index.html` shows them side by side.
-    """
-    from src.shared.formats.registry import write_motion, write_preview
-
-    written: list[dict[str, str]] = []
+    rows: list[dict[str, Any]] = []
     replaced = 0
-    for motion, stem in zip(
-        motions, stems([motion.text for motion in motions], num_samples), strict=True
-    ):
+    names = stems([motion.text for motion in motions], num_samples)
+    for index, (motion, stem) in enumerate(zip(motions, names, strict=True)):
         paths = {name: out / f"{stem}.{name}" for name in formats}
         for path in paths.values():
             replaced += path.exists()
             write_motion(motion, path)
-        written.append({name: str(path) for name, path in paths.items()})
-    if "html" in formats and len(motions) > 1:
-        write_preview(motions, out / "index.html")
-        written[0]["index"] = str(out / "index.html")
+        rows.append(
+            {
+                "prompt": motion.text,
+                "sample": index % num_samples,
+                "frames": motion.num_frames,
+                "fps": motion.fps,
+                "files": {name: str(path) for name, path in paths.items()},
+            }
+        )
     if replaced:
         complain(f"note: {replaced} files of an earlier run in {out} were replaced")
-    return written
+    return rows
 
 
-def print_json(
-    model: str,
-    seed: int,
-    motions: "Sequence[Motion]",
-    num_samples: int,
-    written: list[dict[str, str]],
-    warnings: Sequence[str | None],
-    timings: dict[str, float],
-) -> None:
-    """One object: which motion lies in which files, made how, and how long it took."""
+def write_index(motions: "Sequence[Motion]", out: Path) -> str:
+    """One page with all motions side by side; returns its path."""
+    from src.shared.formats.registry import write_preview
+
+    write_preview(motions, out / "index.html")
+    return str(out / "index.html")
+
+
+def print_files(result: dict[str, Any]) -> None:
+    """One path a line on stdout; the times on stderr."""
+    for row in result["motions"]:
+        print(*row["files"].values(), sep="\n")
+    if result["index"]:
+        print(result["index"])
+    times = result["timings"]
+    parts = ", ".join(f"{name} {times[name]:.1f}" for name in times if name != "total")
+    number = len(result["motions"])
+    complain(f"{number} motions in {times['total']:.1f} s ({parts}) on {result['device']}")
+
+
+def print_json(result: dict[str, Any]) -> None:
+    """The result as one object on stdout."""
     import json
 
-    rows: list[dict[str, Any]] = [
-        {
-            "prompt": motion.text,
-            "sample": index % num_samples,
-            "seed": seed,
-            "frames": motion.num_frames,
-            "fps": motion.fps,
-            "files": {name: path for name, path in paths.items() if name != "index"},
-            "warning": warnings[index // num_samples],
-        }
-        for index, (motion, paths) in enumerate(zip(motions, written, strict=True))
-    ]
-    result = {"model": model, "seed": seed, "motions": rows, "timings": timings}
-    if "index" in written[0]:
-        result["index"] = written[0]["index"]
     print(json.dumps(result, indent=1, ensure_ascii=False))

@@ -1,6 +1,7 @@
 """From exceptions to exit codes: 0 done, 1 failed, 2 wrong usage, 130 interrupted."""
 
 import functools
+import logging
 import sys
 from collections.abc import Callable
 from typing import ParamSpec
@@ -26,6 +27,7 @@ def guarded(command: Callable[Parameters, None]) -> Callable[Parameters, None]:
 
     @functools.wraps(command)
     def run(*args: Parameters.args, **kwargs: Parameters.kwargs) -> None:
+        logging.basicConfig(format="warning: %(message)s")  # from warnings upwards, on stderr
         try:
             command(*args, **kwargs)
         except UserError as error:

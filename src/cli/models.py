@@ -1,15 +1,11 @@
 """`models`: what can be named in `--model`."""
 
-from typing import Annotated
-
-import typer
+from src.cli import options
 
 COLUMNS = ("name", "kind", "trained", "licence", "size", "languages", "description")
 
 
-def models(
-    json: Annotated[bool, typer.Option("--json", help="Machine-readable, on stdout.")] = False,
-) -> None:
+def models(json: options.Json = False) -> None:
     """List shipped and trained models.
 
     \b

@@ -6,6 +6,7 @@ from typing import Annotated, Any
 
 import typer
 
+from src.cli import options
 from src.cli.guard import complain
 from src.shared.errors import UsageError
 
@@ -36,7 +37,7 @@ def prepare(
     ] = True,
     seed: Annotated[int, typer.Option(help="Of splits, captions and synthetic motions.")] = 0,
     workers: Annotated[int | None, typer.Option(help="Processes; one a core.")] = None,
-    json: Annotated[bool, typer.Option("--json", help="Report as JSON on stdout.")] = False,
+    json: options.Json = False,
 ) -> None:
     """Turn motion capture into a training set.
 
@@ -47,10 +48,10 @@ def prepare(
       motion-tools prepare my-mocap --captions captions.csv --out data/mine
       motion-tools prepare --synthetic 400 --out data/synthetic
     """
-    if not source and synthetic <= 0:
+    if not source and not synthetic:
         raise UsageError("no SOURCE; name folders of BVH files, or --synthetic N, or both")
-    if synthetic < 0 or (workers is not None and workers < 1):
-        raise UsageError("--synthetic and --workers take positive numbers")
+    options.check_ranges(synthetic=synthetic, workers=workers, seed=seed)
+    options.check_folder("--out", out)
 
     from src.shared.data.prepare import prepare as prepare_folder
     from src.shared.data.sources import BvhFolder, Source, SyntheticSource

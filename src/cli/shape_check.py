@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from src.cli import options
+
 if TYPE_CHECKING:
     from src.cli.shape_stages import Stage
     from src.shared.config_schema import NetworkConfig
@@ -21,7 +23,7 @@ def shape_check(
     full: Annotated[
         bool, typer.Option("--full", help="CLIP's two towers as well as the denoiser.")
     ] = False,
-    device: Annotated[str, typer.Option(help="auto, cpu, cuda or mps.")] = "cpu",
+    device: options.Device = "cpu",
     root_track: Annotated[
         bool | None,
         typer.Option("--root-track/--no-root-track", help="Override the profile's root-track."),
@@ -29,7 +31,7 @@ def shape_check(
     network_file: Annotated[
         Path | None, typer.Option(help="Another network file than the one that ships.")
     ] = None,
-    json: Annotated[bool, typer.Option("--json", help="Machine-readable, on stdout.")] = False,
+    json: options.Json = False,
 ) -> None:
     """Print every stage's shape and parameters.
 

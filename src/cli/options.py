@@ -1,0 +1,57 @@
+"""Options that several commands share, and the checks of their values."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from src.shared.errors import UsageError
+
+Model = Annotated[str, typer.Option(help="A name that `models` lists, or a folder from training.")]
+Device = Annotated[str, typer.Option(help="auto, cpu, cuda or mps.")]
+Threads = Annotated[int | None, typer.Option(help="CPU threads to use.")]
+Json = Annotated[bool, typer.Option("--json", help="The result as JSON on stdout.")]
+Steps = Annotated[int | None, typer.Option(help="Sampling steps; the model's own.")]
+Sampler = Annotated[str | None, typer.Option(help="ddim, ddpm or dpm-solver++; the model's own.")]
+GuidanceScale = Annotated[
+    float | None, typer.Option(help="How strictly to follow the prompt; the model's own.")
+]
+
+RANGES = {
+    "--seconds": (0.3, 60.0),
+    "--num-samples": (1, 100_000),
+    "--seed": (0, 2**63 - 1),
+    "--steps": (1, 10_000),
+    "--guidance-scale": (0.0, 30.0),
+    "--threads": (1, 1024),
+    "--workers": (1, 1024),
+    "--synthetic": (0, 1_000_000),
+    "--replications": (1, 1000),
+    "--control-seeds": (0, 10_000),
+}
+
+
+def check_ranges(**values: float | None) -> None:
+    """Refuse numbers out of range, NaN among them; None is left to the model.
+
+    Raises:
+        UsageError: naming the flag and its range.
+    """
+    for name, value in values.items():
+        flag = "--" + name.replace("_", "-")
+        low, high = RANGES[flag]
+        if value is not None and not low <= value <= high:
+            raise UsageError(f"{flag} {value:g} is out of range; choose from {low:g} to {high:g}")
+
+
+def check_folder(flag: str, folder: Path) -> None:
+    """Refuse a path that cannot become a folder, before anything slow starts.
+
+    Raises:
+        UsageError: a file stands in the way.
+    """
+    for part in (folder, *folder.parents):
+        if part.exists():
+            if not part.is_dir():
+                raise UsageError(f"{flag} {folder}: {part} is a file; name a folder")
+            return
