@@ -13,6 +13,7 @@ import pytest
 import torch
 from safetensors.torch import load_file
 
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="POSIX signals")
 ROOT = Path(__file__).parents[2]
 PROGRAM = str(Path(__file__).with_name("tiny_task.py"))
 SETTINGS = """
