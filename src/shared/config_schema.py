@@ -199,9 +199,7 @@ class TrainConfig(Config):
     @model_validator(mode="after")
     def _check_frames(self) -> Self:
         if self.max_frames < self.min_frames:
-            raise ValueError(
-                f"max-frames {self.max_frames} is below min-frames {self.min_frames}"
-            )
+            raise ValueError(f"max-frames {self.max_frames} is below min-frames {self.min_frames}")
         return self
 
 

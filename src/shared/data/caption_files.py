@@ -3,7 +3,7 @@
 import csv
 import json
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from src.shared.errors import UserError
 
@@ -49,7 +49,7 @@ def read_captions(path: Path) -> Captions:
 
 
 def _table_rows(path: Path, text: str, delimiter: str) -> list[tuple[str, str, str, str]]:
-    quoting = csv.QUOTE_NONE if delimiter == "\t" else csv.QUOTE_MINIMAL
+    quoting: Literal[0, 3] = csv.QUOTE_NONE if delimiter == "\t" else csv.QUOTE_MINIMAL
     lines = [
         (number, row)
         for number, row in enumerate(

@@ -65,9 +65,7 @@ def load_label_rules(extra: Path | None = None) -> LabelRules:
     if extra is None:
         return ours
     theirs = load_table(extra, LabelRules)
-    return LabelRules(
-        files=theirs.files + ours.files, captions=theirs.captions + ours.captions
-    )
+    return LabelRules(files=theirs.files + ours.files, captions=theirs.captions + ours.captions)
 
 
 def group_of(labels: Labels, caption: str = "") -> str:

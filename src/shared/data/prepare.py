@@ -87,7 +87,9 @@ def prepare(
         reasons = Counter(entry["reason"] for entry in skipped)
         example = f"; most often: {reasons.most_common(1)[0][0]}" if reasons else ""
         write_json(out / "report.json", {"skipped": skipped})
-        raise UserError(f"none of the {len(items)} clips could be used{example} (see {out}/report.json)")
+        raise UserError(
+            f"none of the {len(items)} clips could be used{example} (see {out}/report.json)"
+        )
     records = _records(clips, mirror=mirror, seed=seed, book=book)
     lines = "".join(json.dumps(r.to_json(), ensure_ascii=False) + "\n" for r in records)
     write_text(out / "clips.jsonl", lines)
@@ -317,5 +319,3 @@ def _manifest(
             )
         },
     }
-
-

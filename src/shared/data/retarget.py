@@ -163,9 +163,7 @@ def _without_calibration(motion: Motion) -> Motion:
     first, second = 2 * np.arccos(q).mean(-1)  # radians a joint
     if first < CALIBRATION_JUMP or first < 5 * second:
         return motion
-    return Motion(
-        motion.quaternions[1:], motion.root_position[1:], motion.contacts[1:], motion.fps
-    )
+    return Motion(motion.quaternions[1:], motion.root_position[1:], motion.contacts[1:], motion.fps)
 
 
 def _ground(motion: Motion) -> Motion:
@@ -173,6 +171,6 @@ def _ground(motion: Motion) -> Motion:
     local = quaternion_to_matrix(torch.as_tensor(motion.quaternions))
     joints = forward_kinematics(local, torch.as_tensor(motion.root_position), offsets, PARENTS)[0]
     balls = joints[:, [ball for _, ball in FOOT_JOINTS], 1].amin(1).numpy()
-    lift = np.float32([0, REST_FOOT_HEIGHT - np.percentile(balls, 2), 0])
+    lift = np.array([0, REST_FOOT_HEIGHT - np.percentile(balls, 2), 0], np.float32)
     contacts = detect_contacts(joints.numpy() + lift, motion.fps)
     return Motion(motion.quaternions, motion.root_position + lift, contacts, motion.fps)

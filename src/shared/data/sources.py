@@ -6,7 +6,7 @@ A source lists its items cheaply; each item is read later, in a worker process.
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 from src.shared.data.caption_files import Captions, read_captions
 from src.shared.data.labels import LabelRules, load_label_rules
@@ -27,7 +27,10 @@ class Skipped(Exception):
 class Source(Protocol):
     """What `prepare` reads from."""
 
-    name: str
+    @property
+    def name(self) -> str:
+        """Prefix of the clips' ids."""
+        ...
 
     def items(self) -> list[str]:
         """Names of all clips, in a stable order."""
@@ -138,10 +141,10 @@ class SyntheticSource:
         return RawClip(item, item, motion, dict(spec.labels), {})
 
 
-_SPECS: dict[tuple[int, int], list] = {}  # type: ignore[type-arg]
+_SPECS: dict[tuple[int, int], list[Any]] = {}
 
 
-def _specs(num_clips: int, seed: int) -> list:  # type: ignore[type-arg]
+def _specs(num_clips: int, seed: int) -> list[Any]:
     """Specifications of a synthetic set, made once a process."""
     from src.shared.data.synthetic import sample_specs
 

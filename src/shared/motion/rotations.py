@@ -130,9 +130,7 @@ def quaternion_log(q: Tensor) -> Tensor:
 def quaternion_exp(vector: Tensor) -> Tensor:
     """Rotation vectors [...,3] in radians → unit quaternions [...,4]."""
     angle = vector.norm(dim=-1, keepdim=True)
-    scale = torch.where(
-        angle > _EPSILON, torch.sin(angle / 2) / angle.clamp_min(_EPSILON), 0.5
-    )
+    scale = torch.where(angle > _EPSILON, torch.sin(angle / 2) / angle.clamp_min(_EPSILON), 0.5)
     return torch.cat((torch.cos(angle / 2), vector * scale), -1)
 
 
@@ -182,9 +180,7 @@ def matrix_to_euler(matrix: Tensor, order: str) -> Tensor:
         torch.atan2(sign * matrix[..., k, j], matrix[..., j, j]),
         torch.atan2(-sign * matrix[..., j, k], matrix[..., k, k]),
     )
-    third = torch.where(
-        locked, 0.0, torch.atan2(-sign * matrix[..., i, j], matrix[..., i, i])
-    )
+    third = torch.where(locked, 0.0, torch.atan2(-sign * matrix[..., i, j], matrix[..., i, i]))
     return torch.stack((first, middle, third), -1)
 
 

@@ -1,4 +1,4 @@
-"""Captions: enough of them, grammatical slots, held-out paraphrases, mirrored text, user files."""
+"""Training captions and held-out paraphrases: enough of them, stating the labels, kept apart."""
 
 import random
 import sys
@@ -8,47 +8,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.data.caption_grammar import normalised, parse, tidy
-from src.shared.data.captions import (
-    CaptionBook,
-    known_actions,
-    mirror_labels,
-    mirror_text,
-    packaged_book,
-)
-from src.shared.data.synthetic.labels import label_combinations
-from src.shared.errors import UserError
+from src.shared.data.caption_grammar import normalised
+from src.shared.data.captions import CaptionBook, known_actions, packaged_book
 
 sys.path.insert(0, str(Path(__file__).parent))
+from caption_labels import ALL, LANGUAGES, SYNTHETIC
 from caption_matcher import CaptionMatcher
 
-LANGUAGES = ("de", "en", "es", "fr", "ja", "zh")
-STYLES = (
-    "normal happy sad angry proud not-confident masculine feminine childish elderly tired active "
-    "musical giant chimpira youthful"
-).split()
-SYNTHETIC = label_combinations()
-STYLED = [
-    {"action": action, "style": style} | more
-    for style in STYLES
-    for action, more in [
-        ("walk", {"direction": "forward"}),
-        ("run", {"direction": "forward", "speed": "fast"}),
-        ("walk", {"direction": "backward"}),
-        ("walk", {"direction": "forward", "turn": "left"}),
-        ("wave", {"side": "left"}),
-        ("raise", {"side": "both"}),
-        ("guide", {}),
-        ("bye", {}),
-    ]
-]
-OTHERS = [
-    {"action": action}
-    for action in "call respond slash dance climb balance dribble shoot swordplay wash bend".split()
-]
-ALL = SYNTHETIC + STYLED + OTHERS
 combinations = st.sampled_from(ALL)
-languages = st.sampled_from(LANGUAGES)
 
 
 @pytest.fixture(scope="module")
@@ -228,175 +195,3 @@ def test_the_matcher_accepts_what_the_templates_write(book: CaptionBook, lang: s
     for labels in rng.sample(ALL, 40):
         for text in language.captions(labels, 2, rng):
             assert matcher.accepts(text), text
-
-
-# ---------------------------------------------------------------- mirrored text
-
-
-@given(combinations, languages, st.integers(0, 3))
-def test_mirroring_twice_changes_nothing(labels: dict[str, str], lang: str, seed: int) -> None:
-    for text in packaged_book().language(lang).captions(labels, 4, random.Random(seed)):
-        assert mirror_text(mirror_text(text, lang), lang) == text
-
-
-@given(combinations, languages, st.integers(0, 3))
-def test_mirrored_captions_are_captions_of_mirrored_labels(
-    labels: dict[str, str], lang: str, seed: int
-) -> None:
-    language = packaged_book().language(lang)
-    matcher = CaptionMatcher(language, mirror_labels(labels))
-    assert mirror_text(language.canonical(labels), lang) == language.canonical(
-        mirror_labels(labels)
-    )
-    for text in language.captions(labels, 3, random.Random(seed)):
-        assert matcher.accepts(mirror_text(text, lang)), text
-
-
-def test_mirrored_captions_of_one_side_differ(book: CaptionBook) -> None:
-    for labels in SYNTHETIC:
-        if "left" in labels.values():
-            for lang, texts in book.captions(labels, num=6, seed=0).items():
-                assert all(mirror_text(text, lang) != text for text in texts)
-
-
-@pytest.mark.parametrize(
-    ("lang", "text", "mirrored"),
-    [
-        ("en", "Left, RIGHT or left-handed", "Right, LEFT or right-handed"),
-        ("en", "stand upright, all right?", None),
-        ("en", "turn right now", "turn left now"),
-        ("en", "wave right now, at right angles", None),
-        ("en", "sway left and right", None),
-        ("en", "he has left the room", None),
-        ("en", "Spin counter-clockwise", "Spin clockwise"),
-        ("en", "clockwise to the leftmost", "counterclockwise to the rightmost"),
-        ("es", "levanta el brazo derecho", "levanta el brazo izquierdo"),
-        ("es", "Derecha, izquierdas", "Izquierda, derechas"),
-        ("es", "camina todo derecho", None),
-        ("es", "anda derecho, bien erguido", None),
-        ("es", "gira en sentido horario", "gira en sentido antihorario"),
-        ("fr", "lève le bras gauche et la main gauche", "lève le bras droit et la main droite"),
-        ("fr", "le pied droit, la jambe droite", "le pied gauche, la jambe gauche"),
-        ("fr", "marche tout droit", None),
-        ("fr", "va droit devant toi, debout bien droit", None),
-        ("fr", "À GAUCHE", "À DROITE"),
-        ("de", "linke Linker linken linkes linkem", "rechte Rechter rechten rechtes rechtem"),
-        ("de", "nach links, rechtsherum, Linkskurve", "nach rechts, linksherum, Rechtskurve"),
-        ("de", "rechtzeitig aufrecht, ein rechter Winkel", None),
-        ("de", "gegen den Uhrzeigersinn", "im Uhrzeigersinn"),
-        ("ja", "左手を左右に振って右へ", "右手を左右に振って左へ"),
-        ("ja", "反時計回りに回る", "時計回りに回る"),
-        ("zh", "左手左右摇摆，向右走", "右手左右摇摆，向左走"),
-        ("zh", "左顾右盼，顺时针", "左顾右盼，逆时针"),
-    ],
-)
-def test_mirrored_words_and_idioms(lang: str, text: str, mirrored: str | None) -> None:
-    assert mirror_text(text, lang) == (text if mirrored is None else mirrored)
-
-
-def test_mirrored_labels() -> None:
-    labels = {"action": "wave-left-hand", "side": "both", "turn": "right", "style": "upright"}
-    assert mirror_labels(labels) == {
-        "action": "wave-right-hand",
-        "side": "both",
-        "turn": "left",
-        "style": "upright",
-    }
-
-
-def test_an_unknown_language_names_the_others_and_the_way_to_add_it() -> None:
-    with pytest.raises(UserError, match=r"'ru'.*de, en, es, fr, ja, zh.*mirror:"):
-        mirror_text("налево", "ru")
-
-
-# ---------------------------------------------------------------- the user's own files
-
-ITALIAN = """
-language: it
-name: italiano
-forms: [plain]
-frames: [{form: plain, text: ["{verb} {rest}"]}]
-slots: {speed: {slow: [piano], fast: [veloce]}, side.mano: {left: ["la mano sinistra"]}}
-actions:
-  walk: {name: camminare, phrases: [{verbs: [cammina], rest: ["{speed}"]}]}
-  raise: {name: alzare, phrases: [{verbs: [alza], rest: ["{side.mano} {speed}"]}]}
-  other: {name: altro, phrases: [{verbs: ["{action}"], rest: ["{speed}"]}]}
-mirror: {pairs: [[sinistra, destra]], keep: ["destra e sinistra"]}
-"""
-
-
-def _book(folder: Path, text: str, name: str = "mine.yaml") -> CaptionBook:
-    (folder / name).write_text(text, encoding="utf-8")
-    return CaptionBook.load(folder / name)
-
-
-def test_a_new_language_joins_the_packaged_ones(tmp_path: Path) -> None:
-    book = _book(tmp_path, ITALIAN)
-    assert book.languages == ("de", "en", "es", "fr", "it", "ja", "zh")
-    assert book.canonical({"action": "walk", "speed": "slow"})["it"] == "cammina piano"
-    assert book.canonical({"action": "raise", "side": "right"})["it"] == "alza la mano destra"
-    assert book.mirror_text("a destra", "it") == "a sinistra"
-
-
-def test_a_file_that_extends_nothing_stands_alone(tmp_path: Path) -> None:
-    book = _book(tmp_path, ITALIAN + "extends: nothing\n")
-    assert book.languages == ("it",)
-    assert CaptionBook.load(tmp_path).languages == ("it",)
-
-
-def test_a_user_adds_an_action_and_a_style_to_english(tmp_path: Path) -> None:
-    book = _book(
-        tmp_path,
-        "language: en\n"
-        "slots: {style: {zombie: [like a zombie]}}\n"
-        "actions: {limp: {name: limp, phrases: [{verbs: ['limp | limps | limping | limp'],"
-        " rest: ['{direction} {style}']}]}}\n",
-    )
-    labels = {"action": "limp", "direction": "forward", "style": "zombie"}
-    assert book.canonical(labels)["en"] == "limp forward like a zombie"
-    assert book.canonical({"action": "walk", "style": "sad"})["en"] == "walk sadly"
-    assert CaptionBook.load().language("en").find_action("limp") == "other"
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "message"),
-    [
-        ("{speed}", "{sped}", r"mine\.yaml.*unknown slot \{sped\}.*known:.*speed"),
-        ("{verb} {rest}", "{verb", r"mine\.yaml: frames\.0\.text: stray '\{'"),
-        ("{verb} {rest}", "(a|{verb}", r"mine\.yaml: frames\.0\.text: parenthesis never closed"),
-        ("[cammina]", '["a | b"]', r"actions\.walk\.phrases\.0\.verbs: .*needs 1 forms"),
-        ("form: plain", "form: noun", r"frames\.0\.form: form 'noun' is not one of plain"),
-        ("pairs:", "pears:", r"mine\.yaml: mirror\.(pairs: Field required|pears)"),
-        ("name: italiano", "nome: italiano", r"mine\.yaml: (name: Field required|nome)"),
-        ("keep: [", "keep: ['(', ", r"mine\.yaml: mirror\.keep"),
-        ("  other:", "  others:", r"actions\.other: missing"),
-        ("language: it", "language: it\nextends: all", r"extends: 'all'"),
-    ],
-)
-def test_faults_name_file_and_key(tmp_path: Path, old: str, new: str, message: str) -> None:
-    with pytest.raises(UserError, match=message) as caught:
-        _book(tmp_path, ITALIAN.replace(old, new))
-    assert "\n" not in str(caught.value)
-
-
-@pytest.mark.parametrize("name", ["absent.yaml", "empty"])
-def test_a_missing_file_is_named(tmp_path: Path, name: str) -> None:
-    (tmp_path / "empty").mkdir()
-    with pytest.raises(UserError, match=name):
-        CaptionBook.load(tmp_path / name)
-
-
-# ---------------------------------------------------------------- the template language
-
-
-@given(st.text(alphabet="ab{}()| ", max_size=12))
-def test_any_template_parses_or_is_refused(template: str) -> None:
-    try:
-        parse(template)
-    except ValueError as error:
-        assert repr(template) in str(error)
-
-
-def test_dropped_slots_leave_nothing_behind() -> None:
-    assert tidy(" a  person , walks ,  ", True) == "a person, walks"
-    assert tidy("人 が、 、 moon walk を", False) == "人が、moon walkを"

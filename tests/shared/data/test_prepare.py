@@ -92,9 +92,7 @@ def test_captions_without_labels_share_an_orbit_with_their_mirror_image() -> Non
     assert orbit({}, "Waves the left hand") == orbit({}, "waves the  right hand")
 
 
-def test_prepare_twice_does_nothing_twice(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_prepare_twice_does_nothing_twice(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     root = bvh_folder(tmp_path / "in")
     source = BvhFolder.open(root, captions=root / "captions.csv")
     prepare([source], tmp_path / "out", workers=1)
@@ -154,7 +152,7 @@ def test_what_is_skipped_is_named_with_its_reason(tmp_path: Path) -> None:
 def test_nothing_usable_is_an_error(tmp_path: Path) -> None:
     root = tmp_path / "in"
     root.mkdir()
-    with pytest.raises(UserError, match="no .bvh file"):
+    with pytest.raises(UserError, match=r"no \.bvh file"):
         BvhFolder.open(root)
     (root / "a.bvh").write_text("no")
     with pytest.raises(UserError, match="none of the 1 clips"):

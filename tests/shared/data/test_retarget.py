@@ -89,9 +89,17 @@ def check_directions_and_twists(clip: BvhClip, mapping: SkeletonMapping) -> None
     corrections = rest_corrections(clip, mapping)
     for ours, theirs in mapping.joints.items():
         twist = np.swapaxes(world[:, index[theirs]], -1, -2) @ rotations[:, JOINT_INDEX[ours]]
-        np.testing.assert_allclose(twist, np.broadcast_to(corrections[ours], twist.shape), atol=1e-4)
-    for joint, child in (("l_hip", "l_knee"), ("r_knee", "r_ankle"), ("l_elbow", "l_wrist"),
-                         ("r_shoulder", "r_elbow"), ("neck", "head"), ("l_ankle", "l_foot")):  # fmt: skip
+        expected = np.broadcast_to(corrections[ours], twist.shape)
+        np.testing.assert_allclose(twist, expected, atol=1e-4)
+    bones = (
+        ("l_hip", "l_knee"),
+        ("r_knee", "r_ankle"),
+        ("l_elbow", "l_wrist"),
+        ("r_shoulder", "r_elbow"),
+        ("neck", "head"),
+        ("l_ankle", "l_foot"),
+    )
+    for joint, child in bones:
         a, b = (index[mapping.joints[name]] for name in (joint, child))
         theirs_bone = positions[:, b] - positions[:, a]
         ours_bone = rotations[:, JOINT_INDEX[joint]] @ offsets[JOINT_INDEX[child]]
@@ -161,5 +169,3 @@ def test_a_calibration_frame_is_dropped(clip: BvhClip) -> None:
     jumping = BvhClip(**{**vars(clip), "values": values})
     assert retarget(jumping, OURS).num_frames == clip.num_frames - 1
     assert retarget(clip, OURS).num_frames == clip.num_frames
-
-

@@ -107,9 +107,7 @@ def test_features_give_the_motion_back(seed: int) -> None:
 def test_features_forget_where_the_motion_starts_and_faces() -> None:
     motion = random_motion(4)
     turned = decode_features(encode_features(motion), start_position=(3, -2), start_heading=2.0)
-    torch.testing.assert_close(
-        encode_features(turned), encode_features(motion), atol=2e-4, rtol=0
-    )
+    torch.testing.assert_close(encode_features(turned), encode_features(motion), atol=2e-4, rtol=0)
 
 
 def test_root_row_signs() -> None:
@@ -161,6 +159,8 @@ def test_contacts_need_a_low_and_slow_foot() -> None:
     assert detect_contacts(motion.positions(), 30).min() == 1
     path = motion.root_position.copy()
     path[:, 2] += np.arange(30) * (1.0 / 30)
-    assert detect_contacts(Motion(motion.quaternions, path, motion.contacts).positions(), 30).max() == 0
+    moved = Motion(motion.quaternions, path, motion.contacts)
+    assert detect_contacts(moved.positions(), 30).max() == 0
     path = motion.root_position + np.float32([0, 0.3, 0])
-    assert detect_contacts(Motion(motion.quaternions, path, motion.contacts).positions(), 30).max() == 0
+    moved = Motion(motion.quaternions, path, motion.contacts)
+    assert detect_contacts(moved.positions(), 30).max() == 0

@@ -1,0 +1,101 @@
+"""A user's own caption files: laid over ours, or alone; faults named by file and key."""
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from src.shared.data.caption_grammar import parse, tidy
+from src.shared.data.captions import CaptionBook
+from src.shared.errors import UserError
+
+ITALIAN = """
+language: it
+name: italiano
+forms: [plain]
+frames: [{form: plain, text: ["{verb} {rest}"]}]
+slots: {speed: {slow: [piano], fast: [veloce]}, side.mano: {left: ["la mano sinistra"]}}
+actions:
+  walk: {name: camminare, phrases: [{verbs: [cammina], rest: ["{speed}"]}]}
+  raise: {name: alzare, phrases: [{verbs: [alza], rest: ["{side.mano} {speed}"]}]}
+  other: {name: altro, phrases: [{verbs: ["{action}"], rest: ["{speed}"]}]}
+mirror: {pairs: [[sinistra, destra]], keep: ["destra e sinistra"]}
+"""
+
+
+def _book(folder: Path, text: str, name: str = "mine.yaml") -> CaptionBook:
+    (folder / name).write_text(text, encoding="utf-8")
+    return CaptionBook.load(folder / name)
+
+
+def test_a_new_language_joins_the_packaged_ones(tmp_path: Path) -> None:
+    book = _book(tmp_path, ITALIAN)
+    assert book.languages == ("de", "en", "es", "fr", "it", "ja", "zh")
+    assert book.canonical({"action": "walk", "speed": "slow"})["it"] == "cammina piano"
+    assert book.canonical({"action": "raise", "side": "right"})["it"] == "alza la mano destra"
+    assert book.mirror_text("a destra", "it") == "a sinistra"
+
+
+def test_a_file_that_extends_nothing_stands_alone(tmp_path: Path) -> None:
+    book = _book(tmp_path, ITALIAN + "extends: nothing\n")
+    assert book.languages == ("it",)
+    assert CaptionBook.load(tmp_path).languages == ("it",)
+
+
+def test_a_user_adds_an_action_and_a_style_to_english(tmp_path: Path) -> None:
+    book = _book(
+        tmp_path,
+        "language: en\n"
+        "slots: {style: {zombie: [like a zombie]}}\n"
+        "actions: {limp: {name: limp, phrases: [{verbs: ['limp | limps | limping | limp'],"
+        " rest: ['{direction} {style}']}]}}\n",
+    )
+    labels = {"action": "limp", "direction": "forward", "style": "zombie"}
+    assert book.canonical(labels)["en"] == "limp forward like a zombie"
+    assert book.canonical({"action": "walk", "style": "sad"})["en"] == "walk sadly"
+    assert CaptionBook.load().language("en").find_action("limp") == "other"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("{speed}", "{sped}", r"mine\.yaml.*unknown slot \{sped\}.*known:.*speed"),
+        ("{verb} {rest}", "{verb", r"mine\.yaml: frames\.0\.text: stray '\{'"),
+        ("{verb} {rest}", "(a|{verb}", r"mine\.yaml: frames\.0\.text: parenthesis never closed"),
+        ("[cammina]", '["a | b"]', r"actions\.walk\.phrases\.0\.verbs: .*needs 1 forms"),
+        ("form: plain", "form: noun", r"frames\.0\.form: form 'noun' is not one of plain"),
+        ("pairs:", "pears:", r"mine\.yaml: mirror\.(pairs: Field required|pears)"),
+        ("name: italiano", "nome: italiano", r"mine\.yaml: (name: Field required|nome)"),
+        ("keep: [", "keep: ['(', ", r"mine\.yaml: mirror\.keep"),
+        ("  other:", "  others:", r"actions\.other: missing"),
+        ("language: it", "language: it\nextends: all", r"extends: 'all'"),
+    ],
+)
+def test_faults_name_file_and_key(tmp_path: Path, old: str, new: str, message: str) -> None:
+    with pytest.raises(UserError, match=message) as caught:
+        _book(tmp_path, ITALIAN.replace(old, new))
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["absent.yaml", "empty"])
+def test_a_missing_file_is_named(tmp_path: Path, name: str) -> None:
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(UserError, match=name):
+        CaptionBook.load(tmp_path / name)
+
+
+# ---------------------------------------------------------------- the template language
+
+
+@given(st.text(alphabet="ab{}()| ", max_size=12))
+def test_any_template_parses_or_is_refused(template: str) -> None:
+    try:
+        parse(template)
+    except ValueError as error:
+        assert repr(template) in str(error)
+
+
+def test_dropped_slots_leave_nothing_behind() -> None:
+    assert tidy(" a  person , walks ,  ", True) == "a person, walks"
+    assert tidy("人 が、 、 moon walk を", False) == "人が、moon walkを"
