@@ -19,13 +19,12 @@ from src.shared.evaluation.control_table import control_table
 from src.shared.evaluation.evaluator import Evaluator
 from src.shared.evaluation.held_out import HeldOut, open_held_out
 from src.shared.evaluation.metrics_retrieval import BATCH
+from src.shared.evaluation.physical_table import Observed, Row, physical_columns
 from src.shared.evaluation.split_table import (
     Embedded,
     Reference,
-    Row,
     generated_row,
     learned_columns,
-    physical_columns,
     real_rows,
     scores,
 )
@@ -259,7 +258,8 @@ def _frozen_row(evaluator: Evaluator, reference: Reference, seed: int) -> Row:
         name: {"value": value, "low": value, "high": value, "count": 1}
         for name, value in learned.items()
     }
-    return row | physical_columns(sample.clips, reference.travels)
+    travels = reference.observed.travels
+    return row | physical_columns(Observed.of(still), clips.labels, travels)
 
 
 def language_table(

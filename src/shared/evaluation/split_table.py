@@ -4,28 +4,17 @@ Letters: N clips, D embedding channels.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
 from src.shared.evaluation.clips import Clips, Sampler
-from src.shared.evaluation.controllability import check
 from src.shared.evaluation.evaluator import Evaluator
-from src.shared.evaluation.intervals import bootstrap_mean, replicated, success_rate
-from src.shared.evaluation.measurements import measure
+from src.shared.evaluation.intervals import replicated
 from src.shared.evaluation.metrics_frechet import JointFrechet, frechet_distance, group_frechet
-from src.shared.evaluation.metrics_physical import Physics, physics
 from src.shared.evaluation.metrics_retrieval import BATCH, guo_retrieval, normalised_score
 from src.shared.evaluation.metrics_spread import diversity
-from src.shared.evaluation.metrics_travel import Travel, travel, travel_error
-
-KINDS = {
-    **dict.fromkeys(("forward", "backward", "left", "right", "forward-jump"), "direction"),
-    **dict.fromkeys(("turn-left", "turn-right"), "turn"),
-    **dict.fromkeys(("left-hand", "right-hand", "both-hands"), "hand"),
-    **{name: name for name in ("count", "speed", "angle")},
-}
-Row = dict[str, dict[str, float | int]]  # column to value, low, high, count
+from src.shared.evaluation.physical_table import Observed, Row, physical_columns
 
 
 @dataclass(frozen=True)
@@ -46,9 +35,8 @@ class Embedded:
         """The same captions over other motions."""
         return Embedded(clips, self.text, evaluator.embed_motion(clips.motions).numpy())
 
-    def shuffled(self, seed: int) -> "Embedded":
-        """Texts and labels stay, motions change places: the score of ignoring the prompt."""
-        order = np.random.default_rng(seed).permutation(len(self.clips))
+    def reordered(self, order: np.ndarray) -> "Embedded":
+        """Texts and labels stay, motions change places: what ignoring the prompt gives."""
         motions = [self.clips.motions[row] for row in order]
         return Embedded(self.clips.with_motions(motions), self.text, self.motion[order])
 
@@ -59,14 +47,14 @@ class Reference:
 
     real: Embedded
     joint: JointFrechet
-    travels: list[Travel]
+    observed: Observed
 
     @classmethod
     def of(cls, real: Embedded) -> "Reference":
-        """Fit the projections of the joint distance and follow every pelvis."""
+        """Fit the projections of the joint distance and measure every motion."""
         axes = min(16, real.motion.shape[1])
         joint = JointFrechet(real.text, real.motion, num_axes=axes)
-        return cls(real, joint, [travel(motion) for motion in real.clips.motions])
+        return cls(real, joint, Observed.of(real.clips.motions))
 
 
 def learned_columns(sample: Embedded, reference: Reference, seed: int) -> dict[str, float]:
@@ -91,38 +79,6 @@ def learned_columns(sample: Embedded, reference: Reference, seed: int) -> dict[s
     return columns
 
 
-def physical_columns(sample: Clips, references: Sequence[Travel]) -> Row:
-    """Everything that needs no learned model, with bootstrap intervals over clips."""
-    figures = [physics(motion) for motion in sample.motions]
-    row: Row = {
-        field.name: bootstrap_mean([getattr(f, field.name) for f in figures]).as_dict()
-        for field in fields(Physics)
-    }
-    errors = travel_error([travel(motion) for motion in sample.motions], references)
-    for name, values in asdict(errors).items():
-        row[f"{name}_error"] = bootstrap_mean(values).as_dict()
-    return row | obedience(sample)
-
-
-def obedience(clips: Clips) -> Row:
-    """Share of each kind of check that the labels ask for and the motions pass.
-
-    Kinds: travel direction, turning, hand, action, count, speed class, angle, and `all` checks of
-    a clip at once; labels that cannot be measured (style) ask for nothing.
-    """
-    passed: dict[str, list[bool]] = {}
-    for motion, labels in zip(clips.motions, clips.labels, strict=True):
-        answers = check(labels, measure(motion))
-        for name, answer in answers.items():
-            passed.setdefault(KINDS.get(name, "action"), []).append(answer)
-        if answers:
-            passed.setdefault("all", []).append(all(answers.values()))
-    return {
-        f"obeys_{kind}": success_rate(sum(found), len(found)).as_dict()
-        for kind, found in passed.items()
-    }
-
-
 def same_group_partner(clips: Clips, seed: int) -> Iterator[tuple[int, int]]:
     """Pairs (row, another row of the same label group), for groups of two or more."""
     rng = np.random.default_rng(seed)
@@ -141,20 +97,27 @@ def _replicate(columns: Sequence[dict[str, float]]) -> Row:
 
 def real_rows(reference: Reference, replications: int, seed: int) -> dict[str, Row]:
     """Rows `real` and `chance`: the ceiling and the floor of every column."""
-    real = reference.real
+    real, observed = reference.real, reference.observed
+    labels, travels = real.clips.labels, observed.travels
     seeds = range(seed, seed + replications)
+    orders = [np.random.default_rng(s).permutation(len(real.clips)) for s in seeds]
     # Fréchet distances of the real row come from two disjoint halves: a sample is 0 from itself.
     truth = [learned_columns(real, reference, s) | _halves(real, s) for s in seeds]
-    chance = [learned_columns(real.shuffled(s), reference, s) for s in seeds]
-    pairs = list(same_group_partner(real.clips, seed))
-    partners = [reference.travels[other] for _, other in pairs]
+    chance = [
+        learned_columns(real.reordered(order), reference, s)
+        for order, s in zip(orders, seeds, strict=True)
+    ]
+    shuffled = observed.rows(orders[0].tolist())
     rows = {
-        "real": _replicate(truth) | physical_columns(real.clips, reference.travels),
-        "chance": _replicate(chance)
-        | physical_columns(real.shuffled(seed).clips, reference.travels),
+        "real": _replicate(truth) | physical_columns(observed, labels, travels),
+        "chance": _replicate(chance) | physical_columns(shuffled, labels, travels),
     }
+    pairs = list(same_group_partner(real.clips, seed))
+    own, other = [row for row, _ in pairs], [row for _, row in pairs]
     if pairs:  # a real clip has no error against itself: compare it with a sibling
-        siblings = physical_columns(real.clips.rows([row for row, _ in pairs]), partners)
+        siblings = physical_columns(
+            observed.rows(own), [labels[i] for i in own], [travels[i] for i in other]
+        )
         rows["real"] |= {key: value for key, value in siblings.items() if key.endswith("_error")}
     return rows
 
@@ -199,7 +162,8 @@ def generated_row(
             learned_columns(prompted.with_motions(evaluator, clips), reference, seed + replication)
         )
     assert first is not None
-    return _replicate(columns) | physical_columns(first, [reference.travels[i] for i in index])
+    travels = [reference.observed.travels[i] for i in index]
+    return _replicate(columns) | physical_columns(Observed.of(first.motions), first.labels, travels)
 
 
 def scores(rows: dict[str, Row], name: str) -> dict[str, float]:
