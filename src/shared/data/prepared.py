@@ -34,7 +34,7 @@ class PreparedData:
         self.folder = Path(folder)
         path = self.folder / "manifest.json"
         if not path.exists():
-            raise UserError(f"{folder} is no prepared data: no manifest.json; run `prepare` first")
+            raise UserError(f"{folder} is not prepared data: no manifest.json; run `prepare` first")
         text = path.read_text(encoding="utf-8")
         self.manifest = json.loads(text)
         self.manifest_hash = hashlib.sha256(text.encode()).hexdigest()
