@@ -12,9 +12,10 @@ import numpy as np
 
 from src.shared.errors import UserError
 from src.shared.files import atomic_write
-from src.shared.formats.body import BODY
-from src.shared.formats.raster import Camera, draw_cones
+from src.shared.formats.mannequin import Mannequin, mannequin
+from src.shared.formats.raster import Camera, draw_mesh
 from src.shared.motion.motion import Motion
+from src.shared.motion.skeleton import FOOT_JOINTS
 
 if TYPE_CHECKING:
     from PIL import Image, ImageDraw
@@ -86,27 +87,15 @@ def render_strip(
     return Path(path)
 
 
-def cones_of(
-    positions: np.ndarray, rotations: np.ndarray, contacts: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """World cones of one pose: starts [M,3], ends [M,3], radii [M,2], colours [M,3].
-
-    Args:
-        positions: world joint positions [22,3].
-        rotations: world joint rotations [22,3,3].
-        contacts: left and right contact [2].
-    """
-    joints = [part.joint for part in BODY]
-    starts = np.einsum("mij,mj->mi", rotations[joints], [part.start for part in BODY])
-    ends = np.einsum("mij,mj->mi", rotations[joints], [part.end for part in BODY])
-    feet = {7: 0, 10: 0, 8: 1, 11: 1}
-    colours = [
-        CONTACT if contacts[feet.get(part.joint, 0)] > 0.5 and part.joint in feet
-        else COLOURS[part.side]
-        for part in BODY
-    ]  # fmt: skip
-    radii = np.array([part.radii for part in BODY])
-    return positions[joints] + starts, positions[joints] + ends, radii, np.array(colours)
+def vertex_colours(body: Mannequin, contacts: np.ndarray) -> np.ndarray:
+    """RGB of each vertex [V,3]: by side, and green where a foot is on the ground."""
+    side = body.side[:, None]
+    trunk, left, right = (np.array(COLOURS[name]) for name in ("centre", "left", "right"))
+    colours = trunk + np.maximum(side, 0) * (left - trunk) + np.maximum(-side, 0) * (right - trunk)
+    for contact, joints in zip(contacts, FOOT_JOINTS, strict=True):
+        share = (body.weights * np.isin(body.joints, joints)).sum(-1, keepdims=True)
+        colours += float(contact > 0.5) * share * (np.array(CONTACT) - colours)
+    return np.asarray(colours)
 
 
 def _draw_pose(
@@ -133,23 +122,18 @@ def _draw_pose(
         draw.line([tuple(p) for p in path], PATH, 2 * OVERSAMPLE, joint="curve")
     _draw_arrow(draw, camera, target, rotations[frame, 0, :, 2])
 
-    starts, ends, radii, colours = cones_of(
-        positions[frame], rotations[frame], motion.contacts[frame]
-    )
+    body = mannequin()
+    vertices, normals = body.pose(positions[frame], rotations[frame])
+    ground = camera.project(vertices * (1.0, 0.0, 1.0))[:, :2]
     shadow = Image.new("L", size, 0)
     pen = ImageDraw.Draw(shadow)
-    for start, end, radius in zip(starts, ends, radii.mean(1), strict=True):
-        ground = camera.project(np.stack((start, end)) * (1.0, 0.0, 1.0))[:, :2]
-        width = max(1, round(1.3 * radius * camera.scale))
-        pen.line([tuple(p) for p in ground], 90, width)
-    shadow = shadow.filter(ImageFilter.GaussianBlur(3 * OVERSAMPLE))
-    image.paste((70, 76, 90), (0, 0), shadow)
-
-    pixels = np.asarray(image, dtype=np.float64) / 255.0
-    draw_cones(pixels, camera, starts, ends, radii, colours)
-    image = Image.fromarray((pixels * 255.0).round().astype(np.uint8))
+    for triangle in ground[body.triangles[::2]].reshape(-1, 6).tolist():
+        pen.polygon(triangle, 95)
+    image.paste((70, 76, 90), (0, 0), shadow.filter(ImageFilter.GaussianBlur(3 * OVERSAMPLE)))
+    colours = vertex_colours(body, motion.contacts[frame])
+    draw_mesh(draw, camera, vertices, normals, body.triangles, colours)
     label = f"{frame / motion.fps:.2f} s"
-    ImageDraw.Draw(image).text(
+    draw.text(
         (size[0] / 2, size[1] - 4 * OVERSAMPLE), label, INK, _font(11 * OVERSAMPLE), anchor="mb"
     )
     return image

@@ -1,14 +1,17 @@
-"""A small software renderer: round-ended cones with exact occlusion and soft shading, in numpy.
+"""A small software renderer: shaded triangles from back to front, with Pillow.
 
-The camera is orthographic. Legend: H, W size of the picture in pixels.
+The camera is orthographic. Legend: V vertices, F triangles.
 """
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-Colour = tuple[float, float, float]
-LIGHT = np.array([0.35, 0.80, 0.55]) / np.linalg.norm([0.35, 0.80, 0.55])  # world, towards it
+if TYPE_CHECKING:
+    from PIL import ImageDraw
+
+LIGHT = np.array([0.30, 0.80, 0.60]) / np.linalg.norm([0.30, 0.80, 0.60])  # world, towards it
 
 
 @dataclass(frozen=True)
@@ -43,77 +46,43 @@ class Camera:
         return np.asarray(view * (1.0, -1.0, 1.0) + (*self.centre, 0.0))
 
 
-def draw_cones(
-    image: np.ndarray,
+def draw_mesh(
+    draw: "ImageDraw.ImageDraw",
     camera: Camera,
-    starts: np.ndarray,
-    ends: np.ndarray,
-    radii: np.ndarray,
+    vertices: np.ndarray,
+    normals: np.ndarray,
+    triangles: np.ndarray,
     colours: np.ndarray,
 ) -> None:
-    """Draw shaded cones with round ends into `image` [H,W,3] (floats 0…1), in place.
+    """Draw a closed mesh over what is there.
 
     Args:
-        image: the background, drawn over.
+        draw: Pillow's pen on the picture.
         camera: how to look.
-        starts: world centres of the first balls [M,3], metres.
-        ends: world centres of the second balls [M,3].
-        radii: radii of both balls [M,2], metres.
-        colours: one RGB a cone [M,3].
+        vertices: world positions [V,3], metres.
+        normals: unit normals [V,3].
+        triangles: vertex indices [F,3], counter-clockwise seen from outside.
+        colours: RGB of each vertex [V,3], 0 to 1.
     """
-    height, width = image.shape[:2]
-    depth = np.full((height, width), -np.inf)
-    light = camera.basis() @ LIGHT * (1.0, -1.0, 1.0)
-    points = zip(camera.project(starts), camera.project(ends), radii, colours, strict=True)
-    for start, end, (r0, r1), colour in points:
-        r0, r1 = r0 * camera.scale, r1 * camera.scale
-        low = np.floor(np.minimum(start - r0, end - r1)[:2]).astype(int)
-        high = np.ceil(np.maximum(start + r0, end + r1)[:2]).astype(int) + 1
-        x0, y0 = np.clip(low, 0, (width, height))
-        x1, y1 = np.clip(high, 0, (width, height))
-        if x0 >= x1 or y0 >= y1:
-            continue
-        pixels_y, pixels_x = np.mgrid[y0:y1, x0:x1].astype(np.float64) + 0.5
-        hit, nearness, normal = _intersect(pixels_x, pixels_y, start, end, r0, r1)
-        window = depth[y0:y1, x0:x1]
-        hit &= nearness > window
-        window[hit] = nearness[hit]
-        image[y0:y1, x0:x1][hit] = _shade(normal[hit], np.asarray(colour), light)
+    screen = camera.project(vertices)
+    corners = screen[triangles]  # [F,3,3]
+    first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    towards = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0] < 0  # y points down
+    order = np.flatnonzero(towards)
+    order = order[np.argsort(corners[order, :, 2].mean(-1), kind="stable")]
+    shaded = shade(normals, colours, camera)[triangles[order]].mean(1)
+    paints = (shaded * 255).round().astype(int).tolist()
+    outlines = corners[order][..., :2].reshape(len(order), 6).tolist()
+    for outline, paint in zip(outlines, paints, strict=True):
+        draw.polygon(outline, tuple(paint))
 
 
-def _intersect(
-    x: np.ndarray, y: np.ndarray, start: np.ndarray, end: np.ndarray, r0: float, r1: float
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Where rays along the view axis meet the cone: hit [h,w], nearness [h,w], normal [h,w,3].
-
-    The cone is the envelope of balls with centre c(s) and radius r(s), both linear in
-    s ∈ [0, 1]. A ball's front is c_z(s) + √q(s) with q = r² - |pixel - c_xy|² = As² + Bs + C;
-    the nearest of all fronts is where its derivative vanishes, a quadratic in s.
-    """
-    axis = end - start
-    dx, dy = x - start[0], y - start[1]
-    a = (r1 - r0) ** 2 - axis[0] ** 2 - axis[1] ** 2
-    b = 2 * (r0 * (r1 - r0) + dx * axis[0] + dy * axis[1])
-    c = r0**2 - dx**2 - dy**2
-    if a < -1e-6:
-        root = b * b - a * (b * b - 4 * axis[2] ** 2 * c) / (a - axis[2] ** 2)
-        s = np.clip((-b - np.sign(axis[2]) * np.sqrt(np.maximum(root, 0.0))) / (2 * a), 0.0, 1.0)
-    else:  # seen along the axis: one ball hides the other
-        front = [start[2] + r0, end[2] + r1]
-        s = np.full_like(x, float(np.argmax(front)))
-    q = (a * s + b) * s + c
-    hit = q > 0.0
-    rise = np.sqrt(np.maximum(q, 0.0))
-    radius = r0 + s * (r1 - r0)
-    normal = np.stack((dx - s * axis[0], dy - s * axis[1], rise), -1) / radius[..., None]
-    return hit, start[2] + s * axis[2] + rise, normal
-
-
-def _shade(normal: np.ndarray, colour: np.ndarray, light: np.ndarray) -> np.ndarray:
-    """Soft light from above, a darker rim that separates overlapping limbs, a faint shine."""
-    diffuse = 0.5 + 0.5 * (normal @ light)
-    rim = np.clip(normal[:, 2], 0.0, 1.0)
-    halfway = light + np.array([0.0, 0.0, 1.0])
-    shine = np.clip(normal @ (halfway / np.linalg.norm(halfway)), 0.0, 1.0) ** 40
-    level = (0.42 + 0.68 * diffuse) * (0.55 + 0.45 * np.minimum(1.0, rim * 2.2))
-    return np.asarray(np.clip(colour * level[:, None] + 0.16 * shine[:, None], 0.0, 1.0))
+def shade(normals: np.ndarray, colours: np.ndarray, camera: Camera) -> np.ndarray:
+    """Soft light from above, a darker rim that separates overlapping limbs, a faint shine [V,3]."""
+    toward = camera.basis()[2]
+    diffuse = 0.5 + 0.5 * (normals @ LIGHT)
+    facing = np.clip(normals @ toward, 0.0, 1.0)
+    halfway = (LIGHT + toward) / np.linalg.norm(LIGHT + toward)
+    shine = np.clip(normals @ halfway, 0.0, 1.0) ** 30
+    level = (0.40 + 0.70 * diffuse) * (0.62 + 0.38 * np.minimum(1.0, facing * 2.0))
+    return np.asarray(np.clip(colours * level[:, None] + 0.14 * shine[:, None], 0.0, 1.0))

@@ -1,0 +1,228 @@
+"""The mannequin's skin: one smooth surface around the cones of `body.py`, with skin weights.
+
+Our own shape, computed when first needed (about 0.3 s): a smooth union of distance fields on a
+grid, turned into triangles by naive surface nets (Gibson 1998, "Constrained elastic surface
+nets"), then pulled onto the exact surface. Legend: V vertices, F triangles, P points, M cones.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from src.shared.formats.body import BODY, JOINT_SIDES, Part
+from src.shared.motion.skeleton import PARENTS, REST_PELVIS_HEIGHT, canonical_skeleton
+
+SPACING = 0.019  # metres between grid points
+BLEND = 0.035  # metres over which neighbouring cones melt into each other
+SOFTNESS = 0.016  # metres over which skin weights pass from one joint to the next
+FAR = 1.0  # metres: "not near anything"
+
+
+@dataclass(frozen=True, eq=False)
+class Mannequin:
+    """A skinned mesh in the rest pose (T-pose, pelvis at its rest height, facing +Z).
+
+    Attributes:
+        vertices: [V,3] float32, metres.
+        normals: [V,3] float32, unit length.
+        triangles: [F,3] int32, counter-clockwise seen from outside.
+        joints: the four joints that move each vertex [V,4] uint8, heaviest first.
+        weights: their shares [V,4] float32, summing to 1.
+        side: [V] float32, 1 on the left limbs, -1 on the right ones, 0 on the trunk.
+        rest: rest position of each joint [22,3] float32.
+    """
+
+    vertices: np.ndarray
+    normals: np.ndarray
+    triangles: np.ndarray
+    joints: np.ndarray
+    weights: np.ndarray
+    side: np.ndarray
+    rest: np.ndarray
+
+    def pose(self, positions: np.ndarray, rotations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Linear blend skinning: vertices [V,3] and normals [V,3] of one pose.
+
+        Args:
+            positions: world joint positions [22,3].
+            rotations: world joint rotations [22,3,3].
+        """
+        moved = np.zeros((len(self.vertices), 3))
+        normals = np.zeros((len(self.vertices), 3))
+        for joint, weight in zip(self.joints.T, self.weights.T, strict=True):
+            turn, share = rotations[joint], weight[:, None]
+            local = self.vertices - self.rest[joint]
+            moved += share * (np.einsum("vij,vj->vi", turn, local) + positions[joint])
+            normals += share * np.einsum("vij,vj->vi", turn, self.normals)
+        return moved, normals / np.linalg.norm(normals, axis=-1, keepdims=True)
+
+
+@lru_cache(maxsize=1)
+def mannequin() -> Mannequin:
+    """The one mannequin, built on first use."""
+    rest = _rest_positions()
+    cones = _Cones(rest)
+    corners, triangles = _surface_nets(*cones.grid())
+    vertices = corners
+    for _ in range(3):  # Newton steps onto the surface
+        vertices = vertices - cones.field(vertices)[:, None] * cones.normals(vertices)
+    joints, weights = _skin_weights(cones.joint_distances(vertices))
+    sides = np.array([{"left": 1.0, "right": -1.0, "centre": 0.0}[side] for side in JOINT_SIDES])
+    return Mannequin(
+        vertices.astype(np.float32),
+        cones.normals(vertices).astype(np.float32),
+        triangles.astype(np.int32),
+        joints.astype(np.uint8),
+        weights.astype(np.float32),
+        (sides[joints] * weights).sum(-1).astype(np.float32),
+        rest.astype(np.float32),
+    )
+
+
+def _rest_positions() -> np.ndarray:
+    offsets = canonical_skeleton().offsets.astype(np.float64)
+    rest = np.zeros_like(offsets)
+    rest[0] = (0.0, REST_PELVIS_HEIGHT, 0.0)
+    for joint, parent in enumerate(PARENTS):
+        if parent >= 0:
+            rest[joint] = rest[parent] + offsets[joint]
+    return rest
+
+
+class _Cones:
+    """Distance fields of the body's cones in the rest pose."""
+
+    def __init__(self, rest: np.ndarray) -> None:
+        self.parts: tuple[Part, ...] = BODY
+        self.starts = np.array([rest[p.joint] + p.start for p in BODY])
+        self.ends = np.array([rest[p.joint] + p.end for p in BODY])
+
+    def distance(self, points: np.ndarray, index: int) -> np.ndarray:
+        """Signed distance [...] of points [...,3] to one cone, negative inside."""
+        axis = self.ends[index] - self.starts[index]
+        local = points - self.starts[index]
+        s = np.clip(local @ axis / (axis @ axis), 0.0, 1.0)
+        r0, r1 = self.parts[index].radii
+        gap = local - s[..., None] * axis
+        return np.asarray(np.sqrt(np.einsum("...i,...i", gap, gap)) - (r0 + s * (r1 - r0)))
+
+    def field(self, points: np.ndarray) -> np.ndarray:
+        """Signed distance [P] to the whole body.
+
+        Each side melts into the trunk, but left and right never into each other: the thighs
+        must come apart when the legs do.
+        """
+        halves = {side: np.full(len(points), FAR) for side in ("centre", "left", "right")}
+        for index, part in enumerate(self.parts):
+            halves[part.side] = _smooth_min(halves[part.side], self.distance(points, index))
+        left, right = (_smooth_min(halves[s], halves["centre"]) for s in ("left", "right"))
+        return np.minimum(left, right)
+
+    def grid(self) -> tuple[np.ndarray, np.ndarray]:
+        """Origin [3] and field values [X,Y,Z] on a grid; each cone fills only its own box."""
+        margin = BLEND + 2 * SPACING
+        radii = np.array([max(part.radii) for part in self.parts])[:, None] + margin
+        low = np.minimum(self.starts, self.ends) - radii
+        high = np.maximum(self.starts, self.ends) + radii
+        origin = np.floor(low.min(0) / SPACING) * SPACING
+        shape = np.ceil((high.max(0) - origin) / SPACING).astype(int) + 1
+        halves = {side: np.full(shape, FAR) for side in ("centre", "left", "right")}
+        for index, part in enumerate(self.parts):
+            first = np.floor((low[index] - origin) / SPACING).astype(int).clip(0)
+            last = np.ceil((high[index] - origin) / SPACING).astype(int) + 1
+            box = tuple(slice(a, b) for a, b in zip(first, last, strict=True))
+            axes = [origin[i] + SPACING * np.arange(shape[i])[box[i]] for i in range(3)]
+            points = np.stack(np.meshgrid(*axes, indexing="ij"), -1)
+            halves[part.side][box] = _smooth_min(
+                halves[part.side][box], self.distance(points, index)
+            )
+        left, right = (_smooth_min(halves[s], halves["centre"]) for s in ("left", "right"))
+        return origin, np.minimum(left, right)
+
+    def normals(self, points: np.ndarray) -> np.ndarray:
+        """Unit outward normals [P,3] by central differences."""
+        step = 1e-3 * np.eye(3)
+        slope = np.stack([self.field(points + d) - self.field(points - d) for d in step], -1)
+        return np.asarray(slope / np.linalg.norm(slope, axis=-1, keepdims=True))
+
+    def joint_distances(self, points: np.ndarray) -> np.ndarray:
+        """Distance [P,22] to the nearest cone of each joint."""
+        result = np.full((len(points), len(PARENTS)), FAR)
+        for index, part in enumerate(self.parts):
+            result[:, part.joint] = np.minimum(result[:, part.joint], self.distance(points, index))
+        return result
+
+
+def _smooth_min(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Quadratic smooth minimum: equals the minimum where the two differ by BLEND or more."""
+    overlap = np.maximum(BLEND - np.abs(first - second), 0.0)
+    return np.asarray(np.minimum(first, second) - overlap**2 / (4 * BLEND))
+
+
+def _skin_weights(distances: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The four nearest joints [V,4] and their weights [V,4] from distances [V,22].
+
+    Only the nearest joint and its neighbours in the tree take part, so that a hand never moves
+    a hip it hangs beside.
+    """
+    neighbour = np.eye(len(PARENTS), dtype=bool)
+    for joint, parent in enumerate(PARENTS):
+        if parent >= 0:
+            neighbour[joint, parent] = neighbour[parent, joint] = True
+    nearest = distances.argmin(-1)
+    share = np.exp(-(distances - distances.min(-1, keepdims=True)) / SOFTNESS)
+    share *= neighbour[nearest]
+    joints = np.argsort(-share, axis=-1, kind="stable")[:, :4]
+    weights = np.take_along_axis(share, joints, -1)
+    weights[weights < 0.02] = 0.0
+    joints[weights == 0.0] = 0
+    return joints, weights / weights.sum(-1, keepdims=True)
+
+
+def _surface_nets(origin: np.ndarray, field: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices [V,3] and outward triangles [F,3] of the zero surface of a grid field.
+
+    One vertex for each cell that the surface crosses, at the mean of its edge crossings; one
+    quad around each grid edge whose ends have different signs.
+    """
+    cells = np.array(
+        [
+            field[i : i - 1 or None, j : j - 1 or None, k : k - 1 or None]
+            for i in (0, 1)
+            for j in (0, 1)
+            for k in (0, 1)
+        ]
+    )  # [8,...] fmt: skip
+    inside = cells < 0
+    crossed = inside.any(0) & ~inside.all(0)
+    values = cells[:, crossed]  # [8,V]
+    corner = np.array([(i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1)], dtype=float)
+    total, count = np.zeros((values.shape[1], 3)), np.zeros(values.shape[1])
+    for a in range(8):
+        for b in range(a + 1, 8):
+            if np.abs(corner[a] - corner[b]).sum() == 1:
+                cut = (values[a] < 0) != (values[b] < 0)
+                t = values[a, cut] / (values[a, cut] - values[b, cut])
+                total[cut] += corner[a] + t[:, None] * (corner[b] - corner[a])
+                count[cut] += 1
+    index = np.full(crossed.shape, -1)
+    index[crossed] = np.arange(crossed.sum())
+    vertices = origin + SPACING * (np.argwhere(crossed) + total / count[:, None])
+    return vertices, np.concatenate([_quads(field < 0, index, axis) for axis in range(3)])
+
+
+def _quads(inside: np.ndarray, index: np.ndarray, axis: int) -> np.ndarray:
+    """Triangles around the grid edges along one axis that leave or enter the body."""
+    front = np.moveaxis(inside, axis, 0)  # cyclic order keeps the winding the same for all axes
+    cells = np.moveaxis(index, axis, 0)
+    if axis == 1:
+        front, cells = front.swapaxes(1, 2), cells.swapaxes(1, 2)
+    a, b = front[:-1, 1:-1, 1:-1], front[1:, 1:-1, 1:-1]
+    around = [cells[:, :-1, :-1], cells[:, 1:, :-1], cells[:, 1:, 1:], cells[:, :-1, 1:]]
+    result = []
+    for leaves in (True, False):
+        where = (a & ~b) if leaves else (~a & b)
+        p, q, r, s = (corners[where] for corners in (around if leaves else around[::-1]))
+        result += [np.stack((p, q, r), -1), np.stack((p, r, s), -1)]
+    return np.concatenate(result)

@@ -1,0 +1,74 @@
+"""Motion files out, by the ending of their name: one table of writers."""
+
+from collections.abc import Callable, Sequence
+from importlib import import_module
+from pathlib import Path
+
+from src.shared.errors import UsageError
+from src.shared.motion.motion import Motion
+
+Exporter = Callable[[Motion, Path], Path]
+
+
+def _exporter(module: str, function: str) -> Exporter:
+    """A writer whose module is imported at its first use: no format pays for another."""
+
+    def write(motion: Motion, path: Path) -> Path:
+        writer: Exporter = getattr(import_module(f"src.shared.formats.{module}"), function)
+        return writer(motion, path)
+
+    return write
+
+
+EXPORTERS: dict[str, Exporter] = {
+    "bvh": _exporter("bvh_writer", "write_bvh"),
+    "glb": _exporter("glb", "write_glb"),
+    "npz": _exporter("npz", "write_npz"),
+    "html": _exporter("html", "write_html"),
+    "png": _exporter("png", "render_strip"),
+}
+
+
+def write_motion(motion: Motion, path: str | Path) -> Path:
+    """Write one motion in the format that the ending of `path` names; returns the path.
+
+    Raises:
+        UsageError: no format has this ending.
+        UserError: the file cannot be written.
+    """
+    path = Path(path)
+    return _find(path.suffix.removeprefix("."), str(path))(motion, path)
+
+
+def export_motion(
+    motion: Motion, folder: str | Path, stem: str, formats: Sequence[str] = ("bvh", "glb", "npz")
+) -> dict[str, Path]:
+    """Write one motion as `folder/stem.<format>` for each format; the path of each.
+
+    Raises:
+        UsageError: an unknown format; nothing has been written then.
+        UserError: a file cannot be written.
+    """
+    writers = {name: _find(name, name) for name in formats}
+    return {
+        name: write(motion, Path(folder) / f"{stem}.{name}") for name, write in writers.items()
+    }
+
+
+def write_preview(motions: Sequence[Motion] | Motion, path: str | Path) -> Path:
+    """Write one HTML page that plays the motions side by side, offline.
+
+    Raises:
+        UserError: no motion, or the file cannot be written.
+    """
+    from src.shared.formats.html import write_html
+
+    return write_html(motions, path)
+
+
+def _find(name: str, given: str) -> Exporter:
+    try:
+        return EXPORTERS[name.lower()]
+    except KeyError:
+        known = ", ".join(EXPORTERS)
+        raise UsageError(f"{given}: {name!r} is not a format; choose from {known}") from None
