@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from src.shared.data.caption_grammar import normalised
@@ -33,6 +33,7 @@ def test_every_synthetic_combination_has_many_captions(book: CaptionBook, lang: 
         assert len({normalised(text) for text in texts}) == 16, labels
 
 
+@settings(max_examples=40)
 @given(combinations, st.integers(0, 9))
 def test_captions_are_tidy_and_repeatable(labels: dict[str, str], seed: int) -> None:
     captions = packaged_book().captions(labels, num=4, seed=seed)
