@@ -18,9 +18,12 @@ import hashlib
 import json
 import multiprocessing
 import os
+import signal
+import threading
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -141,7 +144,8 @@ def _run(jobs: list[_Job], workers: int, progress: Progress, total: int) -> None
         return
     context = multiprocessing.get_context("spawn")  # forking a process with torch threads hangs
     with ProcessPoolExecutor(min(workers, len(todo)), context, _start_worker) as pool:
-        pending: dict[Future[None], _Job] = {pool.submit(_make_shard, job): job for job in todo}
+        with _interrupts_ignored():
+            pending: dict[Future[None], _Job] = {pool.submit(_make_shard, job): job for job in todo}
         try:
             while pending:
                 for future in wait(pending, return_when=FIRST_COMPLETED).done:
@@ -150,6 +154,19 @@ def _run(jobs: list[_Job], workers: int, progress: Progress, total: int) -> None
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             raise
+
+
+@contextmanager
+def _interrupts_ignored() -> Iterator[None]:
+    """Processes that start inside inherit it: Ctrl-C is the parent's to answer, with one line."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def _start_worker() -> None:
