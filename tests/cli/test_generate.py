@@ -1,0 +1,99 @@
+"""`generate` with a tiny real model: files, JSON on stdout, warnings on stderr, refusals."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from src.cli.tools import app
+from src.shared.files import write_json
+from src.shared.formats.npz import read_npz
+from tests.shared.model.conftest import tiny_generator
+
+PROMPTS = ("--prompt", "a person walks forward", "--prompt", "人が前に歩く")
+runner = CliRunner()
+
+
+@pytest.fixture(scope="module")
+def model(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """A model folder."""
+    folder = tmp_path_factory.mktemp("model")
+    tiny_generator().save_pretrained(folder)
+    return str(folder)
+
+
+def generate(*arguments: str, code: int = 0) -> tuple[str, str]:
+    """stdout and stderr of a run that must end with `code`."""
+    result = runner.invoke(app, ["generate", "--seconds", "0.5", "--device", "cpu", *arguments])
+    assert result.exit_code == code, result.stderr
+    return result.stdout, result.stderr
+
+
+def test_json_names_whole_files_seeds_and_times(model: str, tmp_path: Path) -> None:
+    out, _ = generate(*PROMPTS, "--model", model, "--out", str(tmp_path), "--num-samples", "2",
+                      "--seed", "5", "--format", "bvh,npz", "--json")  # fmt: skip
+    result = json.loads(out)  # nothing else is on stdout
+    rows = result["motions"]
+    assert [row["prompt"] for row in rows] == [PROMPTS[1]] * 2 + [PROMPTS[3]] * 2
+    assert [row["sample"] for row in rows] == [0, 1, 0, 1]
+    assert {row["seed"] for row in rows} == {5} and result["device"] == "cpu"
+    files = [Path(path) for row in rows for path in row["files"].values()]
+    assert sorted(files) == sorted(tmp_path.iterdir()), "no other file, no half-written one"
+    assert {path.suffix for path in files} == {".bvh", ".npz"}
+    assert set(result["timings"]) == {"import", "load", "sample", "write", "total"}
+    parts = [seconds for name, seconds in result["timings"].items() if name != "total"]
+    assert sum(parts) == pytest.approx(result["timings"]["total"], abs=0.01)
+
+
+def test_a_seed_means_the_same_motion(model: str, tmp_path: Path) -> None:
+    def motion(folder: str, seed: str) -> np.ndarray:
+        out, _ = generate("--prompt", "a person walks forward", "--model", model, "--seed", seed,
+                          "--out", str(tmp_path / folder), "--format", "npz")  # fmt: skip
+        return read_npz(out.strip()).quaternions
+
+    first = motion("first", "1")
+    assert np.array_equal(first, motion("again", "1"))
+    assert not np.allclose(first, motion("other", "2"))
+
+
+def test_replaced_files_are_told(model: str, tmp_path: Path) -> None:
+    arguments = (*PROMPTS, "--model", model, "--out", str(tmp_path), "--format", "npz")
+    assert "replaced" not in generate(*arguments)[1]
+    assert "2 files of an earlier run" in generate(*arguments)[1]
+
+
+def test_far_prompts_are_warned_of_by_name(model: str, tmp_path: Path) -> None:
+    arguments = ("--model", model, "--out", str(tmp_path), "--format", "npz", "--json")
+    out, err = generate(
+        "--prompt", "quantum chromodynamics", "--prompt", "somebody jumps twice", *arguments
+    )
+    far, near = json.loads(out)["motions"]
+    assert "walk" in far["warning"] and near["warning"] is None
+    assert err.count("warning:") == 1 and far["warning"] in err
+
+
+def test_tags_reach_the_model(model: str, tmp_path: Path) -> None:
+    arguments = (*PROMPTS, "--model", model, "--out", str(tmp_path), "--format", "npz")
+    generate(*arguments, "--tag", "walk", "--tag", "jump")
+    assert "did you mean 'walk'" in generate(*arguments, "--tag", "wlak", code=1)[1]
+
+
+def test_an_untrained_model_refuses(model: str, tmp_path: Path) -> None:
+    tiny_generator().save_pretrained(tmp_path / "untrained")
+    card = json.loads((tmp_path / "untrained" / "config.json").read_text(encoding="utf-8"))
+    write_json(tmp_path / "untrained" / "config.json", card | {"trained": False})
+    _, err = generate(*PROMPTS, "--model", str(tmp_path / "untrained"), "--out", str(tmp_path),
+                      code=1)  # fmt: skip
+    assert "untrained" in err and len(err.splitlines()) == 1
+    _, err = generate(*PROMPTS, "--model", "default", "--out", str(tmp_path), code=1)
+    assert "profile 'default' is untrained" in err
+
+
+def test_a_damaged_model_is_named(model: str, tmp_path: Path) -> None:
+    tiny_generator().save_pretrained(tmp_path / "cut")
+    weights = tmp_path / "cut" / "model.safetensors"
+    weights.write_bytes(weights.read_bytes()[:-10])
+    _, err = generate(*PROMPTS, "--model", str(tmp_path / "cut"), "--out", str(tmp_path), code=1)
+    assert "model.safetensors" in err and "Traceback" not in err
