@@ -67,7 +67,7 @@ def resolve_model(name_or_folder: str | Path) -> Path:
         use = f", or use --model {shipped[0]}" if shipped else ""
         raise UserError(
             f"profile {name!r} is untrained: no weights of it are shipped; train it with"
-            f" `accelerate launch -m src.train.train_generation --profile {name}` and name the"
+            f" `accelerate launch -m src.train.train_generation --network-profile {name}` and name the"
             f" run's folder{use}"
         )
     if folder.is_dir():
