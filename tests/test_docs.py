@@ -42,6 +42,25 @@ def test_every_printed_import_is_in_the_map() -> None:
                 assert re.search(row, API_MAP), f"{path.name}: {line}"
 
 
+@pytest.mark.parametrize("profile", ["lightweight", "default", "spark"])
+def test_readme_counts_parameters_right(profile: str) -> None:
+    import torch
+
+    from src.cli.shape_stages import NUM_TAGS, count, without_download
+    from src.shared.config_loader import load_network
+    from src.shared.model.clip.core import TextTower
+    from src.shared.model.generation.denoiser import MotionDenoiser
+
+    row = re.search(rf"^\| `{profile}` .*$", PAGES[0].read_text(encoding="utf-8"), re.MULTILINE)
+    printed = [float(number) for number in re.findall(r"([\d.]+)M", row[0] if row else "")]
+    network = load_network(profile)
+    with torch.device("meta"):
+        tower = TextTower(without_download(network.clip), network.embed_dim)
+        denoiser = MotionDenoiser(network, NUM_TAGS)
+    for shown, module in zip(printed, (tower, denoiser), strict=True):
+        assert shown == pytest.approx(count(module) / 1e6, rel=0.03)
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_links_lead_somewhere(page: Path) -> None:
     for target in re.findall(r"\]\(([^)#]+)", page.read_text(encoding="utf-8")):
