@@ -21,8 +21,8 @@ from src.shared.data.word_dropout import drop_words
 from src.shared.device import autocast, choose_compute
 from src.shared.files import sha256_file
 from src.shared.model.checkpoint import WEIGHTS_FILE, ModelCard
-from src.shared.model.clip.core import SMALL, TextFeatures
-from src.shared.model.clip.pretrained import encode_captions, load_text_tower
+from src.shared.model.clip.core import TextFeatures
+from src.shared.model.clip.pretrained import load_text_tower
 from src.shared.model.clip.scope import PromptScope
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
 from src.shared.model.generation.denoiser import MotionDenoiser
@@ -32,6 +32,7 @@ from src.train.launch import stage_app
 from src.train.seeding import generator
 from src.train.task import Part
 from src.train.text_motion import (
+    fit_scope,
     motion_rows,
     numpy_generator,
     open_training_data,
@@ -39,7 +40,6 @@ from src.train.text_motion import (
     validation_set,
 )
 
-SCOPE_CAPTIONS = 20_000  # at most so many captions teach PromptScope
 SAMPLE_SECONDS = 4.0
 NOISE_LEVELS = ("low", "middle", "high")  # thirds of the diffusion steps, in validation
 
@@ -237,22 +237,8 @@ class GenerationTask:
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """A folder that `MotionGenerator.from_pretrained` and `generate --model` read."""
-        self._generator(module, scope=self._scope()).save_pretrained(folder)
-
-    def _scope(self) -> PromptScope:
-        """What prompts the training captions are near."""
-        action_of: dict[str, str] = {}
-        for record in {record.group: record for record in self.train.records}.values():
-            captions = self.data.captions(record)
-            for language in self.config.languages:
-                for text in captions.get(language, []):
-                    action_of.setdefault(text, record.tag)
-        texts = sorted(action_of)
-        texts = texts[:: -(-len(texts) // SCOPE_CAPTIONS)]
-        embeddings = encode_captions(self.tower, self.tokenizer, texts).numpy()
-        actions = [action_of[text] for text in texts]
-        pretrained = self.tower.config.text_model != SMALL
-        return PromptScope.fit(texts, actions, embeddings, pretrained_tower=pretrained)
+        scope = fit_scope(self.data, self.config.languages, self.tower, self.tokenizer)
+        self._generator(module, scope=scope).save_pretrained(folder)
 
 
 app = stage_app(

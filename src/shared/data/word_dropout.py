@@ -20,3 +20,26 @@ def drop_words(caption: str, share: float, rng: np.random.Generator) -> str:
     kept = [word for word, draw in zip(words, rng.random(len(words)), strict=True) if draw >= share]
     shortened = joint.join(kept)
     return shortened if shortened.strip() else caption
+
+
+def insert_babble(caption: str, letters_of: str, rng: np.random.Generator, *, most: int = 3) -> str:
+    """The caption with up to `most` made-up words in it, as a stand-in for words never seen.
+
+    Args:
+        caption: any text.
+        letters_of: a text of the same language, whose letters the words are drawn from.
+        rng: consumed a varying number of times.
+        most: words to insert, at most.
+    """
+    joint = " " if " " in caption.strip() else ""
+    words = caption.split() if joint else list(caption)
+    letters = [letter for letter in letters_of if letter.isalpha()]
+    if not letters:
+        return caption
+    for _ in range(int(rng.integers(1, most + 1))):
+        length = int(rng.integers(2, 9 if joint else 5))
+        word = "".join(letters[index] for index in rng.integers(len(letters), size=length))
+        edges = (0, len(words))  # politeness and context stand at the ends more often than inside
+        place = edges[int(rng.integers(2))] if rng.random() < 0.7 else rng.integers(len(words) + 1)
+        words.insert(int(place), word)
+    return joint.join(words)

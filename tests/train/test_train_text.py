@@ -1,0 +1,74 @@
+"""Hardening the text tower: the space stays, the tower lands on it, denoisers go on."""
+
+from pathlib import Path
+
+import numpy as np
+import torch
+from safetensors.torch import load_file
+from tiny_stage import (
+    SETTINGS,
+    clip_config,
+    generation_config,
+    tiny_network,
+    train_clip,
+    train_generation,
+)
+
+from src.shared.config_loader import load_train
+from src.shared.model.clip.pretrained import ClipBundle
+from src.shared.model.generation.motion_generator import MotionGenerator
+from src.train.engine import Trainer
+from src.train.task import Part
+from src.train.train_text import TextTask, TrainTextConfig
+
+
+def text_config(data: Path, clip: Path, output: Path, *overrides: str) -> TrainTextConfig:
+    settings = [*SETTINGS, f"data='{data}'", f"clip='{clip}'", f"output='{output}'"]
+    return load_train(None, TrainTextConfig, [*settings, "captions-per-group=4", *overrides])
+
+
+def harden(config: TrainTextConfig) -> TextTask:
+    trainer = Trainer(config, lambda c: TextTask(c, tiny_network()), command="again")
+    trainer.train()
+    assert isinstance(trainer.task, TextTask)
+    return trainer.task
+
+
+def test_more_captions_land_on_their_place(prepared: Path, tmp_path: Path) -> None:
+    clip = tmp_path / "clip"
+    train_clip(clip_config(prepared, clip, "steps=30"))
+    config = text_config(
+        prepared, clip, tmp_path / "hard", "steps=150", "batch-size=32", "learning-rate=0.003"
+    )
+    before = TextTask(config, tiny_network())
+    first = before.validation(before.module)["right"]
+    after = harden(config)
+    assert after.figures["right"] > first + 0.05
+    torch.testing.assert_close(after.places, before.places)  # the goal did not move
+    old, new = ClipBundle.from_pretrained(clip), ClipBundle.from_pretrained(tmp_path / "hard")
+    for key, value in old.clip.motion.state_dict().items():
+        assert torch.equal(value, new.clip.motion.state_dict()[key])
+
+
+def test_a_generator_gets_the_new_tower_and_keeps_its_denoiser(
+    prepared: Path, tmp_path: Path
+) -> None:
+    clip, made, hard = tmp_path / "clip", tmp_path / "made", tmp_path / "hard"
+    train_clip(clip_config(prepared, clip, "steps=2"))
+    train_generation(generation_config(prepared, clip, made, "steps=2"))
+    harden(text_config(prepared, clip, hard, "steps=4", f"generator='{made}'"))
+    old, new = (load_file(folder / "model.safetensors") for folder in (made, hard))
+    changed = {key for key in old if not torch.equal(old[key], new[key])}
+    assert changed and all(key.startswith("text.") for key in changed)
+    generator = MotionGenerator.from_pretrained(hard, device="cpu")
+    assert generator.scope is not None and "text-hardening" in generator.card.training
+    assert np.isfinite(generator.generate(["walk"], seconds=1.0)[0].quaternions).all()
+
+
+def test_batches_are_a_function_of_step_and_part(prepared: Path, tmp_path: Path) -> None:
+    clip = tmp_path / "clip"
+    train_clip(clip_config(prepared, clip, "steps=2"))
+    task = TextTask(text_config(prepared, clip, tmp_path / "x"), tiny_network())
+    one, two, other = (task.batch(Part(step, 0, 1)) for step in (3, 3, 4))
+    assert torch.equal(one.input_ids, two.input_ids) and torch.equal(one.group, two.group)
+    assert not torch.equal(one.group, other.group)
