@@ -11,6 +11,8 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from src.shared.data.captions import CaptionBook
 from src.shared.data.records import ClipRecord
 from src.shared.errors import UserError
@@ -18,13 +20,14 @@ from src.shared.evaluation.clips import Clips, Sampler, frozen, real_clips
 from src.shared.evaluation.control_table import control_table
 from src.shared.evaluation.evaluator import Evaluator
 from src.shared.evaluation.held_out import HeldOut, open_held_out
-from src.shared.evaluation.metrics_retrieval import BATCH
+from src.shared.evaluation.metrics_retrieval import BATCH, normalised_score
 from src.shared.evaluation.physical_table import Observed, Row, physical_columns
 from src.shared.evaluation.split_table import (
     Embedded,
     Reference,
     generated_row,
     learned_columns,
+    r_precision,
     real_rows,
     scores,
 )
@@ -280,12 +283,15 @@ def language_table(
         if min(len(clips), num) < BATCH:
             continue
         progress(f"languages: {num} motions in {language}")
-        reference = Reference.of(Embedded.of(evaluator, clips))
-        rows = real_rows(reference, 1, settings.seed)
-        rows["generated"] = generated_row(
-            sampler, evaluator, reference, num_samples=num, replications=1, seed=settings.seed
-        )
-        table[language] = {name: float(row["r_at_3"]["value"]) for name, row in rows.items()}
-        table[language]["normalised"] = scores(rows, "generated")["normalised_r_at_3"]
-        table[language]["num_samples"] = num
+        real = Embedded.of(evaluator, clips)
+        shuffled = real.reordered(np.random.default_rng(settings.seed).permutation(len(clips)))
+        asked = real.rows([row % len(clips) for row in range(num)])
+        motions = sampler(asked.clips.captions, asked.clips.num_frames, settings.seed)
+        made = asked.with_motions(evaluator, asked.clips.with_motions(motions))
+        values = {
+            name: r_precision(sample, settings.seed).r_precision[2]
+            for name, sample in (("real", real), ("chance", shuffled), ("generated", made))
+        }
+        score = normalised_score(values["generated"], values["chance"], values["real"])
+        table[language] = values | {"normalised": score, "num_samples": num}
     return table

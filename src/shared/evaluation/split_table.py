@@ -12,7 +12,12 @@ from src.shared.evaluation.clips import Clips, Sampler
 from src.shared.evaluation.evaluator import Evaluator
 from src.shared.evaluation.intervals import replicated
 from src.shared.evaluation.metrics_frechet import JointFrechet, frechet_distance, group_frechet
-from src.shared.evaluation.metrics_retrieval import BATCH, guo_retrieval, normalised_score
+from src.shared.evaluation.metrics_retrieval import (
+    BATCH,
+    Retrieval,
+    guo_retrieval,
+    normalised_score,
+)
 from src.shared.evaluation.metrics_spread import diversity
 from src.shared.evaluation.physical_table import Observed, Row, physical_columns
 
@@ -34,6 +39,10 @@ class Embedded:
     def with_motions(self, evaluator: Evaluator, clips: Clips) -> "Embedded":
         """The same captions over other motions."""
         return Embedded(clips, self.text, evaluator.embed_motion(clips.motions).numpy())
+
+    def rows(self, index: Sequence[int]) -> "Embedded":
+        """The pairs at these rows, in this order."""
+        return Embedded(self.clips.rows(index), self.text[index], self.motion[index])
 
     def reordered(self, order: np.ndarray) -> "Embedded":
         """Texts and labels stay, motions change places: what ignoring the prompt gives."""
@@ -57,12 +66,17 @@ class Reference:
         return cls(real, joint, Observed.of(real.clips.motions))
 
 
+def r_precision(sample: Embedded, seed: int) -> Retrieval:
+    """Retrieval where clips of one label group, or with one caption, are all right."""
+    equal_by = [sample.clips.groups, sample.clips.captions]
+    return guo_retrieval(sample.text, sample.motion, equal_by, seed=seed)
+
+
 def learned_columns(sample: Embedded, reference: Reference, seed: int) -> dict[str, float]:
     """Everything the evaluator model decides: retrieval, Fréchet distances, diversity."""
     columns: dict[str, float] = {}
     if len(sample.clips) >= BATCH:
-        equal_by = [sample.clips.groups, sample.clips.captions]
-        found = guo_retrieval(sample.text, sample.motion, equal_by, seed=seed)
+        found = r_precision(sample, seed)
         for k, value in enumerate(found.r_precision, start=1):
             columns[f"r_at_{k}"] = value
         columns["matching_distance"] = found.matching_distance
@@ -150,8 +164,8 @@ def generated_row(
     """
     real = reference.real
     index = [row % len(real.clips) for row in range(num_samples)]
-    prompts = real.clips.rows(index)
-    prompted = Embedded(prompts, real.text[index], real.motion[index])
+    prompted = real.rows(index)
+    prompts = prompted.clips
     columns: list[dict[str, float]] = []
     first: Clips | None = None
     for replication in range(replications):
