@@ -19,6 +19,8 @@ class Part:
         start: centre of the first ball, relative to the joint at rest.
         end: centre of the second ball.
         radii: radius at `start` and at `end`.
+        width: factor by which the cone is wider along X than it is deep.
+        group: parts of a group form one limb and meet with equal radii; groups melt together.
         side: "left", "right" or "centre".
     """
 
@@ -26,44 +28,54 @@ class Part:
     start: Point
     end: Point
     radii: tuple[float, float]
-    side: str = "centre"
+    width: float
+    group: str
+    side: str
 
 
-# Trunk and head: joint, start, end, radii.
-_CENTRE: tuple[tuple[str, Point, Point, tuple[float, float]], ...] = (
-    ("pelvis", (-0.075, -0.035, -0.005), (0.075, -0.035, -0.005), (0.105, 0.105)),
-    ("pelvis", (-0.045, 0.04, 0.0), (0.045, 0.04, 0.0), (0.100, 0.100)),
-    ("spine1", (-0.045, 0.02, 0.0), (0.045, 0.02, 0.0), (0.096, 0.096)),
-    ("spine2", (-0.06, 0.0, 0.0), (0.06, 0.0, 0.0), (0.100, 0.100)),
-    ("spine3", (-0.075, 0.06, 0.0), (0.075, 0.06, 0.0), (0.105, 0.105)),
-    ("spine3", (0.0, 0.13, -0.005), (0.0, 0.20, -0.005), (0.080, 0.055)),
-    ("neck", (0.0, -0.03, -0.005), (0.0, 0.09, 0.01), (0.056, 0.050)),
-    ("head", (0.0, 0.045, 0.025), (0.0, 0.105, 0.010), (0.072, 0.088)),
-    ("head", (0.0, 0.035, 0.100), (0.0, 0.055, 0.096), (0.014, 0.009)),
+_Row = tuple[str, str, Point, Point, tuple[float, float], float]
+# Trunk and head: group, joint, start, end, radii, width.
+_CENTRE: tuple[_Row, ...] = (
+    ("trunk", "pelvis", (0.0, -0.050, -0.008), (0.0, 0.020, -0.004), (0.098, 0.100), 1.62),
+    ("trunk", "pelvis", (0.0, 0.020, -0.004), (0.0, 0.110, 0.0), (0.100, 0.092), 1.50),
+    ("trunk", "spine1", (0.0, 0.0, 0.0), (0.0, 0.130, 0.0), (0.092, 0.102), 1.44),
+    ("trunk", "spine2", (0.0, 0.0, 0.0), (0.0, 0.060, 0.0), (0.102, 0.108), 1.50),
+    ("trunk", "spine3", (0.0, 0.0, 0.0), (0.0, 0.090, 0.0), (0.108, 0.104), 1.56),
+    ("trunk", "spine3", (0.0, 0.090, 0.0), (0.0, 0.160, -0.010), (0.104, 0.062), 1.60),
+    ("neck", "neck", (0.0, -0.060, -0.012), (0.0, 0.090, 0.006), (0.058, 0.052), 1.0),
+    ("head", "head", (0.0, 0.030, 0.032), (0.0, 0.095, 0.008), (0.064, 0.090), 0.94),
+    ("nose", "head", (0.0, 0.038, 0.098), (0.0, 0.062, 0.092), (0.013, 0.008), 1.0),
 )
 # Left limbs; the right ones are their mirror images.
-_LEFT: tuple[tuple[str, Point, Point, tuple[float, float]], ...] = (
-    ("collar", (0.0, -0.02, 0.0), (0.085, 0.02, 0.0), (0.075, 0.064)),
-    ("shoulder", (0.0, 0.0, 0.0), (0.26, 0.0, 0.0), (0.056, 0.041)),
-    ("elbow", (0.0, 0.0, 0.0), (0.25, 0.0, 0.0), (0.042, 0.030)),
-    ("wrist", (0.025, 0.0, 0.0), (0.085, 0.0, 0.012), (0.031, 0.034)),
-    ("wrist", (0.09, 0.0, -0.005), (0.155, -0.005, -0.002), (0.028, 0.019)),
-    ("wrist", (0.04, -0.004, 0.025), (0.085, -0.012, 0.06), (0.020, 0.014)),
-    ("hip", (0.0, -0.01, 0.0), (0.0, -0.40, 0.0), (0.092, 0.058)),
-    ("knee", (0.0, 0.0, 0.0), (0.0, -0.14, -0.012), (0.057, 0.056)),
-    ("knee", (0.0, -0.14, -0.012), (0.0, -0.40, 0.0), (0.056, 0.038)),
-    ("ankle", (0.0, -0.038, -0.035), (0.0, -0.040, 0.12), (0.040, 0.034)),
-    ("foot", (-0.012, 0.010, 0.0), (-0.008, 0.006, 0.065), (0.030, 0.024)),
-    ("foot", (0.018, 0.010, 0.0), (0.018, 0.006, 0.045), (0.029, 0.023)),
+_LEFT: tuple[_Row, ...] = (
+    ("shoulder", "collar", (-0.010, -0.010, -0.004), (0.090, 0.018, 0.0), (0.070, 0.060), 1.0),
+    ("arm", "shoulder", (0.0, 0.0, 0.0), (0.09, 0.0, 0.0), (0.056, 0.052), 1.0),
+    ("arm", "shoulder", (0.09, 0.0, 0.0), (0.26, 0.0, 0.0), (0.052, 0.041), 1.0),
+    ("arm", "elbow", (0.0, 0.0, 0.0), (0.07, 0.0, 0.0), (0.041, 0.043), 1.0),
+    ("arm", "elbow", (0.07, 0.0, 0.0), (0.25, 0.0, 0.0), (0.043, 0.028), 1.0),
+    ("hand", "wrist", (0.030, 0.0, -0.008), (0.085, 0.0, -0.014), (0.024, 0.024), 1.0),
+    ("hand", "wrist", (0.030, 0.0, 0.008), (0.085, 0.0, 0.016), (0.024, 0.024), 1.0),
+    ("fingers", "wrist", (0.085, 0.0, -0.014), (0.160, -0.008, -0.010), (0.019, 0.014), 1.0),
+    ("fingers", "wrist", (0.085, 0.0, 0.014), (0.165, -0.008, 0.010), (0.019, 0.014), 1.0),
+    ("thumb", "wrist", (0.035, -0.004, 0.022), (0.085, -0.012, 0.058), (0.018, 0.013), 1.0),
+    ("leg", "hip", (0.002, 0.0, 0.0), (0.002, -0.120, 0.0), (0.090, 0.080), 1.0),
+    ("leg", "hip", (0.002, -0.120, 0.0), (0.0, -0.400, 0.0), (0.080, 0.055), 1.0),
+    ("leg", "knee", (0.0, 0.0, 0.0), (0.0, -0.130, -0.012), (0.055, 0.056), 1.0),
+    ("leg", "knee", (0.0, -0.130, -0.012), (0.0, -0.400, 0.0), (0.056, 0.037), 1.0),
+    ("foot", "ankle", (0.0, -0.034, -0.035), (0.0, -0.039, 0.120), (0.037, 0.032), 1.0),
+    ("toes", "foot", (-0.014, 0.013, 0.0), (-0.010, 0.009, 0.068), (0.025, 0.021), 1.0),
+    ("toes", "foot", (0.016, 0.013, 0.0), (0.016, 0.009, 0.048), (0.025, 0.021), 1.0),
 )
 
 
 def _build() -> tuple[Part, ...]:
-    parts = [Part(JOINT_INDEX[name], *rest) for name, *rest in _CENTRE]  # type: ignore[arg-type]
-    for name, (x0, y0, z0), (x1, y1, z1), radii in _LEFT:
+    parts = []
+    for group, name, start, end, radii, width in _CENTRE:
+        parts.append(Part(JOINT_INDEX[name], start, end, radii, width, group, "centre"))
+    for group, name, (x0, y0, z0), (x1, y1, z1), radii, width in _LEFT:
         left, right = JOINT_INDEX[f"l_{name}"], JOINT_INDEX[f"r_{name}"]
-        parts.append(Part(left, (x0, y0, z0), (x1, y1, z1), radii, "left"))
-        parts.append(Part(right, (-x0, y0, z0), (-x1, y1, z1), radii, "right"))
+        parts.append(Part(left, (x0, y0, z0), (x1, y1, z1), radii, width, group, "left"))
+        parts.append(Part(right, (-x0, y0, z0), (-x1, y1, z1), radii, width, group, "right"))
     return tuple(parts)
 
 

@@ -5,6 +5,7 @@ grid, turned into triangles by naive surface nets (Gibson 1998, "Constrained ela
 nets"), then pulled onto the exact surface. Legend: V vertices, F triangles, P points, M cones.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -14,8 +15,10 @@ from src.shared.formats.body import BODY, JOINT_SIDES, Part
 from src.shared.motion.skeleton import PARENTS, REST_PELVIS_HEIGHT, canonical_skeleton
 
 SPACING = 0.019  # metres between grid points
-BLEND = 0.035  # metres over which neighbouring cones melt into each other
+BLEND = 0.040  # metres over which groups of cones melt into each other
+SEAM = 0.012  # metres over which the cones of one group do
 SOFTNESS = 0.016  # metres over which skin weights pass from one joint to the next
+_Piece = Callable[[int], tuple[tuple[slice, ...], np.ndarray]]
 FAR = 1.0  # metres: "not near anything"
 
 
@@ -65,13 +68,15 @@ def mannequin() -> Mannequin:
     cones = _Cones(rest)
     corners, triangles = _surface_nets(*cones.grid())
     vertices = corners
-    for _ in range(3):  # Newton steps onto the surface
-        vertices = vertices - cones.field(vertices)[:, None] * cones.normals(vertices)
+    for _ in range(2):  # Newton steps onto the surface
+        distance, normals = cones.field_and_normals(vertices)
+        vertices = vertices - distance[:, None] * normals
+    normals = cones.field_and_normals(vertices)[1]
     joints, weights = _skin_weights(cones.joint_distances(vertices))
     sides = np.array([{"left": 1.0, "right": -1.0, "centre": 0.0}[side] for side in JOINT_SIDES])
     return Mannequin(
         vertices.astype(np.float32),
-        cones.normals(vertices).astype(np.float32),
+        normals.astype(np.float32),
         triangles.astype(np.int32),
         joints.astype(np.uint8),
         weights.astype(np.float32),
@@ -100,51 +105,62 @@ class _Cones:
 
     def distance(self, points: np.ndarray, index: int) -> np.ndarray:
         """Signed distance [...] of points [...,3] to one cone, negative inside."""
-        axis = self.ends[index] - self.starts[index]
-        local = points - self.starts[index]
+        stretch = np.array([1.0 / self.parts[index].width, 1.0, 1.0])
+        axis = (self.ends[index] - self.starts[index]) * stretch
+        local = (points - self.starts[index]) * stretch
         s = np.clip(local @ axis / (axis @ axis), 0.0, 1.0)
         r0, r1 = self.parts[index].radii
         gap = local - s[..., None] * axis
         return np.asarray(np.sqrt(np.einsum("...i,...i", gap, gap)) - (r0 + s * (r1 - r0)))
 
     def field(self, points: np.ndarray) -> np.ndarray:
-        """Signed distance [P] to the whole body.
+        """Signed distance [P] to the whole body."""
+        everywhere = (slice(None),)
+        return self._melt((len(points),), lambda index: (everywhere, self.distance(points, index)))
+
+    def grid(self) -> tuple[np.ndarray, np.ndarray]:
+        """Origin [3] and field values [X,Y,Z] on a grid; each cone fills only its own box."""
+        reach = np.array([max(p.radii) * np.array([p.width, 1, 1]) for p in self.parts])
+        reach += BLEND + 2 * SPACING
+        low = np.minimum(self.starts, self.ends) - reach
+        high = np.maximum(self.starts, self.ends) + reach
+        origin = np.floor(low.min(0) / SPACING) * SPACING
+        shape = np.ceil((high.max(0) - origin) / SPACING).astype(int) + 1
+
+        def one(index: int) -> tuple[tuple[slice, ...], np.ndarray]:
+            first = np.floor((low[index] - origin) / SPACING).astype(int)
+            last = np.ceil((high[index] - origin) / SPACING).astype(int) + 1
+            box = tuple(slice(a, b) for a, b in zip(first, last, strict=True))
+            axes = [origin[i] + SPACING * np.arange(shape[i])[box[i]] for i in range(3)]
+            return box, self.distance(np.stack(np.meshgrid(*axes, indexing="ij"), -1), index)
+
+        return origin, self._melt(tuple(shape), one)
+
+    def _melt(self, shape: tuple[int, ...], one: _Piece) -> np.ndarray:
+        """Join the distances `one(index)` gives for a region of the whole, group by group.
 
         Each side melts into the trunk, but left and right never into each other: the thighs
         must come apart when the legs do.
         """
-        halves = {side: np.full(len(points), FAR) for side in ("centre", "left", "right")}
-        for index, part in enumerate(self.parts):
-            halves[part.side] = _smooth_min(halves[part.side], self.distance(points, index))
-        left, right = (_smooth_min(halves[s], halves["centre"]) for s in ("left", "right"))
+        sides = {}
+        for side in ("centre", "left", "right"):
+            whole = np.full(shape, FAR)
+            for group in dict.fromkeys(part.group for part in self.parts if part.side == side):
+                limb = np.full(shape, FAR)
+                for index, part in enumerate(self.parts):
+                    if (part.side, part.group) == (side, group):
+                        where, distance = one(index)
+                        limb[where] = _smooth_min(limb[where], distance, SEAM)
+                whole = _smooth_min(whole, limb, BLEND)
+            sides[side] = whole
+        left, right = (_smooth_min(sides[s], sides["centre"], BLEND) for s in ("left", "right"))
         return np.minimum(left, right)
 
-    def grid(self) -> tuple[np.ndarray, np.ndarray]:
-        """Origin [3] and field values [X,Y,Z] on a grid; each cone fills only its own box."""
-        margin = BLEND + 2 * SPACING
-        radii = np.array([max(part.radii) for part in self.parts])[:, None] + margin
-        low = np.minimum(self.starts, self.ends) - radii
-        high = np.maximum(self.starts, self.ends) + radii
-        origin = np.floor(low.min(0) / SPACING) * SPACING
-        shape = np.ceil((high.max(0) - origin) / SPACING).astype(int) + 1
-        halves = {side: np.full(shape, FAR) for side in ("centre", "left", "right")}
-        for index, part in enumerate(self.parts):
-            first = np.floor((low[index] - origin) / SPACING).astype(int).clip(0)
-            last = np.ceil((high[index] - origin) / SPACING).astype(int) + 1
-            box = tuple(slice(a, b) for a, b in zip(first, last, strict=True))
-            axes = [origin[i] + SPACING * np.arange(shape[i])[box[i]] for i in range(3)]
-            points = np.stack(np.meshgrid(*axes, indexing="ij"), -1)
-            halves[part.side][box] = _smooth_min(
-                halves[part.side][box], self.distance(points, index)
-            )
-        left, right = (_smooth_min(halves[s], halves["centre"]) for s in ("left", "right"))
-        return origin, np.minimum(left, right)
-
-    def normals(self, points: np.ndarray) -> np.ndarray:
-        """Unit outward normals [P,3] by central differences."""
-        step = 1e-3 * np.eye(3)
-        slope = np.stack([self.field(points + d) - self.field(points - d) for d in step], -1)
-        return np.asarray(slope / np.linalg.norm(slope, axis=-1, keepdims=True))
+    def field_and_normals(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Signed distance [P] and unit outward normals [P,3], by differences over 0.5 mm."""
+        here = self.field(points)
+        slope = np.stack([self.field(points + step) - here for step in 5e-4 * np.eye(3)], -1)
+        return here, slope / np.linalg.norm(slope, axis=-1, keepdims=True)
 
     def joint_distances(self, points: np.ndarray) -> np.ndarray:
         """Distance [P,22] to the nearest cone of each joint."""
@@ -154,10 +170,10 @@ class _Cones:
         return result
 
 
-def _smooth_min(first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """Quadratic smooth minimum: equals the minimum where the two differ by BLEND or more."""
-    overlap = np.maximum(BLEND - np.abs(first - second), 0.0)
-    return np.asarray(np.minimum(first, second) - overlap**2 / (4 * BLEND))
+def _smooth_min(first: np.ndarray, second: np.ndarray, reach: float) -> np.ndarray:
+    """Quadratic smooth minimum: equals the minimum where the two differ by `reach` or more."""
+    overlap = np.maximum(reach - np.abs(first - second), 0.0)
+    return np.asarray(np.minimum(first, second) - overlap**2 / (4 * reach))
 
 
 def _skin_weights(distances: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -50,9 +50,7 @@ def export_motion(
         UserError: a file cannot be written.
     """
     writers = {name: _find(name, name) for name in formats}
-    return {
-        name: write(motion, Path(folder) / f"{stem}.{name}") for name, write in writers.items()
-    }
+    return {name: write(motion, Path(folder) / f"{stem}.{name}") for name, write in writers.items()}
 
 
 def write_preview(motions: Sequence[Motion] | Motion, path: str | Path) -> Path:
