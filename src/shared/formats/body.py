@@ -80,6 +80,9 @@ def _build() -> tuple[Part, ...]:
 
 
 BODY: tuple[Part, ...] = _build()
+# RGB of the limbs of each side, 0 to 1, in every picture and viewer.
+COLOURS = {"left": (0.93, 0.52, 0.24), "right": (0.27, 0.52, 0.86), "centre": (0.72, 0.74, 0.78)}
+CONTACT = (0.25, 0.72, 0.38)  # a foot on the ground
 JOINT_SIDES: tuple[str, ...] = tuple(
     {"l_": "left", "r_": "right"}.get(name[:2], "centre") for name in JOINT_NAMES
 )

@@ -1,29 +1,45 @@
-"""GLB files out: the skinned mannequin and one animation, as glTF 2.0 binary.
+"""GLB files out: binary glTF 2.0 with an animated, skinned mannequin.
 
-One file, no references: nodes 0 to 21 are the joints in SMPL order, node 22 is the mesh. Metres,
-+Y up, facing +Z, as glTF wants it. Each joint has a rotation channel, the pelvis a translation
-channel too; the prompt is the animation's name. Left limbs are warm, right limbs cool, through a
-tiny texture, which every viewer shows.
+One scene: the 22 joints as nodes (pelvis first, rest pose as their default), a mesh with a skin,
+and one animation with a rotation channel a joint and a translation channel for the pelvis.
+glTF shares our conventions (metres, +Y up, right-handed, facing +Z), so nothing is turned.
+Colours come from a tiny texture, because that is what every viewer and Blender show.
+Legend: T frames, V vertices, F triangles.
 """
 
+import io
 import json
 import struct
-import zlib
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from src.shared.files import atomic_write
-from src.shared.formats.mannequin import Mannequin, mannequin
+from src.shared.formats.mannequin import Mannequin, mannequin, side_colours
 from src.shared.motion.motion import Motion
-from src.shared.motion.skeleton import JOINT_NAMES, NUM_JOINTS, PARENTS
+from src.shared.motion.skeleton import NUM_JOINTS, canonical_skeleton
 
-# sRGB of the right limbs, the trunk and the left limbs.
-TINTS = ((118, 150, 196), (190, 194, 202), (214, 158, 120))
-_FLOAT, _BYTE, _SHORT = 5126, 5121, 5123  # glTF component types
-_VERTICES, _INDICES = 34962, 34963  # glTF buffer view targets
+VERTEX_DATA, INDEX_DATA = 34962, 34963  # bufferView.target
 _TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
+_COMPONENTS = {"float32": 5126, "uint8": 5121, "uint16": 5123, "uint32": 5125}
+PALETTE_SIZE = 32  # texels, right side to left side
+MESH_NODE = NUM_JOINTS
+
+
+def write_glb(motion: Motion, path: str | Path) -> Path:
+    """Write one motion as an animated GLB; its joints move as `motion.positions()` does.
+
+    Raises:
+        UserError: the file cannot be written.
+    """
+    buffer = _Buffer()
+    document = _document(motion, mannequin(), buffer)
+    text = json.dumps(document, allow_nan=False, separators=(",", ":")).encode()
+    chunks = _chunk(b"JSON", text, b" ") + _chunk(b"BIN\0", bytes(buffer.data), b"\0")
+    with atomic_write(Path(path)) as temporary:
+        temporary.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
+    return Path(path)
 
 
 class _Buffer:
@@ -34,159 +50,169 @@ class _Buffer:
         self.views: list[dict[str, Any]] = []
         self.accessors: list[dict[str, Any]] = []
 
-    def view(self, content: bytes, target: int | None = None) -> int:
-        """Append bytes at a multiple of four; returns the view's index."""
-        self.data += b"\0" * (-len(self.data) % 4)
-        view = {"buffer": 0, "byteOffset": len(self.data), "byteLength": len(content)}
+    def view(self, data: bytes, target: int | None = None) -> int:
+        """Add bytes at the next multiple of 4; the index of their view."""
+        self.data += bytes(-len(self.data) % 4)
+        view = {"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data)}
         self.views.append(view | ({"target": target} if target else {}))
-        self.data += content
+        self.data += data
         return len(self.views) - 1
 
     def accessor(
         self,
-        array: np.ndarray,
-        kind: int,
-        *,
+        values: np.ndarray,
         target: int | None = None,
+        *,
         bounds: bool = False,
         normalized: bool = False,
     ) -> int:
-        """Append an array [N] or [N,width]; returns the accessor's index."""
-        dtype = {_FLOAT: "<f4", _BYTE: "u1", _SHORT: "<u2"}[kind]
-        flat = np.ascontiguousarray(array, dtype=dtype).reshape(len(array), -1)
-        entry: dict[str, Any] = {
-            "bufferView": self.view(flat.tobytes(), target),
-            "componentType": kind,
-            "count": len(flat),
-            "type": _TYPES[flat.shape[1]],
+        """Add an array [N] or [N,width]; the index of its accessor."""
+        values = np.ascontiguousarray(values)
+        rows = values.reshape(len(values), -1)
+        little_endian = values.astype(values.dtype.newbyteorder("<"))
+        accessor: dict[str, Any] = {
+            "bufferView": self.view(little_endian.tobytes(), target),
+            "componentType": _COMPONENTS[values.dtype.name],
+            "count": len(values),
+            "type": _TYPES[rows.shape[1]],
         }
-        if bounds:
-            entry |= {"min": flat.min(0).tolist(), "max": flat.max(0).tolist()}
         if normalized:
-            entry["normalized"] = True
-        self.accessors.append(entry)
+            accessor["normalized"] = True
+        if bounds:
+            accessor |= {"min": rows.min(0).tolist(), "max": rows.max(0).tolist()}
+        self.accessors.append(accessor)
         return len(self.accessors) - 1
 
 
-def write_glb(motion: Motion, path: str | Path) -> Path:
-    """Write one motion as an animated, skinned character.
-
-    Raises:
-        UserError: the file cannot be written.
-    """
-    body, buffer = mannequin(), _Buffer()
+def _document(motion: Motion, body: Mannequin, buffer: _Buffer) -> dict[str, Any]:
+    """The JSON chunk; fills `buffer` on the way."""
+    name = motion.text or "motion"
+    animation = _animation(motion, buffer) | {"name": name}
     document = {
-        "asset": {"version": "2.0", "generator": "motionsuite"},
+        "asset": {"version": "2.0", "generator": "motion-tools"},
         "scene": 0,
-        "scenes": [{"name": "motion", "nodes": [0, NUM_JOINTS]}],
-        "nodes": [*_joint_nodes(body), {"name": "mannequin", "mesh": 0, "skin": 0}],
+        "scenes": [{"name": name, "nodes": [0, MESH_NODE], "extras": {"text": motion.text}}],
+        "nodes": _nodes(body),
         "meshes": [_mesh(body, buffer)],
         "skins": [_skin(body, buffer)],
-        "animations": [_animation(motion, buffer)],
-        **_material(buffer),
+        "animations": [animation],
+        "materials": [
+            {
+                "name": "mannequin",
+                "pbrMetallicRoughness": {
+                    "baseColorTexture": {"index": 0},
+                    "metallicFactor": 0.0,
+                    "roughnessFactor": 0.7,
+                },
+            }
+        ],
+        "textures": [{"source": 0, "sampler": 0}],
+        "samplers": [{"magFilter": 9729, "minFilter": 9729, "wrapS": 33071, "wrapT": 33071}],
+        "images": [
+            {"name": "sides", "mimeType": "image/png", "bufferView": buffer.view(_palette())}
+        ],
     }
-    document |= {
+    return document | {
         "accessors": buffer.accessors,
         "bufferViews": buffer.views,
         "buffers": [{"byteLength": len(buffer.data)}],
     }
-    with atomic_write(Path(path)) as temporary:
-        temporary.write_bytes(_pack(document, bytes(buffer.data)))
-    return Path(path)
 
 
-def _joint_nodes(body: Mannequin) -> list[dict[str, Any]]:
-    """The skeleton in its rest pose."""
+def _nodes(body: Mannequin) -> list[dict[str, Any]]:
+    """The joints in the rest pose, then the mesh."""
+    skeleton = canonical_skeleton()
     nodes: list[dict[str, Any]] = []
-    for joint, (name, parent) in enumerate(zip(JOINT_NAMES, PARENTS, strict=True)):
-        offset = body.rest[joint] - (body.rest[parent] if parent >= 0 else 0.0)
-        node: dict[str, Any] = {"name": name, "translation": [round(float(v), 6) for v in offset]}
-        children = [child for child, above in enumerate(PARENTS) if above == joint]
+    for joint, name in enumerate(skeleton.names):
+        children = [child for child, above in enumerate(skeleton.parents) if above == joint]
+        node = {"name": name, "translation": skeleton.offsets[joint].tolist()}
         nodes.append(node | ({"children": children} if children else {}))
-    return nodes
+    nodes[0]["translation"] = body.rest[0].tolist()
+    return [*nodes, {"name": "mannequin", "mesh": 0, "skin": 0}]
 
 
 def _mesh(body: Mannequin, buffer: _Buffer) -> dict[str, Any]:
-    """The surface with its skin weights; U runs from right (0) to left (1)."""
-    shares = np.floor(body.weights * 255).astype(np.int64)
-    shares[:, 0] += 255 - shares.sum(-1)  # bytes must add up to one exactly
-    uv = np.stack((0.5 + 0.5 * body.side, np.full(len(body.side), 0.5)), -1)
+    index_type = np.uint16 if len(body.vertices) < 65535 else np.uint32
+    # The middle of the outer texels, so that the ends are never blended with anything.
+    u = 0.5 + 0.5 * body.side * (1 - 1 / PALETTE_SIZE)
     attributes = {
-        "POSITION": buffer.accessor(body.vertices, _FLOAT, target=_VERTICES, bounds=True),
-        "NORMAL": buffer.accessor(body.normals, _FLOAT, target=_VERTICES),
-        "TEXCOORD_0": buffer.accessor(uv, _FLOAT, target=_VERTICES),
-        "JOINTS_0": buffer.accessor(np.where(shares > 0, body.joints, 0), _BYTE, target=_VERTICES),
-        "WEIGHTS_0": buffer.accessor(shares, _BYTE, target=_VERTICES, normalized=True),
+        "POSITION": buffer.accessor(body.vertices, VERTEX_DATA, bounds=True),
+        "NORMAL": buffer.accessor(body.normals, VERTEX_DATA),
+        "TEXCOORD_0": buffer.accessor(
+            np.stack((u, np.full_like(u, 0.5)), -1).astype(np.float32), VERTEX_DATA
+        ),
+        "JOINTS_0": buffer.accessor(body.joints, VERTEX_DATA),
+        "WEIGHTS_0": buffer.accessor(
+            whole_shares(body.weights, 65535).astype(np.uint16), VERTEX_DATA, normalized=True
+        ),
     }
-    indices = buffer.accessor(body.triangles.reshape(-1), _SHORT, target=_INDICES)
-    primitive = {"attributes": attributes, "indices": indices, "material": 0}
-    return {"name": "mannequin", "primitives": [primitive]}
+    indices = buffer.accessor(body.triangles.reshape(-1).astype(index_type), INDEX_DATA)
+    return {
+        "name": "mannequin",
+        "primitives": [{"attributes": attributes, "indices": indices, "material": 0}],
+    }
+
+
+def whole_shares(weights: np.ndarray, total: int) -> np.ndarray:
+    """Weights [V,4] (heaviest first, summing to 1) as integers that sum to `total` exactly."""
+    shares = np.floor(weights.astype(np.float64) * total).astype(np.int64)
+    shares[:, 0] += total - shares.sum(-1)
+    return shares
 
 
 def _skin(body: Mannequin, buffer: _Buffer) -> dict[str, Any]:
+    """The rest pose has no rotations, so each inverse bind matrix is one translation."""
     inverse = np.tile(np.eye(4, dtype=np.float32), (NUM_JOINTS, 1, 1))
-    inverse[:, 3, :3] = -body.rest  # column-major: the translation is the last row in memory
-    matrices = buffer.accessor(inverse.reshape(NUM_JOINTS, 16), _FLOAT)
-    joints = list(range(NUM_JOINTS))
-    return {"joints": joints, "skeleton": 0, "inverseBindMatrices": matrices}
+    inverse[:, :3, 3] = -body.rest
+    columns = inverse.transpose(0, 2, 1).reshape(NUM_JOINTS, 16)  # glTF stores column by column
+    return {
+        "name": "mannequin",
+        "skeleton": 0,
+        "joints": list(range(NUM_JOINTS)),
+        "inverseBindMatrices": buffer.accessor(columns),
+    }
 
 
 def _animation(motion: Motion, buffer: _Buffer) -> dict[str, Any]:
-    """A rotation channel for each joint and a translation channel for the pelvis."""
-    times = buffer.accessor(np.arange(motion.num_frames) / motion.fps, _FLOAT, bounds=True)
-    turns = motion.quaternions.astype(np.float64)
-    turns = turns / np.linalg.norm(turns, axis=-1, keepdims=True)
-    flips = np.where((turns[1:] * turns[:-1]).sum(-1) < 0, -1.0, 1.0)
-    turns[1:] *= np.cumprod(flips, axis=0)[..., None]  # neighbours on the same half of the sphere
-    tracks = [("translation", 0, buffer.accessor(motion.root_position, _FLOAT))]
-    tracks += [
-        ("rotation", joint, buffer.accessor(turns[:, joint, [1, 2, 3, 0]], _FLOAT))
-        for joint in range(NUM_JOINTS)
-    ]
+    """Rotations of all joints and the pelvis path, keyed at every frame."""
+    times = (np.arange(motion.num_frames) / motion.fps).astype(np.float32)
+    keys = buffer.accessor(times, bounds=True)
+    outputs = [buffer.accessor(motion.root_position.astype(np.float32))]
+    quaternions = continuous(motion.quaternions)[..., [1, 2, 3, 0]].astype(np.float32)
+    outputs += [buffer.accessor(quaternions[:, joint]) for joint in range(NUM_JOINTS)]
+    targets = [{"node": 0, "path": "translation"}]
+    targets += [{"node": joint, "path": "rotation"} for joint in range(NUM_JOINTS)]
     return {
-        "name": motion.text or "motion",
         "samplers": [
-            {"input": times, "output": output, "interpolation": "LINEAR"} for _, _, output in tracks
+            {"input": keys, "output": output, "interpolation": "LINEAR"} for output in outputs
         ],
-        "channels": [
-            {"sampler": index, "target": {"node": node, "path": path}}
-            for index, (path, node, _) in enumerate(tracks)
-        ],
+        "channels": [{"sampler": i, "target": target} for i, target in enumerate(targets)],
     }
 
 
-def _material(buffer: _Buffer) -> dict[str, Any]:
-    """One matte material whose colour comes from a strip of three tints."""
-    image = buffer.view(_png_strip())
-    surface = {"baseColorTexture": {"index": 0}, "metallicFactor": 0.0, "roughnessFactor": 0.65}
-    return {
-        "materials": [{"name": "skin", "pbrMetallicRoughness": surface}],
-        "textures": [{"source": 0, "sampler": 0}],
-        "samplers": [{"magFilter": 9729, "minFilter": 9729, "wrapS": 33071, "wrapT": 33071}],
-        "images": [{"name": "tints", "mimeType": "image/png", "bufferView": image}],
-    }
+def continuous(quaternions: np.ndarray) -> np.ndarray:
+    """Unit quaternions [T,...,4] with signs chosen so that neighbouring frames are near.
+
+    Some players mix neighbouring keys as they stand, and would turn the long way round.
+    """
+    unit = quaternions.astype(np.float64)
+    unit = unit / np.linalg.norm(unit, axis=-1, keepdims=True)
+    flips = np.where((unit[1:] * unit[:-1]).sum(-1) < 0, -1.0, 1.0)
+    signs = np.concatenate((np.ones_like(unit[:1, ..., 0]), np.cumprod(flips, axis=0)))
+    return np.asarray(unit * signs[..., None])
 
 
-def _png_strip(width: int = 32) -> bytes:
-    """An RGB PNG [1,width] that fades between the three tints."""
-    at = np.linspace(0.0, 2.0, width)
-    pixels = np.stack([np.interp(at, range(3), tint) for tint in zip(*TINTS, strict=True)], -1)
-    row = b"\0" + pixels.round().astype(np.uint8).tobytes()
+def _palette() -> bytes:
+    """A PNG strip from the colour of the right side over the trunk's to the left side's."""
+    from PIL import Image
 
-    def chunk(kind: bytes, content: bytes) -> bytes:
-        body = kind + content
-        return struct.pack(">I", len(content)) + body + struct.pack(">I", zlib.crc32(body))
-
-    header = struct.pack(">IIBBBBB", width, 1, 8, 2, 0, 0, 0)
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header)
-            + chunk(b"IDAT", zlib.compress(row)) + chunk(b"IEND", b""))  # fmt: skip
+    row = side_colours(np.linspace(-1.0, 1.0, PALETTE_SIZE))
+    pixels = np.repeat((row * 255).round().astype(np.uint8)[None], 4, axis=0)
+    stream = io.BytesIO()
+    Image.fromarray(pixels).save(stream, format="PNG")
+    return stream.getvalue()
 
 
-def _pack(document: dict[str, Any], binary: bytes) -> bytes:
-    """The GLB container: header, JSON chunk, binary chunk, all in multiples of four bytes."""
-    text = json.dumps(document, ensure_ascii=False, separators=(",", ":")).encode()
-    text += b" " * (-len(text) % 4)
-    binary += b"\0" * (-len(binary) % 4)
-    chunks = struct.pack("<I4s", len(text), b"JSON") + text
-    chunks += struct.pack("<I4s", len(binary), b"BIN\0") + binary
-    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+def _chunk(kind: bytes, data: bytes, padding: bytes) -> bytes:
+    data += padding * (-len(data) % 4)
+    return struct.pack("<I4s", len(data), kind) + data

@@ -11,7 +11,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from src.shared.formats.body import BODY, JOINT_SIDES, Part
+from src.shared.formats.body import BODY, COLOURS, JOINT_SIDES, Part
 from src.shared.motion.skeleton import PARENTS, REST_PELVIS_HEIGHT, canonical_skeleton
 
 SPACING = 0.019  # metres between grid points
@@ -83,6 +83,14 @@ def mannequin() -> Mannequin:
         (sides[joints] * weights).sum(-1).astype(np.float32),
         rest.astype(np.float32),
     )
+
+
+def side_colours(side: np.ndarray) -> np.ndarray:
+    """RGB [V,3] of places between the right (-1), the trunk (0) and the left (1)."""
+    right, trunk, left = (np.array(COLOURS[name]) for name in ("right", "centre", "left"))
+    share = side[:, None]
+    mixed = trunk + np.maximum(share, 0) * (left - trunk) + np.maximum(-share, 0) * (right - trunk)
+    return np.asarray(mixed)
 
 
 def _rest_positions() -> np.ndarray:

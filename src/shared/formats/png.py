@@ -12,7 +12,8 @@ import numpy as np
 
 from src.shared.errors import UserError
 from src.shared.files import atomic_write
-from src.shared.formats.mannequin import Mannequin, mannequin
+from src.shared.formats.body import CONTACT
+from src.shared.formats.mannequin import Mannequin, mannequin, side_colours
 from src.shared.formats.raster import Camera, draw_mesh
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import FOOT_JOINTS
@@ -20,8 +21,6 @@ from src.shared.motion.skeleton import FOOT_JOINTS
 if TYPE_CHECKING:
     from PIL import Image, ImageDraw
 
-COLOURS = {"left": (0.93, 0.52, 0.24), "right": (0.27, 0.52, 0.86), "centre": (0.72, 0.74, 0.78)}
-CONTACT = (0.25, 0.72, 0.38)
 BACKGROUND = (246, 247, 249)
 FLOOR = (236, 238, 242)
 GRID = (214, 218, 225)
@@ -89,9 +88,7 @@ def render_strip(
 
 def vertex_colours(body: Mannequin, contacts: np.ndarray) -> np.ndarray:
     """RGB of each vertex [V,3]: by side, and green where a foot is on the ground."""
-    side = body.side[:, None]
-    trunk, left, right = (np.array(COLOURS[name]) for name in ("centre", "left", "right"))
-    colours = trunk + np.maximum(side, 0) * (left - trunk) + np.maximum(-side, 0) * (right - trunk)
+    colours = side_colours(body.side)
     for contact, joints in zip(contacts, FOOT_JOINTS, strict=True):
         share = (body.weights * np.isin(body.joints, joints)).sum(-1, keepdims=True)
         colours += float(contact > 0.5) * share * (np.array(CONTACT) - colours)

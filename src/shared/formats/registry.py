@@ -4,7 +4,9 @@ from collections.abc import Callable, Sequence
 from importlib import import_module
 from pathlib import Path
 
-from src.shared.errors import UsageError
+import numpy as np
+
+from src.shared.errors import UsageError, UserError
 from src.shared.motion.motion import Motion
 
 Exporter = Callable[[Motion, Path], Path]
@@ -14,6 +16,7 @@ def _exporter(module: str, function: str) -> Exporter:
     """A writer whose module is imported at its first use: no format pays for another."""
 
     def write(motion: Motion, path: Path) -> Path:
+        _check(motion, path)
         writer: Exporter = getattr(import_module(f"src.shared.formats.{module}"), function)
         return writer(motion, path)
 
@@ -34,7 +37,7 @@ def write_motion(motion: Motion, path: str | Path) -> Path:
 
     Raises:
         UsageError: no format has this ending.
-        UserError: the file cannot be written.
+        UserError: the motion is empty or holds NaN, or the file cannot be written.
     """
     path = Path(path)
     return _find(path.suffix.removeprefix("."), str(path))(motion, path)
@@ -47,7 +50,7 @@ def export_motion(
 
     Raises:
         UsageError: an unknown format; nothing has been written then.
-        UserError: a file cannot be written.
+        UserError: the motion is empty or holds NaN, or a file cannot be written.
     """
     writers = {name: _find(name, name) for name in formats}
     return {name: write(motion, Path(folder) / f"{stem}.{name}") for name, write in writers.items()}
@@ -57,10 +60,12 @@ def write_preview(motions: Sequence[Motion] | Motion, path: str | Path) -> Path:
     """Write one HTML page that plays the motions side by side, offline.
 
     Raises:
-        UserError: no motion, or the file cannot be written.
+        UserError: no motion, one that is empty or holds NaN, or the file cannot be written.
     """
     from src.shared.formats.html import write_html
 
+    for motion in [motions] if isinstance(motions, Motion) else motions:
+        _check(motion, path)
     return write_html(motions, path)
 
 
@@ -70,3 +75,13 @@ def _find(name: str, given: str) -> Exporter:
     except KeyError:
         known = ", ".join(EXPORTERS)
         raise UsageError(f"{given}: {name!r} is not a format; choose from {known}") from None
+
+
+def _check(motion: Motion, path: str | Path) -> None:
+    """Refuse what no viewer could show; a diverged model makes such motions."""
+    if not motion.num_frames:
+        raise UserError(f"cannot write {path}: the motion has no frames")
+    arrays = (motion.quaternions, motion.root_position, motion.contacts)
+    if not all(np.isfinite(array).all() for array in arrays):
+        raise UserError(f"cannot write {path}: the motion holds NaN or infinite values; "
+                        "the model that made it may have diverged in training")  # fmt: skip
