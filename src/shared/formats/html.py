@@ -63,7 +63,7 @@ def _body() -> dict[str, Any]:
     return {
         "skeleton": {
             "parents": list(skeleton.parents),
-            "offsets": skeleton.offsets.round(6).astype(float).round(6).tolist(),
+            "offsets": skeleton.offsets.astype(float).round(6).tolist(),
             "rest": body.rest.astype(float).round(6).tolist(),
             "sides": [_SIDES[side] for side in JOINT_SIDES],
             "feet": FOOT_JOINTS,

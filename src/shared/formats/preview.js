@@ -8,7 +8,9 @@ const state = { ...START, time: 0, speed: 1, playing: true, follow: true, dirty:
 const find = (id) => document.getElementById(id);
 const board = document.querySelector("main");
 const scrub = find("scrub");
-const paintBody = makeMeshPainter() || paintLimbs;
+const SLOW = 300; // milliseconds for one picture of all cards
+let slowPictures = 0;
+let paintBody = makeMeshPainter() || paintLimbs;
 
 // ---------------------------------------------------------------- cards
 
@@ -83,7 +85,10 @@ function tick(now) {
   before = now;
   if (state.dirty) {
     state.dirty = false;
+    const start = performance.now();
     cards.forEach(draw);
+    slowPictures = performance.now() - start > SLOW ? slowPictures + 1 : 0;
+    if (slowPictures > 3) paintBody = paintLimbs; // WebGL without a graphics card
     scrub.value = state.time;
     find("clock").textContent = `${state.time.toFixed(2)} / ${DURATION.toFixed(2)} s`;
   }
