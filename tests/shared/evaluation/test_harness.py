@@ -164,6 +164,9 @@ def test_an_obedient_sampler_passes_the_control_tasks() -> None:
     assert table["means"]["chance"]["value"] < 0.4
     assert table["means"]["still"]["value"] == 0
     assert all(math.isnan(task["real"]["value"]) for task in table["tasks"].values())
+    (drawn,) = tables({"splits": {}, "languages": {}, "controllability": table})
+    assert drawn.header[:3] == ["task", "en tmpl", "en para"] and drawn.rows[-1][0] == "mean"
+    assert {len(row) for row in drawn.rows} == {len(drawn.header)}
 
 
 def test_held_out_synthetic_clips_are_told_apart_by_what_was_trained_on(
