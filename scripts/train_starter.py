@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Make the starter weights anew: prepare, CLIP, evaluator, generation, and the shipped folders.
+"""Make the starter weights anew: prepare, four trainings, and the shipped folders.
 
     python scripts/train_starter.py SOURCE ... --captions FILE [--work DIR] [--ship]
 
@@ -14,7 +14,6 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 SYNTHETIC_CLIPS = 3000
-SHORT_TOWER = ["network.clip.text-vocab-size=6000", "network.clip.text-num-layers=2"]
 WINDOWS = ["min-frames=40", "max-frames=150"]
 LICENCE = "CC BY-NC 4.0 (learned from the Bandai-Namco Research Motiondataset: non-commercial)"
 DESCRIPTION = "text to body motion; Bandai-Namco, CMU and synthetic; en es fr de ja zh"
@@ -27,13 +26,15 @@ def stages(options: argparse.Namespace) -> list[list[str]]:
     return [
         ["-m", "src.cli.tools", "prepare", *options.sources, "--captions", options.captions,
          "--synthetic", str(SYNTHETIC_CLIPS), "--out", data],
-        ["-m", "src.train.train_clip", *train, *SHORT_TOWER, "batch-size=128", "steps=1800",
+        ["-m", "src.train.train_clip", *train, "batch-size=128", "steps=1800",
          "--output", str(work / "clip"), "--resume"],
         ["-m", "src.train.train_evaluator", "--data", data, f"threads={options.threads}",
          "steps=1500", "--output", str(work / "evaluator"), "--resume"],
-        ["-m", "src.train.train_generation", *train, *SHORT_TOWER, "batch-size=48",
+        ["-m", "src.train.train_generation", *train, "batch-size=48",
          f"clip={work / 'clip'}", f"steps={options.steps}", "losses.position=1.0",
-         "losses.foot-slide=0.02", "--output", str(work / "starter"), "--resume"],
+         "losses.foot-slide=0.02", "--output", str(work / "generation"), "--resume"],
+        ["-m", "src.train.train_text", *train, f"clip={work / 'clip'}", "steps=2500",
+         f"generator={work / 'generation'}", "--output", str(work / "starter"), "--resume"],
     ]  # fmt: skip
 
 
