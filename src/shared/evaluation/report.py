@@ -28,8 +28,8 @@ OBEYS = tuple(
 NOTES = {
     "learned": "R@k: batches of 32, a motion of the same label group or caption is a hit. joint FD:"
     " Fréchet distance of (text, motion) pairs; its chance row is the distance under shuffled"
-    " labels. The real row's FDs are between two halves of the real clips (half the N). ± is 95%"
-    " over replications.",
+    " labels. FD of motions alone cannot see labels: 0 for chance by making. The real row's FDs are"
+    " between two halves of the real clips (half the N). ± is 95% over replications.",
     "physical": "Errors are against a real clip of the same caption; the real row compares real"
     " clips of one label group. contact: frames the contact detector accepts; support: the lower"
     " foot of every grounded frame. ± is 95% over clips.",

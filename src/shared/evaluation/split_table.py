@@ -116,7 +116,7 @@ def real_rows(reference: Reference, replications: int, seed: int) -> dict[str, R
     seeds = range(seed, seed + replications)
     orders = [np.random.default_rng(s).permutation(len(real.clips)) for s in seeds]
     # Fréchet distances of the real row come from two disjoint halves: a sample is 0 from itself.
-    truth = [learned_columns(real, reference, s) | _halves(real, s) for s in seeds]
+    truth = [_without_itself(learned_columns(real, reference, s), real, s) for s in seeds]
     chance = [
         learned_columns(real.reordered(order), reference, s)
         for order, s in zip(orders, seeds, strict=True)
@@ -128,25 +128,33 @@ def real_rows(reference: Reference, replications: int, seed: int) -> dict[str, R
     }
     pairs = list(same_group_partner(real.clips, seed))
     own, other = [row for row, _ in pairs], [row for _, row in pairs]
-    if pairs:  # a real clip has no error against itself: compare it with a sibling
+    # A real clip has no error against itself: compare it with a sibling, where there is one.
+    rows["real"] = {k: v for k, v in rows["real"].items() if not k.endswith("_error")}
+    if pairs:
         siblings = physical_columns(
             observed.rows(own), [labels[i] for i in own], [travels[i] for i in other]
         )
-        rows["real"] |= {key: value for key, value in siblings.items() if key.endswith("_error")}
+        rows["real"] |= {k: v for k, v in siblings.items() if k.endswith("_error")}
     return rows
 
 
-def _halves(real: Embedded, seed: int) -> dict[str, float]:
-    order = np.random.default_rng(seed).permutation(len(real.clips))
-    left, right = order[: len(order) // 2], order[len(order) // 2 :]
-    if len(left) < 2:
-        return {}
+def _without_itself(columns: dict[str, float], real: Embedded, seed: int) -> dict[str, float]:
+    """The columns with Fréchet distances between two random halves instead of to itself."""
+    columns = {k: v for k, v in columns.items() if k not in ("frechet_by_tag", "num_tags")}
+    order = np.random.default_rng(seed).permutation(len(real.clips)).tolist()
+    left, right = real.rows(order[: len(order) // 2]), real.rows(order[len(order) // 2 :])
+    if len(left.clips) < 2:
+        return columns
     joint = JointFrechet(real.text, real.motion, num_axes=min(16, real.motion.shape[1]))
-    joint.reference = joint.moments(real.text[right], real.motion[right])
-    return {
-        "frechet": frechet_distance(real.motion[left], real.motion[right]),
-        "frechet_joint": joint(real.text[left], real.motion[left]),
-    }
+    joint.reference = joint.moments(right.text, right.motion)
+    columns["frechet"] = frechet_distance(left.motion, right.motion)
+    columns["frechet_joint"] = joint(left.text, left.motion)
+    groups = group_frechet(left.motion, left.clips.tags, right.motion, right.clips.tags)
+    if groups is not None:
+        columns["frechet_by_tag"] = groups.matched
+        columns["frechet_by_wrong_tag"] = groups.mismatched
+        columns["num_tags"] = groups.num_groups
+    return columns
 
 
 def generated_row(
