@@ -87,6 +87,47 @@ def test_world_transforms_agree_with_scipy(tmp_path: Path) -> None:
     np.testing.assert_allclose(rotations, expected_rotations, atol=1e-12)
 
 
+@settings(max_examples=40, deadline=None,
+          suppress_health_check=[HealthCheck.function_scoped_fixture])  # fmt: skip
+@given(st.lists(st.permutations(["Xrotation", "Yrotation", "Zrotation"]), min_size=3, max_size=3),
+       st.permutations(["Xposition", "Yposition", "Zposition"]), st.booleans(),
+       st.integers(0, 2**32 - 1))  # fmt: skip
+def test_any_channel_order_agrees_with_scipy(
+    tmp_path: Path, turns: list[list[str]], moves: list[str], turns_first: bool, seed: int
+) -> None:
+    channels = [list(turn) for turn in turns]
+    channels[0] = turns[0] + moves if turns_first else moves + turns[0]
+    lines = [f"CHANNELS {len(names)} {' '.join(names)}" for names in channels]
+    header = iter(lines)
+    text = "\n".join(next(header) if "CHANNELS" in line else line for line in HEADER.splitlines())
+    values = np.random.default_rng(seed).uniform(-360, 360, (2, 12)).round(4)
+    rows = "\n".join(" ".join(map(str, row)) for row in values)
+    clip = read_bvh(save(tmp_path, f"{text}\nMOTION\nFrames: 2\nFrame Time: 0.04\n{rows}\n"))
+    assert clip.channels == tuple(map(tuple, channels))
+    positions, rotations = clip.world()
+    expected_positions, expected_rotations = reference(clip)
+    np.testing.assert_allclose(positions, expected_positions, atol=1e-8)
+    np.testing.assert_allclose(rotations, expected_rotations, atol=1e-12)
+
+
+def test_bvhio_sees_the_same_world(tmp_path: Path) -> None:
+    """An independent reader, on a file whose only positions are the root's."""
+    bvhio = pytest.importorskip("bvhio")
+    text = (
+        GOOD.replace("Leg {", "Leg\n\t{")
+        .replace("CHANNELS 4 Yposition", "CHANNELS 3")
+        .replace("60 7 ", "60 ")
+    )
+    text = text.replace("60 8 ", "60 ").replace("0 9 ", "0 ").replace("Left Arm", "LeftArm")
+    clip = read_bvh(save(tmp_path, text))
+    root = bvhio.readAsHierarchy(str(tmp_path / "clip.bvh"))
+    joints = {joint.Name: joint for joint, _, _ in root.layout()}
+    for frame, expected in enumerate(clip.world()[0]):
+        root.loadPose(frame, recursive=True)
+        found = [list(joints[name].PositionWorld) for name in clip.names]
+        np.testing.assert_allclose(found, expected, atol=0.1)  # the file is in centimetres
+
+
 def test_position_channels_replace_the_offset(tmp_path: Path) -> None:
     local = read_bvh(save(tmp_path, GOOD)).local_translations()
     np.testing.assert_array_equal(local[0], [[4, 5, 6], [0, 10, 0], [0, 7, 0]])

@@ -1,10 +1,11 @@
 """BVH writer: what is written reads back as the same motion, at the poles of Euler angles too."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
@@ -38,6 +39,30 @@ def test_round_trip(tmp_path: Path) -> None:
     assert angle_between(rotations[:, order], motion.global_rotations()).max() < 1e-4
     parents = [clip.names[clip.parents[index]] for index in order[1:]]
     assert parents[:3] == ["pelvis"] * 3
+
+
+@settings(max_examples=25, deadline=None,
+          suppress_health_check=[HealthCheck.function_scoped_fixture])  # fmt: skip
+@given(st.integers(0, 2**32 - 1), st.integers(1, 4), st.sampled_from([24.0, 30.0, 60.0, 120.0]))
+def test_random_motions_come_back(tmp_path: Path, seed: int, frames: int, fps: float) -> None:
+    motion = replace(random_motion(frames, seed), fps=fps)
+    clip = read_bvh(write_bvh(motion, tmp_path / "out.bvh"))
+    order = [clip.names.index(name) for name in JOINT_NAMES]
+    positions, rotations = clip.world()
+    assert clip.fps == pytest.approx(fps, rel=1e-5)
+    assert np.abs(positions[:, order] / 100 - motion.positions()).max() < 1e-4
+    assert angle_between(rotations[:, order], motion.global_rotations()).max() < 1e-4
+
+
+def test_bvhio_reads_the_same_positions(tmp_path: Path) -> None:
+    bvhio = pytest.importorskip("bvhio")
+    motion = random_motion(3, 7)
+    root = bvhio.readAsHierarchy(str(write_bvh(motion, tmp_path / "out.bvh")))
+    joints = {joint.Name: joint for joint, _, _ in root.layout()}
+    for frame in range(3):
+        root.loadPose(frame, recursive=True)
+        found = [list(joints[name].PositionWorld) for name in JOINT_NAMES]
+        assert np.abs(np.array(found) / 100 - motion.positions()[frame]).max() < 1e-3
 
 
 def test_all_joints_have_rotations_and_only_the_root_moves(tmp_path: Path) -> None:

@@ -1,5 +1,6 @@
-"""GLB: the container, the accessors, and the animated skin against our own kinematics."""
+"""GLB: the animation in the file moves every joint as the motion does; two libraries read it."""
 
+import io
 import json
 import struct
 from pathlib import Path
@@ -9,125 +10,207 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from src.shared.formats.glb import write_glb
+from src.shared.errors import UserError
+from src.shared.formats.glb import continuous, whole_shares, write_glb
 from src.shared.formats.mannequin import mannequin
 from src.shared.motion.motion import Motion
+from src.shared.motion.skeleton import JOINT_NAMES
 
-DTYPES = {5126: "<f4", 5121: "u1", 5123: "<u2"}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
+TYPES = {5121: np.uint8, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
 
 
-def a_motion(frames: int = 7) -> Motion:
-    rng = np.random.default_rng(5)
-    quaternions = rng.normal(size=(frames, 22, 4))
-    quaternions /= np.linalg.norm(quaternions, axis=-1, keepdims=True)
-    root = rng.normal(size=(frames, 3)).astype(np.float32)
-    return Motion(quaternions.astype(np.float32), root, np.zeros((frames, 2), np.float32), 30.0,
-                  'say "hi" </script> 歩く')  # fmt: skip
+def a_motion(frames: int = 30, text: str = "歩く </script> ünï") -> Motion:
+    """Smooth tumbling with sign flips in the stored quaternions."""
+    rng = np.random.default_rng(4)
+    speed, phase = rng.normal(size=(22, 3)), rng.normal(size=(22, 3))
+    turns = [Rotation.from_rotvec(phase + 0.1 * t * speed).as_quat() for t in range(frames)]
+    quaternions = np.array(turns)[..., [3, 0, 1, 2]] * rng.choice([-1, 1], (frames, 22, 1))
+    root = np.cumsum(rng.normal(0, 0.02, (frames, 3)), 0).astype(np.float32)
+    return Motion(quaternions.astype(np.float32), root, np.ones((frames, 2), np.float32), 30, text)
 
 
-def load(path: Path) -> tuple[dict[str, Any], bytes]:
-    data = path.read_bytes()
-    magic, version, length = struct.unpack_from("<4sII", data)
-    assert (magic, version, length) == (b"glTF", 2, len(data))
-    size, kind = struct.unpack_from("<I4s", data, 12)
-    assert kind == b"JSON" and size % 4 == 0
-    document = json.loads(data[20 : 20 + size])
-    rest, kind = struct.unpack_from("<I4s", data, 20 + size)
-    assert kind == b"BIN\0" and rest % 4 == 0 and 28 + size + rest == len(data)
-    assert document["buffers"] == [{"byteLength": pytest.approx(rest, abs=3)}]
-    return document, data[28 + size :]
+class Glb:
+    """The file as the standard says it is to be read, without any library."""
+
+    def __init__(self, path: Path) -> None:
+        data = path.read_bytes()
+        magic, version, length = struct.unpack_from("<4sII", data)
+        assert (magic, version, length) == (b"glTF", 2, len(data))
+        size, kind = struct.unpack_from("<I4s", data, 12)
+        assert kind == b"JSON"
+        assert size % 4 == 0
+        self.json: dict[str, Any] = json.loads(data[20 : 20 + size])
+        size_2, kind_2 = struct.unpack_from("<I4s", data, 20 + size)
+        assert kind_2 == b"BIN\0"
+        self.binary = data[28 + size :]
+        assert len(self.binary) == size_2 == -(-self.json["buffers"][0]["byteLength"] // 4) * 4
+
+    def read(self, index: int) -> np.ndarray:
+        accessor = self.json["accessors"][index]
+        view = self.json["bufferViews"][accessor["bufferView"]]
+        assert view["byteOffset"] % 4 == 0
+        shape = (accessor["count"], WIDTHS[accessor["type"]])
+        values = np.frombuffer(
+            self.binary, TYPES[accessor["componentType"]], shape[0] * shape[1], view["byteOffset"]
+        ).reshape(shape)
+        if "min" in accessor:
+            assert accessor["min"] == values.min(0).tolist()
+            assert accessor["max"] == values.max(0).tolist()
+        if accessor.get("normalized"):
+            return values.astype(np.float64) / np.iinfo(values.dtype).max
+        return values
+
+    def world(self, frame: int) -> tuple[np.ndarray, np.ndarray]:
+        """Positions [N,3] and rotations [N,3,3] of all nodes at one key frame."""
+        nodes = [dict(node) for node in self.json["nodes"]]
+        animation = self.json["animations"][0]
+        for channel in animation["channels"]:
+            output = self.read(animation["samplers"][channel["sampler"]]["output"])
+            target = channel["target"]
+            nodes[target["node"]][target["path"]] = output[frame]
+        positions = np.zeros((len(nodes), 3))
+        rotations = np.tile(np.eye(3), (len(nodes), 1, 1))
+
+        def visit(index: int, origin: np.ndarray, turn: np.ndarray) -> None:
+            node = nodes[index]
+            positions[index] = origin + turn @ np.array(node.get("translation", [0, 0, 0]))
+            own = Rotation.from_quat(node.get("rotation", [0, 0, 0, 1])).as_matrix()
+            rotations[index] = turn @ own
+            for child in node.get("children", []):
+                visit(child, positions[index], rotations[index])
+
+        for root in self.json["scenes"][self.json["scene"]]["nodes"]:
+            visit(root, np.zeros(3), np.eye(3))
+        return positions, rotations
 
 
-def array(document: dict[str, Any], binary: bytes, index: int) -> np.ndarray:
-    accessor = document["accessors"][index]
-    view = document["bufferViews"][accessor["bufferView"]]
-    dtype = np.dtype(DTYPES[accessor["componentType"]])
-    count = accessor["count"] * WIDTHS[accessor["type"]]
-    assert view["byteOffset"] % 4 == 0 and count * dtype.itemsize == view["byteLength"]
-    return np.frombuffer(binary, dtype, count, view["byteOffset"]).reshape(accessor["count"], -1)
+@pytest.fixture(scope="module")
+def glb(tmp_path_factory: pytest.TempPathFactory) -> Glb:
+    return Glb(write_glb(a_motion(), tmp_path_factory.mktemp("glb") / "a.glb"))
 
 
-def node_worlds(document: dict[str, Any], binary: bytes, frame: int) -> np.ndarray:
-    """World matrix of every joint node at a key frame [22,4,4], straight from the file."""
-    nodes = [dict(node) for node in document["nodes"]]
-    animation = document["animations"][0]
-    for channel in animation["channels"]:
-        sampler = animation["samplers"][channel["sampler"]]
-        value = array(document, binary, sampler["output"])[frame]
-        nodes[channel["target"]["node"]][channel["target"]["path"]] = value
-    worlds = np.zeros((22, 4, 4))
-
-    def visit(index: int, above: np.ndarray) -> None:
-        local = np.eye(4)
-        local[:3, :3] = Rotation.from_quat(nodes[index].get("rotation", (0, 0, 0, 1))).as_matrix()
-        local[:3, 3] = nodes[index].get("translation", (0, 0, 0))
-        worlds[index] = above @ local
-        for child in nodes[index].get("children", ()):
-            visit(child, worlds[index])
-
-    visit(0, np.eye(4))
-    return worlds
+def test_the_animation_moves_the_joints_as_the_motion_does(glb: Glb) -> None:
+    motion = a_motion()
+    for frame in range(0, 30, 3):
+        positions, rotations = glb.world(frame)
+        np.testing.assert_allclose(positions[:22], motion.positions()[frame], atol=1e-4)
+        np.testing.assert_allclose(rotations[:22], motion.global_rotations()[frame], atol=1e-4)
+    assert [node["name"] for node in glb.json["nodes"][:22]] == list(JOINT_NAMES)
 
 
-def test_skinned_vertices_follow_our_kinematics(tmp_path: Path) -> None:
+def test_keys_are_frames_and_quaternions_unit_and_continuous(glb: Glb) -> None:
+    animation = glb.json["animations"][0]
+    assert animation["name"] == a_motion().text
+    times = glb.read(animation["samplers"][0]["input"])[:, 0]
+    np.testing.assert_allclose(times, np.arange(30) / 30, atol=1e-6)
+    rotations = [c for c in animation["channels"] if c["target"]["path"] == "rotation"]
+    assert len(rotations) == 22
+    for channel in rotations:
+        values = glb.read(animation["samplers"][channel["sampler"]]["output"]).astype(np.float64)
+        np.testing.assert_allclose(np.linalg.norm(values, axis=-1), 1, atol=1e-6)
+        assert ((values[1:] * values[:-1]).sum(-1) > 0).all()
+
+
+def test_the_skin_binds_the_mesh_where_it_stands(glb: Glb) -> None:
+    """Joint matrix times inverse bind matrix, at rest, is the identity."""
+    skin = glb.json["skins"][0]
+    assert skin["skeleton"] == 0
+    inverse = glb.read(skin["inverseBindMatrices"]).reshape(-1, 4, 4).transpose(0, 2, 1)
+    nodes, rest = glb.json["nodes"], np.zeros((22, 3))
+    for joint in skin["joints"]:
+        rest[joint] += nodes[joint]["translation"]
+        for child in nodes[joint].get("children", []):
+            rest[child] += rest[joint]
+    for joint in skin["joints"]:
+        bind = np.eye(4)
+        bind[:3, 3] = rest[joint]
+        np.testing.assert_allclose(bind @ inverse[joint], np.eye(4), atol=1e-6)
+
+
+def test_weights_sum_to_one_and_unused_slots_name_the_first_joint(glb: Glb) -> None:
+    attributes = glb.json["meshes"][0]["primitives"][0]["attributes"]
+    weights, joints = glb.read(attributes["WEIGHTS_0"]), glb.read(attributes["JOINTS_0"])
+    np.testing.assert_allclose(weights.sum(-1), 1, atol=1e-12)
+    assert (joints[weights == 0] == 0).all()
+    assert joints.max() < 22
+    np.testing.assert_allclose(
+        np.linalg.norm(glb.read(attributes["NORMAL"]), axis=-1), 1, atol=1e-5
+    )
+
+
+def test_skinned_vertices_follow_our_kinematics(glb: Glb) -> None:
     motion, body = a_motion(), mannequin()
-    document, binary = load(write_glb(motion, tmp_path / "a.glb"))
-    primitive = document["meshes"][0]["primitives"][0]
-    read = {k: array(document, binary, i) for k, i in primitive["attributes"].items()}
-    inverse = array(document, binary, document["skins"][0]["inverseBindMatrices"])
-    inverse = inverse.reshape(22, 4, 4).transpose(0, 2, 1)
-    for frame in (0, 3, 6):
-        worlds = node_worlds(document, binary, frame)
-        np.testing.assert_allclose(worlds[:, :3, 3], motion.positions()[frame], atol=1e-5)
-        skin = (worlds @ inverse)[read["JOINTS_0"]]  # [V,4,4,4]
-        blended = np.einsum("vk,vkij->vij", read["WEIGHTS_0"] / 65535.0, skin)
-        points = np.concatenate((read["POSITION"], np.ones((len(read["POSITION"]), 1))), -1)
-        moved = np.einsum("vij,vj->vi", blended, points)[:, :3]
+    attributes = glb.json["meshes"][0]["primitives"][0]["attributes"]
+    points = glb.read(attributes["POSITION"])
+    weights, joints = glb.read(attributes["WEIGHTS_0"]), glb.read(attributes["JOINTS_0"])
+    columns = glb.read(glb.json["skins"][0]["inverseBindMatrices"]).reshape(-1, 4, 4)
+    inverse = columns.transpose(0, 2, 1)
+    for frame in (0, 17, 29):
+        positions, rotations = glb.world(frame)
+        moved = np.zeros_like(points, dtype=float)
+        for slot in range(4):
+            bone = joints[:, slot]
+            local = points + inverse[bone, :3, 3]
+            moved += weights[:, slot, None] * (
+                np.einsum("vij,vj->vi", rotations[bone], local) + positions[bone]
+            )
         expected = body.pose(motion.positions()[frame], motion.global_rotations()[frame])[0]
         assert np.abs(moved - expected).max() < 1e-3  # weights are integers
 
 
-def test_accessors_and_animation(tmp_path: Path) -> None:
-    motion = a_motion()
-    document, binary = load(write_glb(motion, tmp_path / "a.glb"))
-    for index, accessor in enumerate(document["accessors"]):
-        values = array(document, binary, index)
-        assert np.isfinite(values.astype(float)).all()
-        if "min" in accessor:
-            assert accessor["min"] == values.min(0).tolist()
-            assert accessor["max"] == values.max(0).tolist()
-    primitive = document["meshes"][0]["primitives"][0]
-    weights = array(document, binary, primitive["attributes"]["WEIGHTS_0"])
-    assert (weights.astype(int).sum(-1) == 65535).all()
-    joints = array(document, binary, primitive["attributes"]["JOINTS_0"])
-    assert (joints[weights == 0] == 0).all()
-    indices = array(document, binary, primitive["indices"])
-    assert indices.max() == document["accessors"][primitive["attributes"]["POSITION"]]["count"] - 1
-    animation = document["animations"][0]
-    assert animation["name"] == motion.text
-    assert len(animation["channels"]) == 23
-    times = array(document, binary, animation["samplers"][0]["input"])[:, 0]
-    np.testing.assert_allclose(times, np.arange(7) / 30)
-    for sampler in animation["samplers"][1:]:
-        turns = array(document, binary, sampler["output"])
-        np.testing.assert_allclose(np.linalg.norm(turns, axis=-1), 1, atol=1e-6)
-        assert ((turns[1:] * turns[:-1]).sum(-1) >= 0).all()  # the short way round
-
-
-def test_one_frame_and_no_text(tmp_path: Path) -> None:
-    motion = a_motion(1)
-    document, _ = load(write_glb(Motion(motion.quaternions, motion.root_position, motion.contacts),
-                                 tmp_path / "a.glb"))  # fmt: skip
-    assert document["animations"][0]["name"] == "motion"
-
-
-def test_other_readers_accept_it(tmp_path: Path) -> None:
-    pygltflib = pytest.importorskip("pygltflib")
-    path = write_glb(a_motion(), tmp_path / "a.glb")
-    document = pygltflib.GLTF2().load(str(path))
-    assert len(document.skins[0].joints) == 22
-    assert document.images[0].mimeType == "image/png"
+def test_trimesh_sees_an_upright_closed_body(tmp_path: Path) -> None:
     trimesh = pytest.importorskip("trimesh")
-    scene = trimesh.load(path)
-    assert sum(len(mesh.faces) for mesh in scene.geometry.values()) == len(mannequin().triangles)
+    scene = trimesh.load(write_glb(a_motion(), tmp_path / "a.glb"), force="scene")
+    (mesh,) = scene.geometry.values()
+    mesh.merge_vertices(merge_tex=True, merge_norm=True)
+    assert mesh.is_watertight
+    assert mesh.is_winding_consistent
+    assert 0.05 < mesh.volume < 0.09  # cubic metres; a person of 70 kg has 0.07
+    low, high = mesh.bounds
+    assert abs(low[1]) < 0.02
+    assert 1.6 < high[1] < 1.85
+    assert np.ptp(mesh.bounds[:, 0]) > 1.5  # arms out
+    assert mesh.visual.material.baseColorTexture.size == (32, 4)
+
+
+def test_pygltflib_reads_it_and_the_picture_inside(tmp_path: Path) -> None:
+    pygltflib = pytest.importorskip("pygltflib")
+    from PIL import Image
+
+    document = pygltflib.GLTF2().load(str(write_glb(a_motion(), tmp_path / "a.glb")))
+    assert len(document.skins[0].joints) == 22
+    assert len(document.animations[0].channels) == 23
+    view = document.bufferViews[document.images[0].bufferView]
+    png = document.binary_blob()[view.byteOffset : view.byteOffset + view.byteLength]
+    pixels = np.asarray(Image.open(io.BytesIO(png)).convert("RGB")).astype(int)
+    assert pixels[0, 0, 2] > pixels[0, 0, 0]  # the right side is blue
+    assert pixels[0, -1, 0] > pixels[0, -1, 2]  # the left side is orange
+
+
+def test_one_frame_is_enough(tmp_path: Path) -> None:
+    glb = Glb(write_glb(a_motion(1, ""), tmp_path / "a.glb"))
+    np.testing.assert_allclose(glb.world(0)[0][:22], a_motion(1).positions()[0], atol=1e-4)
+    assert glb.json["animations"][0]["name"] == "motion"
+
+
+def test_the_same_motion_gives_the_same_bytes(tmp_path: Path) -> None:
+    first = write_glb(a_motion(), tmp_path / "a.glb").read_bytes()
+    assert write_glb(a_motion(), tmp_path / "b.glb").read_bytes() == first
+
+
+def test_a_folder_in_the_way_is_a_user_error(tmp_path: Path) -> None:
+    (tmp_path / "a.glb").mkdir()
+    with pytest.raises(UserError, match=r"a\.glb"):
+        write_glb(a_motion(), tmp_path / "a.glb")
+
+
+def test_shares_are_whole_and_complete() -> None:
+    shares = whole_shares(np.array([[0.5, 0.3, 0.2, 0.0], [1 / 3, 1 / 3, 1 / 3, 0.0]]), 255)
+    assert (shares.sum(-1) == 255).all()
+    assert (shares >= 0).all()
+
+
+def test_continuous_turns_the_short_way() -> None:
+    quaternions = np.array([[1, 0, 0, 0], [-1, 0, 0, 0], [2, 0, 0, 0]], dtype=float)
+    np.testing.assert_array_equal(continuous(quaternions)[:, 0], [1, 1, 1])
