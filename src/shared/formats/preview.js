@@ -33,15 +33,16 @@ const cards = MOTIONS.map((motion, index) => {
 });
 document.title = `${cards[0].canvas.getAttribute("aria-label")} – motion preview`;
 
-/** As many columns as make the cards largest. */
+/** As many columns as make the cards largest; where they do not fit, the page scrolls. */
 function arrange() {
   const { clientWidth: width, clientHeight: height } = board, count = cards.length;
   let best = 1, most = 0;
   for (let columns = 1; columns <= count; columns++) {
-    const tall = Math.max(240, height / Math.ceil(count / columns) - 50);
+    const tall = height / Math.ceil(count / columns) - 50;
     const size = Math.min(tall, (width / columns) * 1.25);
     if (size > most + 1) [best, most] = [columns, size];
   }
+  if (most < 190) best = Math.max(1, Math.min(count, Math.floor(width / 260)));
   board.style.gridTemplateColumns = `repeat(${best}, minmax(0, 1fr))`;
   board.classList.toggle("long", board.scrollHeight > board.clientHeight + 1);
   state.dirty = true;
