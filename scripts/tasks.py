@@ -85,7 +85,7 @@ def format(_arguments: list[str]) -> int:
 def benchmark(arguments: list[str]) -> int:
     """Time sampling against a plain transformer of MDM's size, and the whole command."""
     setup.main([])
-    return python("benchmarks/speed.py", *arguments)
+    return python("-m", "benchmarks.sampling", "--model", "starter", *arguments)
 
 
 def train_small(arguments: list[str]) -> int:

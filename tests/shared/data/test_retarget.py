@@ -127,6 +127,26 @@ def test_directions_and_twists_of_cmu(cmu: Path) -> None:
         check_directions_and_twists(clip, find_mapping(clip.names, load_mappings()))
 
 
+def test_a_source_at_rest_stands_in_our_rest_pose(cmu: Path) -> None:
+    """Derived by hand: CMU's rest is a T-pose in world axes, legs 20° apart, feet level."""
+    clip = read_bvh(cmu / "02/02_01.bvh", stride=4)
+    values = clip.values.copy()
+    values[:, 3:] = 0.0
+    rest = BvhClip(**{**vars(clip), "values": values})
+    motion = retarget(rest, find_mapping(rest.names, load_mappings()))
+    world = motion.global_rotations()[0]
+    angle = {
+        name: np.degrees(np.arccos(np.clip((np.trace(world[index]) - 1) / 2, -1, 1)))
+        for name, index in JOINT_INDEX.items()
+    }
+    assert all(angle[name] < 1 for name in ("pelvis", "spine3", "head", "l_wrist", "r_wrist"))
+    assert all(angle[name] < 6 for name in ("spine1", "neck", "l_elbow", "r_elbow", "l_shoulder"))
+    assert 15 < angle["l_hip"] < 25 and 15 < angle["r_hip"] < 25
+    at = motion.positions()[0] - motion.root_position[0]
+    assert at[JOINT_INDEX["l_wrist"]][0] > 0.6 and at[JOINT_INDEX["r_wrist"]][0] < -0.6
+    assert at[JOINT_INDEX["l_foot"]][2] > at[JOINT_INDEX["l_ankle"]][2] + 0.1
+
+
 def test_the_floor_is_under_the_feet(clip: BvhClip) -> None:
     balls = retarget(clip, OURS).positions()[:, [10, 11], 1]
     assert balls.min() > -0.02 and balls.min() < 0.05
