@@ -1,10 +1,10 @@
 """PromptScope: is a prompt near anything the model was trained on, and to which actions?
 
-A prompt is known when it has a key word of some action. The key words of an action are a small
-set of telling words that covers its training captions (greedy set cover), so "turn" is one and
-the "make" of "make a turn" is not. A text tower trained from nothing puts nonsense somewhere too,
-so its cosine only ranks the actions; a pretrained tower also knows synonyms, so there a close
-embedding is enough.
+A prompt is known when it has a key word of some action, or nothing but trained words that are not
+all fillers. The key words of an action are a small set of telling words that covers its training
+captions (greedy set cover), so "turn" is one and the "make" of "make a turn" is not. A text tower
+trained from nothing puts nonsense somewhere too, so its cosine only ranks the actions; a
+pretrained tower also knows synonyms, so there a close embedding is enough.
 
 Letters: N captions, A actions, D embed dim.
 """
@@ -72,6 +72,7 @@ class PromptScope:
         actions: A names.
         key_words: word -> indices of the actions it tells of.
         words: all words of the training captions.
+        fillers: words of the captions of more than half of the actions.
         means: [A, D] float32 unit-norm mean text embeddings.
         false_alarms: share of held-out captions it called unknown.
         min_cosine: for a pretrained text tower, enough on its own; None otherwise.
@@ -80,6 +81,7 @@ class PromptScope:
     actions: tuple[str, ...]
     key_words: KeyWords
     words: frozenset[str]
+    fillers: frozenset[str]
     means: np.ndarray
     false_alarms: float = 0.0
     min_cosine: float | None = None
@@ -112,16 +114,19 @@ class PromptScope:
         held = np.arange(len(texts)) % HELD_OUT == HELD_OUT - 1
         kept = [text for text, out in zip(texts, held, strict=True) if not out]
         judged = [text for text, out in zip(texts, held, strict=True) if out] or texts
+        fillers = _fillers(texts, labels, len(names))
         for coverage in COVERAGES:
             trial = _key_words(kept, labels[~held], len(names), coverage)
             seen = frozenset[str]().union(*kept)
-            false_alarms = sum(not _known(text, trial, seen) for text in judged) / len(judged)
+            unknown = (not _known(text, trial, seen, fillers) for text in judged)
+            false_alarms = sum(unknown) / len(judged)
             if false_alarms <= MAX_FALSE_ALARMS:
                 break
         return cls(
             actions=names,
             key_words=_key_words(texts, labels, len(names), coverage),
             words=frozenset[str]().union(*texts),
+            fillers=fillers,
             means=means.astype(np.float32),
             false_alarms=false_alarms,
             min_cosine=float(np.quantile(cosines, 0.01)) if pretrained_tower else None,
@@ -130,7 +135,7 @@ class PromptScope:
     def check(self, prompt: str, embedding: np.ndarray) -> ScopeResult:
         """Judge one prompt by its words and its pooled text embedding [D]."""
         cosines = self.means @ _unit(embedding)
-        known = _known(frozenset(words_of(prompt)), self.key_words, self.words)
+        known = _known(frozenset(words_of(prompt)), self.key_words, self.words, self.fillers)
         if self.min_cosine is not None:
             known = known or float(cosines.max()) >= self.min_cosine
         nearest = np.argsort(-cosines, kind="stable")[:NUM_NEAREST]
@@ -159,6 +164,7 @@ class PromptScope:
             "min-cosine": self.min_cosine,
             "key-words": self.key_words,
             "words": sorted(self.words),
+            "fillers": sorted(self.fillers),
         }
         write_json(folder / META_FILE, meta)
 
@@ -181,6 +187,7 @@ class PromptScope:
                 actions=tuple(meta["actions"]),
                 key_words={word: tuple(rows) for word, rows in meta["key-words"].items()},
                 words=frozenset(meta["words"]),
+                fillers=frozenset(meta["fillers"]),
                 means=load_file(folder / TABLE_FILE)["means"].astype(np.float32),
                 false_alarms=float(meta["false-alarms"]),
                 min_cosine=meta["min-cosine"],
@@ -240,11 +247,27 @@ def _cover(
     return chosen
 
 
+def _fillers(texts: Sequence[frozenset[str]], labels: np.ndarray, num: int) -> frozenset[str]:
+    """Words that the captions of more than half of the actions use."""
+    users: dict[str, set[int]] = {}
+    for text, label in zip(texts, labels, strict=True):
+        for word in text:
+            users.setdefault(word, set()).add(int(label))
+    return frozenset(word for word, actions in users.items() if len(actions) > num / 2)
+
+
 def _known(
-    prompt: frozenset[str], key_words: Mapping[str, tuple[int, ...]], seen: frozenset[str]
+    prompt: frozenset[str],
+    key_words: Mapping[str, tuple[int, ...]],
+    seen: frozenset[str],
+    fillers: frozenset[str],
 ) -> bool:
-    """Whether a word is a key word, or another form of one among mostly familiar words."""
-    if not prompt.isdisjoint(key_words):
+    """Whether a word is a key word, or another form of one among mostly familiar words.
+
+    Trained words alone will do as well, unless all are fillers: "waves" may tell of two actions
+    and is then a key word of neither.
+    """
+    if not prompt.isdisjoint(key_words) or (prompt <= seen and not prompt <= fillers):
         return True
     alike = {word for word in prompt if any(_same_stem(word, key) for key in key_words)}
     return bool(alike) and len(prompt & seen | alike) >= MIN_SEEN * len(prompt)
