@@ -2,6 +2,7 @@
 
 import csv
 import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Literal
 
@@ -13,7 +14,7 @@ _CAPTION_KEYS = ("caption", "text", "description")
 
 
 def read_captions(path: Path) -> Captions:
-    """Captions by clip name (file name without folder and ending) and language.
+    """Captions by clip (path or file name as given, without ending) and language.
 
     CSV and TSV: columns clip, caption and, optionally, language (default en), with or without a
     header line; several lines a clip are several captions. JSON: {clip: text}, {clip: [texts]},
@@ -40,12 +41,72 @@ def read_captions(path: Path) -> Captions:
         caption = " ".join(caption.split())
         if not clip.strip() or not caption:
             raise UserError(f"captions {path}, {where}: no clip or no caption; give both")
-        clip = Path(clip.strip().replace("\\", "/")).name
-        clip = clip[: -len(".bvh")] if clip.lower().endswith(".bvh") else clip
+        clip = without_ending(Path(clip.strip().replace("\\", "/")).as_posix())
         captions.setdefault(clip, {}).setdefault(language or "en", []).append(caption)
     if not captions:
         raise UserError(f"captions {path}: no captions in it; expected clip and caption columns")
     return captions
+
+
+def without_ending(name: str) -> str:
+    """The name without its `.bvh`, whatever the case."""
+    return name[: -len(".bvh")] if name.lower().endswith(".bvh") else name
+
+
+def match_captions(
+    captions: Captions, items: Sequence[str], folder: str, path: Path | None
+) -> tuple[Captions, dict[str, bool]]:
+    """Give each row to its file: by the path below `folder` first, by the file name otherwise.
+
+    Args:
+        captions: as `read_captions` gives them.
+        items: paths of the files relative to `folder`, with their endings.
+        folder: name of the source folder; a row may begin with it, or with folders above it.
+        path: names the captions file in errors.
+
+    Returns:
+        captions by item, and for each row whether it found a file.
+
+    Raises:
+        UserError: a file name without folder fits several files.
+    """
+    by_name: dict[str, list[str]] = {}
+    for item in items:
+        by_name.setdefault(Path(item).stem, []).append(item)
+    exact = {row: _by_path(row, by_name.get(Path(row + ".bvh").stem, []), folder)
+             for row in captions}  # fmt: skip
+    taken = set(exact.values())
+    matched: Captions = {}
+    found: dict[str, bool] = {}
+    for row, texts in captions.items():
+        item = exact[row]
+        if item is None:
+            fitting = by_name.get(Path(row + ".bvh").stem, [])
+            if len(fitting) > 1 and "/" not in row:
+                raise UserError(
+                    f"captions {path}: clip {row!r} fits {len(fitting)} files"
+                    f" ({', '.join(fitting[:4])}); write the folder too"
+                )
+            # a row of another folder leaves a file alone that has rows of its own
+            only = fitting[0] if len(fitting) == 1 else None
+            item = None if "/" in row and only in taken else only
+        found[row] = item is not None
+        if item is not None:
+            languages = matched.setdefault(item, {})
+            for language, more in texts.items():
+                languages[language] = languages.get(language, []) + more
+    return matched, found
+
+
+def _by_path(row: str, fitting: Sequence[str], folder: str) -> str | None:
+    """The file whose path below the source the row is, or ends with, the folder's name before."""
+    for item in fitting:
+        if row == without_ending(item):
+            return item
+    for item in fitting:
+        if f"/{row}".endswith(f"/{folder}/{without_ending(item)}"):
+            return item
+    return None
 
 
 def _table_rows(path: Path, text: str, delimiter: str) -> list[tuple[str, str, str, str]]:

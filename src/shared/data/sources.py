@@ -3,12 +3,13 @@
 A source lists its items cheaply; each item is read later, in a worker process.
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Protocol
 
-from src.shared.data.caption_files import Captions, read_captions
+from src.shared.data.caption_files import Captions, match_captions, read_captions, without_ending
 from src.shared.data.labels import LabelRules, load_label_rules
 from src.shared.data.mapping import SkeletonMapping, find_mapping, load_mappings
 from src.shared.data.records import RawClip
@@ -47,12 +48,22 @@ class Source(Protocol):
 
 @dataclass(frozen=True)
 class BvhFolder:
-    """Every .bvh below a folder (or one file), with captions and label rules."""
+    """Every .bvh below a folder (or one file), with captions and label rules.
+
+    Attributes:
+        captions: of each item that has some.
+        shared_stems: file names that several folders hold; their takes are told apart by folder.
+        captions_file: where the captions come from.
+        caption_rows: clips that the file names, and whether a file was found for each.
+    """
 
     root: Path
     captions: Captions
     rules: LabelRules
     mappings: tuple[SkeletonMapping, ...]
+    shared_stems: tuple[str, ...] = ()
+    captions_file: Path | None = field(default=None, repr=False)
+    caption_rows: Mapping[str, bool] = field(default_factory=dict, repr=False)
 
     @property
     def name(self) -> str:
@@ -70,19 +81,26 @@ class BvhFolder:
         """Check that the folder holds BVH files and read the tables.
 
         Raises:
-            UserError: no such folder, no BVH in it, a faulty captions, labels or mapping file.
+            UserError: no such folder, no BVH in it, a faulty captions, labels or mapping file, a
+                caption whose clip may be any of several files.
         """
         if not root.exists():
             raise UserError(f"source {root} does not exist; give a folder of BVH files")
-        folder = cls(
-            root,
-            read_captions(captions) if captions else {},
-            load_label_rules(labels),
-            load_mappings(mapping),
-        )
-        if not folder.items():
+        plain = cls(root, {}, load_label_rules(labels), load_mappings(mapping))
+        items = plain.items()
+        if not items:
             raise UserError(f"source {root} holds no .bvh file; give a folder of BVH files")
-        return folder
+        rows = read_captions(captions) if captions else {}
+        stems = Counter(Path(item).stem for item in items)
+        name = root.resolve().parent.name if root.is_file() else plain.name
+        matched, found = match_captions(rows, items, name, captions)
+        return replace(
+            plain,
+            captions=matched,
+            shared_stems=tuple(sorted(stem for stem, count in stems.items() if count > 1)),
+            captions_file=captions,
+            caption_rows=found,
+        )
 
     def items(self) -> list[str]:
         if self.root.is_file():
@@ -102,7 +120,7 @@ class BvhFolder:
         labels, skip = self.rules.of_file(path.stem)
         if skip:
             raise Skipped(skip)
-        captions = self.captions.get(path.stem, {})
+        captions = self.captions.get(item, {})
         for caption in captions.get("en", []):
             labels = self.rules.of_caption(caption) | labels
         if not labels and not captions:
@@ -115,7 +133,8 @@ class BvhFolder:
         motion = retarget(clip, find_mapping(clip.names, self.mappings), fps=FPS)
         if motion.num_frames < MIN_FRAMES:
             raise Skipped(f"{motion.num_frames} frames at {FPS:g} fps; {MIN_FRAMES} are needed")
-        return RawClip(item, path.stem, motion, labels, captions)
+        take = without_ending(item) if path.stem in self.shared_stems else path.stem
+        return RawClip(item, take, motion, labels, captions)
 
 
 @dataclass(frozen=True)

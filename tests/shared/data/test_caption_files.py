@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from src.shared.data.caption_files import read_captions
+from src.shared.data.caption_files import match_captions, read_captions
 from src.shared.errors import UserError
 
 
@@ -19,7 +19,7 @@ def write(tmp_path: Path, name: str, text: str) -> Path:
     [
         ("a.csv", 'clip,caption\nwalk.bvh,"walks, then stops"\nwave,waves\n'),
         ("a.csv", 'walk,"walks, then stops"\r\nwave,waves'),
-        ("a.tsv", "caption\tid\nwalks, then stops\tdata/walk.bvh\nwaves\twave.BVH\n"),
+        ("a.tsv", "caption\tid\nwalks, then stops\twalk.bvh\nwaves\twave.BVH\n"),
         ("a.json", '{"walk": "walks, then stops", "wave.bvh": ["waves"]}'),
         ("a.json", '[{"file": "walk.bvh", "text": "walks, then stops"},'
                    ' {"clip": "wave", "caption": "waves"}]'),
@@ -62,3 +62,30 @@ def test_a_missing_or_binary_file(tmp_path: Path) -> None:
     (tmp_path / "b.csv").write_bytes(b"\xff\xfe\x00\x80")
     with pytest.raises(UserError, match="UTF-8"):
         read_captions(tmp_path / "b.csv")
+
+
+def match(rows: list[str], *items: str) -> tuple[dict[str, list[str]], list[str]]:
+    """Rows by file, and the rows without one; the caption of each row is the row."""
+    captions = {row: {"en": [row]} for row in rows}
+    matched, found = match_captions(captions, items, "mocap", Path("c.csv"))
+    given = {item: texts["en"] for item, texts in matched.items()}
+    return given, [row for row, has_file in found.items() if not has_file]
+
+
+def test_rows_find_their_files_by_path_then_by_name() -> None:
+    files = ("walk/take1.bvh", "run/take1.BVH", "jump/take2.bvh")
+    rows = ["walk/take1", "data/mocap/run/take1", "take2", "none", "hop/take1"]
+    given, lost = match(rows, *files)
+    assert given == {files[0]: [rows[0]], files[1]: [rows[1]], files[2]: [rows[2]]}
+    assert lost == ["none", "hop/take1"]
+    assert match(["take1"], "take1.bvh", "walk/take1.bvh")[0] == {"take1.bvh": ["take1"]}
+    assert match(["else/where/a.b"], "x/a.b.bvh")[0] == {"x/a.b.bvh": ["else/where/a.b"]}
+    with pytest.raises(UserError, match=r"c\.csv: clip 'take1' fits 2 .*walk/take1.bvh, run/take1"):
+        match(["take1"], *files)
+
+
+def test_the_folder_of_a_row_parts_two_sources() -> None:
+    captions = {f"{folder}/take1": {"en": [folder]} for folder in ("walk", "run")}
+    matched, found = match_captions(captions, ["take1.bvh"], "run", None)
+    assert matched == {"take1.bvh": {"en": ["run"]}}
+    assert found == {"walk/take1": False, "run/take1": True}

@@ -149,6 +149,22 @@ def test_what_is_skipped_is_named_with_its_reason(tmp_path: Path) -> None:
     assert json.loads((tmp_path / "out" / "report.json").read_text()) == report
 
 
+def test_the_same_file_name_in_two_folders_is_two_takes(tmp_path: Path) -> None:
+    root = tmp_path / "in"
+    for folder in ("walk", "run"):
+        bvh_folder(root / folder, 2)
+    (root / "run" / "take1.bvh").unlink()
+    table = root / "captions.csv"
+    table.write_text("walk/take0,walks\nrun/take0.bvh,runs\ntake1,waves\n")
+    source = BvhFolder.open(root, captions=table)
+    clips = {item: source.read(item) for item in source.items()}
+    assert {item: (clip.take, clip.captions["en"]) for item, clip in clips.items()} == {
+        "walk/take0.bvh": ("walk/take0", ["walks"]),
+        "run/take0.bvh": ("run/take0", ["runs"]),
+        "walk/take1.bvh": ("take1", ["waves"]),
+    }
+
+
 def test_nothing_usable_is_an_error(tmp_path: Path) -> None:
     root = tmp_path / "in"
     root.mkdir()
