@@ -50,6 +50,10 @@ def prepare(
     """
     if not source and not synthetic:
         raise UsageError("no SOURCE; name folders of BVH files, or --synthetic N, or both")
+    tables = {"--captions": captions, "--mapping": mapping, "--labels": labels}
+    given = [flag for flag, path in tables.items() if path is not None]
+    if given and not source:
+        raise UsageError(f"{given[0]} without SOURCE; name the folder of BVH files it is about")
     options.check_ranges(synthetic=synthetic, workers=workers, seed=seed)
     options.check_folder("--out", out)
 
@@ -71,6 +75,11 @@ def prepare(
         workers=workers,
         progress=show_progress,
     )
+    if unmatched := report["unmatched_captions"]:
+        complain(
+            f"warning: {len(unmatched)} clips in {captions} match no file, e.g."
+            f" {', '.join(unmatched[:3])}; {out / 'report.json'} lists them"
+        )
     if json:
         print_json(report)
     else:

@@ -34,7 +34,7 @@ from safetensors.torch import load_file, save_file
 from src.shared.data.captions import CaptionBook, mirror_labels
 from src.shared.data.labels import group_of
 from src.shared.data.records import SPLITS, ClipRecord
-from src.shared.data.sources import Skipped, Source, all_items
+from src.shared.data.sources import BvhFolder, Skipped, Source, all_items
 from src.shared.data.splits import assign_splits, orbit
 from src.shared.errors import UserError
 from src.shared.files import atomic_write, sha256_file, write_json, write_text
@@ -81,6 +81,8 @@ def prepare(
     """
     book = CaptionBook.load(templates)
     sources = tuple(sources)
+    if mirror:
+        _check_languages(sources, book)
     items = list(all_items(list(sources)))
     jobs = _jobs(sources, items, out)
     _run(jobs, workers or os.cpu_count() or 1, progress, len(items))
@@ -99,10 +101,31 @@ def prepare(
     write_json(out / "captions.json", _group_captions(records, book, seed))
     _write_statistics(out, records)
     _remove_stale_shards(out, jobs)
-    report = _report(records, skipped)
+    report = _report(records, skipped) | {"unmatched_captions": _unmatched(sources)}
     write_json(out / "report.json", report)
     write_json(out / "manifest.json", _manifest(out, jobs, records, seed=seed, mirror=mirror))
     return report
+
+
+def _check_languages(sources: tuple[Source, ...], book: CaptionBook) -> None:
+    """Mirrored captions need a table of the language's left and right."""
+    for source in sources:
+        if not isinstance(source, BvhFolder):
+            continue
+        for language in sorted({code for texts in source.captions.values() for code in texts}):
+            if language not in book.languages:
+                raise UserError(
+                    f"captions {source.captions_file}: no mirror table for language {language!r};"
+                    f" correct it (known: {', '.join(book.languages)}), add a caption file by"
+                    " --templates, or give --no-mirror"
+                )
+
+
+def _unmatched(sources: tuple[Source, ...]) -> list[str]:
+    """Clips of the captions files that no source holds."""
+    rows = [source.caption_rows for source in sources if isinstance(source, BvhFolder)]
+    named = {name for found in rows for name in found}
+    return sorted(named - {name for found in rows for name, matched in found.items() if matched})
 
 
 # ---------------------------------------------------------------- shards

@@ -138,12 +138,17 @@ def test_workers_do_not_change_the_result(tmp_path: Path) -> None:
 def test_what_is_skipped_is_named_with_its_reason(tmp_path: Path) -> None:
     root = bvh_folder(tmp_path / "in", 3)
     (root / "broken.bvh").write_text("HIERARCHY\nROOT x\n{")
+    (root / "mute.bvh").write_text("HIERARCHY\nROOT x\n{")
     (root / "silent.bvh").write_bytes((root / "take0.bvh").read_bytes())
     with (root / "captions.csv").open("a") as stream:
-        stream.write("\nbroken,breaks\n")
+        stream.write("\nbroken,breaks\nghost,haunts\n")
     report = prepare([BvhFolder.open(root, captions=root / "captions.csv")], tmp_path / "out")
     reasons = {entry["clip"]: entry["reason"] for entry in report["skipped"]}
-    assert report["clips"] == 3 and set(reasons) == {"in/broken.bvh", "in/silent.bvh"}
+    assert report["clips"] == 3 and set(reasons) == {
+        f"in/{name}.bvh" for name in ("broken", "mute", "silent")
+    }
+    assert report["unmatched_captions"] == ["ghost"]
+    assert "unreadable" in reasons["in/mute.bvh"]
     assert "unreadable" in reasons["in/broken.bvh"]
     assert "no caption and no label" in reasons["in/silent.bvh"]
     assert json.loads((tmp_path / "out" / "report.json").read_text()) == report
@@ -163,6 +168,16 @@ def test_the_same_file_name_in_two_folders_is_two_takes(tmp_path: Path) -> None:
         "run/take0.bvh": ("run/take0", ["runs"]),
         "walk/take1.bvh": ("take1", ["waves"]),
     }
+
+
+def test_an_unknown_language_stops_before_any_clip(tmp_path: Path) -> None:
+    root = bvh_folder(tmp_path / "in", 1)
+    table = root / "captions.csv"
+    table.write_text("clip,caption,language\ntake0,kävelee,fi\n", encoding="utf-8")
+    source = BvhFolder.open(root, captions=table)
+    with pytest.raises(UserError, match=r"captions\.csv.*'fi'.*--no-mirror"):
+        prepare([source], tmp_path / "out")
+    assert not (tmp_path / "out").exists()
 
 
 def test_nothing_usable_is_an_error(tmp_path: Path) -> None:
