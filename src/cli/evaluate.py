@@ -1,18 +1,13 @@
 """`evaluate`: the first honest figures of a model, each beside a real and a chance row."""
 
-from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
 from src.cli import options
 from src.cli.guard import complain
 from src.shared.errors import UsageError
-
-if TYPE_CHECKING:
-    from src.shared.model.generation.motion_generator import MotionGenerator
-    from src.shared.motion.motion import Motion
 
 
 def evaluate(
@@ -60,7 +55,25 @@ def evaluate(
     sampling = {"steps": steps, "sampler": sampler, "guidance_scale": guidance_scale}
     options.check_ranges(threads=threads, steps=steps, guidance_scale=guidance_scale, **amount)
     given = {name: value for name, value in amount.items() if value is not None}
-    report = judge_model(model, evaluator, data, given, sampling, device=device, threads=threads)
+    if out is not None:
+        if out.is_dir():
+            raise UsageError(f"--out {out} is a folder; name a .json or .md file")
+        options.check_folder("--out", out.parent)
+    check_data(data)
+
+    from src.shared.device import set_threads
+    from src.shared.evaluation import harness
+
+    set_threads(threads)
+    report = harness.quick(
+        model,
+        data,
+        evaluator=evaluator,
+        settings=harness.QuickSettings(**given),
+        device=device,
+        progress=lambda text: complain(f"evaluate: {text}"),
+        **sampling,
+    )
     if out is not None:
         write_report(report, out)
     if json:
@@ -69,49 +82,17 @@ def evaluate(
         print_tables(report)
 
 
-def judge_model(
-    model: str,
-    evaluator: str,
-    data: str,
-    amount: dict[str, Any],
-    sampling: dict[str, Any],
-    *,
-    device: str,
-    threads: int | None,
-) -> dict[str, Any]:
-    """Load model, judge and held-back clips, and run the harness."""
-    from src.shared.device import set_threads
-    from src.shared.evaluation.evaluator import Evaluator
-    from src.shared.evaluation.harness import QuickSettings, evaluate_quick
-    from src.shared.evaluation.held_out import open_held_out
-    from src.shared.model.generation.motion_generator import MotionGenerator
+def check_data(data: str) -> None:
+    """Refuse a --data that is not there, before anything slow starts.
 
-    set_threads(threads)
-    generator = MotionGenerator.from_pretrained(model, device=device)
-    judge = Evaluator.from_pretrained(evaluator, device=generator.device)
-    return evaluate_quick(
-        {model: as_sampler(generator, sampling)},
-        open_held_out(data, Path("runs"), judge.trained_groups),
-        judge,
-        settings=QuickSettings(**amount),
-        about={"model": model, "model_hash": weights_hash(generator), **sampling},
-        progress=lambda text: complain(f"evaluate: {text}"),
-    )
-
-
-def as_sampler(generator: "MotionGenerator", sampling: dict[str, Any]) -> Any:
-    """The generator as the harness calls it: prompts and their frames to one motion each."""
-
-    def sample(prompts: Sequence[str], frames: Sequence[int], seed: int) -> "list[Motion]":
-        seconds = [count / generator.card.fps for count in frames]
-        return generator.generate(prompts, seconds=seconds, seed=seed, **sampling)
-
-    return sample
-
-
-def weights_hash(generator: "MotionGenerator") -> str:
-    """First digits of the SHA-256 that the model's card vouches for."""
-    return generator.card.weights.sha256[:12] if generator.card.weights else "unsaved"
+    Raises:
+        UsageError: neither `synthetic` nor a folder that `prepare` finished.
+    """
+    if data != "synthetic" and not (Path(data) / "manifest.json").is_file():
+        raise UsageError(
+            f"--data {data} is not prepared data (no manifest.json); name a folder that"
+            " `prepare` wrote, or synthetic"
+        )
 
 
 def print_json(report: dict[str, Any]) -> None:

@@ -1,5 +1,7 @@
 """Options that several commands share, and the checks of their values."""
 
+import contextlib
+import tempfile
 from pathlib import Path
 from typing import Annotated
 
@@ -48,10 +50,24 @@ def check_folder(flag: str, folder: Path) -> None:
     """Refuse a path that cannot become a folder, before anything slow starts.
 
     Raises:
-        UsageError: a file stands in the way.
+        UsageError: a file stands in the way, or it cannot be made or written to.
     """
     for part in (folder, *folder.parents):
         if part.exists():
             if not part.is_dir():
                 raise UsageError(f"{flag} {folder}: {part} is a file; name a folder")
-            return
+            break
+    made = [part for part in (folder, *folder.parents) if not part.exists()]
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        reason = error.strerror or error
+        raise UsageError(
+            f"{flag} {folder}: cannot write there ({reason}); name another folder"
+        ) from None
+    finally:
+        for part in made:  # it was a trial: whoever writes makes the folder
+            with contextlib.suppress(OSError):
+                part.rmdir()

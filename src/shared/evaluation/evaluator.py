@@ -201,12 +201,20 @@ class Evaluator(nn.Module):
             UserError: no such folder, another kind of model, or weights that do not fit.
         """
         folder = Path(name) if Path(name).is_dir() else PRETRAINED / str(name)
+        if not (folder / "config.json").is_file():
+            known = sorted(p.parent.name for p in PRETRAINED.glob("*/config.json")
+                           if json.loads(p.read_text("utf-8")).get("kind") == "evaluator")  # fmt: skip
+            raise UserError(
+                f"no evaluator {str(name)!r}; there are: {', '.join(known) or 'none'}, or a folder"
+                " from `accelerate launch -m src.train.train_evaluator`"
+            )
         try:
             content = json.loads((folder / "config.json").read_text(encoding="utf-8"))
             weights = load_file(folder / WEIGHTS)
         except (OSError, ValueError) as error:
             raise UserError(
-                f"no evaluator at {folder} ({error}): train one with src.train.train_evaluator"
+                f"the evaluator in {folder} is damaged ({error}); copy the folder again, or train"
+                " one with src.train.train_evaluator"
             ) from error
         if content.get("kind") != "evaluator":
             raise UserError(f"{folder} holds a {content.get('kind')!r}, not an evaluator")

@@ -154,6 +154,8 @@ class PromptTokenizer:
             UserError: nothing readable there.
         """
         meta_file = Path(name) / META_FILE
+        if (Path(name).parent / "config.json").is_file() and not Path(name).exists():
+            raise UserError(f"{name} is missing; copy the model folder again")
         if not meta_file.is_file():
             return cls(_Pretrained(str(name)), max_tokens)
         try:
