@@ -20,6 +20,7 @@ from src.shared.config_schema import Config, NetworkConfig, TrainConfig
 from src.shared.errors import UsageError
 
 COMMAND_LINE = "command line"
+NETWORK_PREFIX = "network."
 
 ConfigT = TypeVar("ConfigT", bound=Config)
 TrainConfigT = TypeVar("TrainConfigT", bound=TrainConfig)
@@ -122,10 +123,12 @@ def parse_overrides(overrides: Sequence[str]) -> dict[str, Any]:
 
 
 def split_network_overrides(overrides: Sequence[str]) -> tuple[list[str], list[str]]:
-    """Part a training command's overrides into its own and those of the network (`network.…`)."""
-    prefix = "network."
-    network = [text.removeprefix(prefix) for text in overrides if text.startswith(prefix)]
-    return [text for text in overrides if not text.startswith(prefix)], network
+    """Part a training command's overrides into its own and those of the network (`network.…`).
+
+    Those of the network keep their prefix, so that `load_network` names keys as they were written.
+    """
+    network = [text for text in overrides if text.startswith(NETWORK_PREFIX)]
+    return [text for text in overrides if not text.startswith(NETWORK_PREFIX)], network
 
 
 def _kebab(key: Any) -> str:
@@ -193,14 +196,24 @@ def _nearest_key(model_class: type[Config], key: str) -> str:
     return nearest(key, same_name or keys)
 
 
-def _describe(error: ErrorDetails, model_class: type[Config], source: str) -> str:
-    """One pydantic error as one line."""
-    key = ".".join(_kebab(part) for part in error["loc"])
+def _describe(
+    error: ErrorDetails, model_class: type[Config], source: str, written: str, prefix: str
+) -> str:
+    """One pydantic error as one line; `written` is the override's key, `prefix` stands before."""
+    key = prefix + ".".join(_kebab(part) for part in error["loc"])
     value = json.dumps(error["input"], ensure_ascii=False, default=str)
     if error["type"] == "extra_forbidden":
+        key = written or key
+        bare = key.removeprefix(prefix)
+        inner = error["input"]
+        for part in bare.split(".")[len(error["loc"]) :]:
+            inner = inner.get(_kebab(part), inner) if isinstance(inner, dict) else inner
+        value = json.dumps(inner, ensure_ascii=False, default=str)
+        nearest_key = prefix + _nearest_key(model_class, bare)
+        if issubclass(model_class, TrainConfig) and bare in config_keys(NetworkConfig):
+            nearest_key = NETWORK_PREFIX + bare
         return (
-            f"{source}: unknown key {key} (value {value});"
-            f" the nearest valid key is {_nearest_key(model_class, key)}"
+            f"{source}: unknown key {key} (value {value}); the nearest valid key is {nearest_key}"
         )
     message = error["msg"].removeprefix("Value error, ").replace("Input should be", "should be")
     message = message.replace("an object", "a section of keys")
@@ -216,6 +229,8 @@ def load_config(
     values: dict[str, Any],
     source: str,
     overrides: Sequence[str] = (),
+    *,
+    prefix: str = "",
 ) -> ConfigT:
     """Validate `values` with `overrides` on top.
 
@@ -224,12 +239,15 @@ def load_config(
         values: what a YAML file says; kebab-case, snake_case and camelCase keys are the same.
         source: names the file in errors.
         overrides: `key.sub-key=value`, values in YAML.
+        prefix: what overrides may begin with, and then do in errors.
 
     Raises:
         UsageError: an unknown key, a wrong type or range, settings that do not fit together.
     """
     merged = _normalise(values, source)
     flat = parse_overrides(overrides)
+    prefix = prefix if any(key.startswith(prefix) for key in flat) else ""
+    flat = {key.removeprefix(prefix): value for key, value in flat.items()}
     for key, value in flat.items():
         _apply(merged, key, value)
     try:
@@ -244,8 +262,13 @@ def load_config(
             isinstance(first["input"], dict)
             and any(k.rpartition(".")[2] in first["msg"] for k in given)
         )
-        where = COMMAND_LINE if overridden else source
-        raise UsageError(_describe(first, model_class, where)) from None
+        # an unknown section is named whole, as it was written
+        unknown = first["type"] == "extra_forbidden"
+        inner = [k for k, own in zip(flat, given, strict=True) if own.startswith(key + ".")]
+        written = prefix + inner[0] if unknown and inner else ""
+        overridden |= bool(written)
+        where, prefix = (COMMAND_LINE, prefix) if overridden else (source, "")
+        raise UsageError(_describe(first, model_class, where, written, prefix)) from None
 
 
 # ---------------------------------------------------------------- the project's own files
@@ -271,7 +294,7 @@ def load_network(
     Args:
         profile: default, spark, lightweight, or one of the user's own file.
         path: another network file; None is the one that ships.
-        overrides: `generation.num-heads=8` and the like.
+        overrides: `generation.num-heads=8` and the like, with `network.` before or without.
 
     Raises:
         UsageError: unknown profile or key, wrong type, range or head count.
@@ -287,7 +310,7 @@ def load_network(
     source = f"{path} profile {profile}"
     if not isinstance(values, dict):
         raise UsageError(f"{source}: expected a mapping, found {values!r}")
-    return load_config(NetworkConfig, values, source, overrides)
+    return load_config(NetworkConfig, values, source, overrides, prefix=NETWORK_PREFIX)
 
 
 def load_train(

@@ -169,7 +169,28 @@ def test_overrides_reach_lists_and_sections() -> None:
 
 def test_network_overrides_are_parted() -> None:
     own, network = split_network_overrides(["steps=3", "network.embed-dim=64"])
-    assert (own, network) == (["steps=3"], ["embed-dim=64"])
+    assert (own, network) == (["steps=3"], ["network.embed-dim=64"])
+    assert load_network("default", overrides=network).embed_dim == 64
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "message"),
+    [
+        ("network.generation.num-heds", "4",
+         r"unknown key network\.generation\.num-heds \(value 4\);"
+         r" the nearest valid key is network\.generation\.num-heads$"),
+        ("network.generation.num-heads", "-4", r"^command line: network\.generation\.num-heads"),
+        ("network.generaton.num-heads", "4", r"key network\.generaton\.num-heads .* network\.gen"),
+        ("generation.num-heads", "4",
+         r"^command line: unknown key generation\.num-heads \(value 4\);"
+         r" the nearest valid key is network\.generation\.num-heads$"),
+    ],
+)  # fmt: skip
+def test_keys_are_named_as_they_were_written(key: str, value: str, message: str) -> None:
+    own, network = split_network_overrides([f"{key}={value}"])
+    with pytest.raises(UsageError, match=message):
+        load_train(None, TrainGenerationConfig, own)
+        load_network("default", overrides=network)
 
 
 @given(st.sampled_from(sorted(config_keys(NetworkConfig))), st.integers(0, 30), st.data())
