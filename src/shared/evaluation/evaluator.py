@@ -202,8 +202,11 @@ class Evaluator(nn.Module):
         """
         folder = Path(name) if Path(name).is_dir() else PRETRAINED / str(name)
         if not (folder / "config.json").is_file():
-            known = sorted(p.parent.name for p in PRETRAINED.glob("*/config.json")
-                           if json.loads(p.read_text("utf-8")).get("kind") == "evaluator")  # fmt: skip
+            known = sorted(
+                path.parent.name
+                for path in PRETRAINED.glob("*/config.json")
+                if json.loads(path.read_text(encoding="utf-8")).get("kind") == "evaluator"
+            )
             raise UserError(
                 f"no evaluator {str(name)!r}; there are: {', '.join(known) or 'none'}, or a folder"
                 " from `accelerate launch -m src.train.train_evaluator`"
