@@ -52,7 +52,11 @@ def evaluate(
         "control_seeds": control_seeds,
         "seed": seed,
     }
-    sampling = {"steps": steps, "sampler": sampler, "guidance_scale": guidance_scale}
+    sampling: dict[str, Any] = {
+        "steps": steps,
+        "sampler": sampler,
+        "guidance_scale": guidance_scale,
+    }
     options.check_ranges(threads=threads, steps=steps, guidance_scale=guidance_scale, **amount)
     given = {name: value for name, value in amount.items() if value is not None}
     if out is not None:

@@ -71,10 +71,11 @@ def match_captions(
         UserError: a file name without folder fits several files.
     """
     by_name: dict[str, list[str]] = {}
-    for item in items:
-        by_name.setdefault(Path(item).stem, []).append(item)
-    exact = {row: _by_path(row, by_name.get(Path(row + ".bvh").stem, []), folder)
-             for row in captions}  # fmt: skip
+    for name in items:
+        by_name.setdefault(Path(name).stem, []).append(name)
+    exact: dict[str, str | None] = {
+        row: _by_path(row, by_name.get(Path(row + ".bvh").stem, []), folder) for row in captions
+    }
     taken = set(exact.values())
     matched: Captions = {}
     found: dict[str, bool] = {}
