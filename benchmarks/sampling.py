@@ -169,6 +169,7 @@ def command_times(model: str, threads: int, repeats: int) -> dict[str, Any]:
     """
     with tempfile.TemporaryDirectory() as folder:
         environment = {**os.environ, "PYTHONPYCACHEPREFIX": str(Path(folder) / "bytecode")}
+        environment.pop("PYTHONDONTWRITEBYTECODE", None)  # else no run would ever be warm
         command = [sys.executable, "-m", "src.cli.tools", "generate", "--prompt", PROMPT]
         command += ["--seconds", str(SECONDS), "--model", model, "--out", folder]
         command += ["--threads", str(threads), "--device", "cpu"]

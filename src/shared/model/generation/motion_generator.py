@@ -281,6 +281,9 @@ class MotionGenerator:
             card.network.clip, card.network.embed_dim, encoder_config=card.text_encoder
         )
         load_state(text, tensors, "text", folder)
+        scope = PromptScope.from_pretrained(folder)
+        if scope is None:
+            log.warning("%s has no scope.json: far-off prompts get no warning", folder)
         return cls(
             denoiser,
             text.freeze(),
@@ -288,7 +291,7 @@ class MotionGenerator:
             mean=tensors["statistics.mean"],
             std=tensors["statistics.std"],
             card=card,
-            scope=PromptScope.from_pretrained(folder),
+            scope=scope,
             device=device,
         )
 
