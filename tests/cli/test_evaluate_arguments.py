@@ -40,7 +40,7 @@ def test_right_ones_reach_the_harness(monkeypatch: pytest.MonkeyPatch) -> None:
     command = ["evaluate", "--quick", "--steps", "3", "--num-samples", "5", "--json"]
     result = CliRunner().invoke(app, command)
     assert result.exit_code == 0 and '"held_out": "yes"' in result.output
-    (names, options), = calls
+    ((names, options),) = calls
     assert names == ("starter", "synthetic") and options["steps"] == 3
     assert options["settings"].num_samples == 5 and options["evaluator"] == "evaluator"
 
