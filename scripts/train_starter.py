@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Make the starter weights anew: prepare, four trainings, and the shipped folders.
+"""Make the starter weights anew: prepare, five trainings, and the shipped folders.
 
     python scripts/train_starter.py SOURCE ... --captions FILE [--work DIR] [--ship]
 
@@ -14,7 +14,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 SYNTHETIC_CLIPS = 3000
-WINDOWS = ["min-frames=40", "max-frames=150"]
+FIRST = ["min-frames=40", "max-frames=150", "losses.position=1.0", "losses.foot-slide=0.02"]
+SECOND = ["min-frames=40", "max-frames=180", "losses.position=2.0", "losses.foot-slide=0.1"]
 LICENCE = "CC BY-NC 4.0 (learned from the Bandai-Namco Research Motiondataset: non-commercial)"
 DESCRIPTION = "text to body motion; Bandai-Namco, CMU and synthetic; en es fr de ja zh"
 
@@ -22,19 +23,22 @@ DESCRIPTION = "text to body motion; Bandai-Namco, CMU and synthetic; en es fr de
 def stages(options: argparse.Namespace) -> list[list[str]]:
     """The command of each stage, in order."""
     data, work = str(options.work / "data"), options.work
-    train = [f"threads={options.threads}", "precision=auto", *WINDOWS, "--data", data]
+    train = [f"threads={options.threads}", "precision=auto", "--data", data]
+    clip, hardened, first = (work / name for name in ("clip", "hardened", "first"))
+    learn = ["-m", "src.train.train_generation", *train, "batch-size=48"]
     return [
         ["-m", "src.cli.tools", "prepare", *options.sources, "--captions", options.captions,
          "--synthetic", str(SYNTHETIC_CLIPS), "--out", data],
-        ["-m", "src.train.train_clip", *train, "batch-size=128", "steps=1800",
-         "--output", str(work / "clip"), "--resume"],
+        ["-m", "src.train.train_clip", *train, *FIRST[:2], "batch-size=128", "steps=1800",
+         "--output", str(clip), "--resume"],
         ["-m", "src.train.train_evaluator", "--data", data, f"threads={options.threads}",
          "steps=1500", "--output", str(work / "evaluator"), "--resume"],
-        ["-m", "src.train.train_generation", *train, "batch-size=48",
-         f"clip={work / 'clip'}", f"steps={options.steps}", "losses.position=1.0",
-         "losses.foot-slide=0.02", "--output", str(work / "generation"), "--resume"],
-        ["-m", "src.train.train_text", *train, f"clip={work / 'clip'}", "steps=2500",
-         f"generator={work / 'generation'}", "--output", str(work / "starter"), "--resume"],
+        [*learn, *FIRST, f"clip={clip}", f"steps={options.steps}", "--output", str(first),
+         "--resume"],
+        ["-m", "src.train.train_text", *train, *FIRST[:2], f"clip={clip}", "steps=2500",
+         "--output", str(hardened), "--resume"],
+        [*learn, *SECOND, f"clip={hardened}", f"init={first}", f"steps={options.steps}",
+         "learning-rate=6e-4", "--output", str(work / "starter"), "--resume"],
     ]  # fmt: skip
 
 
@@ -60,7 +64,7 @@ def main() -> int:
     parser.add_argument("sources", nargs="+")
     parser.add_argument("--captions", required=True, help="CSV, TSV or JSON")
     parser.add_argument("--work", type=Path, default=Path("runs/starter"))
-    parser.add_argument("--steps", type=int, default=6300, help="of generation training")
+    parser.add_argument("--steps", type=int, default=5800, help="of each of two generation stages")
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--ship", action="store_true", help="write src/shared/pretrained")
     options = parser.parse_args()

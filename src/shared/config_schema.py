@@ -226,8 +226,9 @@ class TrainGenerationConfig(TrainConfig):
     """train_generation.yaml: the denoiser with a frozen text tower."""
 
     clip: str = "runs/clip"  # folder written by train_clip
+    init: str | None = None  # a trained generator to go on from (fine-tuning); None = from nothing
     condition_dropout: float = Field(0.1, ge=0, lt=1)  # ruling 14
     tag_dropout: float = Field(0.5, ge=0, le=1)
-    word_dropout: float = Field(0.1, ge=0, lt=1)
+    word_dropout: float = Field(0.0, ge=0, lt=1)  # "walk backward" without its last word misleads
     losses: LossWeights = LossWeights()
     validation_prompts: tuple[str, ...] = ("a person walks forward", "a person waves")

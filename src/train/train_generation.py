@@ -19,6 +19,7 @@ from src.shared.config_schema import NetworkConfig, TrainGenerationConfig
 from src.shared.data.text_motion import TextMotionBatch
 from src.shared.data.word_dropout import drop_words
 from src.shared.device import autocast, choose_compute
+from src.shared.errors import UsageError
 from src.shared.files import sha256_file
 from src.shared.model.checkpoint import WEIGHTS_FILE, ModelCard
 from src.shared.model.clip.core import TextFeatures
@@ -41,6 +42,7 @@ from src.train.text_motion import (
 )
 
 SAMPLE_SECONDS = 4.0
+TAG_WEIGHT = "tag_embed.embedding.weight"
 NOISE_LEVELS = ("low", "middle", "high")  # thirds of the diffusion steps, in validation
 
 
@@ -108,11 +110,32 @@ class GenerationTask:
         self.mean = motion_rows(self.data.mean, network)
         self.std = motion_rows(self.data.std, network)
         self.num_tags = len(self.data.tags)
+        self.data_mean, self.data_std = self.mean, self.std
         self.diffusion = GaussianDiffusion(network.generation.diffusion())
+        denoiser = MotionDenoiser(network, self.num_tags)
+        if config.init:
+            self._start_from(config.init, denoiser)
+        self.module: nn.Module = GuidedDenoiser(denoiser)
         self.loss = GenerationLoss(config.losses, self.diffusion, self.mean, self.std)
-        self.module: nn.Module = GuidedDenoiser(MotionDenoiser(network, self.num_tags))
         self.compute = choose_compute(config.device, config.precision)
         self.figures: dict[str, float] = {}
+
+    def _start_from(self, source: str, denoiser: MotionDenoiser) -> None:
+        """Take over a trained denoiser and its z-scores; tags that both know keep their vector."""
+        trained = MotionGenerator.from_pretrained(source, device="cpu")
+        if _trained_shape(trained.network) != _trained_shape(self.network):
+            raise UsageError(
+                f"init {source} is another network than profile {self.config.profile}; "
+                "train with the profile and the network overrides that it was trained with"
+            )
+        state = trained.denoiser.state_dict()
+        tags = denoiser.tag_embed.embedding.weight.detach().clone()  # [num_tags + 1, D]
+        places = {name: index for index, name in enumerate((*trained.card.tags, None))}
+        for index, name in enumerate((*self.data.tags, None)):
+            if name in places:
+                tags[index] = state[TAG_WEIGHT][places[name]]
+        denoiser.load_state_dict({**state, TAG_WEIGHT: tags})
+        self.mean, self.std = trained.mean, trained.std
 
     def identity(self) -> dict[str, Any]:
         """A resumed run must have the same network and text tower and see the same clips."""
@@ -152,7 +175,9 @@ class GenerationTask:
         drop: Tensor,
         draws: torch.Generator,
     ) -> DenoiserBatch:
-        clean = motion_rows(clips.motion, self.network)
+        clean = motion_rows(clips.motion, self.network)  # z-scored by the data's own statistics
+        if self.config.init:
+            clean = (clean * self.data_std + self.data_mean - self.mean) / self.std
         noise = torch.randn(clean.shape, generator=draws)
         return DenoiserBatch(
             clean, noise, clips.mask, timesteps, tag, drop, *self.tokenizer(captions)
@@ -239,6 +264,12 @@ class GenerationTask:
         """A folder that `MotionGenerator.from_pretrained` and `generate --model` read."""
         scope = fit_scope(self.data, self.config.languages, self.tower, self.tokenizer)
         self._generator(module, scope=scope).save_pretrained(folder)
+
+
+def _trained_shape(network: NetworkConfig) -> dict[str, Any]:
+    """What weights are bound to: the network without its towers and how it is sampled."""
+    sampled = {"sampler", "sampling_steps", "timestep_spacing", "guidance_scale", "post_processing"}
+    return network.model_dump(exclude={"clip": True, "generation": sampled})
 
 
 app = stage_app(

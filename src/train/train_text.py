@@ -42,7 +42,7 @@ class TrainTextConfig(TrainConfig):
     clip: str = "runs/clip"  # folder written by train_clip
     generator: str | None = None  # a generator that gets the hardened tower in the output
     captions_per_group: int = Field(64, ge=1)  # fresh ones, of each combination and language
-    word_dropout: float = Field(0.15, ge=0, lt=1)
+    word_dropout: float = Field(0.05, ge=0, lt=1)
     babble: float = Field(0.6, ge=0, le=1)  # share of captions with made-up words in them
     scale: float = Field(15.0, gt=0)  # factor on the cosines of the classification term
 

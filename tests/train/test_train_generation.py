@@ -44,6 +44,33 @@ def test_it_learns_and_its_folder_generates(prepared: Path, clip: Path, tmp_path
     assert made.card.trained and made.scope is not None and made.card.tags
 
 
+def test_fine_tuning_starts_where_another_run_ended(
+    prepared: Path, clip: Path, tmp_path: Path
+) -> None:
+    first = tmp_path / "first"
+    train_generation(generation_config(prepared, clip, first, "steps=3", "learning-rate=0.01"))
+    trained = MotionGenerator.from_pretrained(first, device="cpu")
+    trained.mean += 0.5  # as if it had been trained on other data, with other tags
+    trained.card = trained.card.model_copy(update={"tags": tuple(reversed(trained.card.tags))})
+    trained.save_pretrained(tmp_path / "other")
+    config = generation_config(prepared, clip, tmp_path / "second", f"init={tmp_path / 'other'}")
+    task = GenerationTask(config, tiny_network())
+    denoiser = task.module.get_submodule("denoiser")
+    state, old = denoiser.state_dict(), trained.denoiser.state_dict()
+    tags = "tag_embed.embedding.weight"
+    assert all(torch.equal(state[key], old[key]) for key in state if key != tags)
+    turned = list(range(len(task.data.tags)))[::-1]
+    assert torch.equal(state[tags], old[tags][[*turned, -1]])
+    assert torch.equal(task.mean, trained.mean)
+    plain = GenerationTask(generation_config(prepared, clip, tmp_path / "p"), tiny_network())
+    ours, theirs = (t.batch(Part(0, 0, 1)).clean for t in (task, plain))
+    assert torch.allclose(ours * task.std + task.mean, theirs * plain.std + plain.mean, atol=1e-5)
+
+    wider = tiny_network("generation.num-layers=2")
+    with pytest.raises(UserError, match="init .* is another network"):
+        GenerationTask(config, wider)
+
+
 @pytest.mark.parametrize("precision", ["no", "bf16"])
 def test_resuming_is_bitwise_the_same(
     prepared: Path, clip: Path, tmp_path: Path, precision: str
