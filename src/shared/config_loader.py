@@ -16,6 +16,7 @@ import yaml
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
+from src.shared.config_audio import AudioNetworkConfig
 from src.shared.config_schema import Config, NetworkConfig, TrainConfig
 from src.shared.errors import UsageError
 
@@ -300,6 +301,20 @@ def load_network(
         UsageError: unknown profile or key, wrong type, range or head count.
     """
     path = path or packaged_config("network.yaml")
+    return _load_profile(NetworkConfig, profile, path, overrides)
+
+
+def load_audio_network(
+    profile: str = "default", path: Path | str | None = None, overrides: Sequence[str] = ()
+) -> AudioNetworkConfig:
+    """One profile of audio_network.yaml; arguments and errors as `load_network`."""
+    path = path or packaged_config("audio_network.yaml")
+    return _load_profile(AudioNetworkConfig, profile, path, overrides)
+
+
+def _load_profile(
+    model_class: type[ConfigT], profile: str, path: Path | str, overrides: Sequence[str]
+) -> ConfigT:
     profiles = _profiles(path)
     if profile not in profiles:
         raise UsageError(
@@ -310,7 +325,7 @@ def load_network(
     source = f"{path} profile {profile}"
     if not isinstance(values, dict):
         raise UsageError(f"{source}: expected a mapping, found {values!r}")
-    return load_config(NetworkConfig, values, source, overrides, prefix=NETWORK_PREFIX)
+    return load_config(model_class, values, source, overrides, prefix=NETWORK_PREFIX)
 
 
 def load_train(

@@ -1,0 +1,105 @@
+"""Configurations of the audio branch's networks: UNet1D, AudioConditioner, decoders."""
+
+from typing import Literal, Self
+
+from pydantic import Field, model_validator
+
+from src.shared.config_schema import Config, DiffusionConfig
+
+NORM_GROUPS = 32  # of every GroupNorm in UNet1D (TECH 3.1.3)
+
+
+class UNetConfig(Config):
+    """UNet1D (TECH 3.1.1, REF); attention-resolutions are downsampling factors (ruling 4)."""
+
+    in_channels: int = Field(25, ge=1)
+    out_channels: int = Field(25, ge=1)
+    model_channels: int = Field(192, ge=NORM_GROUPS)
+    channel_mult: tuple[int, ...] = Field((1, 2, 4, 8), min_length=1)
+    num_res_blocks: int = Field(2, ge=1)
+    attention_resolutions: tuple[int, ...] = (2, 4, 8)
+    num_heads: int = Field(8, ge=1)
+    num_head_channels: int | None = Field(64, ge=2)  # instead of num-heads, when given
+    conditioning: Literal["cross-attention", "film", "both"] = "both"  # ruling 2
+    use_scale_shift_norm: bool = True  # false: REF's additive time embedding
+    downsample_last: bool = False  # REF halves once more before its middle, TECH does not
+    time_embed_dim: int = Field(256, ge=2)
+    context_dim: int = Field(256, ge=1)
+    rotary: bool = True  # relative positions in frames inside both attentions
+    dropout: float = Field(0.1, ge=0, lt=1)
+    use_checkpoint: bool = False  # recompute activations in the backward pass, to save memory
+
+    @property
+    def channels(self) -> tuple[int, ...]:
+        """Channels of each level, finest first."""
+        return tuple(self.model_channels * factor for factor in self.channel_mult)
+
+    @property
+    def factors(self) -> tuple[int, ...]:
+        """Downsampling factor of each level, finest first; the middle's comes last."""
+        levels = [2**level for level in range(len(self.channel_mult))]
+        return (*levels, levels[-1] * (2 if self.downsample_last else 1))
+
+    def heads(self, channels: int) -> int:
+        """Attention heads at that width."""
+        if self.num_head_channels is None:
+            return self.num_heads
+        return max(channels // self.num_head_channels, 1)
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for channels in self.channels:
+            if channels % NORM_GROUPS:
+                raise ValueError(f"{channels} channels: must be a multiple of {NORM_GROUPS}")
+            heads = self.heads(channels)
+            if channels % heads or (self.rotary and channels // heads % 2):
+                raise ValueError(
+                    f"{heads} heads must divide {channels} channels into even parts; change"
+                    " num-heads or num-head-channels"
+                )
+        for factor in self.attention_resolutions:
+            if factor not in self.factors:
+                raise ValueError(
+                    f"attention-resolutions: {factor} is no downsampling factor of this network;"
+                    f" there are {', '.join(map(str, sorted(set(self.factors))))}"
+                )
+        return self
+
+
+class AugmentationConfig(Config):
+    """What training does to the audio condition; sampling never does."""
+
+    noise: float = Field(0.05, ge=0)  # standard deviation added to mel, chroma, mfcc, energies
+    group_dropout: float = Field(0.1, ge=0, lt=1)  # each feature group zeroed for a whole window
+    condition_dropout: float = Field(0.1, ge=0, lt=1)  # whole condition -> learned null, ruling 14
+
+
+class AudioConditionConfig(Config):
+    """AudioConditioner (REF) and its augmentation."""
+
+    dim: int = Field(256, ge=4, multiple_of=4)  # channels it hands to FiLM
+    augmentation: AugmentationConfig = AugmentationConfig()
+
+
+class DecoderConfig(Config):
+    """Motion decoder (TECH 3.3.1, REF; rulings 5 to 10)."""
+
+    decoder: Literal["residual", "derived"] = "derived"
+    hidden_dim: int = Field(256, ge=1)
+    num_layers: int = Field(3, ge=1)
+    dropout: float = Field(0.1, ge=0, lt=1)  # of the residual decoder's blocks
+    position_scale: float = Field(50.0, gt=0)  # m
+    velocity_scale: float = Field(50.0, gt=0)  # m/s
+    acceleration_scale: float = Field(100.0, gt=0)  # m/s^2
+    angular_velocity_scale: float = Field(10.0, gt=0)  # rad/s
+    fps: float = Field(30.0, gt=0)
+
+
+class AudioNetworkConfig(Config):
+    """One profile of audio_network.yaml."""
+
+    unet: UNetConfig = UNetConfig()
+    condition: AudioConditionConfig = AudioConditionConfig()
+    decoder: DecoderConfig = DecoderConfig()
+    diffusion: DiffusionConfig = DiffusionConfig()
+    guidance_scale: float = Field(1.0, ge=0)  # 1 = none, and no second forward (ruling 14)

@@ -1,0 +1,249 @@
+"""From what the diffusion gives to a valid trajectory: two decoders (TECH 3.3, REF; ruling 5).
+
+Both take rows in raw units, channel 16 being bars a frame, and give the 25 columns of
+src.shared.motion.trajectory. They begin as a correction of nothing: heads are added to the input
+and start at zero, so that an untrained decoder only enforces the constraints.
+
+Letters: B batch, T frames, D hidden dim.
+"""
+
+import math
+from dataclasses import dataclass
+from itertools import pairwise
+
+import torch
+from torch import Tensor, nn
+from torch.nn import functional as F
+
+from src.shared.config_audio import DecoderConfig
+from src.shared.motion.trajectory import (
+    ACCELERATION,
+    ANGULAR_VELOCITY,
+    PHASE,
+    POSITION,
+    QUATERNION,
+    STYLE,
+    VELOCITY,
+)
+from src.shared.motion.trajectory_math import (
+    continuous_sign,
+    derive,
+)
+
+# About one over the spread of each column: bars a frame are near 1/60, accelerations near 10.
+INPUT_SCALE = (*(1.0,) * 6, *(0.1,) * 3, *(1.0,) * 4, *(0.5,) * 3, 50.0, *(3.0,) * 8)
+PHASE_SHARPNESS = 1000.0  # of the softplus, in frames a bar: the identity from 0.004 bars up
+
+
+@dataclass(frozen=True)
+class Decoded:
+    """A trajectory [B, T, 25], and its phase in bars before it is taken modulo 1, [B, T]."""
+
+    trajectory: Tensor
+    phase_unwrapped: Tensor
+
+
+class ResidualBlock(nn.Module):
+    """LayerNorm and an MLP D -> 4D -> D around a skip (TECH 3.3.2)."""
+
+    def __init__(self, hidden_dim: int, dropout: float = 0.1) -> None:
+        super().__init__()
+        self.layers = nn.Sequential(
+            nn.LayerNorm(hidden_dim),
+            nn.Linear(hidden_dim, hidden_dim * 4),
+            nn.GELU(),
+            nn.Dropout(dropout),
+            nn.Linear(hidden_dim * 4, hidden_dim),
+            nn.Dropout(dropout),
+        )
+
+    def forward(self, x: Tensor) -> Tensor:
+        """[B, T, D] -> the same."""
+        return x + self.layers(x)
+
+
+class TemporalBlock(nn.Module):
+    """Conv1D over time, LayerNorm, GELU (REF)."""
+
+    def __init__(self, dim: int, hidden_dim: int) -> None:
+        super().__init__()
+        self.conv = nn.Conv1d(dim, hidden_dim, 3, padding=1, padding_mode="replicate")
+        self.norm = nn.LayerNorm(hidden_dim)
+
+    def forward(self, x: Tensor) -> Tensor:
+        """[B, T, C] -> [B, T, D]."""
+        return F.gelu(self.norm(self.conv(x.transpose(1, 2)).transpose(1, 2)))
+
+
+class Decoder(nn.Module):
+    """What both decoders share: the heads that never are derived."""
+
+    input_scale: Tensor
+
+    def __init__(self, config: DecoderConfig) -> None:
+        super().__init__()
+        self.config = config
+        self.register_buffer("input_scale", torch.tensor(INPUT_SCALE), persistent=False)
+        self.position_head = self._head(3)
+        self.quaternion_head = self._head(4)
+        self.phase_head = self._head(1)
+        self.phase_start_head = self._head(2)  # cosine and sine of the first frame's bar phase
+        self.style_head = self._head(8)
+        with torch.no_grad():
+            self.phase_start_head.bias.copy_(torch.tensor((1.0, 0.0)))  # phase 0, not atan2(0, 0)
+
+    def _head(self, channels: int) -> nn.Linear:
+        head = nn.Linear(self.config.hidden_dim, channels)
+        nn.init.zeros_(head.weight)
+        nn.init.zeros_(head.bias)
+        return head
+
+    def decode(self, x: Tensor, start: Tensor | None = None) -> Decoded:
+        """The trajectory of a window.
+
+        Args:
+            x: [B, T, 25] raw units, channel 16 = bars a frame.
+            start: bar phase of the first frame [B], as the beat tracker knows it; None = guessed
+                by the phase-start head from the window's motion.
+        """
+        with torch.autocast(x.device.type, enabled=False):  # metres do not fit into bf16
+            return self._decode(x.float(), start)
+
+    def forward(self, x: Tensor, start: Tensor | None = None) -> Tensor:
+        """As `decode`, the trajectory [B, T, 25] only."""
+        return self.decode(x, start).trajectory
+
+    def _decode(self, x: Tensor, start: Tensor | None) -> Decoded:
+        raise NotImplementedError
+
+    def _position(self, x: Tensor, h: Tensor) -> Tensor:
+        return bounded(x[..., POSITION] + self.position_head(h), self.config.position_scale)
+
+    def _quaternion(self, x: Tensor, h: Tensor) -> Tensor:
+        """Unit, first w >= 0, then one hemisphere (ruling 10)."""
+        unit = F.normalize(x[..., QUATERNION] + self.quaternion_head(h), dim=-1)
+        return continuous_sign(unit)
+
+    def _phase(self, x: Tensor, h: Tensor, start: Tensor | None) -> Tensor:
+        """Bars [B, T]: a start, then the sum of increments that softplus keeps above 0.
+
+        Increment t leads from frame t to t + 1 (forward differences, ruling 6; ruling 9).
+        """
+        raw = x[..., PHASE] + self.phase_head(h)[..., 0] / PHASE_SHARPNESS  # [B, T]
+        increments = F.softplus(raw * PHASE_SHARPNESS) / PHASE_SHARPNESS
+        if start is None:
+            cosine, sine = self.phase_start_head(h.mean(dim=1)).unbind(-1)  # [B] each
+            start = torch.atan2(sine, cosine) / (2 * math.pi)
+        bars = increments[:, :-1].cumsum(dim=1)  # [B, T-1]
+        return start[:, None] + F.pad(bars, (1, 0))
+
+    def _style(self, x: Tensor, h: Tensor) -> Tensor:
+        return F.normalize(x[..., STYLE] + self.style_head(h), dim=-1)
+
+    def _assemble(
+        self,
+        position: Tensor,
+        velocity: Tensor,
+        acceleration: Tensor,
+        quaternion: Tensor,
+        turning: Tensor,
+        phase: Tensor,
+        style: Tensor,
+    ) -> Decoded:
+        wrapped = wrapped_phase(phase)[..., None]
+        columns = (position, velocity, acceleration, quaternion, turning, wrapped, style)
+        return Decoded(torch.cat(columns, dim=-1), phase)
+
+
+class MotionDecoder(Decoder):
+    """Residual MLP with a head for each component (TECH 3.3.2; rulings 5, 7, 9)."""
+
+    def __init__(self, config: DecoderConfig | None = None) -> None:
+        config = config or DecoderConfig(decoder="residual")
+        super().__init__(config)
+        self.input_proj = nn.Linear(len(INPUT_SCALE), config.hidden_dim)
+        self.blocks = nn.ModuleList(
+            ResidualBlock(config.hidden_dim, config.dropout) for _ in range(config.num_layers)
+        )
+        self.velocity_head = self._head(3)
+        self.acceleration_head = self._head(3)
+        self.angular_velocity_head = self._head(3)
+
+    def _decode(self, x: Tensor, start: Tensor | None) -> Decoded:
+        config = self.config
+        h = self.input_proj(x * self.input_scale)  # [B, T, D]
+        for block in self.blocks:
+            h = block(h)  # [B, T, D]
+        velocity = x[..., VELOCITY] + self.velocity_head(h)
+        acceleration = x[..., ACCELERATION] + self.acceleration_head(h)
+        turning = x[..., ANGULAR_VELOCITY] + self.angular_velocity_head(h)
+        return self._assemble(
+            self._position(x, h),
+            bounded(velocity, config.velocity_scale),
+            bounded(acceleration, config.acceleration_scale),
+            self._quaternion(x, h),
+            bounded(turning, config.angular_velocity_scale),
+            self._phase(x, h, start),
+            self._style(x, h),
+        )
+
+
+class DerivedMotionDecoder(Decoder):
+    """Conv1D encoder and four heads; velocity, acceleration and turning are derived (REF).
+
+    Speed is bounded before anything is derived, so that the three always agree (ruling 6).
+    The last two accelerations are not those of a longer window: give spare frames and crop.
+    """
+
+    def __init__(self, config: DecoderConfig | None = None) -> None:
+        config = config or DecoderConfig(decoder="derived")
+        super().__init__(config)
+        widths = [len(INPUT_SCALE)] + [config.hidden_dim] * config.num_layers
+        self.encoder = nn.ModuleList(
+            TemporalBlock(before, after) for before, after in pairwise(widths)
+        )
+
+    def _decode(self, x: Tensor, start: Tensor | None) -> Decoded:
+        config = self.config
+        h = x * self.input_scale
+        for block in self.encoder:
+            h = block(h)  # [B, T, D]
+        position = limit_speed(self._position(x, h), config.velocity_scale, config.fps)
+        quaternion = self._quaternion(x, h)
+        velocity, acceleration, turning = derive(position, quaternion, config.fps)
+        return self._assemble(
+            position,
+            velocity,
+            acceleration,
+            quaternion,
+            turning,
+            self._phase(x, h, start),
+            self._style(x, h),
+        )
+
+
+def create_motion_decoder(config: DecoderConfig) -> Decoder:
+    """The decoder that the configuration names (REF)."""
+    return MotionDecoder(config) if config.decoder == "residual" else DerivedMotionDecoder(config)
+
+
+def bounded(x: Tensor, scale: float) -> Tensor:
+    """tanh(x / scale) * scale: the identity for small x (REF)."""
+    return torch.tanh(x / scale) * scale
+
+
+def limit_speed(position: Tensor, limit: float, fps: float) -> Tensor:
+    """Paths [..., T, 3] whose speed stays below `limit` m/s: steps are shortened and summed anew.
+
+    A step of speed s keeps the share (1 + (s/limit)^4)^(-1/4): 1 - 4e-8 at 1 m/s under 50.
+    """
+    steps = position[..., 1:, :] - position[..., :-1, :]  # [..., T-1, 3]
+    excess = steps.square().sum(dim=-1, keepdim=True) * (fps / limit) ** 2  # (s / limit)^2
+    steps = steps * (1 + excess.square()) ** -0.25
+    return torch.cat((position[..., :1, :], position[..., :1, :] + steps.cumsum(dim=-2)), dim=-2)
+
+
+def wrapped_phase(bars: Tensor) -> Tensor:
+    """Bars [...] -> phase in [0, 1); the gradient passes unchanged."""
+    phase = bars - bars.detach().floor()
+    return torch.where(phase < 1, phase, phase - phase.detach())  # -1e-9 rounds up to 1

@@ -1,0 +1,262 @@
+"""UNet1D: the diffusion network of the audio branch (TECH 3.1, REF; rulings 1 to 4, 14).
+
+Letters: B batch, T frames, C channels of a level, E channels of the time embedding or condition,
+L frames of the audio context. Level i has T/2^i frames.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import torch
+from torch import Tensor, nn
+from torch.nn import functional as F
+from torch.utils.checkpoint import checkpoint
+
+from src.shared.config_audio import NORM_GROUPS, AudioConditionConfig, UNetConfig
+from src.shared.model.audio.blocks import AttentionBlock, Downsample, ResBlock, Upsample, zeroed
+from src.shared.model.audio.conditioning import (
+    CONDITION_ROWS,
+    AudioConditioner,
+    FiLMLayer,
+    with_phase_rows,
+)
+from src.shared.model.layers.attention import KeyValue
+from src.shared.model.layers.positions import sinusoidal
+
+MIN_FRAMES = 8  # ruling 4
+
+
+@dataclass(frozen=True)
+class StageCondition:
+    """What one stage hears of the audio; None where it does not listen that way."""
+
+    film: tuple[Tensor | None, ...]  # for each ResBlock [B, 2C, T]
+    keys_values: KeyValue | None  # of the cross-attention, [B, H, L, d] each
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """A condition after all layers that depend on it alone: made once a sample (ruling 3).
+
+    Two of them join along the batch by `join_conditions`, as guidance does.
+    """
+
+    stages: tuple[StageCondition, ...]  # down, middle, up
+
+
+class Stage(nn.Module):
+    """ResBlocks of one resolution, and one attention after the block `attention_after`.
+
+    Args:
+        config: of the whole network.
+        widths: channels in, then out of each block.
+        factor: downsampling factor here.
+        condition_dim: E of the FiLM condition; None = no FiLM.
+        attention_after: index of a block; None = no attention.
+    """
+
+    def __init__(
+        self,
+        config: UNetConfig,
+        widths: Sequence[int],
+        factor: int,
+        condition_dim: int | None,
+        attention_after: int | None,
+    ) -> None:
+        super().__init__()
+        self.factor = factor
+        self.attention_after = attention_after
+        self.blocks = nn.ModuleList(
+            ResBlock(
+                before,
+                after,
+                config.time_embed_dim,
+                condition_dim=condition_dim,
+                dropout=config.dropout,
+                use_scale_shift_norm=config.use_scale_shift_norm,
+            )
+            for before, after in pairwise(widths)
+        )
+        self.attention: AttentionBlock | None = None
+        if attention_after is not None:
+            channels = widths[attention_after + 1]
+            self.attention = AttentionBlock(
+                channels,
+                config.heads(channels),
+                None if config.conditioning == "film" else config.context_dim,
+                rotary=config.rotary,
+                stride=factor,
+            )
+
+    def prepare(self, audio: Tensor | None, context: Tensor | None) -> StageCondition:
+        """Audio for FiLM [B, E, T] at the full rate, context [B, L, E]; None = not in use."""
+        film: list[Tensor | None] = [None] * len(self.blocks)
+        if audio is not None:
+            pooled = F.avg_pool1d(audio, self.factor)  # [B, E, T/2^i]
+            layers = [block.film for block in self.blocks]
+            film = [layer.gamma_beta(pooled) for layer in layers if isinstance(layer, FiLMLayer)]
+        keys_values = None
+        if context is not None and self.attention is not None:
+            keys_values = self.attention.keys_values(context)
+        return StageCondition(tuple(film), keys_values)
+
+    def forward(self, h: Tensor, time_emb: Tensor, condition: StageCondition) -> Tensor:
+        """h [B, C, T], time [B, E] -> [B, C', T]."""
+        for index, block in enumerate(self.blocks):
+            h = block(h, time_emb, condition.film[index])
+            if index == self.attention_after and self.attention is not None:
+                h = self.attention(h, condition.keys_values)
+        return h
+
+
+class UNet1D(nn.Module):
+    """Noisy trajectory, step and audio -> what the diffusion's prediction type says.
+
+    Each level has ResBlocks, and attention where its factor is in attention-resolutions; its
+    output is kept for the way up. The middle always attends. The deepest level has no attention
+    on the way up when it follows the middle at the same resolution (TECH's diagram).
+    The output convolution starts at zero.
+    """
+
+    def __init__(self, config: UNetConfig, condition: AudioConditionConfig | None = None) -> None:
+        super().__init__()
+        condition = condition or AudioConditionConfig()
+        self.config = config
+        uses_film = config.conditioning != "cross-attention"
+        uses_context = config.conditioning != "film"
+        self.conditioner = AudioConditioner(condition) if uses_film else None
+        self.context_proj = nn.Linear(CONDITION_ROWS, config.context_dim) if uses_context else None
+        self.null = nn.Parameter(torch.randn(CONDITION_ROWS))  # ruling 14
+
+        time_dim = config.time_embed_dim
+        self.time_embed = nn.Sequential(
+            nn.Linear(time_dim, time_dim), nn.SiLU(), nn.Linear(time_dim, time_dim)
+        )
+        self._build_stages(condition.dim if uses_film else None)
+        self.output_norm = nn.GroupNorm(NORM_GROUPS, config.model_channels)
+        self.output_conv = zeroed(
+            nn.Conv1d(config.model_channels, config.out_channels, 3, padding=1)
+        )
+
+    def _build_stages(self, film_dim: int | None) -> None:
+        config, channels, factors = self.config, self.config.channels, self.config.factors
+        depth, repeat = len(channels), self.config.num_res_blocks
+        last, middle = depth - 1, factors[-1]
+
+        def attends(factor: int) -> int | None:
+            return repeat - 1 if factor in config.attention_resolutions else None
+
+        self.input_conv = nn.Conv1d(config.in_channels, channels[0], 3, padding=1)
+        self.down, self.downsample = nn.ModuleList(), nn.ModuleList()
+        self.up, self.upsample = nn.ModuleList(), nn.ModuleList()
+        for level, width in enumerate(channels):
+            before = channels[max(level - 1, 0)]
+            factor = factors[level]
+            halves = level < last or config.downsample_last
+            widths = [before] + [width] * repeat
+            self.down.append(Stage(config, widths, factor, film_dim, attends(factor)))
+            self.downsample.append(Downsample(width) if halves else nn.Identity())
+            # on the way up a level leaves with the channels of the one above it
+            widths = [2 * width] + [before] * repeat
+            after = None if factor == middle else attends(factor)
+            self.up.append(Stage(config, widths, factor, film_dim, after))
+            self.upsample.append(Upsample(width) if halves else nn.Identity())
+        bottom = channels[-1]
+        self.middle = Stage(config, [bottom] * 3, middle, film_dim, attention_after=0)
+
+    # Conditions
+
+    def prepare(self, condition: Tensor, drop: Tensor | None = None) -> Prepared:
+        """All that depends on the condition alone.
+
+        Args:
+            condition: [B, 163 or 167, T]; see conditioning.py for its rows.
+            drop: [B] bool, True = the learned null instead.
+        """
+        condition = with_phase_rows(condition)
+        if drop is not None:
+            null = self.null[:, None].to(condition.dtype)
+            condition = torch.where(drop.to(condition.device)[:, None, None], null, condition)
+        audio = None
+        if self.conditioner is not None:
+            audio = self.conditioner(self._pad(condition))  # [B, E, T']
+        context = None
+        if self.context_proj is not None:
+            context = self.context_proj(condition.transpose(1, 2))  # [B, T, E]
+        return Prepared(tuple(stage.prepare(audio, context) for stage in self._stages()))
+
+    def null_condition(self, batch: int, frames: int) -> Tensor:
+        """The learned "no audio", [B, 167, T]."""
+        return self.null[:, None].expand(batch, CONDITION_ROWS, frames)
+
+    def _stages(self) -> list[Stage]:
+        stages = [*self.down, self.middle, *reversed(self.up)]
+        return [stage for stage in stages if isinstance(stage, Stage)]
+
+    def _pad(self, x: Tensor) -> Tensor:
+        """Repeat the last frame up to a multiple of the deepest downsampling (ruling 4)."""
+        missing = -x.shape[-1] % self.config.factors[-1]
+        return F.pad(x, (0, missing), mode="replicate") if missing else x
+
+    # The network
+
+    def forward(
+        self,
+        x: Tensor,
+        t: Tensor,
+        condition: Prepared | Tensor,
+        drop: Tensor | None = None,
+    ) -> Tensor:
+        """One prediction.
+
+        Args:
+            x: [B, 25, T] z-scored, T >= 8.
+            t: [B] diffusion steps.
+            condition: what `prepare` gave, or [B, 163 or 167, T].
+            drop: [B] bool, True = the learned null; only with a condition not yet prepared.
+
+        Raises:
+            ValueError: fewer than 8 frames, or a condition of another length.
+        """
+        frames = x.shape[-1]
+        if frames < MIN_FRAMES:
+            raise ValueError(f"UNet1D takes {MIN_FRAMES} frames or more, not {frames}")
+        if isinstance(condition, Tensor):
+            condition = self.prepare(condition, drop)
+        else:
+            assert drop is None, "a prepared condition cannot be dropped any more"
+        down, middle, up = self._split(condition)
+        time_emb = self.time_embed(sinusoidal(t, self.config.time_embed_dim))  # [B, E]
+        h = self.input_conv(self._pad(x))  # [B, C, T']
+        self._check_frames(h.shape[-1], condition)
+        skips = []
+        for stage, halve, heard in zip(self.down, self.downsample, down, strict=True):
+            h = self._run(stage, h, time_emb, heard)  # [B, C_i, T/2^i]
+            skips.append(h)
+            h = halve(h)
+        h = self._run(self.middle, h, time_emb, middle)
+        for level, heard in zip(reversed(range(len(self.up))), up, strict=True):
+            h = self.upsample[level](h)
+            h = torch.cat((h, skips[level]), dim=1)  # [B, 2 C_i, T/2^i]
+            h = self._run(self.up[level], h, time_emb, heard)
+        h = F.silu(self.output_norm(h))  # [B, C, T']
+        return self.output_conv(h)[..., :frames]  # [B, 25, T]
+
+    def _split(
+        self, prepared: Prepared
+    ) -> tuple[Sequence[StageCondition], StageCondition, Sequence[StageCondition]]:
+        depth, stages = len(self.down), prepared.stages
+        return stages[:depth], stages[depth], stages[depth + 1 :]
+
+    def _check_frames(self, frames: int, prepared: Prepared) -> None:
+        film = prepared.stages[0].film[0]
+        if film is not None and film.shape[-1] != frames:
+            raise ValueError(
+                f"the condition has {film.shape[-1]} frames (padded), the motion {frames}"
+            )
+
+    def _run(self, stage: nn.Module, h: Tensor, time: Tensor, heard: StageCondition) -> Tensor:
+        if self.config.use_checkpoint and torch.is_grad_enabled():
+            return checkpoint(stage, h, time, heard, use_reentrant=False)
+        return stage(h, time, heard)
