@@ -1,0 +1,328 @@
+"""Pairs of sound and motion from a folder or bucket: TECH §6.1's MotionPhraseDataset.
+
+B batch, T frames (30 a second), C = 163 rows of sound, or 167 with beat and bar phase.
+"""
+
+import hashlib
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from src.shared.data.phrases.cache import ObjectCache
+from src.shared.data.phrases.layout import (
+    MANIFEST,
+    BadContent,
+    PhraseRecord,
+    common_length,
+    decode_features,
+    decode_trajectory,
+    parse_manifest,
+    phase_rows,
+    phrases_of_listing,
+)
+from src.shared.data.phrases.prefetch import EpochIterator, ahead
+from src.shared.data.phrases.quarantine import Quarantine
+from src.shared.data.phrases.remote import Backoff, Remote, Unreachable
+from src.shared.data.phrases.store import PhraseStore
+from src.shared.errors import UsageError, UserError
+
+Encode = Callable[[np.ndarray, np.ndarray], np.ndarray]
+
+_PHASE = 16  # column of a trajectory: bars modulo 1
+
+
+@dataclass(frozen=True, eq=False)
+class PhraseItem:
+    """One window: motion [25,T], audio [C,T] float32, mask [T] True on real frames, its phrase."""
+
+    motion: Tensor
+    audio: Tensor
+    mask: Tensor
+    record: PhraseRecord
+
+
+@dataclass(frozen=True, eq=False)
+class PhraseBatch:
+    """Windows stacked: motion [B,25,T], audio [B,C,T], mask [B,T], B records."""
+
+    motion: Tensor
+    audio: Tensor
+    mask: Tensor
+    records: list[PhraseRecord]
+
+    def __len__(self) -> int:
+        return len(self.records)
+
+
+@dataclass(frozen=True, eq=False)
+class _Phrase:
+    """A decoded phrase: trajectory [T,25], unwrapped bars [T] float64, audio [C,T] float32."""
+
+    trajectory: np.ndarray
+    phase: np.ndarray
+    audio: np.ndarray
+
+
+class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
+    """Windows of phrases; what cannot be used is retried once, quarantined, counted and named.
+
+    A phrase that is bad is left out: of an epoch, of a batch, of what a DataLoader makes of
+    `dataset[i]` for many i. `dataset[i]` alone raises `BadContent`.
+
+    Args:
+        root: folder or URL; without it `gs://{gcs_bucket}/{gcs_prefix}` (TECH's spelling).
+        num_phrases: take only the first so many.
+        target_frames: T; shorter phrases are padded with zeros, longer ones give a window.
+        cache_in_memory: keep decoded phrases.
+        split: of the manifest; None is all.
+        beat_phase: 167 rows instead of 163; None does what the first usable phrase can do.
+        encode: trajectory [T,25] and unwrapped bars [T] -> window [25,T]; `encode_window`.
+        cache_dir: for downloads and the quarantine list; default `~/.cache/motionsuite/phrases`.
+        cache_bytes: limit of the downloads kept; None keeps all.
+        threads: downloads at a time; 0 fetches on demand.
+        storage_options: for fsspec (credentials, endpoint).
+
+    Raises:
+        UsageError: neither root nor bucket; an unknown kind of URL.
+        UserError: nothing there, cannot be read, or more bad phrases than `max_bad_fraction`.
+    """
+
+    def __init__(
+        self,
+        root: str | Path | None = None,
+        *,
+        gcs_bucket: str | None = None,
+        gcs_prefix: str = "motionphrase",
+        num_phrases: int | None = None,
+        target_frames: int = 120,
+        cache_in_memory: bool = True,
+        split: str | None = None,
+        beat_phase: bool | None = None,
+        encode: Encode | None = None,
+        cache_dir: Path | None = None,
+        cache_bytes: int | None = None,
+        threads: int = 8,
+        max_bad_fraction: float = 0.05,
+        storage_options: dict[str, Any] | None = None,
+        backoff: Backoff | None = None,
+        seed: int = 0,
+    ) -> None:
+        if root is None and gcs_bucket is None:
+            raise UsageError("no data: give root (a folder or URL) or gcs_bucket")
+        self.root = str(root) if root is not None else f"gs://{gcs_bucket}/{gcs_prefix.strip('/')}"
+        self.target_frames, self.seed, self.threads = target_frames, seed, threads
+        self._encode = encode or _encode_window
+        remote = Remote(self.root, storage_options=storage_options, backoff=backoff or Backoff())
+        cache_dir = cache_dir or default_cache()
+        cache = None if remote.local else ObjectCache(cache_dir, max_bytes=cache_bytes)
+        self.store = PhraseStore(remote, cache)
+        everything = _list_phrases(remote)
+        self.phrases = [p for p in everything if split in (None, p.split)][:num_phrases]
+        if not self.phrases:
+            splits = ", ".join(sorted({phrase.split for phrase in everything})) or "none"
+            raise UserError(
+                f"{self.root} has no phrases of split {split or 'any'} (splits: {splits}); it needs"
+                " audio_features/ID/features.npz and motion/ID/trajectory.npy"
+            )
+        name = hashlib.sha256(self.root.encode()).hexdigest()[:16]
+        self.quarantine = Quarantine(
+            cache_dir / "quarantine" / f"{name}.json", self.root, self.phrases, max_bad_fraction
+        )
+        self._memory: dict[str, _Phrase] | None = {} if cache_in_memory else None
+        self._order = (-1, np.empty(0, np.int64))
+        self.epoch_number = 0
+        self.beat_phase = self._has_phase() if beat_phase is None else beat_phase
+
+    @property
+    def phrase_ids(self) -> list[str]:
+        return [phrase.id for phrase in self.phrases]
+
+    @property
+    def fingerprint(self) -> str:
+        """Changes when any phrase's content or the selection of phrases does."""
+        keys = "".join(f"{phrase.id} {phrase.key}\n" for phrase in self.phrases)
+        return hashlib.sha256(keys.encode()).hexdigest()
+
+    # ------------------------------------------------------------ one item
+
+    def __len__(self) -> int:
+        return len(self.phrases)
+
+    def set_epoch(self, epoch: int) -> None:
+        """Draw other windows from now on in `dataset[i]`."""
+        self.epoch_number = epoch
+
+    def __getitem__(self, index: int) -> tuple[Tensor, Tensor]:
+        """Motion [25,T] and audio_cond [C,T] (TECH §6.1)."""
+        record = self.phrases[index]  # IndexError ends a plain for loop
+        item = self.item(index, self.epoch_number)
+        if item is None:
+            raise BadContent(f"{record.id} is in quarantine: {self.quarantine.reasons[record.id]}")
+        return item.motion, item.audio
+
+    def __getitems__(self, indices: Sequence[int]) -> list[tuple[Tensor, Tensor]]:
+        """What a DataLoader asks for: the good ones of these."""
+        items = (self.item(index, self.epoch_number) for index in indices)
+        return [(item.motion, item.audio) for item in items if item is not None]
+
+    def item(self, index: int, draw: int) -> PhraseItem | None:
+        """The window of a phrase that (seed, draw, index) gives; None in quarantine.
+
+        Args:
+            draw: epoch or step.
+
+        Raises:
+            UserError: too many phrases are bad.
+        """
+        record = self.phrases[index]
+        phrase = self._load(record)
+        if phrase is None:
+            return None
+        rng = np.random.default_rng((self.seed, draw, index))
+        start = int(rng.integers(max(1, len(phrase.phase) - self.target_frames + 1)))
+        part = slice(start, start + self.target_frames)
+        window = self._encode(phrase.trajectory[part], phrase.phase[part])
+        length = window.shape[1]
+        motion = torch.zeros(25, self.target_frames)
+        audio = torch.zeros(len(phrase.audio), self.target_frames)
+        motion[:, :length] = torch.from_numpy(window)
+        audio[:, :length] = torch.from_numpy(phrase.audio[:, part])
+        return PhraseItem(motion, audio, torch.arange(self.target_frames) < length, record)
+
+    def _load(self, record: PhraseRecord) -> _Phrase | None:
+        if record.id in self.quarantine:
+            return None
+        if self._memory is not None and record.id in self._memory:
+            return self._memory[record.id]
+        try:
+            phrase = self._read(record)
+        except BadContent as error:
+            self.quarantine.add(record, str(error))
+            return None
+        except Unreachable as error:  # no fault of the object: another process may try again
+            self.quarantine.add(record, f"unreachable: {error}", keep=False)
+            return None
+        if self._memory is not None:
+            self._memory[record.id] = phrase
+        return phrase
+
+    def _read(self, record: PhraseRecord) -> _Phrase:
+        trajectory = self.store.load(record.motion, decode_trajectory)
+        sound = self.store.load(record.features, decode_features)
+        frames = common_length(trajectory, sound)
+        audio = sound.stacked[:, :frames]
+        if self.beat_phase:
+            if sound.phase is None:
+                raise BadContent(f"{record.features.path}: no phase and meter, others have them")
+            audio = np.concatenate([audio, phase_rows(sound.phase[:frames], sound.meter)])
+        phase = np.unwrap(trajectory[:frames, _PHASE].astype(np.float64), period=1.0)
+        return _Phrase(trajectory[:frames], phase, audio)
+
+    def _has_phase(self) -> bool:
+        for record in self.phrases:
+            try:
+                return self.store.load(record.features, decode_features).phase is not None
+            except (BadContent, Unreachable):
+                continue  # named when its turn comes
+        return False
+
+    # ------------------------------------------------------------ epochs and batches
+
+    def order(self, epoch: int) -> np.ndarray:
+        """The indices of all phrases in the order of an epoch."""
+        known, order = self._order
+        if known != epoch:
+            order = np.random.default_rng((self.seed, epoch)).permutation(len(self.phrases))
+            self._order = (epoch, order)
+        return order
+
+    def epoch(self, epoch: int = 0, position: int = 0) -> EpochIterator:
+        """Every good phrase once; see `EpochIterator`."""
+        return EpochIterator(self, epoch, position)
+
+    def batch(self, step: int, size: int, *, index: int = 0, count: int = 1) -> PhraseBatch:
+        """Part `index` of `count` parts of `size` of step 1, 2, …: a function of these alone.
+
+        Steps walk through the epochs in order, so every good phrase comes once an epoch. A bad one
+        leaves the part smaller; a part of bad ones only takes the next good phrase.
+        """
+        first = ((step - 1) * count + index) * size
+        items = list(ahead(self._at, range(first, first + size), min(self.threads, size)))
+        good = [item for item in items if item is not None]
+        while not good:  # ends: the quarantine fails first if all are bad
+            first += size
+            good = [item for item in [self._at(first)] if item is not None]
+        return collate(good)
+
+    def _at(self, place: int) -> PhraseItem | None:
+        epoch, position = divmod(place, len(self.phrases))
+        return self.item(int(self.order(epoch)[position]), epoch)
+
+    def report(self) -> dict[str, Any]:
+        """Downloads, cache hits, and every bad phrase with its reason."""
+        return {**self.store.counts, "phrases": len(self), "bad": dict(self.quarantine.reasons)}
+
+
+def collate(items: Sequence[PhraseItem]) -> PhraseBatch:
+    """Items as one batch."""
+    return PhraseBatch(
+        motion=torch.stack([item.motion for item in items]),
+        audio=torch.stack([item.audio for item in items]),
+        mask=torch.stack([item.mask for item in items]),
+        records=[item.record for item in items],
+    )
+
+
+def motion_statistics(
+    dataset: MotionPhraseDataset, most: int = 2000, least_std: float = 1e-3
+) -> tuple[Tensor, Tensor]:
+    """Mean and standard deviation [25] of the window rows over real frames of up to `most` items.
+
+    Raises:
+        UserError: no phrase can be used.
+    """
+    count, total, squares = 0, np.zeros(25), np.zeros(25)
+    for number, item in enumerate(dataset.epoch(0)):
+        if number == most:
+            break
+        values = item.motion[:, item.mask].numpy().astype(np.float64)
+        count += values.shape[1]
+        total, squares = total + values.sum(1), squares + (values**2).sum(1)
+    if count == 0:
+        raise UserError(f"{dataset.root} has no phrase that can be used")
+    mean = total / count
+    std = np.sqrt(np.maximum(squares / count - mean**2, 0)).clip(least_std)
+    return torch.from_numpy(mean).float(), torch.from_numpy(std).float()
+
+
+def default_cache() -> Path:
+    """Where downloads are kept."""
+    base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
+    return Path(base) / "motionsuite" / "phrases"
+
+
+def _encode_window(trajectory: np.ndarray, phase: np.ndarray) -> np.ndarray:
+    from src.shared.motion.window import encode_window
+
+    return encode_window(trajectory, phase)
+
+
+def _list_phrases(remote: Remote) -> list[PhraseRecord]:
+    """Phrases of the manifest, or of the listing where there is none, sorted by name."""
+    try:
+        try:
+            phrases = parse_manifest(remote.read(MANIFEST), f"{remote.root}/{MANIFEST}")
+        except FileNotFoundError:
+            phrases = phrases_of_listing(remote.listing())
+    except (OSError, Unreachable) as error:
+        raise UserError(
+            f"cannot read {remote.root}: {error}; check the address and your credentials"
+            " (GOOGLE_APPLICATION_CREDENTIALS for gs://)"
+        ) from error
+    return sorted(phrases, key=lambda phrase: phrase.id)

@@ -1,0 +1,259 @@
+"""How motion phrases are stored, what the manifest says of them, and what is valid content.
+
+T frames at 30 fps. TECH §1.3: `audio_features/{id}/features.npz` beside
+`motion/{id}/trajectory.npy`; `manifest.json` with the size and SHA-256 of each is ours, because a
+flipped bit in an npy file loads without an error.
+"""
+
+import hashlib
+import io
+import zipfile
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pydantic import BaseModel, ValidationError
+
+from src.shared.errors import UserError
+from src.shared.files import atomic_write, sha256_file, write_text
+
+MANIFEST = "manifest.json"
+FEATURE_ROWS = {
+    "mel": 128,
+    "chroma": 12,
+    "mfcc": 20,
+    "rms": 1,
+    "spectral_centroid": 1,
+    "onset_strength": 1,
+}  # in the order of TECH §4.3: 163 rows
+MIN_FRAMES = 8  # what the UNet takes at least (ruling 4)
+_TRAJECTORY_CHANNELS = 25
+_LARGEST = 1e4  # metres, m/s, ...: beyond is a flipped exponent bit
+_LENGTH_TOLERANCE = 30  # frames by which motion and sound may differ
+
+
+class BadContent(Exception):
+    """An object or phrase that cannot be used; the message is the reason."""
+
+
+class StoredObject(BaseModel, frozen=True):
+    """One object.
+
+    Attributes:
+        path: relative to the root of the data.
+        size: bytes.
+        sha256: hex digest from the manifest; empty where there is no manifest.
+        version: without a manifest, the store's own mark of this version (an etag, say).
+        md5: without a manifest, hex digest that the store tells, if it does.
+    """
+
+    path: str
+    size: int
+    sha256: str = ""
+    version: str = ""
+    md5: str = ""
+
+    @property
+    def key(self) -> str:
+        """Names this content: changes when the object does."""
+        name = f"{self.path}\n{self.size}\n{self.version}"
+        return self.sha256 or hashlib.sha256(name.encode()).hexdigest()
+
+
+class PhraseRecord(BaseModel, frozen=True):
+    """One phrase of the manifest: its two objects and where it comes from (tempo 0: unknown)."""
+
+    id: str
+    split: str = "train"
+    song: str = ""
+    tempo: float = 0.0
+    motion: StoredObject
+    features: StoredObject
+
+    @property
+    def key(self) -> str:
+        return hashlib.sha256(f"{self.motion.key}{self.features.key}".encode()).hexdigest()
+
+
+class Manifest(BaseModel, frozen=True):
+    """The content of manifest.json."""
+
+    version: int = 1
+    fps: float = 30.0
+    phrases: list[PhraseRecord]
+
+
+@dataclass(frozen=True, eq=False)
+class SoundContent:
+    """What features.npz holds: stacked [163,T] float32, unwrapped bars [T] float64, beats a bar."""
+
+    stacked: np.ndarray
+    phase: np.ndarray | None
+    meter: int
+
+
+# ------------------------------------------------------------------ writing and listing
+
+
+def features_path(phrase: str) -> str:
+    """Relative path of a phrase's sound."""
+    return f"audio_features/{phrase}/features.npz"
+
+
+def trajectory_path(phrase: str) -> str:
+    """Relative path of a phrase's motion."""
+    return f"motion/{phrase}/trajectory.npy"
+
+
+def write_phrase(
+    root: Path, phrase: str, trajectory: np.ndarray, features: Mapping[str, Any], **about: Any
+) -> PhraseRecord:
+    """Write one phrase under a folder.
+
+    Args:
+        trajectory: [T,25].
+        features: arrays of features.npz (TECH §4.2; `phase` [T] and `meter` if known).
+        about: `split`, `song`, `tempo` of the record.
+    """
+    motion, sound = root / trajectory_path(phrase), root / features_path(phrase)
+    with atomic_write(motion) as temporary, temporary.open("wb") as stream:
+        np.save(stream, np.asarray(trajectory, np.float32))
+    with atomic_write(sound) as temporary, temporary.open("wb") as stream:
+        np.savez(stream, **features)
+    return record_phrase(root, phrase, **about)
+
+
+def record_phrase(root: Path, phrase: str, **about: Any) -> PhraseRecord:
+    """The record of a phrase whose two files are there; `about` as for `write_phrase`."""
+    objects = [
+        StoredObject(path=path, size=(root / path).stat().st_size, sha256=sha256_file(root / path))
+        for path in (trajectory_path(phrase), features_path(phrase))
+    ]
+    return PhraseRecord(id=phrase, motion=objects[0], features=objects[1], **about)
+
+
+def write_manifest(root: Path, phrases: Iterable[PhraseRecord]) -> Path:
+    """Write manifest.json for these phrases, in the order of their names."""
+    manifest = Manifest(version=1, fps=30.0, phrases=sorted(phrases, key=lambda phrase: phrase.id))
+    write_text(root / MANIFEST, manifest.model_dump_json(indent=1, exclude_unset=True) + "\n")
+    return root / MANIFEST
+
+
+def parse_manifest(text: bytes, where: str) -> list[PhraseRecord]:
+    """The phrases of a manifest.
+
+    Raises:
+        UserError: it is not a manifest, or names a phrase twice.
+    """
+    try:
+        phrases = Manifest.model_validate_json(text).phrases
+    except ValidationError as error:
+        first = error.errors()[0]
+        place = ".".join(map(str, first["loc"])) or "the file"
+        raise UserError(
+            f"{where} is not a manifest: {place}: {first['msg']}; write it again with"
+            " prepare-audio, or remove it to read the folder without checksums"
+        ) from error
+    if len({phrase.id for phrase in phrases}) < len(phrases):
+        raise UserError(f"{where} names a phrase twice; write it again with prepare-audio")
+    return phrases
+
+
+def phrases_of_listing(objects: Mapping[str, StoredObject]) -> list[PhraseRecord]:
+    """Phrases of a folder without a manifest: every id that has both objects.
+
+    A tenth of the ids, by hash, is the split `val`.
+    """
+    ids = sorted(p.split("/")[1] for p in objects if p.startswith("motion/") and p.count("/") == 2)
+    return [
+        PhraseRecord(
+            id=phrase,
+            split="train" if hashlib.sha256(phrase.encode()).digest()[0] >= 26 else "val",
+            motion=objects[trajectory_path(phrase)],
+            features=objects[features_path(phrase)],
+        )
+        for phrase in ids
+        if {trajectory_path(phrase), features_path(phrase)} <= objects.keys()
+    ]
+
+
+# ------------------------------------------------------------------ reading and checking
+
+
+def decode_trajectory(data: bytes) -> np.ndarray:
+    """[T,25] float32 of trajectory.npy.
+
+    Raises:
+        BadContent: not an array of that shape, values not finite or out of any range.
+    """
+    try:
+        values = np.load(io.BytesIO(data), allow_pickle=False)
+    except (ValueError, OSError, EOFError, SyntaxError) as error:
+        raise BadContent(f"not an npy file ({error})") from error
+    if values.ndim != 2 or values.shape[1] != _TRAJECTORY_CHANNELS:
+        raise BadContent(f"a trajectory is [T, 25], this is {list(values.shape)}")
+    _require_usable("trajectory", values)
+    norms = np.linalg.norm(values[:, 9:13], axis=1)
+    if np.abs(norms - 1).max() > 0.01:
+        raise BadContent(f"a quaternion has length {norms[np.abs(norms - 1).argmax()]:.3g}")
+    return values.astype(np.float32)
+
+
+def decode_features(data: bytes) -> SoundContent:
+    """The content of features.npz.
+
+    Raises:
+        BadContent: an array is missing, has another shape, or is not finite.
+    """
+    try:
+        with np.load(io.BytesIO(data), allow_pickle=False) as file:
+            wanted = {*FEATURE_ROWS, "phase", "meter"} & set(file.files)
+            arrays = {name: file[name] for name in wanted}
+    except (ValueError, OSError, EOFError, zipfile.BadZipFile, zipfile.LargeZipFile) as error:
+        raise BadContent(f"not an npz file ({error})") from error
+    if missing := [name for name in FEATURE_ROWS if name not in arrays]:
+        raise BadContent(f"features without {', '.join(missing)}")
+    frames = arrays["mel"].shape[-1]
+    rows = []
+    for name, height in FEATURE_ROWS.items():
+        if arrays[name].size != height * frames or arrays[name].shape[-1:] != (frames,):
+            raise BadContent(f"{name} is {list(arrays[name].shape)}, not [{height}, {frames}]")
+        _require_usable(name, arrays[name])
+        rows.append(arrays[name].reshape(height, frames))
+    phase = arrays.get("phase") if "meter" in arrays else None
+    if phase is not None and (phase.shape != (frames,) or not np.isfinite(phase).all()):
+        raise BadContent(f"phase {list(phase.shape)} is not [{frames}] finite values")
+    meter = int(arrays["meter"]) if phase is not None else 0
+    return SoundContent(np.concatenate(rows).astype(np.float32), phase, meter)
+
+
+def _require_usable(name: str, values: np.ndarray) -> None:
+    if not np.issubdtype(values.dtype, np.floating):
+        raise BadContent(f"{name} holds {values.dtype}, not floating-point numbers")
+    if not np.isfinite(values).all():
+        raise BadContent(f"{name} has values that are not finite")
+    if values.size and np.abs(values).max() > _LARGEST:
+        raise BadContent(f"{name} has a value of {np.abs(values).max():.3g}")
+
+
+def common_length(trajectory: np.ndarray, sound: SoundContent) -> int:
+    """Frames that motion and sound share.
+
+    Raises:
+        BadContent: fewer than 8, or the two differ by more than a second.
+    """
+    motion, music = len(trajectory), sound.stacked.shape[1]
+    if abs(motion - music) > _LENGTH_TOLERANCE:
+        raise BadContent(f"motion has {motion} frames, the sound {music}")
+    if min(motion, music) < MIN_FRAMES:
+        raise BadContent(f"only {min(motion, music)} frames")
+    return min(motion, music)
+
+
+def phase_rows(phase: np.ndarray, meter: int) -> np.ndarray:
+    """Cosine and sine of beat phase, then of bar phase: unwrapped bars [T] -> [4,T] float32."""
+    bar = 2 * np.pi * np.asarray(phase, np.float64)
+    beat = bar * meter
+    return np.stack([np.cos(beat), np.sin(beat), np.cos(bar), np.sin(bar)]).astype(np.float32)

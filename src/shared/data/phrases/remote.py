@@ -1,0 +1,164 @@
+"""A folder or bucket read through fsspec, with patience for a network that fails now and then."""
+
+import asyncio
+import base64
+import os
+import random
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
+
+from src.shared.data.phrases.layout import StoredObject
+from src.shared.errors import UsageError, UserError
+
+Result = TypeVar("Result")
+
+_NETWORK_LIBRARIES = {"aiohttp", "aiobotocore", "botocore", "gcsfs", "google", "requests"}
+_TRANSIENT_STATUS = {408, 429}  # of those below 500
+_VERSION_MARKS = ("generation", "etag", "ETag", "md5Hash", "mtime", "created", "LastModified")
+_EXTRAS = {"gs": "gcs", "gcs": "gcs", "s3": "s3", "s3a": "s3"}
+
+
+class Unreachable(Exception):
+    """The network failed for as long as we were patient; the object itself may be fine."""
+
+
+@dataclass(frozen=True)
+class Backoff:
+    """Waits between attempts: exponential, with jitter so that threads do not come back at once.
+
+    Attributes:
+        attempts: how often to try at most.
+        first, longest: seconds of the first wait and of any wait.
+        patience: no further attempt after so many seconds in all.
+        timeout: seconds for one attempt.
+    """
+
+    attempts: int = 6
+    first: float = 0.25
+    longest: float = 8.0
+    patience: float = 90.0
+    timeout: float = 60.0
+    sleep: Callable[[float], None] = field(default=time.sleep, repr=False)
+
+    def run(self, action: Callable[[], Result], what: str) -> Result:
+        """`action`'s result, after transient errors tried again.
+
+        Raises:
+            Unreachable: it kept failing.
+        """
+        end = time.monotonic() + self.patience
+        for attempt in range(self.attempts):
+            try:
+                return action()
+            except Exception as error:
+                if not is_transient(error):
+                    raise
+                if attempt + 1 == self.attempts or time.monotonic() > end:
+                    reason = f"{type(error).__name__}: {error}"
+                    raise Unreachable(f"{what}: {reason} ({attempt + 1} attempts)") from error
+            self.sleep(min(self.longest, self.first * 2**attempt) * random.uniform(0.5, 1.0))
+        raise AssertionError("attempts is at least 1")
+
+
+def is_transient(error: Exception) -> bool:
+    """Whether it is worth trying again: timeouts, broken connections, 408, 429 and 5xx."""
+    if isinstance(error, TimeoutError | asyncio.TimeoutError | ConnectionError):
+        return True
+    if isinstance(error, FileNotFoundError | PermissionError | IsADirectoryError):
+        return False
+    status = getattr(error, "code", None) or getattr(error, "status", None)
+    if isinstance(status, int | str) and str(status).isdigit():
+        return int(status) >= 500 or int(status) in _TRANSIENT_STATUS
+    if isinstance(error, OSError):
+        return "Forbidden" not in str(error)
+    return type(error).__module__.split(".")[0] in _NETWORK_LIBRARIES
+
+
+class Remote:
+    """The objects under one URL (`gs://`, `s3://`, `memory://`) or folder.
+
+    Raises:
+        UsageError: no such kind of URL.
+        UserError: the package for it is not installed.
+    """
+
+    def __init__(
+        self, root: str, *, storage_options: dict[str, Any] | None = None, backoff: Backoff
+    ) -> None:
+        self.root = root.rstrip("/")
+        self.options = storage_options or {}
+        self.backoff = backoff
+        self._opened: tuple[int, Any, str] | None = None
+        self.local = "file" in self._open()[0].protocol
+
+    def _open(self) -> tuple[Any, str]:
+        """File system and base path, anew in a forked process: its connections are not ours."""
+        import fsspec
+
+        if self._opened is None or self._opened[0] != os.getpid():
+            scheme = self.root.split("://")[0]
+            try:
+                fs, base = fsspec.url_to_fs(self.root, **self.options)
+            except ImportError as error:
+                extra = _EXTRAS.get(scheme, scheme)
+                raise UserError(
+                    f"cannot read {self.root}: {error}; install the extra {extra!r}"
+                ) from error
+            except ValueError as error:
+                raise UsageError(
+                    f"cannot read {self.root}: {error}; give a folder, gs:// or s3://"
+                ) from error
+            self._opened = (os.getpid(), fs, base.rstrip("/"))
+        return self._opened[1:]
+
+    def __getstate__(self) -> dict[str, Any]:
+        return self.__dict__ | {"_opened": None}
+
+    def read(self, path: str) -> bytes:
+        """One object.
+
+        Raises:
+            FileNotFoundError: it does not exist.
+            Unreachable: the network kept failing.
+        """
+        from fsspec.asyn import sync
+
+        fs, base = self._open()
+        full = f"{base}/{path}"
+
+        def attempt() -> bytes:
+            if fs.async_impl:
+                return sync(fs.loop, fs._cat_file, full, timeout=self.backoff.timeout)
+            return fs.cat_file(full)
+
+        return self.backoff.run(attempt, path)
+
+    def listing(self) -> dict[str, StoredObject]:
+        """Every object under the root, by relative path, with the store's mark of its version."""
+        fs, base = self._open()
+        found = self.backoff.run(lambda: fs.find(base, detail=True), self.root)
+        names = {name[len(base) :].lstrip("/"): info for name, info in found.items()}
+        return {
+            path: StoredObject(path=path, size=info["size"], version=_version(info), md5=_md5(info))
+            for path, info in names.items()
+        }
+
+    def stored(self, path: str) -> tuple[int, str]:
+        """What the store itself says now: size and hex MD5 ("" where it tells none)."""
+        fs, base = self._open()
+        fs.invalidate_cache()
+        info = self.backoff.run(lambda: fs.info(f"{base}/{path}"), path)
+        return info["size"], _md5(info)
+
+
+def _md5(info: dict[str, Any]) -> str:
+    if "md5Hash" in info:
+        return base64.b64decode(info["md5Hash"]).hex()
+    etag = str(info.get("ETag", "")).strip('"')  # S3: the MD5, unless uploaded in parts
+    return etag if len(etag) == 32 else ""
+
+
+def _version(info: dict[str, Any]) -> str:
+    return " ".join(f"{mark}={info[mark]}" for mark in _VERSION_MARKS if info.get(mark))

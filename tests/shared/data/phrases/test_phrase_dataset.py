@@ -1,0 +1,264 @@
+"""MotionPhraseDataset on folders and memory: items, windows, batches, epochs."""
+
+import json
+import pickle
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import torch
+from hypothesis import given
+from hypothesis import strategies as st
+from torch.utils.data import DataLoader
+
+from src.shared.data.phrases.dataset import MotionPhraseDataset, motion_statistics
+from src.shared.data.phrases.layout import (
+    BadContent,
+    decode_features,
+    decode_trajectory,
+    features_path,
+    phase_rows,
+    trajectory_path,
+)
+from src.shared.errors import UsageError, UserError
+
+sys.path.insert(0, str(Path(__file__).parent))
+from phrase_samples import (
+    flip_bit,
+    make_features,
+    make_trajectory,
+    plain_encode,
+    store_phrases,
+)
+
+LENGTHS = [40, 200, 120, 150, 90, 121, 300, 64, 160, 131]
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    store_phrases(tmp_path / "data", LENGTHS)
+    return tmp_path / "data"
+
+
+def open_dataset(folder: Path | str, cache: Path, **settings: Any) -> MotionPhraseDataset:
+    settings = {"encode": plain_encode, "max_bad_fraction": 0.3, "threads": 2} | settings
+    return MotionPhraseDataset(folder, cache_dir=cache, **settings)
+
+
+def test_items_have_the_documented_shapes(folder: Path, tmp_path: Path) -> None:
+    data = open_dataset(folder, tmp_path / "cache")
+    assert len(data) == len(LENGTHS)
+    motion, audio = data[0]
+    assert motion.shape == (25, 120) and motion.dtype == torch.float32
+    assert audio.shape == (167, 120) and audio.dtype == torch.float32
+    item = data.item(0, 0)
+    assert item is not None
+    assert item.mask.sum() == 40
+    assert not item.motion[:, 40:].any() and not item.audio[:, 40:].any()
+    without = open_dataset(folder, tmp_path / "cache", beat_phase=False)
+    torch.testing.assert_close(without[0][1], audio[:163])
+
+
+def test_windows_are_whole_aligned_and_drawn_by_seed_draw_and_index(
+    folder: Path, tmp_path: Path
+) -> None:
+    data = open_dataset(folder, tmp_path / "cache")
+    starts = set()
+    for draw in range(12):
+        item = data.item(6, draw)
+        assert item is not None
+        first = round(float(item.motion[16, 0]) * 60)  # unwrapped, counted from its first frame
+        starts.add(first)
+        truth, sound = make_trajectory(300, 6), make_features(300, 6)
+        np.testing.assert_array_equal(item.motion[:16], truth[first : first + 120, :16].T)
+        np.testing.assert_array_equal(item.audio[:128], sound["mel"][:, first : first + 120])
+        again = open_dataset(folder, tmp_path / "cache").item(6, draw)
+        assert again is not None and torch.equal(again.motion, item.motion)
+    assert len(starts) > 6
+
+
+@given(st.integers(2, 7), st.integers(20, 300), st.floats(0.004, 0.1), st.floats(-5, 5))
+def test_phase_rows_are_unit_circles_of_beat_and_bar(
+    meter: int, frames: int, step: float, start: float
+) -> None:
+    phase = start + step * np.arange(frames)
+    rows = phase_rows(phase, meter).astype(np.float64)
+    bar = np.arctan2(rows[3], rows[2]) / (2 * np.pi)
+    beat = np.arctan2(rows[1], rows[0]) / (2 * np.pi)
+    for turn, truth in ((bar, phase), (beat, phase * meter)):
+        error = (turn - truth + 0.5) % 1 - 0.5
+        assert np.abs(error).max() < 1e-5
+
+
+def test_the_house_encoding_is_the_default(folder: Path, tmp_path: Path) -> None:
+    motion, _ = open_dataset(folder, tmp_path / "cache", encode=None)[3]
+    np.testing.assert_allclose(motion[[0, 2], 0], 0, atol=1e-6)  # starts at the origin
+    np.testing.assert_allclose(motion[16], 1 / 60, atol=1e-5)  # bars a frame
+
+
+def test_tech_spelling_and_selection(folder: Path, tmp_path: Path) -> None:
+    data = open_dataset(folder, tmp_path, num_phrases=3, target_frames=64, cache_in_memory=False)
+    assert data.phrase_ids == ["p000", "p001", "p002"]
+    assert data[1][0].shape == (25, 64)
+    val = open_dataset(folder, tmp_path, split="val")
+    assert val.phrase_ids == ["p004", "p009"]
+    with pytest.raises(UserError, match="splits: train, val"):
+        open_dataset(folder, tmp_path, split="test")
+    with pytest.raises(UsageError, match="gcs_bucket"):
+        MotionPhraseDataset()
+    with pytest.raises(UserError, match="audio_features/ID"):
+        open_dataset(tmp_path / "nothing", tmp_path)
+    with pytest.raises(UsageError, match="carrier-pigeon"):
+        open_dataset("carrier-pigeon://x", tmp_path)
+
+
+def test_without_a_manifest(tmp_path: Path) -> None:
+    store_phrases(tmp_path / "data", LENGTHS, manifest=False, meter=0)
+    data = open_dataset(tmp_path / "data", tmp_path / "cache")
+    assert len(data) == len(LENGTHS) and data[0][1].shape == (163, 120)
+    (tmp_path / "data" / trajectory_path("p001")).unlink()  # half a phrase is none
+    assert "p001" not in open_dataset(tmp_path / "data", tmp_path / "cache").phrase_ids
+
+
+def test_a_broken_manifest_says_where(folder: Path, tmp_path: Path) -> None:
+    manifest = json.loads((folder / "manifest.json").read_text())
+    manifest["phrases"][3]["motion"]["size"] = "big"
+    (folder / "manifest.json").write_text(json.dumps(manifest))
+    with pytest.raises(UserError, match=r"phrases\.3\.motion\.size"):
+        open_dataset(folder, tmp_path)
+
+
+def test_epochs_visit_everything_once_and_go_on_where_they_stopped(
+    folder: Path, tmp_path: Path
+) -> None:
+    data = open_dataset(folder, tmp_path / "cache")
+    whole = [item.record.id for item in data.epoch(1)]
+    assert sorted(whole) == data.phrase_ids
+    assert whole != [item.record.id for item in data.epoch(2)]
+    first = data.epoch(1)
+    seen = [next(first).record.id for _ in range(4)]
+    state = json.loads(json.dumps(first.state_dict()))
+    later = open_dataset(folder, tmp_path / "cache").epoch()
+    later.load_state_dict(state)
+    assert seen + [item.record.id for item in later] == whole
+    with pytest.raises(UserError, match="its seed was 0"):
+        open_dataset(folder, tmp_path / "cache", seed=1).epoch().load_state_dict(state)
+    with pytest.raises(UserError, match="its data was"):
+        open_dataset(folder, tmp_path, num_phrases=2).epoch().load_state_dict(state)
+
+
+def test_batches_are_a_function_of_the_step_and_cover_epochs(folder: Path, tmp_path: Path) -> None:
+    data = open_dataset(folder, tmp_path / "cache")
+    parts = [data.batch(step, 1, index=index, count=2) for step in range(1, 6) for index in (0, 1)]
+    assert sorted(part.records[0].id for part in parts) == data.phrase_ids
+    whole = [record.id for step in range(1, 6) for record in data.batch(step, 2).records]
+    assert whole == [part.records[0].id for part in parts]
+    again = open_dataset(folder, tmp_path / "other", threads=0).batch(3, 2)
+    assert torch.equal(again.motion, data.batch(3, 2).motion)
+    assert again.audio.shape == (2, 167, 120) and again.mask.shape == (2, 120)
+
+
+@pytest.mark.parametrize("manifest", [True, False])
+def test_what_is_bad_is_left_out_named_and_remembered(tmp_path: Path, manifest: bool) -> None:
+    folder = tmp_path / "data"
+    store_phrases(folder, LENGTHS, manifest=manifest)
+    path = folder / trajectory_path("p002")
+    path.write_bytes(path.read_bytes()[:-400])
+    path = folder / features_path("p005")
+    path.write_bytes(flip_bit(path.read_bytes()))  # the npz has a CRC
+    data = open_dataset(folder, tmp_path / "cache")
+    good = sorted({*data.phrase_ids} - {"p002", "p005"})
+    assert sorted(item.record.id for item in data.epoch()) == good
+    assert set(data.report()["bad"]) == {"p002", "p005"}
+    assert "motion/p002/trajectory.npy" in data.report()["bad"]["p002"]
+    later = open_dataset(folder, tmp_path / "cache")
+    assert set(later.quarantine.reasons) == {"p002", "p005"}
+    with pytest.raises(UserError, match=r"2 of 10 phrases .* bad, max-bad-fraction is 0.1: p002: "):
+        open_dataset(folder, tmp_path / "cache", max_bad_fraction=0.1)
+    with pytest.raises(BadContent, match="p005"):
+        data[5]
+    loaded = [motion for motion, _ in DataLoader(data, batch_size=3)]
+    assert sum(len(motion) for motion in loaded) == 8
+    assert all(len(data.batch(step, 1).records) == 1 for step in range(1, 11))
+
+
+def test_a_mended_phrase_leaves_quarantine(tmp_path: Path) -> None:
+    folder = tmp_path / "data"
+    store_phrases(folder, LENGTHS)
+    path = folder / trajectory_path("p002")
+    whole = path.read_bytes()
+    path.write_bytes(flip_bit(whole))
+    data = open_dataset(folder, tmp_path / "cache")
+    list(data.epoch())
+    assert "overwritten or damaged" in data.quarantine.reasons["p002"]
+    store_phrases(folder, [*LENGTHS[:2], 122, *LENGTHS[3:]])
+    later = open_dataset(folder, tmp_path / "cache")
+    assert len(list(later.epoch())) == len(LENGTHS)
+
+
+def test_no_more_than_the_allowed_fraction(folder: Path, tmp_path: Path) -> None:
+    for number in range(7):
+        (folder / features_path(f"p{number:03d}")).unlink()
+    data = open_dataset(folder, tmp_path / "cache")
+    with pytest.raises(UserError, match=r"max-bad-fraction is 0.3: p00\d: .*is missing"):
+        list(data.epoch())
+
+
+def test_workers_and_pickles(folder: Path, tmp_path: Path) -> None:
+    data = pickle.loads(pickle.dumps(open_dataset(folder, tmp_path / "cache")))
+    loader = DataLoader(data, batch_size=5, num_workers=2)
+    assert sum(len(motion) for motion, _ in loader) == len(LENGTHS)
+
+
+def test_statistics_are_those_of_real_frames(folder: Path, tmp_path: Path) -> None:
+    data = open_dataset(folder, tmp_path / "cache", target_frames=300)
+    everything = np.concatenate([make_trajectory(n, i) for i, n in enumerate(LENGTHS)])
+    mean, std = motion_statistics(data)
+    columns = [*range(16), *range(17, 25)]
+    np.testing.assert_allclose(mean[columns], everything.mean(0)[columns], atol=1e-4)
+    np.testing.assert_allclose(std[columns], everything.std(0)[columns], atol=1e-4)
+
+
+def _saved(values: np.ndarray, tmp_path: Path) -> bytes:
+    np.save(tmp_path / "x.npy", values)
+    return (tmp_path / "x.npy").read_bytes()
+
+
+def test_reasons_for_bad_content(tmp_path: Path) -> None:
+    good = make_trajectory(30)
+    bad = good.copy()
+    bad[3, 0] = np.nan
+    with pytest.raises(BadContent, match="not finite"):
+        decode_trajectory(_saved(bad, tmp_path))
+    bad[3, 0] = 1e30
+    with pytest.raises(BadContent, match="a value of 1e\\+30"):
+        decode_trajectory(_saved(bad, tmp_path))
+    bad[3, 0], bad[4, 9:13] = 0, 0.1
+    with pytest.raises(BadContent, match="quaternion"):
+        decode_trajectory(_saved(bad, tmp_path))
+    with pytest.raises(BadContent, match="25"):
+        decode_trajectory(_saved(good.T, tmp_path))
+    with pytest.raises(BadContent, match="npy"):
+        decode_trajectory(_saved(good, tmp_path)[:-7])
+    with pytest.raises(BadContent, match="npy"):
+        decode_trajectory(b"")
+    with pytest.raises(BadContent, match="npz"):
+        decode_features(b"PK\x03\x04 not really")
+    for name, value in {"mel": np.zeros((127, 30)), "rms": np.zeros(29), "phase": [0.0]}.items():
+        np.savez(tmp_path / "x.npz", **make_features(30) | {name: value})
+        with pytest.raises(BadContent, match=name):
+            decode_features((tmp_path / "x.npz").read_bytes())
+
+
+@given(st.integers(0, 40), st.integers(0, 40))
+def test_lengths_may_differ_by_a_second(motion: int, sound: int) -> None:
+    from src.shared.data.phrases.layout import SoundContent, common_length
+
+    content = SoundContent(np.zeros((163, sound), np.float32), None, 0)
+    if min(motion, sound) < 8 or abs(motion - sound) > 30:
+        with pytest.raises(BadContent):
+            common_length(make_trajectory(motion), content)
+    else:
+        assert common_length(make_trajectory(motion), content) == min(motion, sound)
