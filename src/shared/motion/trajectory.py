@@ -1,7 +1,8 @@
 """The 25-d trajectory: where the pelvis is, how it turns, where in the bar, in which style.
 
 TECH §2.1, with the pelvis in metres (ruling 8), forward differences (ruling 6), quaternion signs
-of ruling 10 and the bar phase modulo 1 (ruling 9).
+of ruling 10 and the bar phase modulo 1 (ruling 9). NumPy in and out, derived on the
+CPU in float64: accelerations multiply a position's rounding by 900.
 
 Letters: T frames, 25 columns, see the slices.
 """

@@ -89,3 +89,20 @@ def wrap_phase(unwrapped: np.ndarray) -> np.ndarray:
     """Bars [...,T] → phase in [0, 1) as float32; 0 is the downbeat."""
     wrapped = np.mod(np.asarray(unwrapped, dtype=np.float64), 1.0).astype(np.float32)
     return np.where(wrapped >= 1, np.float32(0), wrapped)  # 0.99999999 rounds up in float32
+
+
+def smooth(values: Tensor, weights: Tensor) -> Tensor:
+    """Weighted moving average [...,T,C] → [...,T,C]; straight lines stay straight to their ends.
+
+    The ends are continued by point reflection.
+
+    Args:
+        values: T ≥ 1 frames.
+        weights: [W], W odd, sum 1.
+    """
+    half, last = len(weights) // 2, values.shape[-2] - 1
+    reach = torch.arange(1, half + 1, device=values.device).clamp(max=last)
+    head = 2 * values[..., :1, :] - values[..., reach.flip(0), :]
+    tail = 2 * values[..., -1:, :] - values[..., last - reach, :]
+    padded = torch.cat((head, values, tail), -2)
+    return padded.unfold(-2, len(weights), 1) @ weights

@@ -2,7 +2,8 @@
 
 A window starts at x = z = 0 and its first frame faces +Z (ruling 8); heights stay. Row 16 holds
 the phase increment, bars a frame (ruling 9). Windows that follow each other share `overlap`
-frames: the second is turned and moved until the shared frames fit, then both are blended.
+frames: the second is turned and moved until the shared frames fit, then both are blended. NumPy
+in and out, computed on the CPU in float64.
 
 Letters: N windows, 25 rows as the trajectory's columns, T frames, S shared frames.
 """

@@ -1,0 +1,226 @@
+"""Post-processing of trajectories, TECH §9: clamps, quaternions, phase, coherence, smoothing.
+
+One computation for NumPy and Torch. Differences are forward (ruling 6), the phase is brought
+into its range by wrapping and smoothed unwrapped (ruling 9), quaternion signs follow ruling 10.
+
+Letters: B batch, T frames, 25 columns.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from torch import Tensor
+from torch.nn import functional as F
+
+from src.shared.errors import UsageError
+from src.shared.motion.trajectory import (
+    ACCELERATION,
+    ANGULAR_VELOCITY,
+    FPS,
+    PHASE,
+    POSITION,
+    QUATERNION,
+    STYLE,
+    VELOCITY,
+)
+from src.shared.motion.trajectory_math import continuous_sign, forward_difference, smooth
+
+
+@dataclass(frozen=True)
+class PostProcessConfig:
+    """TECH §9.1, its names and defaults.
+
+    Attributes:
+        normalize_quaternions: unit norm, then continuous signs.
+        quat_eps: below this norm there is no rotation: the identity.
+        smooth_quaternions: moving average over `quat_smooth_window` frames, normalised again.
+        quat_smooth_window: frames, odd.
+        clamp_phase: wrap the phase into [phase_min, phase_max).
+        phase_min: of the bar.
+        phase_max: of the bar.
+        enforce_phase_monotonic: hold the unwrapped phase where it would step back.
+        clamp_values: limit each component to ± the four maxima.
+        max_position: metres.
+        max_velocity: m/s.
+        max_acceleration: m/s².
+        max_angular_velocity: rad/s.
+        enforce_velocity_coherence: blend the velocity with the position's difference.
+        enforce_accel_coherence: blend the acceleration with the velocity's difference.
+        coherence_blend: how far, 0 to 1; TECH blends halves.
+        apply_smoothing: binomial average over time of all columns but the quaternion.
+        smoothing_kernel_size: frames, odd.
+        fps: frames per second.
+
+    Raises:
+        UsageError: a window is even or a limit not positive.
+    """
+
+    normalize_quaternions: bool = True
+    quat_eps: float = 1e-8
+    smooth_quaternions: bool = False
+    quat_smooth_window: int = 5
+    clamp_phase: bool = True
+    phase_min: float = 0.0
+    phase_max: float = 1.0
+    enforce_phase_monotonic: bool = False
+    clamp_values: bool = True
+    max_position: float = 100.0
+    max_velocity: float = 50.0
+    max_acceleration: float = 100.0
+    max_angular_velocity: float = 10.0
+    enforce_velocity_coherence: bool = False
+    enforce_accel_coherence: bool = False
+    coherence_blend: float = 0.5
+    apply_smoothing: bool = False
+    smoothing_kernel_size: int = 3
+    fps: float = FPS
+
+    def __post_init__(self) -> None:
+        for name in ("quat_smooth_window", "smoothing_kernel_size"):
+            size = getattr(self, name)
+            if size < 1 or size % 2 == 0:
+                raise UsageError(f"{name} {size} must be odd and positive")
+        for name in ("max_position", "max_velocity", "max_acceleration", "max_angular_velocity",
+                     "quat_eps", "fps"):  # fmt: skip
+            if not getattr(self, name) > 0:
+                raise UsageError(f"{name} {getattr(self, name)} must be positive")
+        if not self.phase_min < self.phase_max:
+            raise UsageError(f"phase_max {self.phase_max} must be above phase_min {self.phase_min}")
+        if not 0 <= self.coherence_blend <= 1:
+            raise UsageError(f"coherence_blend {self.coherence_blend} must lie in 0 to 1")
+
+    def limits(self) -> dict[str, tuple[slice, float]]:
+        """Clamped columns by name, each with its bound."""
+        return {
+            "position": (POSITION, self.max_position),
+            "velocity": (VELOCITY, self.max_velocity),
+            "acceleration": (ACCELERATION, self.max_acceleration),
+            "angular_velocity": (ANGULAR_VELOCITY, self.max_angular_velocity),
+        }
+
+
+class _Processor:
+    """What both processors share."""
+
+    def __init__(self, config: PostProcessConfig | None = None) -> None:
+        self.config = config or PostProcessConfig()
+
+
+class MotionPostProcessor(_Processor):
+    """TECH's post-processor for NumPy arrays [T,25] or [B,T,25], time first."""
+
+    def process(self, motion: np.ndarray) -> np.ndarray:
+        """The processed motion, same shape, float32."""
+        return np.asarray(_process(_from_numpy(motion), self.config).numpy())
+
+    def count_clamped(self, motion: np.ndarray) -> dict[str, int]:
+        """Values that `process` limits, by name; see `count_clamped`."""
+        return count_clamped(_from_numpy(motion), self.config)
+
+
+class MotionPostProcessorTorch(_Processor):
+    """TECH's post-processor for tensors [B,25,T], channels first, any device, with gradients."""
+
+    def process(self, motion: Tensor) -> Tensor:
+        """The processed motion, same shape."""
+        return _process(motion.transpose(-1, -2), self.config).transpose(-1, -2)
+
+    def count_clamped(self, motion: Tensor) -> dict[str, int]:
+        """Values that `process` limits, by name; see `count_clamped`."""
+        return count_clamped(motion.transpose(-1, -2), self.config)
+
+
+def count_clamped(motion: Tensor, config: PostProcessConfig) -> dict[str, int]:
+    """How many values of [...,T,25] lie outside their bounds, to be reported with the motion.
+
+    Keys: position, velocity, acceleration, angular_velocity (components), phase (frames).
+    """
+    phase = motion[..., PHASE]
+    outside = (phase < config.phase_min) | (phase > config.phase_max)
+    counts = dict.fromkeys((*config.limits(), "phase"), 0)
+    if config.clamp_values:
+        for name, (columns, bound) in config.limits().items():
+            counts[name] = int((motion[..., columns].abs() > bound).sum())
+    if config.clamp_phase:
+        counts["phase"] = int(outside.sum())
+    return counts
+
+
+def _from_numpy(motion: np.ndarray) -> Tensor:
+    return torch.from_numpy(np.array(motion, dtype=np.float32))
+
+
+def _process(motion: Tensor, config: PostProcessConfig) -> Tensor:
+    """[...,T,25] in TECH §9.2's order."""
+    position, velocity, acceleration, turning = (
+        motion[..., columns].clamp(-bound, bound) if config.clamp_values else motion[..., columns]
+        for columns, bound in config.limits().values()
+    )
+    quaternions = _quaternions(motion[..., QUATERNION], config)
+    phase = _phase(motion[..., PHASE], config)[..., None]
+    if config.enforce_velocity_coherence:
+        derived = forward_difference(position, config.fps)
+        velocity = torch.lerp(velocity, derived, config.coherence_blend)
+    if config.enforce_accel_coherence:
+        derived = forward_difference(velocity, config.fps)
+        acceleration = torch.lerp(acceleration, derived, config.coherence_blend)
+    parts = (position, velocity, acceleration, quaternions, turning, phase, motion[..., STYLE])
+    result = torch.cat(parts, -1)
+    return _smoothed(result, config) if config.apply_smoothing else result
+
+
+def _quaternions(quaternions: Tensor, config: PostProcessConfig) -> Tensor:
+    """Unit, continuous, smooth [...,T,4], as configured."""
+    if config.normalize_quaternions:
+        identity = torch.zeros_like(quaternions)
+        identity[..., 0] = 1
+        norm = quaternions.norm(dim=-1, keepdim=True)
+        unit = quaternions / norm.clamp_min(config.quat_eps)
+        quaternions = continuous_sign(torch.where(norm < config.quat_eps, identity, unit))
+    if config.smooth_quaternions:
+        size = config.quat_smooth_window
+        # signs must agree before quaternions can be averaged
+        box = quaternions.new_full((size,), 1 / size)
+        quaternions = F.normalize(smooth(continuous_sign(quaternions), box), dim=-1)
+        quaternions = continuous_sign(quaternions)
+    return quaternions
+
+
+def _phase(phase: Tensor, config: PostProcessConfig) -> Tensor:
+    """[...,T] held where it steps back, then wrapped, as configured."""
+    if config.enforce_phase_monotonic:
+        phase = _unwrap(phase, config).cummax(-1).values
+    return _wrap(phase, config) if config.clamp_phase else phase
+
+
+def _unwrap(phase: Tensor, config: PostProcessConfig) -> Tensor:
+    """[...,T] without the jumps of a bar; a step is the shorter way round."""
+    bar = config.phase_max - config.phase_min
+    bars = torch.round((phase[..., 1:] - phase[..., :-1]) / bar).cumsum(-1)
+    return torch.cat((phase[..., :1], phase[..., 1:] - bars * bar), -1)
+
+
+def _wrap(phase: Tensor, config: PostProcessConfig) -> Tensor:
+    """[...,T] into [phase_min, phase_max)."""
+    bar = config.phase_max - config.phase_min
+    wrapped = torch.remainder(phase - config.phase_min, bar)
+    return config.phase_min + torch.where(wrapped >= bar, 0.0, wrapped)  # rounding may reach it
+
+
+def _smoothed(motion: Tensor, config: PostProcessConfig) -> Tensor:
+    """Binomial average of all columns but the quaternion; linear, so coherence survives."""
+    size = config.smoothing_kernel_size
+    weights = motion.new_tensor([math.comb(size - 1, k) / 2 ** (size - 1) for k in range(size)])
+    phase = smooth(_unwrap(motion[..., PHASE], config)[..., None], weights)
+    return torch.cat(
+        (
+            smooth(motion[..., : QUATERNION.start], weights),
+            motion[..., QUATERNION],
+            smooth(motion[..., ANGULAR_VELOCITY], weights),
+            _wrap(phase, config) if config.clamp_phase else phase,
+            F.normalize(smooth(motion[..., STYLE], weights), dim=-1),
+        ),
+        -1,
+    )
