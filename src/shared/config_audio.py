@@ -103,3 +103,32 @@ class AudioNetworkConfig(Config):
     decoder: DecoderConfig = DecoderConfig()
     diffusion: DiffusionConfig = DiffusionConfig()
     guidance_scale: float = Field(1.0, ge=0)  # 1 = none, and no second forward (ruling 14)
+
+
+class DecoderLossConfig(Config):
+    """Weights of the decoder's reconstruction terms; 0 = off. Raw units, squared."""
+
+    position_weight: float = Field(1.0, ge=0)  # m
+    velocity_weight: float = Field(0.1, ge=0)  # m/s
+    acceleration_weight: float = Field(0.001, ge=0)  # m/s^2
+    quaternion_weight: float = Field(1.0, ge=0)
+    angular_velocity_weight: float = Field(0.05, ge=0)  # rad/s
+    phase_weight: float = Field(1.0, ge=0)  # bars, on the circle
+    style_weight: float = Field(0.1, ge=0)
+
+
+class TemporalLossConfig(Config):
+    """Weights and scales of the temporal coherence terms (TECH 7.2, 14.1; rulings 16, 23)."""
+
+    velocity_weight: float = Field(10.0, ge=0)
+    acceleration_weight: float = Field(5.0, ge=0)
+    jerk_weight: float = Field(1.0, ge=0)
+    quat_delta_weight: float = Field(2.0, ge=0)
+    phase_monotonic_weight: float = Field(1.0, ge=0)
+    smoothness_weight: float = Field(1.0, ge=0)
+    target_jerk: float = Field(50_000.0, gt=0)  # m/s^3
+    target_vel_coherence: float = Field(5.0, gt=0)  # m/s
+    target_accel_coherence: float = Field(50.0, gt=0)  # m/s^2; TECH prints 100 and 50
+    target_quat_delta: float = Field(0.95, gt=0, le=1)  # dot of neighbours
+    max_step: float = Field(0.5, gt=0)  # m a frame and axis, free of charge
+    fps: float = Field(30.0, gt=0)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from pydantic import Field, ValidationError
 
+from src.shared.config_audio import AudioNetworkConfig
 from src.shared.config_schema import Config, NetworkConfig
 from src.shared.errors import UserError
 from src.shared.files import atomic_write, sha256_file, write_json
@@ -34,12 +35,13 @@ class ModelCard(Config):
     """What a model folder says about itself."""
 
     format_version: Literal[1] = 1
-    kind: str  # motion-generator | motion-clip
+    kind: str  # motion-generator | motion-clip | audio-motion
     name: str = ""
     description: str = ""
     licence: str = ""
     trained: bool = False
     network: NetworkConfig = NetworkConfig()
+    audio_network: AudioNetworkConfig | None = None  # of an audio-motion model
     tags: tuple[str, ...] = ()
     languages: tuple[str, ...] = ()
     max_seconds: float | None = None  # longest clip seen in training
