@@ -13,6 +13,7 @@ from src.cli.generate import generate
 from src.cli.guard import guarded
 from src.cli.models import models
 from src.cli.prepare import prepare
+from src.cli.prepare_audio import prepare_audio
 from src.cli.shape_check import shape_check
 
 PROGRAM = "motion-tools"
@@ -26,7 +27,7 @@ app = typer.Typer(
     help="From a prompt to a moving character, and from your own mocap to your own model.",
     epilog=f'Start here:  {PROGRAM} generate --prompt "a person waves"',
 )
-for command in (generate, prepare, shape_check, evaluate, models):
+for command in (generate, prepare, prepare_audio, shape_check, evaluate, models):
     app.command()(guarded(command))
 
 

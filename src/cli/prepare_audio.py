@@ -1,0 +1,142 @@
+"""`prepare-audio`: motions and music that were never recorded together become pairs."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from src.cli import options
+from src.cli.guard import complain
+from src.shared.errors import UsageError
+
+if TYPE_CHECKING:
+    from src.shared.data.prepared import PreparedData
+
+
+def prepare_audio(
+    motion: Annotated[
+        str, typer.Option(help="Folder from `prepare`, a folder of BVH files, or synthetic.")
+    ],
+    music: Annotated[
+        list[str], typer.Option(help="Folder of sound files, or synthetic:N; several if you like.")
+    ],
+    out: Annotated[Path, typer.Option(help="Folder for the pairs.")],
+    meter: Annotated[int, typer.Option(help="Beats a bar of the recordings.")] = 4,
+    min_seconds: Annotated[float, typer.Option(help="Shortest phrase.")] = 8.0,
+    max_seconds: Annotated[float, typer.Option(help="Longest phrase.")] = 20.0,
+    passes: Annotated[
+        int, typer.Option(help="Go through each song so often, with other motion each time.")
+    ] = 1,
+    synthetic_clips: Annotated[
+        bool,
+        typer.Option(
+            "--synthetic-clips/--no-synthetic-clips",
+            help="Use the prepared folder's parametric motions too.",
+        ),
+    ] = False,
+    seed: Annotated[int, typer.Option(help="Of every choice.")] = 0,
+    workers: Annotated[int, typer.Option(help="Processes.")] = 1,
+    json: options.Json = False,
+) -> None:
+    """Pair motions with music so that motion beats fall on music beats.
+
+    Clips that travel or step are joined to phrases and warped in time by at most 15%. Run again,
+    it does only what is missing.
+
+    \b
+    Examples:
+      motion-tools prepare-audio --motion data/mine --music my-songs --out data/pairs
+      motion-tools prepare-audio --motion synthetic --music synthetic:100 --out data/pairs
+    """
+    options.check_ranges(workers=workers, seed=seed)
+    if not 2.0 <= min_seconds <= max_seconds <= 120.0:
+        raise UsageError(
+            f"--min-seconds {min_seconds:g} and --max-seconds {max_seconds:g}: choose"
+            " 2 <= min <= max <= 120"
+        )
+    if not 2 <= meter <= 12:
+        raise UsageError(f"--meter {meter} is out of range; choose from 2 to 12")
+    if not 1 <= passes <= 100:
+        raise UsageError(f"--passes {passes} is out of range; choose from 1 to 100")
+    if motion != "synthetic" and not Path(motion).is_dir():
+        raise UsageError(f"--motion {motion} is no folder; name one, or synthetic")
+    options.check_folder("--out", out)
+
+    from src.shared.data.pairing.music import open_music
+    from src.shared.data.pairing.prepare_audio import PairOptions
+    from src.shared.data.pairing.prepare_audio import prepare_audio as pair_all
+
+    sources = open_music(music, seed=seed, meter=meter)
+    data = open_motion(motion, out)
+    synthetic = synthetic_clips or motion == "synthetic"
+    with progress_bar() as progress:
+        report = pair_all(
+            data,
+            sources,
+            out,
+            options=PairOptions(min_seconds, max_seconds, passes, synthetic, seed),
+            workers=workers,
+            progress=progress,
+        )
+    write_bands(out)
+    if json:
+        import json as json_module
+
+        print(json_module.dumps(report, indent=1, ensure_ascii=False))
+    else:
+        print_summary(report, out)
+
+
+def open_motion(motion: str, out: Path) -> "PreparedData":
+    """A prepared folder; BVH files and synthetic motions are prepared beside the pairs, once."""
+    from src.shared.data.prepared import PreparedData, open_data
+
+    if motion == "synthetic":
+        return open_data(motion, out / ".motion")
+    folder = Path(motion)
+    if (folder / "manifest.json").exists():
+        return PreparedData.open(folder)
+
+    from src.shared.data.pairing.bvh_motion import prepare_unlabelled
+
+    complain(f"preparing the BVH files of {folder} ...")
+    return prepare_unlabelled(folder, out / ".motion" / "bvh")
+
+
+def write_bands(out: Path) -> None:
+    """What the training phrases measure, in bands.json: the sanity suite compares with it."""
+    from src.shared.data.pairing.report import training_trajectories
+    from src.shared.validation.bands import Bands
+
+    Bands.of(training_trajectories(out)).save(out / "bands.json")
+
+
+@contextmanager
+def progress_bar() -> Iterator[Callable[[int, int], None]]:
+    """Songs done, on stderr."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
+
+    columns = ("songs", BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True)) as bar:
+        task = bar.add_task("songs", total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)
+
+
+def print_summary(report: dict[str, Any], out: Path) -> None:
+    """What was made, how well the beats meet, and what to do next."""
+    print(f"{report['phrases']} phrases, {report['hours']:.2f} h, {report['songs']} songs: {out}")
+    print("  by split: ", ", ".join(f"{k} {v}" for k, v in report["by_split"].items()))
+    print("  beats meet (1 = always)   motion on music   music on motion")
+    for when, name in (("before", "as recorded"), ("after", "paired"), ("chance", "by chance")):
+        row = report["alignment"]["all"][when]
+        print(f"    {name:<22} {row['motion_to_music']:>15.2f} {row['music_to_motion']:>17.2f}")
+    rate = report["warp"]["rate_percentiles"]
+    print(f"  playback rate: {rate['p5']:.2f} to {rate['p95']:.2f} (p5 to p95)")
+    for reason, number in report["clips"]["left_out"].items():
+        print(f"  {number} clips left out: {reason}")
+    if left_out := report["left_out"]:
+        complain(f"{len(left_out)} phrases or songs were left out; {out / 'report.json'} says why")
+    print(f"next: accelerate launch -m src.train.train_audio --data {out} --output runs/audio")

@@ -1,0 +1,1 @@
+"""Motion and music that were never recorded together, paired beat on beat."""

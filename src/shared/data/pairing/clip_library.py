@@ -1,0 +1,172 @@
+"""The clips that phrases are made of: their pelvis, their motion beats, and who is left out.
+
+A clip qualifies if its pelvis moves (the threshold is read off the data: the speeds of standing
+and of travelling clips form two heaps) and if it has motion beats to warp.
+"""
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from src.shared.data.pairing.motion_beats import MotionBeats, motion_beats
+from src.shared.data.prepared import SYNTHETIC, PreparedData
+from src.shared.data.records import ClipRecord
+from src.shared.data.splits import assign_splits
+from src.shared.motion.root_track import (
+    FORWARD,
+    HEIGHT,
+    LATERAL,
+    ROOT_ROW,
+    YAW_RATE,
+    integrate_root,
+)
+from src.shared.motion.rotations import quaternion_continuous, rotation_6d_to_quaternion
+
+FPS = 30.0
+MARGIN = 6  # frames that stay free around a cut, half a seam
+MIN_SPAN = 36  # frames from the cut where a clip is entered to its last
+FALLBACK_SPEED = 0.15  # m/s, where too few clips show two heaps
+MIN_CLIPS_FOR_THRESHOLD = 40
+SPEED_RANGE = (0.05, 0.4)  # m/s, within which the threshold is looked for
+
+
+@dataclass(frozen=True, eq=False)
+class Clip:
+    """One usable clip.
+
+    Attributes:
+        id, take, tag, source, split: as in the prepared folder; split is train, val or test.
+        root: rows [T,4] float32: forward and lateral velocity, height, yaw rate.
+        tilt: heading-free rotation of the pelvis [T,4] float32, w x y z.
+        cuts: frames [N] at motion beats, where another clip may take over.
+        period: median interval of motion beats, seconds.
+        match: what the pelvis does at each cut [N,D], scaled so that 1 is a visible difference.
+    """
+
+    id: str
+    take: str
+    tag: str
+    source: str
+    split: str
+    root: np.ndarray
+    tilt: np.ndarray
+    cuts: np.ndarray
+    period: float
+    match: np.ndarray
+
+    @property
+    def num_frames(self) -> int:
+        return len(self.root)
+
+    @property
+    def entries(self) -> np.ndarray:
+        """Cuts [M], by number, with enough of the clip after them to enter there."""
+        return np.flatnonzero(self.cuts[-1] - self.cuts >= MIN_SPAN)
+
+
+@dataclass(frozen=True, eq=False)
+class ClipLibrary:
+    """All usable clips, and how many were not.
+
+    Attributes:
+        clips: in the prepared folder's order.
+        threshold: mean pelvis speed in m/s below which a clip hardly moves.
+        left_out: number of clips by reason.
+        used: number of clips by source and tag.
+    """
+
+    clips: tuple[Clip, ...]
+    threshold: float
+    left_out: dict[str, int]
+    used: dict[str, int]
+
+    def of_split(self, split: str) -> list[Clip]:
+        """Clips of train, val or test."""
+        return [clip for clip in self.clips if clip.split == split]
+
+
+def open_library(data: PreparedData, *, synthetic: bool = True, seed: int = 0) -> ClipLibrary:
+    """Read a prepared folder's clips and their mirror images.
+
+    Args:
+        synthetic: also take the project's own parametric motions.
+        seed: of the split, where the folder has no test split of its own.
+    """
+    records = [r for r in data.records() if synthetic or r.source != SYNTHETIC]
+    splits = _splits(records, seed)
+    tracks = {r.id: _track(data, r) for r in records}
+    speeds = {name: float(track[2].speed.mean()) for name, track in tracks.items()}
+    threshold = speed_threshold(speeds.values())
+    clips, left_out, used = [], Counter[str](), Counter[str]()
+    for record in records:
+        root, tilt, beats = tracks[record.id]
+        cuts = np.rint(beats.times * FPS).astype(int)
+        cuts = cuts[(cuts >= MARGIN) & (cuts < len(root) - MARGIN)]
+        if speeds[record.id] < threshold:
+            left_out["the pelvis hardly moves"] += 1
+        elif len(cuts) < 2 or cuts[-1] - cuts[0] < MIN_SPAN:
+            left_out["too few motion beats"] += 1
+        else:
+            used[f"{record.source} {record.tag or 'untagged'}"] += 1
+            clips.append(
+                Clip(
+                    record.id,
+                    record.take,
+                    record.tag,
+                    record.source,
+                    splits[record.take],
+                    root,
+                    tilt,
+                    cuts,
+                    beats.period if len(beats.times) > 2 else float(np.diff(beats.times)[0]),
+                    _match(root, tilt, cuts),
+                )
+            )
+    return ClipLibrary(tuple(clips), threshold, dict(left_out), dict(sorted(used.items())))
+
+
+def _splits(records: list[ClipRecord], seed: int) -> dict[str, str]:
+    """Split of each take: the folder's own, or by hash where it holds nothing back."""
+    own = {r.take: "test" if r.split.startswith("test") else r.split for r in records}
+    if {"train", "val", "test"} <= set(own.values()):
+        return own
+    drawn = assign_splits([(take, "one group", {}) for take in own], seed)
+    return {take: "test" if split.startswith("test") else split for take, split in drawn.items()}
+
+
+def _track(data: PreparedData, record: ClipRecord) -> tuple[np.ndarray, np.ndarray, MotionBeats]:
+    features = data.features(record)
+    root = features[:, ROOT_ROW]
+    tilt = quaternion_continuous(rotation_6d_to_quaternion(features[:, 0]))
+    position, _ = integrate_root(root, FPS)
+    rows = root[:, [FORWARD, LATERAL, HEIGHT, YAW_RATE]]
+    return rows.numpy().copy(), tilt.numpy(), motion_beats(position.numpy(), FPS)
+
+
+def speed_threshold(speeds: Iterable[float]) -> float:
+    """Mean speed in m/s that parts standing clips from moving ones.
+
+    Otsu's threshold (1979) on the logarithm, looked for within `SPEED_RANGE`; a fixed value
+    below `MIN_CLIPS_FOR_THRESHOLD` clips.
+    """
+    logs = np.sort(np.log(np.maximum(list(speeds), 1e-4)))
+    if len(logs) < MIN_CLIPS_FOR_THRESHOLD:
+        return FALLBACK_SPEED
+    grid = np.linspace(*np.log(SPEED_RANGE), 200)
+    below = np.searchsorted(logs, grid)
+    sums = np.concatenate(([0.0], np.cumsum(logs)))
+    lower = sums[below] / np.maximum(below, 1)
+    upper = (sums[-1] - sums[below]) / np.maximum(len(logs) - below, 1)
+    between = below * (len(logs) - below) * (upper - lower) ** 2
+    best = np.flatnonzero(between >= between.max() * (1 - 1e-9))  # the gap's middle
+    return float(np.exp(grid[best].mean()))
+
+
+def _match(root: np.ndarray, tilt: np.ndarray, cuts: np.ndarray) -> np.ndarray:
+    """Velocity, yaw rate, height and tilt a seam's half before, at and after each cut [N,21]."""
+    scale = np.array((0.3, 0.3, 0.06, 1.0))
+    rows = np.concatenate((root / scale, tilt[:, 1:] * np.sign(tilt[:, :1]) / 0.1), 1)
+    around = [rows[np.clip(cuts + shift, 0, len(rows) - 1)] for shift in (-MARGIN, 0, MARGIN - 1)]
+    return np.concatenate(around, 1).astype(np.float32)

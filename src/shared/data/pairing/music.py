@@ -1,0 +1,213 @@
+"""Where the music of pairs comes from: a folder of sound files, or synthetic songs.
+
+A synthetic song's beats, bars and phase are known exactly and are taken from its score; of a
+recording they are estimated.
+"""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+
+from src.shared.data.pairing.pair import MusicBeats, strong_beats
+from src.shared.data.splits import assign_splits
+from src.shared.errors import UsageError, UserError
+from src.shared.files import sha256_file
+
+if TYPE_CHECKING:
+    from src.shared.audio.features import AudioFeatures
+    from src.shared.audio.synthetic_songs import SongSpec
+
+FPS = 30.0
+SYNTHETIC_SECONDS = 60.0
+TEST_SHARE, VAL_SHARE = 0.1, 0.08  # of synthetic songs; the test songs have tempi of their own
+SOUND_FILES = (".wav", ".flac", ".ogg", ".mp3", ".aiff", ".aif", ".opus")
+
+
+@dataclass(frozen=True)
+class SongEntry:
+    """A song before it is read.
+
+    Attributes:
+        id: names its phrases.
+        split: train, val or test.
+        fingerprint: changes when the sound does.
+    """
+
+    id: str
+    split: str
+    fingerprint: str
+
+
+@dataclass(frozen=True, eq=False)
+class Music:
+    """A song at 30 fps.
+
+    Attributes:
+        features: arrays [C,T] and [T] of features.npz by name.
+        phase: unwrapped bars [T] float64.
+        beat_times, downbeat_times: seconds.
+        tempo: beats a minute, 0 = none.
+        meter: beats a bar.
+    """
+
+    features: dict[str, np.ndarray]
+    phase: np.ndarray
+    beat_times: np.ndarray
+    downbeat_times: np.ndarray
+    tempo: float
+    meter: int
+
+    @property
+    def num_frames(self) -> int:
+        return len(self.phase)
+
+    def beats_around(self, begin: float, end: float) -> MusicBeats:
+        """Beats from 2 s before `begin` to 2 s after `end`, in seconds after `begin`."""
+        kept = (self.beat_times > begin - 2) & (self.beat_times < end + 2)
+        times = self.beat_times[kept]
+        bars = np.interp(times, np.arange(self.num_frames) / FPS, self.phase)
+        numbers = np.rint(bars * self.meter).astype(int)
+        return MusicBeats(times - begin, strong_beats(numbers, self.meter))
+
+
+class MusicSource(Protocol):
+    """What pairs take their music from."""
+
+    def entries(self) -> list[SongEntry]:
+        """All songs, in a stable order."""
+        ...
+
+    def read(self, entry: SongEntry) -> Music:
+        """One song; raises UserError where it cannot be used."""
+        ...
+
+
+@dataclass(frozen=True)
+class SyntheticMusic:
+    """Rendered songs; the test songs' tempi occur in no other."""
+
+    number: int
+    seed: int = 0
+    seconds: float = SYNTHETIC_SECONDS
+
+    def entries(self) -> list[SongEntry]:
+        return [
+            SongEntry(f"synthetic-{self.seed}-{index:05d}", split, repr(spec))
+            for index, (split, spec) in enumerate(self._specs())
+        ]
+
+    def _specs(self) -> list[tuple[str, "SongSpec"]]:
+        from src.shared.audio.synthetic_songs import sample_song_specs
+
+        test = max(round(TEST_SHARE * self.number), self.number >= 3)
+        val = max(round(VAL_SHARE * self.number), self.number >= 3)
+        seen = sample_song_specs(self.number - test, self.seed, "train", seconds=self.seconds)
+        unseen = sample_song_specs(test, self.seed, "held-out", seconds=self.seconds)
+        splits = ["val"] * val + ["train"] * (len(seen) - val)
+        return [*zip(splits, seen, strict=True), *(("test", spec) for spec in unseen)]
+
+    def read(self, entry: SongEntry) -> Music:
+        from src.shared.audio.features import extract_features
+        from src.shared.audio.sound import sound_from_samples
+        from src.shared.audio.synthetic_songs import render_song
+
+        _, spec = self._specs()[int(entry.id.rpartition("-")[2])]
+        song = render_song(spec)
+        features = extract_features(sound_from_samples(song.samples, song.sample_rate))
+        arrays = feature_arrays(features)
+        num_frames = arrays["mel"].shape[1]
+        beats = song.beat_times
+        return Music(
+            arrays,
+            song.phase(num_frames),
+            beats,
+            song.downbeat_times,
+            60.0 / float(np.median(np.diff(beats))),
+            spec.meter,
+        )
+
+
+@dataclass(frozen=True)
+class FolderMusic:
+    """Every sound file below a folder; beats are tracked."""
+
+    root: Path
+    meter: int = 4
+    seed: int = 0
+
+    def entries(self) -> list[SongEntry]:
+        found = sorted(
+            path
+            for path in self.root.rglob("*")
+            if path.suffix.lower() in SOUND_FILES and path.is_file()
+        )
+        if not found:
+            raise UserError(
+                f"--music {self.root} holds no sound file ({', '.join(SOUND_FILES)});"
+                " name a folder that does, or synthetic:N"
+            )
+        hashes = [sha256_file(path) for path in found]
+        unique = list(dict.fromkeys(hashes))
+        splits = assign_splits([(digest, "songs", {}) for digest in unique], self.seed)
+        entries = []
+        for digest in unique:
+            path = found[hashes.index(digest)]
+            split = "test" if splits[digest].startswith("test") else splits[digest]
+            entries.append(SongEntry(f"{_slug(path.stem)}-{digest[:8]}", split, digest))
+        return entries
+
+    def read(self, entry: SongEntry) -> Music:
+        from src.shared.audio.beats import bar_phase
+        from src.shared.audio.song import analyse
+
+        song = analyse(self._path(entry), meter=self.meter)
+        arrays = feature_arrays(song.features)
+        beats = song.beats
+        return Music(
+            arrays,
+            bar_phase(beats, arrays["mel"].shape[1]),
+            np.asarray(beats.beat_times),
+            np.asarray(beats.downbeat_times),
+            float(beats.tempo),
+            beats.meter,
+        )
+
+    def _path(self, entry: SongEntry) -> Path:
+        return next(
+            path
+            for path in sorted(self.root.rglob("*"))
+            if path.suffix.lower() in SOUND_FILES and sha256_file(path) == entry.fingerprint
+        )
+
+
+def _slug(name: str) -> str:
+    return re.sub(r"[^a-z0-9]+", "-", name.lower()).strip("-")[:40] or "song"
+
+
+def feature_arrays(features: "AudioFeatures") -> dict[str, np.ndarray]:
+    """Arrays of features.npz as float16: they are normalised, three digits are enough."""
+    return {name: values.astype(np.float16) for name, values in features.arrays().items()}
+
+
+def open_music(names: Sequence[str], *, seed: int = 0, meter: int = 4) -> list[MusicSource]:
+    """Sources named on the command line: folders and `synthetic:N`.
+
+    Raises:
+        UsageError: no such folder, or N is not a number above 0.
+    """
+    sources: list[MusicSource] = []
+    for name in names:
+        kind, _, number = name.partition(":")
+        if kind == "synthetic":
+            if not number.isdecimal() or not int(number):
+                raise UsageError(f"--music {name}: say how many songs, e.g. synthetic:100")
+            sources.append(SyntheticMusic(int(number), seed))
+        elif not Path(name).is_dir():
+            raise UsageError(f"--music {name} is no folder; name one, or synthetic:N")
+        else:
+            sources.append(FolderMusic(Path(name), meter, seed))
+    return sources

@@ -1,0 +1,209 @@
+"""One phrase of music and a motion made for it: clips chosen by tempo, joined and warped.
+
+Several motions are tried and the one whose beats fall best on the music's is kept.
+"""
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from src.shared.data.pairing.clip_library import FPS, Clip
+from src.shared.data.pairing.motion_beats import (
+    Alignment,
+    alignment,
+    chance_alignment,
+    motion_beats,
+)
+from src.shared.data.pairing.phrase_motion import PhraseMotion, assemble
+from src.shared.data.pairing.time_warp import (
+    LIMIT,
+    MATCH_LIMIT,
+    Warp,
+    fit_warp,
+    match_beats,
+    plain_warp,
+    resample,
+)
+from src.shared.data.prepared import SYNTHETIC
+
+TRIES = 6
+GOOD = 0.9  # a try this well aligned ends the search, so that easy clips do not crowd out others
+SPARE = 2  # frames beyond the phrase that only help to derive (ruling 6)
+LEAD_BEATS = 1.25  # intervals of motion that may be skipped so that the first beat can meet one
+MAX_LEAD = 1.5  # seconds
+GROUP_SHARE = 0.25  # of phrases with a motion beat on strong beats only
+ENOUGH_CLIPS = 8  # below, two motion beats a music beat are allowed as well
+SYNTHETIC_WEIGHT = 0.4  # of the project's own motions against recorded ones
+
+
+@dataclass(frozen=True, eq=False)
+class MusicBeats:
+    """Beats around a phrase, in its seconds: times [K], and which are strong [K] bool."""
+
+    times: np.ndarray
+    strong: np.ndarray
+
+    def grids(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Where motion beats may fall: on every beat, on strong beats, on half beats too."""
+        half = np.sort(np.concatenate((self.times, (self.times[1:] + self.times[:-1]) / 2)))
+        return self.times, self.times[self.strong], half
+
+
+def strong_beats(numbers: np.ndarray, meter: int) -> np.ndarray:
+    """Which beats [K] bool open a group: every second of an even bar, every third of 3 and 6.
+
+    Args:
+        numbers: of the beats [K], counted from a downbeat.
+        meter: beats a bar; of 5 and 7 only downbeats are strong.
+    """
+    group = 3 if meter in (3, 6) else 2 if meter % 2 == 0 else meter
+    return np.asarray(numbers % group == 0)
+
+
+@dataclass(frozen=True, eq=False)
+class PhrasePair:
+    """A motion that fits a phrase of music.
+
+    Attributes:
+        position, quaternion: pelvis [T+SPARE,3] and [T+SPARE,4] at 30 fps.
+        motion: what it was made of.
+        warp: which moment of the motion is seen when.
+        before, after, chance: beat alignment as recorded, warped, and by chance.
+        motion_beats: seconds of the phrase [N].
+        matched: music beats that a motion beat was brought to.
+    """
+
+    position: np.ndarray
+    quaternion: np.ndarray
+    motion: PhraseMotion
+    warp: Warp
+    before: Alignment
+    after: Alignment
+    chance: Alignment
+    motion_beats: np.ndarray
+    matched: int
+
+    @property
+    def score(self) -> float:
+        """Motion to music alignment, -1 for a motion without beats."""
+        return float(np.nan_to_num(self.after.motion_to_music, nan=-1.0))
+
+    @property
+    def seams(self) -> np.ndarray:
+        """Frames of the phrase [S] where a seam's middle is seen."""
+        at = np.arange(len(self.position)) / FPS
+        seen = self.warp.times(at) * FPS
+        inside = [seam for seam in self.motion.seams if seen[0] <= seam <= seen[-1]]
+        return np.searchsorted(seen, inside)
+
+
+def suitable_clips(clips: Sequence[Clip], interval: float) -> list[Clip]:
+    """Clips whose motion beats can lie `interval` seconds apart within the warp's limit."""
+    return [clip for clip in clips if abs(clip.period / interval - 1) <= MATCH_LIMIT]
+
+
+def clip_weights(clips: Sequence[Clip]) -> np.ndarray:
+    """Probability of each clip [N]: a kind of motion counts as the root of its number.
+
+    Long clips count more, up to ten seconds.
+    """
+    number = Counter((clip.source, clip.tag) for clip in clips)
+    weights = np.array(
+        [
+            min(clip.num_frames / FPS, 10.0)
+            / np.sqrt(number[clip.source, clip.tag])
+            * (SYNTHETIC_WEIGHT if clip.source == SYNTHETIC else 1.0)
+            for clip in clips
+        ]
+    )
+    return np.asarray(weights / weights.sum())
+
+
+def pair_phrase(
+    clips: Sequence[Clip],
+    beats: MusicBeats,
+    num_frames: int,
+    rng: np.random.Generator,
+    *,
+    tries: int = TRIES,
+) -> PhrasePair | None:
+    """Make a motion for a phrase.
+
+    Args:
+        clips: of the phrase's split.
+        beats: of the music; neighbours beyond the phrase's ends are welcome.
+        num_frames: T.
+        rng: makes every choice.
+        tries: motions to choose from.
+
+    Returns:
+        None where there is no beat or no clip fits its tempo.
+    """
+    choices = _choices(clips, beats)
+    if not choices:
+        return None
+    best: PhrasePair | None = None
+    for _ in range(tries):
+        group = len(choices) > 1 and rng.random() < GROUP_SHARE
+        made = _warped(*choices[int(group)], beats.times, num_frames, rng)
+        if best is None or made.score > best.score:
+            best = made
+        if best.score >= GOOD:
+            break
+    assert best is not None
+    chance = chance_alignment(best.motion_beats, beats.times, num_frames / FPS, rng)
+    return replace(best, chance=chance)
+
+
+def _choices(clips: Sequence[Clip], beats: MusicBeats) -> list[tuple[list[Clip], np.ndarray]]:
+    """(clips, grid) on every beat and on strong beats; on half beats where these are too few.
+
+    Two motion beats a music beat do not tell which of them is the beat: a last resort.
+    """
+    whole, strong, half = (
+        (suitable_clips(clips, float(np.median(np.diff(grid)))) if len(grid) > 2 else [], grid)
+        for grid in beats.grids()
+    )
+    found = [choice for choice in (whole, strong) if choice[0]]
+    if sum(len(suitable) for suitable, _ in found) < ENOUGH_CLIPS and half[0]:
+        found.insert(0, half)
+    return found
+
+
+def _warped(
+    clips: Sequence[Clip],
+    grid: np.ndarray,
+    beats: np.ndarray,
+    num_frames: int,
+    rng: np.random.Generator,
+) -> PhrasePair:
+    """One try: assemble, match, warp."""
+    seconds = num_frames / FPS
+    lead = min(LEAD_BEATS * float(np.median(np.diff(grid))), MAX_LEAD)
+    shown = (num_frames + SPARE) / FPS
+    needed = int(np.ceil((lead + shown * (1 + LIMIT)) * FPS)) + 2
+    motion = assemble(clips, clip_weights(clips), needed, rng)
+    found = motion_beats(motion.position, FPS).times
+    pairs = match_beats(found, grid, seconds, lead)
+    warp = fit_warp(
+        np.array([found[i] for i, _ in pairs]), np.array([grid[k] for _, k in pairs]), shown, lead
+    )
+    at = np.arange(num_frames + SPARE) / FPS
+    position, quaternion = resample(motion.position, motion.quaternion, warp.times(at), FPS)
+    raw, _ = resample(
+        motion.position, motion.quaternion, plain_warp(shown, warp.start).times(at), FPS
+    )
+    after = motion_beats(position, FPS).times
+    return PhrasePair(
+        position,
+        quaternion,
+        motion,
+        warp,
+        before=alignment(motion_beats(raw, FPS).times, beats, seconds),
+        after=alignment(after, beats, seconds),
+        chance=Alignment(0.0, 0.0),  # measured for the try that is kept
+        motion_beats=after,
+        matched=len(pairs),
+    )
