@@ -4,12 +4,17 @@ import shlex
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
-from src.shared.config_loader import load_network, load_train, split_network_overrides
-from src.shared.config_schema import NetworkConfig, TrainConfig
+from src.shared.config_loader import (
+    load_audio_network,
+    load_network,
+    load_train,
+    split_network_overrides,
+)
+from src.shared.config_schema import Config, TrainConfig
 from src.shared.errors import UserError
 from src.train.interrupt import Interrupted
 
@@ -17,7 +22,8 @@ if TYPE_CHECKING:
     from src.train.task import Task
 
 ConfigT = TypeVar("ConfigT", bound=TrainConfig)
-Builder = Callable[[ConfigT, NetworkConfig], "Task"]
+Builder = Callable[[ConfigT, Any], "Task"]  # settings and network
+NetworkLoader = Callable[..., Config]  # profile, file, overrides
 
 
 def resume_command(module: str, arguments: list[str]) -> str:
@@ -35,6 +41,7 @@ def run_stage(
     overrides: list[str],
     resume: bool,
     network_file: Path | None = None,
+    load: NetworkLoader = load_network,
 ) -> None:
     """Load the configurations and train.
 
@@ -43,7 +50,7 @@ def run_stage(
     """
     own, network_overrides = split_network_overrides(overrides)
     settings = load_train(config, model_class, own)
-    network = load_network(settings.profile, network_file, network_overrides)
+    network = load(settings.profile, network_file, network_overrides)
     from src.train.engine import Trainer  # every check that needs no torch comes before this
 
     command = resume_command(module, sys.argv[1:])
@@ -51,7 +58,12 @@ def run_stage(
 
 
 def stage_app(
-    model_class: type[ConfigT], build: Builder[ConfigT], module: str, about: str
+    model_class: type[ConfigT],
+    build: Builder[ConfigT],
+    module: str,
+    about: str,
+    *,
+    audio: bool = False,
 ) -> typer.Typer:
     """A typer application with the flags of a training stage.
 
@@ -60,7 +72,10 @@ def stage_app(
         build: makes its task.
         module: what stands after `accelerate launch -m`.
         about: help text.
+        audio: profiles are those of audio_network.yaml.
     """
+    load: NetworkLoader = load_audio_network if audio else load_network
+    networks = "audio_network.yaml" if audio else "network.yaml"
     app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
     example = f"Example: accelerate launch -m {module} --network-profile lightweight steps=500"
 
@@ -72,8 +87,8 @@ def stage_app(
         config: Annotated[Path | None, typer.Option(help="YAML file of settings")] = None,
         data: Annotated[str | None, typer.Option(help="prepared folder, or: synthetic")] = None,
         output: Annotated[str | None, typer.Option(help="folder of this run")] = None,
-        network_profile: Annotated[str | None, typer.Option(help="profile of network.yaml")] = None,
-        network_file: Annotated[Path | None, typer.Option(help="another network.yaml")] = None,
+        network_profile: Annotated[str | None, typer.Option(help=f"profile of {networks}")] = None,
+        network_file: Annotated[Path | None, typer.Option(help=f"another {networks}")] = None,
         resume: Annotated[
             bool, typer.Option("--resume", help="continue the run in output")
         ] = False,
@@ -89,6 +104,7 @@ def stage_app(
                 overrides=[*(overrides or []), *given],
                 resume=resume,
                 network_file=network_file,
+                load=load,
             )
         except Interrupted as stop:
             raise _leave(str(stop), stop.exit_code) from None

@@ -1,0 +1,203 @@
+"""From a song's condition to trajectories of any length: windows that share their seam.
+
+Each window after the first is denoised with its first frames known: the last frames of the window
+before, seen from its own start. The network was trained so (src/train/train_audio.py), hence a
+seam is part of one motion, not a blend of two. One window is in memory at a time.
+
+Letters: B samples, T frames of the song, W of a window, O shared by neighbours.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from torch import Tensor
+from torch.nn import functional as F
+
+from src.shared.errors import UsageError
+from src.shared.model.audio.audio_motion_model import AudioMotionModel
+from src.shared.model.audio.unet import MIN_FRAMES
+from src.shared.model.diffusion.conditions import ModelFn
+from src.shared.model.diffusion.noise import sample_generators, standard_normal
+from src.shared.model.diffusion.samplers import make_sampler
+from src.shared.motion.trajectory import CHANNELS, PHASE, STYLE, MotionTrajectory
+from src.shared.motion.window import WindowJoiner, encode_window
+
+SPARE = 2  # frames at a window's end that are made and cut off (ruling 6)
+Progress = Callable[[int, int], None]  # frames done, frames in all
+
+
+@dataclass(frozen=True)
+class SampleSettings:
+    """How a song is sampled; None = the model's own setting.
+
+    Attributes:
+        sampler: ddim, ddpm or dpm-solver++.
+        window, overlap: frames W and O.
+    """
+
+    num_samples: int = 1
+    guidance_scale: float | None = None
+    steps: int | None = None
+    sampler: str | None = None
+    seed: int = 0
+    window: int = 240
+    overlap: int = 30
+
+    def __post_init__(self) -> None:
+        if self.num_samples < 1:
+            raise UsageError(f"num-samples {self.num_samples} must be 1 or more")
+        if not MIN_FRAMES <= self.overlap <= self.window // 2:
+            raise UsageError(
+                f"overlap {self.overlap} must lie between {MIN_FRAMES} and half the window"
+                f" ({self.window // 2})"
+            )
+
+
+def spans(num_frames: int, window: int, overlap: int) -> list[tuple[int, int]]:
+    """First and last-plus-one frame of each window that covers [0, num_frames)."""
+    found = [(0, min(window, num_frames))]
+    while found[-1][1] < num_frames:
+        start = found[-1][1] - overlap
+        found.append((start, min(start + window, num_frames)))
+    return found
+
+
+class SongSampler:
+    """Samples trajectories from conditions.
+
+    Args:
+        model: trained; used in evaluation mode on the device it is on.
+        settings: see `SampleSettings`.
+    """
+
+    def __init__(self, model: AudioMotionModel, settings: SampleSettings | None = None) -> None:
+        self.model = model.eval()
+        self.settings = settings or SampleSettings()
+        self.device = model.mean.device
+        diffusion = model.config.diffusion
+        self.sampler = make_sampler(
+            model.diffusion,
+            self.settings.sampler or diffusion.sampler,
+            self.settings.steps,
+        )
+
+    def sample(
+        self,
+        condition: Tensor,
+        *,
+        phase: np.ndarray | None = None,
+        style: np.ndarray | None = None,
+        progress: Progress | None = None,
+    ) -> list[MotionTrajectory]:
+        """Whole trajectories, one a sample; see `stream`."""
+        pieces = list(self.stream(condition, phase=phase, style=style, progress=progress))
+        return [
+            MotionTrajectory(np.concatenate([piece[index].data for piece in pieces]))
+            for index in range(self.settings.num_samples)
+        ]
+
+    def stream(
+        self,
+        condition: Tensor,
+        *,
+        phase: np.ndarray | None = None,
+        style: np.ndarray | None = None,
+        progress: Progress | None = None,
+    ) -> Iterator[list[MotionTrajectory]]:
+        """Pieces that follow each other, one a sample, as soon as they are settled.
+
+        Args:
+            condition: [163 or 167, T].
+            phase: unwrapped bars [T] of the beat tracker; the trajectory's phase is held to it
+                once a window. None = the model's own count.
+            style: [8] unit, held; None = the model's choice.
+            progress: told after each window.
+        """
+        num_frames, draws = condition.shape[1], self._generators()
+        joiners: list[WindowJoiner] = []
+        before: list[np.ndarray] = []  # of each sample, the window's last decoded frames
+        for start, end in spans(num_frames, self.settings.window - SPARE, self.settings.overlap):
+            tracked = None if phase is None else np.asarray(phase[start:end], dtype=np.float64)
+            known, values = self._known(before, style, end - start)
+            windows = self._window(condition[:, start:end], known, values, tracked, draws)
+            if not joiners:
+                shared = min(self.settings.overlap, num_frames - 1)
+                joiners = [WindowJoiner(shared, phase=first) for _, first in windows]
+            yield [joiner.add(window) for joiner, (window, _) in zip(joiners, windows, strict=True)]
+            before = [window[:, -self.settings.overlap :] for window, _ in windows]
+            if progress is not None:
+                progress(end, num_frames)
+        yield [joiner.finish() for joiner in joiners]
+
+    def _generators(self) -> list[torch.Generator]:
+        return sample_generators(self.settings.seed, self.settings.num_samples)
+
+    def _known(
+        self, before: list[np.ndarray], style: np.ndarray | None, frames: int
+    ) -> tuple[Tensor, Tensor]:
+        """Which entries [B,25,W] the network is given, and their z-scores."""
+        size, length = self.settings.num_samples, max(frames + SPARE, MIN_FRAMES)
+        known = torch.zeros(size, CHANNELS, length, dtype=torch.bool)
+        values = torch.zeros(size, CHANNELS, length)
+        for index, window in enumerate(before):
+            local = reset_window(window)
+            known[index, :, : local.shape[1]] = True
+            values[index, :, : local.shape[1]] = torch.from_numpy(local)
+        if style is not None:
+            known[:, STYLE] = True
+            values[:, STYLE] = torch.as_tensor(style, dtype=torch.float32)[:, None]
+        values = values.to(self.device)
+        return known.to(self.device), self.model.normalise(values)
+
+    @torch.no_grad()
+    def _window(
+        self,
+        condition: Tensor,
+        known: Tensor,
+        values: Tensor,
+        tracked: np.ndarray | None,
+        draws: list[torch.Generator],
+    ) -> list[tuple[np.ndarray, float]]:
+        """Window [25,W] and first phase of each sample."""
+        model, frames = self.model, condition.shape[1]
+        size, _, length = known.shape
+        heard = F.pad(condition[None], (0, length - frames), mode="replicate")
+        heard = heard.to(self.device).expand(size, -1, -1)
+        model_fn = model.model_fn(heard, self.settings.guidance_scale)
+        noise = standard_normal(known.shape, draws, device=self.device)
+        x_0 = self.sampler.run(holding(model_fn, known, values), noise, generator=draws)
+        x_0 = torch.where(known, values, x_0)
+        start = None if tracked is None else torch.full((size,), tracked[0] % 1.0).to(x_0)
+        decoded = model.decode(x_0, start)
+        trajectories = decoded.trajectory[:, :frames].cpu().numpy()
+        phases = decoded.phase_unwrapped[:, :frames].cpu().double().numpy()
+        windows = []
+        for trajectory, own in zip(trajectories, phases, strict=True):
+            rows = trajectory.T.copy()
+            rows[PHASE] = np.diff(own, append=2 * own[-1] - own[-2])
+            if tracked is not None:
+                hold_phase(rows, tracked[-1] - tracked[0])
+            windows.append((rows, float(own[0])))
+        return windows
+
+
+def holding(model_fn: ModelFn, known: Tensor, values: Tensor) -> ModelFn:
+    """The model, always shown `values` where they are `known`."""
+    return lambda x_t, t: model_fn(torch.where(known, values, x_t), t)
+
+
+def reset_window(window: np.ndarray) -> np.ndarray:
+    """A window [25,O] cut out of another one, seen from its own first frame."""
+    phase = np.concatenate(([0.0], np.cumsum(window[PHASE, :-1], dtype=np.float64)))
+    local = encode_window(window.T, phase)
+    local[PHASE, -1] = window[PHASE, -1]
+    return local
+
+
+def hold_phase(rows: np.ndarray, bars: float) -> None:
+    """Scale the phase steps of a window [25,W] so that first and last frame lie `bars` apart."""
+    own = rows[PHASE, :-1].sum(dtype=np.float64)
+    if own > 0:
+        rows[PHASE] *= np.clip(bars / own, 0.5, 2.0)

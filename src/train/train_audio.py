@@ -1,0 +1,228 @@
+"""Audio training: UNet1D learns trajectories from sound (TECH 6; rulings 8, 9, 13 to 15).
+
+accelerate launch -m src.train.train_audio --data DIR_OR_URL [key=value ...] [--resume]
+
+Part of each batch has known entries: the first frames of a window, as sampling a long song goes
+on from the window before, or the style, as `--style` sets it. They come without noise and are not
+learned.
+
+Letters: B batch, T frames.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import torch
+from pydantic import Field
+from torch import Tensor, nn
+
+from src.shared.config_audio import AudioNetworkConfig
+from src.shared.config_schema import TrainConfig
+from src.shared.data.phrases.dataset import MotionPhraseDataset, PhraseBatch, motion_statistics
+from src.shared.device import autocast, choose_compute
+from src.shared.model.audio.audio_motion_model import AudioMotionModel
+from src.shared.model.audio.conditioning import ConditionAugmentation
+from src.shared.model.diffusion.gaussian import GaussianDiffusion, masked_loss
+from src.shared.motion.trajectory import FPS, POSITION, QUATERNION, STYLE
+from src.train.launch import stage_app
+from src.train.phrases import open_phrases
+from src.train.seeding import generator
+from src.train.task import Part
+from src.train.train_generation import NOISE_LEVELS, spread_timesteps
+
+
+class TrainAudioConfig(TrainConfig):
+    """train_audio.yaml."""
+
+    target_frames: int = Field(240, ge=8)  # of a window
+    num_phrases: int | None = Field(None, ge=1)  # take only the first so many
+    velocity_weight: float = Field(0.5, ge=0)  # of the error of frame differences, m/s
+    prefix_share: float = Field(0.5, ge=0, le=1)  # windows whose first frames are known
+    prefix_frames: tuple[int, int] = (8, 60)  # how many, at least and at most
+    style_share: float = Field(0.5, ge=0, le=1)  # windows whose style is known
+
+
+@dataclass(frozen=True)
+class AudioBatch:
+    """Everything random is drawn already, on the CPU, so that it is the same on every device.
+
+    Attributes:
+        clean, noise: [B,25,T] z-scored.
+        known: [B,25,T] bool, entries that the network is given.
+        mask: [B,T] bool, real frames.
+        condition: [B,167,T], augmented; drop [B] bool, windows that hear nothing.
+        timesteps: [B] long.
+    """
+
+    clean: Tensor
+    noise: Tensor
+    known: Tensor
+    mask: Tensor
+    condition: Tensor
+    drop: Tensor
+    timesteps: Tensor
+
+
+class AudioTask:
+    """What the trainer needs to know (src/train/task.py)."""
+
+    def __init__(self, config: TrainAudioConfig, network: AudioNetworkConfig) -> None:
+        self.config, self.network = config, network
+        self.train: MotionPhraseDataset = open_phrases(config, "train", config.num_phrases)
+        self.held_back: MotionPhraseDataset = open_phrases(config, "val", None)
+        self.model = AudioMotionModel(network)
+        self.model.set_statistics(*motion_statistics(self.train))
+        self.mean, self.std = self.model.mean.clone(), self.model.std.clone()
+        self.module: nn.Module = self.model.unet
+        self.augment = ConditionAugmentation(network.condition.augmentation)
+        self.diffusion = GaussianDiffusion(network.diffusion)
+        self.compute = choose_compute(config.device, config.precision)
+        self.figures: dict[str, float] = {}
+
+    def identity(self) -> dict[str, Any]:
+        """A resumed run must have the same network and see the same phrases."""
+        return {
+            "network": self.network.model_dump(mode="json", by_alias=True),
+            "data-hash": self.train.fingerprint,
+        }
+
+    def to(self, device: torch.device) -> None:
+        """Frozen parts follow the module."""
+        self.diffusion.to(device)
+        self.mean, self.std = self.mean.to(device), self.std.to(device)
+
+    # ------------------------------------------------------------ batches
+
+    def batch(self, part: Part) -> AudioBatch:
+        """Windows with noise, steps, what is known and what is dropped."""
+        phrases = self.train.batch(
+            part.step, self.config.batch_size, index=part.index, count=part.count
+        )
+        draws = generator("noise", self.config.seed, part.step, part.index)
+        timesteps = spread_timesteps(len(phrases), self.diffusion.config.timesteps, draws)
+        known = self._known(phrases, draws)
+        drop = self.augment.draw_drop(len(phrases), draws)
+        return self._noised(phrases, timesteps, known, drop, draws, augment=True)
+
+    def _known(self, phrases: PhraseBatch, draws: torch.Generator) -> Tensor:
+        """Entries [B,25,T] that the network is given."""
+        config, (size, _, frames) = self.config, phrases.motion.shape
+        least, most = config.prefix_frames
+        lengths = torch.randint(least, most + 1, (size,), generator=draws).clamp(max=frames // 2)
+        lengths[torch.rand(size, generator=draws) >= config.prefix_share] = 0
+        known = (torch.arange(frames) < lengths[:, None])[:, None].repeat(1, 25, 1)
+        styled = torch.rand(size, generator=draws) < config.style_share
+        known[:, STYLE] |= styled[:, None, None]
+        return known
+
+    def _noised(
+        self,
+        phrases: PhraseBatch,
+        timesteps: Tensor,
+        known: Tensor,
+        drop: Tensor | None,
+        draws: torch.Generator,
+        *,
+        augment: bool,
+    ) -> AudioBatch:
+        clean = self.model.normalise(phrases.motion) * phrases.mask[:, None]
+        noise = torch.randn(clean.shape, generator=draws)
+        self.augment.train(augment)
+        condition = self.augment(phrases.audio, draws)
+        if drop is None:
+            drop = torch.zeros(len(phrases), dtype=torch.bool)
+        return AudioBatch(clean, noise, known, phrases.mask, condition, drop, timesteps)
+
+    # ------------------------------------------------------------ learning
+
+    def training_step(self, module: nn.Module, batch: AudioBatch) -> dict[str, Tensor]:
+        """Error of what the network predicts, and of the frame differences it means."""
+        noisy = self.diffusion.q_sample(batch.clean, batch.timesteps, batch.noise)
+        noisy = torch.where(batch.known, batch.clean, noisy)
+        output = module(noisy, batch.timesteps, batch.condition, batch.drop)
+        target = self.diffusion.target(batch.clean, batch.noise, batch.timesteps)
+        learned = torch.where(batch.known, target, output.float())
+        diffusion = self.diffusion.loss(learned, target, mask=batch.mask, time_dim=2)
+        losses = {"loss": diffusion, "diffusion": diffusion}
+        if weight := self.config.velocity_weight:
+            clip = self.diffusion.config.prediction_type != "sample"
+            x_0 = self.diffusion.predict_x0(output.float(), noisy, batch.timesteps, clip=clip)
+            losses["velocity"] = self._velocity_loss(x_0, batch)
+            losses["loss"] = diffusion + weight * losses["velocity"]
+        return losses
+
+    def _velocity_loss(self, x_0: Tensor, batch: AudioBatch) -> Tensor:
+        """Mean squared error of position and quaternion differences a second."""
+        x_0 = torch.where(batch.known, batch.clean, x_0)
+        error = (x_0 - batch.clean) * self.std[:, None]  # [B,25,T] raw units
+        error = torch.cat((error[:, POSITION], error[:, QUATERNION]), dim=1)  # [B,7,T]
+        speed = (error[..., 1:] - error[..., :-1]) * FPS
+        mask = batch.mask[:, 1:] & batch.mask[:, :-1]
+        return masked_loss(speed, torch.zeros_like(speed), "mse", mask=mask, time_dim=2)
+
+    def validation(self, module: nn.Module) -> dict[str, float]:
+        """Losses on held-back phrases at fixed steps and noise, overall and by noise level."""
+        device = next(module.parameters()).device
+        steps, thirds = self.diffusion.config.timesteps, len(NOISE_LEVELS)
+        sums: dict[str, list[float]] = {}
+        for index in range(self.config.validation_batches):
+            phrases = self.held_back.batch(index + 1, self.config.batch_size)
+            for third, level in enumerate(NOISE_LEVELS):
+                draws = generator("validation", index, third)
+                spread = spread_timesteps(len(phrases), max(1, steps // thirds), draws)
+                timesteps = (spread + third * steps // thirds).clamp(max=steps - 1)
+                known = torch.zeros(phrases.motion.shape, dtype=torch.bool)
+                batch = self._noised(phrases, timesteps, known, None, draws, augment=False)
+                batch = AudioBatch(*(value.to(device) for value in vars(batch).values()))
+                with autocast(self.compute):
+                    losses = self.training_step(module, batch)
+                for key, value in losses.items():
+                    sums.setdefault(key, []).append(value.item())
+                    if key == "loss":
+                        sums.setdefault(f"loss-{level}", []).append(value.item())
+        self.figures = {key: sum(values) / len(values) for key, values in sums.items()}
+        return self.figures
+
+    # ------------------------------------------------------------ results
+
+    def export_samples(self, module: nn.Module, folder: Path) -> None:
+        """A held-back phrase's sound, made into a trajectory: a picture of it."""
+        from src.shared.formats.trajectory_registry import write_trajectory
+        from src.shared.inference.song_sampler import SongSampler
+
+        item = self.held_back.item(0, 0)
+        if item is None:
+            return
+        folder.mkdir(parents=True, exist_ok=True)
+        made = SongSampler(self._finished(module)).sample(item.audio)[0]
+        write_trajectory(made, folder / "held-back.png")
+
+    def save_pretrained(self, module: nn.Module, folder: Path) -> None:
+        """A folder that train_decoder, finetune_e2e and `generate --audio` read."""
+        model = self._finished(module)
+        model.card = model.card.model_copy(
+            update={
+                "name": folder.name,
+                "trained": True,
+                "data": self.train.fingerprint,
+                "training": {"steps": self.config.steps, "validation": self.figures},
+            }
+        )
+        model.save_pretrained(folder)
+
+    def _finished(self, module: nn.Module) -> AudioMotionModel:
+        self.model.unet.load_state_dict(module.state_dict())
+        return self.model.eval()
+
+
+app = stage_app(
+    TrainAudioConfig,
+    AudioTask,
+    "src.train.train_audio",
+    "Train the trajectory UNet on pairs of sound and motion.",
+    audio=True,
+)
+
+if __name__ == "__main__":
+    app()
