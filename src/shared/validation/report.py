@@ -31,9 +31,9 @@ def sanity_row(
 
     Returns:
         name, motions, passed (whole suite), passed_seven, rate; checks: for each check its number
-        passed and the mean of its value, None where that is not finite; inside: for each of `MEASURES` the share of motions
-        between the 5th and 95th percentile of real ones, with bands only; failures: for each
-        failed motion its index and the names of what failed.
+        passed and the mean of its value, None where that is not finite; inside: for each of
+        `MEASURES` the share of motions between the 5th and 95th percentile of real ones, with
+        bands only; failures: for each failed motion its index and the names of what failed.
     """
     motions = list(trajectories)
     outcomes = [checker.check_all(motion) for motion in motions]
