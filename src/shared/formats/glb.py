@@ -174,18 +174,24 @@ def _skin(body: Mannequin, buffer: _Buffer) -> dict[str, Any]:
 
 
 def _animation(motion: Motion, buffer: _Buffer) -> dict[str, Any]:
-    """Rotations of all joints and the pelvis path, keyed at every frame."""
+    """Rotations of all joints and the pelvis path, keyed at every frame.
+
+    A joint that never turns has one key.
+    """
     times = (np.arange(motion.num_frames) / motion.fps).astype(np.float32)
-    keys = buffer.accessor(times, bounds=True)
-    outputs = [buffer.accessor(motion.root_position.astype(np.float32))]
     quaternions = continuous(motion.quaternions)[..., [1, 2, 3, 0]].astype(np.float32)
-    outputs += [buffer.accessor(quaternions[:, joint]) for joint in range(NUM_JOINTS)]
+    still = (quaternions == quaternions[:1]).all((0, 2)) & (motion.num_frames > 1)
+    keys = buffer.accessor(times, bounds=True)
+    single = buffer.accessor(times[:1], bounds=True) if still.any() else keys
+    samplers = [{"input": keys, "output": buffer.accessor(motion.root_position.astype(np.float32))}]
+    for joint in range(NUM_JOINTS):
+        count = 1 if still[joint] else motion.num_frames
+        output = buffer.accessor(quaternions[:count, joint])
+        samplers.append({"input": single if still[joint] else keys, "output": output})
     targets = [{"node": 0, "path": "translation"}]
     targets += [{"node": joint, "path": "rotation"} for joint in range(NUM_JOINTS)]
     return {
-        "samplers": [
-            {"input": keys, "output": output, "interpolation": "LINEAR"} for output in outputs
-        ],
+        "samplers": [sampler | {"interpolation": "LINEAR"} for sampler in samplers],
         "channels": [{"sampler": i, "target": target} for i, target in enumerate(targets)],
     }
 

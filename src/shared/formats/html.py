@@ -1,7 +1,8 @@
 """HTML preview: one page that plays motions side by side, offline, with our own small viewer.
 
 The page is `preview.html` with the viewer's scripts and the data put in: the mannequin's mesh and
-each motion as little-endian arrays in base64. T frames cost 189 T bytes before base64.
+each motion as little-endian arrays in base64. T frames of a body that moves all its joints cost
+190 T bytes before base64.
 """
 
 import base64
@@ -23,7 +24,15 @@ from src.shared.formats.mannequin import mannequin
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import FOOT_JOINTS, canonical_skeleton
 
-SCRIPTS = ("preview_scene.js", "preview_body.js", "preview.js")
+SCRIPTS = (
+    "preview_scene.js",
+    "preview_body.js",
+    "preview_rhythm.js",
+    "preview_clock.js",
+    "preview.js",
+)
+HINT = """A <b style="color:#2f9150">foot</b> on the ground turns green; the red line is the
+    path."""
 MESH_UNIT = 1e-4  # metres; the vertex shader knows it too
 QUATERNION_UNIT = 32767.0
 _SIDES = {"left": 1, "right": -1, "centre": 0}
@@ -38,11 +47,29 @@ def write_html(motions: Sequence[Motion] | Motion, path: str | Path) -> Path:
     shown = [motions] if isinstance(motions, Motion) else list(motions)
     if not shown:
         raise UserError(f"cannot write {path}: there is no motion to show")
-    data = dict(_body()) | {"motions": [_motion(motion) for motion in shown]}
+    return write_page({"motions": [motion_data(motion) for motion in shown]}, path)
+
+
+def write_page(
+    data: dict[str, Any], path: str | Path, *, hint: str = HINT, media: str = ""
+) -> Path:
+    """Fill the template; returns the path.
+
+    Args:
+        data: `motions`, a list of what `motion_data` made, and what else the scripts read.
+        path: the page to write.
+        hint: markup that explains the picture, under the controls.
+        media: markup of the element with the id `song`, which then drives the clock.
+
+    Raises:
+        UserError: the file cannot be written.
+    """
     resources = files("src.shared.formats")
     parts = {
-        "@DATA@": script_safe_json(data),
+        "@DATA@": script_safe_json(_body() | data),
         "@SCRIPT@": "\n".join(resources.joinpath(n).read_text("utf-8") for n in SCRIPTS),
+        "@HINT@": hint,
+        "@SONG@": media,
     }
     page = resources.joinpath("preview.html").read_text("utf-8")
     # In one pass, so that a prompt that holds a mark is not filled in itself.
@@ -69,30 +96,35 @@ def _body() -> dict[str, Any]:
             "feet": FOOT_JOINTS,
         },
         "mesh": {
-            "positions": _base64(body.vertices / MESH_UNIT, "<i2"),
-            "normals": _base64(body.normals * 127, "i1"),
-            "joints": _base64(body.joints, "u1"),
-            "weights": _base64(whole_shares(body.weights, 255), "u1"),
-            "triangles": _base64(body.triangles, "<u2"),
+            "positions": base64_array(body.vertices / MESH_UNIT, "<i2"),
+            "normals": base64_array(body.normals * 127, "i1"),
+            "joints": base64_array(body.joints, "u1"),
+            "weights": base64_array(whole_shares(body.weights, 255), "u1"),
+            "triangles": base64_array(body.triangles, "<u2"),
         },
         "cones": [[part.joint, part.start, part.end, *part.radii] for part in BODY],
         "colours": COLOURS | {"contact": CONTACT},
     }
 
 
-def _motion(motion: Motion) -> dict[str, Any]:
-    quaternions = motion.quaternions / np.linalg.norm(motion.quaternions, axis=-1, keepdims=True)
+def motion_data(motion: Motion) -> dict[str, Any]:
+    """What the viewer needs of one motion; joints that never turn are stored once."""
+    norms = np.linalg.norm(motion.quaternions, axis=-1, keepdims=True)
+    quaternions = np.rint(motion.quaternions / norms * QUATERNION_UNIT)
+    turning = np.flatnonzero((quaternions != quaternions[:1]).any((0, 2)))
     return {
         "text": motion.text,
         "fps": float(motion.fps),
         "frames": motion.num_frames,
-        "quaternions": _base64(quaternions * QUATERNION_UNIT, "<i2"),
-        "root": _base64(motion.root_position, "<f4"),
-        "contacts": _base64(np.clip(motion.contacts, 0, 1) * 255, "u1"),
+        "turning": turning.tolist(),
+        "quaternions": base64_array(quaternions[:, turning], "<i2"),
+        "still": base64_array(quaternions[0], "<i2"),
+        "root": base64_array(motion.root_position, "<f4"),
+        "contacts": base64_array(np.clip(motion.contacts, 0, 1) * 255, "u1"),
     }
 
 
-def _base64(values: np.ndarray, kind: str) -> str:
-    """Values rounded to a little-endian type, as base64."""
+def base64_array(values: np.ndarray, kind: str) -> str:
+    """Values as a little-endian type, rounded where that is an integer, in base64."""
     rounded = values if kind == "<f4" else np.rint(values)
     return base64.b64encode(np.ascontiguousarray(rounded.astype(kind)).tobytes()).decode()

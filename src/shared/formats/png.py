@@ -6,13 +6,23 @@ contact is green. The arrow on the floor is the facing direction, the line the p
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from src.shared.errors import UserError
-from src.shared.files import atomic_write
 from src.shared.formats.body import CONTACT
+from src.shared.formats.drawing import (
+    FLOOR,
+    GRID,
+    INK,
+    OVERSAMPLE,
+    PATH,
+    FloorMap,
+    font,
+    new_sheet,
+    save_sheet,
+)
 from src.shared.formats.mannequin import Mannequin, mannequin, side_colours
 from src.shared.formats.raster import Camera, draw_mesh
 from src.shared.motion.motion import Motion
@@ -21,12 +31,6 @@ from src.shared.motion.skeleton import FOOT_JOINTS
 if TYPE_CHECKING:
     from PIL import Image, ImageDraw
 
-BACKGROUND = (246, 247, 249)
-FLOOR = (236, 238, 242)
-GRID = (214, 218, 225)
-INK = (52, 58, 68)
-PATH = (200, 60, 90)
-OVERSAMPLE = 2
 AZIMUTH, ELEVATION = np.deg2rad(28.0), np.deg2rad(17.0)
 GRID_METRES = 0.5
 
@@ -53,23 +57,17 @@ def render_strip(
     Raises:
         UserError: no motion, or Pillow is not installed.
     """
-    try:
-        from PIL import Image, ImageDraw
-    except ImportError as error:
-        raise UserError("frame strips need Pillow; install it with: pip install pillow") from error
     rows = [motions] if isinstance(motions, Motion) else list(motions)
     if not rows or frames < 1:
         raise UserError("nothing to draw: give at least one motion and one frame")
     size = (panel[0] * OVERSAMPLE, panel[1] * OVERSAMPLE)
     header = 26 * OVERSAMPLE
-    sheet = Image.new(
-        "RGB", (size[0] * frames + size[1], (size[1] + header) * len(rows)), BACKGROUND
-    )
-    draw = ImageDraw.Draw(sheet)
+    width, height = size[0] * frames + size[1], (size[1] + header) * len(rows)
+    sheet, draw = new_sheet(width, height)
     for row, motion in enumerate(rows):
         top = row * (size[1] + header)
         title = titles[row] if titles else motion.text or f"motion {row + 1}"
-        draw.text((8 * OVERSAMPLE, top + 5 * OVERSAMPLE), title, INK, _font(14 * OVERSAMPLE, title))
+        draw.text((8 * OVERSAMPLE, top + 5 * OVERSAMPLE), title, INK, font(14 * OVERSAMPLE, title))
         picks = np.linspace(0, motion.num_frames - 1, frames).round().astype(int)
         positions, rotations = motion.positions(), motion.global_rotations()
         for column, frame in enumerate(picks):
@@ -78,12 +76,7 @@ def render_strip(
         sheet.paste(
             _draw_map(positions, rotations, picks, size[1]), (frames * size[0], top + header)
         )
-    sheet = sheet.resize(
-        (sheet.width // OVERSAMPLE, sheet.height // OVERSAMPLE), Image.Resampling.LANCZOS
-    )
-    with atomic_write(Path(path)) as temporary:
-        sheet.save(temporary, format="PNG", optimize=True)
-    return Path(path)
+    return save_sheet(sheet, Path(path))
 
 
 def vertex_colours(body: Mannequin, contacts: np.ndarray) -> np.ndarray:
@@ -131,7 +124,7 @@ def _draw_pose(
     draw_mesh(draw, camera, vertices, normals, body.triangles, colours)
     label = f"{frame / motion.fps:.2f} s"
     draw.text(
-        (size[0] / 2, size[1] - 4 * OVERSAMPLE), label, INK, _font(11 * OVERSAMPLE), anchor="mb"
+        (size[0] / 2, size[1] - 4 * OVERSAMPLE), label, INK, font(11 * OVERSAMPLE), anchor="mb"
     )
     return image
 
@@ -171,53 +164,13 @@ def _draw_map(
     positions: np.ndarray, rotations: np.ndarray, picks: np.ndarray, size: int
 ) -> "Image.Image":
     """The pelvis path from above (+X right, +Z down, as seen from the front) with facings."""
-    from PIL import Image, ImageDraw
-
-    image = Image.new("RGB", (size, size), BACKGROUND)
-    draw = ImageDraw.Draw(image)
     ground = positions[:, 0][:, [0, 2]]
-    middle = (ground.min(0) + ground.max(0)) / 2
-    span = max(1.0, float((ground.max(0) - ground.min(0)).max()) * 1.15 + 0.4)
-    margin = 8 * OVERSAMPLE
-    scale = (size - 2 * margin) / span
-
-    def pixel(point: np.ndarray) -> tuple[float, float]:
-        x, y = (point - middle) * scale + size / 2
-        return float(x), float(y)
-
-    step = 0.5 if span < 6 else 2.0 if span < 20 else 10.0
-    for axis in (0, 1):
-        for line in np.arange(np.ceil((middle[axis] - span / 2) / step) * step,
-                              middle[axis] + span / 2, step):  # fmt: skip
-            at = (line - middle[axis]) * scale + size / 2
-            low, high = margin, size - margin
-            ends = [(at, low), (at, high)] if axis == 0 else [(low, at), (high, at)]
-            draw.line(ends, GRID, OVERSAMPLE)
+    image, draw = new_sheet(size, size)
+    floor = FloorMap(ground, size)
+    floor.draw_grid(draw)
     if len(ground) > 1:
-        draw.line([pixel(p) for p in ground], PATH, 2 * OVERSAMPLE, joint="curve")
+        draw.line([floor.pixel(p) for p in ground], PATH, 2 * OVERSAMPLE, joint="curve")
     for number, frame in enumerate(picks):
-        x, y = pixel(ground[frame])
-        ahead = rotations[frame, 0, [0, 2], 2]
-        ahead = ahead / max(1e-6, float(np.linalg.norm(ahead))) * 12 * OVERSAMPLE
-        draw.line([(x, y), (x + ahead[0], y + ahead[1])], INK, 2 * OVERSAMPLE)
         radius = 4 * OVERSAMPLE if number == 0 else 2.5 * OVERSAMPLE
-        draw.ellipse([x - radius, y - radius, x + radius, y + radius], INK)
-    note = f"from above, grid {step:g} m"
-    draw.text((margin, size - 4 * OVERSAMPLE), note, INK, _font(11 * OVERSAMPLE), anchor="lb")
+        floor.draw_facing(draw, ground[frame], rotations[frame, 0, [0, 2], 2], radius)
     return image
-
-
-def _font(size: int, text: str = "") -> Any:
-    """A font that can show the text, as far as the machine has one."""
-    from PIL import ImageFont
-
-    names = ["DejaVuSans.ttf", "Arial.ttf", "Helvetica.ttc"]
-    if any(ord(letter) >= 0x2E80 for letter in text):  # Chinese, Japanese, Korean
-        names = ["NotoSansCJK-Regular.ttc", "YuGothM.ttc", "msyh.ttc", "PingFang.ttc",
-                 "Hiragino Sans GB.ttc", *names]  # fmt: skip
-    for name in names:
-        try:
-            return ImageFont.truetype(name, size)
-        except OSError:
-            continue
-    return ImageFont.load_default(size)

@@ -1,11 +1,9 @@
 // The preview's page: one card a motion, one clock and one camera for all of them.
 
-const START = { yaw: 0.5, pitch: 0.2, zoom: 1 };
+const START = { yaw: 0.5, pitch: DATA.palette ? 0.42 : 0.2, zoom: 1 }; // a path is seen from higher
 const DISTANCE = 4.9, MIDDLE = 0.95; // metres to the body, height that the camera looks at
-const DURATION = Math.max(...MOTIONS.map((motion) => motion.seconds));
 const FRAME = 1 / Math.max(...MOTIONS.map((motion) => motion.fps));
-const state = { ...START, time: 0, speed: 1, playing: true, follow: true, dirty: true };
-const find = (id) => document.getElementById(id);
+Object.assign(state, START, { follow: true });
 const board = document.querySelector("main");
 const scrub = find("scrub");
 const SLOW = 300; // milliseconds for one picture of all cards
@@ -17,21 +15,26 @@ let paintBody = makeMeshPainter() || paintLimbs;
 const cards = MOTIONS.map((motion, index) => {
   const make = (tag, parent) => parent.appendChild(document.createElement(tag));
   const figure = make("figure", board), canvas = make("canvas", figure);
+  const strip = motion.beats ? make("canvas", figure).getContext("2d") : null;
   const caption = make("figcaption", figure), text = make("span", caption);
   text.textContent = motion.text || `motion ${index + 1}`;
   text.dir = "auto";
   make("small", caption).textContent = `${(motion.frames / motion.fps).toFixed(1)} s`;
   canvas.setAttribute("role", "img");
   canvas.setAttribute("aria-label", text.textContent);
-  const x = [], z = [];
-  for (let i = 0; i < motion.root.length; i += 3) { x.push(motion.root[i]); z.push(motion.root[i + 2]); }
-  const low = [Math.min(...x), Math.min(...z)], high = [Math.max(...x), Math.max(...z)];
+  const low = [Infinity, Infinity], high = [-Infinity, -Infinity];
+  motion.root.forEach((value, i) => {
+    if (i % 3 === 1) return; // the height
+    low[(i % 3) / 2] = Math.min(low[(i % 3) / 2], value);
+    high[(i % 3) / 2] = Math.max(high[(i % 3) / 2], value);
+  });
   const middle = [(low[0] + high[0]) / 2, MIDDLE, (low[1] + high[1]) / 2];
   const span = Math.hypot(high[0] - low[0], high[1] - low[1]);
   steer(canvas);
-  return { motion, canvas, middle, span, context: canvas.getContext("2d") };
+  if (strip) makeStrip(strip.canvas, motion);
+  return { motion, middle, span, strip, context: canvas.getContext("2d") };
 });
-document.title = `${cards[0].canvas.getAttribute("aria-label")} – motion preview`;
+document.title = `${cards[0].context.canvas.getAttribute("aria-label")} – motion preview`;
 
 /** As many columns as make the cards largest; where they do not fit, the page scrolls. */
 function arrange() {
@@ -48,12 +51,21 @@ function arrange() {
   state.dirty = true;
 }
 
-function draw({ motion, canvas, context, middle, span }) {
+/** Width and height in real pixels, which the canvas gets; null where it cannot be seen. */
+function fit(canvas, pixel) {
   const box = canvas.getBoundingClientRect();
-  if (box.bottom < 0 || box.top > innerHeight || box.width < 2 || box.height < 2) return;
-  const pixel = Math.min(devicePixelRatio || 1, 2);
+  if (box.bottom < 0 || box.top > innerHeight || box.width < 2 || box.height < 2) return null;
   const width = Math.round(box.width * pixel), height = Math.round(box.height * pixel);
   if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+  return [width, height];
+}
+
+function draw({ motion, context, strip, middle, span }) {
+  const pixel = Math.min(devicePixelRatio || 1, 2), size = fit(context.canvas, pixel);
+  const stripSize = strip && fit(strip.canvas, pixel);
+  if (stripSize) drawStrip(strip, motion, Math.min(state.time, motion.seconds), ...stripSize, pixel);
+  if (!size) return;
+  const [width, height] = size;
   const pose = poseAt(motion, state.time);
   const [x, , z] = pose.positions[0];
   const target = state.follow ? [x, MIDDLE, z] : middle;
@@ -63,26 +75,14 @@ function draw({ motion, canvas, context, middle, span }) {
   drawFloor(context, view, pixel);
   drawTrail(context, view, motion, state.time, pixel);
   paintBody(context, view, pose);
+  if (motion.beats) drawDial(context, view, motion, Math.min(state.time, motion.seconds), pixel);
 }
 
-// ---------------------------------------------------------------- clock
-
-function setTime(time) {
-  state.time = Math.min(Math.max(time, 0), DURATION);
-  state.dirty = true;
-}
-
-function setPlaying(playing) {
-  state.playing = playing;
-  find("play").textContent = playing ? "Pause" : "Play";
-}
+// ---------------------------------------------------------------- time
 
 let before = null;
 function tick(now) {
-  if (state.playing && before !== null && DURATION > 0) {
-    const time = state.time + (state.speed * Math.min(now - before, 250)) / 1000;
-    setTime(time > DURATION ? 0 : time);
-  }
+  if (state.playing && before !== null) advance(Math.min(now - before, 250) / 1000);
   before = now;
   if (state.dirty) {
     state.dirty = false;
@@ -140,7 +140,7 @@ function zoomBy(factor) {
 
 function step(seconds) {
   setPlaying(false);
-  setTime(state.time + seconds);
+  seek(state.time + seconds);
 }
 
 const KEYS = {
@@ -149,6 +149,10 @@ const KEYS = {
   Home: () => step(-DURATION),
   End: () => step(DURATION),
   " ": () => setPlaying(!state.playing),
+  "[": () => seek(state.time - 5),
+  "]": () => seek(state.time + 5),
+  l: () => find("loop").click(),
+  m: () => find("sound").click(),
   "+": () => zoomBy(1.15),
   "-": () => zoomBy(1 / 1.15),
   f: () => find("follow").click(),
@@ -163,22 +167,24 @@ addEventListener("keydown", (event) => {
 });
 
 find("play").addEventListener("click", () => setPlaying(!state.playing));
-find("speed").addEventListener("change", (event) => { state.speed = Number(event.target.value); });
+find("speed").addEventListener("change", (event) => setSpeed(Number(event.target.value)));
 find("reset").addEventListener("click", () => { Object.assign(state, START, { dirty: true }); });
 find("follow").addEventListener("change", (event) => {
   Object.assign(state, { follow: event.target.checked, dirty: true });
 });
+find("loop").addEventListener("change", (event) => { state.loop = event.target.checked; });
+find("sound").addEventListener("change", (event) => { if (song) song.muted = !event.target.checked; });
+find("sound").parentElement.hidden = !song;
 scrub.max = DURATION;
 scrub.addEventListener("input", () => {
-  setPlaying(false);
-  setTime(Number(scrub.value));
+  seek(Number(scrub.value));
 });
 board.addEventListener("scroll", () => { state.dirty = true; });
 new ResizeObserver(arrange).observe(board);
 
-// `#t=1.5` opens the page paused at 1.5 seconds.
+// `#t=1.5` opens the page paused at 1.5 seconds. Browsers let no song start by itself.
 const wanted = /[#&]t=([\d.]+)/.exec(location.hash);
-if (wanted) setTime(Number(wanted[1]) || 0);
-setPlaying(!wanted && !matchMedia("(prefers-reduced-motion: reduce)").matches);
+if (wanted) seek(Number(wanted[1]) || 0);
+setPlaying(!wanted && !song && !matchMedia("(prefers-reduced-motion: reduce)").matches);
 arrange();
 requestAnimationFrame(tick);

@@ -43,7 +43,9 @@ function rows([w, x, y, z]) {
 
 const MOTIONS = DATA.motions.map((motion) => ({
   ...motion,
+  place: parents.map((_, joint) => motion.turning.indexOf(joint)), // -1: never turns
   quaternions: decode(motion.quaternions, Int16Array),
+  still: decode(motion.still, Int16Array),
   root: decode(motion.root, Float32Array),
   contacts: decode(motion.contacts, Uint8Array),
   seconds: (motion.frames - 1) / motion.fps,
@@ -55,9 +57,11 @@ function poseAt(motion, time) {
   const first = Math.floor(at), second = Math.min(first + 1, motion.frames - 1), t = at - first;
   const point = (frame) => motion.root.subarray(3 * frame, 3 * frame + 3);
   const positions = [mix([...point(first)], point(second), t)];
-  const turns = [], matrices = [];
+  const turns = [], matrices = [], stored = motion.turning.length;
   for (let joint = 0; joint < K; joint++) {
-    const local = between(motion.quaternions, 4 * (first * K + joint), 4 * (second * K + joint), t);
+    const place = motion.place[joint];
+    const local = place < 0 ? between(motion.still, 4 * joint, 4 * joint, 0) : between(
+      motion.quaternions, 4 * (first * stored + place), 4 * (second * stored + place), t);
     const above = parents[joint];
     if (above >= 0) {
       const m = matrices[above], o = offsets[joint], p = positions[above];
@@ -165,20 +169,38 @@ function drawFloor(context, view, pixel) {
   }
 }
 
-/** The pelvis path on the floor: pale as a whole, strong up to now. */
+const TAIL = 10; // seconds of path that are drawn strongly and in full
+const OUTLINE = 1500; // points of the pale path, however long it is
+
+/** The pelvis path on the floor: pale as a whole, the last seconds strong. */
 function drawTrail(context, view, motion, time, pixel) {
-  const { root, frames, fps } = motion;
+  const { frames, fps } = motion;
   const now = Math.min(time * fps, frames - 1);
-  const point = (frame) => [root[3 * frame], 0, root[3 * frame + 2]];
   context.lineJoin = context.lineCap = "round";
-  for (const [last, colour] of [[frames - 1, "rgba(200, 60, 90, 0.25)"], [now, "#c83c5a"]]) {
-    context.strokeStyle = colour;
-    context.lineWidth = 2.5 * pixel;
-    context.beginPath();
-    for (let frame = 0; frame < last; frame++) {
-      const share = Math.min(1, last - frame);
-      addLine(context, view, point(frame), mix(point(frame), point(frame + 1), share));
-    }
-    context.stroke();
+  context.lineWidth = 2.5 * pixel;
+  context.strokeStyle = "rgba(200, 60, 90, 0.25)";
+  context.beginPath();
+  addPath(context, view, motion, 0, frames - 1, Math.max(1, Math.floor(frames / OUTLINE)));
+  context.stroke();
+  const start = Math.max(0, Math.floor(now - TAIL * fps));
+  if (motion.beats) return drawBeatTrail(context, view, motion, start, now, pixel);
+  context.strokeStyle = "#c83c5a";
+  context.beginPath();
+  addPath(context, view, motion, start, now, 1);
+  context.stroke();
+}
+
+/** Add the path on the floor from one frame to another, in strides of some frames. */
+function addPath(context, view, motion, first, last, stride) {
+  for (let frame = first; frame < last; frame += stride) {
+    addLine(context, view, floorAt(motion, frame), floorAt(motion, Math.min(frame + stride, last)));
   }
+}
+
+/** The point of the floor under the pelvis at a frame, whole or not. */
+function floorAt({ root, frames }, frame) {
+  const at = Math.min(Math.max(frame, 0), frames - 1), i = Math.floor(at);
+  const j = Math.min(i + 1, frames - 1), t = at - i;
+  const along = (axis) => root[3 * i + axis] + t * (root[3 * j + axis] - root[3 * i + axis]);
+  return [along(0), 0, along(2)];
 }

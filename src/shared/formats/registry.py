@@ -1,8 +1,9 @@
 """Motion files out, by the ending of their name: one table of writers."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from src.shared.errors import UsageError, UserError
 from src.shared.motion.motion import Motion
 
 Exporter = Callable[[Motion, Path], Path]
+Writer = TypeVar("Writer")
 
 
 def _exporter(module: str, function: str) -> Exporter:
@@ -40,7 +42,7 @@ def write_motion(motion: Motion, path: str | Path) -> Path:
         UserError: the motion is empty or holds NaN, or the file cannot be written.
     """
     path = Path(path)
-    return _find(path.suffix.removeprefix("."), str(path))(motion, path)
+    return find_writer(EXPORTERS, path.suffix.removeprefix("."), str(path))(motion, path)
 
 
 def export_motion(
@@ -52,7 +54,7 @@ def export_motion(
         UsageError: an unknown format; nothing has been written then.
         UserError: the motion is empty or holds NaN, or a file cannot be written.
     """
-    writers = {name: _find(name, name) for name in formats}
+    writers = {name: find_writer(EXPORTERS, name, name) for name in formats}
     return {name: write(motion, Path(folder) / f"{stem}.{name}") for name, write in writers.items()}
 
 
@@ -69,11 +71,16 @@ def write_preview(motions: Sequence[Motion] | Motion, path: str | Path) -> Path:
     return write_html(motions, path)
 
 
-def _find(name: str, given: str) -> Exporter:
+def find_writer(writers: Mapping[str, Writer], name: str, given: str) -> Writer:
+    """The writer of a format in a table; `given` is what the user wrote.
+
+    Raises:
+        UsageError: no format has this name.
+    """
     try:
-        return EXPORTERS[name.lower()]
+        return writers[name.lower()]
     except KeyError:
-        known = ", ".join(EXPORTERS)
+        known = ", ".join(writers)
         raise UsageError(f"{given}: {name!r} is not a format; choose from {known}") from None
 
 
