@@ -18,6 +18,12 @@ from src.shared.files import atomic_write, write_json
 _STALE_SECONDS = 3600.0  # an unfinished file that old was left by a killed process
 
 
+def default_cache() -> Path:
+    """Where downloads are kept."""
+    base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
+    return Path(base) / "motionsuite" / "phrases"
+
+
 class ObjectCache:
     """Content-addressed files in `folder`.
 

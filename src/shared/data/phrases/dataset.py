@@ -4,7 +4,6 @@ B batch, T frames (30 a second), C = 163 rows of sound, or 167 with beat and bar
 """
 
 import hashlib
-import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,17 +13,14 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.data.phrases.cache import ObjectCache
+from src.shared.data.phrases.cache import ObjectCache, default_cache
 from src.shared.data.phrases.layout import (
-    MANIFEST,
     BadContent,
     PhraseRecord,
     common_length,
     decode_features,
     decode_trajectory,
-    parse_manifest,
     phase_rows,
-    phrases_of_listing,
 )
 from src.shared.data.phrases.prefetch import EpochIterator, ahead
 from src.shared.data.phrases.quarantine import Quarantine
@@ -81,7 +77,8 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
         target_frames: T; shorter phrases are padded with zeros, longer ones give a window.
         cache_in_memory: keep decoded phrases.
         split: of the manifest; None is all.
-        beat_phase: 167 rows instead of 163; None does what the first usable phrase can do.
+        beat_phase: add the four rows of beat and bar phase where features.npz holds `phase`
+            (unwrapped bars) and `meter`; `collate` fills zeros, "unknown", where others do not.
         encode: trajectory [T,25] and unwrapped bars [T] -> window [25,T]; `encode_window`.
         cache_dir: for downloads and the quarantine list; default `~/.cache/motionsuite/phrases`.
         cache_bytes: limit of the downloads kept; None keeps all.
@@ -103,7 +100,7 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
         target_frames: int = 120,
         cache_in_memory: bool = True,
         split: str | None = None,
-        beat_phase: bool | None = None,
+        beat_phase: bool = True,
         encode: Encode | None = None,
         cache_dir: Path | None = None,
         cache_bytes: int | None = None,
@@ -122,7 +119,7 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
         cache_dir = cache_dir or default_cache()
         cache = None if remote.local else ObjectCache(cache_dir, max_bytes=cache_bytes)
         self.store = PhraseStore(remote, cache)
-        everything = _list_phrases(remote)
+        everything = remote.phrases()
         self.phrases = [p for p in everything if split in (None, p.split)][:num_phrases]
         if not self.phrases:
             splits = ", ".join(sorted({phrase.split for phrase in everything})) or "none"
@@ -137,7 +134,7 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
         self._memory: dict[str, _Phrase] | None = {} if cache_in_memory else None
         self._order = (-1, np.empty(0, np.int64))
         self.epoch_number = 0
-        self.beat_phase = self._has_phase() if beat_phase is None else beat_phase
+        self.beat_phase = beat_phase
 
     @property
     def phrase_ids(self) -> list[str]:
@@ -217,20 +214,10 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
         sound = self.store.load(record.features, decode_features)
         frames = common_length(trajectory, sound)
         audio = sound.stacked[:, :frames]
-        if self.beat_phase:
-            if sound.phase is None:
-                raise BadContent(f"{record.features.path}: no phase and meter, others have them")
+        if self.beat_phase and sound.phase is not None:
             audio = np.concatenate([audio, phase_rows(sound.phase[:frames], sound.meter)])
         phase = np.unwrap(trajectory[:frames, _PHASE].astype(np.float64), period=1.0)
         return _Phrase(trajectory[:frames], phase, audio)
-
-    def _has_phase(self) -> bool:
-        for record in self.phrases:
-            try:
-                return self.store.load(record.features, decode_features).phase is not None
-            except (BadContent, Unreachable):
-                continue  # named when its turn comes
-        return False
 
     # ------------------------------------------------------------ epochs and batches
 
@@ -270,10 +257,12 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
 
 
 def collate(items: Sequence[PhraseItem]) -> PhraseBatch:
-    """Items as one batch."""
+    """Items as one batch; C is that of the item with most."""
+    rows = max(len(item.audio) for item in items)
+    audio = [torch.nn.functional.pad(i.audio, (0, 0, 0, rows - len(i.audio))) for i in items]
     return PhraseBatch(
         motion=torch.stack([item.motion for item in items]),
-        audio=torch.stack([item.audio for item in items]),
+        audio=torch.stack(audio),
         mask=torch.stack([item.mask for item in items]),
         records=[item.record for item in items],
     )
@@ -301,28 +290,7 @@ def motion_statistics(
     return torch.from_numpy(mean).float(), torch.from_numpy(std).float()
 
 
-def default_cache() -> Path:
-    """Where downloads are kept."""
-    base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    return Path(base) / "motionsuite" / "phrases"
-
-
 def _encode_window(trajectory: np.ndarray, phase: np.ndarray) -> np.ndarray:
     from src.shared.motion.window import encode_window
 
     return encode_window(trajectory, phase)
-
-
-def _list_phrases(remote: Remote) -> list[PhraseRecord]:
-    """Phrases of the manifest, or of the listing where there is none, sorted by name."""
-    try:
-        try:
-            phrases = parse_manifest(remote.read(MANIFEST), f"{remote.root}/{MANIFEST}")
-        except FileNotFoundError:
-            phrases = phrases_of_listing(remote.listing())
-    except (OSError, Unreachable) as error:
-        raise UserError(
-            f"cannot read {remote.root}: {error}; check the address and your credentials"
-            " (GOOGLE_APPLICATION_CREDENTIALS for gs://)"
-        ) from error
-    return sorted(phrases, key=lambda phrase: phrase.id)

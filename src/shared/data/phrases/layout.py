@@ -7,7 +7,6 @@ flipped bit in an npy file loads without an error.
 
 import hashlib
 import io
-import zipfile
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,20 +15,12 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel, ValidationError
 
+from src.shared.audio.features import AudioFeatures
 from src.shared.errors import UserError
 from src.shared.files import atomic_write, sha256_file, write_text
 
 MANIFEST = "manifest.json"
-FEATURE_ROWS = {
-    "mel": 128,
-    "chroma": 12,
-    "mfcc": 20,
-    "rms": 1,
-    "spectral_centroid": 1,
-    "onset_strength": 1,
-}  # in the order of TECH §4.3: 163 rows
 MIN_FRAMES = 8  # what the UNet takes at least (ruling 4)
-_TRAJECTORY_CHANNELS = 25
 _LARGEST = 1e4  # metres, m/s, ...: beyond is a flipped exponent bit
 _LENGTH_TOLERANCE = 30  # frames by which motion and sound may differ
 
@@ -189,15 +180,15 @@ def decode_trajectory(data: bytes) -> np.ndarray:
         BadContent: not an array of that shape, values not finite or out of any range.
     """
     try:
-        values = np.load(io.BytesIO(data), allow_pickle=False)
-    except (ValueError, OSError, EOFError, SyntaxError) as error:
+        values = np.lib.format.read_array(io.BytesIO(data), allow_pickle=False)
+    except Exception as error:  # NumPy raises a dozen kinds for a damaged header
         raise BadContent(f"not an npy file ({error})") from error
-    if values.ndim != 2 or values.shape[1] != _TRAJECTORY_CHANNELS:
+    if values.ndim != 2 or values.shape[1] != 25:
         raise BadContent(f"a trajectory is [T, 25], this is {list(values.shape)}")
     _require_usable("trajectory", values)
-    norms = np.linalg.norm(values[:, 9:13], axis=1)
-    if np.abs(norms - 1).max() > 0.01:
-        raise BadContent(f"a quaternion has length {norms[np.abs(norms - 1).argmax()]:.3g}")
+    lengths = np.linalg.norm(values[:, 9:13], axis=1)
+    if (np.abs(lengths - 1) > 0.01).any():
+        raise BadContent(f"a quaternion has length {lengths[np.abs(lengths - 1).argmax()]:.3g}")
     return values.astype(np.float32)
 
 
@@ -209,24 +200,21 @@ def decode_features(data: bytes) -> SoundContent:
     """
     try:
         with np.load(io.BytesIO(data), allow_pickle=False) as file:
-            wanted = {*FEATURE_ROWS, "phase", "meter"} & set(file.files)
-            arrays = {name: file[name] for name in wanted}
-    except (ValueError, OSError, EOFError, zipfile.BadZipFile, zipfile.LargeZipFile) as error:
+            arrays = {name: file[name] for name in file.files}
+        features = AudioFeatures.from_arrays(arrays, "features.npz")
+        known = "phase" in arrays and "meter" in arrays
+        phase = arrays["phase"].astype(np.float64) if known else None
+        meter = int(arrays["meter"]) if known else 0
+    except UserError as error:
+        raise BadContent(str(error)) from error
+    except Exception as error:  # likewise
         raise BadContent(f"not an npz file ({error})") from error
-    if missing := [name for name in FEATURE_ROWS if name not in arrays]:
-        raise BadContent(f"features without {', '.join(missing)}")
-    frames = arrays["mel"].shape[-1]
-    rows = []
-    for name, height in FEATURE_ROWS.items():
-        if arrays[name].size != height * frames or arrays[name].shape[-1:] != (frames,):
-            raise BadContent(f"{name} is {list(arrays[name].shape)}, not [{height}, {frames}]")
-        _require_usable(name, arrays[name])
-        rows.append(arrays[name].reshape(height, frames))
-    phase = arrays.get("phase") if "meter" in arrays else None
+    for name, values in features.arrays().items():
+        _require_usable(name, values)
+    frames = features.num_frames
     if phase is not None and (phase.shape != (frames,) or not np.isfinite(phase).all()):
         raise BadContent(f"phase {list(phase.shape)} is not [{frames}] finite values")
-    meter = int(arrays["meter"]) if phase is not None else 0
-    return SoundContent(np.concatenate(rows).astype(np.float32), phase, meter)
+    return SoundContent(features.stack(), phase, meter)
 
 
 def _require_usable(name: str, values: np.ndarray) -> None:

@@ -33,12 +33,8 @@ class Quarantine:
         self.path, self.root, self.max_bad_fraction = path, root, max_bad_fraction
         self._keys = {phrase.id: phrase.key for phrase in phrases}
         self._lock = threading.Lock()
-        saved = self._read()
-        self.reasons: dict[str, str] = {
-            phrase: entry["reason"]
-            for phrase, entry in saved.items()
-            if self._keys.get(phrase) == entry["key"]
-        }
+        self.reasons: dict[str, str] = {}
+        self._learn(self._read())
         self._require_few()
 
     def __contains__(self, phrase: str) -> bool:
@@ -54,7 +50,7 @@ class Quarantine:
             self.reasons[phrase.id] = reason
             if keep:
                 self._save(phrase, reason)
-        self._require_few()
+            self._require_few()
 
     def _read(self) -> dict[str, dict[str, str]]:
         try:
@@ -70,6 +66,12 @@ class Quarantine:
         with FileLock(self.path.with_suffix(".lock")):
             entries = self._read() | {phrase.id: {"reason": reason, "key": phrase.key}}
             write_json(self.path, {"root": self.root, "phrases": entries})
+        self._learn(entries)  # what other processes found meanwhile
+
+    def _learn(self, entries: dict[str, dict[str, str]]) -> None:
+        for phrase, entry in entries.items():
+            if self._keys.get(phrase) == entry["key"]:
+                self.reasons[phrase] = entry["reason"]
 
     def _require_few(self) -> None:
         bad, total = sorted(self.reasons.items()), len(self._keys)

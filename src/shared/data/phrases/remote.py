@@ -1,6 +1,5 @@
 """A folder or bucket read through fsspec, with patience for a network that fails now and then."""
 
-import asyncio
 import base64
 import os
 import random
@@ -9,19 +8,25 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
-from src.shared.data.phrases.layout import StoredObject
+from src.shared.data.phrases.layout import (
+    MANIFEST,
+    PhraseRecord,
+    StoredObject,
+    parse_manifest,
+    phrases_of_listing,
+)
 from src.shared.errors import UsageError, UserError
 
 Result = TypeVar("Result")
 
-_NETWORK_LIBRARIES = {"aiohttp", "aiobotocore", "botocore", "gcsfs", "google", "requests"}
+_LIBRARIES = {"aiohttp", "aiobotocore", "botocore", "gcsfs", "google", "requests"}
 _TRANSIENT_STATUS = {408, 429}  # of those below 500
 _VERSION_MARKS = ("generation", "etag", "ETag", "md5Hash", "mtime", "created", "LastModified")
 _EXTRAS = {"gs": "gcs", "gcs": "gcs", "s3": "s3", "s3a": "s3"}
 
 
 class Unreachable(Exception):
-    """The network failed for as long as we were patient; the object itself may be fine."""
+    """Not allowed, or the network failed too often; the object itself may be fine."""
 
 
 @dataclass(frozen=True)
@@ -46,34 +51,37 @@ class Backoff:
         """`action`'s result, after transient errors tried again.
 
         Raises:
-            Unreachable: it kept failing.
+            FileNotFoundError: at once.
+            Unreachable: it kept failing, or is not allowed.
         """
         end = time.monotonic() + self.patience
-        for attempt in range(self.attempts):
+        for attempt in range(1, self.attempts + 1):
             try:
                 return action()
+            except FileNotFoundError:
+                raise
             except Exception as error:
-                if not is_transient(error):
+                if not is_of_storage(error):
                     raise
-                if attempt + 1 == self.attempts or time.monotonic() > end:
+                last = attempt == self.attempts or time.monotonic() > end
+                if last or not is_transient(error):
                     reason = f"{type(error).__name__}: {error}"
-                    raise Unreachable(f"{what}: {reason} ({attempt + 1} attempts)") from error
-            self.sleep(min(self.longest, self.first * 2**attempt) * random.uniform(0.5, 1.0))
+                    raise Unreachable(f"{what}: {reason} ({attempt} attempts)") from error
+            self.sleep(min(self.longest, self.first * 2 ** (attempt - 1)) * random.uniform(0.5, 1))
         raise AssertionError("attempts is at least 1")
 
 
+def is_of_storage(error: Exception) -> bool:
+    """Whether an error comes from storage or the network, not from a mistake of ours."""
+    return isinstance(error, OSError) or type(error).__module__.split(".")[0] in _LIBRARIES
+
+
 def is_transient(error: Exception) -> bool:
-    """Whether it is worth trying again: timeouts, broken connections, 408, 429 and 5xx."""
-    if isinstance(error, TimeoutError | asyncio.TimeoutError | ConnectionError):
-        return True
-    if isinstance(error, FileNotFoundError | PermissionError | IsADirectoryError):
-        return False
-    status = getattr(error, "code", None) or getattr(error, "status", None)
-    if isinstance(status, int | str) and str(status).isdigit():
+    """Whether an error of storage is worth another try: timeouts, broken connections, 5xx."""
+    status = str(getattr(error, "code", None) or getattr(error, "status", None) or "")
+    if status.isdigit():
         return int(status) >= 500 or int(status) in _TRANSIENT_STATUS
-    if isinstance(error, OSError):
-        return "Forbidden" not in str(error)
-    return type(error).__module__.split(".")[0] in _NETWORK_LIBRARIES
+    return not isinstance(error, PermissionError) and "Forbidden" not in str(error)
 
 
 class Remote:
@@ -121,7 +129,7 @@ class Remote:
 
         Raises:
             FileNotFoundError: it does not exist.
-            Unreachable: the network kept failing.
+            Unreachable: see `Backoff.run`.
         """
         from fsspec.asyn import sync
 
@@ -144,6 +152,24 @@ class Remote:
             path: StoredObject(path=path, size=info["size"], version=_version(info), md5=_md5(info))
             for path, info in names.items()
         }
+
+    def phrases(self) -> list[PhraseRecord]:
+        """Phrases of the manifest, or of the listing where there is none, sorted by name.
+
+        Raises:
+            UserError: the manifest is broken, or nothing can be read.
+        """
+        try:
+            try:
+                found = parse_manifest(self.read(MANIFEST), f"{self.root}/{MANIFEST}")
+            except FileNotFoundError:
+                found = phrases_of_listing(self.listing())
+        except (FileNotFoundError, Unreachable) as error:
+            raise UserError(
+                f"cannot read {self.root}: {error}; check the address and your credentials"
+                " (GOOGLE_APPLICATION_CREDENTIALS for gs://)"
+            ) from error
+        return sorted(found, key=lambda phrase: phrase.id)
 
     def stored(self, path: str) -> tuple[int, str]:
         """What the store itself says now: size and hex MD5 ("" where it tells none)."""

@@ -54,7 +54,6 @@ def test_a_bucket_with_each_kind_of_fault(proxy: FaultProxy, tmp_path: Path) -> 
             encode=plain_encode,
             storage_options=options(proxy.address),
             max_bad_fraction=0.5,
-            beat_phase=True,
         )
         return sorted(item.record.id for item in data.epoch()), data.report()
 

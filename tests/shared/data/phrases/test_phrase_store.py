@@ -13,7 +13,7 @@ import pytest
 from src.shared.data.phrases.cache import ObjectCache
 from src.shared.data.phrases.dataset import MotionPhraseDataset
 from src.shared.data.phrases.layout import StoredObject, features_path, trajectory_path
-from src.shared.data.phrases.remote import Backoff, Remote, Unreachable, is_transient
+from src.shared.data.phrases.remote import Backoff, Remote, Unreachable
 from src.shared.errors import UserError
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -39,7 +39,6 @@ def open_bucket(cache: Path, **settings: Any) -> MotionPhraseDataset:
         "max_bad_fraction": 0.5,
         "backoff": no_wait(),
         "threads": 3,
-        "beat_phase": True,
     } | settings
     return MotionPhraseDataset(ROOT, cache_dir=cache, **settings)
 
@@ -205,23 +204,34 @@ class _Status(Exception):
         self.code = code
 
 
+_Status.__module__ = "gcsfs.retry"
+
+
 @pytest.mark.parametrize(
-    ("error", "transient"),
+    ("error", "attempts"),
     [
-        (TimeoutError(), True),
-        (BrokenPipeError(), True),
-        (_Status(503), True),
-        (_Status("429"), True),
-        (_Status(400), False),
-        (FileNotFoundError(), False),
-        (PermissionError(), False),
-        (OSError("Forbidden: gs://x"), False),
-        (OSError(5, "Input/output error"), True),
-        (KeyError("a mistake of ours"), False),
+        (TimeoutError(), 4),
+        (BrokenPipeError(), 4),
+        (OSError(5, "Input/output error"), 4),
+        (_Status(503), 4),
+        (_Status("429"), 4),
+        (_Status(400), 1),
+        (PermissionError(), 1),
+        (OSError("Forbidden: gs://x"), 1),
     ],
 )
-def test_which_errors_are_transient(error: Exception, transient: bool) -> None:
-    assert is_transient(error) is transient
+def test_what_is_tried_again(bucket: FlakyFileSystem, error: Exception, attempts: int) -> None:
+    fail(bucket, "manifest.json", *[error] * 9)
+    with pytest.raises(Unreachable, match=rf"manifest.json: .* \({attempts} attempts\)"):
+        Remote(ROOT, backoff=no_wait(attempts=4)).read("manifest.json")
+
+
+def test_mistakes_and_missing_objects_pass_through(bucket: FlakyFileSystem) -> None:
+    fail(bucket, "manifest.json", KeyError("a mistake of ours"))
+    with pytest.raises(KeyError):
+        Remote(ROOT, backoff=no_wait()).read("manifest.json")
+    with pytest.raises(FileNotFoundError):
+        Remote(ROOT, backoff=no_wait()).read("nothing.json")
 
 
 def test_patience_ends(bucket: FlakyFileSystem) -> None:
