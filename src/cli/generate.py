@@ -1,32 +1,44 @@
-"""`generate`: prompts in, motion files out."""
+"""`generate`: prompts or a song in, motion files out."""
 
-import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from src.cli import options
+from src.cli import generate_audio, options
 from src.cli.guard import complain
+from src.cli.stopwatch import Stopwatch
 from src.shared.errors import UsageError
 
 if TYPE_CHECKING:
     from src.shared.motion.motion import Motion
 
 FORMATS = ("bvh", "glb", "npz", "html")
+MODEL = "starter"
 
 
 def generate(
     prompt: Annotated[
         list[str] | None, typer.Option(help="What the character does; repeat for several.")
     ] = None,
+    audio: Annotated[
+        Path | None, typer.Option(help="A song instead: wav, flac, ogg or mp3.")
+    ] = None,
+    style: Annotated[
+        str | None, typer.Option(help='How to move to the song, e.g. "tired, elderly".')
+    ] = None,
+    meter: Annotated[
+        int | None, typer.Option(help="Beats in a bar of the song: 3 for a waltz; 4.")
+    ] = None,
     tag: Annotated[
         list[str] | None,
         typer.Option(help="Action label beside the prompt: one for all, or one a prompt."),
     ] = None,
-    seconds: Annotated[float, typer.Option(help="Length of each motion.")] = 4.0,
-    num_samples: Annotated[int, typer.Option(help="Motions for each prompt.")] = 1,
+    seconds: Annotated[
+        float | None, typer.Option(help="Length of each motion: 4 for a prompt, all of a song.")
+    ] = None,
+    num_samples: Annotated[int, typer.Option(help="Motions for each prompt or song.")] = 1,
     seed: Annotated[int, typer.Option(help="Same seed, same motions (on the CPU).")] = 0,
     steps: options.Steps = None,
     sampler: options.Sampler = None,
@@ -36,42 +48,69 @@ def generate(
         typer.Option("--foot-lock/--no-foot-lock", help="Hold feet still while they stand."),
     ] = None,
     format: Annotated[
-        str, typer.Option(help="Any of bvh, glb, npz, html, with commas between.")
-    ] = "bvh,glb,npz,html",
+        str | None,
+        typer.Option(
+            help="With commas between: bvh, glb, npz, html for a prompt;"
+            " npz, csv, glb, html, png for a song."
+        ),
+    ] = None,
     out: Annotated[Path, typer.Option(help="Folder for the files.")] = Path("outputs"),
-    model: options.Model = "starter",
+    model: Annotated[
+        str | None, typer.Option(help="A name that `models` lists, or a folder from training.")
+    ] = None,
     device: options.Device = "auto",
     threads: options.Threads = None,
     json: options.Json = False,
 ) -> None:
-    """Turn prompts into motion files.
+    """Turn prompts, or a song, into motion files.
 
     \b
-    Example:
+    Examples:
       motion-tools generate --prompt "a person walks forward" --prompt "saluda con la mano"
+      motion-tools generate --audio song.mp3
     """
     options.check_ranges(
-        seconds=seconds,
+        **{"song_seconds" if audio else "seconds": seconds},
+        meter=meter,
         num_samples=num_samples,
         seed=seed,
         steps=steps,
         guidance_scale=guidance_scale,
         threads=threads,
     )
-    wanted = {
-        "prompts": checked_prompts(prompt),
-        "tags": checked_tags(tag, len(prompt or ())),
-        "seconds": seconds,
+    shared = {
         "num_samples": num_samples,
         "seed": seed,
         "steps": steps,
         "sampler": sampler,
         "guidance_scale": guidance_scale,
-        "foot_lock": foot_lock,
     }
-    formats = checked_formats(format)
     options.check_folder("--out", out)
-    result = produce(wanted, formats, out, model=model, device=device, threads=threads)
+    if audio is not None:
+        refuse_with("--audio", prompt=prompt, tag=tag, foot_lock=foot_lock)
+        generate_audio.check_song(audio)
+        wanted: dict[str, Any] = {"audio": audio, "meter": meter, "seconds": seconds, "style": style}
+        formats = checked_formats(format or "npz,glb,html", generate_audio.FORMATS)
+        result = generate_audio.produce_song(
+            wanted | {"sampling": shared},
+            formats,
+            out,
+            model=model or generate_audio.MODEL,
+            device=device,
+            threads=threads,
+        )
+        generate_audio.warn_of_beats(result)
+    else:
+        refuse_with("--prompt", style=style, meter=meter)
+        wanted = shared | {
+            "prompts": checked_prompts(prompt),
+            "tags": checked_tags(tag, len(prompt or ())),
+            "seconds": seconds or 4.0,
+            "foot_lock": foot_lock,
+        }
+        formats = checked_formats(format or ",".join(FORMATS), FORMATS)
+        model = model or MODEL
+        result = produce(wanted, formats, out, model=model, device=device, threads=threads)
     if json:
         print_json(result)
     else:
@@ -110,24 +149,6 @@ def produce(
     return about | {"motions": rows, "index": index, "timings": clock.seconds()}
 
 
-class Stopwatch:
-    """Seconds by part, and in all."""
-
-    def __init__(self) -> None:
-        self.started = self.last = time.perf_counter()
-        self.laps: dict[str, float] = {}
-
-    def lap(self, name: str) -> None:
-        """End the part that began with the last lap."""
-        now = time.perf_counter()
-        self.laps[name], self.last = now - self.last, now
-
-    def seconds(self) -> dict[str, float]:
-        """Every part and the total, to the millisecond."""
-        parts = self.laps | {"total": self.last - self.started}
-        return {name: round(value, 3) for name, value in parts.items()}
-
-
 # ---------------------------------------------------------------- arguments
 
 
@@ -153,14 +174,21 @@ def checked_tags(tags: list[str] | None, num_prompts: int) -> list[str | None] |
     return list(tags)
 
 
-def checked_formats(text: str) -> list[str]:
+def refuse_with(flag: str, **others: Any) -> None:
+    """Refuse options that mean nothing beside this one."""
+    for name, value in others.items():
+        if value:
+            raise UsageError(f"--{name.replace('_', '-')} does not go with {flag}; leave one out")
+
+
+def checked_formats(text: str, known: Sequence[str]) -> list[str]:
     """The wanted formats, each once, before anything slow starts."""
     names = list(dict.fromkeys(part.strip().lower() for part in text.split(",") if part.strip()))
-    unknown = [name for name in names if name not in FORMATS]
+    unknown = [name for name in names if name not in known]
     if unknown or not names:
         raise UsageError(
             f"--format {text!r}: {', '.join(map(repr, unknown)) or 'nothing'} is not a format"
-            f" written here; choose from {', '.join(FORMATS)}"
+            f" written here; choose from {', '.join(known)}"
         )
     return names
 

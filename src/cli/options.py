@@ -21,6 +21,8 @@ GuidanceScale = Annotated[
 
 RANGES = {
     "--seconds": (0.3, 60.0),
+    "--song-seconds": (1.0, 7200.0),
+    "--meter": (2, 12),
     "--num-samples": (1, 100_000),
     "--seed": (0, 2**63 - 1),
     "--steps": (1, 10_000),
@@ -43,6 +45,7 @@ def check_ranges(**values: float | None) -> None:
         flag = "--" + name.replace("_", "-")
         low, high = RANGES[flag]
         if value is not None and not low <= value <= high:
+            flag = flag.replace("song-", "")
             raise UsageError(f"{flag} {value:g} is out of range; choose from {low:g} to {high:g}")
 
 

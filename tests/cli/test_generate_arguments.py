@@ -55,7 +55,7 @@ def test_unknown_format_is_told_before_the_model_loads() -> None:
 
 
 def test_formats_are_taken_once_each_in_the_order_given() -> None:
-    assert command.checked_formats(" GLB,bvh,glb ") == ["glb", "bvh"]
+    assert command.checked_formats(" GLB,bvh,glb ", command.FORMATS) == ["glb", "bvh"]
 
 
 def test_one_tag_serves_all_prompts() -> None:

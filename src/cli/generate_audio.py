@@ -1,0 +1,135 @@
+"""`generate --audio`: a song in, trajectory files out."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from src.cli.guard import complain
+from src.cli.stopwatch import Stopwatch
+from src.shared.errors import UsageError
+
+if TYPE_CHECKING:
+    from src.shared.inference.song_generator import SongMotions
+
+FORMATS = ("npz", "csv", "glb", "html", "png")
+MODEL = "starter-audio"
+
+
+def check_song(path: Path) -> None:
+    """Refuse what is no file before anything slow starts."""
+    if not path.is_file():
+        raise UsageError(f"--audio {path}: no such file; name a wav, flac, ogg or mp3 file")
+
+
+def produce_song(
+    wanted: dict[str, Any],
+    formats: list[str],
+    out: Path,
+    *,
+    model: str,
+    device: str,
+    threads: int | None,
+) -> dict[str, Any]:
+    """Load, listen, sample, write; says which trajectory lies in which files and the times.
+
+    Args:
+        wanted: audio, meter, seconds, style; under `sampling`, what `SampleSettings` takes.
+        formats: any of `FORMATS`.
+        out: folder for the files.
+        model: name or folder.
+        device: auto, cpu, cuda or mps.
+        threads: CPU threads; None = torch's choice.
+    """
+    clock = Stopwatch()
+    from src.shared.audio.song import analyse
+    from src.shared.device import set_threads
+    from src.shared.inference.song_generator import SongGenerator, SongMotions, heard
+    from src.shared.inference.song_sampler import SampleSettings
+
+    clock.lap("import")
+    style = styled(wanted["style"])
+    set_threads(threads)
+    generator = SongGenerator.from_pretrained(model, device=device)
+    clock.lap("load")
+    song = analyse(wanted["audio"], meter=wanted["meter"])
+    condition, phase = heard(song, wanted["seconds"])
+    clock.lap("listen")
+    settings = SampleSettings(**wanted["sampling"])
+    with progress_bar(condition.shape[1]) as progress:
+        made = generator.generate(
+            condition, phase=phase, style=style, settings=settings, progress=progress
+        )
+    clock.lap("sample")
+    rows = write_trajectories(SongMotions(made, song), wanted["audio"], formats, out)
+    clock.lap("write")
+    about = {
+        "audio": str(wanted["audio"]),
+        "tempo": round(song.beats.tempo, 2),
+        "meter": song.beats.meter,
+        "beats": len(song.beats.beat_times),
+        "model": model,
+        "device": str(generator.device),
+        "seed": settings.seed,
+    }
+    return about | {"motions": rows, "index": None, "timings": clock.seconds()}
+
+
+def styled(text: str | None) -> Any:
+    """The style vector of `--style`, None without it."""
+    if text is None:
+        return None
+    from src.shared.motion.style import named_style
+
+    return named_style(text)
+
+
+@contextmanager
+def progress_bar(num_frames: int) -> Iterator[Callable[[int, int], None]]:
+    """Shown on stderr, if that is a screen; its value is told (frames done, frames in all)."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("frames", total=num_frames)
+        yield lambda done, total: bar.update(task, completed=done)
+
+
+def write_trajectories(
+    made: "SongMotions", audio: Path, formats: list[str], out: Path
+) -> list[dict[str, Any]]:
+    """Post-process and write every trajectory; a row of facts and paths for each."""
+    from src.shared.formats.trajectory_beats import SongTrack
+    from src.shared.formats.trajectory_registry import export_trajectory
+    from src.shared.motion.trajectory import MotionTrajectory
+    from src.shared.motion.trajectory_postprocess import MotionPostProcessor
+
+    beats = made.song.beats
+    known = beats.tempo > 0
+    track = SongTrack(
+        audio,
+        beats.beat_times if known else None,
+        beats.downbeat_times if known else None,
+        beats.meter,
+    )
+    processor = MotionPostProcessor()
+    rows = []
+    for index, raw in enumerate(made.trajectories):
+        trajectory = MotionTrajectory(processor.process(raw.data), raw.fps)
+        stem = audio.stem if index == 0 else f"{audio.stem}-{index + 1}"
+        paths = export_trajectory(trajectory, out, stem, formats, track, title=stem)
+        rows.append(
+            {
+                "sample": index,
+                "frames": trajectory.num_frames,
+                "fps": trajectory.fps,
+                "files": {name: str(path) for name, path in paths.items()},
+            }
+        )
+    return rows
+
+
+def warn_of_beats(result: dict[str, Any]) -> None:
+    """Say so when there was nothing to keep time with."""
+    if result["tempo"] == 0:
+        complain(f"note: no beat was found in {result['audio']}; the motion keeps its own time")

@@ -1,0 +1,116 @@
+"""SongGenerator: a song in, trajectories out; the audio side of generation (TECH 8.2).
+
+Letters: T frames.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Self
+
+import numpy as np
+import torch
+
+from src.shared.audio.song import Song, analyse
+from src.shared.data.phrases.layout import phase_rows
+from src.shared.device import choose_device
+from src.shared.errors import UserError
+from src.shared.inference.song_sampler import Progress, SampleSettings, SongSampler
+from src.shared.model.audio.audio_motion_model import AudioMotionModel
+from src.shared.motion.trajectory import FPS, MotionTrajectory
+
+
+@dataclass(frozen=True)
+class SongMotions:
+    """Trajectories of one song, and the song as it was heard."""
+
+    trajectories: list[MotionTrajectory]
+    song: Song
+
+
+class SongGenerator:
+    """A trained audio branch.
+
+    Args:
+        model: trained.
+        device: auto, cuda, mps or cpu.
+    """
+
+    def __init__(self, model: AudioMotionModel, *, device: str | None = None) -> None:
+        self.device = torch.device(choose_device(device or "auto")[0])
+        self.model = model.to(self.device).eval()
+
+    @classmethod
+    def from_pretrained(cls, name_or_folder: str | Path, *, device: str | None = None) -> Self:
+        """By the name of shipped weights, or a folder that training wrote.
+
+        Raises:
+            UserError: no such model, another kind, damaged, or never trained.
+        """
+        model = AudioMotionModel.from_pretrained(name_or_folder)
+        if not model.card.trained:
+            raise UserError(f"{name_or_folder} is untrained: train it with src.train.train_audio")
+        return cls(model, device=device)
+
+    def generate(
+        self,
+        audio_features: np.ndarray | torch.Tensor,
+        *,
+        phase: np.ndarray | None = None,
+        style: np.ndarray | None = None,
+        settings: SampleSettings | None = None,
+        progress: Progress | None = None,
+    ) -> list[MotionTrajectory]:
+        """Trajectories from features [163 or 167, T]; see `SongSampler.stream`."""
+        condition = torch.as_tensor(audio_features).float()
+        sampler = SongSampler(self.model, settings)
+        return sampler.sample(condition, phase=phase, style=style, progress=progress)
+
+    def generate_from_audio(
+        self,
+        path: str | Path,
+        *,
+        meter: int | None = None,
+        seconds: float | None = None,
+        style: np.ndarray | None = None,
+        settings: SampleSettings | None = None,
+        progress: Progress | None = None,
+    ) -> SongMotions:
+        """Trajectories for a sound file.
+
+        Args:
+            path: wav, flac, ogg or mp3 of 1 s or more.
+            meter: beats a bar; None = 4.
+            seconds: only the first so many; None = all.
+            style: [8] unit, see `src.shared.motion.style`; None = the model's choice.
+
+        Raises:
+            UserError: the file cannot be used.
+        """
+        song = analyse(path, meter=meter)
+        condition, phase = heard(song, seconds)
+        made = self.generate(
+            condition, phase=phase, style=style, settings=settings, progress=progress
+        )
+        return SongMotions(made, song)
+
+    def stream(
+        self,
+        song: Song,
+        *,
+        style: np.ndarray | None = None,
+        settings: SampleSettings | None = None,
+    ) -> Iterator[list[MotionTrajectory]]:
+        """Pieces that follow each other, one a sample, as soon as they are settled."""
+        condition, phase = heard(song, None)
+        yield from SongSampler(self.model, settings).stream(condition, phase=phase, style=style)
+
+
+def heard(song: Song, seconds: float | None) -> tuple[torch.Tensor, np.ndarray | None]:
+    """Condition [167,T] and bars [T] of the first `seconds`; no bars where no beat was found."""
+    frames = song.num_frames if seconds is None else min(song.num_frames, round(seconds * FPS))
+    rows, phase = song.features.stack()[:, :frames], song.phase[:frames]
+    if song.beats.tempo <= 0:
+        return torch.from_numpy(np.pad(rows, ((0, 4), (0, 0)))), None
+    beat = phase_rows(phase, song.beats.meter)
+    return torch.from_numpy(np.concatenate([rows, beat])), phase
