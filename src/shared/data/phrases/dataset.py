@@ -157,10 +157,11 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
 
     def __getitem__(self, index: int) -> tuple[Tensor, Tensor]:
         """Motion [25,T] and audio_cond [C,T] (TECH §6.1)."""
-        record = self.phrases[index]  # IndexError ends a plain for loop
+        index = range(len(self))[index]  # -1 is the last; IndexError ends a plain for loop
         item = self.item(index, self.epoch_number)
         if item is None:
-            raise BadContent(f"{record.id} is in quarantine: {self.quarantine.reasons[record.id]}")
+            name = self.phrases[index].id
+            raise BadContent(f"{name} is in quarantine: {self.quarantine.reasons[name]}")
         return item.motion, item.audio
 
     def __getitems__(self, indices: Sequence[int]) -> list[tuple[Tensor, Tensor]]:

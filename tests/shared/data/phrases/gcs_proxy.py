@@ -56,6 +56,7 @@ class FaultProxy:
 
     Attributes:
         busy: downloads to answer with 503 before the object is let through, by object name.
+        cut: downloads whose connection ends half way, by object name.
         damage: changes to an object's bytes at every download, by object name.
         asked: downloads asked for; `delivered`: answered with status 200.
         delay: seconds each download takes at least.
@@ -63,6 +64,7 @@ class FaultProxy:
 
     def __init__(self, upstream: str) -> None:
         self.busy: Counter[str] = Counter()
+        self.cut: Counter[str] = Counter()
         self.damage: dict[str, Callable[[bytes], bytes]] = {}
         self.asked: Counter[str] = Counter()
         self.delivered: Counter[str] = Counter()
@@ -112,6 +114,11 @@ class FaultProxy:
         status, content, headers = self._pass_on(handler, body)
         if download and status == 200:
             content = self.damage.get(name, bytes)(content)
+            if self.cut[name] > 0:
+                self.cut[name] -= 1
+                headers["Content-Length"] = str(2 * len(content))
+                handler.close_connection = True
+                return self._send(handler, status, content, headers)
         self._send(handler, status, content, headers)
         if download and status == 200:
             with self._counting:
@@ -136,7 +143,7 @@ class FaultProxy:
         self, handler: BaseHTTPRequestHandler, status: int, content: bytes, headers: dict[str, str]
     ) -> None:
         handler.send_response(status)
-        for name, value in (headers | {"Content-Length": str(len(content))}).items():
+        for name, value in ({"Content-Length": str(len(content))} | headers).items():
             handler.send_header(name, value)
         handler.end_headers()
         handler.wfile.write(content)

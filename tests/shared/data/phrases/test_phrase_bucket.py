@@ -43,6 +43,7 @@ def test_a_bucket_with_each_kind_of_fault(proxy: FaultProxy, tmp_path: Path) -> 
     busy, flipped, short, over = (trajectory_path(f"p00{n}") for n in (0, 1, 2, 3))
     gone = features_path("p004")
     proxy.busy[f"phrases/{busy}"] = 1
+    proxy.cut[f"phrases/{features_path('p005')}"] = 1
     proxy.damage = {f"phrases/{flipped}": flip_bit, f"phrases/{short}": lambda data: data[:-9]}
     fs.pipe(f"{BUCKET}/phrases/{over}", (tmp_path / "data" / busy).read_bytes())
     fs.rm(f"{BUCKET}/phrases/{gone}")

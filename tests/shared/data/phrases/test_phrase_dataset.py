@@ -51,7 +51,8 @@ def open_dataset(folder: Path | str, cache: Path, **settings: Any) -> MotionPhra
 
 def test_items_have_the_documented_shapes(folder: Path, tmp_path: Path) -> None:
     data = open_dataset(folder, tmp_path / "cache")
-    assert len(data) == len(LENGTHS)
+    assert len(data) == len(LENGTHS) == len(list(data))
+    assert torch.equal(data[-1][0], data[len(LENGTHS) - 1][0])
     motion, audio = data[0]
     assert motion.shape == (25, 120) and motion.dtype == torch.float32
     assert audio.shape == (167, 120) and audio.dtype == torch.float32
