@@ -1,0 +1,202 @@
+"""Beats, tempo and the unwrapped bar phase of a song.
+
+Onset strengths at 100 frames a second → likely tempi per window (`tempo`) → the best chain of
+beats by dynamic programming over beat time and beat length together (a semi-Markov form of the
+bar pointer of Whiteley et al. 2006 and the score of Ellis 2007) → refined below a frame →
+downbeats (`downbeats`). Tempo may drift and jump. NumPy only.
+Letters: T frames, N beats, M downbeats, L beat lengths in frames.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from src.shared.audio import tempo
+from src.shared.audio.downbeats import find_downbeats
+from src.shared.audio.onsets import Onsets, detect_onsets
+
+DEFAULT_TEMPO = 120.0  # BPM of the phase where a song has no beat
+LENGTHS = np.arange(28, 137)  # frames: 214 to 44 BPM
+TEMPO_WEIGHT = 3.0  # of a tempo's log-probability against onset strength, both per second
+TEMPO_FLOOR = -8.0
+DRIFT_COST, JUMP_COST = 300.0, 2.0  # of log-ratio² from beat to beat, at most the second
+MIN_CONFIDENCE = 0.05
+NEIGHBOURS = np.array([0.25, 0.5, 0.75, 1.0, 0.75, 0.5, 0.25]) / 2
+
+
+@dataclass(frozen=True)
+class Beats:
+    """Beats of a song: tempo (median, BPM; 0.0 = none found) and times in seconds, ascending.
+
+    `confidence` in [0, 1] is how periodic the onsets are along the beats; 0.0 without beats.
+    """
+
+    tempo: float
+    beat_times: np.ndarray = field(repr=False)  # [N] float64
+    downbeat_times: np.ndarray = field(repr=False)  # [M] float64, a subset of beat_times
+    meter: int = 4
+    confidence: float = 0.0
+
+
+def track_beats(
+    sound: np.ndarray | Iterable[np.ndarray], sample_rate: int = 44_100, *, meter: int | None = 4
+) -> Beats:
+    """Find beats and downbeats.
+
+    Args:
+        sound: mono samples [S], or an iterable of such chunks in order.
+        sample_rate: Hz.
+        meter: beats a bar; None chooses between 3 and 4.
+
+    Returns:
+        Beats; with tempo 0.0 and empty times where nothing periodic is heard.
+    """
+    chunks = [sound] if isinstance(sound, np.ndarray) else sound
+    return beats_from_onsets(detect_onsets(chunks, sample_rate), meter=meter)
+
+
+def beats_from_onsets(onsets: Onsets, *, meter: int | None = 4) -> Beats:
+    """`track_beats` for onset strengths that are already there."""
+    nothing = Beats(0.0, np.zeros(0), np.zeros(0), meter or 4)
+    if onsets.silent or onsets.strength.size < 2 * LENGTHS[0]:
+        return nothing
+    novelty = _novelty(np.concatenate([onsets.bands, onsets.strength[None]]), onsets.fps)
+    correlations, centres = tempo.autocorrelation(novelty, onsets.fps)
+    scores = tempo.tempo_scores(correlations, onsets.fps)
+    strength = novelty[:3].mean(axis=0)
+    chain = _best_chain(strength, scores, centres * onsets.fps, onsets.fps)
+    chain = chain[_sounding(onsets, chain)]
+    if len(chain) < 3:
+        return nothing
+    times = _refined(chain, strength) / onsets.fps
+    confidence = _confidence(correlations[:, 3], centres, times, onsets.fps)
+    if confidence < MIN_CONFIDENCE:
+        return nothing
+    bar, first = find_downbeats(onsets, times, meter)
+    return Beats(
+        tempo=float(60 / np.median(np.diff(times))),
+        beat_times=times,
+        downbeat_times=times[first::bar],
+        meter=bar,
+        confidence=confidence,
+    )
+
+
+def _novelty(strength: np.ndarray, fps: float) -> np.ndarray:
+    """Onset strengths [B, T] above their mean of a second, in standard deviations."""
+    reach = round(fps / 2)
+    sums = np.cumsum(np.pad(strength, ((0, 0), (reach + 1, reach)), mode="edge"), axis=1)
+    mean = (sums[:, 2 * reach + 1 :] - sums[:, : -2 * reach - 1]) / (2 * reach + 1)
+    above = np.maximum(strength - mean, 0.0)
+    return above / (above.std(axis=1, keepdims=True) + 1e-6)
+
+
+def _best_chain(
+    strength: np.ndarray, scores: np.ndarray, centres: np.ndarray, fps: float
+) -> np.ndarray:
+    """Beat frames [N] of the chain with the highest sum of onset strength and tempo scores.
+
+    A beat of length L ending at frame t earns, per second of its length, the strength at t above
+    its mean since the previous beat, and the score of its tempo there.
+
+    Args:
+        strength: [T] onset strength in standard deviations.
+        scores: [N, G] log-probabilities of `tempo.PERIODS` at the frames `centres` [N].
+    """
+    frames, count = strength.size, LENGTHS.size
+    columns = np.arange(count)
+    ratio = np.log(LENGTHS[None, :] / LENGTHS[:, None])
+    change = -np.minimum(DRIFT_COST * ratio**2, JUMP_COST).astype(np.float32)  # [from, to]
+    relative = np.maximum(scores - scores.max(axis=1, keepdims=True), TEMPO_FLOOR)
+    by_length = np.stack(
+        [np.interp(LENGTHS / fps, tempo.PERIODS[::-1], row[::-1]) for row in relative]
+    )
+    smooth = np.convolve(strength, NEIGHBOURS, "same")
+    sums = np.concatenate([[0.0], np.cumsum(strength)])
+    value = np.zeros((frames, count), dtype=np.float32)  # of the best chain that ends here
+    onward = np.zeros((frames, count), dtype=np.float32)  # and goes on with a length
+    before = np.zeros((frames, count), dtype=np.int16)
+    for start in range(0, frames, LENGTHS[0]):  # a block never needs itself
+        now = np.arange(start, min(start + LENGTHS[0], frames))
+        previous = now[:, None] - LENGTHS
+        inside = previous >= 0
+        previous = np.maximum(previous, 0)
+        mean = (sums[now + 1, None] - sums[previous + 1]) / LENGTHS
+        local = _interpolate_rows(by_length, centres, now)
+        earned = smooth[now, None] - mean + TEMPO_WEIGHT * local
+        first = smooth[now, None]
+        value[now] = np.where(
+            inside, onward[previous, columns] + LENGTHS / fps * earned, LENGTHS / fps * first
+        )
+        options = value[now][:, :, None] + change
+        before[now] = options.argmax(axis=1)
+        onward[now] = np.take_along_axis(options, before[now][:, None, :].astype(int), 1)[:, 0]
+    return _trace_back(value, before)
+
+
+def _interpolate_rows(rows: np.ndarray, at: np.ndarray, now: np.ndarray) -> np.ndarray:
+    """Rows [N, L] given at frames `at` [N], interpolated to frames `now` [K]: [K, L]."""
+    position = np.interp(now, at, np.arange(len(at)))
+    index = np.minimum(position.astype(int), max(len(at) - 2, 0))
+    share = (position - index)[:, None]
+    return rows[index] * (1 - share) + rows[np.minimum(index + 1, len(at) - 1)] * share
+
+
+def _trace_back(value: np.ndarray, before: np.ndarray) -> np.ndarray:
+    tail = max(len(value) - int(LENGTHS[-1]), 0)
+    last, column = divmod(int(value[tail:].argmax()), value.shape[1])
+    frame = last + tail
+    chain = [frame]
+    while frame - LENGTHS[column] >= 0:
+        frame -= int(LENGTHS[column])
+        chain.append(frame)
+        column = int(before[frame, column])
+    return np.array(chain[::-1])
+
+
+def _sounding(onsets: Onsets, chain: np.ndarray) -> slice:
+    """The part of the chain between the first and the last beat at which something sounds."""
+    reach = round(0.07 * onsets.fps)
+    loudest = onsets.mel.max(axis=0)
+    heard = [loudest[max(frame - reach, 0) : frame + reach + 1].max() > 10.0 for frame in chain]
+    alive = np.flatnonzero(heard)
+    return slice(alive[0], alive[-1] + 1) if alive.size else slice(0, 0)
+
+
+def _refined(chain: np.ndarray, strength: np.ndarray, reach: int = 3) -> np.ndarray:
+    """Beat frames [N] moved to the centre of the onset around them, below a frame."""
+    padded = np.pad(strength, reach)
+    near = padded[chain[:, None] + np.arange(2 * reach + 1)]
+    weight = near.sum(axis=1)
+    shift = (near * np.arange(-reach, reach + 1)).sum(axis=1) / np.maximum(weight, 1e-6)
+    moved = chain + shift * np.minimum(weight, 1.0)
+    return np.maximum(np.maximum.accumulate(moved), 0.0)
+
+
+def _confidence(
+    correlations: np.ndarray, centres: np.ndarray, times: np.ndarray, fps: float
+) -> float:
+    """Mean autocorrelation [0, 1] of the onsets at the beat length, along the song."""
+    lengths = np.interp(centres, times[:-1], np.diff(times)) * fps
+    return float(np.clip(tempo.read_at(correlations[:, None], lengths)[..., 0].mean(), 0.0, 1.0))
+
+
+def bar_phase(beats: Beats, num_frames: int, fps: float = 30.0) -> np.ndarray:
+    """Unwrapped bar phase [num_frames] (float64, bars): whole numbers at downbeats, rising.
+
+    Linear between beats, carried on with the mean length of the four nearest at both ends. The
+    first downbeat is 0. Without beats it runs at DEFAULT_TEMPO from 0 (confidence is 0 then).
+    """
+    frames = np.arange(num_frames) / fps
+    times = beats.beat_times
+    if len(times) < 2:
+        return frames * DEFAULT_TEMPO / 60 / beats.meter
+    first = int(np.searchsorted(times, beats.downbeat_times[0])) if len(beats.downbeat_times) else 0
+    numbers = np.arange(len(times)) - first
+    near = min(4, len(times) - 1)
+    head, tail = (times[near] - times[0]) / near, (times[-1] - times[-1 - near]) / near
+    phase = np.interp(frames, times, numbers)
+    phase = np.where(frames < times[0], numbers[0] - (times[0] - frames) / head, phase)
+    phase = np.where(frames > times[-1], numbers[-1] + (frames - times[-1]) / tail, phase)
+    return phase / beats.meter
