@@ -18,8 +18,9 @@ def shape_check(
         typer.Argument(metavar="[KEY=VALUE]...", help="Settings over the profile's."),
     ] = None,
     network_profile: Annotated[
-        str, typer.Option(help="Profile of network.yaml: default, spark or lightweight.")
+        str, typer.Option(help="Profile of the networks: default, spark or lightweight.")
     ] = "default",
+    model: Annotated[str, typer.Option(help="Which branch: text or audio.")] = "text",
     full: Annotated[
         bool, typer.Option("--full", help="CLIP's two towers as well as the denoiser.")
     ] = False,
@@ -41,21 +42,59 @@ def shape_check(
     Examples:
       motion-tools shape-check --network-profile default --full --device cpu
       motion-tools shape-check --no-root-track generation.num-layers=6
+      motion-tools shape-check --model audio unet.conditioning=film
     """
     from src.shared.config_loader import load_network
 
+    check_branch(model, full=full, root_track=root_track)
     settings = list(overrides or [])
-    if root_track is not None:
-        settings.append(f"root-track={str(root_track).lower()}")
-    network = load_network(network_profile, network_file, settings)
-    stages = collect(network, device, full=full)
-    symbols = letters_of(network)
+    if model == "audio":
+        symbols, stages = collect_audio(network_profile, network_file, settings, device)
+    else:
+        if root_track is not None:
+            settings.append(f"root-track={str(root_track).lower()}")
+        network = load_network(network_profile, network_file, settings)
+        stages, symbols = collect(network, device, full=full), letters_of(network)
     if json:
         print_json(network_profile, symbols, stages, full=full)
     else:
         print_table(network_profile, symbols, stages)
     if not all(stage.agrees for stage in stages):
         raise typer.Exit(1)
+
+
+def check_branch(model: str, *, full: bool, root_track: bool | None) -> None:
+    """Refuse another branch than text or audio, and flags that the audio branch has no use for.
+
+    Raises:
+        UsageError: naming the flag.
+    """
+    from src.shared.errors import UsageError
+
+    if model not in ("text", "audio"):
+        raise UsageError(f"--model {model!r} is no branch; choose text or audio")
+    for flag, given in (("--full", full), ("--root-track", root_track is not None)):
+        if model == "audio" and given:
+            raise UsageError(f"{flag} belongs to the text branch; leave it out with --model audio")
+
+
+def collect_audio(
+    profile: str, path: Path | None, overrides: list[str], device: str
+) -> "tuple[dict[str, int], list[Stage]]":
+    """The letters of the audio branch, and all its stages in the order of the data.
+
+    Raises:
+        UsageError: an unknown profile or key, or no such device.
+    """
+    import torch
+
+    from src.cli.shape_stages_audio import AudioLetters, audio_stages
+    from src.shared.config_loader import load_audio_network
+    from src.shared.device import choose_device
+
+    network = load_audio_network(profile, path, overrides)
+    stages = audio_stages(network, torch.device(choose_device(device)[0]))
+    return AudioLetters(network).values, stages
 
 
 def collect(network: "NetworkConfig", device: str, *, full: bool) -> "list[Stage]":

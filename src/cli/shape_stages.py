@@ -60,23 +60,8 @@ class Row:
 class Letters:
     """The numbers behind the letters of one profile."""
 
-    def __init__(self, config: NetworkConfig, hidden: int) -> None:
-        bones, channels = config.generation.num_bones, config.generation.motion_channels
-        self.rows = "(K+1)" if config.root_track else "K"
-        self.values = {
-            "B": BATCH,
-            "T": FRAMES,
-            "T/4": QUARTER,
-            "T'": PIECES,
-            "L": TOKENS,
-            "K": bones,
-            "(K+1)": bones + 1,
-            "C": channels,
-            "K*C": bones * channels,
-            "(K+1)*C": (bones + 1) * channels,
-            "D": config.embed_dim,
-            "H_text": hidden,
-        }
+    def __init__(self, values: dict[str, int]) -> None:
+        self.values = values
 
     def shape(self, symbols: str) -> tuple[int, ...]:
         """`B x T x D` -> (2, 40, 128); plain numbers stand for themselves."""
@@ -94,6 +79,30 @@ class Letters:
             (self.shape(row.before), self.shape(row.after)),
             parameters,
             row.note,
+        )
+
+
+class TextLetters(Letters):
+    """Those of TEXT."""
+
+    def __init__(self, config: NetworkConfig, hidden: int) -> None:
+        bones, channels = config.generation.num_bones, config.generation.motion_channels
+        self.rows = "(K+1)" if config.root_track else "K"
+        super().__init__(
+            {
+                "B": BATCH,
+                "T": FRAMES,
+                "T/4": QUARTER,
+                "T'": PIECES,
+                "L": TOKENS,
+                "K": bones,
+                "(K+1)": bones + 1,
+                "C": channels,
+                "K*C": bones * channels,
+                "(K+1)*C": (bones + 1) * channels,
+                "D": config.embed_dim,
+                "H_text": hidden,
+            }
         )
 
 
@@ -189,7 +198,7 @@ def denoiser_stages(
 
     `text` comes from the text tower in the full check; otherwise it is random.
     """
-    letters = Letters(config, 0)
+    letters = TextLetters(config, 0)
     with device:
         model = MotionDenoiser(config, NUM_TAGS).eval()
         generation = config.generation
@@ -209,7 +218,7 @@ def denoiser_stages(
 
 def post_processing_stages(config: NetworkConfig, sample: Tensor) -> list[Stage]:
     """Smoothing, 6D -> matrix -> quaternion, velocity clamp; only smoothing unless C = 6."""
-    letters, settings = Letters(config, 0), config.generation.post_processing
+    letters, settings = TextLetters(config, 0), config.generation.post_processing
     name = "post-processing"
     smooth = smooth_features(sample, settings.smoothing_kernel)
     motion, kernel = f"B x T x {letters.rows} x C", f"kernel {settings.smoothing_kernel}"
@@ -253,7 +262,7 @@ def clip_stages(config: NetworkConfig, device: torch.device) -> tuple[list[Stage
         ids = torch.randint(3, clip.text_vocab_size, (BATCH, TOKENS))
         mask = torch.ones(BATCH, TOKENS, dtype=torch.long)
         motion = torch.randn(BATCH, FRAMES, config.motion_rows, config.generation.motion_channels)
-    letters = Letters(config, model.text.encoder.config.hidden_size)
+    letters = TextLetters(config, model.text.encoder.config.hidden_size)
     text, features = trace("CLIP text", model.text, text_rows(note), letters, ids, mask)
     unit = Row("", "TextTower", "B x L", "B x D", "masked mean, textProj, unit norm")
     text.append(letters.stage("CLIP text", unit, ids, features.pooled, count(model.text)))

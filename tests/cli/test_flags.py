@@ -17,8 +17,8 @@ FLAGS = {
         " --templates --workers SOURCE"
     ),
     "shape-check": (
-        "--device --full --json --network-file --network-profile --no-root-track --root-track"
-        " OVERRIDES"
+        "--device --full --json --model --network-file --network-profile --no-root-track"
+        " --root-track OVERRIDES"
     ),
     "evaluate": (
         "--control-seeds --data --device --evaluator --guidance-scale --json --model --num-samples"
