@@ -9,6 +9,7 @@ from pathlib import Path
 import typer
 
 from src.cli.evaluate import evaluate
+from src.cli.features import features
 from src.cli.generate import generate
 from src.cli.guard import guarded
 from src.cli.models import models
@@ -27,7 +28,7 @@ app = typer.Typer(
     help="From a prompt to a moving character, and from your own mocap to your own model.",
     epilog=f'Start here:  {PROGRAM} generate --prompt "a person waves"',
 )
-for command in (generate, prepare, prepare_audio, shape_check, evaluate, models):
+for command in (generate, features, prepare, prepare_audio, shape_check, evaluate, models):
     app.command()(guarded(command))
 
 

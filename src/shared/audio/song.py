@@ -1,0 +1,149 @@
+"""One song, analysed: features at 30 fps, beats, bar phase; remembered by content.
+
+Letters: T frames, N beats, M downbeats.
+"""
+
+import logging
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from src.shared.audio.arrays import write_arrays
+from src.shared.audio.beats import Beats, bar_phase, track_beats
+from src.shared.audio.feature_cache import FeatureCache, cache_folder
+from src.shared.audio.features import AudioFeatures, Chroma, extract_features
+from src.shared.audio.sound import FPS, Sound, load_sound
+from src.shared.errors import UserError
+from src.shared.files import sha256_file
+
+log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class Song:
+    """What the network and the previews need to know of a song.
+
+    Attributes:
+        features: 163 rows of T frames.
+        beats: tempo, beat and downbeat times.
+        seconds: duration of the sound.
+        sha256: of the sound file.
+        notes: one line each: what was wrong with the file and mended.
+    """
+
+    features: AudioFeatures
+    beats: Beats
+    seconds: float
+    sha256: str
+    notes: tuple[str, ...] = ()
+
+    @property
+    def num_frames(self) -> int:
+        """T."""
+        return self.features.num_frames
+
+    @property
+    def phase(self) -> np.ndarray:
+        """Unwrapped bar phase [T] float64, in bars: whole numbers at downbeats (ruling 9)."""
+        return bar_phase(self.beats, self.num_frames, FPS)
+
+    def arrays(self) -> dict[str, np.ndarray]:
+        """The dictionary of TECH section 4.2, and downbeats, phase, meter and origin."""
+        return {
+            **self.features.arrays(),
+            "tempo": np.float64(self.beats.tempo),
+            "beat_times": np.asarray(self.beats.beat_times, np.float64),
+            "downbeat_times": np.asarray(self.beats.downbeat_times, np.float64),
+            "phase": self.phase,
+            "meter": np.int32(self.beats.meter),
+            "beat_confidence": np.float64(self.beats.confidence),
+            "seconds": np.float64(self.seconds),
+            "sha256": np.array(self.sha256),
+            "notes": np.array(self.notes, dtype=np.str_),
+        }
+
+    def save(self, path: str | Path) -> Path:
+        """Write `arrays` as an npz; `AudioFeatures.load` reads it too.
+
+        Raises:
+            UserError: the file cannot be written.
+        """
+        return write_arrays(self.arrays(), path)
+
+    @classmethod
+    def from_arrays(cls, arrays: dict[str, np.ndarray], path: str | Path) -> "Song":
+        """The inverse of `arrays`, which came from `path`.
+
+        Raises:
+            UserError: something is missing or has another shape.
+        """
+        try:
+            beats = Beats(
+                tempo=float(arrays["tempo"]),
+                beat_times=arrays["beat_times"].astype(np.float64),
+                downbeat_times=arrays["downbeat_times"].astype(np.float64),
+                meter=int(arrays["meter"]),
+                confidence=float(arrays["beat_confidence"]),
+            )
+            seconds, sha256 = float(arrays["seconds"]), str(arrays["sha256"])
+            notes = tuple(str(note) for note in arrays["notes"])
+        except (KeyError, TypeError, ValueError) as error:
+            raise UserError(f"{path} is no analysed song ({error}); make it again") from error
+        return cls(AudioFeatures.from_arrays(arrays, path), beats, seconds, sha256, notes)
+
+
+def analyse_sound(sound: Sound, *, meter: int | None = None, chroma: Chroma = "fast") -> Song:
+    """Features and beats of a sound in memory.
+
+    Args:
+        meter: beats a bar; None: 3 or 4, whichever fits better.
+        chroma: `fast`, or `cqt` for librosa's own at many times the cost.
+    """
+    features = extract_features(sound, chroma=chroma)
+    beats = track_beats(sound.samples, sound.sample_rate, meter=meter)
+    return Song(features, beats, sound.seconds, sound.sha256, sound.notes)
+
+
+def analyse(
+    path: str | Path,
+    *,
+    meter: int | None = None,
+    chroma: Chroma = "fast",
+    cache: bool | Path = True,
+) -> Song:
+    """Features and beats of a sound file, from the cache where its content is known.
+
+    Args:
+        meter: beats a bar; None: 3 or 4, whichever fits better.
+        chroma: `fast`, or `cqt` for librosa's own at many times the cost.
+        cache: use the user's cache folder, none, or this one.
+
+    Raises:
+        UserError: the file cannot be used (see `load_sound`).
+    """
+    folder = cache if isinstance(cache, Path) else cache_folder() if cache else None
+    store, parameters = FeatureCache(folder), {"meter": meter, "chroma": chroma}
+    song = _remembered(store, Path(path), parameters)
+    if song is None:
+        song = analyse_sound(load_sound(path), meter=meter, chroma=chroma)
+        store.put(song.arrays(), song.sha256, **parameters)
+    for note in song.notes:
+        log.warning("%s: %s", path, note)
+    return song
+
+
+def _remembered(store: FeatureCache, path: Path, parameters: dict[str, Any]) -> Song | None:
+    """The song from the cache, if it is there and whole."""
+    if not (store.folder and path.is_file()):
+        return None
+    sha256 = sha256_file(path)
+    arrays = store.get(sha256, **parameters)
+    if arrays is None:
+        return None
+    try:
+        return Song.from_arrays(arrays, store.path(sha256, **parameters))
+    except UserError as error:
+        log.warning("made again: %s", error)
+        return None
