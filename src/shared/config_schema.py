@@ -188,6 +188,7 @@ class TrainConfig(Config):
     tensorboard: bool = True
     log_every: int = Field(20, ge=1)
     validate_every: int = Field(500, ge=1)
+    validate_first: bool = False  # figures before the first step too
     validation_batches: int = Field(8, ge=1)
     save_every: int = Field(500, ge=1)
     keep_checkpoints: int = Field(2, ge=1)

@@ -6,6 +6,7 @@ from tensors and a step number alone. A step consumes one global batch, cut into
 `processes × gradient-accumulation` parts: two processes equal one with twice the batch.
 """
 
+import json
 import math
 import time
 from collections.abc import Callable, Iterator
@@ -74,7 +75,8 @@ class Trainer(Generic[ConfigT]):
         self.module = self.task.module.to(self.accelerator.device)
         self.task.to(self.accelerator.device)
         self.ema = ExponentialMovingAverage(self.module, config.ema_decay)
-        optimizer = make_optimizer(self.module, config, self.accelerator.device.type)
+        rates: dict[str, float] = getattr(self.task, "learning_rates", {})
+        optimizer = make_optimizer(self.module, config, self.accelerator.device.type, rates)
         self.wrapped, self.optimizer = self.accelerator.prepare(self.module, optimizer)
         self._sums: dict[str, Tensor] = {}
 
@@ -103,6 +105,8 @@ class Trainer(Generic[ConfigT]):
                 tensorboard=config.tensorboard,
             ) as log,
         ):
+            if config.validate_first and start == 0:
+                self._validate(0, log)
             batches = ahead(self.task.batch, self._parts(start), config.num_workers)
             since, since_step = time.perf_counter(), start
             for step in range(start + 1, config.steps + 1):
@@ -119,11 +123,17 @@ class Trainer(Generic[ConfigT]):
                     self._save(step)
                 if stop:
                     raise self._interrupted(step, guard)
-                if step % config.validate_every == 0 and not last:
+                if step % config.validate_every == 0 or last:
                     self._validate(step, log)
+                    if not last and self._has_converged():
+                        self._say(f"no better for long: stopping early at step {step}")
+                        self._save(step)
+                        break
                 since += time.perf_counter() - finished  # speed is that of the steps alone
-            self._validate(config.steps, log)
-            self._finish()
+            if start == config.steps:  # a run that was killed after its last step
+                step = start
+                self._validate(step, log)
+            self._finish(step)
 
     def _parts(self, start: int) -> Iterator[Part]:
         """The parts this process works on, from the step after `start` on."""
@@ -142,7 +152,7 @@ class Trainer(Generic[ConfigT]):
             step - 1, steps=config.steps, warmup=config.warmup_steps, schedule=config.lr_schedule
         )
         for group in self.optimizer.param_groups:
-            group["lr"] = config.learning_rate * factor
+            group["lr"] = group["initial_lr"] * factor
         for _ in range(config.gradient_accumulation):
             batch = to_device(next(batches), accelerator.device)
             with accelerator.accumulate(self.wrapped):
@@ -242,7 +252,7 @@ class Trainer(Generic[ConfigT]):
             self.accelerator.wait_for_everyone()
             return 0
         require_same_run(checkpoint, self._identity())
-        if (self.output / "finished.json").exists() and checkpoint.step == self.config.steps:
+        if self._is_finished(checkpoint.step):
             self._say(f"{self.output} is finished ({checkpoint.step} steps): nothing to do")
             return None
         if checkpoint.step > self.config.steps:
@@ -254,6 +264,14 @@ class Trainer(Generic[ConfigT]):
         self._say(f"resuming {self.output} after step {checkpoint.step}")
         return checkpoint.step
 
+    def _is_finished(self, step: int) -> bool:
+        """Whether as many steps as are asked for were finished, with `step` as the last one."""
+        marker = self.output / "finished.json"
+        if not marker.exists():
+            return False
+        done = json.loads(marker.read_text(encoding="utf-8"))
+        return bool(done["steps"] == step and done.get("planned", step) == self.config.steps)
+
     def _load(self, checkpoint: Checkpoint) -> None:
         self.module.load_state_dict(checkpoint.tensors("model"))
         self.ema.module.load_state_dict(checkpoint.tensors("ema"))
@@ -261,11 +279,19 @@ class Trainer(Generic[ConfigT]):
         if self.accelerator.scaler is not None and "scaler" in checkpoint.state:
             self.accelerator.scaler.load_state_dict(checkpoint.state["scaler"])
 
-    def _finish(self) -> None:
+    def _has_converged(self) -> bool:
+        """Whether the task wants no more steps; the main process decides, as it validates."""
+        wants: Callable[[], bool] = getattr(self.task, "has_converged", lambda: False)
+        stop = self.accelerator.is_main_process and wants()
+        flag = torch.tensor(float(stop), device=self.accelerator.device)
+        return bool(self.accelerator.reduce(flag, "sum").item())
+
+    def _finish(self, step: int) -> None:
         """Write the pretrained folder and mark the run as finished."""
         if self.accelerator.is_main_process:
             self.task.save_pretrained(self.ema.module, self.output)
-            write_json(self.output / "finished.json", {"steps": self.config.steps})
+            done = {"steps": step, "planned": self.config.steps}
+            write_json(self.output / "finished.json", done)
             self._say(f"finished: {self.output} is ready to use")
         self.accelerator.wait_for_everyone()
 

@@ -2,7 +2,8 @@
 
 import shlex
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
@@ -94,33 +95,47 @@ def stage_app(
         ] = False,
     ) -> None:
         flags = {"data": data, "output": output, "profile": network_profile}
-        given = [f"{key}={_quoted(value)}" for key, value in flags.items() if value is not None]
-        try:
+        with short_errors():
             run_stage(
                 model_class,
                 build,
                 module=module,
                 config=config,
-                overrides=[*(overrides or []), *given],
+                overrides=[*(overrides or []), *as_overrides(flags)],
                 resume=resume,
                 network_file=network_file,
                 load=load,
             )
-        except Interrupted as stop:
-            raise _leave(str(stop), stop.exit_code) from None
-        except UserError as error:
-            raise _leave(f"error: {error}", error.exit_code) from None
-        except OSError as error:
-            what = f"{error.filename or 'a file of this run'}: {error.strerror or error}"
-            raise _leave(f"error: cannot read or write {what}", 1) from None
-        except KeyboardInterrupt:
-            raise _leave("stopped at once, without saving", 130) from None
 
     return app
 
 
+@contextmanager
+def short_errors() -> Iterator[None]:
+    """One line on stderr and an exit code for what a user can do something about."""
+    try:
+        yield
+    except Interrupted as stop:
+        raise _leave(str(stop), stop.exit_code) from None
+    except UserError as error:
+        raise _leave(f"error: {error}", error.exit_code) from None
+    except OSError as error:
+        what = f"{error.filename or 'a file of this run'}: {error.strerror or error}"
+        raise _leave(f"error: cannot read or write {what}", 1) from None
+    except KeyboardInterrupt:
+        raise _leave("stopped at once, without saving", 130) from None
+
+
+def as_overrides(flags: Mapping[str, str | float | None]) -> list[str]:
+    """Flags that were given, as `key=value`; a text such as `7` stays a text."""
+    return [
+        f"{key}={_quoted(value) if isinstance(value, str) else value}"
+        for key, value in flags.items()
+        if value is not None
+    ]
+
+
 def _quoted(text: str) -> str:
-    """A flag's text as a YAML string, so that `--output 7` is a name and no number."""
     return "'" + text.replace("'", "''") + "'"
 
 

@@ -15,8 +15,11 @@ MAY_CHANGE = frozenset(
     {
         "output",
         "steps",
+        "epochs",
+        "patience",
         "log-every",
         "validate-every",
+        "validate-first",
         "validation-batches",
         "validation-prompts",
         "save-every",

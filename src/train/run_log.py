@@ -72,7 +72,7 @@ class RunLog:
         )
         self._bar = self._progress.add_task("training", total=steps, completed=start)
         if main:
-            truncate_log(folder / "log.jsonl", start)
+            truncate_log(folder / "log.jsonl", start or -1)  # a new run keeps nothing
             self._stream = (folder / "log.jsonl").open("a", encoding="utf-8")
             self._writer = (
                 _tensorboard_writer(folder / "tensorboard", start) if tensorboard else None

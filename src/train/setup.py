@@ -1,6 +1,7 @@
 """The accelerator and the optimizer that a training configuration asks for."""
 
 import os
+from collections.abc import Mapping
 
 import torch
 from accelerate import Accelerator, DistributedDataParallelKwargs
@@ -34,16 +35,38 @@ def make_accelerator(config: TrainConfig, compute: ComputeChoice) -> Accelerator
     return accelerator
 
 
-def make_optimizer(module: nn.Module, config: TrainConfig, device: str) -> torch.optim.AdamW:
-    """AdamW that leaves biases, norms and other vectors undecayed."""
-    weights = [weight for weight in module.parameters() if weight.requires_grad]
+def make_optimizer(
+    module: nn.Module,
+    config: TrainConfig,
+    device: str,
+    rates: Mapping[str, float] | None = None,
+) -> torch.optim.AdamW:
+    """AdamW that leaves biases, norms and other vectors undecayed.
+
+    Args:
+        module: what is trained.
+        config: of the stage.
+        device: its type.
+        rates: learning rates of parts of the module, by the beginning of their weights' names;
+            the rest learns at the configuration's.
+    """
+    weights: dict[tuple[float, bool], list[nn.Parameter]] = {}
+    for name, weight in module.named_parameters():
+        if weight.requires_grad:
+            matching = [rate for start, rate in (rates or {}).items() if name.startswith(start)]
+            key = ([*matching, config.learning_rate][0], weight.ndim >= 2)
+            weights.setdefault(key, []).append(weight)
     groups = [
-        {"params": [w for w in weights if w.ndim >= 2], "weight_decay": config.weight_decay},
-        {"params": [w for w in weights if w.ndim < 2], "weight_decay": 0.0},
+        {
+            "params": members,
+            "lr": rate,
+            "initial_lr": rate,  # before warm-up and decay
+            "weight_decay": config.weight_decay if decays else 0.0,
+        }
+        for (rate, decays), members in sorted(weights.items(), key=lambda item: item[0])[::-1]
     ]
     return torch.optim.AdamW(
-        [group for group in groups if group["params"]],
-        lr=config.learning_rate,
+        groups,
         betas=config.adam_betas,
         fused=device != "mps",
         foreach=True if device == "mps" else None,

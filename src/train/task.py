@@ -18,7 +18,12 @@ class Part:
 
 
 class Task(Protocol):
-    """What one stage learns. `module` holds everything that is trained."""
+    """What one stage learns. `module` holds everything that is trained.
+
+    A task may also have `learning_rates`, a mapping from the beginning of weights' names to the
+    rate of that part of the module, and `has_converged()`, asked on the main process after each
+    validation: True ends the training early.
+    """
 
     module: nn.Module
 

@@ -49,13 +49,17 @@ class Sampler(ABC):
         model_fn: ModelFn,
         x_T: Tensor,
         *,
+        start: int = 0,
         generator: Generators = None,
         callback: Callback | None = None,
     ) -> Tensor:
-        """Walk all timesteps from x_T to x_0. Differentiable when the caller records gradients."""
+        """Walk the timesteps from x_T to x_0. Differentiable when the caller records gradients.
+
+        `start` skips that many of them: x_T is then data noised to `timesteps[start]`.
+        """
         self.set_timesteps(len(self.timesteps))
         x_t = x_T
-        for done, t in enumerate(self.timesteps, start=1):
+        for done, t in enumerate(self.timesteps[start:], start=start + 1):
             t_batch = torch.full((len(x_t),), t, dtype=torch.long, device=x_t.device)
             model_output = model_fn(x_t, t_batch).to(x_t.dtype)  # the path stays float32
             x_t = self.step(model_output, t, x_t, generator=generator)
