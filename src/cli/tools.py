@@ -13,6 +13,7 @@ from src.cli.features import features
 from src.cli.generate import generate
 from src.cli.guard import guarded
 from src.cli.models import models
+from src.cli.plot import plot
 from src.cli.prepare import prepare
 from src.cli.prepare_audio import prepare_audio
 from src.cli.shape_check import shape_check
@@ -28,7 +29,7 @@ app = typer.Typer(
     help="From a prompt to a moving character, and from your own mocap to your own model.",
     epilog=f'Start here:  {PROGRAM} generate --prompt "a person waves"',
 )
-for command in (generate, features, prepare, prepare_audio, shape_check, evaluate, models):
+for command in (generate, features, prepare, prepare_audio, shape_check, evaluate, models, plot):
     app.command()(guarded(command))
 
 

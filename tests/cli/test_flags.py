@@ -25,6 +25,7 @@ FLAGS = {
         " --out --quick --replications --sampler --seed --steps --threads"
     ),
     "models": "--json",
+    "plot": "--out FILE",
 }
 
 

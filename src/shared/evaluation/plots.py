@@ -1,0 +1,201 @@
+"""Plots of TECH §14.2: a trajectory's six panels, and the losses of a training run.
+
+matplotlib is imported when a plot is drawn; no window is opened.
+"""
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from src.shared.errors import UserError
+from src.shared.files import atomic_write
+from src.shared.motion.trajectory import MotionTrajectory
+from src.shared.validation.sanity import SanityThresholds
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+LOSSES = ("total", "diffusion", "decoder_pos", "velocity_coherence", "accel_coherence", "jerk")
+MAX_PANELS = 12
+FORMATS = ("png", "pdf", "svg")
+
+
+def plot_trajectory(trajectory: MotionTrajectory, path: str | Path, *, title: str = "") -> Path:
+    """Position, velocity, quaternion, phase, quaternion norm and jerk over seconds, as a picture.
+
+    Args:
+        trajectory: at least one frame.
+        path: .png, .pdf or .svg.
+        title: above the panels.
+
+    Raises:
+        UserError: matplotlib is missing, or the file cannot be written.
+    """
+    figure = _new_figure(12, 10)
+    panels = figure.subplots(3, 2, sharex=True).flat
+    seconds = np.arange(trajectory.num_frames) / trajectory.fps
+    for axes, name, values, labels in zip(
+        panels,
+        ("Position, m", "Velocity, m/s", "Quaternion", "Phase of the bar"),
+        (trajectory.position, trajectory.velocity, trajectory.quaternion, _gapped(trajectory)),
+        ("xyz", "xyz", "wxyz", ""),
+        strict=False,
+    ):
+        axes.plot(seconds, values, label=list(labels) or None)
+        axes.set_title(name)
+        if labels:
+            axes.legend(loc="upper right", ncols=4, fontsize="small")
+    _plot_norm(figure.axes[4], seconds, trajectory)
+    _plot_jerk(figure.axes[5], seconds, trajectory)
+    for axes in figure.axes[4:]:
+        axes.set_xlabel("seconds")
+    figure.suptitle(title)
+    return _save(figure, Path(path))
+
+
+def plot_losses(
+    history: Mapping[str, Sequence[float]], path: str | Path, *, title: str = ""
+) -> Path:
+    """A curve for each loss on a logarithmic scale, as a picture.
+
+    TECH's six losses come first where the run has them.
+
+    Args:
+        history: `read_losses`' result: one list of equal length for each name, and `step`.
+        path: .png, .pdf or .svg.
+        title: above the panels.
+
+    Raises:
+        UserError: nothing to draw, matplotlib is missing, or the file cannot be written.
+    """
+    names = [name for name in LOSSES if name in history]
+    names += [name for name in history if name not in (*names, "step")]
+    names = names[:MAX_PANELS]
+    if not names:
+        raise UserError(f"cannot write {path}: the log holds no numbers to draw")
+    columns = min(3, len(names))
+    rows = math.ceil(len(names) / columns)
+    figure = _new_figure(5 * columns, 3.6 * rows)
+    for index, name in enumerate(names):
+        axes = figure.add_subplot(rows, columns, index + 1)
+        values = np.asarray(history[name], dtype=np.float64)
+        known = np.isfinite(values)  # evaluations come more rarely than steps
+        steps = np.asarray(history.get("step", np.arange(len(values))))[known]
+        axes.plot(steps, values[known], marker="." if known.sum() < 50 else "")
+        axes.set_title(name)
+        axes.set_xlabel("step")
+        if known.any() and values[known].min() > 0:
+            axes.set_yscale("log")
+    figure.suptitle(title)
+    return _save(figure, Path(path))
+
+
+def read_losses(path: str | Path) -> dict[str, list[float]]:
+    """The numbers of a run's log.jsonl or training_log.json by name, NaN where a step has none.
+
+    Reads one JSON object a line, one list of objects, or one object of equally long lists. The
+    steps are under `step` (or were under `epoch`).
+
+    Raises:
+        UserError: missing, or in none of these forms.
+    """
+    path = Path(path)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise UserError(f"{path}: cannot be read: {error}") from error
+    try:
+        rows = _rows(text)
+    except (ValueError, TypeError, KeyError) as error:
+        raise UserError(
+            f"{path}: is not the log of a run ({error}); name a log.jsonl or training_log.json"
+        ) from error
+    names = {name for row in rows for name, value in row.items() if _is_number(value)}
+    order = [name for name in dict.fromkeys(key for row in rows for key in row) if name in names]
+    history = {
+        name: [float(row[name]) if _is_number(row.get(name)) else math.nan for row in rows]
+        for name in order
+    }
+    if "step" not in history:
+        history["step"] = history.pop("epoch", [float(i) for i in range(len(rows))])
+    return history
+
+
+def _rows(text: str) -> list[dict[str, Any]]:
+    """Rows of any of the three forms."""
+    try:
+        content = json.loads(text)
+    except ValueError:  # more than one object: a line each, the last maybe cut off by a kill
+        lines = text.splitlines()
+        whole = lines if text.endswith("\n") else lines[:-1]
+        content = [json.loads(line) for line in whole if line.strip()]
+    if isinstance(content, dict):
+        nested = next((v for v in content.values() if _is_table(v)), None)
+        content = nested if nested is not None else _transposed(content)
+    if not content or not all(isinstance(row, dict) for row in content):
+        raise ValueError("it holds no rows")
+    return list(content)
+
+
+def _is_table(value: Any) -> bool:
+    return isinstance(value, list) and bool(value) and all(isinstance(row, dict) for row in value)
+
+
+def _transposed(columns: dict[str, Any]) -> list[dict[str, Any]]:
+    """Rows of an object of lists; one object of numbers is one row."""
+    lists = {name: values for name, values in columns.items() if isinstance(values, list)}
+    if not lists:
+        return [columns]
+    length = max(len(values) for values in lists.values())
+    return [
+        {name: values[index] for name, values in lists.items() if index < len(values)}
+        for index in range(length)
+    ]
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _gapped(trajectory: MotionTrajectory) -> np.ndarray:
+    """The phase with a gap where it wraps, so that no line is drawn through the bar."""
+    phase = trajectory.phase.astype(np.float64)
+    phase[1:][np.diff(trajectory.phase) < -0.5] = np.nan
+    return phase
+
+
+def _plot_norm(axes: "Axes", seconds: np.ndarray, trajectory: MotionTrajectory) -> None:
+    axes.plot(seconds, np.linalg.norm(trajectory.quaternion, axis=1))
+    axes.axhline(1.0, color="red", linestyle="--")
+    axes.set_title("Quaternion norm")
+    axes.set_ylim(0.8, 1.2)
+
+
+def _plot_jerk(axes: "Axes", seconds: np.ndarray, trajectory: MotionTrajectory) -> None:
+    steps = np.diff(trajectory.acceleration, axis=0) * trajectory.fps
+    axes.plot(seconds[:-1], np.linalg.norm(steps, axis=1))
+    axes.axhline(SanityThresholds().max_jerk, color="red", linestyle="--")
+    axes.set_yscale("symlog", linthresh=1)
+    axes.set_title("Jerk, m/s³ (dashed: bound of its mean)")
+
+
+def _new_figure(width: float, height: float) -> "Figure":
+    try:
+        from matplotlib.figure import Figure
+    except ImportError as error:
+        raise UserError(
+            "plots need matplotlib, which is not installed; run `pip install matplotlib`"
+        ) from error
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def _save(figure: "Figure", path: Path) -> Path:
+    ending = path.suffix.removeprefix(".").lower()
+    with atomic_write(path) as temporary:
+        figure.savefig(temporary, format=ending or "png", dpi=100)
+    return path
