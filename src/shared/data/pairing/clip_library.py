@@ -154,7 +154,7 @@ def speed_threshold(speeds: Iterable[float]) -> float:
     logs = np.sort(np.log(np.maximum(list(speeds), 1e-4)))
     if len(logs) < MIN_CLIPS_FOR_THRESHOLD:
         return FALLBACK_SPEED
-    grid = np.linspace(*np.log(SPEED_RANGE), 200)
+    grid = np.linspace(np.log(SPEED_RANGE[0]), np.log(SPEED_RANGE[1]), 200)
     below = np.searchsorted(logs, grid)
     sums = np.concatenate(([0.0], np.cumsum(logs)))
     lower = sums[below] / np.maximum(below, 1)

@@ -35,11 +35,13 @@ class SongEntry:
         id: names its phrases.
         split: train, val or test.
         fingerprint: changes when the sound does.
+        path: of the sound file, relative to its folder.
     """
 
     id: str
     split: str
     fingerprint: str
+    path: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,10 +99,11 @@ class SyntheticMusic:
     def entries(self) -> list[SongEntry]:
         return [
             SongEntry(f"synthetic-{self.seed}-{index:05d}", split, repr(spec))
-            for index, (split, spec) in enumerate(self._specs())
+            for index, (split, spec) in enumerate(self.specs())
         ]
 
-    def _specs(self) -> list[tuple[str, "SongSpec"]]:
+    def specs(self) -> list[tuple[str, "SongSpec"]]:
+        """(split, song) of each."""
         from src.shared.audio.synthetic_songs import sample_song_specs
 
         test = max(round(TEST_SHARE * self.number), self.number >= 3)
@@ -115,7 +118,7 @@ class SyntheticMusic:
         from src.shared.audio.sound import sound_from_samples
         from src.shared.audio.synthetic_songs import render_song
 
-        _, spec = self._specs()[int(entry.id.rpartition("-")[2])]
+        _, spec = self.specs()[int(entry.id.rpartition("-")[2])]
         song = render_song(spec)
         features = extract_features(sound_from_samples(song.samples, song.sample_rate))
         arrays = feature_arrays(features)
@@ -157,30 +160,28 @@ class FolderMusic:
         for digest in unique:
             path = found[hashes.index(digest)]
             split = "test" if splits[digest].startswith("test") else splits[digest]
-            entries.append(SongEntry(f"{_slug(path.stem)}-{digest[:8]}", split, digest))
+            entries.append(
+                SongEntry(
+                    f"{_slug(path.stem)}-{digest[:8]}",
+                    split,
+                    f"{digest}:{self.meter}",
+                    path.relative_to(self.root).as_posix(),
+                )
+            )
         return entries
 
     def read(self, entry: SongEntry) -> Music:
-        from src.shared.audio.beats import bar_phase
         from src.shared.audio.song import analyse
 
-        song = analyse(self._path(entry), meter=self.meter)
-        arrays = feature_arrays(song.features)
+        song = analyse(self.root / entry.path, meter=self.meter)
         beats = song.beats
         return Music(
-            arrays,
-            bar_phase(beats, arrays["mel"].shape[1]),
+            feature_arrays(song.features),
+            song.phase,
             np.asarray(beats.beat_times),
             np.asarray(beats.downbeat_times),
             float(beats.tempo),
             beats.meter,
-        )
-
-    def _path(self, entry: SongEntry) -> Path:
-        return next(
-            path
-            for path in sorted(self.root.rglob("*"))
-            if path.suffix.lower() in SOUND_FILES and sha256_file(path) == entry.fingerprint
         )
 
 

@@ -19,6 +19,7 @@ from src.shared.motion.trajectory_math import yaw_quaternion
 
 NEAREST = 12  # candidates for the next clip, the best matches at the seam
 REPEAT_COST = 1.5  # how much better a clip that was used must fit
+SHORT_COST = 2.0  # of a piece of one second, half of it for two
 SEAM_FRAMES = 2 * MARGIN + 1  # 0.43 s
 
 
@@ -75,6 +76,10 @@ def assemble(
     match = np.concatenate([clip.match[e] for clip, e in zip(clips, entries, strict=True)])
     owner = np.repeat(np.arange(len(clips)), [len(e) for e in entries])
     entry = np.concatenate(entries)
+    spans = np.concatenate(
+        [clip.cuts[-1] - clip.cuts[e] for clip, e in zip(clips, entries, strict=True)]
+    )
+    shortness = SHORT_COST * FPS / spans  # few long pieces rather than many short ones
     # A long clip is entered anywhere, so that all of it is used.
     cut = int(rng.choice(entries[index]))
     first = int(clips[index].cuts[cut]) - MARGIN if cut else 0
@@ -89,7 +94,7 @@ def assemble(
             break
         pieces.append(Piece(clip.id, first, last, at))
         at += last - first + 1 - SEAM_FRAMES
-        cost = np.linalg.norm(match - clip.match[-1], axis=1)
+        cost = np.linalg.norm(match - clip.match[-1], axis=1) + shortness
         used.append(index)
         cost += REPEAT_COST * np.isin(owner, used)  # rather another clip than the same again
         nearest = np.argpartition(cost, min(NEAREST, len(cost)) - 1)[:NEAREST]

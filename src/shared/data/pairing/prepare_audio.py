@@ -100,7 +100,8 @@ def _jobs(
     jobs = []
     for source in sources:
         for entry in source.entries():
-            text = json.dumps([VERSION, data.manifest_hash, asdict(entry), asdict(options)])
+            made_of = (entry.id, entry.split, entry.fingerprint, asdict(options))
+            text = json.dumps([VERSION, data.manifest_hash, *made_of])
             key = hashlib.sha256(text.encode()).hexdigest()
             clips = tuple(library.of_split(entry.split))
             jobs.append(SongJob(source, entry, clips, out, options, key))

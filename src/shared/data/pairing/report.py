@@ -2,15 +2,16 @@
 
 import json
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from src.shared.data.pairing.clip_library import FPS, MARGIN, ClipLibrary
+from src.shared.data.pairing.motion_beats import motion_beats
 from src.shared.files import write_json
-from src.shared.motion.trajectory import ACCELERATION, MotionTrajectory
+from src.shared.motion.trajectory import MotionTrajectory
 from src.shared.motion.window import encode_window
 
 WINDOW_FRAMES = 120  # TECH §6.1's target length
@@ -119,20 +120,32 @@ def _alignment(entries: Sequence[Entry]) -> dict[str, dict[str, float]]:
 
 
 def _seams(out: Path, entries: Sequence[Entry]) -> dict[str, Any]:
-    """Size of the acceleration in m/s² within a seam and elsewhere."""
-    at_seam, elsewhere = [], []
+    """Size of the acceleration in m/s² within seams, around other motion beats, elsewhere.
+
+    Seams lie on motion beats, where the pelvis turns from braking to pushing in any case, so the
+    second of the three is what the first is to be compared with.
+    """
+    found: dict[str, list[np.ndarray]] = {"at_seams": [], "at_other_beats": [], "elsewhere": []}
     for entry in entries:
-        size = np.linalg.norm(load_trajectory(out, entry)[:, ACCELERATION], axis=1)
-        near = np.zeros(len(size), dtype=bool)
-        for frame in entry["pair"]["seams"]:
-            near[max(0, frame - MARGIN) : frame + MARGIN + 1] = True
-        at_seam.append(size[near])
-        elsewhere.append(size[~near])
-    return {
-        "number": sum(len(entry["pair"]["seams"]) for entry in entries),
-        "acceleration_at_seams": _percentiles(np.concatenate(at_seam)),
-        "acceleration_elsewhere": _percentiles(np.concatenate(elsewhere)),
+        trajectory = MotionTrajectory(load_trajectory(out, entry))
+        size = np.linalg.norm(trajectory.acceleration, axis=1)
+        seam = _near(entry["pair"]["seams"], len(size))
+        beats = motion_beats(trajectory.position, FPS).times * FPS
+        beat = _near(np.rint(beats).astype(int), len(size)) & ~seam
+        found["at_seams"].append(size[seam])
+        found["at_other_beats"].append(size[beat])
+        found["elsewhere"].append(size[~seam & ~beat])
+    return {"number": sum(len(entry["pair"]["seams"]) for entry in entries)} | {
+        f"acceleration_{name}": _percentiles(np.concatenate(sizes)) for name, sizes in found.items()
     }
+
+
+def _near(frames: Iterable[int], num_frames: int) -> np.ndarray:
+    """Frames [T] bool within half a seam of any of `frames`."""
+    near = np.zeros(num_frames, dtype=bool)
+    for frame in frames:
+        near[max(0, frame - MARGIN) : frame + MARGIN + 1] = True
+    return near
 
 
 def _percentiles(values: np.ndarray) -> dict[str, float]:

@@ -16,7 +16,7 @@ from src.shared.data.phrases.layout import PhraseRecord, write_phrase
 from src.shared.errors import UserError
 from src.shared.files import sha256_file, write_json
 from src.shared.motion.style import measure_style
-from src.shared.motion.trajectory import MotionTrajectory
+from src.shared.motion.trajectory import STYLE, MotionTrajectory
 
 MIN_ALIGNMENT = 0.5  # motion to music; a phrase below teaches the wrong thing
 
@@ -101,16 +101,10 @@ def _pair(job: SongJob, name: str, music: Music, start: int, stop: int) -> dict[
         return _mark(job, {"id": name, "reason": f"alignment below {MIN_ALIGNMENT}"})
     phase = music.phase[start:stop] - np.floor(music.phase[start])
     ahead = phase[-1] + (phase[-1] - phase[-2]) * np.arange(1, SPARE + 1)
-    path = MotionTrajectory.from_pose(
+    trajectory = MotionTrajectory.from_pose(
         pair.position, pair.quaternion, np.concatenate((phase, ahead)), spare=SPARE
     )
-    trajectory = MotionTrajectory.from_pose(
-        pair.position,
-        pair.quaternion,
-        np.concatenate((phase, ahead)),
-        measure_style(path),
-        spare=SPARE,
-    )
+    trajectory.data[:, STYLE] = measure_style(trajectory)
     tempo = 60.0 / float(np.median(np.diff(beats.times)))
     features = {key: values[..., start:stop] for key, values in music.features.items()} | {
         "tempo": np.float32(tempo),
