@@ -16,14 +16,9 @@ after an interruption, does only what is missing.
 
 import hashlib
 import json
-import multiprocessing
 import os
-import signal
-import threading
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -36,6 +31,7 @@ from src.shared.data.labels import group_of
 from src.shared.data.records import SPLITS, ClipRecord
 from src.shared.data.sources import BvhFolder, Skipped, Source, all_items
 from src.shared.data.splits import assign_splits, orbit
+from src.shared.data.worker_pool import run_jobs
 from src.shared.errors import UserError
 from src.shared.files import atomic_write, sha256_file, write_json, write_text
 from src.shared.motion.mirror import mirror_features
@@ -160,40 +156,8 @@ def _run(jobs: list[_Job], workers: int, progress: Progress, total: int) -> None
     todo = [job for job in jobs if not _finished(job)]
     done = total - sum(len(job.items) for job in todo)
     progress(done, total)
-    if workers == 1 or len(todo) <= 1:
-        for job in todo:
-            _make_shard(job)
-            progress(done := done + len(job.items), total)
-        return
-    context = multiprocessing.get_context("spawn")  # forking a process with torch threads hangs
-    with ProcessPoolExecutor(min(workers, len(todo)), context, _start_worker) as pool:
-        with _interrupts_ignored():
-            pending: dict[Future[None], _Job] = {pool.submit(_make_shard, job): job for job in todo}
-        try:
-            while pending:
-                for future in wait(pending, return_when=FIRST_COMPLETED).done:
-                    future.result()
-                    progress(done := done + len(pending.pop(future).items), total)
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
-
-
-@contextmanager
-def _interrupts_ignored() -> Iterator[None]:
-    """Processes that start inside inherit it: Ctrl-C is the parent's to answer, with one line."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
-
-
-def _start_worker() -> None:
-    torch.set_num_threads(1)
+    for job, _ in run_jobs(_make_shard, todo, workers):
+        progress(done := done + len(job.items), total)
 
 
 def _make_shard(job: _Job) -> None:

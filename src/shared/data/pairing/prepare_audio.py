@@ -19,15 +19,11 @@ second run, or a run after an interruption, does only what is missing.
 
 import hashlib
 import json
-import multiprocessing
 import shutil
 from collections.abc import Callable, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
-
-import torch
 
 from src.shared.data.pairing.clip_library import FPS, ClipLibrary, open_library
 from src.shared.data.pairing.music import MusicSource
@@ -35,6 +31,7 @@ from src.shared.data.pairing.report import make_report, write_statistics
 from src.shared.data.pairing.song_pairs import PairOptions, SongJob, finished_song, pair_song
 from src.shared.data.phrases.layout import features_path, trajectory_path
 from src.shared.data.prepared import PreparedData
+from src.shared.data.worker_pool import run_jobs
 from src.shared.errors import UserError
 from src.shared.files import write_json
 
@@ -73,8 +70,8 @@ def prepare_audio(
         )
     jobs = _jobs(data, library, sources, out, options)
     made = _run(jobs, workers, progress)
-    phrases = sorted((entry for entry in made if "record" in entry), key=lambda e: e["id"])
-    left_out = [entry for entry in made if "record" not in entry]
+    phrases = sorted((e for e in made if "record" in e), key=lambda e: e["id"])
+    left_out = sorted((e for e in made if "record" not in e), key=lambda e: e["id"])
     if not phrases:
         example = f", e.g. {left_out[0]['id']}: {left_out[0]['reason']}" if left_out else ""
         raise UserError(f"no phrase could be made of {len(jobs)} songs{example}")
@@ -114,20 +111,9 @@ def _run(jobs: list[SongJob], workers: int, progress: Progress) -> list[dict[str
     todo = [job for job, found in zip(jobs, finished, strict=True) if found is None]
     done = len(jobs) - len(todo)
     progress(done, len(jobs))
-    if workers == 1 or len(todo) <= 1:
-        for job in todo:
-            made += pair_song(job)
-            progress(done := done + 1, len(jobs))
-        return made
-    context = multiprocessing.get_context("spawn")  # forking a process with torch threads hangs
-    with ProcessPoolExecutor(min(workers, len(todo)), context, torch.set_num_threads, (1,)) as pool:
-        try:
-            for future in as_completed([pool.submit(pair_song, job) for job in todo]):
-                made += future.result()
-                progress(done := done + 1, len(jobs))
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
+    for _, entries in run_jobs(pair_song, todo, workers):
+        made += entries
+        progress(done := done + 1, len(jobs))
     return made
 
 
