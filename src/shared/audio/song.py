@@ -53,13 +53,13 @@ class Song:
         """The dictionary of TECH section 4.2, and downbeats, phase, meter and origin."""
         return {
             **self.features.arrays(),
-            "tempo": np.float64(self.beats.tempo),
+            "tempo": np.array(self.beats.tempo, np.float64),
             "beat_times": np.asarray(self.beats.beat_times, np.float64),
             "downbeat_times": np.asarray(self.beats.downbeat_times, np.float64),
             "phase": self.phase,
-            "meter": np.int32(self.beats.meter),
-            "beat_confidence": np.float64(self.beats.confidence),
-            "seconds": np.float64(self.seconds),
+            "meter": np.array(self.beats.meter, np.int32),
+            "beat_confidence": np.array(self.beats.confidence, np.float64),
+            "seconds": np.array(self.seconds, np.float64),
             "sha256": np.array(self.sha256),
             "notes": np.array(self.notes, dtype=np.str_),
         }

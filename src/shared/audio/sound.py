@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from src.shared.audio.mp3 import with_length
 from src.shared.errors import UserError
 from src.shared.files import sha256_file
 
@@ -22,6 +23,7 @@ RATES = (4_000, 768_000)  # Hz
 LOUDEST = 1e6  # full scale is 1; beyond this a float file holds garbage
 CHUNK_SECONDS = 10.0
 BLOCK = 4096  # samples
+UNKNOWN = 2**48  # libsndfile's "very many" samples, of a stream without a length
 FORMATS = "wav, flac, ogg or mp3"
 
 
@@ -172,14 +174,15 @@ class _Reader:
         self._cut = _cut_off(path)
         try:
             with _quiet():
-                self._file = ForwardOnly(path)
+                self._file = ForwardOnly(with_length(path) or path)
         except (*self._failure, TypeError) as error:  # TypeError: headerless formats, by suffix
             raise UserError(
                 f"{path} is no sound file that can be read, or its start is damaged;"
                 f" convert it to {FORMATS}"
             ) from error
         self._rate = self._file.samplerate
-        self._claimed = self._file.frames
+        frames = self._file.frames
+        self._claimed = frames if frames < UNKNOWN else 0
         self._got = 0
         if not RATES[0] <= self._rate <= RATES[1]:
             self._file.close()

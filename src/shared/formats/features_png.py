@@ -35,11 +35,14 @@ def plot_features(arrays: Mapping[str, np.ndarray], path: str | Path, *, title: 
     panels = {name: height * OVERSAMPLE for name, height in HEIGHTS.items()}
     top = 26 * OVERSAMPLE
     height = top + sum(panels.values()) + GAP * len(panels) + 20 * OVERSAMPLE
-    sheet, draw = new_sheet(LABELS + width + 2 * MARGIN, height)
+    sheet, draw = new_sheet(LABELS + width + 4 * MARGIN, height)
     draw.text((MARGIN, MARGIN), title, INK, font(13 * OVERSAMPLE, title))
     for name, tall in panels.items():
         box = (LABELS + MARGIN, top, LABELS + MARGIN + width, top + tall)
         draw.text((MARGIN, top + tall / 2), name, INK, font(11 * OVERSAMPLE), anchor="lm")
+        if name == "loudness":
+            below = (MARGIN, top + tall / 2 + 15 * OVERSAMPLE)
+            draw.text(below, "centroid", SECOND, font(11 * OVERSAMPLE), anchor="lm")
         if name in arrays:
             sheet.paste(_heatmap(arrays[name], width, tall), box[:2])
         else:

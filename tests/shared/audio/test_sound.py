@@ -104,6 +104,20 @@ def test_hardly_anything_left_is_an_error(tmp_path: Path, noise: np.ndarray, suf
     assert "\n" not in str(caught.value)
 
 
+def test_a_stream_without_a_length_is_no_damage(tmp_path: Path, noise: np.ndarray) -> None:
+    path = write(tmp_path / "song.flac", noise)
+    data = bytearray(path.read_bytes())
+    data[21] &= 0xF0  # the 36 bits of STREAMINFO that count samples
+    data[22:26] = bytes(4)
+    path.write_bytes(data)
+    assert load_sound(path).num_frames == 180 and load_sound(path).notes == ()
+    path = write(tmp_path / "song.wav", noise)
+    data = bytearray(path.read_bytes())
+    data[4:8] = data[40:44] = b"\xff" * 4  # as written into a pipe
+    path.write_bytes(data)
+    assert load_sound(path).num_frames == 180 and load_sound(path).notes == ()
+
+
 def test_damage_in_the_middle_keeps_what_comes_before(tmp_path: Path, noise: np.ndarray) -> None:
     path = write(tmp_path / "song.flac", noise)
     data = bytearray(path.read_bytes())
