@@ -16,6 +16,10 @@ FLAGS = {
         "--captions --json --labels --mapping --mirror --no-mirror --out --seed --synthetic"
         " --templates --workers SOURCE"
     ),
+    "prepare-audio": (
+        "--json --max-seconds --meter --min-seconds --motion --music --no-synthetic-clips --out"
+        " --passes --seed --synthetic-clips --workers"
+    ),
     "shape-check": (
         "--device --full --json --model --network-file --network-profile --no-root-track"
         " --root-track OVERRIDES"

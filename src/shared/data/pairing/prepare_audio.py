@@ -94,15 +94,15 @@ def _jobs(
     out: Path,
     options: PairOptions,
 ) -> list[SongJob]:
-    jobs = []
+    jobs: dict[str, SongJob] = {}  # a song that two sources hold is taken once
     for source in sources:
         for entry in source.entries():
             made_of = (entry.id, entry.split, entry.fingerprint, asdict(options))
             text = json.dumps([VERSION, data.manifest_hash, *made_of])
             key = hashlib.sha256(text.encode()).hexdigest()
             clips = tuple(library.of_split(entry.split))
-            jobs.append(SongJob(source, entry, clips, out, options, key))
-    return jobs
+            jobs.setdefault(entry.id, SongJob(source, entry, clips, out, options, key))
+    return list(jobs.values())
 
 
 def _run(jobs: list[SongJob], workers: int, progress: Progress) -> list[dict[str, Any]]:
