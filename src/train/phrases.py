@@ -1,8 +1,24 @@
-"""Opening the phrases of an audio stage, with the errors a user can act on."""
+"""The phrases of an audio stage: opened, cut into whole windows, with what decoders must find.
+
+Letters: B batch, T frames, C rows of sound.
+"""
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import torch
+from torch import Tensor
+from torch.nn import functional as F
 
 from src.shared.config_schema import TrainConfig
-from src.shared.data.phrases.dataset import MotionPhraseDataset
+from src.shared.data.phrases.dataset import MotionPhraseDataset, PhraseBatch
 from src.shared.errors import UsageError
+from src.shared.model.audio.audio_motion_model import AudioMotionModel
+from src.shared.model.audio.conditioning import BEAT, CONDITION_ROWS
+from src.shared.model.audio.decoder import wrapped_phase
+from src.shared.model.audio.unet import MIN_FRAMES
+from src.shared.motion.trajectory import PHASE
 
 
 def open_phrases(config: TrainConfig, split: str, num_phrases: int | None) -> MotionPhraseDataset:
@@ -24,3 +40,43 @@ def open_phrases(config: TrainConfig, split: str, num_phrases: int | None) -> Mo
         split=split,
         seed=config.seed,
     )
+
+
+def whole_windows(phrases: PhraseBatch) -> PhraseBatch:
+    """The batch cut to the length of its shortest phrase: every frame is real."""
+    frames = max(int(phrases.mask.sum(dim=1).min()), MIN_FRAMES)
+    return replace(
+        phrases,
+        motion=phrases.motion[..., :frames],
+        audio=phrases.audio[..., :frames],
+        mask=phrases.mask[:, :frames],
+    )
+
+
+def bar_phase_at_start(audio: Tensor) -> tuple[Tensor, Tensor]:
+    """Sound [B,C,T] -> bar phase of the first frame [B], 0 where unknown; which are known [B]."""
+    if audio.shape[1] < CONDITION_ROWS:
+        return torch.zeros(len(audio)), torch.zeros(len(audio), dtype=torch.bool)
+    cosine, sine = audio[:, BEAT][:, 2:, 0].unbind(dim=1)  # [B] each
+    return torch.atan2(sine, cosine) / (2 * math.pi), torch.hypot(cosine, sine) > 0.5
+
+
+def true_trajectory(motion: Tensor, start: Tensor) -> Tensor:
+    """Windows [B,25,T] as the dataset has them, first bar phase [B] -> trajectories [B,T,25]."""
+    trajectory = motion.transpose(1, 2).clone()
+    bars = F.pad(trajectory[:, :-1, PHASE].cumsum(dim=1), (1, 0))  # increment t leads to t + 1
+    trajectory[..., PHASE] = wrapped_phase(start[:, None] + bars)
+    return trajectory
+
+
+def export_song(model: AudioMotionModel, phrases: MotionPhraseDataset, folder: Path) -> None:
+    """The first phrase's sound, made into a trajectory: a picture of it in `folder`."""
+    from src.shared.formats.trajectory_registry import write_trajectory
+    from src.shared.inference.song_sampler import SongSampler
+
+    item = phrases.item(0, 0)
+    if item is None:
+        return
+    folder.mkdir(parents=True, exist_ok=True)
+    made = SongSampler(model).sample(item.audio)[0]
+    write_trajectory(made, folder / "held-back.png")

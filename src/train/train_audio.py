@@ -26,7 +26,7 @@ from src.shared.model.audio.conditioning import ConditionAugmentation
 from src.shared.model.diffusion.gaussian import GaussianDiffusion, masked_loss
 from src.shared.motion.trajectory import FPS, POSITION, QUATERNION, STYLE
 from src.train.launch import stage_app
-from src.train.phrases import open_phrases
+from src.train.phrases import export_song, open_phrases
 from src.train.seeding import generator
 from src.train.task import Part
 from src.train.train_generation import NOISE_LEVELS, spread_timesteps
@@ -64,6 +64,48 @@ class AudioBatch:
     timesteps: Tensor
 
 
+def audio_losses(
+    module: nn.Module,
+    batch: AudioBatch,
+    diffusion: GaussianDiffusion,
+    std: Tensor,
+    *,
+    velocity_weight: float,
+) -> dict[str, Tensor]:
+    """Error of the network's prediction, of the frame differences it means, and their sum `loss`.
+
+    Args:
+        module: the UNet.
+        batch: what it sees.
+        diffusion: its process.
+        std: [25] of the rows.
+        velocity_weight: 0 = without frame differences.
+    """
+    noisy = diffusion.q_sample(batch.clean, batch.timesteps, batch.noise)
+    noisy = torch.where(batch.known, batch.clean, noisy)
+    output = module(noisy, batch.timesteps, batch.condition, batch.drop)
+    target = diffusion.target(batch.clean, batch.noise, batch.timesteps)
+    learned = torch.where(batch.known, target, output.float())
+    error = diffusion.loss(learned, target, mask=batch.mask, time_dim=2)
+    losses = {"loss": error, "diffusion": error}
+    if velocity_weight:
+        clip = diffusion.config.prediction_type != "sample"
+        x_0 = diffusion.predict_x0(output.float(), noisy, batch.timesteps, clip=clip)
+        losses["velocity"] = _velocity_error(x_0, batch, std)
+        losses["loss"] = error + velocity_weight * losses["velocity"]
+    return losses
+
+
+def _velocity_error(x_0: Tensor, batch: AudioBatch, std: Tensor) -> Tensor:
+    """Mean squared error of position and quaternion differences a second."""
+    x_0 = torch.where(batch.known, batch.clean, x_0)
+    error = (x_0 - batch.clean) * std[:, None]  # [B,25,T] raw units
+    error = torch.cat((error[:, POSITION], error[:, QUATERNION]), dim=1)  # [B,7,T]
+    speed = (error[..., 1:] - error[..., :-1]) * FPS
+    mask = batch.mask[:, 1:] & batch.mask[:, :-1]
+    return masked_loss(speed, torch.zeros_like(speed), "mse", mask=mask, time_dim=2)
+
+
 class AudioTask:
     """What the trainer needs to know (src/train/task.py)."""
 
@@ -71,14 +113,19 @@ class AudioTask:
         self.config, self.network = config, network
         self.train: MotionPhraseDataset = open_phrases(config, "train", config.num_phrases)
         self.held_back: MotionPhraseDataset = open_phrases(config, "val", None)
-        self.model = AudioMotionModel(network)
-        self.model.set_statistics(*motion_statistics(self.train))
+        self.model = self._start()
         self.mean, self.std = self.model.mean.clone(), self.model.std.clone()
         self.module: nn.Module = self.model.unet
         self.augment = ConditionAugmentation(network.condition.augmentation)
         self.diffusion = GaussianDiffusion(network.diffusion)
         self.compute = choose_compute(config.device, config.precision)
         self.figures: dict[str, float] = {}
+
+    def _start(self) -> AudioMotionModel:
+        """The model before training."""
+        model = AudioMotionModel(self.network)
+        model.set_statistics(*motion_statistics(self.train))
+        return model
 
     def identity(self) -> dict[str, Any]:
         """A resumed run must have the same network and see the same phrases."""
@@ -94,12 +141,15 @@ class AudioTask:
 
     # ------------------------------------------------------------ batches
 
-    def batch(self, part: Part) -> AudioBatch:
+    def batch(self, part: Part) -> Any:
         """Windows with noise, steps, what is known and what is dropped."""
         phrases = self.train.batch(
             part.step, self.config.batch_size, index=part.index, count=part.count
         )
-        draws = generator("noise", self.config.seed, part.step, part.index)
+        return self._drawn(phrases, generator("noise", self.config.seed, part.step, part.index))
+
+    def _drawn(self, phrases: PhraseBatch, draws: torch.Generator) -> AudioBatch:
+        """A training batch of these phrases."""
         timesteps = spread_timesteps(len(phrases), self.diffusion.config.timesteps, draws)
         known = self._known(phrases, draws)
         drop = self.augment.draw_drop(len(phrases), draws)
@@ -136,30 +186,10 @@ class AudioTask:
 
     # ------------------------------------------------------------ learning
 
-    def training_step(self, module: nn.Module, batch: AudioBatch) -> dict[str, Tensor]:
+    def training_step(self, module: nn.Module, batch: Any) -> dict[str, Tensor]:
         """Error of what the network predicts, and of the frame differences it means."""
-        noisy = self.diffusion.q_sample(batch.clean, batch.timesteps, batch.noise)
-        noisy = torch.where(batch.known, batch.clean, noisy)
-        output = module(noisy, batch.timesteps, batch.condition, batch.drop)
-        target = self.diffusion.target(batch.clean, batch.noise, batch.timesteps)
-        learned = torch.where(batch.known, target, output.float())
-        diffusion = self.diffusion.loss(learned, target, mask=batch.mask, time_dim=2)
-        losses = {"loss": diffusion, "diffusion": diffusion}
-        if weight := self.config.velocity_weight:
-            clip = self.diffusion.config.prediction_type != "sample"
-            x_0 = self.diffusion.predict_x0(output.float(), noisy, batch.timesteps, clip=clip)
-            losses["velocity"] = self._velocity_loss(x_0, batch)
-            losses["loss"] = diffusion + weight * losses["velocity"]
-        return losses
-
-    def _velocity_loss(self, x_0: Tensor, batch: AudioBatch) -> Tensor:
-        """Mean squared error of position and quaternion differences a second."""
-        x_0 = torch.where(batch.known, batch.clean, x_0)
-        error = (x_0 - batch.clean) * self.std[:, None]  # [B,25,T] raw units
-        error = torch.cat((error[:, POSITION], error[:, QUATERNION]), dim=1)  # [B,7,T]
-        speed = (error[..., 1:] - error[..., :-1]) * FPS
-        mask = batch.mask[:, 1:] & batch.mask[:, :-1]
-        return masked_loss(speed, torch.zeros_like(speed), "mse", mask=mask, time_dim=2)
+        weight = self.config.velocity_weight
+        return audio_losses(module, batch, self.diffusion, self.std, velocity_weight=weight)
 
     def validation(self, module: nn.Module) -> dict[str, float]:
         """Losses on held-back phrases at fixed steps and noise, overall and by noise level."""
@@ -188,15 +218,7 @@ class AudioTask:
 
     def export_samples(self, module: nn.Module, folder: Path) -> None:
         """A held-back phrase's sound, made into a trajectory: a picture of it."""
-        from src.shared.formats.trajectory_registry import write_trajectory
-        from src.shared.inference.song_sampler import SongSampler
-
-        item = self.held_back.item(0, 0)
-        if item is None:
-            return
-        folder.mkdir(parents=True, exist_ok=True)
-        made = SongSampler(self._finished(module)).sample(item.audio)[0]
-        write_trajectory(made, folder / "held-back.png")
+        export_song(self._finished(module), self.held_back, folder)
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """A folder that train_decoder, finetune_e2e and `generate --audio` read."""

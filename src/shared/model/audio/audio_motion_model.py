@@ -61,6 +61,12 @@ class AudioMotionModel(nn.Module):
         """The UNet's; None when it conditions by cross-attention alone."""
         return self.unet.conditioner
 
+    def replace_decoder(self, decoder: Decoder) -> None:
+        """Take over another decoder, of either kind."""
+        self.decoder = decoder
+        self.config = self.config.model_copy(update={"decoder": decoder.config})
+        self.card = self.card.model_copy(update={"audio_network": self.config})
+
     # Statistics (ruling 13)
 
     def set_statistics(self, mean: Tensor, std: Tensor) -> None:

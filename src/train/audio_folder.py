@@ -1,0 +1,37 @@
+"""The audio model folder that a stage goes on from: its network, and changes to it."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from src.shared.config_audio import AudioNetworkConfig
+from src.shared.config_loader import NETWORK_PREFIX, dump_config, load_config
+from src.shared.errors import UsageError, UserError
+from src.shared.model.audio.audio_motion_model import KIND
+from src.shared.model.checkpoint import read_card
+from src.shared.model.zoo import resolve_model
+
+DECODER_PREFIX = NETWORK_PREFIX + "decoder."
+
+
+def network_of(name_or_folder: str | Path, overrides: Sequence[str] = ()) -> AudioNetworkConfig:
+    """The network of a trained model.
+
+    Args:
+        name_or_folder: as `AudioMotionModel.from_pretrained` takes it.
+        overrides: `network.decoder.…=…`; what is trained already cannot change.
+
+    Raises:
+        UserError: no audio model there.
+        UsageError: an override of another part, an unknown key or a wrong value.
+    """
+    folder = resolve_model(name_or_folder)
+    card = read_card(folder)
+    if card.kind != KIND or card.audio_network is None:
+        raise UserError(f"{folder} holds a {card.kind}, not a {KIND}; name another folder")
+    for override in overrides:
+        if not override.startswith(DECODER_PREFIX):
+            raise UsageError(
+                f"{override}: the network is that of {folder}; only {DECODER_PREFIX}* can change"
+            )
+    values = dump_config(card.audio_network)
+    return load_config(AudioNetworkConfig, values, str(folder), overrides, prefix=NETWORK_PREFIX)

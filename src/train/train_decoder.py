@@ -1,0 +1,293 @@
+"""Decoder training: from windows as the denoiser gives them to the true trajectories (ruling 5).
+
+accelerate launch -m src.train.train_decoder --audio runs/audio --data DIR_OR_URL
+[network.decoder.decoder=residual] [key=value ...] [--resume]
+
+The UNet rests. The decoder sees clean windows with Gaussian noise: row by row of the size of the
+UNet's own error, times a factor drawn log-uniformly, partly alike from frame to frame. It starts
+as a correction of nothing; validation shows both that start and what became of it.
+
+Letters: B batch, T frames.
+"""
+
+import math
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+import torch
+import typer
+from pydantic import Field
+from torch import Tensor, nn
+
+from src.shared.config_audio import AudioNetworkConfig, DecoderLossConfig
+from src.shared.config_loader import load_train, split_network_overrides
+from src.shared.config_schema import TrainConfig
+from src.shared.data.phrases.dataset import PhraseBatch
+from src.shared.inference.song_sampler import SPARE
+from src.shared.model.audio.audio_motion_model import AudioMotionModel
+from src.shared.model.audio.decoder import Decoder, create_motion_decoder, wrapped_phase
+from src.shared.model.audio.losses import DecoderLoss, total
+from src.shared.motion.trajectory import PHASE
+from src.train.audio_folder import network_of
+from src.train.launch import as_overrides, resume_command, short_errors
+from src.train.phrases import (
+    bar_phase_at_start,
+    export_song,
+    open_phrases,
+    true_trajectory,
+    whole_windows,
+)
+from src.train.seeding import generator
+from src.train.task import Part
+
+MODULE = "src.train.train_decoder"
+ERROR_BATCHES = 4  # on which the UNet's error is measured
+ERROR_LEVEL = 0.25  # up to this share of the diffusion steps: what sampling ends with
+
+
+class TrainDecoderConfig(TrainConfig):
+    """train_decoder.yaml."""
+
+    audio: str = "runs/audio"  # folder written by train_audio
+    target_frames: int = Field(240, ge=8)  # of a window
+    num_phrases: int | None = Field(None, ge=1)  # take only the first so many
+    noise: tuple[float, float] = (0.03, 1.0)  # least and most, times the UNet's error
+    correlation: tuple[float, float] = (1.0, 30.0)  # frames, least and most, of correlated noise
+    start_weight: float = Field(0.1, ge=0)  # of the guessed first bar phase
+    losses: DecoderLossConfig = DecoderLossConfig()
+
+
+@dataclass(frozen=True)
+class DecoderBatch:
+    """What a decoder sees and should give.
+
+    Attributes:
+        rows: [B,T,25] raw, noisy.
+        target: [B,T,25] trajectories.
+        start: [B] first bar phase.
+        start_known: [B] bool.
+    """
+
+    rows: Tensor
+    target: Tensor
+    start: Tensor
+    start_known: Tensor
+
+
+class DecoderObjective(nn.Module):
+    """A decoder with its loss, so that one call holds every weight (DDP)."""
+
+    def __init__(self, decoder: Decoder, config: TrainDecoderConfig) -> None:
+        super().__init__()
+        self.decoder = decoder
+        self.loss = DecoderLoss(config.losses)
+        self.start_weight = config.start_weight
+
+    def forward(self, batch: DecoderBatch) -> dict[str, Tensor]:
+        """Weighted terms and their sum `loss`.
+
+        The phase is judged as if the start were known; the guess of the start by itself.
+        """
+        decoded = self.decoder.decode(batch.rows)
+        guess = decoded.phase_unwrapped[:, :1]
+        bars = decoded.phase_unwrapped - guess + batch.start[:, None]
+        columns = decoded.trajectory[..., :PHASE], decoded.trajectory[..., PHASE + 1 :]
+        trajectory = torch.cat((columns[0], wrapped_phase(bars)[..., None], columns[1]), dim=-1)
+        terms = self.loss(trajectory[:, :-SPARE], batch.target[:, :-SPARE])
+        if self.start_weight:
+            turn = 2 * math.pi * (guess[:, 0] - batch.start)
+            error = (1 - turn.cos()) * batch.start_known / (2 * math.pi**2)
+            terms["start"] = self.start_weight * error.mean()
+        return {"loss": total(terms), **terms}
+
+
+def time_noise(
+    size: tuple[int, int, int], widths: Tensor, share: Tensor, draws: torch.Generator
+) -> Tensor:
+    """Unit Gaussian noise [B,C,T], a share of whose variance is alike from frame to frame.
+
+    Args:
+        size: B, C, T.
+        widths: [B] frames, standard deviation of the kernel that makes noise alike.
+        share: [B] in [0, 1].
+        draws: source of the noise.
+    """
+    white, smooth = torch.randn(size, generator=draws), torch.randn(size, generator=draws)
+    frequencies = torch.fft.rfftfreq(size[2])  # turns a frame
+    gain = torch.exp(-2 * (math.pi * widths[:, None] * frequencies) ** 2)  # [B,F]
+    smooth = torch.fft.irfft(torch.fft.rfft(smooth) * gain[:, None], n=size[2])
+    twice = torch.full_like(frequencies, 2.0)  # each frequency but the ends stands for two
+    twice[0] = 1.0
+    if size[2] % 2 == 0:
+        twice[-1] = 1.0
+    power = (gain.square() * twice).sum(dim=1) / size[2]
+    smooth = smooth / power.sqrt()[:, None, None]
+    part = share[:, None, None]
+    return (1 - part).sqrt() * white + part.sqrt() * smooth
+
+
+def log_uniform(limits: tuple[float, float], num: int, draws: torch.Generator) -> Tensor:
+    """[num] numbers between two limits, uniform in their logarithm."""
+    low, high = (math.log(limit) for limit in limits)
+    return torch.exp(low + (high - low) * torch.rand(num, generator=draws))
+
+
+@torch.no_grad()
+def denoiser_error(model: AudioMotionModel, batches: list[PhraseBatch], *seed: int) -> Tensor:
+    """Root mean square error [25] of the UNet's x_0 in z-scores, at low noise."""
+    squares, most = (
+        torch.zeros(len(model.mean)),
+        int(model.diffusion.config.timesteps * ERROR_LEVEL),
+    )
+    for index, phrases in enumerate(batches):
+        draws = generator("denoiser-error", *seed, index)
+        clean = model.normalise(phrases.motion)
+        timesteps = torch.randint(max(most, 1), (len(clean),), generator=draws)
+        noisy = model.diffusion.q_sample(
+            clean, timesteps, torch.randn(clean.shape, generator=draws)
+        )
+        output = model.unet(noisy, timesteps, phrases.audio)
+        error = model.diffusion.predict_x0(output, noisy, timesteps) - clean
+        squares += error.square().mean(dim=(0, 2)) / len(batches)
+    return squares.sqrt()
+
+
+class DecoderTask:
+    """What the trainer needs to know (src/train/task.py)."""
+
+    def __init__(self, config: TrainDecoderConfig, network: AudioNetworkConfig) -> None:
+        self.config = config
+        self.model = AudioMotionModel.from_pretrained(config.audio)
+        self.source = self.model.card
+        self.train = open_phrases(config, "train", config.num_phrases)
+        self.held_back = open_phrases(config, "val", None)
+        self.model.replace_decoder(create_motion_decoder(network.decoder))
+        self.module: nn.Module = DecoderObjective(self.model.decoder.train(), config)
+        self.untrained = DecoderObjective(create_motion_decoder(network.decoder), config).eval()
+        batches = [
+            whole_windows(self.train.batch(index + 1, min(config.batch_size, 16)))
+            for index in range(ERROR_BATCHES)
+        ]
+        self.error = denoiser_error(self.model, batches, config.seed)
+        self.figures: dict[str, float] = {}
+
+    def identity(self) -> dict[str, Any]:
+        """A resumed run must have the same UNet and decoder and see the same phrases."""
+        assert self.source.weights is not None
+        return {
+            "network": self.model.config.model_dump(mode="json", by_alias=True),
+            "audio-weights": self.source.weights.sha256,
+            "data-hash": self.train.fingerprint,
+        }
+
+    def to(self, device: torch.device) -> None:
+        """The untrained decoder, which validation needs, follows."""
+        self.untrained.to(device)
+
+    # ------------------------------------------------------------ batches
+
+    def batch(self, part: Part) -> DecoderBatch:
+        """Windows with noise."""
+        phrases = self.train.batch(
+            part.step, self.config.batch_size, index=part.index, count=part.count
+        )
+        draws = generator("noise", self.config.seed, part.step, part.index)
+        return self._noised(phrases, draws)
+
+    def _noised(
+        self, phrases: PhraseBatch, draws: torch.Generator, *, clean: bool = False
+    ) -> DecoderBatch:
+        phrases, config, num = whole_windows(phrases), self.config, len(phrases)
+        scale = log_uniform(config.noise, num, draws)[:, None, None] * self.error[:, None]
+        widths, share = (
+            log_uniform(config.correlation, num, draws),
+            torch.rand(num, generator=draws),
+        )
+        size, std = phrases.motion.shape, self.model.std[:, None].cpu()
+        noise = time_noise((size[0], size[1], size[2]), widths, share, draws)
+        rows = phrases.motion if clean else phrases.motion + noise * scale * std
+        start, known = bar_phase_at_start(phrases.audio)
+        target = true_trajectory(phrases.motion, start)
+        return DecoderBatch(rows.transpose(1, 2), target, start, known)
+
+    # ------------------------------------------------------------ learning
+
+    def training_step(self, module: nn.Module, batch: DecoderBatch) -> dict[str, Tensor]:
+        """The decoder's loss."""
+        losses: dict[str, Tensor] = module(batch)
+        return losses
+
+    def validation(self, module: nn.Module) -> dict[str, float]:
+        """Losses on held-back phrases with fixed noise and with none, beside the untrained's."""
+        device = self.untrained.decoder.input_scale.device
+        sums: dict[str, float] = {}
+        for index in range(self.config.validation_batches):
+            phrases = self.held_back.batch(index + 1, self.config.batch_size)
+            for clean, prefix in ((False, ""), (True, "clean-")):
+                batch = self._noised(phrases, generator("validation", index), clean=clean)
+                batch = DecoderBatch(*(value.to(device) for value in vars(batch).values()))
+                losses = module(batch)
+                figures = losses if not clean else {"loss": losses["loss"]}
+                figures = {f"{prefix}{key}": value for key, value in figures.items()}
+                figures[f"untrained-{prefix}loss"] = self.untrained(batch)["loss"]
+                for key, value in figures.items():
+                    share = value.item() / self.config.validation_batches
+                    sums[key] = sums.get(key, 0.0) + share
+        self.figures = sums
+        return sums
+
+    # ------------------------------------------------------------ results
+
+    def export_samples(self, module: nn.Module, folder: Path) -> None:
+        """A held-back phrase's sound, made into a trajectory: a picture of it."""
+        export_song(self._finished(module), self.held_back, folder)
+
+    def save_pretrained(self, module: nn.Module, folder: Path) -> None:
+        """The audio model with the trained decoder: a folder like the one that was read."""
+        model = self._finished(module)
+        trained = {"steps": self.config.steps, "validation": self.figures}
+        summary = {**self.source.training, "decoder": trained}
+        model.card = model.card.model_copy(update={"name": folder.name, "training": summary})
+        model.save_pretrained(folder)
+
+    def _finished(self, module: nn.Module) -> AudioMotionModel:
+        assert isinstance(module, DecoderObjective)
+        decoder = create_motion_decoder(module.decoder.config)
+        decoder.load_state_dict(module.decoder.state_dict())
+        self.model.replace_decoder(decoder)
+        return self.model.cpu().eval()
+
+
+app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
+
+
+@app.command()
+def train(
+    overrides: Annotated[
+        list[str] | None, typer.Argument(metavar="KEY=VALUE", help="settings to change")
+    ] = None,
+    config: Annotated[Path | None, typer.Option(help="YAML file of settings")] = None,
+    audio: Annotated[str | None, typer.Option(help="folder of a train_audio run")] = None,
+    data: Annotated[str | None, typer.Option(help="folder or bucket of prepare-audio")] = None,
+    output: Annotated[str | None, typer.Option(help="folder of this run")] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="continue the run in output")] = False,
+) -> None:
+    """Train the decoder behind a train_audio run.
+
+    Example: accelerate launch -m src.train.train_decoder --audio runs/audio --data pairs
+    """
+    flags = as_overrides({"audio": audio, "data": data, "output": output})
+    with short_errors():
+        own, network_overrides = split_network_overrides([*(overrides or []), *flags])
+        settings = load_train(config, TrainDecoderConfig, own)
+        network = network_of(settings.audio, network_overrides)
+        from src.train.engine import Trainer
+
+        command = resume_command(MODULE, sys.argv[1:])
+        Trainer(settings, lambda c: DecoderTask(c, network), command=command, resume=resume).train()
+
+
+if __name__ == "__main__":
+    app()
