@@ -47,9 +47,10 @@ def plot_trajectory(trajectory: MotionTrajectory, path: str | Path, *, title: st
         strict=False,
     ):
         axes.plot(seconds, values, label=list(labels) or None)
-        axes.set_title(name)
+        axes.set_title(name, loc="left")
         if labels:
-            axes.legend(loc="upper right", ncols=4, fontsize="small")
+            _legend(axes)
+    figure.axes[3].set_ylim(-0.05, 1.05)
     _plot_norm(figure.axes[4], seconds, trajectory)
     _plot_jerk(figure.axes[5], seconds, trajectory)
     for axes in figure.axes[4:]:
@@ -73,26 +74,41 @@ def plot_losses(
     Raises:
         UserError: nothing to draw, matplotlib is missing, or the file cannot be written.
     """
-    names = [name for name in LOSSES if name in history]
-    names += [name for name in history if name not in (*names, "step")]
-    names = names[:MAX_PANELS]
-    if not names:
+    panels = _panels([name for name in history if name != "step"])
+    if not panels:
         raise UserError(f"cannot write {path}: the log holds no numbers to draw")
-    columns = min(3, len(names))
-    rows = math.ceil(len(names) / columns)
+    columns = min(3, len(panels))
+    rows = math.ceil(len(panels) / columns)
     figure = _new_figure(5 * columns, 3.6 * rows)
-    for index, name in enumerate(names):
+    for index, (panel, names) in enumerate(panels.items()):
         axes = figure.add_subplot(rows, columns, index + 1)
-        values = np.asarray(history[name], dtype=np.float64)
-        known = np.isfinite(values)  # evaluations come more rarely than steps
-        steps = np.asarray(history.get("step", np.arange(len(values))))[known]
-        axes.plot(steps, values[known], marker="." if known.sum() < 50 else "")
-        axes.set_title(name)
+        for name in names:
+            _plot_curve(axes, name, history)
+        axes.set_title(panel, loc="left")
         axes.set_xlabel("step")
-        if known.any() and values[known].min() > 0:
-            axes.set_yscale("log")
+        if len(names) > 1:
+            _legend(axes)
     figure.suptitle(title)
     return _save(figure, Path(path))
+
+
+def _panels(names: Sequence[str]) -> dict[str, list[str]]:
+    """At most `MAX_PANELS` panels and their curves: `loss` and `validation/loss` share one."""
+    grouped: dict[str, list[str]] = {}
+    for name in names:
+        grouped.setdefault(name.rpartition("/")[2].replace("-", "_"), []).append(name)
+    order = [*(name for name in LOSSES if name in grouped), *grouped]
+    return {name: grouped[name] for name in list(dict.fromkeys(order))[:MAX_PANELS]}
+
+
+def _plot_curve(axes: "Axes", name: str, history: Mapping[str, Sequence[float]]) -> None:
+    values = np.asarray(history[name], dtype=np.float64)
+    known = np.isfinite(values)  # evaluations come more rarely than steps
+    steps = np.asarray(history.get("step", np.arange(len(values))))[known]
+    label = name.rpartition("/")[0] or "training"
+    axes.plot(steps, values[known], marker="." if known.sum() < 50 else "", label=label)
+    if known.any():
+        axes.set_yscale("log" if values[known].min() > 0 else "symlog")
 
 
 def read_losses(path: str | Path) -> dict[str, list[float]]:
@@ -169,10 +185,18 @@ def _gapped(trajectory: MotionTrajectory) -> np.ndarray:
     return phase
 
 
+def _legend(axes: "Axes") -> None:
+    """In a line above the panel, right of its title."""
+    axes.legend(
+        loc="lower right", bbox_to_anchor=(1, 1), ncols=4, fontsize="small", frameon=False,
+        borderaxespad=0,
+    )  # fmt: skip
+
+
 def _plot_norm(axes: "Axes", seconds: np.ndarray, trajectory: MotionTrajectory) -> None:
     axes.plot(seconds, np.linalg.norm(trajectory.quaternion, axis=1))
     axes.axhline(1.0, color="red", linestyle="--")
-    axes.set_title("Quaternion norm")
+    axes.set_title("Quaternion norm", loc="left")
     axes.set_ylim(0.8, 1.2)
 
 
@@ -181,7 +205,7 @@ def _plot_jerk(axes: "Axes", seconds: np.ndarray, trajectory: MotionTrajectory) 
     axes.plot(seconds[:-1], np.linalg.norm(steps, axis=1))
     axes.axhline(SanityThresholds().max_jerk, color="red", linestyle="--")
     axes.set_yscale("symlog", linthresh=1)
-    axes.set_title("Jerk, m/s³ (dashed: bound of its mean)")
+    axes.set_title("Jerk, m/s³ (dashed: bound of its mean)", loc="left")
 
 
 def _new_figure(width: float, height: float) -> "Figure":
