@@ -6,6 +6,7 @@ Frame headers: ISO/IEC 11172-3 and 13818-3, layer III, and the unofficial MPEG 2
 """
 
 import io
+import mmap
 import struct
 from dataclasses import dataclass
 from pathlib import Path
@@ -30,22 +31,24 @@ class FrameHeader:
 
 def with_length(path: Path) -> io.BytesIO | None:
     """The file with a length tag before it, or None where it is no mp3 or has one."""
-    with path.open("rb") as stream:
-        if stream.read(4) in (b"RIFF", b"OggS", b"fLaC", b"FORM", b"RF64"):
+    if not path.stat().st_size:
+        return None
+    with (
+        path.open("rb") as stream,
+        mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as data,
+    ):
+        if data[:4] in (b"RIFF", b"OggS", b"fLaC", b"FORM", b"RF64"):
             return None
-        stream.seek(0)
-        data = stream.read()
-    start = _first_frame(data)
-    if start is None:
-        return None
-    header = parse_header(data[start : start + 4])
-    assert header is not None
-    first = data[start : start + header.size]
-    if any(tag in first[: VBRI_OFFSET + 4] for tag in TAGS):
-        return None
-    return io.BytesIO(
-        _tag(data[start : start + 4], header, count_frames(data, start)) + data[start:]
-    )
+        start = _first_frame(data)
+        if start is None:
+            return None
+        header = parse_header(data[start : start + 4])
+        assert header is not None
+        first = data[start : start + header.size]
+        if any(tag in first[: VBRI_OFFSET + 4] for tag in TAGS):
+            return None
+        tag = _tag(data[start : start + 4], header, count_frames(data, start))
+        return io.BytesIO(tag + data[start:])
 
 
 def parse_header(word: bytes) -> FrameHeader | None:
@@ -64,7 +67,7 @@ def parse_header(word: bytes) -> FrameHeader | None:
     return FrameHeader(size, 4 + side)
 
 
-def count_frames(data: bytes, start: int) -> int:
+def count_frames(data: bytes | mmap.mmap, start: int) -> int:
     """How many frames follow from `start` on; damage between them is skipped."""
     count, at = 0, start
     while at < len(data):
@@ -77,7 +80,7 @@ def count_frames(data: bytes, start: int) -> int:
     return count
 
 
-def _first_frame(data: bytes) -> int | None:
+def _first_frame(data: bytes | mmap.mmap) -> int | None:
     """Where the first frame starts that another one follows; near the beginning, or none."""
     at = 0
     if data[:3] == b"ID3":

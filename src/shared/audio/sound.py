@@ -3,6 +3,7 @@
 import contextlib
 import hashlib
 import os
+import threading
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -255,18 +256,17 @@ def _cut_off(path: Path) -> bool:
     return False
 
 
+_STDERR = threading.Lock()  # two threads that both save and restore would lose it
+
+
 @contextlib.contextmanager
 def _quiet() -> Iterator[None]:
     """Keep the mp3 decoder's own messages off stderr: the notes say what matters, in one line."""
-    try:
-        saved = os.dup(2)
-    except OSError:  # no stderr at all
-        yield
-        return
-    try:
-        with open(os.devnull, "wb") as nowhere:
+    with _STDERR, contextlib.ExitStack() as stack:
+        with contextlib.suppress(OSError):  # no stderr at all
+            saved = os.dup(2)
+            stack.callback(os.close, saved)
+            stack.callback(os.dup2, saved, 2)
+            nowhere = stack.enter_context(open(os.devnull, "wb"))
             os.dup2(nowhere.fileno(), 2)
         yield
-    finally:
-        os.dup2(saved, 2)
-        os.close(saved)
