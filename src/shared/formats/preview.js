@@ -15,7 +15,7 @@ let paintBody = makeMeshPainter() || paintLimbs;
 const cards = MOTIONS.map((motion, index) => {
   const make = (tag, parent) => parent.appendChild(document.createElement(tag));
   const figure = make("figure", board), canvas = make("canvas", figure);
-  const strip = motion.beats ? make("canvas", figure).getContext("2d") : null;
+  const strip = motion.phase ? make("canvas", figure).getContext("2d") : null;
   const caption = make("figcaption", figure), text = make("span", caption);
   text.textContent = motion.text || `motion ${index + 1}`;
   text.dir = "auto";
@@ -75,7 +75,9 @@ function draw({ motion, context, strip, middle, span }) {
   drawFloor(context, view, pixel);
   drawTrail(context, view, motion, state.time, pixel);
   paintBody(context, view, pose);
-  if (motion.beats) drawDial(context, view, motion, Math.min(state.time, motion.seconds), pixel);
+  if (!motion.phase) return;
+  drawDial(context, view, motion, Math.min(state.time, motion.seconds), pixel);
+  drawStyle(context, view, motion, Math.min(state.time, motion.seconds), pixel);
 }
 
 // ---------------------------------------------------------------- time

@@ -1,5 +1,5 @@
 // What the preview shows of the music: the bar-phase dial, beats on the path, the speed strip.
-// Only cards whose motion has beats show it. Phase: place in the bar in [0, 1), 0 the downbeat.
+// Only cards whose motion has a phase show it: the place in the bar in [0, 1), 0 the downbeat.
 
 const PHASE_STEPS = 65536; // stored phase: 16 bits a bar
 const AHEAD = 4; // seconds of coming beats that are marked on the floor
@@ -7,11 +7,12 @@ const STRIP_SECONDS = 12; // the strip scrolls past this
 const GLOW = 0.18; // seconds that a beat lights up
 
 for (const motion of MOTIONS) {
-  if (!motion.beats) continue;
+  if (!motion.phase) continue;
   motion.beats = decode(motion.beats, Float32Array);
   motion.downbeat = decode(motion.downbeat, Uint8Array);
   motion.phase = decode(motion.phase, Uint16Array);
   motion.speed = decode(motion.speed, Uint16Array);
+  motion.style = decode(motion.style, Uint8Array);
   motion.fastest = Math.max(1, motion.speed.reduce((most, x) => Math.max(most, x), 0) / 1000);
 }
 
@@ -105,6 +106,27 @@ function drawDial(context, view, motion, time, pixel) {
   context.textAlign = "center";
   context.textBaseline = "middle";
   context.fillText(String(Math.floor(phase * motion.meter) + 1), x, y);
+}
+
+/** Under the dial: how much of each named pair the style has, 0 to 1, a mark at the middle. */
+function drawStyle(context, view, motion, time, pixel) {
+  const names = DATA.pairs, bar = 56 * pixel, line = 15 * pixel;
+  if (view.width < 300 * pixel || view.height < 260 * pixel) return;
+  const right = view.width - 14 * pixel, frame = Math.round(time * motion.fps);
+  context.font = `${11 * pixel}px system-ui, sans-serif`;
+  context.textAlign = "right";
+  context.textBaseline = "middle";
+  names.forEach((name, i) => {
+    const y = 112 * pixel + i * line, left = right - bar;
+    context.fillStyle = "#6b7380";
+    context.fillText(name, left - 6 * pixel, y);
+    context.fillStyle = "#dfe3e9";
+    context.fillRect(left, y - 2 * pixel, bar, 4 * pixel);
+    context.fillStyle = "#2f6fd0";
+    context.fillRect(left, y - 2 * pixel, (bar * motion.style[4 * frame + i]) / 255, 4 * pixel);
+    context.fillStyle = "#343a44";
+    context.fillRect(left + bar / 2, y - 4 * pixel, pixel, 8 * pixel);
+  });
 }
 
 /** How brightly the last beat still shines, 0 to 1; other beats than the first shine less. */

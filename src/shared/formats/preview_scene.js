@@ -183,7 +183,7 @@ function drawTrail(context, view, motion, time, pixel) {
   addPath(context, view, motion, 0, frames - 1, Math.max(1, Math.floor(frames / OUTLINE)));
   context.stroke();
   const start = Math.max(0, Math.floor(now - TAIL * fps));
-  if (motion.beats) return drawBeatTrail(context, view, motion, start, now, pixel);
+  if (motion.phase) return drawBeatTrail(context, view, motion, start, now, pixel);
   context.strokeStyle = "#c83c5a";
   context.beginPath();
   addPath(context, view, motion, start, now, 1);

@@ -67,7 +67,7 @@ def phase_palette(steps: int = 60) -> np.ndarray:
     so that no beat looks stronger than another and the end meets the beginning.
     """
     hue = 2 * np.pi * np.arange(steps) / steps + np.deg2rad(20.0)
-    lightness, chroma = 0.70, 0.125
+    lightness, chroma = 0.70, 0.115
     a, b = chroma * np.cos(hue), chroma * np.sin(hue)
     long = (lightness + 0.3963377774 * a + 0.2158037573 * b) ** 3
     medium = (lightness - 0.1055613458 * a - 0.0638541728 * b) ** 3

@@ -1,12 +1,10 @@
 """HTML preview: harmless captions, nothing from elsewhere, data that decode to the motion."""
 
-import base64
 import json
 import re
 import shutil
 import subprocess
 from dataclasses import replace
-from html.parser import HTMLParser
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +17,8 @@ from src.shared.formats.html import script_safe_json, write_html
 from src.shared.formats.mannequin import mannequin
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import PARENTS, canonical_skeleton
+from tests.shared.formats.chromium_pipe import chromium
+from tests.shared.formats.pages import HOSTILE, Page, array
 
 
 def a_motion(text: str = "walks", frames: int = 12) -> Motion:
@@ -28,34 +28,6 @@ def a_motion(text: str = "walks", frames: int = 12) -> Motion:
     root = rng.uniform(-5, 5, (frames, 3)).astype(np.float32)
     contacts = rng.integers(0, 2, (frames, 2)).astype(np.float32)
     return Motion(quaternions.astype(np.float32), root, contacts, 30.0, text)
-
-
-class Page(HTMLParser):
-    """Elements of a page, and the text of its scripts."""
-
-    def __init__(self, path: Path) -> None:
-        super().__init__()
-        self.tags: list[tuple[str, dict[str, str | None]]] = []
-        self.scripts: list[str] = []
-        self.feed(path.read_text(encoding="utf-8"))
-        self.data = json.loads(self.scripts[0])
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.tags.append((tag, dict(attrs)))
-        if tag == "script":
-            self.scripts.append("")
-
-    def handle_data(self, data: str) -> None:
-        if self.scripts and self.lasttag == "script":
-            self.scripts[-1] += data
-
-
-def array(text: str, kind: str) -> np.ndarray:
-    return np.frombuffer(base64.b64decode(text), kind)
-
-
-HOSTILE = ["</script><script>alert(1)</script>", "<!--<script>", "a & b \u2028 \ud800 ' \"",
-           "@DATA@ @SCRIPT@", "\\1 \\g<0>", "歩く", "", "x" * 5000]  # fmt: skip
 
 
 def test_captions_are_data_whatever_they_hold(tmp_path: Path) -> None:
@@ -103,6 +75,17 @@ def test_the_data_decode_to_the_motion(tmp_path: Path) -> None:
     np.testing.assert_array_equal(back.contacts, motion.contacts)
 
 
+def test_joints_that_never_turn_are_stored_once(tmp_path: Path) -> None:
+    motion = a_motion()
+    motion.quaternions[:, 5:] = motion.quaternions[0, 5:]
+    data = Page(write_html(motion, tmp_path / "a.html")).data["motions"][0]
+    assert data["turning"] == [0, 1, 2, 3, 4]
+    moving = array(data["quaternions"], "<i2").reshape(12, 5, 4) / 32767
+    np.testing.assert_allclose(moving, motion.quaternions[:, :5], atol=2e-5)
+    still = array(data["still"], "<i2").reshape(22, 4) / 32767
+    np.testing.assert_allclose(still, motion.quaternions[0], atol=2e-5)
+
+
 def test_mesh_and_skeleton_decode(tmp_path: Path) -> None:
     data, body = Page(write_html(a_motion(), tmp_path / "a.html")).data, mannequin()
     mesh = data["mesh"]
@@ -144,6 +127,7 @@ console.log(JSON.stringify(run(document, atob)));
 def test_poses_and_camera_of_the_viewer(tmp_path: Path) -> None:
     """The viewer's own code, between two frames, against kinematics here."""
     motion = a_motion()
+    motion.quaternions[:, 3::4] = motion.quaternions[0, 3::4]  # some joints never turn
     page = write_html(motion, tmp_path / "a.html")
     scene = Path(__file__).parents[3] / "src/shared/formats/preview_scene.js"
     command = ["node", "-e", NODE_CHECK, str(page), str(scene)]
@@ -160,11 +144,6 @@ def test_poses_and_camera_of_the_viewer(tmp_path: Path) -> None:
     assert result["left"][0] > 200  # +X is on the right of a camera that looks at the face
     assert result["above"][1] < 150
     assert result["behind"][2] < 0
-
-
-def chromium() -> str | None:
-    names = ("chromium", "chromium-browser", "google-chrome", "chrome")
-    return next((path for path in map(shutil.which, names) if path), None)
 
 
 @pytest.mark.skipif(not chromium(), reason="no Chromium is installed")

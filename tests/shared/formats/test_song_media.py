@@ -1,0 +1,75 @@
+"""Songs in pages: playable files go in as they are, others as Ogg Vorbis, cut to the motion."""
+
+import base64
+import io
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from src.shared.errors import UserError
+from src.shared.formats import song_media
+from src.shared.formats.song_media import song_uri
+
+soundfile = pytest.importorskip("soundfile")
+
+
+def song(path: Path, seconds: float = 2.0, rate: int = 8000, channels: int = 1, **how: str) -> Path:
+    t = np.arange(round(seconds * rate)) / rate
+    wave = 0.4 * np.sin(2 * np.pi * 220 * t)
+    soundfile.write(path, np.stack([wave] * channels, 1), rate, **how)
+    return path
+
+
+def decoded(uri: str) -> tuple[str, bytes]:
+    head, data = uri.split(";base64,")
+    return head, base64.b64decode(data, validate=True)
+
+
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [("a.ogg", "audio/ogg"), ("a.mp3", "audio/mpeg"), ("a.flac", "audio/flac"),
+     ("a.wav", "audio/wav")],
+)  # fmt: skip
+def test_what_browsers_play_goes_in_untouched(tmp_path: Path, name: str, kind: str) -> None:
+    path = song(tmp_path / name)
+    assert decoded(song_uri(path, 1.9)) == (f"data:{kind}", path.read_bytes())
+
+
+@pytest.mark.parametrize(
+    ("name", "rate", "channels", "how"),
+    [("a.wav", 8000, 1, {"subtype": "ULAW"}), ("a.aiff", 44100, 2, {}),
+     ("a.w64", 96000, 2, {}), ("a.caf", 48000, 6, {})],
+)  # fmt: skip
+def test_the_rest_becomes_vorbis(
+    tmp_path: Path, name: str, rate: int, channels: int, how: dict[str, str]
+) -> None:
+    head, data = decoded(song_uri(song(tmp_path / name, 2.0, rate, channels, **how), 2.0))
+    assert head == "data:audio/ogg"
+    wave, new_rate = soundfile.read(io.BytesIO(data), always_2d=True)
+    assert new_rate <= 48000
+    assert wave.shape[1] == (2 if channels == 2 else 1)
+    assert len(wave) == pytest.approx(2.0 * new_rate, abs=1)
+    t = np.arange(len(wave)) / new_rate
+    tone = 0.4 * np.sin(2 * np.pi * 220 * t)
+    assert np.corrcoef(wave[:, 0], tone)[0, 1] > 0.99  # neither late nor early
+
+
+def test_a_short_motion_takes_only_its_part(tmp_path: Path) -> None:
+    data = decoded(song_uri(song(tmp_path / "a.ogg", 30.0), 4.0))[1]
+    assert soundfile.info(io.BytesIO(data)).duration == pytest.approx(5.0, abs=0.01)
+
+
+def test_a_large_lossless_file_is_encoded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = song(tmp_path / "a.wav")
+    monkeypatch.setitem(song_media.KEEP, "WAV", 1000)
+    head, data = decoded(song_uri(path, 2.0))
+    assert head == "data:audio/ogg"
+    assert len(data) < path.stat().st_size / 2
+
+
+def test_no_sound_is_a_user_error(tmp_path: Path) -> None:
+    (tmp_path / "a.mp3").write_text("not a song")
+    for name in ("a.mp3", "missing.ogg"):
+        with pytest.raises(UserError, match=name):
+            song_uri(tmp_path / name, 1.0)
