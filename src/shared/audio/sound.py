@@ -76,7 +76,7 @@ def sound_chunks(path: str | Path, seconds: float = CHUNK_SECONDS) -> Iterator[n
     Joined, the chunks are the samples of `load_sound`.
 
     Raises:
-        UserError: missing, no sound file, longer than 2 h, nothing but NaN.
+        UserError: missing, no sound file, longer than 2 h.
     """
     yield from _Reader(Path(path)).chunks(seconds)
 
