@@ -148,8 +148,11 @@ class AudioTask:
         )
         return self._drawn(phrases, generator("noise", self.config.seed, part.step, part.index))
 
-    def _drawn(self, phrases: PhraseBatch, draws: torch.Generator) -> AudioBatch:
+    def _drawn(self, phrases: PhraseBatch, draws: torch.Generator) -> Any:
         """A training batch of these phrases."""
+        return self._drawn_audio(phrases, draws)
+
+    def _drawn_audio(self, phrases: PhraseBatch, draws: torch.Generator) -> AudioBatch:
         timesteps = spread_timesteps(len(phrases), self.diffusion.config.timesteps, draws)
         known = self._known(phrases, draws)
         drop = self.augment.draw_drop(len(phrases), draws)

@@ -205,7 +205,7 @@ class DecoderTask:
             log_uniform(config.correlation, num, draws),
             torch.rand(num, generator=draws),
         )
-        size, std = phrases.motion.shape, self.model.std[:, None].cpu()
+        size, std = phrases.motion.shape, self.model.std[:, None]
         noise = time_noise((size[0], size[1], size[2]), widths, share, draws)
         rows = phrases.motion if clean else phrases.motion + noise * scale * std
         start, known = bar_phase_at_start(phrases.audio)
@@ -257,7 +257,7 @@ class DecoderTask:
         decoder = create_motion_decoder(module.decoder.config)
         decoder.load_state_dict(module.decoder.state_dict())
         self.model.replace_decoder(decoder)
-        return self.model.cpu().eval()
+        return self.model.eval()
 
 
 app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)

@@ -1,0 +1,255 @@
+"""End-to-end fine-tuning: UNet, sampler and decoder learn to move coherently (TECH 7).
+
+accelerate launch -m src.train.finetune_e2e --checkpoint runs/decoder --data DIR_OR_URL
+[--epochs 50] [--lr-diffusion 1e-6] [--lr-decoder 5e-5] [key=value ...] [--resume]
+
+The UNet learns slowly, the decoder faster. After each epoch the averaged weights are judged on
+held-back phrases; the best are kept, and `patience` epochs without a better total end the run.
+"""
+
+import copy
+import math
+import os
+import sys
+from pathlib import Path
+from typing import Annotated, Any, Self
+
+import torch
+import typer
+from pydantic import Field, model_validator
+from torch import Tensor, nn
+
+from src.shared.config_audio import AudioNetworkConfig
+from src.shared.config_loader import load_train, split_network_overrides
+from src.shared.data.phrases.dataset import PhraseBatch
+from src.shared.device import autocast
+from src.shared.errors import UsageError
+from src.shared.files import write_json, write_text
+from src.shared.model.audio.audio_motion_model import AudioMotionModel
+from src.train.audio_folder import network_of
+from src.train.batches import to_device
+from src.train.e2e_objective import E2eBatch, E2eObjective, E2eWeights
+from src.train.epoch_log import Epoch, best_epoch, read_epochs, results_table
+from src.train.launch import as_overrides, resume_command, short_errors
+from src.train.phrases import (
+    bar_phase_at_start,
+    export_song,
+    open_phrases,
+    true_trajectory,
+    whole_windows,
+)
+from src.train.run_log import console
+from src.train.seeding import generator
+from src.train.train_audio import AudioTask
+from src.train.train_generation import spread_timesteps
+
+MODULE = "src.train.finetune_e2e"
+BEST = "best"  # folder in the output, of the best weights so far
+FROM_EPOCHS = ("steps", "log_every", "validate_every", "save_every", "learning_rate")
+
+
+class FinetuneE2eConfig(E2eWeights):
+    """finetune_e2e.yaml."""
+
+    checkpoint: str = "runs/decoder"  # folder of train_decoder or train_audio: the UNet
+    decoder_checkpoint: str | None = None  # folder whose decoder is taken; None = the same
+    epochs: int = Field(50, ge=1)  # passes over the phrases
+    patience: int = Field(10, ge=1)  # epochs without a better validation total
+    lr_diffusion: float = Field(1e-6, gt=0)
+    lr_decoder: float = Field(5e-5, gt=0)
+
+    @model_validator(mode="after")
+    def _check_steps(self) -> Self:
+        for name in FROM_EPOCHS:
+            if name in self.model_fields_set:
+                instead = "lr-diffusion and lr-decoder" if name == "learning_rate" else "epochs"
+                raise ValueError(f"{name.replace('_', '-')} has no place here; give {instead}")
+        return self
+
+    def in_steps(self, num_phrases: int) -> Self:
+        """The same with what follows from the number of phrases of an epoch."""
+        parts = self.gradient_accumulation * int(os.environ.get("WORLD_SIZE", "1"))
+        steps = math.ceil(num_phrases / (self.batch_size * parts))
+        update = {name: steps for name in FROM_EPOCHS[1:4]}
+        rate = {"learning_rate": self.lr_decoder}
+        return self.model_copy(update={**update, **rate, "steps": self.epochs * steps})
+
+
+class FinetuneE2eTask(AudioTask):
+    """What the trainer needs to know (src/train/task.py); batches as in audio training."""
+
+    config: FinetuneE2eConfig
+
+    def __init__(self, config: FinetuneE2eConfig, network: AudioNetworkConfig) -> None:
+        super().__init__(config, network)
+        # a copy: batches are made by the task's own model, which stays on the CPU
+        self.module = E2eObjective(copy.deepcopy(self.model), config)
+        self.learning_rates = {
+            "model.unet.": config.lr_diffusion,
+            "model.decoder.": config.lr_decoder,
+        }
+
+    def _start(self) -> AudioMotionModel:
+        model = AudioMotionModel.from_pretrained(self.config.checkpoint)
+        self.sources = [model.card]
+        if self.config.decoder_checkpoint is not None:
+            other = AudioMotionModel.from_pretrained(self.config.decoder_checkpoint)
+            model.replace_decoder(other.decoder)
+            self.sources.append(other.card)
+        self.network = model.config
+        return model
+
+    def identity(self) -> dict[str, Any]:
+        """A resumed run must start from the same weights and see the same phrases."""
+        return {
+            **super().identity(),
+            "weights": [card.weights.sha256 for card in self.sources if card.weights],
+        }
+
+    # ------------------------------------------------------------ batches
+
+    def _drawn(self, phrases: PhraseBatch, draws: torch.Generator) -> E2eBatch:
+        phrases = whole_windows(phrases)
+        return self._completed(phrases, self._drawn_audio(phrases, draws), draws)
+
+    def _completed(
+        self, phrases: PhraseBatch, audio: Any, draws: torch.Generator, start: int | None = None
+    ) -> E2eBatch:
+        assert isinstance(self.module, E2eObjective)
+        phase, _ = bar_phase_at_start(phrases.audio)
+        noise = torch.randn(phrases.motion.shape, generator=draws)
+        starts = self.module.sampler.data_starts
+        if start is None:
+            start = int(torch.randint(len(starts), (1,), generator=draws))
+        target = true_trajectory(phrases.motion, phase)
+        return E2eBatch(audio, target, phase, noise, starts[start % len(starts)])
+
+    # ------------------------------------------------------------ learning
+
+    def training_step(self, module: nn.Module, batch: Any) -> dict[str, Tensor]:
+        """All losses of the batch."""
+        losses: dict[str, Tensor] = module(batch)
+        return losses
+
+    def validation(self, module: nn.Module) -> dict[str, float]:
+        """All losses on held-back phrases with fixed noise; keeps the weights if best so far."""
+        device, steps = next(module.parameters()).device, self.diffusion.config.timesteps
+        sums: dict[str, float] = {}
+        for index in range(self.config.validation_batches):
+            phrases = whole_windows(self.held_back.batch(index + 1, self.config.batch_size))
+            draws = generator("validation", index)
+            timesteps = spread_timesteps(len(phrases), steps, draws)
+            known = torch.zeros(phrases.motion.shape, dtype=torch.bool)
+            audio = self._noised(phrases, timesteps, known, None, draws, augment=False)
+            batch = to_device(self._completed(phrases, audio, draws, index), device)
+            with autocast(self.compute):
+                losses = module(batch)
+            for key, value in losses.items():
+                share = value.item() / self.config.validation_batches
+                sums[key] = sums.get(key, 0.0) + share
+        self.figures = sums
+        before = [epoch.loss for epoch in self.epochs()]
+        if not before or sums["loss"] < min(before):
+            self._finished(module).save_pretrained(Path(self.config.output) / BEST)
+        return sums
+
+    def epochs(self) -> list[Epoch]:
+        """Those validated and logged so far."""
+        return read_epochs(Path(self.config.output) / "log.jsonl", self.config.validate_every)
+
+    def has_converged(self) -> bool:
+        """Whether the last `patience` epochs brought no better total."""
+        epochs = self.epochs()
+        return epochs[-1].number - best_epoch(epochs).number >= self.config.patience
+
+    # ------------------------------------------------------------ results
+
+    def export_samples(self, module: nn.Module, folder: Path) -> None:
+        """A held-back phrase's sound, made into a trajectory: a picture of it."""
+        export_song(self._finished(module), self.held_back, folder)
+
+    def save_pretrained(self, module: nn.Module, folder: Path) -> None:
+        """The best weights as a folder like the one that was read; training_log.json; a table."""
+        epochs = self.epochs()
+        best = best_epoch(epochs)
+        table = results_table(epochs, best)
+        write_json(folder / "training_log.json", [epoch.as_json() for epoch in epochs])
+        write_text(folder / "results.md", table)
+        console.print(f"\n{table}", markup=False)
+        model = AudioMotionModel.from_pretrained(folder / BEST)
+        tuned = {"epochs": epochs[-1].number, "kept": best.number, "validation": best.validation}
+        summary = {**self.sources[0].training, "e2e": tuned}
+        model.card = model.card.model_copy(
+            update={"name": folder.name, "trained": True, "training": summary}
+        )
+        model.save_pretrained(folder)
+
+    def _finished(self, module: nn.Module) -> AudioMotionModel:
+        assert isinstance(module, E2eObjective)
+        self.model.load_state_dict(module.model.state_dict())
+        return self.model
+
+
+app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
+
+
+@app.command()
+def finetune(
+    overrides: Annotated[
+        list[str] | None, typer.Argument(metavar="KEY=VALUE", help="settings to change")
+    ] = None,
+    config: Annotated[Path | None, typer.Option(help="YAML file of settings")] = None,
+    data: Annotated[str | None, typer.Option(help="folder or bucket of prepare-audio")] = None,
+    output: Annotated[str | None, typer.Option(help="folder of this run")] = None,
+    checkpoint: Annotated[str | None, typer.Option(help="folder with the UNet")] = None,
+    decoder_checkpoint: Annotated[
+        str | None, typer.Option(help="folder with the decoder; default: the checkpoint")
+    ] = None,
+    epochs: Annotated[int | None, typer.Option(help="passes over the phrases")] = None,
+    num_phrases: Annotated[int | None, typer.Option(help="take the first so many")] = None,
+    batch_size: Annotated[int | None, typer.Option(help="phrases a step and process")] = None,
+    lr_diffusion: Annotated[float | None, typer.Option(help="of the UNet")] = None,
+    lr_decoder: Annotated[float | None, typer.Option(help="of the decoder")] = None,
+    diffusion_weight: Annotated[float | None, typer.Option(help="of the diffusion loss")] = None,
+    decoder_weight: Annotated[float | None, typer.Option(help="of the reconstruction")] = None,
+    temporal_weight: Annotated[float | None, typer.Option(help="of the coherence terms")] = None,
+    patience: Annotated[
+        int | None, typer.Option(help="epochs without a better total before stopping")
+    ] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="continue the run in output")] = False,
+) -> None:
+    """Fine-tune UNet, sampler and decoder as one.
+
+    Example: accelerate launch -m src.train.finetune_e2e --checkpoint runs/decoder --data pairs
+    """
+    named = {key: value for key, value in locals().items() if key not in NOT_SETTINGS}
+    flags = as_overrides({key.replace("_", "-"): value for key, value in named.items()})
+    with short_errors():
+        run([*(overrides or []), *flags], config, resume=resume)
+
+
+NOT_SETTINGS = ("overrides", "config", "resume")
+
+
+def run(overrides: list[str], config: Path | None = None, *, resume: bool = False) -> None:
+    """Fine-tune with these settings.
+
+    Raises:
+        UserError, Interrupted: see `Trainer`.
+    """
+    own, network_overrides = split_network_overrides(overrides)
+    if network_overrides:
+        raise UsageError(
+            f"{network_overrides[0]}: the network is that of --checkpoint and --decoder-checkpoint"
+        )
+    settings = load_train(config, FinetuneE2eConfig, own)
+    network = network_of(settings.checkpoint)
+    settings = settings.in_steps(len(open_phrases(settings, "train", settings.num_phrases)))
+    from src.train.engine import Trainer
+
+    command = resume_command(MODULE, sys.argv[1:])
+    Trainer(settings, lambda c: FinetuneE2eTask(c, network), command=command, resume=resume).train()
+
+
+if __name__ == "__main__":
+    app()
