@@ -9,6 +9,8 @@ from pathlib import Path
 import typer
 
 from src.cli.evaluate import evaluate
+from src.cli.evaluate_audio import evaluate_audio
+from src.cli.evaluate_sanity import evaluate_sanity
 from src.cli.features import features
 from src.cli.generate import generate
 from src.cli.guard import guarded
@@ -29,7 +31,18 @@ app = typer.Typer(
     help="From a prompt to a moving character, and from your own mocap to your own model.",
     epilog=f'Start here:  {PROGRAM} generate --prompt "a person waves"',
 )
-for command in (generate, features, prepare, prepare_audio, shape_check, evaluate, models, plot):
+for command in (
+    generate,
+    features,
+    prepare,
+    prepare_audio,
+    shape_check,
+    evaluate,
+    evaluate_audio,
+    evaluate_sanity,
+    models,
+    plot,
+):
     app.command()(guarded(command))
 
 

@@ -28,6 +28,15 @@ FLAGS = {
         "--control-seeds --data --device --evaluator --guidance-scale --json --model --num-samples"
         " --out --quick --replications --sampler --seed --steps --threads"
     ),
+    "evaluate-audio": (
+        "--data --decoder-checkpoint --device --diffusion-checkpoint --guidance-scale --hear-meter"
+        " --json --model --num-songs --out --quick --sampler --seed --song-seconds --songs --steps"
+        " --tell-meter --threads --track-seconds"
+    ),
+    "evaluate-sanity": (
+        "--data --decoder-checkpoint --device --diffusion-checkpoint --json --model --num-frames"
+        " --num-samples --num-steps --output-dir --quick --seed --threads"
+    ),
     "models": "--json",
     "plot": "--out FILE",
 }

@@ -1,7 +1,7 @@
 """The report of `evaluate --quick` as tables: one list of rows, printed or written as Markdown."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -137,22 +137,32 @@ def heading(report: dict[str, Any]) -> list[str]:
 
 def markdown(report: dict[str, Any]) -> str:
     """The report as a Markdown text."""
-    lines = ["# Evaluation (quick)", "", *(f"- {line}" for line in heading(report)), ""]
-    for table in tables(report):
-        lines += [f"## {table.title}", "", "| " + " | ".join(table.header) + " |"]
-        lines.append("|" + "---|" * len(table.header))
-        lines += ["| " + " | ".join(row) + " |" for row in table.rows]
-        lines += ["", table.note, ""] if table.note else [""]
-    return "\n".join(lines)
+    return as_markdown("Evaluation (quick)", heading(report), tables(report))
+
+
+def as_markdown(title: str, lines: Iterable[str], parts: Iterable[Table]) -> str:
+    """Any report as a Markdown text: a title, facts line by line, tables."""
+    text = [f"# {title}", "", *(f"- {line}" for line in lines), ""]
+    for table in parts:
+        text += [f"## {table.title}", "", "| " + " | ".join(table.header) + " |"]
+        text.append("|" + "---|" * len(table.header))
+        text += ["| " + " | ".join(row) + " |" for row in table.rows]
+        text += ["", table.note, ""] if table.note else [""]
+    return "\n".join(text)
 
 
 def print_report(report: dict[str, Any], console: "Console") -> None:
     """The report as tables on a terminal."""
+    draw(heading(report), tables(report), console)
+
+
+def draw(lines: Iterable[str], parts: Iterable[Table], console: "Console") -> None:
+    """Any report on a terminal: facts line by line, tables."""
     from rich.table import Table as RichTable
 
-    for line in heading(report):
+    for line in lines:
         console.print(line, highlight=False)
-    for table in tables(report):
+    for table in parts:
         drawn = RichTable(title=table.title, caption=table.note, title_justify="left")
         for index, name in enumerate(table.header):
             drawn.add_column(name, justify="right" if index else "left")

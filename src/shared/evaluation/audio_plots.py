@@ -1,0 +1,76 @@
+"""Plots of the audio evaluations: phase against beats, and motions against real bands.
+
+matplotlib is imported when a plot is drawn; no window is opened.
+"""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from src.shared.evaluation.audio_harness import Picture
+from src.shared.evaluation.plots import _new_figure, _save
+from src.shared.motion.trajectory import FPS, MotionTrajectory
+from src.shared.validation.bands import Bands
+from src.shared.validation.measures import MEASURES, UNITS
+
+LINES = {"truth": ("black", "-"), "beat tracker": ("tab:blue", ":"), "generated": ("tab:red", "--")}
+COLOURS = {"generated": "tab:red", "real": "tab:green", "untrained": "grey", "frozen": "tab:blue"}
+
+
+def plot_phase(picture: Picture, path: str | Path) -> Path:
+    """Bar phases over the beats, and the pelvis's speed with its beats, over seconds.
+
+    Raises:
+        UserError: matplotlib is missing, or the file cannot be written.
+    """
+    figure = _new_figure(14, 6)
+    upper, lower = figure.subplots(2, 1, sharex=True)
+    for axes in (upper, lower):
+        axes.vlines(picture.beats, 0, 1, transform=axes.get_xaxis_transform(), color="0.8", lw=1)
+    for name, bars in picture.bars.items():
+        colour, style = LINES[name]
+        upper.plot(np.arange(len(bars)) / FPS, _sawtooth(bars), style, color=colour, label=name)
+    upper.set_ylabel("phase of the bar")
+    upper.set_ylim(0, 1)
+    upper.legend(loc="upper right", ncols=3, fontsize="small")
+    speed, times = picture.motion.speed, picture.motion.times
+    at = (np.arange(len(speed)) + 0.5) / FPS
+    lower.plot(at, speed, color="tab:red")
+    lower.plot(times, np.interp(times, at, speed), "v", color="black", label="motion beats")
+    lower.set_ylabel("smoothed speed of the pelvis, m/s")
+    lower.set_xlabel("seconds; grey: beats of the song")
+    lower.legend(loc="upper right", fontsize="small")
+    figure.suptitle(picture.name)
+    return _save(figure, Path(path))
+
+
+def plot_bands(
+    motions: Mapping[str, Sequence[MotionTrajectory]], bands: Bands | None, path: str | Path
+) -> Path:
+    """Every motion as a dot for each measure, over the band of training motions.
+
+    Raises:
+        UserError: matplotlib is missing, or the file cannot be written.
+    """
+    figure = _new_figure(14, 7)
+    for axes, (name, measure) in zip(figure.subplots(2, 3).flat, MEASURES.items(), strict=True):
+        band = bands.bands.get(name) if bands else None
+        if band is not None:
+            axes.axhspan(band.low, band.high, color="tab:green", alpha=0.15)
+        for place, (row, group) in enumerate(motions.items()):
+            values = np.array([measure(motion) for motion in group])
+            spread = np.linspace(-0.3, 0.3, len(values))
+            axes.plot(place + spread, values, ".", color=COLOURS.get(row, "black"), ms=4)
+        axes.set_xticks(range(len(motions)), list(motions))
+        axes.set_title(f"{name.replace('_', ' ')}, {UNITS[name]}")
+        axes.set_yscale("symlog", linthresh=0.1)
+    figure.suptitle("dots: motions; green: 5th to 95th percentile of training motions")
+    return _save(figure, Path(path))
+
+
+def _sawtooth(bars: np.ndarray) -> np.ndarray:
+    """Bars [T] modulo 1 with a gap where they wrap, so that no line is drawn through."""
+    phase = np.asarray(bars, np.float64) % 1.0
+    phase[1:][np.diff(phase) < -0.5] = np.nan
+    return phase

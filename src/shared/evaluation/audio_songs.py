@@ -1,0 +1,212 @@
+"""What the audio branch is judged on: songs and phrases that training never saw.
+
+Synthetic songs have tempi that no training song has, and exactly known beats; test phrases are
+real motion paired with its song; tracks are sound files whose beats nobody knows.
+
+Letters: T frames, C rows of sound.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from src.shared.audio.song import Song, analyse, analyse_sound
+from src.shared.audio.sound import sound_from_samples
+from src.shared.audio.synthetic_songs import (
+    HELD_OUT_TEMPI,
+    SyntheticSong,
+    render_song,
+    sample_song_specs,
+    song_beats,
+)
+from src.shared.data.phrases.dataset import MotionPhraseDataset
+from src.shared.errors import UserError
+from src.shared.evaluation.metrics_rhythm import beats_of_phase
+from src.shared.inference.song_generator import heard
+from src.shared.model.audio.conditioning import BEAT, CONDITION_ROWS
+from src.shared.motion.trajectory import FPS, MotionTrajectory
+from src.shared.motion.window import place_window
+
+FRESH_SEED = 90210  # of songs made only to test: no training draws from the held-out tempi
+MARGIN = 2.0  # seconds of beats beyond a song's end that count as neighbours
+TEMPI = ", ".join(f"{low:g}-{high:g}" for low, high in HELD_OUT_TEMPI)
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """A song as the model hears it, and what is true of it.
+
+    Attributes:
+        name: for the report.
+        condition: [C,T].
+        phase: bars [T] of the beat tracker, unwrapped; None = no beat found.
+        meter: beats a bar that the tracker counts.
+        bars: true bars [T], unwrapped; None = nobody knows.
+        true_meter: beats a true bar.
+        beats: seconds, true ones where they are known.
+        about: tempo and the like, for the report.
+    """
+
+    name: str
+    condition: Tensor
+    phase: np.ndarray | None
+    meter: int
+    bars: np.ndarray | None
+    true_meter: int
+    beats: np.ndarray
+    about: dict[str, Any]
+
+    @property
+    def num_frames(self) -> int:
+        """T."""
+        return int(self.condition.shape[1])
+
+    @property
+    def seconds(self) -> float:
+        return self.num_frames / FPS
+
+
+def held_out_songs(
+    number: int, seconds: float, seed: int, *, tell_meter: bool = True
+) -> Iterator[Piece]:
+    """Freshly rendered songs with tempi of their own.
+
+    Args:
+        tell_meter: the beat tracker is told the beats a bar, as with `--meter`; else it chooses.
+    """
+    specs = sample_song_specs(number, FRESH_SEED + seed, "held-out", seconds=seconds)
+    for index, spec in enumerate(specs):
+        made = render_song(spec)
+        sound = sound_from_samples(made.samples, made.sample_rate)
+        song = analyse_sound(sound, meter=spec.meter if tell_meter else None)
+        condition, phase = heard(song, None)
+        bars = made.phase(song.num_frames)
+        yield Piece(
+            name=f"synthetic-{FRESH_SEED + seed}-{index:03d}",
+            condition=condition,
+            phase=phase,
+            meter=song.beats.meter,
+            bars=bars,
+            true_meter=spec.meter,
+            beats=_beats_around(made),
+            about={"tempo": _tempo(made), "meter": spec.meter, "heard": song.beats.tempo},
+        )
+
+
+def _tempo(song: SyntheticSong) -> float:
+    return 60.0 / float(np.median(np.diff(song.beat_times)))
+
+
+def _beats_around(song: SyntheticSong) -> np.ndarray:
+    """Beats of the song, and those that would follow."""
+    longer = replace(song.spec, seconds=song.spec.seconds + MARGIN)
+    return song_beats(longer)[0]
+
+
+def tracks(folder: Path, seconds: float) -> Iterator[Piece]:
+    """The first `seconds` of every sound file below a folder; beats are the tracker's.
+
+    Raises:
+        UserError: there is none.
+    """
+    from src.shared.data.pairing.music import SOUND_FILES
+
+    found = sorted(p for p in folder.rglob("*") if p.suffix.lower() in SOUND_FILES and p.is_file())
+    if not found:
+        raise UserError(f"{folder} holds no sound file ({', '.join(SOUND_FILES)}); name another")
+    for path in found:
+        song = analyse(path)
+        condition, phase = heard(song, seconds)
+        yield Piece(
+            name=path.stem,
+            condition=condition,
+            phase=phase,
+            meter=song.beats.meter,
+            bars=None,
+            true_meter=song.beats.meter,
+            beats=np.asarray(song.beats.beat_times),
+            about=_about_track(song),
+        )
+
+
+def _about_track(song: Song) -> dict[str, Any]:
+    return {
+        "tempo": float(song.beats.tempo),
+        "meter": song.beats.meter,
+        "confidence": float(song.beats.confidence),
+        "sha256": song.sha256[:12],
+    }
+
+
+# ---------------------------------------------------------------- phrases
+
+
+@dataclass(frozen=True, eq=False)
+class RealPhrase:
+    """A window of a paired phrase: sound [C,T], motion, and the song's bars [T], None = unknown."""
+
+    name: str
+    audio: Tensor
+    motion: MotionTrajectory
+    bars: np.ndarray | None
+    beats: np.ndarray
+
+    @property
+    def seconds(self) -> float:
+        return self.motion.seconds
+
+
+def open_split(data: str, split: str, frames: int, seed: int) -> MotionPhraseDataset:
+    """Windows of `frames` of one split of a folder or bucket of pairs.
+
+    Raises:
+        UserError: there is none.
+    """
+    return MotionPhraseDataset(
+        data, split=split, target_frames=frames, seed=seed, cache_in_memory=False
+    )
+
+
+def phrases(dataset: MotionPhraseDataset, number: int, *, whole: bool = False) -> list[RealPhrase]:
+    """Up to `number` windows, phrases in the order that the dataset's seed gives.
+
+    Args:
+        whole: leave out phrases that are shorter than the window.
+    """
+    found: list[RealPhrase] = []
+    for index in dataset.order(0):
+        if len(found) == number:
+            break
+        item = dataset.item(int(index), 0)
+        if item is None or (whole and not bool(item.mask.all())):
+            continue
+        audio = item.audio[:, item.mask]
+        bars, beats = _clock(audio)
+        window = item.motion[:, item.mask].numpy()
+        placed = place_window(window, phase=0.0 if bars is None else float(bars[0]))
+        found.append(RealPhrase(item.record.id, audio, MotionTrajectory(placed), bars, beats))
+    return found
+
+
+def _clock(audio: Tensor) -> tuple[np.ndarray | None, np.ndarray]:
+    """Unwrapped bars [T] and beat times that the rows of beat and bar phase of [C,T] tell."""
+    if len(audio) < CONDITION_ROWS or float(audio[BEAT].abs().sum()) == 0:
+        return None, np.zeros(0)
+    rows = audio[BEAT].double().numpy()  # cos and sin of the beat, then of the bar
+    beat, bar = (np.unwrap(np.arctan2(rows[k + 1], rows[k])) / (2 * np.pi) for k in (0, 2))
+    return bar, beats_of_phase(beat, FPS)
+
+
+def conditions_of_songs(number: int, frames: int, seed: int) -> list[Tensor]:
+    """Windows [C,T] of held-out synthetic songs, several of each."""
+    seconds, each = 30.0, max(1, int(30.0 * FPS) // frames)
+    seconds = max(seconds, frames / FPS)
+    found: list[Tensor] = []
+    for piece in held_out_songs(-(-number // each), seconds, seed):
+        found += [piece.condition[:, k * frames : (k + 1) * frames] for k in range(each)]
+    return [torch.as_tensor(window).float() for window in found[:number]]

@@ -1,0 +1,194 @@
+"""Are the seams between windows seen? Accelerations and jerks there against everywhere else.
+
+Three answers for each quantity. The ratio of its quantiles at seams and elsewhere, with a
+bootstrap interval over songs: 1 inside is what a smooth seam gives. The same ratio and the
+Kolmogorov–Smirnov distance against a null: the same marks turned round to random places of each
+song. And the extremes of what must not jump at all, phase and quaternion sign.
+
+Letters: T frames.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from src.shared.inference.song_sampler import SPARE, spans
+from src.shared.motion.trajectory import MotionTrajectory
+
+REACH = 3  # frames before a seam whose differences look into it
+POINTS = (50, 95)  # percentiles
+RESAMPLES = 500
+Values = tuple[np.ndarray, np.ndarray]  # quantity [T] and True at seams [T]
+
+
+@dataclass(frozen=True, eq=False)
+class Seamed:
+    """A trajectory of several windows, and which frames [T] are near a seam."""
+
+    trajectory: MotionTrajectory
+    seam: np.ndarray
+
+
+def seam_frames(num_frames: int, window: int, overlap: int) -> np.ndarray:
+    """True [T] where two windows of a song share a frame, and just before."""
+    near = np.zeros(num_frames, dtype=bool)
+    found = spans(num_frames, window - SPARE, overlap)
+    for (_, end), (start, _) in pairwise(found):
+        near[max(0, start - REACH) : end] = True
+    return near
+
+
+def quantities(trajectory: MotionTrajectory) -> dict[str, np.ndarray]:
+    """Sizes [T-1] of acceleration (m/s²), jerk (m/s³) and angular acceleration (rad/s²)."""
+    acceleration = trajectory.acceleration.astype(np.float64)
+    turning = trajectory.angular_velocity.astype(np.float64)
+    return {
+        "acceleration": np.linalg.norm(acceleration, axis=1)[:-1],
+        "jerk": np.linalg.norm(np.diff(acceleration, axis=0), axis=1) * trajectory.fps,
+        "angular_acceleration": np.linalg.norm(np.diff(turning, axis=0), axis=1) * trajectory.fps,
+    }
+
+
+def seam_report(songs: Sequence[Seamed], seed: int = 0) -> dict[str, Any]:
+    """Everything about the seams of at least one song, as plain data.
+
+    Returns:
+        songs, seams (their number), frames; quantities: see `compare`; jumps: see `jumps`.
+        Only the first two where no song has a seam.
+    """
+    marked = [song for song in songs if song.seam.any()]
+    number = sum(int((np.diff(song.seam.astype(int), prepend=0) == 1).sum()) for song in marked)
+    report: dict[str, Any] = {"songs": len(marked), "seams": number}
+    if not marked:
+        return report
+    sizes = [quantities(song.trajectory) for song in marked]
+    report["frames"] = sum(int(song.seam.sum()) for song in marked)
+    report["quantities"] = {
+        name: compare(
+            [(values[name], song.seam[:-1]) for values, song in zip(sizes, marked, strict=True)],
+            seed,
+        )
+        for name in sizes[0]
+    }
+    report["jumps"] = jumps(marked)
+    return report
+
+
+def compare(songs: Sequence[Values], seed: int = 0, n: int = RESAMPLES) -> dict[str, Any]:
+    """One quantity at seams and elsewhere.
+
+    Returns:
+        seam_pQ, elsewhere_pQ; ratio_pQ with value, low, high (bootstrap over songs), null_low,
+        null_high (marks turned round) and same: 1 lies in the interval; ks likewise with its null
+        and p, the share of turned marks whose distance is as large.
+    """
+    rng = np.random.default_rng(seed)
+    seam, other = _split(songs)
+    report: dict[str, Any] = {
+        f"{where}_p{point}": float(np.percentile(values, point))
+        for where, values in (("seam", seam), ("elsewhere", other))
+        for point in POINTS
+    }
+    draws = rng.integers(0, len(songs), (n, len(songs)))
+    ratios = np.array([_ratios(*_split([songs[i] for i in draw])) for draw in draws])
+    null = np.array([_null(songs, rng) for _ in range(n)])
+    observed = _ratios(seam, other)
+    for index, point in enumerate(POINTS):
+        low, high = np.nanpercentile(ratios[:, index], (2.5, 97.5))
+        report[f"ratio_p{point}"] = {
+            "value": float(observed[index]),
+            "low": float(low),
+            "high": float(high),
+            **_limits(null[:, index]),
+            "same": bool(low <= 1 <= high),
+        }
+    distance = kolmogorov_smirnov(seam, other)
+    report["ks"] = {
+        "value": distance,
+        **_limits(null[:, -1]),
+        "p": float((1 + (null[:, -1] >= distance).sum()) / (1 + n)),
+    }
+    return report
+
+
+def kolmogorov_smirnov(first: np.ndarray, second: np.ndarray) -> float:
+    """The largest distance of two empirical distribution functions, of [N] and [M] values."""
+    points = np.concatenate((first, second))
+    shares = [
+        np.searchsorted(np.sort(values), points, side="right") / len(values)
+        for values in (first, second)
+    ]
+    return float(np.abs(shares[0] - shares[1]).max())
+
+
+def jumps(songs: Sequence[Seamed]) -> dict[str, Any]:
+    """Extremes at seams and elsewhere, in the order (seam, elsewhere).
+
+    Returns:
+        phase_step_min, phase_step_max: bars a frame, relative to the song's median step;
+        quaternion_dot_min: signed, of neighbours; position_step_max: metres a frame, relative to
+        the song's 95th percentile; none: no phase step at a seam runs backwards or is twice the
+        largest elsewhere, no sign flips.
+    """
+    rows = [_steps(song) for song in songs]
+    found: dict[str, Any] = {}
+    for name, pick in (
+        ("phase_step_min", np.min),
+        ("phase_step_max", np.max),
+        ("quaternion_dot_min", np.min),
+        ("position_step_max", np.max),
+    ):
+        found[name] = [
+            float(pick(np.concatenate([row[name.rpartition("_")[0]][mask] for row, mask in part])))
+            for part in (
+                [(row, row["seam"]) for row in rows],
+                [(row, ~row["seam"]) for row in rows],
+            )
+        ]
+    (backward, _), (forward, elsewhere) = found["phase_step_min"], found["phase_step_max"]
+    found["none"] = bool(
+        backward >= -1e-4 and forward <= 2 * elsewhere and found["quaternion_dot_min"][0] > 0
+    )
+    return found
+
+
+def _steps(song: Seamed) -> dict[str, np.ndarray]:
+    """Steps [T-1] from each frame to the next, and whether they lie at a seam."""
+    trajectory = song.trajectory
+    phase = np.diff(trajectory.phase.astype(np.float64))
+    phase -= np.round(phase)
+    q = trajectory.quaternion.astype(np.float64)
+    moved = np.linalg.norm(np.diff(trajectory.position.astype(np.float64), axis=0), axis=1)
+    return {
+        "phase_step": phase / max(float(np.median(phase)), 1e-9),
+        "quaternion_dot": (q[1:] * q[:-1]).sum(1),
+        "position_step": moved / max(float(np.percentile(moved, 95)), 1e-9),
+        "seam": song.seam[:-1],
+    }
+
+
+def _split(songs: Sequence[Values]) -> tuple[np.ndarray, np.ndarray]:
+    """All values at seams, and all others."""
+    return (
+        np.concatenate([values[mask] for values, mask in songs]),
+        np.concatenate([values[~mask] for values, mask in songs]),
+    )
+
+
+def _ratios(seam: np.ndarray, other: np.ndarray) -> np.ndarray:
+    return np.percentile(seam, POINTS) / np.maximum(np.percentile(other, POINTS), 1e-12)
+
+
+def _null(songs: Sequence[Values], rng: np.random.Generator) -> np.ndarray:
+    """Ratios and Kolmogorov–Smirnov distance with the marks of each song turned round."""
+    turned = [(values, np.roll(mask, int(rng.integers(len(mask))))) for values, mask in songs]
+    seam, other = _split(turned)
+    return np.append(_ratios(seam, other), kolmogorov_smirnov(seam, other))
+
+
+def _limits(null: np.ndarray) -> dict[str, float]:
+    low, high = np.percentile(null, (2.5, 97.5))
+    return {"null_low": float(low), "null_high": float(high)}

@@ -1,0 +1,133 @@
+"""Phase errors against closed forms, beat matching against mir_eval, alignment on made-up cases."""
+
+import mir_eval
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from src.shared.evaluation.metrics_rhythm import (
+    COLUMNS,
+    Rhythm,
+    beats_of_phase,
+    circular_error,
+    half_beat_later,
+    hit_f_measure,
+    mean_rhythm,
+    phase_error,
+    rhythm,
+    turned_round,
+)
+
+RISING = np.linspace(0.0, 12.0, 4800, endpoint=False)
+BEATS = np.arange(0.25, 16, 0.5)  # 120 BPM
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.1, -0.2, 0.49])
+def test_a_constant_offset_is_the_error(offset: float) -> None:
+    error = phase_error(RISING + offset, RISING)
+    assert error.absolute == pytest.approx(abs(offset), abs=1e-9)
+    assert error.offset == pytest.approx(offset, abs=1e-9)
+    assert error.concentration == pytest.approx(1.0)
+
+
+def test_a_constant_phase_scores_what_guessing_does() -> None:
+    error = phase_error(np.zeros_like(RISING), RISING)
+    assert error.absolute == pytest.approx(0.25, abs=1e-3)
+    assert error.concentration == pytest.approx(0.0, abs=1e-9)
+
+
+@given(st.floats(-50, 50), st.floats(-50, 50), st.integers(-5, 5))
+def test_whole_turns_do_not_count(phase: float, truth: float, turns: int) -> None:
+    error = circular_error(np.array([phase]), np.array([truth]))
+    assert -0.5 <= error[0] < 0.5
+    turned = circular_error(np.array([phase + turns]), np.array([truth]))
+    apart = (turned - error + 0.5) % 1.0 - 0.5  # at ±0.5 rounding may choose the other end
+    assert abs(float(apart[0])) < 1e-9
+
+
+def test_the_error_of_beats_is_the_bar_error_times_the_meter() -> None:
+    bars = RISING / 4
+    assert phase_error((bars + 0.02) * 4, bars * 4).absolute == pytest.approx(0.08)
+    assert phase_error(bars + 0.02, bars).absolute == pytest.approx(0.02)
+
+
+def test_beats_lie_where_the_phase_passes_whole_numbers() -> None:
+    at = np.arange(300) / 30.0
+    times = beats_of_phase((at - 0.31) * 1.5)
+    expected = 0.31 + np.arange(0, 15) / 1.5
+    assert times == pytest.approx(expected[expected <= at[-1]], abs=1e-9)
+
+
+# ---------------------------------------------------------------- beats on beats
+
+
+def test_beats_on_beats_score_one() -> None:
+    score = rhythm(BEATS, BEATS, 16.0)
+    assert score == Rhythm(1.0, 1.0, 1.0, 1.0, 0.0)
+
+
+def test_every_second_beat_is_half_heard() -> None:
+    score = rhythm(BEATS[::2], BEATS, 16.0)
+    assert score.motion_to_music == 1.0
+    assert score.music_to_motion == pytest.approx(0.5, abs=1e-4)
+    assert score.f == pytest.approx(2 / 3, abs=1e-4)
+    assert score.hits == pytest.approx(2 / 3)
+
+
+def test_one_sigma_off_is_the_gaussian() -> None:
+    score = rhythm(BEATS + 0.05, BEATS, 16.0)
+    assert score.motion_to_music == pytest.approx(np.exp(-0.5), abs=1e-6)
+    assert score.distance == pytest.approx(0.05)
+    assert score.hits == 1.0
+
+
+def test_half_a_beat_later_is_as_wrong_as_it_gets() -> None:
+    off = half_beat_later(BEATS)
+    assert off == pytest.approx(np.arange(0.0, 16.5, 0.5))
+    score = rhythm(BEATS, off, 16.0)
+    assert score.motion_to_music < 1e-5
+    assert score.hits == 0.0
+    assert score.distance == pytest.approx(0.25)
+
+
+def test_random_times_score_what_the_integral_says() -> None:
+    """A uniform distance in [0, P/2]: mean of exp(-d²/2σ²) is σ √(2π) erf(P/(2√2 σ)) / P."""
+    rng = np.random.default_rng(0)
+    scores = [rhythm(np.sort(rng.uniform(0, 16, 40)), BEATS, 16.0) for _ in range(200)]
+    expected = 0.05 * np.sqrt(2 * np.pi) / 0.5  # erf(3.5) = 1
+    assert mean_rhythm(scores).motion_to_music == pytest.approx(expected, rel=0.03)
+    turned = [rhythm(m, BEATS, 16.0) for m in turned_round(BEATS, 16.0, rng, 400)]
+    assert mean_rhythm(turned).motion_to_music == pytest.approx(expected, rel=0.03)
+    assert mean_rhythm(turned).distance == pytest.approx(0.125, rel=0.03)
+
+
+def test_a_motion_without_beats_scores_nothing() -> None:
+    score = rhythm(np.zeros(0), BEATS, 16.0)
+    assert (score.motion_to_music, score.music_to_motion, score.f, score.hits) == (0, 0, 0, 0)
+    assert np.isnan(score.distance)
+    mean = mean_rhythm([score, rhythm(BEATS, BEATS, 16.0)])
+    assert mean.f == 0.5
+    assert mean.distance == 0.0  # over those that have one
+    assert len(COLUMNS) == 5
+
+
+def test_turning_keeps_number_and_order() -> None:
+    for moved in turned_round(BEATS, 16.0, np.random.default_rng(1), 5):
+        assert len(moved) == len(BEATS)
+        assert (np.diff(moved) >= 0).all() and moved[0] >= 0 and moved[-1] < 16
+
+
+times = st.lists(st.integers(0, 400), max_size=25, unique=True).map(
+    lambda values: np.sort(np.array(values, dtype=np.float64)) * 0.0437
+)
+
+
+@given(times, times)
+def test_hits_are_mir_evals(reference: np.ndarray, estimate: np.ndarray) -> None:
+    if not len(reference) or not len(estimate):
+        assert hit_f_measure(reference, estimate) == 0.0
+        return
+    assert hit_f_measure(reference, estimate) == pytest.approx(
+        mir_eval.beat.f_measure(reference, estimate)
+    )
