@@ -89,7 +89,8 @@ def generate(
     if audio is not None:
         refuse_with("--audio", prompt=prompt, tag=tag, foot_lock=foot_lock)
         generate_audio.check_song(audio)
-        wanted: dict[str, Any] = {"audio": audio, "meter": meter, "seconds": seconds, "style": style}
+        wanted: dict[str, Any] = {"audio": audio, "meter": meter}
+        wanted |= {"seconds": seconds, "style": style}
         formats = checked_formats(format or "npz,glb,html", generate_audio.FORMATS)
         result = generate_audio.produce_song(
             wanted | {"sampling": shared},

@@ -61,7 +61,7 @@ def produce_song(
             condition, phase=phase, style=style, settings=settings, progress=progress
         )
     clock.lap("sample")
-    rows = write_trajectories(SongMotions(made, song), wanted["audio"], formats, out)
+    rows, index = write_trajectories(SongMotions(made, song), wanted["audio"], formats, out)
     clock.lap("write")
     about = {
         "audio": str(wanted["audio"]),
@@ -72,7 +72,7 @@ def produce_song(
         "device": str(generator.device),
         "seed": settings.seed,
     }
-    return about | {"motions": rows, "index": None, "timings": clock.seconds()}
+    return about | {"motions": rows, "index": index, "timings": clock.seconds()}
 
 
 def styled(text: str | None) -> Any:
@@ -97,10 +97,16 @@ def progress_bar(num_frames: int) -> Iterator[Callable[[int, int], None]]:
 
 def write_trajectories(
     made: "SongMotions", audio: Path, formats: list[str], out: Path
-) -> list[dict[str, Any]]:
-    """Post-process and write every trajectory; a row of facts and paths for each."""
+) -> tuple[list[dict[str, Any]], str | None]:
+    """Post-process and write every trajectory: a row of facts and paths for each.
+
+    Several share one page, so that the song is in it once; its path is the second value.
+    """
     from src.shared.formats.trajectory_beats import SongTrack
-    from src.shared.formats.trajectory_registry import export_trajectory
+    from src.shared.formats.trajectory_registry import (
+        export_trajectory,
+        write_trajectory_preview,
+    )
     from src.shared.motion.trajectory import MotionTrajectory
     from src.shared.motion.trajectory_postprocess import MotionPostProcessor
 
@@ -113,20 +119,24 @@ def write_trajectories(
         beats.meter,
     )
     processor = MotionPostProcessor()
+    finished = [MotionTrajectory(processor.process(raw.data), raw.fps) for raw in made.trajectories]
+    stems = [audio.stem, *(f"{audio.stem}-{number + 1}" for number in range(1, len(finished)))]
+    alone = [name for name in formats if name != "html" or len(finished) == 1]
     rows = []
-    for index, raw in enumerate(made.trajectories):
-        trajectory = MotionTrajectory(processor.process(raw.data), raw.fps)
-        stem = audio.stem if index == 0 else f"{audio.stem}-{index + 1}"
-        paths = export_trajectory(trajectory, out, stem, formats, track, title=stem)
+    for number, (trajectory, stem) in enumerate(zip(finished, stems, strict=True)):
+        paths = export_trajectory(trajectory, out, stem, alone, track, title=stem)
         rows.append(
             {
-                "sample": index,
+                "sample": number,
                 "frames": trajectory.num_frames,
                 "fps": trajectory.fps,
                 "files": {name: str(path) for name, path in paths.items()},
             }
         )
-    return rows
+    if alone == formats:
+        return rows, None
+    write_trajectory_preview(finished, out / "index.html", track, stems)
+    return rows, str(out / "index.html")
 
 
 def warn_of_beats(result: dict[str, Any]) -> None:
