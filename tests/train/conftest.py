@@ -27,3 +27,11 @@ def prepared(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("prepared") / "data"
     prepare([SyntheticSource(120)], folder, workers=1)
     return folder
+
+
+@pytest.fixture(scope="session")
+def circles(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder of motion phrases."""
+    from tiny_audio_stage import write_circles
+
+    return write_circles(tmp_path_factory.mktemp("circles"))
