@@ -13,33 +13,49 @@ from torch.nn import functional as F
 
 from src.shared.config_schema import TrainConfig
 from src.shared.data.phrases.dataset import MotionPhraseDataset, PhraseBatch
-from src.shared.errors import UsageError
+from src.shared.data.prepared import SYNTHETIC, open_data
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.audio.conditioning import BEAT, CONDITION_ROWS
 from src.shared.model.audio.decoder import wrapped_phase
 from src.shared.model.audio.unet import MIN_FRAMES
 from src.shared.motion.trajectory import PHASE
+from src.train.run_log import console
+
+SYNTHETIC_SONGS = 40
 
 
 def open_phrases(config: TrainConfig, split: str, num_phrases: int | None) -> MotionPhraseDataset:
-    """One split of the folder or bucket that `data` names.
+    """One split of the folder or bucket that `data` names; `synthetic` is made on the spot, once.
 
     Raises:
-        UsageError: there is no default data; UserError: it cannot be read.
+        UserError: it cannot be read, or has no phrase of this split.
     """
-    if config.data == "synthetic":
-        raise UsageError(
-            "data is missing: give --data DIR_OR_URL; make it with"
-            " `motion-tools prepare-audio --motion synthetic --music synthetic:100 --out DIR`"
-        )
+    root = config.data
+    if root == SYNTHETIC:
+        root = str(synthetic_pairs(Path(config.output).parent / f"synthetic-{SYNTHETIC_SONGS}"))
     frames = getattr(config, "target_frames")  # noqa: B009 - every audio stage has it
     return MotionPhraseDataset(
-        config.data,
+        root,
         num_phrases=num_phrases,
         target_frames=frames,
         split=split,
         seed=config.seed,
     )
+
+
+def synthetic_pairs(folder: Path) -> Path:
+    """Parametric motions paired with rendered songs, all the project's own."""
+    from src.shared.data.pairing.music import open_music
+    from src.shared.data.pairing.prepare_audio import PairOptions, prepare_audio
+
+    console.print(f"pairing synthetic motions with synthetic songs in {folder}", markup=False)
+    prepare_audio(
+        open_data(SYNTHETIC, folder / ".motion"),
+        open_music([f"{SYNTHETIC}:{SYNTHETIC_SONGS}"], seed=0),
+        folder,
+        options=PairOptions(synthetic_clips=True),
+    )
+    return folder
 
 
 def whole_windows(phrases: PhraseBatch) -> PhraseBatch:
