@@ -21,7 +21,7 @@ LENGTHS = np.arange(28, 137)  # frames: 214 to 44 BPM
 TEMPO_WEIGHT = 3.0  # of a tempo's log-probability against onset strength, both per second
 TEMPO_FLOOR = -8.0
 DRIFT_COST, JUMP_COST = 300.0, 2.0  # of log-ratio² from beat to beat, at most the second
-MIN_CONFIDENCE = 0.05
+MIN_CONFIDENCE = 0.4
 NEIGHBOURS = np.array([0.25, 0.5, 0.75, 1.0, 0.75, 0.5, 0.25]) / 2
 
 
@@ -29,7 +29,7 @@ NEIGHBOURS = np.array([0.25, 0.5, 0.75, 1.0, 0.75, 0.5, 0.25]) / 2
 class Beats:
     """Beats of a song: tempo (median, BPM; 0.0 = none found) and times in seconds, ascending.
 
-    `confidence` in [0, 1] is how periodic the onsets are along the beats; 0.0 without beats.
+    `confidence` in [0, 1] is `tempo.periodicity` along the beats; 0.0 without beats.
     """
 
     tempo: float
@@ -70,15 +70,16 @@ def beats_from_onsets(onsets: Onsets, *, meter: int | None = 4) -> Beats:
     if len(chain) < 3:
         return nothing
     times = _refined(chain, strength) / onsets.fps
-    confidence = _confidence(correlations[:, 3], centres, times, onsets.fps)
+    lengths = np.interp(centres, times[:-1], np.diff(times)) * onsets.fps
+    confidence = tempo.periodicity(correlations, lengths)
     if confidence < MIN_CONFIDENCE:
         return nothing
-    bar, first = find_downbeats(onsets, times, meter)
+    meter, downbeats = find_downbeats(onsets, times, meter)
     return Beats(
-        tempo=float(60 / np.median(np.diff(times))),
+        tempo=_median_tempo(times),
         beat_times=times,
-        downbeat_times=times[first::bar],
-        meter=bar,
+        downbeat_times=times[downbeats],
+        meter=meter,
         confidence=confidence,
     )
 
@@ -158,7 +159,7 @@ def _trace_back(value: np.ndarray, before: np.ndarray) -> np.ndarray:
 def _sounding(onsets: Onsets, chain: np.ndarray) -> slice:
     """The part of the chain between the first and the last beat at which something sounds."""
     reach = round(0.07 * onsets.fps)
-    loudest = onsets.mel.max(axis=0)
+    loudest = onsets.loudness
     heard = [loudest[max(frame - reach, 0) : frame + reach + 1].max() > 10.0 for frame in chain]
     alive = np.flatnonzero(heard)
     return slice(alive[0], alive[-1] + 1) if alive.size else slice(0, 0)
@@ -174,29 +175,38 @@ def _refined(chain: np.ndarray, strength: np.ndarray, reach: int = 3) -> np.ndar
     return np.maximum(np.maximum.accumulate(moved), 0.0)
 
 
-def _confidence(
-    correlations: np.ndarray, centres: np.ndarray, times: np.ndarray, fps: float
-) -> float:
-    """Mean autocorrelation [0, 1] of the onsets at the beat length, along the song."""
-    lengths = np.interp(centres, times[:-1], np.diff(times)) * fps
-    return float(np.clip(tempo.read_at(correlations[:, None], lengths)[..., 0].mean(), 0.0, 1.0))
+def _median_tempo(times: np.ndarray, span: int = 8) -> float:
+    """BPM, from the median time of `span` beats: finer than from single ones."""
+    span = min(span, len(times) - 1)
+    return float(60 * span / np.median(times[span:] - times[:-span]))
 
 
 def bar_phase(beats: Beats, num_frames: int, fps: float = 30.0) -> np.ndarray:
     """Unwrapped bar phase [num_frames] (float64, bars): whole numbers at downbeats, rising.
 
-    Linear between beats, carried on with the mean length of the four nearest at both ends. The
+    Linear between beats, carried on at both ends with the pace of the nearest bar. The
     first downbeat is 0. Without beats it runs at DEFAULT_TEMPO from 0 (confidence is 0 then).
     """
     frames = np.arange(num_frames) / fps
     times = beats.beat_times
     if len(times) < 2:
         return frames * DEFAULT_TEMPO / 60 / beats.meter
-    first = int(np.searchsorted(times, beats.downbeat_times[0])) if len(beats.downbeat_times) else 0
-    numbers = np.arange(len(times)) - first
-    near = min(4, len(times) - 1)
-    head, tail = (times[near] - times[0]) / near, (times[-1] - times[-1 - near]) / near
-    phase = np.interp(frames, times, numbers)
-    phase = np.where(frames < times[0], numbers[0] - (times[0] - frames) / head, phase)
-    phase = np.where(frames > times[-1], numbers[-1] + (frames - times[-1]) / tail, phase)
-    return phase / beats.meter
+    bars = _bars_at_beats(times, beats.downbeat_times, beats.meter)
+    near = min(beats.meter, len(times) - 1)
+    head = (bars[near] - bars[0]) / (times[near] - times[0])
+    tail = (bars[-1] - bars[-1 - near]) / (times[-1] - times[-1 - near])
+    phase = np.interp(frames, times, bars)
+    phase = np.where(frames < times[0], bars[0] + (frames - times[0]) * head, phase)
+    return np.where(frames > times[-1], bars[-1] + (frames - times[-1]) * tail, phase)
+
+
+def _bars_at_beats(times: np.ndarray, downbeats: np.ndarray, meter: int) -> np.ndarray:
+    """Bars [N] at each beat: whole at downbeats, equal steps between, 1 / meter outside them."""
+    numbers = np.arange(len(times))
+    if not len(downbeats):
+        return numbers / meter
+    opening = np.searchsorted(times, downbeats)
+    bars = np.interp(numbers, opening, np.arange(len(opening)))
+    bars = np.where(numbers < opening[0], (numbers - opening[0]) / meter, bars)
+    after = len(opening) - 1 + (numbers - opening[-1]) / meter
+    return np.where(numbers > opening[-1], after, bars)

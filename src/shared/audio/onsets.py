@@ -1,7 +1,8 @@
-"""Onset strength at 100 frames a second: log-mel spectral flux in three bands, from chunks.
+"""What the beat tracker hears: onset strength at 100 frames a second and pitch levels at 20.
 
-Memory is bounded by the mel powers (MEL_BANDS float32 a frame, 16 kB a second), not by the sound.
-Letters: S samples, T frames, M mel bands.
+One pass over mono chunks, two short-time spectra: 46 ms windows for the moment of an onset, 186 ms
+windows for pitch. Memory is bounded by the levels that are kept (20 kB a second), not the sound.
+Letters: S samples, T onset frames, P pitch frames, M mel bands, N semitones.
 """
 
 from collections.abc import Iterable, Iterator
@@ -9,104 +10,132 @@ from dataclasses import dataclass
 
 import numpy as np
 
-ONSET_FPS = 100  # nominal; exact only where the sample rate divides by it
+ONSET_FPS, PITCH_FPS = 100, 20  # nominal; exact only where the sample rate divides by them
+ONSET_WINDOW, PITCH_WINDOW = 0.04, 0.18  # seconds, to the nearest power of two in samples
 MEL_BANDS = 36
-WINDOW_SECONDS = 0.04
-FLOOR_DB = 60.0  # below the loudest band
 LOWEST, LOW, HIGH, HIGHEST = 30.0, 180.0, 2500.0, 16_000.0  # Hz: edges of the three bands
-SILENCE_POWER = 1e-9  # mel power of the loudest frame; about -80 dB full scale
-BLOCK_FRAMES = 1024
+LOWEST_PITCH, SEMITONES = 33, 60  # MIDI numbers from 55 Hz on
+FLOOR_DB = 60.0  # below the loudest band
+SILENCE_POWER = 1e-9  # power of the loudest frame; about -80 dB full scale
+BLOCK_FRAMES = 512
+LAG = 2  # frames over which a rise is measured
 
 
 @dataclass(frozen=True)
 class Onsets:
-    """Onset strengths [T] of the whole spectrum and [3, T] of its bands (low, middle, high).
+    """Onset strengths, levels and pitches; frame t of T is centred on t / fps seconds.
 
-    Frame t is centred on t / fps seconds. `chroma_flux` is left to the downbeat stage: `mel` holds
-    the levels [M, T] in dB above the floor. `silent` says that nothing can be heard.
+    Attributes:
+        bands: [3, T] mean rise of the low, middle and high bands, dB in 20 ms.
+        loudness: [T] level of the loudest band in dB above the floor.
+        pitch: [N, P] levels of the semitones, compressed, at `pitch_fps`.
+        silent: nothing can be heard.
     """
 
-    strength: np.ndarray
     bands: np.ndarray
-    mel: np.ndarray
+    loudness: np.ndarray
+    pitch: np.ndarray
     fps: float
+    pitch_fps: float
     silent: bool
 
-
-def mel_filters(count: int, sample_rate: int, n_fft: int) -> np.ndarray:
-    """Triangles [M, n_fft/2+1] with equal steps on the mel scale of O'Shaughnessy, unit sum."""
-    top = min(HIGHEST, sample_rate / 2)
-    mels = np.linspace(1127 * np.log1p(LOWEST / 700), 1127 * np.log1p(top / 700), count + 2)
-    edges = 700 * np.expm1(mels / 1127)
-    # Low bands narrower than a bin would be empty: give each a bin of its own at least.
-    width = sample_rate / n_fft
-    bins = np.arange(n_fft // 2 + 1) * width
-    below = np.minimum(edges[:-2], edges[1:-1] - width)[:, None]
-    above = np.maximum(edges[2:], edges[1:-1] + width)[:, None]
-    centre = edges[1:-1, None]
-    rise = (bins - below) / (centre - below)
-    fall = (above - bins) / (above - centre)
-    filters = np.maximum(0.0, np.minimum(rise, fall))
-    return (filters / filters.sum(axis=1, keepdims=True)).astype(np.float32)
+    @property
+    def strength(self) -> np.ndarray:
+        """Rise of all bands [T]."""
+        return self.bands.mean(axis=0)
 
 
-def mel_centres(count: int, sample_rate: int) -> np.ndarray:
-    """Centre frequencies [M] of `mel_filters` in Hz."""
-    top = min(HIGHEST, sample_rate / 2)
-    mels = np.linspace(1127 * np.log1p(LOWEST / 700), 1127 * np.log1p(top / 700), count + 2)
-    return 700 * np.expm1(mels[1:-1] / 1127)
+class _Spectra:
+    """Short-time power spectra, filtered: frames are cut from chunks as they come."""
 
+    def __init__(self, sample_rate: int, fps: float, seconds: float) -> None:
+        self.hop = max(round(sample_rate / fps), 1)
+        self.size = int(2 ** round(np.log2(seconds * sample_rate)))
+        window = np.hanning(self.size + 1)[:-1].astype(np.float32)
+        self.window = window * np.float32(2 / window.sum())
+        self.bins = np.arange(self.size // 2 + 1) * sample_rate / self.size  # Hz
+        self.fps = sample_rate / self.hop
+        self.filters = np.zeros((0, 0), dtype=np.float32)
+        self._buffer = np.zeros(self.size // 2, dtype=np.float32)
+        self._parts: list[np.ndarray] = []
 
-def _blocks(chunks: Iterable[np.ndarray], n_fft: int, hop: int) -> Iterator[np.ndarray]:
-    """Frames [up to BLOCK_FRAMES, n_fft] of the joined chunks, centred, zeros beyond the ends."""
-    buffer = np.zeros(n_fft // 2, dtype=np.float32)
-    span = (BLOCK_FRAMES - 1) * hop + n_fft
-    for chunk in chunks:
-        buffer = np.concatenate([buffer, chunk.astype(np.float32, copy=False)])
-        while buffer.size >= span:
-            yield np.lib.stride_tricks.sliding_window_view(buffer[:span], n_fft)[::hop]
-            buffer = buffer[BLOCK_FRAMES * hop :]
-    buffer = np.concatenate([buffer, np.zeros(n_fft // 2, dtype=np.float32)])
-    if buffer.size >= n_fft:
-        yield from np.array_split(np.lib.stride_tricks.sliding_window_view(buffer, n_fft)[::hop], 2)
+    def push(self, samples: np.ndarray) -> None:
+        """Take mono samples [S]."""
+        self._buffer = np.concatenate([self._buffer, samples.astype(np.float32, copy=False)])
+        while self._buffer.size >= (BLOCK_FRAMES - 1) * self.hop + self.size:
+            self._filter(self._buffer[: (BLOCK_FRAMES - 1) * self.hop + self.size])
+            self._buffer = self._buffer[BLOCK_FRAMES * self.hop :]
 
+    def finish(self) -> np.ndarray:
+        """Filtered powers [bands, T] of everything that came, T = 1 + S // hop."""
+        self.push(np.zeros(self.size // 2, dtype=np.float32))
+        if self._buffer.size >= self.size:
+            self._filter(self._buffer)
+        return np.concatenate([np.zeros((0, len(self.filters)), np.float32), *self._parts]).T
 
-def mel_power(chunks: Iterable[np.ndarray], sample_rate: int) -> tuple[np.ndarray, float]:
-    """Mel powers [M, T] of mono chunks and their frame rate."""
-    from scipy.fft import rfft  # float32 in, complex64 out; numpy's would double
+    def _filter(self, samples: np.ndarray) -> None:
+        from scipy.fft import rfft  # single precision stays single, unlike numpy's
 
-    hop = max(round(sample_rate / ONSET_FPS), 1)
-    n_fft = 2 ** round(np.log2(WINDOW_SECONDS * sample_rate))
-    window = np.hanning(n_fft + 1)[:-1].astype(np.float32)
-    window /= window.sum() / 2
-    filters = mel_filters(MEL_BANDS, sample_rate, n_fft).T
-    parts = []
-    for frames in _blocks(chunks, n_fft, hop):
-        spectrum = rfft(frames * window, axis=1)
-        parts.append((spectrum.real**2 + spectrum.imag**2) @ filters)
-    power = np.concatenate(parts) if parts else np.zeros((0, MEL_BANDS), dtype=np.float32)
-    return power.T, sample_rate / hop
+        frames = np.lib.stride_tricks.sliding_window_view(samples, self.size)[:: self.hop]
+        spectrum = rfft(frames * self.window, axis=1)
+        self._parts.append((spectrum.real**2 + spectrum.imag**2) @ self.filters.T)
 
 
 def detect_onsets(chunks: Iterable[np.ndarray], sample_rate: int) -> Onsets:
-    """Onset strengths of mono sound given in chunks of any length."""
-    power, fps = mel_power(chunks, sample_rate)
+    """Onset strengths and pitch levels of mono sound given in chunks of any length."""
+    rises = _Spectra(sample_rate, ONSET_FPS, ONSET_WINDOW)
+    centres, rises.filters = mel_filters(rises.bins)
+    pitches = _Spectra(sample_rate, PITCH_FPS, PITCH_WINDOW)
+    pitches.filters = pitch_filters(pitches.bins)
+    for chunk in chunks:
+        for piece in _pieces(chunk):
+            rises.push(piece)
+            pitches.push(piece)
+    power = rises.finish()
     peak = float(power.max(initial=0.0))
     level = np.maximum(10 * np.log10(np.maximum(power, 1e-20) / max(peak, 1e-20)) + FLOOR_DB, 0.0)
-    centres = mel_centres(MEL_BANDS, sample_rate)
-    flux = _flux(level)
-    edges = np.searchsorted(centres, [LOW, HIGH])
-    groups = np.split(flux, edges)
-    bands = np.stack([group.mean(axis=0) for group in groups])
-    strength = bands.mean(axis=0)
-    return Onsets(strength, bands, level, fps, peak < SILENCE_POWER)
+    groups = np.split(_rise(level), np.searchsorted(centres, [LOW, HIGH]))
+    pitch = np.sqrt(pitches.finish())  # amplitudes
+    return Onsets(
+        bands=np.stack([group.mean(axis=0) for group in groups]),
+        loudness=level.max(axis=0),
+        pitch=np.log1p(100 * pitch / max(float(pitch.max(initial=0.0)), 1e-10)),
+        fps=rises.fps,
+        pitch_fps=pitches.fps,
+        silent=peak < SILENCE_POWER,
+    )
 
 
-def _flux(level: np.ndarray, lag: int = 2) -> np.ndarray:
-    """Rise [M, T] in dB over `lag` frames, against the louder neighbour band (vibrato)."""
-    before = level.copy()
-    before[1:] = np.maximum(before[1:], level[:-1])
-    before[:-1] = np.maximum(before[:-1], level[1:])
-    rise = np.zeros_like(level)
-    rise[:, lag:] = np.maximum(level[:, lag:] - before[:, :-lag], 0.0)
-    return rise
+def _pieces(chunk: np.ndarray, size: int = 1 << 18) -> Iterator[np.ndarray]:
+    """Parts of a chunk, so that a whole song in one chunk is not copied at each step."""
+    yield from (chunk[start : start + size] for start in range(0, len(chunk), size))
+
+
+def mel_filters(bins: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Centres [M] in Hz and triangles [M, bins] of unit sum, at equal steps on the mel scale.
+
+    Triangles narrower than a bin are widened to one, so that none is empty.
+    """
+    first, last = 1127 * np.log1p(np.array([LOWEST, min(HIGHEST, bins[-1])]) / 700)
+    edges = 700 * np.expm1(np.linspace(first, last, MEL_BANDS + 2) / 1127)
+    centres = edges[1:-1]
+    below = np.minimum(edges[:-2], centres - bins[1])[:, None]
+    above = np.maximum(edges[2:], centres + bins[1])[:, None]
+    rise = (bins - below) / (centres[:, None] - below)
+    fall = (above - bins) / (above - centres[:, None])
+    filters = np.maximum(0.0, np.minimum(rise, fall))
+    return centres, (filters / filters.sum(axis=1, keepdims=True)).astype(np.float32)
+
+
+def pitch_filters(bins: np.ndarray) -> np.ndarray:
+    """Triangles [N, bins], a semitone or at least a bin to each side."""
+    centres = 440.0 * 2 ** ((LOWEST_PITCH + np.arange(SEMITONES) - 69) / 12)
+    width = np.maximum(centres * (2 ** (1 / 12) - 1), bins[1])[:, None]
+    return np.maximum(0.0, 1 - np.abs(bins - centres[:, None]) / width).astype(np.float32)
+
+
+def _rise(level: np.ndarray) -> np.ndarray:
+    """Rise [M, T] in dB over LAG frames, above the loudest neighbour band before (vibrato)."""
+    before = np.pad(level, ((1, 1), (LAG, 0)))[:, : level.shape[1]]
+    before = np.maximum(np.maximum(before[:-2], before[1:-1]), before[2:])
+    return np.maximum(level - before, 0.0)

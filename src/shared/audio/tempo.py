@@ -15,15 +15,15 @@ WINDOW, STEP = 8.0, 2.0  # seconds
 MULTIPLES = (1 / 4, 1 / 3, 1 / 2, 2 / 3, 1, 3 / 2, 2, 3, 4)
 WEIGHTS = np.array(  # [B, multiples]
     [
-        [-0.64, -0.39, -0.87, -0.72, -1.27, 0.77, 0.89, -0.60, -0.56],
-        [-1.07, -0.47, -1.16, -0.99, 1.50, -1.57, -0.21, 0.18, 0.81],
-        [-0.52, -0.99, 1.27, -1.58, 4.03, -1.20, 0.18, 0.45, -0.54],
-        [-0.75, -0.57, -1.09, -1.14, 2.80, -0.46, 2.08, 0.52, 0.04],
+        [-1.5, -1.1, -1.7, -0.6, -2.7, 1.0, 1.2, -0.7, -0.6],
+        [-2.5, -0.3, -1.2, -1.1, -0.2, -1.6, -1.2, 0.5, 1.3],
+        [0.3, -1.5, 1.4, -2.0, 3.5, -0.4, 0.7, 0.8, -0.8],
+        [-1.6, -0.7, -1.7, -1.2, 3.2, -0.5, 2.4, 1.5, 0.8],
     ]
 )
-PRIOR = np.array([0.23, -0.45, -1.15])  # of x, x², |x|³ with x octaves slower than 120 BPM
+PRIOR = -0.82  # times the squared distance from 120 BPM in octaves
 SONG_WEIGHT = 0.5  # how much the whole song's mean counts beside a window
-SLACK = (-0.01, 0.0, 0.01)  # a period may be off by this share when read
+BLUR = np.bartlett(15)[1:-1] / 7  # players are not exact: onsets are spread over 13 frames
 
 
 def autocorrelation(novelty: np.ndarray, fps: float) -> tuple[np.ndarray, np.ndarray]:
@@ -32,11 +32,12 @@ def autocorrelation(novelty: np.ndarray, fps: float) -> tuple[np.ndarray, np.nda
     Args:
         novelty: onset strengths [B, T] at `fps`.
     """
+    novelty = np.stack([np.convolve(row, BLUR, "same") for row in novelty])
     bands, frames = novelty.shape
     window, step = round(WINDOW * fps), round(STEP * fps)
     lags = round(PERIODS[0] * MULTIPLES[-1] * fps) + 2
     taper = np.hanning(min(window, frames) + 2)[1:-1]
-    size = 2 ** int(np.ceil(np.log2(window + lags)))
+    size = int(2 ** np.ceil(np.log2(window + lags)))
 
     def correlate(signal: np.ndarray) -> np.ndarray:
         power = np.abs(np.fft.rfft(signal, size, axis=-1)) ** 2
@@ -48,30 +49,40 @@ def autocorrelation(novelty: np.ndarray, fps: float) -> tuple[np.ndarray, np.nda
     result = np.empty((len(starts), bands, lags))
     for index, start in enumerate(starts):
         part = novelty[:, start : start + window]
-        result[index] = correlate((part - part.mean(axis=1, keepdims=True)) * taper)
+        mean = (part * taper).sum(axis=1, keepdims=True) / taper.sum()
+        result[index] = correlate((part - mean) * taper)
     result /= (result[:, :, :1] + 1e-6) * overlap
     return result, (starts + taper.size / 2) / fps
 
 
 def tempo_scores(correlations: np.ndarray, fps: float) -> np.ndarray:
     """Log-probability [N, G] of each candidate period, from correlations [N, B, lags]."""
-    lags = correlations.shape[-1]
-    x = np.log2(PERIODS / 0.5)
-    scores = np.tile(PRIOR @ np.stack([x, x**2, np.abs(x) ** 3]), (len(correlations), 1))
+    scores = np.tile(PRIOR * np.log2(PERIODS / 0.5) ** 2, (len(correlations), 1))
     for multiple, weights in zip(MULTIPLES, WEIGHTS.T, strict=True):
         scores += np.einsum("b,nbg->ng", weights, read_at(correlations, PERIODS * multiple * fps))
-    assert lags > PERIODS[0] * MULTIPLES[-1] * fps
     scores += SONG_WEIGHT * scores.mean(axis=0)
     top = scores.max(axis=1, keepdims=True)
     return scores - top - np.log(np.exp(scores - top).sum(axis=1, keepdims=True))
 
 
 def read_at(correlations: np.ndarray, lags: np.ndarray) -> np.ndarray:
-    """Correlations [N, B, G] at fractional `lags` [G], the best within SLACK."""
-    values = []
-    for slack in SLACK:
-        position = np.minimum(lags * (1 + slack), correlations.shape[-1] - 1.001)
-        index = position.astype(int)
-        share = position - index
-        values.append(correlations[..., index] * (1 - share) + correlations[..., index + 1] * share)
-    return np.maximum.reduce(values)
+    """Correlations [..., lags] at fractional `lags` [G], linearly interpolated: [..., G]."""
+    index = lags.astype(int)
+    share = lags - index
+    return correlations[..., index] * (1 - share) + correlations[..., index + 1] * share
+
+
+def periodicity(correlations: np.ndarray, lengths: np.ndarray) -> float:
+    """How alike the onsets are one or two beats later, 0 to 1: mean over windows, best band.
+
+    Noise, speech and random strokes stay below 0.36, 99% of the training songs are above 0.5.
+
+    Args:
+        correlations: [N, B, lags].
+        lengths: [N] beat length of each window in frames.
+    """
+    best = [
+        read_at(window, np.array([1.0, 2.0]) * length).max()
+        for window, length in zip(correlations, lengths, strict=True)
+    ]
+    return float(np.clip(np.mean(best), 0.0, 1.0))
