@@ -151,8 +151,8 @@ class AttentionBlock(nn.Module):
 
 
 def _rows(x: Tensor) -> Tensor:
-    """[B, C, T] -> [B, T, C]."""
-    return x.transpose(1, 2)
+    """[B, C, T] -> [B, T, C], laid out anew: a transposed view takes a slow matrix product."""
+    return x.transpose(1, 2).contiguous()
 
 
 def _join(heads: Tensor) -> Tensor:

@@ -67,6 +67,7 @@ class Stage(nn.Module):
         super().__init__()
         self.factor = factor
         self.attention_after = attention_after
+        self.low: torch.dtype | None = None  # of a sampling copy whose weights are cast here
         self.blocks = nn.ModuleList(
             ResBlock(
                 before,
@@ -91,6 +92,8 @@ class Stage(nn.Module):
 
     def prepare(self, audio: Tensor | None, context: Tensor | None) -> StageCondition:
         """Audio for FiLM [B, E, T] at the full rate, context [B, L, E]; None = not in use."""
+        if context is not None and self.low is not None:
+            context = context.to(self.low)
         film: list[Tensor | None] = [None] * len(self.blocks)
         if audio is not None:
             pooled = F.avg_pool1d(audio, self.factor)  # [B, E, T/2^i]
@@ -103,11 +106,13 @@ class Stage(nn.Module):
 
     def forward(self, h: Tensor, time_emb: Tensor, condition: StageCondition) -> Tensor:
         """h [B, C, T], time [B, E] -> [B, C', T]."""
+        if self.low is not None:
+            h, time_emb = h.to(self.low), time_emb.to(self.low)
         for index, block in enumerate(self.blocks):
             h = block(h, time_emb, condition.film[index])
             if index == self.attention_after and self.attention is not None:
                 h = self.attention(h, condition.keys_values)
-        return h
+        return h if self.low is None else h.float()
 
 
 class UNet1D(nn.Module):
@@ -184,13 +189,14 @@ class UNet1D(nn.Module):
         context = None
         if self.context_proj is not None:
             context = self.context_proj(condition.transpose(1, 2))  # [B, T, E]
-        return Prepared(tuple(stage.prepare(audio, context) for stage in self._stages()))
+        return Prepared(tuple(stage.prepare(audio, context) for stage in self.stages()))
 
     def null_condition(self, batch: int, frames: int) -> Tensor:
         """The learned "no audio", [B, 167, T]."""
         return self.null[:, None].expand(batch, CONDITION_ROWS, frames)
 
-    def _stages(self) -> list[Stage]:
+    def stages(self) -> list[Stage]:
+        """In the order of `Prepared.stages`: down, middle, up."""
         stages = [*self.down, self.middle, *reversed(self.up)]
         return [stage for stage in stages if isinstance(stage, Stage)]
 
