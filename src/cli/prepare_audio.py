@@ -23,7 +23,9 @@ def prepare_audio(
         list[str], typer.Option(help="Folder of sound files, or synthetic:N; several if you like.")
     ],
     out: Annotated[Path, typer.Option(help="Folder for the pairs.")],
-    meter: Annotated[int, typer.Option(help="Beats a bar of the recordings.")] = 4,
+    meter: Annotated[
+        int | None, typer.Option(help="Beats a bar of the recordings; else 3 or 4 is heard.")
+    ] = None,
     min_seconds: Annotated[float, typer.Option(help="Shortest phrase.")] = 8.0,
     max_seconds: Annotated[float, typer.Option(help="Longest phrase.")] = 20.0,
     passes: Annotated[
@@ -56,7 +58,7 @@ def prepare_audio(
             f"--min-seconds {min_seconds:g} and --max-seconds {max_seconds:g}: choose"
             " 2 <= min <= max <= 120"
         )
-    if not 2 <= meter <= 12:
+    if meter is not None and not 2 <= meter <= 12:
         raise UsageError(f"--meter {meter} is out of range; choose from 2 to 12")
     if not 1 <= passes <= 100:
         raise UsageError(f"--passes {passes} is out of range; choose from 1 to 100")

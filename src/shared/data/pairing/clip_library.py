@@ -22,14 +22,24 @@ from src.shared.motion.root_track import (
     YAW_RATE,
     integrate_root,
 )
-from src.shared.motion.rotations import quaternion_continuous, rotation_6d_to_quaternion
+from src.shared.motion.rotations import (
+    quaternion_conjugate,
+    quaternion_continuous,
+    quaternion_log,
+    quaternion_multiply,
+    rotation_6d_to_quaternion,
+)
+from src.shared.motion.trajectory_math import yaw_quaternion
 
 FPS = 30.0
 MARGIN = 6  # frames that stay free around a cut, half a seam
 MIN_SPAN = 36  # frames from the cut where a clip is entered to its last
+LARGEST_TURN = 0.6  # radians from frame to frame; beyond is a fault of the capture
 FALLBACK_SPEED = 0.15  # m/s, where too few clips show two heaps
 MIN_CLIPS_FOR_THRESHOLD = 40
 SPEED_RANGE = (0.05, 0.4)  # m/s, within which the threshold is looked for
+
+Kind = tuple[str, str]
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +69,11 @@ class Clip:
     @property
     def num_frames(self) -> int:
         return len(self.root)
+
+    @property
+    def kind(self) -> Kind:
+        """Source and tag."""
+        return self.source, self.tag
 
     @property
     def entries(self) -> np.ndarray:
@@ -101,11 +116,13 @@ def open_library(data: PreparedData, *, synthetic: bool = True, seed: int = 0) -
     threshold = speed_threshold(speeds.values())
     clips, left_out, used = [], Counter[str](), Counter[str]()
     for record in records:
-        root, tilt, beats = tracks[record.id]
+        root, tilt, beats, turn = tracks[record.id]
         cuts = np.rint(beats.times * FPS).astype(int)
         cuts = cuts[(cuts >= MARGIN) & (cuts < len(root) - MARGIN)]
         if speeds[record.id] < threshold:
             left_out["the pelvis hardly moves"] += 1
+        elif turn > LARGEST_TURN:
+            left_out["the pelvis turns faster than a body can"] += 1
         elif len(cuts) < 2 or cuts[-1] - cuts[0] < MIN_SPAN:
             left_out["too few motion beats"] += 1
         else:
@@ -136,13 +153,18 @@ def _splits(records: list[ClipRecord], seed: int) -> dict[str, str]:
     return {take: "test" if split.startswith("test") else split for take, split in drawn.items()}
 
 
-def _track(data: PreparedData, record: ClipRecord) -> tuple[np.ndarray, np.ndarray, MotionBeats]:
+def _track(
+    data: PreparedData, record: ClipRecord
+) -> tuple[np.ndarray, np.ndarray, MotionBeats, float]:
+    """Rows, tilt, beats and the largest turn from frame to frame of a clip's pelvis."""
     features = data.features(record)
     root = features[:, ROOT_ROW]
     tilt = quaternion_continuous(rotation_6d_to_quaternion(features[:, 0]))
-    position, _ = integrate_root(root, FPS)
-    rows = root[:, [FORWARD, LATERAL, HEIGHT, YAW_RATE]]
-    return rows.numpy().copy(), tilt.numpy(), motion_beats(position.numpy(), FPS)
+    position, heading = integrate_root(root, FPS)
+    world = quaternion_multiply(yaw_quaternion(heading), tilt)
+    steps = quaternion_log(quaternion_multiply(world[1:], quaternion_conjugate(world[:-1])))
+    rows = root[:, [FORWARD, LATERAL, HEIGHT, YAW_RATE]].numpy().copy()
+    return rows, tilt.numpy(), motion_beats(position.numpy(), FPS), float(steps.norm(dim=1).max())
 
 
 def speed_threshold(speeds: Iterable[float]) -> float:

@@ -12,7 +12,8 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.signal import find_peaks
 
 SMOOTHING = 0.05  # seconds, standard deviation of the Gaussian
-PROMINENCE = 0.15  # of the speed's 5-95% spread
+PROMINENCE = 0.15  # of the 5-95% spread of the speed around its trend
+TREND = 0.5  # seconds, standard deviation; walking and running in one phrase are no beat
 MIN_PROMINENCE = 0.04  # m/s; a slow drift has no beats
 MIN_INTERVAL = 0.2  # seconds between two beats
 SIGMA = 0.05  # seconds, of the alignment
@@ -59,7 +60,7 @@ def motion_beats(points: np.ndarray, fps: float = 30.0) -> MotionBeats:
     speed = smoothed_speed(points, fps)
     if len(speed) < 3:
         return MotionBeats(np.zeros(0), speed)
-    low, high = np.percentile(speed, (5, 95))
+    low, high = np.percentile(speed - gaussian_filter1d(speed, TREND * fps), (5, 95))
     found, _ = find_peaks(
         -speed,
         prominence=max(PROMINENCE * (high - low), MIN_PROMINENCE),

@@ -139,7 +139,7 @@ class FolderMusic:
     """Every sound file below a folder; beats are tracked."""
 
     root: Path
-    meter: int = 4
+    meter: int | None = None  # 3 or 4, as each song sounds
     seed: int = 0
 
     def entries(self) -> list[SongEntry]:
@@ -194,7 +194,9 @@ def feature_arrays(features: "AudioFeatures") -> dict[str, np.ndarray]:
     return {name: values.astype(np.float16) for name, values in features.arrays().items()}
 
 
-def open_music(names: Sequence[str], *, seed: int = 0, meter: int = 4) -> list[MusicSource]:
+def open_music(
+    names: Sequence[str], *, seed: int = 0, meter: int | None = None
+) -> list[MusicSource]:
     """Sources named on the command line: folders and `synthetic:N`.
 
     Raises:

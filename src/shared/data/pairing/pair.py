@@ -3,16 +3,17 @@
 Several motions are tried and the one whose beats fall best on the music's is kept.
 """
 
-from collections import Counter
+from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from src.shared.data.pairing.clip_library import FPS, Clip
+from src.shared.data.pairing.clip_library import FPS, Clip, Kind
 from src.shared.data.pairing.motion_beats import (
     Alignment,
     alignment,
+    beat_alignment,
     chance_alignment,
     motion_beats,
 )
@@ -28,13 +29,15 @@ from src.shared.data.pairing.time_warp import (
 )
 from src.shared.data.prepared import SYNTHETIC
 
-TRIES = 6
-GOOD = 0.9  # a try this well aligned ends the search, so that easy clips do not crowd out others
+KINDS, TRIES = 3, 4  # kinds of motion tried, and times each
+GOOD = 0.85  # a score that ends the search
+FAIR = 0.7  # a kind of motion that stays below gives way to another
+MIN_SCORE = 0.5  # a phrase below teaches the wrong thing
 SPARE = 2  # frames beyond the phrase that only help to derive (ruling 6)
 LEAD_BEATS = 1.25  # intervals of motion that may be skipped so that the first beat can meet one
 MAX_LEAD = 1.5  # seconds
 GROUP_SHARE = 0.25  # of phrases with a motion beat on strong beats only
-ENOUGH_CLIPS = 8  # below, two motion beats a music beat are allowed as well
+LONG = 300  # frames; longer clips are not drawn more often
 SYNTHETIC_WEIGHT = 0.4  # of the project's own motions against recorded ones
 
 
@@ -72,6 +75,7 @@ class PhrasePair:
         warp: which moment of the motion is seen when.
         before, after, chance: beat alignment as recorded, warped, and by chance.
         motion_beats: seconds of the phrase [N].
+        coverage: how many beats it could meet are met, 0 to 1.
         matched: music beats that a motion beat was brought to.
     """
 
@@ -83,12 +87,13 @@ class PhrasePair:
     after: Alignment
     chance: Alignment
     motion_beats: np.ndarray
+    coverage: float
     matched: int
 
     @property
     def score(self) -> float:
-        """Motion to music alignment, -1 for a motion without beats."""
-        return float(np.nan_to_num(self.after.motion_to_music, nan=-1.0))
+        """Geometric mean of motion to music alignment and coverage; 0 without motion beats."""
+        return float(np.sqrt(np.nan_to_num(self.after.motion_to_music) * self.coverage))
 
     @property
     def seams(self) -> np.ndarray:
@@ -104,21 +109,16 @@ def suitable_clips(clips: Sequence[Clip], interval: float) -> list[Clip]:
     return [clip for clip in clips if abs(clip.period / interval - 1) <= MATCH_LIMIT]
 
 
-def clip_weights(clips: Sequence[Clip]) -> np.ndarray:
-    """Probability of each clip [N]: a kind of motion counts as the root of its number.
-
-    Long clips count more, up to ten seconds.
-    """
-    number = Counter((clip.source, clip.tag) for clip in clips)
-    weights = np.array(
-        [
-            min(clip.num_frames / FPS, 10.0)
-            / np.sqrt(number[clip.source, clip.tag])
-            * (SYNTHETIC_WEIGHT if clip.source == SYNTHETIC else 1.0)
-            for clip in clips
-        ]
-    )
-    return np.asarray(weights / weights.sum())
+def kind_weights(clips: Sequence[Clip]) -> dict[Kind, float]:
+    """Probability of each kind of motion: the root of its seconds, fewer of the synthetic."""
+    seconds: dict[Kind, float] = defaultdict(float)
+    for clip in clips:
+        seconds[clip.kind] += clip.num_frames / FPS
+    weights = {
+        kind: float(np.sqrt(total)) * (SYNTHETIC_WEIGHT if kind[0] == SYNTHETIC else 1.0)
+        for kind, total in sorted(seconds.items())
+    }
+    return {kind: weight / sum(weights.values()) for kind, weight in weights.items()}
 
 
 def pair_phrase(
@@ -131,34 +131,41 @@ def pair_phrase(
 ) -> PhrasePair | None:
     """Make a motion for a phrase.
 
+    What a phrase shows is drawn before it is tried, so that easy kinds of motion do not crowd
+    out others: only where none of its tries reaches `FAIR` another kind is drawn.
+
     Args:
         clips: of the phrase's split.
         beats: of the music; neighbours beyond the phrase's ends are welcome.
         num_frames: T.
         rng: makes every choice.
-        tries: motions to choose from.
+        tries: motions of one kind to choose from.
 
     Returns:
-        None where there is no beat or no clip fits its tempo.
+        The best; None where there is no beat or no clip fits its tempo.
     """
     choices = _choices(clips, beats)
-    if not choices:
-        return None
     best: PhrasePair | None = None
-    for _ in range(tries):
-        group = len(choices) > 1 and rng.random() < GROUP_SHARE
-        made = _warped(*choices[int(group)], beats.times, num_frames, rng)
-        if best is None or made.score > best.score:
-            best = made
-        if best.score >= GOOD:
+    for _ in range(KINDS if choices else 0):
+        suitable, grid = choices[int(len(choices) > 1 and rng.random() < GROUP_SHARE)]
+        weights = kind_weights(suitable)
+        kind = list(weights)[int(rng.choice(len(weights), p=list(weights.values())))]
+        for _ in range(tries):
+            made = _warped(suitable, kind, grid, beats.times, num_frames, rng)
+            if best is None or made.score > best.score:
+                best = made
+            if best.score >= GOOD:
+                break
+        if best is not None and best.score >= FAIR:
             break
-    assert best is not None
+    if best is None:
+        return None
     chance = chance_alignment(best.motion_beats, beats.times, num_frames / FPS, rng)
     return replace(best, chance=chance)
 
 
 def _choices(clips: Sequence[Clip], beats: MusicBeats) -> list[tuple[list[Clip], np.ndarray]]:
-    """(clips, grid) on every beat and on strong beats; on half beats where these are too few.
+    """(clips, grid) on every beat and on strong beats; on half beats where there are neither.
 
     Two motion beats a music beat do not tell which of them is the beat: a last resort.
     """
@@ -167,24 +174,33 @@ def _choices(clips: Sequence[Clip], beats: MusicBeats) -> list[tuple[list[Clip],
         for grid in beats.grids()
     )
     found = [choice for choice in (whole, strong) if choice[0]]
-    if sum(len(suitable) for suitable, _ in found) < ENOUGH_CLIPS and half[0]:
-        found.insert(0, half)
-    return found
+    return found or ([half] if half[0] else [])
 
 
 def _warped(
     clips: Sequence[Clip],
+    kind: Kind,
     grid: np.ndarray,
     beats: np.ndarray,
     num_frames: int,
     rng: np.random.Generator,
 ) -> PhrasePair:
-    """One try: assemble, match, warp."""
+    """One try: assemble, match, warp.
+
+    Args:
+        clips: to join; the first is of `kind`.
+        kind: what the phrase begins with; what follows is what fits at the seams.
+        grid: where motion beats may fall [K], seconds.
+        beats: all music beats, what alignment is measured with.
+        num_frames: T.
+        rng: makes every choice.
+    """
     seconds = num_frames / FPS
     lead = min(LEAD_BEATS * float(np.median(np.diff(grid))), MAX_LEAD)
     shown = (num_frames + SPARE) / FPS
     needed = int(np.ceil((lead + shown * (1 + LIMIT)) * FPS)) + 2
-    motion = assemble(clips, clip_weights(clips), needed, rng)
+    first = np.array([min(clip.num_frames, LONG) * (clip.kind == kind) for clip in clips])
+    motion = assemble(clips, first / first.sum(), needed, rng)
     found = motion_beats(motion.position, FPS).times
     pairs = match_beats(found, grid, seconds, lead)
     warp = fit_warp(
@@ -205,5 +221,6 @@ def _warped(
         after=alignment(after, beats, seconds),
         chance=Alignment(0.0, 0.0),  # measured for the try that is kept
         motion_beats=after,
+        coverage=beat_alignment(grid[(grid >= 0) & (grid < seconds)], after),
         matched=len(pairs),
     )

@@ -35,7 +35,7 @@ from src.shared.data.worker_pool import run_jobs
 from src.shared.errors import UserError
 from src.shared.files import write_json
 
-VERSION = 1
+VERSION = 2  # of the method: another number makes everything anew
 
 Progress = Callable[[int, int], None]  # (songs done, songs in all)
 
@@ -134,7 +134,8 @@ def _manifest(
     phrases: list[dict[str, Any]], data: PreparedData, options: PairOptions
 ) -> dict[str, Any]:
     return {
-        "version": VERSION,
+        "version": 1,  # of the layout
+        "method": VERSION,
         "fps": FPS,
         "motion_manifest": data.manifest_hash,
         "options": asdict(options),

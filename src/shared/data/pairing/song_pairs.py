@@ -10,15 +10,13 @@ import numpy as np
 
 from src.shared.data.pairing.clip_library import FPS, Clip
 from src.shared.data.pairing.music import Music, MusicSource, SongEntry
-from src.shared.data.pairing.pair import SPARE, PhrasePair, pair_phrase
+from src.shared.data.pairing.pair import MIN_SCORE, SPARE, PhrasePair, pair_phrase
 from src.shared.data.pairing.time_warp import KNOT_SECONDS
 from src.shared.data.phrases.layout import PhraseRecord, write_phrase
 from src.shared.errors import UserError
 from src.shared.files import sha256_file, write_json
 from src.shared.motion.style import measure_style
 from src.shared.motion.trajectory import STYLE, MotionTrajectory
-
-MIN_ALIGNMENT = 0.5  # motion to music; a phrase below teaches the wrong thing
 
 
 @dataclass(frozen=True)
@@ -97,8 +95,8 @@ def _pair(job: SongJob, name: str, music: Music, start: int, stop: int) -> dict[
     pair = pair_phrase(job.clips, beats, stop - start, _rng(job, name))
     if pair is None:
         return _mark(job, {"id": name, "reason": "no beat, or no clip fits the tempo"})
-    if not pair.after.motion_to_music >= MIN_ALIGNMENT:
-        return _mark(job, {"id": name, "reason": f"alignment below {MIN_ALIGNMENT}"})
+    if pair.score < MIN_SCORE:
+        return _mark(job, {"id": name, "reason": f"beats meet too rarely: {pair.score:.2f}"})
     phase = music.phase[start:stop] - np.floor(music.phase[start])
     ahead = phase[-1] + (phase[-1] - phase[-2]) * np.arange(1, SPARE + 1)
     trajectory = MotionTrajectory.from_pose(
@@ -144,6 +142,7 @@ def _entry(name: str, record: PhraseRecord, pair: PhrasePair, start: int) -> dic
             },
             "seams": [int(frame) for frame in pair.seams],
             "matched": pair.matched,
+            "coverage": round(pair.coverage, 4),
             "motion_beats": len(pair.motion_beats),
             "alignment": {
                 "before": asdict(pair.before),

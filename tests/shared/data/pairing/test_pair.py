@@ -1,12 +1,14 @@
 """A phrase of music and the motion made for it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from src.shared.data.pairing.pair import (
     SPARE,
     MusicBeats,
-    clip_weights,
+    kind_weights,
     pair_phrase,
     strong_beats,
     suitable_clips,
@@ -73,7 +75,17 @@ def test_strong_beats(meter: int, wanted: list[int]) -> None:
 
 def test_rare_kinds_count_more() -> None:
     many = [walker(f"w{n}", 0.5) for n in range(9)]
-    rare = walker("dance", 0.5)
-    object.__setattr__(rare, "tag", "dance")
-    weights = clip_weights([*many, rare])
-    assert weights.sum() == pytest.approx(1) and weights[-1] == pytest.approx(3 * weights[0])
+    rare = replace(walker("dance", 0.5), tag="dance")
+    weights = kind_weights([*many, rare])
+    assert sum(weights.values()) == pytest.approx(1)
+    assert weights["made", "walk"] == pytest.approx(3 * weights["made", "dance"])
+
+
+def test_a_phrase_shows_the_kind_that_was_drawn() -> None:
+    slow = [replace(walker(f"slow{n}", 0.5, speed=0.4), tag="stroll") for n in range(3)]
+    begins = set()
+    for seed in range(12):
+        pair = pair_phrase([*CLIPS, *slow], music(0.5), 240, np.random.default_rng(seed))
+        assert pair is not None and pair.score > 0.7 and 0 < pair.coverage <= 1
+        begins.add(pair.motion.pieces[0].clip.rstrip("0123456789-"))
+    assert begins == {"walk", "slow"}
