@@ -9,6 +9,7 @@ import typer
 
 from src.cli import options
 from src.cli.guard import complain
+from src.cli.prepare import print_json
 from src.shared.errors import UsageError
 
 if TYPE_CHECKING:
@@ -84,9 +85,7 @@ def prepare_audio(
         )
     write_bands(out)
     if json:
-        import json as json_module
-
-        print(json_module.dumps(report, indent=1, ensure_ascii=False))
+        print_json(report)
     else:
         print_summary(report, out)
 
