@@ -7,7 +7,6 @@ and the same song half a beat later. Real paired motion stands beside them. One 
 Letters: T frames, N songs.
 """
 
-import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
@@ -18,6 +17,7 @@ import numpy as np
 
 from src.shared.data.pairing.motion_beats import MotionBeats, motion_beats
 from src.shared.errors import UserError
+from src.shared.evaluation.audio_alignment import Danced, alignment_rows, song_scores
 from src.shared.evaluation.audio_songs import (
     TEMPI,
     Piece,
@@ -27,15 +27,7 @@ from src.shared.evaluation.audio_songs import (
     tracks,
 )
 from src.shared.evaluation.intervals import bootstrap_mean
-from src.shared.evaluation.metrics_rhythm import (
-    COLUMNS,
-    Rhythm,
-    half_beat_later,
-    mean_rhythm,
-    phase_error,
-    rhythm,
-    turned_round,
-)
+from src.shared.evaluation.metrics_rhythm import phase_error
 from src.shared.evaluation.metrics_seams import Seamed, seam_frames, seam_report
 from src.shared.inference.song_generator import SongGenerator
 from src.shared.inference.song_sampler import SampleSettings
@@ -43,7 +35,6 @@ from src.shared.motion.trajectory import FPS, MotionTrajectory
 
 Progress = Callable[[str], None]
 Cells = dict[str, dict[str, Any]]
-HELD_AGAINST = ("chance", "another song", "half a beat later")
 
 
 @dataclass(frozen=True)
@@ -54,21 +45,10 @@ class AudioSettings:
     song_seconds: float = 16.0
     own_count: int = 10  # songs made once more, the phase not held to the beat tracker
     tell_meter: bool = True
-    others: int = 8  # other songs that each motion is held against
-    offsets: int = 16  # random offsets a motion, for chance
     max_real: int = 200  # test phrases
     track_seconds: float = 30.0  # of each sound file
     pictures: int = 4
     seed: int = 0
-
-
-@dataclass(frozen=True, eq=False)
-class Danced:
-    """Motion beats and the beats of the music they belong to, seconds."""
-
-    motion: np.ndarray
-    music: np.ndarray
-    seconds: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,12 +97,12 @@ def evaluate_audio(
     result = AudioEvaluation()
     made = _dance(generator, settings, sampled, progress)
     dances = [_danced(trajectory, piece) for piece, trajectory in made]
-    rows = {"generated": alignment_rows(dances, settings)}
+    rows = {"generated": alignment_rows(dances, settings.seed)}
     real: dict[str, Any] | None = None
     if data is not None:
         progress(f"the test split of {data}")
         real = _real_dances(data, settings)
-        rows["real"] = alignment_rows(real.pop("dances"), settings)
+        rows["real"] = alignment_rows(real.pop("dances"), settings.seed)
     played = [] if songs is None else _play(generator, songs, settings, sampled, progress)
     progress("seams")
     result.report = {
@@ -198,7 +178,7 @@ def _play(
 
 def _danced(trajectory: MotionTrajectory, piece: Piece) -> Danced:
     found = motion_beats(trajectory.position, trajectory.fps)
-    return Danced(found.times, piece.beats, piece.seconds)
+    return Danced(piece.name, found.times, piece.beats, piece.seconds)
 
 
 def _seamed(piece: Piece, trajectory: MotionTrajectory, sampled: SampleSettings) -> Seamed:
@@ -262,88 +242,7 @@ def phase_row(songs: Sequence[tuple[Piece, np.ndarray]]) -> Cells:
     return {name: bootstrap_mean(values).as_dict() for name, values in columns.items()}
 
 
-# ---------------------------------------------------------------- beats on beats
-
-
-def alignment_rows(dances: Sequence[Danced], settings: AudioSettings) -> dict[str, Any]:
-    """A set of motions with their own music, and with what must score less.
-
-    Returns:
-        rows: own song and each of `HELD_AGAINST`, columns of `Rhythm` with intervals over songs;
-        above: for each of `HELD_AGAINST` the paired difference own minus other, and `apart`: the
-        two rows' intervals do not overlap; songs, motion_beats, music_beats, without_beats.
-    """
-    scores: dict[str, list[Rhythm]] = {name: [] for name in ("own song", *HELD_AGAINST)}
-    for index, dance in enumerate(dances):
-        rng = np.random.default_rng([settings.seed, 2, index])
-        for name, score in _scores(dance, dances, index, settings, rng).items():
-            scores[name].append(score)
-    rows = {name: _columns(values) for name, values in scores.items()}
-    own = rows["own song"]
-    above = {
-        name: {
-            column: _difference(scores["own song"], scores[name], column)
-            | {"apart": own[column]["low"] > rows[name][column]["high"]}
-            for column in ("motion_to_music", "music_to_motion", "f", "hits")
-        }
-        for name in HELD_AGAINST
-    }
-    return {
-        "songs": len(dances),
-        "motion_beats": _per_second([dance.motion for dance in dances], dances),
-        "music_beats": _per_second([dance.music for dance in dances], dances),
-        "without_beats": sum(len(dance.motion) == 0 for dance in dances),
-        "rows": rows,
-        "above": above,
-    }
-
-
-def _scores(
-    dance: Danced,
-    dances: Sequence[Danced],
-    index: int,
-    settings: AudioSettings,
-    rng: np.random.Generator,
-) -> dict[str, Rhythm]:
-    """One motion against its own song and everything else."""
-    turned = turned_round(dance.motion, dance.seconds, rng, settings.offsets)
-    scores = {
-        "own song": rhythm(dance.motion, dance.music, dance.seconds),
-        "chance": mean_rhythm([rhythm(m, dance.music, dance.seconds) for m in turned]),
-        "half a beat later": rhythm(dance.motion, half_beat_later(dance.music), dance.seconds),
-    }
-    strangers = [other for k, other in enumerate(dances) if k != index]
-    if strangers:
-        drawn = rng.permutation(len(strangers))[: settings.others]
-        scores["another song"] = mean_rhythm(
-            [
-                rhythm(dance.motion, strangers[k].music, min(dance.seconds, strangers[k].seconds))
-                for k in drawn
-            ]
-        )
-    else:
-        scores["another song"] = Rhythm(*[math.nan] * len(COLUMNS))
-    return scores
-
-
-def _columns(scores: Sequence[Rhythm]) -> Cells:
-    return {
-        name: bootstrap_mean([getattr(score, name) for score in scores]).as_dict()
-        for name in COLUMNS
-    }
-
-
-def _difference(own: Sequence[Rhythm], other: Sequence[Rhythm], column: str) -> dict[str, Any]:
-    pairs = zip(own, other, strict=True)
-    return bootstrap_mean([getattr(a, column) - getattr(b, column) for a, b in pairs]).as_dict()
-
-
-def _per_second(beats: Sequence[np.ndarray], dances: Sequence[Danced]) -> float:
-    """Beats a second over all songs."""
-    seconds = sum(dance.seconds for dance in dances)
-    inside = zip(beats, dances, strict=True)
-    count = sum(int(((b >= 0) & (b < dance.seconds)).sum()) for b, dance in inside)
-    return count / seconds if seconds else math.nan
+# ---------------------------------------------------------------- real motion
 
 
 def _real_dances(data: str, settings: AudioSettings) -> dict[str, Any]:
@@ -354,7 +253,9 @@ def _real_dances(data: str, settings: AudioSettings) -> dict[str, Any]:
     if not known:
         raise UserError(f"{data}: no test phrase has a beat; make the pairs with prepare-audio")
     dances = [
-        Danced(motion_beats(phrase.motion.position).times, phrase.beats, phrase.seconds)
+        Danced(
+            phrase.song, motion_beats(phrase.motion.position).times, phrase.beats, phrase.seconds
+        )
         for phrase in known
     ]
     return {"dances": dances, "data_hash": dataset.fingerprint[:12], "test_phrases": len(known)}
@@ -372,7 +273,7 @@ def _track_row(
         return row
     dance = _danced(trajectory, piece)
     rng = np.random.default_rng([settings.seed, 3])
-    scores = _scores(dance, [dance], 0, settings, rng)
+    scores = song_scores(dance, [dance], rng)
     scores.pop("another song")
     error = phase_error(
         trajectory.phase_unwrapped * piece.meter, np.asarray(piece.phase) * piece.meter

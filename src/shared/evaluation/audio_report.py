@@ -174,8 +174,9 @@ def _verdict(found: dict[str, Any]) -> Iterator[list[str]]:
     yield ["all seven checks, share of generated (≥ 0.95)", value, _holds(seven["holds"])]
     for name in ("frozen", "untrained"):
         yield [f"{name} fails", "", _holds(found[f"{name}_fails"])]
-    for name, share in found["inside"].items():
-        yield [f"{name.replace('_', ' ')} inside p5–p95", f"{share:.2f}", "–"]
+    for name, inside in found["inside"].items():
+        value = f"{number(inside['mean'], 3)}; {inside['share']:.2f} of motions inside"
+        yield [f"mean of {name.replace('_', ' ')} inside p5–p95", value, _holds(inside["holds"])]
 
 
 def _holds(value: bool) -> str:

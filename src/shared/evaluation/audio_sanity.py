@@ -6,6 +6,7 @@ Real motion, a frozen one and an untrained model stand beside them; the last two
 Letters: B windows, T frames, C rows of sound.
 """
 
+import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
@@ -16,6 +17,7 @@ import torch
 from torch import Tensor
 from torch.nn import functional as F
 
+from src.shared.errors import UserError
 from src.shared.evaluation.audio_songs import (
     TEMPI,
     conditions_of_songs,
@@ -107,7 +109,7 @@ def evaluate_sanity(
         "settings": asdict(settings),
         "rows": rows,
         "bands": None if bands is None else {k: asdict(b) for k, b in bands.bands.items()},
-        "verdict": verdict(rows),
+        "verdict": verdict(rows, bands),
         "seconds": round(time.perf_counter() - started, 1),
     }
     return SanityEvaluation(report, motions, bands)
@@ -120,6 +122,10 @@ def _from_data(
     test = open_split(data, "test", settings.num_frames, settings.seed)
     train = open_split(data, "train", settings.num_frames, settings.seed)
     held_back = phrases(test, settings.num_samples, whole=True)
+    if not held_back:
+        raise UserError(
+            f"{data}: no test phrase has {settings.num_frames} frames; ask for --num-frames fewer"
+        )
     learned = phrases(train, settings.max_training, whole=True)
     bands = Bands.of(phrase.motion for phrase in learned)
     same = model.card.data == train.fingerprint
@@ -132,8 +138,10 @@ def _from_data(
         "training_windows": len(learned),
         "data_hash": test.fingerprint[:12],
     }
-    rounds = -(-settings.num_samples // max(len(held_back), 1))
-    conditions = [phrase.audio for phrase in held_back] * rounds  # other noise each time
+    conditions = [phrase.audio for phrase in held_back]
+    rounds = math.ceil(settings.num_samples / len(held_back))
+    for draw in range(1, rounds):  # too few phrases: other windows of the same
+        conditions += [p.audio for p in phrases(test, len(held_back), whole=True, draw=draw)]
     return conditions[: settings.num_samples], [p.motion for p in held_back], bands, facts
 
 
@@ -194,12 +202,18 @@ def untrained(model: AudioMotionModel, seed: int) -> AudioMotionModel:
 # ---------------------------------------------------------------- verdict
 
 
-def verdict(rows: dict[str, dict[str, Any]]) -> dict[str, Any]:
+def verdict(rows: dict[str, dict[str, Any]], bands: Bands | None) -> dict[str, Any]:
     """What must hold, by name: value and whether it does.
 
-    seven_checks: share of generated motions that pass all of the documents' checks, Wilson
-    interval; frozen_fails, untrained_fails: no such motion passes the suite; inside: where the
-    bands are known, the share of generated motions between p5 and p95 of each figure.
+    Args:
+        rows: of `sanity_row`, by name.
+        bands: of training motions, if known.
+
+    Returns:
+        seven_checks: share of generated motions that pass all of the documents' checks, Wilson
+        interval; whole_suite likewise; frozen_fails, untrained_fails: no such motion passes the
+        suite; inside: for each of `FREE` the share of generated motions between p5 and p95, their
+        mean, and whether that lies there.
     """
     generated = rows["generated"]
     seven = success_rate(generated["passed_seven"], generated["motions"]).as_dict()
@@ -210,5 +224,17 @@ def verdict(rows: dict[str, dict[str, Any]]) -> dict[str, Any]:
     }
     for name in ("frozen", "untrained"):
         result[f"{name}_fails"] = rows[name]["passed"] == 0
-    result["inside"] = {name: generated["inside"][name] for name in FREE if generated["inside"]}
+    result["inside"] = {} if bands is None else _inside(generated, bands)
     return result
+
+
+def _inside(row: dict[str, Any], bands: Bands) -> dict[str, Any]:
+    means = {name: row["checks"][f"band_{name}"]["mean"] for name in FREE}
+    return {
+        name: {
+            "share": row["inside"][name],
+            "mean": mean,
+            "holds": mean is not None and bands.bands[name].holds(mean),
+        }
+        for name, mean in means.items()
+    }

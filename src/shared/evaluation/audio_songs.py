@@ -148,12 +148,18 @@ def _about_track(song: Song) -> dict[str, Any]:
 
 @dataclass(frozen=True, eq=False)
 class RealPhrase:
-    """A window of a paired phrase: sound [C,T], motion, and the song's bars [T], None = unknown."""
+    """A window of a paired phrase.
 
-    name: str
+    Attributes:
+        song: it belongs to.
+        audio: [C,T].
+        motion: T frames.
+        beats: seconds, those that the rows of beat phase tell; none without.
+    """
+
+    song: str
     audio: Tensor
     motion: MotionTrajectory
-    bars: np.ndarray | None
     beats: np.ndarray
 
     @property
@@ -172,24 +178,28 @@ def open_split(data: str, split: str, frames: int, seed: int) -> MotionPhraseDat
     )
 
 
-def phrases(dataset: MotionPhraseDataset, number: int, *, whole: bool = False) -> list[RealPhrase]:
+def phrases(
+    dataset: MotionPhraseDataset, number: int, *, whole: bool = False, draw: int = 0
+) -> list[RealPhrase]:
     """Up to `number` windows, phrases in the order that the dataset's seed gives.
 
     Args:
         whole: leave out phrases that are shorter than the window.
+        draw: which window of each phrase.
     """
     found: list[RealPhrase] = []
     for index in dataset.order(0):
         if len(found) == number:
             break
-        item = dataset.item(int(index), 0)
+        item = dataset.item(int(index), draw)
         if item is None or (whole and not bool(item.mask.all())):
             continue
         audio = item.audio[:, item.mask]
         bars, beats = _clock(audio)
         window = item.motion[:, item.mask].numpy()
         placed = place_window(window, phase=0.0 if bars is None else float(bars[0]))
-        found.append(RealPhrase(item.record.id, audio, MotionTrajectory(placed), bars, beats))
+        song = item.record.song or item.record.id
+        found.append(RealPhrase(song, audio, MotionTrajectory(placed), beats))
     return found
 
 

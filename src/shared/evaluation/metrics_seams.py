@@ -52,7 +52,7 @@ def quantities(trajectory: MotionTrajectory) -> dict[str, np.ndarray]:
     }
 
 
-def seam_report(songs: Sequence[Seamed], seed: int = 0) -> dict[str, Any]:
+def seam_report(songs: Sequence[Seamed], seed: int = 0, n: int = RESAMPLES) -> dict[str, Any]:
     """Everything about the seams of at least one song, as plain data.
 
     Returns:
@@ -70,6 +70,7 @@ def seam_report(songs: Sequence[Seamed], seed: int = 0) -> dict[str, Any]:
         name: compare(
             [(values[name], song.seam[:-1]) for values, song in zip(sizes, marked, strict=True)],
             seed,
+            n,
         )
         for name in sizes[0]
     }
@@ -87,17 +88,16 @@ def compare(songs: Sequence[Values], seed: int = 0, n: int = RESAMPLES) -> dict[
     """
     rng = np.random.default_rng(seed)
     seam, other = _split(songs)
-    report: dict[str, Any] = {
-        f"{where}_p{point}": float(np.percentile(values, point))
-        for where, values in (("seam", seam), ("elsewhere", other))
-        for point in POINTS
-    }
     draws = rng.integers(0, len(songs), (n, len(songs)))
-    ratios = np.array([_ratios(*_split([songs[i] for i in draw])) for draw in draws])
-    null = np.array([_null(songs, rng) for _ in range(n)])
-    observed = _ratios(seam, other)
+    drawn = np.array([_ratios(*_split([songs[i] for i in draw])) for draw in draws])
+    pooled = Pooled.of(songs)
+    null = np.array([pooled.measure(_turned(songs, rng)) for _ in range(n)])
+    observed = pooled.measure([mask for _, mask in songs])
+    report: dict[str, Any] = {}
     for index, point in enumerate(POINTS):
-        low, high = np.nanpercentile(ratios[:, index], (2.5, 97.5))
+        report[f"seam_p{point}"] = float(np.percentile(seam, point))
+        report[f"elsewhere_p{point}"] = float(np.percentile(other, point))
+        low, high = np.percentile(drawn[:, index], (2.5, 97.5))
         report[f"ratio_p{point}"] = {
             "value": float(observed[index]),
             "low": float(low),
@@ -105,23 +105,42 @@ def compare(songs: Sequence[Values], seed: int = 0, n: int = RESAMPLES) -> dict[
             **_limits(null[:, index]),
             "same": bool(low <= 1 <= high),
         }
-    distance = kolmogorov_smirnov(seam, other)
     report["ks"] = {
-        "value": distance,
+        "value": float(observed[-1]),
         **_limits(null[:, -1]),
-        "p": float((1 + (null[:, -1] >= distance).sum()) / (1 + n)),
+        "p": float((1 + (null[:, -1] >= observed[-1]).sum()) / (1 + n)),
     }
     return report
 
 
-def kolmogorov_smirnov(first: np.ndarray, second: np.ndarray) -> float:
-    """The largest distance of two empirical distribution functions, of [N] and [M] values."""
-    points = np.concatenate((first, second))
-    shares = [
-        np.searchsorted(np.sort(values), points, side="right") / len(values)
-        for values in (first, second)
-    ]
-    return float(np.abs(shares[0] - shares[1]).max())
+@dataclass(frozen=True, eq=False)
+class Pooled:
+    """All songs' values in order, so that many marks are measured without sorting again.
+
+    Attributes:
+        values: ascending [N].
+        order: where each came from.
+        last: True at the last of equal values.
+    """
+
+    values: np.ndarray
+    order: np.ndarray
+    last: np.ndarray
+
+    @classmethod
+    def of(cls, songs: Sequence[Values]) -> "Pooled":
+        """Sort the values of all songs together."""
+        together = np.concatenate([values for values, _ in songs])
+        order = np.argsort(together, kind="stable")
+        values = together[order]
+        return cls(values, order, np.append(values[1:] > values[:-1], True))
+
+    def measure(self, masks: Sequence[np.ndarray]) -> np.ndarray:
+        """Ratios of the quantiles at `POINTS`, then the Kolmogorov–Smirnov distance, in one."""
+        mask = np.concatenate(masks)[self.order]
+        shares = np.cumsum(mask) / mask.sum() - np.cumsum(~mask) / (~mask).sum()
+        distance = np.abs(shares[self.last]).max()
+        return np.append(_ratios(self.values[mask], self.values[~mask]), distance)
 
 
 def jumps(songs: Sequence[Seamed]) -> dict[str, Any]:
@@ -182,11 +201,9 @@ def _ratios(seam: np.ndarray, other: np.ndarray) -> np.ndarray:
     return np.percentile(seam, POINTS) / np.maximum(np.percentile(other, POINTS), 1e-12)
 
 
-def _null(songs: Sequence[Values], rng: np.random.Generator) -> np.ndarray:
-    """Ratios and Kolmogorov–Smirnov distance with the marks of each song turned round."""
-    turned = [(values, np.roll(mask, int(rng.integers(len(mask))))) for values, mask in songs]
-    seam, other = _split(turned)
-    return np.append(_ratios(seam, other), kolmogorov_smirnov(seam, other))
+def _turned(songs: Sequence[Values], rng: np.random.Generator) -> list[np.ndarray]:
+    """The marks of each song, turned round to a random place."""
+    return [np.roll(mask, int(rng.integers(len(mask)))) for _, mask in songs]
 
 
 def _limits(null: np.ndarray) -> dict[str, float]:

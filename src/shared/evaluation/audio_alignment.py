@@ -1,0 +1,116 @@
+"""A set of motions on their own music, and on what must score less.
+
+Letters: N motion beats, M music beats.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from src.shared.evaluation.intervals import bootstrap_mean
+from src.shared.evaluation.metrics_rhythm import (
+    COLUMNS,
+    Rhythm,
+    half_beat_later,
+    mean_rhythm,
+    rhythm,
+    turned_round,
+)
+
+HELD_AGAINST = ("chance", "another song", "half a beat later")
+OTHERS = 8  # other songs that each motion is held against
+OFFSETS = 16  # random offsets a motion, for chance
+Cells = dict[str, dict[str, Any]]
+SCORES = ("motion_to_music", "music_to_motion", "f", "hits")
+
+
+@dataclass(frozen=True, eq=False)
+class Danced:
+    """Motion beats and the beats of the music they belong to, seconds; the song's name."""
+
+    song: str
+    motion: np.ndarray
+    music: np.ndarray
+    seconds: float
+
+
+def alignment_rows(dances: Sequence[Danced], seed: int) -> dict[str, Any]:
+    """A set of motions with their own music, and with what must score less.
+
+    Returns:
+        rows: own song and each of `HELD_AGAINST`, columns of `Rhythm` with intervals over songs;
+        above: for each of `HELD_AGAINST` the paired difference own minus other, and `apart`: the
+        two rows' intervals do not overlap; songs, motion_beats, music_beats, without_beats.
+    """
+    scores: dict[str, list[Rhythm]] = {name: [] for name in ("own song", *HELD_AGAINST)}
+    for index, dance in enumerate(dances):
+        rng = np.random.default_rng([seed, 2, index])
+        for name, score in song_scores(dance, dances, rng).items():
+            scores[name].append(score)
+    rows = {name: _columns(values) for name, values in scores.items()}
+    own = rows["own song"]
+    above = {
+        name: {
+            column: _difference(scores["own song"], scores[name], column)
+            | {"apart": own[column]["low"] > rows[name][column]["high"]}
+            for column in SCORES
+        }
+        for name in HELD_AGAINST
+    }
+    return {
+        "songs": len(dances),
+        "motion_beats": _per_second([dance.motion for dance in dances], dances),
+        "music_beats": _per_second([dance.music for dance in dances], dances),
+        "without_beats": sum(len(dance.motion) == 0 for dance in dances),
+        "rows": rows,
+        "above": above,
+    }
+
+
+def song_scores(
+    dance: Danced,
+    dances: Sequence[Danced],
+    rng: np.random.Generator,
+) -> dict[str, Rhythm]:
+    """One motion against its own song and everything else."""
+    turned = turned_round(dance.motion, dance.seconds, rng, OFFSETS)
+    scores = {
+        "own song": rhythm(dance.motion, dance.music, dance.seconds),
+        "chance": mean_rhythm([rhythm(m, dance.music, dance.seconds) for m in turned]),
+        "half a beat later": rhythm(dance.motion, half_beat_later(dance.music), dance.seconds),
+    }
+    strangers = [other for other in dances if other.song != dance.song]
+    if strangers:
+        drawn = rng.permutation(len(strangers))[:OTHERS]
+        scores["another song"] = mean_rhythm(
+            [
+                rhythm(dance.motion, strangers[k].music, min(dance.seconds, strangers[k].seconds))
+                for k in drawn
+            ]
+        )
+    else:
+        scores["another song"] = Rhythm(*[math.nan] * len(COLUMNS))
+    return scores
+
+
+def _columns(scores: Sequence[Rhythm]) -> Cells:
+    return {
+        name: bootstrap_mean([getattr(score, name) for score in scores]).as_dict()
+        for name in COLUMNS
+    }
+
+
+def _difference(own: Sequence[Rhythm], other: Sequence[Rhythm], column: str) -> dict[str, Any]:
+    pairs = zip(own, other, strict=True)
+    return bootstrap_mean([getattr(a, column) - getattr(b, column) for a, b in pairs]).as_dict()
+
+
+def _per_second(beats: Sequence[np.ndarray], dances: Sequence[Danced]) -> float:
+    """Beats a second over all songs."""
+    seconds = sum(dance.seconds for dance in dances)
+    inside = zip(beats, dances, strict=True)
+    count = sum(int(((b >= 0) & (b < dance.seconds)).sum()) for b, dance in inside)
+    return count / seconds if seconds else math.nan
