@@ -39,6 +39,7 @@ from src.train.phrases import (
     true_trajectory,
     whole_windows,
 )
+from src.train.run_log import console
 from src.train.seeding import generator
 from src.train.task import Part
 
@@ -245,8 +246,14 @@ class DecoderTask:
         export_song(self._finished(module), self.held_back, folder)
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
-        """The audio model with the trained decoder: a folder like the one that was read."""
+        """The audio model with the trained decoder: a folder like the one that was read.
+
+        A decoder that does harm on held-back phrases is left out.
+        """
         model = self._finished(module)
+        if self.figures["loss"] > self.figures["untrained-loss"]:
+            console.print("no better than the untrained decoder, which is kept: train longer")
+            model.replace_decoder(self.untrained.decoder)
         trained = {"steps": self.config.steps, "validation": self.figures}
         summary = {**self.source.training, "decoder": trained}
         model.card = model.card.model_copy(update={"name": folder.name, "training": summary})
