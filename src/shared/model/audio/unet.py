@@ -45,6 +45,11 @@ class Prepared:
     stages: tuple[StageCondition, ...]  # down, middle, up
 
 
+def halved(audio: Tensor) -> Tensor:
+    """Mean of neighbouring frames, [B, E, T] -> [B, E, T/2]; T is even."""
+    return (audio[..., ::2] + audio[..., 1::2]) / 2
+
+
 class Stage(nn.Module):
     """ResBlocks of one resolution, and one attention after the block `attention_after`.
 
@@ -91,14 +96,13 @@ class Stage(nn.Module):
             )
 
     def prepare(self, audio: Tensor | None, context: Tensor | None) -> StageCondition:
-        """Audio for FiLM [B, E, T] at the full rate, context [B, L, E]; None = not in use."""
+        """Audio for FiLM [B, E, T] at this rate, context [B, L, E]; None = not in use."""
         if context is not None and self.low is not None:
             context = context.to(self.low)
         film: list[Tensor | None] = [None] * len(self.blocks)
         if audio is not None:
-            pooled = F.avg_pool1d(audio, self.factor)  # [B, E, T/2^i]
             layers = [block.film for block in self.blocks]
-            film = [layer.gamma_beta(pooled) for layer in layers if isinstance(layer, FiLMLayer)]
+            film = [layer.gamma_beta(audio) for layer in layers if isinstance(layer, FiLMLayer)]
         keys_values = None
         if context is not None and self.attention is not None:
             keys_values = self.attention.keys_values(context)
@@ -183,13 +187,16 @@ class UNet1D(nn.Module):
         if drop is not None:
             null = self.null[:, None].to(condition.dtype)
             condition = torch.where(drop.to(condition.device)[:, None, None], null, condition)
-        audio = None
+        audio: dict[int, Tensor] = {}
         if self.conditioner is not None:
-            audio = self.conditioner(self._pad(condition))  # [B, E, T']
+            audio[1] = self.conditioner(self._pad(condition))  # [B, E, T']
+            for factor in sorted(set(self.config.factors))[1:]:
+                audio[factor] = halved(audio[factor // 2])  # [B, E, T'/2^i]
         context = None
         if self.context_proj is not None:
             context = self.context_proj(condition.transpose(1, 2))  # [B, T, E]
-        return Prepared(tuple(stage.prepare(audio, context) for stage in self.stages()))
+        stages = self.stages()
+        return Prepared(tuple(stage.prepare(audio.get(stage.factor), context) for stage in stages))
 
     def null_condition(self, batch: int, frames: int) -> Tensor:
         """The learned "no audio", [B, 167, T]."""
