@@ -28,7 +28,7 @@ class WeightsInfo(Config):
 
     sha256: str
     bytes: int
-    dtype: Literal["float32", "float16"] = "float32"
+    dtype: Literal["float32", "float16", "int8"] = "float32"
 
 
 class ModelCard(Config):
@@ -75,7 +75,12 @@ def read_card(folder: Path) -> ModelCard:
 
 
 def write_checkpoint(
-    folder: Path, card: ModelCard, tensors: Mapping[str, "Tensor"], *, half: bool = False
+    folder: Path,
+    card: ModelCard,
+    tensors: Mapping[str, "Tensor"],
+    *,
+    half: bool = False,
+    int8: bool = False,
 ) -> ModelCard:
     """Write weights, then the card that vouches for them; returns the finished card.
 
@@ -84,6 +89,7 @@ def write_checkpoint(
         card: its `weights` are filled in here.
         tensors: name -> tensor, any device.
         half: store floating-point tensors as float16.
+        int8: store large ones as int8 with a scale a row, see quantise.py.
 
     Raises:
         UserError: the folder cannot be written.
@@ -91,7 +97,10 @@ def write_checkpoint(
     import torch
     from safetensors.torch import save_file
 
+    from src.shared.model.quantise import quantise
+
     folder = Path(folder)
+    tensors = quantise(tensors) if int8 else tensors
     stored = {}
     for name, tensor in tensors.items():
         half_this = half and tensor.is_floating_point()
@@ -102,7 +111,7 @@ def write_checkpoint(
     weights = WeightsInfo(
         sha256=sha256_file(path),
         bytes=path.stat().st_size,
-        dtype="float16" if half else "float32",
+        dtype="int8" if int8 else "float16" if half else "float32",
     )
     card = card.model_copy(update={"weights": weights})
     write_json(folder / CARD_FILE, card.model_dump(mode="json", by_alias=True))
@@ -117,6 +126,8 @@ def read_tensors(folder: Path, card: ModelCard) -> dict[str, "Tensor"]:
     """
     from safetensors import SafetensorError
     from safetensors.torch import load_file
+
+    from src.shared.model.quantise import dequantise
 
     path = Path(folder) / WEIGHTS_FILE
     if card.weights is None or not path.is_file():
@@ -138,7 +149,7 @@ def read_tensors(folder: Path, card: ModelCard) -> dict[str, "Tensor"]:
         raise UserError(f"{path} is not a safetensors file ({error})") from error
     return {
         name: tensor.float() if tensor.is_floating_point() else tensor
-        for name, tensor in tensors.items()
+        for name, tensor in dequantise(tensors).items()
     }
 
 

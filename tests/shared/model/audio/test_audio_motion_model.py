@@ -66,15 +66,15 @@ def test_guidance_follows_its_equation_and_costs_nothing_at_scale_one(
     model.model_fn(condition, 1.0)(z, t)
 
 
-@pytest.mark.parametrize("half", [False, True])
-def test_a_folder_keeps_everything(tmp_path: Path, half: bool) -> None:
+@pytest.mark.parametrize(
+    ("dtype", "tolerance"), [("float32", 1e-6), ("float16", 1e-2), ("int8", 0.1)]
+)
+def test_a_folder_keeps_everything(tmp_path: Path, dtype: str, tolerance: float) -> None:
     model, (z, t, condition) = tiny(decoder={"decoder": "residual", "hidden-dim": 16}), batch()
-    model.save_pretrained(tmp_path, half=half)
+    model.save_pretrained(tmp_path, half=dtype == "float16", int8=dtype == "int8")
     read = AudioMotionModel.from_pretrained(tmp_path)
     assert read.config == model.config and isinstance(read.decoder, MotionDecoder)
-    assert read.card.weights is not None
-    assert read.card.weights.dtype == ("float16" if half else "float32")
-    tolerance = 1e-2 if half else 1e-6
+    assert read.card.weights is not None and read.card.weights.dtype == dtype
     torch.testing.assert_close(
         read(z, t, condition), model(z, t, condition), rtol=0, atol=tolerance
     )
