@@ -22,7 +22,7 @@ Result = TypeVar("Result")
 _LIBRARIES = {"aiohttp", "aiobotocore", "botocore", "gcsfs", "google", "requests"}
 _TRANSIENT_STATUS = {408, 429}  # of those below 500
 _VERSION_MARKS = ("generation", "etag", "ETag", "md5Hash", "mtime", "created", "LastModified")
-_EXTRAS = {"gs": "gcs", "gcs": "gcs", "s3": "s3", "s3a": "s3"}
+_PACKAGES = {"gs": "gcsfs", "gcs": "gcsfs", "s3": "s3fs", "s3a": "s3fs"}
 
 
 class Unreachable(Exception):
@@ -110,10 +110,8 @@ class Remote:
             try:
                 fs, base = fsspec.url_to_fs(self.root, **self.options)
             except ImportError as error:
-                extra = _EXTRAS.get(scheme, scheme)
-                raise UserError(
-                    f"cannot read {self.root}: {error}; install the extra {extra!r}"
-                ) from error
+                package = _PACKAGES.get(scheme, f"fsspec's package for {scheme}://")
+                raise UserError(f"cannot read {self.root}: install {package}") from error
             except ValueError as error:
                 raise UsageError(
                     f"cannot read {self.root}: {error}; give a folder, gs:// or s3://"

@@ -244,5 +244,5 @@ def test_patience_ends(bucket: FlakyFileSystem) -> None:
 
 def test_a_missing_package_names_its_extra(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "s3fs", None)
-    with pytest.raises(UserError, match="extra 's3'"):
+    with pytest.raises(UserError, match="install s3fs"):
         MotionPhraseDataset("s3://bucket/x")
