@@ -18,6 +18,7 @@ import numpy as np
 from src.shared.data.pairing.motion_beats import MotionBeats, motion_beats
 from src.shared.errors import UserError
 from src.shared.evaluation.audio_alignment import Danced, alignment_rows, song_scores
+from src.shared.evaluation.audio_phase import phase_row, right_tempo
 from src.shared.evaluation.audio_songs import (
     TEMPI,
     Piece,
@@ -26,7 +27,6 @@ from src.shared.evaluation.audio_songs import (
     phrases,
     tracks,
 )
-from src.shared.evaluation.intervals import bootstrap_mean
 from src.shared.evaluation.metrics_rhythm import phase_error
 from src.shared.evaluation.metrics_seams import Seamed, seam_frames, seam_report
 from src.shared.inference.song_generator import SongGenerator
@@ -110,6 +110,7 @@ def evaluate_audio(
             **(about or {}),
             **_about_model(generator, sampled),
             "songs": f"{len(made)} synthetic, {settings.song_seconds:g} s, tempi {TEMPI} BPM",
+            "tempo_heard_right": f"{sum(right_tempo(p) for p, _ in made)} of {len(made)} songs",
             "data": data or "none",
             **(real or {}),
         },
@@ -196,7 +197,7 @@ def _phase_table(
     sampled: SampleSettings,
     progress: Progress,
 ) -> dict[str, Cells]:
-    """Rows generated, beat tracker, own count and chance; see `phase_row`."""
+    """Rows by name, see `phase_row`; "right tempo" are songs whose tempo the tracker found."""
     rng = np.random.default_rng([settings.seed, 1])
     counted = []
     for number, (piece, _) in enumerate(made[: settings.own_count], start=1):
@@ -206,40 +207,14 @@ def _phase_table(
     rows = {
         "generated": phase_row([(piece, t.phase_unwrapped) for piece, t in made]),
         "beat tracker": phase_row(tracked),
+        "generated, right tempo": phase_row(
+            [(piece, t.phase_unwrapped) for piece, t in made if right_tempo(piece)]
+        ),
+        "beat tracker, right tempo": phase_row([pair for pair in tracked if right_tempo(pair[0])]),
         "own count": phase_row([(piece, t.phase_unwrapped) for piece, t in counted]),
         "chance": phase_row([(piece, bars + rng.random()) for piece, bars in tracked]),
     }
     return {name: row for name, row in rows.items() if row}
-
-
-def phase_row(songs: Sequence[tuple[Piece, np.ndarray]]) -> Cells:
-    """Errors over songs, counted from each song's first true beat to its last.
-
-    Args:
-        songs: what is true, and unwrapped bars [T] in the tracker's meter.
-
-    Returns:
-        beat and bar: mean |error| in cycles; beat_seconds: in seconds; beat_offset: signed, in
-        cycles of a beat; steady: concentration of the beat's error.
-    """
-    columns: dict[str, list[float]] = {}
-    for piece, bars in songs:
-        assert piece.bars is not None
-        at = np.arange(piece.num_frames) / FPS
-        inside = (at >= piece.beats[0]) & (at <= piece.beats[-1])
-        true_beats = piece.bars[inside] * piece.true_meter
-        beat = phase_error(bars[inside] * piece.meter, true_beats)
-        period = (at[inside][-1] - at[inside][0]) / (true_beats[-1] - true_beats[0])
-        values = {
-            "beat": beat.absolute,
-            "bar": phase_error(bars[inside], piece.bars[inside]).absolute,
-            "beat_seconds": beat.absolute * period,
-            "beat_offset": beat.offset,
-            "steady": beat.concentration,
-        }
-        for name, value in values.items():
-            columns.setdefault(name, []).append(float(value))
-    return {name: bootstrap_mean(values).as_dict() for name, values in columns.items()}
 
 
 # ---------------------------------------------------------------- real motion

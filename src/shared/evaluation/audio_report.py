@@ -18,7 +18,8 @@ UNITS = {"acceleration": "m/s²", "jerk": "m/s³", "angular_acceleration": "rad/
 NOTES = {
     "phase": "Mean absolute circular error in cycles; guessing scores 0.25. Frames between the"
     " first and the last true beat. generated: held to the beat tracker once a window, so the"
-    " tracker's error is its floor; own count: the same network, not held. ± is 95% over songs.",
+    " tracker's error is its floor; right tempo: songs whose tempo the tracker found within 4%;"
+    " own count: the same network, not held. ± is 95% over songs.",
     "alignment": "σ = 0.05 s; hits: one to one within 70 ms; distance: median to the nearest music"
     " beat. chance: the motion turned round by random times. ± is 95% over songs.",
     "above": "own song minus the row, song by song, ± 95%; * the two rows' intervals do not"
@@ -176,7 +177,11 @@ def _verdict(found: dict[str, Any]) -> Iterator[list[str]]:
         yield [f"{name} fails", "", _holds(found[f"{name}_fails"])]
     for name, inside in found["inside"].items():
         value = f"{number(inside['mean'], 3)}; {inside['share']:.2f} of motions inside"
-        yield [f"mean of {name.replace('_', ' ')} inside p5–p95", value, _holds(inside["holds"])]
+        yield [
+            f"{name.replace('_', ' ')}: mean of generated inside p5–p95",
+            value,
+            _holds(inside["holds"]),
+        ]
 
 
 def _holds(value: bool) -> str:

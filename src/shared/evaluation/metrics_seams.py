@@ -18,7 +18,7 @@ import numpy as np
 from src.shared.inference.song_sampler import SPARE, spans
 from src.shared.motion.trajectory import MotionTrajectory
 
-REACH = 3  # frames before a seam whose differences look into it
+REACH = 3  # frames around a seam: differences look ahead, and known frames end with it
 POINTS = (50, 95)  # percentiles
 RESAMPLES = 500
 Values = tuple[np.ndarray, np.ndarray]  # quantity [T] and True at seams [T]
@@ -33,11 +33,11 @@ class Seamed:
 
 
 def seam_frames(num_frames: int, window: int, overlap: int) -> np.ndarray:
-    """True [T] where two windows of a song share a frame, and just before."""
+    """True [T] where two windows of a song share a frame, and just around."""
     near = np.zeros(num_frames, dtype=bool)
     found = spans(num_frames, window - SPARE, overlap)
     for (_, end), (start, _) in pairwise(found):
-        near[max(0, start - REACH) : end] = True
+        near[max(0, start - REACH) : end + REACH] = True
     return near
 
 
@@ -149,8 +149,8 @@ def jumps(songs: Sequence[Seamed]) -> dict[str, Any]:
     Returns:
         phase_step_min, phase_step_max: bars a frame, relative to the song's median step;
         quaternion_dot_min: signed, of neighbours; position_step_max: metres a frame, relative to
-        the song's 95th percentile; none: no phase step at a seam runs backwards or is twice the
-        largest elsewhere, no sign flips.
+        the song's 95th percentile; none: at seams no phase step runs backwards, none is twice the
+        largest elsewhere, nor is a step of the position, and no sign flips.
     """
     rows = [_steps(song) for song in songs]
     found: dict[str, Any] = {}
@@ -167,9 +167,11 @@ def jumps(songs: Sequence[Seamed]) -> dict[str, Any]:
                 [(row, ~row["seam"]) for row in rows],
             )
         ]
-    (backward, _), (forward, elsewhere) = found["phase_step_min"], found["phase_step_max"]
-    found["none"] = bool(
-        backward >= -1e-4 and forward <= 2 * elsewhere and found["quaternion_dot_min"][0] > 0
+    largest = (found["phase_step_max"], found["position_step_max"])
+    found["none"] = (
+        found["phase_step_min"][0] >= -1e-4
+        and all(at <= 2 * elsewhere for at, elsewhere in largest)
+        and found["quaternion_dot_min"][0] > 0
     )
     return found
 

@@ -1,24 +1,19 @@
-"""`evaluate-audio` end to end on a tiny network; phase rows against closed forms."""
+"""`evaluate-audio` end to end on a tiny network."""
 
 import json
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
-import torch
 
 from src.shared.audio.synthetic_songs import SongSpec, render_song
 from src.shared.evaluation.audio_harness import (
     AudioEvaluation,
     AudioSettings,
     evaluate_audio,
-    phase_row,
 )
 from src.shared.evaluation.audio_plots import plot_phase
 from src.shared.evaluation.audio_report import audio_tables
-from src.shared.evaluation.audio_songs import Piece
 from src.shared.evaluation.report import as_markdown, heading
 from src.shared.inference.song_generator import SongGenerator
 from tests.shared.evaluation.tiny_pairs import tiny_model, write_pairs
@@ -78,40 +73,3 @@ def test_tables_and_pictures(result: AudioEvaluation, tmp_path: Path) -> None:
     assert names[1:] == ["song"]
     for number, picture in enumerate(result.pictures):
         assert plot_phase(picture, tmp_path / f"{number}.png").stat().st_size > 5000
-
-
-# ---------------------------------------------------------------- phase rows
-
-
-def piece(meter: int = 4) -> Piece:
-    bars = np.arange(300) / 30 * 0.5 - 0.3  # 120 BPM in 4/4
-    beats = np.arange(0.1, 12, 0.5)
-    return Piece("song", torch.zeros(167, 300), bars, meter, bars, 4, beats, {})
-
-
-@pytest.mark.parametrize("ahead", [0.0, 0.05, -0.1])
-def test_a_constant_lead_is_the_error(ahead: float) -> None:
-    song = piece()
-    assert song.bars is not None
-    row = phase_row([(song, song.bars + ahead / 4)] * 3)
-    assert row["beat"]["value"] == pytest.approx(abs(ahead), abs=1e-9)
-    assert row["bar"]["value"] == pytest.approx(abs(ahead) / 4, abs=1e-9)
-    assert row["beat_offset"]["value"] == pytest.approx(ahead, abs=1e-9)
-    assert row["beat_seconds"]["value"] == pytest.approx(abs(ahead) * 0.5, abs=1e-9)
-    assert row["steady"]["value"] == pytest.approx(1.0)
-
-
-def test_a_wrong_downbeat_costs_the_bar_alone() -> None:
-    song = piece()
-    assert song.bars is not None
-    row = phase_row([(song, song.bars + 0.5)])
-    assert row["beat"]["value"] == pytest.approx(0.0, abs=1e-9)
-    assert row["bar"]["value"] == pytest.approx(0.5, abs=1e-9)
-
-
-def test_a_meter_heard_wrong_still_finds_its_beats() -> None:
-    song = piece(meter=3)
-    assert song.bars is not None
-    row = phase_row([(replace(song, phase=song.bars * 4 / 3), song.bars * 4 / 3)])
-    assert row["beat"]["value"] == pytest.approx(0.0, abs=1e-9)
-    assert row["bar"]["value"] > 0.1

@@ -37,7 +37,7 @@ def songs() -> list[Seamed]:
 def test_frames_at_seams_are_those_two_windows_share() -> None:
     near = seam_frames(T, WINDOW, OVERLAP)
     edges = np.flatnonzero(np.diff(near.astype(int)))
-    assert list(edges + 1) == [205, 238, 413, 446]  # from 3 frames before the first shared one
+    assert list(edges + 1) == [205, 241, 413, 449]  # shared ones and 3 on both sides
     assert not seam_frames(200, WINDOW, OVERLAP).any()
 
 
@@ -99,6 +99,11 @@ def test_a_flipped_sign_is_a_jump(songs: list[Seamed]) -> None:
 def test_a_phase_that_jumps_is_found(songs: list[Seamed], by: float) -> None:
     phase = songs[5].trajectory.data[:, PHASE]
     phase[220:] = (phase[220:] + by) % 1.0
+    assert not jumps(songs)["none"]
+
+
+def test_a_teleport_is_a_jump(songs: list[Seamed]) -> None:
+    songs[2].trajectory.data[238:, :3] += 0.5
     assert not jumps(songs)["none"]
 
 

@@ -1,0 +1,57 @@
+"""The phase of a motion against the true phase of its song, per beat and per bar.
+
+Letters: T frames.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from src.shared.evaluation.audio_songs import Piece
+from src.shared.evaluation.intervals import bootstrap_mean
+from src.shared.evaluation.metrics_rhythm import phase_error
+from src.shared.motion.trajectory import FPS
+
+TEMPO_TOLERANCE = 0.04  # the usual one
+
+
+def right_tempo(piece: Piece) -> bool:
+    """Does the tracker's phase run as fast as the true one for most of the song?
+
+    An octave error, twice or half as fast, has no phase to speak of.
+    """
+    if piece.phase is None or piece.bars is None:
+        return False
+    heard, true = np.diff(piece.phase) * piece.meter, np.diff(piece.bars) * piece.true_meter
+    return bool(abs(np.median(heard / true) - 1) <= TEMPO_TOLERANCE)
+
+
+def phase_row(songs: Sequence[tuple[Piece, np.ndarray]]) -> dict[str, dict[str, Any]]:
+    """Errors over songs, counted from each song's first true beat to its last.
+
+    Args:
+        songs: what is true, and unwrapped bars [T] in the tracker's meter.
+
+    Returns:
+        beat and bar: mean |error| in cycles; beat_seconds: in seconds; beat_offset: signed, in
+        cycles of a beat; steady: concentration of the beat's error.
+    """
+    columns: dict[str, list[float]] = {}
+    for piece, bars in songs:
+        assert piece.bars is not None
+        at = np.arange(piece.num_frames) / FPS
+        inside = (at >= piece.beats[0]) & (at <= piece.beats[-1])
+        true_beats = piece.bars[inside] * piece.true_meter
+        beat = phase_error(bars[inside] * piece.meter, true_beats)
+        period = (at[inside][-1] - at[inside][0]) / (true_beats[-1] - true_beats[0])
+        values = {
+            "beat": beat.absolute,
+            "bar": phase_error(bars[inside], piece.bars[inside]).absolute,
+            "beat_seconds": beat.absolute * period,
+            "beat_offset": beat.offset,
+            "steady": beat.concentration,
+        }
+        for name, value in values.items():
+            columns.setdefault(name, []).append(float(value))
+    return {name: bootstrap_mean(values).as_dict() for name, values in columns.items()}
