@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from src.shared.evaluation.audio_harness import Picture
-from src.shared.evaluation.plots import _new_figure, _save
+from src.shared.evaluation.plots import new_figure, save_figure
 from src.shared.motion.trajectory import FPS, MotionTrajectory
 from src.shared.validation.bands import Bands
 from src.shared.validation.measures import MEASURES, UNITS
@@ -24,7 +24,7 @@ def plot_phase(picture: Picture, path: str | Path) -> Path:
     Raises:
         UserError: matplotlib is missing, or the file cannot be written.
     """
-    figure = _new_figure(14, 6)
+    figure = new_figure(14, 6)
     upper, lower = figure.subplots(2, 1, sharex=True)
     for axes in (upper, lower):
         axes.vlines(picture.beats, 0, 1, transform=axes.get_xaxis_transform(), color="0.8", lw=1)
@@ -42,7 +42,7 @@ def plot_phase(picture: Picture, path: str | Path) -> Path:
     lower.set_xlabel("seconds; grey: beats of the song")
     lower.legend(loc="upper right", fontsize="small")
     figure.suptitle(picture.name)
-    return _save(figure, Path(path))
+    return save_figure(figure, Path(path))
 
 
 def plot_bands(
@@ -53,20 +53,23 @@ def plot_bands(
     Raises:
         UserError: matplotlib is missing, or the file cannot be written.
     """
-    figure = _new_figure(14, 7)
+    figure = new_figure(14, 7)
     for axes, (name, measure) in zip(figure.subplots(2, 3).flat, MEASURES.items(), strict=True):
         band = bands.bands.get(name) if bands else None
         if band is not None:
             axes.axhspan(band.low, band.high, color="tab:green", alpha=0.15)
+        top = band.high if band else 0.0
         for place, (row, group) in enumerate(motions.items()):
             values = np.array([measure(motion) for motion in group])
             spread = np.linspace(-0.3, 0.3, len(values))
+            top = max(top, float(values.max()))
             axes.plot(place + spread, values, ".", color=COLOURS.get(row, "black"), ms=4)
         axes.set_xticks(range(len(motions)), list(motions))
         axes.set_title(f"{name.replace('_', ' ')}, {UNITS[name]}")
         axes.set_yscale("symlog", linthresh=0.1)
+        axes.set_ylim(-0.01, 2 * max(top, 0.1))
     figure.suptitle("dots: motions; green: 5th to 95th percentile of training motions")
-    return _save(figure, Path(path))
+    return save_figure(figure, Path(path))
 
 
 def _sawtooth(bars: np.ndarray) -> np.ndarray:

@@ -36,7 +36,7 @@ def plot_trajectory(trajectory: MotionTrajectory, path: str | Path, *, title: st
     Raises:
         UserError: matplotlib is missing, or the file cannot be written.
     """
-    figure = _new_figure(12, 10)
+    figure = new_figure(12, 10)
     panels = figure.subplots(3, 2, sharex=True).flat
     seconds = np.arange(trajectory.num_frames) / trajectory.fps
     for axes, name, values, labels in zip(
@@ -56,7 +56,7 @@ def plot_trajectory(trajectory: MotionTrajectory, path: str | Path, *, title: st
     for axes in figure.axes[4:]:
         axes.set_xlabel("seconds")
     figure.suptitle(title)
-    return _save(figure, Path(path))
+    return save_figure(figure, Path(path))
 
 
 def plot_losses(
@@ -79,7 +79,7 @@ def plot_losses(
         raise UserError(f"cannot write {path}: the log holds no numbers to draw")
     columns = min(3, len(panels))
     rows = math.ceil(len(panels) / columns)
-    figure = _new_figure(5 * columns, 3.6 * rows)
+    figure = new_figure(5 * columns, 3.6 * rows)
     for index, (panel, names) in enumerate(panels.items()):
         axes = figure.add_subplot(rows, columns, index + 1)
         for name in names:
@@ -89,7 +89,7 @@ def plot_losses(
         if len(names) > 1:
             _legend(axes)
     figure.suptitle(title)
-    return _save(figure, Path(path))
+    return save_figure(figure, Path(path))
 
 
 def _panels(names: Sequence[str]) -> dict[str, list[str]]:
@@ -208,7 +208,12 @@ def _plot_jerk(axes: "Axes", seconds: np.ndarray, trajectory: MotionTrajectory) 
     axes.set_title("Jerk, m/s³ (dashed: bound of its mean)", loc="left")
 
 
-def _new_figure(width: float, height: float) -> "Figure":
+def new_figure(width: float, height: float) -> "Figure":
+    """An empty figure of so many inches.
+
+    Raises:
+        UserError: matplotlib is missing.
+    """
     try:
         from matplotlib.figure import Figure
     except ImportError as error:
@@ -218,7 +223,12 @@ def _new_figure(width: float, height: float) -> "Figure":
     return Figure(figsize=(width, height), layout="constrained")
 
 
-def _save(figure: "Figure", path: Path) -> Path:
+def save_figure(figure: "Figure", path: Path) -> Path:
+    """Write .png, .pdf or .svg, whole or not at all.
+
+    Raises:
+        UserError: the file cannot be written.
+    """
     ending = path.suffix.removeprefix(".").lower()
     with atomic_write(path) as temporary:
         figure.savefig(temporary, format=ending or "png", dpi=100)
