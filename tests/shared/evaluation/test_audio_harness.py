@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from src.shared.audio.synthetic_songs import SongSpec, render_song
@@ -16,7 +17,9 @@ from src.shared.evaluation.audio_plots import plot_phase
 from src.shared.evaluation.audio_report import audio_tables
 from src.shared.evaluation.report import as_markdown, heading
 from src.shared.inference.song_generator import SongGenerator
-from tests.shared.evaluation.tiny_pairs import tiny_model, write_pairs
+from src.shared.model.audio.conditioning import BEAT
+from src.shared.motion.trajectory import PHASE, MotionTrajectory
+from tests.shared.evaluation.tiny_pairs import nod, tiny_model, write_pairs
 
 SETTINGS = AudioSettings(num_songs=2, song_seconds=9.0, own_count=1, pictures=1)
 
@@ -73,3 +76,34 @@ def test_tables_and_pictures(result: AudioEvaluation, tmp_path: Path) -> None:
     assert names[1:] == ["song"]
     for number, picture in enumerate(result.pictures):
         assert plot_phase(picture, tmp_path / f"{number}.png").stat().st_size > 5000
+
+
+# ---------------------------------------------------------------- a dancer who hears
+
+
+class Nodder(SongGenerator):
+    """Slows down on every beat that it hears; counts at 120 BPM where it is not told."""
+
+    def generate(self, audio_features: Any, **options: Any) -> list[MotionTrajectory]:
+        frames, bars = audio_features.shape[1], options["phase"]
+        cosine, sine = audio_features[BEAT][:2].double().numpy()
+        beats = np.unwrap(np.arctan2(sine, cosine)) / (2 * np.pi)  # zeros where none is heard
+        made = nod(
+            np.concatenate((beats, beats[-1] + (beats[-1] - beats[-2]) * np.array([1, 2]))) / 4
+        )
+        made.data[:, PHASE] = (np.arange(frames) / 60 if bars is None else bars) % 1.0
+        return [made]
+
+
+def test_who_hears_the_beat_stands_out() -> None:
+    settings = AudioSettings(num_songs=6, song_seconds=9.0, own_count=2)
+    report = evaluate_audio(Nodder(tiny_model(), device="cpu"), settings=settings).report
+    phase = report["phase"]
+    for name, cell in phase["beat tracker"].items():  # its phase is the tracker's
+        assert phase["generated"][name]["value"] == pytest.approx(cell["value"], abs=1e-6)
+    assert phase["own count"]["beat"]["value"] > 0.15
+    assert phase["beat tracker, right tempo"]["beat"]["value"] < 0.1
+    above = report["alignment"]["generated"]["above"]
+    for name in ("chance", "another song", "half a beat later"):
+        assert above[name]["motion_to_music"]["low"] > 0.1
+    assert report["seams"]["jumps"]["none"]
