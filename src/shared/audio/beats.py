@@ -20,7 +20,7 @@ DEFAULT_TEMPO = 120.0  # BPM of the phase where a song has no beat
 LENGTHS = np.arange(28, 137)  # frames: 214 to 44 BPM
 TEMPO_WEIGHT = 3.0  # of a tempo's log-probability against onset strength, both per second
 TEMPO_FLOOR = -8.0
-DRIFT_COST, JUMP_COST = 300.0, 2.0  # of log-ratio² from beat to beat, at most the second
+DRIFT_COST, JUMP_COST = 300.0, 4.0  # of log-ratio² from beat to beat, at most the second
 MIN_CONFIDENCE = 0.4
 NEIGHBOURS = np.array([0.25, 0.5, 0.75, 1.0, 0.75, 0.5, 0.25]) / 2
 
@@ -109,7 +109,10 @@ def _best_chain(
     columns = np.arange(count)
     ratio = np.log(LENGTHS[None, :] / LENGTHS[:, None])
     change = -np.minimum(DRIFT_COST * ratio**2, JUMP_COST).astype(np.float32)  # [from, to]
-    relative = np.maximum(scores - scores.max(axis=1, keepdims=True), TEMPO_FLOOR)
+    path = tempo.tempo_path(scores)[:, None]
+    near = np.abs(np.arange(tempo.CANDIDATES) - path) <= tempo.NEARBY
+    relative = np.where(near, scores - np.take_along_axis(scores, path, 1), TEMPO_FLOOR)
+    relative = np.clip(relative, TEMPO_FLOOR, 0.0)
     by_length = np.stack(
         [np.interp(LENGTHS / fps, tempo.PERIODS[::-1], row[::-1]) for row in relative]
     )

@@ -12,7 +12,7 @@ import numpy as np
 from src.shared.audio.onsets import Onsets
 
 METERS = (3, 4)  # tried when the meter is not given
-SLIP_COST = 6.0  # about five bars of clear downbeats
+SLIP_COST = 4.0  # about three bars of clear downbeats
 BASS_SEMITONES = 20  # of Onsets.pitch, up to 165 Hz
 CONTEXT = (-2, -1, 0, 1, 2)  # beats
 WEIGHTS = np.array(  # [features, CONTEXT]
@@ -43,14 +43,16 @@ def find_downbeats(onsets: Onsets, times: np.ndarray, meter: int | None) -> tupl
 
 def downbeat_scores(onsets: Onsets, times: np.ndarray) -> np.ndarray:
     """How much each beat sounds like a downbeat [N], about 1 for downbeats, -0.3 for others."""
+    return np.einsum("fc,fcn->n", WEIGHTS, downbeat_features(onsets, times))
+
+
+def downbeat_features(onsets: Onsets, times: np.ndarray) -> np.ndarray:
+    """Features of the beats around each beat, standardised over the song: [F, CONTEXT, N]."""
     features = _beat_features(onsets, times)
     spread = features.std(axis=1, keepdims=True) + 1e-3 * np.abs(features).max(axis=1)[:, None]
     features = (features - features.mean(axis=1, keepdims=True)) / (spread + 1e-6)
-    beats = np.arange(len(times))
-    scores = np.zeros(len(times))
-    for shift, weights in zip(CONTEXT, WEIGHTS.T, strict=True):
-        scores += weights @ np.take(features, beats + shift, axis=1, mode="clip")
-    return scores
+    around = np.arange(len(times)) + np.array(CONTEXT)[:, None]
+    return np.take(features, around, axis=1, mode="clip")
 
 
 def _evidence(scores: np.ndarray, meter: int) -> float:

@@ -11,6 +11,7 @@ import numpy as np
 
 SLOWEST, PER_OCTAVE, CANDIDATES = 44.0, 24, 57  # BPM, candidates per octave, G: up to 223 BPM
 PERIODS = 60 / (SLOWEST * 2 ** (np.arange(CANDIDATES) / PER_OCTAVE))  # [G] seconds
+DISTANCE = np.log2(PERIODS / 0.5)  # [G] octaves below 120 BPM
 WINDOW, STEP = 8.0, 2.0  # seconds
 MULTIPLES = (1 / 4, 1 / 3, 1 / 2, 2 / 3, 1, 3 / 2, 2, 3, 4)
 WEIGHTS = np.array(  # [B, multiples]
@@ -21,8 +22,9 @@ WEIGHTS = np.array(  # [B, multiples]
         [-1.6, -0.7, -1.7, -1.2, 3.2, -0.5, 2.4, 1.5, 0.8],
     ]
 )
-PRIOR = -0.82  # times the squared distance from 120 BPM in octaves
-SONG_WEIGHT = 0.5  # how much the whole song's mean counts beside a window
+PRIOR = -0.82  # of the squared DISTANCE: log-normal with a spread of 0.8 octaves
+LEAP_COST, OCTAVE_COST = 6.0, 12.0  # of a change of tempo between windows
+NEARBY = 5  # candidates to each side of the path that a beat may still have
 BLUR = np.bartlett(15)[1:-1] / 7  # players are not exact: onsets are spread over 13 frames
 
 
@@ -55,18 +57,39 @@ def autocorrelation(novelty: np.ndarray, fps: float) -> tuple[np.ndarray, np.nda
     return result, (starts + taper.size / 2) / fps
 
 
+def tempo_features(correlations: np.ndarray, fps: float) -> np.ndarray:
+    """Correlations [N, B, lags] read at the multiples of each candidate: [N, B, multiples, G]."""
+    lags = np.outer(MULTIPLES, PERIODS) * fps
+    return read_at(correlations, lags)
+
+
 def tempo_scores(correlations: np.ndarray, fps: float) -> np.ndarray:
     """Log-probability [N, G] of each candidate period, from correlations [N, B, lags]."""
-    scores = np.tile(PRIOR * np.log2(PERIODS / 0.5) ** 2, (len(correlations), 1))
-    for multiple, weights in zip(MULTIPLES, WEIGHTS.T, strict=True):
-        scores += np.einsum("b,nbg->ng", weights, read_at(correlations, PERIODS * multiple * fps))
-    scores += SONG_WEIGHT * scores.mean(axis=0)
+    scores = np.einsum("bm,nbmg->ng", WEIGHTS, tempo_features(correlations, fps))
+    scores += PRIOR * DISTANCE**2
     top = scores.max(axis=1, keepdims=True)
     return scores - top - np.log(np.exp(scores - top).sum(axis=1, keepdims=True))
 
 
+def tempo_path(scores: np.ndarray) -> np.ndarray:
+    """The likeliest candidate of each window, [N] numbers: drifts are free, jumps cost, and a
+    leap to the double or half is taken for an illusion (Viterbi)."""
+    steps = np.abs(np.subtract.outer(np.arange(CANDIDATES), np.arange(CANDIDATES)))
+    cost = np.minimum(0.5 * np.maximum(steps - 1, 0), LEAP_COST)
+    cost += np.where(np.abs(steps - PER_OCTAVE) <= 1, OCTAVE_COST, 0.0)
+    value, before = scores[0], np.zeros(scores.shape, dtype=int)
+    for window in range(1, len(scores)):
+        options = value[:, None] - cost
+        before[window] = options.argmax(axis=0)
+        value = options.max(axis=0) + scores[window]
+    path = [int(value.argmax())]
+    for window in range(len(scores) - 1, 0, -1):
+        path.append(int(before[window, path[-1]]))
+    return np.array(path[::-1])
+
+
 def read_at(correlations: np.ndarray, lags: np.ndarray) -> np.ndarray:
-    """Correlations [..., lags] at fractional `lags` [G], linearly interpolated: [..., G]."""
+    """Correlations [..., lags] at fractional lags of any shape, linearly interpolated."""
     index = lags.astype(int)
     share = lags - index
     return correlations[..., index] * (1 - share) + correlations[..., index + 1] * share
