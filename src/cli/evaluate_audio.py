@@ -11,6 +11,7 @@ from src.cli.evaluate_sanity import (
     Decoder,
     Device,
     Model,
+    OutputDir,
     Pairs,
     check_limits,
     check_pairs,
@@ -31,9 +32,7 @@ def evaluate_audio(
     songs: Annotated[
         Path | None, typer.Option(help="Folder of sound files to describe as well.")
     ] = None,
-    out: Annotated[Path, typer.Option(help="Folder for report, table and plots.")] = Path(
-        "outputs/audio"
-    ),
+    out: OutputDir = Path("outputs/audio"),
     quick: Annotated[bool, typer.Option("--quick", help="10 songs, for a first look.")] = False,
     num_songs: Annotated[int | None, typer.Option(help="Held-out synthetic songs; 50.")] = None,
     song_seconds: Annotated[float, typer.Option(help="Of each synthetic song.")] = 16.0,
