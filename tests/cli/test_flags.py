@@ -9,9 +9,11 @@ from src.cli.tools import app
 
 FLAGS = {
     "generate": (
-        "--device --foot-lock --format --guidance-scale --json --model --no-foot-lock"
-        " --num-samples --out --prompt --sampler --seconds --seed --steps --tag --threads"
+        "--audio --device --foot-lock --format --guidance-scale --json --meter --model"
+        " --no-foot-lock --num-samples --out --prompt --sampler --seconds --seed --steps --style"
+        " --tag --threads"
     ),
+    "features": "--cache --cache-dir --chroma --json --meter --no-cache --out --plot SONG",
     "prepare": (
         "--captions --json --labels --mapping --mirror --no-mirror --out --seed --synthetic"
         " --templates --workers SOURCE"
