@@ -9,6 +9,7 @@ learned.
 Letters: B batch, T frames.
 """
 
+import copy
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -22,7 +23,7 @@ from src.shared.config_schema import TrainConfig
 from src.shared.data.phrases.dataset import MotionPhraseDataset, PhraseBatch, motion_statistics
 from src.shared.device import autocast, choose_compute
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.model.audio.conditioning import ConditionAugmentation
+from src.shared.model.audio.conditioning import ConditionAugmentation, with_phase_rows
 from src.shared.model.diffusion.gaussian import GaussianDiffusion, masked_loss
 from src.shared.motion.trajectory import FPS, POSITION, QUATERNION, STYLE
 from src.train.launch import stage_app
@@ -115,7 +116,8 @@ class AudioTask:
         self.held_back: MotionPhraseDataset = open_phrases(config, "val", None)
         self.model = self._start()
         self.mean, self.std = self.model.mean.clone(), self.model.std.clone()
-        self.module: nn.Module = self.model.unet
+        # a copy: samples are made by the task's own model, with averaged weights, on the CPU
+        self.module: nn.Module = copy.deepcopy(self.model.unet)
         self.augment = ConditionAugmentation(network.condition.augmentation)
         self.diffusion = GaussianDiffusion(network.diffusion)
         self.compute = choose_compute(config.device, config.precision)
@@ -181,8 +183,9 @@ class AudioTask:
     ) -> AudioBatch:
         clean = self.model.normalise(phrases.motion) * phrases.mask[:, None]
         noise = torch.randn(clean.shape, generator=draws)
-        self.augment.train(augment)
-        condition = self.augment(phrases.audio, draws)
+        condition = (
+            self.augment(phrases.audio, draws) if augment else with_phase_rows(phrases.audio)
+        )
         if drop is None:
             drop = torch.zeros(len(phrases), dtype=torch.bool)
         return AudioBatch(clean, noise, known, phrases.mask, condition, drop, timesteps)
