@@ -1,26 +1,17 @@
-"""The model zoo: which models there are, where a name leads, and fresh networks by profile.
+"""The model zoo: which models there are, and where a name leads.
 
-Listing and resolving read cards only and import no torch.
+Only cards are read, and no torch is imported.
 """
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from src.shared.config_loader import (
-    load_audio_network,
-    load_network,
-    nearest,
-    profile_names,
-)
-from src.shared.errors import UsageError, UserError
+from src.shared.config_loader import nearest, profile_names
+from src.shared.errors import UserError
 from src.shared.model.checkpoint import CARD_FILE, ModelCard, read_card
-
-if TYPE_CHECKING:
-    from torch import nn
 
 PRETRAINED = Path(__file__).resolve().parents[1] / "pretrained"
 RUNS = Path("runs")
-KINDS = ("motion-denoiser", "motion-clip", "audio-unet", "audio-decoder", "audio-motion")
 
 
 def list_models() -> list[dict[str, Any]]:
@@ -79,41 +70,3 @@ def resolve_model(name_or_folder: str | Path) -> Path:
         raise UserError(f"{folder} is no model folder: it has no {CARD_FILE}")
     hint = f"; did you mean {nearest(name, shipped)!r}? `models` lists all" if shipped else ""
     raise UserError(f"no model named {name!r}, and no such folder{hint}")
-
-
-def create_model(kind: str, profile: str, *, num_tags: int = 0) -> "nn.Module":
-    """A fresh, untrained network of a profile.
-
-    Args:
-        kind: motion-denoiser, motion-clip, audio-unet, audio-decoder or audio-motion (both).
-        profile: a profile of network.yaml, or audio_network.yaml for the audio kinds.
-        num_tags: action labels of the data, for the denoiser.
-
-    Raises:
-        UsageError: an unknown kind or profile.
-    """
-    if kind not in KINDS:
-        raise UsageError(f"no model kind {kind!r}; choose from {', '.join(KINDS)}")
-    if kind.startswith("audio-"):
-        return _create_audio_model(kind, profile)
-    network = load_network(profile)
-    if kind == "motion-clip":
-        from src.shared.model.clip.core import MotionClip
-
-        return MotionClip(network)
-    from src.shared.model.generation.denoiser import MotionDenoiser
-
-    return MotionDenoiser(network, num_tags)
-
-
-def _create_audio_model(kind: str, profile: str) -> "nn.Module":
-    from src.shared.model.audio.audio_motion_model import AudioMotionModel
-    from src.shared.model.audio.decoder import create_motion_decoder
-    from src.shared.model.audio.unet import UNet1D
-
-    network = load_audio_network(profile)
-    if kind == "audio-unet":
-        return UNet1D(network.unet, network.condition)
-    if kind == "audio-decoder":
-        return create_motion_decoder(network.decoder)
-    return AudioMotionModel(network)

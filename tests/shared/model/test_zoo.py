@@ -7,7 +7,7 @@ import pytest
 
 from src.shared.config_loader import profile_names
 from src.shared.errors import UsageError, UserError
-from src.shared.model import zoo
+from src.shared.model import networks, zoo
 from src.shared.model.checkpoint import CARD_FILE
 
 
@@ -58,18 +58,18 @@ def test_a_folder_without_a_card(shipped, tmp_path):
         zoo.resolve_model(tmp_path)
 
 
-@pytest.mark.parametrize("kind", zoo.KINDS)
+@pytest.mark.parametrize("kind", networks.KINDS)
 def test_fresh_networks_by_profile(kind: str):
     assert "lightweight" in profile_names()
-    model = zoo.create_model(kind, "lightweight", num_tags=3)
+    model = networks.create_model(kind, "lightweight", num_tags=3)
     assert sum(parameter.numel() for parameter in model.parameters()) > 100_000
 
 
 def test_unknown_kinds_and_profiles():
     with pytest.raises(UsageError, match="no model kind 'gan'"):
-        zoo.create_model("gan", "lightweight")
+        networks.create_model("gan", "lightweight")
     with pytest.raises(UsageError, match="lightweigt"):
-        zoo.create_model("motion-clip", "lightweigt")
+        networks.create_model("motion-clip", "lightweigt")
 
 
 def test_listing_imports_no_torch():
