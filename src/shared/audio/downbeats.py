@@ -17,13 +17,13 @@ BASS_SEMITONES = 20  # of Onsets.pitch, up to 165 Hz
 CONTEXT = (-2, -1, 0, 1, 2)  # beats
 WEIGHTS = np.array(  # [features, CONTEXT]
     [
-        [-0.02, 0.00, 0.08, 0.01, 0.04],  # onset, low band
-        [0.07, 0.16, -0.02, -0.01, 0.06],  # onset, middle band
-        [-0.21, 0.15, 0.23, -0.08, -0.15],  # onset, high band
-        [-0.01, -0.11, -0.14, -0.01, 0.01],  # new bass notes since the last beat
-        [0.00, -0.19, 0.08, -0.19, 0.05],  # new harmony since the last beat
-        [-0.10, 0.18, -0.09, -0.17, 0.07],  # new bass notes, two beats against two
-        [-0.24, -0.19, 0.21, -0.03, -0.16],  # new harmony, two beats against two
+        [-0.02, 0.00, 0.09, 0.01, 0.03],  # onset, low band
+        [0.08, 0.16, -0.03, -0.01, 0.06],  # onset, middle band
+        [-0.21, 0.15, 0.24, -0.09, -0.16],  # onset, high band
+        [-0.02, -0.11, -0.14, 0.00, 0.00],  # new bass notes since the last beat
+        [-0.01, -0.19, 0.08, -0.20, 0.05],  # new harmony since the last beat
+        [-0.10, 0.18, -0.09, -0.17, 0.06],  # new bass notes, two beats against two
+        [-0.24, -0.18, 0.20, -0.03, -0.16],  # new harmony, two beats against two
         [-0.10, -0.09, 0.21, 0.04, 0.07],  # loudness of the bass
     ]
 )

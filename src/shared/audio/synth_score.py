@@ -73,6 +73,9 @@ class _Players:
         self.chord_timbre = str(rng.choice(["piano", "organ", "strings", "pluck"]))
         self.melody_timbre = str(rng.choice(["flute", "piano", "pluck", "strings"]))
         self.walking = rng.random() < spec.density
+        stated = "drums" in spec.voices or ("bass" in spec.voices and self.walking)
+        if self.chord_style == "pad" and not stated:
+            self.chord_style = "offbeats"  # somebody must play the beat
         self.cells = [RHYTHMS[rng.integers(len(RHYTHMS))] for _ in range(3)]
         self.degree = 7
         self.gain, self.drums_rest = 1.0, False
