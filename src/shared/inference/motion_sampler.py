@@ -6,17 +6,15 @@ Letters: N candidates, T frames.
 from dataclasses import dataclass
 
 import numpy as np
-import torch
 from torch import Tensor
 
 from src.shared.data.pairing.motion_beats import alignment, motion_beats
 from src.shared.device import choose_device
 from src.shared.errors import UsageError
+from src.shared.inference.audio_condition import AudioCondition
 from src.shared.inference.song_sampler import SampleSettings, SongSampler
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.model.audio.conditioning import BEAT, FEATURE_ROWS
-from src.shared.motion.trajectory import FPS, MotionTrajectory
-from src.shared.motion.trajectory_math import unwrap_phase
+from src.shared.motion.trajectory import MotionTrajectory
 from src.shared.validation.sanity import SanityChecker
 
 
@@ -43,7 +41,7 @@ class MotionSampler:
 
     def sample(
         self,
-        audio_condition: np.ndarray | Tensor,
+        audio_condition: AudioCondition | np.ndarray | Tensor,
         num_frames: int | None = None,
         num_samples: int = 8,
         guidance_scale: float | None = None,
@@ -58,7 +56,7 @@ class MotionSampler:
         beats, where the condition knows them; among equals it is the first.
 
         Args:
-            audio_condition: [163 or 167, T] or [1, 163 or 167, T].
+            audio_condition: an `AudioCondition`, or its rows, [1, C, T] or [C, T].
             num_frames: only the first so many; None = all.
             num_samples: N.
             guidance_scale: 1 = none; None = the model's own.
@@ -69,17 +67,20 @@ class MotionSampler:
         Raises:
             UsageError: N, the steps or the frames are out of range.
         """
-        condition = torch.as_tensor(audio_condition).float()
-        condition = condition[0] if condition.ndim == 3 else condition
-        frames = condition.shape[1] if num_frames is None else num_frames
-        if not 1 <= frames <= condition.shape[1]:
+        condition = (
+            audio_condition
+            if isinstance(audio_condition, AudioCondition)
+            else AudioCondition.of(audio_condition)
+        )
+        frames = condition.num_frames if num_frames is None else num_frames
+        if not 1 <= frames <= condition.num_frames:
             raise UsageError(
-                f"num_frames {frames}: the condition has {condition.shape[1]}; choose 1 to that"
+                f"num_frames {frames}: choose 1 to {condition.num_frames}, the sound's"
             )
-        condition = condition[:, :frames]
-        bars, beats = heard_time(condition.numpy())
+        condition = condition.first(frames)
+        bars, beats = condition.time() or (None, None)
         settings = SampleSettings(num_samples, guidance_scale, num_steps, seed=seed)
-        made = SongSampler(self.model, settings).sample(condition, phase=bars)
+        made = SongSampler(self.model, settings).sample(condition.rows, phase=bars)
         ranks = [self._rank(trajectory, beats) for trajectory in made]
         best = min(range(len(made)), key=ranks.__getitem__)
         everything = np.stack([trajectory.data for trajectory in made]) if return_all else None
@@ -97,16 +98,3 @@ def on_the_beat(trajectory: MotionTrajectory, beats: np.ndarray) -> float:
     times = motion_beats(trajectory.position, trajectory.fps).times
     both = alignment(times, beats, trajectory.seconds)
     return float(np.nan_to_num([both.motion_to_music, both.music_to_motion]).mean())
-
-
-def heard_time(condition: np.ndarray) -> tuple[np.ndarray | None, np.ndarray | None]:
-    """Unwrapped bars [T] and beat times [M] of a condition [163 or 167, T]; None = unknown."""
-    rows = condition[BEAT]
-    if condition.shape[0] == FEATURE_ROWS or not np.hypot(rows[0], rows[1]).min() > 0.5:
-        return None, None
-    beat, bar = (
-        unwrap_phase(np.arctan2(sine, cosine) / (2 * np.pi) % 1.0)
-        for cosine, sine in (rows[:2], rows[2:])
-    )
-    numbers = np.arange(np.ceil(beat[0]), np.floor(beat[-1]) + 1)
-    return bar, np.interp(numbers, beat, np.arange(len(beat))) / FPS
