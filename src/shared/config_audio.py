@@ -88,6 +88,7 @@ class DecoderConfig(Config):
     hidden_dim: int = Field(256, ge=1)
     num_layers: int = Field(3, ge=1)
     dropout: float = Field(0.1, ge=0, lt=1)  # of the residual decoder's blocks
+    sees_gaps: bool = False  # residual: a frame is told how its derivatives miss its neighbours
     position_scale: float = Field(50.0, gt=0)  # m
     velocity_scale: float = Field(50.0, gt=0)  # m/s
     acceleration_scale: float = Field(100.0, gt=0)  # m/s^2

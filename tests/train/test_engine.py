@@ -3,7 +3,7 @@
 import json
 import math
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import pytest
 import torch
@@ -228,3 +228,50 @@ def test_the_average_follows_its_definition() -> None:
         expected = decay * expected + (1 - decay) * module.weight.item()
     assert math.isclose(ema.module.weight.item(), expected, rel_tol=1e-5)
     assert not ema.module.weight.requires_grad
+
+
+class Patient(TinyTask):
+    """Gives up after two looks; the last layer learns at a rate of its own."""
+
+    learning_rates: ClassVar[dict[str, float]] = {"2.": 0.01}
+
+    def has_converged(self) -> bool:
+        return len((Path(self.config.output) / "log.jsonl").read_text().split("validation")) > 3
+
+
+def run_patient(output: Path, *, resume: bool = False, **settings: Any) -> Trainer[TrainConfig]:
+    config = TrainConfig(**{**BASE, "output": str(output), "validate_first": True, **settings})
+    trainer = Trainer(config, Patient, command="again", resume=resume)
+    trainer.train()
+    return trainer
+
+
+def test_a_task_may_end_early(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    settings: dict[str, Any] = {"validate_every": 3, "save_every": 100}
+    run_patient(tmp_path, **settings)
+    lines = [json.loads(line) for line in (tmp_path / "log.jsonl").read_text().splitlines()]
+    assert [line["step"] for line in lines if "validation/loss" in line] == [0, 3, 6]
+    assert json.loads((tmp_path / "finished.json").read_text()) == {"steps": 6, "planned": 12}
+    assert (tmp_path / "checkpoints" / "step-00000006").is_dir()
+    capfd.readouterr()
+    run_patient(tmp_path, resume=True, **settings)
+    assert "finished (6 steps): nothing to do" in capfd.readouterr().err
+
+
+def test_parts_of_a_module_have_their_own_learning_rates(tmp_path: Path) -> None:
+    trainer = run_patient(tmp_path, steps=4, warmup_steps=0, lr_schedule="linear")
+    rates = {
+        weight.shape: (group["initial_lr"], group["lr"], group["weight_decay"])
+        for group in trainer.optimizer.param_groups
+        for weight in group["params"]
+    }
+    assert rates[(1, 8)] == pytest.approx((0.01, 0.0025, 0.01))  # a quarter is left at the end
+    assert rates[(1,)] == pytest.approx((0.01, 0.0025, 0.0))
+    assert rates[(8, 3)] == pytest.approx((0.001, 0.00025, 0.01))
+    assert rates[(8,)] == pytest.approx((0.001, 0.00025, 0.0))
+
+
+def test_a_new_run_forgets_the_log_of_an_old_one(tmp_path: Path) -> None:
+    (tmp_path / "log.jsonl").write_text('{"step": 0, "loss": 9.0}\n')
+    run(tmp_path, steps=4)
+    assert "9.0" not in (tmp_path / "log.jsonl").read_text()

@@ -25,13 +25,11 @@ from src.shared.motion.trajectory import (
     STYLE,
     VELOCITY,
 )
-from src.shared.motion.trajectory_math import (
-    continuous_sign,
-    derive,
-)
+from src.shared.motion.trajectory_math import continuous_sign, derive, forward_difference
 
 # About one over the spread of each column: bars a frame are near 1/60, accelerations near 10.
 INPUT_SCALE = (*(1.0,) * 6, *(0.1,) * 3, *(1.0,) * 4, *(0.5,) * 3, 50.0, *(3.0,) * 8)
+GAPS = 9  # further inputs of the residual decoder, see `gaps`
 PHASE_SHARPNESS = 1000.0  # of the softplus, in frames a bar: the identity from 0.004 bars up
 
 
@@ -156,12 +154,17 @@ class Decoder(nn.Module):
 
 
 class MotionDecoder(Decoder):
-    """Residual MLP with a head for each component (TECH 3.3.2; rulings 5, 7, 9)."""
+    """Residual MLP with a head for each component (TECH 3.3.2; rulings 5, 7, 9).
+
+    As TECH draws it, it sees one frame at a time and so cannot tell whether a velocity belongs to
+    the path: with `sees-gaps` each frame brings its gaps along.
+    """
 
     def __init__(self, config: DecoderConfig | None = None) -> None:
         config = config or DecoderConfig(decoder="residual")
         super().__init__(config)
-        self.input_proj = nn.Linear(len(INPUT_SCALE), config.hidden_dim)
+        width = len(INPUT_SCALE) + (GAPS if config.sees_gaps else 0)
+        self.input_proj = nn.Linear(width, config.hidden_dim)
         self.blocks = nn.ModuleList(
             ResidualBlock(config.hidden_dim, config.dropout) for _ in range(config.num_layers)
         )
@@ -171,7 +174,10 @@ class MotionDecoder(Decoder):
 
     def _decode(self, x: Tensor, start: Tensor | None) -> Decoded:
         config = self.config
-        h = self.input_proj(x * self.input_scale)  # [B, T, D]
+        seen = x * self.input_scale
+        if config.sees_gaps:
+            seen = torch.cat((seen, gaps(x, config.fps)), dim=-1)
+        h = self.input_proj(seen)  # [B, T, D]
         for block in self.blocks:
             h = block(h)  # [B, T, D]
         velocity = x[..., VELOCITY] + self.velocity_head(h)
@@ -225,6 +231,25 @@ class DerivedMotionDecoder(Decoder):
 def create_motion_decoder(config: DecoderConfig) -> Decoder:
     """The decoder that the configuration names (REF)."""
     return MotionDecoder(config) if config.decoder == "residual" else DerivedMotionDecoder(config)
+
+
+def gaps(x: Tensor, fps: float) -> Tensor:
+    """What velocity and acceleration lack to follow from the rows below them, [B, T, 9], scaled.
+
+    From position to velocity, from velocity to acceleration, from position to acceleration, by
+    forward differences (ruling 6).
+    """
+    acceleration = x[..., ACCELERATION]
+    steps = forward_difference(x[..., POSITION], fps)  # [B, T, 3], m/s
+    of_velocity = steps - x[..., VELOCITY]
+    of_acceleration = torch.cat(
+        (
+            forward_difference(x[..., VELOCITY], fps) - acceleration,
+            forward_difference(steps, fps) - acceleration,
+        ),
+        dim=-1,
+    )
+    return torch.cat((bounded(5 * of_velocity, 25), bounded(0.5 * of_acceleration, 25)), dim=-1)
 
 
 def bounded(x: Tensor, scale: float) -> Tensor:

@@ -10,11 +10,14 @@ from torch import Tensor
 
 from src.shared.config_audio import DecoderConfig
 from src.shared.model.audio.decoder import (
+    GAPS,
+    INPUT_SCALE,
     Decoder,
     DerivedMotionDecoder,
     MotionDecoder,
     bounded,
     create_motion_decoder,
+    gaps,
     limit_speed,
     wrapped_phase,
 )
@@ -170,3 +173,33 @@ def test_layers_and_sizes_are_the_documents() -> None:
     for model, millions in ((residual, 1.6), (derived, 0.4)):
         count = sum(parameter.numel() for parameter in model.parameters())
         assert count / 1e6 == pytest.approx(millions, abs=0.05)
+
+
+def test_gaps_are_what_a_derivative_lacks() -> None:
+    x = walk()
+    assert gaps(x, 30.0).shape == (1, 60, GAPS)
+    assert gaps(x, 30.0)[:, :-2].abs().max() < 1e-2  # a walk's columns agree
+    x[..., VELOCITY] += 0.1
+    found = gaps(x, 30.0)[:, :-2]
+    torch.testing.assert_close(found[..., :3], torch.full((1, 58, 3), -0.5), atol=1e-3, rtol=0)
+    assert found[..., 3:].abs().max() < 1e-2
+
+
+def test_with_gaps_a_frame_can_follow_its_neighbours() -> None:
+    """A linear reading of the gaps makes velocities those of the path; without, nothing could."""
+    torch.manual_seed(0)
+    made = MotionDecoder(DecoderConfig(decoder="residual", hidden_dim=16, sees_gaps=True)).eval()
+    x = walk()
+    x[..., VELOCITY] = 0
+    for block in made.blocks:
+        torch.nn.init.zeros_(block.layers[-2].weight)  # type: ignore[union-attr,index]
+        torch.nn.init.zeros_(block.layers[-2].bias)  # type: ignore[union-attr,index]
+    with torch.no_grad():
+        made.input_proj.weight.zero_()
+        made.input_proj.bias.zero_()
+        made.velocity_head.weight.zero_()
+        for axis in range(3):
+            made.input_proj.weight[axis, len(INPUT_SCALE) + axis] = 1
+            made.velocity_head.weight[axis, axis] = 1 / 5
+    velocity = made(x)[0, :-1, VELOCITY]
+    torch.testing.assert_close(velocity, 30 * x[0, :, POSITION].diff(dim=0), atol=0.02, rtol=0)
