@@ -58,6 +58,10 @@ def generate(
     model: Annotated[
         str | None, typer.Option(help="A name that `models` lists, or a folder from training.")
     ] = None,
+    runtime: Annotated[
+        str | None,
+        typer.Option(help="For a song: torch; or onnx, --model being a folder of export-onnx."),
+    ] = None,
     device: options.Device = "auto",
     threads: options.Threads = None,
     json: options.Json = False,
@@ -89,6 +93,7 @@ def generate(
     if audio is not None:
         refuse_with("--audio", prompt=prompt, tag=tag, foot_lock=foot_lock)
         generate_audio.check_song(audio)
+        generate_audio.check_runtime(runtime, device)
         wanted: dict[str, Any] = {"audio": audio, "meter": meter}
         wanted |= {"seconds": seconds, "style": style}
         formats = checked_formats(format or "npz,glb,html", generate_audio.FORMATS)
@@ -97,12 +102,13 @@ def generate(
             formats,
             out,
             model=model or generate_audio.MODEL,
+            runtime=runtime or "torch",
             device=device,
             threads=threads,
         )
         generate_audio.warn_of_beats(result)
     else:
-        refuse_with("--prompt", style=style, meter=meter)
+        refuse_with("--prompt", style=style, meter=meter, runtime=runtime)
         wanted = shared | {
             "prompts": checked_prompts(prompt),
             "tags": checked_tags(tag, len(prompt or ())),

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 FORMATS = ("npz", "csv", "glb", "html", "png")
 MODEL = "starter-audio"
+RUNTIMES = ("torch", "onnx")
 
 
 def check_song(path: Path) -> None:
@@ -22,12 +23,21 @@ def check_song(path: Path) -> None:
         raise UsageError(f"--audio {path}: no such file; name a wav, flac, ogg or mp3 file")
 
 
+def check_runtime(runtime: str | None, device: str) -> None:
+    """Refuse an unknown runtime, and a device that it has not."""
+    if runtime not in (None, *RUNTIMES):
+        raise UsageError(f"--runtime {runtime} is unknown; choose from {', '.join(RUNTIMES)}")
+    if runtime == "onnx" and device not in ("auto", "cpu"):
+        raise UsageError(f"--device {device}: --runtime onnx computes on the cpu; leave one out")
+
+
 def produce_song(
     wanted: dict[str, Any],
     formats: list[str],
     out: Path,
     *,
     model: str,
+    runtime: str,
     device: str,
     threads: int | None,
 ) -> dict[str, Any]:
@@ -37,29 +47,30 @@ def produce_song(
         wanted: audio, meter, seconds, style; under `sampling`, what `SampleSettings` takes.
         formats: any of `FORMATS`.
         out: folder for the files.
-        model: name or folder.
+        model: name or folder; for onnx, a folder of `export-onnx`.
+        runtime: torch or onnx.
         device: auto, cpu, cuda or mps.
         threads: CPU threads; None = torch's choice.
     """
     clock = Stopwatch()
     from src.shared.audio.song import analyse
     from src.shared.device import set_threads
-    from src.shared.inference.song_generator import SongGenerator, SongMotions, heard
-    from src.shared.inference.song_sampler import SampleSettings
+    from src.shared.inference.runtime import load_runtime
+    from src.shared.inference.song_generator import SongMotions, heard
+    from src.shared.inference.song_sampler import SampleSettings, SongSampler
 
     clock.lap("import")
     style = styled(wanted["style"])
     set_threads(threads)
-    generator = SongGenerator.from_pretrained(model, device=device)
+    loaded = load_runtime(runtime, model, device)
     clock.lap("load")
     song = analyse(wanted["audio"], meter=wanted["meter"])
     condition, phase = heard(song, wanted["seconds"])
     clock.lap("listen")
     settings = SampleSettings(**wanted["sampling"])
     with progress_bar(condition.shape[1]) as progress:
-        made = generator.generate(
-            condition, phase=phase, style=style, settings=settings, progress=progress
-        )
+        sampler = SongSampler(loaded, settings)
+        made = sampler.sample(condition, phase=phase, style=style, progress=progress)
     clock.lap("sample")
     rows, index = write_trajectories(SongMotions(made, song), wanted["audio"], formats, out)
     clock.lap("write")
@@ -69,7 +80,8 @@ def produce_song(
         "meter": song.beats.meter,
         "beats": len(song.beats.beat_times),
         "model": model,
-        "device": str(generator.device),
+        "runtime": runtime,
+        "device": str(sampler.device),
         "seed": settings.seed,
     }
     return about | {"motions": rows, "index": index, "timings": clock.seconds()}

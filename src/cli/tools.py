@@ -11,6 +11,7 @@ import typer
 from src.cli.evaluate import evaluate
 from src.cli.evaluate_audio import evaluate_audio
 from src.cli.evaluate_sanity import evaluate_sanity
+from src.cli.export_onnx import export_onnx
 from src.cli.features import features
 from src.cli.generate import generate
 from src.cli.guard import guarded
@@ -42,6 +43,7 @@ for command in (
     evaluate_sanity,
     models,
     plot,
+    export_onnx,
 ):
     app.command()(guarded(command))
 

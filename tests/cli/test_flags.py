@@ -10,8 +10,8 @@ from src.cli.tools import app
 FLAGS = {
     "generate": (
         "--audio --device --foot-lock --format --guidance-scale --json --meter --model"
-        " --no-foot-lock --num-samples --out --prompt --sampler --seconds --seed --steps --style"
-        " --tag --threads"
+        " --no-foot-lock --num-samples --out --prompt --runtime --sampler --seconds --seed --steps"
+        " --style --tag --threads"
     ),
     "features": "--cache --cache-dir --chroma --json --meter --no-cache --out --plot SONG",
     "prepare": (
@@ -39,6 +39,7 @@ FLAGS = {
         "--data --decoder-checkpoint --device --diffusion-checkpoint --json --model --num-frames"
         " --num-samples --num-steps --output-dir --quick --seed --threads"
     ),
+    "export-onnx": "--json --model --out",
     "models": "--json",
     "plot": "--out FILE",
 }

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import torch
-from torch import Tensor
+from torch import Tensor, nn
 from torch.nn import functional as F
 
 from src.shared.errors import UsageError
-from src.shared.model.audio.audio_motion_model import AudioMotionModel
+from src.shared.inference.runtime import Runtime
 from src.shared.model.audio.unet import MIN_FRAMES
 from src.shared.model.diffusion.conditions import ModelFn
 from src.shared.model.diffusion.noise import sample_generators, standard_normal
@@ -68,12 +68,12 @@ class SongSampler:
     """Samples trajectories from conditions.
 
     Args:
-        model: trained; used in evaluation mode on the device it is on.
+        model: trained; used on the device it is on, a torch module in evaluation mode.
         settings: see `SampleSettings`.
     """
 
-    def __init__(self, model: AudioMotionModel, settings: SampleSettings | None = None) -> None:
-        self.model = model.eval()
+    def __init__(self, model: Runtime, settings: SampleSettings | None = None) -> None:
+        self.model = model.eval() if isinstance(model, nn.Module) else model
         self.settings = settings or SampleSettings()
         self.device = model.mean.device
         diffusion = model.config.diffusion

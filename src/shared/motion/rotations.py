@@ -113,9 +113,9 @@ def quaternion_continuous(q: Tensor, dim: int = 0) -> Tensor:
     The first element gets w ≥ 0, then continuity wins.
     """
     q = q.movedim(dim, 0)
-    first = torch.where(q[:1, ..., :1] < 0, -1.0, 1.0).to(q.dtype)
-    steps = torch.where((q[1:] * q[:-1]).sum(-1, keepdim=True) < 0, -1.0, 1.0).to(q.dtype)
-    signs = torch.cumprod(torch.cat((first, steps)), dim=0)
+    turns = (q[1:] * q[:-1]).sum(-1, keepdim=True) < 0
+    flips = torch.cat((q[:1, ..., :1] < 0, turns)).cumsum(0)  # ONNX has no product of this kind
+    signs = (1 - 2 * (flips % 2)).to(q.dtype)
     return (q * signs).movedim(0, dim)
 
 

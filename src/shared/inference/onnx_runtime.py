@@ -1,0 +1,93 @@
+"""OnnxRuntime: an exported model under onnxruntime, on the CPU, in the same sampler.
+
+Letters: B samples, T frames.
+"""
+
+from pathlib import Path
+from typing import Any, Self
+
+import torch
+from torch import Tensor
+
+from src.shared.errors import UserError
+from src.shared.model.audio.conditioning import with_phase_rows
+from src.shared.model.audio.decoder import Decoded
+from src.shared.model.audio.onnx_card import GRAPHS, OnnxCard, read_onnx_card, require_packages
+from src.shared.model.diffusion.conditions import ModelFn
+from src.shared.model.diffusion.gaussian import GaussianDiffusion
+from src.shared.model.diffusion.guidance import guided
+
+
+class OnnxRuntime:
+    """The `Runtime` of an export.
+
+    Args:
+        card: of the export.
+        unet, decoder: its sessions; anything with onnxruntime's `run`.
+    """
+
+    def __init__(self, card: OnnxCard, unet: Any, decoder: Any) -> None:
+        self.card = card
+        self.config = card.audio_network
+        self.diffusion = GaussianDiffusion(self.config.diffusion)
+        self.mean, self.std = torch.tensor(card.mean), torch.tensor(card.std)
+        self._null = torch.tensor(card.null_condition)
+        self._unet, self._decoder = unet, decoder
+
+    @classmethod
+    def from_folder(cls, folder: str | Path) -> Self:
+        """An export, on as many threads as torch uses.
+
+        Raises:
+            UserError: the package is missing, or the folder holds no whole export.
+        """
+        require_packages("onnxruntime")
+        import onnxruntime
+
+        folder = Path(folder)
+        card = read_onnx_card(folder)
+        options = onnxruntime.SessionOptions()
+        options.intra_op_num_threads = torch.get_num_threads()
+        options.log_severity_level = 3  # errors
+        try:
+            unet, decoder = (
+                onnxruntime.InferenceSession(
+                    str(folder / name), options, providers=["CPUExecutionProvider"]
+                )
+                for name in GRAPHS
+            )
+        except Exception as error:  # onnxruntime's own types derive from it directly
+            reason = str(error).splitlines()[0]
+            raise UserError(
+                f"onnxruntime cannot load {folder} ({reason}); update it, or export again"
+            ) from error
+        return cls(card, unet, decoder)
+
+    def normalise(self, raw: Tensor) -> Tensor:
+        """See `Runtime`."""
+        return (raw - self.mean[:, None]) / self.std[:, None]
+
+    def model_fn(self, condition: Tensor, guidance_scale: float | None = None) -> ModelFn:
+        """See `Runtime`."""
+        scale = self.config.guidance_scale if guidance_scale is None else guidance_scale
+        condition = with_phase_rows(condition)
+        null = self._null[:, None].expand_as(condition)
+        return guided(self._predict, condition, null, scale)
+
+    def decode(self, z: Tensor, start: Tensor | None = None) -> Decoded:
+        """See `Runtime`."""
+        rows = (z * self.std[:, None] + self.mean[:, None]).transpose(1, 2)  # [B, T, 25]
+        if start is None:
+            start = torch.full((len(z),), torch.nan)
+        trajectory, phase = run(self._decoder, rows=rows, start=start)
+        return Decoded(trajectory, phase)
+
+    def _predict(self, x: Tensor, t: Tensor, condition: Tensor) -> Tensor:
+        (prediction,) = run(self._unet, x=x, t=t, condition=condition)
+        return prediction
+
+
+def run(session: Any, **inputs: Tensor) -> list[Tensor]:
+    """All outputs of a session, by the names of its inputs."""
+    arrays = {name: tensor.contiguous().numpy() for name, tensor in inputs.items()}
+    return [torch.from_numpy(array) for array in session.run(None, arrays)]

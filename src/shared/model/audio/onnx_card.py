@@ -1,0 +1,99 @@
+"""The card of an ONNX export: onnx.json beside unet.onnx and decoder.onnx.
+
+All that a program without PyTorch needs: the statistics, the learned "no audio", the settings of
+the diffusion, and the hashes of the graphs. Imports no torch.
+"""
+
+import json
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Literal
+
+from pydantic import ValidationError
+
+from src.shared.config_audio import AudioNetworkConfig
+from src.shared.config_schema import Config
+from src.shared.errors import UserError
+from src.shared.files import sha256_file
+
+CARD_FILE = "onnx.json"
+GRAPHS = ("unet.onnx", "decoder.onnx")
+PACKAGES = ("onnx", "onnxscript", "onnxruntime")
+
+
+class GraphInfo(Config):
+    """What a graph file must be."""
+
+    sha256: str
+    bytes: int
+
+
+class OnnxCard(Config):
+    """What an export says about itself.
+
+    Attributes:
+        model: SHA-256 of the weights it was made from; "" when they came from no folder.
+        mean, std: statistics of the 25 rows: `x = z * std + mean` (ruling 13).
+        null_condition: the 167 rows of "no audio", the same in every frame (ruling 14).
+        graphs: file name -> what it must be.
+    """
+
+    format_version: Literal[1] = 1
+    kind: Literal["audio-motion-onnx"] = "audio-motion-onnx"
+    name: str = ""
+    description: str = ""
+    licence: str = ""
+    trained: bool = False
+    model: str = ""
+    fps: float = 30.0
+    opset: int
+    audio_network: AudioNetworkConfig
+    mean: tuple[float, ...]
+    std: tuple[float, ...]
+    null_condition: tuple[float, ...]
+    graphs: dict[str, GraphInfo]
+
+
+def require_packages(*names: str) -> None:
+    """Raises UserError, naming the extra, when a package of it is missing."""
+    missing = [name for name in names if find_spec(name) is None]
+    if missing:
+        raise UserError(
+            f"ONNX needs the package {' and '.join(missing)}, which is not installed;"
+            " install the extra `onnx`: pip install 'motionsuite[onnx]'"
+        )
+
+
+def graph_info(path: Path) -> GraphInfo:
+    """Hash and size of a file."""
+    return GraphInfo(sha256=sha256_file(path), bytes=path.stat().st_size)
+
+
+def read_onnx_card(folder: Path) -> OnnxCard:
+    """The card of an export whose graphs are whole.
+
+    Raises:
+        UserError: no export there, one that this version cannot read, or a damaged graph.
+    """
+    path = Path(folder) / CARD_FILE
+    if not path.is_file():
+        raise UserError(
+            f"{folder} holds no ONNX export ({CARD_FILE} is missing); make one with"
+            f" `export-onnx --model {folder} --out DIR` and name DIR"
+        )
+    try:
+        card = OnnxCard.model_validate(json.loads(path.read_text(encoding="utf-8")))
+    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
+        raise UserError(f"{path} cannot be read ({error}); export the model again") from error
+    except ValidationError as error:
+        first = error.errors()[0]
+        key = ".".join(map(str, first["loc"]))
+        raise UserError(f"{path}: {key}: {first['msg']}; export the model again") from error
+    for name in GRAPHS:
+        graph = path.with_name(name)
+        if not graph.is_file() or card.graphs.get(name) != graph_info(graph):
+            raise UserError(
+                f"{graph} is missing or not the file that {CARD_FILE} vouches for;"
+                " export the model again"
+            )
+    return card
