@@ -38,7 +38,7 @@ from src.train.phrases import (
     true_trajectory,
     whole_windows,
 )
-from src.train.run_log import console
+from src.train.run_log import as_logged, console
 from src.train.seeding import generator
 from src.train.train_audio import AudioTask
 from src.train.train_generation import spread_timesteps
@@ -149,7 +149,7 @@ class FinetuneE2eTask(AudioTask):
                 sums[key] = sums.get(key, 0.0) + share
         self.figures = sums
         before = [epoch.loss for epoch in self.epochs()]
-        if not before or sums["loss"] < min(before):
+        if not before or as_logged(sums["loss"]) < min(before):
             self._finished(module).save_pretrained(Path(self.config.output) / BEST)
         return sums
 

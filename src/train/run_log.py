@@ -39,6 +39,11 @@ def truncate_log(path: Path, step: int) -> None:
         temporary.write_text("".join(line + "\n" for line in kept), encoding="utf-8")
 
 
+def as_logged(value: float) -> float:
+    """The number that log.jsonl holds for a value."""
+    return float(f"{value:.6g}")
+
+
 def _tensorboard_writer(folder: Path, start: int) -> Any | None:
     """A SummaryWriter that hides points after `start`, or None when TensorBoard is missing."""
     # TensorBoard would load TensorFlow where it is installed, for seconds and for nothing
@@ -106,7 +111,7 @@ class RunLog:
         """
         if not self._main or not values:
             return
-        rounded = {k: float(f"{v:.6g}") if math.isfinite(v) else None for k, v in values.items()}
+        rounded = {k: as_logged(v) if math.isfinite(v) else None for k, v in values.items()}
         print(json.dumps({"step": step, **rounded}), file=self._stream, flush=True)
         for key, value in rounded.items():
             if self._writer is not None and value is not None:

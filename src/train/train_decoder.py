@@ -14,11 +14,11 @@ import math
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Self
 
 import torch
 import typer
-from pydantic import Field
+from pydantic import Field, model_validator
 from torch import Tensor, nn
 
 from src.shared.config_audio import AudioNetworkConfig, DecoderLossConfig
@@ -58,6 +58,13 @@ class TrainDecoderConfig(TrainConfig):
     correlation: tuple[float, float] = (1.0, 30.0)  # frames, least and most, of correlated noise
     start_weight: float = Field(0.1, ge=0)  # of the guessed first bar phase
     losses: DecoderLossConfig = DecoderLossConfig()
+
+    @model_validator(mode="after")
+    def _check_limits(self) -> Self:
+        for key, (low, high) in (("noise", self.noise), ("correlation", self.correlation)):
+            if not 0 < low <= high:
+                raise ValueError(f"{key} [{low}, {high}] must be two numbers above 0, least first")
+        return self
 
 
 @dataclass(frozen=True)

@@ -206,6 +206,12 @@ def test_only_the_decoder_can_change(audio: Path, tmp_path: Path) -> None:
         network_of(tmp_path / "nowhere")
 
 
+def test_limits_are_two_numbers_in_order(circles: Path, audio: Path, tmp_path: Path) -> None:
+    for wrong in ("noise=[0,1]", "correlation=[3,2]"):
+        with pytest.raises(UsageError, match=wrong.split("=")[0]):
+            decoder_config(circles, audio, tmp_path, wrong)
+
+
 def test_a_run_from_the_command_line(circles: Path, audio: Path, tmp_path: Path) -> None:
     places = ["--data", str(circles), "--audio", str(audio), "--output", str(tmp_path)]
     done = CliRunner().invoke(app, [*SETTINGS, *STEPS, *places, "steps=1"])
