@@ -3,14 +3,16 @@
 from pathlib import Path
 from typing import Protocol
 
+import torch
 from torch import Tensor
 
 from src.shared.config_audio import AudioNetworkConfig
-from src.shared.device import choose_device
+from src.shared.device import choose_compute
 from src.shared.errors import UserError
 from src.shared.inference.onnx_runtime import OnnxRuntime
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.audio.decoder import Decoded
+from src.shared.model.audio.sampling_copy import sampling_copy
 from src.shared.model.diffusion.conditions import ModelFn
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
 
@@ -40,18 +42,38 @@ def load_runtime(name: str, model: str | Path, device: str = "auto") -> Runtime:
 
     Args:
         name: torch or onnx.
-        model: name of shipped weights or a folder that training wrote; for onnx, a folder of
-            `export-onnx`.
+        model: see `load_trained`; for onnx, a folder of `export-onnx`.
         device: auto, cuda, mps or cpu; onnx computes on the CPU.
 
     Raises:
         UserError: no such model, damaged, never trained, or a package is missing.
     """
-    loaded: AudioMotionModel | OnnxRuntime
-    if name == "onnx":
-        loaded = OnnxRuntime.from_folder(model)
-    else:
-        loaded = AudioMotionModel.from_pretrained(model, device=choose_device(device)[0])
-    if not loaded.card.trained:
-        raise UserError(f"{model} is untrained: train it with src.train.train_audio")
+    if name == "torch":
+        return load_trained(model, device)
+    loaded = OnnxRuntime.from_folder(model)
+    _require_training(loaded.card.trained, model)
     return loaded
+
+
+def load_trained(model: str | Path, device: str = "auto") -> AudioMotionModel:
+    """A trained model for sampling; on a CPU its UNet is the faster copy, which learns no more.
+
+    Args:
+        model: name of shipped weights, or a folder that training wrote.
+        device: auto, cuda, mps or cpu.
+
+    Raises:
+        UserError: no such model, another kind, damaged, or never trained.
+    """
+    compute = choose_compute(device)
+    loaded = AudioMotionModel.from_pretrained(model, device=compute.device)
+    _require_training(loaded.card.trained, model)
+    if compute.device == "cpu":
+        low = torch.bfloat16 if compute.precision == "bf16" else None
+        loaded.unet = sampling_copy(loaded.unet, low)
+    return loaded
+
+
+def _require_training(trained: bool, model: str | Path) -> None:
+    if not trained:
+        raise UserError(f"{model} is untrained: train it with src.train.train_audio")

@@ -14,7 +14,7 @@ import torch
 from src.shared.audio.song import Song, analyse
 from src.shared.data.phrases.layout import phase_rows
 from src.shared.device import choose_device
-from src.shared.errors import UserError
+from src.shared.inference.runtime import load_trained
 from src.shared.inference.song_sampler import Progress, SampleSettings, SongSampler
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.motion.trajectory import FPS, MotionTrajectory
@@ -47,10 +47,7 @@ class SongGenerator:
         Raises:
             UserError: no such model, another kind, damaged, or never trained.
         """
-        model = AudioMotionModel.from_pretrained(name_or_folder)
-        if not model.card.trained:
-            raise UserError(f"{name_or_folder} is untrained: train it with src.train.train_audio")
-        return cls(model, device=device)
+        return cls(load_trained(name_or_folder, device or "auto"), device=device)
 
     def generate(
         self,
