@@ -1,5 +1,6 @@
 """The documentation is true: names import, snippets run, links lead somewhere, commands exist."""
 
+import ast
 import importlib
 import re
 import shlex
@@ -62,6 +63,36 @@ def test_readme_counts_parameters_right(profile: str) -> None:
         denoiser = MotionDenoiser(network, NUM_TAGS)
     for shown, module in zip(printed, (tower, denoiser), strict=True):
         assert shown == pytest.approx(count(module) / 1e6, rel=0.03)
+
+
+@pytest.mark.parametrize("profile", ["lightweight", "default", "spark"])
+def test_readme_counts_audio_parameters_right(profile: str) -> None:
+    import torch
+
+    from src.cli.shape_stages import count
+    from src.shared.config_loader import load_audio_network
+    from src.shared.model.audio.decoder import DerivedMotionDecoder, MotionDecoder
+    from src.shared.model.audio.unet import UNet1D
+
+    rows = re.findall(rf"^\| `{profile}` .*$", PAGES[0].read_text(encoding="utf-8"), re.MULTILINE)
+    printed = [float(number) for number in re.findall(r"([\d.]+)M", rows[1])]
+    network = load_audio_network(profile)
+    with torch.device("meta"):
+        unet = UNet1D(network.unet, network.condition)
+        decoders = [kind(network.decoder) for kind in (MotionDecoder, DerivedMotionDecoder)]
+    assert unet.conditioner is not None
+    for shown, module in zip(printed, (unet, unet.conditioner, *decoders), strict=True):
+        assert shown == pytest.approx(count(module) / 1e6, rel=0.02)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_snippets_import_what_exists(page: Path) -> None:
+    for snippet in re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL):
+        for line in ast.parse(snippet).body:
+            if isinstance(line, ast.ImportFrom):
+                module = importlib.import_module(line.module or "")
+                for name in line.names:
+                    assert hasattr(module, name.name), f"{page.name}: {line.module}.{name.name}"
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
