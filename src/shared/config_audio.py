@@ -103,6 +103,7 @@ class AudioNetworkConfig(Config):
     condition: AudioConditionConfig = AudioConditionConfig()
     decoder: DecoderConfig = DecoderConfig()
     diffusion: DiffusionConfig = DiffusionConfig()
+    window: int = Field(180, ge=16)  # frames of a window, as training saw and sampling makes them
     guidance_scale: float = Field(1.0, ge=0)  # 1 = none, and no second forward (ruling 14)
 
 

@@ -36,9 +36,9 @@ from src.train.train_generation import NOISE_LEVELS, spread_timesteps
 class TrainAudioConfig(TrainConfig):
     """train_audio.yaml."""
 
-    target_frames: int = Field(240, ge=8)  # of a window
+    target_frames: int = Field(180, ge=16)  # of a window; sampling makes windows of this length
     num_phrases: int | None = Field(None, ge=1)  # take only the first so many
-    velocity_weight: float = Field(0.5, ge=0)  # of the error of frame differences, m/s
+    velocity_weight: float = Field(1.0, ge=0)  # of the error of frame differences, m/s
     prefix_share: float = Field(0.5, ge=0, le=1)  # windows whose first frames are known
     prefix_frames: tuple[int, int] = (8, 60)  # how many, at least and at most
     style_share: float = Field(0.5, ge=0, le=1)  # windows whose style is known
@@ -111,7 +111,8 @@ class AudioTask:
     """What the trainer needs to know (src/train/task.py)."""
 
     def __init__(self, config: TrainAudioConfig, network: AudioNetworkConfig) -> None:
-        self.config, self.network = config, network
+        self.config = config
+        self.network = network.model_copy(update={"window": config.target_frames})
         self.train: MotionPhraseDataset = open_phrases(config, "train", config.num_phrases)
         self.held_back: MotionPhraseDataset = open_phrases(config, "val", None)
         self.model = self._start()

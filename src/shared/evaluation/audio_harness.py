@@ -94,6 +94,7 @@ def evaluate_audio(
     """
     settings, started = settings or AudioSettings(), time.perf_counter()
     sampled = SampleSettings(seed=settings.seed, **(sampling or {}))
+    sampled = sampled.resolved(generator.model.config)
     result = AudioEvaluation()
     made = _dance(generator, settings, sampled, progress)
     dances = [_danced(trajectory, piece) for piece, trajectory in made]
@@ -183,6 +184,7 @@ def _danced(trajectory: MotionTrajectory, piece: Piece) -> Danced:
 
 
 def _seamed(piece: Piece, trajectory: MotionTrajectory, sampled: SampleSettings) -> Seamed:
+    assert sampled.window is not None  # resolved
     near = seam_frames(trajectory.num_frames, sampled.window, sampled.overlap)
     return Seamed(trajectory, near)
 

@@ -7,14 +7,16 @@ seam is part of one motion, not a blend of two. One window is in memory at a tim
 Letters: B samples, T frames of the song, W of a window, O shared by neighbours.
 """
 
+import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
 
+from src.shared.config_audio import AudioNetworkConfig
 from src.shared.errors import UsageError
 from src.shared.inference.runtime import Runtime
 from src.shared.model.audio.unet import MIN_FRAMES
@@ -34,7 +36,7 @@ class SampleSettings:
 
     Attributes:
         sampler: ddim, ddpm or dpm-solver++.
-        window, overlap: frames W and O.
+        window, overlap: frames W and O; a window longer than those of training is a guess.
     """
 
     num_samples: int = 1
@@ -42,17 +44,23 @@ class SampleSettings:
     steps: int | None = None
     sampler: str | None = None
     seed: int = 0
-    window: int = 240
+    window: int | None = None
     overlap: int = 30
 
     def __post_init__(self) -> None:
         if self.num_samples < 1:
             raise UsageError(f"num-samples {self.num_samples} must be 1 or more")
-        if not MIN_FRAMES <= self.overlap <= self.window // 2:
+        half = math.inf if self.window is None else self.window // 2
+        if not MIN_FRAMES <= self.overlap <= half:
             raise UsageError(
-                f"overlap {self.overlap} must lie between {MIN_FRAMES} and half the window"
-                f" ({self.window // 2})"
+                f"overlap {self.overlap} must lie between {MIN_FRAMES} and half the window ({half})"
             )
+
+    def resolved(self, config: AudioNetworkConfig) -> "SampleSettings":
+        """With the model's own window where none was chosen, and an overlap that fits it."""
+        if self.window is not None:
+            return self
+        return replace(self, window=config.window, overlap=min(self.overlap, config.window // 2))
 
 
 def spans(num_frames: int, window: int, overlap: int) -> list[tuple[int, int]]:
@@ -74,7 +82,7 @@ class SongSampler:
 
     def __init__(self, model: Runtime, settings: SampleSettings | None = None) -> None:
         self.model = model.eval() if isinstance(model, nn.Module) else model
-        self.settings = settings or SampleSettings()
+        self.settings = (settings or SampleSettings()).resolved(model.config)
         self.device = model.mean.device
         diffusion = model.config.diffusion
         self.sampler = make_sampler(
@@ -118,6 +126,7 @@ class SongSampler:
         num_frames, draws = condition.shape[1], self._generators()
         joiners: list[WindowJoiner] = []
         before: list[np.ndarray] = []  # of each sample, the window's last decoded frames
+        assert self.settings.window is not None  # resolved
         for start, end in spans(num_frames, self.settings.window - SPARE, self.settings.overlap):
             tracked = None if phase is None else np.asarray(phase[start:end], dtype=np.float64)
             known, values = self._known(before, style, end - start)
@@ -125,6 +134,9 @@ class SongSampler:
             if not joiners:
                 shared = min(self.settings.overlap, num_frames - 1)
                 joiners = [WindowJoiner(shared, phase=first) for _, first in windows]
+            elif tracked is not None:
+                for joiner, (rows, _) in zip(joiners, windows, strict=True):
+                    hold_phase(rows, tracked[-1] - joiner.seam_phase)
             yield [joiner.add(window) for joiner, (window, _) in zip(joiners, windows, strict=True)]
             before = [window[:, -self.settings.overlap :] for window, _ in windows]
             if progress is not None:
