@@ -64,10 +64,10 @@ def beats_from_onsets(onsets: Onsets, *, meter: int | None = 4) -> Beats:
     nothing = Beats(0.0, np.zeros(0), np.zeros(0), meter or 4)
     if onsets.silent or onsets.strength.size < 2 * LENGTHS[0]:
         return nothing
-    novelty = _novelty(np.concatenate([onsets.bands, onsets.strength[None]]), onsets.fps)
-    correlations, centres = tempo.autocorrelation(novelty, onsets.fps)
+    novelty = _novelty(onsets.bands, onsets.fps)
+    correlations, centres = tempo.correlate_windows(novelty, onsets.fps)
     scores = tempo.tempo_scores(correlations, onsets.fps)
-    strength = novelty[:3].mean(axis=0)
+    strength = novelty.mean(axis=0)
     path = tempo.tempo_path(scores)
     chain = _best_chain(strength, scores, path, centres * onsets.fps, onsets.fps)
     chain = chain[_sounding(onsets, chain)]

@@ -36,8 +36,8 @@ def minimise(loss: Callable[[np.ndarray], tuple[float, np.ndarray]], size: int) 
 def test_tempo_weights() -> None:
     features, targets = [], []
     for song, onsets in training_songs():
-        novelty = _novelty(np.concatenate([onsets.bands, onsets.strength[None]]), onsets.fps)
-        correlations, centres = tempo.autocorrelation(novelty, onsets.fps)
+        novelty = _novelty(onsets.bands, onsets.fps)
+        correlations, centres = tempo.correlate_windows(novelty, onsets.fps)
         read = tempo.tempo_features(correlations, onsets.fps)
         prior = np.broadcast_to(tempo.DISTANCE**2, (len(read), 1, tempo.CANDIDATES))
         features.append(np.concatenate([read.reshape(len(read), -1, tempo.CANDIDATES), prior], 1))
