@@ -10,6 +10,7 @@ Letters: B samples, T frames of the song, W of a window, O shared by neighbours.
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 import torch
@@ -18,6 +19,7 @@ from torch.nn import functional as F
 
 from src.shared.config_audio import AudioNetworkConfig
 from src.shared.errors import UsageError
+from src.shared.inference.carry_on import carry_on
 from src.shared.inference.runtime import Runtime
 from src.shared.model.audio.unet import MIN_FRAMES
 from src.shared.model.diffusion.conditions import ModelFn
@@ -64,12 +66,15 @@ class SampleSettings:
 
 
 def spans(num_frames: int, window: int, overlap: int) -> list[tuple[int, int]]:
-    """First and last-plus-one frame of each window that covers [0, num_frames)."""
-    found = [(0, min(window, num_frames))]
-    while found[-1][1] < num_frames:
-        start = found[-1][1] - overlap
-        found.append((start, min(start + window, num_frames)))
-    return found
+    """First and last-plus-one frame of each window that covers [0, num_frames).
+
+    All are about equally long: a short rest at the end would be a window unlike those of training.
+    """
+    if num_frames <= window:
+        return [(0, num_frames)]
+    number = math.ceil((num_frames - overlap) / (window - overlap))
+    starts = [(num_frames - overlap) * index // number for index in range(number + 1)]
+    return [(start, end + overlap) for start, end in pairwise(starts)]
 
 
 class SongSampler:
@@ -131,9 +136,14 @@ class SongSampler:
             tracked = None if phase is None else np.asarray(phase[start:end], dtype=np.float64)
             known, values = self._known(before, style, end - start)
             windows = self._window(condition[:, start:end], known, values, tracked, draws)
+            for rows, _ in windows if before else ():
+                carry_on(rows, self.settings.overlap)
             if not joiners:
                 shared = min(self.settings.overlap, num_frames - 1)
-                joiners = [WindowJoiner(shared, phase=first) for _, first in windows]
+                joiners = [
+                    WindowJoiner(shared, phase=first if tracked is None else tracked[0])
+                    for _, first in windows
+                ]
             elif tracked is not None:
                 for joiner, (rows, _) in zip(joiners, windows, strict=True):
                     hold_phase(rows, tracked[-1] - joiner.seam_phase)
