@@ -132,7 +132,7 @@ def unet1d_model(frames: int, steps: int = 50) -> Rival:
     return Rival(sample, _count(model), frames, steps, steps)
 
 
-UNET1D_CHANNELS = (160, 320, 480, 720)
+UNET1D_CHANNELS = (160, 320, 512, 704)
 
 
 def _cheap_update(x: Tensor, clean: Tensor, step: int) -> Tensor:

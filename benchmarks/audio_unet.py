@@ -5,16 +5,20 @@ python -m benchmarks.audio_unet [--parts step,sample,rivals,tables] [--profile d
 
 step: one denoising step of 4 s, the document's literal one (literal_unet.py) and ours at equal
 weights, in float32 and with bf16 autocast. sample: the same for 20 DDIM steps. Both networks are
-put together as the document draws them, with cross-attention and without positions; ours as
-shipped has FiLM, rotary positions and a further halving, and is timed under rivals. rivals: seconds a second of motion, beside samplers of
-rivals' sizes. tables: the document's section 13 on this machine.
+put together as the document draws them, with cross-attention and without positions; the sampling
+copy is what `generate` runs on a CPU.
+rivals: seconds a second of motion of ours as shipped, with FiLM, rotary positions and a further
+halving, beside samplers of rivals' sizes.
+tables: the document's section 13 on this machine.
 
 Weights are random, zero-initialised layers filled: speed does not depend on training.
 """
 
 import argparse
 import json
+import os
 import platform
+import resource
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -269,6 +273,7 @@ def main() -> None:
     torch.set_num_threads(arguments.threads)
     result: dict[str, Any] = {
         "threads": arguments.threads,
+        "processors": len(os.sched_getaffinity(0)),
         "rounds": rounds,
         "profile": arguments.profile,
         "torch": torch.__version__,
@@ -284,6 +289,7 @@ def main() -> None:
         result["rivals"] = rivals(arguments.profile, rounds)
     if "tables" in parts:
         result["tables"] = tables(arguments.table_profile, rounds, batches)
+    result["peak_gib"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20
     show(result)
     if arguments.json:
         arguments.json.write_text(json.dumps(result, indent=1), encoding="utf-8")

