@@ -21,8 +21,8 @@ LENGTHS = np.arange(28, 137)  # frames: 214 to 44 BPM
 TEMPO_WEIGHT = 3.0  # of a tempo's log-probability against onset strength, both per second
 TEMPO_FLOOR = -8.0
 DRIFT_COST, JUMP_COST = 300.0, 4.0  # of log-ratio² from beat to beat, at most the second
-# Noise, speech-like and random strokes stay below 0.33, 99% of the training songs above 0.45.
-MIN_CONFIDENCE = 0.32
+# Of 60 noises, glides and strokes at random 59 stay below, of 220 held-out songs 219 above.
+MIN_CONFIDENCE = 0.28
 CHANCE = 0.8  # confidence that a second of noise reaches; falls with the length
 NEIGHBOURS = np.array([0.25, 0.5, 0.75, 1.0, 0.75, 0.5, 0.25]) / 2
 

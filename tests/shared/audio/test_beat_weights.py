@@ -14,7 +14,7 @@ from src.shared.audio.beats import _novelty
 from src.shared.audio.onsets import Onsets, detect_onsets
 from src.shared.audio.synthetic_songs import SyntheticSong, render_song, sample_song_specs
 
-SONGS, SEED = 300, 10
+TEMPO_SONGS, DOWNBEAT_SONGS, SEED = 800, 300, 10
 TEMPO_RIDGE, DOWNBEAT_RIDGE = 3e-4, 0.1
 TEMPO_BLUR = 0.02  # octaves: how exact a window's tempo is
 
@@ -23,7 +23,7 @@ pytestmark = pytest.mark.slow
 
 @lru_cache(maxsize=1)
 def training_songs() -> list[tuple[SyntheticSong, Onsets]]:
-    songs = [render_song(spec) for spec in sample_song_specs(SONGS, SEED, "train")]
+    songs = [render_song(spec) for spec in sample_song_specs(TEMPO_SONGS, SEED, "train")]
     return [(song, detect_onsets([song.samples], song.sample_rate)) for song in songs]
 
 
@@ -66,7 +66,7 @@ def test_tempo_weights() -> None:
 
 def test_downbeat_weights() -> None:
     sums, wanted = [], []
-    for song, onsets in training_songs():
+    for song, onsets in training_songs()[:DOWNBEAT_SONGS]:
         meter, beats = song.spec.meter, song.beat_times
         if len(beats) < 2 * meter:
             continue
