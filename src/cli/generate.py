@@ -29,7 +29,7 @@ def generate(
         str | None, typer.Option(help='How to move to the song, e.g. "tired, elderly".')
     ] = None,
     meter: Annotated[
-        int | None, typer.Option(help="Beats in a bar of the song: 3 for a waltz; 4.")
+        int | None, typer.Option(help="Beats in a bar of the song; 3 or 4, as heard.")
     ] = None,
     tag: Annotated[
         list[str] | None,

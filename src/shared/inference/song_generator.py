@@ -77,7 +77,7 @@ class SongGenerator:
 
         Args:
             path: wav, flac, ogg or mp3 of 1 s or more.
-            meter: beats a bar; None = 4.
+            meter: beats a bar; None = heard (3 or 4).
             seconds: only the first so many; None = all.
             style: [8] unit, see `src.shared.motion.style`; None = the model's choice.
 

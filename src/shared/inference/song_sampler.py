@@ -10,7 +10,6 @@ Letters: B samples, T frames of the song, W of a window, O shared by neighbours.
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import numpy as np
 import torch
@@ -28,7 +27,7 @@ from src.shared.model.diffusion.samplers import make_sampler
 from src.shared.motion.trajectory import CHANNELS, PHASE, STYLE, MotionTrajectory
 from src.shared.motion.window import WindowJoiner, encode_window
 
-SPARE = 2  # frames at a window's end that are made and cut off (ruling 6)
+SPARE = 8  # frames at the end that are made and cut off: no neighbour to learn from (ruling 6)
 Progress = Callable[[int, int], None]  # frames done, frames in all
 
 
@@ -66,15 +65,12 @@ class SampleSettings:
 
 
 def spans(num_frames: int, window: int, overlap: int) -> list[tuple[int, int]]:
-    """First and last-plus-one frame of each window that covers [0, num_frames).
-
-    All are about equally long: a short rest at the end would be a window unlike those of training.
-    """
-    if num_frames <= window:
-        return [(0, num_frames)]
-    number = math.ceil((num_frames - overlap) / (window - overlap))
-    starts = [(num_frames - overlap) * index // number for index in range(number + 1)]
-    return [(start, end + overlap) for start, end in pairwise(starts)]
+    """First and last-plus-one frame of each window that covers [0, num_frames)."""
+    found = [(0, min(window, num_frames))]
+    while found[-1][1] < num_frames:
+        start = found[-1][1] - overlap
+        found.append((start, min(start + window, num_frames)))
+    return found
 
 
 class SongSampler:
@@ -123,8 +119,8 @@ class SongSampler:
 
         Args:
             condition: [163 or 167, T].
-            phase: unwrapped bars [T] of the beat tracker; the trajectory's phase is held to it
-                once a window. None = the model's own count.
+            phase: unwrapped bars [T] of the beat tracker: the trajectory's phase too. None = the
+                model's own count.
             style: [8] unit, held; None = the model's choice.
             progress: told after each window.
         """
@@ -144,9 +140,6 @@ class SongSampler:
                     WindowJoiner(shared, phase=first if tracked is None else tracked[0])
                     for _, first in windows
                 ]
-            elif tracked is not None:
-                for joiner, (rows, _) in zip(joiners, windows, strict=True):
-                    hold_phase(rows, tracked[-1] - joiner.seam_phase)
             yield [joiner.add(window) for joiner, (window, _) in zip(joiners, windows, strict=True)]
             before = [window[:, -self.settings.overlap :] for window, _ in windows]
             if progress is not None:
@@ -160,7 +153,9 @@ class SongSampler:
         self, before: list[np.ndarray], style: np.ndarray | None, frames: int
     ) -> tuple[Tensor, Tensor]:
         """Which entries [B,25,W] the network is given, and their z-scores."""
-        size, length = self.settings.num_samples, max(frames + SPARE, MIN_FRAMES)
+        assert self.settings.window is not None  # resolved
+        # always as long as in training: a shorter window is unlike any that the network knows
+        size, length = self.settings.num_samples, max(frames + SPARE, self.settings.window)
         known = torch.zeros(size, CHANNELS, length, dtype=torch.bool)
         values = torch.zeros(size, CHANNELS, length)
         for index, window in enumerate(before):
@@ -198,9 +193,8 @@ class SongSampler:
         windows = []
         for trajectory, own in zip(trajectories, phases, strict=True):
             rows = trajectory.T.copy()
-            rows[PHASE] = np.diff(own, append=2 * own[-1] - own[-2])
-            if tracked is not None:
-                hold_phase(rows, tracked[-1] - tracked[0])
+            bars = own if tracked is None else tracked
+            rows[PHASE] = np.diff(bars, append=2 * bars[-1] - bars[-2])
             windows.append((rows, float(own[0])))
         return windows
 
@@ -216,10 +210,3 @@ def reset_window(window: np.ndarray) -> np.ndarray:
     local = encode_window(window.T, phase)
     local[PHASE, -1] = window[PHASE, -1]
     return local
-
-
-def hold_phase(rows: np.ndarray, bars: float) -> None:
-    """Scale the phase steps of a window [25,W] so that first and last frame lie `bars` apart."""
-    own = rows[PHASE, :-1].sum(dtype=np.float64)
-    if own > 0:
-        rows[PHASE] *= np.clip(bars / own, 0.5, 2.0)

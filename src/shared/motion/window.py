@@ -190,12 +190,6 @@ class WindowJoiner:
         assert self._pending is not None, "finish follows at least one window"
         return self._release(len(self._pending), spare=0)
 
-    @property
-    def seam_phase(self) -> float:
-        """Bars at the first frame that the next window will share."""
-        assert self._pending is not None
-        return float(_integrate(self._pending.steps.numpy(), self._phase)[-self.overlap])
-
     def _release(self, num_frames: int, *, spare: int) -> MotionTrajectory:
         """The first pending frames, derived with the help of `spare` frames that stay."""
         assert self._pending is not None

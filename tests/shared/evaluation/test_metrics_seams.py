@@ -37,7 +37,7 @@ def songs() -> list[Seamed]:
 def test_frames_at_seams_are_those_two_windows_share() -> None:
     near = seam_frames(T, WINDOW, OVERLAP)
     edges = np.flatnonzero(np.diff(near.astype(int)))
-    assert list(edges + 1) == [147, 183, 297, 333]  # shared ones and 3 on both sides
+    assert list(edges + 1) == [199, 235, 401, 437]  # shared ones and 3 on both sides
     assert not seam_frames(200, WINDOW, OVERLAP).any()
 
 
@@ -89,7 +89,7 @@ def test_the_distance_of_distributions_is_scipys() -> None:
 
 
 def test_a_flipped_sign_is_a_jump(songs: list[Seamed]) -> None:
-    songs[3].trajectory.data[160:, QUATERNION] *= -1
+    songs[3].trajectory.data[220:, QUATERNION] *= -1
     found = jumps(songs)
     assert not found["none"]
     assert found["quaternion_dot_min"][0] < -0.9 < 0.9 < found["quaternion_dot_min"][1]
@@ -98,12 +98,12 @@ def test_a_flipped_sign_is_a_jump(songs: list[Seamed]) -> None:
 @pytest.mark.parametrize("by", [0.2, -0.2])
 def test_a_phase_that_jumps_is_found(songs: list[Seamed], by: float) -> None:
     phase = songs[5].trajectory.data[:, PHASE]
-    phase[160:] = (phase[160:] + by) % 1.0
+    phase[220:] = (phase[220:] + by) % 1.0
     assert not jumps(songs)["none"]
 
 
 def test_a_teleport_is_a_jump(songs: list[Seamed]) -> None:
-    songs[2].trajectory.data[178:, :3] += 0.5
+    songs[2].trajectory.data[230:, :3] += 0.5
     assert not jumps(songs)["none"]
 
 

@@ -60,7 +60,8 @@ def require_packages(*names: str) -> None:
     if missing:
         raise UserError(
             f"ONNX needs the package {' and '.join(missing)}, which is not installed;"
-            " install the extra `onnx`: pip install 'motionsuite[onnx]'"
+            " install the project with its extra `onnx`, or:"
+            " pip install onnx onnxscript onnxruntime"
         )
 
 
