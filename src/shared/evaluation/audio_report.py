@@ -17,8 +17,8 @@ PHASE = (
 UNITS = {"acceleration": "m/s²", "jerk": "m/s³", "angular_acceleration": "rad/s²"}
 NOTES = {
     "phase": "Mean absolute circular error in cycles; guessing scores 0.25. Frames between the"
-    " first and the last true beat. generated: held to the beat tracker once a window, so the"
-    " tracker's error is its floor; right tempo: songs whose tempo the tracker found within 4%;"
+    " first and the last true beat. generated: where the tracker finds beats its phase is"
+    " taken over, so the rows agree; right tempo: songs whose tempo the tracker found within 4%;"
     " own count: the same network, not held. ± is 95% over songs.",
     "alignment": "σ = 0.05 s; hits: one to one within 70 ms; distance: median to the nearest music"
     " beat. chance: the motion turned round by random times. ± is 95% over songs.",

@@ -185,7 +185,7 @@ def test_damage_is_one_line(home: Path, runtime: OnnxRuntime, tmp_path: Path, da
 
 def test_missing_package_names_the_extra(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(onnx_card, "find_spec", lambda name: None)
-    with pytest.raises(UserError, match="onnxruntime.*pip install onnx"):
+    with pytest.raises(UserError, match=r"onnxruntime.*pip install onnx"):
         OnnxRuntime.from_folder(home)
 
 
