@@ -10,12 +10,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from src.shared.audio import synth_voices
+from src.shared.audio.song_spec import TempoMap
 from src.shared.audio.synthetic_songs import (
     HELD_OUT_TEMPI,
     SAMPLE_RATE,
     TRAIN_TEMPI,
     SongSpec,
-    TempoMap,
     render_song,
     sample_song_specs,
     song_beats,

@@ -24,12 +24,6 @@ def width(rows: slice) -> int:
     return int(rows.stop - rows.start)
 
 
-def phase_rows(beat_phase: Tensor, bar_phase: Tensor) -> Tensor:
-    """Beat and bar phase in turns, [..., T] each -> cosines and sines [..., 4, T]."""
-    beat, bar = 2 * torch.pi * beat_phase, 2 * torch.pi * bar_phase
-    return torch.stack((beat.cos(), beat.sin(), bar.cos(), bar.sin()), dim=-2).float()
-
-
 def with_phase_rows(condition: Tensor) -> Tensor:
     """[B, 163 or 167, T] -> [B, 167, T]; phases left out are unknown, which is zero.
 
