@@ -32,7 +32,7 @@ def is_fast(model: AudioMotionModel) -> bool:
     return any(isinstance(module, MatrixConv1d) for module in model.unet.modules())
 
 
-@pytest.mark.parametrize("bf16, tolerance", [(False, 1e-4), (True, 0.1)])
+@pytest.mark.parametrize("bf16, tolerance", [(False, 1e-4), (True, 0.3)])
 def test_the_faster_copy_makes_the_same_motion(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, bf16: bool, tolerance: float
 ) -> None:
@@ -45,6 +45,7 @@ def test_the_faster_copy_makes_the_same_motion(
     condition = torch.rand(167, 50)  # one window: a seam of a random network magnifies rounding
     wanted = SongSampler(model, SETTINGS).sample(condition)[0]
     found = SongSampler(loaded, SETTINGS).sample(condition)[0]
+    assert np.abs(wanted.position).max() > 5.0  # 0.3 is a few percent of it
     np.testing.assert_allclose(found.position, wanted.position, atol=tolerance)
 
 
