@@ -16,11 +16,12 @@ from typing import Any, Generic, TypeVar
 import torch
 from torch import Tensor
 
+from src.shared.ahead import ahead
 from src.shared.config_schema import TrainConfig
 from src.shared.device import choose_compute, set_threads
 from src.shared.errors import UsageError, UserError
 from src.shared.files import write_json
-from src.train.batches import ahead, to_device
+from src.train.batches import to_device
 from src.train.checkpoint import Checkpoint, latest_checkpoint, load_optimizer, save_checkpoint
 from src.train.ema import ExponentialMovingAverage
 from src.train.interrupt import Interrupted, InterruptGuard

@@ -13,7 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from torch import Tensor
 
-from src.train.batches import ahead, to_device
+from src.shared.ahead import ahead
+from src.train.batches import to_device
 from src.train.launch import resume_command
 from src.train.learning_rate import learning_rate_factor
 from src.train.run_log import RunLog, truncate_log

@@ -13,6 +13,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from src.shared.ahead import ahead
 from src.shared.data.phrases.cache import ObjectCache, default_cache
 from src.shared.data.phrases.layout import (
     BadContent,
@@ -22,7 +23,7 @@ from src.shared.data.phrases.layout import (
     decode_trajectory,
     phase_rows,
 )
-from src.shared.data.phrases.prefetch import EpochIterator, ahead
+from src.shared.data.phrases.prefetch import EpochIterator
 from src.shared.data.phrases.quarantine import Quarantine
 from src.shared.data.phrases.remote import Backoff, Remote, Unreachable
 from src.shared.data.phrases.store import PhraseStore

@@ -1,38 +1,13 @@
-"""Phrases fetched ahead in threads, and epochs that can be left and taken up again."""
+"""Epochs of phrases, fetched ahead in threads, that can be left and taken up again."""
 
-from collections import deque
-from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
-from typing import TYPE_CHECKING, Any, TypeVar
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
 
+from src.shared.ahead import ahead
 from src.shared.errors import UserError
 
 if TYPE_CHECKING:
     from src.shared.data.phrases.dataset import MotionPhraseDataset, PhraseItem
-
-Key = TypeVar("Key")
-Value = TypeVar("Value")
-
-
-def ahead(
-    function: Callable[[Key], Value], keys: Iterable[Key], threads: int, depth: int = 0
-) -> Iterator[Value]:
-    """`map(function, keys)` in order, computed in threads up to `depth` keys ahead."""
-    if threads == 0:
-        yield from map(function, keys)
-        return
-    with ThreadPoolExecutor(threads, thread_name_prefix="phrase") as pool:
-        queue: deque[Future[Value]] = deque()
-        try:
-            for key in keys:
-                queue.append(pool.submit(function, key))
-                if len(queue) > max(threads, depth):
-                    yield queue.popleft().result()
-            while queue:
-                yield queue.popleft().result()
-        finally:
-            for future in queue:
-                future.cancel()
 
 
 class EpochIterator:
