@@ -9,7 +9,6 @@ from src.cli import options
 from src.cli.evaluate_sanity import (
     MODEL,
     Decoder,
-    Device,
     Model,
     OutputDir,
     Pairs,
@@ -47,7 +46,7 @@ def evaluate_audio(
     sampler: options.Sampler = None,
     guidance_scale: options.GuidanceScale = None,
     seed: Annotated[int, typer.Option(help="Of songs, noise, offsets and resampling.")] = 0,
-    device: Device = "auto",
+    device: options.Device = "auto",
     threads: options.Threads = None,
     json: options.Json = False,
 ) -> None:

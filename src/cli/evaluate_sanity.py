@@ -39,7 +39,6 @@ Pairs = Annotated[
         help="Pairs from `prepare-audio`, a folder or bucket: its test split is used.",
     ),
 ]
-Device = Annotated[str, typer.Option(envvar=environment.DEVICE, help="auto, cpu, cuda or mps.")]
 Decoder = Annotated[
     str | None,
     typer.Option(
@@ -61,7 +60,7 @@ def evaluate_sanity(
     data: Pairs = None,
     output_dir: OutputDir = Path("outputs/sanity"),
     seed: Annotated[int, typer.Option(help="Of songs, phrases and noise.")] = 0,
-    device: Device = "auto",
+    device: options.Device = "auto",
     threads: options.Threads = None,
     json: options.Json = False,
 ) -> None:

@@ -101,7 +101,7 @@ def generate(
             wanted | {"sampling": shared},
             formats,
             out,
-            model=model or generate_audio.MODEL,
+            model=generate_audio.MODEL if model is None else model,
             runtime=runtime or "torch",
             device=device,
             threads=threads,
@@ -112,11 +112,11 @@ def generate(
         wanted = shared | {
             "prompts": checked_prompts(prompt),
             "tags": checked_tags(tag, len(prompt or ())),
-            "seconds": seconds or 4.0,
+            "seconds": 4.0 if seconds is None else seconds,
             "foot_lock": foot_lock,
         }
         formats = checked_formats(format or ",".join(FORMATS), FORMATS)
-        model = model or MODEL
+        model = MODEL if model is None else model
         result = produce(wanted, formats, out, model=model, device=device, threads=threads)
     if json:
         print_json(result)
@@ -184,7 +184,7 @@ def checked_tags(tags: list[str] | None, num_prompts: int) -> list[str | None] |
 def refuse_with(flag: str, **others: Any) -> None:
     """Refuse options that mean nothing beside this one."""
     for name, value in others.items():
-        if value:
+        if value not in (None, []):
             raise UsageError(f"--{name.replace('_', '-')} does not go with {flag}; leave one out")
 
 

@@ -142,6 +142,7 @@ def write_trajectories(
                 "sample": number,
                 "frames": trajectory.num_frames,
                 "fps": trajectory.fps,
+                "clamped": processor.count_clamped(made.trajectories[number].data),
                 "files": {name: str(path) for name, path in paths.items()},
             }
         )

@@ -7,10 +7,11 @@ from typing import Annotated
 
 import typer
 
+from src.cli import environment
 from src.shared.errors import UsageError
 
 Model = Annotated[str, typer.Option(help="A name that `models` lists, or a folder from training.")]
-Device = Annotated[str, typer.Option(help="auto, cpu, cuda or mps.")]
+Device = Annotated[str, typer.Option(envvar=environment.DEVICE, help="auto, cpu, cuda or mps.")]
 Threads = Annotated[int | None, typer.Option(help="CPU threads to use.")]
 Json = Annotated[bool, typer.Option("--json", help="The result as JSON on stdout.")]
 Steps = Annotated[int | None, typer.Option(help="Sampling steps; the model's own.")]
