@@ -2,6 +2,7 @@
 
 import numpy as np
 
+EAST_ASIAN = 0x3000  # from here on, scripts are written without spaces
 IDEOGRAPHS = (0x4E00, 0x9FFF)  # Unicode's main block, which Chinese and Japanese share
 
 
@@ -17,7 +18,7 @@ def drop_words(caption: str, share: float, rng: np.random.Generator) -> str:
     """
     if share <= 0:
         return caption
-    joint = " " if " " in caption.strip() else ""
+    joint = "" if any(ord(letter) >= EAST_ASIAN for letter in caption) else " "
     words = caption.split() if joint else list(caption)
     kept = [word for word, draw in zip(words, rng.random(len(words)), strict=True) if draw >= share]
     shortened = joint.join(kept)
@@ -37,7 +38,7 @@ def insert_babble(caption: str, letters_of: str, rng: np.random.Generator, *, mo
         rng: consumed a varying number of times.
         most: words to insert, at most.
     """
-    joint = " " if " " in caption.strip() else ""
+    joint = "" if any(ord(letter) >= EAST_ASIAN for letter in caption) else " "
     words = caption.split() if joint else list(caption)
     letters = [letter for letter in letters_of if letter.isalpha()]
     if not letters:

@@ -33,3 +33,10 @@ def test_babble_adds_words_and_keeps_all_others() -> None:
     longer = insert_babble("左手を振る", "人が歩く", rng)
     assert len(longer) > 5 and all(letter in longer for letter in "左手を振る")
     assert insert_babble("walk", "123 !", rng) == "walk"
+
+
+def test_a_single_word_stays_a_word_of_its_own_script() -> None:
+    rng = np.random.default_rng(2)
+    for _ in range(50):
+        made = insert_babble("walk", "corre", rng)
+        assert "walk" in made.split() and made.isascii()
