@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import torch
+from pydantic import Field
 from torch import Tensor
 from torch.nn import functional as F
 
@@ -24,7 +25,14 @@ from src.train.run_log import console
 SYNTHETIC_SONGS = 40
 
 
-def open_phrases(config: TrainConfig, split: str, num_phrases: int | None) -> MotionPhraseDataset:
+class PhraseConfig(TrainConfig):
+    """What every audio stage shares."""
+
+    target_frames: int = Field(180, ge=16)  # of a window; sampling makes windows of this length
+    num_phrases: int | None = Field(None, ge=1)  # take only the first so many
+
+
+def open_phrases(config: PhraseConfig, split: str, num_phrases: int | None) -> MotionPhraseDataset:
     """One split of the folder or bucket that `data` names; `synthetic` is made on the spot, once.
 
     Raises:
@@ -33,11 +41,10 @@ def open_phrases(config: TrainConfig, split: str, num_phrases: int | None) -> Mo
     root = config.data
     if root == SYNTHETIC:
         root = str(synthetic_pairs(Path(config.output).parent / f"synthetic-{SYNTHETIC_SONGS}"))
-    frames = getattr(config, "target_frames")  # noqa: B009 - every audio stage has it
     return MotionPhraseDataset(
         root,
         num_phrases=num_phrases,
-        target_frames=frames,
+        target_frames=config.target_frames,
         split=split,
         seed=config.seed,
     )

@@ -19,7 +19,6 @@ from pydantic import Field
 from torch import Tensor, nn
 
 from src.shared.config_audio import AudioNetworkConfig
-from src.shared.config_schema import TrainConfig
 from src.shared.data.phrases.dataset import MotionPhraseDataset, PhraseBatch, motion_statistics
 from src.shared.device import autocast, choose_compute
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
@@ -27,17 +26,15 @@ from src.shared.model.audio.conditioning import ConditionAugmentation, with_phas
 from src.shared.model.diffusion.gaussian import GaussianDiffusion, masked_loss
 from src.shared.motion.trajectory import FPS, POSITION, QUATERNION, STYLE
 from src.train.launch import stage_app
-from src.train.phrases import export_song, open_phrases
+from src.train.phrases import PhraseConfig, export_song, open_phrases
 from src.train.seeding import generator
 from src.train.task import Part
 from src.train.train_generation import NOISE_LEVELS, spread_timesteps
 
 
-class TrainAudioConfig(TrainConfig):
+class TrainAudioConfig(PhraseConfig):
     """train_audio.yaml."""
 
-    target_frames: int = Field(180, ge=16)  # of a window; sampling makes windows of this length
-    num_phrases: int | None = Field(None, ge=1)  # take only the first so many
     velocity_weight: float = Field(1.0, ge=0)  # of the error of frame differences, m/s
     prefix_share: float = Field(0.5, ge=0, le=1)  # windows whose first frames are known
     prefix_frames: tuple[int, int] = (8, 60)  # how many, at least and at most

@@ -23,7 +23,6 @@ from torch import Tensor, nn
 
 from src.shared.config_audio import AudioNetworkConfig, DecoderLossConfig
 from src.shared.config_loader import load_train, split_network_overrides
-from src.shared.config_schema import TrainConfig
 from src.shared.data.phrases.dataset import PhraseBatch
 from src.shared.inference.song_sampler import SPARE
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
@@ -33,6 +32,7 @@ from src.shared.motion.trajectory import PHASE
 from src.train.audio_folder import network_of
 from src.train.launch import as_overrides, resume_command, short_errors
 from src.train.phrases import (
+    PhraseConfig,
     bar_phase_at_start,
     export_song,
     open_phrases,
@@ -48,12 +48,10 @@ ERROR_BATCHES = 4  # on which the UNet's error is measured
 ERROR_LEVEL = 0.25  # up to this share of the diffusion steps: what sampling ends with
 
 
-class TrainDecoderConfig(TrainConfig):
+class TrainDecoderConfig(PhraseConfig):
     """train_decoder.yaml."""
 
     audio: str = "runs/audio"  # folder written by train_audio
-    target_frames: int = Field(240, ge=8)  # of a window
-    num_phrases: int | None = Field(None, ge=1)  # take only the first so many
     noise: tuple[float, float] = (0.03, 1.0)  # least and most, times the UNet's error
     correlation: tuple[float, float] = (1.0, 30.0)  # frames, least and most, of correlated noise
     start_weight: float = Field(0.1, ge=0)  # of the guessed first bar phase
