@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Make the starter weights anew: prepare, five trainings, and the shipped folders.
+"""Make the starter weights anew: prepare, six trainings, and the shipped folders.
 
     python scripts/train_starter.py SOURCE ... --captions FILE [--work DIR] [--ship]
 
@@ -24,7 +24,9 @@ def stages(options: argparse.Namespace) -> list[list[str]]:
     """The command of each stage, in order."""
     data, work = str(options.work / "data"), options.work
     train = [f"threads={options.threads}", "precision=auto", "--data", data]
-    clip, hardened, first = (work / name for name in ("clip", "hardened", "first"))
+    clip, hardened, first, second = (
+        work / name for name in ("clip", "hardened", "first", "second")
+    )
     learn = ["-m", "src.train.train_generation", *train, "batch-size=48"]
     return [
         ["-m", "src.cli.tools", "prepare", *options.sources, "--captions", options.captions,
@@ -38,7 +40,9 @@ def stages(options: argparse.Namespace) -> list[list[str]]:
         ["-m", "src.train.train_text", *train, *FIRST[:2], f"clip={clip}", "steps=2500",
          "--output", str(hardened), "--resume"],
         [*learn, *SECOND, f"clip={hardened}", f"init={first}", f"steps={options.steps}",
-         "learning-rate=6e-4", "--output", str(work / "starter"), "--resume"],
+         "learning-rate=6e-4", "--output", str(second), "--resume"],
+        ["-m", "src.train.train_text", *train, *FIRST[:2], f"clip={clip}", "steps=2000",
+         f"generator={second}", "--output", str(work / "starter"), "--resume"],
     ]  # fmt: skip
 
 
