@@ -107,7 +107,9 @@ def write_checkpoint(
         stored[name] = tensor.detach().to("cpu", torch.float16 if half_this else None).contiguous()
     path = folder / WEIGHTS_FILE
     with atomic_write(path) as temporary:
-        save_file(stored, temporary, metadata={"format": "pt", "kind": card.kind})
+        # One entry only: safetensors writes several in an order of its own at each call, and the
+        # same weights would hash differently. What they are is the card's to say.
+        save_file(stored, temporary, metadata={"format": "pt"})
     weights = WeightsInfo(
         sha256=sha256_file(path),
         bytes=path.stat().st_size,
