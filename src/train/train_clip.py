@@ -9,7 +9,7 @@ processes the contrastive loss sees the embeddings of all of them.
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import torch
 import torch.distributed
@@ -59,6 +59,22 @@ class ClipObjective(nn.Module):
         return text, motion, self.clip.scale()
 
 
+class _Gather(torch.autograd.Function):
+    """All processes' rows; a row's gradient is the sum of those every process found for it."""
+
+    @staticmethod
+    def forward(ctx: Any, values: Tensor) -> Tensor:
+        parts = [torch.empty_like(values) for _ in range(torch.distributed.get_world_size())]
+        torch.distributed.all_gather(parts, values)
+        return torch.cat(parts)
+
+    @staticmethod
+    def backward(ctx: Any, *gradients: Tensor) -> Tensor:
+        total = gradients[0].clone(memory_format=torch.contiguous_format)
+        torch.distributed.all_reduce(total)
+        return total.chunk(torch.distributed.get_world_size())[torch.distributed.get_rank()]
+
+
 def gather(values: Tensor) -> Tensor:
     """Rows of all processes, in their order, with gradients; [B, ...] -> [W*B, ...].
 
@@ -67,9 +83,7 @@ def gather(values: Tensor) -> Tensor:
     """
     if not (torch.distributed.is_available() and torch.distributed.is_initialized()):
         return values
-    from torch.distributed.nn.functional import all_gather
-
-    return torch.cat(all_gather(values.contiguous()))
+    return cast(Tensor, _Gather.apply(values.contiguous()))
 
 
 class ClipTask:
