@@ -20,7 +20,7 @@ from src.shared.motion.root_track import HEIGHT, LEFT_CONTACT, ROOT_ROW, integra
 from src.shared.motion.rotations import rotation_6d_to_matrix, yaw_to_matrix
 from src.shared.motion.skeleton import FOOT_JOINTS, NUM_JOINTS, PARENTS, canonical_skeleton
 
-NEED_ROOT_TRACK = ("foot_contact", "foot_slide")
+NEED_ROOT_TRACK = ("root", "foot_contact", "foot_slide")
 
 
 class GenerationLoss(nn.Module):
@@ -102,6 +102,7 @@ class GenerationLoss(nn.Module):
             terms["reconstruction"] = self.diffusion.loss(output, target, mask=mask)
         others: dict[str, Callable[[Motions], Tensor]] = {
             "velocity": velocity_loss,
+            "root": root_loss,
             "geodesic": geodesic_loss,
             "position": position_loss,
             "foot_contact": foot_contact_loss,
@@ -162,6 +163,12 @@ def velocity_loss(motions: Motions) -> Tensor:
     error = motions.predicted - motions.true
     pairs = motions.mask[:, 1:] & motions.mask[:, :-1]
     return masked_frames_mean((error[:, 1:] - error[:, :-1]).square(), pairs)
+
+
+def root_loss(motions: Motions) -> Tensor:
+    """MSE of the root row, z-scored: of 23 rows alike, the one that says how fast and whither."""
+    error = (motions.predicted - motions.true)[:, :, ROOT_ROW]
+    return masked_frames_mean(error.square(), motions.mask)
 
 
 def geodesic_loss(motions: Motions) -> Tensor:

@@ -15,7 +15,15 @@ from src.shared.motion.rotations import (
 )
 from src.shared.motion.skeleton import FOOT_JOINTS
 
-TERMS = ("reconstruction", "velocity", "geodesic", "position", "foot_contact", "foot_slide")
+TERMS = (
+    "reconstruction",
+    "velocity",
+    "root",
+    "geodesic",
+    "position",
+    "foot_contact",
+    "foot_slide",
+)
 B, T = 2, 10
 
 
@@ -54,7 +62,7 @@ def run(loss: GenerationLoss, predicted: torch.Tensor, true: torch.Tensor, mask=
     return loss(output, clean, noisy, noise, timesteps, mask)
 
 
-@pytest.mark.parametrize("term", TERMS[:5])
+@pytest.mark.parametrize("term", TERMS[:6])
 @pytest.mark.parametrize("prediction", ["sample", "epsilon"])
 def test_a_perfect_prediction_costs_nothing(term: str, prediction: str):
     terms = run(losses({term: 1.0}, prediction), motion(), motion())
@@ -90,6 +98,13 @@ def test_velocity_is_the_error_of_differences():
     assert run(loss, predicted, true)["velocity"].item() == pytest.approx(expected, rel=1e-4)
     shifted = run(loss, true + 0.3, true)["velocity"].item()
     assert shifted == pytest.approx(0, abs=1e-8)
+
+
+def test_root_is_the_error_of_the_root_row_alone():
+    loss, true = losses({"root": 1.0}), motion()
+    predicted = motion(1)
+    expected = ((predicted - true) / loss.std)[:, :, ROOT_ROW].square().mean().item()
+    assert run(loss, predicted, true)["root"].item() == pytest.approx(expected, rel=1e-4)
 
 
 def test_geodesic_is_the_angle_in_radians():
