@@ -1,0 +1,171 @@
+"""The plug-in point of the harness: a family of metrics brings columns and what they mean.
+
+To add one: write a class with the attributes of `MetricFamily` in a file of its own and name it in
+`registry.py`. Tables, intervals, comparison, the reports and their legend follow by themselves.
+
+Letters: N motions of a sample, D embedding channels.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Literal, Protocol, TypeVar
+
+import numpy as np
+
+from src.shared.evaluation.clips import Clips
+from src.shared.motion.trajectory import MotionTrajectory
+
+Better = Literal["high", "low", "real"]  # real: the nearer to the real row, the better
+Value = float | np.ndarray
+Found = TypeVar("Found")
+
+
+@dataclass(frozen=True)
+class Column:
+    """One figure of a table.
+
+    Attributes:
+        key: in report.json; unique among the families of a branch.
+        heading: above the column, with its unit.
+        decimals: shown.
+        better: which way is good; `worst first` goes by the columns that are not `real`.
+    """
+
+    key: str
+    heading: str
+    decimals: int = 3
+    better: Better = "real"
+
+
+class Memo:
+    """What is computed of a sample once: features, kinematics, fitted axes."""
+
+    def __init__(self) -> None:
+        self.known: dict[str, object] = {}
+
+    def once(self, name: str, compute: Callable[[], Found]) -> Found:
+        """The value kept under `name`, computed at the first call."""
+        if name not in self.known:
+            self.known[name] = compute()
+        return self.known[name]  # type: ignore[return-value]
+
+
+@dataclass(frozen=True, eq=False)
+class MotionSample:
+    """N motions of the text branch under N captions.
+
+    Attributes:
+        clips: motions, captions, label groups, tags and labels, row by row.
+        text, motion: the judge's embeddings [N,D].
+        source: row [N] of the reference clip whose caption was asked for.
+        memo: `sample.memo.once("kinetic", lambda: ...)` computes a thing once a sample.
+    """
+
+    clips: Clips
+    text: np.ndarray
+    motion: np.ndarray
+    source: np.ndarray
+    memo: Memo = field(default_factory=Memo, repr=False)
+
+    def __len__(self) -> int:
+        return len(self.clips)
+
+    def rows(self, index: Sequence[int]) -> "MotionSample":
+        """The pairs at these rows, in this order."""
+        at = list(index)
+        return MotionSample(self.clips.rows(at), self.text[at], self.motion[at], self.source[at])
+
+    def reordered(self, order: Sequence[int]) -> "MotionSample":
+        """Captions and labels stay, motions change places: what ignoring the prompt gives."""
+        motions = [self.clips.motions[row] for row in order]
+        clips = self.clips.with_motions(motions)
+        return MotionSample(clips, self.text, self.motion[list(order)], self.source)
+
+
+@dataclass(frozen=True, eq=False)
+class Dance:
+    """A motion of T frames and the music that it is held against.
+
+    Attributes:
+        song: name; dances of one song are neighbours, not strangers.
+        trajectory: [T,25], 30 frames a second.
+        beats: of the music, seconds; some may lie beyond the end.
+        bars: true bars [T] of the music, unwrapped; None = nobody knows.
+        meter: beats a bar.
+    """
+
+    song: str
+    trajectory: MotionTrajectory
+    beats: np.ndarray
+    bars: np.ndarray | None = None
+    meter: int = 4
+
+    @property
+    def seconds(self) -> float:
+        return self.trajectory.seconds
+
+
+@dataclass(frozen=True, eq=False)
+class DanceSample:
+    """N motions of the audio branch, each with its music; `source` as in `MotionSample`."""
+
+    dances: list[Dance]
+    source: np.ndarray
+    memo: Memo = field(default_factory=Memo, repr=False)
+
+    def __len__(self) -> int:
+        return len(self.dances)
+
+    def rows(self, index: Sequence[int]) -> "DanceSample":
+        """The dances at these rows, in this order."""
+        return DanceSample([self.dances[i] for i in index], self.source[list(index)])
+
+    def reordered(self, order: Sequence[int]) -> "DanceSample":
+        """The music stays, motions change places: what not listening gives."""
+        moved = [
+            replace(dance, trajectory=self.dances[row].trajectory)
+            for dance, row in zip(self.dances, order, strict=True)
+        ]
+        return DanceSample(moved, self.source)
+
+
+Sample = TypeVar("Sample", MotionSample, DanceSample, contravariant=True)
+
+
+class MetricFamily(Protocol[Sample]):
+    """Figures that belong together and share a definition.
+
+    Attributes:
+        name: of the family's table.
+        columns: what `compute` may return, in the order shown.
+        definition: Markdown for the legend: what each figure is, its source, and what it cannot
+            tell.
+        distance: the figures are distances from the reference. The real row is then measured
+            between two disjoint halves of the real motions, since a sample is at 0 from itself.
+    """
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def columns(self) -> tuple[Column, ...]: ...
+    @property
+    def definition(self) -> str: ...
+    @property
+    def distance(self) -> bool: ...
+
+    def compute(self, sample: Sample, reference: Sample, *, seed: int) -> Mapping[str, Value]:
+        """The figures of one sample in one replication.
+
+        Args:
+            sample: motions to judge: real, chance, frozen, untrained or generated ones.
+            reference: the real motions. Row `sample.source[i]` is the one that motion i was asked
+                to resemble. What is fitted on it belongs in `reference.memo`.
+            seed: of every random choice (batches, pairs).
+
+        Returns:
+            By column key a float for the sample as a whole (its interval comes from
+            replications), or an array [N], one value a motion, NaN where the column does not apply
+            (mean and interval come from a bootstrap over motions; comparisons pair them by
+            prompt). A column that cannot be computed is left out.
+        """
+        ...
