@@ -9,11 +9,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from src.shared.motion.contacts import detect_contacts
 from src.shared.motion.motion import Motion
-from src.shared.motion.skeleton import FOOT_JOINTS, JOINT_INDEX, REST_FOOT_HEIGHT
+from src.shared.motion.skeleton import JOINT_INDEX, REST_FOOT_HEIGHT
+from src.shared.validation.body_measures import (
+    BALLS,
+    contact_slide,
+    ground_speed,
+    mean_jerk,
+    penetration,
+)
 
-BALLS = [ball for _, ball in FOOT_JOINTS]
 HANDS = [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]]
 SUPPORT_HEIGHT = 0.06  # metres above the rest height: higher than this, no foot carries the body
 
@@ -30,22 +35,6 @@ class Physics:
     speed: float  # m/s, pelvis over the ground
 
 
-def _speed_over_ground(positions: np.ndarray, fps: float) -> np.ndarray:
-    """Horizontal speed [T - 1, ...] in m/s of positions [T, ..., 3]."""
-    return np.linalg.norm(np.diff(positions[..., [0, 2]], axis=0), axis=-1) * fps
-
-
-def contact_slide(positions: np.ndarray, fps: float) -> float:
-    """Mean horizontal speed in cm/s of the balls of the feet over frames in contact.
-
-    Contacts come from `detect_contacts`, which itself asks for a slow foot, so a foot that glides
-    fast is not counted here: read it together with `support_slide`.
-    """
-    contact = detect_contacts(positions, fps)[:-1] > 0.5  # [T - 1, 2]
-    speed = _speed_over_ground(positions[:, BALLS], fps)
-    return float(100 * speed[contact].mean()) if contact.any() else float("nan")
-
-
 def support_slide(positions: np.ndarray, fps: float) -> float:
     """Mean horizontal speed in cm/s of the lower foot, over frames where it is near the floor.
 
@@ -56,26 +45,18 @@ def support_slide(positions: np.ndarray, fps: float) -> float:
     lower = balls[:-1, :, 1].argmin(1)  # [T - 1]
     frames = np.arange(len(lower))
     grounded = balls[frames, lower, 1] < REST_FOOT_HEIGHT + SUPPORT_HEIGHT
-    speed = _speed_over_ground(balls, fps)[frames, lower]
+    speed = ground_speed(balls, fps)[frames, lower]
     return float(100 * speed[grounded].mean()) if grounded.any() else float("nan")
-
-
-def mean_jerk(positions: np.ndarray, fps: float) -> float:
-    """Mean norm of the third difference in m/s^3 of positions [T, K, 3]; NaN below 4 frames."""
-    if len(positions) < 4:
-        return float("nan")
-    return float(np.linalg.norm(np.diff(positions, n=3, axis=0), axis=-1).mean() * fps**3)
 
 
 def physics(motion: Motion) -> Physics:
     """All figures of one motion of at least two frames."""
     positions = motion.positions().astype(np.float64)
-    lowest = positions[:, BALLS, 1].min(1)
     return Physics(
         contact_slide=contact_slide(positions, motion.fps),
         support_slide=support_slide(positions, motion.fps),
-        penetration=float(100 * (REST_FOOT_HEIGHT - lowest).clip(min=0).mean()),
+        penetration=penetration(positions),
         jerk=mean_jerk(positions, motion.fps),
         hand_jerk=mean_jerk(positions[:, HANDS], motion.fps),
-        speed=float(_speed_over_ground(positions[:, 0], motion.fps).mean()),
+        speed=float(ground_speed(positions[:, 0], motion.fps).mean()),
     )
