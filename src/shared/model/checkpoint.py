@@ -13,6 +13,7 @@ from pydantic import Field, ValidationError
 
 from src.shared.config_audio import AudioNetworkConfig
 from src.shared.config_schema import Config, NetworkConfig
+from src.shared.config_space import AudioTowerConfig
 from src.shared.errors import UserError
 from src.shared.files import atomic_write, sha256_file, write_json
 
@@ -35,13 +36,15 @@ class ModelCard(Config):
     """What a model folder says about itself."""
 
     format_version: Literal[1] = 1
-    kind: str  # motion-generator | motion-clip | audio-motion
+    kind: str  # motion-generator | motion-clip | audio-motion | shared-space
     name: str = ""
     description: str = ""
     licence: str = ""
     trained: bool = False
     network: NetworkConfig = NetworkConfig()
     audio_network: AudioNetworkConfig | None = None  # of an audio-motion model
+    audio_tower: AudioTowerConfig | None = None  # of a shared-space
+    text_tower: str = ""  # of a shared-space: hash of the text tower in the same space
     tags: tuple[str, ...] = ()
     languages: tuple[str, ...] = ()
     max_seconds: float | None = None  # longest clip seen in training

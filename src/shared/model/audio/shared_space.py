@@ -1,0 +1,190 @@
+"""SharedSpace: sounds, motions and texts as unit vectors that can be compared (MPMS's keys).
+
+The motion tower is that of a ClipBundle, frozen; the audio tower learned to agree with it; the
+text tower is the one a text generator ships with. Motion and sound were never recorded together,
+so what sound and motion share is tempo and energy.
+
+Letters: B batch, T frames, D embed dim, K rows (22 joints, root track), C rows of a condition.
+"""
+
+import hashlib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Self
+
+import torch
+from torch import Tensor, nn
+from torch.nn.functional import normalize
+
+from src.shared.config_schema import NetworkConfig
+from src.shared.config_space import AudioTowerConfig
+from src.shared.errors import UserError
+from src.shared.model.audio.audio_tower import AudioTower
+from src.shared.model.checkpoint import (
+    ModelCard,
+    load_state,
+    read_card,
+    read_tensors,
+    with_prefix,
+    write_checkpoint,
+)
+from src.shared.model.clip.core import TextTower
+from src.shared.model.clip.pretrained import ClipBundle, encode_captions
+from src.shared.model.clip.tokenizer import PromptTokenizer
+from src.shared.model.layers.temporal_unet import TemporalUNet
+from src.shared.model.zoo import resolve_model
+
+KIND = "shared-space"
+PREFIX = "space"
+
+
+class MotionTower(nn.Module):
+    """The motion half of MotionClip with its statistics; same names of weights, fixed for good.
+
+    Args:
+        network: whose `clip` section shapes the tower.
+    """
+
+    mean: Tensor
+    std: Tensor
+
+    def __init__(self, network: NetworkConfig) -> None:
+        super().__init__()
+        rows, channels = network.motion_rows, network.generation.motion_channels
+        self.motion = TemporalUNet(
+            rows * channels,
+            network.embed_dim,
+            num_heads=network.clip.motion_num_heads,
+            num_layers=network.clip.motion_num_layers,
+        )
+        self.motion_proj = nn.Linear(network.embed_dim, network.embed_dim)
+        self.register_buffer("mean", torch.zeros(rows, channels))
+        self.register_buffer("std", torch.ones(rows, channels))
+        self.requires_grad_(False).eval()
+
+    @classmethod
+    def of(cls, bundle: ClipBundle) -> Self:
+        """A copy of a CLIP model's motion tower."""
+        tower = cls(bundle.clip.config)
+        tower.motion.load_state_dict(bundle.clip.motion.state_dict())
+        tower.motion_proj.load_state_dict(bundle.clip.motion_proj.state_dict())
+        tower.mean.copy_(bundle.mean)
+        tower.std.copy_(bundle.std)
+        return tower
+
+    def train(self, mode: bool = True) -> Self:
+        """Never in training mode: it is fixed."""
+        return super().train(False)
+
+    def forward(self, features: Tensor, mask: Tensor | None = None) -> Tensor:
+        """Raw features [B, T, 23, 6], mask [B, T] bool or None -> [B, D] unit-norm."""
+        z = (features[:, :, : len(self.mean)] - self.mean) / self.std
+        return normalize(self.motion_proj(self.motion(z, mask)).float(), dim=-1)
+
+
+class SharedSpace(nn.Module):
+    """Motion tower and audio tower in one module and one folder.
+
+    Args:
+        network: of the motion tower.
+        config: of the audio tower.
+        card: name, licence, training summary; `kind` and the two configurations are filled in.
+
+    Raises:
+        UserError: the two towers differ in their embed dim.
+    """
+
+    def __init__(
+        self, network: NetworkConfig, config: AudioTowerConfig, card: ModelCard | None = None
+    ) -> None:
+        super().__init__()
+        if network.embed_dim != config.embed_dim:
+            raise UserError(
+                f"embed-dim mismatch: the motion tower has {network.embed_dim}, the audio tower"
+                f" {config.embed_dim}; set the audio tower's to {network.embed_dim}"
+            )
+        card = card or ModelCard(kind=KIND)
+        update = {"kind": KIND, "network": network, "audio_tower": config}
+        self.card = card.model_copy(update=update)
+        self.config = config
+        self.motion = MotionTower(network)
+        self.audio = AudioTower(config)
+
+    @classmethod
+    def beside(cls, bundle: ClipBundle, config: AudioTowerConfig) -> Self:
+        """An untrained audio tower beside a CLIP model's motion tower, of that one's width."""
+        network = bundle.clip.config
+        card = ModelCard(kind=KIND, text_tower=tower_hash(bundle.clip.text))
+        space = cls(network, config.model_copy(update={"embed_dim": network.embed_dim}), card)
+        space.motion = MotionTower.of(bundle)
+        return space
+
+    @property
+    def embed_dim(self) -> int:
+        """D."""
+        return self.config.embed_dim
+
+    @property
+    def fingerprint(self) -> str:
+        """SHA-256 of the weights it was read from or saved as; "" for one that never was."""
+        return self.card.weights.sha256 if self.card.weights else ""
+
+    def embed_audio(self, condition: Tensor, mask: Tensor | None = None) -> Tensor:
+        """Condition [B, 163 or 167, T], mask [B, T] bool or None -> [B, D] unit-norm."""
+        embedded: Tensor = self.audio(condition, mask)
+        return embedded
+
+    def embed_motion(self, features: Tensor, mask: Tensor | None = None) -> Tensor:
+        """Raw features [B, T, 23, 6] (root_track.py), mask or None -> [B, D] unit-norm."""
+        embedded: Tensor = self.motion(features, mask)
+        return embedded
+
+    def embed_text(
+        self, captions: Sequence[str], tower: TextTower, tokenizer: PromptTokenizer
+    ) -> Tensor:
+        """Captions through a generator's text tower -> [N, D] unit-norm, on the CPU.
+
+        Raises:
+            UserError: it is another text tower than the motion tower learned with.
+        """
+        if tower_hash(tower) != self.card.text_tower:
+            raise UserError(
+                f"{self.card.name or 'this shared space'} and the text tower were not trained"
+                " together, so their vectors cannot be compared; use the text generator whose CLIP"
+                " model the space was trained from"
+            )
+        return encode_captions(tower, tokenizer, list(captions))
+
+    # Folders
+
+    def save_pretrained(self, folder: str | Path, *, half: bool = False) -> None:
+        """Write card and weights, as float16 if asked; raises UserError when that fails."""
+        tensors = with_prefix(PREFIX, self.state_dict())
+        self.card = write_checkpoint(Path(folder), self.card, tensors, half=half)
+
+    @classmethod
+    def from_pretrained(
+        cls, name_or_folder: str | Path, *, device: torch.device | str = "cpu"
+    ) -> Self:
+        """A space by the name of a shipped one, or from a folder, in eval mode.
+
+        Raises:
+            UserError: no such model, another kind, or damaged or unfitting weights.
+        """
+        folder = resolve_model(name_or_folder)
+        card = read_card(folder)
+        if card.kind != KIND or card.audio_tower is None:
+            raise UserError(f"{folder} holds a {card.kind}, not a {KIND}; name another folder")
+        space = cls(card.network, card.audio_tower, card)
+        load_state(space, read_tensors(folder, card), PREFIX, folder)
+        return space.to(device).eval()
+
+
+def tower_hash(tower: TextTower) -> str:
+    """SHA-256 of a text tower's weights as float16, as which generators may store them."""
+    digest = hashlib.sha256()
+    for name, tensor in sorted(tower.state_dict().items()):
+        if tensor.is_floating_point():
+            digest.update(name.encode())
+            digest.update(tensor.detach().cpu().half().numpy().tobytes())
+    return digest.hexdigest()
