@@ -8,11 +8,13 @@ Letters: N motions of a sample, D embedding channels.
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Literal, Protocol, TypeVar
 
 import numpy as np
 
 from src.shared.evaluation.clips import Clips
+from src.shared.motion.motion import Motion
 from src.shared.motion.trajectory import MotionTrajectory
 
 Better = Literal["high", "low", "real"]  # real: the nearer to the real row, the better
@@ -57,29 +59,46 @@ class MotionSample:
     Attributes:
         clips: motions, captions, label groups, tags and labels, row by row.
         text, motion: the judge's embeddings [N,D].
-        source: row [N] of the reference clip whose caption was asked for.
-        memo: `sample.memo.once("kinetic", lambda: ...)` computes a thing once a sample.
+        source: row [N] of the reference clip whose caption was asked for, -1 = none.
+        memos: one a motion; it goes with the motion wherever that goes.
+        memo: `sample.memo.once("features", lambda: ...)` computes a thing once a sample.
     """
 
     clips: Clips
     text: np.ndarray
     motion: np.ndarray
     source: np.ndarray
+    memos: list[Memo]
     memo: Memo = field(default_factory=Memo, repr=False)
+
+    @classmethod
+    def of(
+        cls, clips: Clips, text: np.ndarray, motion: np.ndarray, source: np.ndarray
+    ) -> "MotionSample":
+        """A sample of which nothing has been computed."""
+        return cls(clips, text, motion, source, [Memo() for _ in range(len(clips))])
 
     def __len__(self) -> int:
         return len(self.clips)
 
+    def each(self, name: str, measure: Callable[[Motion], Found]) -> list[Found]:
+        """What `measure` says of each of the N motions, computed once a motion."""
+        pairs = zip(self.memos, self.clips.motions, strict=True)
+        return [memo.once(name, partial(measure, motion)) for memo, motion in pairs]
+
     def rows(self, index: Sequence[int]) -> "MotionSample":
         """The pairs at these rows, in this order."""
         at = list(index)
-        return MotionSample(self.clips.rows(at), self.text[at], self.motion[at], self.source[at])
+        memos = [self.memos[row] for row in at]
+        clips = self.clips.rows(at)
+        return MotionSample(clips, self.text[at], self.motion[at], self.source[at], memos)
 
     def reordered(self, order: Sequence[int]) -> "MotionSample":
         """Captions and labels stay, motions change places: what ignoring the prompt gives."""
-        motions = [self.clips.motions[row] for row in order]
-        clips = self.clips.with_motions(motions)
-        return MotionSample(clips, self.text, self.motion[list(order)], self.source)
+        at = list(order)
+        clips = self.clips.with_motions([self.clips.motions[row] for row in at])
+        memos = [self.memos[row] for row in at]
+        return MotionSample(clips, self.text, self.motion[at], self.source, memos)
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,6 +111,7 @@ class Dance:
         beats: of the music, seconds; some may lie beyond the end.
         bars: true bars [T] of the music, unwrapped; None = nobody knows.
         meter: beats a bar.
+        memo: of the trajectory, with which it goes.
     """
 
     song: str
@@ -99,6 +119,7 @@ class Dance:
     beats: np.ndarray
     bars: np.ndarray | None = None
     meter: int = 4
+    memo: Memo = field(default_factory=Memo, repr=False)
 
     @property
     def seconds(self) -> float:
@@ -107,7 +128,7 @@ class Dance:
 
 @dataclass(frozen=True, eq=False)
 class DanceSample:
-    """N motions of the audio branch, each with its music; `source` as in `MotionSample`."""
+    """N motions of the audio branch, each with its music; `source`, `memo` as in `MotionSample`."""
 
     dances: list[Dance]
     source: np.ndarray
@@ -116,6 +137,10 @@ class DanceSample:
     def __len__(self) -> int:
         return len(self.dances)
 
+    def each(self, name: str, measure: Callable[[MotionTrajectory], Found]) -> list[Found]:
+        """What `measure` says of each of the N trajectories, computed once a trajectory."""
+        return [dance.memo.once(name, partial(measure, dance.trajectory)) for dance in self.dances]
+
     def rows(self, index: Sequence[int]) -> "DanceSample":
         """The dances at these rows, in this order."""
         return DanceSample([self.dances[i] for i in index], self.source[list(index)])
@@ -123,7 +148,7 @@ class DanceSample:
     def reordered(self, order: Sequence[int]) -> "DanceSample":
         """The music stays, motions change places: what not listening gives."""
         moved = [
-            replace(dance, trajectory=self.dances[row].trajectory)
+            replace(dance, trajectory=self.dances[row].trajectory, memo=self.dances[row].memo)
             for dance, row in zip(self.dances, order, strict=True)
         ]
         return DanceSample(moved, self.source)
