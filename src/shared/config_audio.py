@@ -9,6 +9,26 @@ from src.shared.config_schema import Config, DiffusionConfig
 NORM_GROUPS = 32  # of every GroupNorm in UNet1D (TECH 3.1.3)
 
 
+class MemoryConditionConfig(Config):
+    """What UNet1D needs to hear a memory: ContextTransformer, MPMSConditioner (REF, ruling 26)."""
+
+    context_dim: int = Field(256, ge=1)  # of retrieved contexts
+    prior_dim: int = Field(64, ge=1)  # channels of the encoded prior curves
+    patch: int = Field(6, ge=1)  # frames of a piece that the transformer sees
+    width: int = Field(128, ge=4)
+    num_layers: int = Field(2, ge=1)
+    num_heads: int = Field(4, ge=1)
+    dropout: float = Field(0.1, ge=0, lt=1)
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.width % (2 * self.num_heads):
+            raise ValueError(
+                f"width {self.width} must be a multiple of {2 * self.num_heads}, twice the heads"
+            )
+        return self
+
+
 class UNetConfig(Config):
     """UNet1D (TECH 3.1.1, REF); attention-resolutions are downsampling factors (ruling 4)."""
 
@@ -28,6 +48,7 @@ class UNetConfig(Config):
     rotary: bool = True  # relative positions in frames inside both attentions
     dropout: float = Field(0.1, ge=0, lt=1)
     use_checkpoint: bool = False  # recompute activations in the backward pass, to save memory
+    memory: MemoryConditionConfig | None = None  # None: hears no memory; train_memory adds it
 
     @property
     def channels(self) -> tuple[int, ...]:

@@ -10,10 +10,12 @@ from typing import Self
 import torch
 from torch import Tensor, nn
 
-from src.shared.config_audio import AudioNetworkConfig
+from src.shared.config_audio import AudioNetworkConfig, MemoryConditionConfig
+from src.shared.config_schema import Config
 from src.shared.errors import UserError
 from src.shared.model.audio.conditioning import AudioConditioner, ConditionAugmentation
 from src.shared.model.audio.decoder import Decoded, Decoder, create_motion_decoder
+from src.shared.model.audio.memory_conditioning import MemoryCondition
 from src.shared.model.audio.unet import Prepared, UNet1D
 from src.shared.model.checkpoint import (
     ModelCard,
@@ -64,7 +66,15 @@ class AudioMotionModel(nn.Module):
     def replace_decoder(self, decoder: Decoder) -> None:
         """Take over another decoder, of either kind."""
         self.decoder = decoder
-        self.config = self.config.model_copy(update={"decoder": decoder.config})
+        self._reconfigure(decoder=decoder.config)
+
+    def add_memory(self, memory: MemoryConditionConfig) -> None:
+        """Let the UNet hear a memory too, untrained and without effect yet."""
+        self.unet.add_memory(memory)
+        self._reconfigure(unet=self.unet.config)
+
+    def _reconfigure(self, **parts: Config) -> None:
+        self.config = self.config.model_copy(update=parts)
         self.card = self.card.model_copy(update={"audio_network": self.config})
 
     # Statistics (ruling 13)
@@ -85,9 +95,9 @@ class AudioMotionModel(nn.Module):
 
     # Conditions
 
-    def prepare(self, condition: Tensor) -> Prepared:
-        """Condition [B, 163 or 167, T] -> what every step shares."""
-        return self.unet.prepare(condition)
+    def prepare(self, condition: Tensor, memory: MemoryCondition | None = None) -> Prepared:
+        """Condition [B, 163 or 167, T], and what is remembered -> what every step shares."""
+        return self.unet.prepare(condition, memory=memory)
 
     def prepare_null(self, batch: int, frames: int) -> Prepared:
         """The learned "no audio", prepared (ruling 14)."""
@@ -96,31 +106,47 @@ class AudioMotionModel(nn.Module):
     # Denoising and decoding
 
     def denoise(
-        self, x_t: Tensor, t: Tensor, condition: Prepared | Tensor, drop: Tensor | None = None
+        self,
+        x_t: Tensor,
+        t: Tensor,
+        condition: Prepared | Tensor,
+        drop: Tensor | None = None,
+        memory: MemoryCondition | None = None,
     ) -> Tensor:
         """One prediction [B, 25, T] of the UNet; see `UNet1D.forward`."""
-        return self.unet(x_t, t, condition, drop)
+        return self.unet(x_t, t, condition, drop, memory)
 
-    def model_fn(self, condition: Tensor, guidance_scale: float | None = None) -> ModelFn:
+    def model_fn(
+        self,
+        condition: Tensor,
+        guidance_scale: float | None = None,
+        memory: MemoryCondition | None = None,
+    ) -> ModelFn:
         """A denoiser `f(x_t, t)` for a sampler, its condition prepared once.
 
         Args:
             condition: [B, 163 or 167, T].
             guidance_scale: 1 = one forward a step (ruling 14); None = the configuration's.
+            memory: what is remembered for it; guidance leads away from "no audio, no memory".
         """
         scale = self.config.guidance_scale if guidance_scale is None else guidance_scale
         null = None if scale == 1 else self.prepare_null(len(condition), condition.shape[-1])
-        return guided(self.unet, self.prepare(condition), null, scale)
+        return guided(self.unet, self.prepare(condition, memory), null, scale)
 
     def decode(self, z: Tensor, start: Tensor | None = None) -> Decoded:
         """Z-scored rows [B, 25, T] -> trajectory and unwrapped phase; `start`: first phase [B]."""
         return self.decoder.decode(self.denormalise(z).transpose(1, 2), start)
 
     def forward(
-        self, x_t: Tensor, t: Tensor, condition: Prepared | Tensor, drop: Tensor | None = None
+        self,
+        x_t: Tensor,
+        t: Tensor,
+        condition: Prepared | Tensor,
+        drop: Tensor | None = None,
+        memory: MemoryCondition | None = None,
     ) -> Tensor:
         """As `denoise`."""
-        return self.denoise(x_t, t, condition, drop)
+        return self.denoise(x_t, t, condition, drop, memory)
 
     # Folders
 

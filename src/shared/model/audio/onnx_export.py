@@ -91,13 +91,14 @@ class DecoderGraph(nn.Module):
 
 
 def symbolic(unet: UNet1D) -> UNet1D:
-    """The network again, on the CPU, in layers that the exporter can follow."""
+    """The network again, on the CPU, in layers that the exporter can follow; without memory."""
     twins: dict[type, type] = {
         UNet1D: SymbolicUNet,
         Downsample: SymbolicDownsample,
         FrameRotary: SymbolicRotary,
     }
     twin = copy.deepcopy(unet).cpu().float().eval()
+    twin.memory = None
     for module in twin.modules():
         module.__class__ = twins.get(type(module), type(module))
     return twin

@@ -6,33 +6,29 @@ L frames of the audio context. Level i has T/2^i frames.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
 from torch.utils.checkpoint import checkpoint
 
-from src.shared.config_audio import NORM_GROUPS, AudioConditionConfig, UNetConfig
-from src.shared.model.audio.blocks import AttentionBlock, Downsample, ResBlock, Upsample, zeroed
+from src.shared.config_audio import (
+    NORM_GROUPS,
+    AudioConditionConfig,
+    MemoryConditionConfig,
+    UNetConfig,
+)
+from src.shared.model.audio.blocks import Downsample, Upsample, zeroed
 from src.shared.model.audio.conditioning import (
     CONDITION_ROWS,
     AudioConditioner,
-    FiLMLayer,
     with_phase_rows,
 )
-from src.shared.model.layers.attention import KeyValue
+from src.shared.model.audio.memory_conditioning import MemoryCondition, MemoryJoin, Remembered
+from src.shared.model.audio.stage import Stage, StageCondition
 from src.shared.model.layers.positions import sinusoidal
 
 MIN_FRAMES = 8  # ruling 4
-
-
-@dataclass(frozen=True)
-class StageCondition:
-    """What one stage hears of the audio; None where it does not listen that way."""
-
-    film: tuple[Tensor | None, ...]  # for each ResBlock [B, 2C, T]
-    keys_values: KeyValue | None  # of the cross-attention, [B, H, L, d] each
 
 
 @dataclass(frozen=True)
@@ -43,80 +39,12 @@ class Prepared:
     """
 
     stages: tuple[StageCondition, ...]  # down, middle, up
+    time: Tensor | None = None  # [B, E] added to the time embedding, if the network has a memory
 
 
 def halved(audio: Tensor) -> Tensor:
     """Mean of neighbouring frames, [B, E, T] -> [B, E, T/2]; T is even."""
     return (audio[..., ::2] + audio[..., 1::2]) / 2
-
-
-class Stage(nn.Module):
-    """ResBlocks of one resolution, and one attention after the block `attention_after`.
-
-    Args:
-        config: of the whole network.
-        widths: channels in, then out of each block.
-        factor: downsampling factor here.
-        condition_dim: E of the FiLM condition; None = no FiLM.
-        attention_after: index of a block; None = no attention.
-    """
-
-    def __init__(
-        self,
-        config: UNetConfig,
-        widths: Sequence[int],
-        factor: int,
-        condition_dim: int | None,
-        attention_after: int | None,
-    ) -> None:
-        super().__init__()
-        self.factor = factor
-        self.attention_after = attention_after
-        self.low: torch.dtype | None = None  # of a sampling copy whose weights are cast here
-        self.blocks = nn.ModuleList(
-            ResBlock(
-                before,
-                after,
-                config.time_embed_dim,
-                condition_dim=condition_dim,
-                dropout=config.dropout,
-                use_scale_shift_norm=config.use_scale_shift_norm,
-            )
-            for before, after in pairwise(widths)
-        )
-        self.attention: AttentionBlock | None = None
-        if attention_after is not None:
-            channels = widths[attention_after + 1]
-            self.attention = AttentionBlock(
-                channels,
-                config.heads(channels),
-                None if config.conditioning == "film" else config.context_dim,
-                rotary=config.rotary,
-                stride=factor,
-            )
-
-    def prepare(self, audio: Tensor | None, context: Tensor | None) -> StageCondition:
-        """Audio for FiLM [B, E, T] at this rate, context [B, L, E]; None = not in use."""
-        if context is not None and self.low is not None:
-            context = context.to(self.low)
-        film: list[Tensor | None] = [None] * len(self.blocks)
-        if audio is not None:
-            layers = [block.film for block in self.blocks]
-            film = [layer.gamma_beta(audio) for layer in layers if isinstance(layer, FiLMLayer)]
-        keys_values = None
-        if context is not None and self.attention is not None:
-            keys_values = self.attention.keys_values(context)
-        return StageCondition(tuple(film), keys_values)
-
-    def forward(self, h: Tensor, time_emb: Tensor, condition: StageCondition) -> Tensor:
-        """h [B, C, T], time [B, E] -> [B, C', T]."""
-        if self.low is not None:
-            h, time_emb = h.to(self.low), time_emb.to(self.low)
-        for index, block in enumerate(self.blocks):
-            h = block(h, time_emb, condition.film[index])
-            if index == self.attention_after and self.attention is not None:
-                h = self.attention(h, condition.keys_values)
-        return h if self.low is None else h.float()
 
 
 class UNet1D(nn.Module):
@@ -147,6 +75,20 @@ class UNet1D(nn.Module):
         self.output_conv = zeroed(
             nn.Conv1d(config.model_channels, config.out_channels, 3, padding=1)
         )
+        self.memory: MemoryJoin | None = None  # last, so that it takes no random number before
+        if config.memory is not None:
+            self.add_memory(config.memory)
+
+    def add_memory(self, memory: MemoryConditionConfig) -> None:
+        """Learn to hear a memory too, starting with no effect."""
+        conditioner, proj = self.conditioner, self.context_proj
+        self.config = self.config.model_copy(update={"memory": memory})
+        self.memory = MemoryJoin(
+            memory,
+            self.config.time_embed_dim,
+            None if conditioner is None else conditioner.combine.out_channels,
+            None if proj is None else proj.out_features,
+        ).to(self.null.device)
 
     def _build_stages(self, film_dim: int | None) -> None:
         config, channels, factors = self.config, self.config.channels, self.config.factors
@@ -176,27 +118,50 @@ class UNet1D(nn.Module):
 
     # Conditions
 
-    def prepare(self, condition: Tensor, drop: Tensor | None = None) -> Prepared:
+    def prepare(
+        self,
+        condition: Tensor,
+        drop: Tensor | None = None,
+        memory: MemoryCondition | None = None,
+    ) -> Prepared:
         """All that depends on the condition alone.
 
         Args:
             condition: [B, 163 or 167, T]; see conditioning.py for its rows.
-            drop: [B] bool, True = the learned null instead.
+            drop: [B] bool, True = the learned null instead, and no memory.
+            memory: what is remembered for it; only for a network with a memory.
         """
         condition = with_phase_rows(condition)
         if drop is not None:
             null = self.null[:, None].to(condition.dtype)
             condition = torch.where(drop.to(condition.device)[:, None, None], null, condition)
+            memory = None if memory is None else memory.without(drop)
+        heard = self._remember(condition, memory)
         audio: dict[int, Tensor] = {}
         if self.conditioner is not None:
             audio[1] = self.conditioner(self._pad(condition))  # [B, E, T']
+            if heard.film is not None:
+                audio[1] = audio[1] + self._pad(heard.film)
             for factor in sorted(set(self.config.factors))[1:]:
                 audio[factor] = halved(audio[factor // 2])  # [B, E, T'/2^i]
         context = None
         if self.context_proj is not None:
             context = self.context_proj(condition.transpose(1, 2))  # [B, T, E]
-        stages = self.stages()
-        return Prepared(tuple(stage.prepare(audio.get(stage.factor), context) for stage in stages))
+            if heard.context is not None:
+                context = context + heard.context
+        stages = tuple(stage.prepare(audio.get(stage.factor), context) for stage in self.stages())
+        return Prepared(stages, heard.time)
+
+    def _remember(self, condition: Tensor, memory: MemoryCondition | None) -> Remembered:
+        """What the memory adds; a network that has one always gives a sum, so that all join."""
+        if self.memory is None:
+            assert memory is None, "this network hears no memory; train one with train_memory"
+            return Remembered(None, None, None)
+        if memory is None:
+            nothing = condition.new_zeros(len(condition), self.config.time_embed_dim)
+            return Remembered(nothing, None, None)
+        remembered: Remembered = self.memory(condition, memory)
+        return remembered
 
     def null_condition(self, batch: int, frames: int) -> Tensor:
         """The learned "no audio", [B, 167, T]."""
@@ -220,6 +185,7 @@ class UNet1D(nn.Module):
         t: Tensor,
         condition: Prepared | Tensor,
         drop: Tensor | None = None,
+        memory: MemoryCondition | None = None,
     ) -> Tensor:
         """One prediction.
 
@@ -228,6 +194,7 @@ class UNet1D(nn.Module):
             t: [B] diffusion steps.
             condition: what `prepare` gave, or [B, 163 or 167, T].
             drop: [B] bool, True = the learned null; only with a condition not yet prepared.
+            memory: what is remembered for the condition; likewise.
 
         Raises:
             ValueError: fewer than 8 frames, or a condition of another length.
@@ -236,11 +203,13 @@ class UNet1D(nn.Module):
         if frames < MIN_FRAMES:
             raise ValueError(f"UNet1D takes {MIN_FRAMES} frames or more, not {frames}")
         if isinstance(condition, Tensor):
-            condition = self.prepare(condition, drop)
+            condition = self.prepare(condition, drop, memory)
         else:
-            assert drop is None, "a prepared condition cannot be dropped any more"
+            assert drop is None and memory is None, "a prepared condition cannot change any more"
         down, middle, up = self._split(condition)
         time_emb = self.time_embed(sinusoidal(t, self.config.time_embed_dim))  # [B, E]
+        if condition.time is not None:
+            time_emb = time_emb + condition.time
         h = self.input_conv(self._pad(x))  # [B, C, T']
         self._check_frames(h.shape[-1], condition)
         skips = []
