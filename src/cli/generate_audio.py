@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 FORMATS = ("npz", "csv", "glb", "html", "png")
 MODEL = "starter-audio"
+STYLE_MODEL = "starter"  # the text model that reads `--style` when it is a sentence
 RUNTIMES = ("torch", "onnx")
 
 
@@ -88,12 +89,21 @@ def produce_song(
 
 
 def styled(text: str | None) -> Any:
-    """The style vector of `--style`, None without it."""
+    """The style vector of `--style`, None without it.
+
+    A list of style words is looked up; any other text is read as a prompt, through the map of
+    styles that the text model of that name has learned (ruling 11).
+    """
     if text is None:
         return None
-    from src.shared.motion.style import named_style
+    from src.shared.motion.style import named_style, only_style_words
 
-    return named_style(text)
+    if only_style_words(text):
+        return named_style(text)
+    from src.shared.model.generation.motion_generator import MotionGenerator
+
+    found = MotionGenerator.from_pretrained(STYLE_MODEL).style_of(text)
+    return named_style(text) if found is None else found  # the former says what is known
 
 
 @contextmanager

@@ -24,13 +24,13 @@ from src.shared.files import sha256_file
 from src.shared.model.checkpoint import WEIGHTS_FILE, ModelCard
 from src.shared.model.clip.core import TextFeatures
 from src.shared.model.clip.pretrained import load_text_tower
-from src.shared.model.clip.scope import PromptScope
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
 from src.shared.model.generation.denoiser import MotionDenoiser
 from src.shared.model.generation.losses import GenerationLoss
 from src.shared.model.generation.motion_generator import KIND, MotionGenerator
 from src.train.launch import stage_app
 from src.train.seeding import generator
+from src.train.style_fit import fit_style_map
 from src.train.task import Part
 from src.train.text_motion import (
     fit_scope,
@@ -224,7 +224,7 @@ class GenerationTask:
 
     # ------------------------------------------------------------ results
 
-    def _generator(self, module: nn.Module, *, scope: PromptScope | None) -> MotionGenerator:
+    def _generator(self, module: nn.Module) -> MotionGenerator:
         assert isinstance(module, GuidedDenoiser)
         card = ModelCard(
             kind=KIND,
@@ -244,7 +244,6 @@ class GenerationTask:
             mean=self.mean,
             std=self.std,
             card=card,
-            scope=scope,
             device=next(module.parameters()).device.type,
         )
 
@@ -253,7 +252,7 @@ class GenerationTask:
         from src.shared.formats.registry import write_motion, write_preview
 
         seconds = min(SAMPLE_SECONDS, self.config.max_frames / 30.0)
-        maker = self._generator(module, scope=None)
+        maker = self._generator(module)
         motions = maker.generate(self.config.validation_prompts, seconds=seconds)
         folder.mkdir(parents=True, exist_ok=True)
         for number, motion in enumerate(motions, start=1):
@@ -262,8 +261,10 @@ class GenerationTask:
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """A folder that `MotionGenerator.from_pretrained` and `generate --model` read."""
-        scope = fit_scope(self.data, self.config.languages, self.tower, self.tokenizer)
-        self._generator(module, scope=scope).save_pretrained(folder)
+        generator = self._generator(module)
+        known = (self.data, self.config.languages, self.tower, self.tokenizer)
+        generator.scope, generator.style_map = fit_scope(*known), fit_style_map(*known)
+        generator.save_pretrained(folder)
 
 
 def _trained_shape(network: NetworkConfig) -> dict[str, Any]:

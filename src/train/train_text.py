@@ -29,6 +29,7 @@ from src.shared.model.clip.core import TextTower
 from src.shared.model.clip.pretrained import ClipBundle, encode_captions
 from src.shared.model.generation.motion_generator import MotionGenerator
 from src.train.launch import stage_app
+from src.train.style_fit import fit_style_map
 from src.train.task import Part
 from src.train.text_motion import fit_scope, numpy_generator, open_training_data
 
@@ -171,6 +172,7 @@ class TextTask:
         generator = MotionGenerator.from_pretrained(self.config.generator)
         generator.text = tower
         generator.scope = fit_scope(self.data, self.config.languages, tower, self.tokenizer)
+        generator.style_map = fit_style_map(self.data, self.config.languages, tower, self.tokenizer)
         generator.card = _noted(generator.card, hardened)
         generator.save_pretrained(folder)
 

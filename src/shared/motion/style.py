@@ -91,13 +91,22 @@ def style_values(style: np.ndarray) -> np.ndarray:
     return np.arctan2(pairs[..., 0], pairs[..., 1]) * 2 / np.pi
 
 
+def _split(words: str) -> list[str]:
+    return [word for word in re.split(r"[\s,;]+", words.lower()) if word not in ("", "and")]
+
+
+def only_style_words(words: str) -> bool:
+    """Whether `named_style` knows every word of a text that is not empty."""
+    return all(word in WORDS for word in _split(words))
+
+
 def named_style(words: str) -> np.ndarray:
     """English words, "tired, elderly" → unit style [8]; where words disagree, their mean.
 
     Raises:
         UsageError: no word, or one that is not in `WORDS`.
     """
-    given = [word for word in re.split(r"[\s,;]+", words.lower()) if word not in ("", "and")]
+    given = _split(words)
     if not given:
         raise UsageError(f"--style {words!r} names no style; known are {', '.join(WORDS)}")
     for word in given:

@@ -12,6 +12,7 @@ from src.shared.motion.style import (
     measure_body_style,
     measure_style,
     named_style,
+    only_style_words,
     style_values,
     style_vector,
 )
@@ -90,3 +91,8 @@ def test_unknown_words_are_answered_with_the_known(words: str, message: str) -> 
     with pytest.raises(UsageError, match=message) as caught:
         named_style(words)
     assert "elderly" in str(caught.value)
+
+
+def test_sentences_are_told_from_lists_of_styles() -> None:
+    assert only_style_words("tired, Elderly and slow")
+    assert not only_style_words("a tired man walks") and not only_style_words("tird")

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Self
 
+import numpy as np
 import torch
 from torch import Tensor
 
@@ -24,6 +25,7 @@ from src.shared.model.checkpoint import (
 from src.shared.model.clip.core import TextFeatures, TextTower
 from src.shared.model.clip.pretrained import TOKENIZER_FOLDER, check_embed_dims
 from src.shared.model.clip.scope import PromptScope
+from src.shared.model.clip.style_map import StyleMap
 from src.shared.model.clip.tokenizer import PromptTokenizer
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
 from src.shared.model.generation.denoiser import MotionDenoiser
@@ -50,6 +52,7 @@ class MotionGenerator:
         std: [K, C].
         card: tags, licence, whether it is trained, longest clip seen.
         scope: what prompts it knows, if that was learned.
+        style_map: from its space to styles, if that was learned.
         device: auto, cuda, mps or cpu.
 
     Raises:
@@ -66,6 +69,7 @@ class MotionGenerator:
         std: Tensor,
         card: ModelCard,
         scope: PromptScope | None = None,
+        style_map: StyleMap | None = None,
         device: str | None = None,
     ) -> None:
         check_embed_dims(text.embed_dim, denoiser.config.embed_dim, "the text tower")
@@ -77,6 +81,7 @@ class MotionGenerator:
         self.mean, self.std = mean.to(self.device), std.to(self.device)
         self.card = card
         self.scope = scope
+        self.style_map = style_map
         self.diffusion = GaussianDiffusion(self.network.generation.diffusion()).to(self.device)
         self._told: set[str] = set()  # prompts whose warning the caller has
 
@@ -215,6 +220,16 @@ class MotionGenerator:
         self._told.update(prompts)
         return [warnings.get(prompt) for prompt in prompts]
 
+    def style_of(self, prompt: str) -> np.ndarray | None:
+        """The 8-d unit style that a sentence speaks of (ruling 11).
+
+        None where the prompt is far from anything trained, or the model has no map of styles.
+        """
+        if self.style_map is None or self.scope is None:
+            return None
+        embedding = self.encode_prompts([prompt]).pooled[0].cpu().numpy()
+        return self.style_map(embedding) if self.scope.check(prompt, embedding).known else None
+
     def _require_trained(self) -> None:
         if not self.card.trained:
             name = self.card.name or "this model"
@@ -237,7 +252,7 @@ class MotionGenerator:
     # Folders
 
     def save_pretrained(self, folder: str | Path, *, half: bool = False) -> None:
-        """Write weights, card, tokenizer and scope into a folder.
+        """Write weights, card, tokenizer, scope and map of styles into a folder.
 
         Args:
             folder: made when absent.
@@ -250,6 +265,8 @@ class MotionGenerator:
         self.tokenizer.save_pretrained(folder / TOKENIZER_FOLDER)
         if self.scope is not None:
             self.scope.save_pretrained(folder)
+        if self.style_map is not None:
+            self.style_map.save_pretrained(folder)
         card = self.card.model_copy(
             update={
                 "kind": KIND,
@@ -292,6 +309,7 @@ class MotionGenerator:
             std=tensors["statistics.std"],
             card=card,
             scope=scope,
+            style_map=StyleMap.from_pretrained(folder),
             device=device,
         )
 
