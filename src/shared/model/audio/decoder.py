@@ -90,8 +90,8 @@ class Decoder(nn.Module):
         with torch.no_grad():
             self.phase_start_head.bias.copy_(torch.tensor((1.0, 0.0)))  # phase 0, not atan2(0, 0)
 
-    def _head(self, channels: int) -> nn.Linear:
-        head = nn.Linear(self.config.hidden_dim, channels)
+    def _head(self, channels: int, extra: int = 0) -> nn.Linear:
+        head = nn.Linear(self.config.hidden_dim + extra, channels)
         nn.init.zeros_(head.weight)
         nn.init.zeros_(head.bias)
         return head
@@ -157,31 +157,31 @@ class MotionDecoder(Decoder):
     """Residual MLP with a head for each component (TECH 3.3.2; rulings 5, 7, 9).
 
     As TECH draws it, it sees one frame at a time and so cannot tell whether a velocity belongs to
-    the path: with `sees-gaps` each frame brings its gaps along.
+    the path: with `sees-gaps` each frame brings its gaps along, past the normalised blocks as
+    well, for closing a gap is a sum.
     """
 
     def __init__(self, config: DecoderConfig | None = None) -> None:
         config = config or DecoderConfig(decoder="residual")
         super().__init__(config)
-        width = len(INPUT_SCALE) + (GAPS if config.sees_gaps else 0)
-        self.input_proj = nn.Linear(width, config.hidden_dim)
+        extra = GAPS if config.sees_gaps else 0
+        self.input_proj = nn.Linear(len(INPUT_SCALE) + extra, config.hidden_dim)
         self.blocks = nn.ModuleList(
             ResidualBlock(config.hidden_dim, config.dropout) for _ in range(config.num_layers)
         )
-        self.velocity_head = self._head(3)
-        self.acceleration_head = self._head(3)
+        self.velocity_head = self._head(3, extra)
+        self.acceleration_head = self._head(3, extra)
         self.angular_velocity_head = self._head(3)
 
     def _decode(self, x: Tensor, start: Tensor | None) -> Decoded:
         config = self.config
-        seen = x * self.input_scale
-        if config.sees_gaps:
-            seen = torch.cat((seen, gaps(x, config.fps)), dim=-1)
-        h = self.input_proj(seen)  # [B, T, D]
+        missed = gaps(x, config.fps) if config.sees_gaps else x[..., :0]  # [B, T, 9 or 0]
+        h = self.input_proj(torch.cat((x * self.input_scale, missed), dim=-1))  # [B, T, D]
         for block in self.blocks:
             h = block(h)  # [B, T, D]
-        velocity = x[..., VELOCITY] + self.velocity_head(h)
-        acceleration = x[..., ACCELERATION] + self.acceleration_head(h)
+        aware = torch.cat((h, missed), dim=-1)
+        velocity = x[..., VELOCITY] + self.velocity_head(aware)
+        acceleration = x[..., ACCELERATION] + self.acceleration_head(aware)
         turning = x[..., ANGULAR_VELOCITY] + self.angular_velocity_head(h)
         return self._assemble(
             self._position(x, h),
