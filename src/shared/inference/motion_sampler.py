@@ -8,23 +8,27 @@ from dataclasses import dataclass
 import numpy as np
 from torch import Tensor
 
-from src.shared.data.pairing.motion_beats import alignment, motion_beats
 from src.shared.device import choose_device
 from src.shared.errors import UsageError
 from src.shared.inference.audio_condition import AudioCondition
+from src.shared.inference.audio_judge import AudioJudge
+from src.shared.inference.selection import ScoreTable
 from src.shared.inference.song_sampler import SampleSettings, SongSampler
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.motion.trajectory import MotionTrajectory
-from src.shared.validation.sanity import SanityChecker
 
 
 @dataclass(frozen=True, eq=False)
 class SampleResult:
-    """The best candidate [T,25]; all of them [N,T,25] if asked for; the best one's place."""
+    """The best candidate [T,25]; all of them [N,T,25], as sampled, if asked for; their scores."""
 
     trajectory: np.ndarray
     all_candidates: np.ndarray | None
-    best: int
+    table: ScoreTable
+
+    @property
+    def best(self) -> int:
+        """The place of the best among the candidates."""
+        return self.table.best
 
 
 class MotionSampler:
@@ -33,11 +37,14 @@ class MotionSampler:
     Args:
         diffusion: a trained model, with the decoder and the statistics that a bare diffusion lacks.
         device: auto, cuda, mps or cpu.
+        judge: of the candidates; None = one without bands.
     """
 
-    def __init__(self, diffusion: AudioMotionModel, device: str = "auto") -> None:
+    def __init__(
+        self, diffusion: AudioMotionModel, device: str = "auto", *, judge: AudioJudge | None = None
+    ) -> None:
         self.model = diffusion.to(choose_device(device)[0]).eval()
-        self.checker = SanityChecker()
+        self.judge = judge or AudioJudge()
 
     def sample(
         self,
@@ -50,10 +57,9 @@ class MotionSampler:
         return_all: bool = False,
         seed: int = 0,
     ) -> SampleResult:
-        """Sample N candidates of any length and keep one.
+        """Sample N candidates of any length and keep the one that `AudioJudge` puts first.
 
-        The best fails the fewest sanity checks; among equals its slow moments fall best on the
-        beats, where the condition knows them; among equals it is the first.
+        Beats count where the condition knows them.
 
         Args:
             audio_condition: an `AudioCondition`, or its rows, [1, C, T] or [C, T].
@@ -81,20 +87,6 @@ class MotionSampler:
         bars, beats = condition.time() or (None, None)
         settings = SampleSettings(num_samples, guidance_scale, num_steps, seed=seed)
         made = SongSampler(self.model, settings).sample(condition.rows, phase=bars)
-        ranks = [self._rank(trajectory, beats) for trajectory in made]
-        best = min(range(len(made)), key=ranks.__getitem__)
+        table = self.judge.judge(made, beats)
         everything = np.stack([trajectory.data for trajectory in made]) if return_all else None
-        return SampleResult(made[best].data, everything, best)
-
-    def _rank(self, trajectory: MotionTrajectory, beats: np.ndarray | None) -> tuple[int, float]:
-        """Lower is better."""
-        _, results = self.checker.check_all(trajectory)
-        failed = sum(not result.passed for result in results.values())
-        return failed, 0.0 if beats is None else -on_the_beat(trajectory, beats)
-
-
-def on_the_beat(trajectory: MotionTrajectory, beats: np.ndarray) -> float:
-    """Mean of both directions of beat alignment, in [0, 1]; 0 for a motion without beats."""
-    times = motion_beats(trajectory.position, trajectory.fps).times
-    both = alignment(times, beats, trajectory.seconds)
-    return float(np.nan_to_num([both.motion_to_music, both.music_to_motion]).mean())
+        return SampleResult(made[table.best].data, everything, table)

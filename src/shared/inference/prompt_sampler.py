@@ -1,0 +1,63 @@
+"""PromptSampler: several candidates for each prompt, and the best of them.
+
+Letters: N candidates.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from src.shared.inference.selection import ScoreTable
+from src.shared.inference.text_judge import TextJudge
+from src.shared.model.generation.motion_generator import MotionGenerator
+from src.shared.motion.motion import Motion
+
+
+@dataclass(frozen=True, eq=False)
+class PromptResult:
+    """The best motion for one prompt; all N, as sampled, if asked for; their scores."""
+
+    motion: Motion
+    all_candidates: list[Motion] | None
+    table: ScoreTable
+
+
+class PromptSampler:
+    """Best of N for prompts, the text side's `MotionSampler`.
+
+    Args:
+        generator: trained.
+        judge: of the candidates; one with the generator's motion tower sees the prompt, None
+            makes one without.
+    """
+
+    def __init__(self, generator: MotionGenerator, judge: TextJudge | None = None) -> None:
+        self.generator, self.judge = generator, judge or TextJudge()
+
+    def sample(
+        self,
+        prompts: Sequence[str],
+        num_samples: int = 8,
+        *,
+        return_all: bool = False,
+        **settings: Any,
+    ) -> list[PromptResult]:
+        """Sample N candidates a prompt and keep the one that the judge puts first.
+
+        Args:
+            prompts: see `MotionGenerator.generate`.
+            num_samples: N; candidate i depends on (seed, prompt, i) alone.
+            return_all: keep the others too.
+            settings: what else `MotionGenerator.generate` takes.
+
+        Raises:
+            UserError: as `MotionGenerator.generate`.
+        """
+        motions = self.generator.generate(prompts, num_samples=num_samples, **settings)
+        embeddings = self.generator.encode_prompts(prompts).pooled
+        results = []
+        for number, embedding in enumerate(embeddings):
+            made = motions[number * num_samples : (number + 1) * num_samples]
+            table = self.judge.judge(made, embedding)
+            results.append(PromptResult(made[table.best], made if return_all else None, table))
+        return results

@@ -1,0 +1,43 @@
+"""How far within its bounds a checked motion stays: pass and fail as a number in [0, 1].
+
+The margin of a failed check is 0. Of a passed one:
+- a figure with a band of real motions: 1 inside the band (5th to 95th percentile), falling with
+  the logarithm to 0 at the limits (the band with its slack);
+- a figure below a bound: 1 - value / bound;
+- anything else: 1.
+"""
+
+import math
+from collections.abc import Iterable
+
+from src.shared.validation.sanity import CheckResult
+
+BELOW = ("jerk", "velocity_coherence", "accel_coherence", "roughness")
+
+
+def margin(result: CheckResult) -> float:
+    """The margin of one check, in [0, 1]."""
+    if not result.passed:
+        return 0.0
+    value, bound = result.value, result.threshold
+    if result.name in BELOW:
+        assert not isinstance(value, tuple) and not isinstance(bound, tuple)
+        return 1.0 - value / bound
+    if result.name.startswith("band_"):
+        assert not isinstance(value, tuple) and isinstance(bound, tuple) and result.band
+        side = 0 if value < result.band[0] else 1
+        return _share(value, bound[side], result.band[side])
+    return 1.0
+
+
+def mean_margin(results: Iterable[CheckResult]) -> float:
+    """Mean margin of one motion's checks, at least one."""
+    margins = [margin(result) for result in results]
+    return sum(margins) / len(margins)
+
+
+def _share(value: float, limit: float, edge: float) -> float:
+    """0 at the limit, 1 at the edge of the band and on its other side, both > 0."""
+    if (value - edge) * (limit - edge) <= 0:
+        return 1.0
+    return math.log(value / limit) / math.log(edge / limit)

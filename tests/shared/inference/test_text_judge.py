@@ -1,0 +1,93 @@
+"""TextJudge: the prompt decides first, feet and jerk among equals; towers load or say why not."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+from torch import Tensor
+
+from src.shared.errors import UserError
+from src.shared.inference.text_judge import TextJudge, load_space
+from src.shared.model.checkpoint import ModelCard
+from src.shared.model.clip.core import MotionClip
+from src.shared.model.clip.pretrained import ClipBundle
+from src.shared.model.clip.tokenizer import PromptTokenizer
+from src.shared.motion.motion import Motion
+from src.shared.motion.root_track import encode_features
+from src.shared.motion.skeleton import REST_PELVIS_HEIGHT
+from tests.shared.model.conftest import CAPTIONS, tiny_network
+
+
+def walking(
+    frames: int = 60, *, slide: float = 0.0, sunk: float = 0.0, shake: float = 0.0
+) -> Motion:
+    """The rest pose: gliding along at m/s, sunk by metres, shaken by radians at the shoulders."""
+    quaternions = np.zeros((frames, 22, 4), dtype=np.float32)
+    angle = shake * np.random.default_rng(0).normal(size=frames) / 2
+    quaternions[..., 0] = 1
+    quaternions[:, 16, 0], quaternions[:, 16, 3] = np.cos(angle), np.sin(angle)
+    position = np.zeros((frames, 3), dtype=np.float32)
+    position[:, 1] = REST_PELVIS_HEIGHT - sunk
+    position[:, 2] = np.arange(frames) * slide / 30
+    return Motion(quaternions, position, np.ones((frames, 2), dtype=np.float32))
+
+
+class Near:
+    """A space whose motions lie at given cosines from the first axis."""
+
+    def __init__(self, *cosines: float) -> None:
+        self.cosines = torch.tensor(cosines)
+
+    def embed_motion(self, features: Tensor, mask: Tensor | None = None) -> Tensor:
+        assert features.shape[1:] == (60, 23, 6) and mask is None
+        return torch.stack([self.cosines, (1 - self.cosines**2).sqrt()], 1)
+
+
+PROMPT = torch.tensor([1.0, 0.0])
+
+
+def test_feet_and_jerk_decide_where_there_is_no_tower() -> None:
+    bodies = [walking(slide=0.2), walking(sunk=0.05), walking(shake=0.3), walking()]
+    table = TextJudge().judge(bodies, PROMPT)
+    assert table.best == 3 and set(table.terms) == {"feet", "smoothness"}
+    expected = [(1 + 1 - 20 / 35) / 2, 1 - 5 / 12, 1, 1]
+    np.testing.assert_allclose(table.terms["feet"], expected, atol=1e-5)
+    assert table.terms["smoothness"][2] < 0.2 and table.terms["smoothness"][3] == 1
+    assert not table.failed.any()
+
+
+def test_the_prompt_outweighs_the_feet() -> None:
+    table = TextJudge(Near(0.9, 0.3, -0.5)).judge([walking(slide=0.1), *[walking()] * 2], PROMPT)
+    assert table.order.tolist() == [0, 1, 2]
+    np.testing.assert_allclose(table.terms["similarity"], [0.9, 0.3, 0.0], atol=1e-6)
+
+
+def test_a_motion_that_is_no_number_comes_last() -> None:
+    lost = walking()
+    lost.root_position[30] = np.nan
+    table = TextJudge(Near(0.99, 0.1)).judge([lost, walking()], PROMPT)
+    assert table.order.tolist() == [1, 0] and table.failed.tolist() == [1, 0]
+
+
+def test_the_clip_space_is_the_towers_own(tmp_path: Path) -> None:
+    torch.manual_seed(0)
+    bundle = ClipBundle(
+        MotionClip(tiny_network()).eval(),
+        PromptTokenizer.train(CAPTIONS, 400),
+        torch.full((23, 6), 0.1),
+        torch.full((23, 6), 0.5),
+        ModelCard(kind="motion-clip", name="tiny", trained=True),
+    )
+    bundle.save_pretrained(tmp_path)
+    features = encode_features(walking())[None]
+    expected = bundle.clip.encode_motion((features - 0.1) / 0.5)
+    space = load_space(tmp_path, 32)
+    torch.testing.assert_close(space.embed_motion(features), expected)
+    with pytest.raises(UserError, match="embed-dim mismatch"):
+        load_space(tmp_path, 64)
+
+
+def test_a_folder_without_a_motion_tower_is_refused() -> None:
+    with pytest.raises(UserError, match="no motion tower"):
+        load_space("starter", 192)
