@@ -22,35 +22,53 @@ class Retrieval:
     num_batches: int
 
 
-def hit_probability(distances: np.ndarray, relevant: np.ndarray, k: int) -> float:
-    """Chance that one of the relevant items is among the k nearest, equal distances in any order.
+@dataclass(frozen=True, eq=False)
+class Ranks:
+    """Where the best right answer of each of Q queries stands, equal distances in any order.
+
+    Attributes:
+        better: candidates nearer than it [Q].
+        right: right answers at exactly its distance, itself included [Q]; 0 = there is none at all.
+        wrong: wrong answers at exactly its distance [Q].
+    """
+
+    better: np.ndarray
+    right: np.ndarray
+    wrong: np.ndarray
+
+    def hits(self, k: int) -> np.ndarray:
+        """Chance [Q] of a right answer among the k nearest: hypergeometric over the ties."""
+        places = k - self.better
+        misses = np.clip(places, 0, self.wrong)  # places that wrong answers may fill
+        log_miss = (
+            gammaln(self.wrong + 1)
+            - gammaln(self.wrong - misses + 1)
+            - gammaln(self.wrong + self.right + 1)
+            + gammaln(self.wrong + self.right - misses + 1)
+        )
+        none = (places <= 0) | (self.right == 0)
+        return np.where(none, 0.0, np.where(places > self.wrong, 1.0, -np.expm1(log_miss)))
+
+    def mean(self) -> np.ndarray:
+        """Mean rank [Q] of the best right answer over all orders of the ties; 1 is the first."""
+        return self.better + 1 + self.wrong / (self.right + 1)
+
+
+def best_ranks(distances: np.ndarray, relevant: np.ndarray) -> Ranks:
+    """Rank the best right answer of each query.
 
     Args:
-        distances: [M] of one query to each candidate; must be finite.
-        relevant: [M] bool, the candidates that count as right.
-        k: how many candidates are looked at.
-
-    With `better` candidates nearer than the best relevant one and `tied` wrong, `right` relevant
-    ones at exactly its distance, the hypergeometric law gives the mean over all orders of the ties.
+        distances: [Q, M] of each query to each candidate; must be finite.
+        relevant: [Q, M] bool, the candidates that count as right; a query without any never hits.
     """
-    if not relevant.any():
-        return 0.0
-    best = distances[relevant].min()
-    better = int((distances < best).sum())
-    right = int(((distances == best) & relevant).sum())
-    tied = int(((distances == best) & ~relevant).sum())
-    places = k - better
-    if places <= 0:
-        return 0.0
-    if places > tied:
-        return 1.0
-    log_miss = (
-        gammaln(tied + 1)
-        - gammaln(tied - places + 1)
-        - gammaln(tied + right + 1)
-        + gammaln(tied + right - places + 1)
-    )
-    return float(1.0 - np.exp(log_miss))
+    best = np.where(relevant, distances, np.inf).min(1, keepdims=True)
+    tied = distances == best
+    return Ranks((distances < best).sum(1), (tied & relevant).sum(1), (tied & ~relevant).sum(1))
+
+
+def hit_probability(distances: np.ndarray, relevant: np.ndarray, k: int) -> float:
+    """Chance that one of the relevant items [M] is among the k nearest of distances [M]."""
+    return float(best_ranks(distances[None], relevant[None]).hits(k)[0])
 
 
 def pair_distances(text: np.ndarray, motion: np.ndarray) -> np.ndarray:
@@ -99,8 +117,8 @@ def guo_retrieval(
     for rows in order[: num_batches * batch].reshape(num_batches, batch):
         distances = pair_distances(text[rows], motion[rows])
         relevant = np.any([ids[rows][:, None] == ids[rows][None] for ids in columns], axis=0)
-        for query in range(batch):
-            hits += [hit_probability(distances[query], relevant[query], k) for k in TOP]
+        ranks = best_ranks(distances, relevant)
+        hits += [ranks.hits(k).sum() for k in TOP]
         matching += float(np.diag(distances).sum())
     count = num_batches * batch
     at_1, at_2, at_3 = (hits / count).tolist()
