@@ -2,20 +2,14 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
-from src.cli import generate_audio, options
+from src.cli import generate_audio, generate_text, options
 from src.cli.guard import complain
-from src.cli.stopwatch import Stopwatch
+from src.cli.score_table import show_scores
 from src.shared.errors import UsageError
-
-if TYPE_CHECKING:
-    from src.shared.motion.motion import Motion
-
-FORMATS = ("bvh", "glb", "npz", "html")
-MODEL = "starter"
 
 
 def generate(
@@ -38,7 +32,18 @@ def generate(
     seconds: Annotated[
         float | None, typer.Option(help="Length of each motion: 4 for a prompt, all of a song.")
     ] = None,
-    num_samples: Annotated[int, typer.Option(help="Motions for each prompt or song.")] = 1,
+    num_samples: Annotated[
+        int, typer.Option(help="Candidates for each prompt or song; the best one is written.")
+    ] = 1,
+    return_all: Annotated[
+        bool, typer.Option("--return-all", help="Write all candidates, the best one first.")
+    ] = False,
+    judge: Annotated[
+        str | None,
+        typer.Option(
+            help="Folder of train_clip, to hold candidates against the prompt; starter has its own."
+        ),
+    ] = None,
     seed: Annotated[int, typer.Option(help="Same seed, same motions (on the CPU).")] = 0,
     steps: options.Steps = None,
     sampler: options.Sampler = None,
@@ -90,8 +95,10 @@ def generate(
         "guidance_scale": guidance_scale,
     }
     options.check_folder("--out", out)
+    if judge is not None and num_samples == 1:
+        raise UsageError("--judge compares candidates: give --num-samples 2 or more with it")
     if audio is not None:
-        refuse_with("--audio", prompt=prompt, tag=tag, foot_lock=foot_lock)
+        refuse_with("--audio", prompt=prompt, tag=tag, foot_lock=foot_lock, judge=judge)
         generate_audio.check_song(audio)
         generate_audio.check_runtime(runtime, device)
         wanted: dict[str, Any] = {"audio": audio, "meter": meter}
@@ -105,6 +112,7 @@ def generate(
             runtime=runtime or "torch",
             device=device,
             threads=threads,
+            return_all=return_all,
         )
         generate_audio.warn_of_beats(result)
     else:
@@ -115,45 +123,22 @@ def generate(
             "seconds": 4.0 if seconds is None else seconds,
             "foot_lock": foot_lock,
         }
-        formats = checked_formats(format or ",".join(FORMATS), FORMATS)
-        model = MODEL if model is None else model
-        result = produce(wanted, formats, out, model=model, device=device, threads=threads)
+        formats = checked_formats(format or ",".join(generate_text.FORMATS), generate_text.FORMATS)
+        result = generate_text.produce(
+            wanted,
+            formats,
+            out,
+            model=generate_text.MODEL if model is None else model,
+            device=device,
+            threads=threads,
+            return_all=return_all,
+            judge=judge,
+        )
+    show_scores(result["selection"])
     if json:
         print_json(result)
     else:
         print_files(result)
-
-
-def produce(
-    wanted: dict[str, Any],
-    formats: list[str],
-    out: Path,
-    *,
-    model: str,
-    device: str,
-    threads: int | None,
-) -> dict[str, Any]:
-    """Load, sample, write; says which motion lies in which files and how long each part took."""
-    clock = Stopwatch()
-    from src.shared.device import set_threads
-    from src.shared.model.generation.motion_generator import MotionGenerator
-
-    clock.lap("import")
-    set_threads(threads)
-    generator = MotionGenerator.from_pretrained(model, device=device)
-    clock.lap("load")
-    warnings = generator.scope_warnings(wanted["prompts"])
-    for warning in filter(None, warnings):
-        complain(f"warning: {warning}")
-    motions = generator.generate(**wanted)
-    clock.lap("sample")
-    rows = write_motions(motions, wanted["num_samples"], formats, out)
-    for number, row in enumerate(rows):
-        row |= {"seed": wanted["seed"], "warning": warnings[number // wanted["num_samples"]]}
-    index = write_index(motions, out) if "html" in formats and len(motions) > 1 else None
-    clock.lap("write")
-    about = {"model": model, "device": str(generator.device), "seed": wanted["seed"]}
-    return about | {"motions": rows, "index": index, "timings": clock.seconds()}
 
 
 # ---------------------------------------------------------------- arguments
@@ -201,58 +186,6 @@ def checked_formats(text: str, known: Sequence[str]) -> list[str]:
 
 
 # ---------------------------------------------------------------- results
-
-
-def slug(text: str, length: int = 40) -> str:
-    """A file name from a prompt in any language: letters and digits, hyphens between."""
-    words = "".join(char if char.isalnum() else " " for char in text.lower()).split()
-    return "-".join(words)[:length].rstrip("-") or "motion"
-
-
-def stems(prompts: Sequence[str], num_samples: int) -> list[str]:
-    """One file name without ending a motion: `01-a-person-waves`, `01-a-person-waves-2`, …"""
-    names = []
-    for index, text in enumerate(prompts):
-        base = f"{index // num_samples + 1:02d}-{slug(text)}"
-        sample = index % num_samples
-        names.append(f"{base}-{sample + 1}" if sample else base)
-    return names
-
-
-def write_motions(
-    motions: "Sequence[Motion]", num_samples: int, formats: list[str], out: Path
-) -> list[dict[str, Any]]:
-    """Write every motion in every format; a row of facts and paths for each."""
-    from src.shared.formats.registry import write_motion
-
-    rows: list[dict[str, Any]] = []
-    replaced = 0
-    names = stems([motion.text for motion in motions], num_samples)
-    for index, (motion, stem) in enumerate(zip(motions, names, strict=True)):
-        paths = {name: out / f"{stem}.{name}" for name in formats}
-        for path in paths.values():
-            replaced += path.exists()
-            write_motion(motion, path)
-        rows.append(
-            {
-                "prompt": motion.text,
-                "sample": index % num_samples,
-                "frames": motion.num_frames,
-                "fps": motion.fps,
-                "files": {name: str(path) for name, path in paths.items()},
-            }
-        )
-    if replaced:
-        complain(f"note: {replaced} files of an earlier run in {out} were replaced")
-    return rows
-
-
-def write_index(motions: "Sequence[Motion]", out: Path) -> str:
-    """One page with all motions side by side; returns its path."""
-    from src.shared.formats.registry import write_preview
-
-    write_preview(motions, out / "index.html")
-    return str(out / "index.html")
 
 
 def print_files(result: dict[str, Any]) -> None:

@@ -5,7 +5,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from src.cli.evaluate_sanity import shipped_bands
 from src.cli.guard import complain
+from src.cli.score_table import scored
 from src.cli.stopwatch import Stopwatch
 from src.shared.errors import UsageError
 
@@ -41,8 +43,9 @@ def produce_song(
     runtime: str,
     device: str,
     threads: int | None,
+    return_all: bool = False,
 ) -> dict[str, Any]:
-    """Load, listen, sample, write; says which trajectory lies in which files and the times.
+    """Load, listen, sample, choose, write; says which trajectory lies in which files and the times.
 
     Args:
         wanted: audio, meter, seconds, style; under `sampling`, what `SampleSettings` takes.
@@ -52,10 +55,12 @@ def produce_song(
         runtime: torch or onnx.
         device: auto, cpu, cuda or mps.
         threads: CPU threads; None = torch's choice.
+        return_all: write all candidates by rank, not only the best.
     """
     clock = Stopwatch()
     from src.shared.audio.song import analyse
     from src.shared.device import set_threads
+    from src.shared.inference.audio_judge import AudioJudge
     from src.shared.inference.runtime import load_runtime
     from src.shared.inference.song_generator import SongMotions, heard
     from src.shared.inference.song_sampler import SampleSettings, SongSampler
@@ -72,8 +77,14 @@ def produce_song(
     with progress_bar(condition.shape[1]) as progress:
         sampler = SongSampler(loaded, settings)
         made = sampler.sample(condition, phase=phase, style=style, progress=progress)
+    judge = AudioJudge(shipped_bands(model) if runtime == "torch" else None)
+    table = judge.judge(made, song.beats.beat_times if song.beats.tempo > 0 else None)
+    order = [int(place) for place in table.order[: None if return_all else 1]]
     clock.lap("sample")
-    rows, index = write_trajectories(SongMotions(made, song), wanted["audio"], formats, out)
+    kept = SongMotions([made[place] for place in order], song)
+    rows, index = write_trajectories(kept, wanted["audio"], formats, out)
+    for rank, (row, place) in enumerate(zip(rows, order, strict=True), start=1):
+        row |= {"sample": place, "rank": rank}
     clock.lap("write")
     about = {
         "audio": str(wanted["audio"]),
@@ -85,7 +96,9 @@ def produce_song(
         "device": str(sampler.device),
         "seed": settings.seed,
     }
-    return about | {"motions": rows, "index": index, "timings": clock.seconds()}
+    scores = [scored(str(wanted["audio"]), table)] if len(made) > 1 else []
+    results = {"motions": rows, "selection": scores, "index": index}
+    return about | results | {"timings": clock.seconds()}
 
 
 def styled(text: str | None) -> Any:
@@ -149,7 +162,6 @@ def write_trajectories(
         paths = export_trajectory(trajectory, out, stem, alone, track, title=stem)
         rows.append(
             {
-                "sample": number,
                 "frames": trajectory.num_frames,
                 "fps": trajectory.fps,
                 "clamped": processor.count_clamped(made.trajectories[number].data),

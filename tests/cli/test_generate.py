@@ -33,11 +33,12 @@ def generate(*arguments: str, code: int = 0) -> tuple[str, str]:
 
 def test_json_names_whole_files_seeds_and_times(model: str, tmp_path: Path) -> None:
     out, _ = generate(*PROMPTS, "--model", model, "--out", str(tmp_path), "--num-samples", "2",
-                      "--seed", "5", "--format", "bvh,npz", "--json")  # fmt: skip
+                      "--return-all", "--seed", "5", "--format", "bvh,npz", "--json")  # fmt: skip
     result = json.loads(out)  # nothing else is on stdout
     rows = result["motions"]
     assert [row["prompt"] for row in rows] == [PROMPTS[1]] * 2 + [PROMPTS[3]] * 2
-    assert [row["sample"] for row in rows] == [0, 1, 0, 1]
+    assert [row["rank"] for row in rows] == [1, 2, 1, 2]
+    assert [sorted(row["sample"] for row in rows[i : i + 2]) for i in (0, 2)] == [[0, 1]] * 2
     assert {row["seed"] for row in rows} == {5} and result["device"] == "cpu"
     files = [Path(path) for row in rows for path in row["files"].values()]
     assert sorted(files) == sorted(tmp_path.iterdir()), "no other file, no half-written one"

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from typer.testing import CliRunner
 
 from src.cli import generate as command
+from src.cli import generate_text
 from src.cli.tools import app
 from src.shared.errors import UsageError
 
@@ -55,7 +56,7 @@ def test_unknown_format_is_told_before_the_model_loads() -> None:
 
 
 def test_formats_are_taken_once_each_in_the_order_given() -> None:
-    assert command.checked_formats(" GLB,bvh,glb ", command.FORMATS) == ["glb", "bvh"]
+    assert command.checked_formats(" GLB,bvh,glb ", generate_text.FORMATS) == ["glb", "bvh"]
 
 
 def test_one_tag_serves_all_prompts() -> None:
@@ -67,7 +68,7 @@ def test_one_tag_serves_all_prompts() -> None:
 
 @given(st.text())
 def test_slug_is_a_safe_file_name(text: str) -> None:
-    name = command.slug(text)
+    name = generate_text.slug(text)
     assert 0 < len(name) <= 40
     assert not set(name) & set(string.punctuation.replace("-", "") + string.whitespace)
     assert not name.startswith("-") and not name.endswith("-")
@@ -75,7 +76,7 @@ def test_slug_is_a_safe_file_name(text: str) -> None:
 
 def test_file_names_tell_prompts_and_samples_apart() -> None:
     prompts = ["A person waves!"] * 2 + ["人が手を振る"] * 2
-    assert command.stems(prompts, 2) == [
+    assert generate_text.stems(prompts, 2) == [
         "01-a-person-waves",
         "01-a-person-waves-2",
         "02-人が手を振る",

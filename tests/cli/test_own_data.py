@@ -78,8 +78,8 @@ def test_twenty_clips_become_a_model_that_beats_chance(tmp_path: Path) -> None:
 
     for kind, prompt in enumerate(prompts):
         run(tmp_path, *tools, "generate", "--prompt", prompt,
-            "--num-samples", str(SAMPLES_EACH), "--seconds", "3", "--format", "npz",
-            "--model", "model", "--out", f"out/{kind}")  # fmt: skip
+            "--num-samples", str(SAMPLES_EACH), "--return-all", "--seconds", "3",
+            "--format", "npz", "--model", "model", "--out", f"out/{kind}")  # fmt: skip
     rates = [
         [success(labels, tmp_path / "out" / str(asked)) for asked in range(len(ACTIONS))]
         for labels in ACTIONS

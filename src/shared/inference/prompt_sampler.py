@@ -21,6 +21,12 @@ class PromptResult:
     all_candidates: list[Motion] | None
     table: ScoreTable
 
+    def ranked(self) -> list[Motion]:
+        """All candidates, best first; only the best where the others were not kept."""
+        if self.all_candidates is None:
+            return [self.motion]
+        return [self.all_candidates[place] for place in self.table.order]
+
 
 class PromptSampler:
     """Best of N for prompts, the text side's `MotionSampler`.

@@ -21,10 +21,10 @@ from torch import Tensor
 
 from src.shared.errors import UserError
 from src.shared.inference.selection import ScoreTable, SelectionConfig, distances, rank
-from src.shared.model.checkpoint import read_card
+from src.shared.model.checkpoint import CARD_FILE, read_card
 from src.shared.model.clip import pretrained
 from src.shared.model.clip.pretrained import ClipBundle
-from src.shared.model.zoo import resolve_model
+from src.shared.model.zoo import PRETRAINED, resolve_model
 from src.shared.motion.motion import Motion
 from src.shared.motion.root_track import encode_features
 from src.shared.validation.body_measures import contact_slide, mean_jerk, penetration
@@ -33,6 +33,9 @@ MAX_SLIDE = 35.0  # cm/s, where the contact detector stops calling it a contact
 MAX_DEPTH = 6.0  # cm below the floor
 MAX_JERK = 500.0  # m/s³; real walking has 50 to 150, a sprint 300
 SCALE = 0.5  # metres between joints that count as far apart
+
+
+SPACES = {"starter": "starter-space"}  # shipped generators and the motion tower of each
 
 
 class MotionSpace(Protocol):
@@ -119,3 +122,9 @@ def load_space(name_or_folder: str | Path, embed_dim: int) -> MotionSpace:
         )
     pretrained.check_embed_dims(embed_dim, card.network.embed_dim, f"the judge in {folder}")
     return ClipSpace(ClipBundle.from_pretrained(folder))
+
+
+def space_of(generator: str | Path) -> str | None:
+    """The shipped motion tower that belongs to a shipped generator; None where there is none."""
+    name = SPACES.get(str(generator))
+    return name if name and (PRETRAINED / name / CARD_FILE).is_file() else None

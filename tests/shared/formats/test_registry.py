@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from src.cli.generate import FORMATS
+from src.cli.generate_text import FORMATS
 from src.shared.errors import UsageError, UserError
 from src.shared.formats.registry import EXPORTERS, export_motion, write_motion, write_preview
 from src.shared.motion.motion import Motion

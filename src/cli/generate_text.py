@@ -1,0 +1,123 @@
+"""`generate --prompt`: prompts in, motion files out."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from src.cli.guard import complain
+from src.cli.score_table import scored
+from src.cli.stopwatch import Stopwatch
+
+if TYPE_CHECKING:
+    from src.shared.motion.motion import Motion
+
+FORMATS = ("bvh", "glb", "npz", "html")
+MODEL = "starter"
+
+
+def produce(
+    wanted: dict[str, Any],
+    formats: list[str],
+    out: Path,
+    *,
+    model: str,
+    device: str,
+    threads: int | None,
+    return_all: bool = False,
+    judge: str | None = None,
+) -> dict[str, Any]:
+    """Load, sample, choose, write; says which motion lies in which files and what took how long.
+
+    Args:
+        wanted: what `PromptSampler.sample` takes.
+        formats: any of `FORMATS`.
+        out: folder for the files.
+        model: name or folder.
+        device: auto, cpu, cuda or mps.
+        threads: CPU threads; None = torch's choice.
+        return_all: write all candidates by rank, not only the best of each prompt.
+        judge: folder of `train_clip`; None = the model's own where one is shipped.
+    """
+    clock = Stopwatch()
+    from src.shared.device import set_threads
+    from src.shared.inference.prompt_sampler import PromptSampler
+    from src.shared.inference.text_judge import TextJudge, load_space, space_of
+    from src.shared.model.generation.motion_generator import MotionGenerator
+
+    clock.lap("import")
+    set_threads(threads)
+    generator = MotionGenerator.from_pretrained(model, device=device)
+    number = wanted["num_samples"]
+    tower = (judge or space_of(model)) if number > 1 else None
+    space = None if tower is None else load_space(tower, generator.text.embed_dim)
+    clock.lap("load")
+    warnings = generator.scope_warnings(wanted["prompts"])
+    for warning in filter(None, warnings):
+        complain(f"warning: {warning}")
+    found = PromptSampler(generator, TextJudge(space)).sample(**wanted, return_all=return_all)
+    clock.lap("sample")
+    kept = number if return_all else 1
+    motions = [motion for result in found for motion in result.ranked()]
+    rows = write_motions(motions, kept, formats, out)
+    places = [int(place) for result in found for place in result.table.order[:kept]]
+    for at, (row, place) in enumerate(zip(rows, places, strict=True)):
+        row |= {"sample": place, "rank": at % kept + 1}
+        row |= {"seed": wanted["seed"], "warning": warnings[at // kept]}
+    index = write_index(motions, out) if "html" in formats and len(motions) > 1 else None
+    clock.lap("write")
+    about = {"model": model, "device": str(generator.device), "seed": wanted["seed"]}
+    judged = zip(wanted["prompts"], found, strict=True) if number > 1 else ()
+    scores = [scored(prompt, result.table) for prompt, result in judged]
+    results = {"motions": rows, "selection": scores, "index": index}
+    return about | results | {"timings": clock.seconds()}
+
+
+def slug(text: str, length: int = 40) -> str:
+    """A file name from a prompt in any language: letters and digits, hyphens between."""
+    words = "".join(char if char.isalnum() else " " for char in text.lower()).split()
+    return "-".join(words)[:length].rstrip("-") or "motion"
+
+
+def stems(prompts: Sequence[str], num_samples: int) -> list[str]:
+    """One file name without ending a motion: `01-a-person-waves`, `01-a-person-waves-2`, …"""
+    names = []
+    for index, text in enumerate(prompts):
+        base = f"{index // num_samples + 1:02d}-{slug(text)}"
+        sample = index % num_samples
+        names.append(f"{base}-{sample + 1}" if sample else base)
+    return names
+
+
+def write_motions(
+    motions: "Sequence[Motion]", num_samples: int, formats: list[str], out: Path
+) -> list[dict[str, Any]]:
+    """Write every motion in every format; a row of facts and paths for each."""
+    from src.shared.formats.registry import write_motion
+
+    rows: list[dict[str, Any]] = []
+    replaced = 0
+    names = stems([motion.text for motion in motions], num_samples)
+    for motion, stem in zip(motions, names, strict=True):
+        paths = {name: out / f"{stem}.{name}" for name in formats}
+        for path in paths.values():
+            replaced += path.exists()
+            write_motion(motion, path)
+        rows.append(
+            {
+                "prompt": motion.text,
+                "frames": motion.num_frames,
+                "fps": motion.fps,
+                "files": {name: str(path) for name, path in paths.items()},
+            }
+        )
+    if replaced:
+        complain(f"note: {replaced} files of an earlier run in {out} were replaced")
+    return rows
+
+
+def write_index(motions: "Sequence[Motion]", out: Path) -> str:
+    """One page with all motions side by side; returns its path."""
+    from src.shared.formats.registry import write_preview
+
+    write_preview(motions, out / "index.html")
+    return str(out / "index.html")
