@@ -1,97 +1,57 @@
-"""`evaluate --quick`: one call from a generator and prepared data to honest tables.
+"""The text branch's evaluation: one call from a generator and prepared data to honest tables.
 
-Rows stand beside real motion and chance; seen and unseen label combinations apart; the report
-states N, seeds and the hashes of model, evaluator and data.
+Every family of `registry.py` is measured on real, shuffled, frozen, untrained and generated
+motions, seen and unseen label combinations apart, replication by replication.
 """
 
 import logging
-import time
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from src.shared.data.captions import CaptionBook
 from src.shared.data.records import ClipRecord
 from src.shared.errors import UserError
-from src.shared.evaluation.clips import Clips, Sampler, frozen, real_clips
-from src.shared.evaluation.control_table import control_table
+from src.shared.evaluation import manifest
+from src.shared.evaluation.clips import Sampler
+from src.shared.evaluation.engine import Bench, Progress, Row, part_name, run_bench
 from src.shared.evaluation.evaluator import Evaluator
+from src.shared.evaluation.families import Column, MotionSample
+from src.shared.evaluation.grids import Grid, GridRow, plain, report_data
 from src.shared.evaluation.held_out import HeldOut, open_held_out
-from src.shared.evaluation.metrics_retrieval import BATCH, normalised_score
-from src.shared.evaluation.physical_table import Observed, Row, physical_columns
-from src.shared.evaluation.split_table import (
-    Embedded,
-    Reference,
-    generated_row,
-    learned_columns,
-    r_precision,
-    real_rows,
-    scores,
+from src.shared.evaluation.metrics_retrieval import normalised_score
+from src.shared.evaluation.parts import Part, Parts
+from src.shared.evaluation.registry import TEXT_EXTRAS, TEXT_FAMILIES
+from src.shared.evaluation.text_context import (
+    UNTRAINED,
+    Split,
+    TextContext,
+    TextSettings,
+    model_sampler,
+    untrained,
 )
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import decode_features, encode_features
+from src.shared.evaluation.worst import Keeper, write_motion
 
 if TYPE_CHECKING:
     from src.shared.model.generation.motion_generator import MotionGenerator
 
-Progress = Callable[[str], None]
-LANGUAGES = ("en", "es", "fr", "de", "ja", "zh")
+RATIOS = ("contact_slide", "support_slide", "jerk", "hand_jerk", "speed", "diversity")
 
 
-@dataclass(frozen=True)
-class QuickSettings:
-    """How much is measured; the report repeats it."""
-
-    num_samples: int = 256  # generated motions a split and replication; 1000 for a quoted FD
-    replications: int = 3
-    max_real: int = 4096  # real clips a split, at most
-    max_frames: int = 128
-    language_samples: int = 128  # motions a language in the language table; 0 = no table
-    control_seeds: int = 10  # motions a task, language and kind of wording; 0 = no table
-    languages: tuple[str, ...] = LANGUAGES
-    language: str = "en"  # of the captions in the split tables
-    seed: int = 0
-
-
-def model_sampler(
-    generator: "MotionGenerator",
-    *,
-    steps: int | None = None,
-    sampler: str | None = None,
-    guidance_scale: float | None = None,
-    foot_lock: bool | None = None,
-) -> Sampler:
-    """A sampler over a generator; what is None is the model's own setting."""
-
-    def sample(prompts: Sequence[str], num_frames: Sequence[int], seed: int) -> list[Motion]:
-        return generator.generate(
-            prompts,
-            seconds=[frames / generator.card.fps for frames in num_frames],
-            seed=seed,
-            steps=steps,
-            sampler=sampler,
-            guidance_scale=guidance_scale,
-            foot_lock=foot_lock,
-        )
-
-    return sample
-
-
-def quick(
+def evaluate_text(
     model: str,
     data: str = "synthetic",
     *,
     evaluator: str = "evaluator",
     cache: Path = Path("runs"),
-    settings: QuickSettings | None = None,
+    settings: TextSettings | None = None,
     device: str | None = None,
+    folder: Path | None = None,
     progress: Progress = lambda text: None,
     **sampling: Any,
 ) -> dict[str, Any]:
-    """Everything `evaluate --quick` does, by names.
+    """Everything `evaluate` does for a text model, by names.
 
     Args:
         model: a shipped name or a folder.
@@ -99,13 +59,16 @@ def quick(
         evaluator: a shipped name or a folder.
         cache: where synthetic clips are kept.
         device: of the generator.
+        folder: of the report: finished parts are kept there and not measured again.
         sampling: steps, sampler, guidance_scale, foot_lock; left out = the model's own.
 
     Raises:
-        UserError: no such model, evaluator or data, or the model is untrained.
+        UserError: no such model, evaluator or data, the model is untrained, or the folder holds
+            another report.
     """
     from src.shared.model.generation.motion_generator import MotionGenerator
 
+    settings = settings or TextSettings()
     judge = Evaluator.from_pretrained(evaluator)
     generator = MotionGenerator.from_pretrained(model, device=device)
     held_out = open_held_out(data, cache, judge.trained_groups)
@@ -120,10 +83,22 @@ def quick(
         "evaluator": evaluator,
         "held_out": _told_apart(held_out, generator.card.data, judge),
     }
+    if folder is not None:
+        manifest.claim(
+            folder, _manifest(model, generator, evaluator, judge, held_out, settings, sampling)
+        )
     logging.getLogger("src.shared.model.generation.motion_generator").setLevel(logging.ERROR)
     samplers = {"generated": model_sampler(generator, **sampling)}
-    return evaluate_quick(
-        samplers, held_out, judge, settings=settings, about=about, progress=progress
+    if settings.untrained:
+        samplers[UNTRAINED] = model_sampler(untrained(generator, settings.seed), **sampling)
+    return evaluate_samplers(
+        samplers,
+        held_out,
+        judge,
+        settings=settings,
+        about=about,
+        folder=folder,
+        progress=progress,
     )
 
 
@@ -146,152 +121,165 @@ def _told_apart(held_out: HeldOut, model_data: str, judge: Evaluator) -> str:
     return "yes: test splits of the data both models were trained on"
 
 
-def evaluate_quick(
+def _manifest(
+    model: str,
+    generator: "MotionGenerator",
+    evaluator: str,
+    judge: Evaluator,
+    held_out: HeldOut,
+    settings: TextSettings,
+    sampling: dict[str, Any],
+) -> dict[str, Any]:
+    from src.shared.model.zoo import PRETRAINED, resolve_model
+
+    judge_folder = Path(evaluator) if Path(evaluator).is_dir() else PRETRAINED / evaluator
+    splits = {
+        name: manifest.hash_names(record.id for record in records)
+        for name, records in held_out.records.items()
+    }
+    return manifest.build(
+        "text",
+        model=manifest.folder_hashes(resolve_model(model)),
+        evaluator=manifest.folder_hashes(judge_folder),
+        data={"manifest": held_out.data.manifest_hash, **splits},
+        statistics=(generator.mean, generator.std, judge.motion.mean, judge.motion.std),
+        settings=asdict(settings),
+        sampling=sampling,
+        families=TEXT_FAMILIES,
+        device=str(generator.device),
+    )
+
+
+def evaluate_samplers(
     samplers: dict[str, Sampler],
     held_out: HeldOut,
     evaluator: Evaluator,
     *,
-    settings: QuickSettings | None = None,
+    settings: TextSettings | None = None,
     about: dict[str, Any] | None = None,
+    folder: Path | None = None,
     progress: Progress = lambda text: None,
 ) -> dict[str, Any]:
-    """Everything of `evaluate --quick` as plain data.
+    """The whole report as plain data.
 
     Args:
-        samplers: name to sampler; the first one is the model that the language and controllability
-            tables are about, the others (an untrained or older model) only add rows.
+        samplers: name to sampler; the first one is the model that the extra tables are about, the
+            others (an untrained or older model) only add rows.
         held_out: held-back clips.
         evaluator: the judge.
         about: what to repeat in the report: model, its hash, steps, guidance scale.
         progress: told what begins.
+
+    Returns:
+        See `report_data`.
     """
-    settings = settings or QuickSettings()
-    started = time.perf_counter()
-    main = next(iter(samplers.values()))
-    splits: dict[str, Any] = {}
-    for name in held_out.records:
+    settings = settings or TextSettings()
+    context = TextContext(held_out, evaluator, samplers, settings, progress)
+    parts = Parts(folder)
+    tables: list[Grid] = []
+    samples: list[dict[str, Any]] = []
+    for name, records in held_out.records.items():
+        bench = split_bench(context, name, records, folder)
         try:
-            splits[name] = split_report(held_out, name, evaluator, samplers, settings, progress)
+            grids = run_bench(
+                bench,
+                parts,
+                replications=settings.replications,
+                seed=settings.seed,
+                progress=progress,
+            )
         except UserError as error:
-            splits[name] = {"missing": str(error)}
-    languages = language_table(held_out, evaluator, main, settings, progress)
-    control = None
-    if settings.control_seeds:
-        everything = [record for records in held_out.records.values() for record in records]
-        control = control_table(
-            main,
-            CaptionBook.load(None),
-            _clips(held_out, everything, settings, settings.language),
-            languages=settings.languages,
-            num_seeds=settings.control_seeds,
-            seed=settings.seed,
-            progress=progress,
-        )
-    return {
-        "about": {
-            **(about or {}),
-            "evaluator_hash": evaluator.content_hash,
-            "data": held_out.source,
-            "data_hash": held_out.data.manifest_hash[:12],
-        },
-        "settings": asdict(settings),
-        "splits": splits,
-        "languages": languages,
-        "controllability": control,
-        "seconds": round(time.perf_counter() - started, 1),
+            tables.append(missing(name, str(error)))
+            continue
+        tables += [*grids, score_grid(name, grids, [*samplers, "frozen pose"])]
+        samples += parts.once(part_name(name, bench.main, 0), dict).get("samples", [])
+    for name, extra in TEXT_EXTRAS.items():
+        part = parts.once(name, partial(_as_part, extra, context))
+        tables += [Grid.from_dict(grid) for grid in part["grids"]]
+    facts = {
+        **(about or {}),
+        "evaluator_hash": evaluator.content_hash,
+        "data": held_out.source,
+        "data_hash": held_out.data.manifest_hash[:12],
     }
+    return report_data("text", facts, asdict(settings), tables, samples)
 
 
-def _clips(
-    held_out: HeldOut, records: Sequence[ClipRecord], settings: QuickSettings, language: str
-) -> Clips:
-    return real_clips(
-        held_out.data,
-        records,
-        num=settings.max_real,
-        max_frames=settings.max_frames,
-        language=language,
-        seed=settings.seed,
+def _as_part(extra: Callable[[TextContext], list[Grid]], context: TextContext) -> Part:
+    return {"grids": [grid.as_dict() for grid in extra(context)]}
+
+
+def split_bench(
+    context: TextContext, name: str, records: Sequence[ClipRecord], folder: Path | None
+) -> Bench[MotionSample]:
+    """Rows real, chance, frozen pose and one a sampler over the clips of a split."""
+    split = Split(context, records)
+    rows = [
+        Row("real", split.real, fixed=True, real=True),
+        Row("chance", split.chance, fixed=True),
+        Row("frozen pose", split.frozen_pose, limit=1, fixed=True),
+    ]
+    for label, sampler in context.samplers.items():
+        limit = context.settings.untrained if label == UNTRAINED else None
+        rows.append(Row(label, partial(split.generated, sampler), limit=limit))
+    return Bench(
+        name,
+        f"{name} label combinations",
+        lambda: split.reference,
+        rows,
+        TEXT_FAMILIES,
+        main=next(iter(context.samplers)),
+        keep=Keeper(folder, name, context.settings.worst, TEXT_FAMILIES, write_motion),
     )
 
 
-def split_report(
-    held_out: HeldOut,
-    name: str,
-    evaluator: Evaluator,
-    samplers: dict[str, Sampler],
-    settings: QuickSettings,
-    progress: Progress,
-) -> dict[str, Any]:
-    """The table of one split: rows `real`, `chance`, `frozen pose` and one a sampler.
+def missing(name: str, why: str) -> Grid:
+    """What stands where a split could not be measured."""
+    row = GridRow({"why": why})
+    return Grid(name, f"{name}: not measured", (Column("why", "why"),), {name: row})
 
-    Raises:
-        UserError: the split holds no captioned clip.
-    """
-    clips = _clips(held_out, held_out.records[name], settings, settings.language)
-    progress(f"{name}: {len(clips)} real clips")
-    reference = Reference.of(Embedded.of(evaluator, clips))
-    rows = real_rows(reference, settings.replications, settings.seed)
-    rows["frozen pose"] = _frozen_row(evaluator, reference, settings.seed)
-    for label, sampler in samplers.items():
-        progress(f"{name}: {settings.replications} x {settings.num_samples} motions, {label}")
-        rows[label] = generated_row(
-            sampler,
-            evaluator,
-            reference,
-            num_samples=settings.num_samples,
-            replications=settings.replications,
-            seed=settings.seed,
+
+# ---------------------------------------------------------------- scores
+
+
+def score_grid(split: str, grids: Sequence[Grid], names: Sequence[str]) -> Grid:
+    """What a reader asks first: each row against real and chance."""
+    by_row = {name: scores(grids, name) for name in names}
+    keys = next(iter(by_row.values()))
+    columns = tuple(Column(key, key.replace("_", " ")) for key in keys)
+    rows = {name: GridRow(plain(values)) for name, values in by_row.items()}
+    note = (
+        "normalised: (row - chance) / (real - chance). joint ratio: joint FD over that of real"
+        " motions under shuffled labels; tag ratio: FD by tag over FD by wrong tag; the others:"
+        " row over real."
+    )
+    return Grid(f"{split}/scores", f"{split}: against real and chance", columns, rows, note)
+
+
+def scores(grids: Sequence[Grid], name: str) -> dict[str, float]:
+    """Row `name` against real and chance; NaN where a column is missing."""
+
+    def value(row: str, column: str) -> float:
+        known = [grid.value(row, column) for grid in grids]
+        return next((each for each in known if each == each), float("nan"))
+
+    def over(numerator: float, denominator: float) -> float:
+        return numerator / denominator if denominator > 1e-9 else float("nan")
+
+    result = {
+        f"normalised_r_at_{k}": normalised_score(
+            value(name, f"r_at_{k}"), value("chance", f"r_at_{k}"), value("real", f"r_at_{k}")
         )
-    return {
-        "num_real": len(clips),
-        "num_groups": len(set(clips.groups)),
-        "num_generated": settings.num_samples,
-        "rows": rows,
-        "scores": {label: scores(rows, label) for label in [*samplers, "frozen pose"]},
+        for k in (1, 2, 3)
     }
+    joint, wrong_tag = value("chance", "frechet_joint"), value(name, "frechet_by_wrong_tag")
+    result["frechet_joint_ratio"] = over(value(name, "frechet_joint"), joint)
+    result["frechet_tag_ratio"] = over(value(name, "frechet_by_tag"), wrong_tag)
+    for column in RATIOS:
+        result[f"{column}_ratio"] = over(value(name, column), value("real", column))
+    return result
 
 
-def _frozen_row(evaluator: Evaluator, reference: Reference, seed: int) -> Row:
-    clips = reference.real.clips
-    still = [decode_features(frozen(encode_features(motion))) for motion in clips.motions]
-    sample = reference.real.with_motions(evaluator, clips.with_motions(still))
-    learned = learned_columns(sample, reference, seed)
-    row: Row = {
-        name: {"value": value, "low": value, "high": value, "count": 1}
-        for name, value in learned.items()
-    }
-    travels = reference.observed.travels
-    return row | physical_columns(Observed.of(still), clips.labels, travels)
-
-
-def language_table(
-    held_out: HeldOut,
-    evaluator: Evaluator,
-    sampler: Sampler,
-    settings: QuickSettings,
-    progress: Progress,
-) -> dict[str, dict[str, float]]:
-    """R-precision at 3 language by language on seen combinations: real, chance, generated."""
-    table: dict[str, dict[str, float]] = {}
-    num = settings.language_samples
-    for language in settings.languages if num else ():
-        try:
-            clips = _clips(held_out, held_out.records["seen"], settings, language)
-        except UserError:
-            continue  # the data has no captions in this language
-        if min(len(clips), num) < BATCH:
-            continue
-        progress(f"languages: {num} motions in {language}")
-        real = Embedded.of(evaluator, clips)
-        shuffled = real.reordered(np.random.default_rng(settings.seed).permutation(len(clips)))
-        asked = real.rows([row % len(clips) for row in range(num)])
-        motions = sampler(asked.clips.captions, asked.clips.num_frames, settings.seed)
-        made = asked.with_motions(evaluator, asked.clips.with_motions(motions))
-        values = {
-            name: r_precision(sample, settings.seed).r_precision[2]
-            for name, sample in (("real", real), ("chance", shuffled), ("generated", made))
-        }
-        score = normalised_score(values["generated"], values["chance"], values["real"])
-        table[language] = values | {"normalised": score, "num_samples": num}
-    return table
+# The names of the short harness, until everybody calls the new ones.
+QuickSettings = partial(TextSettings, replications=3, untrained=0)
+quick = evaluate_text

@@ -19,14 +19,15 @@ from src.shared.errors import UserError
 from src.shared.evaluation import control_table as control
 from src.shared.evaluation.clips import Sampler
 from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig, contrastive_loss
-from src.shared.evaluation.harness import QuickSettings, evaluate_quick
+from src.shared.evaluation.harness import evaluate_samplers, scores
 from src.shared.evaluation.held_out import HeldOut
-from src.shared.evaluation.report import markdown, print_report, tables
-from src.shared.evaluation.split_table import scores
+from src.shared.evaluation.report import grids, markdown, print_report, printed, tables
+from src.shared.evaluation.text_context import TextSettings
+from src.shared.evaluation.text_tables import control_grid
 from src.shared.evaluation.training_set import PairSet
 from src.shared.motion.motion import Motion
 
-SETTINGS = QuickSettings(
+SETTINGS = TextSettings(
     num_samples=96,
     replications=2,
     max_frames=64,
@@ -88,19 +89,23 @@ def test_a_perfect_and_a_deaf_sampler_get_one_and_zero(held_out: HeldOut, judge:
         "perfect": copying_sampler(held_out, deaf=False),
         "deaf": copying_sampler(held_out, deaf=True),
     }
-    report = evaluate_quick(samplers, held_out, judge, settings=SETTINGS, about={"model": "x"})
-    seen = report["splits"]["seen"]
-    rows = seen["rows"]
-    assert rows["real"]["r_at_3"]["value"] > 0.6 > 0.3 > rows["chance"]["r_at_3"]["value"]
-    perfect, deaf = seen["scores"]["perfect"], seen["scores"]["deaf"]
-    assert perfect["normalised_r_at_3"] == pytest.approx(1, abs=0.12)
-    assert deaf["normalised_r_at_3"] == pytest.approx(0, abs=0.15)
-    assert perfect["frechet_joint_ratio"] < 0.15 < 0.6 < deaf["frechet_joint_ratio"]
-    assert perfect["support_slide_ratio"] == pytest.approx(1, abs=0.2)
-    assert rows["perfect"]["obeys_all"]["value"] > rows["deaf"]["obeys_all"]["value"] + 0.3
-    assert rows["perfect"]["speed_error"]["value"] < 0.1 < rows["chance"]["speed_error"]["value"]
-    assert rows["frozen pose"]["speed"]["value"] == pytest.approx(0, abs=1e-3)
-    assert "missing" in report["splits"]["unseen"]
+    report = evaluate_samplers(samplers, held_out, judge, settings=SETTINGS, about={"model": "x"})
+    found = {grid.name: grid for grid in grids(report)}
+
+    def value(row: str, column: str) -> float:
+        seen = [grid for name, grid in found.items() if name.startswith("seen/")]
+        return next(v for v in (grid.value(row, column) for grid in seen) if v == v)
+
+    assert value("real", "r_at_3") > 0.6 > 0.3 > value("chance", "r_at_3")
+    assert value("perfect", "normalised_r_at_3") == pytest.approx(1, abs=0.12)
+    assert value("deaf", "normalised_r_at_3") == pytest.approx(0, abs=0.15)
+    assert value("perfect", "frechet_joint_ratio") < 0.15 < 0.6
+    assert value("deaf", "frechet_joint_ratio") > 0.6
+    assert value("perfect", "support_slide_ratio") == pytest.approx(1, abs=0.2)
+    assert value("perfect", "obeys_all") > value("deaf", "obeys_all") + 0.3
+    assert value("perfect", "speed_error") < 0.1 < value("chance", "speed_error")
+    assert value("frozen pose", "speed") == pytest.approx(0, abs=1e-3)
+    assert found["unseen"].title == "unseen: not measured"
 
 
 def test_the_report_is_json_markdown_and_tables(held_out: HeldOut, judge: Evaluator) -> None:
@@ -109,7 +114,7 @@ def test_the_report_is_json_markdown_and_tables(held_out: HeldOut, judge: Evalua
     settings = replace(SETTINGS, num_samples=32, replications=1, language_samples=32)
     two = {"seen": held_out.records["seen"][:48], "unseen": held_out.records["seen"][48:96]}
     only = replace(held_out, records=two)
-    report = evaluate_quick(
+    report = evaluate_samplers(
         {"generated": copying_sampler(held_out, deaf=True)},
         only,
         judge,
@@ -118,16 +123,18 @@ def test_the_report_is_json_markdown_and_tables(held_out: HeldOut, judge: Evalua
     json.dumps(report)
     text = markdown(report)
     assert "data-hash" in text and "| chance |" in text and "unseen" in text
-    assert report["languages"]["en"]["num_samples"] == 32
-    assert len(list(tables(report))) == 9
+    (languages,) = [grid for grid in grids(report) if grid.name == "languages"]
+    assert languages.rows["en"].num == 32
+    names = {grid.name for grid in grids(report)}
+    assert {"seen/retrieval", "unseen/obedience", "unseen/scores"} < names
+    assert all(len(row) == len(table.header) for table in tables(report) for row in table.rows)
     stream = StringIO()
     print_report(report, Console(file=stream, width=200))
     assert "frozen pose" in stream.getvalue()
 
 
 def test_scores_of_an_absent_column_are_not_a_number() -> None:
-    rows = {name: {} for name in ("real", "chance", "generated")}
-    assert all(math.isnan(value) for value in scores(rows, "generated").values())
+    assert all(math.isnan(value) for value in scores([], "generated").values())
 
 
 def oracle_sampler(book: CaptionBook, num_seeds: int, languages: Sequence[str]) -> Sampler:
@@ -164,7 +171,7 @@ def test_an_obedient_sampler_passes_the_control_tasks() -> None:
     assert table["means"]["chance"]["value"] < 0.4
     assert table["means"]["still"]["value"] == 0
     assert all(math.isnan(task["real"]["value"]) for task in table["tasks"].values())
-    (drawn,) = tables({"splits": {}, "languages": {}, "controllability": table})
+    drawn = printed(control_grid(table))
     assert drawn.header[:3] == ["task", "en tmpl", "en para"] and drawn.rows[-1][0] == "mean"
     assert {len(row) for row in drawn.rows} == {len(drawn.header)}
 

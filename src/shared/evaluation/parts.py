@@ -1,0 +1,82 @@
+"""What an evaluation has finished, part by part: a second start takes it up where it stopped.
+
+A folder of JSON files, each written whole, one a part; without a folder, memory. How long each
+part took is kept apart in timing.json, so that nothing else depends on the clock.
+"""
+
+import json
+import re
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from src.shared.errors import UserError
+from src.shared.files import write_json
+
+Part = dict[str, Any]
+TIMING = "timing.json"
+
+
+class Parts:
+    """Finished parts by name.
+
+    Args:
+        folder: of the report; None = nothing is kept.
+    """
+
+    def __init__(self, folder: Path | None = None) -> None:
+        self.folder = folder
+        self.known: dict[str, Part] = {}
+        self.seconds: dict[str, float] = {}
+        if folder is not None and (folder / TIMING).is_file():
+            self.seconds = json.loads((folder / TIMING).read_text(encoding="utf-8"))["seconds"]
+
+    def once(self, name: str, compute: Callable[[], Part]) -> Part:
+        """The part of this name, computed and written unless it is there."""
+        if name not in self.known:
+            self.known[name] = self._read(name) or self._compute(name, compute)
+        return self.known[name]
+
+    def done(self, name: str) -> bool:
+        """Whether `once` would compute nothing."""
+        path = self._path(name)
+        return name in self.known or (path is not None and path.is_file())
+
+    def _path(self, name: str) -> Path | None:
+        if self.folder is None:
+            return None
+        return self.folder / "parts" / (re.sub(r"[^\w.-]+", "-", name) + ".json")
+
+    def _read(self, name: str) -> Part | None:
+        path = self._path(name)
+        if path is None or not path.is_file():
+            return None
+        return read_json(path)
+
+    def _compute(self, name: str, compute: Callable[[], Part]) -> Part:
+        started = time.perf_counter()
+        part = compute()
+        self.seconds[name] = round(time.perf_counter() - started, 3)
+        path = self._path(name)
+        if path is not None and self.folder is not None:
+            write_json(path, part)
+            total = round(sum(self.seconds.values()), 1)
+            write_json(self.folder / TIMING, {"seconds": self.seconds, "total": total})
+        return part
+
+
+def read_json(path: Path) -> dict[str, Any]:
+    """An object of a report folder.
+
+    Raises:
+        UserError: missing, or not whole.
+    """
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, ValueError) as error:
+        raise UserError(
+            f"{path} cannot be read ({error}); delete it and run `evaluate` again with the same"
+            " --out: only what is missing is measured"
+        ) from error
+    return dict(content)

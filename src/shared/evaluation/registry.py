@@ -1,0 +1,32 @@
+"""What is measured. A new metric is one file and one line here.
+
+A family adds columns to every row (real, chance, frozen, untrained, generated) of every split; an
+extra adds tables with rows of its own. Both are told what to draw on and give plain figures back.
+"""
+
+from collections.abc import Callable
+
+from src.shared.evaluation.families import DanceSample, MetricFamily, MotionSample
+from src.shared.evaluation.families_text import (
+    Frechet,
+    GuoRetrieval,
+    Obedience,
+    Plausibility,
+    TravelErrors,
+)
+from src.shared.evaluation.grids import Grid
+from src.shared.evaluation.text_context import TextContext
+from src.shared.evaluation.text_tables import controllability, languages
+
+TEXT_FAMILIES: tuple[MetricFamily[MotionSample], ...] = (
+    GuoRetrieval(),
+    Frechet(),
+    Plausibility(),
+    TravelErrors(),
+    Obedience(),
+)
+TEXT_EXTRAS: dict[str, Callable[[TextContext], list[Grid]]] = {
+    "languages": languages,
+    "controllability": controllability,
+}
+AUDIO_FAMILIES: tuple[MetricFamily[DanceSample], ...] = ()

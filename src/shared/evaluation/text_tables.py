@@ -1,0 +1,90 @@
+"""Tables of the text branch with rows of their own: languages, and controllability by task."""
+
+from typing import Any
+
+import numpy as np
+
+from src.shared.data.captions import CaptionBook
+from src.shared.errors import UserError
+from src.shared.evaluation.control_table import FLOORS, control_table
+from src.shared.evaluation.families import Column
+from src.shared.evaluation.families_text import r_precision
+from src.shared.evaluation.grids import Cell, Grid, GridRow, plain
+from src.shared.evaluation.metrics_retrieval import BATCH, normalised_score
+from src.shared.evaluation.text_context import TextContext
+
+SHORT = {"templates": "tmpl", "paraphrases": "para"}
+CONTROL_NOTE = (
+    "Success by forward kinematics: prompts of the training templates (tmpl) and paraphrases that"
+    " no training caption repeats (para). real: test clips with these labels; chance: motions made"
+    " for the other tasks; still: the first pose held. ± is Wilson's 95%."
+)
+
+
+def languages(context: TextContext) -> list[Grid]:
+    """R-precision at 3 language by language on seen combinations: real, chance, generated."""
+    rows = {}
+    num, settings = context.settings.language_samples, context.settings
+    for language in settings.languages if num else ():
+        try:
+            real = context.real(context.held_out.records["seen"], language)
+        except UserError:
+            continue  # the data has no captions in this language
+        if min(len(real), num) < BATCH:
+            continue
+        context.progress(f"languages: {num} motions in {language}")
+        asked = real.rows([row % len(real) for row in range(num)])
+        motions = context.sampler(asked.clips.captions, asked.clips.num_frames, settings.seed)
+        order = np.random.default_rng(settings.seed).permutation(len(real)).tolist()
+        samples = {
+            "real": real,
+            "chance": real.reordered(order),
+            "generated": context.made(asked, motions),
+        }
+        cells: dict[str, Cell] = {
+            name: r_precision(sample, settings.seed).r_precision[2]
+            for name, sample in samples.items()
+        }
+        score = normalised_score(*(float(cells[k]) for k in ("generated", "chance", "real")))  # type: ignore[arg-type]
+        rows[language] = GridRow({**cells, "normalised": plain(score)}, num, 1)
+    columns = tuple(Column(key, key) for key in ("real", "chance", "generated", "normalised"))
+    note = (
+        "One replication. normalised: (generated - chance) / (real - chance)."
+        f" Seed {settings.seed}; real and chance over all real clips."
+    )
+    title = "R@3 by language (seen combinations)"
+    return [Grid("languages", title, columns, rows, note, "language")] if rows else []
+
+
+def controllability(context: TextContext) -> list[Grid]:
+    """Success rates task by task and language by language."""
+    settings = context.settings
+    if not settings.control_seeds:
+        return []
+    everything = [record for records in context.held_out.records.values() for record in records]
+    found = control_table(
+        context.sampler,
+        CaptionBook.load(None),
+        context.clips(everything, settings.language),
+        languages=settings.languages,
+        num_seeds=settings.control_seeds,
+        seed=settings.seed,
+        progress=context.progress,
+    )
+    return [control_grid(found)]
+
+
+def control_grid(found: dict[str, Any]) -> Grid:
+    """What `control_table` found, as a table."""
+    kinds = [(language, word) for language in found["languages"] for word in found["wordings"]]
+    columns = [Column(f"{k} {word}", f"{k} {SHORT[word]}", 2, "high") for k, word in kinds]
+    columns += [Column(floor, floor, 2) for floor in FLOORS]
+
+    def cells(rates: dict[str, Any], floors: dict[str, Any]) -> dict[str, Cell]:
+        made = {f"{k} {word}": rates.get(k, {}).get(word) for k, word in kinds}
+        return plain({**made, **{floor: floors[floor] for floor in FLOORS}})
+
+    rows = {name: GridRow(cells(task["generated"], task)) for name, task in found["tasks"].items()}
+    rows["mean"] = GridRow(cells(found["means"], found["means"]))
+    title = f"controllability ({found['num_seeds']} motions a cell)"
+    return Grid("controllability", title, tuple(columns), rows, CONTROL_NOTE, "task")
