@@ -19,7 +19,8 @@ from pydantic import Field
 from torch import Tensor, nn
 
 from src.shared.config_audio import AudioNetworkConfig
-from src.shared.data.phrases.dataset import MotionPhraseDataset, PhraseBatch, motion_statistics
+from src.shared.data.phrases.dataset import MotionPhraseDataset, PhraseBatch
+from src.shared.data.phrases.statistics import motion_statistics
 from src.shared.device import autocast, choose_compute
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.audio.conditioning import ConditionAugmentation, with_phase_rows

@@ -9,6 +9,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
+import torch
+from torch import Tensor
 
 from src.shared.data.pairing.motion_beats import MotionBeats, motion_beats
 from src.shared.data.prepared import SYNTHETIC, PreparedData
@@ -158,13 +160,18 @@ def _track(
 ) -> tuple[np.ndarray, np.ndarray, MotionBeats, float]:
     """Rows, tilt, beats and the largest turn from frame to frame of a clip's pelvis."""
     features = data.features(record)
-    root = features[:, ROOT_ROW]
-    tilt = quaternion_continuous(rotation_6d_to_quaternion(features[:, 0]))
-    position, heading = integrate_root(root, FPS)
-    world = quaternion_multiply(yaw_quaternion(heading), tilt)
+    rows, tilt = track_of(features)
+    position, heading = integrate_root(features[:, ROOT_ROW], FPS)
+    world = quaternion_multiply(yaw_quaternion(heading), torch.as_tensor(tilt))
     steps = quaternion_log(quaternion_multiply(world[1:], quaternion_conjugate(world[:-1])))
-    rows = root[:, [FORWARD, LATERAL, HEIGHT, YAW_RATE]].numpy().copy()
-    return rows, tilt.numpy(), motion_beats(position.numpy(), FPS), float(steps.norm(dim=1).max())
+    return rows, tilt, motion_beats(position.numpy(), FPS), float(steps.norm(dim=1).max())
+
+
+def track_of(features: Tensor) -> tuple[np.ndarray, np.ndarray]:
+    """Rows [T,4] and tilt [T,4] of a clip's pelvis, as `Clip` holds them, of features [T,23,6]."""
+    rows = features[:, ROOT_ROW][:, [FORWARD, LATERAL, HEIGHT, YAW_RATE]]
+    tilt = quaternion_continuous(rotation_6d_to_quaternion(features[:, 0]))
+    return rows.numpy().copy(), tilt.numpy()
 
 
 def speed_threshold(speeds: Iterable[float]) -> float:

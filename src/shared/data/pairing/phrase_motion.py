@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import torch
+from torch import Tensor
 
 from src.shared.data.pairing.clip_library import FPS, MARGIN, Clip
 from src.shared.motion.root_track import FORWARD, HEIGHT, LATERAL, YAW_RATE, integrate_root
@@ -115,27 +116,40 @@ def join(
         pieces: in order.
         tracks: clip id → its rows [T,4] and tilt [T,4], see `Clip`.
     """
-    num_frames = pieces[-1].at + pieces[-1].last - pieces[-1].first + 1
-    root = torch.zeros(num_frames, 6)
-    rows = torch.zeros(num_frames, 4)
-    tilt = torch.zeros(num_frames, 4)
-    tilt[:, 0] = 1
-    x = torch.arange(1, SEAM_FRAMES + 1, dtype=torch.float32) / (SEAM_FRAMES + 1)
-    weight = (x**3 * (x * (6 * x - 15) + 10))[:, None]  # two vanishing derivatives at both ends
-    for number, piece in enumerate(pieces):
-        source_rows, source_tilt = (
-            torch.as_tensor(values[piece.first : piece.last + 1]) for values in tracks(piece.clip)
-        )
-        here = slice(piece.at, piece.at + len(source_rows))
-        if number:
-            shared = slice(piece.at, piece.at + SEAM_FRAMES)
-            n = len(rows[shared])
-            source_rows, source_tilt = source_rows.clone(), source_tilt.clone()
-            source_rows[:n] = torch.lerp(rows[shared], source_rows[:n], weight[:n])
-            source_tilt[:n] = quaternion_slerp(tilt[shared], source_tilt[:n], weight[:n])
-        rows[here], tilt[here] = source_rows, source_tilt
+    rows = lay(pieces, lambda name: torch.as_tensor(tracks(name)[0]), torch.lerp)
+    tilt = lay(pieces, lambda name: torch.as_tensor(tracks(name)[1]), quaternion_slerp)
+    root = torch.zeros(len(rows), 6)
     root[:, [FORWARD, LATERAL, HEIGHT, YAW_RATE]] = rows
     position, heading = integrate_root(root, FPS)
     quaternion = quaternion_multiply(yaw_quaternion(heading), tilt)
     seams = tuple(piece.at + MARGIN for piece in pieces[1:])
     return PhraseMotion(position.numpy(), quaternion.numpy(), tuple(pieces), seams)
+
+
+def lay(
+    pieces: Sequence[Piece],
+    values: Callable[[str], Tensor],
+    blend: Callable[[Tensor, Tensor, Tensor], Tensor],
+) -> Tensor:
+    """Frames of clips one after the other, blended where they share a seam.
+
+    Args:
+        pieces: in order.
+        values: clip id → [T,...].
+        blend: (before, after, weight of after) → what a seam shows; `torch.lerp`, say.
+
+    Returns:
+        [N,...].
+    """
+    x = torch.arange(1, SEAM_FRAMES + 1, dtype=torch.float32) / (SEAM_FRAMES + 1)
+    smooth = x**3 * (x * (6 * x - 15) + 10)  # two vanishing derivatives at both ends
+    parts = [values(piece.clip)[piece.first : piece.last + 1] for piece in pieces]
+    laid = parts[0].new_zeros(pieces[-1].at + len(parts[-1]), *parts[0].shape[1:])
+    for number, (piece, part) in enumerate(zip(pieces, parts, strict=True)):
+        if number:
+            before = laid[piece.at : piece.at + SEAM_FRAMES]
+            n = len(before)
+            weight = smooth[:n].view(n, *(1,) * (part.ndim - 1))
+            part = torch.cat((blend(before, part[:n], weight), part[n:]))
+        laid[piece.at : piece.at + len(part)] = part
+    return laid

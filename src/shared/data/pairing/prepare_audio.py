@@ -6,8 +6,10 @@ The folder that `prepare-audio` writes:
                                       (float16), tempo, beat_times, downbeat_times (seconds of the
                                       phrase), phase [T] (unwrapped bars, float64), meter
     motion/{id}/trajectory.npy        [T,25] float32, its phase column is the music's
-    manifest.json                     phrases with size and SHA-256, split, song, tempo, the clips
-                                      and warp they are made of, beat alignment
+    motion/{id}/body.npz              features [T,23,6] float16 of the body behind the trajectory
+    manifest.json                     phrases with size and SHA-256, split, song, tempo, tag and
+                                      caption of the longest clip, the clips and warp they are
+                                      made of, beat alignment
     statistics.json                   mean and std [25] of encoded windows of the training split
     bands.json                        what real motions measure, for the sanity suite
     report.json                       alignment before and after, warps, seams, what was left out
@@ -27,6 +29,7 @@ from typing import Any
 
 from src.shared.data.pairing.clip_library import FPS, ClipLibrary, open_library
 from src.shared.data.pairing.music import MusicSource
+from src.shared.data.pairing.phrase_body import add_bodies
 from src.shared.data.pairing.report import make_report, write_statistics
 from src.shared.data.pairing.song_pairs import PairOptions, SongJob, finished_song, pair_song
 from src.shared.data.phrases.layout import features_path, trajectory_path
@@ -75,6 +78,7 @@ def prepare_audio(
     if not phrases:
         example = f", e.g. {left_out[0]['id']}: {left_out[0]['reason']}" if left_out else ""
         raise UserError(f"no phrase could be made of {len(jobs)} songs{example}")
+    add_bodies(out, phrases, data)
     _remove_stale(out, {entry["id"] for entry in made})
     write_json(out / "manifest.json", _manifest(phrases, data, options))
     write_statistics(out, phrases)

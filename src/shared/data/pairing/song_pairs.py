@@ -161,7 +161,8 @@ def _phrase_path(out: Path, name: str) -> Path:
 
 
 def _mark(job: SongJob, entry: dict[str, Any]) -> dict[str, Any]:
-    write_json(_phrase_path(job.out, entry["id"]), entry | {"key": job.key})
+    entry = entry | {"key": job.key}
+    write_json(_phrase_path(job.out, entry["id"]), entry)
     return entry
 
 

@@ -149,10 +149,18 @@ def resample(
 ) -> tuple[np.ndarray, np.ndarray]:
     """A pelvis path [N,3] and its rotations [N,4] at other seconds [T]: cubic and slerp."""
     last = len(position) - 1
+    moved = CubicSpline(np.arange(last + 1), position.astype(np.float64))(
+        np.clip(times * fps, 0, last)
+    )
+    return moved.astype(np.float32), resample_rotations(quaternion, times, fps)
+
+
+def resample_rotations(quaternion: np.ndarray, times: np.ndarray, fps: float = 30.0) -> np.ndarray:
+    """Rotations [N,...,4] at other seconds [T], by slerp, without changes of sign: [T,...,4]."""
+    last = len(quaternion) - 1
     frames = np.clip(times * fps, 0, last)
     before = np.minimum(frames.astype(int), last - 1)
-    part = torch.as_tensor(frames - before, dtype=torch.float32)[:, None]
     q = torch.as_tensor(quaternion, dtype=torch.float32)
-    rotated = quaternion_continuous(quaternion_slerp(q[before], q[before + 1], part))
-    moved = CubicSpline(np.arange(last + 1), position.astype(np.float64))(frames)
-    return moved.astype(np.float32), rotated.numpy()
+    part = torch.as_tensor(frames - before, dtype=torch.float32)
+    part = part.view(-1, *(1,) * (q.ndim - 1))
+    return quaternion_continuous(quaternion_slerp(q[before], q[before + 1], part)).numpy()

@@ -15,14 +15,8 @@ from torch import Tensor
 
 from src.shared.ahead import ahead
 from src.shared.data.phrases.cache import ObjectCache, default_cache
-from src.shared.data.phrases.layout import (
-    BadContent,
-    PhraseRecord,
-    common_length,
-    decode_features,
-    decode_trajectory,
-    phase_rows,
-)
+from src.shared.data.phrases.decoded import DecodedPhrase, read_phrase
+from src.shared.data.phrases.layout import BadContent, PhraseRecord
 from src.shared.data.phrases.prefetch import EpochIterator
 from src.shared.data.phrases.quarantine import Quarantine
 from src.shared.data.phrases.remote import Backoff, Remote, Unreachable
@@ -31,39 +25,33 @@ from src.shared.errors import UsageError, UserError
 
 Encode = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
-_PHASE = 16  # column of a trajectory: bars modulo 1
-
 
 @dataclass(frozen=True, eq=False)
 class PhraseItem:
-    """One window: motion [25,T], audio [C,T] float32, mask [T] True on real frames, its phrase."""
+    """One window: motion [25,T], audio [C,T] float32, mask [T] True on real frames, its phrase.
+
+    `body`: features [T,23,6] where the data set was asked for them.
+    """
 
     motion: Tensor
     audio: Tensor
     mask: Tensor
     record: PhraseRecord
+    body: Tensor | None = None
 
 
 @dataclass(frozen=True, eq=False)
 class PhraseBatch:
-    """Windows stacked: motion [B,25,T], audio [B,C,T], mask [B,T], B records."""
+    """Windows stacked: motion [B,25,T], audio [B,C,T], mask [B,T], B records, body [B,T,23,6]."""
 
     motion: Tensor
     audio: Tensor
     mask: Tensor
     records: list[PhraseRecord]
+    body: Tensor | None = None
 
     def __len__(self) -> int:
         return len(self.records)
-
-
-@dataclass(frozen=True, eq=False)
-class _Phrase:
-    """A decoded phrase: trajectory [T,25], unwrapped bars [T] float64, audio [C,T] float32."""
-
-    trajectory: np.ndarray
-    phase: np.ndarray
-    audio: np.ndarray
 
 
 class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
@@ -80,6 +68,7 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
         split: of the manifest; None is all.
         beat_phase: add the four rows of beat and bar phase where features.npz holds `phase`
             (unwrapped bars) and `meter`; `collate` fills zeros, "unknown", where others do not.
+        bodies: read the whole body of each phrase too.
         encode: trajectory [T,25] and unwrapped bars [T] -> window [25,T]; `encode_window`.
         cache_dir: for downloads and the quarantine list; default `~/.cache/motionsuite/phrases`.
         cache_bytes: limit of the downloads kept; None keeps all.
@@ -88,7 +77,8 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
 
     Raises:
         UsageError: neither root nor bucket; an unknown kind of URL.
-        UserError: nothing there, cannot be read, or more bad phrases than `max_bad_fraction`.
+        UserError: nothing there, cannot be read, no bodies where they are asked for, or more bad
+            phrases than `max_bad_fraction`.
     """
 
     def __init__(
@@ -102,6 +92,7 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
         cache_in_memory: bool = True,
         split: str | None = None,
         beat_phase: bool = True,
+        bodies: bool = False,
         encode: Encode | None = None,
         cache_dir: Path | None = None,
         cache_bytes: int | None = None,
@@ -128,14 +119,19 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
                 f"{self.root} has no phrases of split {split or 'any'} (splits: {splits}); it needs"
                 " audio_features/ID/features.npz and motion/ID/trajectory.npy"
             )
+        if bodies and any(phrase.body is None for phrase in self.phrases):
+            raise UserError(
+                f"{self.root} holds trajectories without bodies, as prepare-audio once wrote them;"
+                " run prepare-audio into it again with the same options: it adds what is missing"
+            )
         name = hashlib.sha256(self.root.encode()).hexdigest()[:16]
         self.quarantine = Quarantine(
             cache_dir / "quarantine" / f"{name}.json", self.root, self.phrases, max_bad_fraction
         )
-        self._memory: dict[str, _Phrase] | None = {} if cache_in_memory else None
+        self._memory: dict[str, DecodedPhrase] | None = {} if cache_in_memory else None
         self._order = (-1, np.empty(0, np.int64))
         self.epoch_number = 0
-        self.beat_phase = beat_phase
+        self.beat_phase, self.bodies = beat_phase, bodies
 
     @property
     def phrase_ids(self) -> list[str]:
@@ -192,15 +188,19 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
         audio = torch.zeros(len(phrase.audio), self.target_frames)
         motion[:, :length] = torch.from_numpy(window)
         audio[:, :length] = torch.from_numpy(phrase.audio[:, part])
-        return PhraseItem(motion, audio, torch.arange(self.target_frames) < length, record)
+        body = None
+        if phrase.body is not None:
+            body = torch.zeros(self.target_frames, *phrase.body.shape[1:])
+            body[:length] = torch.from_numpy(phrase.body[part].astype(np.float32))
+        return PhraseItem(motion, audio, torch.arange(self.target_frames) < length, record, body)
 
-    def _load(self, record: PhraseRecord) -> _Phrase | None:
+    def _load(self, record: PhraseRecord) -> DecodedPhrase | None:
         if record.id in self.quarantine:
             return None
         if self._memory is not None and record.id in self._memory:
             return self._memory[record.id]
         try:
-            phrase = self._read(record)
+            phrase = read_phrase(self.store, record, beat_phase=self.beat_phase, body=self.bodies)
         except BadContent as error:
             self.quarantine.add(record, str(error))
             return None
@@ -210,16 +210,6 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
         if self._memory is not None:
             self._memory[record.id] = phrase
         return phrase
-
-    def _read(self, record: PhraseRecord) -> _Phrase:
-        trajectory = self.store.load(record.motion, decode_trajectory)
-        sound = self.store.load(record.features, decode_features)
-        frames = common_length(trajectory, sound)
-        audio = sound.stacked[:, :frames]
-        if self.beat_phase and sound.phase is not None:
-            audio = np.concatenate([audio, phase_rows(sound.phase[:frames], sound.meter)])
-        phase = np.unwrap(trajectory[:frames, _PHASE].astype(np.float64), period=1.0)
-        return _Phrase(trajectory[:frames], phase, audio)
 
     # ------------------------------------------------------------ epochs and batches
 
@@ -259,37 +249,17 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
 
 
 def collate(items: Sequence[PhraseItem]) -> PhraseBatch:
-    """Items as one batch; C is that of the item with most."""
+    """Items as one batch; C is that of the item with most. Bodies: all have one, or none has."""
     rows = max(len(item.audio) for item in items)
     audio = [torch.nn.functional.pad(i.audio, (0, 0, 0, rows - len(i.audio))) for i in items]
+    bodies = [item.body for item in items if item.body is not None]
     return PhraseBatch(
         motion=torch.stack([item.motion for item in items]),
         audio=torch.stack(audio),
         mask=torch.stack([item.mask for item in items]),
         records=[item.record for item in items],
+        body=torch.stack(bodies) if bodies else None,
     )
-
-
-def motion_statistics(
-    dataset: MotionPhraseDataset, most: int = 2000, least_std: float = 1e-3
-) -> tuple[Tensor, Tensor]:
-    """Mean and standard deviation [25] of the window rows over real frames of up to `most` items.
-
-    Raises:
-        UserError: no phrase can be used.
-    """
-    count, total, squares = 0, np.zeros(25), np.zeros(25)
-    for number, item in enumerate(dataset.epoch(0)):
-        if number == most:
-            break
-        values = item.motion[:, item.mask].numpy().astype(np.float64)
-        count += values.shape[1]
-        total, squares = total + values.sum(1), squares + (values**2).sum(1)
-    if count == 0:
-        raise UserError(f"{dataset.root} has no phrase that can be used")
-    mean = total / count
-    std = np.sqrt(np.maximum(squares / count - mean**2, 0)).clip(least_std)
-    return torch.from_numpy(mean).float(), torch.from_numpy(std).float()
 
 
 def _encode_window(trajectory: np.ndarray, phase: np.ndarray) -> np.ndarray:

@@ -2,7 +2,8 @@
 
 T frames at 30 fps. TECH §1.3: `audio_features/{id}/features.npz` beside
 `motion/{id}/trajectory.npy`; `manifest.json` with the size and SHA-256 of each is ours, because a
-flipped bit in an npy file loads without an error.
+flipped bit in an npy file loads without an error. So is `motion/{id}/body.npz`, which folders of
+before lack: `features` [T,23,6] float16 of the whole body (root_track.py).
 """
 
 import hashlib
@@ -54,18 +55,30 @@ class StoredObject(BaseModel, frozen=True):
 
 
 class PhraseRecord(BaseModel, frozen=True):
-    """One phrase of the manifest: its two objects and where it comes from (tempo 0: unknown)."""
+    """One phrase of the manifest: its objects, where it comes from, what its motion is.
+
+    Attributes:
+        tempo: beats a minute; 0 = unknown.
+        tag, caption: what is done, in a word and in a sentence; "" = unknown.
+        body: None in folders of before.
+    """
 
     id: str
     split: str = "train"
     song: str = ""
     tempo: float = 0.0
+    tag: str = ""
+    caption: str = ""
     motion: StoredObject
     features: StoredObject
+    body: StoredObject | None = None
 
     @property
     def key(self) -> str:
-        return hashlib.sha256(f"{self.motion.key}{self.features.key}".encode()).hexdigest()
+        """Changes when the content of any object does."""
+        parts = (self.motion, self.features, self.body)
+        keys = "".join(part.key for part in parts if part is not None)
+        return hashlib.sha256(keys.encode()).hexdigest()
 
 
 class Manifest(BaseModel, frozen=True):
@@ -98,6 +111,24 @@ def trajectory_path(phrase: str) -> str:
     return f"motion/{phrase}/trajectory.npy"
 
 
+def body_path(phrase: str) -> str:
+    """Relative path of a phrase's whole body."""
+    return f"motion/{phrase}/body.npz"
+
+
+def write_body(root: Path, phrase: str, features: np.ndarray) -> StoredObject:
+    """Write the body [T,23,6] of a phrase under a folder; returns what the manifest says of it."""
+    path = root / body_path(phrase)
+    with atomic_write(path) as temporary, temporary.open("wb") as stream:
+        np.savez_compressed(stream, features=np.asarray(features, np.float16))
+    return _stored(root, body_path(phrase))
+
+
+def _stored(root: Path, path: str) -> StoredObject:
+    file = root / path
+    return StoredObject(path=path, size=file.stat().st_size, sha256=sha256_file(file))
+
+
 def write_phrase(
     root: Path, phrase: str, trajectory: np.ndarray, features: Mapping[str, Any], **about: Any
 ) -> PhraseRecord:
@@ -118,11 +149,8 @@ def write_phrase(
 
 def record_phrase(root: Path, phrase: str, **about: Any) -> PhraseRecord:
     """The record of a phrase whose two files are there; `about` as for `write_phrase`."""
-    objects = [
-        StoredObject(path=path, size=(root / path).stat().st_size, sha256=sha256_file(root / path))
-        for path in (trajectory_path(phrase), features_path(phrase))
-    ]
-    return PhraseRecord(id=phrase, motion=objects[0], features=objects[1], **about)
+    motion, features = (_stored(root, f(phrase)) for f in (trajectory_path, features_path))
+    return PhraseRecord(id=phrase, motion=motion, features=features, **about)
 
 
 def write_manifest(root: Path, phrases: Iterable[PhraseRecord]) -> Path:
@@ -164,6 +192,7 @@ def phrases_of_listing(objects: Mapping[str, StoredObject]) -> list[PhraseRecord
             split="train" if hashlib.sha256(phrase.encode()).digest()[0] >= 26 else "val",
             motion=objects[trajectory_path(phrase)],
             features=objects[features_path(phrase)],
+            body=objects.get(body_path(phrase)),
         )
         for phrase in ids
         if {trajectory_path(phrase), features_path(phrase)} <= objects.keys()
@@ -189,6 +218,23 @@ def decode_trajectory(data: bytes) -> np.ndarray:
     lengths = np.linalg.norm(values[:, 9:13], axis=1)
     if (np.abs(lengths - 1) > 0.01).any():
         raise BadContent(f"a quaternion has length {lengths[np.abs(lengths - 1).argmax()]:.3g}")
+    return values.astype(np.float32)
+
+
+def decode_body(data: bytes) -> np.ndarray:
+    """[T,23,6] float32 of body.npz.
+
+    Raises:
+        BadContent: not an array of that shape, or values not finite or out of any range.
+    """
+    try:
+        with np.load(io.BytesIO(data), allow_pickle=False) as file:
+            values = file["features"]
+    except Exception as error:  # likewise
+        raise BadContent(f"not an npz file with `features` ({error})") from error
+    if values.ndim != 3 or values.shape[1:] != (23, 6):
+        raise BadContent(f"a body is [T, 23, 6], this is {list(values.shape)}")
+    _require_usable("body", values)
     return values.astype(np.float32)
 
 

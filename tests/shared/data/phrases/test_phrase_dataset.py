@@ -15,15 +15,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 from torch.utils.data import DataLoader
 
-from src.shared.data.phrases.dataset import MotionPhraseDataset, motion_statistics
+from src.shared.data.phrases.dataset import MotionPhraseDataset
 from src.shared.data.phrases.layout import (
     BadContent,
+    PhraseRecord,
     decode_features,
     decode_trajectory,
     features_path,
     phase_rows,
     trajectory_path,
+    write_body,
+    write_manifest,
 )
+from src.shared.data.phrases.statistics import motion_statistics, sound_statistics
 from src.shared.errors import UsageError, UserError
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -222,6 +226,41 @@ def test_statistics_are_those_of_real_frames(folder: Path, tmp_path: Path) -> No
     columns = [*range(16), *range(17, 25)]
     np.testing.assert_allclose(mean[columns], everything.mean(0)[columns], atol=1e-4)
     np.testing.assert_allclose(std[columns], everything.std(0)[columns], atol=1e-4)
+    heard = np.concatenate([data.item(i, 0).audio[:163, :n] for i, n in enumerate(LENGTHS)], 1)
+    mean, std = sound_statistics(data)
+    np.testing.assert_allclose(mean, heard.mean(1), atol=1e-4)
+    np.testing.assert_allclose(std, heard.std(1), atol=1e-4)
+
+
+def test_bodies_are_read_where_they_are(folder: Path, tmp_path: Path) -> None:
+    cache = tmp_path / "cache"
+    with pytest.raises(UserError, match=r"trajectories without bodies.*run prepare-audio"):
+        open_dataset(folder, cache, bodies=True)
+    assert open_dataset(folder, cache).item(0, 0).body is None
+    bodies = [np.random.default_rng(n).normal(size=(n, 23, 6)) for n in LENGTHS]
+    records = [
+        PhraseRecord(**{**dict(record), "body": write_body(tmp_path / "with", record.id, body)})
+        for record, body in zip(store_phrases(tmp_path / "with", LENGTHS), bodies, strict=True)
+    ]
+    write_manifest(tmp_path / "with", records)
+    data = open_dataset(tmp_path / "with", cache, bodies=True, target_frames=100)
+    batch = data.batch(1, len(LENGTHS))
+    assert batch.body is not None and batch.body.shape == (len(LENGTHS), 100, 23, 6)
+    for index, body in enumerate(bodies):
+        item = data.item(index, 0)
+        start = round(float(item.motion[16, 0]) * 60)  # plain_encode keeps the phase
+        shown = torch.from_numpy(body[start : start + 100]).float()
+        assert torch.allclose(item.body[item.mask], shown, atol=2e-3)
+    assert data.fingerprint != open_dataset(folder, cache).fingerprint
+
+
+def test_a_short_body_is_bad(tmp_path: Path) -> None:
+    [record] = store_phrases(tmp_path, [60])
+    for body, reason in ((np.zeros((59, 23, 6)), "59 frames"), (np.zeros((60, 22, 6)), "T, 23, 6")):
+        stored = write_body(tmp_path, record.id, body)
+        write_manifest(tmp_path, [record.model_copy(update={"body": stored})])
+        with pytest.raises(UserError, match=reason):
+            open_dataset(tmp_path, tmp_path / "cache", bodies=True).item(0, 0)
 
 
 def _saved(values: np.ndarray, tmp_path: Path) -> bytes:
