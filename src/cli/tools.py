@@ -11,10 +11,12 @@ import typer
 from src.cli.evaluate import evaluate
 from src.cli.evaluate_audio import evaluate_audio
 from src.cli.evaluate_sanity import evaluate_sanity
+from src.cli.evaluate_selection import evaluate_selection
 from src.cli.export_onnx import export_onnx
 from src.cli.features import features
 from src.cli.generate import generate
 from src.cli.guard import guarded
+from src.cli.memory import memory
 from src.cli.models import models
 from src.cli.plot import plot
 from src.cli.prepare import prepare
@@ -41,11 +43,13 @@ for command in (
     evaluate,
     evaluate_audio,
     evaluate_sanity,
+    evaluate_selection,
     models,
     plot,
     export_onnx,
 ):
     app.command()(guarded(command))
+app.add_typer(memory, name="memory")
 
 
 def main() -> None:

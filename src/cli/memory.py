@@ -1,0 +1,232 @@
+"""`memory build` and `memory query`: phrases of real motion, found by song or by text."""
+
+import json as json_format
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from src.cli import options
+from src.cli.guard import complain, guarded
+from src.shared.errors import UsageError, UserError
+
+if TYPE_CHECKING:
+    from src.shared.config_memory import MemoryConfig
+    from src.shared.memory.ask import Answer, Found
+    from src.shared.memory.index import MemoryIndex
+    from src.shared.model.audio.shared_space import SharedSpace
+
+SPACE = "starter-space"
+TEXT_MODEL = "starter"
+SOUND_FILES = (".wav", ".flac", ".ogg", ".mp3")
+NAME_WIDTH = 48
+
+memory = typer.Typer(
+    no_args_is_help=True,
+    help="A memory of motion phrases: build it, ask it.",
+    rich_markup_mode=None,
+)
+
+
+def build(
+    data: Annotated[str, typer.Argument(help="Folder that `prepare-audio` wrote, or a gs:// URL.")],
+    out: Annotated[Path, typer.Option(help="Folder for the memory.")],
+    space: Annotated[
+        str, typer.Option(help="Shared space of sound and motion: a name or a folder.")
+    ] = SPACE,
+    split: Annotated[str, typer.Option(help="Of the data: train, val or test.")] = "train",
+    bars: Annotated[int | None, typer.Option(help="Length of a phrase; 2.")] = None,
+    threads: options.Threads = None,
+    json: options.Json = False,
+) -> None:
+    """Cut phrases at bars and remember how each sounds and moves.
+
+    A memory that is up to date is left as it is.
+
+    \b
+    Example:
+      motion-tools memory build data/pairs --out data/memory
+    """
+    options.check_ranges(threads=threads)
+    options.check_folder("--out", out)
+    config = load_settings(bars=bars)
+
+    from src.cli.prepare_audio import progress_bar
+    from src.shared.device import set_threads
+    from src.shared.memory.build import build_memory
+    from src.shared.model.audio.shared_space import SharedSpace
+
+    set_threads(threads)
+    loaded = SharedSpace.from_pretrained(space)
+    with progress_bar("phrases") as progress:
+        index = build_memory(
+            data,
+            loaded,
+            out,
+            config=config,
+            split=split,
+            progress=progress,
+            space_name=space if not Path(space).is_dir() else str(Path(space).resolve()),
+        )
+    report = {
+        "memory": str(out),
+        "phrases": len(index),
+        "songs": len(index.songs),
+        "hours": round(int(index.offsets[-1]) / 30 / 3600, 4),
+        "dim": index.dim,
+        "left_out": index.about["left_out"],
+    }
+    if json:
+        print(json_format.dumps(report, indent=1, ensure_ascii=False))
+        return
+    for name, reason in index.about["left_out"].items():
+        complain(f"left out {name}: {reason}")
+    print(f"{len(index)} phrases of {len(index.songs)} songs, {report['hours']:.2f} h: {out}")
+    print(f"next: motion-tools memory query SONG --memory {out}")
+
+
+def query(
+    ask: Annotated[str, typer.Argument(help="A sound file, or words.", metavar="SONG|TEXT")],
+    memory: Annotated[Path, typer.Option(help="Folder that `memory build` wrote.")],
+    top_k: Annotated[int | None, typer.Option(help="Phrases to find; 8.")] = None,
+    space: Annotated[
+        str | None, typer.Option(help="Where the shared space is now; the one of the build.")
+    ] = None,
+    model: Annotated[str, typer.Option(help="Text model that reads the words.")] = TEXT_MODEL,
+    meter: Annotated[int | None, typer.Option(help="Beats a bar; else 3 or 4 by ear.")] = None,
+    threads: options.Threads = None,
+    json: options.Json = False,
+) -> None:
+    """Find phrases that fit a song, bar by bar, or that move as words say.
+
+    \b
+    Examples:
+      motion-tools memory query song.mp3 --memory data/memory
+      motion-tools memory query "a person runs" --memory data/memory --top-k 5
+    """
+    options.check_ranges(threads=threads, meter=meter)
+    if not ask.strip():
+        raise UsageError("the question is empty; name a sound file or give words")
+    is_song = Path(ask).is_file()
+    if not is_song and Path(ask).suffix.lower() in SOUND_FILES:
+        raise UsageError(f"{ask}: no such file; name a sound file, or give words")
+
+    from src.shared.device import set_threads
+    from src.shared.memory.index import MemoryIndex
+
+    set_threads(threads)
+    index = MemoryIndex.open(memory)
+    config = load_settings(top_k=top_k, bars=index.about["bars"])
+    loaded = open_space(space or index.about["space_name"], index, memory)
+    if is_song:
+        answers = query_song(Path(ask), index, loaded, config, meter)
+    else:
+        answers = [query_text(ask, index, loaded, config, model)]
+    if json:
+        told = {
+            "query": ask,
+            "kind": "song" if is_song else "text",
+            "memory": str(memory),
+            "answers": [answer.to_json() for answer in answers],
+        }
+        print(json_format.dumps(told, indent=1, ensure_ascii=False))
+    elif is_song:
+        print_song(answers)
+    else:
+        print(f"confidence {answers[0].confidence:.2f}")
+        print_hits(answers[0].hits)
+
+
+for command in (build, query):
+    memory.command()(guarded(command))
+
+
+def load_settings(**given: Any) -> "MemoryConfig":
+    """memory.yaml with the command line's values on top.
+
+    Raises:
+        UsageError: a value out of range.
+    """
+    from src.shared.config_loader import load_config, load_yaml, packaged_config
+    from src.shared.config_memory import MemoryConfig
+
+    path = packaged_config("memory.yaml")
+    overrides = [f"{name}={value}" for name, value in given.items() if value is not None]
+    return load_config(MemoryConfig, load_yaml(path), str(path), overrides)
+
+
+def open_space(name: str, index: "MemoryIndex", folder: Path) -> "SharedSpace":
+    """The space that made the keys.
+
+    Raises:
+        UserError: it is gone, or another one.
+    """
+    from src.shared.model.audio.shared_space import SharedSpace
+
+    space = SharedSpace.from_pretrained(name)
+    if space.fingerprint != index.about["space"]:
+        raise UserError(
+            f"the memory in {folder} was made with another shared space than {name}; name that"
+            " one with --space, or build the memory again"
+        )
+    return space
+
+
+def query_song(
+    path: Path,
+    index: "MemoryIndex",
+    space: "SharedSpace",
+    config: "MemoryConfig",
+    meter: int | None,
+) -> list["Answer"]:
+    """Listen, then ask for each bar."""
+    from src.shared.audio.song import analyse
+    from src.shared.inference.song_generator import heard
+    from src.shared.memory.ask import ask_song
+
+    condition, phase = heard(analyse(path, meter=meter), None)
+    if phase is None:
+        complain(f"{path.name}: no beat was heard; asking every 2 s")
+    return ask_song(index, space, condition, phase, config=config)
+
+
+def query_text(
+    text: str, index: "MemoryIndex", space: "SharedSpace", config: "MemoryConfig", model: str
+) -> "Answer":
+    """Read the words with the text model's tower, then ask."""
+    from src.shared.memory.ask import ask_text
+    from src.shared.model.generation.motion_generator import MotionGenerator
+
+    generator = MotionGenerator.from_pretrained(model, device="cpu")
+    for warning in filter(None, generator.scope_warnings([text])):
+        complain(f"warning: {warning}")
+    embedding = space.embed_text([text], generator.text, generator.tokenizer)
+    return ask_text(index, embedding, config=config)
+
+
+def print_song(answers: list["Answer"]) -> None:
+    """A line a bar with its best phrase."""
+    print("  bar   seconds      conf  score   BPM   m/s  phrase")
+    for answer in answers:
+        best = answer.hits[0]
+        print(
+            f"{answer.bar:>5}  {answer.start:>5.1f}-{answer.stop:<5.1f}  {answer.confidence:>5.2f}"
+            f"  {best.score:>5.2f}  {best.tempo:>4.0f}  {best.speed:>4.2f}  {name_of(best)}"
+        )
+
+
+def print_hits(hits: list["Found"]) -> None:
+    """A line a phrase."""
+    print("rank  score   BPM   m/s  energy  density  tension  stability  phrase")
+    for hit in hits:
+        print(
+            f"{hit.rank:>4}  {hit.score:>5.2f}  {hit.tempo:>4.0f}  {hit.speed:>4.2f}"
+            f"  {hit.energy:>6.2f}  {hit.density:>7.2f}  {hit.tension:>7.2f}"
+            f"  {hit.stability:>9.2f}  {name_of(hit)}"
+        )
+
+
+def name_of(hit: "Found") -> str:
+    """What a phrase shows: its caption, else its clip; and its id."""
+    shown = hit.caption or Path(hit.clip).stem
+    return f"{shown[:NAME_WIDTH]} [{hit.phrase}]" if shown else hit.phrase

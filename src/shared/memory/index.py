@@ -1,0 +1,284 @@
+"""MemoryIndex: phrases of motion with their keys in the shared space, and exact search in them.
+
+Search is a matrix product in blocks, so its memory does not grow with the index. What is found
+depends on the content alone: equal scores come in the order of the phrases.
+
+Letters: N phrases, D width of the shared space, S songs, F frames of all phrases together,
+B queries, k hits, T frames of one phrase.
+"""
+
+from collections.abc import Iterable, Sequence, Set
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Literal, Self
+
+import numpy as np
+import torch
+from torch import Tensor
+
+Key = Literal["audio", "motion"]
+Excluded = Sequence[Set[str] | None]  # a query's songs that may not be found
+
+BLOCK = 65_536  # phrases compared at a time
+PHASE_WEIGHT = 0.1
+NOTHING = -1  # in Hits.index where there are fewer phrases than hits were asked for
+
+
+@dataclass(frozen=True, eq=False)
+class Phrase:
+    """One phrase on its way into the memory.
+
+    Attributes:
+        id: names it.
+        song: the music it was danced to.
+        caption: what it shows; empty if unknown.
+        clip: the recording it shows most of; empty if unknown.
+        tempo: beats a minute; 0 if unknown.
+        audio_key, motion_key: [D], unit.
+        trajectory: [T,25], local: starts at x = z = 0, facing +Z; its phase is modulo 1 per bar.
+        priors: [4,T] in [0,1].
+    """
+
+    id: str
+    song: str
+    caption: str
+    clip: str
+    tempo: float
+    audio_key: np.ndarray
+    motion_key: np.ndarray
+    trajectory: np.ndarray
+    priors: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Hits:
+    """The k best phrases of each query, best first.
+
+    Attributes:
+        index: [B,k] int64; -1 where there is none.
+        score: [B,k] float32, cosine less the loss for a foreign bar phase; -inf where none.
+    """
+
+    index: Tensor
+    score: Tensor
+
+    def __len__(self) -> int:
+        return len(self.index)
+
+
+@dataclass(frozen=True, eq=False)
+class MemoryIndex:
+    """N phrases; `open` leaves trajectories and priors on disk until they are asked for.
+
+    Attributes:
+        audio_keys, motion_keys: [N,D] float32, unit.
+        start_phase: [N] float32, bar phase of the first frame, in [0,1).
+        tempo: [N] float32, beats a minute, 0 if unknown.
+        song: [N] int64, number in `songs`.
+        offsets: [N+1] int64; phrase n has rows offsets[n] to offsets[n+1] of the next two.
+        trajectories: [F,25] float16.
+        priors: [F,4] float16.
+        songs: S names.
+        ids, captions, clips: N texts each, see `Phrase`.
+        about: what it was made of and how: `space` is the hash of the space's weights.
+    """
+
+    audio_keys: Tensor
+    motion_keys: Tensor
+    start_phase: Tensor
+    tempo: Tensor
+    song: Tensor
+    offsets: Tensor
+    trajectories: Tensor
+    priors: Tensor
+    songs: tuple[str, ...]
+    ids: tuple[str, ...]
+    captions: tuple[str, ...]
+    clips: tuple[str, ...]
+    about: dict[str, Any] = field(default_factory=dict)
+
+    @classmethod
+    def from_phrases(cls, phrases: Iterable[Phrase], **about: Any) -> Self:
+        """An index of at least one phrase, in their order; `about` says what it is made of."""
+        items = list(phrases)
+        assert items, "a memory has at least one phrase"
+        songs = tuple(sorted({phrase.song for phrase in items}))
+        number = {song: n for n, song in enumerate(songs)}
+        lengths = [len(phrase.trajectory) for phrase in items]
+        phases = [phrase.trajectory[0, 16] for phrase in items]
+        trajectories = np.concatenate([phrase.trajectory for phrase in items])
+        priors = np.concatenate([phrase.priors.T for phrase in items])
+        return cls(
+            audio_keys=_stack([phrase.audio_key for phrase in items]),
+            motion_keys=_stack([phrase.motion_key for phrase in items]),
+            start_phase=torch.tensor(np.array(phases), dtype=torch.float32),
+            tempo=torch.tensor([phrase.tempo for phrase in items], dtype=torch.float32),
+            song=torch.tensor([number[phrase.song] for phrase in items]),
+            offsets=torch.from_numpy(np.concatenate([[0], np.cumsum(lengths)])),
+            trajectories=torch.from_numpy(trajectories.astype(np.float16)),
+            priors=torch.from_numpy(priors.astype(np.float16)),
+            songs=songs,
+            ids=tuple(phrase.id for phrase in items),
+            captions=tuple(phrase.caption for phrase in items),
+            clips=tuple(phrase.clip for phrase in items),
+            about=about,
+        )
+
+    def __len__(self) -> int:
+        return len(self.audio_keys)
+
+    @property
+    def dim(self) -> int:
+        """D."""
+        return self.audio_keys.shape[1]
+
+    def keys(self, key: Key) -> Tensor:
+        """[N,D] of one side."""
+        return self.audio_keys if key == "audio" else self.motion_keys
+
+    @cached_property
+    def mean_key(self) -> dict[Key, Tensor]:
+        """[D] for each side: its product with a query is the query's mean similarity."""
+        return {"audio": self.audio_keys.mean(0), "motion": self.motion_keys.mean(0)}
+
+    def trajectory(self, phrase: int) -> np.ndarray:
+        """[T,25] float32 of one phrase."""
+        return self.trajectories[self._rows(phrase)].float().numpy()
+
+    def prior(self, phrase: int) -> np.ndarray:
+        """[4,T] float32 of one phrase."""
+        return self.priors[self._rows(phrase)].float().numpy().T
+
+    def song_of(self, phrase: int) -> str:
+        """Name of the song that a phrase belongs to."""
+        return self.songs[int(self.song[phrase])]
+
+    def _rows(self, phrase: int) -> slice:
+        return slice(int(self.offsets[phrase]), int(self.offsets[phrase + 1]))
+
+    # ------------------------------------------------------------ search
+
+    def search(
+        self,
+        query: Tensor,
+        *,
+        top_k: int,
+        exclude_songs: Excluded | None = None,
+        key: Key = "audio",
+        phase: Tensor | None = None,
+        phase_weight: float = PHASE_WEIGHT,
+    ) -> Hits:
+        """The best phrases by cosine, exactly.
+
+        Args:
+            query: [B,D], unit.
+            top_k: k ≥ 1.
+            exclude_songs: for each query, songs whose phrases are not taken, or None.
+            key: which side of the phrases is compared.
+            phase: [B] bar phase that a phrase should start in.
+            phase_weight: what half a bar off costs; `phase_cost` says how it grows.
+
+        Raises:
+            ValueError: the query has another width.
+        """
+        self.check_width(query)
+        keys, banned = self.keys(key), self.banned(exclude_songs, len(query))
+        best = Hits(*_empty(len(query), 0))
+        for start in range(0, len(self), BLOCK):
+            block = slice(start, min(start + BLOCK, len(self)))
+            scores = query.float() @ keys[block].T
+            if phase is not None and phase_weight:
+                scores -= phase_cost(phase, self.start_phase[block], phase_weight)
+            if banned is not None:
+                scores.masked_fill_(banned[:, self.song[block]], -torch.inf)
+            best = _merge(best, _top(scores, top_k, start), top_k)
+        return best
+
+    def check_width(self, query: Tensor) -> None:
+        """Raises ValueError for queries that are not [B,D]."""
+        if query.ndim != 2 or query.shape[1] != self.dim:
+            raise ValueError(f"a query is [B,{self.dim}], not {list(query.shape)}")
+
+    def banned(self, exclude_songs: Excluded | None, queries: int) -> Tensor | None:
+        """[B,S] True where a query may not find a song; None where nothing is excluded.
+
+        Raises:
+            ValueError: not one entry a query.
+        """
+        if exclude_songs is None:
+            return None
+        if len(exclude_songs) != queries:
+            raise ValueError(f"exclude_songs has {len(exclude_songs)} entries, not {queries}")
+        table = torch.zeros(queries, len(self.songs), dtype=torch.bool)
+        for row, excluded in enumerate(exclude_songs):
+            known = [self._number[song] for song in excluded or () if song in self._number]
+            table[row, known] = True
+        return table if table.any() else None
+
+    @cached_property
+    def _number(self) -> dict[str, int]:
+        return {song: number for number, song in enumerate(self.songs)}
+
+    # ------------------------------------------------------------ folders
+
+    def save(self, folder: str | Path) -> None:
+        """Write the folder (see folder.py); raises UserError when that fails."""
+        from src.shared.memory.folder import save_index
+
+        save_index(self, Path(folder))
+
+    @classmethod
+    def open(cls, folder: str | Path, *, verify: bool = True) -> Self:
+        """Open what `save` wrote; `verify` compares every file with its SHA-256.
+
+        Raises:
+            UserError: no memory there, of another version, or a file is missing or damaged.
+        """
+        from src.shared.memory.folder import read_index
+
+        return cls(**read_index(Path(folder), verify=verify))
+
+
+def phase_cost(phase: Tensor, start_phase: Tensor, weight: float) -> Tensor:
+    """What queries [B] lose with phrases [N] that start elsewhere in the bar: [B,N].
+
+    weight · (1 - cos 2πΔ) / 2: nothing for the same phase, `weight` for half a bar, round both
+    ways, and a scalar product of points on the circle, as an index library needs it.
+    """
+    turns = phase[:, None].float() - start_phase[None].float()
+    return weight * (1 - torch.cos(2 * torch.pi * turns)) / 2
+
+
+def _stack(keys: list[np.ndarray]) -> Tensor:
+    stacked = torch.from_numpy(np.stack(keys).astype(np.float32))
+    return torch.nn.functional.normalize(stacked, dim=-1)
+
+
+def _empty(queries: int, hits: int) -> tuple[Tensor, Tensor]:
+    index = torch.full((queries, hits), NOTHING)
+    return index, torch.full((queries, hits), -torch.inf)
+
+
+def _top(scores: Tensor, top_k: int, start: int) -> Hits:
+    """The best of one block [B,C]; of equal scores at the border, the first phrases."""
+    values, index = scores.topk(min(top_k + 1, scores.shape[1]))
+    if values.shape[1] > top_k:
+        for row in torch.nonzero(values[:, top_k - 1] == values[:, top_k])[:, 0]:
+            order = scores[row].sort(descending=True, stable=True)
+            values[row], index[row] = order.values[: top_k + 1], order.indices[: top_k + 1]
+    return Hits(index[:, :top_k] + start, values[:, :top_k])
+
+
+def _merge(first: Hits, second: Hits, top_k: int) -> Hits:
+    """The best of both, always k wide; what scores -inf is no hit."""
+    width = max(top_k, first.index.shape[1] + second.index.shape[1])
+    index, score = _empty(len(first), width)
+    count = first.index.shape[1] + second.index.shape[1]
+    index[:, :count] = torch.cat((first.index, second.index), 1)
+    score[:, :count] = torch.cat((first.score, second.score), 1)
+    by_index = index.masked_fill(index == NOTHING, torch.iinfo(index.dtype).max).argsort(1)
+    index, score = index.gather(1, by_index), score.gather(1, by_index)
+    order = score.sort(dim=1, descending=True, stable=True).indices[:, :top_k]
+    index, score = index.gather(1, order), score.gather(1, order)
+    return Hits(index.masked_fill(score == -torch.inf, NOTHING), score)

@@ -1,0 +1,209 @@
+"""MPMService: the memory behind a deadline (REF's asynchronous API, and a plain one).
+
+A query is answered in time or by "nothing known", and both are counted: a sampler goes on without
+memory rather than wait for a slow disk or fail with it.
+"""
+
+import asyncio
+import logging
+import queue
+import threading
+from collections import Counter
+from collections.abc import Callable, Sequence, Set
+from concurrent.futures import CancelledError, Future
+from concurrent.futures import TimeoutError as FutureTimeout
+from typing import Self
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from src.shared.config_memory import MemoryConfig
+from src.shared.errors import UsageError
+from src.shared.memory.context import Memory, null_memory, query_bars, retrieve
+from src.shared.memory.index import MemoryIndex
+
+log = logging.getLogger(__name__)
+
+Array = np.ndarray | Tensor
+Excluded = Set[str] | Sequence[Set[str] | None]
+
+
+class MPMService:
+    """Answers queries with the memory, in threads of its own, each within `config.deadline`.
+
+    Attributes:
+        counts: queries `answered`, `timed_out` and `failed`; the last two got a null memory.
+
+    Args:
+        config: the folder, and how to search.
+        index: a memory that is open already.
+    """
+
+    def __init__(self, config: MemoryConfig, index: MemoryIndex | None = None) -> None:
+        self.config = config
+        self.index = index
+        self.counts: Counter[str] = Counter(answered=0, timed_out=0, failed=0)
+        self._counting = threading.Lock()
+        self._workers = _Workers(config.workers)
+
+    @classmethod
+    async def from_config(cls, config: MemoryConfig) -> Self:
+        """A service that has yet to open its memory, see `initialize`.
+
+        Raises:
+            UsageError: the configuration names no folder.
+        """
+        if not config.folder:
+            raise UsageError("memory: folder is empty; name one that `memory build` wrote")
+        return cls(config)
+
+    async def initialize(self) -> None:
+        """Open the memory and check its files, without holding up the event loop.
+
+        Raises:
+            UserError: see `MemoryIndex.open`.
+        """
+        if self.index is None:
+            self.index = await asyncio.to_thread(MemoryIndex.open, self.config.folder)
+
+    async def query(
+        self,
+        audio_embedding: Array,
+        beat_phase: Array | float | None,
+        num_frames: int,
+        *,
+        exclude_songs: Excluded | None = None,
+    ) -> Memory:
+        """What is known for `num_frames` frames that sound like `audio_embedding`.
+
+        Args:
+            audio_embedding: [D] or [B,D], unit, of `SharedSpace.embed_audio`.
+            beat_phase: bar phase of the first frame, a number or [B], or unwrapped bars of all
+                frames [T] or [B,T]; see `retrieve`.
+            num_frames: T.
+            exclude_songs: songs that may not be found: one set for all, or one a query.
+
+        Raises:
+            ValueError: an argument of another shape.
+            RuntimeError: `initialize` was not awaited.
+        """
+        work, batch = self._work(audio_embedding, beat_phase, num_frames, exclude_songs)
+        future = self._workers.submit(work)
+        try:
+            async with asyncio.timeout(self.config.deadline):
+                memory = await asyncio.wrap_future(future)
+        except TimeoutError:
+            future.cancel()
+            return self._nothing("timed_out", batch, num_frames)
+        except Exception as error:  # whatever the index met, sampling goes on without it
+            return self._nothing("failed", batch, num_frames, error)
+        self._count("answered")
+        return memory
+
+    def query_now(
+        self,
+        audio_embedding: Array,
+        beat_phase: Array | float | None,
+        num_frames: int,
+        *,
+        exclude_songs: Excluded | None = None,
+    ) -> Memory:
+        """`query` for callers without an event loop; the memory is opened at the first call."""
+        if self.index is None:
+            self.index = MemoryIndex.open(self.config.folder)
+        work, batch = self._work(audio_embedding, beat_phase, num_frames, exclude_songs)
+        future = self._workers.submit(work)
+        try:
+            memory = future.result(self.config.deadline)
+        except (FutureTimeout, CancelledError):
+            if future.done() and not future.cancelled():
+                return self._nothing("failed", batch, num_frames, future.exception())
+            future.cancel()
+            return self._nothing("timed_out", batch, num_frames)
+        except Exception as error:  # likewise
+            return self._nothing("failed", batch, num_frames, error)
+        self._count("answered")
+        return memory
+
+    def _work(
+        self,
+        audio_embedding: Array,
+        beat_phase: Array | float | None,
+        num_frames: int,
+        exclude_songs: Excluded | None,
+    ) -> tuple[Callable[[], Memory], int]:
+        """The search to be done, and B; mistakes of the caller show here, not as nulls."""
+        if self.index is None:
+            raise RuntimeError("await initialize() before the first query")
+        index, config = self.index, self.config
+        query = torch.atleast_2d(torch.as_tensor(audio_embedding).detach().float().cpu())
+        index.check_width(query)
+        phase = None if beat_phase is None else torch.as_tensor(beat_phase).detach().cpu()
+        query_bars(phase, len(query), num_frames)
+        excluded = [exclude_songs] * len(query) if isinstance(exclude_songs, Set) else exclude_songs
+        if excluded is not None and len(excluded) != len(query):
+            raise ValueError(f"exclude_songs has {len(excluded)} entries, not {len(query)}")
+
+        def work() -> Memory:
+            return retrieve(
+                index,
+                query,
+                num_frames=num_frames,
+                phase=phase,
+                top_k=config.top_k,
+                temperature=config.temperature,
+                exclude_songs=excluded,
+                key=config.key,
+                phase_weight=config.phase_weight,
+            )
+
+        return work, len(query)
+
+    def _nothing(
+        self, why: str, batch: int, num_frames: int, error: BaseException | None = None
+    ) -> Memory:
+        reason = f"failed ({error})" if error else f"took longer than {self.config.deadline:g} s"
+        if self._count(why) == 1:  # the rest are in `counts`
+            log.warning("a memory query %s; going on without memory", reason)
+        return null_memory(batch, num_frames)
+
+    def _count(self, what: str) -> int:
+        with self._counting:
+            self.counts[what] += 1
+            return self.counts[what]
+
+
+class _Workers:
+    """A few daemon threads and a queue: a search that hangs does not keep a program from ending.
+
+    `concurrent.futures` would wait for its threads at exit.
+    """
+
+    def __init__(self, count: int) -> None:
+        self._count = count
+        self._queue: queue.SimpleQueue[tuple[Future[Memory], Callable[[], Memory]]] = (
+            queue.SimpleQueue()
+        )
+        self._threads: list[threading.Thread] = []
+        self._starting = threading.Lock()
+
+    def submit(self, work: Callable[[], Memory]) -> "Future[Memory]":
+        future: Future[Memory] = Future()
+        self._queue.put((future, work))
+        with self._starting:
+            if len(self._threads) < self._count:
+                thread = threading.Thread(target=self._run, name="memory", daemon=True)
+                self._threads.append(thread)
+                thread.start()
+        return future
+
+    def _run(self) -> None:
+        while True:
+            future, work = self._queue.get()
+            if not future.set_running_or_notify_cancel():
+                continue  # its deadline passed while it waited
+            try:
+                future.set_result(work())
+            except BaseException as error:  # the thread lives on, the one who asked is told
+                future.set_exception(error)

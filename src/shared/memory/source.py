@@ -1,0 +1,174 @@
+"""The phrases of a prepared audio folder, with their bodies, cut at bars.
+
+Letters: C = 163 or 167 rows of sound, T frames.
+"""
+
+import json
+from collections import Counter
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import islice
+from typing import Any
+
+import numpy as np
+
+from src.shared.config_memory import MemoryConfig
+from src.shared.data.phrases.layout import (
+    MANIFEST,
+    BadContent,
+    PhraseRecord,
+    common_length,
+    decode_body,
+    decode_features,
+    decode_trajectory,
+    phase_rows,
+)
+from src.shared.data.phrases.remote import Backoff, Remote, Unreachable
+from src.shared.data.phrases.store import PhraseStore
+from src.shared.errors import UserError
+from src.shared.memory.phrases import cut_at_bars
+from src.shared.memory.priors import prior_curves
+from src.shared.motion.root_track import LEFT_CONTACT, ROOT_ROW
+from src.shared.motion.trajectory import FPS, PHASE
+from src.shared.motion.trajectory_math import unwrap_phase
+from src.shared.motion.window import encode_window, place_window
+
+ONSETS = 162  # row of a condition
+MAX_BAD_FRACTION = 0.05  # ruling 17
+AGAIN = "run prepare-audio again into the same folder: it adds what is missing"
+
+Progress = Callable[[int, int], None]  # (phrases done, phrases in all)
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """A phrase of the memory before it has keys.
+
+    Attributes:
+        id, song, caption, clip, tempo, trajectory, priors: as in `Phrase`.
+        audio: condition [C,T].
+        body: raw features [T,23,6].
+    """
+
+    id: str
+    song: str
+    caption: str
+    clip: str
+    tempo: float
+    trajectory: np.ndarray
+    priors: np.ndarray
+    audio: np.ndarray
+    body: np.ndarray
+
+
+class Source:
+    """The phrases of one split of a prepared audio folder.
+
+    Attributes:
+        records: with bodies.
+        bad: phrases that could not be used, with the reason.
+
+    Raises:
+        UserError: nothing there, no phrases of the split, or phrases without bodies.
+    """
+
+    def __init__(self, root: str, split: str) -> None:
+        self.root = root
+        remote = Remote(root, backoff=Backoff())
+        self.store = PhraseStore(remote, None)
+        everything = remote.phrases()
+        self.records = [record for record in everything if record.split == split]
+        self.bad: dict[str, str] = {}
+        if not self.records:
+            splits = ", ".join(sorted({record.split for record in everything})) or "none"
+            raise UserError(f"{root} has no phrases of split {split!r}; there are: {splits}")
+        bare = [record.id for record in self.records if record.body is None]
+        if bare:
+            raise UserError(
+                f"{root}: {len(bare)} of {len(self.records)} phrases have no body.npz (e.g."
+                f" {bare[0]}), which a memory of motion needs; {AGAIN}"
+            )
+        self._pairs = _pairs(remote)
+        self._captions = {
+            _longest(self._pairs[record.id]): record.caption
+            for record in everything
+            if record.id in self._pairs and record.caption
+        }
+
+    def pieces(self, config: MemoryConfig, progress: Progress) -> Iterator[Piece]:
+        """All phrases, cut at bars.
+
+        Raises:
+            UserError: too many are bad.
+        """
+        for done, record in enumerate(self.records, 1):
+            try:
+                yield from self._cut(record, config)
+            except (BadContent, Unreachable) as error:
+                self._leave_out(record, str(error))
+            progress(done, len(self.records))
+
+    def _leave_out(self, record: PhraseRecord, reason: str) -> None:
+        self.bad[record.id] = reason
+        if len(self.bad) > MAX_BAD_FRACTION * len(self.records):
+            named = "; ".join(f"{name}: {why}" for name, why in islice(self.bad.items(), 3))
+            raise UserError(
+                f"{self.root}: more than {MAX_BAD_FRACTION:.0%} of {len(self.records)} phrases"
+                f" cannot be used ({named}); {AGAIN}"
+            )
+
+    def _cut(self, record: PhraseRecord, config: MemoryConfig) -> Iterator[Piece]:
+        assert record.body is not None
+        trajectory = self.store.load(record.motion, decode_trajectory)
+        sound = self.store.load(record.features, decode_features)
+        body = self.store.load(record.body, decode_body)
+        frames = min(common_length(trajectory, sound), len(body))
+        audio = sound.stacked[:, :frames]
+        if sound.phase is not None:
+            audio = np.concatenate([audio, phase_rows(sound.phase[:frames], sound.meter)])
+        phase = unwrap_phase(trajectory[:frames, PHASE])
+        priors = prior_curves(
+            trajectory[:frames],
+            onsets=audio[ONSETS],
+            contacts=body[:frames, ROOT_ROW, LEFT_CONTACT:],
+        )
+        for start, stop in cut_at_bars(phase, bars=config.bars, min_frames=config.min_frames):
+            part = slice(start, stop)
+            window = encode_window(trajectory[part], phase[part])
+            clip = self._clip(record.id, start, stop)
+            yield Piece(
+                id=f"{record.id}/{start:04d}",
+                song=record.song or record.id,
+                caption=self._captions.get(clip, "") if clip else record.caption,
+                clip=clip,
+                tempo=record.tempo,
+                trajectory=place_window(window, phase=phase[start]),
+                priors=priors[:, part],
+                audio=audio[:, part],
+                body=body[part],
+            )
+
+    def _clip(self, phrase: str, start: int, stop: int) -> str:
+        """The clip that most frames of a phrase show; "" if the data does not tell."""
+        from src.shared.data.pairing.phrase_body import read_pair
+
+        if phrase not in self._pairs:
+            return ""
+        pieces, warp = read_pair(self._pairs[phrase])
+        shown = np.rint(warp.times(np.arange(start, stop) / FPS) * FPS)
+        places = np.searchsorted([piece.at for piece in pieces], shown, side="right") - 1
+        return Counter(pieces[n].clip for n in places.clip(0).tolist()).most_common(1)[0][0]
+
+
+def _pairs(remote: Remote) -> dict[str, dict[str, Any]]:
+    """What the manifest says of the clips behind each phrase, if it does."""
+    try:
+        phrases = json.loads(remote.read(MANIFEST))["phrases"]
+    except FileNotFoundError:
+        return {}
+    return {phrase["id"]: phrase["pair"] for phrase in phrases if "pair" in phrase}
+
+
+def _longest(pair: dict[str, Any]) -> str:
+    """The clip that a phrase's caption tells of."""
+    return str(max(pair["pieces"], key=lambda piece: piece["last"] - piece["first"])["clip"])

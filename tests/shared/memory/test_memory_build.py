@@ -1,0 +1,120 @@
+"""Building a memory: what is in it, that it is found again, and what is refused."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+
+from src.shared.config_memory import MemoryConfig
+from src.shared.data.phrases.layout import MANIFEST, body_path
+from src.shared.errors import UserError
+from src.shared.memory.build import build_memory
+from src.shared.memory.index import MemoryIndex
+from tests.shared.memory.tiny_memory import LinearSpace, write_dancers
+
+
+@pytest.fixture(scope="module")
+def pairs(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_dancers(tmp_path_factory.mktemp("pairs"))
+
+
+def test_phrases_of_the_training_split(pairs: Path, tmp_path: Path) -> None:
+    told: list[tuple[int, int]] = []
+    index = build_memory(pairs, LinearSpace(), tmp_path, progress=lambda *n: told.append(n))
+    assert told[-1] == (10, 10)
+    assert index.songs == tuple(f"song-{n}" for n in range(5)), "the sixth song is for testing"
+    assert index.dim == 16 and index.about["space"] == LinearSpace().fingerprint
+    assert index.about["left_out"] == {}
+    assert {phrase.split("/")[0] for phrase in index.ids} == {f"dance-{n:02d}" for n in range(10)}
+    assert (index.tempo == 120).all()
+    assert index.captions[0] == "a person nods 0 times"
+    for number in range(len(index)):
+        trajectory = index.trajectory(number)
+        assert np.allclose(trajectory[0, [0, 2]], 0, atol=1e-3), "local"
+        assert abs(trajectory[0, 11]) < 1e-3, "faces +Z"
+        assert trajectory[0, 16] == pytest.approx(float(index.start_phase[number]), abs=1e-3)
+        assert index.prior(number).shape == (4, len(trajectory))
+    starts = [round(float(phase), 2) % 1 for phase in index.start_phase]
+    assert starts.count(0.0) >= 10, "a whole phrase starts on a downbeat"
+
+
+def test_keys_are_those_of_the_space(pairs: Path, tmp_path: Path) -> None:
+    """Each key is what the space makes of the piece alone: padding in a batch does not show."""
+    from src.shared.memory.source import Source
+
+    space = LinearSpace()
+    index = build_memory(pairs, space, tmp_path)
+    pieces = list(Source(str(pairs), "train").pieces(MemoryConfig(), lambda done, total: None))
+    assert [piece.id for piece in pieces] == list(index.ids)
+    for number, piece in enumerate(pieces):
+        audio = space.embed_audio(torch.from_numpy(piece.audio)[None])[0]
+        motion = space.embed_motion(torch.from_numpy(piece.body)[None])[0]
+        assert torch.allclose(index.audio_keys[number], audio, atol=1e-5)
+        assert torch.allclose(index.motion_keys[number], motion, atol=1e-5)
+
+
+def test_an_up_to_date_memory_is_only_opened(pairs: Path, tmp_path: Path) -> None:
+    build_memory(pairs, LinearSpace(), tmp_path)
+    keys = tmp_path / "keys.safetensors"
+    before = keys.stat().st_mtime_ns
+    build_memory(pairs, LinearSpace(), tmp_path)
+    assert keys.stat().st_mtime_ns == before
+    build_memory(pairs, LinearSpace(1), tmp_path)
+    assert keys.stat().st_mtime_ns != before, "keys of one space mean nothing in another"
+    assert MemoryIndex.open(tmp_path).about["space"] == LinearSpace(1).fingerprint
+    longer = build_memory(pairs, LinearSpace(1), tmp_path, config=MemoryConfig(bars=3))
+    assert longer.about["bars"] == 3
+
+
+def test_a_folder_without_bodies_says_what_to_do(tmp_path: Path) -> None:
+    write_dancers(tmp_path / "pairs", 2, bodies=False)
+    with pytest.raises(UserError, match=r"have no body\.npz.*run prepare-audio again"):
+        build_memory(tmp_path / "pairs", LinearSpace(), tmp_path / "memory")
+    assert not (tmp_path / "memory").exists()
+
+
+def test_other_folders_and_splits(pairs: Path, tmp_path: Path) -> None:
+    with pytest.raises(UserError, match="no phrases of split 'val'; there are: test, train"):
+        build_memory(pairs, LinearSpace(), tmp_path, split="val")
+    with pytest.raises(UserError, match="no phrases of split"):
+        build_memory(tmp_path, LinearSpace(), tmp_path / "memory")
+    with pytest.raises(UserError, match="long enough"):
+        build_memory(pairs, LinearSpace(), tmp_path, config=MemoryConfig(min_frames=500))
+
+
+def test_a_few_bad_phrases_are_left_out_and_named_many_are_an_error(tmp_path: Path) -> None:
+    pairs = write_dancers(tmp_path / "pairs", 12)
+    (pairs / body_path("dance-03")).write_bytes(b"not an npz")
+    index = build_memory(pairs, LinearSpace(), tmp_path / "memory")
+    assert list(index.about["left_out"]) == ["dance-03"]
+    assert not any(phrase.startswith("dance-03") for phrase in index.ids)
+    (pairs / body_path("dance-04")).write_bytes(b"")
+    with pytest.raises(UserError, match="more than 5% of 22 phrases cannot be used"):
+        build_memory(pairs, LinearSpace(1), tmp_path / "memory")
+    assert MemoryIndex.open(tmp_path / "memory").about["space"] == LinearSpace().fingerprint
+
+
+def test_the_clip_that_is_shown_names_the_phrase(tmp_path: Path) -> None:
+    """A phrase joined of two clips: each piece has the caption of the one it shows most of."""
+    pairs = write_dancers(tmp_path / "pairs", 2, frames=240)
+    manifest = json.loads((pairs / MANIFEST).read_text())
+    rates = [1.0] * 41
+    for number, phrase in enumerate(manifest["phrases"]):
+        main, other = ("walk", "run") if number % 2 else ("run", "walk")
+        phrase["caption"] = f"a person does a {main}"
+        phrase["pair"] = {
+            "pieces": [
+                {"clip": main, "first": 0, "last": 150, "at": 0},
+                {"clip": other, "first": 0, "last": 100, "at": 140},
+            ],
+            "warp": {"start": 0.0, "knot_seconds": 0.2, "rates": rates},
+        }
+    (pairs / MANIFEST).write_text(json.dumps(manifest))
+    index = build_memory(pairs, LinearSpace(), tmp_path / "memory")
+    for name, clip, caption in zip(index.ids, index.clips, index.captions, strict=True):
+        phrase, _, start = name.partition("/")
+        main, other = ("walk", "run") if int(phrase[-2:]) % 2 else ("run", "walk")
+        assert clip == (main if int(start) < 90 else other), name
+        assert caption == f"a person does a {clip}"
