@@ -1,0 +1,254 @@
+"""Kinetic and geometric features of a whole body, and of a pelvis alone.
+
+Kinetic: Onuma et al. 2008, as AIST++ (Li et al. 2021, §5.2) has them: three figures a joint.
+Geometric: 32 of the relations of Müller et al. 2005, each the share of frames in which it holds.
+Lengths are in those of the skeleton: hl the upper arm, sw and hw the width of shoulders and hips.
+
+Not the published code, whose figures these must never stand beside. Mended here: it divides only
+one of two positions by the frame time in the acceleration, so that a pose far from the origin
+"accelerates"; it takes 1/60 or 1/120 s a frame whatever the frame rate; two velocity features look
+at the chest instead of the wrist; and the plane features of left and right look opposite ways.
+
+Letters: T frames, K joints, F features, W windows.
+"""
+
+import numpy as np
+import torch
+
+from src.shared.motion.skeleton import (
+    JOINT_INDEX,
+    JOINT_NAMES,
+    REST_PELVIS_HEIGHT,
+    canonical_skeleton,
+)
+from src.shared.motion.trajectory import MotionTrajectory
+from src.shared.motion.trajectory_math import angular_velocity
+
+WINDOW = 2  # frames on either side of a velocity or an acceleration
+KINDS = ("horizontal", "vertical", "acceleration")  # kinetic features of a joint
+ROOT_KINDS = (*KINDS, "turning", "tilting")
+ROOT_RELATIONS = (
+    "low", "high", "rising", "sinking", "fast", "forward", "backward", "to the left",
+    "to the right", "turning left", "turning right", "leaning",
+)  # fmt: skip
+
+_OFFSETS = canonical_skeleton().offsets
+UPPER_ARM = float(np.linalg.norm(_OFFSETS[JOINT_INDEX["l_elbow"]]))  # hl, metres
+SHOULDERS = float(
+    2 * abs(_OFFSETS[JOINT_INDEX["l_collar"], 0] + _OFFSETS[JOINT_INDEX["l_shoulder"], 0])
+)  # sw
+HIPS = float(2 * abs(_OFFSETS[JOINT_INDEX["l_hip"], 0]))  # hw
+
+Array = np.ndarray
+
+
+def windowed_mean(values: Array) -> Array:
+    """Mean [W, ...] of values [W, ...] over two neighbours on either side, fewer at the ends."""
+    total = np.concatenate((np.zeros_like(values[:1]), values.cumsum(0)))
+    at = np.arange(len(values))
+    low, high = np.maximum(at - WINDOW, 0), np.minimum(at + WINDOW + 1, len(values))
+    count = (high - low).reshape(-1, *[1] * (values.ndim - 1))
+    return (total[high] - total[low]) / count
+
+
+def _checked(points: Array) -> Array:
+    if len(points) < 3:
+        raise ValueError(f"{len(points)} frames have no acceleration: at least 3 are needed")
+    if not np.isfinite(points).all():
+        raise ValueError("positions hold NaN or infinity")
+    return points.astype(np.float64)
+
+
+def kinetic_features(points: Array, fps: float) -> Array:
+    """Mean squared horizontal and vertical speed and mean acceleration of each joint.
+
+    Args:
+        points: [T, K, 3] metres in the world, y up.
+        fps: frames a second.
+
+    Returns:
+        [K, 3] in m²/s², m²/s², m/s²: `KINDS`. Velocities and accelerations are means over five
+        frames. Turning about y, moving anywhere and playing backwards change nothing.
+
+    Raises:
+        ValueError: fewer than 3 frames, NaN or infinity.
+    """
+    path = _checked(points)
+    velocity = windowed_mean(np.diff(path, axis=0)) * fps  # T-1 K 3
+    acceleration = windowed_mean(np.diff(path, n=2, axis=0)) * fps**2  # T-2 K 3
+    return np.stack(
+        (
+            (velocity[..., [0, 2]] ** 2).sum(-1).mean(0),
+            (velocity[..., 1] ** 2).mean(0),
+            np.linalg.norm(acceleration, axis=-1).mean(0),
+        ),
+        -1,
+    )
+
+
+# ---------------------------------------------------------------- geometric features of a body
+
+
+class _Body:
+    """Joint positions [T-1, 3] of every frame but the last, and what is said of them."""
+
+    def __init__(self, points: Array, fps: float, side: str = "r") -> None:
+        self.now, self.velocity = points[:-1], np.diff(points, axis=0) * fps  # T-1 K 3
+        self.side = side
+
+    def _index(self, name: str) -> int:
+        """`hand` is this side's, `other hand` the other side's; the middle has no side."""
+        name = {"hand": "wrist", "other hand": "other wrist"}.get(name, name)
+        if name in JOINT_INDEX:
+            return JOINT_INDEX[name]
+        side = {"r": "l", "l": "r"}[self.side] if name.startswith("other ") else self.side
+        return JOINT_INDEX[f"{side}_{name.removeprefix('other ')}"]
+
+    def at(self, name: str) -> Array:
+        return self.now[:, self._index(name)]
+
+    def to(self, start: str, end: str) -> Array:
+        """Vector [T-1, 3] from one joint to another."""
+        return self.at(end) - self.at(start)
+
+    def relative(self, name: str, to: str) -> Array:
+        """Velocity [T-1, 3] of one joint seen from another."""
+        return self.velocity[:, self._index(name)] - self.velocity[:, self._index(to)]
+
+    def speed(self, name: str) -> Array:
+        return np.linalg.norm(self.velocity[:, self._index(name)], axis=-1)
+
+    def height(self, name: str) -> Array:
+        """Metres above the lowest joint."""
+        return self.at(name)[:, 1] - self.now[..., 1].min(1)
+
+    def front(self) -> Array:
+        """Normal [T-1, 3] of the plane of neck and hips, forwards."""
+        return np.cross(self.to("neck", "r_hip"), self.to("neck", "l_hip"))
+
+
+def _along(vector: Array, direction: Array) -> Array:
+    """Component [T-1] of a vector along a direction; 0 where there is no direction."""
+    length = np.linalg.norm(direction, axis=-1)
+    return (vector * direction).sum(-1) / np.where(length > 1e-9, length, np.inf)
+
+
+def _angle(a: Array, b: Array) -> Array:
+    """Degrees [T-1] between two vectors."""
+    return np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b), axis=-1), (a * b).sum(-1)))
+
+
+def _of_one_side(body: _Body) -> dict[str, Array]:
+    """What holds of the right or the left side: bool [T-1] each, 13 relations."""
+    hl = UPPER_ARM
+    leg = np.cross(body.to("pelvis", "other hip"), body.to("pelvis", "other foot"))
+    forwards = np.where((_along(leg, body.front()) < 0)[:, None], -leg, leg)
+    spine = body.to("pelvis", "neck")
+    return {
+        "hand forwards": _along(body.relative("hand", "neck"), body.front()) > 1.8 * hl,
+        "hand above neck": _along(body.to("neck", "hand"), body.to("spine3", "neck")) > 0.2 * hl,
+        "hand upwards": _along(body.relative("hand", "spine3"), body.to("spine1", "spine3"))
+        > 1.8 * hl,
+        "elbow bent": _angle(body.to("elbow", "shoulder"), body.to("elbow", "hand")) < 110,
+        "hand leaves pelvis": _along(body.relative("hand", "pelvis"), body.to("pelvis", "hand"))
+        > 1.4 * hl,
+        "hand fast": body.speed("hand") > 2.5 * hl,
+        "foot before other leg": _along(body.to("pelvis", "ankle"), forwards) > 0.38 * hl,
+        "foot raised": body.height("ankle") > 1.2 * hl,
+        "knee bent": _angle(body.to("knee", "hip"), body.to("knee", "ankle")) < 110,
+        "foot fast": body.speed("ankle") > 2.5 * hl,
+        "arm away from trunk": _angle(-spine, body.to("shoulder", "elbow")) > 25,
+        "leg away from trunk": _angle(-spine, body.to("hip", "knee")) > 50,
+        "hand low": body.height("hand") < 1.2 * hl,
+    }
+
+
+def _of_both_sides(body: _Body) -> dict[str, Array]:
+    """What holds of the body as a whole: bool [T-1] each, 6 relations."""
+    hl, up = UPPER_ARM, np.array([0.0, 1.0, 0.0])
+    lean = _angle(body.to("neck", "pelvis"), up)
+    stance = np.cross(body.to("r_ankle", "l_ankle"), body.to("r_ankle", "neck"))
+    return {
+        "hands apart": _along(body.to("l_wrist", "r_wrist"), body.to("l_shoulder", "r_shoulder"))
+        > 2.5 * SHOULDERS,
+        "hands approach": _along(body.relative("l_wrist", "r_wrist"), body.to("l_wrist", "r_wrist"))
+        > 1.4 * hl,
+        "feet apart": _along(body.to("l_ankle", "r_ankle"), body.to("l_hip", "r_hip")) > 2.1 * HIPS,
+        "pelvis before feet": _along(body.to("r_ankle", "pelvis"), stance) > 0.5 * hl,
+        "trunk level": (lean > 70) & (lean < 110),
+        "pelvis fast": body.speed("pelvis") > 2.3 * hl,
+    }
+
+
+def geometric_relations(points: Array, fps: float) -> dict[str, Array]:
+    """The 32 relations of positions [T, 22, 3]: name to bool [T-1]; velocities are forward."""
+    path = _checked(points)
+    found = dict(_of_both_sides(_Body(path, fps)))
+    for side in ("r", "l"):
+        relations = _of_one_side(_Body(path, fps, side))
+        found |= {f"{side} {name}": holds for name, holds in relations.items()}
+    return found
+
+
+def geometric_features(points: Array, fps: float) -> Array:
+    """Share [32] of frames in which each relation holds, of positions [T, 22, 3] in metres.
+
+    Raises:
+        ValueError: fewer than 3 frames, NaN or infinity.
+    """
+    if points.shape[1] != len(JOINT_NAMES):
+        raise ValueError(f"{points.shape[1]} joints: the relations need all {len(JOINT_NAMES)}")
+    return np.array([holds.mean() for holds in geometric_relations(points, fps).values()])
+
+
+# ---------------------------------------------------------------- a pelvis alone
+
+
+def _turning(trajectory: MotionTrajectory) -> Array:
+    """Angular velocity [T-1, 3] in the world from the quaternions, rad/s."""
+    quaternions = torch.as_tensor(_checked(trajectory.quaternion))
+    return np.asarray(angular_velocity(quaternions, trajectory.fps).numpy())[:-1]
+
+
+def root_kinetic_features(trajectory: MotionTrajectory) -> Array:
+    """`ROOT_KINDS` [5] of a trajectory: those of one joint, and mean squared turning and tilting.
+
+    In m²/s², m²/s², m/s², rad²/s², rad²/s². Position and quaternion count, not the columns that
+    derive from them. Raises ValueError as `kinetic_features` does.
+    """
+    turning = windowed_mean(_turning(trajectory)) ** 2
+    joint = kinetic_features(trajectory.position[:, None], trajectory.fps)[0]
+    return np.append(joint, (turning[:, 1].mean(), turning[:, [0, 2]].sum(1).mean()))
+
+
+def root_geometric_features(trajectory: MotionTrajectory) -> Array:
+    """Share [12] of frames in which each of `ROOT_RELATIONS` holds.
+
+    Low: below 0.85, high: above 1.03 of the standing height; rising and sinking: 0.2 m/s; fast:
+    2.3 upper arms a second; the four directions, seen from the heading: 0.3 m/s; turning: 1 rad/s;
+    leaning: 20° off upright. Raises ValueError as `kinetic_features` does.
+    """
+    path = _checked(trajectory.position)
+    velocity = windowed_mean(np.diff(path, axis=0)) * trajectory.fps  # T-1 3
+    height = path[:-1, 1] / REST_PELVIS_HEIGHT
+    sine, cosine = np.sin(trajectory.heading[:-1]), np.cos(trajectory.heading[:-1])
+    ahead = velocity[:, 0] * sine + velocity[:, 2] * cosine
+    left = velocity[:, 0] * cosine - velocity[:, 2] * sine
+    turn = windowed_mean(_turning(trajectory))[:, 1]
+    _, x, _, z = trajectory.quaternion[:-1].T.astype(np.float64)
+    upright = 1 - 2 * (x**2 + z**2)  # y of the turned up axis
+    relations = (
+        height < 0.85,
+        height > 1.03,
+        velocity[:, 1] > 0.2,
+        velocity[:, 1] < -0.2,
+        np.linalg.norm(velocity, axis=1) > 2.3 * UPPER_ARM,
+        ahead > 0.3,
+        ahead < -0.3,
+        left > 0.3,
+        left < -0.3,
+        turn > 1,
+        turn < -1,
+        upright < np.cos(np.radians(20)),
+    )
+    return np.array([holds.mean() for holds in relations])
