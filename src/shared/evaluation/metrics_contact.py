@@ -1,0 +1,215 @@
+"""Feet and floor: sliding under claimed contacts, skating, sinking, floating; roughness; PFC.
+
+`metrics_physical.py` has the speeds; here are the shares of frames, what a slide is against the way
+travelled, and figures over which a frozen pose has no say (NaN instead of a perfect score).
+
+Letters: T frames, K joints.
+"""
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from src.shared.evaluation.families import Column, MotionSample
+from src.shared.evaluation.metrics_physical import SUPPORT_HEIGHT
+from src.shared.motion.motion import Motion
+from src.shared.motion.skeleton import FOOT_JOINTS, REST_FOOT_HEIGHT
+from src.shared.validation.body_measures import BALLS, ground_speed, mean_jerk
+
+GRAVITY = 9.81  # m/s²
+SKATING = 0.1  # m/s of a foot that carries the body
+SUNK = 0.01  # metres below the standing height of the ball of a foot
+FLOATING = 0.02  # metres above it; real feet roll and skin is soft
+MIN_PATH = 0.5  # metres over the ground, below which a slide a metre is noise
+MIN_SPEED = 0.01  # m/s, mean of all joints: slower is a frozen pose
+MIN_PUSH = 0.01  # m/s²: a smaller greatest acceleration is rounding
+PFC_FPS = 30.0  # of the published figures
+
+
+@dataclass(frozen=True)
+class Contact:
+    """Figures of one motion; NaN where there is nothing to judge."""
+
+    claimed_slide: float  # cm/s of a foot while the motion itself says that it stands
+    claimed_frames: float  # % of frames in which it says so of a foot
+    skating_frames: float  # % of supported frames whose lower foot is faster than 10 cm/s
+    slide_per_metre: float  # cm the lower foot slides for each metre that the pelvis travels
+    sunk_depth: float  # cm, mean depth of the lowest joint
+    sunk_frames: float  # % of frames deeper than 1 cm
+    float_height: float  # cm, mean height of the lowest joint where nothing carries the body
+    floating_frames: float  # % of frames in which it is above 2 cm and the body does not fly
+    flying_frames: float  # % of frames in which it is and falls as a thrown thing does
+    jerk_per_speed: float  # 1/s², jerk over speed of the joints
+    pfc: float  # EDGE's physical foot contact score
+
+
+def contact(motion: Motion) -> Contact:
+    """All figures of one motion of at least two frames.
+
+    Raises:
+        ValueError: NaN or infinity.
+    """
+    positions = motion.positions().astype(np.float64)
+    if not np.isfinite(positions).all():
+        raise ValueError("positions hold NaN or infinity")
+    fps = motion.fps
+    height = positions[..., 1].min(1) - REST_FOOT_HEIGHT  # T
+    floating, flying = unsupported(positions, fps)
+    claimed = motion.contacts[:-1] > 0.5  # T-1 2
+    speed = ground_speed(positions[:, BALLS], fps)  # T-1 2
+    return Contact(
+        claimed_slide=100 * _mean(speed[claimed]),
+        claimed_frames=100 * float((motion.contacts > 0.5).any(1).mean()),
+        skating_frames=100 * _mean(support_speed(positions, fps) > SKATING),
+        slide_per_metre=slide_per_metre(positions, fps),
+        sunk_depth=100 * float((-height).clip(min=0).mean()),
+        sunk_frames=100 * float((height < -SUNK).mean()),
+        float_height=100 * float(np.where(floating, height, 0.0).mean()),
+        floating_frames=100 * float(floating.mean()),
+        flying_frames=100 * float(flying.mean()),
+        jerk_per_speed=jerk_per_speed(positions, fps),
+        pfc=pfc(positions, fps),
+    )
+
+
+def _mean(values: np.ndarray) -> float:
+    return float(values.mean()) if values.size else float("nan")
+
+
+# ---------------------------------------------------------------- sliding
+
+
+def support_speed(positions: np.ndarray, fps: float) -> np.ndarray:
+    """Horizontal m/s of the lower ball of a foot in each frame where it is near the floor.
+
+    Of positions [T, 22, 3]; at most T-1 values, none where nothing is near. No condition on the
+    speed, so that a gliding body cannot escape by gliding fast.
+    """
+    balls = positions[:, BALLS]  # T 2 3
+    frames, lower = np.arange(len(balls) - 1), balls[:-1, :, 1].argmin(1)
+    near = balls[frames, lower, 1] < REST_FOOT_HEIGHT + SUPPORT_HEIGHT
+    return ground_speed(balls, fps)[frames, lower][near]
+
+
+def slide_per_metre(positions: np.ndarray, fps: float) -> float:
+    """Centimetres that the carrying foot slides for a metre of the pelvis's way.
+
+    100 for a body that glides, about 5 for mocap. Standing still is not good walking: NaN below
+    half a metre.
+    """
+    way = float(ground_speed(positions[:, 0], fps).sum() / fps)
+    slid = float(support_speed(positions, fps).sum() / fps)
+    return 100 * slid / way if way >= MIN_PATH else float("nan")
+
+
+# ---------------------------------------------------------------- the floor
+
+
+def unsupported(positions: np.ndarray, fps: float) -> tuple[np.ndarray, np.ndarray]:
+    """Frames [T] in which the body floats, and in which it flies.
+
+    No joint of positions [T, K, 3] is within 2 cm of where the ball of a standing foot is. A run of
+    such frames is a flight if the mean of the joints falls at more than half of g, by the parabola
+    through the run and one frame on either side; a run that fills the clip has no start and
+    counts as it falls. Lying and sitting bodies whose feet are up float a little, as joints lie
+    inside a body.
+    """
+    high = positions[..., 1].min(1) > REST_FOOT_HEIGHT + FLOATING
+    centre = positions[..., 1].mean(1)
+    flying = np.zeros_like(high)
+    edges = np.flatnonzero(np.diff(high.astype(int), prepend=0, append=0))
+    for start, stop in edges.reshape(-1, 2):
+        around = centre[max(start - 1, 0) : stop + 1]
+        if len(around) > 2:
+            curve = np.polyfit(np.arange(len(around)) / fps, around, 2)[0]
+            flying[start:stop] = 2 * curve < -GRAVITY / 2
+    return high & ~flying, flying
+
+
+# ---------------------------------------------------------------- roughness, and EDGE's score
+
+
+def jerk_per_speed(positions: np.ndarray, fps: float) -> float:
+    """Mean jerk over mean speed of the joints in 1/s², of positions [T, K, 3].
+
+    Jerk alone is best when nothing moves. Playing a motion faster by f multiplies this by f². NaN
+    for a frozen pose and below 4 frames.
+    """
+    speed = float(np.linalg.norm(np.diff(positions, axis=0), axis=-1).mean() * fps)
+    return mean_jerk(positions, fps) / speed if speed >= MIN_SPEED else float("nan")
+
+
+def pfc(positions: np.ndarray, fps: float) -> float:
+    """Physical foot contact score of Tseng et al. 2023 (EDGE, §5), of positions [T, 22, 3].
+
+    10⁴ × mean of (speed of the stiller joint of the left foot × the same of the right × the
+    pelvis's acceleration, without its downward part, over its greatest in the clip).
+
+    Known faults, kept because the figure is asked for:
+    - a still body has no greatest acceleration: NaN here, and NaN for a steady glide too, the worst
+      slide there is;
+    - the division by the greatest makes it depend on the clip's length and on one rough frame: a
+      single spike improves the score of all the others;
+    - the less a body moves the better, and one standing foot excuses the other;
+    - the published code takes metres a *frame*, so it grows with the square of the frame time; here
+      they are of 1/30 s whatever the frame rate. Its fingers, toes and floor are SMPL's.
+    """
+    if len(positions) < 3:
+        return float("nan")
+    push = np.diff(positions[:, 0], n=2, axis=0) * fps**2  # T-2 3
+    push[:, 1] = push[:, 1].clip(min=0)
+    strength = np.linalg.norm(push, axis=-1)
+    if strength.max() < MIN_PUSH:
+        return float("nan")
+    speed = ground_speed(positions[1:, np.array(FOOT_JOINTS)], fps) / PFC_FPS  # T-2 foot joint
+    stiller = speed.min(-1)
+    return float(1e4 * (stiller.prod(-1) * strength / strength.max()).mean())
+
+
+# ---------------------------------------------------------------- in the tables
+
+
+@dataclass(frozen=True)
+class ContactFamily:
+    """Feet, floor and roughness as a table, one value a motion."""
+
+    name: str = "feet and floor"
+    distance: bool = False
+    columns: tuple[Column, ...] = (
+        Column("claimed_slide", "slide, claimed contact cm/s", 2, "low"),
+        Column("claimed_frames", "contact claimed %", 1),
+        Column("skating_frames", "skating %", 1, "low"),
+        Column("slide_per_metre", "slide cm/m", 2, "low"),
+        Column("sunk_depth", "sunk, any joint cm", 2, "low"),
+        Column("sunk_frames", "sunk %", 1, "low"),
+        Column("float_height", "floating cm", 2, "low"),
+        Column("floating_frames", "floating %", 1, "low"),
+        Column("flying_frames", "flying %", 1),
+        Column("jerk_per_speed", "jerk / speed 1/s²", 0),
+        Column("pfc", "PFC", 3),
+    )
+    definition: str = (
+        "*slide, claimed contact*: speed of a foot while the motion's own contact channel says "
+        "that it stands; who never claims one escapes, hence *contact claimed*. *skating*: of the "
+        "frames with the lower foot within 6 cm of its standing height, the share in which it "
+        "moves faster than 10 cm/s. *slide cm/m*: what it slides for each metre that the pelvis "
+        "travels; a gliding statue has 100, a motion that travels less than half a metre none. "
+        "*sunk*: the lowest joint below the standing height of a foot, and the frames deeper than "
+        "1 cm. *floating*: no joint within 2 cm of that height, and the body does not fall at half "
+        "of g or more, else it is *flying*; a body on its back floats a little. *jerk / speed*: "
+        "roughness for the motion there is; the frozen pose has none. *PFC* (EDGE, Tseng et al. "
+        "2023) is not a number for a still body nor for a steady glide, depends on the length of "
+        "the clip, and improves with one rough frame: it is here because it is asked for. A frozen "
+        "pose is perfect in *skating*, *sunk* and *floating*: read them beside *slide cm/m* and "
+        "the motion amount. None may stand beside a published figure."
+    )
+
+    def compute(
+        self, sample: MotionSample, reference: MotionSample, *, seed: int
+    ) -> dict[str, np.ndarray]:
+        """Each figure of each motion [N]; no random choice."""
+        found = sample.each("contact", contact)
+        return {
+            field.name: np.array([getattr(one, field.name) for one in found])
+            for field in fields(Contact)
+        }
