@@ -39,6 +39,10 @@ FLAGS = {
         "--data --decoder-checkpoint --device --diffusion-checkpoint --json --model --num-frames"
         " --num-samples --num-steps --output-dir --quick --seed --threads"
     ),
+    "evaluate-selection": (
+        "--branch --data --device --evaluator --guidance-scale --json --judge --model"
+        " --num-candidates --num-subjects --out --sampler --seed --steps --threads --unseen"
+    ),
     "export-onnx": "--json --model --out",
     "models": "--json",
     "plot": "--out FILE",

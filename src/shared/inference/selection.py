@@ -27,8 +27,8 @@ class SelectionConfig(Config):
     """Weight of each term; a term that the judge cannot make (no beat, no tower) is left out."""
 
     similarity: float = Field(1.0, ge=0)  # text: cosine of prompt and motion in the shared space
-    feet: float = Field(0.1, ge=0)  # text: feet that neither slide nor sink
-    smoothness: float = Field(0.1, ge=0)  # text: jerk against that of real motion
+    feet: float = Field(0.5, ge=0)  # text: feet that neither slide nor sink
+    smoothness: float = Field(0.5, ge=0)  # text: no more jerk than real motion has
     sanity: float = Field(1.0, ge=0)  # audio: margins of the sanity suite
     beats: float = Field(1.0, ge=0)  # audio: slow moments on the beats, both ways
     distance: float = Field(0.25, ge=0)  # from those already chosen; never decides the first

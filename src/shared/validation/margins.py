@@ -26,7 +26,7 @@ def margin(result: CheckResult) -> float:
     if result.name.startswith("band_"):
         assert not isinstance(value, tuple) and isinstance(bound, tuple) and result.band
         side = 0 if value < result.band[0] else 1
-        return _share(value, bound[side], result.band[side])
+        return share(value, bound[side], result.band[side])
     return 1.0
 
 
@@ -36,8 +36,13 @@ def mean_margin(results: Iterable[CheckResult]) -> float:
     return sum(margins) / len(margins)
 
 
-def _share(value: float, limit: float, edge: float) -> float:
-    """0 at the limit, 1 at the edge of the band and on its other side, both > 0."""
+def share(value: float, limit: float, edge: float) -> float:
+    """1 at the edge of what real motion has and on its far side, 0 at the limit and beyond.
+
+    Between them it falls with the logarithm. Limit and edge are above 0; any value will do.
+    """
     if (value - edge) * (limit - edge) <= 0:
         return 1.0
+    if (value - limit) * (limit - edge) >= 0:
+        return 0.0
     return math.log(value / limit) / math.log(edge / limit)

@@ -48,12 +48,12 @@ PROMPT = torch.tensor([1.0, 0.0])
 
 
 def test_feet_and_jerk_decide_where_there_is_no_tower() -> None:
-    bodies = [walking(slide=0.2), walking(sunk=0.05), walking(shake=0.3), walking()]
+    bodies = [walking(slide=0.2), walking(sunk=0.05), walking(shake=1.0), walking()]
     table = TextJudge().judge(bodies, PROMPT)
     assert table.best == 3 and set(table.terms) == {"feet", "smoothness"}
-    expected = [(1 + 1 - 20 / 35) / 2, 1 - 5 / 12, 1, 1]
+    expected = [(np.log(27 / 20) / np.log(3) + 1) / 2, 0.5, 1, 1]
     np.testing.assert_allclose(table.terms["feet"], expected, atol=1e-5)
-    assert table.terms["smoothness"][2] < 0.2 and table.terms["smoothness"][3] == 1
+    assert table.terms["smoothness"][2] == 0 and table.terms["smoothness"][3] == 1
     assert not table.failed.any()
 
 

@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from src.shared.motion.trajectory import MotionTrajectory
 from src.shared.validation.bands import Band, Bands
-from src.shared.validation.margins import margin, mean_margin
+from src.shared.validation.margins import margin, mean_margin, share
 from src.shared.validation.sanity import CheckResult, SanityChecker
 
 
@@ -43,3 +45,10 @@ def test_real_bands_may_begin_at_zero() -> None:
     results = SanityChecker(bands=bands).check_all(straight)[1]
     assert margin(results["band_turning"]) == 1.0
     assert mean_margin(results.values()) > 0.95
+
+
+@given(st.floats(0, 1e6), st.floats(0.01, 100), st.floats(1.1, 10))
+def test_a_share_falls_from_one_to_zero(value: float, edge: float, factor: float) -> None:
+    above, below = share(value, edge * factor, edge), share(value, edge / factor, edge)
+    assert 0 <= above <= 1 and 0 <= below <= 1
+    assert (above == 1) == (value <= edge) and (below == 1) == (value >= edge)

@@ -1,0 +1,121 @@
+"""`evaluate-selection`: is the best of N better to those that the judge does not listen to?"""
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from src.cli import options
+from src.cli.evaluate import check_data
+from src.cli.evaluate_sanity import check_limits, check_pairs, shipped_bands
+from src.cli.guard import complain
+from src.shared.errors import UsageError
+
+SYNTHETIC = "synthetic"
+MODELS = {"text": "starter", "audio": "starter-audio"}
+LIMITS = {"num_subjects": (2, 10_000), "num_candidates": (2, 256)}
+
+
+def evaluate_selection(
+    branch: Annotated[str, typer.Option(help="text, or audio.")] = "text",
+    model: Annotated[
+        str | None, typer.Option(help="A name that `models` lists, or a folder from training.")
+    ] = None,
+    judge: Annotated[
+        str | None, typer.Option(help="Text: a folder of train_clip; starter has its own.")
+    ] = None,
+    data: Annotated[
+        str, typer.Option(help="Text: a prepared folder; audio: pairs, for the real row.")
+    ] = SYNTHETIC,
+    evaluator: Annotated[
+        str, typer.Option(help="Text: a shipped name, or a folder from train_evaluator.")
+    ] = "evaluator",
+    num_subjects: Annotated[int | None, typer.Option(help="Prompts (64) or songs (24).")] = None,
+    num_candidates: Annotated[int, typer.Option(help="Motions of each, N.")] = 8,
+    unseen: Annotated[
+        bool, typer.Option("--unseen", help="Text: label combinations that no training saw.")
+    ] = False,
+    steps: options.Steps = None,
+    sampler: options.Sampler = None,
+    guidance_scale: options.GuidanceScale = None,
+    seed: Annotated[int, typer.Option(help="Of prompts or songs, noise and resampling.")] = 0,
+    device: options.Device = "auto",
+    threads: options.Threads = None,
+    out: Annotated[Path | None, typer.Option(help="Report file: .json, or .md for tables.")] = None,
+    json: options.Json = False,
+) -> None:
+    """Measure the best of 1, 2, 4, … N candidates by figures that choose nothing themselves.
+
+    \b
+    Examples:
+      motion-tools evaluate-selection --model starter --data data/mine
+      motion-tools evaluate-selection --branch audio --data data/pairs
+    """
+    if branch not in MODELS:
+        raise UsageError(f"--branch {branch} is unknown; choose from {', '.join(MODELS)}")
+    options.check_ranges(steps=steps, guidance_scale=guidance_scale, seed=seed, threads=threads)
+    amount = {"num_subjects": num_subjects, "num_candidates": num_candidates}
+    check_limits({name: value for name, value in amount.items() if value is not None}, LIMITS)
+    if out is not None:
+        options.check_folder("--out", out.parent)
+    wanted: dict[str, Any] = {"steps": steps, "sampler": sampler, "guidance_scale": guidance_scale}
+    wanted |= {"device": device, "progress": lambda text: complain(f"evaluate-selection: {text}")}
+    model = model or MODELS[branch]
+
+    from src.shared.device import set_threads
+
+    set_threads(threads)
+    report: dict[str, Any]
+    if branch == "text":
+        check_data(data)
+        from src.shared.evaluation.selection_text import PromptSettings, evaluate_prompts
+
+        prompts = PromptSettings(
+            num_prompts=num_subjects or PromptSettings.num_prompts,
+            num_candidates=num_candidates,
+            split="unseen" if unseen else "seen",
+            seed=seed,
+        )
+        report = evaluate_prompts(
+            model, data, judge=judge, evaluator=evaluator, settings=prompts, **wanted
+        )
+    else:
+        if judge is not None or unseen:
+            raise UsageError("--judge and --unseen go with --branch text; leave them out")
+        if data != SYNTHETIC:
+            check_pairs(data)
+        from src.shared.evaluation.selection_songs import SongSettings, evaluate_songs
+
+        songs = SongSettings(
+            num_songs=num_subjects or SongSettings.num_songs,
+            num_candidates=num_candidates,
+            seed=seed,
+        )
+        report = evaluate_songs(
+            model,
+            None if data == SYNTHETIC else data,
+            bands=shipped_bands(model),
+            settings=songs,
+            **wanted,
+        )
+    show(report, out, json=json)
+
+
+def show(report: dict[str, Any], out: Path | None, *, json: bool) -> None:
+    """The report in a file if there is one to be, and on stdout as tables or JSON."""
+    import json as encoder
+
+    from src.shared.evaluation.report import as_markdown
+    from src.shared.evaluation.selection_harness import selection_tables
+    from src.shared.files import write_json, write_text
+
+    facts = {**report["about"], **report["settings"]}
+    lines = [f"{key.replace('_', '-')}: {value}" for key, value in facts.items()]
+    apart = ", ".join(report["outside_apart"]) or "none"
+    lines.append(f"outside figures that are better, intervals apart: {apart}")
+    text = as_markdown("Best of N", lines, selection_tables(report))
+    if out is not None and out.suffix == ".md":
+        write_text(out, text)
+    elif out is not None:
+        write_json(out, report)
+    print(encoder.dumps(report, indent=1, ensure_ascii=False) if json else text)
