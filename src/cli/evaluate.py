@@ -1,5 +1,6 @@
-"""`evaluate`: the first honest figures of a model, each beside a real and a chance row."""
+"""`evaluate`: honest figures of a model, each beside real, chance and untrained rows."""
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -9,81 +10,245 @@ from src.cli import options
 from src.cli.guard import complain
 from src.shared.errors import UsageError
 
+QUICK_REPLICATIONS, QUICK_SONGS = 3, 10
+AUDIO_KIND = "audio-motion"
+SONG_LIMITS = {
+    "num_songs": (2, 10_000),
+    "song_seconds": (4.0, 600.0),
+    "track_seconds": (4.0, 7200.0),
+}
+OutFolder = Annotated[
+    Path | None,
+    typer.Option(help="Folder of the report; outputs/evaluation/MODEL. Begun ones go on."),
+]
+Data = Annotated[
+    str | None,
+    typer.Option(help="A prepared folder, or synthetic (text); pairs, for a real row (audio)."),
+]
+Judge = Annotated[
+    str, typer.Option(help="The judge of text: a shipped name, or a folder from train_evaluator.")
+]
+Quick = Annotated[bool, typer.Option("--quick", help="3 replications; 10 songs.")]
+NumSamples = Annotated[
+    int | None, typer.Option(help="Generated motions a split; Fréchet needs 1000.")
+]
+Replications = Annotated[int | None, typer.Option(help="Repeats, for intervals; 20.")]
+ControlSeeds = Annotated[int | None, typer.Option(help="Samples a controlled task; 10.")]
+NumSongs = Annotated[int | None, typer.Option(help="Held-out synthetic songs; 50.")]
+SongSeconds = Annotated[float | None, typer.Option(help="Of each synthetic song; 16.")]
+Songs = Annotated[Path | None, typer.Option(help="Folder of sound files to describe as well.")]
+Seed = Annotated[int, typer.Option(help="Of prompts, songs, noise, shuffles and resampling.")]
+
+
+@dataclass(frozen=True)
+class Request:
+    """What the flags of `evaluate` and its relatives ask for; None = the default."""
+
+    quick: bool = False
+    data: str | None = None
+    evaluator: str = "evaluator"
+    decoder: str | None = None
+    num_samples: int | None = None
+    replications: int | None = None
+    control_seeds: int | None = None
+    songs: Path | None = None
+    num_songs: int | None = None
+    song_seconds: float | None = None
+    track_seconds: float | None = None
+    tell_meter: bool | None = None
+    steps: int | None = None
+    sampler: str | None = None
+    guidance_scale: float | None = None
+    seed: int = 0
+    device: str = "auto"
+    threads: int | None = None
+
+    def amount(self, *names: str) -> dict[str, Any]:
+        """Settings that were asked for, by name, and how often."""
+        runs = self.replications or (QUICK_REPLICATIONS if self.quick else None)
+        wanted = {"replications": runs, "seed": self.seed}
+        wanted |= {name: getattr(self, name) for name in names}
+        return {name: value for name, value in wanted.items() if value is not None}
+
+    @property
+    def sampling(self) -> dict[str, Any]:
+        """What the model's own settings give way to."""
+        names = ("steps", "sampler", "guidance_scale")
+        return {name: getattr(self, name) for name in names}
+
 
 def evaluate(
-    quick: Annotated[
-        bool, typer.Option("--quick", help="The short harness, the only one so far.")
-    ] = False,
+    quick: Quick = False,
     model: options.Model = "starter",
-    data: Annotated[
-        str, typer.Option(help="A prepared folder, or synthetic: fresh clips.")
-    ] = "synthetic",
-    evaluator: Annotated[
-        str, typer.Option(help="The judge: a shipped name, or a folder from train_evaluator.")
-    ] = "evaluator",
-    num_samples: Annotated[
-        int | None, typer.Option(help="Generated motions a split; Fréchet needs 1000.")
-    ] = None,
-    replications: Annotated[int | None, typer.Option(help="Repeats, for intervals.")] = None,
-    control_seeds: Annotated[int | None, typer.Option(help="Samples a controlled task.")] = None,
+    data: Data = None,
+    evaluator: Judge = "evaluator",
+    num_samples: NumSamples = None,
+    replications: Replications = None,
+    control_seeds: ControlSeeds = None,
+    num_songs: NumSongs = None,
+    song_seconds: SongSeconds = None,
+    songs: Songs = None,
     steps: options.Steps = None,
     sampler: options.Sampler = None,
     guidance_scale: options.GuidanceScale = None,
-    seed: Annotated[int, typer.Option(help="Of captions, samples and shuffles.")] = 0,
+    seed: Seed = 0,
     device: options.Device = "auto",
     threads: options.Threads = None,
-    out: Annotated[Path | None, typer.Option(help="Report file: .json, or .md for tables.")] = None,
+    out: OutFolder = None,
     json: options.Json = False,
 ) -> None:
-    """Score a model on held-back motions.
+    """Score a model on motions or songs that no training saw: tables, plots, worst motions.
 
-    The judge is a separately trained text-motion model; real motions, chance and a frozen pose
-    stand beside every figure, seen and unseen label combinations apart.
+    Writes report.json, report.md, report.html, manifest.json and timing.json. Started again with
+    the same flags it goes on where it stopped.
 
     \b
     Example:
-      motion-tools evaluate --quick --model starter --data data/mine --out report.json
+      motion-tools evaluate --quick --model starter --data data/mine --out reports/mine
+      motion-tools evaluate --quick --model starter-audio --data data/pairs
     """
-    if not quick:
-        raise UsageError("give --quick: the full harness is not there yet")
-    amount: dict[str, Any] = {
-        "num_samples": num_samples,
-        "replications": replications,
-        "control_seeds": control_seeds,
-        "seed": seed,
-    }
-    sampling: dict[str, Any] = {
-        "steps": steps,
-        "sampler": sampler,
-        "guidance_scale": guidance_scale,
-    }
-    options.check_ranges(threads=threads, steps=steps, guidance_scale=guidance_scale, **amount)
-    given = {name: value for name, value in amount.items() if value is not None}
-    if out is not None:
-        if out.is_dir():
-            raise UsageError(f"--out {out} is a folder; name a .json or .md file")
-        options.check_folder("--out", out.parent)
-    check_data(data)
+    request = Request(
+        quick=quick,
+        data=data,
+        evaluator=evaluator,
+        num_samples=num_samples,
+        replications=replications,
+        control_seeds=control_seeds,
+        songs=songs,
+        num_songs=num_songs,
+        song_seconds=song_seconds,
+        steps=steps,
+        sampler=sampler,
+        guidance_scale=guidance_scale,
+        seed=seed,
+        device=device,
+        threads=threads,
+    )
+    show(run(model, request, out), json=json)
+
+
+# ---------------------------------------------------------------- running
+
+
+def run(model: str, request: Request, out: Path | None) -> dict[str, Any]:
+    """Evaluate a model of either branch and write its report.
+
+    Raises:
+        UserError: no such model, wrong flags, or data that cannot be used.
+    """
+    from src.shared.model.checkpoint import read_card
+    from src.shared.model.zoo import resolve_model
+
+    folder = out or Path("outputs/evaluation") / Path(model).name
+    check(request, folder)
+    audio = read_card(resolve_model(model)).kind == AUDIO_KIND
+    refuse(model, audio, request)
 
     from src.shared.device import set_threads
-    from src.shared.evaluation import harness
 
-    set_threads(threads)
-    report = harness.quick(
+    set_threads(request.threads)
+    report = (run_audio if audio else run_text)(model, request, folder)
+
+    from src.shared.evaluation.report_folder import save_report
+
+    save_report(report, folder)
+    complain(f"evaluate: {folder / 'report.html'}")
+    return report
+
+
+def run_text(model: str, request: Request, folder: Path) -> dict[str, Any]:
+    """The text branch's report."""
+    check_data(request.data or "synthetic")
+
+    from src.shared.evaluation import harness
+    from src.shared.evaluation.text_context import TextSettings
+
+    return harness.evaluate_text(
         model,
-        data,
-        evaluator=evaluator,
-        settings=harness.QuickSettings(**given),
-        device=device,
-        progress=lambda text: complain(f"evaluate: {text}"),
-        **sampling,
+        request.data or "synthetic",
+        evaluator=request.evaluator,
+        settings=TextSettings(**request.amount("num_samples", "control_seeds")),
+        device=request.device,
+        folder=folder,
+        progress=tell,
+        **request.sampling,
     )
-    if out is not None:
-        write_report(report, out)
-    if json:
-        print_json(report)
-    else:
-        print_tables(report)
+
+
+def run_audio(model: str, request: Request, folder: Path) -> dict[str, Any]:
+    """The audio branch's report."""
+    from src.cli.evaluate_sanity import check_pairs, load_model
+
+    check_pairs(request.data)
+
+    from src.shared.evaluation import audio_harness
+    from src.shared.evaluation.audio_context import AudioSettings
+    from src.shared.inference.song_generator import SongGenerator
+
+    amount = request.amount("num_songs", "song_seconds", "track_seconds", "tell_meter")
+    if request.quick:
+        amount = {"num_songs": QUICK_SONGS, **amount}
+    device = request.device
+    generator = SongGenerator(load_model(model, request.decoder, device), device=device)
+    return audio_harness.evaluate_audio(
+        generator,
+        data=request.data,
+        songs=request.songs,
+        settings=AudioSettings(**amount),
+        sampling=request.sampling,
+        about={"model": model, "decoder": request.decoder or model},
+        folder=folder,
+        progress=tell,
+    )
+
+
+def tell(text: str) -> None:
+    """Progress, on stderr."""
+    complain(f"evaluate: {text}")
+
+
+# ---------------------------------------------------------------- arguments
+
+
+def check(request: Request, folder: Path) -> None:
+    """Refuse values out of range and folders that cannot be used, before anything slow starts.
+
+    Raises:
+        UsageError: naming the flag.
+    """
+    from src.cli.evaluate_sanity import check_limits
+
+    options.check_ranges(
+        **{
+            name: getattr(request, name)
+            for name in (
+                "num_samples", "replications", "control_seeds", "steps", "guidance_scale", "seed",
+                "threads",
+            )
+        }
+    )  # fmt: skip
+    given = {name: getattr(request, name) for name in SONG_LIMITS}
+    check_limits({k: v for k, v in given.items() if v is not None}, SONG_LIMITS)
+    if request.songs is not None and not request.songs.is_dir():
+        raise UsageError(f"--songs {request.songs} is no folder; name one with sound files")
+    if folder.suffix in (".json", ".md", ".html"):
+        raise UsageError(
+            f"--out {folder}: name a folder; report.json, report.md and report.html go into it"
+        )
+    options.check_folder("--out", folder)
+
+
+def refuse(model: str, audio: bool, request: Request) -> None:
+    """Refuse flags of the other branch.
+
+    Raises:
+        UsageError: naming the flag.
+    """
+    foreign = ("num_samples", "control_seeds") if audio else ("num_songs", "song_seconds", "songs")
+    for name in foreign:
+        if getattr(request, name) is not None:
+            flag, kind = "--" + name.replace("_", "-"), "music" if audio else "text"
+            raise UsageError(f"{flag} is not for {model}, which makes motion from {kind}")
 
 
 def check_data(data: str) -> None:
@@ -99,6 +264,9 @@ def check_data(data: str) -> None:
         )
 
 
+# ---------------------------------------------------------------- results
+
+
 def print_json(report: dict[str, Any]) -> None:
     """The whole report on stdout."""
     import json
@@ -106,26 +274,17 @@ def print_json(report: dict[str, Any]) -> None:
     print(json.dumps(report, indent=1, ensure_ascii=False, default=str))
 
 
-def write_report(report: dict[str, Any], path: Path) -> None:
-    """JSON, or Markdown tables when the name ends in .md."""
-    from src.shared.evaluation.report import markdown
-    from src.shared.files import write_json, write_text
-
-    if path.suffix == ".md":
-        write_text(path, markdown(report))
-    else:
-        write_json(path, report)
-
-
-def print_tables(report: dict[str, Any]) -> None:
-    """Drawn tables in a terminal, Markdown in a pipe, where drawn ones would be cut off."""
+def show(report: dict[str, Any], *, json: bool) -> None:
+    """JSON, or tables: drawn in a terminal, Markdown in a pipe, where drawn ones would be cut."""
     import sys
 
     from src.shared.evaluation.report import markdown, print_report
 
-    if not sys.stdout.isatty():
-        print(markdown(report))
-        return
-    from rich.console import Console
+    if json:
+        print_json(report)
+    elif sys.stdout.isatty():
+        from rich.console import Console
 
-    print_report(report, Console())
+        print_report(report, Console())
+    else:
+        print(markdown(report))

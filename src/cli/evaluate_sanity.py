@@ -103,7 +103,7 @@ def evaluate_sanity(
         progress=lambda text: complain(f"evaluate-sanity: {text}"),
     )
     write_results(result, output_dir)
-    from src.shared.evaluation.audio_report import sanity_tables
+    from src.shared.evaluation.sanity_report import sanity_tables
 
     show("Sanity", result.report, list(sanity_tables(result.report)), json=json)
 
@@ -153,9 +153,9 @@ def shipped_bands(name: str) -> "Bands | None":
 def write_results(result: "SanityEvaluation", folder: Path) -> None:
     """sanity.json, sanity.md, bands.png and the first motion as trajectory.png."""
     from src.shared.evaluation.audio_plots import plot_bands
-    from src.shared.evaluation.audio_report import sanity_tables
     from src.shared.evaluation.plots import plot_trajectory
     from src.shared.evaluation.report import as_markdown, heading
+    from src.shared.evaluation.sanity_report import sanity_tables
     from src.shared.files import write_json, write_text
 
     report = result.report

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import typer
 
+from src.cli.compare import compare
 from src.cli.evaluate import evaluate
 from src.cli.evaluate_audio import evaluate_audio
 from src.cli.evaluate_sanity import evaluate_sanity
@@ -21,6 +22,7 @@ from src.cli.models import models
 from src.cli.plot import plot
 from src.cli.prepare import prepare
 from src.cli.prepare_audio import prepare_audio
+from src.cli.report import report
 from src.cli.shape_check import shape_check
 
 PROGRAM = "motion-tools"
@@ -44,6 +46,8 @@ for command in (
     evaluate_audio,
     evaluate_sanity,
     evaluate_selection,
+    report,
+    compare,
     models,
     plot,
     export_onnx,

@@ -1,4 +1,4 @@
-"""Arguments of `evaluate`: wrong ones are found before anything loads, right ones reach `quick`."""
+"""Arguments of `evaluate`: wrong ones are found early, right ones reach the harness."""
 
 from pathlib import Path
 from typing import Any
@@ -6,10 +6,13 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
+from src.cli.evaluate import Request
 from src.cli.tools import app
 from src.shared.errors import UserError
 from src.shared.evaluation import harness
 from src.shared.evaluation.evaluator import Evaluator
+from src.shared.evaluation.grids import report_data
+from src.shared.evaluation.text_context import TextSettings
 from src.shared.model.clip.tokenizer import PromptTokenizer
 
 
@@ -17,32 +20,43 @@ from src.shared.model.clip.tokenizer import PromptTokenizer
     ("arguments", "message"),
     [
         (["--data", "nowhere"], "--data nowhere is not prepared data"),
-        (["--out", "/proc/none/r.json"], "--out /proc/none: cannot write there"),
-        (["--out", "."], "is a folder"),
+        (["--out", "/proc/none/r"], "--out /proc/none/r: cannot write there"),
+        (["--out", "report.md"], "name a folder"),
+        (["--replications", "0"], "--replications 0 is out of range"),
+        (["--num-songs", "5"], "--num-songs is not for starter, which makes motion from text"),
+        (["--model", "starter-audio", "--num-samples", "5"], "which makes motion from music"),
     ],
 )
 def test_wrong_ones_are_usage_errors(
     arguments: list[str], message: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(harness, "quick", lambda *a, **k: pytest.fail("it began"))
+    monkeypatch.setattr(harness, "evaluate_text", lambda *a, **k: pytest.fail("it began"))
     result = CliRunner().invoke(app, ["evaluate", "--quick", *arguments])
     assert result.exit_code == 2 and message in result.output
 
 
-def test_right_ones_reach_the_harness(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_right_ones_reach_the_harness(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     calls: list[Any] = []
 
-    def quick(*names: str, **options: Any) -> dict[str, Any]:
-        calls.append((names, options))
-        return {"about": {"held_out": "yes"}}
+    def evaluate_text(*names: str, **given: Any) -> dict[str, Any]:
+        calls.append((names, given))
+        return report_data("text", {"held_out": "yes"}, {}, [], [])
 
-    monkeypatch.setattr(harness, "quick", quick)
+    monkeypatch.setattr(harness, "evaluate_text", evaluate_text)
     command = ["evaluate", "--quick", "--steps", "3", "--num-samples", "5", "--json"]
-    result = CliRunner().invoke(app, command)
-    assert result.exit_code == 0 and '"held_out": "yes"' in result.output
-    ((names, options),) = calls
-    assert names == ("starter", "synthetic") and options["steps"] == 3
-    assert options["settings"].num_samples == 5 and options["evaluator"] == "evaluator"
+    result = CliRunner().invoke(app, [*command, "--out", str(tmp_path / "report")])
+    assert result.exit_code == 0 and '"held_out": "yes"' in result.stdout
+    ((names, given),) = calls
+    assert names == ("starter", "synthetic") and given["steps"] == 3
+    assert given["settings"] == TextSettings(num_samples=5, replications=3)
+    assert given["evaluator"] == "evaluator" and given["folder"] == tmp_path / "report"
+    names_of_files = {path.name for path in given["folder"].iterdir()}
+    assert names_of_files == {"report.json", "report.md", "report.html"}
+
+
+def test_without_quick_there_are_twenty_replications() -> None:
+    assert TextSettings(**Request().amount("num_samples")).replications == 20
+    assert Request(quick=True, replications=7).amount()["replications"] == 7
 
 
 def test_a_missing_evaluator_or_tokenizer_is_named(tmp_path: Path) -> None:

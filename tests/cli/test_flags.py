@@ -28,12 +28,13 @@ FLAGS = {
     ),
     "evaluate": (
         "--control-seeds --data --device --evaluator --guidance-scale --json --model --num-samples"
-        " --out --quick --replications --sampler --seed --steps --threads"
+        " --num-songs --out --quick --replications --sampler --seed --song-seconds --songs --steps"
+        " --threads"
     ),
     "evaluate-audio": (
         "--data --decoder-checkpoint --device --diffusion-checkpoint --guidance-scale --hear-meter"
-        " --json --model --num-songs --out --quick --sampler --seed --song-seconds --songs --steps"
-        " --tell-meter --threads --track-seconds"
+        " --json --model --num-songs --out --quick --replications --sampler --seed --song-seconds"
+        " --songs --steps --tell-meter --threads --track-seconds"
     ),
     "evaluate-sanity": (
         "--data --decoder-checkpoint --device --diffusion-checkpoint --json --model --num-frames"
@@ -42,6 +43,11 @@ FLAGS = {
     "evaluate-selection": (
         "--branch --data --device --evaluator --guidance-scale --json --judge --model"
         " --num-candidates --num-subjects --out --sampler --seed --steps --threads --unseen"
+    ),
+    "report": "--json FOLDER",
+    "compare": (
+        "--control-seeds --data --device --evaluator --json --num-samples --num-songs --other-row"
+        " --out --quick --replications --row --seed --steps --threads A B"
     ),
     "export-onnx": "--json --model --out",
     "models": "--json",

@@ -1,72 +1,30 @@
-"""`evaluate-audio`: does the music matter, and are the seams seen?
+"""The audio branch's evaluation: does the music matter, and does the motion hold together?
 
-Motions are made for held-out synthetic songs; their phase is held against the truth beside the
-beat tracker's own error, their motion beats against the song's beats beside chance, another song
-and the same song half a beat later. Real paired motion stands beside them. One seed, one report.
-
-Letters: T frames, N songs.
+Motions are made for held-out synthetic songs whose beats are known exactly. Every family of
+`registry.py` is measured on them, on the same motions under another song, on frozen and untrained
+ones, and on real paired motion, replication by replication.
 """
 
-import time
-from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, field
+from collections.abc import Callable
+from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from src.shared.data.pairing.motion_beats import MotionBeats, motion_beats
-from src.shared.errors import UserError
-from src.shared.evaluation.audio_alignment import Danced, alignment_rows, song_scores
-from src.shared.evaluation.audio_phase import phase_row, right_tempo
-from src.shared.evaluation.audio_songs import (
-    TEMPI,
-    Piece,
-    held_out_songs,
-    open_split,
-    phrases,
-    tracks,
-)
-from src.shared.evaluation.metrics_rhythm import phase_error
-from src.shared.evaluation.metrics_seams import Seamed, seam_frames, seam_report
+from src.shared.evaluation import manifest
+from src.shared.evaluation.audio_context import AudioContext, AudioSettings, Picture
+from src.shared.evaluation.audio_phase import right_tempo
+from src.shared.evaluation.audio_plots import plot_phase
+from src.shared.evaluation.audio_songs import TEMPI
+from src.shared.evaluation.engine import Bench, Progress, Row, part_name, run_bench
+from src.shared.evaluation.families import DanceSample
+from src.shared.evaluation.grids import Grid, report_data
+from src.shared.evaluation.parts import Part, Parts
+from src.shared.evaluation.registry import AUDIO_EXTRAS, AUDIO_FAMILIES
+from src.shared.evaluation.worst import Keeper, write_dance
+from src.shared.files import sha256_file
 from src.shared.inference.song_generator import SongGenerator
-from src.shared.inference.song_sampler import SampleSettings
-from src.shared.motion.trajectory import FPS, MotionTrajectory
-
-Progress = Callable[[str], None]
-Cells = dict[str, dict[str, Any]]
-
-
-@dataclass(frozen=True)
-class AudioSettings:
-    """How much is measured; the report repeats it."""
-
-    num_songs: int = 50
-    song_seconds: float = 16.0
-    own_count: int = 10  # songs made once more, the phase not held to the beat tracker
-    tell_meter: bool = True
-    max_real: int = 200  # test phrases
-    track_seconds: float = 30.0  # of each sound file
-    pictures: int = 4
-    seed: int = 0
-
-
-@dataclass(frozen=True, eq=False)
-class Picture:
-    """What a plot of one song needs: bars [T] by name, beats, and where the motion slows down."""
-
-    name: str
-    bars: dict[str, np.ndarray]
-    beats: np.ndarray
-    motion: MotionBeats
-
-
-@dataclass(eq=False)
-class AudioEvaluation:
-    """The report as plain data, and the pictures that go with it."""
-
-    report: dict[str, Any] = field(default_factory=dict)
-    pictures: list[Picture] = field(default_factory=list)
+from src.shared.model.zoo import resolve_model
 
 
 def evaluate_audio(
@@ -77,194 +35,137 @@ def evaluate_audio(
     settings: AudioSettings | None = None,
     sampling: dict[str, Any] | None = None,
     about: dict[str, Any] | None = None,
+    folder: Path | None = None,
     progress: Progress = lambda text: None,
-) -> AudioEvaluation:
-    """Everything of `evaluate-audio`.
+) -> dict[str, Any]:
+    """The whole report as plain data.
 
     Args:
         generator: a trained audio branch.
         data: folder or bucket of pairs, whose test split is the real row; None = no such row.
         songs: folder of sound files to describe; None = none.
         sampling: steps, sampler, guidance_scale; left out = the model's own.
-        about: what to repeat in the report.
+        about: what to repeat in the report; `model` and `decoder` are names or folders.
+        folder: of the report: finished parts are kept there and not measured again.
         progress: told what begins.
 
     Raises:
-        UserError: the data or a song cannot be used.
+        UserError: the data or a song cannot be used, or the folder holds another report.
     """
-    settings, started = settings or AudioSettings(), time.perf_counter()
-    sampled = SampleSettings(seed=settings.seed, **(sampling or {}))
-    sampled = sampled.resolved(generator.model.config)
-    result = AudioEvaluation()
-    made = _dance(generator, settings, sampled, progress)
-    dances = [_danced(trajectory, piece) for piece, trajectory in made]
-    rows = {"generated": alignment_rows(dances, settings.seed)}
-    real: dict[str, Any] | None = None
-    if data is not None:
-        progress(f"the test split of {data}")
-        real = _real_dances(data, settings)
-        rows["real"] = alignment_rows(real.pop("dances"), settings.seed)
-    played = [] if songs is None else _play(generator, songs, settings, sampled, progress)
-    progress("seams")
-    result.report = {
-        "about": {
-            **(about or {}),
-            **_about_model(generator, sampled),
-            "songs": f"{len(made)} synthetic, {settings.song_seconds:g} s, tempi {TEMPI} BPM",
-            "tempo_heard_right": f"{sum(right_tempo(p) for p, _ in made)} of {len(made)} songs",
-            "data": data or "none",
-            **(real or {}),
-        },
-        "settings": asdict(settings),
-        "phase": _phase_table(generator, made, settings, sampled, progress),
-        "alignment": rows,
-        "tempi": [piece.about for piece, _ in made],
-        "seams": seam_report([_seamed(*pair, sampled) for pair in made], settings.seed),
-        "tracks": [_track_row(piece, made, settings) for piece, made in played],
-        "seconds": round(time.perf_counter() - started, 1),
-    }
-    shown = [*made[: settings.pictures], *played]
-    result.pictures = [_picture(piece, trajectory) for piece, trajectory in shown]
-    return result
+    settings, about = settings or AudioSettings(), about or {}
+    context = AudioContext(
+        generator, settings, data=data, songs=songs, sampling=sampling, progress=progress
+    )
+    if folder is not None:
+        manifest.claim(folder, _manifest(context, sampling or {}, about))
+    parts = Parts(folder)
+    bench = song_bench(context, folder)
+    tables = run_bench(
+        bench,
+        parts,
+        replications=settings.replications,
+        seed=settings.seed,
+        progress=progress,
+    )
+    for name, extra in AUDIO_EXTRAS.items():
+        part = parts.once(name, partial(_as_part, extra, context))
+        tables += [Grid.from_dict(grid) for grid in part["grids"]]
+    pictures = parts.once("pictures", partial(_draw, context, folder))["pictures"]
+    facts = parts.once("facts", partial(_facts, context))
+    samples = parts.once(part_name(bench.name, bench.main, 0), dict).get("samples", [])
+    facts = {**about, **_about_model(context), **facts}
+    return report_data("audio", facts, asdict(settings), tables, samples, pictures)
 
 
-def _about_model(generator: SongGenerator, sampled: SampleSettings) -> dict[str, Any]:
-    card, diffusion = generator.model.card, generator.model.config.diffusion
-    scale = generator.model.config.guidance_scale
+def song_bench(context: AudioContext, folder: Path | None) -> Bench[DanceSample]:
+    """Rows real (with data), chance, frozen pose, untrained and generated over the songs."""
+    settings = context.settings
+    rows = [
+        Row("chance", context.chance),
+        Row("frozen pose", context.frozen_pose, limit=1, fixed=True),
+        Row("generated", context.generated),
+    ]
+    if context.data is not None:
+        rows.insert(0, Row("real", context.real, fixed=True, real=True))
+    if settings.untrained:
+        rows.append(Row("untrained", context.untrained, limit=settings.untrained))
+    return Bench(
+        "songs",
+        "held-out songs",
+        lambda: context.reference,
+        rows,
+        AUDIO_FAMILIES,
+        keep=Keeper(folder, "songs", settings.worst, AUDIO_FAMILIES, write_dance),
+    )
+
+
+def _as_part(extra: Callable[[AudioContext], list[Grid]], context: AudioContext) -> Part:
+    return {"grids": [grid.as_dict() for grid in extra(context)]}
+
+
+def _draw(context: AudioContext, folder: Path | None) -> Part:
+    """Phases against beats of the first songs and of each sound file, as pictures."""
+    if folder is None:
+        return {"pictures": []}
+    shown = [*context.made(0)[: context.settings.pictures], *context.played]
+    pictures = []
+    for number, pair in enumerate(shown, start=1):
+        name = f"phase-{number:02d}.png"
+        plot_phase(Picture.of(*pair), folder / name)
+        pictures.append({"file": name, "title": f"phase and beats: {pair[0].name}"})
+    return {"pictures": pictures}
+
+
+# ---------------------------------------------------------------- what was measured with what
+
+
+def _about_model(context: AudioContext) -> dict[str, Any]:
+    card, config = context.generator.model.card, context.generator.model.config
+    sampled, scale = context.sampled, config.guidance_scale
     return {
         "model_hash": card.weights.sha256[:12] if card.weights else "",
-        "sampler": sampled.sampler or diffusion.sampler,
-        "steps": sampled.steps or diffusion.sampling_steps,
+        "sampler": sampled.sampler or config.diffusion.sampler,
+        "steps": sampled.steps or config.diffusion.sampling_steps,
         "guidance_scale": scale if sampled.guidance_scale is None else sampled.guidance_scale,
         "window": sampled.window,
         "overlap": sampled.overlap,
+        "data": context.data or "none",
     }
 
 
-def _make(
-    generator: SongGenerator, piece: Piece, sampled: SampleSettings, *, held: bool = True
-) -> MotionTrajectory:
-    return generator.generate(
-        piece.condition, phase=piece.phase if held else None, settings=sampled
-    )[0]
-
-
-def _dance(
-    generator: SongGenerator, settings: AudioSettings, sampled: SampleSettings, progress: Progress
-) -> list[tuple[Piece, MotionTrajectory]]:
-    """A motion for each held-out song."""
-    made = []
-    pieces = held_out_songs(
-        settings.num_songs, settings.song_seconds, settings.seed, tell_meter=settings.tell_meter
-    )
-    for number, piece in enumerate(pieces, start=1):
-        progress(f"song {number} of {settings.num_songs}")
-        made.append((piece, _make(generator, piece, sampled)))
-    return made
-
-
-def _play(
-    generator: SongGenerator,
-    songs: Path,
-    settings: AudioSettings,
-    sampled: SampleSettings,
-    progress: Progress,
-) -> list[tuple[Piece, MotionTrajectory]]:
-    """A motion for each sound file."""
-    made = []
-    for piece in tracks(songs, settings.track_seconds):
-        progress(piece.name)
-        made.append((piece, _make(generator, piece, sampled)))
-    return made
-
-
-def _danced(trajectory: MotionTrajectory, piece: Piece) -> Danced:
-    found = motion_beats(trajectory.position, trajectory.fps)
-    return Danced(piece.name, found.times, piece.beats, piece.seconds)
-
-
-def _seamed(piece: Piece, trajectory: MotionTrajectory, sampled: SampleSettings) -> Seamed:
-    assert sampled.window is not None  # resolved
-    near = seam_frames(trajectory.num_frames, sampled.window, sampled.overlap)
-    return Seamed(trajectory, near)
-
-
-# ---------------------------------------------------------------- phase
-
-
-def _phase_table(
-    generator: SongGenerator,
-    made: Sequence[tuple[Piece, MotionTrajectory]],
-    settings: AudioSettings,
-    sampled: SampleSettings,
-    progress: Progress,
-) -> dict[str, Cells]:
-    """Rows by name, see `phase_row`; "right tempo" are songs whose tempo the tracker found."""
-    rng = np.random.default_rng([settings.seed, 1])
-    counted = []
-    for number, (piece, _) in enumerate(made[: settings.own_count], start=1):
-        progress(f"own count, song {number} of {min(settings.own_count, len(made))}")
-        counted.append((piece, _make(generator, piece, sampled, held=False)))
-    tracked = [(p, np.asarray(p.phase)) for p, _ in made if p.phase is not None]
-    rows = {
-        "generated": phase_row([(piece, t.phase_unwrapped) for piece, t in made]),
-        "beat tracker": phase_row(tracked),
-        "generated, right tempo": phase_row(
-            [(piece, t.phase_unwrapped) for piece, t in made if right_tempo(piece)]
-        ),
-        "beat tracker, right tempo": phase_row([pair for pair in tracked if right_tempo(pair[0])]),
-        "own count": phase_row([(piece, t.phase_unwrapped) for piece, t in counted]),
-        "chance": phase_row([(piece, bars + rng.random()) for piece, bars in tracked]),
+def _facts(context: AudioContext) -> Part:
+    """What only the songs themselves tell."""
+    pieces = context.pieces
+    heard = sum(right_tempo(piece) for piece in pieces)
+    facts: Part = {
+        "songs": f"{len(pieces)} synthetic, {context.settings.song_seconds:g} s, tempi {TEMPI} BPM",
+        "tempo_heard_right": f"{heard} of {len(pieces)} songs",
     }
-    return {name: row for name, row in rows.items() if row}
+    if context.data is not None:
+        facts |= {"data_hash": context.fingerprint[:12], "test_phrases": len(context.reference)}
+    return facts
 
 
-# ---------------------------------------------------------------- real motion
-
-
-def _real_dances(data: str, settings: AudioSettings) -> dict[str, Any]:
-    """Paired motion of the test split, its hash, and how many phrases have no known beat."""
-    dataset = open_split(data, "test", round(settings.song_seconds * FPS), settings.seed)
-    real = phrases(dataset, settings.max_real)
-    known = [phrase for phrase in real if len(phrase.beats) > 1]
-    if not known:
-        raise UserError(f"{data}: no test phrase has a beat; make the pairs with prepare-audio")
-    dances = [
-        Danced(
-            phrase.song, motion_beats(phrase.motion.position).times, phrase.beats, phrase.seconds
-        )
-        for phrase in known
-    ]
-    return {"dances": dances, "data_hash": dataset.fingerprint[:12], "test_phrases": len(known)}
-
-
-# ---------------------------------------------------------------- tracks and pictures
-
-
-def _track_row(
-    piece: Piece, trajectory: MotionTrajectory, settings: AudioSettings
+def _manifest(
+    context: AudioContext, sampling: dict[str, Any], about: dict[str, Any]
 ) -> dict[str, Any]:
-    """A sound file's figures against the beats that the tracker heard: descriptive."""
-    row: dict[str, Any] = {"name": piece.name, "seconds": piece.seconds, **piece.about}
-    if piece.phase is None:
-        return row
-    dance = _danced(trajectory, piece)
-    rng = np.random.default_rng([settings.seed, 3])
-    scores = song_scores(dance, [dance], rng)
-    scores.pop("another song")
-    error = phase_error(
-        trajectory.phase_unwrapped * piece.meter, np.asarray(piece.phase) * piece.meter
-    )
-    return row | {
-        "phase_from_tracker": error.absolute,
-        "rows": {name: score.as_dict() for name, score in scores.items()},
+    folders = {name: about[name] for name in ("model", "decoder") if name in about}
+    model = {
+        f"{name}/{file}": digest
+        for name, folder in folders.items()
+        for file, digest in manifest.folder_hashes(resolve_model(folder)).items()
     }
-
-
-def _picture(piece: Piece, trajectory: MotionTrajectory) -> Picture:
-    bars = {} if piece.bars is None else {"truth": piece.bars}
-    bars |= {} if piece.phase is None else {"beat tracker": piece.phase}
-    bars["generated"] = trajectory.phase_unwrapped
-    motion = motion_beats(trajectory.position, trajectory.fps)
-    inside = piece.beats[piece.beats < piece.seconds]
-    return Picture(piece.name, bars, inside, motion)
+    files = sorted(context.songs.rglob("*")) if context.songs is not None else []
+    tracks = {path.name: sha256_file(path) for path in files if path.is_file()}
+    network = context.generator.model
+    return manifest.build(
+        "audio",
+        model=model,
+        evaluator={},
+        data={"pairs": context.fingerprint, "songs": tracks},
+        statistics=(network.mean, network.std),
+        settings=asdict(context.settings),
+        sampling=sampling,
+        families=AUDIO_FAMILIES,
+        device=str(context.generator.device),
+    )

@@ -28,30 +28,44 @@ def right_tempo(piece: Piece) -> bool:
 
 
 def phase_row(songs: Sequence[tuple[Piece, np.ndarray]]) -> dict[str, dict[str, Any]]:
-    """Errors over songs, counted from each song's first true beat to its last.
+    """`song_phase` over songs, each column with its interval.
 
     Args:
         songs: what is true, and unwrapped bars [T] in the tracker's meter.
+    """
+    columns: dict[str, list[float]] = {}
+    for piece, bars in songs:
+        assert piece.bars is not None
+        found = song_phase(bars * piece.meter, bars, piece.bars, piece.true_meter, piece.beats)
+        for name, value in found.items():
+            columns.setdefault(name, []).append(value)
+    return {name: bootstrap_mean(values).as_dict() for name, values in columns.items()}
+
+
+def song_phase(
+    beats: np.ndarray, bars: np.ndarray, true_bars: np.ndarray, meter: int, times: np.ndarray
+) -> dict[str, float]:
+    """Errors of one song, counted from its first true beat to its last.
+
+    Args:
+        beats, bars: what the motion counts, unwrapped [T].
+        true_bars: [T]; at least two beats lie inside.
+        meter: beats a true bar.
+        times: of the true beats, seconds.
 
     Returns:
         beat and bar: mean |error| in cycles; beat_seconds: in seconds; beat_offset: signed, in
         cycles of a beat; steady: concentration of the beat's error.
     """
-    columns: dict[str, list[float]] = {}
-    for piece, bars in songs:
-        assert piece.bars is not None
-        at = np.arange(piece.num_frames) / FPS
-        inside = (at >= piece.beats[0]) & (at <= piece.beats[-1])
-        true_beats = piece.bars[inside] * piece.true_meter
-        beat = phase_error(bars[inside] * piece.meter, true_beats)
-        period = (at[inside][-1] - at[inside][0]) / (true_beats[-1] - true_beats[0])
-        values = {
-            "beat": beat.absolute,
-            "bar": phase_error(bars[inside], piece.bars[inside]).absolute,
-            "beat_seconds": beat.absolute * period,
-            "beat_offset": beat.offset,
-            "steady": beat.concentration,
-        }
-        for name, value in values.items():
-            columns.setdefault(name, []).append(float(value))
-    return {name: bootstrap_mean(values).as_dict() for name, values in columns.items()}
+    at = np.arange(min(len(bars), len(true_bars))) / FPS
+    inside = np.flatnonzero((at >= times[0]) & (at <= times[-1]))
+    true_beats = true_bars[inside] * meter
+    beat = phase_error(beats[inside], true_beats)
+    period = (at[inside][-1] - at[inside][0]) / (true_beats[-1] - true_beats[0])
+    return {
+        "beat": beat.absolute,
+        "bar": phase_error(bars[inside], true_bars[inside]).absolute,
+        "beat_seconds": float(beat.absolute * period),
+        "beat_offset": beat.offset,
+        "steady": beat.concentration,
+    }

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.evaluation.audio_harness import Picture
+from src.shared.evaluation.audio_context import Picture
 from src.shared.evaluation.plots import new_figure, save_figure
 from src.shared.motion.trajectory import FPS, MotionTrajectory
 from src.shared.validation.bands import Bands

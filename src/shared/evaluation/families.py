@@ -110,8 +110,9 @@ class Dance:
         trajectory: [T,25], 30 frames a second.
         beats: of the music, seconds; some may lie beyond the end.
         bars: true bars [T] of the music, unwrapped; None = nobody knows.
-        meter: beats a bar.
-        memo: of the trajectory, with which it goes.
+        meter: beats a bar of the music.
+        counted: beats a bar that the trajectory's phase counts.
+        memo: of the trajectory; like `counted`, it goes where the trajectory goes.
     """
 
     song: str
@@ -119,6 +120,7 @@ class Dance:
     beats: np.ndarray
     bars: np.ndarray | None = None
     meter: int = 4
+    counted: int = 4
     memo: Memo = field(default_factory=Memo, repr=False)
 
     @property
@@ -147,10 +149,12 @@ class DanceSample:
 
     def reordered(self, order: Sequence[int]) -> "DanceSample":
         """The music stays, motions change places: what not listening gives."""
-        moved = [
-            replace(dance, trajectory=self.dances[row].trajectory, memo=self.dances[row].memo)
-            for dance, row in zip(self.dances, order, strict=True)
-        ]
+        moved = []
+        for dance, row in zip(self.dances, order, strict=True):
+            other = self.dances[row]
+            moved.append(
+                replace(dance, trajectory=other.trajectory, counted=other.counted, memo=other.memo)
+            )
         return DanceSample(moved, self.source)
 
 

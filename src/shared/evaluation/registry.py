@@ -6,7 +6,15 @@ extra adds tables with rows of its own. Both are told what to draw on and give p
 
 from collections.abc import Callable
 
+from src.shared.evaluation.audio_context import AudioContext
+from src.shared.evaluation.audio_tables import (
+    alignment_tables,
+    phase_table,
+    seam_tables,
+    track_table,
+)
 from src.shared.evaluation.families import DanceSample, MetricFamily, MotionSample
+from src.shared.evaluation.families_audio import BarPhase, BeatAlignment, TrajectorySanity
 from src.shared.evaluation.families_text import (
     Frechet,
     GuoRetrieval,
@@ -29,4 +37,14 @@ TEXT_EXTRAS: dict[str, Callable[[TextContext], list[Grid]]] = {
     "languages": languages,
     "controllability": controllability,
 }
-AUDIO_FAMILIES: tuple[MetricFamily[DanceSample], ...] = ()
+AUDIO_FAMILIES: tuple[MetricFamily[DanceSample], ...] = (
+    BeatAlignment(),
+    BarPhase(),
+    TrajectorySanity(),
+)
+AUDIO_EXTRAS: dict[str, Callable[[AudioContext], list[Grid]]] = {
+    "phase": phase_table,
+    "alignment": alignment_tables,
+    "seams": seam_tables,
+    "tracks": track_table,
+}

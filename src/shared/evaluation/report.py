@@ -41,7 +41,7 @@ def cell_text(cell: Cell, column: Column) -> str:
     if cell is None or isinstance(cell, str):
         return cell or "–"
     if isinstance(cell, dict):
-        return interval(cell, column.decimals)
+        return interval(cell, column.decimals) + (" *" if cell.get("apart") else "")
     return number(cell, column.decimals)
 
 

@@ -8,74 +8,97 @@ import numpy as np
 import pytest
 
 from src.shared.audio.synthetic_songs import SongSpec, render_song
-from src.shared.evaluation.audio_harness import (
-    AudioEvaluation,
-    AudioSettings,
-    evaluate_audio,
-)
-from src.shared.evaluation.audio_plots import plot_phase
-from src.shared.evaluation.audio_report import audio_tables
-from src.shared.evaluation.report import as_markdown, heading
+from src.shared.evaluation.audio_context import AudioSettings
+from src.shared.evaluation.audio_harness import evaluate_audio
+from src.shared.evaluation.grids import Grid
+from src.shared.evaluation.report import grids, markdown, tables
+from src.shared.evaluation.report_folder import save_report
 from src.shared.inference.song_generator import SongGenerator
 from src.shared.model.audio.conditioning import BEAT
 from src.shared.motion.trajectory import PHASE, MotionTrajectory
 from tests.shared.evaluation.tiny_pairs import nod, tiny_model, write_pairs
 
-SETTINGS = AudioSettings(num_songs=2, song_seconds=9.0, own_count=1, pictures=1)
+SETTINGS = AudioSettings(
+    num_songs=2, song_seconds=9.0, own_count=1, pictures=1, replications=2, untrained=1, worst=2
+)
 
 
 @pytest.fixture(scope="module")
-def folders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+def sources(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     root = tmp_path_factory.mktemp("evaluation")
     (root / "songs").mkdir()
     render_song(SongSpec(seconds=5.0, seed=1)).write_wav(root / "songs" / "song.wav")
     return {"data": str(write_pairs(root / "pairs")), "songs": root / "songs"}
 
 
-def run(folders: dict[str, Any]) -> AudioEvaluation:
+def run(sources: dict[str, Any], folder: Path) -> dict[str, Any]:
     generator = SongGenerator(tiny_model(), device="cpu")
-    return evaluate_audio(generator, settings=SETTINGS, sampling={"steps": 2}, **folders)
+    report = evaluate_audio(
+        generator, settings=SETTINGS, sampling={"steps": 2}, folder=folder, **sources
+    )
+    save_report(report, folder)
+    return report
 
 
 @pytest.fixture(scope="module")
-def result(folders: dict[str, Any]) -> AudioEvaluation:
-    return run(folders)
+def folder(sources: dict[str, Any], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("report")
+    run(sources, folder)
+    return folder
 
 
-def test_the_report_says_what_was_measured(result: AudioEvaluation) -> None:
-    report = json.loads(json.dumps(result.report))
+@pytest.fixture(scope="module")
+def report(folder: Path) -> dict[str, Any]:
+    return dict(json.loads((folder / "report.json").read_text()))
+
+
+def named(report: dict[str, Any]) -> dict[str, Grid]:
+    return {grid.name: grid for grid in grids(report)}
+
+
+def test_the_report_says_what_was_measured(report: dict[str, Any]) -> None:
     assert report["about"]["steps"] == 2 and report["about"]["data_hash"]
-    assert report["about"]["test_phrases"] == 4 and len(report["tempi"]) == 2
-    assert set(report["alignment"]) == {"generated", "real"}
-    assert report["phase"]["generated"]["beat"]["count"] == 2
-    assert report["phase"]["own count"]["beat"]["count"] == 1
-    assert report["seams"]["seams"] == 2
-    assert report["tracks"][0]["name"] == "song"
+    assert report["about"]["test_phrases"] == 4
+    found = named(report)
+    beats = found["songs/beat alignment"]
+    assert list(beats.rows) == ["real", "chance", "frozen pose", "generated", "untrained"]
+    runs = {name: (row.num, row.replications) for name, row in beats.rows.items()}
+    assert runs["real"] == (4, 2) and runs["generated"] == (2, 2)
+    assert runs["untrained"] == runs["frozen pose"] == (2, 1)
+    assert found["phase"].rows["own count"].num == 1
+    assert found["seams"].title.startswith("seams (2 seams of 2 songs")
+    assert list(found["tracks"].rows) == ["song"]
 
 
-def test_real_motion_keeps_the_beat_and_the_tracker_beats_chance(result: AudioEvaluation) -> None:
-    real = result.report["alignment"]["real"]
-    assert real["rows"]["own song"]["motion_to_music"]["value"] > 0.9
-    assert real["above"]["half a beat later"]["f"]["apart"]
-    phase = result.report["phase"]
-    assert phase["beat tracker"]["beat"]["value"] < phase["chance"]["beat"]["value"]
+def test_real_motion_keeps_the_beat_and_the_tracker_beats_chance(report: dict[str, Any]) -> None:
+    found = named(report)
+    assert found["alignment/real/rows"].value("own song", "motion_to_music") > 0.9
+    assert found["songs/beat alignment"].value("real", "f") > 0.9
+    assert found["alignment/real/above"].rows["half a beat later"].cells["f"]["apart"]  # type: ignore[index,call-overload]
+    phase = found["phase"]
+    assert phase.value("beat tracker", "beat") < phase.value("chance", "beat")
+    assert "*" in markdown(report)
 
 
-def test_it_is_deterministic(result: AudioEvaluation, folders: dict[str, Any]) -> None:
-    again = run(folders).report
-    assert {**again, "seconds": 0} == {**result.report, "seconds": 0}
+def test_a_second_run_gives_the_same_bytes(
+    folder: Path, sources: dict[str, Any], tmp_path: Path
+) -> None:
+    run(sources, tmp_path)
+    files = {path.relative_to(folder) for path in folder.rglob("*") if path.is_file()}
+    assert files == {path.relative_to(tmp_path) for path in tmp_path.rglob("*") if path.is_file()}
+    for name in files - {Path("timing.json")}:
+        assert (folder / name).read_bytes() == (tmp_path / name).read_bytes(), name
 
 
-def test_tables_and_pictures(result: AudioEvaluation, tmp_path: Path) -> None:
-    tables = list(audio_tables(result.report))
-    assert len(tables) == 8
-    assert all(len(row) == len(table.header) for table in tables for row in table.rows)
-    text = as_markdown("Audio evaluation", heading(result.report), tables)
-    assert "| beat tracker |" in text and "seed: 0" in text
-    names = [picture.name for picture in result.pictures]
-    assert names[1:] == ["song"]
-    for number, picture in enumerate(result.pictures):
-        assert plot_phase(picture, tmp_path / f"{number}.png").stat().st_size > 5000
+def test_tables_and_pictures(report: dict[str, Any], folder: Path) -> None:
+    assert all(len(row) == len(table.header) for table in tables(report) for row in table.rows)
+    text = (folder / "report.md").read_text()
+    assert "| beat tracker |" in text and "seed: 0" in text and "## worst first" in text
+    assert [picture["title"].split()[-1] for picture in report["pictures"]][1:] == ["song"]
+    for picture in report["pictures"]:
+        assert (folder / picture["file"]).stat().st_size > 5000
+    page = (folder / "report.html").read_text()
+    assert page.count("<iframe") == 1 and page.count("data:image/png") == 2
 
 
 # ---------------------------------------------------------------- a dancer who hears
@@ -96,14 +119,20 @@ class Nodder(SongGenerator):
 
 
 def test_who_hears_the_beat_stands_out() -> None:
-    settings = AudioSettings(num_songs=6, song_seconds=9.0, own_count=2)
-    report = evaluate_audio(Nodder(tiny_model(), device="cpu"), settings=settings).report
-    phase = report["phase"]
-    for name, cell in phase["beat tracker"].items():  # its phase is the tracker's
-        assert phase["generated"][name]["value"] == pytest.approx(cell["value"], abs=1e-6)
-    assert phase["own count"]["beat"]["value"] > 0.15
-    assert phase["beat tracker, right tempo"]["beat"]["value"] < 0.1
-    above = report["alignment"]["generated"]["above"]
-    for name in ("chance", "another song", "half a beat later"):
-        assert above[name]["motion_to_music"]["low"] > 0.1
-    assert report["seams"]["jumps"]["none"]
+    settings = AudioSettings(
+        num_songs=6, song_seconds=9.0, own_count=2, replications=1, untrained=0
+    )
+    found = named(evaluate_audio(Nodder(tiny_model(), device="cpu"), settings=settings))
+    phase = found["phase"]
+    for column in phase.columns:  # its phase is the tracker's
+        own, heard = (phase.value(row, column.key) for row in ("generated", "beat tracker"))
+        assert own == pytest.approx(heard, abs=1e-6)
+    assert phase.value("own count", "beat") > 0.15
+    assert phase.value("beat tracker, right tempo", "beat") < 0.1
+    above = found["alignment/generated/above"]
+    for row in ("chance", "another song", "half a beat later"):
+        assert above.rows[row].cells["motion_to_music"]["low"] > 0.1  # type: ignore[index,call-overload]
+    beats = found["songs/beat alignment"]
+    assert beats.value("generated", "f") > beats.value("chance", "f") + 0.1
+    assert beats.value("frozen pose", "f") == 0
+    assert found["jumps"].title.endswith("none")

@@ -10,7 +10,6 @@ import torch
 from src.shared.errors import UserError
 from src.shared.evaluation import audio_sanity
 from src.shared.evaluation.audio_plots import plot_bands
-from src.shared.evaluation.audio_report import sanity_tables
 from src.shared.evaluation.audio_sanity import (
     SanitySettings,
     evaluate_sanity,
@@ -20,6 +19,7 @@ from src.shared.evaluation.audio_sanity import (
 )
 from src.shared.evaluation.audio_songs import open_split
 from src.shared.evaluation.report import as_markdown, heading
+from src.shared.evaluation.sanity_report import sanity_tables
 from src.shared.validation.bands import Band, Bands
 from src.shared.validation.report import sanity_row
 from src.shared.validation.sanity import SanityChecker

@@ -1,0 +1,30 @@
+"""`report`: the pages of an evaluation, made again from its report.json."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from src.cli import options
+from src.shared.errors import UsageError
+
+
+def report(
+    folder: Annotated[Path, typer.Argument(help="A folder that `evaluate` wrote.")],
+    json: options.Json = False,
+) -> None:
+    """Write report.md and report.html again, and print the tables; nothing is measured.
+
+    \b
+    Example:
+      motion-tools report outputs/evaluation/starter
+    """
+    if not (folder / "report.json").is_file():
+        raise UsageError(f"{folder} holds no report.json; name a folder that `evaluate` wrote")
+
+    from src.cli.evaluate import show
+    from src.cli.guard import complain
+    from src.shared.evaluation.report_folder import render
+
+    show(render(folder), json=json)
+    complain(f"report: {folder / 'report.html'}")

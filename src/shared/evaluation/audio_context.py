@@ -1,0 +1,216 @@
+"""What the audio branch is measured with: settings, held-out songs, the motions made for them.
+
+Letters: T frames, N songs.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cache, cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from src.shared.data.pairing.motion_beats import MotionBeats, motion_beats
+from src.shared.data.phrases.dataset import MotionPhraseDataset
+from src.shared.errors import UserError
+from src.shared.evaluation.audio_sanity import untrained
+from src.shared.evaluation.audio_songs import Piece, held_out_songs, open_split, phrases, tracks
+from src.shared.evaluation.families import Dance, DanceSample
+from src.shared.inference.song_generator import SongGenerator
+from src.shared.inference.song_sampler import SampleSettings
+from src.shared.motion.trajectory import FPS, MotionTrajectory
+from src.shared.validation.report import frozen
+
+Progress = Callable[[str], None]
+Made = list[tuple[Piece, MotionTrajectory]]
+
+
+@dataclass(frozen=True)
+class AudioSettings:
+    """How much is measured; the report repeats it."""
+
+    num_songs: int = 50
+    song_seconds: float = 16.0
+    replications: int = 20
+    untrained: int = 3  # replications of the untrained row, at most; 0 = no row
+    own_count: int = 10  # songs made once more, the phase not held to the beat tracker
+    tell_meter: bool = True
+    max_real: int = 200  # test phrases
+    track_seconds: float = 30.0  # of each sound file
+    pictures: int = 4
+    worst: int = 6  # motions to be looked at
+    seed: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """What a plot of one song needs: bars [T] by name, beats, and where the motion slows down."""
+
+    name: str
+    bars: dict[str, np.ndarray]
+    beats: np.ndarray
+    motion: MotionBeats
+
+    @classmethod
+    def of(cls, piece: Piece, trajectory: MotionTrajectory) -> "Picture":
+        """Of a motion on its song."""
+        bars = {} if piece.bars is None else {"truth": piece.bars}
+        bars |= {} if piece.phase is None else {"beat tracker": piece.phase}
+        bars["generated"] = trajectory.phase_unwrapped
+        motion = motion_beats(trajectory.position, trajectory.fps)
+        return cls(piece.name, bars, piece.beats[piece.beats < piece.seconds], motion)
+
+
+class AudioContext:
+    """Everything a table of the audio branch may draw on; songs and motions are made once.
+
+    Args:
+        generator: a trained audio branch.
+        settings: how much.
+        data: folder or bucket of pairs, whose test split is the real row; None = no such row.
+        songs: folder of sound files; None = none.
+        sampling: steps, sampler, guidance_scale; None = the model's own.
+        progress: told what begins.
+    """
+
+    def __init__(
+        self,
+        generator: SongGenerator,
+        settings: AudioSettings,
+        *,
+        data: str | None = None,
+        songs: Path | None = None,
+        sampling: dict[str, Any] | None = None,
+        progress: Progress = lambda text: None,
+    ) -> None:
+        self.generator, self.settings, self.progress = generator, settings, progress
+        self.data, self.songs = data, songs
+        given = SampleSettings(**(sampling or {}))
+        self.sampled = given.resolved(generator.model.config)
+        self.made = cache(self._made)
+
+    @cached_property
+    def pieces(self) -> list[Piece]:
+        """Held-out synthetic songs."""
+        settings = self.settings
+        self.progress(f"{settings.num_songs} songs of {settings.song_seconds:g} s")
+        return list(
+            held_out_songs(
+                settings.num_songs,
+                settings.song_seconds,
+                settings.seed,
+                tell_meter=settings.tell_meter,
+            )
+        )
+
+    def dance(
+        self,
+        piece: Piece,
+        *,
+        replication: int = 0,
+        held: bool = True,
+        generator: SongGenerator | None = None,
+    ) -> MotionTrajectory:
+        """A motion for a song; not `held`, it counts the phase for itself."""
+        seed = self.settings.seed + 1000 * replication
+        return (generator or self.generator).generate(
+            piece.condition,
+            phase=piece.phase if held else None,
+            settings=replace(self.sampled, seed=seed),
+        )[0]
+
+    def _made(self, replication: int) -> Made:
+        """A motion for each held-out song."""
+        return [(piece, self.dance(piece, replication=replication)) for piece in self.pieces]
+
+    @cached_property
+    def played(self) -> Made:
+        """A motion for each sound file."""
+        if self.songs is None:
+            return []
+        made = []
+        for piece in tracks(self.songs, self.settings.track_seconds):
+            self.progress(piece.name)
+            made.append((piece, self.dance(piece)))
+        return made
+
+    # ---------------------------------------------------------------- samples
+
+    @cached_property
+    def split(self) -> MotionPhraseDataset | None:
+        """The test split, in windows as long as the songs; None without data.
+
+        Raises:
+            UserError: there is none.
+        """
+        if self.data is None:
+            return None
+        frames = round(self.settings.song_seconds * FPS)
+        return open_split(self.data, "test", frames, self.settings.seed)
+
+    @property
+    def fingerprint(self) -> str:
+        """Hash of the data; empty without."""
+        return "" if self.split is None else self.split.fingerprint
+
+    @cached_property
+    def reference(self) -> DanceSample:
+        """Real motion of the test split with its music; empty without data.
+
+        Raises:
+            UserError: no phrase of the split has a beat.
+        """
+        if self.data is None:
+            return DanceSample([], np.zeros(0, dtype=int))
+        self.progress(f"the test split of {self.data}")
+        assert self.split is not None
+        known = [p for p in phrases(self.split, self.settings.max_real) if len(p.beats) > 1]
+        if not known:
+            raise UserError(
+                f"{self.data}: no test phrase has a beat; make the pairs with prepare-audio"
+            )
+        dances = [Dance(phrase.song, phrase.motion, phrase.beats) for phrase in known]
+        return DanceSample(dances, np.arange(len(dances)))
+
+    def real(self, replication: int) -> DanceSample:
+        """The same phrases each time."""
+        return self.reference
+
+    def generated(self, replication: int) -> DanceSample:
+        """The model's motions on their own songs."""
+        return sample_of(self.made(replication))
+
+    def chance(self, replication: int) -> DanceSample:
+        """The same motions, each on another song: what not listening scores."""
+        sample = self.generated(replication)
+        rng = np.random.default_rng([self.settings.seed, 4, replication])
+        order, other = rng.permutation(len(sample)), np.zeros(len(sample), dtype=int)
+        other[order] = np.roll(order, 1)  # one cycle: nobody keeps the own song
+        return sample.reordered(other.tolist())
+
+    def frozen_pose(self, replication: int) -> DanceSample:
+        """The first pose of each motion held while the music goes on."""
+        return sample_of([(piece, frozen(motion)) for piece, motion in self.made(0)])
+
+    def untrained(self, replication: int) -> DanceSample:
+        """Motions of the same network with fresh weights."""
+        made = [
+            (piece, self.dance(piece, replication=replication, generator=self._fresh))
+            for piece in self.pieces
+        ]
+        return sample_of(made)
+
+    @cached_property
+    def _fresh(self) -> SongGenerator:
+        fresh = untrained(self.generator.model, self.settings.seed)
+        return SongGenerator(fresh, device=str(self.generator.device))
+
+
+def sample_of(made: Sequence[tuple[Piece, MotionTrajectory]]) -> DanceSample:
+    """Motions on songs as a sample; no real motion belongs to a song that was made up."""
+    dances = [
+        Dance(piece.name, motion, piece.beats, piece.bars, piece.true_meter, piece.meter)
+        for piece, motion in made
+    ]
+    return DanceSample(dances, np.full(len(dances), -1))

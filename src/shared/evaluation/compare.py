@@ -1,0 +1,143 @@
+"""Two reports against each other, figure by figure, paired by prompt or by replication.
+
+Letters: N motions, R replications.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from src.shared.errors import UserError
+from src.shared.evaluation import manifest
+from src.shared.evaluation.bootstrap import MIN_PAIRS, paired_bootstrap
+from src.shared.evaluation.engine import motion_values, part_name
+from src.shared.evaluation.families import Column
+from src.shared.evaluation.grids import Grid, GridRow, plain
+from src.shared.evaluation.parts import Part, Parts, read_json
+from src.shared.evaluation.report import grids
+
+FREE = ("model", "sampling", "statistics")  # what a comparison may be about
+NOTE = (
+    "b - a, ± half a 95% interval of a paired bootstrap (10,000 resamples): over prompts, each the"
+    " mean of its replications, where a figure belongs to a single motion; over replications with"
+    " the same seeds where it belongs to a whole sample (fewer than {few} say little). p is"
+    " two-sided. better: the interval excludes 0 on the good side. Every column is one test: of"
+    " twenty that differ in nothing, one seems to."
+)
+FEW = 5
+
+
+@dataclass(frozen=True)
+class Side:
+    """A report's folder, and the row to look at."""
+
+    folder: Path
+    row: str = "generated"
+
+    def report(self) -> dict[str, Any]:
+        """Its report.json.
+
+        Raises:
+            UserError: there is none.
+        """
+        return read_json(self.folder / "report.json")
+
+    def parts(self, bench: str) -> list[Part]:
+        """The row's replications, as many as there are without a gap."""
+        kept = Parts(self.folder)
+        found: list[Part] = []
+        while kept.done(name := part_name(bench, self.row, len(found))):
+            found.append(kept.once(name, dict))
+        return found
+
+
+def compare(a: Side, b: Side, *, seed: int = 0) -> dict[str, Any]:
+    """Every figure that both have, as a report: one table a family.
+
+    Raises:
+        UserError: a folder holds no report, the reports measured different things (data, judge,
+            settings, metrics), or a row is missing.
+    """
+    first, second = read_json(a.folder / manifest.MANIFEST), read_json(b.folder / manifest.MANIFEST)
+    differs = [
+        name
+        for name in manifest.differences(first, second)
+        if name.split(".")[0] not in FREE and name != "environment.threads"
+    ]
+    if differs:
+        raise UserError(
+            f"{a.folder} and {b.folder} differ in {', '.join(differs)}: such figures never stand"
+            " beside each other; evaluate both with the same data, judge and settings"
+        )
+    ours, theirs = a.report(), b.report()
+    tables = [
+        table
+        for grid in grids(ours)
+        if grid.plot and (table := _difference(grid, a, b, seed)) is not None
+    ]
+    if not tables:
+        raise UserError(f"{a.folder} has no row {a.row!r}, or {b.folder} has no row {b.row!r}")
+    about = {
+        "a": f"{a.folder}, row {a.row}, model {ours['about'].get('model')}",
+        "b": f"{b.folder}, row {b.row}, model {theirs['about'].get('model')}",
+        "model_hash_a": ours["about"].get("model_hash"),
+        "model_hash_b": theirs["about"].get("model_hash"),
+    }
+    return {
+        "branch": first["branch"],
+        "about": plain(about),
+        "settings": {},
+        "tables": [table.as_dict() for table in tables],
+        "samples": [],
+        "pictures": [],
+    }
+
+
+def _difference(grid: Grid, a: Side, b: Side, seed: int) -> Grid | None:
+    """A family's table of one bench: a row a column of it."""
+    bench = grid.name.split("/")[0]
+    left, right = a.parts(bench), b.parts(bench)
+    if not left or not right:
+        return None
+    rows = {}
+    for column in grid.columns:
+        pair = _pairs(left, right, column.key)
+        if pair is None:
+            continue
+        found = paired_bootstrap(*pair, seed=seed)
+        cells = {
+            "a": float(np.nanmean(pair[0])),
+            "b": float(np.nanmean(pair[1])),
+            "difference": {k: v for k, v in found.as_dict().items() if k != "p"},
+            "p": found.p,
+            "better": verdict(column, found.low, found.high),
+        }
+        rows[column.heading] = GridRow(plain(cells), found.count, 1)
+    columns = (
+        Column("a", "a"), Column("b", "b"), Column("difference", "b - a", 4), Column("p", "p", 4),
+        Column("better", "better"),
+    )  # fmt: skip
+    note = NOTE.format(few=FEW)
+    return Grid(grid.name, grid.title, columns, rows, note, "figure") if rows else None
+
+
+def _pairs(a: Sequence[Part], b: Sequence[Part], key: str) -> tuple[np.ndarray, np.ndarray] | None:
+    """A column of both sides, entry by entry: motions, else replications; None = too few."""
+    num = min(len(a), len(b))
+    left, right = (motion_values(side[:num], key) for side in (a, b))
+    if left is None or right is None:
+        left, right = (np.array([p["figures"].get(key) for p in s[:num]], float) for s in (a, b))
+    known = ~np.isnan(left - right)
+    return (left, right) if known.sum() >= MIN_PAIRS else None
+
+
+def verdict(column: Column, low: float, high: float) -> str:
+    """Which side is better, as far as the interval tells."""
+    if low <= 0 <= high:
+        return "–"
+    if column.better == "real":
+        return "differ"
+    return "b" if (low > 0) == (column.better == "high") else "a"

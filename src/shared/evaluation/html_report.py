@@ -1,0 +1,181 @@
+"""report.html: one page with everything in it, tables, plots and the worst motions to be played.
+
+It opens offline and loads nothing. Every text of the report is escaped: a prompt cannot act as
+markup.
+"""
+
+import base64
+import re
+import tempfile
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from html import escape
+from pathlib import Path
+from typing import Any
+
+from src.shared.evaluation.grids import Grid
+from src.shared.evaluation.report import (
+    cell_text,
+    counts,
+    grids,
+    heading,
+    intervals_note,
+    number,
+    title_of,
+)
+from src.shared.evaluation.svg_plots import grid_plots
+from src.shared.formats.html import write_html
+from src.shared.formats.npz import read_npz
+from src.shared.formats.trajectory_html import write_trajectory_html
+from src.shared.formats.trajectory_npz import read_trajectory_npz
+
+POLICY = (
+    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:;"
+    " media-src data:"
+)
+STYLE = """
+:root { color-scheme: light; --ink: #343a44; --faint: #6b7380; --line: #d9dde4; }
+* { box-sizing: border-box; }
+body { margin: 0 auto; max-width: 1280px; padding: 24px; color: var(--ink); background: #f6f7f9;
+  font: 15px/1.45 system-ui, "Segoe UI", "Hiragino Sans", "Noto Sans CJK SC", sans-serif; }
+h1 { margin: 0 0 8px; font-size: 26px; } h2 { font-size: 19px; margin: 0 0 10px; }
+nav { display: flex; flex-wrap: wrap; gap: 4px 14px; margin: 12px 0 20px; font-size: 14px; }
+a { color: #2f6fd0; text-decoration: none; } a:hover { text-decoration: underline; }
+section { background: #fff; border: 1px solid var(--line); border-radius: 10px; padding: 16px;
+  margin: 0 0 18px; }
+.facts { columns: 3 280px; font-size: 13px; color: var(--faint); margin: 0; padding: 0;
+  list-style: none; } .facts b { color: var(--ink); font-weight: 600; }
+.scroll { overflow-x: auto; }
+table { border-collapse: collapse; font-size: 13.5px; font-variant-numeric: tabular-nums; }
+th, td { padding: 4px 10px; border-bottom: 1px solid var(--line); text-align: right;
+  white-space: nowrap; } th:first-child, td:first-child { text-align: left; }
+td.long { white-space: normal; text-align: left; min-width: 220px; }
+thead th { color: var(--faint); font-weight: 600; }
+tr.generated { background: #eef4fd; } tr.real { background: #eef8f1; }
+p.note { color: var(--faint); font-size: 13px; max-width: 100ch; margin: 10px 0 0; }
+.plots { display: flex; flex-wrap: wrap; gap: 10px 18px; margin-top: 14px; }
+svg.plot text { font: 11px system-ui, sans-serif; fill: #343a44; }
+svg.plot text.name { font-weight: 600; font-size: 12px; } svg.plot text.tick { fill: #6b7380; }
+iframe { width: 100%; height: 620px; border: 1px solid var(--line); border-radius: 10px; }
+img { max-width: 100%; display: block; margin: 8px 0; }
+summary { cursor: pointer; color: var(--faint); font-size: 13px; margin-top: 12px; }
+"""
+
+
+def html_page(report: dict[str, Any], folder: Path | None) -> str:
+    """The whole page.
+
+    Args:
+        report: see `report_data`.
+        folder: of the report, where samples and pictures lie; None = without them.
+
+    Raises:
+        UserError: a sample is missing or damaged.
+    """
+    tables = grids(report)
+    sections = [f'<section id="about">{_about(report)}</section>']
+    if folder is not None:
+        sections += list(_worst(report, folder))
+    sections += [_table(index, grid) for index, grid in enumerate(tables)]
+    if folder is not None and report["pictures"]:
+        sections.append(_pictures(report["pictures"], folder))
+    links = "".join(
+        f'<a href="#table-{index}">{escape(grid.title.split(" (")[0])}</a>'
+        for index, grid in enumerate(tables)
+    )
+    title = escape(title_of(report))
+    return (
+        f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
+        f'<link rel="icon" href="data:,"><title>{title}</title><style>{STYLE}</style></head>'
+        f"<body><h1>{title}</h1><nav>{links}</nav>\n" + "\n".join(sections) + "\n</body></html>\n"
+    )
+
+
+def _about(report: dict[str, Any]) -> str:
+    facts = [fact.split(": ", 1) for fact in heading(report)]
+    items = "".join(f"<li><b>{escape(name)}</b> {escape(value)}</li>" for name, value in facts)
+    return f'<ul class="facts">{items}</ul><p class="note">{escape(intervals_note(report))}</p>'
+
+
+def _table(index: int, grid: Grid) -> str:
+    counted = any(row.num is not None for row in grid.rows.values())
+    names = [grid.head, *(c.heading for c in grid.columns), *(["N × runs"] if counted else [])]
+    head = "".join(f"<th>{escape(name)}</th>" for name in names)
+    body = ""
+    for name, row in grid.rows.items():
+        cells = [cell_text(row.cells.get(column.key), column) for column in grid.columns]
+        cells += [counts(row.num, row.replications)] if counted else []
+        texts = "".join(f"<td>{escape(text)}</td>" for text in (name, *cells))
+        body += f'<tr class="{_css(name)}">{texts}</tr>'
+    plots = grid_plots(grid) if grid.plot else ""
+    drawn = f'<details open><summary>plots</summary><div class="plots">{plots}</div></details>'
+    return (
+        f'<section id="table-{index}"><h2>{escape(grid.title)}</h2><div class="scroll"><table>'
+        f"<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>"
+        f"{_note(grid.note)}{drawn if plots else ''}</section>"
+    )
+
+
+def _css(name: str) -> str:
+    return re.sub(r"\W+", "-", name)
+
+
+def _note(text: str) -> str:
+    """Markdown's emphasis and code, nothing else."""
+    if not text:
+        return ""
+    marked = re.sub(r"`([^`]+)`", r"<code>\1</code>", escape(text))
+    marked = re.sub(r"\*([^*\s][^*]*)\*", r"<em>\1</em>", marked)
+    return f'<p class="note">{marked}</p>'
+
+
+# ---------------------------------------------------------------- motions and pictures
+
+
+def _worst(report: dict[str, Any], folder: Path) -> Iterator[str]:
+    """A player and a table of figures for each bench, worst motion first."""
+    benches = dict.fromkeys(sample["bench"] for sample in report["samples"])
+    for bench in benches:
+        samples = [sample for sample in report["samples"] if sample["bench"] == bench]
+        page = escape(player(samples, folder, report["branch"]), quote=True)
+        keys = dict.fromkeys(key for sample in samples for key in sample["figures"])
+        head = "".join(f"<th>{escape(key.replace('_', ' '))}</th>" for key in keys)
+        rows = "".join(
+            f'<tr><td>{s["rank"]} of {s["of"]}</td><td class="long">{escape(s["title"])}</td>'
+            + "".join(f"<td>{number(s['figures'].get(key), 3)}</td>" for key in keys)
+            + "</tr>"
+            for s in samples
+        )
+        yield (
+            f'<section id="worst-{_css(bench)}"><h2>Worst first: {escape(bench)}</h2>'
+            f'<iframe sandbox="allow-scripts" title="motions" srcdoc="{page}"></iframe>'
+            '<p class="note">The first replication, by the mean over families of the mean rank in'
+            " the figures below.</p><details><summary>their figures</summary>"
+            f'<div class="scroll"><table><thead><tr><th>place</th><th>asked for</th>{head}</tr>'
+            f"</thead><tbody>{rows}</tbody></table></div></details></section>"
+        )
+
+
+def player(samples: Sequence[dict[str, Any]], folder: Path, branch: str) -> str:
+    """The page of the formats' own viewer with these motions side by side."""
+    titles = [f"{sample['rank']} of {sample['of']}: {sample['title']}" for sample in samples]
+    files = [folder / sample["file"] for sample in samples]
+    with tempfile.TemporaryDirectory() as temporary:
+        path = Path(temporary) / "player.html"
+        if branch == "text":
+            motions = zip(map(read_npz, files), titles, strict=True)
+            write_html([replace(motion, text=title) for motion, title in motions], path)
+        else:
+            write_trajectory_html(list(map(read_trajectory_npz, files)), path, titles=titles)
+        return path.read_text(encoding="utf-8")
+
+
+def _pictures(pictures: Sequence[dict[str, Any]], folder: Path) -> str:
+    shown = ""
+    for picture in pictures:
+        data = base64.b64encode((folder / picture["file"]).read_bytes()).decode()
+        title = escape(picture["title"])
+        shown += f'<h2>{title}</h2><img alt="{title}" src="data:image/png;base64,{data}">'
+    return f'<section id="pictures">{shown}</section>'
