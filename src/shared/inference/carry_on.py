@@ -3,7 +3,8 @@
 The network is shown the first frames of a window and makes the rest, but only nearly continues
 them: 1 cm of misplacement is a teleport, an acceleration of 9 m/s². So the rest of the path is
 moved to where the known frames lead, its speed taken over within a third of a second, its height
-and rotation within a second.
+and rotation within a second. At the join it accelerates and turns by the mean of both sides: a step
+that merely repeated the last one would be the only frame without acceleration.
 
 Letters: W frames of a window, K known ones.
 """
@@ -11,7 +12,11 @@ Letters: W frames of a window, K known ones.
 import numpy as np
 import torch
 
-from src.shared.motion.rotations import quaternion_multiply, quaternion_slerp
+from src.shared.motion.rotations import (
+    quaternion_conjugate,
+    quaternion_multiply,
+    quaternion_slerp,
+)
 from src.shared.motion.trajectory import POSITION, QUATERNION
 from src.shared.motion.trajectory_math import continuous_sign
 
@@ -25,24 +30,29 @@ def carry_on(rows: np.ndarray, known: int) -> None:
 
     Args:
         rows: [25,W], position and quaternion as made; only these two are changed.
-        known: K ≥ 2 frames that are right; W ≥ K + 2, else nothing is done.
+        known: K ≥ 3 frames that are right; W ≥ K + 3, else nothing is done.
     """
-    if known < 2 or rows.shape[1] < known + 2:
+    if known < 3 or rows.shape[1] < known + 3:
         return
     rest = rows.shape[1] - known
     position = rows[POSITION].astype(np.float64)  # 3 W
     made = position[:, known:].copy()
-    steps = np.diff(made, axis=1, prepend=2 * made[:, :1] - made[:, 1:2])  # 3 W-K, first guessed
-    before = position[:, known - 1] - position[:, known - 2]
-    steps += (before - steps[:, 0])[:, None] * _fade(rest, SPEED_FRAMES)
+    after = np.diff(made, axis=1)  # 3 W-K-1, the first step of the rest is not among them
+    before = np.diff(position[:, known - 3 : known], axis=1)  # 3 2
+    steps = np.insert(after, 0, 2 * after[:, 0] - after[:, 1], axis=1)  # 3 W-K
+    acceleration = (before[:, 1] - before[:, 0] + after[:, 1] - after[:, 0]) / 2
+    first = before[:, 1] + acceleration
+    steps += (first - steps[:, 0])[:, None] * _fade(rest, SPEED_FRAMES)
     path = position[:, known - 1 : known] + np.cumsum(steps, axis=1)
     path[1] = made[1] + (path[1] - made[1]) * _fade(rest, POSE_FRAMES)
     rows[POSITION][:, known:] = path
 
     rotation = torch.as_tensor(rows[QUATERNION].T, dtype=torch.float64)  # W 4
     rotation = continuous_sign(torch.nn.functional.normalize(rotation, dim=-1))
-    last, first = rotation[known - 1], rotation[known]
-    miss = quaternion_multiply(last, first * torch.tensor([1.0, -1.0, -1.0, -1.0]).to(first))
+    both = quaternion_multiply(rotation[1:], quaternion_conjugate(rotation[:-1]))  # W-1 4, turns
+    turn = quaternion_slerp(both[known - 2], both[known], torch.tensor([0.5]).to(both))
+    due = quaternion_multiply(turn, rotation[known - 1])
+    miss = quaternion_multiply(due, quaternion_conjugate(rotation[known]))
     share = torch.as_tensor(_fade(rest, POSE_FRAMES))[:, None]
     nothing = torch.tensor([1.0, 0.0, 0.0, 0.0], dtype=torch.float64).expand(rest, 4)
     turns = quaternion_slerp(nothing, miss.expand(rest, 4), share)
