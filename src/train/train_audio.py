@@ -24,8 +24,10 @@ from src.shared.data.phrases.statistics import motion_statistics
 from src.shared.device import autocast, choose_compute
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.audio.conditioning import ConditionAugmentation, with_phase_rows
+from src.shared.model.audio.memory_conditioning import MemoryCondition
 from src.shared.model.diffusion.gaussian import GaussianDiffusion, masked_loss
 from src.shared.motion.trajectory import FPS, POSITION, QUATERNION, STYLE
+from src.train.batches import to_device
 from src.train.launch import stage_app
 from src.train.phrases import PhraseConfig, export_song, open_phrases
 from src.train.seeding import generator
@@ -52,6 +54,7 @@ class AudioBatch:
         mask: [B,T] bool, real frames.
         condition: [B,167,T], augmented; drop [B] bool, windows that hear nothing.
         timesteps: [B] long.
+        memory: what is remembered for the windows; None = nothing.
     """
 
     clean: Tensor
@@ -61,6 +64,7 @@ class AudioBatch:
     condition: Tensor
     drop: Tensor
     timesteps: Tensor
+    memory: MemoryCondition | None = None
 
 
 def audio_losses(
@@ -82,7 +86,7 @@ def audio_losses(
     """
     noisy = diffusion.q_sample(batch.clean, batch.timesteps, batch.noise)
     noisy = torch.where(batch.known, batch.clean, noisy)
-    output = module(noisy, batch.timesteps, batch.condition, batch.drop)
+    output = module(noisy, batch.timesteps, batch.condition, batch.drop, batch.memory)
     target = diffusion.target(batch.clean, batch.noise, batch.timesteps)
     learned = torch.where(batch.known, target, output.float())
     error = diffusion.loss(learned, target, mask=batch.mask, time_dim=2)
@@ -209,7 +213,7 @@ class AudioTask:
                 timesteps = (spread + third * steps // thirds).clamp(max=steps - 1)
                 known = torch.zeros(phrases.motion.shape, dtype=torch.bool)
                 batch = self._noised(phrases, timesteps, known, None, draws, augment=False)
-                batch = AudioBatch(*(value.to(device) for value in vars(batch).values()))
+                batch = to_device(batch, device)
                 with autocast(self.compute):
                     losses = self.training_step(module, batch)
                 for key, value in losses.items():

@@ -13,7 +13,7 @@ from src.shared.errors import UsageError
 from src.shared.inference.audio_condition import AudioCondition
 from src.shared.inference.audio_judge import AudioJudge
 from src.shared.inference.selection import ScoreTable
-from src.shared.inference.song_sampler import SampleSettings, SongSampler
+from src.shared.inference.song_sampler import Recall, SampleSettings, SongSampler
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 
 
@@ -73,20 +73,34 @@ class MotionSampler:
         Raises:
             UsageError: N, the steps or the frames are out of range.
         """
-        condition = (
-            audio_condition
-            if isinstance(audio_condition, AudioCondition)
-            else AudioCondition.of(audio_condition)
-        )
-        frames = condition.num_frames if num_frames is None else num_frames
-        if not 1 <= frames <= condition.num_frames:
-            raise UsageError(
-                f"num_frames {frames}: choose 1 to {condition.num_frames}, the sound's"
-            )
-        condition = condition.first(frames)
-        bars, beats = condition.time() or (None, None)
+        condition = hearable(audio_condition, num_frames)
         settings = SampleSettings(num_samples, guidance_scale, num_steps, seed=seed)
-        made = SongSampler(self.model, settings).sample(condition.rows, phase=bars)
+        return self.keep_best(condition, SongSampler(self.model, settings), return_all=return_all)
+
+    def keep_best(
+        self,
+        condition: AudioCondition,
+        sampler: SongSampler,
+        *,
+        return_all: bool,
+        recall: Recall | None = None,
+    ) -> SampleResult:
+        """Sample and judge; see `sample`, and `SongSampler.stream` for `recall`."""
+        bars, beats = condition.time() or (None, None)
+        made = sampler.sample(condition.rows, phase=bars, recall=recall)
         table = self.judge.judge(made, beats)
         everything = np.stack([trajectory.data for trajectory in made]) if return_all else None
         return SampleResult(made[table.best].data, everything, table)
+
+
+def hearable(sound: AudioCondition | np.ndarray | Tensor, num_frames: int | None) -> AudioCondition:
+    """The first frames of a condition, or of its rows; None = all.
+
+    Raises:
+        UsageError: it has fewer.
+    """
+    condition = sound if isinstance(sound, AudioCondition) else AudioCondition.of(sound)
+    frames = condition.num_frames if num_frames is None else num_frames
+    if not 1 <= frames <= condition.num_frames:
+        raise UsageError(f"num_frames {frames}: choose 1 to {condition.num_frames}, the sound's")
+    return condition.first(frames)

@@ -12,6 +12,7 @@ from torch import Tensor
 from src.shared.errors import UserError
 from src.shared.model.audio.conditioning import with_phase_rows
 from src.shared.model.audio.decoder import Decoded
+from src.shared.model.audio.memory_conditioning import MemoryCondition
 from src.shared.model.audio.onnx_card import GRAPHS, OnnxCard, read_onnx_card, require_packages
 from src.shared.model.diffusion.conditions import ModelFn
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
@@ -67,8 +68,14 @@ class OnnxRuntime:
         """See `Runtime`."""
         return (raw - self.mean[:, None]) / self.std[:, None]
 
-    def model_fn(self, condition: Tensor, guidance_scale: float | None = None) -> ModelFn:
-        """See `Runtime`."""
+    def model_fn(
+        self,
+        condition: Tensor,
+        guidance_scale: float | None = None,
+        memory: MemoryCondition | None = None,
+    ) -> ModelFn:
+        """See `Runtime`; an export hears no memory."""
+        assert memory is None, "an export hears no memory"
         scale = self.config.guidance_scale if guidance_scale is None else guidance_scale
         condition = with_phase_rows(condition)
         null = self._null[:, None].expand_as(condition)

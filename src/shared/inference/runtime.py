@@ -12,6 +12,7 @@ from src.shared.errors import UserError
 from src.shared.inference.onnx_runtime import OnnxRuntime
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.audio.decoder import Decoded
+from src.shared.model.audio.memory_conditioning import MemoryCondition
 from src.shared.model.audio.sampling_copy import sampling_copy
 from src.shared.model.diffusion.conditions import ModelFn
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
@@ -30,8 +31,16 @@ class Runtime(Protocol):
     def normalise(self, raw: Tensor) -> Tensor:
         """Window rows [B, 25, T] in raw units -> z-scores."""
 
-    def model_fn(self, condition: Tensor, guidance_scale: float | None = None) -> ModelFn:
-        """A denoiser `f(x_t, t)` for a condition [B, 163 or 167, T]; None = the model's scale."""
+    def model_fn(
+        self,
+        condition: Tensor,
+        guidance_scale: float | None = None,
+        memory: MemoryCondition | None = None,
+    ) -> ModelFn:
+        """A denoiser `f(x_t, t)` for a condition [B, 163 or 167, T] and what is remembered for it.
+
+        A scale of None is the model's own.
+        """
 
     def decode(self, z: Tensor, start: Tensor | None = None) -> Decoded:
         """Z-scores [B, 25, T] -> trajectory and phase; `start`: phase of the first frame [B]."""

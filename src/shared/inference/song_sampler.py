@@ -20,6 +20,7 @@ from src.shared.config_audio import AudioNetworkConfig
 from src.shared.errors import UsageError
 from src.shared.inference.carry_on import carry_on
 from src.shared.inference.runtime import Runtime
+from src.shared.model.audio.memory_conditioning import MemoryCondition, known_frames
 from src.shared.model.audio.unet import MIN_FRAMES
 from src.shared.model.diffusion.conditions import ModelFn
 from src.shared.model.diffusion.noise import sample_generators, standard_normal
@@ -29,6 +30,7 @@ from src.shared.motion.window import WindowJoiner, encode_window
 
 SPARE = 8  # frames at the end that are made and cut off: no neighbour to learn from (ruling 6)
 Progress = Callable[[int, int], None]  # frames done, frames in all
+Recall = Callable[[int, int], MemoryCondition]  # first frame and length of a window, spare included
 
 
 @dataclass(frozen=True)
@@ -99,9 +101,11 @@ class SongSampler:
         phase: np.ndarray | None = None,
         style: np.ndarray | None = None,
         progress: Progress | None = None,
+        recall: Recall | None = None,
     ) -> list[MotionTrajectory]:
         """Whole trajectories, one a sample; see `stream`."""
-        pieces = list(self.stream(condition, phase=phase, style=style, progress=progress))
+        stream = self.stream(condition, phase=phase, style=style, progress=progress, recall=recall)
+        pieces = list(stream)
         return [
             MotionTrajectory(np.concatenate([piece[index].data for piece in pieces]))
             for index in range(self.settings.num_samples)
@@ -114,6 +118,7 @@ class SongSampler:
         phase: np.ndarray | None = None,
         style: np.ndarray | None = None,
         progress: Progress | None = None,
+        recall: Recall | None = None,
     ) -> Iterator[list[MotionTrajectory]]:
         """Pieces that follow each other, one a sample, as soon as they are settled.
 
@@ -123,17 +128,22 @@ class SongSampler:
                 model's own count.
             style: [8] unit, held; None = the model's choice.
             progress: told after each window.
+            recall: what is remembered for a window, for one sample or for all; None = nothing.
         """
         num_frames, draws = condition.shape[1], self._generators()
         joiners: list[WindowJoiner] = []
         before: list[np.ndarray] = []  # of each sample, the window's last decoded frames
-        assert self.settings.window is not None  # resolved
-        for start, end in spans(num_frames, self.settings.window - SPARE, self.settings.overlap):
+        for start, end in self._spans(num_frames):
             tracked = None if phase is None else np.asarray(phase[start:end], dtype=np.float64)
             known, values = self._known(before, style, end - start)
-            windows = self._window(condition[:, start:end], known, values, tracked, draws)
-            for rows, _ in windows if before else ():
-                carry_on(rows, self.settings.overlap)
+            memory = None
+            if recall is not None:
+                remembered = recall(start, known.shape[-1])
+                memory = remembered.to(self.device).after(known_frames(values, known))
+            shown = self.settings.overlap if before else 0
+            windows = self._window(
+                condition[:, start:end], known, values, tracked, draws, memory, shown=shown
+            )
             if not joiners:
                 shared = min(self.settings.overlap, num_frames - 1)
                 joiners = [
@@ -146,6 +156,19 @@ class SongSampler:
                 progress(end, num_frames)
         yield [joiner.finish() for joiner in joiners]
 
+    def windows(self, num_frames: int) -> list[tuple[int, int]]:
+        """First frame and length of each window, spare frames included: what `recall` is asked."""
+        return [(start, self._length(end - start)) for start, end in self._spans(num_frames)]
+
+    def _spans(self, num_frames: int) -> list[tuple[int, int]]:
+        assert self.settings.window is not None  # resolved
+        return spans(num_frames, self.settings.window - SPARE, self.settings.overlap)
+
+    def _length(self, frames: int) -> int:
+        """Always as long as in training: a shorter window is unlike any that the network knows."""
+        assert self.settings.window is not None  # resolved
+        return max(frames + SPARE, self.settings.window)
+
     def _generators(self) -> list[torch.Generator]:
         return sample_generators(self.settings.seed, self.settings.num_samples)
 
@@ -153,9 +176,7 @@ class SongSampler:
         self, before: list[np.ndarray], style: np.ndarray | None, frames: int
     ) -> tuple[Tensor, Tensor]:
         """Which entries [B,25,W] the network is given, and their z-scores."""
-        assert self.settings.window is not None  # resolved
-        # always as long as in training: a shorter window is unlike any that the network knows
-        size, length = self.settings.num_samples, max(frames + SPARE, self.settings.window)
+        size, length = self.settings.num_samples, self._length(frames)
         known = torch.zeros(size, CHANNELS, length, dtype=torch.bool)
         values = torch.zeros(size, CHANNELS, length)
         for index, window in enumerate(before):
@@ -176,23 +197,28 @@ class SongSampler:
         values: Tensor,
         tracked: np.ndarray | None,
         draws: list[torch.Generator],
+        memory: MemoryCondition | None = None,
+        *,
+        shown: int,
     ) -> list[tuple[np.ndarray, float]]:
-        """Window [25,W] and first phase of each sample."""
+        """Window [25,W] and first phase of each sample; `shown` first frames are known."""
         model, frames = self.model, condition.shape[1]
         size, _, length = known.shape
         heard = F.pad(condition[None], (0, length - frames), mode="replicate")
         heard = heard.to(self.device).expand(size, -1, -1)
-        model_fn = model.model_fn(heard, self.settings.guidance_scale)
+        model_fn = model.model_fn(heard, self.settings.guidance_scale, memory)
         noise = standard_normal(known.shape, draws, device=self.device)
         x_0 = self.sampler.run(holding(model_fn, known, values), noise, generator=draws)
         x_0 = torch.where(known, values, x_0)
         start = None if tracked is None else torch.full((size,), tracked[0] % 1.0).to(x_0)
         decoded = model.decode(x_0, start)
-        trajectories = decoded.trajectory[:, :frames].cpu().numpy()
+        trajectories = decoded.trajectory.cpu().numpy()
         phases = decoded.phase_unwrapped[:, :frames].cpu().double().numpy()
         windows = []
         for trajectory, own in zip(trajectories, phases, strict=True):
             rows = trajectory.T.copy()
+            carry_on(rows, shown)  # before the end is cut off: a last window may be a frame longer
+            rows = rows[:, :frames]
             bars = own if tracked is None else tracked
             rows[PHASE] = np.diff(bars, append=2 * bars[-1] - bars[-2])
             windows.append((rows, float(own[0])))

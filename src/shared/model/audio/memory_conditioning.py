@@ -41,6 +41,11 @@ class MemoryCondition:
     confidence: Tensor
     recent: Tensor | None = None
 
+    def to(self, device: torch.device) -> "MemoryCondition":
+        """The same on a device."""
+        moved = {name: value.to(device) for name, value in vars(self).items() if value is not None}
+        return replace(self, **moved)
+
     def after(self, recent: Tensor) -> "MemoryCondition":
         """The same for every row of known frames [B, 25, R]; its own batch is B or 1."""
         batch = len(recent)
@@ -57,6 +62,11 @@ class MemoryCondition:
         return replace(
             self, confidence=self.confidence.masked_fill(drop.to(self.confidence.device), 0)
         )
+
+
+def known_frames(z: Tensor, known: Tensor) -> Tensor:
+    """Z-scores [B, 25, T] where a whole frame is known, else 0; known [B, 25, T] bool."""
+    return z * known.all(dim=1, keepdim=True)
 
 
 @dataclass(frozen=True)

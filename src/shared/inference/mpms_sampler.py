@@ -1,0 +1,160 @@
+"""MPMSMotionSampler: best of N, with a memory of motion phrases (REF, "MPMS-Enhanced Inference").
+
+Letters: N candidates, C rows of a condition, T frames, D width of the shared space.
+"""
+
+import asyncio
+from collections.abc import Sequence, Set
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from src.shared.errors import UsageError, UserError
+from src.shared.inference.audio_condition import AudioCondition
+from src.shared.inference.audio_judge import AudioJudge
+from src.shared.inference.motion_sampler import MotionSampler, SampleResult, hearable
+from src.shared.inference.song_memory import (
+    Question,
+    ask,
+    ask_now,
+    questions,
+    recalling,
+    same_question,
+)
+from src.shared.inference.song_sampler import SampleSettings, SongSampler
+from src.shared.memory.build import Space
+from src.shared.memory.context import Memory
+from src.shared.memory.service import MPMService
+from src.shared.model.audio.audio_motion_model import AudioMotionModel
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """A piece of sound about to be danced to: its windows, and what each asks the memory."""
+
+    condition: AudioCondition
+    sampler: SongSampler
+    windows: list[tuple[int, int]]
+    asked: list[Question]
+
+
+class MPMSMotionSampler(MotionSampler):
+    """Best of N, each window told what the memory knows of its sound.
+
+    A query that is late or fails is answered by "nothing known", and the window is made as without
+    a memory; `mpms_service.counts` tells how many.
+
+    Args:
+        diffusion: a model that `train_memory` taught.
+        mpms_service: the memory.
+        space: embeds the sound of each window; None = callers give `audio_embedding`.
+        device: auto, cuda, mps or cpu.
+        judge: of the candidates; None = one without bands.
+
+    Raises:
+        UserError: the model hears no memory.
+    """
+
+    def __init__(
+        self,
+        diffusion: AudioMotionModel,
+        mpms_service: MPMService,
+        space: Space | None = None,
+        device: str = "auto",
+        *,
+        judge: AudioJudge | None = None,
+    ) -> None:
+        require_memory(diffusion)
+        super().__init__(diffusion, device, judge=judge)
+        self.mpms_service = mpms_service
+        self.space = space
+
+    async def sample_with_mpms(
+        self,
+        audio_condition: AudioCondition | np.ndarray | Tensor,
+        num_frames: int | None = None,
+        num_samples: int = 8,
+        audio_embedding: np.ndarray | Tensor | None = None,
+        beat_phase: float | None = None,
+        guidance_scale: float | None = None,
+        num_steps: int | None = None,
+        *,
+        exclude_songs: Set[str] | None = None,
+        return_all: bool = False,
+        seed: int = 0,
+    ) -> SampleResult:
+        """As `sample`, with memory; the event loop is not held up.
+
+        Args:
+            audio_condition, num_frames, num_samples, guidance_scale, num_steps: see `sample`.
+            audio_embedding: [D] or [1,D], unit, asked for every window; None = each window asks
+                with its own sound.
+            beat_phase: bar phase of the first frame, for a condition that knows no beats.
+            exclude_songs: songs that may not be remembered.
+            return_all, seed: see `sample`.
+
+        Raises:
+            UsageError: N, the steps or the frames are out of range; neither space nor embedding.
+        """
+        settings = SampleSettings(num_samples, guidance_scale, num_steps, seed=seed)
+        sound = hearable(audio_condition, num_frames)
+        plan = await asyncio.to_thread(self._plan, sound, settings, audio_embedding, beat_phase)
+        answers = await ask(self.mpms_service, plan.asked, exclude_songs)
+        return await asyncio.to_thread(self._dance, plan, answers, return_all)
+
+    def sample_with_mpms_now(
+        self,
+        audio_condition: AudioCondition | np.ndarray | Tensor,
+        num_frames: int | None = None,
+        num_samples: int = 8,
+        audio_embedding: np.ndarray | Tensor | None = None,
+        beat_phase: float | None = None,
+        guidance_scale: float | None = None,
+        num_steps: int | None = None,
+        *,
+        exclude_songs: Set[str] | None = None,
+        return_all: bool = False,
+        seed: int = 0,
+    ) -> SampleResult:
+        """`sample_with_mpms` without an event loop."""
+        settings = SampleSettings(num_samples, guidance_scale, num_steps, seed=seed)
+        sound = hearable(audio_condition, num_frames)
+        plan = self._plan(sound, settings, audio_embedding, beat_phase)
+        answers = ask_now(self.mpms_service, plan.asked, exclude_songs)
+        return self._dance(plan, answers, return_all)
+
+    def _plan(
+        self,
+        sound: AudioCondition,
+        settings: SampleSettings,
+        embedding: np.ndarray | Tensor | None,
+        beat_phase: float | None,
+    ) -> Plan:
+        sampler = SongSampler(self.model, settings)
+        windows = sampler.windows(sound.num_frames)
+        bars, _ = sound.time() or (None, None)
+        if embedding is None:
+            if self.space is None:
+                raise UsageError("give audio_embedding, or a shared space to this sampler")
+            asked = questions(self.space, sound.rows, bars, windows)
+        else:
+            query = torch.atleast_2d(torch.as_tensor(embedding))
+            asked = same_question(query, bars, windows)
+        if bars is None:  # only the first window starts where the caller says
+            asked[0] = Question(asked[0].embedding, beat_phase, asked[0].num_frames)
+        return Plan(sound, sampler, windows, asked)
+
+    def _dance(self, plan: Plan, answers: Sequence[Memory], return_all: bool) -> SampleResult:
+        recall = recalling(plan.windows, answers)
+        return self.keep_best(plan.condition, plan.sampler, return_all=return_all, recall=recall)
+
+
+def require_memory(model: AudioMotionModel) -> None:
+    """Raises UserError for a model that hears no memory."""
+    if model.config.unet.memory is None:
+        raise UserError(
+            f"{model.card.name or 'this model'} hears no memory: train one on top of it with"
+            " src.train.train_memory, and name that folder"
+        )
