@@ -45,7 +45,7 @@ Progress = Callable[[str], None]
 
 
 def prompt_pool(
-    sampler: PromptSampler,
+    best_of: PromptSampler,
     evaluator: Evaluator,
     clips: Clips,
     *,
@@ -57,18 +57,18 @@ def prompt_pool(
     """N candidates for each of P ≥ 32 captions at their clips' lengths, measured.
 
     Args:
-        sampler: generator and judge.
+        best_of: generator and judge.
         evaluator: trained apart from both.
         clips: held-back ones.
         sampling: steps, sampler, guidance_scale; left out = the model's own.
     """
     made: list[list[Motion]] = []
     tables = []
-    seconds = [frames / sampler.generator.card.fps for frames in clips.num_frames]
+    seconds = [frames / best_of.generator.card.fps for frames in clips.num_frames]
     for start in range(0, len(clips), PROMPTS_AT_ONCE):
         progress(f"candidates for prompt {start + 1} of {len(clips)}")
         part = slice(start, start + PROMPTS_AT_ONCE)
-        found = sampler.sample(
+        found = best_of.sample(
             clips.captions[part],
             num_candidates,
             seconds=seconds[part],
@@ -228,9 +228,9 @@ def evaluate_prompts(
     )
     if len(clips) < BATCH:
         raise UserError(f"{data}: {len(clips)} clips of {settings.split} are fewer than {BATCH}")
-    sampler = PromptSampler(generator, TextJudge(space))
+    best_of = PromptSampler(generator, TextJudge(space))
     pool = prompt_pool(
-        sampler,
+        best_of,
         outside,
         clips,
         num_candidates=settings.num_candidates,
@@ -242,7 +242,7 @@ def evaluate_prompts(
         "model": model,
         "model_hash": generator.card.weights.sha256[:12] if generator.card.weights else "",
         "judge": tower or "none: feet and smoothness only",
-        "weights": sampler.judge.config.model_dump(),
+        "weights": best_of.judge.config.model_dump(),
         "evaluator": evaluator,
         "evaluator_hash": outside.content_hash,
         "data": held_out.source,

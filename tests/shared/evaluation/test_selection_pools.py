@@ -57,6 +57,7 @@ def test_a_pool_of_prompts_holds_every_figure(evaluator: Evaluator) -> None:
         seed=0,
         progress=told.append,
         steps=1,
+        sampler="ddim",
     )
     assert pool.score.shape == (32, 2) and len(told) == 5
     found = measured(pool, choices(pool.score, 2))
