@@ -94,7 +94,12 @@ def rhythm(
 
     Beats outside count as neighbours, never as beats of their own. A motion that never slows down
     has no beats and scores 0: it must not win by leaving.
+
+    Raises:
+        ValueError: a time is NaN or infinite.
     """
+    if not (np.isfinite(motion).all() and np.isfinite(music).all()):
+        raise ValueError("beat times hold NaN or infinity")
     made = motion[(motion >= 0) & (motion < seconds)]
     heard = music[(music >= 0) & (music < seconds)]
     forth = beat_alignment(made, music, sigma) if len(made) else 0.0
@@ -132,7 +137,9 @@ def hit_f_measure(reference: np.ndarray, estimate: np.ndarray, window: float = H
 
 
 def half_beat_later(beats: np.ndarray) -> np.ndarray:
-    """The off-beats [M+1] around beats [M] ≥ 2: middles, and one beyond each end."""
+    """The off-beats [M+1] around beats [M]: middles, and one beyond each end; none below 2."""
+    if len(beats) < 2:
+        return np.zeros(0)
     middles = (beats[1:] + beats[:-1]) / 2
     first = beats[0] - (beats[1] - beats[0]) / 2
     last = beats[-1] + (beats[-1] - beats[-2]) / 2

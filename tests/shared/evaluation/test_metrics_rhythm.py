@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from src.shared.data.pairing.motion_beats import motion_beats
 from src.shared.evaluation.metrics_rhythm import (
     COLUMNS,
     Rhythm,
@@ -131,3 +132,71 @@ def test_hits_are_mir_evals(reference: np.ndarray, estimate: np.ndarray) -> None
     assert hit_f_measure(reference, estimate) == pytest.approx(
         mir_eval.beat.f_measure(reference, estimate)
     )
+
+
+@given(times, times)
+def test_both_directions_are_mir_evals_cemgil(reference: np.ndarray, estimate: np.ndarray) -> None:
+    """Cemgil's accuracy is the sum of music→motion over the mean number of beats."""
+    score = rhythm(estimate, reference, 20.0)
+    if not len(reference) or not len(estimate):
+        assert score.music_to_motion == 0.0
+        return
+    both = len(reference) + len(estimate)
+    there, _ = mir_eval.beat.cemgil(reference, estimate, cemgil_sigma=0.05)
+    back, _ = mir_eval.beat.cemgil(estimate, reference, cemgil_sigma=0.05)
+    assert score.music_to_motion * len(reference) * 2 / both == pytest.approx(there)
+    assert score.motion_to_music * len(estimate) * 2 / both == pytest.approx(back)
+
+
+@given(times, times, st.floats(0, 30))
+def test_the_scores_know_no_origin_of_time(
+    motion: np.ndarray, music: np.ndarray, later: float
+) -> None:
+    plain, moved = rhythm(motion, music, 40.0), rhythm(motion + later, music + later, 80.0)
+    back = rhythm(40.0 - motion[::-1], 40.0 - music[::-1], 80.0)
+    for other in (moved, back):
+        assert other.f == pytest.approx(plain.f, abs=1e-6)
+        assert other.motion_to_music == pytest.approx(plain.motion_to_music, abs=1e-6)
+    swapped = rhythm(music, motion, 40.0)
+    assert swapped.f == pytest.approx(plain.f) and swapped.hits == pytest.approx(plain.hits)
+
+
+# ---------------------------------------------------------------- from a path to a score
+
+
+def stepping(offset: float, fps: float = 30.0, *, beats: np.ndarray = BEATS) -> np.ndarray:
+    """A pelvis path [T,3] that stops `offset` seconds after every beat, and nowhere else."""
+    at = (np.arange(round(16 * fps)) + 0.5) / fps  # speeds lie between frames
+    pulse = 1 - np.exp(-(((at[:, None] - beats - offset) / 0.08) ** 2)).sum(1)
+    path = np.zeros((len(at) + 1, 3))
+    path[1:, 2] = np.cumsum(0.8 * pulse) / fps
+    path[:, 1] = 0.9
+    return path
+
+
+@pytest.mark.parametrize("fps", [30.0, 60.0])
+@pytest.mark.parametrize("offset", [0.0, 0.05, 0.1, 0.25])
+def test_a_path_that_stops_late_scores_its_lateness(offset: float, fps: float) -> None:
+    """On the beat: 1. 50 ms late: exp(-1/2). Half a beat late: 0. Seconds, whatever the frames."""
+    heard = motion_beats(stepping(offset, fps), fps).times
+    score = rhythm(heard, BEATS, 16.0)
+    expected = np.exp(-(offset**2) / (2 * 0.05**2))
+    assert score.motion_to_music == pytest.approx(expected, abs=0.06)
+    assert score.music_to_motion == pytest.approx(expected, abs=0.1)
+    assert score.distance == pytest.approx(offset, abs=0.01)
+    assert score.hits > 0.95 if offset <= 0.06 else score.hits < 0.1
+
+
+def test_a_frozen_pose_and_a_glide_score_nothing() -> None:
+    still = np.tile([[0.0, 0.9, 0.0]], (480, 1))
+    glide = still + np.arange(480)[:, None] / 30 * [0, 0, 1.0]
+    for path in (still, glide):
+        assert rhythm(motion_beats(path).times, BEATS, 16.0).f == 0.0
+
+
+def test_nan_is_named_and_one_beat_has_no_off_beat() -> None:
+    with pytest.raises(ValueError, match="NaN"):
+        rhythm(np.array([1.0, np.nan]), BEATS, 16.0)
+    with pytest.raises(ValueError, match="NaN"):
+        rhythm(BEATS, np.array([np.inf]), 16.0)
+    assert len(half_beat_later(BEATS[:1])) == len(half_beat_later(np.zeros(0))) == 0
