@@ -23,13 +23,21 @@ from src.shared.evaluation.families_text import (
     TravelErrors,
 )
 from src.shared.evaluation.grids import Grid
+from src.shared.evaluation.metrics_contact import ContactFamily
+from src.shared.evaluation.metrics_kinetic import BodyKinetics, RootKinetics
+from src.shared.evaluation.metrics_spread import Multimodality
+from src.shared.evaluation.metrics_tmr import FAMILIES as TMR
 from src.shared.evaluation.text_context import TextContext
 from src.shared.evaluation.text_tables import controllability, languages
 
 TEXT_FAMILIES: tuple[MetricFamily[MotionSample], ...] = (
     GuoRetrieval(),
+    *TMR,
+    Multimodality(),
     Frechet(),
+    BodyKinetics(),
     Plausibility(),
+    ContactFamily(),
     TravelErrors(),
     Obedience(),
 )
@@ -41,6 +49,7 @@ AUDIO_FAMILIES: tuple[MetricFamily[DanceSample], ...] = (
     BeatAlignment(),
     BarPhase(),
     TrajectorySanity(),
+    RootKinetics(),
 )
 AUDIO_EXTRAS: dict[str, Callable[[AudioContext], list[Grid]]] = {
     "phase": phase_table,

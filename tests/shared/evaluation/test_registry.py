@@ -1,0 +1,16 @@
+"""Every family keeps the contract: keys of its own, something to say, a floor beside it."""
+
+import pytest
+
+from src.shared.evaluation.registry import AUDIO_FAMILIES, TEXT_FAMILIES
+
+
+@pytest.mark.parametrize("families", [TEXT_FAMILIES, AUDIO_FAMILIES])
+def test_columns_are_unique_and_defined(families: tuple) -> None:  # type: ignore[type-arg]
+    keys = [column.key for family in families for column in family.columns]
+    assert len(keys) == len(set(keys))
+    names = [family.name for family in families]
+    assert len(names) == len(set(names))
+    for family in families:
+        assert len(family.definition) > 60 and isinstance(family.distance, bool)
+        assert all(column.better in ("high", "low", "real") for column in family.columns)

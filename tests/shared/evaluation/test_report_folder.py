@@ -1,0 +1,94 @@
+"""From parts to pages: one page with everything in it, nothing that acts as markup, comparison."""
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from src.shared.errors import UsageError, UserError
+from src.shared.evaluation import manifest
+from src.shared.evaluation.compare import Side, compare
+from src.shared.evaluation.engine import run_bench
+from src.shared.evaluation.grids import Grid, report_data
+from src.shared.evaluation.parts import Parts, read_json
+from src.shared.evaluation.report import markdown
+from src.shared.evaluation.report_folder import render, save_report
+from tests.shared.evaluation.toy_bench import toy_bench
+
+MANIFEST = {"branch": "text", "model": {"w": "1"}, "settings": {"seed": 0, "replications": 3}}
+
+
+def write(folder: Path, *, lift: float = 0.5, replications: int = 3) -> Path:
+    """A report of the toy bench."""
+    manifest.claim(folder, {**MANIFEST, "model": {"w": str(lift)}})
+    parts = Parts(folder)
+    grids = run_bench(
+        toy_bench(folder, lift=lift),
+        parts,
+        replications=replications,
+        seed=0,
+        progress=lambda text: None,
+    )
+    samples = parts.once("toy.generated.000", dict)["samples"]
+    settings = {"seed": 0, "replications": replications}
+    about = {"model": "<script>alert(1)</script>"}
+    save_report(report_data("text", about, settings, grids, samples), folder)
+    return folder
+
+
+def test_one_page_holds_tables_plots_and_players(tmp_path: Path) -> None:
+    folder = write(tmp_path)
+    page = (folder / "report.html").read_text()
+    assert page.count("<iframe") == 1 and page.count('<svg class="plot"') == 3
+    assert "Worst first" in page and "<em>metres</em>" in page
+    outside = re.sub(r'srcdoc="[^"]*"', "", page)
+    assert "<script" not in outside and "&lt;script&gt;alert" in outside and "<b>1" not in outside
+    assert not re.search(r'(?:src|href)="(?!data:|#)', outside)
+
+
+def test_the_pages_can_be_made_again(tmp_path: Path) -> None:
+    folder = write(tmp_path)
+    before = {name: (folder / name).read_bytes() for name in ("report.md", "report.html")}
+    for name in before:
+        (folder / name).unlink()
+    report = render(folder)
+    assert before == {name: (folder / name).read_bytes() for name in before}
+    assert "| generated |" in markdown(report) and "1 of 12, toy" in markdown(report)
+    (folder / "samples" / "toy-01.npz").unlink()
+    with pytest.raises(UserError, match=r"toy-01.npz: cannot be read"):
+        render(folder)
+    (folder / "report.json").write_text("{}")
+    with pytest.raises(UserError, match="no report of this version"):
+        render(folder)
+
+
+def test_a_known_difference_is_found_and_paired(tmp_path: Path) -> None:
+    a, b = write(tmp_path / "a"), write(tmp_path / "b", lift=0.2)
+    found = {t["name"]: Grid.from_dict(t) for t in compare(Side(a), Side(b))["tables"]}
+    cells = found["toy/heights"].rows["height m"].cells
+    difference = cells["difference"]
+    assert isinstance(difference, dict)
+    assert difference["value"] == pytest.approx(-0.3) and difference["count"] == 12
+    assert difference["low"] == pytest.approx(-0.3, abs=1e-6)  # float32 heights
+    assert cells["better"] == "b" and found["toy/apart"].rows["apart m"].num == 3
+    rows = compare(Side(a, "generated"), Side(a, "real"))["tables"]
+    assert {row["name"] for table in rows for row in table["rows"]} >= {"height m", "apart m"}
+
+
+def test_only_like_is_compared_with_like(tmp_path: Path) -> None:
+    a, b = write(tmp_path / "a"), write(tmp_path / "b")
+    other = read_json(b / "manifest.json")
+    other["settings"]["seed"] = 1
+    (b / "manifest.json").write_text(json.dumps(other))
+    with pytest.raises(UserError, match=r"differ in settings.seed: such figures never stand"):
+        compare(Side(a), Side(b))
+    with pytest.raises(UserError, match="no row 'nobody'"):
+        compare(Side(a), Side(a, "nobody"))
+
+
+def test_a_folder_of_another_evaluation_is_refused(tmp_path: Path) -> None:
+    manifest.claim(tmp_path, MANIFEST)
+    manifest.claim(tmp_path, {**MANIFEST, "settings": {"seed": 0, "replications": 20}})
+    with pytest.raises(UsageError, match=r"another model.w; name another folder"):
+        manifest.claim(tmp_path, {**MANIFEST, "model": {"w": "2"}})
