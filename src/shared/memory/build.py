@@ -20,6 +20,7 @@ from src.shared.data.phrases.layout import PhraseRecord
 from src.shared.errors import UserError
 from src.shared.memory.folder import read_manifest
 from src.shared.memory.index import MemoryIndex, Phrase
+from src.shared.memory.search import add_library, library_installed
 from src.shared.memory.source import Piece, Progress, Source
 
 VERSION = 1  # of the method: another number builds anew
@@ -62,7 +63,8 @@ def build_memory(
         data: what `prepare-audio` wrote, a folder or a URL.
         space: embeds sound and bodies.
         out: folder of the memory.
-        config: `bars` and `min_frames` of a phrase.
+        config: `bars` and `min_frames` of a phrase; above `library_above` the index library's
+            tables are made too, if it is installed.
         split: of the data.
         progress: called after each phrase of the data.
         space_name: name or folder, for whoever opens the memory.
@@ -89,6 +91,8 @@ def build_memory(
         left_out=source.bad,
     )
     index.save(out)
+    if len(index) > config.library_above and library_installed():
+        return add_library(index, Path(out))
     return index
 
 

@@ -22,6 +22,7 @@ from src.shared.config_memory import MemoryConfig
 from src.shared.errors import UsageError
 from src.shared.memory.context import Memory, null_memory, query_bars, retrieve
 from src.shared.memory.index import MemoryIndex
+from src.shared.memory.search import open_memory
 
 log = logging.getLogger(__name__)
 
@@ -62,10 +63,10 @@ class MPMService:
         """Open the memory and check its files, without holding up the event loop.
 
         Raises:
-            UserError: see `MemoryIndex.open`.
+            UserError: see `open_memory`.
         """
         if self.index is None:
-            self.index = await asyncio.to_thread(MemoryIndex.open, self.config.folder)
+            self.index = await asyncio.to_thread(self._open)
 
     async def query(
         self,
@@ -111,7 +112,7 @@ class MPMService:
     ) -> Memory:
         """`query` for callers without an event loop; the memory is opened at the first call."""
         if self.index is None:
-            self.index = MemoryIndex.open(self.config.folder)
+            self.index = self._open()
         work, batch = self._work(audio_embedding, beat_phase, num_frames, exclude_songs)
         future = self._workers.submit(work)
         try:
@@ -125,6 +126,9 @@ class MPMService:
             return self._nothing("failed", batch, num_frames, error)
         self._count("answered")
         return memory
+
+    def _open(self) -> MemoryIndex:
+        return open_memory(self.config.folder, library_above=self.config.library_above)
 
     def _work(
         self,

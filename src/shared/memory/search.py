@@ -1,0 +1,179 @@
+"""Search by an index library (faiss), for memories too large to be compared with phrase by phrase.
+
+Keys are sorted into cells by k-means and stored as float16; a query looks at the nearest cells,
+and what comes out is scored anew with the exact keys. So scores are those of exact search, and a
+good phrase can be missed. `benchmarks/memory_index.py` says from which size this pays.
+
+Letters: N phrases, D width of the shared space, B queries, k hits.
+"""
+
+from dataclasses import dataclass, field, fields
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from src.shared.errors import UserError
+from src.shared.files import atomic_write, sha256_file, write_json
+from src.shared.memory.folder import MANIFEST, read_manifest
+from src.shared.memory.index import (
+    NOTHING,
+    PHASE_WEIGHT,
+    Excluded,
+    Hits,
+    Key,
+    MemoryIndex,
+    phase_cost,
+)
+
+SIDES: tuple[Key, ...] = ("audio", "motion")
+SAMPLE = 64  # keys a cell that k-means learns from
+ITERATIONS = 8
+PROBES = 48  # cells a query looks at
+WIDER = 2  # so many times k hits are scored anew
+
+
+def library_installed() -> bool:
+    """Whether faiss is there (the extra `index`)."""
+    return find_spec("faiss") is not None
+
+
+@dataclass(frozen=True, eq=False)
+class LibraryIndex(MemoryIndex):
+    """A memory that is searched by faiss; in all else a MemoryIndex.
+
+    Attributes:
+        tables: faiss index of each side.
+    """
+
+    tables: dict[Key, Any] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, index: MemoryIndex, tables: dict[Key, Any]) -> Self:
+        """The same memory with tables that `make_table` made of it."""
+        return cls(**{f.name: getattr(index, f.name) for f in fields(MemoryIndex)}, tables=tables)
+
+    def search(
+        self,
+        query: Tensor,
+        *,
+        top_k: int,
+        exclude_songs: Excluded | None = None,
+        key: Key = "audio",
+        phase: Tensor | None = None,
+        phase_weight: float = PHASE_WEIGHT,
+    ) -> Hits:
+        """As `MemoryIndex.search`, but a phrase may be missed."""
+        self.check_width(query)
+        banned = self.banned(exclude_songs, len(query))
+        weight = 0.0 if phase is None else phase_weight
+        bars = torch.zeros(len(query)) if phase is None else phase.float()
+        asked = torch.cat((query.float(), weight / 2 * _circle(bars)), 1).numpy()
+        if banned is None:
+            found = self._ask(key, asked, top_k)
+        else:
+            rows = zip(asked, (~banned).numpy(), strict=True)
+            found = np.concatenate([self._ask(key, row[None], top_k, songs) for row, songs in rows])
+        index = torch.from_numpy(found).sort(1).values  # of equal scores the first phrase wins
+        known = index != NOTHING
+        score = torch.einsum("bd,bkd->bk", query.float(), self.keys(key)[index.clamp(min=0)])
+        starts = self.start_phase[index.clamp(min=0)]
+        for row in range(len(query)):
+            score[row] -= phase_cost(bars[row : row + 1], starts[row], weight)[0]
+        score = score.masked_fill(~known, -torch.inf)
+        order = score.sort(dim=1, descending=True, stable=True)
+        return Hits(index.gather(1, order.indices)[:, :top_k], order.values[:, :top_k])
+
+    def _ask(
+        self, key: Key, queries: np.ndarray, top_k: int, songs: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Candidates [B, WIDER k] of queries [B,D+2] that may find the same songs [S].
+
+        All cells are looked at where the nearest hold too few.
+        """
+        import faiss  # type: ignore[import-untyped,unused-ignore]
+
+        table, parameters = self.tables[key], faiss.SearchParametersIVF()
+        enough = min(top_k, len(self))
+        if songs is not None:
+            allowed = songs[self.song.numpy()]
+            bits = np.packbits(allowed, bitorder="little")
+            parameters.sel = faiss.IDSelectorBitmap(len(allowed), faiss.swig_ptr(bits))
+            enough = min(top_k, int(allowed.sum()))
+        for probes in (PROBES, table.nlist):
+            parameters.nprobe = min(probes, table.nlist)
+            _, found = table.search(queries, WIDER * top_k, params=parameters)
+            if (found != NOTHING).sum(1).min() >= enough:
+                break
+        return np.asarray(found)
+
+
+def make_table(index: MemoryIndex, key: Key) -> Any:
+    """The faiss index of one side: about 4 √N cells."""
+    import faiss
+
+    points = torch.cat((index.keys(key), _circle(index.start_phase)), 1).numpy()
+    cells = max(1, min(round(4 * len(index) ** 0.5), len(index) // SAMPLE))
+    width, product = points.shape[1], faiss.METRIC_INNER_PRODUCT
+    table = faiss.IndexIVFScalarQuantizer(
+        faiss.IndexFlat(width, product), width, cells, faiss.ScalarQuantizer.QT_fp16, product
+    )
+    table.cp.max_points_per_centroid = SAMPLE
+    table.cp.min_points_per_centroid = 1
+    table.cp.niter, table.cp.seed = ITERATIONS, 0
+    table.train(points)
+    table.add(points)
+    return table
+
+
+def add_library(index: MemoryIndex, folder: Path) -> LibraryIndex:
+    """Make both tables and add them to the memory in `folder`; its manifest vouches for them.
+
+    Raises:
+        UserError: the folder cannot be written.
+    """
+    import faiss
+
+    tables = {key: make_table(index, key) for key in SIDES}
+    manifest = read_manifest(folder)
+    for key, table in tables.items():
+        path = folder / _file(key)
+        with atomic_write(path) as temporary:
+            faiss.write_index(table, str(temporary))
+        told = {"sha256": sha256_file(path), "bytes": path.stat().st_size}
+        manifest["files"][path.name] = told
+    write_json(folder / MANIFEST, manifest)
+    return LibraryIndex.of(index, tables)
+
+
+def open_memory(folder: str | Path, *, library_above: int) -> MemoryIndex:
+    """A memory, with the library where it is large, has tables, and faiss is installed.
+
+    Raises:
+        UserError: see `MemoryIndex.open`.
+    """
+    folder = Path(folder)
+    index = MemoryIndex.open(folder)
+    files = read_manifest(folder)["files"]
+    has_tables = all(_file(key) in files for key in SIDES)
+    if len(index) <= library_above or not has_tables or not library_installed():
+        return index
+    import faiss
+
+    try:
+        tables = {key: faiss.read_index(str(folder / _file(key))) for key in SIDES}
+    except RuntimeError as error:
+        raise UserError(f"{folder} is damaged ({error}); build the memory again") from error
+    return LibraryIndex.of(index, tables)
+
+
+def _file(key: str) -> str:
+    return f"{key}.faiss"
+
+
+def _circle(phase: Tensor) -> Tensor:
+    """Bar phases [N] as points [N,2]: the phase's cost is a part of the scalar product."""
+    return torch.stack((torch.cos(2 * torch.pi * phase), torch.sin(2 * torch.pi * phase)), 1)
