@@ -25,6 +25,12 @@ def generate(
     meter: Annotated[
         int | None, typer.Option(help="Beats in a bar of the song; 3 or 4, as heard.")
     ] = None,
+    memory: Annotated[
+        Path | None,
+        typer.Option(
+            help="For a song: folder of `memory build`, heard by a --model of train_memory."
+        ),
+    ] = None,
     tag: Annotated[
         list[str] | None,
         typer.Option(help="Action label beside the prompt: one for all, or one a prompt."),
@@ -101,8 +107,9 @@ def generate(
         refuse_with("--audio", prompt=prompt, tag=tag, foot_lock=foot_lock, judge=judge)
         generate_audio.check_song(audio)
         generate_audio.check_runtime(runtime, device)
+        generate_audio.check_memory(memory, runtime)
         wanted: dict[str, Any] = {"audio": audio, "meter": meter}
-        wanted |= {"seconds": seconds, "style": style}
+        wanted |= {"seconds": seconds, "style": style, "memory": memory}
         formats = checked_formats(format or "npz,glb,html", generate_audio.FORMATS)
         result = generate_audio.produce_song(
             wanted | {"sampling": shared},
@@ -116,7 +123,7 @@ def generate(
         )
         generate_audio.warn_of_beats(result)
     else:
-        refuse_with("--prompt", style=style, meter=meter, runtime=runtime)
+        refuse_with("--prompt", style=style, meter=meter, memory=memory, runtime=runtime)
         wanted = shared | {
             "prompts": checked_prompts(prompt),
             "tags": checked_tags(tag, len(prompt or ())),

@@ -12,7 +12,10 @@ from src.cli.stopwatch import Stopwatch
 from src.shared.errors import UsageError
 
 if TYPE_CHECKING:
+    from src.shared.inference.runtime import Runtime
     from src.shared.inference.song_generator import SongMotions
+    from src.shared.memory.build import Space
+    from src.shared.memory.service import MPMService
 
 FORMATS = ("npz", "csv", "glb", "html", "png")
 MODEL = "starter-audio"
@@ -34,6 +37,16 @@ def check_runtime(runtime: str | None, device: str) -> None:
         raise UsageError(f"--device {device}: --runtime onnx computes on the cpu; leave one out")
 
 
+def check_memory(memory: Path | None, runtime: str | None) -> None:
+    """Refuse what is no memory, and a runtime that hears none."""
+    if memory is None:
+        return
+    if runtime == "onnx":
+        raise UsageError("--runtime onnx hears no memory: an export leaves it out; use torch")
+    if not memory.is_dir():
+        raise UsageError(f"--memory {memory} is no folder; make one with `memory build`")
+
+
 def produce_song(
     wanted: dict[str, Any],
     formats: list[str],
@@ -48,7 +61,7 @@ def produce_song(
     """Load, listen, sample, choose, write; says which trajectory lies in which files and the times.
 
     Args:
-        wanted: audio, meter, seconds, style; under `sampling`, what `SampleSettings` takes.
+        wanted: audio, meter, seconds, style, memory; under `sampling`, what `SampleSettings` takes.
         formats: any of `FORMATS`.
         out: folder for the files.
         model: name or folder; for onnx, a folder of `export-onnx`.
@@ -63,12 +76,14 @@ def produce_song(
     from src.shared.inference.audio_judge import AudioJudge
     from src.shared.inference.runtime import load_runtime
     from src.shared.inference.song_generator import SongMotions, heard
+    from src.shared.inference.song_memory import remembering
     from src.shared.inference.song_sampler import SampleSettings, SongSampler
 
     clock.lap("import")
     style = styled(wanted["style"])
     set_threads(threads)
     loaded = load_runtime(runtime, model, device)
+    remembered = open_service(wanted["memory"], loaded)
     clock.lap("load")
     song = analyse(wanted["audio"], meter=wanted["meter"])
     condition, phase = heard(song, wanted["seconds"])
@@ -76,7 +91,8 @@ def produce_song(
     settings = SampleSettings(**wanted["sampling"])
     with progress_bar(condition.shape[1]) as progress:
         sampler = SongSampler(loaded, settings)
-        made = sampler.sample(condition, phase=phase, style=style, progress=progress)
+        recall = remembered and remembering(*remembered, sampler, condition, phase)
+        made = sampler.sample(condition, phase=phase, style=style, progress=progress, recall=recall)
     judge = AudioJudge(shipped_bands(model) if runtime == "torch" else None)
     table = judge.judge(made, song.beats.beat_times if song.beats.tempo > 0 else None)
     order = [int(place) for place in table.order[: None if return_all else 1]]
@@ -95,10 +111,35 @@ def produce_song(
         "runtime": runtime,
         "device": str(sampler.device),
         "seed": settings.seed,
+        "memory": remembered and told_of_memory(wanted["memory"], remembered[0]),
     }
     scores = [scored(str(wanted["audio"]), table)] if len(made) > 1 else []
     results = {"motions": rows, "selection": scores, "index": index}
     return about | results | {"timings": clock.seconds()}
+
+
+def open_service(folder: Path | None, loaded: "Runtime") -> "tuple[MPMService, Space] | None":
+    """The memory in a folder and the space of its keys; None without a folder.
+
+    Raises:
+        UserError: one of them cannot be used, or the model hears no memory.
+    """
+    if folder is None:
+        return None
+    from src.cli.memory import load_settings
+    from src.shared.inference.mpms_sampler import require_memory
+    from src.shared.inference.song_memory import open_memory
+    from src.shared.memory.service import MPMService
+
+    require_memory(loaded.config, "this model")
+    index, space = open_memory(folder)
+    return MPMService(load_settings(folder=str(folder)), index), space
+
+
+def told_of_memory(folder: Path, service: "MPMService") -> dict[str, Any]:
+    """How many windows the memory answered; `null`: those made as without one."""
+    counts = dict(service.counts)
+    return {"folder": str(folder), **counts, "null": counts["timed_out"] + counts["failed"]}
 
 
 def styled(text: str | None) -> Any:

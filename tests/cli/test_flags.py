@@ -9,9 +9,9 @@ from src.cli.tools import app
 
 FLAGS = {
     "generate": (
-        "--audio --device --foot-lock --format --guidance-scale --json --judge --meter --model"
-        " --no-foot-lock --num-samples --out --prompt --return-all --runtime --sampler --seconds"
-        " --seed --steps --style --tag --threads"
+        "--audio --device --foot-lock --format --guidance-scale --json --judge --memory --meter"
+        " --model --no-foot-lock --num-samples --out --prompt --return-all --runtime --sampler"
+        " --seconds --seed --steps --style --tag --threads"
     ),
     "features": "--cache --cache-dir --chroma --json --meter --no-cache --out --plot SONG",
     "prepare": (

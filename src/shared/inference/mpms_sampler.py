@@ -11,6 +11,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from src.shared.config_audio import AudioNetworkConfig
 from src.shared.errors import UsageError, UserError
 from src.shared.inference.audio_condition import AudioCondition
 from src.shared.inference.audio_judge import AudioJudge
@@ -66,7 +67,7 @@ class MPMSMotionSampler(MotionSampler):
         *,
         judge: AudioJudge | None = None,
     ) -> None:
-        require_memory(diffusion)
+        require_memory(diffusion.config, diffusion.card.name or "this model")
         super().__init__(diffusion, device, judge=judge)
         self.mpms_service = mpms_service
         self.space = space
@@ -151,10 +152,10 @@ class MPMSMotionSampler(MotionSampler):
         return self.keep_best(plan.condition, plan.sampler, return_all=return_all, recall=recall)
 
 
-def require_memory(model: AudioMotionModel) -> None:
+def require_memory(config: AudioNetworkConfig, name: str) -> None:
     """Raises UserError for a model that hears no memory."""
-    if model.config.unet.memory is None:
+    if config.unet.memory is None:
         raise UserError(
-            f"{model.card.name or 'this model'} hears no memory: train one on top of it with"
-            " src.train.train_memory, and name that folder"
+            f"{name} hears no memory: train that on top of it with src.train.train_memory, and"
+            " name the folder"
         )
