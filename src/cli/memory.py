@@ -8,7 +8,7 @@ import typer
 
 from src.cli import options
 from src.cli.guard import complain, guarded
-from src.shared.errors import UsageError, UserError
+from src.shared.errors import UsageError
 
 if TYPE_CHECKING:
     from src.shared.config_memory import MemoryConfig
@@ -112,12 +112,11 @@ def query(
         raise UsageError(f"{ask}: no such file; name a sound file, or give words")
 
     from src.shared.device import set_threads
-    from src.shared.memory.index import MemoryIndex
+    from src.shared.inference.song_memory import open_memory
 
     set_threads(threads)
-    index = MemoryIndex.open(memory)
+    index, loaded = open_memory(memory, space or "")
     config = load_settings(top_k=top_k, bars=index.about["bars"])
-    loaded = open_space(space or index.about["space_name"], index, memory)
     if is_song:
         answers = query_song(Path(ask), index, loaded, config, meter)
     else:
@@ -153,23 +152,6 @@ def load_settings(**given: Any) -> "MemoryConfig":
     path = packaged_config("memory.yaml")
     overrides = [f"{name}={value}" for name, value in given.items() if value is not None]
     return load_config(MemoryConfig, load_yaml(path), str(path), overrides)
-
-
-def open_space(name: str, index: "MemoryIndex", folder: Path) -> "SharedSpace":
-    """The space that made the keys.
-
-    Raises:
-        UserError: it is gone, or another one.
-    """
-    from src.shared.model.audio.shared_space import SharedSpace
-
-    space = SharedSpace.from_pretrained(name)
-    if space.fingerprint != index.about["space"]:
-        raise UserError(
-            f"the memory in {folder} was made with another shared space than {name}; name that"
-            " one with --space, or build the memory again"
-        )
-    return space
 
 
 def query_song(

@@ -1,6 +1,7 @@
 """The public flags are a promise: whoever changes one changes this list, and the changelog."""
 
 import inspect
+from typing import Any
 
 import typer
 from typer.main import get_command
@@ -42,7 +43,8 @@ FLAGS = {
     ),
     "evaluate-selection": (
         "--branch --data --device --evaluator --guidance-scale --json --judge --model"
-        " --num-candidates --num-subjects --out --sampler --seed --steps --threads --unseen"
+        " --num-candidates --num-subjects --out --replications --sampler --seed --steps --threads"
+        " --unseen"
     ),
     "report": "--json FOLDER",
     "compare": (
@@ -50,14 +52,24 @@ FLAGS = {
         " --out --quick --replications --row --seed --steps --threads A B"
     ),
     "export-onnx": "--json --model --out",
+    "memory build": "--bars --json --out --space --split --threads DATA",
+    "memory query": "--json --memory --meter --model --space --threads --top-k ASK",
     "models": "--json",
     "plot": "--out FILE",
 }
 
 
+def all_commands(app: typer.Typer) -> dict[str, Any]:
+    """Every command by name; those of a group as `group command`."""
+    found = {}
+    for name, command in get_command(app).commands.items():  # type: ignore[attr-defined]
+        inner = getattr(command, "commands", {"": command})
+        found |= {f"{name} {part}".strip(): one for part, one in inner.items()}
+    return found
+
+
 def public_flags(app: typer.Typer) -> dict[str, str]:
     """Each command's options and, in capitals, its arguments."""
-    commands = get_command(app).commands  # type: ignore[attr-defined]
     return {
         name: " ".join(
             sorted(
@@ -70,7 +82,7 @@ def public_flags(app: typer.Typer) -> dict[str, str]:
                 )
             )
         )
-        for name, command in commands.items()
+        for name, command in all_commands(app).items()
     }
 
 
@@ -79,14 +91,16 @@ def test_flags_are_frozen() -> None:
 
 
 def test_every_flag_has_a_help_text() -> None:
-    for command in get_command(app).commands.values():  # type: ignore[attr-defined]
+    for command in all_commands(app).values():
         for parameter in command.params:
             assert parameter.help, f"{command.name} {parameter.name}"
 
 
 def test_flags_are_used() -> None:
     """A flag that is parsed and ignored would not show up in the function's code."""
-    for registered in app.registered_commands:
+    groups = [group.typer_instance for group in app.registered_groups]
+    commands = [one for part in (app, *groups) for one in part.registered_commands]  # type: ignore[union-attr]
+    for registered in commands:
         function = inspect.unwrap(registered.callback)  # type: ignore[arg-type]
         body = function.__code__.co_names + function.__code__.co_varnames
         source = inspect.getsource(function).partition('"""')[2]

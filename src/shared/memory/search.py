@@ -149,7 +149,7 @@ def add_library(index: MemoryIndex, folder: Path) -> LibraryIndex:
     return LibraryIndex.of(index, tables)
 
 
-def open_memory(folder: str | Path, *, library_above: int) -> MemoryIndex:
+def open_index(folder: str | Path, *, library_above: int) -> MemoryIndex:
     """A memory, with the library where it is large, has tables, and faiss is installed.
 
     Raises:

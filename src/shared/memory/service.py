@@ -22,7 +22,7 @@ from src.shared.config_memory import MemoryConfig
 from src.shared.errors import UsageError
 from src.shared.memory.context import Memory, null_memory, query_bars, retrieve
 from src.shared.memory.index import MemoryIndex
-from src.shared.memory.search import open_memory
+from src.shared.memory.search import open_index
 
 log = logging.getLogger(__name__)
 
@@ -63,7 +63,7 @@ class MPMService:
         """Open the memory and check its files, without holding up the event loop.
 
         Raises:
-            UserError: see `open_memory`.
+            UserError: see `open_index`.
         """
         if self.index is None:
             self.index = await asyncio.to_thread(self._open)
@@ -128,7 +128,7 @@ class MPMService:
         return memory
 
     def _open(self) -> MemoryIndex:
-        return open_memory(self.config.folder, library_above=self.config.library_above)
+        return open_index(self.config.folder, library_above=self.config.library_above)
 
     def _work(
         self,

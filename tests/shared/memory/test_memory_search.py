@@ -9,7 +9,7 @@ from torch.nn.functional import normalize
 from src.shared.errors import UserError
 from src.shared.memory.context import retrieve
 from src.shared.memory.index import MemoryIndex
-from src.shared.memory.search import LibraryIndex, add_library, make_table, open_memory
+from src.shared.memory.search import LibraryIndex, add_library, make_table, open_index
 from tests.shared.memory.tiny_memory import make_index, random_index
 
 pytest.importorskip("faiss", reason="the extra `index` is not installed")
@@ -51,11 +51,11 @@ def test_a_ban_of_nearly_everything_still_finds_the_rest(
 def test_a_folder_keeps_its_tables(tmp_path: Path) -> None:
     index = make_index(20)
     index.save(tmp_path)
-    assert type(open_memory(tmp_path, library_above=0)) is MemoryIndex, "there are no tables yet"
+    assert type(open_index(tmp_path, library_above=0)) is MemoryIndex, "there are no tables yet"
     add_library(index, tmp_path)
-    opened = open_memory(tmp_path, library_above=0)
+    opened = open_index(tmp_path, library_above=0)
     assert isinstance(opened, LibraryIndex)
-    assert type(open_memory(tmp_path, library_above=100)) is MemoryIndex
+    assert type(open_index(tmp_path, library_above=100)) is MemoryIndex
     hits = opened.search(index.motion_keys, top_k=3, key="motion")
     assert hits.index[:, 0].tolist() == list(range(20))
     ours, theirs = (retrieve(i, index.audio_keys, num_frames=9, phase=0.3) for i in (index, opened))
@@ -64,4 +64,4 @@ def test_a_folder_keeps_its_tables(tmp_path: Path) -> None:
     path = tmp_path / "audio.faiss"
     path.write_bytes(path.read_bytes()[:-1] + b"\x00\x00")
     with pytest.raises(UserError, match=r"audio\.faiss"):
-        open_memory(tmp_path, library_above=0)
+        open_index(tmp_path, library_above=0)
