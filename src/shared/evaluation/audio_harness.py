@@ -16,11 +16,11 @@ from src.shared.evaluation.audio_context import AudioContext, AudioSettings, Pic
 from src.shared.evaluation.audio_phase import right_tempo
 from src.shared.evaluation.audio_plots import plot_phase
 from src.shared.evaluation.audio_songs import TEMPI
-from src.shared.evaluation.engine import Bench, Progress, Row, part_name, run_bench
+from src.shared.evaluation.engine import Bench, Progress, part_name, run_bench
 from src.shared.evaluation.families import DanceSample
 from src.shared.evaluation.grids import Grid, report_data
 from src.shared.evaluation.parts import Part, Parts
-from src.shared.evaluation.registry import AUDIO_EXTRAS, AUDIO_FAMILIES
+from src.shared.evaluation.registry import AUDIO_EXTRAS, AUDIO_FAMILIES, AUDIO_ROWS
 from src.shared.evaluation.worst import Keeper, write_dance
 from src.shared.files import sha256_file
 from src.shared.inference.song_generator import SongGenerator
@@ -78,24 +78,14 @@ def evaluate_audio(
 
 
 def song_bench(context: AudioContext, folder: Path | None) -> Bench[DanceSample]:
-    """Rows real (with data), chance, frozen pose, untrained and generated over the songs."""
-    settings = context.settings
-    rows = [
-        Row("chance", context.chance),
-        Row("frozen pose", context.frozen_pose, limit=1, fixed=True),
-        Row("generated", context.generated),
-    ]
-    if context.data is not None:
-        rows.insert(0, Row("real", context.real, fixed=True, real=True))
-    if settings.untrained:
-        rows.append(Row("untrained", context.untrained, limit=settings.untrained))
+    """The rows of the registry over the songs."""
     return Bench(
         "songs",
         "held-out songs",
         lambda: context.reference,
-        rows,
+        [kind.bind(context) for kind in AUDIO_ROWS if kind.when(context)],
         AUDIO_FAMILIES,
-        keep=Keeper(folder, "songs", settings.worst, AUDIO_FAMILIES, write_dance),
+        keep=Keeper(folder, "songs", context.settings.worst, AUDIO_FAMILIES, write_dance),
     )
 
 

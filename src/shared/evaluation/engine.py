@@ -9,7 +9,7 @@ Letters: N motions, R replications.
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, Generic
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from src.shared.evaluation.intervals import Estimate, bootstrap_mean, replicated
 from src.shared.evaluation.parts import Part, Parts
 
 Progress = Callable[[str], None]
+Context = TypeVar("Context")
 DIGITS = 9  # kept of a figure: what more there is differs between machines
 
 
@@ -38,6 +39,30 @@ class Row(Generic[Sample]):
     limit: int | None = None
     fixed: bool = False
     real: bool = False
+
+
+@dataclass(frozen=True)
+class RowKind(Generic[Context, Sample]):
+    """A row before it is known what it is measured on, as `registry.py` names it.
+
+    Attributes:
+        make: the sample of a replication, from a context.
+        limit: replications at most, by the context; None = as many as are asked for.
+        when: whether a context has this row at all.
+        fixed, real: see `Row`.
+    """
+
+    name: str
+    make: Callable[[Context, int], Sample]
+    limit: Callable[[Context], int | None] = lambda context: None
+    when: Callable[[Context], bool] = lambda context: True
+    fixed: bool = False
+    real: bool = False
+
+    def bind(self, context: Context) -> Row[Sample]:
+        """The row of one context."""
+        make = partial(self.make, context)
+        return Row(self.name, make, self.limit(context), self.fixed, self.real)
 
 
 @dataclass(frozen=True)

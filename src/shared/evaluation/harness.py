@@ -22,7 +22,7 @@ from src.shared.evaluation.grids import Grid, GridRow, plain, report_data
 from src.shared.evaluation.held_out import HeldOut, open_held_out
 from src.shared.evaluation.metrics_retrieval import normalised_score
 from src.shared.evaluation.parts import Part, Parts
-from src.shared.evaluation.registry import TEXT_EXTRAS, TEXT_FAMILIES
+from src.shared.evaluation.registry import TEXT_EXTRAS, TEXT_FAMILIES, TEXT_ROWS
 from src.shared.evaluation.text_context import (
     UNTRAINED,
     Split,
@@ -212,13 +212,9 @@ def _as_part(extra: Callable[[TextContext], list[Grid]], context: TextContext) -
 def split_bench(
     context: TextContext, name: str, records: Sequence[ClipRecord], folder: Path | None
 ) -> Bench[MotionSample]:
-    """Rows real, chance, frozen pose and one a sampler over the clips of a split."""
+    """The rows of the registry and one a sampler over the clips of a split."""
     split = Split(context, records)
-    rows = [
-        Row("real", split.real, fixed=True, real=True),
-        Row("chance", split.chance, fixed=True),
-        Row("frozen pose", split.frozen_pose, limit=1, fixed=True),
-    ]
+    rows = [kind.bind(split) for kind in TEXT_ROWS if kind.when(split)]
     for label, sampler in context.samplers.items():
         limit = context.settings.untrained if label == UNTRAINED else None
         rows.append(Row(label, partial(split.generated, sampler), limit=limit))

@@ -1,7 +1,7 @@
 """What is measured. A new metric is one file and one line here.
 
-A family adds columns to every row (real, chance, frozen, untrained, generated) of every split; an
-extra adds tables with rows of its own. Both are told what to draw on and give plain figures back.
+A family adds columns to every row; a row is held against the same families as all others; an extra
+adds tables with rows of its own. Each is told what to draw on and gives plain figures back.
 """
 
 from collections.abc import Callable
@@ -13,6 +13,7 @@ from src.shared.evaluation.audio_tables import (
     seam_tables,
     track_table,
 )
+from src.shared.evaluation.engine import RowKind
 from src.shared.evaluation.families import DanceSample, MetricFamily, MotionSample
 from src.shared.evaluation.families_audio import BarPhase, BeatAlignment, TrajectorySanity
 from src.shared.evaluation.families_text import (
@@ -27,7 +28,7 @@ from src.shared.evaluation.metrics_contact import ContactFamily
 from src.shared.evaluation.metrics_kinetic import BodyKinetics, RootKinetics
 from src.shared.evaluation.metrics_spread import Multimodality
 from src.shared.evaluation.metrics_tmr import FAMILIES as TMR
-from src.shared.evaluation.text_context import TextContext
+from src.shared.evaluation.text_context import Split, TextContext
 from src.shared.evaluation.text_tables import controllability, languages
 
 TEXT_FAMILIES: tuple[MetricFamily[MotionSample], ...] = (
@@ -41,6 +42,11 @@ TEXT_FAMILIES: tuple[MetricFamily[MotionSample], ...] = (
     TravelErrors(),
     Obedience(),
 )
+TEXT_ROWS: tuple[RowKind[Split, MotionSample], ...] = (  # and one a sampler
+    RowKind("real", Split.real, fixed=True, real=True),
+    RowKind("chance", Split.chance, fixed=True),
+    RowKind("frozen pose", Split.frozen_pose, limit=lambda split: 1, fixed=True),
+)
 TEXT_EXTRAS: dict[str, Callable[[TextContext], list[Grid]]] = {
     "languages": languages,
     "controllability": controllability,
@@ -50,6 +56,24 @@ AUDIO_FAMILIES: tuple[MetricFamily[DanceSample], ...] = (
     BarPhase(),
     TrajectorySanity(),
     RootKinetics(),
+)
+AUDIO_ROWS: tuple[RowKind[AudioContext, DanceSample], ...] = (
+    RowKind(
+        "real",
+        AudioContext.real,
+        when=lambda context: context.data is not None,
+        fixed=True,
+        real=True,
+    ),
+    RowKind("chance", AudioContext.chance),
+    RowKind("frozen pose", AudioContext.frozen_pose, limit=lambda context: 1, fixed=True),
+    RowKind("generated", AudioContext.generated),
+    RowKind(
+        "untrained",
+        AudioContext.untrained,
+        limit=lambda context: context.settings.untrained,
+        when=lambda context: context.settings.untrained > 0,
+    ),
 )
 AUDIO_EXTRAS: dict[str, Callable[[AudioContext], list[Grid]]] = {
     "phase": phase_table,
