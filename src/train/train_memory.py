@@ -1,0 +1,215 @@
+"""Memory training: a trained audio model learns to hear a memory (REF's MPMS; ruling 26).
+
+accelerate launch -m src.train.train_memory --audio FOLDER --memory FOLDER --space FOLDER
+--data DIR_OR_URL [key=value ...] [--resume]
+
+Each window asks the memory with its own sound, and never finds its own song. What was there before
+rests, unless `base-learning-rate` is set: without a memory the model stays what it was, to the bit.
+
+Letters: B batch, T frames.
+"""
+
+import math
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated, Any
+
+import torch
+import typer
+from pydantic import Field
+from torch import Tensor, nn
+
+from src.shared.config_audio import AudioNetworkConfig, MemoryConditionConfig
+from src.shared.config_loader import load_train, split_network_overrides
+from src.shared.config_memory import MemoryConfig
+from src.shared.data.phrases.dataset import PhraseBatch
+from src.shared.errors import UsageError
+from src.shared.formats.trajectory_registry import write_trajectory
+from src.shared.inference.audio_condition import AudioCondition
+from src.shared.inference.song_memory import as_condition, open_memory, remembering
+from src.shared.inference.song_sampler import SongSampler
+from src.shared.memory.context import retrieve
+from src.shared.memory.service import MPMService
+from src.shared.model.audio.audio_motion_model import AudioMotionModel
+from src.shared.model.audio.conditioning import BEAT, with_phase_rows
+from src.shared.model.audio.memory_conditioning import MemoryCondition, known_frames
+from src.shared.motion.trajectory_math import unwrap_phase
+from src.train.audio_folder import network_of
+from src.train.launch import as_overrides, resume_command, short_errors
+from src.train.train_audio import AudioBatch, AudioTask, TrainAudioConfig
+
+MODULE = "src.train.train_memory"
+
+
+class TrainMemoryConfig(TrainAudioConfig):
+    """train_memory.yaml."""
+
+    audio: str = "starter-audio"  # the model that learns
+    space: str = ""  # where the memory's shared space is now; "" = where it was built with
+    memory: MemoryConfig = MemoryConfig()
+    part: MemoryConditionConfig = MemoryConditionConfig()  # sizes of what is added
+    memory_dropout: float = Field(0.1, ge=0, lt=1)  # windows that remember nothing
+    base_learning_rate: float = Field(0.0, ge=0)  # of what was there before; 0 = it rests
+
+
+def bars_of_sound(audio: Tensor) -> Tensor:
+    """Unwrapped bars [B,T] that the phase rows of sound [B,C,T] tell; 0 where unknown."""
+    cosine, sine = with_phase_rows(audio)[:, BEAT][:, 2:].double().cpu().unbind(dim=1)
+    turns = torch.atan2(sine, cosine) / (2 * math.pi)  # [B,T]
+    return torch.from_numpy(unwrap_phase(turns.numpy()))
+
+
+class Forgetful(nn.Module):
+    """A UNet1D that is told of no memory."""
+
+    def __init__(self, unet: nn.Module) -> None:
+        super().__init__()
+        self.unet = unet
+
+    def forward(self, x: Tensor, t: Tensor, condition: Tensor, drop: Any, memory: Any) -> Tensor:
+        """As `UNet1D.forward`."""
+        prediction: Tensor = self.unet(x, t, condition, drop)
+        return prediction
+
+
+class MemoryTask(AudioTask):
+    """What the trainer needs to know (src/train/task.py); batches as in audio training."""
+
+    config: TrainMemoryConfig
+
+    def __init__(self, config: TrainMemoryConfig, network: AudioNetworkConfig) -> None:
+        if config.target_frames != network.window:
+            raise UsageError(
+                f"target-frames {config.target_frames}: {config.audio} learned windows of"
+                f" {network.window} frames; set it to that"
+            )
+        self.index, self.space = open_memory(config.memory.folder, config.space)
+        super().__init__(config, network)
+        rates = {"memory.": config.learning_rate, "": config.base_learning_rate}
+        self.learning_rates = {} if config.base_learning_rate == 0 else rates
+
+    def _start(self) -> AudioMotionModel:
+        model = AudioMotionModel.from_pretrained(self.config.audio)
+        self.source = model.card
+        if model.unet.memory is None:
+            model.add_memory(self.config.part)
+        assert model.unet.memory is not None
+        if self.config.base_learning_rate == 0:
+            model.unet.requires_grad_(False)
+            for layer in model.unet.modules():
+                if isinstance(layer, nn.Dropout):  # what does not learn needs none
+                    layer.p = 0.0
+        model.unet.memory.requires_grad_(True)
+        self.network = model.config
+        return model
+
+    def identity(self) -> dict[str, Any]:
+        """A resumed run must start from the same weights, and see the same phrases and memory."""
+        assert self.source.weights is not None
+        return {
+            **super().identity(),
+            "weights": self.source.weights.sha256,
+            "space": self.space.fingerprint,
+            "memory": self.index.about,
+        }
+
+    # ------------------------------------------------------------ batches
+
+    def _drawn_audio(self, phrases: PhraseBatch, draws: torch.Generator) -> AudioBatch:
+        batch = super()._drawn_audio(phrases, draws)
+        assert batch.memory is not None
+        forgotten = torch.rand(len(phrases), generator=draws) < self.config.memory_dropout
+        return replace(batch, memory=batch.memory.without(forgotten))
+
+    def _noised(self, phrases: PhraseBatch, *drawn: Any, **options: Any) -> AudioBatch:
+        batch = super()._noised(phrases, *drawn, **options)
+        recent = known_frames(batch.clean, batch.known)
+        return replace(batch, memory=replace(self.recall(phrases), recent=recent))
+
+    @torch.no_grad()
+    def recall(self, phrases: PhraseBatch) -> MemoryCondition:
+        """Each window's own question, its song left out of the answers."""
+        settings = self.config.memory
+        return as_condition(
+            retrieve(
+                self.index,
+                self.space.embed_audio(phrases.audio, phrases.mask),
+                num_frames=phrases.audio.shape[-1],
+                phase=bars_of_sound(phrases.audio),
+                top_k=settings.top_k,
+                temperature=settings.temperature,
+                key=settings.key,
+                phase_weight=settings.phase_weight,
+                exclude_songs=[{record.song or record.id} for record in phrases.records],
+            )
+        )
+
+    # ------------------------------------------------------------ results
+
+    def validation(self, module: nn.Module) -> dict[str, float]:
+        """As audio training's, with memory; figures without it stand beside."""
+        without = super().validation(Forgetful(module))
+        found = super().validation(module)
+        self.figures = found | {f"without-{key}": value for key, value in without.items()}
+        return self.figures
+
+    def export_samples(self, module: nn.Module, folder: Path) -> None:
+        """A held-back phrase's sound, made into a trajectory with memory: a picture of it."""
+        item = self.held_back.item(0, 0)
+        if item is None:
+            return
+        folder.mkdir(parents=True, exist_ok=True)
+        bars, _ = AudioCondition(item.audio).time() or (None, None)
+        sampler = SongSampler(self._finished(module))
+        service = MPMService(self.config.memory, self.index)
+        recall = remembering(service, self.space, sampler, item.audio, bars, {item.record.song})
+        made = sampler.sample(item.audio, phase=bars, recall=recall)[0]
+        write_trajectory(made, folder / "held-back.png")
+
+    def save_pretrained(self, module: nn.Module, folder: Path) -> None:
+        """A folder like the one that was read, which hears a memory too."""
+        model = self._finished(module)
+        trained = {"steps": self.config.steps, "validation": self.figures}
+        summary = {**self.source.training, "memory": trained}
+        update = {"name": folder.name, "training": summary}
+        model.card = model.card.model_copy(update=update)
+        model.save_pretrained(folder)
+
+
+app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
+
+
+@app.command()
+def train(
+    overrides: Annotated[
+        list[str] | None, typer.Argument(metavar="KEY=VALUE", help="settings to change")
+    ] = None,
+    config: Annotated[Path | None, typer.Option(help="YAML file of settings")] = None,
+    audio: Annotated[str | None, typer.Option(help="audio model that learns")] = None,
+    memory: Annotated[str | None, typer.Option(help="folder of `tools memory build`")] = None,
+    space: Annotated[str | None, typer.Option(help="shared space of the memory's keys")] = None,
+    data: Annotated[str | None, typer.Option(help="folder or bucket of prepare-audio")] = None,
+    output: Annotated[str | None, typer.Option(help="folder of this run")] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="continue the run in output")] = False,
+) -> None:
+    """Teach a trained audio model to hear a memory.
+
+    Example: accelerate launch -m src.train.train_memory --memory runs/memory --data pairs
+    """
+    flags = {"audio": audio, "memory.folder": memory, "space": space, "data": data}
+    with short_errors():
+        given = [*(overrides or []), *as_overrides(flags | {"output": output})]
+        own, network_overrides = split_network_overrides(given)
+        if network_overrides:
+            raise UsageError(f"{network_overrides[0]}: the network is that of --audio; see part.*")
+        settings = load_train(config, TrainMemoryConfig, own)
+        network = network_of(settings.audio)
+        from src.train.engine import Trainer
+
+        command = resume_command(MODULE, sys.argv[1:])
+        Trainer(settings, lambda c: MemoryTask(c, network), command=command, resume=resume).train()
+
+
+if __name__ == "__main__":
+    app()
