@@ -31,7 +31,10 @@ def evaluate_selection(
         str, typer.Option(help="Text: a shipped name, or a folder from train_evaluator.")
     ] = "evaluator",
     num_subjects: Annotated[int | None, typer.Option(help="Prompts (64) or songs (24).")] = None,
-    num_candidates: Annotated[int, typer.Option(help="Motions of each, N.")] = 8,
+    num_candidates: Annotated[int, typer.Option(help="To choose from, N.")] = 8,
+    replications: Annotated[
+        int | None, typer.Option(help="Times N motions of each, for intervals; 4, songs 2.")
+    ] = None,
     unseen: Annotated[
         bool, typer.Option("--unseen", help="Text: label combinations that no training saw.")
     ] = False,
@@ -53,7 +56,13 @@ def evaluate_selection(
     """
     if branch not in MODELS:
         raise UsageError(f"--branch {branch} is unknown; choose from {', '.join(MODELS)}")
-    options.check_ranges(steps=steps, guidance_scale=guidance_scale, seed=seed, threads=threads)
+    options.check_ranges(
+        steps=steps,
+        guidance_scale=guidance_scale,
+        seed=seed,
+        threads=threads,
+        replications=replications,
+    )
     amount = {"num_subjects": num_subjects, "num_candidates": num_candidates}
     check_limits({name: value for name, value in amount.items() if value is not None}, LIMITS)
     if out is not None:
@@ -73,6 +82,7 @@ def evaluate_selection(
         prompts = PromptSettings(
             num_prompts=num_subjects or PromptSettings.num_prompts,
             num_candidates=num_candidates,
+            replications=replications or PromptSettings.replications,
             split="unseen" if unseen else "seen",
             seed=seed,
         )
@@ -89,6 +99,7 @@ def evaluate_selection(
         songs = SongSettings(
             num_songs=num_subjects or SongSettings.num_songs,
             num_candidates=num_candidates,
+            replications=replications or SongSettings.replications,
             seed=seed,
         )
         report = evaluate_songs(

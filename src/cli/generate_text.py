@@ -41,20 +41,22 @@ def produce(
     clock = Stopwatch()
     from src.shared.device import set_threads
     from src.shared.inference.prompt_sampler import PromptSampler
-    from src.shared.inference.text_judge import TextJudge, load_space, space_of
+    from src.shared.inference.text_judge import TextJudge, load_tower, own_tower
     from src.shared.model.generation.motion_generator import MotionGenerator
 
     clock.lap("import")
     set_threads(threads)
     generator = MotionGenerator.from_pretrained(model, device=device)
     number = wanted["num_samples"]
-    tower = (judge or space_of(model)) if number > 1 else None
-    space = None if tower is None else load_space(tower, generator.text.embed_dim)
+    tower = None
+    if number > 1:
+        text = generator.text
+        tower = own_tower(text) if judge is None else load_tower(judge, text)
     clock.lap("load")
     warnings = generator.scope_warnings(wanted["prompts"])
     for warning in filter(None, warnings):
         complain(f"warning: {warning}")
-    found = PromptSampler(generator, TextJudge(space)).sample(**wanted, return_all=return_all)
+    found = PromptSampler(generator, TextJudge(tower)).sample(**wanted, return_all=return_all)
     clock.lap("sample")
     kept = number if return_all else 1
     motions = [motion for result in found for motion in result.ranked()]

@@ -32,6 +32,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     generator.save_pretrained(folder / "text")
     torch.manual_seed(0)
     clip = MotionClip(tiny_network()).eval()
+    clip.text.load_state_dict(generator.text.state_dict())
     card = ModelCard(kind="motion-clip", name="tiny", trained=True)
     bundle = ClipBundle(clip, generator.tokenizer, generator.mean, generator.std, card)
     bundle.save_pretrained(folder / "clip")
@@ -75,8 +76,8 @@ def test_one_sample_needs_no_scores(folder: Path, tmp_path: Path) -> None:
 
 
 def test_the_best_of_a_song(folder: Path, tmp_path: Path) -> None:
-    wanted = ("--audio", folder / "song.wav", "--model", folder / "audio", "--num-samples", "3")
-    wanted = (*wanted, "--steps", "2")
+    song = ("--audio", folder / "song.wav", "--model", folder / "audio")
+    wanted = (*song, "--num-samples", "3", "--steps", "2")
     best, told = generate(*wanted, "--out", tmp_path / "best")
     every, _ = generate(*wanted, "--out", tmp_path / "all", "--return-all")
     (chosen,) = best["selection"]

@@ -1,14 +1,15 @@
 """Best of N: does what the judge chose look better to those the judge does not listen to?
 
 Every candidate is measured once; rows then differ only in which candidates they take. The best of
-n is the judge's choice among n candidates that follow each other: of 8 there are eight choices of
-one, four of two, two of four and one of eight, and a subject's figure is the mean over them.
-Intervals resample subjects (prompts or songs): they cover other subjects, not only other noise.
+n is the judge's choice among n candidates that follow each other, so of 32 there are 32 choices of
+one and four of eight. Each choice for all subjects (prompts or songs) is a replication: intervals
+of rows say what other noise would give for the same subjects. What the largest size gains over
+single candidates is resampled over subjects: it says what other subjects would give.
 
 A figure is *outside* (nothing of it enters the judge), *akin* (another measure of something that
 the judge does look at) or the judge's own. Only outside figures count for the verdict.
 
-Letters: P subjects, N candidates of each, G choices of one size.
+Letters: P subjects, C candidates of each, N the largest number to choose from, G choices.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -17,7 +18,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from src.shared.evaluation.intervals import Estimate, bootstrap_mean
+from src.shared.evaluation.intervals import Estimate, bootstrap_mean, replicated
 from src.shared.evaluation.report import Table, interval
 
 Role = Literal["outside", "akin", "judge"]
@@ -27,10 +28,10 @@ ROLES: dict[Role, str] = {
     "judge": "the judge's own terms",
 }
 Chosen = np.ndarray  # [P], which candidate of each subject
-RESAMPLES = 500  # of figures of a whole set
 NOTE = (
-    "± is 95% by bootstrap over subjects. Rows share their candidates; the difference is paired."
-    " * the intervals of best of {size} and of best of 1 do not overlap, and it is better."
+    "Rows: ± is 95% over replications, other noise for the same subjects (floors: over subjects)."
+    " Difference: paired, ± is 95% by bootstrap over subjects. * better, and the intervals of both"
+    " rows are apart."
 )
 
 
@@ -47,14 +48,14 @@ class Figure:
 
 @dataclass(frozen=True, eq=False)
 class Pool:
-    """Everything measured of P x N candidates.
+    """Everything measured of P x C candidates.
 
     Attributes:
         figures: the columns.
-        score: the judge's, [P,N].
-        values: figures of single candidates [P,N]; NaN where nothing is asked.
+        score: the judge's, [P,C].
+        values: figures of single candidates [P,C]; NaN where nothing is asked.
         together: figures [P] of each subject that depend on what was chosen for the others.
-        of_set: figures of a whole choice; told subjects and their candidates, both [R].
+        of_set: figures of a whole choice.
         floors: rows to stand beside, by name: figures [P'] by key.
         set_floors: figures of such rows that belong to whole sets.
     """
@@ -63,19 +64,20 @@ class Pool:
     score: np.ndarray
     values: Mapping[str, np.ndarray]
     together: Callable[[Chosen], Mapping[str, np.ndarray]] = lambda chosen: {}
-    of_set: Callable[[np.ndarray, np.ndarray], Mapping[str, float]] = lambda rows, chosen: {}
+    of_set: Callable[[Chosen], Mapping[str, float]] = lambda chosen: {}
     floors: Mapping[str, Mapping[str, np.ndarray]] = field(default_factory=dict)
     set_floors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
-    @property
-    def num_candidates(self) -> int:
-        """N."""
-        return int(self.score.shape[1])
+    def single(self, chosen: Chosen) -> dict[str, np.ndarray]:
+        """Figures [P] of each subject under one choice."""
+        rows = np.arange(len(self.score))
+        found = {key: values[rows, chosen] for key, values in self.values.items()}
+        return found | dict(self.together(chosen))
 
-    @property
-    def sizes(self) -> list[int]:
-        """1, 2, 4, ... up to N."""
-        return [2**k for k in range(self.num_candidates.bit_length())]
+
+def sizes(largest: int) -> list[int]:
+    """1, 2, 4, ... and the largest."""
+    return [*(2**k for k in range((largest - 1).bit_length())), largest]
 
 
 def choices(score: np.ndarray, size: int) -> list[Chosen]:
@@ -85,89 +87,70 @@ def choices(score: np.ndarray, size: int) -> list[Chosen]:
     return list((runs.argmax(2) + np.arange(number) * size).T)
 
 
-def measured(pool: Pool, chosen: Sequence[Chosen]) -> dict[str, np.ndarray]:
-    """Figures [P] of each subject, the mean over the choices where there is anything to average."""
-    rows = np.arange(len(pool.score))
-    found: dict[str, list[np.ndarray]] = {}
-    for choice in chosen:
-        single = {key: values[rows, choice] for key, values in pool.values.items()}
-        for key, values in (single | dict(pool.together(choice))).items():
-            found.setdefault(key, []).append(values)
-    return {key: _mean(np.stack(values)) for key, values in found.items()}
+def measured(
+    pool: Pool, chosen: Sequence[Chosen]
+) -> tuple[dict[str, np.ndarray], dict[str, Estimate]]:
+    """Figures [P] of each subject, the mean over the choices, and of each choice as a whole."""
+    found = [pool.single(choice) for choice in chosen]
+    stacked = {key: np.stack([one[key] for one in found]) for key in found[0]}  # G P
+    whole = {key: [_mean(row) for row in values] for key, values in stacked.items()}
+    sets = [pool.of_set(choice) for choice in chosen]
+    whole |= {key: [one[key] for one in sets] for key in sets[0]}
+    subjects = {key: np.array([_mean(c) for c in values.T]) for key, values in stacked.items()}
+    return subjects, {key: replicated(values) for key, values in whole.items()}
 
 
-def _mean(values: np.ndarray) -> np.ndarray:
-    """Mean [P] over the first axis of values [G,P], NaN left out."""
-    known = ~np.isnan(values)
-    total = np.where(known, values, 0.0).sum(0)
-    return np.divide(total, known.sum(0), out=np.full(len(total), np.nan), where=known.any(0))
+def _mean(values: np.ndarray) -> float:
+    """Mean of what is known; NaN if nothing is."""
+    known = values[~np.isnan(values)]
+    return float(known.mean()) if len(known) else float("nan")
 
 
-def _set_estimates(pool: Pool, chosen: Sequence[Chosen], seed: int) -> dict[str, Estimate]:
-    """Figures of whole sets with percentile intervals over resampled subjects."""
-    subjects = np.arange(len(pool.score))
-    draws = np.random.default_rng(seed).integers(0, len(subjects), (RESAMPLES, len(subjects)))
-
-    def over_choices(rows: np.ndarray) -> dict[str, float]:
-        found = [pool.of_set(rows, choice[rows]) for choice in chosen]
-        return {key: float(np.mean([one[key] for one in found])) for key in found[0]}
-
-    whole = over_choices(subjects)
-    if not whole:
-        return {}
-    again = [over_choices(rows) for rows in draws]
-    bounds = {key: np.percentile([one[key] for one in again], (2.5, 97.5)) for key in whole}
-    return {
-        key: Estimate(value, float(bounds[key][0]), float(bounds[key][1]), len(subjects))
-        for key, value in whole.items()
-    }
-
-
-def selection_report(pool: Pool, seed: int = 0) -> dict[str, Any]:
-    """Rows of figures, and what the largest choice gains over a single candidate.
+def selection_report(pool: Pool, largest: int) -> dict[str, Any]:
+    """Rows of figures, and what the best of `largest` N gains over a single candidate.
 
     Returns:
         rows: name to figures, each an `Estimate` as a dict: floors, `best of n`, `worst of N`;
-        gains: figure to the paired difference of best of N and best of 1 (single candidates and
-        subjects only), whether it is `better`, and whether the intervals are `apart`;
+        gains: figure to its `role`, whether best of N is `better` than best of 1 and their
+        intervals `apart` (never with one replication), and, but for whole sets, the paired
+        `difference`;
         outside_apart: keys of outside figures that are better with intervals apart.
     """
     rows: dict[str, dict[str, Any]] = {}
     for name, floor in pool.floors.items():
-        rows[name] = {key: _over_subjects(values) for key, values in floor.items()}
+        rows[name] = {key: bootstrap_mean(v.tolist()).as_dict() for key, v in floor.items()}
         for key, value in pool.set_floors.get(name, {}).items():
             rows[name][key] = Estimate(value, value, value, 1).as_dict()
-    taken = {f"best of {size}": choices(pool.score, size) for size in pool.sizes}
-    taken[f"worst of {pool.num_candidates}"] = [pool.score.argmin(1)]
-    subjects = {name: measured(pool, chosen) for name, chosen in taken.items()}
-    for name, chosen in taken.items():
-        rows[name] = {key: _over_subjects(v) for key, v in subjects[name].items()}
-        rows[name] |= {k: e.as_dict() for k, e in _set_estimates(pool, chosen, seed).items()}
-    last = f"best of {pool.sizes[-1]}"
+    taken = {f"best of {size}": choices(pool.score, size) for size in sizes(largest)}
+    taken[f"worst of {largest}"] = choices(-pool.score, largest)
+    found = {name: measured(pool, chosen) for name, chosen in taken.items()}
+    rows |= {
+        name: {key: estimate.as_dict() for key, estimate in whole.items()}
+        for name, (_, whole) in found.items()
+    }
+    (one, _), (many, _) = found["best of 1"], found[f"best of {largest}"]
     gains: dict[str, dict[str, Any]] = {}
     for figure in pool.figures:
-        one, many = rows["best of 1"][figure.key], rows[last][figure.key]
-        gain: dict[str, Any] = {"role": figure.role, **_apart(one, many, higher=figure.higher)}
-        if figure.key in subjects[last]:
-            paired = subjects[last][figure.key] - subjects["best of 1"][figure.key]
-            gain["difference"] = _over_subjects(paired)
-        gains[figure.key] = gain
+        cells = rows["best of 1"][figure.key], rows[f"best of {largest}"][figure.key]
+        gains[figure.key] = {"role": figure.role, **_compared(*cells, higher=figure.higher)}
+        if figure.key in many:
+            paired = (many[figure.key] - one[figure.key]).tolist()
+            gains[figure.key]["difference"] = bootstrap_mean(paired).as_dict()
     outside = [key for key, gain in gains.items() if gain["role"] == "outside" and gain["apart"]]
     return {"rows": rows, "gains": gains, "outside_apart": outside}
 
 
-def _over_subjects(values: np.ndarray) -> dict[str, float | int]:
-    return bootstrap_mean(values.tolist()).as_dict()
-
-
-def _apart(one: dict[str, Any], many: dict[str, Any], *, higher: bool) -> dict[str, bool]:
-    if higher:
-        return {"better": many["value"] > one["value"], "apart": many["low"] > one["high"]}
-    return {"better": many["value"] < one["value"], "apart": many["high"] < one["low"]}
+def _compared(one: dict[str, Any], many: dict[str, Any], *, higher: bool) -> dict[str, bool]:
+    low, high = (one, many) if higher else (many, one)
+    known = min(one["count"], many["count"]) > 1
+    return {
+        "better": bool(low["value"] < high["value"]),
+        "apart": bool(known and low["high"] < high["low"]),
+    }
 
 
 def report_of(
-    pool: Pool, subjects: str, about: dict[str, Any], settings: dict[str, Any], seed: int
+    pool: Pool, largest: int, subjects: str, about: dict[str, Any], settings: dict[str, Any]
 ) -> dict[str, Any]:
     """`selection_report` with what it was measured on, as plain data for JSON.
 
@@ -176,13 +159,12 @@ def report_of(
     """
     figures = [asdict(figure) for figure in pool.figures]
     facts = {"about": about, "settings": settings, "subjects": subjects, "figures": figures}
-    return facts | selection_report(pool, seed)
+    return facts | selection_report(pool, largest)
 
 
 def selection_tables(report: dict[str, Any]) -> Iterator[Table]:
     """One table a role: rows as in the report, and the gain below."""
     last = [name for name in report["rows"] if name.startswith("best of ")][-1]
-    note = NOTE.format(size=last.rpartition(" ")[2])
     figures = [Figure(**figure) for figure in report["figures"]]
     for role, title in ROLES.items():
         shown = [figure for figure in figures if figure.role == role]
@@ -195,7 +177,7 @@ def selection_tables(report: dict[str, Any]) -> Iterator[Table]:
         gains = [(report["gains"][figure.key], figure) for figure in shown]
         rows.append([f"{last} less best of 1", *(_gain(gain, figure) for gain, figure in gains)])
         header = ["row", *(f"{f.heading} {'↑' if f.higher else '↓'}" for f in shown)]
-        yield Table(f"{title} ({report['subjects']})", header, rows, note)
+        yield Table(f"{title} ({report['subjects']})", header, rows, NOTE)
 
 
 def _gain(gain: dict[str, Any], figure: Figure) -> str:

@@ -5,7 +5,7 @@ at how the motion's beats fall on those that the tracker heard. So alignment wit
 the kinetic distance (mean speeds and accelerations) are akin to it; outside are the geometric
 distance (in which share of frames a pelvis is low, sinks, goes backward, turns left, ...).
 
-Letters: P songs, N candidates.
+Letters: P songs, C candidates of each.
 """
 
 from collections.abc import Callable, Sequence
@@ -43,7 +43,8 @@ class SongSettings:
     """How much is measured; the report repeats it."""
 
     num_songs: int = 24
-    num_candidates: int = 8
+    num_candidates: int = 8  # the largest number to choose from
+    replications: int = 2
     song_seconds: float = 8.0
     max_real: int = 400  # test phrases
     seed: int = 0
@@ -58,12 +59,12 @@ def song_pool(
     settings: SampleSettings,
     progress: Progress = lambda text: None,
 ) -> Pool:
-    """N candidates for each of P songs, measured.
+    """C candidates for each of P songs, measured.
 
     Args:
         judge: hears the beats that the tracker hears.
         real: motions that distances are taken from; none = no distances.
-        settings: N, seed, sampler.
+        settings: C, seed, sampler.
     """
     made: list[list[MotionTrajectory]] = []
     tables = []
@@ -83,15 +84,11 @@ def song_pool(
         return Pool(figures, score, {"hits": hits} | terms, floors=floors)
     ours, theirs = [_features(row) for row in made], _features(real)
 
-    def distances(rows: np.ndarray, chosen: np.ndarray) -> dict[str, float]:
-        pairs = list(zip(rows, chosen, strict=True))
-        return _distances(_join([ours[row] for row, _ in pairs], [c for _, c in pairs]), theirs)
-
     return Pool(
         [*DISTANCES, *figures],
         score,
         {"hits": hits} | terms,
-        of_set=distances,
+        of_set=lambda chosen: _distances(_join(ours, chosen.tolist()), theirs),
         floors={"real": {}, **floors},
         set_floors={"real": _between_halves(theirs, len(pieces), settings.seed)},
     )
@@ -184,7 +181,8 @@ def evaluate_songs(
     generator, judge = SongGenerator.from_pretrained(model, device=device), AudioJudge(bands)
     progress("songs")
     pieces = list(held_out_songs(settings.num_songs, settings.song_seconds, settings.seed))
-    sampled = SampleSettings(settings.num_candidates, seed=settings.seed, **sampling)
+    number = settings.num_candidates * settings.replications
+    sampled = SampleSettings(number, seed=settings.seed, **sampling)
     pool = song_pool(generator, judge, pieces, real, settings=sampled, progress=progress)
     card = generator.model.card
     facts |= {
@@ -194,4 +192,4 @@ def evaluate_songs(
         "sampling": {k: v for k, v in sampling.items() if v is not None},
     }
     subjects = f"{len(pieces)} held-out synthetic songs of {settings.song_seconds:g} s"
-    return report_of(pool, subjects, facts, asdict(settings), settings.seed)
+    return report_of(pool, settings.num_candidates, subjects, facts, asdict(settings))

@@ -5,7 +5,7 @@ the labels are obeyed by forward kinematics, travel against a real clip of the c
 holds motions against prompts in the generator's own shared space; it slides and shakes by other
 measures than `support_slide` and `hand_jerk`, which are therefore akin, not outside.
 
-Letters: P prompts, N candidates, D embedding channels.
+Letters: P prompts, C candidates of each, D embedding channels.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -25,7 +25,7 @@ from src.shared.evaluation.metrics_retrieval import BATCH, TOP, best_ranks, pair
 from src.shared.evaluation.metrics_travel import travel, travel_error
 from src.shared.evaluation.selection_harness import Chosen, Figure, Pool, report_of
 from src.shared.inference.prompt_sampler import PromptSampler
-from src.shared.inference.text_judge import TextJudge, load_space, space_of
+from src.shared.inference.text_judge import TextJudge, load_tower, own_tower
 from src.shared.model.generation.motion_generator import MotionGenerator
 from src.shared.motion.motion import Motion
 
@@ -54,7 +54,7 @@ def prompt_pool(
     progress: Progress = lambda text: None,
     **sampling: Any,
 ) -> Pool:
-    """N candidates for each of P ≥ 32 captions at their clips' lengths, measured.
+    """C candidates for each of P ≥ 32 captions at their clips' lengths, measured.
 
     Args:
         best_of: generator and judge.
@@ -102,7 +102,7 @@ def _taken(embedded: np.ndarray, chosen: Chosen) -> np.ndarray:
 def _singles(
     made: Sequence[Sequence[Motion]], clips: Clips, text: np.ndarray, embedded: np.ndarray
 ) -> dict[str, np.ndarray]:
-    """Figures [P,N] of each candidate by itself."""
+    """Figures [P,C] of each candidate by itself."""
     columns = [_figures(row, clips.labels[p], clips.motions[p]) for p, row in enumerate(made)]
     values = {key: np.stack([column[key] for column in columns]) for key in columns[0]}
     apart = np.linalg.norm(embedded.astype(np.float64) - text[:, None], axis=-1)
@@ -112,7 +112,7 @@ def _singles(
 def _figures(
     motions: Sequence[Motion], labels: dict[str, str], real: Motion
 ) -> dict[str, np.ndarray]:
-    """Figures [N] of motions made for one caption."""
+    """Figures [C] of motions made for one caption."""
     bodies = [physics(motion) for motion in motions]
     errors = travel_error([travel(m) for m in motions], [travel(real)] * len(motions))
     return {
@@ -180,9 +180,10 @@ class PromptSettings:
     """How much is measured; the report repeats it."""
 
     num_prompts: int = 64
-    num_candidates: int = 8
+    num_candidates: int = 8  # the largest number to choose from
+    replications: int = 4
     split: str = "seen"  # label combinations: seen or unseen in training
-    max_frames: int = 96
+    max_frames: int = 64
     language: str = "en"
     seed: int = 0
 
@@ -215,8 +216,7 @@ def evaluate_prompts(
     settings = settings or PromptSettings()
     outside = Evaluator.from_pretrained(evaluator)
     generator = MotionGenerator.from_pretrained(model, device=device)
-    tower = judge or space_of(model)
-    space = None if tower is None else load_space(tower, generator.text.embed_dim)
+    tower = own_tower(generator.text) if judge is None else load_tower(judge, generator.text)
     held_out = open_held_out(data, cache, outside.trained_groups)
     clips = real_clips(
         held_out.data,
@@ -228,12 +228,12 @@ def evaluate_prompts(
     )
     if len(clips) < BATCH:
         raise UserError(f"{data}: {len(clips)} clips of {settings.split} are fewer than {BATCH}")
-    best_of = PromptSampler(generator, TextJudge(space))
+    best_of = PromptSampler(generator, TextJudge(tower))
     pool = prompt_pool(
         best_of,
         outside,
         clips,
-        num_candidates=settings.num_candidates,
+        num_candidates=settings.num_candidates * settings.replications,
         seed=settings.seed,
         progress=progress,
         **sampling,
@@ -241,7 +241,7 @@ def evaluate_prompts(
     about = {
         "model": model,
         "model_hash": generator.card.weights.sha256[:12] if generator.card.weights else "",
-        "judge": tower or "none: feet and smoothness only",
+        "judge": judge or ("shipped" if tower else "none: feet and smoothness only"),
         "weights": best_of.judge.config.model_dump(),
         "evaluator": evaluator,
         "evaluator_hash": outside.content_hash,
@@ -250,4 +250,4 @@ def evaluate_prompts(
         "sampling": {name: value for name, value in sampling.items() if value is not None},
     }
     subjects = f"{len(clips)} prompts, {settings.split} label combinations"
-    return report_of(pool, subjects, about, asdict(settings), settings.seed)
+    return report_of(pool, settings.num_candidates, subjects, about, asdict(settings))

@@ -13,9 +13,8 @@ the smoothest jump does not jump. A motion with a value that is not finite fails
 Letters: N candidates, T frames, K rows, D width of the shared space.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Protocol
 
 import numpy as np
 import torch
@@ -23,10 +22,13 @@ from torch import Tensor
 
 from src.shared.errors import UserError
 from src.shared.inference.selection import ScoreTable, SelectionConfig, distances, rank
-from src.shared.model.checkpoint import CARD_FILE, read_card
+from src.shared.model.audio import shared_space
+from src.shared.model.audio.shared_space import MotionTower, SharedSpace, tower_hash
+from src.shared.model.checkpoint import read_card
 from src.shared.model.clip import pretrained
+from src.shared.model.clip.core import TextTower
 from src.shared.model.clip.pretrained import ClipBundle
-from src.shared.model.zoo import PRETRAINED, resolve_model
+from src.shared.model.zoo import list_models, resolve_model
 from src.shared.motion.motion import Motion
 from src.shared.motion.root_track import encode_features
 from src.shared.validation.body_measures import contact_slide, mean_jerk, penetration
@@ -38,40 +40,19 @@ JERK = (400.0, 1200.0)  # m/s³
 SCALE = 0.5  # metres between joints that count as far apart
 
 
-SPACES = {"starter": "starter-space"}  # shipped generators and the motion tower of each
-
-
-class MotionSpace(Protocol):
-    """A frozen motion tower with its statistics."""
-
-    def embed_motion(self, features: Tensor, mask: Tensor | None = None) -> Tensor:
-        """Raw features [N,T,K,6], real frames [N,T] -> unit vectors [N,D]."""
-
-
-class ClipSpace:
-    """The motion tower of a `train_clip` folder."""
-
-    def __init__(self, bundle: ClipBundle) -> None:
-        self.clip, self.mean, self.std = bundle.clip, bundle.mean, bundle.std
-
-    @torch.inference_mode()
-    def embed_motion(self, features: Tensor, mask: Tensor | None = None) -> Tensor:
-        """See `MotionSpace`."""
-        return self.clip.encode_motion((features - self.mean) / self.std, mask)
+Tower = Callable[[Tensor], Tensor]  # raw features [N,T,K,6] -> unit vectors [N,D]
 
 
 class TextJudge:
     """Scores candidates for a prompt.
 
     Args:
-        space: of the generator's text tower; None = no similarity.
+        tower: motions into the space of the generator's text tower; None = no similarity.
         config: weights.
     """
 
-    def __init__(
-        self, space: MotionSpace | None = None, config: SelectionConfig | None = None
-    ) -> None:
-        self.space, self.config = space, config or SelectionConfig()
+    def __init__(self, tower: Tower | None = None, config: SelectionConfig | None = None) -> None:
+        self.tower, self.config = tower, config or SelectionConfig()
 
     def judge(self, candidates: Sequence[Motion], prompt: Tensor) -> ScoreTable:
         """Rank motions of equal length made for one prompt.
@@ -86,9 +67,10 @@ class TextJudge:
             for positions, motion in zip(points, candidates, strict=True)
         ]
         terms = {name: np.array([body[name] for body in bodies]) for name in bodies[0]}
-        if self.space is not None:
+        if self.tower is not None:
             features = torch.stack([encode_features(motion) for motion in candidates])
-            cosine = self.space.embed_motion(features).cpu() @ prompt.detach().float().cpu()
+            with torch.inference_mode():
+                cosine = self.tower(features).cpu() @ prompt.detach().float().cpu()
             terms = {"similarity": cosine.clamp(0, 1).numpy().astype(np.float64)} | terms
         failed = ~np.isfinite(points).all((1, 2, 3))
         return rank(terms, failed.astype(int), distances(points, SCALE), self.config)
@@ -106,27 +88,43 @@ def _margin(value: float, bounds: tuple[float, float]) -> float:
     return share(value, bounds[1], bounds[0])
 
 
-def load_space(name_or_folder: str | Path, embed_dim: int) -> MotionSpace:
-    """A motion tower for a generator of width `embed_dim`.
+def load_tower(name_or_folder: str | Path, text: TextTower) -> MotionTower:
+    """The motion tower of a folder that `train_clip`, `train_text` or `train_audio_tower` wrote.
 
     Args:
-        name_or_folder: what `train_clip` wrote.
+        name_or_folder: of the model, or a shipped shared space.
+        text: the generator's, which it must have been trained with.
 
     Raises:
-        UserError: no such model, another kind, damaged, or of another width.
+        UserError: no such model, another kind, damaged, or trained with another text tower.
     """
     folder = resolve_model(name_or_folder)
-    card = read_card(folder)
-    if card.kind != pretrained.KIND:
+    kind = read_card(folder).kind
+    if kind == shared_space.KIND:
+        space = SharedSpace.from_pretrained(folder)
+        tower, trained_with = space.motion, space.card.text_tower
+    elif kind == pretrained.KIND:
+        bundle = ClipBundle.from_pretrained(folder)
+        tower, trained_with = MotionTower.of(bundle), tower_hash(bundle.clip.text)
+    else:
         raise UserError(
-            f"{folder} holds a {card.kind}, which has no motion tower; name the train_clip folder"
-            " that the generator was trained with"
+            f"{folder} holds a {kind}, which has no motion tower; name the folder of train_clip,"
+            " or of train_text, that the generator's text tower comes from"
         )
-    pretrained.check_embed_dims(embed_dim, card.network.embed_dim, f"the judge in {folder}")
-    return ClipSpace(ClipBundle.from_pretrained(folder))
+    if trained_with != tower_hash(text):
+        raise UserError(
+            f"{folder} was trained with another text tower than the generator's, so prompts and"
+            " motions cannot be compared; name the CLIP folder that the generator was trained from"
+        )
+    return tower
 
 
-def space_of(generator: str | Path) -> str | None:
-    """The shipped motion tower that belongs to a shipped generator; None where there is none."""
-    name = SPACES.get(str(generator))
-    return name if name and (PRETRAINED / name / CARD_FILE).is_file() else None
+def own_tower(text: TextTower) -> MotionTower | None:
+    """The motion tower of the first listed shared space that a text tower belongs to, or None."""
+    own = tower_hash(text)
+    for row in list_models():
+        if row["kind"] == shared_space.KIND:
+            space = SharedSpace.from_pretrained(row["name"])
+            if space.card.text_tower == own:
+                return space.motion
+    return None

@@ -60,9 +60,9 @@ def test_a_pool_of_prompts_holds_every_figure(evaluator: Evaluator) -> None:
         sampler="ddim",
     )
     assert pool.score.shape == (32, 2) and len(told) == 5
-    found = measured(pool, choices(pool.score, 2))
+    found, _ = measured(pool, choices(pool.score, 2))
     assert {figure.key for figure in FIGURES} <= set(found)
-    report = report_of(pool, "32 prompts", {}, {}, 0)
+    report = report_of(pool, 2, "32 prompts", {}, {})
     rows = report["rows"]
     assert list(rows) == ["real", "chance", "best of 1", "best of 2", "worst of 2"]
     assert rows["real"]["obeys"]["value"] > 0.7 > rows["best of 1"]["obeys"]["value"]
@@ -89,10 +89,10 @@ def test_a_pool_of_songs_has_distances_where_there_is_real_motion() -> None:
     real = [nod(np.arange(122) / 30 * tempo / 240, 0.2) for tempo in (80, 90, 100, 110)]
     pool = song_pool(generator, AudioJudge(), pieces, real, settings=settings)
     assert pool.score.shape == (3, 2)
-    report = report_of(pool, "3 songs", {}, {}, 0)
+    report = report_of(pool, 2, "3 songs", {}, {})
     rows = report["rows"]
     assert list(rows) == ["real", "chance", "best of 1", "best of 2", "worst of 2"]
     assert {"fid_g", "fid_k", "hits", "sanity"} <= set(rows["best of 2"])
-    assert rows["real"]["fid_g"]["value"] >= 0 and rows["best of 1"]["fid_g"]["low"] >= 0
+    assert rows["real"]["fid_g"]["value"] >= 0 and rows["best of 1"]["fid_g"]["count"] == 2
     bare = song_pool(generator, AudioJudge(), pieces, [], settings=settings)
-    assert "fid_g" not in report_of(bare, "3 songs", {}, {}, 0)["rows"]["best of 2"]
+    assert "fid_g" not in report_of(bare, 2, "3 songs", {}, {})["rows"]["best of 2"]

@@ -7,8 +7,12 @@ import pytest
 import torch
 from torch import Tensor
 
+from src.shared.config_space import AudioTowerConfig
 from src.shared.errors import UserError
-from src.shared.inference.text_judge import TextJudge, load_space
+from src.shared.files import write_json
+from src.shared.inference.text_judge import TextJudge, Tower, load_tower, own_tower
+from src.shared.model import zoo
+from src.shared.model.audio.shared_space import SharedSpace
 from src.shared.model.checkpoint import ModelCard
 from src.shared.model.clip.core import MotionClip
 from src.shared.model.clip.pretrained import ClipBundle
@@ -33,15 +37,15 @@ def walking(
     return Motion(quaternions, position, np.ones((frames, 2), dtype=np.float32))
 
 
-class Near:
-    """A space whose motions lie at given cosines from the first axis."""
+def near(*cosines: float) -> Tower:
+    """A tower whose motions lie at given cosines from the first axis."""
+    found = torch.tensor(cosines)
 
-    def __init__(self, *cosines: float) -> None:
-        self.cosines = torch.tensor(cosines)
+    def tower(features: Tensor) -> Tensor:
+        assert features.shape == (len(found), 60, 23, 6)
+        return torch.stack([found, (1 - found**2).sqrt()], 1)
 
-    def embed_motion(self, features: Tensor, mask: Tensor | None = None) -> Tensor:
-        assert features.shape[1:] == (60, 23, 6) and mask is None
-        return torch.stack([self.cosines, (1 - self.cosines**2).sqrt()], 1)
+    return tower
 
 
 PROMPT = torch.tensor([1.0, 0.0])
@@ -58,7 +62,7 @@ def test_feet_and_jerk_decide_where_there_is_no_tower() -> None:
 
 
 def test_the_prompt_outweighs_the_feet() -> None:
-    table = TextJudge(Near(0.9, 0.3, -0.5)).judge([walking(slide=0.1), *[walking()] * 2], PROMPT)
+    table = TextJudge(near(0.9, 0.3, -0.5)).judge([walking(slide=0.1), *[walking()] * 2], PROMPT)
     assert table.order.tolist() == [0, 1, 2]
     np.testing.assert_allclose(table.terms["similarity"], [0.9, 0.3, 0.0], atol=1e-6)
 
@@ -66,28 +70,47 @@ def test_the_prompt_outweighs_the_feet() -> None:
 def test_a_motion_that_is_no_number_comes_last() -> None:
     lost = walking()
     lost.root_position[30] = np.nan
-    table = TextJudge(Near(0.99, 0.1)).judge([lost, walking()], PROMPT)
+    table = TextJudge(near(0.99, 0.1)).judge([lost, walking()], PROMPT)
     assert table.order.tolist() == [1, 0] and table.failed.tolist() == [1, 0]
 
 
-def test_the_clip_space_is_the_towers_own(tmp_path: Path) -> None:
-    torch.manual_seed(0)
-    bundle = ClipBundle(
+def bundle(seed: int = 0) -> ClipBundle:
+    torch.manual_seed(seed)
+    return ClipBundle(
         MotionClip(tiny_network()).eval(),
         PromptTokenizer.train(CAPTIONS, 400),
         torch.full((23, 6), 0.1),
         torch.full((23, 6), 0.5),
         ModelCard(kind="motion-clip", name="tiny", trained=True),
     )
-    bundle.save_pretrained(tmp_path)
+
+
+def test_towers_come_from_clip_folders_and_shared_spaces(tmp_path: Path) -> None:
+    made = bundle()
+    made.save_pretrained(tmp_path / "clip")
+    SharedSpace.beside(made, AudioTowerConfig()).save_pretrained(tmp_path / "space")
     features = encode_features(walking())[None]
-    expected = bundle.clip.encode_motion((features - 0.1) / 0.5)
-    space = load_space(tmp_path, 32)
-    torch.testing.assert_close(space.embed_motion(features), expected)
-    with pytest.raises(UserError, match="embed-dim mismatch"):
-        load_space(tmp_path, 64)
+    expected = made.clip.encode_motion((features - 0.1) / 0.5)
+    for folder in ("clip", "space"):
+        tower = load_tower(tmp_path / folder, made.clip.text)
+        torch.testing.assert_close(tower(features), expected)
+        with pytest.raises(UserError, match="another text tower"):
+            load_tower(tmp_path / folder, bundle(1).clip.text)
 
 
-def test_a_folder_without_a_motion_tower_is_refused() -> None:
+def test_a_model_without_a_motion_tower_is_refused() -> None:
     with pytest.raises(UserError, match="no motion tower"):
-        load_space("starter", 192)
+        load_tower("starter", bundle().clip.text)
+
+
+def test_the_shipped_space_is_found_by_its_text_tower(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(zoo, "PRETRAINED", tmp_path)
+    write_json(tmp_path / "evaluator" / "config.json", {"kind": "evaluator", "steps": 1})
+    made = bundle()
+    made.save_pretrained(tmp_path / "clip")
+    assert own_tower(made.clip.text) is None, "a CLIP folder is no shared space"
+    SharedSpace.beside(made, AudioTowerConfig()).save_pretrained(tmp_path / "space")
+    assert own_tower(made.clip.text) is not None
+    assert own_tower(bundle(1).clip.text) is None
