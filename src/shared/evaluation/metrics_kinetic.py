@@ -127,7 +127,7 @@ def _stack(rows: list[tuple[np.ndarray, np.ndarray, float]]) -> Features:
     return Features(np.stack(kinetic), np.stack(geometric), np.array(speed))
 
 
-def kinetic_columns(made: Features, real: Features, *, kinds: int) -> dict[str, float | np.ndarray]:
+def kinetic_columns(made: Features, real: Features, *, kinds: int) -> dict[str, float]:
     """Distances and diversity of both sets of features, and the amount of motion.
 
     Args:
@@ -137,9 +137,9 @@ def kinetic_columns(made: Features, real: Features, *, kinds: int) -> dict[str, 
 
     Returns:
         fid_k, fid_g; fid_k_axes, fid_g_axes along 16 principal axes of the real motions, where
-        there are more features; div_k, div_g; amount [N].
+        there are more features; div_k, div_g; amount.
     """
-    found: dict[str, float | np.ndarray] = {}
+    found: dict[str, float] = {}
     sets = (("k", made.kinetic, real.kinetic), ("g", made.geometric, real.geometric))
     for name, ours, theirs in sets:
         units = np.arange(ours.shape[1]) % kinds if name == "k" else np.zeros(ours.shape[1])
@@ -149,7 +149,7 @@ def kinetic_columns(made: Features, real: Features, *, kinds: int) -> dict[str, 
             axes = Projection.fit(space(theirs), AXES)
             found[f"fid_{name}_axes"] = space.distance(ours, theirs, axes)
         found[f"div_{name}"] = mean_pairwise(space(ours))
-    return found | {"amount": made.amount}
+    return found | {"amount": float(made.amount.mean())}
 
 
 _WARNS = (
@@ -187,7 +187,7 @@ class BodyKinetics:
 
     def compute(
         self, sample: MotionSample, reference: MotionSample, *, seed: int
-    ) -> dict[str, float | np.ndarray]:
+    ) -> dict[str, float]:
         """Nothing for fewer than two motions on either side; no random choice."""
         if min(len(sample), len(reference)) < 2:
             return {}
@@ -216,7 +216,7 @@ class RootKinetics:
 
     def compute(
         self, sample: DanceSample, reference: DanceSample, *, seed: int
-    ) -> dict[str, float | np.ndarray]:
+    ) -> dict[str, float]:
         """Nothing for fewer than two motions on either side; no random choice."""
         if min(len(sample), len(reference)) < 2:
             return {}

@@ -76,25 +76,40 @@ def text_similarity(captions: Sequence[str], groups: Sequence[str] | None = None
     judged model has a hand in: an encoder that calls all texts alike would make every answer
     right. Captions of one label group are translations of the same labels, so they are alike.
     """
-    buckets = [caption_buckets(caption) for caption in captions]
+    different, row = np.unique(list(captions), return_inverse=True)
+    buckets = [caption_buckets(str(caption)) for caption in different]
     known = {bucket: at for at, bucket in enumerate(sorted({b for row in buckets for b in row}))}
-    bags = np.zeros((len(captions), len(known)))
-    for row, found in zip(bags, buckets, strict=True):
-        np.add.at(row, [known[bucket] for bucket in found], 1.0)
-    similarity = (1 + cosines(bags, bags)) / 2
+    bags = np.zeros((len(different), len(known)))
+    for bag, found in zip(bags, buckets, strict=True):
+        np.add.at(bag, [known[bucket] for bucket in found], 1.0)
+    similarity = ((1 + cosines(bags, bags)) / 2)[row][:, row]
     if groups is not None:
         ids = np.unique(list(groups), return_inverse=True)[1]
         similarity[ids[:, None] == ids[None]] = 1.0
     return similarity
 
 
-def dissimilar_subset(similarity: np.ndarray, size: int = SUBSET) -> np.ndarray:
-    """Rows [min(size, N)], ascending, of texts far from each other; similarity [N, N].
+def dissimilar_subset(
+    similarity: np.ndarray, size: int = SUBSET, *, threshold: float = THRESHOLD, seed: int = 0
+) -> np.ndarray:
+    """Rows [at most `size`], ascending, of texts far from each other; similarity [N, N].
 
-    TMR states the choice as a quadratic knapsack and approximates it. Here the text that is most
-    similar to all that are left goes, one after the other, and then one text is exchanged for
-    another as long as that lowers the sum of the similarities. No seed.
+    No two of them are more similar than `threshold`: of such a set a random one stays, so captions
+    from few templates make a smaller subset. TMR states the choice as a quadratic knapsack and
+    approximates it. Here the text that is most similar to all that are left goes, one after the
+    other, and then one text is exchanged for another as long as that lowers the sum of the
+    similarities.
     """
+    unlike: list[int] = []
+    for row in np.random.default_rng(seed).permutation(len(similarity)).tolist():
+        if not (similarity[row, unlike] > threshold).any():
+            unlike.append(row)
+    rows = np.sort(unlike)
+    return rows[_farthest(similarity[np.ix_(rows, rows)], size)]
+
+
+def _farthest(similarity: np.ndarray, size: int) -> np.ndarray:
+    """Rows [min(size, N)], ascending, with a small sum of similarities [N, N]."""
     kept = np.ones(len(similarity), dtype=bool)
     others = similarity - np.diag(np.diag(similarity))
     total = others.sum(1)  # similarity to all that are kept
@@ -149,10 +164,15 @@ def recall_with_threshold(
 
 
 def recall_of_dissimilar(
-    text: np.ndarray, motion: np.ndarray, similarity: np.ndarray, size: int = SUBSET
+    text: np.ndarray,
+    motion: np.ndarray,
+    similarity: np.ndarray,
+    size: int = SUBSET,
+    *,
+    seed: int = 0,
 ) -> BothWays:
     """Protocol (c): protocol (a) among `size` texts far from each other; similarity [N, N]."""
-    rows = dissimilar_subset(similarity, size)
+    rows = dissimilar_subset(similarity, size, seed=seed)
     return recalls(cosines(text[rows], motion[rows]))
 
 
@@ -193,7 +213,9 @@ _SAYS = {
     "cap it below 1, for real motion too",
     "threshold": f"protocol (b): texts with (1 + cosine) / 2 > {THRESHOLD} of their word n-grams, "
     "or of one label group, count as right. Chance is higher here",
-    "dissimilar": f"protocol (c): among {SUBSET} texts far from each other, only the own pair",
+    "dissimilar": f"protocol (c): among {SUBSET} texts far from each other, only the own pair; "
+    "fewer where the captions say fewer things (*pairs*). Which of equals it takes is drawn anew "
+    "in each replication",
     "batches": f"protocol (d): random batches of {BATCH}, only the own pair is right",
 }
 
@@ -216,6 +238,8 @@ class TmrFamily:
             key = f"tmr_{self.protocol}_{way}"
             found += [Column(f"{key}_r{k}", f"{arrow} R@{k}", 3, "high") for k in TOP]
             found.append(Column(f"{key}_medr", f"{arrow} MedR", 1, "low"))
+        if self.protocol == "dissimilar":
+            found.append(Column("tmr_dissimilar_pairs", "pairs", 0))
         return tuple(found)
 
     @property
@@ -245,13 +269,14 @@ class TmrFamily:
         protocols: dict[str, Callable[[], BothWays]] = {
             "all": lambda: recall_of_all(text, motion),
             "threshold": lambda: recall_with_threshold(text, motion, alike()),
-            "dissimilar": lambda: recall_of_dissimilar(text, motion, alike()),
+            "dissimilar": lambda: recall_of_dissimilar(text, motion, alike(), seed=seed),
             "batches": lambda: recall_in_batches(text, motion, seed=seed),
         }
         found = protocols[self.protocol]()
         ways = (found.text_to_motion, found.motion_to_text)
         values = [value for way in ways for value in (*way.recall, way.median_rank)]
-        return dict(zip([column.key for column in self.columns], values, strict=True))
+        keys = [column.key for column in self.columns]
+        return dict(zip(keys, [*values, float(found.num_pairs)], strict=False))
 
 
 FAMILIES = tuple(TmrFamily(protocol) for protocol in PROTOCOLS)
