@@ -11,8 +11,10 @@ import typer
 from src.cli.compare import compare
 from src.cli.evaluate import evaluate
 from src.cli.evaluate_audio import evaluate_audio
+from src.cli.evaluate_memory import evaluate_memory
 from src.cli.evaluate_sanity import evaluate_sanity
 from src.cli.evaluate_selection import evaluate_selection
+from src.cli.evaluate_space import evaluate_space
 from src.cli.export_onnx import export_onnx
 from src.cli.features import features
 from src.cli.generate import generate
@@ -44,8 +46,10 @@ for command in (
     shape_check,
     evaluate,
     evaluate_audio,
+    evaluate_memory,
     evaluate_sanity,
     evaluate_selection,
+    evaluate_space,
     report,
     compare,
     models,

@@ -32,11 +32,13 @@ class PhraseConfig(TrainConfig):
     num_phrases: int | None = Field(None, ge=1)  # take only the first so many
 
 
-def open_phrases(config: PhraseConfig, split: str, num_phrases: int | None) -> MotionPhraseDataset:
+def open_phrases(
+    config: PhraseConfig, split: str, num_phrases: int | None, *, bodies: bool = False
+) -> MotionPhraseDataset:
     """One split of the folder or bucket that `data` names; `synthetic` is made on the spot, once.
 
     Raises:
-        UserError: it cannot be read, or has no phrase of this split.
+        UserError: it cannot be read, has no phrase of this split, or no `bodies`.
     """
     root = config.data
     if root == SYNTHETIC:
@@ -46,6 +48,7 @@ def open_phrases(config: PhraseConfig, split: str, num_phrases: int | None) -> M
         num_phrases=num_phrases,
         target_frames=config.target_frames,
         split=split,
+        bodies=bodies,
         seed=config.seed,
     )
 

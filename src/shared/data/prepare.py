@@ -28,7 +28,7 @@ from safetensors.torch import load_file, save_file
 
 from src.shared.data.captions import CaptionBook, mirror_labels
 from src.shared.data.labels import group_of
-from src.shared.data.records import SPLITS, ClipRecord
+from src.shared.data.records import MIRRORED, SPLITS, ClipRecord
 from src.shared.data.sources import BvhFolder, Skipped, Source, all_items
 from src.shared.data.splits import assign_splits, orbit
 from src.shared.data.worker_pool import run_jobs
@@ -242,7 +242,7 @@ def _records(
                 }
             records.append(
                 ClipRecord(
-                    id=clip["id"] + ("~mirrored" if mirrored else ""),
+                    id=clip["id"] + (MIRRORED if mirrored else ""),
                     source=clip["source"],
                     take=clip["take"],
                     tag=labels.get("action", ""),

@@ -6,6 +6,7 @@ from typing import Any
 from src.shared.motion.motion import Motion
 
 SPLITS = ("train", "val", "test_seen", "test_unseen")
+MIRRORED = "~mirrored"  # ends the id of a mirror image
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,6 +21,7 @@ from src.shared.data.pairing.phrase_motion import Piece, join, lay
 from src.shared.data.pairing.time_warp import Warp, resample, resample_rotations
 from src.shared.data.phrases.layout import StoredObject, write_body
 from src.shared.data.prepared import PreparedData
+from src.shared.data.records import MIRRORED
 from src.shared.files import sha256_file, write_json
 from src.shared.motion.motion import Motion
 from src.shared.motion.root_track import LEFT_CONTACT, ROOT_ROW, encode_features
@@ -38,7 +39,8 @@ def add_bodies(out: Path, entries: Sequence[Entry], data: PreparedData) -> None:
 
     Args:
         out: folder of the pairs; the marks in its `phrases` learn of the body.
-        entries: of phrases, as `pair_song` returns them; `record` gets `body`, `tag`, `caption`.
+        entries: of phrases, as `pair_song` returns them; `record` gets `body`, `tag`,
+            `caption` and `clips`.
         data: the clips.
     """
     records = {record.id: record for record in data.records()}
@@ -51,7 +53,8 @@ def add_bodies(out: Path, entries: Sequence[Entry], data: PreparedData) -> None:
             stored = write_body(out, entry["id"], features.numpy())
             entry["body"] = stored.model_dump()
             write_json(out / "phrases" / f"{entry['id']}.json", entry)
-        longest = max(entry["pair"]["pieces"], key=lambda piece: piece["last"] - piece["first"])
+        parts = entry["pair"]["pieces"]
+        longest = max(parts, key=lambda piece: piece["last"] - piece["first"])
         shown = records[longest["clip"]]
         captions = data.captions(shown)
         spoken = captions.get("en") or next(iter(captions.values()), [])
@@ -59,6 +62,7 @@ def add_bodies(out: Path, entries: Sequence[Entry], data: PreparedData) -> None:
             "body": stored.model_dump(),
             "tag": shown.tag,
             "caption": _one_of(spoken, entry["id"]),
+            "clips": sorted({part["clip"].removesuffix(MIRRORED) for part in parts}),
         }
 
 

@@ -194,6 +194,14 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
             body[:length] = torch.from_numpy(phrase.body[part].astype(np.float32))
         return PhraseItem(motion, audio, torch.arange(self.target_frames) < length, record, body)
 
+    def whole(self, index: int) -> DecodedPhrase | None:
+        """A phrase in its full length; None in quarantine.
+
+        Raises:
+            UserError: too many phrases are bad.
+        """
+        return self._load(self.phrases[index])
+
     def _load(self, record: PhraseRecord) -> DecodedPhrase | None:
         if record.id in self.quarantine:
             return None

@@ -60,6 +60,7 @@ class PhraseRecord(BaseModel, frozen=True):
     Attributes:
         tempo: beats a minute; 0 = unknown.
         tag, caption: what is done, in a word and in a sentence; "" = unknown.
+        clips: that it is made of; a mirror image goes by the name of its original.
         body: None in folders of before.
     """
 
@@ -69,6 +70,7 @@ class PhraseRecord(BaseModel, frozen=True):
     tempo: float = 0.0
     tag: str = ""
     caption: str = ""
+    clips: tuple[str, ...] = ()
     motion: StoredObject
     features: StoredObject
     body: StoredObject | None = None

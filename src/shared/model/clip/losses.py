@@ -8,7 +8,13 @@ from torch import Tensor
 from torch.nn.functional import softplus
 
 
-def multi_positive_info_nce(text: Tensor, motion: Tensor, groups: Tensor, scale: Tensor) -> Tensor:
+def multi_positive_info_nce(
+    text: Tensor,
+    motion: Tensor,
+    groups: Tensor,
+    scale: Tensor,
+    left_out: Tensor | None = None,
+) -> Tensor:
     """Symmetric InfoNCE where every pair of one label group is positive and never negative.
 
     For a row i with positives P and negatives N, averaged over p in P:
@@ -20,6 +26,7 @@ def multi_positive_info_nce(text: Tensor, motion: Tensor, groups: Tensor, scale:
         motion: [B, D] unit-norm; row i belongs to text row i.
         groups: [B] long; equal numbers mean equal labels.
         scale: [] inverse temperature.
+        left_out: [B, B] bool, symmetric, pairs of different groups that are no negatives either.
 
     Returns:
         Scalar loss; 0 when the batch holds one group only.
@@ -27,12 +34,14 @@ def multi_positive_info_nce(text: Tensor, motion: Tensor, groups: Tensor, scale:
     with torch.autocast(text.device.type, enabled=False):
         similarity = scale * (text.float() @ motion.float().T)  # [B, B]
     positive = groups[:, None] == groups[None, :]  # [B, B]
-    return 0.5 * (_one_way(similarity, positive) + _one_way(similarity.T, positive))
+    related = positive if left_out is None else positive | left_out
+    one_way = _one_way(similarity, positive, related)
+    return 0.5 * (one_way + _one_way(similarity.T, positive, related.T))
 
 
-def _one_way(similarity: Tensor, positive: Tensor) -> Tensor:
+def _one_way(similarity: Tensor, positive: Tensor, related: Tensor) -> Tensor:
     floor = torch.finfo(similarity.dtype).min / 2  # finite: an empty row keeps finite gradients
-    negatives = similarity.masked_fill(positive, floor).logsumexp(dim=1, keepdim=True)  # [B, 1]
+    negatives = similarity.masked_fill(related, floor).logsumexp(dim=1, keepdim=True)  # [B, 1]
     losses = softplus(negatives - similarity) * positive  # [B, B]
     return (losses.sum(dim=1) / positive.sum(dim=1)).mean()
 
@@ -43,10 +52,16 @@ def cosine_alignment(text: Tensor, motion: Tensor) -> Tensor:
 
 
 def clip_loss(
-    text: Tensor, motion: Tensor, groups: Tensor, scale: Tensor, *, cosine_weight: float
+    text: Tensor,
+    motion: Tensor,
+    groups: Tensor,
+    scale: Tensor,
+    *,
+    cosine_weight: float,
+    left_out: Tensor | None = None,
 ) -> dict[str, Tensor]:
     """Total loss and its two terms: `loss`, `contrastive`, `cosine` (ruling 20)."""
-    contrastive = multi_positive_info_nce(text, motion, groups, scale)
+    contrastive = multi_positive_info_nce(text, motion, groups, scale, left_out)
     cosine = cosine_alignment(text, motion)
     return {
         "loss": contrastive + cosine_weight * cosine,

@@ -65,6 +65,17 @@ def test_positives_are_never_pushed_apart():
     assert towards < pushed.item()
 
 
+@given(seed=st.integers(0, 100))
+def test_what_is_left_out_is_neither_right_nor_wrong(seed: int):
+    text, motion = embeddings(seed, 5)
+    groups, scale = torch.arange(5), torch.tensor(5.0)
+    left_out = torch.zeros(5, 5, dtype=torch.bool)
+    left_out[0, 1:] = left_out[1:, 0] = True  # the first is kin to all others
+    found = multi_positive_info_nce(text, motion, groups, scale, left_out)
+    rest = multi_positive_info_nce(text[1:], motion[1:], groups[1:], scale)
+    assert torch.allclose(found, rest * 4 / 5, atol=1e-5)  # the first adds nothing
+
+
 def test_cosine_and_total():
     text, motion = embeddings(2, 5)
     assert cosine_alignment(text, text).item() == pytest.approx(0, abs=1e-6)

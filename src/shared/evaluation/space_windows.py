@@ -1,0 +1,150 @@
+"""Windows of paired phrases, a few bars each: sound, the body that moves to it, and their kin.
+
+Letters: B windows, C = 167 rows of sound, T frames, D embed dim.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from src.shared.data.phrases.dataset import MotionPhraseDataset
+from src.shared.data.phrases.layout import PhraseRecord
+from src.shared.memory.phrases import cut_at_bars
+from src.shared.model.audio.conditioning import with_phase_rows
+
+Embed = Callable[[Tensor, Tensor], Tensor]
+
+BATCH = 64
+
+
+@dataclass(frozen=True, eq=False)
+class Window:
+    """A few bars of a phrase.
+
+    Attributes:
+        phrase: its number in `Windows.records`.
+        audio: condition [167,T] float32.
+        body: raw features [T,23,6] float16.
+    """
+
+    phrase: int
+    audio: np.ndarray
+    body: np.ndarray
+
+    @property
+    def num_frames(self) -> int:
+        """T."""
+        return len(self.body)
+
+
+@dataclass(frozen=True, eq=False)
+class Windows:
+    """All windows of a split, by phrase.
+
+    Attributes:
+        items: windows.
+        records: the phrases they are cut from.
+        of_phrase: numbers of each phrase's windows.
+    """
+
+    items: list[Window]
+    records: list[PhraseRecord]
+    of_phrase: list[list[int]]
+
+    @classmethod
+    def cut(
+        cls,
+        dataset: MotionPhraseDataset,
+        *,
+        bars: int,
+        step: int | None = None,
+        min_frames: int,
+        max_frames: int,
+    ) -> "Windows":
+        """Cut every good phrase at its bars.
+
+        Args:
+            dataset: with bodies.
+            bars: length of a window.
+            step: bars from one window to the next; None = `bars`.
+            min_frames, max_frames: of a window; longer ones lose their end.
+        """
+        items: list[Window] = []
+        records: list[PhraseRecord] = []
+        of_phrase: list[list[int]] = []
+        for number, record in enumerate(dataset.phrases):
+            phrase = dataset.whole(number)
+            if phrase is None:
+                continue
+            assert phrase.body is not None, "open the data set with bodies=True"
+            audio = with_phase_rows(torch.from_numpy(phrase.audio)[None])[0].numpy()
+            first = len(items)
+            for start, stop in cut_at_bars(
+                phrase.phase, bars=bars, step=step, min_frames=min_frames
+            ):
+                part = slice(start, min(stop, start + max_frames))
+                items.append(Window(len(records), audio[:, part], phrase.body[part]))
+            if len(items) > first:
+                records.append(record)
+                of_phrase.append(list(range(first, len(items))))
+        return cls(items, records, of_phrase)
+
+    def sounds(self, index: Sequence[int]) -> tuple[Tensor, Tensor]:
+        """Conditions [B,167,T] of windows, padded with zeros, and their mask [B,T]."""
+        return padded([torch.from_numpy(self.items[i].audio.T) for i in index], time_first=False)
+
+    def bodies(self, index: Sequence[int]) -> tuple[Tensor, Tensor]:
+        """Raw features [B,T,23,6] of windows, padded with zeros, and their mask [B,T]."""
+        return padded([torch.from_numpy(self.items[i].body).float() for i in index])
+
+    def embed_sounds(self, embed: Embed, device: torch.device | str = "cpu") -> Tensor:
+        """Every window's sound through `embed(condition, mask)`: [N,D] float32 on the CPU."""
+        return self._embedded(embed, self.sounds, device)
+
+    def embed_bodies(self, embed: Embed, device: torch.device | str = "cpu") -> Tensor:
+        """Every window's body through `embed(features, mask)`: [N,D] float32 on the CPU."""
+        return self._embedded(embed, self.bodies, device)
+
+    @torch.no_grad()
+    def _embedded(
+        self,
+        embed: Embed,
+        read: Callable[[Sequence[int]], tuple[Tensor, Tensor]],
+        device: torch.device | str,
+    ) -> Tensor:
+        order = sorted(range(len(self.items)), key=lambda n: self.items[n].num_frames)
+        parts = []
+        for rows in _chunks(order, BATCH):  # of like length, so that little is padding
+            values, mask = read(rows)
+            parts.append(embed(values.to(device), mask.to(device)).float().cpu())
+        found = torch.cat(parts)
+        return found[torch.tensor(order).argsort()]
+
+
+def padded(parts: Sequence[Tensor], *, time_first: bool = True) -> tuple[Tensor, Tensor]:
+    """[T,...] each -> [B,T,...] with zeros at the ends and mask [B,T]; or [B,C,T] of [T,C]."""
+    lengths = torch.tensor([len(part) for part in parts])
+    values = torch.nn.utils.rnn.pad_sequence(list(parts), batch_first=True)
+    mask = torch.arange(values.shape[1]) < lengths[:, None]
+    return values if time_first else values.transpose(1, 2), mask
+
+
+def _chunks(rows: Sequence[int], size: int) -> Iterator[Sequence[int]]:
+    for start in range(0, len(rows), size):
+        yield rows[start : start + size]
+
+
+def related(records: Sequence[PhraseRecord]) -> np.ndarray:
+    """Which phrases [N,N] bool are of one song or share a clip; each is related to itself."""
+    songs = np.array([record.song or record.id for record in records])
+    same = songs[:, None] == songs[None]
+    owners: dict[str, list[int]] = {}
+    for number, record in enumerate(records):
+        for clip in record.clips:
+            owners.setdefault(clip, []).append(number)
+    for rows in owners.values():
+        same[np.ix_(rows, rows)] = True
+    return same
