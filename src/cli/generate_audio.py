@@ -75,7 +75,7 @@ def produce_song(
     from src.shared.device import set_threads
     from src.shared.inference.audio_judge import AudioJudge
     from src.shared.inference.runtime import load_runtime
-    from src.shared.inference.song_generator import SongMotions, heard
+    from src.shared.inference.song_generator import SongMotions, heard, of_song
     from src.shared.inference.song_memory import remembering
     from src.shared.inference.song_sampler import SampleSettings, SongSampler
 
@@ -90,7 +90,7 @@ def produce_song(
     clock.lap("listen")
     settings = SampleSettings(**wanted["sampling"])
     with progress_bar(condition.shape[1]) as progress:
-        sampler = SongSampler(loaded, settings)
+        sampler = SongSampler(loaded, of_song(settings, song))
         recall = remembered and remembering(*remembered, sampler, condition, phase)
         made = sampler.sample(condition, phase=phase, style=style, progress=progress, recall=recall)
     judge = AudioJudge(shipped_bands(model) if runtime == "torch" else None)

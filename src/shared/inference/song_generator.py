@@ -4,7 +4,7 @@ Letters: T frames.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Self
 
@@ -86,6 +86,7 @@ class SongGenerator:
         """
         song = analyse(path, meter=meter)
         condition, phase = heard(song, seconds)
+        settings = of_song(settings or SampleSettings(), song)
         made = self.generate(
             condition, phase=phase, style=style, settings=settings, progress=progress
         )
@@ -100,7 +101,18 @@ class SongGenerator:
     ) -> Iterator[list[MotionTrajectory]]:
         """Pieces that follow each other, one a sample, as soon as they are settled."""
         condition, phase = heard(song, None)
-        yield from SongSampler(self.model, settings).stream(condition, phase=phase, style=style)
+        sampler = SongSampler(self.model, of_song(settings or SampleSettings(), song))
+        yield from sampler.stream(condition, phase=phase, style=style)
+
+
+def of_song(settings: SampleSettings, song: Song) -> SampleSettings:
+    """The settings with noise of the song's own, the same whenever it is played.
+
+    The sound sets the beat and little of the path: with one seed for all, every song would walk
+    the same way.
+    """
+    mixed = np.random.SeedSequence((settings.seed, int(song.sha256, 16)))
+    return replace(settings, seed=int(mixed.generate_state(1)[0]))
 
 
 def heard(song: Song, seconds: float | None) -> tuple[torch.Tensor, np.ndarray | None]:

@@ -29,6 +29,7 @@ from src.shared.motion.trajectory import CHANNELS, PHASE, STYLE, MotionTrajector
 from src.shared.motion.window import WindowJoiner, encode_window
 
 SPARE = 8  # frames at the end that are made and cut off: no neighbour to learn from (ruling 6)
+TAIL = 2  # of them, what the last frames of a song are derived from
 Progress = Callable[[int, int], None]  # frames done, frames in all
 Recall = Callable[[int, int], MemoryCondition]  # first frame and length of a window, spare included
 
@@ -144,7 +145,11 @@ class SongSampler:
             windows = self._window(
                 condition[:, start:end], known, values, tracked, draws, memory, shown=shown
             )
+            tail = TAIL if end == num_frames else 0
+            windows = [(rows[:, : end - start + tail], first) for rows, first in windows]
             if not joiners:
+                # a path starts at the origin and faces +Z (ruling 8), whatever the network made
+                windows = [(reset_window(rows), first) for rows, first in windows]
                 shared = min(self.settings.overlap, num_frames - 1)
                 joiners = [
                     WindowJoiner(shared, phase=first if tracked is None else tracked[0])
@@ -154,7 +159,7 @@ class SongSampler:
             before = [window[:, -self.settings.overlap :] for window, _ in windows]
             if progress is not None:
                 progress(end, num_frames)
-        yield [joiner.finish() for joiner in joiners]
+        yield [joiner.finish(spare=TAIL) for joiner in joiners]
 
     def windows(self, num_frames: int) -> list[tuple[int, int]]:
         """First frame and length of each window, spare frames included: what `recall` is asked."""
@@ -201,7 +206,10 @@ class SongSampler:
         *,
         shown: int,
     ) -> list[tuple[np.ndarray, float]]:
-        """Window [25,W] and first phase of each sample; `shown` first frames are known."""
+        """Window [25,W] with its spare frames, and first phase, of each sample.
+
+        `shown` first frames are known.
+        """
         model, frames = self.model, condition.shape[1]
         size, _, length = known.shape
         heard = F.pad(condition[None], (0, length - frames), mode="replicate")
@@ -213,14 +221,13 @@ class SongSampler:
         start = None if tracked is None else torch.full((size,), tracked[0] % 1.0).to(x_0)
         decoded = model.decode(x_0, start)
         trajectories = decoded.trajectory.cpu().numpy()
-        phases = decoded.phase_unwrapped[:, :frames].cpu().double().numpy()
+        phases = decoded.phase_unwrapped.cpu().double().numpy()
         windows = []
         for trajectory, own in zip(trajectories, phases, strict=True):
             rows = trajectory.T.copy()
             carry_on(rows, shown)  # before the end is cut off: a last window may be a frame longer
-            rows = rows[:, :frames]
-            bars = own if tracked is None else tracked
-            rows[PHASE] = np.diff(bars, append=2 * bars[-1] - bars[-2])
+            steps = np.diff(own if tracked is None else tracked)
+            rows[PHASE] = np.pad(steps, (0, length - len(steps)), mode="edge")
             windows.append((rows, float(own[0])))
         return windows
 

@@ -185,10 +185,14 @@ class WindowJoiner:
             self._pending = before.followed_by(blended).followed_by(pose[self.overlap :])
         return self._release(len(self._pending) - self.overlap - 2, spare=2)
 
-    def finish(self) -> MotionTrajectory:
-        """Return the frames still held back; call it once, after the last window."""
+    def finish(self, *, spare: int = 0) -> MotionTrajectory:
+        """Return the frames still held back; call it once, after the last window.
+
+        Args:
+            spare: so many last frames are only what the others are derived from (ruling 6).
+        """
         assert self._pending is not None, "finish follows at least one window"
-        return self._release(len(self._pending), spare=0)
+        return self._release(len(self._pending) - spare, spare=spare)
 
     def _release(self, num_frames: int, *, spare: int) -> MotionTrajectory:
         """The first pending frames, derived with the help of `spare` frames that stay."""

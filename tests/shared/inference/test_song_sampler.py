@@ -7,6 +7,7 @@ import torch
 from src.shared.errors import UsageError
 from src.shared.inference.song_sampler import SPARE, SampleSettings, SongSampler, spans
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
+from src.shared.motion.trajectory_math import heading_of
 from tests.shared.model.audio.tiny_audio import awake, network_config, walk
 
 WINDOW, OVERLAP = 64, 12
@@ -56,3 +57,12 @@ def test_no_seam_jumps_however_short_the_last_window(sampler: SongSampler, more:
 def test_a_window_that_fits_no_overlap_is_refused() -> None:
     with pytest.raises(UsageError, match="overlap"):
         SampleSettings(window=20, overlap=20)
+
+
+def test_the_end_is_derived_like_the_rest_and_the_start_is_the_origin(sampler: SongSampler) -> None:
+    made = sampler.sample(sound(100))[0]
+    assert np.abs(made.acceleration[-2:]).min(axis=1).max() > 0  # ruling 6: not degenerate
+    assert not np.array_equal(made.velocity[-1], made.velocity[-2])
+    np.testing.assert_allclose(made.position[0, [0, 2]], 0, atol=1e-6)  # ruling 8
+    heading = heading_of(torch.as_tensor(made.quaternion[0], dtype=torch.float64))
+    assert float(heading) == pytest.approx(0, abs=1e-5)
