@@ -9,7 +9,6 @@ rests, unless `base-learning-rate` is set: without a memory the model stays what
 Letters: B batch, T frames.
 """
 
-import math
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -27,14 +26,17 @@ from src.shared.data.phrases.dataset import PhraseBatch
 from src.shared.errors import UsageError
 from src.shared.formats.trajectory_registry import write_trajectory
 from src.shared.inference.audio_condition import AudioCondition
-from src.shared.inference.song_memory import as_condition, open_memory, remembering
+from src.shared.inference.song_memory import (
+    as_condition,
+    bars_of_sound,
+    open_memory,
+    remembering,
+)
 from src.shared.inference.song_sampler import SongSampler
 from src.shared.memory.context import retrieve
 from src.shared.memory.service import MPMService
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.model.audio.conditioning import BEAT, with_phase_rows
 from src.shared.model.audio.memory_conditioning import MemoryCondition, known_frames
-from src.shared.motion.trajectory_math import unwrap_phase
 from src.train.audio_folder import network_of
 from src.train.launch import as_overrides, resume_command, short_errors
 from src.train.train_audio import AudioBatch, AudioTask, TrainAudioConfig
@@ -51,13 +53,6 @@ class TrainMemoryConfig(TrainAudioConfig):
     part: MemoryConditionConfig = MemoryConditionConfig()  # sizes of what is added
     memory_dropout: float = Field(0.1, ge=0, lt=1)  # windows that remember nothing
     base_learning_rate: float = Field(0.0, ge=0)  # of what was there before; 0 = it rests
-
-
-def bars_of_sound(audio: Tensor) -> Tensor:
-    """Unwrapped bars [B,T] that the phase rows of sound [B,C,T] tell; 0 where unknown."""
-    cosine, sine = with_phase_rows(audio)[:, BEAT][:, 2:].double().cpu().unbind(dim=1)
-    turns = torch.atan2(sine, cosine) / (2 * math.pi)  # [B,T]
-    return torch.from_numpy(unwrap_phase(turns.numpy()))
 
 
 class Forgetful(nn.Module):

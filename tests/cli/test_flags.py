@@ -37,6 +37,10 @@ FLAGS = {
         " --json --model --num-songs --out --quick --replications --sampler --seed --song-seconds"
         " --songs --steps --tell-meter --threads --track-seconds"
     ),
+    "evaluate-memory": (
+        "--data --device --guidance-scale --json --memory --model --num-phrases --num-songs --out"
+        " --sampler --seed --shares --song-seconds --space --splits --steps --threads --top-k"
+    ),
     "evaluate-sanity": (
         "--data --decoder-checkpoint --device --diffusion-checkpoint --json --model --num-frames"
         " --num-samples --num-steps --output-dir --quick --seed --threads"

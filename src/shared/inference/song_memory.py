@@ -3,10 +3,12 @@
 A window asks with the sound it covers, its bars and its length; sound, not motion, so all of a
 song's windows may ask at once.
 
-Letters: C rows of a condition, T frames of a song, W of a window, D width of the shared space.
+Letters: B windows, C rows of a condition, T frames of a song, W of a window, D width of the shared
+space.
 """
 
 import asyncio
+import math
 from collections.abc import Sequence, Set
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,8 +23,10 @@ from src.shared.memory.build import Space
 from src.shared.memory.context import Memory
 from src.shared.memory.index import MemoryIndex
 from src.shared.memory.service import MPMService
+from src.shared.model.audio.conditioning import BEAT, with_phase_rows
 from src.shared.model.audio.memory_conditioning import MemoryCondition
 from src.shared.model.audio.shared_space import SharedSpace
+from src.shared.motion.trajectory_math import unwrap_phase
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +62,13 @@ def open_memory(folder: str | Path, space: str | Path = "") -> tuple[MemoryIndex
 def as_condition(memory: Memory) -> MemoryCondition:
     """An answer as the network takes it."""
     return MemoryCondition(memory.context, memory.priors, memory.confidence)
+
+
+def bars_of_sound(audio: Tensor) -> Tensor:
+    """Unwrapped bars [B,T] that the phase rows of sound [B,C,T] tell; 0 where unknown."""
+    cosine, sine = with_phase_rows(audio)[:, BEAT][:, 2:].double().cpu().unbind(dim=1)
+    turns = torch.atan2(sine, cosine) / (2 * math.pi)  # [B,T]
+    return torch.from_numpy(unwrap_phase(turns.numpy()))
 
 
 def bars_of_window(bars: np.ndarray, start: int, length: int) -> np.ndarray:

@@ -1,0 +1,125 @@
+"""`evaluate-memory`: does what the model remembers help it?"""
+
+from pathlib import Path
+from typing import Annotated, Any, TypeVar
+
+import typer
+
+from src.cli import options
+from src.cli.evaluate_sanity import check_limits, check_pairs
+from src.cli.guard import complain
+from src.shared.errors import UsageError
+
+Number = TypeVar("Number", int, float)
+LIMITS = {"num_phrases": (2, 10_000), "num_songs": (2, 10_000), "song_seconds": (4.0, 600.0)}
+
+
+def evaluate_memory(
+    model: Annotated[str, typer.Option(help="Folder of train_memory, or a shipped name.")],
+    memory: Annotated[Path, typer.Option(help="Folder that `memory build` wrote.")],
+    data: Annotated[
+        str, typer.Option(help="Folder or bucket of pairs, held back from training in part.")
+    ],
+    splits: Annotated[str, typer.Option(help="Its held-back splits, with commas.")] = "test,val",
+    space: Annotated[
+        str, typer.Option(help="Where the memory's shared space is now, if it moved.")
+    ] = "",
+    num_phrases: Annotated[int, typer.Option(help="Held-back phrases, at most.")] = 120,
+    num_songs: Annotated[int, typer.Option(help="Held-out synthetic songs.")] = 24,
+    song_seconds: Annotated[float, typer.Option(help="Of each of them.")] = 12.0,
+    shares: Annotated[
+        str, typer.Option(help="Smaller memories: shares of the songs, with commas.")
+    ] = "0.1,0.3",
+    top_k: Annotated[str, typer.Option(help="Other numbers of hits, with commas.")] = "1,32",
+    steps: options.Steps = None,
+    sampler: options.Sampler = None,
+    guidance_scale: options.GuidanceScale = None,
+    seed: Annotated[int, typer.Option(help="Of songs, noise and what is hidden.")] = 0,
+    device: options.Device = "auto",
+    threads: options.Threads = None,
+    out: Annotated[Path | None, typer.Option(help="Report file: .json, or .md for tables.")] = None,
+    json: options.Json = False,
+) -> None:
+    """Measure a model with its memory, without it, and with randomly retrieved memory.
+
+    \b
+    Example:
+      motion-tools evaluate-memory --model runs/memory-audio --memory data/memory --data data/pairs
+    """
+    options.check_ranges(steps=steps, guidance_scale=guidance_scale, seed=seed, threads=threads)
+    amount: dict[str, Any] = {
+        "num_phrases": num_phrases,
+        "num_songs": num_songs,
+        "song_seconds": song_seconds,
+    }
+    check_limits(amount, LIMITS)
+    check_pairs(data)
+    found_shares = numbers("--shares", shares, float)
+    if not all(0 < share <= 1 for share in found_shares):
+        raise UsageError(f"--shares {shares}: each must lie between 0 and 1")
+    top_ks = numbers("--top-k", top_k, int)
+    if not all(k >= 1 for k in top_ks):
+        raise UsageError(f"--top-k {top_k}: each must be 1 or more")
+    if out is not None:
+        options.check_folder("--out", out.parent)
+
+    from src.cli.memory import load_settings
+    from src.shared.device import set_threads
+    from src.shared.evaluation import memory_harness
+    from src.shared.inference.mpms_sampler import require_memory
+    from src.shared.inference.runtime import load_trained
+    from src.shared.inference.song_memory import open_memory
+
+    set_threads(threads)
+    loaded = load_trained(model, device)
+    require_memory(loaded.config, model)
+    index, found_space = open_memory(memory, space)
+    report = memory_harness.evaluate_memory(
+        loaded,
+        index,
+        found_space,
+        data=data,
+        config=load_settings(folder=str(memory)),
+        settings=memory_harness.MemorySettings(
+            splits=tuple(splits.split(",")),
+            shares=found_shares,
+            top_ks=top_ks,
+            seed=seed,
+            **amount,
+        ),
+        sampling={"steps": steps, "sampler": sampler, "guidance_scale": guidance_scale},
+        about={"model": model, "data": data, "threads": threads},
+        progress=lambda text: complain(f"evaluate-memory: {text}"),
+    )
+    show(report, out, json=json)
+
+
+def numbers(flag: str, text: str, kind: type[Number]) -> tuple[Number, ...]:
+    """Numbers with commas between them; none for an empty text.
+
+    Raises:
+        UsageError: one is no number.
+    """
+    try:
+        return tuple(kind(part) for part in text.split(",") if part.strip())
+    except ValueError as error:
+        raise UsageError(f"{flag} {text}: give numbers with commas between them") from error
+
+
+def show(report: dict[str, Any], out: Path | None, *, json: bool) -> None:
+    """The report in a file if there is one to be, and on stdout as tables or JSON."""
+    import json as encoder
+
+    from src.shared.evaluation.report import as_markdown, heading, tables
+    from src.shared.files import write_json, write_text
+
+    said = [
+        f"{name}: against no memory {words['without']}, against a random one {words['random']}"
+        for name, words in report["verdict"].items()
+    ]
+    text = as_markdown("Memory", [*heading(report), *said], tables(report))
+    if out is not None and out.suffix == ".md":
+        write_text(out, text)
+    elif out is not None:
+        write_json(out, report)
+    print(encoder.dumps(report, indent=1, ensure_ascii=False) if json else text)
