@@ -15,7 +15,7 @@ from src.shared.evaluation import manifest
 from src.shared.evaluation.bootstrap import MIN_PAIRS, paired_bootstrap
 from src.shared.evaluation.engine import motion_values, part_name
 from src.shared.evaluation.families import Column
-from src.shared.evaluation.grids import Grid, GridRow, plain
+from src.shared.evaluation.grids import Grid, GridRow, plain, report_data
 from src.shared.evaluation.parts import Part, Parts, read_json
 from src.shared.evaluation.report import grids
 
@@ -86,14 +86,7 @@ def compare(a: Side, b: Side, *, seed: int = 0) -> dict[str, Any]:
         "model_hash_a": ours["about"].get("model_hash"),
         "model_hash_b": theirs["about"].get("model_hash"),
     }
-    return {
-        "branch": first["branch"],
-        "about": plain(about),
-        "settings": {},
-        "tables": [table.as_dict() for table in tables],
-        "samples": [],
-        "pictures": [],
-    }
+    return report_data(first["branch"], about, {}, tables, [], title="Comparison of two reports")
 
 
 def _difference(grid: Grid, a: Side, b: Side, seed: int) -> Grid | None:

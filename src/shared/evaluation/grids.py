@@ -86,6 +86,8 @@ def report_data(
     tables: Sequence[Grid],
     samples: Sequence[Mapping[str, Any]],
     pictures: Sequence[Mapping[str, Any]] = (),
+    *,
+    title: str = "",
 ) -> dict[str, Any]:
     """A whole report as plain data: what report.json holds.
 
@@ -95,10 +97,12 @@ def report_data(
         settings: amounts and seeds.
         samples: motions to be looked at, see `Keeper`.
         pictures: `file` in the report's folder and `title` of each.
+        title: over the pages; the model's name.
     """
     return {
         "format-version": FORMAT_VERSION,
         "branch": branch,
+        "title": title or f"Evaluation of {about.get('model', 'motions')}",
         "about": plain(about),
         "settings": plain(settings),
         "tables": [grid.as_dict() for grid in tables],

@@ -21,7 +21,6 @@ from src.shared.evaluation.report import (
     heading,
     intervals_note,
     number,
-    title_of,
 )
 from src.shared.evaluation.svg_plots import grid_plots
 from src.shared.formats.html import write_html
@@ -83,7 +82,7 @@ def html_page(report: dict[str, Any], folder: Path | None) -> str:
         f'<a href="#table-{index}">{escape(grid.title.split(" (")[0])}</a>'
         for index, grid in enumerate(tables)
     )
-    title = escape(title_of(report))
+    title = escape(report["title"])
     return (
         f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'

@@ -45,12 +45,6 @@ def cell_text(cell: Cell, column: Column) -> str:
     return number(cell, column.decimals)
 
 
-def title_of(report: dict[str, Any]) -> str:
-    """The heading of a report."""
-    model = report["about"].get("model")
-    return f"Evaluation of {model}" if model else "Evaluation"
-
-
 def grids(report: dict[str, Any]) -> list[Grid]:
     """The tables of a report as data."""
     return [Grid.from_dict(table) for table in report["tables"]]
@@ -106,7 +100,7 @@ def intervals_note(report: dict[str, Any]) -> str:
 def markdown(report: dict[str, Any]) -> str:
     """The report as a Markdown text."""
     lines = [*heading(report), intervals_note(report)]
-    return as_markdown(title_of(report), filter(None, lines), tables(report)) + _worst(report)
+    return as_markdown(report["title"], filter(None, lines), tables(report)) + _worst(report)
 
 
 def _worst(report: dict[str, Any]) -> str:
