@@ -1,8 +1,8 @@
 """Search by an index library (faiss), for memories too large to be compared with phrase by phrase.
 
-Keys are sorted into cells by k-means and stored as float16; a query looks at the nearest cells,
-and what comes out is scored anew with the exact keys. So scores are those of exact search, and a
-good phrase can be missed. `benchmarks/memory_index.py` says from which size this pays.
+Keys are sorted into cells by k-means, and a query looks at the nearest cells only: scores are
+those of exact search, but a good phrase can be missed. A table holds its own copy of the keys.
+`benchmarks/memory_index.py` says from which size this pays.
 
 Letters: N phrases, D width of the shared space, B queries, k hits.
 """
@@ -26,14 +26,12 @@ from src.shared.memory.index import (
     Hits,
     Key,
     MemoryIndex,
-    phase_cost,
 )
 
 SIDES: tuple[Key, ...] = ("audio", "motion")
-SAMPLE = 64  # keys a cell that k-means learns from
-ITERATIONS = 8
-PROBES = 48  # cells a query looks at
-WIDER = 2  # so many times k hits are scored anew
+SAMPLE = 40  # keys a cell that k-means learns from
+ITERATIONS = 6
+PROBES, LEAST = 0.15, 32  # share of the cells a query looks at, and how many at least
 
 
 def library_installed() -> bool:
@@ -73,24 +71,22 @@ class LibraryIndex(MemoryIndex):
         bars = torch.zeros(len(query)) if phase is None else phase.float()
         asked = torch.cat((query.float(), weight / 2 * _circle(bars)), 1).numpy()
         if banned is None:
-            found = self._ask(key, asked, top_k)
+            score, index = self._ask(key, asked, top_k)
         else:
             rows = zip(asked, (~banned).numpy(), strict=True)
-            found = np.concatenate([self._ask(key, row[None], top_k, songs) for row, songs in rows])
-        index = torch.from_numpy(found).sort(1).values  # of equal scores the first phrase wins
-        known = index != NOTHING
-        score = torch.einsum("bd,bkd->bk", query.float(), self.keys(key)[index.clamp(min=0)])
-        starts = self.start_phase[index.clamp(min=0)]
-        for row in range(len(query)):
-            score[row] -= phase_cost(bars[row : row + 1], starts[row], weight)[0]
-        score = score.masked_fill(~known, -torch.inf)
-        order = score.sort(dim=1, descending=True, stable=True)
-        return Hits(index.gather(1, order.indices)[:, :top_k], order.values[:, :top_k])
+            parts = [self._ask(key, row[None], top_k, songs) for row, songs in rows]
+            score, index = (torch.cat(part) for part in zip(*parts, strict=True))
+        index, order = index.sort(
+            dim=1, stable=True
+        )  # of equal scores the first phrase comes first
+        score = (score.gather(1, order) - weight / 2).masked_fill(index == NOTHING, -torch.inf)
+        score, order = score.sort(dim=1, descending=True, stable=True)
+        return Hits(index.gather(1, order), score)
 
     def _ask(
         self, key: Key, queries: np.ndarray, top_k: int, songs: np.ndarray | None = None
-    ) -> np.ndarray:
-        """Candidates [B, WIDER k] of queries [B,D+2] that may find the same songs [S].
+    ) -> tuple[Tensor, Tensor]:
+        """Scalar products and phrases [B,k] of queries [B,D+2] that may find the same songs [S].
 
         All cells are looked at where the nearest hold too few.
         """
@@ -103,24 +99,22 @@ class LibraryIndex(MemoryIndex):
             bits = np.packbits(allowed, bitorder="little")
             parameters.sel = faiss.IDSelectorBitmap(len(allowed), faiss.swig_ptr(bits))
             enough = min(top_k, int(allowed.sum()))
-        for probes in (PROBES, table.nlist):
+        for probes in (max(round(PROBES * table.nlist), LEAST), table.nlist):
             parameters.nprobe = min(probes, table.nlist)
-            _, found = table.search(queries, WIDER * top_k, params=parameters)
+            score, found = table.search(queries, top_k, params=parameters)
             if (found != NOTHING).sum(1).min() >= enough:
                 break
-        return np.asarray(found)
+        return torch.from_numpy(score), torch.from_numpy(found)
 
 
 def make_table(index: MemoryIndex, key: Key) -> Any:
-    """The faiss index of one side: about 4 √N cells."""
+    """The faiss index of one side: 2 √N cells, less for few phrases."""
     import faiss
 
     points = torch.cat((index.keys(key), _circle(index.start_phase)), 1).numpy()
-    cells = max(1, min(round(4 * len(index) ** 0.5), len(index) // SAMPLE))
+    cells = max(1, min(round(2 * len(index) ** 0.5), len(index) // SAMPLE))
     width, product = points.shape[1], faiss.METRIC_INNER_PRODUCT
-    table = faiss.IndexIVFScalarQuantizer(
-        faiss.IndexFlat(width, product), width, cells, faiss.ScalarQuantizer.QT_fp16, product
-    )
+    table = faiss.IndexIVFFlat(faiss.IndexFlat(width, product), width, cells, product)
     table.cp.max_points_per_centroid = SAMPLE
     table.cp.min_points_per_centroid = 1
     table.cp.niter, table.cp.seed = ITERATIONS, 0
