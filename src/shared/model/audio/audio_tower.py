@@ -1,19 +1,55 @@
 """AudioTower: the sound of a few seconds -> one vector in the space of texts and motions.
 
-Letters: B batch, T frames, D embed dim, C = 163 or 167 rows of a condition (see conditioning.py).
+Letters: B batch, T frames, D embed dim, C = 163 or 167 rows of a condition (see conditioning.py),
+R rows that say how fast the beat is.
 """
+
+import math
 
 import torch
 from torch import Tensor, nn
 from torch.nn.functional import normalize, pad
 
 from src.shared.config_space import AudioTowerConfig
-from src.shared.model.audio.conditioning import CONDITION_ROWS, FEATURE_ROWS, with_phase_rows
+from src.shared.model.audio.conditioning import (
+    BEAT,
+    CONDITION_ROWS,
+    FEATURE_ROWS,
+    with_phase_rows,
+)
 from src.shared.model.layers.temporal_unet import TemporalUNet
+
+HARMONICS = (1, 2, 4)  # of the octave that a beat's rate lies in
+RATE_ROWS = 1 + 2 * len(HARMONICS)
+MIDDLE_RATE = 2 * math.pi * 2 / 30  # radians a frame: 120 beats a minute
+
+
+def rate_rows(beat: Tensor) -> Tensor:
+    """How fast the beat phase turns, so that a small tower need not find out.
+
+    Backward differences, so that padding at the end changes nothing.
+
+    Args:
+        beat: cosine and sine [B, 2, T] of the beat phase, zeros where it is unknown.
+
+    Returns:
+        [B, R, T]: octaves above 120 beats a minute, then sine and cosine of their multiples;
+        zeros where the phase is unknown.
+    """
+    cosine, sine = beat.float().unbind(dim=1)  # [B, T] each
+    across = cosine[:, :-1] * sine[:, 1:] - sine[:, :-1] * cosine[:, 1:]
+    along = cosine[:, :-1] * cosine[:, 1:] + sine[:, :-1] * sine[:, 1:]
+    rate = torch.atan2(across, along)  # [B, T-1] radians a frame
+    rate = torch.cat((rate[:, :1], rate), dim=1) if rate.shape[1] else torch.zeros_like(cosine)
+    known = rate > 1e-3
+    octave = torch.log2(torch.where(known, rate, MIDDLE_RATE) / MIDDLE_RATE)  # [B, T]
+    turns = [2 * math.pi * k * octave for k in HARMONICS]
+    rows = [octave, *(part for turn in turns for part in (turn.sin(), turn.cos()))]
+    return torch.stack(rows, dim=1) * known[:, None]
 
 
 class AudioTower(nn.Module):
-    """The motion tower's own architecture over z-scored rows of sound.
+    """The motion tower's own architecture over z-scored rows of sound and the rate of the beat.
 
     Args:
         config: of its sizes.
@@ -26,7 +62,7 @@ class AudioTower(nn.Module):
         super().__init__()
         self.config = config
         self.audio = TemporalUNet(
-            CONDITION_ROWS,
+            CONDITION_ROWS + RATE_ROWS,
             config.dim,
             num_heads=config.num_heads,
             num_layers=config.num_layers,
@@ -59,5 +95,6 @@ class AudioTower(nn.Module):
 
     def embed(self, rows: Tensor, mask: Tensor | None = None) -> Tensor:
         """As `forward`, of rows [B, 167, T] that are standardised already."""
+        rows = torch.cat((rows, rate_rows(rows[:, BEAT][:, :2])), dim=1)  # [B, 167 + R, T]
         features = self.audio_proj(self.audio(rows.transpose(1, 2), mask))  # [B, D]
         return normalize(features.float(), dim=-1)

@@ -1,6 +1,7 @@
 """Shared space: unit vectors, padding, the frozen motion tower, one text tower, folders."""
 
 import copy
+import math
 
 import pytest
 import torch
@@ -9,7 +10,7 @@ from torch.nn.functional import cosine_similarity
 
 from src.shared.config_space import AudioTowerConfig
 from src.shared.errors import UserError
-from src.shared.model.audio.audio_tower import AudioTower
+from src.shared.model.audio.audio_tower import AudioTower, rate_rows
 from src.shared.model.audio.shared_space import SharedSpace, tower_hash
 from src.shared.model.checkpoint import ModelCard
 from src.shared.model.clip.core import MotionClip, TextTower
@@ -58,6 +59,20 @@ def test_unknown_phases_are_zeros(space):
     assert torch.equal(space.embed_audio(condition), space.embed_audio(known))
     with pytest.raises(ValueError, match="163 or 167 rows"):
         space.embed_audio(sound(2, 160, 30))
+
+
+def test_the_rate_of_the_beat_is_told() -> None:
+    for tempo, octave in ((60, -1.0), (120, 0.0), (170, math.log2(170 / 120))):
+        phase = 2 * math.pi * tempo / 60 * torch.arange(40) / 30
+        beat = torch.stack((phase.cos(), phase.sin()))[None]
+        rows = rate_rows(beat)
+        assert rows.shape == (1, 7, 40)
+        assert torch.allclose(rows[0, 0], torch.full((40,), octave), atol=1e-4)
+        assert rows[0, 1:3].norm(dim=0) == pytest.approx(torch.ones(40), abs=1e-5)
+    beat[..., 20:] = 0  # unknown, or padding
+    assert torch.equal(rate_rows(beat)[..., :20], rows[..., :20])
+    assert not rate_rows(beat)[..., 20:].any()
+    assert rate_rows(beat[..., :1]).shape == (1, 7, 1)
 
 
 def test_sound_is_standardised_by_its_statistics_and_phases_are_not():
