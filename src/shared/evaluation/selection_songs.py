@@ -2,8 +2,8 @@
 
 The judge looks at the sanity suite, whose bands hold mean speeds, turning and accelerations, and
 at how the motion's beats fall on those that the tracker heard. So alignment with the true beats and
-the kinetic distance (mean speeds and accelerations) are akin to it; outside are the geometric
-distance (in which share of frames a pelvis is low, sinks, goes backward, turns left, ...).
+the kinetic distance (mean speeds and accelerations) are akin to it; outside is the geometric one
+(the share of frames in which a pelvis is low, sinks, goes backward, turns left, ...).
 
 Letters: P songs, C candidates of each.
 """
