@@ -28,7 +28,6 @@ from src.shared.evaluation.intervals import success_rate
 from src.shared.inference.song_sampler import SPARE
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.audio.conditioning import BEAT, CONDITION_ROWS
-from src.shared.model.audio.unet import MIN_FRAMES
 from src.shared.model.diffusion.noise import sample_generators, standard_normal
 from src.shared.model.diffusion.samplers import make_sampler
 from src.shared.motion.trajectory import MotionTrajectory
@@ -157,7 +156,7 @@ def generate_raw(
 ) -> list[MotionTrajectory]:
     """One window [T,25] for each condition [C,T], as the decoder gives it.
 
-    The two spare frames of ruling 6 are sampled and cut off. Sample i has noise of its own seed,
+    The window is as long as any that `generate` makes; what is beyond T is cut off. Sample i has noise of its own seed,
     whatever the batch.
     """
     device = model.mean.device
@@ -168,7 +167,7 @@ def generate_raw(
         progress(f"sample {first + 1} of {len(conditions)}")
         sound = torch.stack([_full(condition) for condition in conditions[first : first + BATCH]])
         size, _, frames = sound.shape
-        length = max(frames + SPARE, MIN_FRAMES)
+        length = max(frames + SPARE, model.config.window)  # as `generate` makes them
         padded = F.pad(sound, (0, length - frames), mode="replicate").to(device)
         own = draws[first : first + size]
         noise = standard_normal((size, len(model.mean), length), own, device=device)
