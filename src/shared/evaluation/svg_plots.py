@@ -10,7 +10,7 @@ from src.shared.evaluation.families import Column
 from src.shared.evaluation.grids import Cell, Grid
 from src.shared.evaluation.report import number
 
-WIDTH, LABEL, LINE, TOP, BOTTOM = 300, 92, 18, 22, 20
+WIDTH, LABEL, LINE, TOP, BOTTOM = 284, 92, 18, 22, 20
 COLOURS = {
     "real": "#2f9150", "chance": "#8a92a0", "frozen pose": "#8a92a0", "untrained": "#c8692a",
     "generated": "#2f6fd0",

@@ -182,7 +182,8 @@ scrub.addEventListener("input", () => {
   seek(Number(scrub.value));
 });
 board.addEventListener("scroll", () => { state.dirty = true; });
-new ResizeObserver(arrange).observe(board);
+// In the next frame: arranging within the observer's turn can change what it observes.
+new ResizeObserver(() => requestAnimationFrame(arrange)).observe(board);
 
 // `#t=1.5` opens the page paused at 1.5 seconds. Browsers let no song start by itself.
 const wanted = /[#&]t=([\d.]+)/.exec(location.hash);

@@ -2,6 +2,7 @@
 
 import json
 import re
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,7 @@ from src.shared.evaluation.parts import Parts, read_json
 from src.shared.evaluation.report import markdown
 from src.shared.evaluation.report_folder import render, save_report
 from tests.shared.evaluation.toy_bench import toy_bench
+from tests.shared.formats.chromium_pipe import chromium
 
 MANIFEST = {"branch": "text", "model": {"w": "1"}, "settings": {"seed": 0, "replications": 3}}
 
@@ -45,6 +47,19 @@ def test_one_page_holds_tables_plots_and_players(tmp_path: Path) -> None:
     outside = re.sub(r'srcdoc="[^"]*"', "", page)
     assert "<script" not in outside and "&lt;script&gt;alert" in outside and "<b>1" not in outside
     assert not re.search(r'(?:src|href)="(?!data:|#)', outside)
+
+
+@pytest.mark.skipif(chromium() is None, reason="no Chromium here")
+def test_a_browser_has_nothing_to_complain_about(tmp_path: Path) -> None:
+    folder = write(tmp_path / "report")
+    command = [
+        str(chromium()), "--headless", "--no-sandbox", "--disable-gpu", "--disable-3d-apis",
+        f"--user-data-dir={tmp_path}", "--enable-logging=stderr", "--window-size=1000,700",
+        "--virtual-time-budget=4000", "--dump-dom", (folder / "report.html").as_uri(),
+    ]  # fmt: skip
+    done = subprocess.run(command, capture_output=True, text=True, timeout=200)
+    assert "Worst first" in done.stdout
+    assert not [line for line in done.stderr.splitlines() if "CONSOLE" in line]
 
 
 def test_the_pages_can_be_made_again(tmp_path: Path) -> None:
