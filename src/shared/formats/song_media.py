@@ -1,10 +1,15 @@
-"""A song inside a page: its own bytes where browsers play them, otherwise Ogg Vorbis."""
+"""A song inside a page: its own bytes where browsers play them, otherwise Ogg Vorbis.
+
+A damaged file is encoded anew from what could be read of it: a browser would leave gaps open that
+the analysis closed, and sound and motion would run apart.
+"""
 
 import base64
 import io
 from pathlib import Path
 
 from src.shared.errors import UserError
+from src.shared.sound_files.reader import SoundReader
 
 # Largest file in bytes that goes in as it is; lossless ones are encoded sooner.
 KEEP = {"OGG": 40_000_000, "MP3": 40_000_000, "FLAC": 8_000_000, "WAV": 3_000_000}
@@ -21,40 +26,46 @@ def song_uri(path: str | Path, seconds: float) -> str:
     Raises:
         UserError: the file is missing or no sound that can be read.
     """
-    import soundfile
-
     path = Path(path)
     try:
-        info = soundfile.info(path)
-        fits = info.duration <= seconds + SPARE and path.stat().st_size <= KEEP.get(info.format, 0)
-        if fits and (info.format != "WAV" or info.subtype in WAV_KINDS):
-            return _uri(TYPES[info.format], path.read_bytes())
-        return _uri("audio/ogg", _vorbis(path, seconds))
-    except (OSError, soundfile.SoundFileError) as error:
-        raise UserError(f"{path}: the song cannot be put into the page: {error}") from error
+        sound = SoundReader(path)
+        if path.stat().st_size <= KEEP.get(sound.format, 0) and _plays(sound, seconds + SPARE):
+            return _uri(TYPES[sound.format], path.read_bytes())
+    except OSError as error:
+        raise UserError(f"cannot read {path}: {error.strerror}; name a sound file") from error
+    return _uri("audio/ogg", _vorbis(SoundReader(path), seconds + SPARE))
 
 
-def _vorbis(path: Path, seconds: float) -> bytes:
+def _plays(sound: SoundReader, longest: float) -> bool:
+    """Is it sound to the end, and no longer than so many seconds? Only reading it tells."""
+    if (sound.format == "WAV" and sound.subtype not in WAV_KINDS) or sound.claimed > longest:
+        return False
+    for _ in sound.blocks(BLOCK):
+        if sound.seconds > longest:
+            return False
+    return not list(sound.notes())
+
+
+def _vorbis(song: SoundReader, longest: float) -> bytes:
     """The beginning of a song as Ogg Vorbis, block by block; more than two channels become one."""
     import soundfile
 
     stream = io.BytesIO()
-    with soundfile.SoundFile(path) as song:
-        step = -(-song.samplerate // VORBIS_RATE)  # 96 or 192 kHz: every second or fourth sample
-        channels = min(song.channels, 2) if song.channels <= 2 else 1
-        left = round((seconds + SPARE) * song.samplerate)
-        with soundfile.SoundFile(
-            stream, "w", song.samplerate // step, channels, "VORBIS", format="OGG"
-        ) as out:
-            while left > 0:
-                block = song.read(min(BLOCK * step, left), dtype="float32", always_2d=True)
-                if not len(block):
-                    break
-                left -= len(block)
-                if song.channels > 2:
-                    block = block.mean(1, keepdims=True)
-                whole = len(block) // step * step
-                out.write(block[:whole].reshape(-1, step, channels).mean(1).clip(-1, 1))
+    step = -(-song.rate // VORBIS_RATE)  # 96 or 192 kHz: every second or fourth sample
+    channels = song.channels if song.channels <= 2 else 1
+    left = round(longest * song.rate)
+    with soundfile.SoundFile(
+        stream, "w", song.rate // step, channels, "VORBIS", format="OGG"
+    ) as out:
+        for block in song.blocks(BLOCK * step):
+            block = block[:left]
+            left -= len(block)
+            if song.channels > 2:
+                block = block.mean(1, keepdims=True)
+            whole = len(block) // step * step
+            out.write(block[:whole].reshape(-1, step, channels).mean(1).clip(-1, 1))
+            if not left:
+                break
     return stream.getvalue()
 
 

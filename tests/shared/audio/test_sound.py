@@ -75,12 +75,14 @@ def test_nan_and_infinite_samples_become_silence(tmp_path: Path) -> None:
     samples[5000], samples[6000] = np.inf, 1e30
     sound = load_sound(write(tmp_path / "song.wav", samples, subtype="FLOAT"))
     assert np.isfinite(sound.samples).all() and np.abs(sound.samples).max() < 1
-    assert sound.notes == ("12 samples (0.01%) are no numbers, silence instead",)
+    assert sound.notes == (
+        "12 samples (0.01%) are not finite or far out of range, silence instead",
+    )
 
 
 def test_nothing_but_nan_is_refused(tmp_path: Path) -> None:
     path = write(tmp_path / "song.wav", np.full(SAMPLE_RATE * 2, np.nan, "f4"), subtype="FLOAT")
-    with pytest.raises(UserError, match="no finite sample"):
+    with pytest.raises(UserError, match="no sample that is finite"):
         load_sound(path)
 
 
@@ -160,7 +162,7 @@ def test_length_limits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         load_sound(write(tmp_path / "short.wav", tone(0.5, SAMPLE_RATE)))
     with pytest.raises(UserError, match=r"lasts 0\.00 s"):
         load_sound(write(tmp_path / "none.wav", np.zeros(0, np.float32)))
-    monkeypatch.setattr("src.shared.audio.sound.MAX_SECONDS", 2.0)
+    monkeypatch.setattr("src.shared.sound_files.reader.MAX_SECONDS", 2.0)
     with pytest.raises(UserError, match="at most"):
         load_sound(write(tmp_path / "long.wav", tone(3.0, SAMPLE_RATE)))
 

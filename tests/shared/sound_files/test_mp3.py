@@ -8,8 +8,8 @@ import soundfile
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.audio.mp3 import count_frames, parse_header, with_length
 from src.shared.audio.sound import load_sound
+from src.shared.sound_files.mp3 import count_frames, parse_header, with_length
 
 
 def write_mp3(path: Path, rate: int, channels: int = 2, seconds: float = 5.0) -> Path:
