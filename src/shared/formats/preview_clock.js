@@ -59,7 +59,10 @@ function setSpeed(speed) {
 }
 
 if (song) {
-  song.addEventListener("pause", () => { if (!song.ended && state.playing) setPlaying(false); });
+  song.addEventListener("pause", () => {
+    // The event may come late: at a loop the song ends, and plays again before it is told.
+    if (song.paused && !song.ended && state.playing) setPlaying(false);
+  });
   song.addEventListener("play", () => { if (!state.playing) setPlaying(true); });
   song.addEventListener("error", () => {
     silent = true;
