@@ -9,7 +9,7 @@ Letters: P songs, C candidates of each.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -70,7 +70,8 @@ def song_pool(
     tables = []
     for number, piece in enumerate(pieces, start=1):
         progress(f"candidates for song {number} of {len(pieces)}")
-        made.append(generator.generate(piece.condition, phase=piece.phase, settings=settings))
+        own = replace(settings, seed=_seed_of_song(settings.seed, number))
+        made.append(generator.generate(piece.condition, phase=piece.phase, settings=own))
         heard = AudioCondition(piece.condition).time()
         tables.append(judge.judge(made[-1], None if heard is None else heard[1]))
     names = dict.fromkeys(name for table in tables for name in table.terms)
@@ -92,6 +93,11 @@ def song_pool(
         floors={"real": {}, **floors},
         set_floors={"real": _between_halves(theirs, len(pieces), settings.seed)},
     )
+
+
+def _seed_of_song(seed: int, number: int) -> int:
+    """Noise of each song's own: one noise for all would make a replication one draw, not P."""
+    return int(np.random.SeedSequence((seed, number)).generate_state(1)[0])
 
 
 def _hits(trajectory: MotionTrajectory, piece: Piece) -> float:
