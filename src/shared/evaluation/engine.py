@@ -13,7 +13,7 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from src.shared.evaluation.families import MetricFamily, Sample, Value
+from src.shared.evaluation.families import Column, MetricFamily, Sample, Value
 from src.shared.evaluation.grids import Grid, GridRow, plain
 from src.shared.evaluation.intervals import Estimate, bootstrap_mean, replicated, success_rate
 from src.shared.evaluation.parts import Part, Parts
@@ -205,7 +205,7 @@ def family_grid(
     single motions with intervals over motions. Columns that no row has are left out."""
     rows = {}
     for name, found in measured.items():
-        cells = {column.key: estimate(found, column.key) for column in family.columns}
+        cells = {column.key: estimate(found, column) for column in family.columns}
         rows[name] = GridRow(
             {key: plain(cell) for key, cell in cells.items() if cell is not None},
             found[0]["num"],
@@ -216,8 +216,9 @@ def family_grid(
     return Grid(f"{bench.name}/{family.name}", title, columns, rows, family.definition, plot=True)
 
 
-def estimate(parts: Sequence[Part], key: str) -> Estimate | None:
+def estimate(parts: Sequence[Part], column: Column) -> Estimate | None:
     """One cell from a row's replications."""
+    key = column.key
     figures = [part["figures"][key] for part in parts if part["figures"].get(key) is not None]
     if figures:
         return replicated(figures)
@@ -225,7 +226,7 @@ def estimate(parts: Sequence[Part], key: str) -> Estimate | None:
     if values is None:
         return None
     known = values[~np.isnan(values)]
-    if len(known) and np.isin(known, (0.0, 1.0)).all():  # a bootstrap has no width at 0 of N
+    if column.share and np.isin(known, (0.0, 1.0)).all():  # a bootstrap has no width at 0 of N
         return success_rate(int(known.sum()), len(known))
     return bootstrap_mean(known)
 

@@ -31,12 +31,14 @@ class Column:
         heading: above the column, with its unit.
         decimals: shown.
         better: which way is good; `worst first` goes by the columns that are not `real`.
+        share: yes or no a motion (1 or 0): its interval is Wilson's, which has a width at 0 of N.
     """
 
     key: str
     heading: str
     decimals: int = 3
     better: Better = "real"
+    share: bool = False
 
 
 class Memo:

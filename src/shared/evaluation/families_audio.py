@@ -113,8 +113,8 @@ class TrajectorySanity:
     name = "sanity"
     distance = False
     columns = (
-        Column("seven", "seven checks", 2, better="high"),
-        Column("suite", "suite", 2, better="high"),
+        Column("seven", "seven checks", 2, "high", share=True),
+        Column("suite", "suite", 2, "high", share=True),
         *(
             Column(key, f"{key.replace('_', ' ')} {UNITS[key]}", 2)
             for key in ("mean_speed", "path_rate", "turning", "path_jerk", "roughness")

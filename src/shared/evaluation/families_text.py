@@ -186,7 +186,9 @@ class Obedience:
     name = "obedience"
     distance = False
     kinds = ("direction", "turn", "hand", "action", "speed", "count", "angle")
-    columns = tuple(Column(f"obeys_{kind}", kind, 2, better="high") for kind in (*kinds, "all"))
+    columns = tuple(
+        Column(f"obeys_{kind}", kind, 2, "high", share=True) for kind in (*kinds, "all")
+    )
     definition = (
         "Share of motions that pass the check their labels call for; speed and count are exact"
         " classes, so real motion does not reach 1 either. Styles ask for nothing: no check"

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from src.shared.errors import UserError
-from src.shared.evaluation.engine import motion_values, run_bench, worst_first
+from src.shared.evaluation.engine import estimate, motion_values, run_bench, worst_first
+from src.shared.evaluation.families import Column
 from src.shared.evaluation.grids import Grid
 from src.shared.evaluation.parts import Parts
 from tests.shared.evaluation.toy_bench import NUM, Heights, toy_bench
@@ -91,7 +92,16 @@ def test_ranks_share_ties_and_leave_gaps_in_the_middle() -> None:
     assert worst_first([Heights()], values, 5) == [2, 4, 1, 0, 3]
 
 
-def test_shares_have_wilson_intervals_and_gaps_are_skipped() -> None:
+def test_shares_have_wilson_intervals_and_others_a_bootstrap() -> None:
+    parts = [{"num": 4, "figures": {}, "values": {"x": [0.0] * 4}}]
+    share, other = (estimate(parts, Column("x", "x", share=yes)) for yes in (True, False))
+    assert share is not None and other is not None
+    assert (share.low, share.high) == pytest.approx((0.0, 0.4899), abs=1e-4)
+    assert (other.low, other.high) == (0, 0)
+    assert estimate(parts, Column("y", "y")) is None
+
+
+def test_gaps_are_skipped() -> None:
     parts = [{"num": 3, "figures": {}, "values": {"x": [1.0, None, 0.5]}},
              {"num": 3, "figures": {}, "values": {"x": [0.0, None, None]}}]  # fmt: skip
     values = motion_values(parts, "x")
