@@ -1,15 +1,17 @@
 """Memory training: a trained audio model learns to hear a memory (REF's MPMS; ruling 26).
 
-accelerate launch -m src.train.train_memory --audio FOLDER --memory FOLDER --space FOLDER
---data DIR_OR_URL [key=value ...] [--resume]
+accelerate launch -m src.train.train_memory [--audio FOLDER] --memory FOLDER --data DIR_OR_URL
+[--space FOLDER] [key=value ...] [--resume]
 
-Each window asks the memory with its own sound, and never finds its own song. What was there before
+Each window asks the memory with its own sound, and never finds its own song, nor another song that
+was paired with one of its clips: that would tell what is to be learned. What was there before
 rests, unless `base-learning-rate` is set: without a memory the model stays what it was, to the bit.
 
 Letters: B batch, T frames.
 """
 
 import sys
+from collections import defaultdict
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
@@ -23,6 +25,7 @@ from src.shared.config_audio import AudioNetworkConfig, MemoryConditionConfig
 from src.shared.config_loader import load_train, split_network_overrides
 from src.shared.config_memory import MemoryConfig
 from src.shared.data.phrases.dataset import PhraseBatch
+from src.shared.data.phrases.layout import PhraseRecord
 from src.shared.errors import UsageError
 from src.shared.formats.trajectory_registry import write_trajectory
 from src.shared.inference.audio_condition import AudioCondition
@@ -80,6 +83,9 @@ class MemoryTask(AudioTask):
                 f" {network.window} frames; set it to that"
             )
         self.index, self.space = open_memory(config.memory.folder, config.space)
+        self._songs_of_clip: dict[str, set[str]] = defaultdict(set)
+        for number, clip in enumerate(self.index.clips):
+            self._songs_of_clip[clip].add(self.index.song_of(number))
         super().__init__(config, network)
         rates = {"memory.": config.learning_rate, "": config.base_learning_rate}
         self.learning_rates = {} if config.base_learning_rate == 0 else rates
@@ -124,7 +130,7 @@ class MemoryTask(AudioTask):
 
     @torch.no_grad()
     def recall(self, phrases: PhraseBatch) -> MemoryCondition:
-        """Each window's own question, its song left out of the answers."""
+        """Each window's own question, what it must not find left out of the answers."""
         settings = self.config.memory
         return as_condition(
             retrieve(
@@ -136,9 +142,14 @@ class MemoryTask(AudioTask):
                 temperature=settings.temperature,
                 key=settings.key,
                 phase_weight=settings.phase_weight,
-                exclude_songs=[{record.song or record.id} for record in phrases.records],
+                exclude_songs=[self.excluded(record) for record in phrases.records],
             )
         )
+
+    def excluded(self, record: PhraseRecord) -> set[str]:
+        """The phrase's song, and songs that share a clip with it."""
+        sharing = (self._songs_of_clip.get(clip, set()) for clip in record.clips)
+        return {record.song or record.id}.union(*sharing)
 
     # ------------------------------------------------------------ results
 

@@ -134,6 +134,12 @@ def test_a_phrase_never_finds_its_own_song(task: MemoryTask) -> None:
     assert found.priors.shape == (6, 4, 32)
 
 
+def test_nor_a_song_that_shares_a_clip(task: MemoryTask) -> None:
+    record = task.train.phrases[0].model_copy(update={"clips": ("clip-3", "clip-5", "elsewhere")})
+    third, fifth = (task.index.song_of(number) for number in (3, 5))
+    assert task.excluded(record) == {record.id, third, fifth}
+
+
 def test_batches_drop_memories_and_know_what_leads_in(task: MemoryTask) -> None:
     batches = [task.batch(Part(step, 0, 1)) for step in range(1, 9)]
     memories = [batch.memory for batch in batches]
