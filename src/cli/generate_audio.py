@@ -187,13 +187,7 @@ def write_trajectories(
     from src.shared.motion.trajectory_postprocess import MotionPostProcessor
 
     beats = made.song.beats
-    known = beats.tempo > 0
-    track = SongTrack(
-        audio,
-        beats.beat_times if known else None,
-        beats.downbeat_times if known else None,
-        beats.meter,
-    )
+    track = SongTrack(audio, beats.beat_times, beats.downbeat_times, beats.meter)
     processor = MotionPostProcessor()
     finished = [MotionTrajectory(processor.process(raw.data), raw.fps) for raw in made.trajectories]
     stems = [audio.stem, *(f"{audio.stem}-{number + 1}" for number in range(1, len(finished)))]

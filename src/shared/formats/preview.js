@@ -76,7 +76,7 @@ function draw({ motion, context, strip, middle, span }) {
   drawTrail(context, view, motion, state.time, pixel);
   paintBody(context, view, pose);
   if (!motion.phase) return;
-  drawDial(context, view, motion, Math.min(state.time, motion.seconds), pixel);
+  if (motion.meter) drawDial(context, view, motion, Math.min(state.time, motion.seconds), pixel);
   drawStyle(context, view, motion, Math.min(state.time, motion.seconds), pixel);
 }
 

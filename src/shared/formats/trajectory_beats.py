@@ -17,7 +17,8 @@ class SongTrack:
 
     Attributes:
         path: the sound file, for the page that plays it.
-        beat_times: [N] seconds; None = take the beats from the trajectory's bar phase.
+        beat_times: [N] seconds, none where the song has no beat; None = take the beats from the
+            trajectory's bar phase.
         downbeat_times: [M] seconds, some of the beats.
         meter: beats in a bar.
     """
@@ -26,6 +27,11 @@ class SongTrack:
     beat_times: np.ndarray | None = None
     downbeat_times: np.ndarray | None = None
     meter: int = 4
+
+    @property
+    def beatless(self) -> bool:
+        """Is it known that the song has no beat?"""
+        return self.beat_times is not None and not len(self.beat_times)
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from src.shared.errors import UserError
+from src.shared.formats.drawing import PATH
 from src.shared.formats.html import base64_array, motion_data, write_page
 from src.shared.formats.song_media import song_uri
 from src.shared.formats.trajectory_beats import SongTrack, beat_marks, phase_palette
@@ -22,6 +23,8 @@ from src.shared.motion.trajectory import MotionTrajectory
 HINT = """The path has the colours of the bar and a dot at each beat; the dial's hand goes
     round once a bar and its hub lights up at the beats; the bars are the style, the strip is the
     speed. Only the pelvis is generated: the rest of the body stands in."""
+BEATLESS_HINT = """No beat was found in the song: the motion keeps its own time. The bars are the
+    style, the strip is the speed. Only the pelvis is generated: the rest of the body stands in."""
 TOP_SPEED = 65.0  # m/s; the page stores 16-bit millimetres a second
 
 
@@ -52,9 +55,10 @@ def write_trajectory_html(
         media = f'<audio id="song" preload="auto" src="{html.escape(uri)}"></audio>'
     names = [*titles, *[""] * len(shown)]
     cards = [_card(*each, song) for each in zip(shown, names, strict=False)]
-    palette = ["#" + bytes(colour).hex() for colour in phase_palette()]
+    colours = [PATH] if song.beatless else phase_palette()
+    palette = ["#" + bytes(colour).hex() for colour in colours]
     data = {"motions": cards, "palette": palette, "pairs": PAIRS}
-    return write_page(data, path, hint=HINT, media=media)
+    return write_page(data, path, hint=BEATLESS_HINT if song.beatless else HINT, media=media)
 
 
 def _card(trajectory: MotionTrajectory, title: str, song: SongTrack) -> dict[str, Any]:
@@ -65,7 +69,7 @@ def _card(trajectory: MotionTrajectory, title: str, song: SongTrack) -> dict[str
         return card  # no music: no dial
     speed = np.linalg.norm(trajectory.velocity, axis=-1)
     return card | {
-        "meter": marks.meter,
+        "meter": 0 if song.beatless else marks.meter,  # 0: no dial
         "beats": base64_array(marks.times, "<f4"),
         "downbeat": base64_array(marks.downbeat, "u1"),
         "phase": base64_array(np.floor(trajectory.phase.astype(np.float64) * 65536), "<u2"),

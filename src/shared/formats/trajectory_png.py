@@ -44,12 +44,14 @@ def render_trajectory(
     Raises:
         UserError: Pillow is not installed, or the file cannot be written.
     """
-    marks = beat_marks(trajectory, song or SongTrack())
+    song = song or SongTrack()
+    marks = beat_marks(trajectory, song)
     seconds = trajectory.seconds
     rows = int(np.clip(np.ceil(seconds / ROW_SECONDS), 1, MAX_ROWS))
     sheet, draw = new_sheet(MAP + WIDTH + MARGIN, HEADER + max(MAP, rows * HEIGHT))
     speed = np.linalg.norm(trajectory.velocity, axis=-1)
-    facts = f"{seconds:.1f} s, {len(marks.times)} beats, mean speed {speed.mean():.2f} m/s"
+    rhythm = "no beat found, own time" if song.beatless else f"{len(marks.times)} beats"
+    facts = f"{seconds:.1f} s, {rhythm}, mean speed {speed.mean():.2f} m/s"
     pen = font(14 * OVERSAMPLE, title)
     draw.text((MARGIN, HEADER / 2), f"{title[:80]}   {facts}".strip(), INK, pen, anchor="lm")
     colours = _phase_colours(trajectory.phase)

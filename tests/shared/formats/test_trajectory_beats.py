@@ -38,6 +38,7 @@ def test_the_songs_beats_win_and_are_cut_to_the_motion() -> None:
     np.testing.assert_allclose(marks.times, [0, 0.5, 1, 1.5, 2])
     assert marks.downbeat.tolist() == [True, False, False, True, False]
     none = SongTrack(None, np.array([]), np.array([]))
+    assert none.beatless and not song.beatless and not SongTrack().beatless
     assert not len(beat_marks(keeping(np.linspace(0, 7, 61)), none).times)
     assert not beat_marks(keeping(np.zeros(61)), SongTrack(None, np.array([1.0]))).downbeat.any()
 

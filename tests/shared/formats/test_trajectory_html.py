@@ -86,6 +86,25 @@ def test_no_music_shows_no_dial(tmp_path: Path) -> None:
     assert "phase" not in motion
 
 
+def test_a_song_without_beat_has_no_dial_and_no_beats(tmp_path: Path, song: Path) -> None:
+    track = SongTrack(song, np.array([]), np.array([]), 4)
+    path = write_trajectory_html(smooth_trajectory(1), tmp_path / "a.html", track)
+    page = Page(path)
+    (motion,) = page.data["motions"]
+    assert motion["meter"] == 0 and motion["beats"] == ""
+    assert len(page.data["palette"]) == 1 and motion["speed"]
+    assert "No beat was found" in path.read_text("utf-8")
+
+
+@pytest.mark.skipif(not chromium(), reason="no Chromium is installed")
+def test_a_browser_shows_a_song_without_beat(tmp_path: Path, song: Path) -> None:
+    track = SongTrack(song, np.array([]), np.array([]), 4)
+    page = write_trajectory_html(smooth_trajectory(1), tmp_path / "a.html", track)
+    with Browser(page.as_uri() + "#t=1.0", tmp_path / "profile") as browser:
+        browser.wait("!state.dirty")
+        assert browser.problems == []
+
+
 def test_nothing_to_show_and_no_song(tmp_path: Path) -> None:
     with pytest.raises(UserError, match="no trajectory"):
         write_trajectory_html([], tmp_path / "a.html")

@@ -38,6 +38,17 @@ def test_no_music_is_plain_red(tmp_path: Path) -> None:
     assert near(image[:, :430], phase_palette(6)[3].astype(int)) == 0
 
 
+def test_a_song_without_beat_is_plain_and_says_so(tmp_path: Path) -> None:
+    trajectory = smooth_trajectory(1, 240)  # its bar phase moves on
+    silent = SongTrack(None, np.array([]), np.array([]))
+    image = pixels(render_trajectory(trajectory, tmp_path / "a.png", silent))
+    assert near(image[:, :430], PATH) > 100
+    assert near(image[30:], phase_palette(6)[3].astype(int)) == 0
+    assert (image[30 + 6, 430 : 430 + 800].sum(-1) > 700).all()  # no ticks
+    title = pixels(render_trajectory(trajectory, tmp_path / "b.png"))[:30]
+    assert (image[:30] != title).any()
+
+
 def test_ticks_stand_at_the_songs_beats(tmp_path: Path) -> None:
     trajectory = smooth_trajectory(1, 240)  # 8 seconds: 100 pixels a second
     song = SongTrack(None, np.arange(1, 8, 1.0), np.array([2.0, 6.0]))
