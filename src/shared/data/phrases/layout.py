@@ -150,9 +150,10 @@ def write_phrase(
 
 
 def record_phrase(root: Path, phrase: str, **about: Any) -> PhraseRecord:
-    """The record of a phrase whose two files are there; `about` as for `write_phrase`."""
+    """The record of a phrase whose files are there; `about` as for `write_phrase`."""
     motion, features = (_stored(root, f(phrase)) for f in (trajectory_path, features_path))
-    return PhraseRecord(id=phrase, motion=motion, features=features, **about)
+    body = _stored(root, body_path(phrase)) if (root / body_path(phrase)).exists() else None
+    return PhraseRecord(id=phrase, motion=motion, features=features, body=body, **about)
 
 
 def write_manifest(root: Path, phrases: Iterable[PhraseRecord]) -> Path:

@@ -18,11 +18,11 @@ from torch.utils.data import DataLoader
 from src.shared.data.phrases.dataset import MotionPhraseDataset
 from src.shared.data.phrases.layout import (
     BadContent,
-    PhraseRecord,
     decode_features,
     decode_trajectory,
     features_path,
     phase_rows,
+    record_phrase,
     trajectory_path,
     write_body,
     write_manifest,
@@ -238,10 +238,10 @@ def test_bodies_are_read_where_they_are(folder: Path, tmp_path: Path) -> None:
         open_dataset(folder, cache, bodies=True)
     assert open_dataset(folder, cache).item(0, 0).body is None
     bodies = [np.random.default_rng(n).normal(size=(n, 23, 6)) for n in LENGTHS]
-    records = [
-        PhraseRecord(**{**dict(record), "body": write_body(tmp_path / "with", record.id, body)})
-        for record, body in zip(store_phrases(tmp_path / "with", LENGTHS), bodies, strict=True)
-    ]
+    records = store_phrases(tmp_path / "with", LENGTHS)
+    for record, body in zip(records, bodies, strict=True):
+        write_body(tmp_path / "with", record.id, body)
+    records = [record_phrase(tmp_path / "with", record.id) for record in records]
     write_manifest(tmp_path / "with", records)
     data = open_dataset(tmp_path / "with", cache, bodies=True, target_frames=100)
     batch = data.batch(1, len(LENGTHS))
