@@ -149,7 +149,7 @@ def _worst(report: dict[str, Any], folder: Path) -> Iterator[str]:
         )
         yield (
             f'<section id="worst-{_css(bench)}"><h2>Worst first: {escape(bench)}</h2>'
-            f'<iframe sandbox="allow-scripts" title="motions" srcdoc="{page}"></iframe>'
+            f'<iframe title="motions" srcdoc="{page}"></iframe>'
             '<p class="note">The first replication, by the mean over families of the mean rank in'
             " the figures below.</p><details><summary>their figures</summary>"
             f'<div class="scroll"><table><thead><tr><th>place</th><th>asked for</th>{head}</tr>'
