@@ -39,12 +39,14 @@ class Arm:
     share: float = 1.0
 
 
-def arms(shares: Sequence[float], top_ks: Sequence[int]) -> list[Arm]:
-    """Without, with, random; then smaller memories and other numbers of hits."""
+def arms() -> list[Arm]:
+    """Without, with, random."""
+    return [Arm(WITHOUT, asks=False), Arm(WITH), Arm(RANDOM, stray=True)]
+
+
+def variations(shares: Sequence[float], top_ks: Sequence[int]) -> list[Arm]:
+    """Smaller memories, and other numbers of hits."""
     return [
-        Arm(WITHOUT, asks=False),
-        Arm(WITH),
-        Arm(RANDOM, stray=True),
         *(Arm(f"{share:.0%} of the songs", share=share) for share in shares),
         *(Arm(f"top {top_k}", top_k=top_k) for top_k in top_ks),
     ]

@@ -17,7 +17,7 @@ from src.shared.evaluation.families import Column, Dance, DanceSample
 from src.shared.evaluation.families_audio import BeatAlignment, TrajectorySanity
 from src.shared.evaluation.memory_arms import Arm, Asker
 from src.shared.inference.song_memory import bars_of_sound, bars_of_window
-from src.shared.inference.song_sampler import Recall, SampleSettings, SongSampler
+from src.shared.inference.song_sampler import SPARE, Recall, SampleSettings, SongSampler
 from src.shared.memory.build import Space
 from src.shared.memory.priors import prior_curves
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
@@ -171,17 +171,17 @@ class Curves:
 
     def __init__(self, setting: Setting, items: Sequence[PhraseItem]) -> None:
         self.setting, self.items = setting, items
+        self.frames = setting.model.config.window - SPARE  # as many as one window makes
         self.clusters = [item.record.song or item.record.id for item in items]
-        self.real = [_curves_of(item) for item in items]
+        self.real = [_curves_of(item, self.frames) for item in items]
 
     def measure(self, arm: Arm) -> Values:
         """Figures [N] of one arm."""
         made = []
         for number, item in enumerate(self.items):
-            bars = bars_of_sound(item.audio[None])[0].numpy()
-            song = self.clusters[number]
-            trajectory = dance(self.setting, arm, item.audio, bars, song, number)
-            made.append(prior_curves(trajectory.data))
+            audio, song = item.audio[:, : self.frames], self.clusters[number]
+            bars = bars_of_sound(audio[None])[0].numpy()
+            made.append(prior_curves(dance(self.setting, arm, audio, bars, song, number).data))
         return self._distances(made)
 
     def chance(self) -> Values:
@@ -195,9 +195,9 @@ class Curves:
         return {column.key: rows[:, place] for place, column in enumerate(self.columns)}
 
 
-def _curves_of(item: PhraseItem) -> np.ndarray:
+def _curves_of(item: PhraseItem, frames: int) -> np.ndarray:
     bars = bars_of_sound(item.audio[None])[0]
-    return prior_curves(place_window(item.motion.numpy(), phase=float(bars[0])))
+    return prior_curves(place_window(item.motion.numpy(), phase=float(bars[0]))[:frames])
 
 
 # ---------------------------------------------------------------- songs
