@@ -25,6 +25,7 @@ from src.shared.motion.motion import Motion
 from src.shared.motion.trajectory import MotionTrajectory
 
 AXES = 16  # of the reduced distance, which needs fewer motions
+PIECE = 4.0  # seconds: a mean over a longer motion varies less, so all pieces are of one length
 FLOOR = 0.05  # least scale of a feature, in those of its kind: what never varies says little
 
 
@@ -97,13 +98,22 @@ def body_features(motion: Motion) -> tuple[np.ndarray, np.ndarray, float]:
     )
 
 
-def root_features(trajectory: MotionTrajectory) -> tuple[np.ndarray, np.ndarray, float]:
-    """Kinetic [5] and geometric [12] features and the speed in m/s of a pelvis."""
-    return (
-        root_kinetic_features(trajectory),
-        root_geometric_features(trajectory),
-        amount(trajectory.position, trajectory.fps),
-    )
+def root_features(trajectory: MotionTrajectory) -> list[tuple[np.ndarray, np.ndarray, float]]:
+    """Kinetic [5] and geometric [12] features and the speed in m/s of each 4 s of a pelvis.
+
+    What is left at the end is dropped; a shorter trajectory is one piece.
+    """
+    size = round(PIECE * trajectory.fps)
+    starts = range(0, max(trajectory.num_frames - size, 0) + 1, size)
+    pieces = [MotionTrajectory(trajectory.data[at : at + size], trajectory.fps) for at in starts]
+    return [
+        (
+            root_kinetic_features(piece),
+            root_geometric_features(piece),
+            amount(piece.position, piece.fps),
+        )
+        for piece in pieces
+    ]
 
 
 def amount(points: np.ndarray, fps: float) -> float:
@@ -118,8 +128,8 @@ def body_sample(sample: MotionSample) -> Features:
 
 
 def root_sample(sample: DanceSample) -> Features:
-    """`root_features` of each trajectory, computed once a trajectory."""
-    return _stack(sample.each("root features", root_features))
+    """`root_features` of each trajectory, computed once a trajectory, one after the other."""
+    return _stack([piece for each in sample.each("root features", root_features) for piece in each])
 
 
 def _stack(rows: list[tuple[np.ndarray, np.ndarray, float]]) -> Features:
@@ -211,7 +221,8 @@ class RootKinetics:
         "A reduced variant of our own of FID_k and FID_g, for a pelvis without limbs. *k*: its "
         "mean squared horizontal and vertical speed, mean acceleration, mean squared turning and "
         "tilting. *g*: the share of frames in which it is low, high, rising, sinking, fast, moving "
-        "to each side, turning left or right, leaning. " + _WARNS
+        "to each side, turning left or right, leaning. Each 4 s of a motion count as one, since "
+        "a mean over a longer motion varies less. " + _WARNS
     )
 
     def compute(

@@ -20,6 +20,7 @@ from src.shared.evaluation.metrics_kinetic import (
     amount,
     kinetic_columns,
     mean_pairwise,
+    root_features,
 )
 from src.shared.motion.motion import Motion
 from src.shared.motion.trajectory import MotionTrajectory, from_motion
@@ -168,6 +169,31 @@ def test_the_root_has_keys_of_its_own() -> None:
     assert still["fid_g_root"] > 2 * found["fid_g_root"]
     assert family.compute(real, real, seed=0)["fid_k_root"] == pytest.approx(0, abs=1e-9)
     assert still["amount_root"] == 0
+
+
+def test_long_motions_are_cut_into_pieces_of_one_length() -> None:
+    long = from_motion(dancer(7, 500))  # 4 pieces of 120 frames, 20 left over
+    pieces = root_features(long)
+    assert len(pieces) == 4
+    third = from_motion(dancer(7, 500)).data[240:360]
+    alone = root_features(MotionTrajectory(third))
+    assert len(alone) == 1
+    assert np.allclose(pieces[2][0], alone[0][0]) and np.allclose(pieces[2][1], alone[0][1])
+    assert len(root_features(from_motion(dancer(7, 119)))) == 1
+    assert len(root_features(from_motion(dancer(7, 240)))) == 2
+    steps = np.linalg.norm(np.diff(long.position[:120].astype(float), axis=0), axis=1)
+    assert pieces[0][2] == pytest.approx(steps.mean() * 30)
+
+
+def test_the_length_of_the_songs_does_not_move_the_figures() -> None:
+    """The same dancing, in songs of 4 s and in songs of 16 s, is at no distance."""
+    whole = [from_motion(dancer(seed, 480)) for seed in range(12)]
+    short = [
+        MotionTrajectory(each.data[at : at + 120]) for each in whole for at in range(0, 480, 120)
+    ]
+    found = RootKinetics().compute(dances(whole), dances(short), seed=0)
+    assert found["fid_k_root"] == pytest.approx(0, abs=1e-6)
+    assert found["fid_g_root"] == pytest.approx(0, abs=1e-6)
 
 
 def test_one_motion_has_no_distribution() -> None:
