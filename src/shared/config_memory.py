@@ -17,6 +17,6 @@ class MemoryConfig(Config):
     temperature: float = Field(0.07, gt=0)  # of the softmax over similarities of the hits
     key: Literal["audio", "motion"] = "audio"  # which side of a phrase is compared with the query
     phase_weight: float = Field(0.1, ge=0)  # similarity that a phrase half a bar off loses
-    deadline: float = Field(0.5, gt=0)  # seconds after which a query is answered by "nothing"
+    deadline: float = Field(2.0, gt=0)  # seconds after which a query is answered by "nothing"
     workers: int = Field(4, ge=1)  # threads that search
-    library_above: int = Field(200_000, ge=0)  # phrases; beyond, search by library if installed
+    library_above: int = Field(50_000, ge=0)  # phrases; beyond, search by library if installed

@@ -10,8 +10,7 @@ import queue
 import threading
 from collections import Counter
 from collections.abc import Callable, Sequence, Set
-from concurrent.futures import CancelledError, Future
-from concurrent.futures import TimeoutError as FutureTimeout
+from concurrent.futures import Future, wait
 from typing import Self
 
 import numpy as np
@@ -92,13 +91,10 @@ class MPMService:
         work, batch = self._work(audio_embedding, beat_phase, num_frames, exclude_songs)
         future = self._workers.submit(work)
         try:
-            async with asyncio.timeout(self.config.deadline):
-                memory = await asyncio.wrap_future(future)
-        except TimeoutError:
-            future.cancel()
-            return self._nothing("timed_out", batch, num_frames)
+            async with asyncio.timeout(self.config.deadline) as timer:
+                memory = await asyncio.wrap_future(future)  # cancelled with the wait for it
         except Exception as error:  # whatever the index met, sampling goes on without it
-            return self._nothing("failed", batch, num_frames, error)
+            return self._nothing(None if timer.expired() else error, batch, num_frames)
         self._count("answered")
         return memory
 
@@ -115,17 +111,13 @@ class MPMService:
             self.index = self._open()
         work, batch = self._work(audio_embedding, beat_phase, num_frames, exclude_songs)
         future = self._workers.submit(work)
-        try:
-            memory = future.result(self.config.deadline)
-        except (FutureTimeout, CancelledError):
-            if future.done() and not future.cancelled():
-                return self._nothing("failed", batch, num_frames, future.exception())
+        done, _ = wait([future], self.config.deadline)
+        error = future.exception() if done else None
+        if not done or error is not None:
             future.cancel()
-            return self._nothing("timed_out", batch, num_frames)
-        except Exception as error:  # likewise
-            return self._nothing("failed", batch, num_frames, error)
+            return self._nothing(error, batch, num_frames)
         self._count("answered")
-        return memory
+        return future.result()
 
     def _open(self) -> MemoryIndex:
         return open_index(self.config.folder, library_above=self.config.library_above)
@@ -164,11 +156,10 @@ class MPMService:
 
         return work, len(query)
 
-    def _nothing(
-        self, why: str, batch: int, num_frames: int, error: BaseException | None = None
-    ) -> Memory:
-        reason = f"failed ({error})" if error else f"took longer than {self.config.deadline:g} s"
-        if self._count(why) == 1:  # the rest are in `counts`
+    def _nothing(self, error: BaseException | None, batch: int, num_frames: int) -> Memory:
+        """The null memory, counted: of a search that failed, or is late if there is no error."""
+        reason = f"failed ({error!r})" if error else f"took longer than {self.config.deadline:g} s"
+        if self._count("failed" if error else "timed_out") == 1:  # the rest are in `counts`
             log.warning("a memory query %s; going on without memory", reason)
         return null_memory(batch, num_frames)
 

@@ -27,7 +27,7 @@ class TroubledIndex(MemoryIndex):
         number = int(super().search(query, top_k=1).index[0, 0])
         if number % 7 == 3:
             raise OSError(f"injected: no disk for {number}")
-        time.sleep(0.25 if number % 11 == 5 else 0.004)
+        time.sleep(0.5 if number % 11 == 5 else 0.004)
         return super().search(query, **settings)
 
 
@@ -48,7 +48,7 @@ def test_two_hundred_at_once_are_right_or_counted_nulls() -> None:
     """Real threads, a real loop: no deadlock, every answer right or null, nobody waits long."""
     healthy = make_index(40)
     index = TroubledIndex(**vars(healthy))
-    deadline = 1.0
+    deadline = 2.0
     service = MPMService(MemoryConfig(workers=4, deadline=deadline, top_k=3), index)
     rng = np.random.default_rng(0)
     asked = [(int(rng.integers(40)), float(rng.random())) for _ in range(200)]
@@ -84,7 +84,7 @@ def test_two_hundred_at_once_are_right_or_counted_nulls() -> None:
     assert service.counts["failed"] + service.counts["timed_out"] == nulls
     assert service.counts["failed"] > 0 and service.counts["timed_out"] > 0
     assert service.counts["failed"] <= failing
-    assert max(waited) < deadline + 2.0, "the deadline, and what a busy machine adds"
+    assert max(waited) < deadline + 5.0, "the deadline, and what a busy machine adds"
 
 
 def test_a_hanging_index_takes_nothing_but_its_deadline(tmp_path: Path) -> None:
@@ -105,6 +105,18 @@ def test_a_hanging_index_takes_nothing_but_its_deadline(tmp_path: Path) -> None:
     assert is_null(service.query_now(make_index().audio_keys[0], 0.0, 9))
     assert service.counts == {"answered": 0, "timed_out": 21, "failed": 0}
     never.set()  # the stuck searches end, and with them the errors nobody waits for
+
+
+def test_an_index_that_times_out_by_itself_has_failed() -> None:
+    class Offline(MemoryIndex):
+        def search(self, query: torch.Tensor, **settings: Any) -> Hits:
+            raise TimeoutError("injected")
+
+    service = MPMService(MemoryConfig(deadline=30.0), Offline(**vars(make_index())))
+    query = make_index().audio_keys[0]
+    assert is_null(asyncio.run(service.query(query, 0.0, 9)))
+    assert is_null(service.query_now(query, 0.0, 9))
+    assert service.counts == {"answered": 0, "timed_out": 0, "failed": 2}
 
 
 def test_the_ref_snippet(tmp_path: Path) -> None:
