@@ -9,6 +9,7 @@ import typer
 from src.cli import generate_audio, generate_text, options
 from src.cli.guard import complain
 from src.cli.score_table import show_scores
+from src.cli.wording import counted
 from src.shared.errors import UsageError
 
 
@@ -17,7 +18,7 @@ def generate(
         list[str] | None, typer.Option(help="What the character does; repeat for several.")
     ] = None,
     audio: Annotated[
-        Path | None, typer.Option(help="A song instead: wav, flac, ogg or mp3.")
+        list[Path] | None, typer.Option(help="A song instead: wav, flac, ogg or mp3.")
     ] = None,
     style: Annotated[
         str | None, typer.Option(help='How to move to the song, e.g. "tired, elderly".')
@@ -103,12 +104,12 @@ def generate(
     options.check_folder("--out", out)
     if judge is not None and num_samples == 1:
         raise UsageError("--judge compares candidates: give --num-samples 2 or more with it")
-    if audio is not None:
+    song = generate_audio.only_song(audio)
+    if song is not None:
         refuse_with("--audio", prompt=prompt, tag=tag, foot_lock=foot_lock, judge=judge)
-        generate_audio.check_song(audio)
         generate_audio.check_runtime(runtime, device)
         generate_audio.check_memory(memory, runtime)
-        wanted: dict[str, Any] = {"audio": audio, "meter": meter}
+        wanted: dict[str, Any] = {"audio": song, "meter": meter}
         wanted |= {"seconds": seconds, "style": style, "memory": memory}
         formats = checked_formats(format or "npz,glb,html", generate_audio.FORMATS)
         result = generate_audio.produce_song(
@@ -203,8 +204,8 @@ def print_files(result: dict[str, Any]) -> None:
         print(result["index"])
     times = result["timings"]
     parts = ", ".join(f"{name} {times[name]:.1f}" for name in times if name != "total")
-    number = len(result["motions"])
-    complain(f"{number} motions in {times['total']:.1f} s ({parts}) on {result['device']}")
+    number = counted(len(result["motions"]), "motion")
+    complain(f"{number} in {times['total']:.1f} s ({parts}) on {result['device']}")
 
 
 def print_json(result: dict[str, Any]) -> None:

@@ -9,6 +9,7 @@ from src.cli.evaluate_sanity import shipped_bands
 from src.cli.guard import complain
 from src.cli.score_table import scored
 from src.cli.stopwatch import Stopwatch
+from src.cli.wording import note_replaced
 from src.shared.errors import UsageError
 
 if TYPE_CHECKING:
@@ -23,10 +24,18 @@ STYLE_MODEL = "starter"  # the text model that reads `--style` when it is a sent
 RUNTIMES = ("torch", "onnx")
 
 
-def check_song(path: Path) -> None:
-    """Refuse what is no file before anything slow starts."""
+def only_song(paths: list[Path] | None) -> Path | None:
+    """The one song that was named, None without; refused before anything slow starts."""
+    if not paths:
+        return None
+    if len(paths) > 1:
+        raise UsageError(f"--audio is given {len(paths)} times; one song a run")
+    (path,) = paths
+    if path.is_dir():
+        raise UsageError(f"--audio {path} is a folder; name a wav, flac, ogg or mp3 file in it")
     if not path.is_file():
         raise UsageError(f"--audio {path}: no such file; name a wav, flac, ogg or mp3 file")
+    return path
 
 
 def check_runtime(runtime: str | None, device: str) -> None:
@@ -166,7 +175,9 @@ def progress_bar(num_frames: int) -> Iterator[Callable[[int, int], None]]:
     from rich.console import Console
     from rich.progress import Progress
 
-    with Progress(console=Console(stderr=True), transient=True) as bar:
+    screen = Console(stderr=True)
+    # Into a file a bar that vanishes would leave an empty line.
+    with Progress(console=screen, transient=True, disable=not screen.is_terminal) as bar:
         task = bar.add_task("frames", total=num_frames)
         yield lambda done, total: bar.update(task, completed=done)
 
@@ -192,6 +203,9 @@ def write_trajectories(
     finished = [MotionTrajectory(processor.process(raw.data), raw.fps) for raw in made.trajectories]
     stems = [audio.stem, *(f"{audio.stem}-{number + 1}" for number in range(1, len(finished)))]
     alone = [name for name in formats if name != "html" or len(finished) == 1]
+    page = out / "index.html"
+    files = [out / f"{stem}.{name}" for stem in stems for name in alone]
+    note_replaced(files if alone == formats else [*files, page], out)
     rows = []
     for number, (trajectory, stem) in enumerate(zip(finished, stems, strict=True)):
         paths = export_trajectory(trajectory, out, stem, alone, track, title=stem)
@@ -205,8 +219,8 @@ def write_trajectories(
         )
     if alone == formats:
         return rows, None
-    write_trajectory_preview(finished, out / "index.html", track, stems)
-    return rows, str(out / "index.html")
+    write_trajectory_preview(finished, page, track, stems)
+    return rows, str(page)
 
 
 def warn_of_beats(result: dict[str, Any]) -> None:

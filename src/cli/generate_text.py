@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from src.cli.guard import complain
 from src.cli.score_table import scored
 from src.cli.stopwatch import Stopwatch
+from src.cli.wording import note_replaced
 
 if TYPE_CHECKING:
     from src.shared.motion.motion import Motion
@@ -97,12 +98,11 @@ def write_motions(
     from src.shared.formats.registry import write_motion
 
     rows: list[dict[str, Any]] = []
-    replaced = 0
     names = stems([motion.text for motion in motions], num_samples)
-    for motion, stem in zip(motions, names, strict=True):
-        paths = {name: out / f"{stem}.{name}" for name in formats}
+    files = [{name: out / f"{stem}.{name}" for name in formats} for stem in names]
+    note_replaced((path for paths in files for path in paths.values()), out)
+    for motion, paths in zip(motions, files, strict=True):
         for path in paths.values():
-            replaced += path.exists()
             write_motion(motion, path)
         rows.append(
             {
@@ -112,8 +112,6 @@ def write_motions(
                 "files": {name: str(path) for name, path in paths.items()},
             }
         )
-    if replaced:
-        complain(f"note: {replaced} files of an earlier run in {out} were replaced")
     return rows
 
 
