@@ -5,10 +5,10 @@ from pathlib import Path
 
 from src.shared.config_audio import AudioNetworkConfig
 from src.shared.config_loader import NETWORK_PREFIX, dump_config, load_config
-from src.shared.errors import UsageError, UserError
+from src.shared.errors import UsageError
 from src.shared.model.audio.audio_motion_model import KIND
 from src.shared.model.checkpoint import read_card
-from src.shared.model.zoo import resolve_model
+from src.shared.model.zoo import resolve_model, wrong_kind
 
 DECODER_PREFIX = NETWORK_PREFIX + "decoder."
 
@@ -27,7 +27,7 @@ def network_of(name_or_folder: str | Path, overrides: Sequence[str] = ()) -> Aud
     folder = resolve_model(name_or_folder)
     card = read_card(folder)
     if card.kind != KIND or card.audio_network is None:
-        raise UserError(f"{folder} holds a {card.kind}, not a {KIND}; name another folder")
+        raise wrong_kind(folder, card.kind, KIND)
     for override in overrides:
         if not override.startswith(DECODER_PREFIX):
             raise UsageError(

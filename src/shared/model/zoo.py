@@ -14,15 +14,18 @@ PRETRAINED = Path(__file__).resolve().parents[1] / "pretrained"
 RUNS = Path("runs")
 
 
-def list_models() -> list[dict[str, Any]]:
+def list_models(*, runs: bool = True) -> list[dict[str, Any]]:
     """The shipped models by name, then those under runs/ by folder; damaged cards are left out.
+
+    Args:
+        runs: False: the shipped ones only.
 
     Keys: name, kind, trained, licence, size (MB), languages, description.
     """
     shipped = [
         (path.parent.name, path.parent) for path in sorted(PRETRAINED.glob(f"*/{CARD_FILE}"))
     ]
-    found = [*RUNS.glob(f"*/{CARD_FILE}"), *RUNS.glob(f"*/*/{CARD_FILE}")]
+    found = [*RUNS.glob(f"*/{CARD_FILE}"), *RUNS.glob(f"*/*/{CARD_FILE}")] if runs else []
     own = [(str(path.parent), path.parent) for path in sorted(found)]
     rows = []
     for name, folder in [*shipped, *own]:
@@ -44,6 +47,19 @@ def _row(name: str, card: ModelCard) -> dict[str, Any]:
         "languages": ", ".join(card.languages),
         "description": card.description,
     }
+
+
+def wrong_kind(
+    folder: Path, found: str, wanted: str, hint: str = "name another folder"
+) -> UserError:
+    """What to say of a model of another kind; names what is shipped of the kind that was wanted."""
+    shipped = [row["name"] for row in list_models(runs=False) if row["kind"] == wanted]
+    of_it = f", or {' or '.join(shipped)}, which is shipped" if shipped else ""
+    return UserError(f"{folder} holds {_a(found)}, not {_a(wanted)}; {hint}{of_it}")
+
+
+def _a(noun: str) -> str:
+    return f"{'an' if noun[:1] in 'aeiou' else 'a'} {noun}"
 
 
 def resolve_model(name_or_folder: str | Path) -> Path:

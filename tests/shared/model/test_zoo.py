@@ -53,6 +53,18 @@ def test_what_is_not_there_says_what_to_do(shipped, name: str, message: str):
         zoo.resolve_model(name)
 
 
+def test_another_kind_is_named_with_its_article_and_what_is_shipped(shipped):
+    def said(found: str, wanted: str) -> str:
+        return str(zoo.wrong_kind(shipped, found, wanted)).removeprefix(f"{shipped} ")
+
+    other = said("audio-motion", "motion-generator")
+    assert other == (
+        "holds an audio-motion, not a motion-generator;"
+        " name another folder, or tiny, which is shipped"
+    )
+    assert said("motion-clip", "evaluator").endswith("not an evaluator; name another folder")
+
+
 def test_a_folder_without_a_card(shipped, tmp_path):
     with pytest.raises(UserError, match=r"has no config.json"):
         zoo.resolve_model(tmp_path)

@@ -12,7 +12,6 @@ from torch import Tensor, nn
 
 from src.shared.config_audio import AudioNetworkConfig, MemoryConditionConfig
 from src.shared.config_schema import Config
-from src.shared.errors import UserError
 from src.shared.model.audio.conditioning import AudioConditioner, ConditionAugmentation
 from src.shared.model.audio.decoder import Decoded, Decoder, create_motion_decoder
 from src.shared.model.audio.memory_conditioning import MemoryCondition
@@ -28,7 +27,7 @@ from src.shared.model.checkpoint import (
 from src.shared.model.diffusion.conditions import ModelFn
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
 from src.shared.model.diffusion.guidance import guided
-from src.shared.model.zoo import resolve_model
+from src.shared.model.zoo import resolve_model, wrong_kind
 
 KIND = "audio-motion"
 PREFIX = "model"
@@ -169,7 +168,7 @@ class AudioMotionModel(nn.Module):
         folder = resolve_model(name_or_folder)
         card = read_card(folder)
         if card.kind != KIND or card.audio_network is None:
-            raise UserError(f"{folder} holds a {card.kind}, not a {KIND}; name another folder")
+            raise wrong_kind(folder, card.kind, KIND)
         model = cls(card.audio_network, card)
         load_state(model, read_tensors(folder, card), PREFIX, folder)
         return model.to(device).eval()

@@ -32,7 +32,7 @@ from src.shared.model.clip.core import TextTower
 from src.shared.model.clip.pretrained import ClipBundle, encode_captions
 from src.shared.model.clip.tokenizer import PromptTokenizer
 from src.shared.model.layers.temporal_unet import TemporalUNet
-from src.shared.model.zoo import resolve_model
+from src.shared.model.zoo import resolve_model, wrong_kind
 
 KIND = "shared-space"
 PREFIX = "space"
@@ -174,7 +174,7 @@ class SharedSpace(nn.Module):
         folder = resolve_model(name_or_folder)
         card = read_card(folder)
         if card.kind != KIND or card.audio_tower is None:
-            raise UserError(f"{folder} holds a {card.kind}, not a {KIND}; name another folder")
+            raise wrong_kind(folder, card.kind, KIND)
         space = cls(card.network, card.audio_tower, card)
         load_state(space, read_tensors(folder, card), PREFIX, folder)
         return space.to(device).eval()

@@ -18,6 +18,7 @@ from src.shared.model.checkpoint import (
 )
 from src.shared.model.clip.core import MotionClip, TextTower
 from src.shared.model.clip.tokenizer import PromptTokenizer
+from src.shared.model.zoo import wrong_kind
 
 KIND = "motion-clip"
 TOKENIZER_FOLDER = "tokenizer"
@@ -65,9 +66,7 @@ class ClipBundle:
         folder = Path(folder)
         card = read_card(folder)
         if card.kind != KIND:
-            raise UserError(
-                f"{folder} holds a {card.kind}, not a {KIND}; train one with train_clip"
-            )
+            raise wrong_kind(folder, card.kind, KIND, "name a folder of train_clip")
         tensors = read_tensors(folder, card)
         clip = MotionClip(card.network, encoder_config=card.text_encoder)
         load_state(clip, tensors, "clip", folder)

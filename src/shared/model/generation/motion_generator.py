@@ -31,7 +31,7 @@ from src.shared.model.diffusion.gaussian import GaussianDiffusion
 from src.shared.model.generation.denoiser import MotionDenoiser
 from src.shared.model.generation.requests import batches, make_requests
 from src.shared.model.generation.sampling import sample_batch
-from src.shared.model.zoo import resolve_model
+from src.shared.model.zoo import resolve_model, wrong_kind
 from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess import MotionPostProcessor
 
@@ -289,7 +289,7 @@ class MotionGenerator:
         folder = resolve_model(name_or_folder)
         card = read_card(folder)
         if card.kind != KIND:
-            raise UserError(f"{folder} holds a {card.kind}, not a {KIND}; name another folder")
+            raise wrong_kind(folder, card.kind, KIND)
         tensors = read_tensors(folder, card)
         _check_widths(tensors, folder)
         denoiser = MotionDenoiser(card.network, len(card.tags))
