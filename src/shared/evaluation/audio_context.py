@@ -11,12 +11,21 @@ from typing import Any
 
 import numpy as np
 
+from src.shared.audio.synthetic_songs import render_song
 from src.shared.data.pairing.motion_beats import MotionBeats, motion_beats
 from src.shared.data.phrases.dataset import MotionPhraseDataset
 from src.shared.errors import UserError
 from src.shared.evaluation.audio_sanity import untrained
-from src.shared.evaluation.audio_songs import Piece, held_out_songs, open_split, phrases, tracks
+from src.shared.evaluation.audio_songs import (
+    Piece,
+    held_out_songs,
+    held_out_specs,
+    open_split,
+    phrases,
+    tracks,
+)
 from src.shared.evaluation.families import Dance, DanceSample
+from src.shared.files import atomic_write
 from src.shared.inference.song_generator import SongGenerator
 from src.shared.inference.song_sampler import SampleSettings
 from src.shared.motion.trajectory import FPS, MotionTrajectory
@@ -39,7 +48,7 @@ class AudioSettings:
     max_real: int = 200  # test phrases
     track_seconds: float = 30.0  # of each sound file
     pictures: int = 4
-    worst: int = 6  # motions to be looked at
+    worst: int = 4  # motions to be looked at, each with its song
     seed: int = 0
 
 
@@ -103,6 +112,18 @@ class AudioContext:
                 tell_meter=settings.tell_meter,
             )
         )
+
+    def write_song(self, index: int, path: Path) -> None:
+        """A held-out song as a FLAC file, for the report."""
+        import soundfile
+
+        settings = self.settings
+        specs = held_out_specs(settings.num_songs, settings.song_seconds, settings.seed)
+        song = render_song(specs[index])
+        with atomic_write(path) as temporary:
+            soundfile.write(
+                temporary, song.samples, song.sample_rate, subtype="PCM_16", format="FLAC"
+            )
 
     def dance(
         self,

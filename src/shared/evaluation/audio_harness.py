@@ -85,8 +85,17 @@ def song_bench(context: AudioContext, folder: Path | None) -> Bench[DanceSample]
         lambda: context.reference,
         [kind.bind(context) for kind in AUDIO_ROWS if kind.when(context)],
         AUDIO_FAMILIES,
-        keep=Keeper(folder, "songs", context.settings.worst, AUDIO_FAMILIES, write_dance),
+        keep=Keeper(
+            folder, "songs", context.settings.worst, AUDIO_FAMILIES, partial(_write, context)
+        ),
     )
+
+
+def _write(context: AudioContext, sample: DanceSample, row: int, path: Path) -> dict[str, Any]:
+    """A motion of the main row and, beside it, its song."""
+    sound = path.with_suffix(".flac")
+    context.write_song(row, sound)
+    return {**write_dance(sample, row, path), "sound": f"{path.parent.name}/{sound.name}"}
 
 
 def _as_part(extra: Callable[[AudioContext], list[Grid]], context: AudioContext) -> Part:

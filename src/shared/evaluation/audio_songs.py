@@ -19,6 +19,7 @@ from src.shared.audio.song import Song, analyse, analyse_sound
 from src.shared.audio.sound import sound_from_samples
 from src.shared.audio.synthetic_songs import (
     HELD_OUT_TEMPI,
+    SongSpec,
     SyntheticSong,
     render_song,
     sample_song_specs,
@@ -71,6 +72,11 @@ class Piece:
         return self.num_frames / FPS
 
 
+def held_out_specs(number: int, seconds: float, seed: int) -> list[SongSpec]:
+    """Songs not yet rendered, with tempi of their own."""
+    return sample_song_specs(number, FRESH_SEED + seed, "held-out", seconds=seconds)
+
+
 def held_out_songs(
     number: int, seconds: float, seed: int, *, tell_meter: bool = True
 ) -> Iterator[Piece]:
@@ -79,8 +85,7 @@ def held_out_songs(
     Args:
         tell_meter: the beat tracker is told the beats a bar, as with `--meter`; else it chooses.
     """
-    specs = sample_song_specs(number, FRESH_SEED + seed, "held-out", seconds=seconds)
-    for index, spec in enumerate(specs):
+    for index, spec in enumerate(held_out_specs(number, seconds, seed)):
         made = render_song(spec)
         sound = sound_from_samples(made.samples, made.sample_rate)
         song = analyse_sound(sound, meter=spec.meter if tell_meter else None)

@@ -25,6 +25,7 @@ from src.shared.evaluation.report import (
 from src.shared.evaluation.svg_plots import grid_plots
 from src.shared.formats.html import write_html
 from src.shared.formats.npz import read_npz
+from src.shared.formats.trajectory_beats import SongTrack
 from src.shared.formats.trajectory_html import write_trajectory_html
 from src.shared.formats.trajectory_npz import read_trajectory_npz
 
@@ -55,7 +56,8 @@ p.note { color: var(--faint); font-size: 13px; max-width: 100ch; margin: 10px 0 
 .plots { display: flex; flex-wrap: wrap; gap: 10px 18px; margin-top: 14px; }
 svg.plot text { font: 11px system-ui, sans-serif; fill: #343a44; }
 svg.plot text.name { font-weight: 600; font-size: 12px; } svg.plot text.tick { fill: #6b7380; }
-iframe { width: 100%; height: 620px; border: 1px solid var(--line); border-radius: 10px; }
+.players { display: grid; gap: 12px; grid-template-columns: repeat(auto-fit, minmax(520px, 1fr)); }
+iframe { width: 100%; height: 600px; border: 1px solid var(--line); border-radius: 10px; }
 img { max-width: 100%; display: block; margin: 8px 0; }
 summary { cursor: pointer; color: var(--faint); font-size: 13px; margin-top: 12px; }
 """
@@ -138,7 +140,9 @@ def _worst(report: dict[str, Any], folder: Path) -> Iterator[str]:
     benches = dict.fromkeys(sample["bench"] for sample in report["samples"])
     for bench in benches:
         samples = [sample for sample in report["samples"] if sample["bench"] == bench]
-        page = escape(player(samples, folder, report["branch"]), quote=True)
+        # A page plays one song, so that each motion to music has a page of its own.
+        groups = [samples] if report["branch"] == "text" else [[sample] for sample in samples]
+        players = "".join(_player(group, folder, report["branch"]) for group in groups)
         keys = dict.fromkeys(key for sample in samples for key in sample["figures"])
         head = "".join(f"<th>{escape(key.replace('_', ' '))}</th>" for key in keys)
         rows = "".join(
@@ -149,7 +153,7 @@ def _worst(report: dict[str, Any], folder: Path) -> Iterator[str]:
         )
         yield (
             f'<section id="worst-{_css(bench)}"><h2>Worst first: {escape(bench)}</h2>'
-            f'<iframe title="motions" srcdoc="{page}"></iframe>'
+            f'<div class="players">{players}</div>'
             '<p class="note">The first replication, by the mean over families of the mean rank in'
             " the figures below.</p><details><summary>their figures</summary>"
             f'<div class="scroll"><table><thead><tr><th>place</th><th>asked for</th>{head}</tr>'
@@ -157,8 +161,13 @@ def _worst(report: dict[str, Any], folder: Path) -> Iterator[str]:
         )
 
 
+def _player(samples: Sequence[dict[str, Any]], folder: Path, branch: str) -> str:
+    page = escape(player(samples, folder, branch), quote=True)
+    return f'<iframe title="motions" loading="lazy" srcdoc="{page}"></iframe>'
+
+
 def player(samples: Sequence[dict[str, Any]], folder: Path, branch: str) -> str:
-    """The page of the formats' own viewer with these motions side by side."""
+    """The formats' own viewer with these motions side by side, or with one and its song."""
     titles = [f"{sample['rank']} of {sample['of']}: {sample['title']}" for sample in samples]
     files = [folder / sample["file"] for sample in samples]
     with tempfile.TemporaryDirectory() as temporary:
@@ -167,7 +176,9 @@ def player(samples: Sequence[dict[str, Any]], folder: Path, branch: str) -> str:
             motions = zip(map(read_npz, files), titles, strict=True)
             write_html([replace(motion, text=title) for motion, title in motions], path)
         else:
-            write_trajectory_html(list(map(read_trajectory_npz, files)), path, titles=titles)
+            (sample,) = samples
+            song = SongTrack(folder / sample["sound"], meter=sample["meter"])
+            write_trajectory_html(read_trajectory_npz(files[0]), path, song, titles)
         return path.read_text(encoding="utf-8")
 
 

@@ -25,7 +25,8 @@ class Keeper(Generic[Sample]):
         bench: begins the names of the files.
         num: motions to keep.
         families: whose one-a-motion figures are shown.
-        write: writes row i of a sample to a path, and returns its title.
+        write: writes row i of a sample to a path, and returns what else there is to say of it:
+            its title, and files beside it.
     """
 
     def __init__(
@@ -34,10 +35,10 @@ class Keeper(Generic[Sample]):
         bench: str,
         num: int,
         families: Iterable[MetricFamily[Sample]],
-        write: Callable[[Sample, int, Path], str],
+        write: Callable[[Sample, int, Path], dict[str, Any]],
     ) -> None:
         self.folder, self.bench, self.num = folder, bench, num
-        self.write: Callable[[Sample, int, Path], str] = write
+        self.write: Callable[[Sample, int, Path], dict[str, Any]] = write
         self.columns = [c for family in families for c in family.columns if c.better != "real"]
 
     def __call__(
@@ -49,24 +50,25 @@ class Keeper(Generic[Sample]):
         kept = []
         for rank, row in enumerate(order[: self.num], start=1):
             name = f"{FOLDER}/{self.bench}-{rank:02d}.npz"
-            title = self.write(sample, row, self.folder / name)
+            told = self.write(sample, row, self.folder / name)
             figures = {
                 column.key: plain(float(f"{values[column.key][row]:.6g}"))
                 for column in self.columns
                 if column.key in values
             }
             place = {"rank": rank, "of": len(order), "bench": self.bench}
-            kept.append({"file": name, "title": title, "figures": figures, **place})
+            kept.append({"file": name, "figures": figures, **told, **place})
         return kept
 
 
-def write_motion(sample: MotionSample, row: int, path: Path) -> str:
+def write_motion(sample: MotionSample, row: int, path: Path) -> dict[str, Any]:
     """A motion of the text branch; its title is the caption."""
     write_npz(sample.clips.motions[row], path)
-    return sample.clips.captions[row]
+    return {"title": sample.clips.captions[row]}
 
 
-def write_dance(sample: DanceSample, row: int, path: Path) -> str:
+def write_dance(sample: DanceSample, row: int, path: Path) -> dict[str, Any]:
     """A trajectory of the audio branch; its title is the song."""
-    write_trajectory_npz(sample.dances[row].trajectory, path)
-    return sample.dances[row].song
+    dance = sample.dances[row]
+    write_trajectory_npz(dance.trajectory, path)
+    return {"title": dance.song, "meter": dance.counted}
