@@ -19,7 +19,7 @@ from src.shared.evaluation.grids import Grid, GridRow, plain, report_data
 from src.shared.evaluation.parts import Part, Parts, read_json
 from src.shared.evaluation.report import grids
 
-FREE = ("model", "sampling", "statistics")  # what a comparison may be about
+FREE = ("model", "sampling", "statistics", "environment")  # what a comparison may be about
 NOTE = (
     "b - a, ± half a 95% interval of a paired bootstrap (10,000 resamples): over prompts, each the"
     " mean of its replications, where a figure belongs to a single motion; over replications with"
@@ -59,14 +59,11 @@ def compare(a: Side, b: Side, *, seed: int = 0) -> dict[str, Any]:
 
     Raises:
         UserError: a folder holds no report, the reports measured different things (data, judge,
-            settings, metrics), or a row is missing.
+            settings, metrics), a row is missing, or the rows were asked different things.
     """
     first, second = read_json(a.folder / manifest.MANIFEST), read_json(b.folder / manifest.MANIFEST)
-    differs = [
-        name
-        for name in manifest.differences(first, second)
-        if name.split(".")[0] not in FREE and name != "environment.threads"
-    ]
+    found = manifest.differences(first, second)
+    differs = [name for name in found if name.split(".")[0] not in FREE]
     if differs:
         raise UserError(
             f"{a.folder} and {b.folder} differ in {', '.join(differs)}: such figures never stand"
@@ -85,6 +82,7 @@ def compare(a: Side, b: Side, *, seed: int = 0) -> dict[str, Any]:
         "b": f"{b.folder}, row {b.row}, model {theirs['about'].get('model')}",
         "model_hash_a": ours["about"].get("model_hash"),
         "model_hash_b": theirs["about"].get("model_hash"),
+        "different": ", ".join(found) or "nothing",
     }
     return report_data(first["branch"], about, {}, tables, [], title="Comparison of two reports")
 
@@ -95,6 +93,11 @@ def _difference(grid: Grid, a: Side, b: Side, seed: int) -> Grid | None:
     left, right = a.parts(bench), b.parts(bench)
     if not left or not right:
         return None
+    if left[0]["asked"] != right[0]["asked"]:
+        raise UserError(
+            f"{bench}: rows {a.row!r} and {b.row!r} were asked for different things, so that"
+            " nothing pairs them; compare rows of the same prompts"
+        )
     rows = {}
     for column in grid.columns:
         pair = _pairs(left, right, column.key)

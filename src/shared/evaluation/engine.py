@@ -16,6 +16,7 @@ import numpy as np
 from src.shared.evaluation.families import Column, MetricFamily, Sample, Value
 from src.shared.evaluation.grids import Grid, GridRow, plain
 from src.shared.evaluation.intervals import Estimate, bootstrap_mean, replicated, success_rate
+from src.shared.evaluation.manifest import hash_names
 from src.shared.evaluation.parts import Part, Parts
 
 Progress = Callable[[str], None]
@@ -129,7 +130,8 @@ def _measure(bench: Bench[Sample], row: Row[Sample], replication: int, seed: int
                 values[key] = value
             else:
                 figures[key] = float(value)
-    part: Part = {"num": len(sample), "figures": _short(figures)}
+    part: Part = {"num": len(sample), "asked": hash_names(sample.asked)}
+    part["figures"] = _short(figures)
     if not (row.fixed and replication):
         part["values"] = {key: _short(list(map(float, each))) for key, each in values.items()}
     if row.name == bench.main and not replication and bench.keep is not None:

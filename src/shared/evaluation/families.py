@@ -83,6 +83,11 @@ class MotionSample:
     def __len__(self) -> int:
         return len(self.clips)
 
+    @property
+    def asked(self) -> list[str]:
+        """What each motion was asked for."""
+        return self.clips.captions
+
     def each(self, name: str, measure: Callable[[Motion], Found]) -> list[Found]:
         """What `measure` says of each of the N motions, computed once a motion."""
         pairs = zip(self.memos, self.clips.motions, strict=True)
@@ -140,6 +145,11 @@ class DanceSample:
 
     def __len__(self) -> int:
         return len(self.dances)
+
+    @property
+    def asked(self) -> list[str]:
+        """The song of each motion."""
+        return [dance.song for dance in self.dances]
 
     def each(self, name: str, measure: Callable[[MotionTrajectory], Found]) -> list[Found]:
         """What `measure` says of each of the N trajectories, computed once a trajectory."""

@@ -93,7 +93,7 @@ def hash_arrays(arrays: Iterable[np.ndarray]) -> str:
 
 
 def hash_names(names: Iterable[str]) -> str:
-    """SHA-256 of a list of names: which clips a split holds."""
+    """SHA-256 of a list of names: the clips of a split, the prompts of a sample."""
     return hashlib.sha256("\n".join(names).encode()).hexdigest()
 
 

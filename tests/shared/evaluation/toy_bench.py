@@ -81,6 +81,7 @@ class Apart:
 def toy_bench(folder: Path | None = None, *, lift: float = 0.5) -> Bench[MotionSample]:
     """Real heights 0 to 1.1; generated ones are `lift` higher, a tenth more each replication."""
     real = toy_sample(np.arange(NUM) / 10)
+    real = real.rows(range(NUM - 1, -1, -1))  # in another order than what is generated
 
     def generated(replication: int) -> MotionSample:
         return toy_sample(np.arange(NUM) / 10 + lift + replication / 10)
