@@ -8,6 +8,7 @@ import asyncio
 import logging
 import queue
 import threading
+import weakref
 from collections import Counter
 from collections.abc import Callable, Sequence, Set
 from concurrent.futures import Future, wait
@@ -169,36 +170,48 @@ class MPMService:
             return self.counts[what]
 
 
+_Job = tuple[Future[Memory], Callable[[], Memory]]
+_Queue = queue.SimpleQueue[_Job | None]
+
+
 class _Workers:
     """A few daemon threads and a queue: a search that hangs does not keep a program from ending.
 
-    `concurrent.futures` would wait for its threads at exit.
+    `concurrent.futures` would wait for its threads at exit. They end when this object does.
     """
 
     def __init__(self, count: int) -> None:
         self._count = count
-        self._queue: queue.SimpleQueue[tuple[Future[Memory], Callable[[], Memory]]] = (
-            queue.SimpleQueue()
-        )
-        self._threads: list[threading.Thread] = []
+        self._queue: _Queue = queue.SimpleQueue()
+        self._started = 0
         self._starting = threading.Lock()
+        weakref.finalize(self, _send_home, self._queue, count).atexit = False
 
-    def submit(self, work: Callable[[], Memory]) -> "Future[Memory]":
+    def submit(self, work: Callable[[], Memory]) -> Future[Memory]:
+        """Do it in a thread as soon as one is free."""
         future: Future[Memory] = Future()
         self._queue.put((future, work))
         with self._starting:
-            if len(self._threads) < self._count:
-                thread = threading.Thread(target=self._run, name="memory", daemon=True)
-                self._threads.append(thread)
-                thread.start()
+            if self._started < self._count:
+                self._started += 1
+                threading.Thread(
+                    target=_work_on, args=(self._queue,), name="memory", daemon=True
+                ).start()
         return future
 
-    def _run(self) -> None:
-        while True:
-            future, work = self._queue.get()
-            if not future.set_running_or_notify_cancel():
-                continue  # its deadline passed while it waited
-            try:
-                future.set_result(work())
-            except BaseException as error:  # the thread lives on, the one who asked is told
-                future.set_exception(error)
+
+def _work_on(jobs: _Queue) -> None:
+    while (job := jobs.get()) is not None:
+        future, work = job
+        if not future.set_running_or_notify_cancel():
+            continue  # its deadline passed while it waited
+        try:
+            future.set_result(work())
+        except BaseException as error:  # the thread lives on, the one who asked is told
+            future.set_exception(error)
+        del job, future, work  # an idle thread holds on to no memory
+
+
+def _send_home(jobs: _Queue, count: int) -> None:
+    for _ in range(count):
+        jobs.put(None)

@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+import fsspec
 import numpy as np
 import pytest
 import torch
@@ -118,3 +119,15 @@ def test_the_clip_that_is_shown_names_the_phrase(tmp_path: Path) -> None:
         main, other = ("walk", "run") if int(phrase[-2:]) % 2 else ("run", "walk")
         assert clip == (main if int(start) < 90 else other), name
         assert caption == f"a person does a {clip}"
+
+
+def test_a_bucket_will_do(pairs: Path, tmp_path: Path) -> None:
+    files = fsspec.filesystem("memory")
+    for file in pairs.rglob("*"):
+        if file.is_file():
+            files.pipe_file(f"/dancers/{file.relative_to(pairs)}", file.read_bytes())
+    here, there = (
+        build_memory(root, LinearSpace(), tmp_path / name)
+        for name, root in (("here", str(pairs)), ("there", "memory://dancers"))
+    )
+    assert here.ids == there.ids and torch.equal(here.audio_keys, there.audio_keys)

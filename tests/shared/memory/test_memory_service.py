@@ -1,6 +1,7 @@
 """MPMService: in time, or nothing and counted; whatever the index does."""
 
 import asyncio
+import gc
 import threading
 import time
 from pathlib import Path
@@ -105,6 +106,20 @@ def test_a_hanging_index_takes_nothing_but_its_deadline(tmp_path: Path) -> None:
     assert is_null(service.query_now(make_index().audio_keys[0], 0.0, 9))
     assert service.counts == {"answered": 0, "timed_out": 21, "failed": 0}
     never.set()  # the stuck searches end, and with them the errors nobody waits for
+
+
+def test_threads_end_with_their_service() -> None:
+    before = set(threading.enumerate())
+    service = MPMService(MemoryConfig(workers=3, deadline=30.0), make_index())
+    for _ in range(5):
+        service.query_now(make_index().audio_keys, 0.0, 9)
+    started = set(threading.enumerate()) - before
+    assert 0 < len(started) <= 3
+    del service
+    gc.collect()
+    for thread in started:
+        thread.join(30)
+        assert not thread.is_alive()
 
 
 def test_an_index_that_times_out_by_itself_has_failed() -> None:
