@@ -60,13 +60,7 @@ def evaluate_audio(
         manifest.claim(folder, _manifest(context, sampling or {}, about))
     parts = Parts(folder)
     bench = song_bench(context, folder)
-    tables = run_bench(
-        bench,
-        parts,
-        replications=settings.replications,
-        seed=settings.seed,
-        progress=progress,
-    )
+    tables = run_bench(bench, parts, settings.replications, settings.seed, progress)
     for name, extra in AUDIO_EXTRAS.items():
         part = parts.once(name, partial(_as_part, extra, context))
         tables += [Grid.from_dict(grid) for grid in part["grids"]]

@@ -96,7 +96,7 @@ def part_name(bench: str, row: str, replication: int) -> str:
 
 
 def run_bench(
-    bench: Bench[Sample], parts: Parts, *, replications: int, seed: int, progress: Progress
+    bench: Bench[Sample], parts: Parts, replications: int, seed: int, progress: Progress
 ) -> list[Grid]:
     """Measure what is missing, and make one table a family.
 

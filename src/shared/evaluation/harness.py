@@ -18,9 +18,8 @@ from src.shared.evaluation.clips import Sampler
 from src.shared.evaluation.engine import Bench, Progress, Row, part_name, run_bench
 from src.shared.evaluation.evaluator import Evaluator
 from src.shared.evaluation.families import Column, MotionSample
-from src.shared.evaluation.grids import Grid, GridRow, plain, report_data
+from src.shared.evaluation.grids import Grid, GridRow, report_data
 from src.shared.evaluation.held_out import HeldOut, open_held_out
-from src.shared.evaluation.metrics_retrieval import normalised_score
 from src.shared.evaluation.parts import Part, Parts
 from src.shared.evaluation.registry import TEXT_EXTRAS, TEXT_FAMILIES, TEXT_ROWS
 from src.shared.evaluation.text_context import (
@@ -31,12 +30,11 @@ from src.shared.evaluation.text_context import (
     model_sampler,
     untrained,
 )
+from src.shared.evaluation.text_scores import score_grid
 from src.shared.evaluation.worst import Keeper, write_motion
 
 if TYPE_CHECKING:
     from src.shared.model.generation.motion_generator import MotionGenerator
-
-RATIOS = ("contact_slide", "support_slide", "jerk", "hand_jerk", "speed", "diversity")
 
 
 def evaluate_text(
@@ -72,17 +70,7 @@ def evaluate_text(
     judge = Evaluator.from_pretrained(evaluator)
     generator = MotionGenerator.from_pretrained(model, device=device)
     held_out = open_held_out(data, cache, judge.trained_groups)
-    network = generator.network.generation
-    about = {
-        "model": model,
-        "model_hash": generator.card.weights.sha256[:12] if generator.card.weights else "",
-        "sampler": sampling.get("sampler") or network.sampler,
-        "steps": sampling.get("steps") or network.sampling_steps,
-        "guidance_scale": _first(sampling.get("guidance_scale"), network.guidance_scale),
-        "foot_lock": _first(sampling.get("foot_lock"), network.post_processing.foot_lock),
-        "evaluator": evaluator,
-        "held_out": _told_apart(held_out, generator.card.data, judge),
-    }
+    about = _about(model, generator, evaluator, judge, held_out, sampling)
     if folder is not None:
         manifest.claim(
             folder, _manifest(model, generator, evaluator, judge, held_out, settings, sampling)
@@ -92,14 +80,30 @@ def evaluate_text(
     if settings.untrained:
         samplers[UNTRAINED] = model_sampler(untrained(generator, settings.seed), **sampling)
     return evaluate_samplers(
-        samplers,
-        held_out,
-        judge,
-        settings=settings,
-        about=about,
-        folder=folder,
-        progress=progress,
+        samplers, held_out, judge, settings=settings, about=about, folder=folder, progress=progress
     )
+
+
+def _about(
+    model: str,
+    generator: "MotionGenerator",
+    evaluator: str,
+    judge: Evaluator,
+    held_out: HeldOut,
+    sampling: dict[str, Any],
+) -> dict[str, Any]:
+    """What the report repeats of model, judge and data."""
+    network = generator.network.generation
+    return {
+        "model": model,
+        "model_hash": generator.card.weights.sha256[:12] if generator.card.weights else "",
+        "sampler": sampling.get("sampler") or network.sampler,
+        "steps": sampling.get("steps") or network.sampling_steps,
+        "guidance_scale": _first(sampling.get("guidance_scale"), network.guidance_scale),
+        "foot_lock": _first(sampling.get("foot_lock"), network.post_processing.foot_lock),
+        "evaluator": evaluator,
+        "held_out": _told_apart(held_out, generator.card.data, judge),
+    }
 
 
 def _first(value: Any, otherwise: Any) -> Any:
@@ -181,13 +185,7 @@ def evaluate_samplers(
     for name, records in held_out.records.items():
         bench = split_bench(context, name, records, folder)
         try:
-            grids = run_bench(
-                bench,
-                parts,
-                replications=settings.replications,
-                seed=settings.seed,
-                progress=progress,
-            )
+            grids = run_bench(bench, parts, settings.replications, settings.seed, progress)
         except UserError as error:
             tables.append(missing(name, str(error)))
             continue
@@ -233,47 +231,6 @@ def missing(name: str, why: str) -> Grid:
     """What stands where a split could not be measured."""
     row = GridRow({"why": why})
     return Grid(name, f"{name}: not measured", (Column("why", "why"),), {name: row})
-
-
-# ---------------------------------------------------------------- scores
-
-
-def score_grid(split: str, grids: Sequence[Grid], names: Sequence[str]) -> Grid:
-    """What a reader asks first: each row against real and chance."""
-    by_row = {name: scores(grids, name) for name in names}
-    keys = next(iter(by_row.values()))
-    columns = tuple(Column(key, key.replace("_", " ")) for key in keys)
-    rows = {name: GridRow(plain(values)) for name, values in by_row.items()}
-    note = (
-        "normalised: (row - chance) / (real - chance). joint ratio: joint FD over that of real"
-        " motions under shuffled labels; tag ratio: FD by tag over FD by wrong tag; the others:"
-        " row over real."
-    )
-    return Grid(f"{split}/scores", f"{split}: against real and chance", columns, rows, note)
-
-
-def scores(grids: Sequence[Grid], name: str) -> dict[str, float]:
-    """Row `name` against real and chance; NaN where a column is missing."""
-
-    def value(row: str, column: str) -> float:
-        known = [grid.value(row, column) for grid in grids]
-        return next((each for each in known if each == each), float("nan"))
-
-    def over(numerator: float, denominator: float) -> float:
-        return numerator / denominator if denominator > 1e-9 else float("nan")
-
-    result = {
-        f"normalised_r_at_{k}": normalised_score(
-            value(name, f"r_at_{k}"), value("chance", f"r_at_{k}"), value("real", f"r_at_{k}")
-        )
-        for k in (1, 2, 3)
-    }
-    joint, wrong_tag = value("chance", "frechet_joint"), value(name, "frechet_by_wrong_tag")
-    result["frechet_joint_ratio"] = over(value(name, "frechet_joint"), joint)
-    result["frechet_tag_ratio"] = over(value(name, "frechet_by_tag"), wrong_tag)
-    for column in RATIOS:
-        result[f"{column}_ratio"] = over(value(name, column), value("real", column))
-    return result
 
 
 # The names of the short harness, until everybody calls the new ones.

@@ -17,7 +17,7 @@ from tests.shared.evaluation.toy_bench import NUM, Heights, toy_bench
 def run(folder: Path | None, replications: int = 3) -> dict[str, Grid]:
     bench = toy_bench(folder)
     parts = Parts(folder)
-    grids = run_bench(bench, parts, replications=replications, seed=0, progress=lambda text: None)
+    grids = run_bench(bench, parts, replications, 0, lambda text: None)
     return {grid.name: grid for grid in grids}
 
 
@@ -45,12 +45,12 @@ def test_the_real_row_is_measured_between_two_halves_where_it_would_be_zero() ->
 def test_a_finished_part_is_not_measured_again(tmp_path: Path) -> None:
     first = run(tmp_path, replications=1)
     bench, parts = toy_bench(tmp_path), Parts(tmp_path)
-    again = run_bench(bench, parts, replications=1, seed=0, progress=lambda text: pytest.fail(text))
+    again = run_bench(bench, parts, 1, 0, lambda text: pytest.fail(text))
     heights = bench.families[0]
     assert isinstance(heights, Heights) and heights.calls == 0
     assert [grid.as_dict() for grid in again] == [grid.as_dict() for grid in first.values()]
     told: list[str] = []
-    run_bench(bench, Parts(tmp_path), replications=2, seed=0, progress=told.append)
+    run_bench(bench, Parts(tmp_path), 2, 0, told.append)
     assert told == ["toy: real, 2 of 2", "toy: generated, 2 of 2"]
 
 
@@ -62,7 +62,7 @@ def test_whoever_stops_it_loses_only_the_part_in_hand(tmp_path: Path) -> None:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        run_bench(bench, Parts(tmp_path), replications=3, seed=0, progress=stop)
+        run_bench(bench, Parts(tmp_path), 3, 0, stop)
     assert len(list((tmp_path / "parts").iterdir())) == 4
     whole = run(tmp_path / "whole")
     gone_on = run(tmp_path)

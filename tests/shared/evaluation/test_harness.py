@@ -19,10 +19,11 @@ from src.shared.errors import UserError
 from src.shared.evaluation import control_table as control
 from src.shared.evaluation.clips import Sampler
 from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig, contrastive_loss
-from src.shared.evaluation.harness import evaluate_samplers, scores
+from src.shared.evaluation.harness import evaluate_samplers
 from src.shared.evaluation.held_out import HeldOut
 from src.shared.evaluation.report import grids, markdown, print_report, printed, tables
 from src.shared.evaluation.text_context import TextSettings
+from src.shared.evaluation.text_scores import scores
 from src.shared.evaluation.text_tables import control_grid
 from src.shared.evaluation.training_set import PairSet
 from src.shared.motion.motion import Motion

@@ -28,9 +28,9 @@ def write(folder: Path, *, lift: float = 0.5, replications: int = 3) -> Path:
     grids = run_bench(
         toy_bench(folder, lift=lift),
         parts,
-        replications=replications,
-        seed=0,
-        progress=lambda text: None,
+        replications,
+        0,
+        lambda text: None,
     )
     samples = parts.once("toy.generated.000", dict)["samples"]
     settings = {"seed": 0, "replications": replications}
