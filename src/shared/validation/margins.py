@@ -3,7 +3,9 @@
 The margin of a failed check is 0. Of a passed one:
 - a figure with a band of real motions: 1 inside the band (5th to 95th percentile), falling with
   the logarithm to 0 at the limits (the band with its slack);
-- a figure below a bound: 1 - value / bound;
+- jerk and roughness: 1 up to the 95th percentile of real motions, falling likewise to 0 at the
+  bound. They must not go on rising below, or the tamest motion is the best;
+- a figure below a bound of which no band is known, or that is 0 by right: 1 - value / bound;
 - anything else: 1.
 """
 
@@ -12,7 +14,8 @@ from collections.abc import Iterable
 
 from src.shared.validation.sanity import CheckResult
 
-BELOW = ("jerk", "velocity_coherence", "accel_coherence", "roughness")
+LIVELY = ("jerk", "roughness")
+BELOW = (*LIVELY, "velocity_coherence", "accel_coherence")
 
 
 def margin(result: CheckResult) -> float:
@@ -22,6 +25,8 @@ def margin(result: CheckResult) -> float:
     value, bound = result.value, result.threshold
     if result.name in BELOW:
         assert not isinstance(value, tuple) and not isinstance(bound, tuple)
+        if result.band and result.name in LIVELY:
+            return share(value, bound, result.band[1])
         return 1.0 - value / bound
     if result.name.startswith("band_"):
         assert not isinstance(value, tuple) and isinstance(bound, tuple) and result.band

@@ -36,6 +36,16 @@ def test_a_bound_falls_linearly_and_the_rest_passes_or_fails() -> None:
     assert mean_margin([below(500.0), norm, below(3000.0)]) == pytest.approx(1.75 / 3)
 
 
+def test_no_motion_gains_by_being_tamer_than_real_ones() -> None:
+    margins = [
+        margin(CheckResult("jerk", True, value, 1600.0, "", (10.0, 400.0)))
+        for value in (0.0, 300.0, 400.0, 800.0)
+    ]
+    assert margins == pytest.approx([1, 1, 1, 0.5])
+    gap = CheckResult("velocity_coherence", True, 1.0, 5.0, "", (1e-9, 1e-7))
+    assert margin(gap) == pytest.approx(0.8), "real motion has none: the band says nothing"
+
+
 def test_real_bands_may_begin_at_zero() -> None:
     walk = np.zeros((60, 3))
     walk[:, 2] = np.arange(60) / 30
