@@ -15,12 +15,11 @@ from typing import Any
 
 from src.shared.evaluation.grids import Grid
 from src.shared.evaluation.report import (
-    cell_text,
-    counts,
     grids,
     heading,
     intervals_note,
     number,
+    printed,
 )
 from src.shared.evaluation.svg_plots import grid_plots
 from src.shared.formats.html import write_html
@@ -63,22 +62,20 @@ summary { cursor: pointer; color: var(--faint); font-size: 13px; margin-top: 12p
 """
 
 
-def html_page(report: dict[str, Any], folder: Path | None) -> str:
+def html_page(report: dict[str, Any], folder: Path) -> str:
     """The whole page.
 
     Args:
         report: see `report_data`.
-        folder: of the report, where samples and pictures lie; None = without them.
+        folder: of the report, where samples and pictures lie.
 
     Raises:
         UserError: a sample is missing or damaged.
     """
     tables = grids(report)
-    sections = [f'<section id="about">{_about(report)}</section>']
-    if folder is not None:
-        sections += list(_worst(report, folder))
+    sections = [f'<section id="about">{_about(report)}</section>', *_worst(report, folder)]
     sections += [_table(index, grid) for index, grid in enumerate(tables)]
-    if folder is not None and report["pictures"]:
+    if report["pictures"]:
         sections.append(_pictures(report["pictures"], folder))
     links = "".join(
         f'<a href="#table-{index}">{escape(grid.title.split(" (")[0])}</a>'
@@ -101,15 +98,12 @@ def _about(report: dict[str, Any]) -> str:
 
 
 def _table(index: int, grid: Grid) -> str:
-    counted = any(row.num is not None for row in grid.rows.values())
-    names = [grid.head, *(c.heading for c in grid.columns), *(["N × runs"] if counted else [])]
-    head = "".join(f"<th>{escape(name)}</th>" for name in names)
+    table = printed(grid)
+    head = "".join(f"<th>{escape(name)}</th>" for name in table.header)
     body = ""
-    for name, row in grid.rows.items():
-        cells = [cell_text(row.cells.get(column.key), column) for column in grid.columns]
-        cells += [counts(row.num, row.replications)] if counted else []
-        texts = "".join(f"<td>{escape(text)}</td>" for text in (name, *cells))
-        body += f'<tr class="{_css(name)}">{texts}</tr>'
+    for row in table.rows:
+        texts = "".join(f"<td>{escape(text)}</td>" for text in row)
+        body += f'<tr class="{_css(row[0])}">{texts}</tr>'
     plots = grid_plots(grid) if grid.plot else ""
     drawn = f'<details open><summary>plots</summary><div class="plots">{plots}</div></details>'
     return (
