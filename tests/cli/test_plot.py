@@ -6,6 +6,8 @@ import pytest
 from typer.testing import CliRunner
 
 from src.cli.tools import app
+from src.shared.audio.song_spec import SongSpec
+from src.shared.audio.synthetic_songs import render_song
 from src.shared.formats.trajectory_csv import write_trajectory_csv
 from tests.shared.motion.trajectories import smooth_trajectory
 
@@ -22,6 +24,16 @@ def test_a_trajectory_and_a_log(tmp_path: Path) -> None:
     picture = tmp_path / "new" / "losses.pdf"
     result = CliRunner().invoke(app, ["plot", str(log), "--out", str(picture)])
     assert result.exit_code == 0 and picture.read_bytes().startswith(b"%PDF")
+
+
+def test_an_analysed_song_is_pointed_to_its_own_picture(tmp_path: Path) -> None:
+    song, file = tmp_path / "song.wav", tmp_path / "song.npz"
+    render_song(SongSpec(seconds=2.0)).write_wav(song)
+    features = ["features", str(song), "--out", str(file), "--no-cache"]
+    assert CliRunner().invoke(app, features).exit_code == 0
+    result = CliRunner().invoke(app, ["plot", str(file)])
+    assert result.exit_code == 1
+    assert "is an analysed song, not a trajectory; `features SONG --plot" in result.stderr
 
 
 @pytest.mark.parametrize(("arguments", "code"), [

@@ -58,6 +58,9 @@ def read_trajectory_npz(path: str | Path) -> MotionTrajectory:
     """
     path = Path(path)
     arrays = load_arrays(path)
+    if "beat_times" in arrays:
+        raise UserError(f"{path}: is an analysed song, not a trajectory; "
+                        "`features SONG --plot PICTURE` draws it")  # fmt: skip
     for name in ("trajectory", "fps"):
         if name not in arrays:
             raise UserError(f"{path}: has no array {name!r}; is it a trajectory of this project?")
