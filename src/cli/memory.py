@@ -210,5 +210,5 @@ def print_hits(hits: list["Found"]) -> None:
 
 def name_of(hit: "Found") -> str:
     """What a phrase shows: its caption, else its clip; and its id."""
-    shown = hit.caption or Path(hit.clip).stem
+    shown = hit.caption or Path(hit.clip).name  # "~mirrored" may follow its suffix
     return f"{shown[:NAME_WIDTH]} [{hit.phrase}]" if shown else hit.phrase
