@@ -12,7 +12,7 @@ import numpy as np
 
 from src.shared.errors import UserError
 from src.shared.evaluation import manifest
-from src.shared.evaluation.bootstrap import MIN_PAIRS, paired_bootstrap
+from src.shared.evaluation.bootstrap import MIN_PAIRS, Difference, paired_bootstrap
 from src.shared.evaluation.engine import motion_values, part_name
 from src.shared.evaluation.families import Column
 from src.shared.evaluation.grids import Grid, GridRow, plain, report_data
@@ -20,14 +20,14 @@ from src.shared.evaluation.parts import Part, Parts, read_json
 from src.shared.evaluation.report import grids
 
 FREE = ("model", "sampling", "statistics", "environment")  # what a comparison may be about
+FEW = 8  # pairs below which a percentile bootstrap is too sure of itself
 NOTE = (
     "b - a, ± half a 95% interval of a paired bootstrap (10,000 resamples): over prompts, each the"
     " mean of its replications, where a figure belongs to a single motion; over replications with"
-    " the same seeds where it belongs to a whole sample (fewer than {few} say little). p is"
-    " two-sided. better: the interval excludes 0 on the good side. Every column is one test: of"
-    " twenty that differ in nothing, one seems to."
+    " the same seeds where it belongs to a whole sample. p is two-sided. better: the interval"
+    f" excludes 0 on the good side; fewer than {FEW} pairs get no verdict. Every column is one"
+    " test: of twenty that differ in nothing, one seems to."
 )
-FEW = 5
 
 
 @dataclass(frozen=True)
@@ -109,15 +109,15 @@ def _difference(grid: Grid, a: Side, b: Side, seed: int) -> Grid | None:
             "b": float(np.nanmean(pair[1])),
             "difference": {k: v for k, v in found.as_dict().items() if k != "p"},
             "p": found.p,
-            "better": verdict(column, found.low, found.high),
+            "better": verdict(column, found),
+            "pairs": found.count,
         }
-        rows[column.heading] = GridRow(plain(cells), found.count, 1)
+        rows[column.heading] = GridRow(plain(cells))
     columns = (
         Column("a", "a"), Column("b", "b"), Column("difference", "b - a", 4), Column("p", "p", 4),
-        Column("better", "better"),
+        Column("better", "better"), Column("pairs", "pairs", 0),
     )  # fmt: skip
-    note = NOTE.format(few=FEW)
-    return Grid(grid.name, grid.title, columns, rows, note, "figure") if rows else None
+    return Grid(grid.name, grid.title, columns, rows, NOTE, "figure") if rows else None
 
 
 def _pairs(a: Sequence[Part], b: Sequence[Part], key: str) -> tuple[np.ndarray, np.ndarray] | None:
@@ -130,10 +130,12 @@ def _pairs(a: Sequence[Part], b: Sequence[Part], key: str) -> tuple[np.ndarray, 
     return (left, right) if known.sum() >= MIN_PAIRS else None
 
 
-def verdict(column: Column, low: float, high: float) -> str:
+def verdict(column: Column, found: Difference) -> str:
     """Which side is better, as far as the interval tells."""
-    if low <= 0 <= high:
+    if found.count < FEW:
+        return "too few"
+    if found.low <= 0 <= found.high:
         return "–"
     if column.better == "real":
         return "differ"
-    return "b" if (low > 0) == (column.better == "high") else "a"
+    return "b" if (found.low > 0) == (column.better == "high") else "a"

@@ -1,7 +1,7 @@
 """Reports as text: tables on a terminal or in Markdown, from the data of report.json."""
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -108,10 +108,7 @@ def _worst(report: dict[str, Any]) -> str:
     samples = report.get("samples", [])
     if not samples:
         return ""
-    rows = [
-        [f"{s['rank']} of {s['of']}, {s['bench']}", s["title"].replace("|", "/"), s["file"]]
-        for s in samples
-    ]
+    rows = [[f"{s['rank']} of {s['of']}, {s['bench']}", s["title"], s["file"]] for s in samples]
     table = Table("worst first", ["place", "asked for", "file"], rows)
     return "\n".join(_table_lines(table)) + "\n"
 
@@ -125,10 +122,14 @@ def as_markdown(title: str, lines: Iterable[str], parts: Iterable[Table]) -> str
 
 
 def _table_lines(table: Table) -> list[str]:
-    lines = [f"## {table.title}", "", "| " + " | ".join(table.header) + " |"]
-    lines.append("|" + "---|" * len(table.header))
-    lines += ["| " + " | ".join(row) + " |" for row in table.rows]
+    lines = [f"## {table.title}", "", _line(table.header), "|" + "---|" * len(table.header)]
+    lines += [_line(row) for row in table.rows]
     return [*lines, "", table.note, ""] if table.note else [*lines, ""]
+
+
+def _line(cells: Sequence[str]) -> str:
+    """A row in Markdown; a bar within a cell is no border."""
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
 
 
 def print_report(report: dict[str, Any], console: "Console") -> None:

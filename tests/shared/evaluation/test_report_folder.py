@@ -3,17 +3,20 @@
 import json
 import re
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from src.shared.errors import UsageError, UserError
 from src.shared.evaluation import manifest
-from src.shared.evaluation.compare import Side, compare
+from src.shared.evaluation.bootstrap import Difference
+from src.shared.evaluation.compare import Side, compare, verdict
 from src.shared.evaluation.engine import run_bench
+from src.shared.evaluation.families import Column
 from src.shared.evaluation.grids import Grid, report_data
 from src.shared.evaluation.parts import Parts, read_json
-from src.shared.evaluation.report import markdown
+from src.shared.evaluation.report import Table, as_markdown, markdown
 from src.shared.evaluation.report_folder import render, save_report
 from tests.shared.evaluation.toy_bench import toy_bench
 from tests.shared.formats.chromium_pipe import chromium
@@ -86,11 +89,24 @@ def test_a_known_difference_is_found_and_paired(tmp_path: Path) -> None:
     assert isinstance(difference, dict)
     assert difference["value"] == pytest.approx(-0.3) and difference["count"] == 12
     assert difference["low"] == pytest.approx(-0.3, abs=1e-6)  # float32 heights
-    assert cells["better"] == "b" and found["toy/apart"].rows["apart m"].num == 3
+    assert cells["better"] == "b" and found["toy/apart"].value("apart m", "pairs") == 3
     rows = compare(Side(a, "generated"), Side(a, "untrained"))["tables"]
     assert {row["name"] for table in rows for row in table["rows"]} == {
         "height m"
     }  # one replication of the others makes no pair
+
+
+def test_a_verdict_needs_pairs_and_an_interval_off_zero() -> None:
+    high, low, real = (Column("x", "x", better=kind) for kind in ("high", "low", "real"))
+    above = Difference(1.0, 0.5, 1.5, 0.01, 20)
+    assert [verdict(column, above) for column in (high, low, real)] == ["b", "a", "differ"]
+    assert verdict(high, Difference(1.0, -0.5, 1.5, 0.2, 20)) == "–"
+    assert verdict(high, replace(above, count=7)) == "too few"
+
+
+def test_a_bar_in_a_heading_is_no_border() -> None:
+    table = Table("t", ["row", "|error|"], [["real", "0.1"]])
+    assert "| row | \\|error\\| |" in as_markdown("title", [], [table])
 
 
 def test_only_like_is_compared_with_like(tmp_path: Path) -> None:
