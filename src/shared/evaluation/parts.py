@@ -49,10 +49,14 @@ class Parts:
         return self.folder / "parts" / (re.sub(r"[^\w.-]+", "-", name) + ".json")
 
     def _read(self, name: str) -> Part | None:
+        """A finished part whose files are still there."""
         path = self._path(name)
-        if path is None or not path.is_file():
+        if self.folder is None or path is None or not path.is_file():
             return None
-        return read_json(path)
+        part = read_json(path)
+        kept = [*part.get("samples", ()), *part.get("pictures", ())]
+        files = [item[key] for item in kept for key in ("file", "sound") if key in item]
+        return part if all((self.folder / file).is_file() for file in files) else None
 
     def _compute(self, name: str, compute: Callable[[], Part]) -> Part:
         started = time.perf_counter()

@@ -87,6 +87,15 @@ def test_the_worst_come_first_and_are_kept(tmp_path: Path) -> None:
     assert (tmp_path / part["samples"][0]["file"]).is_file()
 
 
+def test_a_motion_that_was_thrown_away_is_made_again(tmp_path: Path) -> None:
+    run(tmp_path, replications=1)
+    kept = tmp_path / "samples" / "toy-01.npz"
+    before = kept.read_bytes()
+    kept.unlink()
+    run(tmp_path, replications=1)
+    assert kept.read_bytes() == before
+
+
 def test_ranks_share_ties_and_leave_gaps_in_the_middle() -> None:
     values = {"height": np.array([1.0, np.nan, 3.0, 1.0, 3.0])}
     assert worst_first([Heights()], values, 5) == [2, 4, 1, 0, 3]
