@@ -97,7 +97,7 @@ def measure(count: int, dim: int, threads: int, method: str) -> dict[str, Any]:
     exact = index.search(query, top_k=TOP_K).index
     held, start = resident(), clock()
     if method == "faiss":
-        import faiss  # type: ignore[import-untyped,unused-ignore]
+        import faiss  # type: ignore[import-untyped,import-not-found,unused-ignore]
 
         from src.shared.memory.search import LibraryIndex, make_table
 

@@ -142,3 +142,8 @@ def test_refusals_are_one_line(
     errors = [line for line in err.splitlines() if line.startswith("error:")]
     assert len(errors) == 1 and says in errors[0]
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("command", ["build", "query"])
+def test_help_shows_an_example(command: str) -> None:
+    assert f"motion-tools memory {command}" in invoke(command, "--help")[0]

@@ -90,7 +90,7 @@ class LibraryIndex(MemoryIndex):
 
         All cells are looked at where the nearest hold too few.
         """
-        import faiss  # type: ignore[import-untyped,unused-ignore]
+        import faiss  # type: ignore[import-untyped,import-not-found,unused-ignore]
 
         table, parameters = self.tables[key], faiss.SearchParametersIVF()
         enough = min(top_k, len(self))
