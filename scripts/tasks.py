@@ -19,6 +19,15 @@ PROMPTS = (
     "someone runs forward quickly",
     "人が左に曲がる",  # turns left
 )
+DEMO = "outputs/demo"
+SONG = f"""
+from pathlib import Path
+from src.shared.audio.synthetic_songs import SongSpec, render_song
+
+path = Path("{DEMO}/song.wav")
+path.parent.mkdir(parents=True, exist_ok=True)
+render_song(SongSpec(seconds=8.0, tempo=112.0, seed=1)).write_wav(path)
+"""
 
 
 def run(program: Path, *arguments: str, threads: int | None = None) -> int:
@@ -35,11 +44,16 @@ def python(*arguments: str, threads: int | None = None) -> int:
 
 
 def demo(arguments: list[str]) -> int:
-    """Generate a few motions, in three languages, into outputs/demo."""
+    """Generate a few motions, in three languages, and one to a song, into outputs/demo."""
     setup.main([])
+    generate = ("-m", "src.cli.tools", "generate", "--out", DEMO)
     prompts = [word for prompt in PROMPTS for word in ("--prompt", prompt)]
-    options = ["--seconds", "4", "--format", "bvh,glb,npz,html", "--out", "outputs/demo"]
-    return python("-m", "src.cli.tools", "generate", *prompts, *options, *arguments)
+    options = ["--seconds", "4", "--format", "bvh,glb,npz,html"]
+    return (
+        python(*generate, *prompts, *options, *arguments)
+        or python("-c", SONG)
+        or python(*generate, "--audio", f"{DEMO}/song.wav", "--format", "npz,glb,html")
+    )
 
 
 def pytest(marks: str, arguments: list[str]) -> int:

@@ -2,6 +2,7 @@
 
 import importlib.util
 import re
+import subprocess
 import sys
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
@@ -138,3 +139,18 @@ def test_demo_has_three_prompts_and_not_all_in_english() -> None:
     prompts = load("tasks").PROMPTS
     assert len(prompts) >= 3
     assert any(not prompt.isascii() for prompt in prompts)
+
+
+def test_demo_makes_a_song_and_moves_to_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(load("setup"), "main", lambda _: None)
+    tasks = load("tasks")
+    called: list[tuple[str, ...]] = []
+    monkeypatch.setattr(tasks, "python", lambda *words: called.append(words) or 0)
+    assert tasks.demo(["--device", "cpu"]) == 0
+    prompts, song, audio = called
+    assert "--prompt" in prompts and prompts[-2:] == ("--device", "cpu")
+    assert audio[audio.index("--audio") + 1] == "outputs/demo/song.wav"
+    done = subprocess.run([sys.executable, "-c", song[1].replace(tasks.DEMO, str(tmp_path / "x"))],
+                          cwd=ROOT, check=True)  # fmt: skip
+    assert done.returncode == 0
+    assert (tmp_path / "x" / "song.wav").stat().st_size == pytest.approx(8 * 88_200, abs=100)
