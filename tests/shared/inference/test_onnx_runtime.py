@@ -1,6 +1,7 @@
 """`export-onnx` and `--runtime onnx`: what onnxruntime computes is what PyTorch computes."""
 
 import json
+import re
 import shutil
 from pathlib import Path
 from typing import Any
@@ -181,6 +182,30 @@ def test_damage_is_one_line(home: Path, runtime: OnnxRuntime, tmp_path: Path, da
     with pytest.raises(UserError, match="export") as caught:
         OnnxRuntime.from_folder(folder)
     assert "\n" not in str(caught.value) and str(folder) in str(caught.value)
+
+
+def test_no_export_yet_says_how_to_make_one(home: Path, tmp_path: Path) -> None:
+    trained("derived", **SMALL).save_pretrained(home / "model")
+    audio = (home / "model", Path("starter-audio"))
+    others = (tmp_path, tmp_path / "none", Path("starter"))
+    wanted = [(folder, f" --model {folder}") for folder in audio]
+    for folder, model in [*wanted, *((folder, "") for folder in others)]:
+        with pytest.raises(UserError, match=re.escape(f"`export-onnx{model} --out DIR`")):
+            read_onnx_card(folder)
+
+
+def test_an_export_that_is_stopped_leaves_nothing(
+    home: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    trained("derived", **SMALL).save_pretrained(home / "model")
+
+    def stopped(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(torch.onnx, "export", stopped)
+    out = tmp_path / "onnx"
+    result = invoke(app, ["export-onnx", "--model", str(home / "model"), "--out", str(out)])
+    assert result.exit_code == 130 and not out.exists()
 
 
 def test_missing_package_names_the_extra(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -15,6 +15,8 @@ from src.shared.config_audio import AudioNetworkConfig
 from src.shared.config_schema import Config
 from src.shared.errors import UserError
 from src.shared.files import sha256_file
+from src.shared.model.checkpoint import read_card
+from src.shared.model.zoo import resolve_model
 
 CARD_FILE = "onnx.json"
 GRAPHS = ("unet.onnx", "decoder.onnx")
@@ -78,9 +80,10 @@ def read_onnx_card(folder: Path) -> OnnxCard:
     """
     path = Path(folder) / CARD_FILE
     if not path.is_file():
+        model = f" --model {folder}" if _is_audio_model(folder) else ""
         raise UserError(
             f"{folder} holds no ONNX export ({CARD_FILE} is missing); make one with"
-            f" `export-onnx --model {folder} --out DIR` and name DIR"
+            f" `export-onnx{model} --out DIR` and name DIR"
         )
     try:
         card = OnnxCard.model_validate(json.loads(path.read_text(encoding="utf-8")))
@@ -98,3 +101,11 @@ def read_onnx_card(folder: Path) -> OnnxCard:
                 " export the model again"
             )
     return card
+
+
+def _is_audio_model(name_or_folder: str | Path) -> bool:
+    """Could `export-onnx` make something of it?"""
+    try:
+        return read_card(resolve_model(name_or_folder)).audio_network is not None
+    except UserError:
+        return False

@@ -111,12 +111,9 @@ def export_onnx(model: AudioMotionModel, folder: str | Path) -> OnnxCard:
         UserError: the packages are missing, or the folder cannot be written.
     """
     require_packages("onnx", "onnxscript")
-    folder = Path(folder)
     frames, rows = EXAMPLE_FRAMES, len(model.mean)
-    unet_file, decoder_file = (folder / name for name in GRAPHS)
-    _export(
+    unet = _program(
         symbolic(model.unet),
-        unet_file,
         {
             "x": (torch.randn(2, rows, frames), {0: "batch", 2: "frames"}),
             "t": (torch.tensor([1, 2]), {0: "batch"}),
@@ -127,15 +124,19 @@ def export_onnx(model: AudioMotionModel, folder: str | Path) -> OnnxCard:
         },
         ("prediction",),
     )
-    _export(
+    decoder = _program(
         DecoderGraph(copy.deepcopy(model.decoder).cpu().float().eval()),
-        decoder_file,
         {
             "rows": (torch.randn(2, frames, CHANNELS), {0: "batch", 1: "frames"}),
             "start": (torch.rand(2), {0: "batch"}),
         },
         ("trajectory", "phase"),
     )
+    # Written only now: who stops the slow part leaves no folder behind.
+    files = [Path(folder) / name for name in GRAPHS]
+    for program, path in zip((unet, decoder), files, strict=True):
+        with atomic_write(path) as temporary:
+            program.save(str(temporary))
     card = OnnxCard(
         name=model.card.name,
         description=model.card.description,
@@ -148,19 +149,18 @@ def export_onnx(model: AudioMotionModel, folder: str | Path) -> OnnxCard:
         mean=tuple(model.mean.tolist()),
         std=tuple(model.std.tolist()),
         null_condition=tuple(model.unet.null.tolist()),
-        graphs={path.name: graph_info(path) for path in (unet_file, decoder_file)},
+        graphs={path.name: graph_info(path) for path in files},
     )
-    write_json(folder / CARD_FILE, card.model_dump(mode="json", by_alias=True))
+    write_json(Path(folder) / CARD_FILE, card.model_dump(mode="json", by_alias=True))
     return card
 
 
-def _export(
+def _program(
     module: nn.Module,
-    path: Path,
     inputs: Mapping[str, tuple[Tensor, Shapes]],
     outputs: Sequence[str],
-) -> None:
-    with torch.no_grad(), _quiet(), atomic_write(path) as temporary:
+) -> torch.onnx.ONNXProgram:
+    with torch.no_grad(), _quiet():
         program = torch.onnx.export(
             module,
             tuple(example for example, _ in inputs.values()),
@@ -172,8 +172,8 @@ def _export(
             optimize=False,  # onnxruntime does it on loading, many times faster
             verbose=False,
         )
-        assert program is not None
-        program.save(str(temporary))
+    assert program is not None
+    return program
 
 
 @contextmanager
