@@ -4,6 +4,7 @@ accelerate launch -m src.train.train_audio_tower data=PAIRS clip=runs/clip [key=
 
 Windows of a few bars, cut at bars. A batch holds several windows of each phrase, all of them
 right for one another. Phrases of the same song, or that show the same clip, are no negatives.
+Each phrase is also seen a little faster and slower, so that there is a motion for every tempo.
 
 Letters: B windows, C = 167 rows of sound, T frames, D embed dim, L clips of a phrase at most.
 """
@@ -48,6 +49,8 @@ class TrainAudioTowerConfig(PhraseConfig):
     tower: AudioTowerConfig = AudioTowerConfig()  # its embed-dim is that of the CLIP model
     bars: int = Field(2, ge=1)  # of a window
     windows: int = Field(2, ge=1)  # of each phrase in a batch
+    copies: int = Field(2, ge=0)  # of each phrase, faster or slower, sound and motion together
+    stretch: float = Field(0.12, ge=0, lt=0.5)  # by how much at most
     temperature: float = Field(0.1, gt=0)  # start of the learned logit scale
     cosine_weight: float = Field(0.0, ge=0)
 
@@ -96,7 +99,7 @@ class AudioTowerTask:
         dataset = open_phrases(config, "train", config.num_phrases, bodies=True)
         self.fingerprint = dataset.fingerprint
         self.space.audio.set_statistics(*sound_statistics(dataset))
-        self.train = _windows(config, dataset, step=1)
+        self.train = _windows(config, dataset, step=1, copies=config.copies)
         self.motion = self.train.embed_bodies(self.space.embed_motion)  # N D
         self.song, self.clips = _numbered(self.train.records)
         self.held_back = _windows(config, open_phrases(config, "val", None, bodies=True))
@@ -190,14 +193,23 @@ class AudioTowerTask:
 
 
 def _windows(
-    config: TrainAudioTowerConfig, dataset: MotionPhraseDataset, step: int | None = None
+    config: TrainAudioTowerConfig,
+    dataset: MotionPhraseDataset,
+    *,
+    step: int | None = None,
+    copies: int = 0,
 ) -> Windows:
+    def rates(number: int) -> list[float]:
+        drawn = numpy_generator("rates", config.seed, number).uniform(-1, 1, copies)
+        return [1.0, *((1 + config.stretch) ** drawn).tolist()]
+
     return Windows.cut(
         dataset,
         bars=config.bars,
         step=step,
         min_frames=config.min_frames,
         max_frames=config.max_frames,
+        rates=rates,
     )
 
 

@@ -13,7 +13,8 @@ from torch import Tensor
 from src.shared.data.phrases.dataset import MotionPhraseDataset
 from src.shared.data.phrases.layout import PhraseRecord
 from src.shared.memory.phrases import cut_at_bars
-from src.shared.model.audio.conditioning import with_phase_rows
+from src.shared.model.audio.conditioning import BEAT, with_phase_rows
+from src.shared.motion.root_track import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
 
 Embed = Callable[[Tensor, Tensor], Tensor]
 
@@ -63,6 +64,7 @@ class Windows:
         step: int | None = None,
         min_frames: int,
         max_frames: int,
+        rates: Callable[[int], Sequence[float]] = lambda number: (1.0,),
     ) -> "Windows":
         """Cut every good phrase at its bars.
 
@@ -71,6 +73,7 @@ class Windows:
             bars: length of a window.
             step: bars from one window to the next; None = `bars`.
             min_frames, max_frames: of a window; longer ones lose their end.
+            rates: how fast the phrase of that number is shown; each rate is a phrase of its own.
         """
         items: list[Window] = []
         records: list[PhraseRecord] = []
@@ -81,15 +84,15 @@ class Windows:
                 continue
             assert phrase.body is not None, "open the data set with bodies=True"
             audio = with_phase_rows(torch.from_numpy(phrase.audio)[None])[0].numpy()
-            first = len(items)
-            for start, stop in cut_at_bars(
-                phrase.phase, bars=bars, step=step, min_frames=min_frames
-            ):
-                part = slice(start, min(stop, start + max_frames))
-                items.append(Window(len(records), audio[:, part], phrase.body[part]))
-            if len(items) > first:
-                records.append(record)
-                of_phrase.append(list(range(first, len(items))))
+            for rate in rates(number):
+                shown = stretched(audio, phrase.phase, phrase.body, rate)
+                cuts = cut_at_bars(shown[1], bars=bars, step=step, min_frames=min_frames)
+                parts = [slice(start, min(stop, start + max_frames)) for start, stop in cuts]
+                first = len(items)
+                items += [Window(len(records), shown[0][:, p], shown[2][p]) for p in parts]
+                if parts:
+                    records.append(record)
+                    of_phrase.append(list(range(first, len(items))))
         return cls(items, records, of_phrase)
 
     def sounds(self, index: Sequence[int]) -> tuple[Tensor, Tensor]:
@@ -122,6 +125,34 @@ class Windows:
             parts.append(embed(values.to(device), mask.to(device)).float().cpu())
         found = torch.cat(parts)
         return found[torch.tensor(order).argsort()]
+
+
+def stretched(
+    audio: np.ndarray, phase: np.ndarray, body: np.ndarray, rate: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Sound and motion `rate` times as fast, by linear interpolation.
+
+    Args:
+        audio: condition [167,T].
+        phase: unwrapped bars [T].
+        body: raw features [T,23,6].
+        rate: 1 = as they are.
+
+    Returns:
+        The same three of T' frames; velocities and turning are `rate` times as large.
+    """
+    if rate == 1:
+        return audio, phase, body
+    at = np.arange(0, len(phase) - 1, rate)
+    before, part = at.astype(int), (at % 1).astype(np.float32)
+    audio = audio[:, before] * (1 - part) + audio[:, before + 1] * part
+    for rows in (slice(BEAT.start, BEAT.start + 2), slice(BEAT.start + 2, BEAT.stop)):
+        audio[rows] /= np.maximum(np.linalg.norm(audio[rows], axis=0), 1e-6)  # back on the circle
+    weight = part[:, None, None]
+    moved = body[before].astype(np.float32) * (1 - weight) + body[before + 1] * weight
+    moved[:, ROOT_ROW, [FORWARD, LATERAL, YAW_RATE]] *= rate
+    phase = phase[before] * (1 - part) + phase[before + 1] * part
+    return audio, phase, moved.astype(np.float16)
 
 
 def padded(parts: Sequence[Tensor], *, time_first: bool = True) -> tuple[Tensor, Tensor]:

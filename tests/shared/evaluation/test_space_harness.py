@@ -24,6 +24,8 @@ from src.shared.evaluation.space_harness import (
 from src.shared.evaluation.space_neighbours import Neighbours
 from src.shared.evaluation.space_retrieval import Bench
 from src.shared.evaluation.space_windows import Windows, padded, related
+from src.shared.model.audio.audio_tower import rate_rows
+from src.shared.motion.root_track import FORWARD, ROOT_ROW
 from tests.shared.evaluation.space_samples import tiny_bundle, tiny_space, write_space_phrases
 
 CUTS = {"bars": 1, "min_frames": 30, "max_frames": 60}
@@ -53,6 +55,25 @@ def test_windows_start_at_bars_and_hold_sound_and_body_of_one_time(windows: Wind
             assert np.corrcoef(beat, nod)[0, 1] > 0.9, "both nod on the beat"
     later = windows.items[windows.of_phrase[-1][1]]
     assert later.audio[165, 0] > 0.99, "cosine of the bar phase: a downbeat"
+
+
+def test_stretching_is_a_faster_song_with_a_faster_motion(folder: Path, tmp_path: Path) -> None:
+    dataset = MotionPhraseDataset(folder, bodies=True, cache_dir=tmp_path)
+    plain, fast = (
+        Windows.cut(dataset, **CUTS),
+        Windows.cut(dataset, rates=lambda n: (1.25,), **CUTS),
+    )
+    both = Windows.cut(dataset, rates=lambda n: (1.0, 1.25), **CUTS)
+    assert len(both.records) == 2 * len(plain.records) == 2 * len(fast.records)
+    assert np.array_equal(both.items[0].audio, plain.items[0].audio)
+    slow, quick = plain.items[0], fast.items[0]
+    rates = [rate_rows(torch.from_numpy(w.audio[None, 163:165]))[0, 0] for w in (slow, quick)]
+    assert torch.allclose(rates[1] - rates[0].mean(), torch.full((60,), np.log2(1.25)), atol=0.02)
+    assert np.allclose(np.linalg.norm(quick.audio[165:], axis=0), 1, atol=1e-5)
+    speeds = [window.body[:, ROOT_ROW, FORWARD].mean() for window in (slow, quick)]
+    assert speeds[1] == pytest.approx(1.25 * speeds[0], rel=0.01)
+    nod = quick.body[:, 0, 0] - quick.body[:, 5, 0]
+    assert np.corrcoef(quick.audio[163], nod)[0, 1] > 0.9
 
 
 def test_batches_are_padded_and_embedded_in_order(windows: Windows) -> None:

@@ -19,7 +19,7 @@ from src.shared.model.audio.conditioning import (
 )
 from src.shared.model.layers.temporal_unet import TemporalUNet
 
-HARMONICS = (1, 2, 4)  # of the octave that a beat's rate lies in
+HARMONICS = (1, 2)  # of the octave that a beat's rate lies in
 RATE_ROWS = 1 + 2 * len(HARMONICS)
 MIDDLE_RATE = 2 * math.pi * 2 / 30  # radians a frame: 120 beats a minute
 

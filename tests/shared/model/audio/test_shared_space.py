@@ -66,13 +66,13 @@ def test_the_rate_of_the_beat_is_told() -> None:
         phase = 2 * math.pi * tempo / 60 * torch.arange(40) / 30
         beat = torch.stack((phase.cos(), phase.sin()))[None]
         rows = rate_rows(beat)
-        assert rows.shape == (1, 7, 40)
+        assert rows.shape == (1, 5, 40)
         assert torch.allclose(rows[0, 0], torch.full((40,), octave), atol=1e-4)
         assert rows[0, 1:3].norm(dim=0) == pytest.approx(torch.ones(40), abs=1e-5)
     beat[..., 20:] = 0  # unknown, or padding
     assert torch.equal(rate_rows(beat)[..., :20], rows[..., :20])
     assert not rate_rows(beat)[..., 20:].any()
-    assert rate_rows(beat[..., :1]).shape == (1, 7, 1)
+    assert rate_rows(beat[..., :1]).shape == (1, 5, 1)
 
 
 def test_sound_is_standardised_by_its_statistics_and_phases_are_not():
