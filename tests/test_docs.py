@@ -108,6 +108,10 @@ def test_commands_in_the_docs_have_only_real_flags(page: Path) -> None:
     text = re.sub(r"\\\n\s*", " ", page.read_text(encoding="utf-8"))
     for name, rest in re.findall(r"(?:motion-tools|src\.cli\.tools) ([a-z][\w-]*)([^\n`|]*)", text):
         assert name in commands, f"{page.name}: {name}"
-        known = {f for p in commands[name].params for f in [*p.opts, *p.secondary_opts, "--help"]}
+        command = commands[name]
+        if hasattr(command, "commands"):  # a group: the next word is its command
+            inner, _, rest = rest.strip().partition(" ")
+            command = command.commands[inner]
+        known = {f for p in command.params for f in [*p.opts, *p.secondary_opts, "--help"]}
         used = {w for w in shlex.split(rest.replace("…", ""), comments=True) if w.startswith("--")}
         assert used <= known, f"{page.name}: {name} {used - known}"
