@@ -19,6 +19,7 @@ from src.shared.evaluation.text_hashing import caption_buckets
 
 TOP = (1, 2, 3, 5, 10)
 THRESHOLD = 0.95  # of (1 + cosine) / 2 of two texts, as in TMR
+POOL = 256  # candidates of protocols (a) and (b) in the tables, whose rows differ in N
 SUBSET = 100  # pairs of the dissimilar subset
 PROTOCOLS = ("all", "threshold", "dissimilar", "batches")
 
@@ -176,28 +177,38 @@ def recall_of_dissimilar(
     return recalls(cosines(text[rows], motion[rows]))
 
 
-def recall_in_batches(
-    text: np.ndarray, motion: np.ndarray, *, batch: int = BATCH, seed: int = 0
+def recall_in_pools(
+    text: np.ndarray,
+    motion: np.ndarray,
+    size: int = BATCH,
+    similarity: np.ndarray | None = None,
+    *,
+    seed: int = 0,
 ) -> BothWays:
-    """Protocol (d): protocol (a) in random batches of 32 (Guo et al.), mean over the batches.
+    """Protocol (a), or (b) if texts are given a similarity [N, N], in random pools of `size`.
 
-    An incomplete last batch is left out. The median rank is the mean of the batches' medians.
+    Pools of 32 are protocol (d) (Guo et al.). Recall falls as candidates are added, so samples of
+    different N only compare in pools of one size. Mean over the pools; an incomplete last one is
+    left out, and the median rank is the mean of the pools' medians.
 
     Raises:
-        ValueError: fewer pairs than one batch.
+        ValueError: fewer pairs than one pool.
     """
-    if len(text) < batch:
-        raise ValueError(f"{len(text)} pairs are fewer than one batch of {batch}: add samples")
+    if len(text) < size:
+        raise ValueError(f"{len(text)} pairs are fewer than one pool of {size}: add samples")
     order = np.random.default_rng(seed).permutation(len(text))
-    count = len(text) // batch
-    found = [
-        recall_of_all(text[rows], motion[rows])
-        for rows in order[: count * batch].reshape(count, batch)
-    ]
+    count = len(text) // size
+    found = []
+    for rows in order[: count * size].reshape(count, size):
+        if similarity is None:
+            found.append(recall_of_all(text[rows], motion[rows]))
+        else:
+            alike = similarity[np.ix_(rows, rows)]
+            found.append(recall_with_threshold(text[rows], motion[rows], alike))
     return BothWays(
         _mean([one.text_to_motion for one in found]),
         _mean([one.motion_to_text for one in found]),
-        batch,
+        size,
     )
 
 
@@ -209,13 +220,14 @@ def _mean(found: Sequence[Recall]) -> Recall:
 # ---------------------------------------------------------------- in the tables
 
 _SAYS = {
-    "all": "protocol (a): all pairs of the sample, only the own one is right. Captions that repeat "
-    "cap it below 1, for real motion too",
+    "all": f"protocol (a): only the own pair is right. In random pools of {POOL} instead of the "
+    "whole sample, because recall falls with the number of candidates and rows differ in it. "
+    "Captions that repeat cap it below 1, for real motion too",
     "threshold": f"protocol (b): texts with (1 + cosine) / 2 > {THRESHOLD} of their word n-grams, "
-    "or of one label group, count as right. Chance is higher here",
+    "or of one label group, count as right. Pools as in (a); chance is higher here",
     "dissimilar": f"protocol (c): among {SUBSET} texts far from each other, only the own pair; "
-    "fewer where the captions say fewer things (*pairs*). Which of equals it takes is drawn anew "
-    "in each replication",
+    "fewer where the captions say fewer things (*candidates*). Which of equals it takes is drawn "
+    "anew in each replication",
     "batches": f"protocol (d): random batches of {BATCH}, only the own pair is right",
 }
 
@@ -238,8 +250,7 @@ class TmrFamily:
             key = f"tmr_{self.protocol}_{way}"
             found += [Column(f"{key}_r{k}", f"{arrow} R@{k}", 3, "high") for k in TOP]
             found.append(Column(f"{key}_medr", f"{arrow} MedR", 1, "low"))
-        if self.protocol == "dissimilar":
-            found.append(Column("tmr_dissimilar_pairs", "pairs", 0))
+        found.append(Column(f"tmr_{self.protocol}_pairs", "candidates", 0))
         return tuple(found)
 
     @property
@@ -265,18 +276,18 @@ class TmrFamily:
                 "text similarity", lambda: text_similarity(clips.captions, clips.groups)
             )
 
-        text, motion = sample.text, sample.motion
+        text, motion, pool = sample.text, sample.motion, min(POOL, len(sample))
         protocols: dict[str, Callable[[], BothWays]] = {
-            "all": lambda: recall_of_all(text, motion),
-            "threshold": lambda: recall_with_threshold(text, motion, alike()),
+            "all": lambda: recall_in_pools(text, motion, pool, seed=seed),
+            "threshold": lambda: recall_in_pools(text, motion, pool, alike(), seed=seed),
             "dissimilar": lambda: recall_of_dissimilar(text, motion, alike(), seed=seed),
-            "batches": lambda: recall_in_batches(text, motion, seed=seed),
+            "batches": lambda: recall_in_pools(text, motion, seed=seed),
         }
         found = protocols[self.protocol]()
         ways = (found.text_to_motion, found.motion_to_text)
         values = [value for way in ways for value in (*way.recall, way.median_rank)]
         keys = [column.key for column in self.columns]
-        return dict(zip(keys, [*values, float(found.num_pairs)], strict=False))
+        return dict(zip(keys, [*values, float(found.num_pairs)], strict=True))
 
 
 FAMILIES = tuple(TmrFamily(protocol) for protocol in PROTOCOLS)

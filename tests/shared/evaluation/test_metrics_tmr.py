@@ -18,7 +18,7 @@ from src.shared.evaluation.metrics_tmr import (
     TOP,
     cosines,
     dissimilar_subset,
-    recall_in_batches,
+    recall_in_pools,
     recall_of_all,
     recall_of_dissimilar,
     recall_with_threshold,
@@ -126,13 +126,17 @@ def test_shuffled_motions_score_chance() -> None:
 
 def test_batches_are_easier_and_leave_out_the_rest() -> None:
     text, motion = noisy_pairs(200, 8, 1.0)
-    found = recall_in_batches(text, motion, seed=1)
+    found = recall_in_pools(text, motion, seed=1)
     assert found.num_pairs == 32
     assert found.text_to_motion.recall[0] > recall_of_all(text, motion).text_to_motion.recall[0]
-    one = recall_in_batches(text[:32], motion[:32])
+    one = recall_in_pools(text[:32], motion[:32])
     assert one.text_to_motion == recall_of_all(text[:32], motion[:32]).text_to_motion
-    with pytest.raises(ValueError, match="fewer than one batch"):
-        recall_in_batches(text[:31], motion[:31])
+    alike = text_similarity([f"caption {i % 50}" for i in range(200)])
+    assert recall_in_pools(text, motion, 200, alike).motion_to_text == (
+        recall_with_threshold(text, motion, alike).motion_to_text
+    )
+    with pytest.raises(ValueError, match="fewer than one pool"):
+        recall_in_pools(text[:31], motion[:31])
 
 
 def test_the_dissimilar_subset_takes_one_of_each_cluster() -> None:
@@ -178,7 +182,7 @@ def test_bad_embeddings_are_named() -> None:
     with pytest.raises(ValueError, match="NaN"):
         recall_of_all(good, np.full((40, 3), np.nan))
     with pytest.raises(ValueError, match="length 0"):
-        recall_in_batches(good, np.zeros((40, 3)))
+        recall_in_pools(good, np.zeros((40, 3)))
     with pytest.raises(ValueError, match="aligned"):
         recall_of_dissimilar(good, good[:, :2], np.eye(40))
     assert recalls(np.eye(3)).num_pairs == 3
@@ -194,13 +198,14 @@ def sample(num: int) -> MotionSample:
 def test_the_families_fill_their_columns() -> None:
     pairs, few = sample(120), sample(20)
     keys = [column.key for family in FAMILIES for column in family.columns]
-    assert len(set(keys)) == len(keys) == 49
+    assert len(set(keys)) == len(keys) == 52
     for family in FAMILIES:
         found = family.compute(pairs, pairs, seed=0)
         assert list(found) == [column.key for column in family.columns]
         assert all(np.isfinite(value) for value in found.values())
         assert family.protocol in family.name and "published" in family.definition
     assert FAMILIES[3].compute(few, few, seed=0) == {}
+    assert FAMILIES[0].compute(sample(700), pairs, seed=0)["tmr_all_pairs"] == 256
     strict = FAMILIES[0].compute(pairs, pairs, seed=0)["tmr_all_t2m_r1"]
     loose = FAMILIES[1].compute(pairs, pairs, seed=0)["tmr_threshold_t2m_r1"]
     assert strict <= loose
