@@ -73,7 +73,7 @@ def evaluate_space(
         space: on the CPU.
         data: folder of `prepare-audio`, with bodies.
         split: whose songs and clips no training saw: test, or val.
-        texts: measure text as well.
+        texts: measure text as well, if every phrase has a caption.
         settings: amounts and seed.
         about: what is measured with what.
         progress: told what comes next.
@@ -104,8 +104,10 @@ def evaluate_space(
         _table(bench, "sound → motion", sounds, {SPACE: motion}),
         _table(bench, "motion → sound", {SPACE: motion}, sounds),
     ]
-    if texts is not None:
-        captions = [record.caption for record in held_out.records]
+    captions = [record.caption for record in held_out.records]
+    if texts is not None and not all(captions):
+        progress("phrases without captions: texts are left out")
+    elif texts is not None:
         spoken = space.embed_text(captions, texts.tower, texts.tokenizer)
         text = {SPACE: spoken[[window.phrase for window in held_out.items]]}
         tables += [

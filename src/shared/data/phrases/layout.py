@@ -146,6 +146,7 @@ def write_phrase(
         np.save(stream, np.asarray(trajectory, np.float32))
     with atomic_write(sound) as temporary, temporary.open("wb") as stream:
         np.savez(stream, **features)
+    (root / body_path(phrase)).unlink(missing_ok=True)  # of another motion
     return record_phrase(root, phrase, **about)
 
 

@@ -92,6 +92,7 @@ def test_what_a_phrase_shows_has_a_name(pairs: Path, data: PreparedData) -> None
         longest = max(pieces, key=lambda piece: piece.last - piece.first)
         [record] = [r for r in data.records() if r.id == longest.clip]
         assert phrase["tag"] == record.tag
+        assert phrase["clips"] == sorted({piece.clip.split("~")[0] for piece in pieces})
         assert phrase["caption"] in data.captions(record)["en"]
 
 
