@@ -50,6 +50,10 @@ FLAGS = {
         " --num-candidates --num-subjects --out --replications --sampler --seed --steps --threads"
         " --unseen"
     ),
+    "evaluate-space": (
+        "--bars --batch --data --json --model --out --quick --replications --seed --split --text"
+        " --threads"
+    ),
     "report": "--json FOLDER",
     "compare": (
         "--control-seeds --data --device --evaluator --json --num-samples --num-songs --other-row"
