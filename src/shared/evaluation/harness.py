@@ -231,8 +231,3 @@ def missing(name: str, why: str) -> Grid:
     """What stands where a split could not be measured."""
     row = GridRow({"why": why})
     return Grid(name, f"{name}: not measured", (Column("why", "why"),), {name: row})
-
-
-# The names of the short harness, until everybody calls the new ones.
-QuickSettings = partial(TextSettings, replications=3, untrained=0)
-quick = evaluate_text
