@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
+from zlib import crc32
 
 import numpy as np
 
@@ -26,7 +27,7 @@ from src.shared.evaluation.audio_songs import (
 )
 from src.shared.evaluation.families import Dance, DanceSample
 from src.shared.files import atomic_write
-from src.shared.inference.song_generator import SongGenerator
+from src.shared.inference.song_generator import SongGenerator, own_noise
 from src.shared.inference.song_sampler import SampleSettings
 from src.shared.motion.trajectory import FPS, MotionTrajectory
 from src.shared.validation.report import frozen
@@ -133,12 +134,16 @@ class AudioContext:
         held: bool = True,
         generator: SongGenerator | None = None,
     ) -> MotionTrajectory:
-        """A motion for a song; not `held`, it counts the phase for itself."""
-        seed = self.settings.seed + 1000 * replication
+        """A motion for a song, with noise of its own; not `held`, it counts the phase for itself.
+
+        With one noise for all, fifty songs would hold fifty times one walk.
+        """
+        settings = replace(self.sampled, seed=self.settings.seed)
+        settings = own_noise(settings, replication, crc32(piece.name.encode()))
         return (generator or self.generator).generate(
             piece.condition,
             phase=piece.phase if held else None,
-            settings=replace(self.sampled, seed=seed),
+            settings=settings,
         )[0]
 
     def _made(self, replication: int) -> Made:

@@ -111,7 +111,12 @@ def of_song(settings: SampleSettings, song: Song) -> SampleSettings:
     The sound sets the beat and little of the path: with one seed for all, every song would walk
     the same way.
     """
-    mixed = np.random.SeedSequence((settings.seed, int(song.sha256, 16)))
+    return own_noise(settings, int(song.sha256, 16))
+
+
+def own_noise(settings: SampleSettings, *parts: int) -> SampleSettings:
+    """The settings with a seed that depends on theirs and on every part, each 0 or more."""
+    mixed = np.random.SeedSequence((settings.seed, *parts))
     return replace(settings, seed=int(mixed.generate_state(1)[0]))
 
 
