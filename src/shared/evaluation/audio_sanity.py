@@ -156,8 +156,8 @@ def generate_raw(
 ) -> list[MotionTrajectory]:
     """One window [T,25] for each condition [C,T], as the decoder gives it.
 
-    The window is as long as any that `generate` makes; what is beyond T is cut off. Sample i has noise of its own seed,
-    whatever the batch.
+    The window is as long as any that `generate` makes; what is beyond T is cut off. Sample i has
+    noise of its own seed, whatever the batch.
     """
     device = model.mean.device
     sampler = make_sampler(model.diffusion, model.config.diffusion.sampler, settings.num_steps)
