@@ -38,7 +38,12 @@ class CaptionMatcher:
         return table.get(self._labels.get(slot.split(".")[0], ""), [])
 
     def accepts(self, text: str) -> bool:
-        return any(self._accepts(normalised(form)) for form in (text, text.replace("d'", "de ")))
+        """Whether it is written; each "d'" may be a frame's shortened "de" or a template's own."""
+        first, *rest = text.split("d'")
+        forms = [first]
+        for part in rest:
+            forms = [form + joint + part for form in forms for joint in ("d'", "de ")]
+        return any(self._accepts(normalised(form)) for form in forms)
 
     def _accepts(self, text: str) -> bool:
         self._text = text
