@@ -5,7 +5,8 @@ motions, seen and unseen label combinations apart, replication by replication.
 """
 
 import logging
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
@@ -75,13 +76,30 @@ def evaluate_text(
         manifest.claim(
             folder, _manifest(model, generator, evaluator, judge, held_out, settings, sampling)
         )
-    logging.getLogger("src.shared.model.generation.motion_generator").setLevel(logging.ERROR)
     samplers = {"generated": model_sampler(generator, **sampling)}
     if settings.untrained:
         samplers[UNTRAINED] = model_sampler(untrained(generator, settings.seed), **sampling)
-    return evaluate_samplers(
-        samplers, held_out, judge, settings=settings, about=about, folder=folder, progress=progress
-    )
+    with _errors_only(logging.getLogger("src.shared.model.generation.motion_generator")):
+        return evaluate_samplers(
+            samplers,
+            held_out,
+            judge,
+            settings=settings,
+            about=about,
+            folder=folder,
+            progress=progress,
+        )
+
+
+@contextmanager
+def _errors_only(logger: logging.Logger) -> Iterator[None]:
+    """Thousands of prompts would each say how near they are to what was trained."""
+    level = logger.level
+    logger.setLevel(logging.ERROR)
+    try:
+        yield
+    finally:
+        logger.setLevel(level)
 
 
 def _about(
