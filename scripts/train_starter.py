@@ -63,6 +63,8 @@ def average(work: Path) -> None:
     weights = generator.denoiser.state_dict()
     mean = {name: torch.lerp(before[name], weights[name], SHARE) for name in weights}
     generator.denoiser.load_state_dict(mean)
+    summary = generator.card.training | {"averaged": {"second": 1 - SHARE, "third": SHARE}}
+    generator.card = generator.card.model_copy(update={"training": summary})
     generator.save_pretrained(work / "starter")
 
 

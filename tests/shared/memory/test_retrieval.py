@@ -73,6 +73,7 @@ def test_a_memory_can_be_trained_on() -> None:
     layer = torch.nn.Linear(256, 2)
     memory = retrieve(make_index(), make_index().audio_keys[:1], num_frames=5)
     layer(memory.context).sum().backward()
+    assert layer.weight.grad is not None and layer.weight.grad.abs().sum() > 0
 
 
 @pytest.mark.parametrize("phase", [np.zeros((2, 5)), np.zeros(3), np.zeros((1, 1, 1))])
