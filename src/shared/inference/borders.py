@@ -1,0 +1,69 @@
+"""Where known frames end, what was made takes over smoothly.
+
+A network that is shown some frames makes the others so that they nearly fit. What misses at a
+border is taken up within a third of a second: the step across it becomes the mean of the steps on
+both sides, so that neither pose nor velocity jumps. `carry_on` does the same for the paths of the
+audio branch.
+
+Letters: T frames, R rows, C channels, N columns (one channel of one row).
+"""
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from src.shared.motion.root_track import LEFT_CONTACT, ROOT_ROW
+
+FADE = 10  # frames until what was made is left alone
+
+
+def smooth_borders(features: Tensor, known: Tensor, *, fade: int = FADE) -> Tensor:
+    """Features with unknown entries moved to meet the known ones; contacts stay as they are.
+
+    Args:
+        features: raw [T,R,C].
+        known: bool [T,R,C]; these entries are left alone.
+        fade: frames; no more than half of a gap.
+    """
+    smooth = features.double().flatten(1).numpy().copy()  # T N
+    fixed = known.flatten(1).numpy().copy()  # T N
+    contacts = ROOT_ROW * features.shape[2] + LEFT_CONTACT
+    fixed[:, contacts:] = True
+    _meet(smooth, fixed, fade)
+    _meet(smooth[::-1], fixed[::-1], fade)
+    return torch.from_numpy(smooth).to(features.dtype).view_as(features)
+
+
+def _meet(values: np.ndarray, fixed: np.ndarray, fade: int) -> None:
+    """Mend the borders behind fixed entries [T,N] in place."""
+    starts = fixed[:-1] & ~fixed[1:]  # T-1 N, the next frame is the first free one
+    for last in np.flatnonzero(starts.any(1)):
+        columns = np.flatnonzero(starts[last])
+        lengths = _free_frames(fixed[last + 1 :, columns])
+        for length in np.unique(lengths):
+            same = columns[lengths == length]
+            part = values[last + 1 : last + 1 + length, same]
+            miss = _expected(values[: last + 1, same], fixed[: last + 1, same], part) - part[0]
+            open_ended = last + 1 + length == len(values)
+            reach = fade if open_ended else min(fade, max(1, length // 2))
+            values[last + 1 : last + 1 + length, same] += _weights(length, reach)[:, None] * miss
+
+
+def _free_frames(fixed: np.ndarray) -> np.ndarray:
+    """How many frames [N] pass until a column [T,N] is fixed again."""
+    return np.where(fixed.any(0), fixed.argmax(0), len(fixed))
+
+
+def _expected(before: np.ndarray, fixed: np.ndarray, after: np.ndarray) -> np.ndarray:
+    """The first free values [N]: the last fixed ones, and the mean step of both sides on."""
+    steps = [after[1] - after[0]] if len(after) > 1 else []
+    if len(before) > 1:
+        own = before[-1] - before[-2]
+        steps.append(np.where(fixed[-2], own, steps[0] if steps else 0.0))
+    return np.asarray(before[-1] + np.mean(steps, axis=0) if steps else before[-1])
+
+
+def _weights(frames: int, reach: int) -> np.ndarray:
+    """[frames] from 1 to 0 over `reach` frames; first and second derivative vanish at both ends."""
+    x = np.clip(np.arange(frames) / reach, 0, 1)
+    return np.asarray(1 - x**3 * (x * (6 * x - 15) + 10))

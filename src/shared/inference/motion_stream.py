@@ -1,0 +1,153 @@
+"""Motion of any length: windows of a few seconds, each beginning with the last frames before it.
+
+A window has one text. Its first frames are known, the last ones of the window before, whatever
+text that had: this is how one action leads into the next. Features say nothing of place or
+heading, so windows are chained as they are. One window is in memory at a time.
+
+Letters: T frames, R rows (bones, root track), C channels, O frames that neighbours share.
+"""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from src.shared.errors import UsageError
+from src.shared.inference.borders import smooth_borders
+from src.shared.model.generation.constraint import Constraint
+from src.shared.model.generation.motion_generator import MotionGenerator
+
+WINDOW, OVERLAP = 150, 30  # frames
+SHORTEST = 48  # frames; a shorter window is made as long as this and cut: training saw few
+
+ConstraintOf = Callable[[int, int], Constraint | None]  # what is known of frames [start, stop)
+
+
+@dataclass(frozen=True)
+class Passage:
+    """A stretch of motion with one text.
+
+    Attributes:
+        text: what it shows.
+        frames: its length; 1 or more.
+        tag: action label beside the text.
+    """
+
+    text: str
+    frames: int
+    tag: str | None = None
+
+    def __post_init__(self) -> None:
+        if self.frames < 1:
+            raise UsageError(f"passage {self.text!r}: {self.frames} frames; 1 or more are needed")
+
+
+def stream_features(
+    generator: MotionGenerator,
+    passages: Iterable[Passage],
+    *,
+    constraint: ConstraintOf | None = None,
+    window: int = WINDOW,
+    overlap: int = OVERLAP,
+    seed: int = 0,
+    guidance_scale: float | None = None,
+    steps: int | None = None,
+    sampler: str | None = None,
+) -> Iterator[Tensor]:
+    """Raw features [t, R, 6] in pieces that follow each other and never change again.
+
+    Each piece depends on the seed, its number, its text, and what came before it.
+
+    Args:
+        generator: trained.
+        passages: taken one by one, each when the motion before it is made.
+        constraint: what is known of frames [start, stop), counted from the beginning; None where
+            nothing is.
+        window: frames at most, the shared ones among them.
+        overlap: frames O that a window shares with the one before.
+        seed: 0 or more.
+        guidance_scale, steps, sampler: None = the model's own.
+
+    Raises:
+        UsageError: the overlap does not fit the window, or a constraint is not as long as asked.
+        UserError: as `MotionGenerator.sample_features`.
+    """
+    if not 1 <= overlap <= window // 2:
+        raise UsageError(f"overlap {overlap} must lie between 1 and half the window ({window})")
+    before = torch.zeros(0, generator.network.motion_rows, 6)
+    made, number = 0, 0
+    for passage in passages:
+        for length in window_lengths(passage.frames, len(before), window, overlap):
+            start = made - len(before)
+            given = None if constraint is None else constraint(start, made + length)
+            known = carried_on(before, given, len(before) + length)
+            (features,) = generator.sample_features(
+                [passage.text],
+                seconds=max(len(known), SHORTEST) / generator.card.fps,
+                tags=[passage.tag],
+                seed=window_seed(seed, number),
+                steps=steps,
+                sampler=sampler,
+                guidance_scale=guidance_scale,
+                constraints=[lengthened(known, SHORTEST)],
+            )
+            smooth = smooth_borders(features[: len(known)], known.known)
+            piece = smooth[len(before) :]
+            before = torch.cat((before, piece))[-overlap:]
+            made, number = made + length, number + 1
+            yield piece
+
+
+def window_lengths(frames: int, known: int, window: int, overlap: int) -> list[int]:
+    """New frames of each window of a passage: as few windows as do, nearly alike in length.
+
+    Args:
+        frames: of the passage.
+        known: frames that its first window begins with.
+        window: frames at most, known ones among them.
+        overlap: known frames of the other windows.
+    """
+    number = 1 + max(0, -(-(frames + known - window) // (window - overlap)))
+    total = frames + known + (number - 1) * overlap  # frames of all windows
+    cuts = [total * index // number for index in range(number + 1)]
+    shared = [known] + [overlap] * (number - 1)
+    return [stop - start - own for (start, stop), own in zip(pairwise(cuts), shared, strict=True)]
+
+
+def window_seed(seed: int, number: int) -> int:
+    """The seed of a window: that of the motion for the first one, which is like any other."""
+    if number == 0:
+        return seed
+    return int(np.random.SeedSequence((seed, number)).generate_state(1, np.uint64)[0] >> 1)
+
+
+def carried_on(before: Tensor, given: Constraint | None, frames: int) -> Constraint:
+    """What is known of a window: its first frames, and whatever else is given.
+
+    Raises:
+        UsageError: `given` is not as long as the window.
+    """
+    rows = before.shape[1]
+    known = Constraint.free(frames, rows) if given is None else given
+    if len(known) != frames:
+        raise UsageError(f"a constraint of {len(known)} frames was given where {frames} were asked")
+    values, mask = known.values[:, :rows].clone(), known.known[:, :rows].clone()
+    values[: len(before)] = before
+    mask[: len(before)] = True
+    return replace(known, values=values, known=mask)
+
+
+def lengthened(known: Constraint, frames: int) -> Constraint:
+    """At least `frames` frames, nothing known of those that are added."""
+    spare = frames - len(known)
+    if spare <= 0:
+        return known
+    free = Constraint.free(spare, *known.values.shape[1:])
+    return replace(
+        known,
+        values=torch.cat((known.values, free.values)),
+        known=torch.cat((known.known, free.known)),
+    )
