@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import torch
 from torch import Tensor, nn
 
@@ -25,9 +26,11 @@ from src.shared.model.checkpoint import WEIGHTS_FILE, ModelCard
 from src.shared.model.clip.core import TextFeatures
 from src.shared.model.clip.pretrained import load_text_tower
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
+from src.shared.model.generation.constraint import BEAT_CHANNELS, Given
 from src.shared.model.generation.denoiser import MotionDenoiser
 from src.shared.model.generation.losses import GenerationLoss
 from src.shared.model.generation.motion_generator import KIND, MotionGenerator
+from src.train.constraints import draw_given
 from src.train.launch import stage_app
 from src.train.seeding import generator
 from src.train.style_fit import fit_style_map
@@ -55,6 +58,8 @@ class DenoiserBatch:
         timesteps, tag: [B] long.
         drop: [B] bool, rows that see no text.
         input_ids, attention_mask: [B,L] captions.
+        known, beats: [B,T,R,6] bool and [B,T,3], see `Given`; all False and 0 where the network
+            takes no constraints.
     """
 
     clean: Tensor
@@ -65,6 +70,8 @@ class DenoiserBatch:
     drop: Tensor
     input_ids: Tensor
     attention_mask: Tensor
+    known: Tensor
+    beats: Tensor
 
 
 class GuidedDenoiser(nn.Module):
@@ -82,10 +89,12 @@ class GuidedDenoiser(nn.Module):
         tag: Tensor,
         mask: Tensor,
         drop: Tensor,
+        given: Given,
     ) -> Tensor:
         """As MotionDenoiser.forward; rows where drop [B] is True see the null text."""
         heard = self.denoiser.drop_text(text, drop)
-        output: Tensor = self.denoiser(noisy, timesteps, heard, tag, mask)
+        told = given if self.denoiser.given_proj is not None else None
+        output: Tensor = self.denoiser(noisy, timesteps, heard, tag, mask, given=told)
         return output
 
 
@@ -123,7 +132,8 @@ class GenerationTask:
     def _start_from(self, source: str, denoiser: MotionDenoiser) -> None:
         """Take over a trained denoiser and its z-scores; tags that both know keep their vector."""
         trained = MotionGenerator.from_pretrained(source, device="cpu")
-        if _trained_shape(trained.network) != _trained_shape(self.network):
+        loses = trained.network.generation.constraints and not self.network.generation.constraints
+        if loses or _trained_shape(trained.network) != _trained_shape(self.network):
             raise UsageError(
                 f"init {source} is another network than profile {self.config.profile}; "
                 "train with the profile and the network overrides that it was trained with"
@@ -134,7 +144,8 @@ class GenerationTask:
         for index, name in enumerate((*self.data.tags, None)):
             if name in places:
                 tags[index] = state[TAG_WEIGHT][places[name]]
-        denoiser.load_state_dict({**state, TAG_WEIGHT: tags})
+        # Constraints can be learned by a network that had none: their input starts at zero.
+        denoiser.load_state_dict({**denoiser.state_dict(), **state, TAG_WEIGHT: tags})
         self.mean, self.std = trained.mean, trained.std
 
     def identity(self) -> dict[str, Any]:
@@ -164,7 +175,8 @@ class GenerationTask:
         # rows without text have no tag either: the null of guidance knows neither
         untagged = drop | (torch.rand(size, generator=draws) < config.tag_dropout)
         tag = clips.tag.masked_fill(untagged, self.num_tags)
-        return self._noised(clips, captions, timesteps, tag, drop, draws)
+        masks = numpy_generator("known", config.seed, part.step, part.index)
+        return self._noised(clips, captions, timesteps, tag, drop, draws, masks)
 
     def _noised(
         self,
@@ -174,14 +186,24 @@ class GenerationTask:
         tag: Tensor,
         drop: Tensor,
         draws: torch.Generator,
+        rng: np.random.Generator | None = None,
     ) -> DenoiserBatch:
         clean = motion_rows(clips.motion, self.network)  # z-scored by the data's own statistics
         if self.config.init:
             clean = (clean * self.data_std + self.data_mean - self.mean) / self.std
         noise = torch.randn(clean.shape, generator=draws)
+        given = self._given(clean, clips.mask, rng)
+        words = self.tokenizer(captions)
         return DenoiserBatch(
-            clean, noise, clips.mask, timesteps, tag, drop, *self.tokenizer(captions)
+            clean, noise, clips.mask, timesteps, tag, drop, *words, given.known, given.beats
         )
+
+    def _given(self, clean: Tensor, mask: Tensor, rng: np.random.Generator | None) -> Given:
+        """What the network is told of clips [B,T,R,6]; without a generator nothing."""
+        if rng is None or not self.network.generation.constraints:
+            known = torch.zeros(clean.shape, dtype=torch.bool)
+            return Given(known, torch.zeros(*mask.shape, BEAT_CHANNELS))
+        return draw_given(clean * self.std + self.mean, mask, self.config.constraints, rng)
 
     # ------------------------------------------------------------ learning
 
@@ -190,7 +212,12 @@ class GenerationTask:
         with torch.no_grad(), autocast(self.compute):
             text = self.tower(batch.input_ids, batch.attention_mask)
         noisy = self.diffusion.q_sample(batch.clean, batch.timesteps, batch.noise)
-        output = module(noisy, batch.timesteps, text, batch.tag, batch.mask, batch.drop)
+        given = Given(batch.known, batch.beats)
+        seen = torch.where(batch.known, batch.clean, noisy)
+        output = module(seen, batch.timesteps, text, batch.tag, batch.mask, batch.drop, given)
+        # Sampling puts the known entries back, so what is judged is the motion with them in it.
+        target = self.diffusion.target(batch.clean, batch.noise, batch.timesteps)
+        output = torch.where(batch.known, target, output.float())
         losses: dict[str, Tensor] = self.loss(
             output, batch.clean, noisy, batch.noise, batch.timesteps, batch.mask
         )
@@ -200,27 +227,45 @@ class GenerationTask:
         """Losses on held-back clips at fixed steps and noise, overall and by noise level."""
         if self.held_back is None:
             return {}
-        device = next(module.parameters()).device
         steps, thirds = self.diffusion.config.timesteps, len(NOISE_LEVELS)
         sums: dict[str, list[float]] = {}
         batches = self.held_back.fixed_batches(
             self.config.batch_size, self.config.validation_batches
         )
         for index, clips in enumerate(batches):
+            none = torch.full_like(clips.tag, self.num_tags)
+            drop = torch.zeros(len(clips), dtype=torch.bool)
             for third, level in enumerate(NOISE_LEVELS):
                 draws = generator("validation", index, third)
                 spread = spread_timesteps(len(clips), max(1, steps // thirds), draws)
                 timesteps = (spread + third * steps // thirds).clamp(max=steps - 1)
-                none = torch.full_like(clips.tag, self.num_tags)
-                drop = torch.zeros(len(clips), dtype=torch.bool)
-                batch = self._noised(clips, clips.captions, timesteps, none, drop, draws)
-                batch = DenoiserBatch(*(value.to(device) for value in vars(batch).values()))
-                for key, value in self.training_step(module, batch).items():
-                    sums.setdefault(key, []).append(value.item())
-                    if key == "loss":
-                        sums.setdefault(f"loss-{level}", []).append(value.item())
+                losses = self._losses(module, clips, timesteps, none, drop, draws, None)
+                for key, value in losses.items():
+                    sums.setdefault(key, []).append(value)
+                sums.setdefault(f"loss-{level}", []).append(losses["loss"])
+            if self.network.generation.constraints:
+                draws = generator("validation", index, thirds)
+                timesteps = spread_timesteps(len(clips), steps, draws)
+                masks = numpy_generator("validation", index)
+                losses = self._losses(module, clips, timesteps, none, drop, draws, masks)
+                sums.setdefault("loss-constrained", []).append(losses["loss"])
         self.figures = {key: sum(values) / len(values) for key, values in sums.items()}
         return self.figures
+
+    def _losses(
+        self,
+        module: nn.Module,
+        clips: TextMotionBatch,
+        timesteps: Tensor,
+        tag: Tensor,
+        drop: Tensor,
+        draws: torch.Generator,
+        rng: np.random.Generator | None,
+    ) -> dict[str, float]:
+        device = next(module.parameters()).device
+        batch = self._noised(clips, clips.captions, timesteps, tag, drop, draws, rng)
+        batch = DenoiserBatch(*(value.to(device) for value in vars(batch).values()))
+        return {key: value.item() for key, value in self.training_step(module, batch).items()}
 
     # ------------------------------------------------------------ results
 
@@ -269,8 +314,8 @@ class GenerationTask:
 
 def _trained_shape(network: NetworkConfig) -> dict[str, Any]:
     """What weights are bound to: the network without its towers and how it is sampled."""
-    sampled = {"sampler", "sampling_steps", "timestep_spacing", "guidance_scale", "post_processing"}
-    return network.model_dump(exclude={"clip": True, "generation": sampled})
+    free = {"sampler", "sampling_steps", "timestep_spacing", "guidance_scale", "post_processing"}
+    return network.model_dump(exclude={"clip": True, "generation": free | {"constraints"}})
 
 
 app = stage_app(

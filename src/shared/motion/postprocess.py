@@ -15,7 +15,7 @@ from torch import Tensor, nn
 from torch.nn import functional as F
 
 from src.shared.config_schema import PostProcessingConfig
-from src.shared.motion.foot_lock import lock_feet
+from src.shared.motion.foot_lock import kept_legs, lock_feet
 from src.shared.motion.motion import Motion
 from src.shared.motion.root_track import LEFT_CONTACT, ROOT_ROW, decode_features
 from src.shared.motion.rotations import (
@@ -89,14 +89,23 @@ class MotionPostProcessor(nn.Module):
         """Features [...,T,R,C] smoothed over time."""
         return smooth_features(features, self.config.smoothing_kernel)
 
-    def forward(self, features: Tensor, **options: Any) -> Motion:
+    def forward(self, features: Tensor, *, known: Tensor | None = None, **options: Any) -> Motion:
         """One sample's features [T,K+1,6] or [T,K,6], not z-scored → Motion.
 
-        `options` go to `decode_features`: fps, start_position, start_heading, text.
+        Args:
+            features: as sampled.
+            known: bool, at least as many rows as `features`: entries to be left as they are. A
+                leg of which a joint is known is not moved by the foot lock.
+            options: for `decode_features`: fps, start_position, start_heading, text.
         """
-        motion = decode_features(self.smooth(features), **options)
+        smooth = self.smooth(features)
+        if known is not None:
+            smooth = torch.where(known[:, : features.shape[1]], features, smooth)
+        motion = decode_features(smooth, **options)
         if self.config.max_velocity is not None:
             quaternions = torch.as_tensor(motion.quaternions)
             clamped = clamp_velocity(quaternions, self.config.max_velocity, motion.fps)
             motion = replace(motion, quaternions=clamped.numpy())
-        return lock_feet(motion) if self.config.foot_lock else motion
+        if not self.config.foot_lock:
+            return motion
+        return lock_feet(motion, kept=None if known is None else kept_legs(known))

@@ -23,6 +23,13 @@ FOOT_JOINTS: tuple[tuple[int, int], ...] = (
     (JOINT_INDEX["l_ankle"], JOINT_INDEX["l_foot"]),
     (JOINT_INDEX["r_ankle"], JOINT_INDEX["r_foot"]),
 )
+LIMBS: dict[str, tuple[str, ...]] = {
+    "left-arm": ("l_collar", "l_shoulder", "l_elbow", "l_wrist"),
+    "right-arm": ("r_collar", "r_shoulder", "r_elbow", "r_wrist"),
+    "left-leg": ("l_hip", "l_knee", "l_ankle", "l_foot"),
+    "right-leg": ("r_hip", "r_knee", "r_ankle", "r_foot"),
+    "trunk": ("spine1", "spine2", "spine3", "neck", "head"),
+}  # all joints but the pelvis
 
 # Offsets from the parent in the T-pose, left half; the right half is its mirror image.
 # Proportions of an adult of about 1.70 m; every bone lies along one axis where it can, so that

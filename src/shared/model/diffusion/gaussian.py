@@ -118,6 +118,11 @@ class GaussianDiffusion(nn.Module):
             return (x_t - signal_scale * model_output) / noise_scale
         return signal_scale * model_output + noise_scale * x_t
 
+    def output_for(self, x_0: Tensor, x_t: Tensor, t: Tensor) -> Tensor:
+        """The model output at x_t [B, ...] that stands for this x_0: the inverse of predict_x0."""
+        signal_scale, noise_scale = self._scales(t, x_t)
+        return self.target(x_0, (x_t - signal_scale * x_0) / noise_scale, t)
+
     def q_posterior(self, x_0: Tensor, x_t: Tensor, t: Tensor) -> tuple[Tensor, Tensor]:
         """Mean [B, ...] and variance [B, 1, ...] of q(x_{t-1} | x_t, x_0) (Ho et al., eq. 7)."""
         mean = (

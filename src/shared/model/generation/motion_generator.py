@@ -28,6 +28,7 @@ from src.shared.model.clip.scope import PromptScope
 from src.shared.model.clip.style_map import StyleMap
 from src.shared.model.clip.tokenizer import PromptTokenizer
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
+from src.shared.model.generation.constraint import Constraint, KnownBatch, check_lengths
 from src.shared.model.generation.denoiser import MotionDenoiser
 from src.shared.model.generation.requests import batches, make_requests
 from src.shared.model.generation.sampling import sample_batch
@@ -99,6 +100,7 @@ class MotionGenerator:
         sampler: str | None = None,
         guidance_scale: float | None = None,
         foot_lock: bool | None = None,
+        constraints: Sequence[Constraint | None] | None = None,
     ) -> list[Motion]:
         """Motions for the prompts, prompt-major: all samples of the first one come first.
 
@@ -115,6 +117,7 @@ class MotionGenerator:
             sampler: ddim, ddpm or dpm-solver++.
             guidance_scale: 1 = no guidance.
             foot_lock: hold standing feet in place.
+            constraints: what is given of each prompt's motions, as long as they are.
 
         Raises:
             UserError: the model is untrained, or an argument cannot be worked with.
@@ -128,6 +131,7 @@ class MotionGenerator:
             steps=steps,
             sampler=sampler,
             guidance_scale=guidance_scale,
+            constraints=constraints,
         )
         for warning in self.scope_warnings(prompts, again=False):
             if warning is not None:
@@ -137,9 +141,10 @@ class MotionGenerator:
             settings = settings.model_copy(update={"foot_lock": foot_lock})
         finish = MotionPostProcessor(settings)
         texts = [prompt for prompt in prompts for _ in range(num_samples)]
+        given = [each for each in constraints or [None] * len(prompts) for _ in range(num_samples)]
         return [
-            finish(sample, fps=self.card.fps, text=text)
-            for sample, text in zip(features, texts, strict=True)
+            finish(sample, known=each and each.known, fps=self.card.fps, text=text)
+            for sample, text, each in zip(features, texts, given, strict=True)
         ]
 
     @torch.inference_mode()
@@ -154,6 +159,7 @@ class MotionGenerator:
         steps: int | None = None,
         sampler: str | None = None,
         guidance_scale: float | None = None,
+        constraints: Sequence[Constraint | None] | None = None,
     ) -> list[Tensor]:
         """Like `generate`, before post-processing: raw features [T, K, C] on the CPU."""
         self._require_trained()
@@ -167,6 +173,8 @@ class MotionGenerator:
             fps=self.card.fps,
         )
         self._warn_of_length(max(request.frames for request in requests))
+        given = [each for each in constraints or [None] * len(prompts) for _ in range(num_samples)]
+        check_lengths(given, [request.frames for request in requests])
         row_of = {prompt: row for row, prompt in enumerate(dict.fromkeys(prompts))}
         text = self.encode_prompts(list(row_of))
         settings = self.network.generation
@@ -177,6 +185,13 @@ class MotionGenerator:
         for batch in batches(requests, MAX_BATCH, equal_lengths=draws_on_the_way):
             chosen = [requests[index] for index in batch]
             rows = torch.tensor([row_of[request.prompt] for request in chosen], device=self.device)
+            known = KnownBatch.of(
+                [given[index] for index in batch],
+                max(request.frames for request in chosen),
+                self.mean,
+                self.std,
+                fps=self.card.fps,
+            )
             z_scored = sample_batch(
                 self.denoiser,
                 self.diffusion,
@@ -185,10 +200,12 @@ class MotionGenerator:
                 guidance_scale=scale,
                 sampler=sampler,
                 steps=steps,
+                known=known,
             )
             features = (z_scored * self.std + self.mean).cpu()
             for index, sample in zip(batch, features, strict=True):
-                samples[index] = sample[: requests[index].frames]
+                cropped, constraint = sample[: requests[index].frames], given[index]
+                samples[index] = cropped if constraint is None else constraint.keep(cropped)
         return [samples[index] for index in range(len(requests))]
 
     # Prompts

@@ -12,6 +12,7 @@ from torch import Tensor
 from src.shared.model.clip.core import TextFeatures
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
 from src.shared.model.diffusion.guidance import guided
+from src.shared.model.generation.constraint import Given, KnownBatch
 from src.shared.model.generation.denoiser import MotionDenoiser
 from src.shared.model.generation.requests import SampleRequest
 
@@ -25,6 +26,7 @@ def sample_batch(
     guidance_scale: float,
     sampler: str,
     steps: int | None,
+    known: KnownBatch | None = None,
 ) -> Tensor:
     """Z-scored motions [B, T, K, C], T the longest of the batch; frames beyond a request's are
     to be cropped.
@@ -37,6 +39,7 @@ def sample_batch(
         guidance_scale: 1 = the text alone, in one forward a step.
         sampler: ddim, ddpm or dpm-solver++; ddpm wants requests of one length.
         steps: None = as configured.
+        known: what is given of the motions, padded to T.
     """
     device = text.pooled.device
     rows, channels = denoiser.config.motion_rows, denoiser.config.generation.motion_channels
@@ -51,24 +54,33 @@ def sample_batch(
     tag = torch.tensor([request.tag for request in requests], device=device)
     no_tag = torch.full_like(tag, denoiser.num_tags)
     null = denoiser.null_text(len(requests), text.mask.shape[1])
+    learned = denoiser.given_proj is not None
+    given = known.given if known is not None and learned else None
     model_fn = guided(
         denoiser,
-        _condition(denoiser, text, tag, mask),
-        _condition(denoiser, null, no_tag, mask),
+        _condition(denoiser, text, tag, mask, given),
+        _condition(denoiser, null, no_tag, mask, given),
         guidance_scale,
     )
+    noise = noise.to(device)
+    if known is not None:
+        model_fn = known.hold(model_fn, diffusion, noise, clean=learned)
     return diffusion.sample(
         model_fn,
         noise.shape,
         sampler=sampler,
         num_steps=steps,
         generator=[request.generator() for request in requests],
-        x_T=noise.to(device),
+        x_T=noise,
     )
 
 
 def _condition(
-    denoiser: MotionDenoiser, text: TextFeatures, tag: Tensor, mask: Tensor | None
+    denoiser: MotionDenoiser,
+    text: TextFeatures,
+    tag: Tensor,
+    mask: Tensor | None,
+    given: Given | None,
 ) -> dict[str, Any]:
     keys_values = denoiser.text_keys_values(text)  # once a sample, not once a step
-    return {"text": text, "tag": tag, "mask": mask, "keys_values": keys_values}
+    return {"text": text, "tag": tag, "mask": mask, "given": given, "keys_values": keys_values}

@@ -1,0 +1,110 @@
+"""What a clip's entries are known to the network in training: random masks, and its own beats.
+
+The network learns every use of a constraint at once: a pinned path, windows that follow each other,
+gaps between two clips, joints done again, beats to be kept.
+
+Letters: B batch, T frames, R rows, C channels.
+"""
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from src.shared.config_schema import ConstraintShares
+from src.shared.data.pairing.motion_beats import motion_beats
+from src.shared.model.generation.constraint import BEAT_CHANNELS, Given, beat_track
+from src.shared.motion.root_track import (
+    FORWARD,
+    HEIGHT,
+    LATERAL,
+    LEFT_CONTACT,
+    ROOT_ROW,
+    YAW_RATE,
+    decode_features,
+)
+from src.shared.motion.skeleton import JOINT_INDEX, LIMBS
+
+LONGEST_END = 45  # frames known at a start or an end
+MOST_FRAMES = 6  # frames known here and there
+
+
+def draw_known(
+    mask: Tensor, rows: int, shares: ConstraintShares, rng: np.random.Generator
+) -> Tensor:
+    """Random masks [B, T, R, 6] bool for clips with real frames `mask` [B, T] bool."""
+    known = torch.zeros(*mask.shape, rows, 6, dtype=torch.bool)
+    for row, length in zip(known, mask.sum(1).tolist(), strict=True):
+        if rng.random() >= shares.free:
+            _draw_clip(row[:length], shares, rng)
+    return known
+
+
+def _draw_clip(known: Tensor, shares: ConstraintShares, rng: np.random.Generator) -> None:
+    """Fill the mask [T, R, 6] of one clip."""
+    frames = len(known)
+    if rng.random() < shares.joints:
+        _draw_joints(known, rng)
+        return
+    if known.shape[1] > ROOT_ROW and rng.random() < shares.root:
+        _draw_root(known, rng)
+    longest = min(LONGEST_END, frames // 2)
+    if rng.random() < shares.start:
+        known[: rng.integers(1, longest + 1)] = True
+    if rng.random() < shares.end:
+        known[frames - rng.integers(1, longest + 1) :] = True
+    if rng.random() < shares.frames:
+        known[torch.as_tensor(rng.choice(frames, size=rng.integers(1, MOST_FRAMES + 1)))] = True
+
+
+def _draw_joints(known: Tensor, rng: np.random.Generator) -> None:
+    """All but some limbs, or the whole body, during a span."""
+    span = _span(len(known), rng)
+    again = [name for name in LIMBS if rng.random() < 0.4]
+    known[:] = True
+    if not again:
+        known[span] = False
+    for limb in again:
+        known[span, [JOINT_INDEX[joint] for joint in LIMBS[limb]]] = False
+        if limb.endswith("leg"):
+            known[span, ROOT_ROW:, LEFT_CONTACT:] = False
+
+
+def _draw_root(known: Tensor, rng: np.random.Generator) -> None:
+    """The path and the heading, mostly of the whole clip; at times height, contacts, pelvis."""
+    span = slice(None) if rng.random() < 0.85 else _span(len(known), rng)
+    channels = [FORWARD, LATERAL, YAW_RATE]
+    channels += [HEIGHT] if rng.random() < 0.6 else []
+    channels += [LEFT_CONTACT, LEFT_CONTACT + 1] if rng.random() < 0.25 else []
+    for channel in channels:
+        known[span, ROOT_ROW, channel] = True
+    if rng.random() < 0.25:
+        known[span, 0] = True  # the pelvis' tilt
+
+
+def _span(frames: int, rng: np.random.Generator) -> slice:
+    start, stop = sorted(rng.integers(0, frames + 1, size=2).tolist())
+    return slice(start, max(stop, start + 1))
+
+
+def clip_beats(features: Tensor, fps: float) -> Tensor:
+    """Motion beats [M] in seconds of one clip's raw features [T, R, 6]."""
+    beats = motion_beats(decode_features(features, fps=fps).positions(), fps)
+    return torch.from_numpy(beats.times).float()
+
+
+def draw_given(
+    features: Tensor,
+    mask: Tensor,
+    shares: ConstraintShares,
+    rng: np.random.Generator,
+    *,
+    fps: float = 30.0,
+) -> Given:
+    """What is given of raw clips [B, T, R, 6] with real frames `mask` [B, T]."""
+    known = draw_known(mask, features.shape[2], shares, rng)
+    beats = torch.zeros(*mask.shape, BEAT_CHANNELS)
+    for row, length in enumerate(mask.sum(1).tolist()):
+        if rng.random() < shares.beats:
+            times = clip_beats(features[row, :length], fps)
+            beats[row, :length] = beat_track(times, length, fps)
+    return Given(known, beats)
