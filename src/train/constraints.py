@@ -47,7 +47,7 @@ def _draw_clip(known: Tensor, shares: ConstraintShares, rng: np.random.Generator
         return
     if known.shape[1] > ROOT_ROW and rng.random() < shares.root:
         _draw_root(known, rng)
-    longest = min(LONGEST_END, frames // 2)
+    longest = max(1, min(LONGEST_END, frames // 2))
     if rng.random() < shares.start:
         known[: rng.integers(1, longest + 1)] = True
     if rng.random() < shares.end:

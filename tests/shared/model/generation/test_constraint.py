@@ -1,0 +1,118 @@
+"""Constraints: what is known comes out as given, with any network, sampler and company."""
+
+import pytest
+import torch
+from hypothesis import given
+from hypothesis import strategies as st
+
+from src.shared.config_schema import DiffusionConfig
+from src.shared.errors import UsageError
+from src.shared.model.diffusion.gaussian import GaussianDiffusion
+from src.shared.model.generation.constraint import Constraint, KnownBatch, beat_track
+from src.shared.model.generation.motion_generator import MotionGenerator
+from src.shared.motion.root_track import FORWARD, ROOT_ROW
+
+PROMPT = ["a person walks forward"]
+
+
+def some(frames: int, generator: MotionGenerator, seed: int = 0) -> Constraint:
+    """A third of all entries known, at values such as data has."""
+    draws = torch.Generator().manual_seed(seed)
+    noise = torch.randn(frames, *generator.mean.shape, generator=draws)
+    known = torch.rand(noise.shape, generator=draws) < 1 / 3
+    return Constraint(noise * generator.std + generator.mean, known)
+
+
+@pytest.mark.parametrize("sampler", ["ddim", "ddpm", "dpm-solver++"])
+@pytest.mark.parametrize("prediction", ["sample", "epsilon", "v"])
+@pytest.mark.parametrize("learned", [True, False])
+def test_known_entries_come_out_exactly(make_generator, sampler, prediction, learned: bool):
+    generator = make_generator(prediction_type=prediction, constraints=learned)
+    constraint = some(20, generator)
+    options = {"seconds": 20 / 30, "sampler": sampler, "steps": 4}
+    made = generator.sample_features(PROMPT, constraints=[constraint], **options)[0]
+    free = generator.sample_features(PROMPT, **options)[0]
+    assert torch.equal(made[constraint.known], constraint.values[constraint.known])
+    assert torch.isfinite(made).all()
+    assert not torch.allclose(made[~constraint.known], free[~constraint.known], atol=1e-4)
+
+
+@pytest.mark.parametrize("prediction", ["sample", "epsilon", "v"])
+def test_the_sampler_is_told_the_known_values(prediction: str):
+    """What `hold` returns stands for the known clean values, at every step."""
+    diffusion = GaussianDiffusion(DiffusionConfig(timesteps=50, prediction_type=prediction))
+    values, noise = torch.randn(2, 5, 3, 2), torch.randn(2, 5, 3, 2)
+    known = torch.rand(values.shape) < 0.5
+    given = KnownBatch.of(
+        [Constraint(row, mask) for row, mask in zip(values, known, strict=True)],
+        5,
+        torch.zeros(3, 2),
+        torch.ones(3, 2),
+        fps=30.0,
+    )
+    assert given is not None
+    held = given.hold(lambda x, t: torch.zeros_like(x), diffusion, noise, clean=True)
+    for step in (0, 7, 49):
+        t = torch.full((2,), step)
+        x_t = torch.randn_like(values)
+        x_0 = diffusion.predict_x0(held(x_t, t), x_t, t, clip=False)
+        assert torch.allclose(x_0[known], values[known], atol=1e-3)
+
+
+def test_a_motion_does_not_depend_on_what_others_are_given(make_generator):
+    generator = make_generator(constraints=True)
+    constraint = some(15, generator)
+    prompts, seconds = ["a person walks forward", "somebody jumps"], [0.5, 1.0]
+    alone = generator.sample_features(prompts[1:], seconds=1.0)[0]
+    both = generator.sample_features(prompts, seconds=seconds, constraints=[constraint, None])
+    assert torch.allclose(both[1], alone, atol=2e-4)
+
+
+def test_beats_are_heard_by_networks_that_learned_them(make_generator):
+    timed = Constraint.free(30)
+    timed = Constraint(timed.values, timed.known, torch.tensor([0.2, 0.6]))
+    heard, deaf = make_generator(constraints=True), make_generator(constraints=False)
+    torch.nn.init.normal_(heard.denoiser.given_proj.weight)
+    for generator, differs in ((heard, True), (deaf, False)):
+        free = generator.sample_features(PROMPT, seconds=1.0)[0]
+        made = generator.sample_features(PROMPT, seconds=1.0, constraints=[timed])[0]
+        assert torch.allclose(free, made, atol=1e-5) != differs
+
+
+def test_generate_keeps_the_known_path(generator: MotionGenerator):
+    constraint = Constraint.free(30)
+    constraint.known[:, ROOT_ROW, :4] = True
+    constraint.values[:, ROOT_ROW, FORWARD] = torch.linspace(0, 2, 30)  # smoothing would bend it
+    motion = generator.generate(PROMPT, seconds=1.0, constraints=[constraint])[0]
+    path = torch.linspace(0, 2, 30)[:-1].cumsum(0) / 30
+    assert torch.allclose(torch.as_tensor(motion.root_position[1:, 2]), path, atol=1e-5)
+    assert abs(motion.root_position[:, 0]).max() < 1e-5
+
+
+def test_a_constraint_of_another_length_is_refused(generator: MotionGenerator):
+    with pytest.raises(UsageError, match="10 frames for a motion of 30"):
+        generator.generate(PROMPT, seconds=1.0, constraints=[Constraint.free(10)])
+
+
+@given(st.lists(st.floats(-2, 6), max_size=8), st.integers(1, 120))
+def test_beat_tracks(beats: list[float], frames: int):
+    track = beat_track(torch.tensor(sorted(beats)), frames, 30.0)
+    assert track.shape == (frames, 3) and torch.isfinite(track).all()
+    assert (track[:, 2] == 1).all() and (track[:, 0] >= 0).all() and (track[:, 0] <= 1).all()
+    for beat in beats:
+        at = round(beat * 30)
+        if 0 <= at < frames:
+            assert track[at, 0] > 0.9 and abs(track[at, 1]) <= 0.5 / 30 / 0.5 + 1e-4
+
+
+def test_no_beats_are_silence():
+    assert not beat_track(None, 9, 30.0).any()
+    assert beat_track(torch.zeros(0), 9, 30.0)[:, :2].abs().max() == 0
+
+
+def test_windows_shift_the_beats():
+    constraint = Constraint.free(90)
+    constraint = Constraint(constraint.values, constraint.known, torch.tensor([0.5, 2.0]))
+    window = constraint.window(30, 75)
+    assert len(window) == 45
+    assert torch.allclose(window.beats, torch.tensor([-0.5, 1.0]))
