@@ -47,9 +47,11 @@ class SkeletonMapping(BaseModel):
                 raise ValueError(f"axes {list(directions)} of {joint!r} are not right-handed")
         return axes
 
-    def axes_of(self, source_joint: str) -> np.ndarray:
+    def axes_of(self, source_joint: str, default: np.ndarray | None = None) -> np.ndarray:
         """Rotation [3,3] of the source joint's axes in the T-pose."""
-        return _axes_matrix(self.axes.get(source_joint, ("+X", "+Y", "+Z")))
+        if source_joint in self.axes or default is None:
+            return _axes_matrix(self.axes.get(source_joint, ("+X", "+Y", "+Z")))
+        return default
 
     def missing(self, names: tuple[str, ...]) -> list[str]:
         """Our joints whose source joint is not among `names`."""

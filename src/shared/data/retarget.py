@@ -9,8 +9,9 @@ from functools import lru_cache
 import numpy as np
 import torch
 
+from src.shared.data.guesses import joint_indices, rest_frame, upright
 from src.shared.data.mapping import SkeletonMapping
-from src.shared.formats.bvh import BvhClip
+from src.shared.formats.source_clip import SourceClip
 from src.shared.motion.contacts import detect_contacts
 from src.shared.motion.kinematics import forward_kinematics, global_to_local
 from src.shared.motion.motion import Motion
@@ -43,6 +44,9 @@ _AIM: dict[str, str] = {
     "l_ankle": "l_foot", "r_ankle": "r_foot",
 }  # fmt: skip
 
+# Joints at the end of a chain keep the angle to the bone before them that they have at rest.
+_CARRIED = {"l_wrist": "l_elbow", "r_wrist": "r_elbow"}
+
 
 def _align(start: np.ndarray, end: np.ndarray) -> np.ndarray:
     """Smallest rotation [3,3] that turns direction `start` into direction `end`."""
@@ -56,24 +60,29 @@ def _align(start: np.ndarray, end: np.ndarray) -> np.ndarray:
     return np.eye(3) + k + k @ k / (1 + c)
 
 
-def rest_corrections(clip: BvhClip, mapping: SkeletonMapping) -> dict[str, np.ndarray]:
+def rest_corrections(clip: SourceClip, mapping: SkeletonMapping) -> dict[str, np.ndarray]:
     """Constant rotation [3,3] per mapped joint: world(ours) = world(source) · correction."""
     offsets = canonical_skeleton().offsets.astype(np.float64)
-    index = {name: i for i, name in enumerate(clip.names)}
+    index = joint_indices(clip, mapping)
+    standing = None if mapping.axes else rest_frame(clip, mapping)
     corrections = {}
-    for ours, theirs in mapping.joints.items():
-        axes = mapping.axes_of(theirs)
+    turns: dict[str, np.ndarray] = {}
+    for ours in sorted(mapping.joints, key=JOINT_NAMES.index):
+        axes = mapping.axes_of(mapping.joints[ours], standing)
         turn = np.eye(3)
         child = _AIM.get(ours)
         if child in mapping.joints:
-            bone = axes @ _bone(clip, index[theirs], index[mapping.joints[child]])
+            bone = axes @ _bone(clip, index[ours], index[child])
             if np.linalg.norm(bone) > 1e-6:
                 turn = _align(bone, offsets[JOINT_INDEX[child]])
+        elif ours in _CARRIED:
+            turn = turns.get(_CARRIED[ours], turn)
+        turns[ours] = turn
         corrections[ours] = (turn @ axes).T
     return corrections
 
 
-def _bone(clip: BvhClip, joint: int, descendant: int) -> np.ndarray:
+def _bone(clip: SourceClip, joint: int, descendant: int) -> np.ndarray:
     """Rest offset of a descendant in a joint's frame (rest rotations are identities in BVH)."""
     total = np.zeros(3)
     while descendant != joint and descendant >= 0:
@@ -82,9 +91,9 @@ def _bone(clip: BvhClip, joint: int, descendant: int) -> np.ndarray:
     return total if descendant == joint else np.zeros(3)
 
 
-def _leg_length(clip: BvhClip, mapping: SkeletonMapping) -> float:
-    index = {name: i for i, name in enumerate(clip.names)}
-    j = {ours: index[theirs] for ours, theirs in mapping.joints.items()}
+def leg_length(clip: SourceClip, mapping: SkeletonMapping) -> float:
+    """Hip to ankle, mean of both sides, in the source's unit."""
+    j = joint_indices(clip, mapping)
     return float(
         np.mean(
             [
@@ -96,6 +105,7 @@ def _leg_length(clip: BvhClip, mapping: SkeletonMapping) -> float:
     )
 
 
+BLOCK = 50_000  # frames times joints that are worked on at once
 CALIBRATION_JUMP = 0.15  # radians a joint, mean, between the first two frames
 
 
@@ -124,35 +134,69 @@ def _fill_gaps(world: np.ndarray, mapped: set[str]) -> np.ndarray:
     return world
 
 
-def retarget(clip: BvhClip, mapping: SkeletonMapping, *, fps: float = 30.0) -> Motion:
-    """A BVH clip as a Motion on the canonical skeleton, on the floor, at `fps`.
+def retarget(
+    clip: SourceClip,
+    mapping: SkeletonMapping,
+    *,
+    fps: float | None = 30.0,
+    up: str = "Y",
+    metres: float | None = None,
+    ground: bool = True,
+) -> Motion:
+    """A clip as a Motion on the canonical skeleton, on the floor, at `fps`.
 
     Lengths are scaled so that the source's legs (hip to ankle) get ours' length, which settles
     the unit as well. The floor is put under the lower ball of the foot (2nd percentile).
 
+    Args:
+        fps: None keeps the source's own rate.
+        up: the source's up axis: "Y", "Z", "-X", …
+        metres: length of the source's unit; given, distances stay true instead of being scaled.
+        ground: False leaves heights and the first frame as they are.
+
     Raises:
         ValueError: the source's legs have no length.
     """
-    legs = _leg_length(clip, mapping)
+    legs = leg_length(clip, mapping)
     if not legs > 1e-6:
         raise ValueError("the legs have no length: check the OFFSETs of hips, knees and ankles")
-    index = {name: i for i, name in enumerate(clip.names)}
-    positions, rotations = clip.world()
-    corrections = rest_corrections(clip, mapping)
-    world = np.empty((len(rotations), NUM_JOINTS, 3, 3), np.float32)
-    for ours, theirs in mapping.joints.items():
-        world[:, JOINT_INDEX[ours]] = rotations[:, index[theirs]] @ corrections[ours]
-    world = _fill_gaps(world, set(mapping.joints))
-
-    hips = positions[:, [index[mapping.joints[f"{side}_hip"]] for side in "lr"]].mean(1)
-    root = (hips * (LEG_LENGTH / legs) - world[:, 0] @ _hip_centre()).astype(np.float32)
-
+    scale = LEG_LENGTH / legs if metres is None else metres
+    world, root = _carry_over(clip, mapping, upright(up), scale)
     local = global_to_local(torch.as_tensor(world), PARENTS)
     quaternions = quaternion_continuous(matrix_to_quaternion(local), dim=0).numpy()
     motion = Motion(
         quaternions, root, np.zeros((len(root), 2), np.float32), fps=1.0 / clip.frame_time
     )
-    return _ground(resample_motion(_without_calibration(motion), fps))
+    if ground:
+        motion = _without_calibration(motion)
+    motion = motion if fps is None else resample_motion(motion, fps)
+    return _ground(motion, lift=ground)
+
+
+def _carry_over(
+    clip: SourceClip, mapping: SkeletonMapping, turn: np.ndarray, scale: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """World rotations [T,22,3,3] and pelvis path [T,3] on our skeleton, +Y up, float32.
+
+    Frames are worked through in blocks: the source may have hundreds of joints.
+    """
+    index = joint_indices(clip, mapping)
+    corrections = rest_corrections(clip, mapping)
+    mapped = sorted(mapping.joints, key=JOINT_NAMES.index)
+    ours, theirs = [JOINT_INDEX[name] for name in mapped], [index[name] for name in mapped]
+    turned = np.stack([corrections[name] for name in mapped])
+    world = np.empty((clip.num_frames, NUM_JOINTS, 3, 3), np.float32)
+    root = np.empty((clip.num_frames, 3), np.float32)
+    block = max(1, BLOCK // len(clip.names))
+    for start in range(0, clip.num_frames, block):
+        frames = slice(start, start + block)
+        positions, rotations = clip.world(frames)
+        part = np.empty((len(positions), NUM_JOINTS, 3, 3), np.float32)
+        part[:, ours] = turn @ rotations[:, theirs] @ turned
+        world[frames] = _fill_gaps(part, set(mapping.joints))
+        hips = positions[:, [index["l_hip"], index["r_hip"]]].mean(1) @ turn.T
+        root[frames] = hips * scale - world[frames, 0] @ _hip_centre()
+    return world, root
 
 
 def _without_calibration(motion: Motion) -> Motion:
@@ -166,11 +210,13 @@ def _without_calibration(motion: Motion) -> Motion:
     return Motion(motion.quaternions[1:], motion.root_position[1:], motion.contacts[1:], motion.fps)
 
 
-def _ground(motion: Motion) -> Motion:
+def _ground(motion: Motion, *, lift: bool) -> Motion:
+    """Put the floor under the feet, if asked to, and find the contacts."""
     offsets = torch.as_tensor(canonical_skeleton().offsets)
     local = quaternion_to_matrix(torch.as_tensor(motion.quaternions))
     joints = forward_kinematics(local, torch.as_tensor(motion.root_position), offsets, PARENTS)[0]
     balls = joints[:, [ball for _, ball in FOOT_JOINTS], 1].amin(1).numpy()
-    lift = np.array([0, REST_FOOT_HEIGHT - np.percentile(balls, 2), 0], np.float32)
-    contacts = detect_contacts(joints.numpy() + lift, motion.fps)
-    return Motion(motion.quaternions, motion.root_position + lift, contacts, motion.fps)
+    height = REST_FOOT_HEIGHT - np.percentile(balls, 2) if lift else 0.0
+    shift = np.array([0, height, 0], np.float32)
+    contacts = detect_contacts(joints.numpy() + shift, motion.fps)
+    return Motion(motion.quaternions, motion.root_position + shift, contacts, motion.fps)

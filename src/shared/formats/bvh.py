@@ -7,7 +7,7 @@ the hierarchy (end sites apart), C channels of all nodes together.
 import re
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -15,6 +15,7 @@ import numpy as np
 
 from src.shared.errors import UserError
 from src.shared.formats.bvh_header import BvhError, Node, parse_hierarchy
+from src.shared.formats.source_clip import ALL, compose
 
 N = TypeVar("N", int, float)
 
@@ -57,12 +58,17 @@ class BvhClip:
     def fps(self) -> float:
         return 1.0 / self.frame_time
 
-    def local_rotations(self) -> np.ndarray:
+    def every(self, stride: int) -> "BvhClip":
+        """Only every `stride`-th frame, `frame_time` lengthened accordingly."""
+        return replace(self, values=self.values[::stride], frame_time=self.frame_time * stride)
+
+    def local_rotations(self, frames: slice = ALL) -> np.ndarray:
         """Rotation of each joint against its parent [T,N,3,3].
 
         The channels of a joint are intrinsic rotations in file order: "ZXY" is Rz @ Rx @ Ry.
         """
-        num_frames, num_joints = self.num_frames, len(self.names)
+        values = self.values[frames]
+        num_frames, num_joints = len(values), len(self.names)
         # Planes [row, column, T, N]: each elementary rotation then mixes two columns of planes.
         planes = np.zeros((3, 3, num_frames, num_joints))
         planes[range(3), range(3)] = 1.0
@@ -72,9 +78,7 @@ class BvhClip:
             block = np.zeros((3, 3, num_frames, len(joints)))
             block[range(3), range(3)] = 1.0
             for step, axis in enumerate(order):
-                angle = np.deg2rad(
-                    self.values[:, [self._rotations(j, starts)[step] for j in joints]]
-                )
+                angle = np.deg2rad(values[:, [self._rotations(j, starts)[step] for j in joints]])
                 cos, sin = np.cos(angle), np.sin(angle)
                 first, second = {"X": (1, 2), "Y": (2, 0), "Z": (0, 1)}[axis]
                 old_first, old_second = block[:, first].copy(), block[:, second]
@@ -83,29 +87,24 @@ class BvhClip:
             planes[..., joints] = block
         return np.ascontiguousarray(planes.transpose(2, 3, 0, 1))
 
-    def local_translations(self) -> np.ndarray:
+    def local_translations(self, frames: slice = ALL) -> np.ndarray:
         """Position of each joint in its parent's frame [T,N,3], in the file's unit.
 
         A position channel replaces the same axis of the joint's OFFSET; adding both is the
         known trap of files that give six channels to every joint.
         """
-        translations = np.repeat(self.offsets[None].astype(np.float64), self.num_frames, axis=0)
+        values = self.values[frames]
+        translations = np.repeat(self.offsets[None].astype(np.float64), len(values), axis=0)
         for joint, start in enumerate(self._channel_starts()):
             for index, channel in enumerate(self.channels[joint]):
                 if channel.endswith("position"):
-                    translations[:, joint, "XYZ".index(channel[0])] = self.values[:, start + index]
+                    translations[:, joint, "XYZ".index(channel[0])] = values[:, start + index]
         return translations
 
-    def world(self) -> tuple[np.ndarray, np.ndarray]:
+    def world(self, frames: slice = ALL) -> tuple[np.ndarray, np.ndarray]:
         """World positions [T,N,3], in the file's unit, and world rotations [T,N,3,3]."""
-        rotations, translations = self.local_rotations(), self.local_translations()
-        for joint, parent in enumerate(self.parents):
-            if parent >= 0:
-                above = rotations[:, parent]
-                rotations[:, joint] = above @ rotations[:, joint]
-                moved = above @ translations[:, joint, :, None]
-                translations[:, joint] = moved[..., 0] + translations[:, parent]
-        return translations, rotations
+        rotations, translations = self.local_rotations(frames), self.local_translations(frames)
+        return compose(self.parents, rotations, translations)
 
     def _channel_starts(self) -> list[int]:
         """First column of each joint in `values`."""

@@ -22,11 +22,13 @@ import numpy as np
 
 from src.shared.errors import UserError
 from src.shared.files import atomic_write
+from src.shared.formats.limits import read_arrays
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import JOINT_NAMES, NUM_JOINTS, canonical_skeleton
 
 FORMAT_VERSION = 1
 _SHAPES = {"quaternions": (NUM_JOINTS, 4), "root_position": (3,), "contacts": (2,)}
+_NAMES = ("format_version", "fps", "text", "joint_names", *_SHAPES)
 MAX_VALUE = 1e6  # metres
 
 
@@ -61,14 +63,8 @@ def read_npz(path: str | Path) -> Motion:
         UserError: missing, damaged, not ours, or with arrays of another shape or NaN.
     """
     path = Path(path)
-    try:
-        with np.load(path, allow_pickle=False) as archive:
-            arrays = {name: archive[name] for name in archive.files}
-    except OSError as error:
-        raise UserError(f"{path}: cannot be read: {error.strerror or error}") from error
-    except Exception as error:  # a damaged archive fails in zipfile, zlib or numpy, in any way
-        raise UserError(f"{path}: is not a whole NPZ file ({error}); write it again") from error
-    for name in ("format_version", "fps", "text", "joint_names", *_SHAPES):
+    arrays = read_arrays(path, _NAMES)
+    for name in _NAMES:
         if name not in arrays:
             raise UserError(f"{path}: has no array {name!r}; is it a motion of this project?")
     if tuple(arrays["joint_names"].tolist()) != JOINT_NAMES:

@@ -1,0 +1,216 @@
+"""Any motion file in: one function from a path to a Motion, one that tells what a file holds."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from src.shared.data.guesses import guess_unit, guess_up, unit_metres
+from src.shared.data.mapping import SkeletonMapping, find_mapping, load_mappings
+from src.shared.data.recordings import Recording, open_recording
+from src.shared.data.retarget import leg_length, retarget
+from src.shared.errors import UserError
+from src.shared.formats.limits import MAX_FRAMES
+from src.shared.formats.source_clip import SourceClip
+from src.shared.motion.motion import Motion
+from src.shared.motion.resample import resample_motion
+from src.shared.motion.skeleton import canonical_skeleton
+
+SAME_BONES = 1e-4  # metres: a file with our own skeleton, so nothing is to be fitted
+NEAR_RATE = 0.01  # relative: 119.88 frames a second are thinned out like 120
+
+
+@dataclass(frozen=True)
+class Inspection:
+    """What a motion file holds, as far as it says and can be guessed.
+
+    Attributes:
+        format: of the file, for example "BVH".
+        joints: (name, index of the parent or -1), parents first.
+        fps, frames, seconds: of the recording.
+        unit: name of the unit of length (see `guesses.UNITS`), None where nothing tells.
+        up: the up axis, for example "Z".
+        mapping: name of the skeleton profile that fits; None if none does.
+        matched: our joint -> joint of the file.
+        warnings: what is lost, guessed or odd, a sentence each.
+    """
+
+    format: str
+    joints: tuple[tuple[str, int], ...]
+    fps: float
+    frames: int
+    seconds: float
+    unit: str | None
+    up: str
+    mapping: str | None
+    matched: dict[str, str]
+    warnings: tuple[str, ...]
+
+
+def read_motion(
+    path: str | Path,
+    *,
+    mapping: Path | None = None,
+    unit: str | None = None,
+    up: str | None = None,
+    fps: float | None = 30.0,
+    skeleton: Path | None = None,
+    source_fps: float | None = None,
+) -> Motion:
+    """Read a motion file of any known format onto the canonical skeleton, +Y up, metres.
+
+    A file with our own skeleton (as our writers make) comes back as it was written; any other is
+    scaled so that its legs get ours' length and put on the floor.
+
+    Args:
+        mapping: YAML with skeleton profiles that go before ours (see configs/skeletons.yaml).
+        unit: of length in the file, by name (`guesses.UNITS`): distances then stay true instead
+            of being scaled to our legs.
+        up: the file's up axis, "Y", "Z", "-X", …; default: as the file says, or guessed.
+        fps: of the result; None keeps the file's own.
+        skeleton: the ASF file of an AMC motion; default: the one beside it.
+        source_fps: of the recording, for formats that do not say (AMC: 120 is assumed).
+
+    Raises:
+        UserError: missing, damaged, too large, of no known format, or with joints that no profile
+            maps; names the file, the place and the remedy.
+    """
+    recording = open_recording(Path(path), skeleton=skeleton, fps=source_fps)
+    if recording.motion is not None:
+        return recording.motion if fps is None else resample_motion(recording.motion, fps)
+    return fit(Path(path), recording, load_mappings(mapping), unit=unit, up=up, fps=fps)
+
+
+def fit(
+    path: Path,
+    recording: Recording,
+    mappings: tuple[SkeletonMapping, ...],
+    *,
+    unit: str | None = None,
+    up: str | None = None,
+    fps: float | None = 30.0,
+) -> Motion:
+    """A recording onto our skeleton; the arguments are those of `read_motion`."""
+    clip = recording.clip
+    assert clip is not None
+    profile = _profile(path, clip, mappings)
+    ours = is_ours(clip, profile)
+    exact = ours or recording.exact
+    up = up or recording.up or ("Y" if ours else guess_up(clip, profile)[0])
+    metres = recording.metres if recording.exact else _our_scale(clip) if ours else None
+    metres = unit_metres(unit) if unit else metres
+    if fps is not None:
+        clip = thinned(clip, fps)
+    try:
+        return retarget(clip, profile, fps=fps, up=up, metres=metres, ground=not exact)
+    except ValueError as error:
+        raise UserError(f"{path}: {error}") from None
+
+
+def thinned(clip: SourceClip, fps: float) -> SourceClip:
+    """Every n-th frame, where that alone gives `fps`."""
+    rate = 1.0 / clip.frame_time
+    stride = max(1, round(rate / fps))
+    return clip.every(stride) if abs(rate / stride - fps) < NEAR_RATE * fps else clip
+
+
+def is_ours(clip: SourceClip, mapping: SkeletonMapping) -> bool:
+    """Whether the clip's joints and bones are those of the canonical skeleton, in any unit."""
+    ours = canonical_skeleton()
+    if set(clip.names) != set(ours.names) or any(a != b for a, b in mapping.joints.items()):
+        return False
+    index = {name: i for i, name in enumerate(clip.names)}
+    order = [index[name] for name in ours.names]
+    if any(ours.parents[k] >= 0 and clip.parents[j] != order[ours.parents[k]]
+           for k, j in enumerate(order)):  # fmt: skip
+        return False
+    bones = np.asarray(clip.offsets[order][1:] * _our_scale(clip))
+    return bool(np.abs(bones - ours.offsets[1:]).max() < SAME_BONES)
+
+
+def _our_scale(clip: SourceClip) -> float:
+    """Metres of the clip's unit if its left thigh is ours."""
+    thigh = canonical_skeleton().offsets[canonical_skeleton().names.index("l_knee")]
+    length = float(np.linalg.norm(clip.offsets[clip.names.index("l_knee")]))
+    return float(np.linalg.norm(thigh)) / max(length, 1e-12)
+
+
+def _profile(
+    path: Path, clip: SourceClip, mappings: tuple[SkeletonMapping, ...]
+) -> SkeletonMapping:
+    try:
+        return find_mapping(clip.names, mappings)
+    except UserError as error:
+        raise UserError(f"{path}: {error}") from None
+
+
+def inspect_motion(
+    path: str | Path,
+    *,
+    mapping: Path | None = None,
+    unit: str | None = None,
+    up: str | None = None,
+    skeleton: Path | None = None,
+    source_fps: float | None = None,
+) -> Inspection:
+    """Say what a motion file holds; the arguments are those of `read_motion`.
+
+    Raises:
+        UserError: missing, damaged, too large or of no known format.
+    """
+    path = Path(path)
+    recording = open_recording(path, skeleton=skeleton, fps=source_fps)
+    if recording.motion is not None:
+        return _inspect_ours(recording, recording.motion)
+    clip = recording.clip
+    assert clip is not None
+    warnings = list(recording.warnings)
+    profile, guessed_up, guessed_unit = None, up or recording.up or "Y", unit
+    try:
+        profile = find_mapping(clip.names, load_mappings(mapping))
+    except UserError as error:
+        warnings.append(str(error))
+    if profile is not None:
+        found, certain = guess_up(clip, profile)
+        if up is None and recording.up is None and not is_ours(clip, profile):
+            guessed_up = found
+            if not certain:
+                warnings.append(f"the body is not upright on average: --up {found} is a guess")
+        elif guessed_up != found and certain and not is_ours(clip, profile):
+            warnings.append(f"the body stands along {found}, not {guessed_up}: check --up")
+        legs = leg_length(clip, profile)
+        known = next((n for n in ("m",) if recording.metres == 1.0), None)
+        guessed_unit = unit or known or guess_unit(legs)
+        metres = unit_metres(guessed_unit) * legs
+        if not 0.4 < metres < 1.3:
+            warnings.append(f"legs of {metres:.2f} m in {guessed_unit}: check --unit")
+    if clip.num_frames > MAX_FRAMES:
+        warnings.append(f"more than {MAX_FRAMES} frames")
+    return Inspection(
+        format=recording.format,
+        joints=tuple(zip(clip.names, clip.parents, strict=True)),
+        fps=1.0 / clip.frame_time,
+        frames=clip.num_frames,
+        seconds=clip.num_frames * clip.frame_time,
+        unit=guessed_unit,
+        up=guessed_up,
+        mapping=profile.name if profile else None,
+        matched=dict(profile.joints) if profile else {},
+        warnings=tuple(warnings),
+    )
+
+
+def _inspect_ours(recording: Recording, motion: Motion) -> Inspection:
+    skeleton = canonical_skeleton()
+    return Inspection(
+        format=recording.format,
+        joints=tuple(zip(skeleton.names, skeleton.parents, strict=True)),
+        fps=motion.fps,
+        frames=motion.num_frames,
+        seconds=motion.seconds,
+        unit="m",
+        up="Y",
+        mapping="motion-suite",
+        matched={name: name for name in skeleton.names},
+        warnings=recording.warnings,
+    )

@@ -1,0 +1,93 @@
+"""Which reader takes a motion file: by the ending of its name, then by what it holds."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from src.shared.errors import UserError
+from src.shared.formats.limits import array_names, check_size
+from src.shared.formats.source_clip import SourceClip
+from src.shared.motion.motion import Motion
+
+ENDINGS = (".bvh", ".amc", ".npz", ".npy")
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """An opened motion file.
+
+    Attributes:
+        format: for people, for example "ASF/AMC".
+        motion: set for our own files, which need no fitting; else
+        clip: the recording on its own skeleton.
+        up: the up axis, where the format fixes it.
+        metres: of the unit of length, where the format fixes it.
+        exact: the joints are ours already: rotations and places are taken as they are.
+        warnings: what the format loses or does not say, a sentence each.
+    """
+
+    format: str
+    motion: Motion | None = None
+    clip: SourceClip | None = None
+    up: str | None = None
+    metres: float | None = None
+    exact: bool = False
+    warnings: tuple[str, ...] = ()
+
+
+def open_recording(
+    path: Path, *, skeleton: Path | None = None, fps: float | None = None
+) -> Recording:
+    """Read a motion file with the reader for it.
+
+    Raises:
+        UserError: missing, damaged, too large or of no known format.
+    """
+    check_size(path)
+    ending = path.suffix.lower()
+    if ending == ".bvh":
+        from src.shared.formats.bvh import read_bvh
+
+        return Recording("BVH", clip=read_bvh(path))
+    if ending == ".amc":
+        return _amc(path, skeleton, fps)
+    if ending == ".npz":
+        return _npz(path, fps)
+    if ending == ".npy":
+        return _npy(path, fps)
+    raise UserError(f"{path}: no reader for {ending or 'a file without ending'!r}; "
+                    f"known: {', '.join(ENDINGS)}")  # fmt: skip
+
+
+def _amc(path: Path, skeleton: Path | None, fps: float | None) -> Recording:
+    from src.shared.formats.amc import read_amc
+
+    clip = read_amc(path, skeleton, fps=fps)
+    warnings = () if clip.rate_is_known else (
+        f"AMC files do not say their frame rate; {1 / clip.frame_time:g} is assumed, state it by "
+        "--source-fps",
+    )  # fmt: skip
+    return Recording("ASF/AMC", clip=clip, metres=clip.metres, warnings=warnings)
+
+
+def _npz(path: Path, fps: float | None) -> Recording:
+    from src.shared.formats.amass import is_amass, read_amass
+    from src.shared.formats.npz import read_npz
+
+    names = array_names(path)
+    if "format_version" in names or not is_amass(names):
+        return Recording("NPZ of this project", motion=read_npz(path))
+    return Recording(
+        "AMASS", clip=read_amass(path, fps=fps), up="Z", metres=1.0, exact=True,
+        warnings=("no body model is read: body shape, hands, jaw and eyes are dropped, and the "
+                  "rotations go onto our own bones",),
+    )  # fmt: skip
+
+
+def _npy(path: Path, fps: float | None) -> Recording:
+    from src.shared.formats.humanml import read_humanml
+
+    return Recording(
+        "HumanML3D joints", clip=read_humanml(path, fps=fps), up="Y", metres=1.0,
+        warnings=("positions only: rotations are found by inverse kinematics, so the twist of "
+                  "arms, legs and head is a guess",),
+    )  # fmt: skip

@@ -1,0 +1,109 @@
+"""AMASS files in: SMPL, SMPL-H and SMPL-X parameters as NPZ.
+
+| array                                   | shape              | meaning                         |
+|-----------------------------------------|--------------------|---------------------------------|
+| poses                                   | [T,72] [T,156] [T,165] | rotation vectors, body first |
+| or root_orient, pose_body               | [T,3], [T,63]      | the same, named                 |
+| trans                                   | [T,3]              | metres, +Z up                   |
+| mocap_framerate or mocap_frame_rate     | ()                 | frames a second                 |
+
+The 22 body joints are in our order already. No body model is read: the shape (`betas`), the hands,
+jaw and eyes are dropped, and the rotations go onto our own bones, whose rest directions differ
+from the model's by a few degrees. Legend: T frames.
+"""
+
+from pathlib import Path
+
+import numpy as np
+
+from src.shared.errors import UserError
+from src.shared.formats.joint_clip import JointClip
+from src.shared.formats.limits import FRAME_RATES, read_arrays
+from src.shared.motion.skeleton import NUM_JOINTS, canonical_skeleton
+
+MAX_VALUE = 1e4  # metres or radians
+NAMES = ("poses", "root_orient", "pose_body", "trans", "mocap_framerate", "mocap_frame_rate")
+WIDTHS = {66: "body", 72: "SMPL", 156: "SMPL-H", 165: "SMPL-X"}
+
+
+def is_amass(names: tuple[str, ...]) -> bool:
+    """Whether arrays with these names are AMASS's."""
+    return "trans" in names and ("poses" in names or {"root_orient", "pose_body"} <= set(names))
+
+
+def read_amass(path: str | Path, *, fps: float | None = None) -> JointClip:
+    """Read the 22 body joints of an AMASS file, in the file's +Z-up world.
+
+    Args:
+        fps: frames a second, for a file that does not say.
+
+    Raises:
+        UserError: missing, damaged, not AMASS, or with arrays of another shape or NaN.
+    """
+    path = Path(path)
+    arrays = read_arrays(path, NAMES)
+    if not is_amass(tuple(arrays)):
+        raise UserError(f"{path}: needs 'trans' and 'poses', or 'root_orient' and 'pose_body'; "
+                        f"it holds {', '.join(arrays) or 'none of them'}")  # fmt: skip
+    trans = _numbers(path, arrays, "trans", (3,))
+    if "poses" in arrays:
+        poses = _numbers(path, arrays, "poses", None)
+        if poses.shape[1] < 3 * NUM_JOINTS:
+            raise UserError(f"{path}: poses has {poses.shape[1]} values a frame; "
+                            f"{3 * NUM_JOINTS} or more are needed")  # fmt: skip
+        poses = poses[:, : 3 * NUM_JOINTS]
+    else:
+        poses = np.concatenate([_numbers(path, arrays, "root_orient", (3,)),
+                                _numbers(path, arrays, "pose_body", (63,))], 1)  # fmt: skip
+    if len(poses) != len(trans) or not len(trans):
+        raise UserError(f"{path}: {len(poses)} poses and {len(trans)} places; "
+                        "the file is damaged")  # fmt: skip
+    return JointClip(
+        rotations=rotation_matrices(poses.reshape(-1, NUM_JOINTS, 3)),
+        root=trans,
+        offsets=canonical_skeleton().offsets.astype(np.float64),
+        frame_time=1.0 / _rate(path, arrays, fps),
+    )
+
+
+def rotation_matrices(vectors: np.ndarray) -> np.ndarray:
+    """Rotation vectors [...,3] in radians → matrices [...,3,3] (Rodrigues)."""
+    angle = np.linalg.norm(vectors, axis=-1)[..., None, None]
+    axis = vectors[..., None] / np.maximum(angle, 1e-12)  # a column
+    x, y, z = axis[..., 0, 0], axis[..., 1, 0], axis[..., 2, 0]
+    zero = np.zeros_like(x)
+    cross = np.stack((zero, -z, y, z, zero, -x, -y, x, zero), -1).reshape(*x.shape, 3, 3)
+    outer = axis * np.swapaxes(axis, -1, -2)
+    cos, sin = np.cos(angle), np.sin(angle)
+    return np.asarray(cos * np.eye(3) + sin * cross + (1 - cos) * outer)
+
+
+def _rate(path: Path, arrays: dict[str, np.ndarray], fps: float | None) -> float:
+    given = [arrays[name] for name in ("mocap_framerate", "mocap_frame_rate") if name in arrays]
+    if fps is not None:
+        return fps
+    if not given:
+        raise UserError(f"{path}: has no mocap_framerate or mocap_frame_rate; "
+                        "state it by --source-fps")  # fmt: skip
+    if given[0].size != 1 or given[0].dtype.kind not in "fiu":
+        raise UserError(f"{path}: the frame rate is {given[0].dtype}{list(given[0].shape)}, "
+                        "not a number")  # fmt: skip
+    rate = float(given[0].reshape(()))
+    if not FRAME_RATES[0] <= rate <= FRAME_RATES[1]:
+        raise UserError(f"{path}: {rate:g} frames a second are not possible")
+    return rate
+
+
+def _numbers(
+    path: Path, arrays: dict[str, np.ndarray], name: str, shape: tuple[int, ...] | None
+) -> np.ndarray:
+    """An array [T,…] of plausible numbers as float64."""
+    array = arrays[name]
+    if array.ndim != 2 or array.dtype.kind not in "fiu" or shape not in (None, array.shape[1:]):
+        wanted = f"[T,{shape[0]}]" if shape else "[T,66 or more]"
+        raise UserError(f"{path}: {name} is {array.dtype}{list(array.shape)}, expected numbers "
+                        f"of shape {wanted}")  # fmt: skip
+    array = array.astype(np.float64)
+    if array.size and not np.abs(array).max() < MAX_VALUE:
+        raise UserError(f"{path}: {name} holds NaN or impossibly large values")
+    return array

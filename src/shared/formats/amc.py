@@ -1,0 +1,243 @@
+"""AMC motions in (Acclaim), with the ASF skeleton they move.
+
+The world rotation of a bone is its parent's · C M C⁻¹, C the bone's `axis` and M its motion, both
+turned about fixed axes in the order given ("XYZ" is Rz Ry Rx). That makes an ASF bone a joint
+whose axes are the world's at rest, as in BVH. Legend: T frames, N bones (root first), C channels.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+
+from src.shared.errors import UserError
+from src.shared.formats.asf import AsfSkeleton, read_asf
+from src.shared.formats.limits import (
+    FRAME_RATES,
+    MAX_FRAMES,
+    MAX_LINE,
+    MAX_VALUE,
+    MAX_VALUES,
+    Deadline,
+    read_bytes,
+)
+from src.shared.formats.source_clip import ALL, compose
+
+USUAL_RATE = 120.0  # AMC files do not say; HDM05 and nearly all of CMU are at 120
+_RATE_LINE = b":SAMPLES-PER-SECOND"
+
+
+@dataclass(frozen=True, eq=False)
+class AmcClip:
+    """One AMC file with its skeleton; bones are joints at the bone's start.
+
+    Attributes:
+        values: channel values [T,C] float64, bones in the skeleton's order, angles in radians.
+        rate_is_known: the file gives its frame rate (few do).
+    """
+
+    skeleton: AsfSkeleton
+    frame_time: float
+    values: np.ndarray
+    rate_is_known: bool = False
+
+    @property
+    def num_frames(self) -> int:
+        return len(self.values)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(bone.name for bone in self.skeleton.bones)
+
+    @property
+    def parents(self) -> tuple[int, ...]:
+        return tuple(bone.parent for bone in self.skeleton.bones)
+
+    @cached_property
+    def offsets(self) -> np.ndarray:
+        """Where each bone starts: its parent's end [N,3]."""
+        vectors = [np.multiply(bone.direction, bone.length) for bone in self.skeleton.bones]
+        return np.array([vectors[parent] if parent >= 0 else np.zeros(3)
+                         for parent in self.parents])  # fmt: skip
+
+    @property
+    def metres(self) -> float:
+        """Length of the file's unit."""
+        return self.skeleton.metres
+
+    def every(self, stride: int) -> "AmcClip":
+        return replace(self, values=self.values[::stride], frame_time=self.frame_time * stride)
+
+    def world(self, frames: slice = ALL) -> tuple[np.ndarray, np.ndarray]:
+        """World positions of the bones' starts [T,N,3] and world rotations [T,N,3,3]."""
+        values = self.values[frames]
+        bones = self.skeleton.bones
+        rotations = np.empty((len(values), len(bones), 3, 3))
+        translations = np.repeat(self.offsets[None], len(values), axis=0)
+        column = 0
+        for index, bone in enumerate(bones):
+            angles = {}
+            for channel in bone.dof:
+                if channel[0] == "r":
+                    angles[channel[1].upper()] = values[:, column]
+                elif index == 0:  # a bone's own translation or stretch would part the body
+                    axis = "xyz".index(channel[1])
+                    translations[:, 0, axis] = bone.place[axis] + values[:, column]
+                column += 1
+            motion = _turn([(a, angles[a]) for a in bone.turns if a in angles], len(values))
+            factor = np.pi / 180 if self.skeleton.degrees else 1.0
+            fixed = _turn([(a, np.array([factor * bone.axis["XYZ".index(a)]])) for a in bone.order])
+            rotations[:, index] = fixed @ motion @ fixed[0].T
+        return compose(self.parents, rotations, translations)
+
+
+def _turn(steps: list[tuple[str, np.ndarray]], count: int = 1) -> np.ndarray:
+    """Rotations [count,3,3] about fixed axes, the first step first: the last stands leftmost."""
+    result = np.tile(np.eye(3), (count, 1, 1))
+    for axis, angle in steps:
+        cos, sin = np.cos(angle), np.sin(angle)
+        first, second = {"X": (1, 2), "Y": (2, 0), "Z": (0, 1)}[axis]
+        row, other = result[:, first].copy(), result[:, second]
+        result[:, first] = cos[:, None] * row - sin[:, None] * other
+        result[:, second] = sin[:, None] * row + cos[:, None] * other
+    return result
+
+
+def read_amc(
+    path: str | Path, skeleton: str | Path | None = None, *, fps: float | None = None
+) -> AmcClip:
+    """Read an AMC motion and the skeleton it is for.
+
+    Args:
+        skeleton: the ASF file; default: the one beside it that its name begins with, or the only.
+        fps: frames a second of the recording, which AMC files do not say; default 120.
+
+    Raises:
+        UserError: a file is missing, too large, damaged, or does not fit the skeleton; names the
+            file and, where there is one, the line.
+    """
+    path = Path(path)
+    data = read_bytes(path)
+    asf = read_asf(Path(skeleton) if skeleton else find_skeleton(path))
+    reader = _Reader(path, asf)
+    for reader.number, line in enumerate(BytesIO(data), start=1):
+        reader.take(line)
+    reader.finish_frame()
+    if not reader.frames:
+        raise UserError(f"{path}: holds no frames: not an AMC motion, or cut off")
+    values = np.frombuffer(b"".join(reader.frames)).reshape(len(reader.frames), -1)
+    rate = fps or reader.rate or USUAL_RATE
+    degrees = asf.degrees if reader.degrees is None else reader.degrees
+    turning = [c[0] == "r" for bone in asf.bones for c in bone.dof]
+    values = values * np.where(turning, np.pi / 180 if degrees else 1.0, 1.0)
+    return AmcClip(asf, 1.0 / rate, values, rate_is_known=bool(fps or reader.rate))
+
+
+def find_skeleton(path: Path) -> Path:
+    """The ASF file that belongs to an AMC file, by name.
+
+    Raises:
+        UserError: none lies beside it, or several that could be meant.
+    """
+    found = sorted(p for p in path.parent.iterdir() if p.suffix.lower() == ".asf")
+    named = [p for p in found if path.stem.lower().startswith(p.stem.lower())]
+    best = sorted(named, key=lambda p: -len(p.stem))[:1] or found
+    if len(best) == 1:
+        return best[0]
+    what = ", ".join(p.name for p in found[:5]) if found else "no .asf file"
+    raise UserError(f"{path}: an AMC motion needs its ASF skeleton, beside it is {what}; "
+                    "name it by --skeleton FILE")  # fmt: skip
+
+
+class _Reader:
+    """State of one pass over the lines; a frame is a row of all channels."""
+
+    def __init__(self, path: Path, skeleton: AsfSkeleton) -> None:
+        self.path, self.number = path, 0
+        self.degrees: bool | None = None
+        self.rate: float | None = None
+        self.frames: list[bytes] = []
+        self.row: list[float] | None = None
+        self.deadline = Deadline(path)
+        self.columns: dict[bytes, slice] = {}
+        count = 0
+        for bone in skeleton.bones:
+            if bone.dof:
+                self.columns[bone.name.encode("latin-1")] = slice(count, count + len(bone.dof))
+                count += len(bone.dof)
+        self.count = count
+        self.empty = [np.nan] * count
+        self.max_frames = min(MAX_FRAMES, MAX_VALUES // max(count, 1))
+
+    def fault(self, message: str) -> UserError:
+        return UserError(f"{self.path}, line {self.number}: {message}")
+
+    def take(self, line: bytes) -> None:
+        """One line of the file."""
+        if len(line) > MAX_LINE:
+            raise self.fault("the line is impossibly long: not an AMC motion")
+        words = line.split()
+        if not words or line.startswith(b"#"):
+            return
+        if words[0].startswith(b":"):
+            self.header(words)
+        elif len(words) == 1 and words[0].isdigit():
+            self.finish_frame()
+            self.row = self.empty.copy()
+        else:
+            self.bone(words)
+
+    def header(self, words: list[bytes]) -> None:
+        word = words[0].upper()
+        if word.startswith(b":DEG"):
+            self.degrees = True
+        elif word.startswith(b":RAD"):
+            self.degrees = False
+        elif word == _RATE_LINE:
+            try:
+                rate = float(words[1])
+            except (IndexError, ValueError):
+                raise self.fault("SAMPLES-PER-SECOND is not followed by a number") from None
+            if not FRAME_RATES[0] <= rate <= FRAME_RATES[1]:
+                raise self.fault(f"{rate:g} samples a second are not possible")
+            self.rate = rate
+
+    def bone(self, words: list[bytes]) -> None:
+        """`name value value …`"""
+        columns = self.columns.get(words[0])
+        if columns is None or self.row is None:
+            shown = words[0][:40].decode("latin-1")
+            known = self.row is None or words[0]
+            raise self.fault(
+                f"{shown!r} before the first frame's number: not an AMC motion" if known is True
+                else f"{shown!r} is no moving bone of the skeleton; name the right one by "
+                "--skeleton FILE")  # fmt: skip
+        try:
+            values = [float(word) for word in words[1:]]
+        except ValueError:
+            shown = b" ".join(words)[:60].decode("latin-1")
+            raise self.fault(f"{shown!r} does not hold numbers only") from None
+        if len(values) != columns.stop - columns.start:
+            raise self.fault(f"{words[0].decode('latin-1')!r} has {len(values)} values, the "
+                             f"skeleton says {columns.stop - columns.start}")  # fmt: skip
+        self.row[columns] = values
+
+    def finish_frame(self) -> None:
+        """Keep the frame that ends here."""
+        if self.row is None:
+            return
+        row = np.array(self.row)
+        if not np.abs(row).max(initial=0.0) < MAX_VALUE:  # also true for NaN
+            column = int(np.flatnonzero(~(np.abs(row) < MAX_VALUE))[0])
+            name = next(n for n, c in self.columns.items() if c.start <= column < c.stop)
+            what = "is missing from" if np.isnan(row[column]) else "is impossibly large in"
+            raise self.fault(f"{name.decode('latin-1')!r} {what} frame {len(self.frames) + 1}, "
+                             "which ends here; the file is damaged or cut off")  # fmt: skip
+        if len(self.frames) >= self.max_frames:
+            raise self.fault(f"more than {self.max_frames} frames; split the file")
+        self.frames.append(row.tobytes())
+        self.row = None
+        if not len(self.frames) % 256:
+            self.deadline.check()
