@@ -8,13 +8,8 @@ import torch
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from src.shared.motion.foot_lock import (
-    MAX_STRETCH,
-    ball_corrections,
-    contact_runs,
-    lock_feet,
-    two_bone_ik,
-)
+from src.shared.motion.foot_lock import lock_feet
+from src.shared.motion.leg_ik import MAX_STRETCH, two_bone_ik
 from src.shared.motion.motion import Motion
 from src.shared.motion.rotations import euler_to_matrix, matrix_to_quaternion
 from src.shared.motion.skeleton import (
@@ -93,9 +88,8 @@ def test_the_correction_fades_in_and_out() -> None:
     jumps = np.linalg.norm(np.diff(shift, axis=0), axis=-1)
     assert np.linalg.norm(shift, axis=-1).max() > 0.05
     assert jumps.max() < 0.04  # a hard start would jump by 0.07
-    swing = (motion.contacts[:, 0] < 0.5) & (np.arange(60) % 30 == 7)  # the middle of a swing
-    assert swing.any()
-    assert np.abs(shift[swing, 0]).max() < 1e-6
+    bends = np.linalg.norm(np.diff(shift, n=2, axis=0), axis=-1)
+    assert bends.max() < 0.02  # m a frame²: 18 m/s², real knees and ankles reach 56
 
 
 def test_knees_stay_in_front() -> None:
@@ -109,10 +103,21 @@ def test_knees_stay_in_front() -> None:
             assert np.abs(positions[:, knee, 0] - positions[:, hip, 0]).max() < 1e-3
 
 
-def test_without_contacts_nothing_changes() -> None:
+def test_in_the_air_nothing_changes() -> None:
     motion = sliding_walk()
-    airborne = replace(motion, contacts=np.zeros_like(motion.contacts))
+    up = motion.root_position + np.float32([0, 0.4, 0])
+    airborne = replace(motion, contacts=np.zeros_like(motion.contacts), root_position=up)
     np.testing.assert_array_equal(lock_feet(airborne).quaternions, motion.quaternions)
+    claimed = replace(motion, root_position=up)  # nobody stands on air
+    np.testing.assert_array_equal(lock_feet(claimed).quaternions, motion.quaternions)
+    assert not lock_feet(claimed).contacts.any()
+
+
+def test_who_claims_no_contact_is_held_all_the_same() -> None:
+    motion = sliding_walk()
+    silent = lock_feet(replace(motion, contacts=np.zeros_like(motion.contacts)))
+    assert silent.contacts.any(1).mean() > 0.95
+    assert contact_speed(silent) < 0.01
 
 
 def test_a_foot_that_stands_is_left_alone() -> None:
@@ -180,18 +185,3 @@ def test_ik_reaches_what_it_can(
         atol=1e-3,
     )
     torch.testing.assert_close(again_shin, new_shin, rtol=0, atol=2e-3)
-
-
-def test_runs_bridge_short_gaps() -> None:
-    contact = np.array([0, 1, 1, 0, 1, 1, 0, 0, 0, 0, 1], dtype=bool)
-    assert contact_runs(contact, max_gap=2) == [(1, 6), (10, 11)]
-    assert contact_runs(contact, max_gap=0) == [(1, 3), (4, 6), (10, 11)]
-    assert contact_runs(np.zeros(4, dtype=bool), max_gap=2) == []
-    assert contact_runs(np.ones(4, dtype=bool), max_gap=2) == [(0, 4)]
-
-
-def test_a_wrong_contact_is_not_followed_far() -> None:
-    ball = np.zeros((30, 3))
-    ball[:, 2] = np.linspace(0, 5, 30)
-    shift = ball_corrections(ball, np.ones(30, dtype=bool), FPS)
-    assert np.linalg.norm(shift, axis=-1).max() <= 0.2 + 1e-9

@@ -1,0 +1,252 @@
+"""Where feet stand, and how far each frame's foot is from there.
+
+A motion's own contacts say when a foot stands. A body on a path that is not its own (a dancer
+pinned to a song's trajectory) slides more than a held foot can make up for; so whatever carries
+the body is held too, and a foot that would be dragged takes short steps instead, left and right in
+turn. Between two holds the correction follows a cubic Hermite curve, so that feet neither jump nor
+jerk (displacement maps: Kovar et al. 2002, "Footskate cleanup", §4).
+
+Letters: T frames, N frames of a curve.
+"""
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d, maximum_filter1d
+
+from src.shared.motion.skeleton import REST_FOOT_HEIGHT
+
+THRESHOLD = 0.5  # contact above it = on the ground
+MAX_GAP_SECONDS = 2 / 30  # a contact that breaks off for no longer than this goes on
+MIN_HOLD_SECONDS = 3 / 30  # a shorter contact is none
+BLEND_SECONDS = 9 / 30  # how long a correction fades in before, and out after, a contact
+STEP_SECONDS = 8 / 30  # of a step that was put in, and LIFT metres its height
+LIFT = 0.05
+MAX_CLAIM = 0.12  # metres above the standing height; a higher foot stands on nothing
+MAX_SUPPORT = 0.05  # metres; a lower foot carries the body if none other does,
+MAX_VERTICAL = 0.5  # m/s, unless it rises or falls faster than this
+ROLL = 0.015  # metres that the ball of a standing foot may be above its standing height
+MAX_DRAG = 0.22  # metres that a held foot may be from where it was; further off it steps
+MAX_SLOPE = 1.0  # m/s at which a correction may start from a hold
+MAX_REACH = 0.93  # metres from the hip to the ball of a held foot, its heel up
+
+
+@dataclass(frozen=True, eq=False)
+class Hold:
+    """A foot that stands on `point` [3] in frames [start, stop); `step`: it steps there."""
+
+    start: int
+    stop: int
+    point: np.ndarray
+    step: bool = False
+
+
+def foot_shifts(
+    balls: np.ndarray,
+    hips: np.ndarray,
+    contacts: np.ndarray,
+    fps: float,
+    kept: np.ndarray | None = None,
+) -> tuple[np.ndarray, np.ndarray]:
+    """How far the ball of each foot has to move [T,2,3] in metres, and whether it stands [T,2].
+
+    Args:
+        balls: world positions of the balls of both feet [T,2,3], metres.
+        hips: of the hips above them [T,2,3].
+        contacts: [T,2] in [0, 1], as the motion claims.
+        fps: frames per second.
+        kept: legs [T,2] bool that must stay as they are; a foot that stands on goes on standing
+            where it was kept.
+    """
+    stands = standing(balls, contacts, fps)
+    shifts, held = np.zeros_like(balls), np.zeros(stands.shape, dtype=bool)
+    for side in (0, 1):
+        frozen = np.zeros(len(balls), dtype=bool) if kept is None else kept[:, side]
+        holds = foot_holds(
+            balls[:, side], hips[:, side], stands[:, side], fps, frozen, phase=0.5 * side
+        )
+        shifts[:, side] = corrections(balls[:, side], holds, frozen, fps)
+        for hold in holds:
+            held[hold.start : hold.stop, side] = True
+    return shifts, held
+
+
+# ---------------------------------------------------------------- when
+
+
+def standing(balls: np.ndarray, contacts: np.ndarray, fps: float) -> np.ndarray:
+    """Which feet [T,2] carry the body: those that claim to, else the lower one if it is low.
+
+    A foot that moves up or down fast is jumping, landing or swinging.
+    """
+    height = balls[..., 1] - REST_FOOT_HEIGHT  # T 2
+    claimed = (contacts > THRESHOLD) & (height < MAX_CLAIM)
+    if len(balls) < 2:
+        return np.asarray(claimed)
+    vertical = np.abs(np.gradient(height, axis=0)) * fps
+    low = (height < MAX_SUPPORT) & (vertical < MAX_VERTICAL)
+    lower = np.arange(2) == height.argmin(1)[:, None]
+    return np.asarray(claimed | (~claimed.any(1, keepdims=True) & low & lower))
+
+
+def contact_runs(contact: np.ndarray, max_gap: int) -> list[tuple[int, int]]:
+    """First and past-the-last frame of each contact in bool [T]; short gaps are bridged."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], contact.astype(int), [0]))))
+    runs: list[tuple[int, int]] = []
+    for start, stop in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
+        if runs and start - runs[-1][1] <= max_gap:
+            runs[-1] = (runs[-1][0], stop)
+        else:
+            runs.append((start, stop))
+    return runs
+
+
+# ---------------------------------------------------------------- where
+
+
+def foot_holds(
+    ball: np.ndarray,
+    hip: np.ndarray,
+    stands: np.ndarray,
+    fps: float,
+    kept: np.ndarray,
+    *,
+    phase: float = 0.0,
+) -> list[Hold]:
+    """The holds of one foot, in order.
+
+    Args:
+        ball: [T,3].
+        hip: [T,3].
+        stands: [T] bool.
+        fps: frames per second.
+        kept: [T] bool, frames that stay as they are.
+        phase: of the steps that are put in; the other foot's differs by a half.
+    """
+    shortest = round(MIN_HOLD_SECONDS * fps)
+    found: list[Hold] = []
+    for start, stop in contact_runs(stands, round(MAX_GAP_SECONDS * fps)):
+        fixed = np.flatnonzero(kept[start:stop])
+        pieces = [(start, stop)] if len(fixed) else _steps(ball[start:stop], start, fps, phase)
+        for number, (first, last) in enumerate(pieces):
+            path = ball[first:last]
+            point = path[_border(fixed)] if len(fixed) else path.mean(0)
+            point = np.array([point[0], REST_FOOT_HEIGHT, point[2]])
+            first, last = _reached(point, hip, first, last)
+            if last - first >= min(shortest, len(ball)):
+                found.append(Hold(first, last, point, step=number > 0))
+    return found
+
+
+def _border(fixed: np.ndarray) -> int:
+    """The kept frame of a run that the others follow: the last of a beginning, else the first."""
+    return int(fixed[-1]) if fixed[0] == 0 else int(fixed[0])
+
+
+def _steps(path: np.ndarray, start: int, fps: float, phase: float) -> list[tuple[int, int]]:
+    """A run [N,3] as it is, or cut into equally long drags with a step's time between them."""
+    ground = path[:, [0, 2]]
+    if np.linalg.norm(ground - ground.mean(0), axis=1).max() <= MAX_DRAG:
+        return [(start, start + len(path))]
+    smooth = gaussian_filter1d(ground, 0.1 * fps, axis=0, mode="nearest")
+    way = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(smooth, axis=0), axis=1))))
+    step = round(STEP_SECONDS * fps)
+    number = min(int(np.ceil(way[-1] / (2 * MAX_DRAG))), len(path) // (2 * step))
+    if number < 2:
+        return [(start, start + len(path))]
+    marks = (np.arange(1, number + 1) - phase) / number
+    cuts = np.searchsorted(way, marks[marks < 1 - 1e-9] * way[-1])
+    half = step // 2
+    edges = [-half, *cuts.tolist(), len(path) + half]
+    pairs = [(a + half, b - half) for a, b in pairwise(edges)]
+    return [(start + max(a, 0), start + min(b, len(path))) for a, b in pairs if b > a]
+
+
+def _reached(point: np.ndarray, hip: np.ndarray, start: int, stop: int) -> tuple[int, int]:
+    """The frames around the nearest one in which a leg gets to the point."""
+    away = np.linalg.norm(hip[start:stop] - point, axis=1)
+    nearest = int(away.argmin())
+    far = np.flatnonzero(away > MAX_REACH)
+    before, after = far[far < nearest], far[far > nearest]
+    if away[nearest] > MAX_REACH:
+        return start, start
+    first = start + (int(before[-1]) + 1 if len(before) else 0)
+    return first, start + (int(after[0]) if len(after) else stop - start)
+
+
+# ---------------------------------------------------------------- how far
+
+
+def corrections(ball: np.ndarray, holds: list[Hold], kept: np.ndarray, fps: float) -> np.ndarray:
+    """Where the ball of a foot [T,3] has to move, [T,3] in metres; zero = nothing to do."""
+    shift, known = np.zeros_like(ball), kept.copy()
+    lift = np.zeros(len(ball))
+    for hold in holds:
+        own = hold.point - ball[hold.start : hold.stop]
+        path = ball[hold.start : hold.stop, 1]
+        own[:, 1] = path.clip(REST_FOOT_HEIGHT, REST_FOOT_HEIGHT + ROLL) - path
+        shift[hold.start : hold.stop] = own
+        known[hold.start : hold.stop] = True
+    shift[kept] = 0
+    for before, after in pairwise(holds):
+        if after.step:
+            rise = np.linspace(0, np.pi, after.start - before.stop + 2)[1:-1]
+            lift[before.stop : after.start] = LIFT * np.sin(rise) ** 2
+    shift = _bridged(shift, known, round(BLEND_SECONDS * fps), fps)
+    shift[~known, 1] += lift[~known]
+    shift[:, 1] += _above_floor(ball[:, 1] + shift[:, 1], known, fps)
+    return shift
+
+
+def _bridged(shift: np.ndarray, known: np.ndarray, blend: int, fps: float) -> np.ndarray:
+    """Corrections [T,3] with the frames that are not known filled in, smoothly."""
+    shift = shift.copy()
+    limit = MAX_SLOPE / fps
+    edges = np.flatnonzero(np.diff(np.concatenate(([1], known.astype(int), [1]))))
+    for start, stop in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
+        ends = []
+        for at, inner in ((start - 1, start - 2), (stop, stop + 1)):
+            here = shift[at] if 0 <= at < len(shift) else np.zeros(3)
+            slope = np.zeros(3)
+            if min(at, inner) >= 0 and max(at, inner) < len(shift) and known[inner]:
+                slope = (shift[at] - shift[inner]) * (at - inner)
+            ends.append((here, slope.clip(-limit, limit)))
+        (left, left_slope), (right, right_slope) = ends
+        frames = stop - start + 1
+        along = np.arange(1, frames)
+        inside = start > 0 and stop < len(shift)
+        if inside and frames <= 2 * blend:
+            shift[start:stop] = hermite(left, right, left_slope, right_slope, frames)[1:-1]
+            continue
+        zero = np.zeros(3)
+        if start > 0:
+            out = hermite(left, zero, left_slope, zero, blend)
+            shift[start:stop] += out[np.minimum(along, blend)]
+        if stop < len(shift):
+            into = hermite(zero, right, zero, right_slope, blend)
+            shift[start:stop] += into[np.maximum(along - frames + blend, 0)]
+    return shift
+
+
+def hermite(
+    left: np.ndarray, right: np.ndarray, left_slope: np.ndarray, right_slope: np.ndarray, num: int
+) -> np.ndarray:
+    """The cubic [num+1,3] between two values with given slopes a frame."""
+    u = (np.arange(num + 1) / num)[:, None]
+    return np.asarray(
+        (2 * u**3 - 3 * u**2 + 1) * left
+        + (u**3 - 2 * u**2 + u) * num * left_slope
+        + (3 * u**2 - 2 * u**3) * right
+        + (u**3 - u**2) * num * right_slope
+    )
+
+
+def _above_floor(height: np.ndarray, known: np.ndarray, fps: float) -> np.ndarray:
+    """What lifts a foot [T] that moves to its standing height, faded in and out."""
+    depth = np.where(known, 0.0, (REST_FOOT_HEIGHT - height).clip(min=0))
+    if not depth.any():
+        return np.zeros_like(height)
+    width = 2 * round(0.1 * fps) + 1
+    smooth = gaussian_filter1d(maximum_filter1d(depth, width), width / 6, mode="nearest")
+    return np.where(known, 0.0, smooth)
