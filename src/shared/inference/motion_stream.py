@@ -45,6 +45,16 @@ class Passage:
             raise UsageError(f"passage {self.text!r}: {self.frames} frames; 1 or more are needed")
 
 
+@dataclass(frozen=True)
+class StreamSettings:
+    """How windows are sampled; None = the model's own."""
+
+    seed: int = 0
+    guidance_scale: float | None = None
+    steps: int | None = None
+    sampler: str | None = None
+
+
 def stream_features(
     generator: MotionGenerator,
     passages: Iterable[Passage],
