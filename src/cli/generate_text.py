@@ -12,7 +12,8 @@ from src.cli.wording import note_replaced
 if TYPE_CHECKING:
     from src.shared.motion.motion import Motion
 
-FORMATS = ("bvh", "glb", "npz", "html")
+FORMATS = ("bvh", "glb", "npz", "html")  # written where nothing else is asked for
+ALL_FORMATS = (*FORMATS, "usd", "amass", "csv", "png", "gif", "mp4")
 MODEL = "starter"
 
 
@@ -31,7 +32,7 @@ def produce(
 
     Args:
         wanted: what `PromptSampler.sample` takes.
-        formats: any of `FORMATS`.
+        formats: any of `ALL_FORMATS`.
         out: folder for the files.
         model: name or folder.
         device: auto, cpu, cuda or mps.
@@ -95,11 +96,11 @@ def write_motions(
     motions: "Sequence[Motion]", num_samples: int, formats: list[str], out: Path
 ) -> list[dict[str, Any]]:
     """Write every motion in every format; a row of facts and paths for each."""
-    from src.shared.formats.registry import write_motion
+    from src.shared.formats.registry import ending, write_motion
 
     rows: list[dict[str, Any]] = []
     names = stems([motion.text for motion in motions], num_samples)
-    files = [{name: out / f"{stem}.{name}" for name in formats} for stem in names]
+    files = [{name: out / f"{stem}.{ending(name)}" for name in formats} for stem in names]
     note_replaced((path for paths in files for path in paths.values()), out)
     for motion, paths in zip(motions, files, strict=True):
         for path in paths.values():

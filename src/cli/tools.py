@@ -9,6 +9,7 @@ from pathlib import Path
 import typer
 
 from src.cli.compare import compare
+from src.cli.convert import convert
 from src.cli.evaluate import evaluate
 from src.cli.evaluate_audio import evaluate_audio
 from src.cli.evaluate_memory import evaluate_memory
@@ -40,6 +41,7 @@ app = typer.Typer(
 )
 for command in (
     generate,
+    convert,
     features,
     prepare,
     prepare_audio,

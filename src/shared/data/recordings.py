@@ -8,7 +8,7 @@ from src.shared.formats.limits import array_names, check_size
 from src.shared.formats.source_clip import SourceClip
 from src.shared.motion.motion import Motion
 
-ENDINGS = (".bvh", ".amc", ".npz", ".npy")
+ENDINGS = (".bvh", ".glb", ".amc", ".npz", ".npy", ".csv")
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +48,14 @@ def open_recording(
         from src.shared.formats.bvh import read_bvh
 
         return Recording("BVH", clip=read_bvh(path))
+    if ending == ".glb":
+        from src.shared.formats.glb_reader import read_glb
+
+        return Recording("GLB", clip=read_glb(path), up="Y", metres=1.0)
+    if ending == ".csv":
+        from src.shared.formats.motion_csv import read_motion_csv
+
+        return Recording("CSV of this project", motion=read_motion_csv(path))
     if ending == ".amc":
         return _amc(path, skeleton, fps)
     if ending == ".npz":

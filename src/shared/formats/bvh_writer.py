@@ -1,57 +1,91 @@
-"""BVH files out: the canonical skeleton in centimetres, Euler angles ZXY in degrees.
+"""BVH files out: any rig; our own skeleton in centimetres, Euler angles ZXY in degrees.
 
 Centimetres, because Blender (scale 0.01), Maya, MotionBuilder, Unreal and Unity expect them of
-a BVH file. The root has its position and rotation channels, every other joint rotations only;
-`Zrotation Xrotation Yrotation` is Rz @ Rx @ Ry. The rest pose is the T-pose, +Y up, facing +Z.
-Legend: T frames.
+a BVH file. The root has its position and rotation channels, every other joint rotations only
+(and positions where it moves against its parent); `Zrotation Xrotation Yrotation` is
+Rz @ Rx @ Ry. Our rest pose is the T-pose, +Y up, facing +Z. Legend: T frames, K joints.
 """
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from src.shared.files import write_text
-from src.shared.formats.body import END_SITES
+from src.shared.formats.rig import Rig, RigClip, motion_clip, rescaled
 from src.shared.motion.motion import Motion
-from src.shared.motion.skeleton import Skeleton, canonical_skeleton
 
-CENTIMETRES = 100.0
-ORDER = "ZXY"
+CENTIMETRE = 0.01
 
 
-def write_bvh(motion: Motion, path: str | Path) -> Path:
+def write_bvh(motion: Motion, path: str | Path, *, names: str = "canonical") -> Path:
     """Write one motion; reading it back gives rotations and positions within 1e-4 (rad, m).
+
+    Args:
+        motion: what to write.
+        path: the file.
+        names: what the joints are called (`joint_names.SCHEMES`).
 
     Raises:
         UserError: the file cannot be written.
     """
-    skeleton = canonical_skeleton()
-    joints = _depth_first(skeleton)
-    angles = np.rad2deg(quaternions_to_euler_zxy(motion.quaternions))
-    root = motion.root_position.astype(np.float64)[:, None] * CENTIMETRES
-    rows = np.concatenate((root, angles[:, joints]), axis=1).reshape(motion.num_frames, -1)
-    lines = ["HIERARCHY", *_hierarchy(skeleton, 0, 0), "MOTION"]
-    lines += [f"Frames: {motion.num_frames}", f"Frame Time: {1.0 / motion.fps:.8f}"]
-    lines += [" ".join(f"{value:.5f}" for value in row) for row in rows]
+    clip = rescaled(motion_clip(motion, names), CENTIMETRE)
+    # The pelvis path says where the root is, so its own offset would only be in the way.
+    offsets = clip.rig.offsets.copy()
+    offsets[0] = 0.0
+    return write_bvh_clip(replace(clip, rig=replace(clip.rig, offsets=offsets)), path)
+
+
+def write_bvh_clip(clip: RigClip, path: str | Path) -> Path:
+    """Write a rig's motion in the rig's own unit, with its own Euler orders.
+
+    Raises:
+        UserError: the file cannot be written.
+    """
+    rig, moving = clip.rig, clip.moving()
+    columns = []
+    angles = np.empty((clip.num_frames, len(rig.names), 3))
+    for axes in set(rig.orders):
+        joints = [joint for joint, other in enumerate(rig.orders) if other == axes]
+        angles[:, joints] = np.rad2deg(matrices_to_euler(clip.rotations[:, joints], axes))
+    order = _depth_first(rig)
+    for joint in order:
+        columns += [clip.translations[:, joint]] if joint in moving else []
+        columns.append(angles[:, joint])
+    lines = ["HIERARCHY", *_hierarchy(rig, order, moving), "MOTION"]
+    lines += [f"Frames: {clip.num_frames}", f"Frame Time: {1.0 / clip.fps:.8f}"]
+    lines += [" ".join(f"{v:.5f}" for v in row) for row in np.concatenate(columns, 1).tolist()]
     write_text(Path(path), "\n".join(lines) + "\n")
     return Path(path)
 
 
-def quaternions_to_euler_zxy(quaternions: np.ndarray) -> np.ndarray:
-    """Intrinsic Z, X, Y angles [T,K,3] in radians of quaternions [T,K,4] (w, x, y, z).
+def matrices_to_euler(matrices: np.ndarray, order: str = "ZXY") -> np.ndarray:
+    """Intrinsic Euler angles [T,K,3] in radians of rotations [T,K,3,3], three different axes.
+
+    Worked out for ZXY; for any other order the axes are renamed, which for an odd permutation
+    is a reflection and turns the signs of the angles.
+    """
+    axes = ["XYZ".index(axis) for axis in order]
+    rename = np.zeros((3, 3))
+    rename[[2, 0, 1], axes] = 1.0  # first axis → Z, second → X, third → Y
+    angles = _euler_zxy(rename @ matrices.astype(np.float64) @ rename.T)
+    return np.asarray(angles * np.linalg.det(rename))
+
+
+def _euler_zxy(matrices: np.ndarray) -> np.ndarray:
+    """Intrinsic Z, X, Y angles [T,K,3] in radians.
 
     With R = Rz Rx Ry: R[2,1] = sin x, R[0,1] = -sin z cos x, R[1,1] = cos z cos x. Where cos x
     vanishes z is free and taken from the frame before; y always comes from the remainder
     Rx⁻¹ Rz⁻¹ R, so the product is exact at the pole too. Of the two triples of each rotation the
     one nearer to the frame before is taken, so that tools which interpolate angles do not spin.
     """
-    matrices = _to_matrices(quaternions.astype(np.float64))
     cos_x = np.hypot(matrices[..., 0, 1], matrices[..., 1, 1])
     z = np.arctan2(-matrices[..., 0, 1], matrices[..., 1, 1])
     x = np.arctan2(matrices[..., 2, 1], cos_x)
-    result = np.zeros((*quaternions.shape[:2], 3))
-    before = np.zeros((quaternions.shape[1], 3))
-    for frame in range(len(quaternions)):
+    result = np.zeros((*matrices.shape[:2], 3))
+    before = np.zeros((matrices.shape[1], 3))
+    for frame in range(len(matrices)):
         free = cos_x[frame] < 1e-8
         z_here = np.where(free, before[:, 0], z[frame])
         first = _complete(matrices[frame], z_here, x[frame])
@@ -73,45 +107,44 @@ def _complete(matrices: np.ndarray, z: np.ndarray, x: np.ndarray) -> np.ndarray:
     return np.stack((z, x, np.arctan2(row[:, 2], row[:, 0])), -1)
 
 
-def _to_matrices(quaternions: np.ndarray) -> np.ndarray:
-    """Rotation matrices [...,3,3] of quaternions [...,4], normalised first."""
-    w, x, y, z = np.moveaxis(
-        quaternions / np.linalg.norm(quaternions, axis=-1, keepdims=True), -1, 0
-    )
-    rows = (
-        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
-        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
-    )
-    return np.stack([np.stack(row, -1) for row in rows], -2)
-
-
-def _children(skeleton: Skeleton, joint: int) -> list[int]:
-    return [child for child, parent in enumerate(skeleton.parents) if parent == joint]
-
-
-def _depth_first(skeleton: Skeleton, joint: int = 0) -> list[int]:
+def _depth_first(rig: Rig) -> list[int]:
     """Joints in the order a BVH file lists them."""
-    below = [_depth_first(skeleton, child) for child in _children(skeleton, joint)]
-    return [joint, *(index for branch in below for index in branch)]
+    order, stack = [], [0]
+    while stack:
+        order.append(stack.pop())
+        stack += reversed(rig.children(order[-1]))
+    return order
 
 
-def _hierarchy(skeleton: Skeleton, joint: int, depth: int) -> list[str]:
-    """Lines of one joint and everything below it."""
-    pad, inner = "\t" * depth, "\t" * (depth + 1)
-    rotations = " ".join(f"{axis}rotation" for axis in ORDER)
-    channels = f"CHANNELS 3 {rotations}"
-    if depth == 0:
-        channels = f"CHANNELS 6 Xposition Yposition Zposition {rotations}"
-    lines = [f"{pad}{'JOINT' if depth else 'ROOT'} {skeleton.names[joint]}", f"{pad}{{"]
-    lines += [f"{inner}{_offset(skeleton.offsets[joint])}", f"{inner}{channels}"]
-    for child in _children(skeleton, joint):
-        lines += _hierarchy(skeleton, child, depth + 1)
-    if joint in END_SITES:
-        lines += [f"{inner}End Site", f"{inner}{{"]
-        lines += [f"{inner}\t{_offset(np.array(END_SITES[joint]))}", f"{inner}}}"]
-    return [*lines, f"{pad}}}"]
+def _hierarchy(rig: Rig, order: list[int], moving: list[int]) -> list[str]:
+    """Lines of all joints, without recursion: a chain may be longer than Python's stack."""
+    lines: list[str] = []
+    depths: dict[int, int] = {-1: -1}
+    level = -1
+    for joint in order:
+        depth = depths[joint] = depths[rig.parents[joint]] + 1
+        lines += ["\t" * closed + "}" for closed in range(level, depth - 1, -1)]
+        level = depth
+        lines += _joint(rig, joint, "\t" * depth, joint in moving)
+    return lines + ["\t" * closed + "}" for closed in range(level, -1, -1)]
 
 
-def _offset(metres: np.ndarray) -> str:
-    return "OFFSET " + " ".join(f"{value:.5f}" for value in metres.astype(float) * CENTIMETRES)
+def _joint(rig: Rig, joint: int, pad: str, moves: bool) -> list[str]:
+    """Lines of one joint and the ends of its bones, still open for its children."""
+    channels = " ".join(f"{axis}rotation" for axis in rig.orders[joint])
+    lead = "6 Xposition Yposition Zposition" if moves else "3"
+    title = "ROOT" if rig.parents[joint] < 0 else "JOINT"
+    lines = [
+        f"{pad}{title} {rig.names[joint]}",
+        f"{pad}{{",
+        f"{pad}\t{_offset(rig.offsets[joint])}",
+    ]
+    lines.append(f"{pad}\tCHANNELS {lead} {channels}")
+    for end in (tip for owner, tip in rig.tips if owner == joint):
+        lines += [f"{pad}\tEnd Site", f"{pad}\t{{", f"{pad}\t\t{_offset(np.array(end))}"]
+        lines.append(f"{pad}\t}}")
+    return lines
+
+
+def _offset(offset: np.ndarray) -> str:
+    return "OFFSET " + " ".join(f"{value:.5f}" for value in offset.tolist())

@@ -1,101 +1,67 @@
-"""GLB files out: binary glTF 2.0 with an animated, skinned mannequin.
+"""GLB files out: binary glTF 2.0 with an animated, skinned body.
 
-One scene: the 22 joints as nodes (pelvis first, rest pose as their default), a mesh with a skin,
-and one animation with a rotation channel a joint and a translation channel for the pelvis.
+One scene: the joints as nodes (root first, rest pose as their default), a mesh with a skin, and
+one animation with a rotation channel a joint and a translation channel for each that travels.
 glTF shares our conventions (metres, +Y up, right-handed, facing +Z), so nothing is turned.
 Colours come from a tiny texture, because that is what every viewer and Blender show.
-Legend: T frames, V vertices, F triangles.
+Legend: T frames, V vertices, F triangles, N joints.
 """
 
 import io
-import json
-import struct
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from src.shared.files import atomic_write
+from src.shared.formats.glb_file import INDEX_DATA, VERTEX_DATA, GlbFile
 from src.shared.formats.mannequin import Mannequin, mannequin, side_colours
+from src.shared.formats.rig import Rig, RigClip, matrices_to_quaternions, motion_clip, rescaled
 from src.shared.motion.motion import Motion
-from src.shared.motion.skeleton import NUM_JOINTS, canonical_skeleton
 
-VERTEX_DATA, INDEX_DATA = 34962, 34963  # bufferView.target
-_TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
-_COMPONENTS = {"float32": 5126, "uint8": 5121, "uint16": 5123, "uint32": 5125}
 PALETTE_SIZE = 32  # texels, right side to left side
-MESH_NODE = NUM_JOINTS
 
 
-def write_glb(motion: Motion, path: str | Path) -> Path:
+def write_glb(motion: Motion, path: str | Path, *, names: str = "canonical") -> Path:
     """Write one motion as an animated GLB; its joints move as `motion.positions()` does.
+
+    Args:
+        motion: what to write.
+        path: the file.
+        names: what the joints are called (`joint_names.SCHEMES`).
 
     Raises:
         UserError: the file cannot be written.
     """
-    buffer = _Buffer()
-    document = _document(motion, mannequin(), buffer)
-    text = json.dumps(document, allow_nan=False, separators=(",", ":")).encode()
-    chunks = _chunk(b"JSON", text, b" ") + _chunk(b"BIN\0", bytes(buffer.data), b"\0")
-    with atomic_write(Path(path)) as temporary:
-        temporary.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
-    return Path(path)
+    return _write(motion_clip(motion, names), mannequin(), path)
 
 
-class _Buffer:
-    """The binary chunk while it grows, with its views and accessors."""
+def write_glb_clip(clip: RigClip, path: str | Path) -> Path:
+    """Write a rig's motion as an animated GLB, with a simple body of its bones.
 
-    def __init__(self) -> None:
-        self.data = bytearray()
-        self.views: list[dict[str, Any]] = []
-        self.accessors: list[dict[str, Any]] = []
+    Raises:
+        UserError: the file cannot be written.
+    """
+    from src.shared.formats.bone_mesh import bone_mesh
 
-    def view(self, data: bytes, target: int | None = None) -> int:
-        """Add bytes at the next multiple of 4; the index of their view."""
-        self.data += bytes(-len(self.data) % 4)
-        view = {"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data)}
-        self.views.append(view | ({"target": target} if target else {}))
-        self.data += data
-        return len(self.views) - 1
-
-    def accessor(
-        self,
-        values: np.ndarray,
-        target: int | None = None,
-        *,
-        bounds: bool = False,
-        normalized: bool = False,
-    ) -> int:
-        """Add an array [N] or [N,width]; the index of its accessor."""
-        values = np.ascontiguousarray(values)
-        rows = values.reshape(len(values), -1)
-        little_endian = values.astype(values.dtype.newbyteorder("<"))
-        accessor: dict[str, Any] = {
-            "bufferView": self.view(little_endian.tobytes(), target),
-            "componentType": _COMPONENTS[values.dtype.name],
-            "count": len(values),
-            "type": _TYPES[rows.shape[1]],
-        }
-        if normalized:
-            accessor["normalized"] = True
-        if bounds:
-            accessor |= {"min": rows.min(0).tolist(), "max": rows.max(0).tolist()}
-        self.accessors.append(accessor)
-        return len(self.accessors) - 1
+    clip = rescaled(clip, 1.0)
+    return _write(clip, bone_mesh(clip.rig), path)
 
 
-def _document(motion: Motion, body: Mannequin, buffer: _Buffer) -> dict[str, Any]:
-    """The JSON chunk; fills `buffer` on the way."""
-    name = motion.text or "motion"
-    animation = _animation(motion, buffer) | {"name": name}
+def _write(clip: RigClip, body: Mannequin, path: str | Path) -> Path:
+    file = GlbFile()
+    name = clip.text or "motion"
+    joints = len(clip.names)
     document = {
         "asset": {"version": "2.0", "generator": "motion-tools"},
         "scene": 0,
-        "scenes": [{"name": name, "nodes": [0, MESH_NODE], "extras": {"text": motion.text}}],
-        "nodes": _nodes(body),
-        "meshes": [_mesh(body, buffer)],
-        "skins": [_skin(body, buffer)],
-        "animations": [animation],
+        "scenes": [{"name": name, "nodes": [0, joints], "extras": {"text": clip.text}}],
+        "nodes": _nodes(clip.rig),
+        "animations": [
+            animation(clip, file, list(range(joints)), clip.rig.frames) | {"name": name}
+        ],
+        "meshes": [_mesh(body, file)],
+        "skins": [_skin(clip.rig, file)],
         "materials": [
             {
                 "name": "mannequin",
@@ -108,45 +74,50 @@ def _document(motion: Motion, body: Mannequin, buffer: _Buffer) -> dict[str, Any
         ],
         "textures": [{"source": 0, "sampler": 0}],
         "samplers": [{"magFilter": 9729, "minFilter": 9729, "wrapS": 33071, "wrapT": 33071}],
-        "images": [
-            {"name": "sides", "mimeType": "image/png", "bufferView": buffer.view(_palette())}
-        ],
+        "images": [{"name": "sides", "mimeType": "image/png", "bufferView": file.view(_palette())}],
     }
-    return document | {
-        "accessors": buffer.accessors,
-        "bufferViews": buffer.views,
-        "buffers": [{"byteLength": len(buffer.data)}],
-    }
+    file.document |= document
+    return file.write(Path(path))
 
 
-def _nodes(body: Mannequin) -> list[dict[str, Any]]:
+def _nodes(rig: Rig) -> list[dict[str, Any]]:
     """The joints in the rest pose, then the mesh."""
-    skeleton = canonical_skeleton()
     nodes: list[dict[str, Any]] = []
-    for joint, name in enumerate(skeleton.names):
-        children = [child for child, above in enumerate(skeleton.parents) if above == joint]
-        node = {"name": name, "translation": skeleton.offsets[joint].tolist()}
-        nodes.append(node | ({"children": children} if children else {}))
-    nodes[0]["translation"] = body.rest[0].tolist()
+    above = parent_frames(rig, rig.frames)
+    turns = matrices_to_quaternions(above.swapaxes(-1, -2) @ rig.frames)[:, [1, 2, 3, 0]]
+    for joint, name in enumerate(rig.names):
+        place = (rig.offsets[joint] @ above[joint]).astype(np.float32)
+        node: dict[str, Any] = {"name": name, "translation": place.tolist()}
+        if np.abs(turns[joint, :3]).max() > 1e-7:
+            node["rotation"] = turns[joint].tolist()
+        if children := rig.children(joint):
+            node["children"] = children
+        nodes.append(node)
     return [*nodes, {"name": "mannequin", "mesh": 0, "skin": 0}]
 
 
-def _mesh(body: Mannequin, buffer: _Buffer) -> dict[str, Any]:
+def parent_frames(rig: Rig, frames: np.ndarray, base: np.ndarray | None = None) -> np.ndarray:
+    """The axes [N,3,3] in which each joint's own pose is told: its parent's, at rest."""
+    top = np.eye(3) if base is None else base[:3, :3] / np.linalg.norm(base[:3, :3], axis=0)
+    return np.array([frames[parent] if parent >= 0 else top for parent in rig.parents])
+
+
+def _mesh(body: Mannequin, file: GlbFile) -> dict[str, Any]:
     index_type = np.uint16 if len(body.vertices) < 65535 else np.uint32
     # The middle of the outer texels, so that the ends are never blended with anything.
     u = 0.5 + 0.5 * body.side * (1 - 1 / PALETTE_SIZE)
     attributes = {
-        "POSITION": buffer.accessor(body.vertices, VERTEX_DATA, bounds=True),
-        "NORMAL": buffer.accessor(body.normals, VERTEX_DATA),
-        "TEXCOORD_0": buffer.accessor(
+        "POSITION": file.accessor(body.vertices, VERTEX_DATA, bounds=True),
+        "NORMAL": file.accessor(body.normals, VERTEX_DATA),
+        "TEXCOORD_0": file.accessor(
             np.stack((u, np.full_like(u, 0.5)), -1).astype(np.float32), VERTEX_DATA
         ),
-        "JOINTS_0": buffer.accessor(body.joints, VERTEX_DATA),
-        "WEIGHTS_0": buffer.accessor(
+        "JOINTS_0": file.accessor(body.joints, VERTEX_DATA),
+        "WEIGHTS_0": file.accessor(
             whole_shares(body.weights, 65535).astype(np.uint16), VERTEX_DATA, normalized=True
         ),
     }
-    indices = buffer.accessor(body.triangles.reshape(-1).astype(index_type), INDEX_DATA)
+    indices = file.accessor(body.triangles.reshape(-1).astype(index_type), INDEX_DATA)
     return {
         "name": "mannequin",
         "primitives": [{"attributes": attributes, "indices": indices, "material": 0}],
@@ -160,39 +131,69 @@ def whole_shares(weights: np.ndarray, total: int) -> np.ndarray:
     return shares
 
 
-def _skin(body: Mannequin, buffer: _Buffer) -> dict[str, Any]:
-    """The rest pose has no rotations, so each inverse bind matrix is one translation."""
-    inverse = np.tile(np.eye(4, dtype=np.float32), (NUM_JOINTS, 1, 1))
-    inverse[:, :3, 3] = -body.rest
-    columns = inverse.transpose(0, 2, 1).reshape(NUM_JOINTS, 16)  # glTF stores column by column
+def _skin(rig: Rig, file: GlbFile) -> dict[str, Any]:
+    """The inverse of each joint's place and axes at rest."""
+    inverse = np.tile(np.eye(4), (len(rig.names), 1, 1))
+    inverse[:, :3, :3] = rig.frames.swapaxes(-1, -2)
+    inverse[:, :3, 3] = -(inverse[:, :3, :3] @ rig.rest()[..., None])[..., 0]
+    columns = inverse.transpose(0, 2, 1).reshape(-1, 16)  # glTF stores column by column
     return {
         "name": "mannequin",
         "skeleton": 0,
-        "joints": list(range(NUM_JOINTS)),
-        "inverseBindMatrices": buffer.accessor(columns),
+        "joints": list(range(len(rig.names))),
+        "inverseBindMatrices": file.accessor(columns.astype(np.float32)),
     }
 
 
-def _animation(motion: Motion, buffer: _Buffer) -> dict[str, Any]:
-    """Rotations of all joints and the pelvis path, keyed at every frame.
+def animation(
+    clip: RigClip,
+    file: GlbFile,
+    nodes: Sequence[int],
+    frames: np.ndarray,
+    *,
+    base: np.ndarray | None = None,
+    scales: np.ndarray | None = None,
+) -> dict[str, Any]:
+    """Rotations of all joints and the paths of those that travel, keyed at every frame.
 
     A joint that never turns has one key.
+
+    Args:
+        clip: what moves, in metres.
+        file: takes the keys.
+        nodes: node of each joint.
+        frames: the joints' own axes in the world at rest [N,3,3].
+        base: matrix [4,4] of the nodes above the root.
+        scales: size of a length under each joint's parent in the world [N].
     """
-    times = (np.arange(motion.num_frames) / motion.fps).astype(np.float32)
-    quaternions = continuous(motion.quaternions)[..., [1, 2, 3, 0]].astype(np.float32)
-    still = (quaternions == quaternions[:1]).all((0, 2)) & (motion.num_frames > 1)
-    keys = buffer.accessor(times, bounds=True)
-    single = buffer.accessor(times[:1], bounds=True) if still.any() else keys
-    samplers = [{"input": keys, "output": buffer.accessor(motion.root_position.astype(np.float32))}]
-    for joint in range(NUM_JOINTS):
-        count = 1 if still[joint] else motion.num_frames
-        output = buffer.accessor(quaternions[:count, joint])
-        samplers.append({"input": single if still[joint] else keys, "output": output})
-    targets = [{"node": 0, "path": "translation"}]
-    targets += [{"node": joint, "path": "rotation"} for joint in range(NUM_JOINTS)]
+    above = parent_frames(clip.rig, frames, base)
+    times = (np.arange(clip.num_frames) / clip.fps).astype(np.float32)
+    local = above.swapaxes(-1, -2) @ clip.rotations @ frames
+    rotations = continuous(matrices_to_quaternions(local))[..., [1, 2, 3, 0]].astype(np.float32)
+    still = (rotations == rotations[:1]).all((0, 2)) & (clip.num_frames > 1)
+    keys = file.accessor(times, bounds=True)
+    single = file.accessor(times[:1], bounds=True) if still.any() else keys
+    samplers: list[dict[str, Any]] = []
+    channels: list[dict[str, Any]] = []
+
+    def add(joint: int, path: str, values: np.ndarray, *, once: bool = False) -> None:
+        output = file.accessor(values[:1] if once else values)
+        channels.append({"sampler": len(samplers), "target": {"node": nodes[joint], "path": path}})
+        samplers.append({"input": single if once else keys, "output": output})
+
+    for joint in clip.moving():
+        place = clip.translations[:, joint]
+        if joint == 0 and base is not None:
+            inverse = np.linalg.inv(base)
+            place = place @ inverse[:3, :3].T + inverse[:3, 3]
+        else:
+            place = place @ above[joint] / (1.0 if scales is None else scales[joint])
+        add(joint, "translation", place.astype(np.float32))
+    for joint in range(len(clip.names)):
+        add(joint, "rotation", rotations[:, joint], once=bool(still[joint]))
     return {
         "samplers": [sampler | {"interpolation": "LINEAR"} for sampler in samplers],
-        "channels": [{"sampler": i, "target": target} for i, target in enumerate(targets)],
+        "channels": channels,
     }
 
 
@@ -217,8 +218,3 @@ def _palette() -> bytes:
     stream = io.BytesIO()
     Image.fromarray(pixels).save(stream, format="PNG")
     return stream.getvalue()
-
-
-def _chunk(kind: bytes, data: bytes, padding: bytes) -> bytes:
-    data += padding * (-len(data) % 4)
-    return struct.pack("<I4s", len(data), kind) + data

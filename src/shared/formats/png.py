@@ -71,7 +71,7 @@ def render_strip(
         picks = np.linspace(0, motion.num_frames - 1, frames).round().astype(int)
         positions, rotations = motion.positions(), motion.global_rotations()
         for column, frame in enumerate(picks):
-            pose = _draw_pose(motion, positions, rotations, int(frame), size, azimuth)
+            pose = draw_pose(motion, positions, rotations, int(frame), size, azimuth)
             sheet.paste(pose, (column * size[0], top + header))
         sheet.paste(
             _draw_map(positions, rotations, picks, size[1]), (frames * size[0], top + header)
@@ -88,18 +88,31 @@ def vertex_colours(body: Mannequin, contacts: np.ndarray) -> np.ndarray:
     return np.asarray(colours)
 
 
-def _draw_pose(
+def draw_pose(
     motion: Motion,
     positions: np.ndarray,
     rotations: np.ndarray,
     frame: int,
     size: tuple[int, int],
-    azimuth: float,
+    azimuth: float = AZIMUTH,
+    *,
+    target: np.ndarray | None = None,
 ) -> "Image.Image":
-    """One pose, seen by a camera that follows the pelvis."""
+    """One pose, with the floor, the shadow and the path.
+
+    Args:
+        motion: whose pose.
+        positions: `motion.positions()`.
+        rotations: `motion.global_rotations()`.
+        frame: which one.
+        size: width and height in (doubled) pixels.
+        azimuth: camera angle in radians.
+        target: the point of the floor [3] that the camera looks at; under the pelvis by default.
+    """
     from PIL import Image, ImageDraw, ImageFilter
 
-    target = motion.root_position[frame] * (1.0, 0.0, 1.0)
+    under = motion.root_position[frame] * (1.0, 0.0, 1.0)
+    target = under if target is None else target
     top = max(1.85, float(positions[:, :, 1].max()) + 0.35)
     camera = Camera(
         azimuth, ELEVATION, size[1] / (top + 0.55), target, (size[0] / 2, size[1] * 0.84)
@@ -110,7 +123,7 @@ def _draw_pose(
     path = camera.project(motion.root_position * (1.0, 0.0, 1.0))[:, :2]
     if len(path) > 1:
         draw.line([tuple(p) for p in path], PATH, 2 * OVERSAMPLE, joint="curve")
-    _draw_arrow(draw, camera, target, rotations[frame, 0, :, 2])
+    _draw_arrow(draw, camera, under, rotations[frame, 0, :, 2])
 
     body = mannequin()
     vertices, normals = body.pose(positions[frame], rotations[frame])

@@ -6,13 +6,23 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from src.cli.generate_text import FORMATS
+from src.cli.generate_text import ALL_FORMATS
 from src.shared.errors import UsageError, UserError
-from src.shared.formats.registry import EXPORTERS, export_motion, write_motion, write_preview
+from src.shared.formats.registry import (
+    EXPORTERS,
+    ending,
+    export_motion,
+    format_of,
+    write_motion,
+    write_preview,
+)
 from src.shared.motion.motion import Motion
 
 STARTS = {"bvh": b"HIERARCHY", "glb": b"glTF", "npz": b"PK", "html": b"<!doctype html>",
-          "png": b"\x89PNG"}  # fmt: skip
+          "png": b"\x89PNG", "usd": b"#usda", "usda": b"#usda", "usdc": b"PXR-USDC",
+          "amass": b"PK", "csv": b"time,pelvis_x", "gif": b"GIF89a",
+          "mp4": b"\0\0\0 ftyp"}  # fmt: skip
+PACKAGES = {"usdc": "pxr", "mp4": "av"}
 
 
 def standing(frames: int = 3) -> Motion:
@@ -24,21 +34,29 @@ def standing(frames: int = 3) -> Motion:
 
 @pytest.mark.parametrize("name", EXPORTERS)
 def test_every_format_writes_by_its_ending(tmp_path: Path, name: str) -> None:
-    path = tmp_path / "new" / f"a.{name.upper()}"
+    if name in PACKAGES:
+        pytest.importorskip(PACKAGES[name])
+    path = tmp_path / "new" / f"a.{ending(name).upper()}"
     assert write_motion(standing(), path) == path
     assert path.read_bytes().startswith(STARTS[name])
     assert [entry.name for entry in path.parent.iterdir()] == [path.name]
 
 
 def test_the_command_offers_only_what_is_written_here() -> None:
-    assert set(FORMATS) <= set(EXPORTERS)
+    assert set(ALL_FORMATS) <= set(EXPORTERS)
 
 
 @pytest.mark.parametrize("name", ["a.fbx", "a", "a.tar.gz"])
 def test_unknown_endings_name_the_known_ones(tmp_path: Path, name: str) -> None:
-    with pytest.raises(UsageError, match="bvh, glb, npz, html"):
+    with pytest.raises(UsageError, match="bvh, glb, usd"):
         write_motion(standing(), tmp_path / name)
     assert not list(tmp_path.iterdir())
+
+
+def test_amass_is_told_by_its_double_ending() -> None:
+    assert format_of("a/b.AMASS.npz") == "amass"
+    assert format_of("a/amass.npz") == "npz"
+    assert ending("amass") == "amass.npz"
 
 
 def test_several_formats_at_once(tmp_path: Path) -> None:
@@ -54,9 +72,9 @@ def test_several_formats_at_once(tmp_path: Path) -> None:
 def test_motions_that_cannot_be_shown_are_refused(tmp_path: Path, name: str) -> None:
     broken = replace(standing(), root_position=np.full((3, 3), np.nan, np.float32))
     with pytest.raises(UserError, match="NaN"):
-        write_motion(broken, tmp_path / f"a.{name}")
+        write_motion(broken, tmp_path / f"a.{ending(name)}")
     with pytest.raises(UserError, match="no frames"):
-        write_motion(standing(0), tmp_path / f"a.{name}")
+        write_motion(standing(0), tmp_path / f"a.{ending(name)}")
     with pytest.raises(UserError, match="NaN"):
         write_preview([standing(), broken], tmp_path / "index.html")
     assert not list(tmp_path.iterdir())

@@ -1,0 +1,243 @@
+"""`convert`: any motion file in, any format out."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from src.cli import options
+from src.cli.guard import complain
+from src.cli.wording import counted
+from src.shared.errors import UsageError, UserError
+
+if TYPE_CHECKING:
+    from src.shared.motion.motion import Motion
+
+ROOTS = ("on", "in-place")
+FPS = (1.0, 1000.0)
+READABLE = (".bvh", ".amc", ".glb", ".npz", ".npy", ".csv")
+
+
+@dataclass(frozen=True)
+class Job:
+    """One file to read and those to write from it, by format."""
+
+    source: Path
+    targets: dict[str, Path]
+
+
+def convert(
+    files: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="IN... OUT",
+            help="Motion files or folders of them, then a file, or a folder with --format.",
+        ),
+    ],
+    format: Annotated[
+        str | None,
+        typer.Option(
+            help="Into a folder, with commas between: bvh, glb, usd, usda, usdc, npz, amass, csv,"
+            " html, png, gif, mp4."
+        ),
+    ] = None,
+    fps: Annotated[float | None, typer.Option(help="Frames a second of OUT; those of IN.")] = None,
+    root: Annotated[str, typer.Option(help="on; or in-place: no travel.")] = "on",
+    names: Annotated[
+        str, typer.Option(help="Joint names in bvh, glb, usd: canonical, mixamo, unity, unreal.")
+    ] = "canonical",
+    skeleton: Annotated[
+        Path | None, typer.Option(help="Move this character instead of ours: a .bvh or .glb.")
+    ] = None,
+    mapping: Annotated[
+        Path | None, typer.Option(help="YAML: which joints of IN and --skeleton are which of ours.")
+    ] = None,
+    unit: Annotated[str | None, typer.Option(help="Unit of length of IN; else guessed.")] = None,
+    up: Annotated[str | None, typer.Option(help="Up axis of IN; else guessed.")] = None,
+    asf: Annotated[Path | None, typer.Option(help="Skeleton of an .amc; else beside it.")] = None,
+    source_fps: Annotated[
+        float | None, typer.Option(help="Frames a second of IN, where it does not say.")
+    ] = None,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Into a folder: skip files newer than their IN.")
+    ] = False,
+    json: options.Json = False,
+) -> None:
+    """Convert motion files: any mocap in, any tool out.
+
+    \b
+    Examples:
+      motion-tools convert walk.bvh walk.glb
+      motion-tools convert walk.npz walk.bvh --skeleton my_character.bvh --fps 60
+      motion-tools convert mocap/ converted/ --format glb,amass
+    """
+    from src.shared.formats.joint_names import joint_names
+
+    if root not in ROOTS:
+        raise UsageError(f"--root {root!r} is unknown; choose from {', '.join(ROOTS)}")
+    for flag, rate in (("--fps", fps), ("--source-fps", source_fps)):
+        if rate is not None and not FPS[0] <= rate <= FPS[1]:
+            raise UsageError(
+                f"{flag} {rate:g} is out of range; choose from {FPS[0]:g} to {FPS[1]:g}"
+            )
+    joint_names(names)
+    jobs = list(plan(files, format))
+    formats = list(dict.fromkeys(name for job in jobs for name in job.targets))
+    check_rigged(formats, names, skeleton)
+    kept = [job for job in jobs if resume and is_done(job)]
+    write = writer(skeleton, mapping, names)
+    reading = {"mapping": mapping, "unit": unit, "up": up, "fps": fps, "skeleton": asf}
+    rows, faults = [], []
+    for job in (job for job in jobs if job not in kept):
+        try:
+            rows.append(one(job, reading | {"source_fps": source_fps}, root, write))
+        except UserError as error:
+            if len(jobs) == 1:
+                raise
+            complain(f"error: {error}")
+            faults.append({"file": str(job.source), "error": str(error)})
+            continue
+        if not json:
+            print(*rows[-1]["files"].values(), sep="\n", flush=True)
+    report(rows, faults, [str(job.source) for job in kept], json=json)
+    if faults:
+        raise UserError(f"{counted(len(faults), 'file')} of {len(jobs)} could not be converted")
+
+
+# ---------------------------------------------------------------- what to do
+
+
+def plan(files: list[Path], format: str | None) -> Iterator[Job]:
+    """Which files are read and written; everything the flags get wrong is said here."""
+    from src.shared.formats.registry import EXPORTERS, ending, find_writer, format_of
+
+    if len(files) < 2:
+        raise UsageError("OUT is missing: give what to read, then what to write")
+    *sources, out = files
+    for source in sources:
+        if not source.exists():
+            raise UserError(f"{source} does not exist; name a motion file or a folder of them")
+    if format is None:
+        if len(sources) > 1 or sources[0].is_dir() or out.is_dir():
+            raise UsageError(f"{out}: with a folder, --format says what to write, e.g. "
+                             "--format glb")  # fmt: skip
+        name = format_of(out)
+        check_apart(sources[0], out)
+        options.check_folder("OUT", out.parent)
+        yield Job(sources[0], {name: out})
+        return
+    formats = list(
+        dict.fromkeys(part.strip().lower() for part in format.split(",") if part.strip())
+    )
+    if not formats:
+        raise UsageError(f"--format {format!r} names nothing; choose from {', '.join(EXPORTERS)}")
+    for name in formats:
+        find_writer(EXPORTERS, name, f"--format {format}")
+    options.check_folder("OUT", out)
+    taken: dict[Path, Path] = {}
+    for source, place in found(sources):
+        targets = {name: out / f"{place}.{ending(name)}" for name in formats}
+        for target in targets.values():
+            check_apart(source, target)
+            if target in taken:
+                raise UsageError(f"{taken[target]} and {source} would both become {target}; "
+                                 "convert them into two folders")  # fmt: skip
+            taken[target] = source
+        yield Job(source, targets)
+
+
+def found(sources: list[Path]) -> Iterator[tuple[Path, str]]:
+    """Every file to read, and its path in the output folder without the ending."""
+    for source in sources:
+        if source.is_dir():
+            inside = sorted(p for p in source.rglob("*") if p.suffix.lower() in READABLE)
+            if not inside:
+                raise UserError(f"{source} holds no motion file; known are {', '.join(READABLE)}")
+            for path in inside:
+                yield path, stem(path.relative_to(source).as_posix())
+        else:
+            yield source, stem(source.name)
+
+
+def stem(name: str) -> str:
+    """A name without the ending, `.amass.npz` being one."""
+    return name.removesuffix(Path(name).suffix).removesuffix(".amass")
+
+
+def check_apart(source: Path, target: Path) -> None:
+    """Refuse to write over what is read."""
+    if source.resolve() == target.resolve():
+        raise UsageError(f"{target} would be written over itself; name another OUT")
+
+
+def check_rigged(formats: list[str], names: str, skeleton: Path | None) -> None:
+    """Refuse names and skeletons for formats that know ours only."""
+    from src.shared.formats.registry import CLIP_EXPORTERS
+
+    rigged = [name for name in formats if name in CLIP_EXPORTERS]
+    known = ", ".join(CLIP_EXPORTERS)
+    if skeleton is not None:
+        if names != "canonical":
+            raise UsageError("--names does not go with --skeleton, which has names of its own")
+        if other := sorted(set(formats) - set(rigged)):
+            raise UsageError(f"--skeleton does not go with {other[0]}; choose from {known}")
+        if skeleton.suffix.lower() not in (".bvh", ".glb"):
+            raise UsageError(f"--skeleton {skeleton} is no .bvh or .glb file")
+    elif names != "canonical" and not rigged:
+        raise UsageError(f"--names {names} goes with {known} only")
+
+
+def is_done(job: Job) -> bool:
+    """Whether all targets are there and newer than the source."""
+    when = job.source.stat().st_mtime
+    return all(path.exists() and path.stat().st_mtime >= when for path in job.targets.values())
+
+
+# ---------------------------------------------------------------- doing it
+
+
+def one(
+    job: Job, reading: dict[str, Any], root: str, write: "Callable[[Motion, Path], Path]"
+) -> dict[str, Any]:
+    """Read one file and write its targets; what was done."""
+    from src.shared.data.read_motion import read_motion
+    from src.shared.motion.in_place import in_place
+
+    motion = read_motion(job.source, **reading)
+    motion = in_place(motion) if root == "in-place" else motion
+    for path in job.targets.values():
+        write(motion, path)
+    return {
+        "source": str(job.source),
+        "frames": motion.num_frames,
+        "fps": motion.fps,
+        "files": {name: str(path) for name, path in job.targets.items()},
+    }
+
+
+def writer(
+    skeleton: Path | None, mapping: Path | None, names: str
+) -> "Callable[[Motion, Path], Path]":
+    """What writes a motion: on our skeleton, or on the user's, which is read once."""
+    from src.shared.formats.registry import write_motion
+
+    if skeleton is None:
+        return lambda motion, path: write_motion(motion, path, names=names)
+    from src.shared.data.retarget_out import read_target
+
+    return read_target(skeleton, mapping=mapping).write
+
+
+def report(
+    rows: list[dict[str, Any]], faults: list[dict[str, str]], kept: list[str], *, json: bool
+) -> None:
+    """The result as JSON on stdout, or what is worth a line on stderr."""
+    if json:
+        import json as writer
+
+        result = {"converted": rows, "failed": faults, "skipped": kept}
+        print(writer.dumps(result, indent=1, ensure_ascii=False))
+    if kept:
+        complain(f"{counted(len(kept), 'file')} skipped: newer than what they were made from")
