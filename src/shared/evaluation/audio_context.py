@@ -99,6 +99,7 @@ class AudioContext:
         given = SampleSettings(**(sampling or {}))
         self.sampled = given.resolved(generator.model.config)
         self.made = cache(self._made)
+        self.made_untrained = cache(self._made_untrained)
 
     @cached_property
     def pieces(self) -> list[Piece]:
@@ -149,6 +150,13 @@ class AudioContext:
     def _made(self, replication: int) -> Made:
         """A motion for each held-out song."""
         return [(piece, self.dance(piece, replication=replication)) for piece in self.pieces]
+
+    def _made_untrained(self, replication: int) -> Made:
+        """The same by the same network with fresh weights."""
+        return [
+            (piece, self.dance(piece, replication=replication, generator=self.fresh))
+            for piece in self.pieces
+        ]
 
     @cached_property
     def played(self) -> Made:
@@ -221,15 +229,12 @@ class AudioContext:
 
     def untrained(self, replication: int) -> DanceSample:
         """Motions of the same network with fresh weights."""
-        made = [
-            (piece, self.dance(piece, replication=replication, generator=self._fresh))
-            for piece in self.pieces
-        ]
-        return sample_of(made)
+        return sample_of(self.made_untrained(replication))
 
     @cached_property
-    def _fresh(self) -> SongGenerator:
-        fresh = untrained(self.generator.model, self.settings.seed)
+    def fresh(self) -> SongGenerator:
+        """The same network with fresh weights, the last layer included."""
+        fresh = untrained(self.generator.model, self.settings.seed, still=False)
         return SongGenerator(fresh, device=str(self.generator.device))
 
 

@@ -189,11 +189,17 @@ def _starts(sound: Tensor) -> Tensor:
     return torch.remainder(torch.atan2(sine, cosine) / (2 * torch.pi), 1.0)
 
 
-def untrained(model: AudioMotionModel, seed: int) -> AudioMotionModel:
-    """The same network with fresh weights but the trained one's row statistics: a floor."""
+def untrained(model: AudioMotionModel, seed: int, *, still: bool = True) -> AudioMotionModel:
+    """The same network with fresh weights but the trained one's row statistics: a floor.
+
+    Its last layer is zero, as training begins: every motion stands still. Not `still`, that layer
+    is random as well.
+    """
     with torch.random.fork_rng(devices=[]):
         torch.manual_seed(seed)
         fresh = AudioMotionModel(model.config)
+        if not still:
+            torch.nn.init.xavier_uniform_(fresh.unet.output_conv.get_parameter("weight"))
     fresh.set_statistics(model.mean.cpu(), model.std.cpu())
     return fresh.to(model.mean.device).eval()
 

@@ -14,6 +14,7 @@ from src.shared.evaluation.families_audio import beats_of
 from src.shared.evaluation.grids import Grid, GridRow, plain
 from src.shared.evaluation.metrics_rhythm import phase_error
 from src.shared.evaluation.metrics_seams import Seamed, seam_frames, seam_report
+from src.shared.inference.song_generator import SongGenerator
 from src.shared.motion.trajectory import MotionTrajectory
 
 PHASE = (
@@ -36,15 +37,20 @@ NOTES = {
     "phase": "Cycles; guessing scores 0.25. The first replication. generated: where the tracker"
     " finds beats its phase is taken over, so the rows agree; right tempo: songs whose tempo the"
     " tracker found within 4%; own count: the same network, not held; chance: the tracker's phase"
-    " moved by a random offset a song. ± is 95% over songs.",
+    " moved by a random offset a song. No real row: of real phrases nobody knows more than the"
+    " tracker. ± is 95% over songs.",
     "alignment": "The first replication. chance: the motion turned round by random times; another"
     " song: 8 others. ± is 95% over songs.",
     "above": "own song minus the row, song by song, ± 95%; * the two rows' intervals do not"
     " overlap.",
     "seams": "The first replication. Ratio of quantiles at seams and elsewhere, [95% bootstrap"
     " over songs]; (null: the same marks at random places). KS: largest distance of the"
-    " distributions, p from the null.",
-    "tracks": "Descriptive: nobody knows these songs' beats, the tracker's stand in.",
+    " distributions, p from the null. The null is chance; real motion is not made of windows, so"
+    " it has no seams, and what it would score is 1.",
+    "jumps": "The extremes elsewhere in the same songs stand for real and chance.",
+    "tracks": "Descriptive: nobody knows these songs' beats, the tracker's stand in, and nobody"
+    " danced to them, so there is no real row. chance: the motion turned round by random times."
+    " Untrained: see the held-out songs.",
 }
 
 
@@ -55,10 +61,8 @@ def phase_table(context: AudioContext) -> list[Grid]:
     """Rows by name, see `phase_row`; "right tempo" are songs whose tempo the tracker found."""
     made, settings = context.made(0), context.settings
     rng = np.random.default_rng([settings.seed, 1])
-    counted = []
-    for number, (piece, _) in enumerate(made[: settings.own_count], start=1):
-        context.progress(f"own count, song {number} of {min(settings.own_count, len(made))}")
-        counted.append((piece, context.dance(piece, held=False).phase_unwrapped))
+    counted = _counted(context, "own count", context.generator)
+    blind = _counted(context, "untrained, own count", context.fresh) if settings.untrained else []
     own = [(piece, motion.phase_unwrapped) for piece, motion in made]
     tracked = [(p, np.asarray(p.phase)) for p, _ in made if p.phase is not None]
     groups = {
@@ -67,6 +71,7 @@ def phase_table(context: AudioContext) -> list[Grid]:
         "generated, right tempo": [pair for pair in own if right_tempo(pair[0])],
         "beat tracker, right tempo": [pair for pair in tracked if right_tempo(pair[0])],
         "own count": counted,
+        "untrained, own count": blind,
         "chance": [(piece, bars + rng.random()) for piece, bars in tracked],
     }
     rows = {
@@ -77,12 +82,26 @@ def phase_table(context: AudioContext) -> list[Grid]:
     return [Grid("phase", "bar and beat phase, held-out songs", PHASE, rows, NOTES["phase"])]
 
 
+def _counted(
+    context: AudioContext, name: str, generator: SongGenerator
+) -> list[tuple[Piece, np.ndarray]]:
+    """Bars [T] that a network counts for itself, of the first songs."""
+    asked = context.pieces[: context.settings.own_count]
+    counted = []
+    for number, piece in enumerate(asked, start=1):
+        context.progress(f"{name}, song {number} of {len(asked)}")
+        counted.append((piece, context.dance(piece, held=False, generator=generator)))
+    return [(piece, motion.phase_unwrapped) for piece, motion in counted]
+
+
 # ---------------------------------------------------------------- beats
 
 
 def alignment_tables(context: AudioContext) -> list[Grid]:
-    """Generated and real motion on their own songs, and on what must score less."""
+    """Generated, real and untrained motion on their own songs, and on what must score less."""
     samples = {"generated": context.generated(0)}
+    if context.settings.untrained:
+        samples["untrained"] = context.untrained(0)
     if len(context.reference):
         samples["real"] = context.reference
     seed = context.settings.seed
@@ -117,9 +136,15 @@ def _alignment(name: str, part: dict[str, Any]) -> Iterator[Grid]:
 
 def seam_tables(context: AudioContext) -> list[Grid]:
     """Accelerations at seams between windows against everywhere else."""
-    songs = [_seamed(motion, context) for _, motion in context.made(0)]
-    found = seam_report(songs, context.settings.seed)
-    return list(_seams(found)) if "quantities" in found else []
+    made = {"": context.made(0)}
+    if context.settings.untrained:
+        made["untrained"] = context.made_untrained(0)
+    tables: list[Grid] = []
+    for name, motions in made.items():
+        songs = [_seamed(motion, context) for _, motion in motions]
+        found = seam_report(songs, context.settings.seed)
+        tables += _seams(found, name) if "quantities" in found else []
+    return tables
 
 
 def _seamed(trajectory: MotionTrajectory, context: AudioContext) -> Seamed:
@@ -129,7 +154,9 @@ def _seamed(trajectory: MotionTrajectory, context: AudioContext) -> Seamed:
     return Seamed(trajectory, near)
 
 
-def _seams(seams: dict[str, Any]) -> Iterator[Grid]:
+def _seams(seams: dict[str, Any], row: str) -> Iterator[Grid]:
+    names = [f"{name}/{row}".rstrip("/") for name in ("seams", "jumps")]
+    of = f", {row}" if row else ""
     rows = {}
     for name, found in seams["quantities"].items():
         cells = {
@@ -145,15 +172,15 @@ def _seams(seams: dict[str, Any]) -> Iterator[Grid]:
         Column("p95", "ratio of p95"), Column("ks", "KS"),
     )  # fmt: skip
     size = f"{seams['seams']} seams of {seams['songs']} songs, {seams['frames']} frames"
-    yield Grid("seams", f"seams ({size})", columns, rows, NOTES["seams"], "quantity")
+    yield Grid(names[0], f"seams{of} ({size})", columns, rows, NOTES["seams"], "quantity")
     jumps = seams["jumps"]
     rows = {
         key.replace("_", " "): GridRow({"at": f"{at:.4g}", "elsewhere": f"{other:.4g}"})
         for key, (at, other) in ((k, v) for k, v in jumps.items() if k != "none")
     }
-    title = "jumps at seams: none" if jumps["none"] else "jumps at seams: FOUND"
+    title = f"jumps at seams{of}: {'none' if jumps['none'] else 'FOUND'}"
     places = (Column("at", "at seams"), Column("elsewhere", "elsewhere"))
-    yield Grid("jumps", title, places, rows, head="extreme")
+    yield Grid(names[1], title, places, rows, NOTES["jumps"], "extreme")
 
 
 # ---------------------------------------------------------------- sound files

@@ -2,13 +2,13 @@
 
 For each task motions are made from captions of the training templates and from paraphrases kept
 out of training. Each rate stands beside the same check on real clips with those labels, on motions
-made for other tasks (chance), and on a pose held still.
+made for other tasks (chance), on a pose held still, and on what an untrained network makes.
 
 Letters: N motions of one cell.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import chain
 from typing import Any
 
@@ -22,7 +22,7 @@ from src.shared.motion.root_track import decode_features, encode_features
 
 Labels = dict[str, str]
 WORDINGS = ("templates", "paraphrases")
-FLOORS = ("real", "chance", "still")
+FLOORS = ("real", "chance", "still", "untrained")
 NUM_TEMPLATES = 12  # captions of one label set and language that the seeds go round
 
 
@@ -121,6 +121,7 @@ def control_table(
     num_seeds: int,
     num_frames: int = 120,
     seed: int = 0,
+    untrained: Sampler | None = None,
     progress: Callable[[str], None] = lambda text: None,
 ) -> dict[str, Any]:
     """Success rates as plain data: `tasks`, `means`, `languages`, `wordings`, `num_seeds`.
@@ -131,6 +132,7 @@ def control_table(
         real: clips for the real row, None for none.
         num_seeds: motions a cell.
         num_frames: length of each.
+        untrained: asked the templates of the first language; None = its column stays empty.
     """
     languages = [language for language in languages if language in book.languages]
     cells = plan_cells(book, languages, num_seeds, seed)
@@ -141,12 +143,17 @@ def control_table(
             progress(f"controllability: {language}, {len(own)} cells of {num_seeds} motions")
             first = fill_cells(own, sampler, num_frames=num_frames, seed=seed)
             still = still or _stand_still(first)
+    floor = [] if untrained is None else _templates_of(cells, languages[:1])
+    if untrained is not None and floor:
+        progress(f"controllability: untrained, {len(floor)} cells of {num_seeds} motions")
+        fill_cells(floor, untrained, num_frames=num_frames, seed=seed)
     tasks = {
         task.name: {
             "generated": _rates([cell for cell in cells if cell.task is task]),
             "real": _real_rate(task, real).as_dict(),
             "chance": _chance_rate(task, cells).as_dict(),
             "still": rate(task, still, still[1:] + still[:1]).as_dict(),
+            "untrained": _own_rate(task, floor).as_dict(),
         }
         for task in CONTROL_TASKS
     }
@@ -176,6 +183,21 @@ def _real_rate(task: ControlTask, real: Clips | None) -> Estimate:
     others = _matching(real, [task.versus])
     pairs = [(a, b) for a in motions for b in others]
     return rate(task, [a for a, _ in pairs], [b for _, b in pairs])
+
+
+def _templates_of(cells: Sequence[Cell], languages: Sequence[str]) -> list[Cell]:
+    """The same questions with nothing made for them yet."""
+    return [
+        replace(cell, made=[], others=[])
+        for cell in cells
+        if cell.language in languages and cell.wording == "templates"
+    ]
+
+
+def _own_rate(task: ControlTask, cells: Sequence[Cell]) -> Estimate:
+    """The check on the motions of the one cell that asks for it; of none, if there is none."""
+    own = [cell for cell in cells if cell.task is task]
+    return rate(task, own[0].made, own[0].others) if own else success_rate(0, 0)
 
 
 def _chance_rate(task: ControlTask, cells: Sequence[Cell]) -> Estimate:

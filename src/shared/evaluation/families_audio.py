@@ -87,7 +87,8 @@ class BarPhase:
     definition = (
         "Mean absolute circular error in cycles, between the first and the last true beat;"
         " guessing scores 0.25. beat offset: circular mean, ahead is positive; steadiness: length"
-        " of the mean vector. Only songs whose bars are known. The phase is the beat tracker's"
+        " of the mean vector. Only songs whose bars are known: of real phrases"
+        " nobody knows more than the tracker. The phase is the beat tracker's"
         " wherever it hears beats, so this says how good the tracker is, and nothing of the"
         " motion: a frozen pose counts as well."
     )

@@ -8,7 +8,8 @@ from src.shared.validation.sanity import SEVEN
 
 NOTES = {
     "sanity": "What the decoder gave, not clamped, not made coherent. seven: TECH's five checks and"
-    " ruling 18's two; suite: with liveliness, roughness and bands.",
+    " ruling 18's two; suite: with liveliness, roughness and bands. No chance row: no check asks"
+    " which song a motion belongs to.",
     "inside": "Share of motions between the 5th and 95th percentile of training motions; real"
     " motion itself reaches about 0.9.",
 }

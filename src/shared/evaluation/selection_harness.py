@@ -31,7 +31,7 @@ Chosen = np.ndarray  # [P], which candidate of each subject
 NOTE = (
     "Rows: ± is 95% over replications, other noise for the same subjects (floors: over subjects)."
     " Difference: paired, ± is 95% by bootstrap over subjects. * better, and the intervals of both"
-    " rows are apart."
+    " rows are apart. An untrained judge chooses at random: its row is best of 1."
 )
 
 

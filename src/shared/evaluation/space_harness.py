@@ -1,6 +1,6 @@
 """What a shared space is worth on held-out songs: retrieval, and what neighbours have in common.
 
-Every table has a row of the space, one that knows the tempo alone, one of an untrained audio
+Every table has a row of the space, one that knows the tempo alone, one of an untrained
 tower, and one by chance, under the same batches.
 
 Letters: N windows, P phrases, D embed dim.
@@ -20,7 +20,7 @@ from src.shared.evaluation.space_neighbours import Neighbours
 from src.shared.evaluation.space_retrieval import Bench
 from src.shared.evaluation.space_windows import Windows
 from src.shared.model.audio.audio_tower import AudioTower
-from src.shared.model.audio.shared_space import SharedSpace
+from src.shared.model.audio.shared_space import MotionTower, SharedSpace
 from src.shared.model.clip.core import TextTower
 from src.shared.model.clip.tokenizer import PromptTokenizer
 
@@ -109,11 +109,12 @@ def evaluate_space(
         progress("phrases without captions: texts are left out")
     elif texts is not None:
         spoken = space.embed_text(captions, texts.tower, texts.tokenizer)
+        blind = held_out.embed_bodies(untrained_motion(space, settings.seed))
         text = {SPACE: spoken[[window.phrase for window in held_out.items]]}
         tables += [
             _table(bench, "text → sound", text, sounds, by_action=True),
             _table(bench, "sound → text", sounds, text, by_action=True),
-            _table(bench, "text → motion", text, {SPACE: motion}, by_action=True),
+            _table(bench, "text → motion", text, {SPACE: motion, UNTRAINED: blind}, by_action=True),
         ]
     neighbours = Neighbours.of(held_out, bench)
     tables.append(_nearest(neighbours, sounds, motion))
@@ -141,6 +142,16 @@ def untrained(space: SharedSpace, seed: int) -> AudioTower:
     return tower.eval()
 
 
+def untrained_motion(space: SharedSpace, seed: int) -> MotionTower:
+    """The motion tower with random weights and the statistics of the trained one."""
+    with torch.random.fork_rng(devices=[]):
+        torch.manual_seed(seed)
+        tower = MotionTower(space.card.network)
+    tower.mean.copy_(space.motion.mean)
+    tower.std.copy_(space.motion.std)
+    return tower
+
+
 def tempo_alone(train: Windows, motion: Tensor, held_out: Windows) -> Tensor:
     """What motion to expect at a tempo [N,D]: Nadaraya-Watson regression on the training windows.
 
@@ -166,7 +177,7 @@ def _table(
     *,
     by_action: bool = False,
 ) -> Grid:
-    """One direction; the side with several rows is that of sound."""
+    """One direction; the side with several rows names them."""
     rows = {}
     count, runs = len(bench.songs), len(bench.batches)
     for name in query if len(query) > 1 else items:
@@ -175,10 +186,10 @@ def _table(
         rows[name] = GridRow({k: v.as_dict() for k, v in figures.items()}, count // runs, runs)
     chance = bench.measure(query[SPACE], items[SPACE], by_action=by_action, shuffled=True)
     rows[CHANCE] = GridRow({k: v.as_dict() for k, v in chance.items()}, count // runs, runs)
-    note = "Of the same song or clip: neither right nor wrong."
+    note = "Of the same song or clip: neither right nor wrong. A real row would be 1 throughout."
     if by_action:
         note += " Nor are phrases of the same action: a caption fits them all."
-    return Grid(title, title, COLUMNS, rows, note, head="keys of sound")
+    return Grid(title, title, COLUMNS, rows, note, head="keys")
 
 
 def _nearest(neighbours: Neighbours, sounds: dict[str, Tensor], motion: Tensor) -> Grid:
@@ -188,7 +199,10 @@ def _nearest(neighbours: Neighbours, sounds: dict[str, Tensor], motion: Tensor) 
     }
     blind = neighbours.measure(sounds[SPACE], motion, shuffled=True)
     rows[CHANCE] = GridRow({k: v.as_dict() for k, v in blind.items()})
-    own = "The nearest motion of another song and other clips, held against the sound's own motion."
+    own = (
+        "The nearest motion of another song and other clips, held against the sound's own motion,"
+        " which would be the real row: 0, 0 and 1."
+    )
     return Grid(
         "nearest", "what the nearest motion has in common", NEAREST, rows, own, "keys of sound"
     )

@@ -35,7 +35,7 @@ class TextSettings:
     untrained: int = 3  # replications of the untrained row, at most
     max_real: int = 4096  # real clips a split, at most
     max_frames: int = 128
-    language_samples: int = 128  # motions a language in the language table; 0 = no table
+    language_samples: int = 128  # motions a language, at most num_samples; 0 = no such table
     control_seeds: int = 10  # motions a task, language and kind of wording; 0 = no table
     languages: tuple[str, ...] = LANGUAGES
     language: str = "en"  # of the captions in the split tables
@@ -61,6 +61,11 @@ class TextContext:
     def sampler(self) -> Sampler:
         """The model's."""
         return next(iter(self.samplers.values()))
+
+    @property
+    def untrained(self) -> Sampler | None:
+        """That of the same network with fresh weights; None if no such row is wanted."""
+        return self.samplers.get(UNTRAINED)
 
     def clips(self, records: Sequence[ClipRecord], language: str) -> Clips:
         """Real clips with a caption in this language, spread over label groups.

@@ -18,7 +18,8 @@ def score_grid(split: str, grids: Sequence[Grid], names: Sequence[str]) -> Grid:
     note = (
         "normalised: (row - chance) / (real - chance). joint ratio: joint FD over that of real"
         " motions under shuffled labels; tag ratio: FD by tag over FD by wrong tag; the others:"
-        " row over real."
+        " row over real. Real motion is 1 (near 0 in joint and tag ratio); chance is 0 where"
+        " normalised, 1 in the joint ratio."
     )
     return Grid(f"{split}/scores", f"{split}: against real and chance", columns, rows, note)
 

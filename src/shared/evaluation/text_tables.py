@@ -11,20 +11,25 @@ from src.shared.evaluation.families import Column
 from src.shared.evaluation.families_text import r_precision
 from src.shared.evaluation.grids import Cell, Grid, GridRow, plain
 from src.shared.evaluation.metrics_retrieval import BATCH, normalised_score
-from src.shared.evaluation.text_context import TextContext
+from src.shared.evaluation.text_context import UNTRAINED, TextContext
 
 SHORT = {"templates": "tmpl", "paraphrases": "para"}
 CONTROL_NOTE = (
     "Success by forward kinematics: prompts of the training templates (tmpl) and paraphrases that"
     " no training caption repeats (para). real: test clips with these labels; chance: motions made"
-    " for the other tasks; still: the first pose held. ± is Wilson's 95%."
+    " for the other tasks; still: the first pose held; untrained: the same network with fresh"
+    " weights, asked the first language's templates. ± is Wilson's 95%."
 )
 
 
 def languages(context: TextContext) -> list[Grid]:
-    """R-precision at 3 language by language on seen combinations: real, chance, generated."""
+    """R-precision at 3 by language on seen combinations: real, chance, generated, untrained."""
     rows = {}
-    num, settings = context.settings.language_samples, context.settings
+    settings = context.settings
+    num = min(settings.language_samples, settings.num_samples)
+    made_by = {"generated": context.sampler}
+    if context.untrained is not None:
+        made_by[UNTRAINED] = context.untrained
     for language in settings.languages if num else ():
         try:
             real = context.real(context.held_out.records["seen"], language)
@@ -34,20 +39,18 @@ def languages(context: TextContext) -> list[Grid]:
             continue
         context.progress(f"languages: {num} motions in {language}")
         asked = real.rows([row % len(real) for row in range(num)])
-        motions = context.sampler(asked.clips.captions, asked.clips.num_frames, settings.seed)
         order = np.random.default_rng(settings.seed).permutation(len(real)).tolist()
-        samples = {
-            "real": real,
-            "chance": real.reordered(order),
-            "generated": context.made(asked, motions),
-        }
+        samples = {"real": real, "chance": real.reordered(order)}
+        for name, sampler in made_by.items():
+            motions = sampler(asked.clips.captions, asked.clips.num_frames, settings.seed)
+            samples[name] = context.made(asked, motions)
         cells: dict[str, Cell] = {
             name: r_precision(sample, settings.seed).r_precision[2]
             for name, sample in samples.items()
         }
         score = normalised_score(*(float(cells[k]) for k in ("generated", "chance", "real")))  # type: ignore[arg-type]
         rows[language] = GridRow({**cells, "normalised": plain(score)}, num, 1)
-    columns = tuple(Column(key, key) for key in ("real", "chance", "generated", "normalised"))
+    columns = tuple(Column(key, key) for key in ("real", "chance", *made_by, "normalised"))
     note = (
         "One replication. normalised: (generated - chance) / (real - chance)."
         f" Seed {settings.seed}; real and chance over all real clips."
@@ -69,6 +72,7 @@ def controllability(context: TextContext) -> list[Grid]:
         languages=settings.languages,
         num_seeds=settings.control_seeds,
         seed=settings.seed,
+        untrained=context.untrained,
         progress=context.progress,
     )
     return [control_grid(found)]

@@ -72,6 +72,9 @@ def test_the_report_says_what_was_measured(report: dict[str, Any]) -> None:
     assert runs["real"] == (4, 2) and runs["generated"] == (2, 2)
     assert runs["untrained"] == runs["frozen pose"] == (2, 1)
     assert found["phase"].rows["own count"].num == 1
+    assert found["phase"].rows["untrained, own count"].num == 1
+    assert {f"alignment/{row}/rows" for row in ("generated", "untrained", "real")} <= set(found)
+    assert {"seams", "seams/untrained", "jumps", "jumps/untrained"} <= set(found)
     assert found["seams"].title.startswith("seams (2 seams of 2 songs")
     assert list(found["tracks"].rows) == ["song"]
 

@@ -115,8 +115,9 @@ def test_the_report_is_json_markdown_and_tables(held_out: HeldOut, judge: Evalua
     settings = replace(SETTINGS, num_samples=32, replications=1, language_samples=32)
     two = {"seen": held_out.records["seen"][:48], "unseen": held_out.records["seen"][48:96]}
     only = replace(held_out, records=two)
+    deaf = copying_sampler(held_out, deaf=True)
     report = evaluate_samplers(
-        {"generated": copying_sampler(held_out, deaf=True)},
+        {"generated": copying_sampler(held_out, deaf=False), "untrained": deaf},
         only,
         judge,
         settings=replace(settings, languages=("en",)),
@@ -126,6 +127,9 @@ def test_the_report_is_json_markdown_and_tables(held_out: HeldOut, judge: Evalua
     assert "data-hash" in text and "| chance |" in text and "unseen" in text
     (languages,) = [grid for grid in grids(report) if grid.name == "languages"]
     assert languages.rows["en"].num == 32
+    keys = ("real", "chance", "generated", "untrained", "normalised")
+    assert tuple(column.key for column in languages.columns) == keys
+    assert languages.value("en", "generated") > languages.value("en", "untrained")
     names = {grid.name for grid in grids(report)}
     assert {"seen/retrieval", "unseen/obedience", "unseen/scores"} < names
     assert all(len(row) == len(table.header) for table in tables(report) for row in table.rows)
@@ -166,12 +170,20 @@ def test_an_obedient_sampler_passes_the_control_tasks() -> None:
     book = CaptionBook.load(None)
     sampler = oracle_sampler(book, 4, ["en"])
     table = control.control_table(sampler, book, None, languages=["en", "xx"], num_seeds=4)
+
+    def deaf(prompts: Sequence[str], num_frames: Sequence[int], seed: int) -> list[Motion]:
+        return sampler(prompts[:1] * len(prompts), num_frames, seed)
+
     assert table["languages"] == ["en"]
     assert table["means"]["en"]["templates"]["value"] >= 0.9
     assert table["means"]["en"]["paraphrases"]["count"] == 4 * len(table["tasks"])
     assert table["means"]["chance"]["value"] < 0.4
     assert table["means"]["still"]["value"] == 0
+    assert table["means"]["untrained"]["count"] == 0
     assert all(math.isnan(task["real"]["value"]) for task in table["tasks"].values())
+    both = control.control_table(sampler, book, None, languages=["en"], num_seeds=2, untrained=deaf)
+    assert both["means"]["untrained"]["count"] == 2 * len(both["tasks"])
+    assert both["means"]["untrained"]["value"] < 0.4 < both["means"]["en"]["templates"]["value"]
     drawn = printed(control_grid(table))
     assert drawn.header[:3] == ["task", "en tmpl", "en para"] and drawn.rows[-1][0] == "mean"
     assert {len(row) for row in drawn.rows} == {len(drawn.header)}

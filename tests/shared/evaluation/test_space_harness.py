@@ -161,7 +161,7 @@ def test_the_report_has_every_row_and_repeats(folder: Path) -> None:
         "nearest",
     }  # fmt: skip
     assert list(grids["sound → motion"].rows) == [SPACE, TEMPO, UNTRAINED, CHANCE]
-    assert list(grids["text → motion"].rows) == [SPACE, CHANCE]
+    assert list(grids["text → motion"].rows) == [SPACE, UNTRAINED, CHANCE]
     assert grids["sound → motion"].value(TEMPO, "r_at_5") >= 0
     assert made["about"]["songs"] == 4 and made["about"]["phrases"] == 8
     text = as_markdown("Space", heading(made), tables(made))
