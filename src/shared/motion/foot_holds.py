@@ -24,8 +24,9 @@ BLEND_SECONDS = 9 / 30  # how long a correction fades in before, and out after, 
 STEP_SECONDS = 8 / 30  # of a step that was put in, and LIFT metres its height
 LIFT = 0.05
 MAX_CLAIM = 0.12  # metres above the standing height; a higher foot stands on nothing
-MAX_SUPPORT = 0.05  # metres; a lower foot carries the body if none other does,
+MAX_SUPPORT = 0.08  # metres; a lower foot carries the body if none other does,
 MAX_VERTICAL = 0.5  # m/s, unless it rises or falls faster than this
+FALL = -3.0  # m/s² of the hips, below which the body flies
 ROLL = 0.015  # metres that the ball of a standing foot may be above its standing height
 MAX_DRAG = 0.22  # metres that a held foot may be from where it was; further off it steps
 MAX_SLOPE = 1.0  # m/s at which a correction may start from a hold
@@ -59,7 +60,7 @@ def foot_shifts(
         kept: legs [T,2] bool that must stay as they are; a foot that stands on goes on standing
             where it was kept.
     """
-    stands = standing(balls, contacts, fps)
+    stands = standing(balls, hips, contacts, fps)
     shifts, held = np.zeros_like(balls), np.zeros(stands.shape, dtype=bool)
     for side in (0, 1):
         frozen = np.zeros(len(balls), dtype=bool) if kept is None else kept[:, side]
@@ -75,17 +76,20 @@ def foot_shifts(
 # ---------------------------------------------------------------- when
 
 
-def standing(balls: np.ndarray, contacts: np.ndarray, fps: float) -> np.ndarray:
+def standing(balls: np.ndarray, hips: np.ndarray, contacts: np.ndarray, fps: float) -> np.ndarray:
     """Which feet [T,2] carry the body: those that claim to, else the lower one if it is low.
 
-    A foot that moves up or down fast is jumping, landing or swinging.
+    Nothing carries a body whose hips fall as a thrown thing does, and a foot that moves up or down
+    fast is landing or swinging.
     """
     height = balls[..., 1] - REST_FOOT_HEIGHT  # T 2
     claimed = (contacts > THRESHOLD) & (height < MAX_CLAIM)
     if len(balls) < 2:
         return np.asarray(claimed)
     vertical = np.abs(np.gradient(height, axis=0)) * fps
-    low = (height < MAX_SUPPORT) & (vertical < MAX_VERTICAL)
+    waist = gaussian_filter1d(hips[..., 1].mean(1), 0.05 * fps, mode="nearest")
+    flies = np.gradient(np.gradient(waist)) * fps**2 < FALL
+    low = (height < MAX_SUPPORT) & (vertical < MAX_VERTICAL) & ~flies[:, None]
     lower = np.arange(2) == height.argmin(1)[:, None]
     return np.asarray(claimed | (~claimed.any(1, keepdims=True) & low & lower))
 
