@@ -23,6 +23,9 @@ GuidanceScale = Annotated[
 RANGES = {
     "--seconds": (0.3, 60.0),
     "--song-seconds": (1.0, 7200.0),
+    "--keep": (0.1, 60.0),
+    "--from": (0.0, 7200.0),
+    "--to": (0.0, 7200.0),
     "--meter": (2, 12),
     "--num-samples": (1, 100_000),
     "--seed": (0, 2**63 - 1),

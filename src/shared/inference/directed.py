@@ -3,19 +3,19 @@
 Letters: T frames, R rows (bones, root track), C channels.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 import torch
 
+from src.shared.errors import UserError
 from src.shared.inference.drawn_path import DrawnPath
 from src.shared.inference.editing import Given, Place, kept_error, place_of
 from src.shared.inference.filling import fill, finish
 from src.shared.inference.motion_stream import Passage, StreamSettings, stream_features
 from src.shared.inference.path_following import NATURAL, path_error, time_path
-from src.shared.inference.timeline import Timeline, make_loop, make_timeline
+from src.shared.inference.timeline import Timeline, add_parts, make_loop, make_timeline
 from src.shared.model.generation.motion_generator import MotionGenerator
 from src.shared.motion.motion import Motion
 from src.shared.motion.root_track import FORWARD, LATERAL, ROOT_ROW
@@ -45,6 +45,7 @@ def edited(
     given: Given,
     settings: StreamSettings,
     *,
+    tag: str | None = None,
     foot_lock: bool | None = None,
 ) -> Directed:
     """A motion of which much is given.
@@ -54,6 +55,7 @@ def edited(
         text: what the rest shows; None = nothing is said.
         given: see `editing`.
         settings: of sampling.
+        tag: action label beside the text.
         foot_lock: None = the model's own.
 
     Returns:
@@ -61,7 +63,7 @@ def edited(
     """
     if text is None:
         settings = replace(settings, guidance_scale=0.0)
-    features, constraint = fill(generator, text or NO_TEXT, given, settings)
+    features, constraint = fill(generator, text or NO_TEXT, given, settings, tag=tag)
     motion = finish(
         generator,
         features,
@@ -80,7 +82,7 @@ def edited(
 
 def along_path(
     generator: MotionGenerator,
-    passages: Sequence[Passage],
+    timeline: Timeline,
     drawn: DrawnPath,
     settings: StreamSettings,
     *,
@@ -91,7 +93,8 @@ def along_path(
 
     Args:
         generator: trained.
-        passages: one, whose length is that of the path; or several, and the path takes as long.
+        timeline: one text, and it takes as long as the path; or several, and the path takes as
+            long as they.
         drawn: the path.
         settings: of sampling.
         seconds: how long it takes; None = as long as the prompt's own speed says.
@@ -106,25 +109,31 @@ def along_path(
             path.
     """
     fps = generator.card.fps
-    speed, facing = natural_gait(generator, passages[0], settings)
-    if len(passages) > 1:
-        seconds = (sum(passage.frames for passage in passages) - 1) / fps
+    speed, facing = natural_gait(generator, timeline.passages[0], settings)
+    alone = len(timeline.passages) == 1 and not timeline.parts
+    if not alone:
+        seconds = (timeline.num_frames - 1) / fps
     path = time_path(drawn, fps=fps, speed=speed, seconds=seconds, facing=facing)
-    if len(passages) == 1:
-        passages = [replace(passages[0], frames=len(path))]
+    if not alone and len(path) != timeline.num_frames:
+        raise UserError(
+            f"the path takes {len(path) / fps:g} s and the texts {timeline.num_frames / fps:g} s;"
+            " give both the same length"
+        )
+    if alone:
+        timeline = Timeline((replace(timeline.passages[0], frames=len(path)),))
     given = path.constraint()
-    pieces = stream_features(
+    features = make_timeline(
         generator,
-        passages,
+        timeline,
+        settings,
         constraint=lambda start, stop: given.window(start, stop, fps=fps),
-        **vars(settings),
     )
     x, z = path.points[0].tolist()
     motion = finish(
         generator,
-        torch.cat(list(pieces)),
+        features,
         given.known,
-        text=", then ".join(passage.text for passage in passages),
+        text=timeline.text,
         place=Place(x, z, float(path.headings[0])),
         foot_lock=foot_lock,
     )
@@ -175,6 +184,7 @@ def in_a_loop(
         errors: see `join_error`; travel, turn: metres and degrees of one round.
     """
     features = make_loop(generator, timeline.passages, settings)
+    features = add_parts(generator, features, timeline.parts, settings)
     frames = len(features)
     rounds = finish(
         generator, torch.cat([features] * 3), None, text=timeline.text, foot_lock=foot_lock

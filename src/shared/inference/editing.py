@@ -94,16 +94,19 @@ def chosen_joints(names: Sequence[str]) -> set[str]:
     return set(chain.from_iterable(GROUPS.get(name, (name,)) for name in names))
 
 
-def keep_ends(start: Motion | None, end: Motion | None, kept: int, frames: int) -> Given:
+def keep_ends(
+    start: Motion | None, end: Motion | None, kept: int, frames: int, *, rejoin: bool = False
+) -> Given:
     """A motion that begins as one clip begins, and ends as another one ends.
 
-    It stands where `start` stands; where it ends, its own path decides.
+    It stands where `start` stands.
 
     Args:
         start: its first frames are kept; None = a free beginning.
         end: its last frames are kept; None = an open end.
         kept: frames of each.
         frames: of the whole, more than what is kept.
+        rejoin: it ends where `end` stands; else wherever it leads.
     """
     given = Constraint.free(frames)
     for clip, of_clip, of_motion in (
@@ -113,7 +116,10 @@ def keep_ends(start: Motion | None, end: Motion | None, kept: int, frames: int) 
         if clip is not None:
             given.values[of_motion] = encode_features(clip)[of_clip]
             given.known[of_motion] = True
-    return Given(given, Place() if start is None else place_of(start, 0))
+    place = Place() if start is None else place_of(start, 0)
+    if end is None or not rejoin:
+        return Given(given, place)
+    return Given(given, place, (frames - kept, place_of(end, end.num_frames - kept)))
 
 
 def redo(clip: Motion, start: int, stop: int, joints: set[str] | None = None) -> Given:

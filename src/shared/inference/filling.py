@@ -23,7 +23,12 @@ from src.shared.motion.trajectory_math import turn_about_y
 
 
 def fill(
-    generator: MotionGenerator, text: str, given: Given, settings: StreamSettings
+    generator: MotionGenerator,
+    text: str,
+    given: Given,
+    settings: StreamSettings,
+    *,
+    tag: str | None = None,
 ) -> tuple[Tensor, Constraint]:
     """Raw features [T,R,6] with everything that is not known made anew, and what was known.
 
@@ -31,16 +36,21 @@ def fill(
         UserError: as `stream_features`.
     """
     constraint = given.constraint
-    features = fill_free(generator, text, constraint, settings)
+    features = fill_free(generator, text, constraint, settings, tag=tag)
     if given.rejoin is not None:
         bent = bend_back(features, given, fps=generator.card.fps)
-        features = fill_free(generator, text, bent, settings)
+        features = fill_free(generator, text, bent, settings, tag=tag)
         constraint = replace(constraint, values=bent.values, known=bent.known)
     return features, constraint
 
 
 def fill_free(
-    generator: MotionGenerator, text: str, constraint: Constraint, settings: StreamSettings
+    generator: MotionGenerator,
+    text: str,
+    constraint: Constraint,
+    settings: StreamSettings,
+    *,
+    tag: str | None = None,
 ) -> Tensor:
     """Raw features [T,R,6]; only the frames around what is not known go through the network."""
     rows = generator.network.motion_rows
@@ -52,7 +62,7 @@ def fill_free(
     near = constraint.window(start, stop, fps=generator.card.fps)
     pieces = stream_features(
         generator,
-        [Passage(text, stop - start)],
+        [Passage(text, stop - start, tag)],
         constraint=lambda first, last: near.window(first, last, fps=generator.card.fps),
         **asdict(settings),
     )

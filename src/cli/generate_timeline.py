@@ -1,0 +1,78 @@
+"""`generate --path, --timeline, --then, --loop`: when what happens, and where."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from src.cli.directions import SECONDS, Directions
+from src.shared.errors import UsageError
+
+if TYPE_CHECKING:
+    from src.shared.inference.directed import Directed
+    from src.shared.inference.drawn_path import DrawnPath
+    from src.shared.inference.motion_stream import StreamSettings
+    from src.shared.inference.timeline import Timeline
+    from src.shared.model.generation.motion_generator import MotionGenerator
+
+FPS = 30.0
+
+
+@dataclass(frozen=True)
+class TimedTask:
+    """What is to happen when, on which path if on any, and whether it closes a loop."""
+
+    timeline: "Timeline"
+    path: "DrawnPath | None"
+    seconds: float | None
+    loop: bool
+
+    @property
+    def texts(self) -> list[str]:
+        """All of them, those of single parts of the body too."""
+        whole = [passage.text for passage in self.timeline.passages]
+        return whole + [part.text for part in self.timeline.parts]
+
+
+def read_timed(directions: Directions, wanted: dict[str, Any]) -> TimedTask:
+    """The files that were named, and the prompts one after another.
+
+    Raises:
+        UserError: a file cannot be read or says what cannot be.
+    """
+    from src.shared.inference.drawn_path import read_path
+    from src.shared.inference.motion_stream import Passage
+    from src.shared.inference.timeline import Timeline, read_timeline
+
+    path = None if directions.path is None else read_path(directions.path)
+    if path is not None and path.times is not None and wanted["seconds"] is not None:
+        raise UsageError(f"--seconds does not go with {directions.path}, which has times")
+    if directions.timeline is not None:
+        timeline = read_timeline(directions.timeline, fps=FPS)
+    else:
+        frames = round((wanted["seconds"] or SECONDS) * FPS)
+        texts = wanted["prompts"]
+        tags = wanted["tags"] or [None] * len(texts)
+        pairs = zip(texts, tags, strict=True)
+        timeline = Timeline(tuple(Passage(text, frames, tag) for text, tag in pairs))
+    return TimedTask(timeline, path, wanted["seconds"], directions.loop)
+
+
+def make_timed(
+    generator: "MotionGenerator",
+    task: TimedTask,
+    settings: "StreamSettings",
+    foot_lock: bool | None,
+) -> "Directed":
+    """One motion of all that."""
+    from src.shared.inference.directed import along_path, by_timeline, in_a_loop
+
+    if task.path is not None:
+        return along_path(
+            generator,
+            task.timeline,
+            task.path,
+            settings,
+            seconds=task.seconds,
+            foot_lock=foot_lock,
+        )
+    make = in_a_loop if task.loop else by_timeline
+    return make(generator, task.timeline, settings, foot_lock=foot_lock)
