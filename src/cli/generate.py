@@ -6,7 +6,8 @@ from typing import Annotated, Any
 
 import typer
 
-from src.cli import generate_audio, generate_text, options
+from src.cli import generate_audio, generate_edit, generate_performance, generate_text, options
+from src.cli.directions import Directions
 from src.cli.guard import complain
 from src.cli.score_table import show_scores
 from src.cli.wording import counted
@@ -20,6 +21,12 @@ def generate(
     audio: Annotated[
         list[Path] | None, typer.Option(help="A song instead: wav, flac, ogg or mp3.")
     ] = None,
+    body: Annotated[
+        bool,
+        typer.Option(
+            "--body", help="For a song: a whole body that dances as the music says; or --prompt."
+        ),
+    ] = False,
     style: Annotated[
         str | None, typer.Option(help='How to move to the song, e.g. "tired, elderly".')
     ] = None,
@@ -31,6 +38,41 @@ def generate(
         typer.Option(
             help="For a song: folder of `memory build`, heard by a --model of train_memory."
         ),
+    ] = None,
+    then: Annotated[
+        list[str] | None, typer.Option(help="What it does next, in the same motion; repeat.")
+    ] = None,
+    timeline: Annotated[
+        Path | None,
+        typer.Option(help="What it does when: YAML or JSON with text, start, end, parts."),
+    ] = None,
+    loop: Annotated[
+        bool, typer.Option("--loop", help="The last frame leads into the first one.")
+    ] = False,
+    path: Annotated[
+        Path | None, typer.Option(help="Where it goes: CSV, JSON or YAML with x, z, t, heading.")
+    ] = None,
+    start: Annotated[
+        Path | None, typer.Option(help="A motion file whose first seconds it begins with.")
+    ] = None,
+    end: Annotated[
+        Path | None, typer.Option(help="A motion file whose last seconds it ends with.")
+    ] = None,
+    keep: Annotated[
+        float | None, typer.Option(help="Seconds of --start and --end that are kept; 1.")
+    ] = None,
+    edit: Annotated[
+        Path | None, typer.Option(help="A motion file of which something is made anew.")
+    ] = None,
+    joints: Annotated[
+        str | None,
+        typer.Option(help="Of --edit, with commas between: left-arm, legs, upper-body, head, …"),
+    ] = None,
+    begin: Annotated[
+        float | None, typer.Option("--from", help="Of --edit: seconds at which that begins.")
+    ] = None,
+    until: Annotated[
+        float | None, typer.Option("--to", help="Of --edit: seconds at which that ends.")
     ] = None,
     tag: Annotated[
         list[str] | None,
@@ -62,13 +104,16 @@ def generate(
     format: Annotated[
         str | None,
         typer.Option(
-            help="With commas between: bvh, glb, npz, html for a prompt;"
-            " npz, csv, glb, html, png for a song."
+            help="With commas between: bvh, glb, npz, html for a body;"
+            " npz, csv, glb, html, png for the path of a song."
         ),
     ] = None,
     out: Annotated[Path, typer.Option(help="Folder for the files.")] = Path("outputs"),
     model: Annotated[
         str | None, typer.Option(help="A name that `models` lists, or a folder from training.")
+    ] = None,
+    body_model: Annotated[
+        str | None, typer.Option(help="The same for the body that dances to a song; starter.")
     ] = None,
     runtime: Annotated[
         str | None,
@@ -83,10 +128,17 @@ def generate(
     \b
     Examples:
       motion-tools generate --prompt "a person walks forward" --prompt "saluda con la mano"
+      motion-tools generate --prompt "a person walks" --then "a person claps"
+      motion-tools generate --edit clip.bvh --joints right-arm --prompt "a person waves"
       motion-tools generate --audio song.mp3
+      motion-tools generate --audio song.mp3 --prompt "a proud old man dances"
     """
+    directions = Directions(
+        start, end, keep, edit, joints, begin, until, path, timeline, then, loop
+    )
     options.check_ranges(
-        **{"song_seconds" if audio else "seconds": seconds},
+        **{"song_seconds" if audio or directions.given() else "seconds": seconds},
+        **{"keep": keep, "from": begin, "to": until},
         meter=meter,
         num_samples=num_samples,
         seed=seed,
@@ -105,11 +157,43 @@ def generate(
     if judge is not None and num_samples == 1:
         raise UsageError("--judge compares candidates: give --num-samples 2 or more with it")
     song = generate_audio.only_song(audio)
+    wanted: dict[str, Any]
     if song is not None:
-        refuse_with("--audio", prompt=prompt, tag=tag, foot_lock=foot_lock, judge=judge)
+        directions.refuse("--audio")
+    if song is None:
+        refuse_with("--prompt", body=body or None, body_model=body_model)
+    if song is not None and (prompt or body):
         generate_audio.check_runtime(runtime, device)
         generate_audio.check_memory(memory, runtime)
-        wanted: dict[str, Any] = {"audio": song, "meter": meter}
+        if not prompt:
+            refuse_with("--body alone", tag=tag)
+        wanted = {"audio": song, "meter": meter, "seconds": seconds, "style": style}
+        wanted |= {"memory": memory, "foot_lock": foot_lock, "sampling": shared}
+        wanted["prompts"] = checked_prompts(prompt) if prompt else []
+        wanted["tags"] = checked_tags(tag, len(prompt or ()))
+        formats = checked_formats(
+            format or ",".join(generate_text.FORMATS), generate_text.ALL_FORMATS
+        )
+        result = generate_performance.produce_dances(
+            wanted,
+            formats,
+            out,
+            model=generate_audio.MODEL if model is None else model,
+            body_model=generate_performance.BODY_MODEL if body_model is None else body_model,
+            runtime=runtime or "torch",
+            device=device,
+            threads=threads,
+            return_all=return_all,
+            judge=judge,
+        )
+        generate_audio.warn_of_beats(result)
+    elif song is not None:
+        no_body = {"tag": tag, "foot_lock": foot_lock, "judge": judge, "body_model": body_model}
+        refuse_with("--audio alone", **no_body)
+        generate_performance.check_path_formats(format or "")
+        generate_audio.check_runtime(runtime, device)
+        generate_audio.check_memory(memory, runtime)
+        wanted = {"audio": song, "meter": meter}
         wanted |= {"seconds": seconds, "style": style, "memory": memory}
         formats = checked_formats(format or "npz,glb,html", generate_audio.FORMATS)
         result = generate_audio.produce_song(
@@ -123,6 +207,22 @@ def generate(
             return_all=return_all,
         )
         generate_audio.warn_of_beats(result)
+    elif directions.given():
+        refuse_with(directions.given()[0], style=style, meter=meter, memory=memory, runtime=runtime)
+        directions.check(len(prompt or ()), num_samples=num_samples, seconds=seconds)
+        texts = [*(prompt or ()), *(then or ())]
+        wanted = {"prompts": checked_prompts(texts) if texts else [], "seconds": seconds}
+        wanted |= {"tags": checked_tags(tag, len(texts)), "foot_lock": foot_lock}
+        wanted["sampling"] = {name: shared[name] for name in generate_edit.SAMPLING}
+        result = generate_edit.produce_directed(
+            directions,
+            wanted,
+            checked_formats(format or ",".join(generate_text.FORMATS), generate_text.ALL_FORMATS),
+            out,
+            model=generate_text.MODEL if model is None else model,
+            device=device,
+            threads=threads,
+        )
     else:
         refuse_with("--prompt", style=style, meter=meter, memory=memory, runtime=runtime)
         wanted = shared | {
@@ -131,7 +231,9 @@ def generate(
             "seconds": 4.0 if seconds is None else seconds,
             "foot_lock": foot_lock,
         }
-        formats = checked_formats(format or ",".join(generate_text.FORMATS), generate_text.FORMATS)
+        formats = checked_formats(
+            format or ",".join(generate_text.FORMATS), generate_text.ALL_FORMATS
+        )
         result = generate_text.produce(
             wanted,
             formats,

@@ -13,10 +13,16 @@ from src.cli.wording import note_replaced
 from src.shared.errors import UsageError
 
 if TYPE_CHECKING:
+    import numpy as np
+    from torch import Tensor
+
+    from src.shared.audio.song import Song
     from src.shared.inference.runtime import Runtime
     from src.shared.inference.song_generator import SongMotions
+    from src.shared.inference.song_sampler import SampleSettings
     from src.shared.memory.build import Space
     from src.shared.memory.service import MPMService
+    from src.shared.motion.trajectory import MotionTrajectory
 
 FORMATS = ("npz", "csv", "glb", "html", "png")
 MODEL = "starter-audio"
@@ -84,9 +90,8 @@ def produce_song(
     from src.shared.device import set_threads
     from src.shared.inference.audio_judge import AudioJudge
     from src.shared.inference.runtime import load_runtime
-    from src.shared.inference.song_generator import SongMotions, heard, of_song
-    from src.shared.inference.song_memory import remembering
-    from src.shared.inference.song_sampler import SampleSettings, SongSampler
+    from src.shared.inference.song_generator import SongMotions, heard
+    from src.shared.inference.song_sampler import SampleSettings
 
     clock.lap("import")
     style = styled(wanted["style"])
@@ -98,10 +103,7 @@ def produce_song(
     condition, phase = heard(song, wanted["seconds"])
     clock.lap("listen")
     settings = SampleSettings(**wanted["sampling"])
-    with progress_bar(condition.shape[1]) as progress:
-        sampler = SongSampler(loaded, of_song(settings, song))
-        recall = remembered and remembering(*remembered, sampler, condition, phase)
-        made = sampler.sample(condition, phase=phase, style=style, progress=progress, recall=recall)
+    made = sample_paths(loaded, song, condition, phase, settings, style, remembered)
     judge = AudioJudge(shipped_bands(model) if runtime == "torch" else None)
     table = judge.judge(made, song.beats.beat_times if song.beats.tempo > 0 else None)
     order = [int(place) for place in table.order[: None if return_all else 1]]
@@ -111,20 +113,46 @@ def produce_song(
     for rank, (row, place) in enumerate(zip(rows, order, strict=True), start=1):
         row |= {"sample": place, "rank": rank}
     clock.lap("write")
-    about = {
-        "audio": str(wanted["audio"]),
-        "tempo": round(song.beats.tempo, 2),
-        "meter": song.beats.meter,
-        "beats": len(song.beats.beat_times),
+    about = told_of_song(wanted["audio"], song) | {
         "model": model,
         "runtime": runtime,
-        "device": str(sampler.device),
+        "device": str(loaded.mean.device),
         "seed": settings.seed,
         "memory": remembered and told_of_memory(wanted["memory"], remembered[0]),
     }
     scores = [scored(str(wanted["audio"]), table)] if len(made) > 1 else []
     results = {"motions": rows, "selection": scores, "index": index}
     return about | results | {"timings": clock.seconds()}
+
+
+def sample_paths(
+    loaded: "Runtime",
+    song: "Song",
+    condition: "Tensor",
+    phase: "np.ndarray | None",
+    settings: "SampleSettings",
+    style: "np.ndarray | None",
+    remembered: "tuple[MPMService, Space] | None",
+) -> "list[MotionTrajectory]":
+    """Candidates for a song as the decoder gave them, with a bar on the screen."""
+    from src.shared.inference.song_generator import of_song
+    from src.shared.inference.song_memory import remembering
+    from src.shared.inference.song_sampler import SongSampler
+
+    with progress_bar(condition.shape[1]) as progress:
+        sampler = SongSampler(loaded, of_song(settings, song))
+        recall = remembered and remembering(*remembered, sampler, condition, phase)
+        return sampler.sample(condition, phase=phase, style=style, progress=progress, recall=recall)
+
+
+def told_of_song(audio: Path, song: "Song") -> dict[str, Any]:
+    """What was heard."""
+    return {
+        "audio": str(audio),
+        "tempo": round(song.beats.tempo, 2),
+        "meter": song.beats.meter,
+        "beats": len(song.beats.beat_times),
+    }
 
 
 def open_service(folder: Path | None, loaded: "Runtime") -> "tuple[MPMService, Space] | None":

@@ -11,9 +11,9 @@ class Stopwatch:
         self.laps: dict[str, float] = {}
 
     def lap(self, name: str) -> None:
-        """End the part that began with the last lap."""
+        """End the part that began with the last lap; parts of one name add up."""
         now = time.perf_counter()
-        self.laps[name], self.last = now - self.last, now
+        self.laps[name], self.last = self.laps.get(name, 0.0) + now - self.last, now
 
     def seconds(self) -> dict[str, float]:
         """Every part and the total, to the millisecond."""

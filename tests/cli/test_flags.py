@@ -10,9 +10,14 @@ from src.cli.tools import app
 
 FLAGS = {
     "generate": (
-        "--audio --device --foot-lock --format --guidance-scale --json --judge --memory --meter"
-        " --model --no-foot-lock --num-samples --out --prompt --return-all --runtime --sampler"
-        " --seconds --seed --steps --style --tag --threads"
+        "--audio --body --body-model --device --edit --end --foot-lock --format --from"
+        " --guidance-scale --joints --json --judge --keep --loop --memory --meter --model"
+        " --no-foot-lock --num-samples --out --path --prompt --return-all --runtime --sampler"
+        " --seconds --seed --start --steps --style --tag --then --threads --timeline --to"
+    ),
+    "convert": (
+        "--asf --format --fps --json --mapping --names --resume --root --skeleton --source-fps"
+        " --unit --up FILES"
     ),
     "features": "--cache --cache-dir --chroma --json --meter --no-cache --out --plot SONG",
     "prepare": (

@@ -1,0 +1,215 @@
+"""`generate --audio --prompt`, and `--audio --body`: a song in, a dancing body out."""
+
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from src.cli import generate_audio, generate_text
+from src.cli.evaluate_sanity import shipped_bands
+from src.cli.guard import complain
+from src.cli.score_table import scored
+from src.cli.stopwatch import Stopwatch
+from src.cli.wording import note_replaced
+from src.shared.errors import UsageError
+
+if TYPE_CHECKING:
+    from src.shared.audio.song import Song
+    from src.shared.inference.performance_judge import PerformanceJudge
+    from src.shared.inference.performer import Performance
+    from src.shared.inference.song_performer import Dances, SongPerformer
+    from src.shared.model.generation.motion_generator import MotionGenerator
+
+BODY_MODEL = "starter"
+DANCE = "dance"  # ends the file names of a dance that no prompt asked for
+SAMPLING = ("steps", "sampler", "guidance_scale")
+
+
+def produce_dances(
+    wanted: dict[str, Any],
+    formats: list[str],
+    out: Path,
+    *,
+    model: str,
+    body_model: str,
+    runtime: str,
+    device: str,
+    threads: int | None,
+    return_all: bool = False,
+    judge: str | None = None,
+) -> dict[str, Any]:
+    """Load, listen, sample paths and bodies, choose, write; says what lies where, and the times.
+
+    Args:
+        wanted: audio, meter, seconds, style, memory; prompts (none = what the music says), tags,
+            foot_lock; under `sampling`, what `SampleSettings` takes: the guidance is the body's.
+        formats: any of `generate_text.ALL_FORMATS`.
+        out: folder for the files.
+        model: of the path: name or folder, for onnx a folder of `export-onnx`.
+        body_model: name or folder.
+        runtime: of the path: torch or onnx.
+        device: auto, cpu, cuda or mps.
+        threads: CPU threads; None = torch's choice.
+        return_all: write all candidates by rank, not only the best.
+        judge: folder of `train_clip`; None = the body model's own where one is shipped.
+    """
+    clock = Stopwatch()
+    from src.shared.audio.song import analyse
+    from src.shared.device import set_threads
+    from src.shared.inference.runtime import load_runtime
+    from src.shared.inference.song_performer import HeardSong
+    from src.shared.inference.song_sampler import SampleSettings
+    from src.shared.model.generation.motion_generator import MotionGenerator
+
+    clock.lap("import")
+    style = generate_audio.styled(wanted["style"])
+    set_threads(threads)
+    loaded = load_runtime(runtime, model, device)
+    remembered = generate_audio.open_service(wanted["memory"], loaded)
+    generator = MotionGenerator.from_pretrained(body_model, device=device)
+    bands = shipped_bands(model) if runtime == "torch" else None
+    number = wanted["sampling"]["num_samples"]
+    judging = open_judge(generator, bands, judge) if number > 1 else None
+    dancers = open_dancers(generator, wanted, judging)
+    clock.lap("load")
+    song = analyse(wanted["audio"], meter=wanted["meter"])
+    heard = HeardSong.of(song, wanted["seconds"])
+    clock.lap("listen")
+    settings = SampleSettings(**wanted["sampling"] | {"guidance_scale": None})
+    prompts: list[str | None] = wanted["prompts"] or [None]
+    warnings = generator.scope_warnings(wanted["prompts"]) if wanted["prompts"] else [None]
+    for warning in filter(None, warnings):
+        complain(f"warning: {warning}")
+    found: list[Dances] = []
+    for prompt, tag in zip(prompts, wanted["tags"] or [None] * len(prompts), strict=True):
+        own = generator.style_of(prompt) if style is None and prompt else style
+        raw = generate_audio.sample_paths(
+            loaded, song, heard.condition, heard.phase, settings, own, remembered
+        )
+        clock.lap("path")
+        with generate_audio.progress_bar(number * heard.condition.shape[1]) as progress:
+            found.append(
+                dancers.dance(raw, heard, prompt, tag=tag, seed=settings.seed, progress=progress)
+            )
+        clock.lap("body")
+    kept = number if return_all else 1
+    rows, index = write_dances(found, kept, wanted["audio"], song, formats, out)
+    for place, row in enumerate(rows):
+        row |= {"seed": settings.seed, "warning": warnings[place // kept]}
+    clock.lap("write")
+    about = generate_audio.told_of_song(wanted["audio"], song) | {
+        "model": model,
+        "body-model": body_model,
+        "runtime": runtime,
+        "device": str(generator.device),
+        "seed": settings.seed,
+        "memory": remembered and generate_audio.told_of_memory(wanted["memory"], remembered[0]),
+    }
+    judged = zip(prompts, found, strict=True) if number > 1 else ()
+    scores = [scored(prompt or str(wanted["audio"]), dances.table) for prompt, dances in judged]
+    results = {"motions": rows, "selection": scores, "index": index}
+    return about | results | {"timings": clock.seconds()}
+
+
+def open_dancers(
+    generator: "MotionGenerator", wanted: dict[str, Any], judge: "PerformanceJudge | None"
+) -> "SongPerformer":
+    """Who dances: with the prompts that were given, or with what the music says."""
+    from src.shared.inference.dance_prompt import DancePrompter
+    from src.shared.inference.performer import Performer, PerformerSettings
+    from src.shared.inference.song_performer import SongPerformer
+
+    own = {name: wanted["sampling"][name] for name in SAMPLING}
+    performer = Performer(generator, PerformerSettings(**own, foot_lock=wanted["foot_lock"]))
+    prompter = None if wanted["prompts"] else DancePrompter.beside(generator)
+    return SongPerformer(performer, prompter=prompter, judge=judge)
+
+
+def open_judge(generator: "MotionGenerator", bands: Any, judge: str | None) -> "PerformanceJudge":
+    """A judge of several candidates, with the motion tower that belongs to the generator."""
+    from src.shared.inference.performance_judge import PerformanceJudge
+    from src.shared.inference.text_judge import load_tower, own_tower
+
+    text = generator.text
+    return PerformanceJudge(bands, own_tower(text) if judge is None else load_tower(judge, text))
+
+
+# ---------------------------------------------------------------- files
+
+
+def check_path_formats(text: str) -> None:
+    """Refuse formats that only a body has where only a path is made.
+
+    Raises:
+        UsageError: naming them.
+    """
+    names = {part.strip().lower() for part in text.split(",")}
+    bodies = sorted(names & (set(generate_text.ALL_FORMATS) - set(generate_audio.FORMATS)))
+    if bodies:
+        raise UsageError(
+            f"--format {text!r}: {' and '.join(bodies)} would hold a body, and --audio alone makes"
+            ' its path; add --prompt "a person dances", or --body to let the music choose'
+        )
+
+
+def stems(audio: Path, prompts: Sequence[str | None], kept: int) -> list[str]:
+    """`song-a-person-dances`, `song-a-person-dances-2`, …; `song-dance` without a prompt."""
+    names: list[str] = []
+    for prompt in prompts:
+        base = f"{audio.stem}-{DANCE if prompt is None else generate_text.slug(prompt)}"
+        for _ in range(kept):
+            name, number = base, 2
+            while name in names:
+                name, number = f"{base}-{number}", number + 1
+            names.append(name)
+    return names
+
+
+def write_dances(
+    found: "Sequence[Dances]", kept: int, audio: Path, song: "Song", formats: list[str], out: Path
+) -> tuple[list[dict[str, Any]], str | None]:
+    """Write every dance that is kept: a row of facts and paths for each.
+
+    Several share one page, so that the song is in it once; its path is the second value.
+    """
+    from src.shared.formats.performance_files import export_dance, write_dance_page
+    from src.shared.formats.registry import ending
+    from src.shared.formats.trajectory_beats import SongTrack
+
+    beats = song.beats
+    track = SongTrack(audio, beats.beat_times, beats.downbeat_times, beats.meter)
+    dances = [dance for each in found for dance in each.ranked[:kept]]
+    names = stems(audio, [each.prompt for each in found], kept)
+    shared = "html" in formats and len(dances) > 1
+    alone = [name for name in formats if not (shared and name == "html")]
+    page = out / "index.html"
+    files = [out / f"{stem}.{ending(name)}" for stem in names for name in alone]
+    note_replaced([*files, page] if shared else files, out)
+    places = [int(place) for each in found for place in each.table.order[:kept]]
+    rows = []
+    for at, (dance, stem, place) in enumerate(zip(dances, names, places, strict=True)):
+        paths = export_dance(dance.motion, dance.trajectory, out, stem, alone, track)
+        rows.append(
+            told_of_dance(dance, beats.beat_times if beats.tempo > 0 else None)
+            | {"files": {name: str(path) for name, path in paths.items()}}
+            | {"sample": place, "rank": at % kept + 1}
+        )
+    if not shared:
+        return rows, None
+    write_dance_page([d.motion for d in dances], [d.trajectory for d in dances], page, track)
+    return rows, str(page)
+
+
+def told_of_dance(dance: "Performance", beats: Any) -> dict[str, Any]:
+    """What was asked for, how exactly the body stands on its path, how it keeps the beat."""
+    from src.shared.inference.performance_judge import beat_report
+
+    motion = dance.motion
+    return {
+        "prompt": motion.text,
+        "passages": [{"text": p.text, "seconds": p.frames / motion.fps} for p in dance.passages],
+        "frames": motion.num_frames,
+        "fps": motion.fps,
+        "root-error": {name.replace("_", "-"): v for name, v in asdict(dance.error).items()},
+        "beat-alignment": None if beats is None else beat_report(motion, beats),
+    }

@@ -1,0 +1,118 @@
+"""`generate --audio --prompt` and `--audio --body`: files, facts, candidates, refusals."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import soundfile
+from typer.testing import CliRunner
+
+from src.cli.tools import app
+from src.shared.audio.song_spec import SongSpec
+from src.shared.audio.synthetic_songs import render_song
+from src.shared.formats.npz import read_npz
+from tests.shared.evaluation.tiny_pairs import tiny_model
+from tests.shared.formats.pages import Page, array
+from tests.shared.model.conftest import tiny_generator
+
+runner = CliRunner()
+PROMPT = ("--prompt", "a person walks forward")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Both models and a song."""
+    folder = tmp_path_factory.mktemp("dances")
+    tiny_model().save_pretrained(folder / "path")
+    tiny_generator().save_pretrained(folder / "body")
+    render_song(SongSpec(seconds=3.0, seed=1)).write_wav(folder / "song.wav")
+    return folder
+
+
+def generate(folder: Path, *arguments: str | Path, song: Path | None = None, code: int = 0) -> Any:
+    models = ["--model", folder / "path", "--body-model", folder / "body", "--device", "cpu"]
+    command = ["generate", "--audio", song or folder / "song.wav", *models, "--steps", "2"]
+    result = runner.invoke(app, [str(word) for word in (*command, *arguments)])
+    assert result.exit_code == code, result.output
+    return result
+
+
+def test_a_song_and_a_sentence_become_a_body(folder: Path, tmp_path: Path) -> None:
+    told = json.loads(generate(folder, *PROMPT, "--out", tmp_path, "--json").stdout)
+    (row,) = told["motions"]
+    assert list(row["files"]) == ["bvh", "glb", "npz", "html"]
+    assert all(Path(path).name.startswith("song-a-person-walks") for path in row["files"].values())
+    assert row["root-error"]["max-metres"] < 1e-3 and row["root-error"]["max-degrees"] < 0.1
+    assert row["frames"] == 90 and row["prompt"] == "a person walks forward"
+    assert row["passages"] == [{"text": "a person walks forward", "seconds": 3.0}]
+    assert set(row["beat-alignment"]) == {"motion-to-music", "music-to-motion", "chance"}
+    assert told["tempo"] > 0 and told["beats"] > 0
+    assert set(told["timings"]) >= {"load", "listen", "path", "body", "write", "total"}
+    page = Page(Path(row["files"]["html"]))
+    assert [tag for tag, _ in page.tags if tag == "audio"] == ["audio"]
+    (shown,) = page.data["motions"]
+    motion = read_npz(Path(row["files"]["npz"]))
+    np.testing.assert_allclose(
+        array(shown["root"], "<f4").reshape(-1, 3), motion.root_position, atol=1e-5
+    )
+    assert len(shown["turning"]) > 4  # all joints move, not only the stand-in's legs
+
+
+def test_candidates_share_a_page_and_are_scored(folder: Path, tmp_path: Path) -> None:
+    arguments = (*PROMPT, "--num-samples", "2", "--return-all", "--format", "npz,html", "--json")
+    told = json.loads(generate(folder, *arguments, "--out", tmp_path).stdout)
+    assert [row["rank"] for row in told["motions"]] == [1, 2]
+    assert {row["sample"] for row in told["motions"]} == {0, 1}
+    (scores,) = told["selection"]
+    assert {"feet", "smoothness", "sanity", "beats"} <= set(scores["candidates"][0])
+    assert len(Page(Path(told["index"])).data["motions"]) == 2
+    names = sorted(path.name for path in tmp_path.iterdir())
+    assert names == ["index.html", *(f"song-a-person-walks-forward{n}.npz" for n in ("-2", ""))]
+
+
+def test_several_prompts_dance_side_by_side(folder: Path, tmp_path: Path) -> None:
+    both = (*PROMPT, "--prompt", "somebody jumps twice", "--format", "npz")
+    told = json.loads(generate(folder, *both, "--out", tmp_path, "--json").stdout)
+    assert [row["prompt"] for row in told["motions"]] == [PROMPT[1], "somebody jumps twice"]
+
+
+def test_the_music_chooses_where_nobody_says_anything(folder: Path, tmp_path: Path) -> None:
+    result = generate(folder, "--body", "--format", "npz", "--out", tmp_path, "--json")
+    (row,) = json.loads(result.stdout)["motions"]
+    assert Path(row["files"]["npz"]).name == "song-dance.npz"
+    assert sum(part["seconds"] for part in row["passages"]) == pytest.approx(3.0)
+
+
+def test_a_song_without_beat(folder: Path, tmp_path: Path) -> None:
+    soundfile.write(tmp_path / "still.wav", np.zeros(44_100 * 2), 44_100)
+    arguments = (*PROMPT, "--format", "html", "--out", tmp_path / "out", "--json")
+    result = generate(folder, *arguments, song=tmp_path / "still.wav")
+    assert "no beat was found" in result.stderr
+    (row,) = json.loads(result.stdout)["motions"]
+    assert row["beat-alignment"] is None
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [
+        (("--format", "bvh"), "--body"),
+        ((*PROMPT, "--format", "fbx"), "'fbx'"),
+        (("--prompt", " "), "--prompt"),
+        (("--body", "--tag", "walk"), "--tag"),
+        (("--judge", "x", "--num-samples", "2"), "--judge"),
+        ((*PROMPT, "--seconds", "0.5"), "--seconds"),
+    ],
+)
+def test_wrong_usage(folder: Path, arguments: tuple[str, ...], named: str) -> None:
+    models = () if "--judge" in arguments else ("--model", folder / "path")
+    words = ["generate", "--audio", folder / "song.wav", *models, *arguments]
+    result = runner.invoke(app, [str(word) for word in words])
+    assert result.exit_code == 2 and named in result.stderr and "Traceback" not in result.stderr
+
+
+def test_a_body_needs_a_song() -> None:
+    for extra in (("--body",), ("--body-model", "starter")):
+        result = runner.invoke(app, ["generate", *PROMPT, *extra])
+        assert result.exit_code == 2 and extra[0] in result.stderr
