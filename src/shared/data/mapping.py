@@ -1,5 +1,8 @@
 """Which joint of a source skeleton plays which of ours, and where its axes point."""
 
+import json
+import re
+from collections import Counter
 from pathlib import Path
 from typing import Literal
 
@@ -17,6 +20,7 @@ REQUIRED = tuple(
     for name in JOINT_NAMES
     if name not in ("spine1", "spine2", "spine3", "l_collar", "r_collar", "l_foot", "r_foot")
 )
+COMMON_PREFIX = 0.8  # of a file's joints must share what is taken for their prefix
 
 
 class SkeletonMapping(BaseModel):
@@ -47,15 +51,9 @@ class SkeletonMapping(BaseModel):
                 raise ValueError(f"axes {list(directions)} of {joint!r} are not right-handed")
         return axes
 
-    def axes_of(self, source_joint: str, default: np.ndarray | None = None) -> np.ndarray:
+    def axes_of(self, source_joint: str) -> np.ndarray:
         """Rotation [3,3] of the source joint's axes in the T-pose."""
-        if source_joint in self.axes or default is None:
-            return _axes_matrix(self.axes.get(source_joint, ("+X", "+Y", "+Z")))
-        return default
-
-    def missing(self, names: tuple[str, ...]) -> list[str]:
-        """Our joints whose source joint is not among `names`."""
-        return [ours for ours, theirs in self.joints.items() if theirs not in names]
+        return _axes_matrix(self.axes.get(source_joint, ("+X", "+Y", "+Z")))
 
 
 def _axes_matrix(directions: tuple[Axis, Axis, Axis]) -> np.ndarray:
@@ -82,17 +80,95 @@ def load_mappings(extra: Path | None = None) -> tuple[SkeletonMapping, ...]:
 
 
 def find_mapping(names: tuple[str, ...], mappings: tuple[SkeletonMapping, ...]) -> SkeletonMapping:
-    """The first profile whose joints are all there.
+    """The profile that fits a file best, in the file's own joint names.
+
+    The first profile whose joints are all there; else, of those that miss only joints that can
+    be interpolated (left out of the result), the one that finds most. Spelling counts little:
+    `mixamorig:LeftUpLeg`, `left_up_leg` and `LeftUpLeg` are one joint.
 
     Raises:
-        UserError: no profile fits; names the closest one and the joints it misses.
+        UserError: no profile fits; names the closest one, the joints it misses, and what to do.
     """
-    for mapping in mappings:
-        if not mapping.missing(names):
-            return mapping
-    closest = min(mappings, key=lambda mapping: len(mapping.missing(names)))
-    missing = ", ".join(f"{ours} ({closest.joints[ours]})" for ours in closest.missing(names))
-    raise UserError(
-        f"no skeleton mapping fits; the closest, {closest.name!r}, misses {missing};"
-        " add a profile with --mapping FILE (format: src/configs/skeletons.yaml)"
+    spelled = _spellings(names)
+    found = [_translated(mapping, names, spelled) for mapping in mappings]
+    for mapping, translated in zip(mappings, found, strict=True):
+        if len(translated) == len(mapping.joints):
+            return _renamed(mapping, translated)
+    best = max(range(len(found)), key=lambda i: (_required(found[i]), len(found[i]), -i))
+    if _required(found[best]) == len(REQUIRED):
+        return _renamed(mappings[best], found[best])
+    raise UserError(_missing_text(names, mappings[best], found[best]))
+
+
+def _required(translated: dict[str, str]) -> int:
+    return sum(name in translated for name in REQUIRED)
+
+
+def _translated(
+    mapping: SkeletonMapping, names: tuple[str, ...], spelled: dict[str, str]
+) -> dict[str, str]:
+    """Our joint -> joint of the file, for those that are there."""
+    found = {
+        ours: theirs if theirs in names else spelled.get(plain(theirs), "")
+        for ours, theirs in mapping.joints.items()
+    }
+    return {ours: theirs for ours, theirs in found.items() if theirs}
+
+
+def _renamed(mapping: SkeletonMapping, translated: dict[str, str]) -> SkeletonMapping:
+    """The profile with the file's own names, without joints that the file lacks."""
+    if translated == mapping.joints:
+        return mapping
+    axes = {
+        theirs: mapping.axes[mapping.joints[ours]]
+        for ours, theirs in translated.items()
+        if mapping.joints[ours] in mapping.axes
+    }
+    return mapping.model_copy(update={"joints": translated, "axes": axes})
+
+
+def plain(name: str) -> str:
+    """A joint's name without namespace, case and punctuation."""
+    name = re.sub(r"^.*[:|]", "", name)
+    name = re.sub(r"^mixamorig\d*", "", name, flags=re.I)
+    return re.sub(r"[\W_]", "", name).casefold()
+
+
+def _spellings(names: tuple[str, ...]) -> dict[str, str]:
+    """Plain name -> name in the file, for names with and without a prefix that most share."""
+    heads = Counter(head[0] for name in names if (head := re.match(r"^[^ _.\-]+[ _.\-]", name)))
+    prefix, count = heads.most_common(1)[0] if heads else ("", 0)
+    spelled: dict[str, str] = {}
+    for name in names:
+        spelled.setdefault(plain(name), name)
+        if count >= COMMON_PREFIX * len(names):
+            spelled.setdefault(plain(name.removeprefix(prefix)), name)
+    return spelled
+
+
+def _missing_text(
+    names: tuple[str, ...], mapping: SkeletonMapping, translated: dict[str, str]
+) -> str:
+    missing = [name for name in REQUIRED if name not in translated]
+    text = ", ".join(f"{ours} ({mapping.joints[ours]})" for ours in missing)
+    free = [name[:40] for name in names if name not in translated.values()]
+    shown = ", ".join(free[:12]) + (" …" if len(free) > 12 else "")
+    return (
+        f"no skeleton mapping fits; the closest, {mapping.name!r}, misses {text};"
+        f" joints of the file without a part: {shown or 'none'};"
+        " write a profile (`inspect FILE --write-mapping my.yaml` begins one), name the file's"
+        f" joint after {missing[0]!r} in it, and give it by --mapping"
     )
+
+
+def profile_text(names: tuple[str, ...], mappings: tuple[SkeletonMapping, ...]) -> str:
+    """YAML of a profile for a file, to be corrected: what was found, and `?` where nothing was."""
+    spelled = _spellings(names)
+    found = max((_translated(mapping, names, spelled) for mapping in mappings), key=len)
+    lines = ["# Our joint: joint of the file. Fill in every ?; lines that no joint fits may go,",
+             "# except " + ", ".join(REQUIRED) + ".",
+             "# Joints of the file: " + ", ".join(names), "profiles:", "  - name: mine",
+             "    joints:"]  # fmt: skip
+    lines += [f"      {ours}: {json.dumps(found.get(ours, '?'), ensure_ascii=False)}"
+              for ours in JOINT_NAMES]  # fmt: skip
+    return "\n".join(lines) + "\n"

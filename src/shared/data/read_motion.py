@@ -1,11 +1,11 @@
 """Any motion file in: one function from a path to a Motion, one that tells what a file holds."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
-from src.shared.data.guesses import guess_unit, guess_up, unit_metres
+from src.shared.data.guesses import guess_unit, guess_up, joint_indices, unit_metres
 from src.shared.data.mapping import SkeletonMapping, find_mapping, load_mappings
 from src.shared.data.recordings import Recording, open_recording
 from src.shared.data.retarget import leg_length, retarget
@@ -14,7 +14,7 @@ from src.shared.formats.limits import MAX_FRAMES
 from src.shared.formats.source_clip import SourceClip
 from src.shared.motion.motion import Motion
 from src.shared.motion.resample import resample_motion
-from src.shared.motion.skeleton import canonical_skeleton
+from src.shared.motion.skeleton import JOINT_INDEX, canonical_skeleton
 
 SAME_BONES = 1e-4  # metres: a file with our own skeleton, so nothing is to be fitted
 NEAR_RATE = 0.01  # relative: 119.88 frames a second are thinned out like 120
@@ -97,14 +97,15 @@ def fit(
     ours = is_ours(clip, profile)
     exact = ours or recording.exact
     up = up or recording.up or ("Y" if ours else guess_up(clip, profile)[0])
-    metres = recording.metres if recording.exact else _our_scale(clip) if ours else None
+    metres = recording.metres if recording.true_size else our_scale(clip, profile) if ours else None
     metres = unit_metres(unit) if unit else metres
     if fps is not None:
         clip = thinned(clip, fps)
     try:
-        return retarget(clip, profile, fps=fps, up=up, metres=metres, ground=not exact)
+        motion = retarget(clip, profile, fps=fps, up=up, metres=metres, ground=not exact)
     except ValueError as error:
         raise UserError(f"{path}: {error}") from None
+    return replace(motion, text=recording.text)
 
 
 def thinned(clip: SourceClip, fps: float) -> SourceClip:
@@ -115,23 +116,22 @@ def thinned(clip: SourceClip, fps: float) -> SourceClip:
 
 
 def is_ours(clip: SourceClip, mapping: SkeletonMapping) -> bool:
-    """Whether the clip's joints and bones are those of the canonical skeleton, in any unit."""
+    """Whether the clip's bones are those of the canonical skeleton, in any unit, by any names."""
     ours = canonical_skeleton()
-    if set(clip.names) != set(ours.names) or any(a != b for a, b in mapping.joints.items()):
+    index = joint_indices(clip, mapping)
+    if len(index) < len(ours.names):
         return False
-    index = {name: i for i, name in enumerate(clip.names)}
     order = [index[name] for name in ours.names]
-    if any(ours.parents[k] >= 0 and clip.parents[j] != order[ours.parents[k]]
-           for k, j in enumerate(order)):  # fmt: skip
+    if any(clip.parents[order[k]] != order[p] for k, p in enumerate(ours.parents) if p >= 0):
         return False
-    bones = np.asarray(clip.offsets[order][1:] * _our_scale(clip))
+    bones = np.asarray(clip.offsets[order][1:] * our_scale(clip, mapping))
     return bool(np.abs(bones - ours.offsets[1:]).max() < SAME_BONES)
 
 
-def _our_scale(clip: SourceClip) -> float:
+def our_scale(clip: SourceClip, mapping: SkeletonMapping) -> float:
     """Metres of the clip's unit if its left thigh is ours."""
-    thigh = canonical_skeleton().offsets[canonical_skeleton().names.index("l_knee")]
-    length = float(np.linalg.norm(clip.offsets[clip.names.index("l_knee")]))
+    thigh = canonical_skeleton().offsets[JOINT_INDEX["l_knee"]]
+    length = float(np.linalg.norm(clip.offsets[joint_indices(clip, mapping)["l_knee"]]))
     return float(np.linalg.norm(thigh)) / max(length, 1e-12)
 
 

@@ -21,7 +21,9 @@ class Recording:
         clip: the recording on its own skeleton.
         up: the up axis, where the format fixes it.
         metres: of the unit of length, where the format fixes it.
-        exact: the joints are ours already: rotations and places are taken as they are.
+        true_size: distances are not to be scaled to our legs: the file has no legs of its own.
+        exact: the body is ours already: rotations and places are taken as they are.
+        text: caption or prompt, where the file holds one.
         warnings: what the format loses or does not say, a sentence each.
     """
 
@@ -30,7 +32,9 @@ class Recording:
     clip: SourceClip | None = None
     up: str | None = None
     metres: float | None = None
+    true_size: bool = False
     exact: bool = False
+    text: str = ""
     warnings: tuple[str, ...] = ()
 
 
@@ -60,6 +64,11 @@ def open_recording(
         return _amc(path, skeleton, fps)
     if ending == ".npz":
         return _npz(path, fps)
+    if ending == ".glb":
+        from src.shared.formats.glb_reader import read_glb
+
+        clip = read_glb(path)
+        return Recording("GLB", clip=clip, metres=1.0, text=clip.text)
     if ending == ".npy":
         return _npy(path, fps)
     raise UserError(f"{path}: no reader for {ending or 'a file without ending'!r}; "
@@ -84,8 +93,9 @@ def _npz(path: Path, fps: float | None) -> Recording:
     names = array_names(path)
     if "format_version" in names or not is_amass(names):
         return Recording("NPZ of this project", motion=read_npz(path))
+    clip = read_amass(path, fps=fps)
     return Recording(
-        "AMASS", clip=read_amass(path, fps=fps), up="Z", metres=1.0, exact=True,
+        "AMASS", clip=clip, up="Z", metres=1.0, true_size=True, exact=clip.ours,
         warnings=("no body model is read: body shape, hands, jaw and eyes are dropped, and the "
                   "rotations go onto our own bones",),
     )  # fmt: skip

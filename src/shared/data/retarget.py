@@ -9,6 +9,7 @@ from functools import lru_cache
 import numpy as np
 import torch
 
+from src.shared.data.calibration import calibrated_axes
 from src.shared.data.guesses import joint_indices, rest_frame, upright
 from src.shared.data.mapping import SkeletonMapping
 from src.shared.formats.source_clip import SourceClip
@@ -64,11 +65,13 @@ def rest_corrections(clip: SourceClip, mapping: SkeletonMapping) -> dict[str, np
     """Constant rotation [3,3] per mapped joint: world(ours) = world(source) · correction."""
     offsets = canonical_skeleton().offsets.astype(np.float64)
     index = joint_indices(clip, mapping)
-    standing = None if mapping.axes else rest_frame(clip, mapping)
+    standing = rest_frame(clip, mapping)
+    guessed = {} if mapping.axes or standing is not None else calibrated_axes(clip, mapping, _AIM)
     corrections = {}
     turns: dict[str, np.ndarray] = {}
     for ours in sorted(mapping.joints, key=JOINT_NAMES.index):
-        axes = mapping.axes_of(mapping.joints[ours], standing)
+        axes = standing if standing is not None else mapping.axes_of(mapping.joints[ours])
+        axes = guessed.get(ours, axes)
         turn = np.eye(3)
         child = _AIM.get(ours)
         if child in mapping.joints:

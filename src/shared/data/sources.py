@@ -3,7 +3,6 @@
 A source lists its items cheaply; each item is read later, in a worker process.
 """
 
-import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
@@ -16,11 +15,9 @@ from src.shared.data.mapping import SkeletonMapping, find_mapping, load_mappings
 from src.shared.data.records import RawClip
 from src.shared.data.retarget import retarget
 from src.shared.errors import UserError
-from src.shared.formats.bvh import read_bvh
-from src.shared.formats.bvh_header import BvhError, parse_hierarchy
+from src.shared.formats.bvh import check_head, read_bvh
 
 FPS = 30.0
-HEADER_BYTES = 1 << 20
 MIN_FRAMES = 8  # shorter clips teach nothing and cannot be windowed
 
 
@@ -127,7 +124,7 @@ class BvhFolder:
         for caption in captions.get("en", []):
             labels = self.rules.of_caption(caption) | labels
         if not labels and not captions:
-            check_bvh_header(path)  # a broken file is told as such
+            check_head(path)  # a broken file is told as such
             raise Skipped("no caption and no label; add it to --captions or write a --labels rule")
         clip = read_bvh(path)
         rate = 1.0 / clip.frame_time
@@ -139,25 +136,6 @@ class BvhFolder:
             raise Skipped(f"{motion.num_frames} frames at {FPS:g} fps; {MIN_FRAMES} are needed")
         take = without_ending(item) if path.stem in self.shared_stems else path.stem
         return RawClip(item, take, motion, labels, captions)
-
-
-def check_bvh_header(path: Path) -> None:
-    """Read the hierarchy alone.
-
-    Raises:
-        UserError: it is broken, or no motion follows it.
-    """
-    with path.open("rb") as stream:
-        start = stream.read(HEADER_BYTES).replace(b"\r\n", b"\n").replace(b"\r", b"\n")
-    mark = re.search(rb"^[ \t]*MOTION[ \t]*$", start, re.I | re.M)
-    if mark is None:
-        read_bvh(path)  # names what is wrong
-        return
-    try:
-        parse_hierarchy(start[: mark.start()])
-    except BvhError as error:
-        line = f", line {error.line}" if error.line else ""
-        raise UserError(f"{path}{line}: {error}") from None
 
 
 @dataclass(frozen=True)

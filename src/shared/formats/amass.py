@@ -6,6 +6,7 @@
 | or root_orient, pose_body               | [T,3], [T,63]      | the same, named                 |
 | trans                                   | [T,3]              | metres, +Z up                   |
 | mocap_framerate or mocap_frame_rate     | ()                 | frames a second                 |
+| skeleton                                | ()                 | "motion-suite": the body is ours |
 
 The 22 body joints are in our order already. No body model is read: the shape (`betas`), the hands,
 jaw and eyes are dropped, and the rotations go onto our own bones, whose rest directions differ
@@ -22,7 +23,12 @@ from src.shared.formats.limits import FRAME_RATES, read_arrays
 from src.shared.motion.skeleton import NUM_JOINTS, canonical_skeleton
 
 MAX_VALUE = 1e4  # metres or radians
-NAMES = ("poses", "root_orient", "pose_body", "trans", "mocap_framerate", "mocap_frame_rate")
+NAMES = ("poses", "root_orient", "pose_body", "trans", "mocap_framerate", "mocap_frame_rate",
+         "skeleton")  # fmt: skip
+OURS = "motion-suite"  # `skeleton` of files that `amass_writer` wrote
+# `trans` moves the model's origin; its pelvis lies here, whichever way the body is turned
+# (metres, mean neutral shape).
+SMPL_PELVIS = np.array([-0.002, -0.223, 0.028])
 WIDTHS = {66: "body", 72: "SMPL", 156: "SMPL-H", 165: "SMPL-X"}
 
 
@@ -60,9 +66,10 @@ def read_amass(path: str | Path, *, fps: float | None = None) -> JointClip:
                         "the file is damaged")  # fmt: skip
     return JointClip(
         rotations=rotation_matrices(poses.reshape(-1, NUM_JOINTS, 3)),
-        root=trans,
+        root=trans + SMPL_PELVIS,
         offsets=canonical_skeleton().offsets.astype(np.float64),
         frame_time=1.0 / _rate(path, arrays, fps),
+        ours="skeleton" in arrays and str(arrays["skeleton"]) == OURS,
     )
 
 

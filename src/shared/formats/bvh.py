@@ -4,26 +4,16 @@ Pure numpy, so that worker processes of `prepare` start quickly. Legend: T frame
 the hierarchy (end sites apart), C channels of all nodes together.
 """
 
-import re
-import warnings
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TypeVar
 
 import numpy as np
 
 from src.shared.errors import UserError
-from src.shared.formats.bvh_header import BvhError, Node, parse_hierarchy
+from src.shared.formats.bvh_header import BvhError
+from src.shared.formats.bvh_rows import read_head, read_rows
+from src.shared.formats.limits import MAX_BYTES, check_size
 from src.shared.formats.source_clip import ALL, compose
-
-N = TypeVar("N", int, float)
-
-MAX_BYTES = 256 << 20
-MAX_VALUE = 1e7  # no angle or position, in any unit, is larger: the file is damaged
-FRAME_SECONDS = (1 / 2000, 1.0)  # accepted "Frame Time"
-_TIMING = re.compile(rb"\s*FRAMES\s*:\s*(\S+)\s+FRAME[ \t]*TIME\s*:[ \t]*([^\n]*)\n?", re.I)
-_MOTION = re.compile(rb"^[ \t]*MOTION[ \t]*$", re.I | re.M)
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,107 +124,45 @@ def read_bvh(path: str | Path, *, stride: int = 1, max_bytes: int = MAX_BYTES) -
             file and, where there is one, the line.
     """
     path = Path(path)
-    data = _read_bytes(path, max_bytes)
+    check_size(path, max_bytes)
     try:
-        mark = _MOTION.search(data)
-        header = data[: mark.start()] if mark else data
-        nodes, end_sites = parse_hierarchy(header)
-        if mark is None:
-            raise BvhError("has no MOTION section: the file is cut off")
-        frame_time, values = _parse_motion(data, mark.end(), nodes)
+        with path.open("rb") as stream:
+            head = read_head(stream)
+            values = read_rows(path, stream, head)
     except BvhError as error:
-        line = f", line {error.line}" if error.line else ""
-        raise UserError(f"{path}{line}: {error}") from None
+        raise _user_error(path, error) from None
+    except OSError as error:
+        raise UserError(f"{path}: cannot be read: {error.strerror or error}") from error
+    nodes = head.nodes
     return BvhClip(
         names=tuple(node.name for node in nodes),
         parents=tuple(node.parent for node in nodes),
         offsets=np.array([node.offset for node in nodes]),
-        end_sites=tuple(end_sites),
+        end_sites=head.end_sites,
         channels=tuple(node.channels for node in nodes),
         rotation_orders=tuple(
             "".join(c[0] for c in node.channels if c.endswith("rotation")) for node in nodes
         ),
-        frame_time=frame_time * stride,
+        frame_time=head.frame_time * stride,
         values=values[::stride],
     )
 
 
-def _read_bytes(path: Path, max_bytes: int) -> bytes:
-    """The file's bytes with \\n line ends."""
+def check_head(path: Path) -> None:
+    """Read everything but the frames.
+
+    Raises:
+        UserError: it is broken, or no motion follows it.
+    """
+    check_size(path)
     try:
-        size = path.stat().st_size
-        if size > max_bytes:
-            raise UserError(
-                f"{path}: {size / 2**20:.0f} MB is over the limit of {max_bytes / 2**20:.0f} MB; "
-                "split the file or raise the limit"
-            )
-        data = path.read_bytes()
+        with path.open("rb") as stream:
+            read_head(stream)
+    except BvhError as error:
+        raise _user_error(path, error) from None
     except OSError as error:
         raise UserError(f"{path}: cannot be read: {error.strerror or error}") from error
-    if b"\0" in data:
-        raise UserError(f"{path}: is binary, not BVH text; export it as BVH again")
-    return data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
 
 
-def _parse_motion(data: bytes, start: int, nodes: list[Node]) -> tuple[float, np.ndarray]:
-    """Frame time in seconds and the channel values [T,C] behind the word MOTION."""
-    first_line = data.count(b"\n", 0, start) + 1
-    timing = _TIMING.match(data, start)
-    if timing is None:
-        raise BvhError("MOTION is not followed by 'Frames:' and 'Frame Time:'", first_line)
-    num_frames = _number(timing[1], "Frames", int, first_line + 1)
-    if num_frames < 1:
-        raise BvhError(f"Frames is {num_frames}; a motion needs at least one", first_line + 1)
-    frame_time = _number(timing[2], "Frame Time", float, first_line + 2)
-    low, high = FRAME_SECONDS
-    if not low <= frame_time <= high:
-        raise BvhError(f"Frame Time {frame_time:g} is not within {low:g} … {high:g} seconds",
-                       first_line + 2)  # fmt: skip
-    num_channels = sum(len(node.channels) for node in nodes)
-    if num_channels == 0:
-        raise BvhError("no joint has CHANNELS, so nothing moves")
-    rows = data[timing.end() :].strip()
-    first_row = data.count(b"\n", 0, timing.end()) + 1
-    try:
-        with warnings.catch_warnings():  # older numpy warns where newer numpy raises
-            warnings.simplefilter("error", DeprecationWarning)
-            values = np.fromstring(rows, sep=" ") if rows else np.zeros(0)
-    except (ValueError, DeprecationWarning):
-        values = np.zeros(0)
-    if values.size != num_frames * num_channels or values.size == 0:
-        raise _explain(rows, first_row, num_frames, num_channels)
-    if not np.abs(values).max() < MAX_VALUE:  # also true for NaN
-        worst = int(np.flatnonzero(~(np.abs(values) < MAX_VALUE))[0])
-        raise BvhError(
-            f"value {values[worst]:g} in frame {worst // num_channels + 1} is not a possible "
-            "angle or position", first_row + worst // num_channels)  # fmt: skip
-    return frame_time, values.reshape(num_frames, num_channels)
-
-
-def _number(text: bytes, what: str, kind: Callable[[bytes], N], line: int) -> N:
-    try:
-        return kind(text)
-    except ValueError:
-        shown = text[:40].decode("utf-8", "replace").strip()
-        raise BvhError(f"{what} is {shown!r}, not a number", line) from None
-
-
-def _explain(rows: bytes, first_row: int, num_frames: int, num_channels: int) -> BvhError:
-    """What is wrong with rows that do not hold the values the header promises."""
-    count = 0
-    for number, row in enumerate(rows.split(b"\n"), start=first_row):
-        tokens = row.split()
-        for token in tokens:
-            try:
-                float(token)
-            except ValueError:
-                shown = token[:40].decode("utf-8", "replace")
-                return BvhError(f"{shown!r} is not a number", number)
-        if tokens and len(tokens) != num_channels:
-            return BvhError(
-                f"row holds {len(tokens)} values, the hierarchy has {num_channels} channels; "
-                "the file is damaged or cut off", number)  # fmt: skip
-        count += bool(tokens)
-    return BvhError(
-        f"Frames says {num_frames}, but {count} rows follow; the file is cut off, "
-        "or correct the number", first_row - 2)  # fmt: skip
+def _user_error(path: Path, error: BvhError) -> UserError:
+    return UserError(f"{path}{f', line {error.line}' if error.line else ''}: {error}")

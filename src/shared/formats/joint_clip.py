@@ -19,6 +19,7 @@ class JointClip:
         rotations: of each joint against its parent [T,22,3,3].
         root: world position of the pelvis [T,3], metres.
         offsets: bones at rest [22,3], metres.
+        ours: the body is our own, so places are taken as they are.
     """
 
     rotations: np.ndarray
@@ -28,6 +29,7 @@ class JointClip:
     names: tuple[str, ...] = JOINT_NAMES
     parents: tuple[int, ...] = PARENTS
     metres: float = 1.0
+    ours: bool = False
 
     @property
     def num_frames(self) -> int:

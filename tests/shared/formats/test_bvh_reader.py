@@ -160,14 +160,15 @@ def test_stride_skips_frames_and_stretches_time(tmp_path: Path) -> None:
 
 
 FAULTS = {
-    "empty": ("", "HIERARCHY"),
+    "empty": ("", "is empty"),
     "other text": ("hello\n", "line 1: does not start with HIERARCHY"),
     "binary": (b"HIERARCHY\x00\xff\xfe", "binary"),
     "no motion": (HEADER, "no MOTION"),
     "cut hierarchy": (HEADER[:150], "is missing"),
     "frames missing": (GOOD.replace("Frames: 3\n", ""), "not followed by"),
     "negative frames": (GOOD.replace("Frames: 3", "Frames: -3"), "line 21: Frames is -3"),
-    "huge frames": (GOOD.replace("Frames: 3", "Frames: 99999999999999"), "3 rows follow"),
+    "huge frames": (GOOD.replace("Frames: 3", "Frames: 99999999999999"), "line 21: Frames is 99"),
+    "many frames": (GOOD.replace("Frames: 3", "Frames: 1000000"), "3 rows follow"),
     "frames not a number": (GOOD.replace("Frames: 3", "Frames: many"), "'many'"),
     "frames mismatch": (GOOD.replace("Frames: 3", "Frames: 2"), "line 21: Frames says 2, but 3"),
     "frame time": (GOOD.replace(".0083333", "0"), "line 22: Frame Time 0"),
@@ -219,6 +220,16 @@ def test_deep_nesting_is_no_recursion(tmp_path: Path) -> None:
     too_many = deep + "JOINT more\n{\n" * 600
     with pytest.raises(UserError, match="more than 2000 joints"):
         read_bvh(save(tmp_path, f"HIERARCHY\n{too_many}"))
+
+
+def test_long_files_are_read_in_blocks(tmp_path: Path) -> None:
+    values = np.random.default_rng(0).uniform(-180, 180, (60_000, 13)).round(5)
+    rows = "\n".join(" ".join(map(str, row)) for row in values.tolist())
+    text = GOOD.replace("Frames: 3", "Frames: 60000").split(".0083333")[0] + ".01\n" + rows
+    assert len(text) > 6 << 20  # more than one block
+    np.testing.assert_array_equal(read_bvh(save(tmp_path, text)).values, values)
+    with pytest.raises(UserError, match="line 60022: row holds 12"):
+        read_bvh(save(tmp_path, text.rsplit(" ", 1)[0]))
 
 
 @settings(max_examples=150, deadline=None,

@@ -1,0 +1,189 @@
+"""Where a skeleton's local axes point in a T-pose, when neither its rest pose nor a profile says.
+
+Files of some suites (LaFAN1, MotionBuilder) rest with all bones along one axis, which tells bone
+lengths and nothing more. What else is known: pelvis and chest carry several bones, which fix their
+axes; knees and elbows bend one way only, which fixes those of thigh and upper arm; a chain whose
+bones lie alike keeps its axes; and of any other joint, people do not stay twisted: averaged over
+the recording its twist against its parent is taken to be none.
+Legend: T frames, N source joints.
+"""
+
+import numpy as np
+
+from src.shared.data.guesses import SAMPLES, joint_indices
+from src.shared.data.mapping import SkeletonMapping
+from src.shared.formats.source_clip import SourceClip
+from src.shared.motion.skeleton import JOINT_INDEX, JOINT_NAMES, PARENTS, canonical_skeleton
+
+LEFT, UP = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])
+# Joints that carry several bones: what lies left, right and above in their own axes.
+_FRAMES = {"pelvis": ("l_hip", "r_hip", ("spine1", "spine2", "spine3", "neck")),
+           "spine3": ("l_shoulder", "r_shoulder", ("neck", "head"))}  # fmt: skip
+# Upper joint of a limb: its end joints, and the axis about which the middle one bends (T-pose).
+_BENDS = {"l_hip": ("l_knee", "l_ankle", LEFT), "r_hip": ("r_knee", "r_ankle", LEFT),
+          "l_shoulder": ("l_elbow", "l_wrist", -UP),
+          "r_shoulder": ("r_elbow", "r_wrist", UP)}  # fmt: skip
+BENT = 0.1  # mean sine of the bend below which it tells nothing
+NEAR = np.pi / 3  # a joint without a bone keeps its parent's axes, if they are this near
+ALIKE = 0.98  # cosine: two bones of a chain lie alike; a bone lies along an axis
+
+
+def calibrated_axes(
+    clip: SourceClip, mapping: SkeletonMapping, aim: dict[str, str]
+) -> dict[str, np.ndarray]:
+    """Rotation [3,3] of each of our mapped joints: its source's axes in the T-pose.
+
+    Args:
+        aim: our joint -> the child whose bone it aims.
+    """
+    found: dict[str, np.ndarray] = {}
+    look = _Look(clip, mapping)
+    for ours in sorted(mapping.joints, key=JOINT_NAMES.index):
+        above = _mapped_parent(ours, found)
+        child = aim.get(ours)
+        bone = look.bone(ours, child)
+        rest = canonical_skeleton().offsets[JOINT_INDEX[child or ours]].astype(np.float64)
+        axes = look.branching(ours, required=above is None)
+        if axes is None and above is not None:
+            if bone is None:
+                axes = _mean_rotation(look.relative(ours, above, found[above]))
+                near = np.trace(axes.T @ found[above]) > 1 + 2 * np.cos(NEAR)
+                axes = found[above] if near else axes
+            else:
+                axes = look.bending(ours, bone, rest)
+            if axes is None and bone is not None and _alike(found[above] @ bone, rest):
+                axes = found[above]
+            if axes is None and bone is not None:
+                relative = look.relative(ours, above, found[above])
+                axes = _untwisted(relative, _first(bone, rest), rest)
+        if axes is None:
+            axes = np.eye(3)
+        found[ours] = _snapped(axes) if bone is None or np.abs(bone).max() > ALIKE else axes
+    return found
+
+
+class _Look:
+    """Frames of a clip, and what they say of its joints."""
+
+    def __init__(self, clip: SourceClip, mapping: SkeletonMapping) -> None:
+        stride = max(1, clip.num_frames // SAMPLES)
+        self.positions, self.world = clip.every(stride).world()
+        self.index = joint_indices(clip, mapping)
+        self.reach = max(1e-9, float(np.abs(clip.offsets).max()))
+
+    def steps(self, start: str, end: str, frame_of: str) -> np.ndarray:
+        """From one joint to another in the axes of a third [T,3]."""
+        step = self.positions[:, self.index[end]] - self.positions[:, self.index[start]]
+        return np.asarray((step[:, None] @ self.world[:, self.index[frame_of]])[:, 0])
+
+    def bone(self, ours: str, child: str | None) -> np.ndarray | None:
+        """Direction [3] of a joint's bone in its own axes; None if it has none."""
+        if child not in self.index or child is None:
+            return None
+        bone = self.steps(ours, child, ours).mean(0)
+        length = np.linalg.norm(bone)
+        return bone / length if length > 1e-6 * self.reach else None
+
+    def relative(self, ours: str, above: str, axes: np.ndarray) -> np.ndarray:
+        """Rotation of a joint against a parent with known axes [T,3,3]."""
+        parent = self.world[:, self.index[above]] @ axes.T
+        return np.asarray(np.swapaxes(parent, -1, -2) @ self.world[:, self.index[ours]])
+
+    def branching(self, ours: str, *, required: bool) -> np.ndarray | None:
+        """Axes [3,3] of a joint that carries several bones."""
+        if ours not in _FRAMES and not required:
+            return None
+        left, right, higher = _FRAMES.get(ours, _FRAMES["pelvis"])
+        up = next(name for name in higher if name in self.index)
+        across = self.steps(right, left, ours).mean(0)
+        return _frame(across, self.steps(ours, up, ours).mean(0), LEFT, UP)
+
+    def bending(self, ours: str, bone: np.ndarray, rest: np.ndarray) -> np.ndarray | None:
+        """Axes [3,3] of a limb's upper joint, by the way the limb bends."""
+        if ours not in _BENDS:
+            return None
+        middle, end, hinge = _BENDS[ours]
+        lower = self.steps(middle, end, ours)
+        lower /= np.maximum(np.linalg.norm(lower, axis=-1, keepdims=True), 1e-9)
+        normals = np.cross(bone, lower)  # length: sine of the bend
+        mean = normals.mean(0)
+        if np.linalg.norm(mean) < max(BENT, 0.7 * np.linalg.norm(normals, axis=-1).mean()):
+            return None
+        return _frame(bone, mean, rest, hinge)
+
+
+def _mapped_parent(ours: str, found: dict[str, np.ndarray]) -> str | None:
+    """The nearest of our joints above that is mapped."""
+    joint = PARENTS[JOINT_INDEX[ours]]
+    while joint >= 0 and JOINT_NAMES[joint] not in found:
+        joint = PARENTS[joint]
+    return JOINT_NAMES[joint] if joint >= 0 else None
+
+
+def _frame(
+    first: np.ndarray, second: np.ndarray, onto: np.ndarray, near: np.ndarray
+) -> np.ndarray | None:
+    """Rotation [3,3] that turns `first` onto `onto` and `second` near `near`; None if undefined."""
+    sides = []
+    for one, other in ((onto, near), (first, second)):
+        size = np.linalg.norm(one) * np.linalg.norm(other)
+        third = np.cross(one, other)
+        if size < 1e-12 or np.linalg.norm(third) < 0.5 * size:
+            return None
+        one, third = one / np.linalg.norm(one), third / np.linalg.norm(third)
+        sides.append(np.stack([one, np.cross(third, one), third]))
+    return np.asarray(sides[0].T @ sides[1])
+
+
+def _alike(one: np.ndarray, other: np.ndarray) -> bool:
+    return bool(one @ other > ALIKE * np.linalg.norm(one) * np.linalg.norm(other))
+
+
+def _snapped(axes: np.ndarray) -> np.ndarray:
+    """The nearest rotation that takes axes to axes."""
+    result, left = np.zeros((3, 3)), np.abs(axes)
+    for _ in range(3):
+        row, column = np.unravel_index(np.argmax(left), (3, 3))
+        result[row, column] = np.sign(axes[row, column])
+        left[row], left[:, column] = -1.0, -1.0
+    return result if np.linalg.det(result) > 0 else axes
+
+
+def _first(bone: np.ndarray, rest: np.ndarray) -> np.ndarray:
+    """Any rotation [3,3] that turns the direction `bone` onto `rest`."""
+    sides = []
+    for vector in (rest, bone):
+        x = vector / np.linalg.norm(vector)
+        y = np.cross(x, np.eye(3)[np.argmin(np.abs(x))])
+        y /= np.linalg.norm(y)
+        sides.append(np.stack([x, y, np.cross(x, y)]))
+    return np.asarray(sides[0].T @ sides[1])
+
+
+def _untwisted(relative: np.ndarray, first: np.ndarray, rest: np.ndarray) -> np.ndarray:
+    """`first`, turned about the bone so that the mean twist against the parent is none.
+
+    Args:
+        relative: the joint's rotation against its parent in our axes [T,3,3].
+        rest: the bone in the T-pose [3].
+    """
+    axis = rest / np.linalg.norm(rest)
+    local = relative @ first.T
+    # Twice the quaternion's w and its part along the axis, up to one factor per frame: their
+    # angle is the twist (swing–twist), their length its weight (none at half a turn of swing).
+    w = 1 + np.trace(local, axis1=-2, axis2=-1)
+    skew = np.stack([local[:, 2, 1] - local[:, 1, 2], local[:, 0, 2] - local[:, 2, 0],
+                     local[:, 1, 0] - local[:, 0, 1]], -1)  # fmt: skip
+    twist = 2 * np.arctan2(skew @ axis, w)
+    weight = w**2 + (skew @ axis) ** 2
+    angle = np.arctan2((weight * np.sin(twist)).sum(), (weight * np.cos(twist)).sum())
+    x, y, z = axis
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    turn = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+    return np.asarray(turn @ first)
+
+
+def _mean_rotation(rotations: np.ndarray) -> np.ndarray:
+    """The rotation nearest to the mean of rotations [T,3,3]."""
+    u, _, v = np.linalg.svd(rotations.mean(0))
+    return np.asarray(u @ np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ v)) or 1.0]) @ v)
