@@ -15,6 +15,7 @@ from src.shared.inference.editing import Given, Place, kept_error, place_of
 from src.shared.inference.filling import fill, finish
 from src.shared.inference.motion_stream import Passage, StreamSettings, stream_features
 from src.shared.inference.path_following import NATURAL, path_error, time_path
+from src.shared.inference.settling import frames_of, settled
 from src.shared.inference.timeline import Timeline, add_parts, make_loop, make_timeline
 from src.shared.model.generation.motion_generator import MotionGenerator
 from src.shared.motion.motion import Motion
@@ -150,9 +151,10 @@ def natural_gait(
     A prompt may say backward or sideways; the angle is a multiple of a quarter turn.
     """
     (features,) = stream_features(generator, [replace(passage, frames=90)], **vars(settings))
-    forward, lateral = features[15:, ROOT_ROW, [FORWARD, LATERAL]].mean(0).tolist()
-    speed = float(np.hypot(forward, lateral))
-    if speed < STANDING:
+    ground = features[:, ROOT_ROW, [FORWARD, LATERAL]].numpy()  # 90 2
+    speed = float(np.percentile(np.hypot(*ground.T), 75))  # it may have to start first
+    forward, lateral = ground.mean(0)
+    if np.hypot(forward, lateral) < STANDING:
         return NATURAL, 0.0
     return speed, -float(np.round(np.arctan2(lateral, forward) / (np.pi / 2)) * (np.pi / 2))
 
@@ -164,9 +166,14 @@ def by_timeline(
     *,
     foot_lock: bool | None = None,
 ) -> Directed:
-    """One motion with several texts."""
+    """One motion with several texts; what `MotionStream` gives for them, in one piece.
+
+    Returns:
+        errors: none, as nothing is given.
+    """
     features = make_timeline(generator, timeline, settings)
-    return Directed(finish(generator, features, None, text=timeline.text, foot_lock=foot_lock))
+    motion = settled(generator, features, foot_lock=foot_lock)
+    return Directed(replace(motion, text=timeline.text))
 
 
 def in_a_loop(
@@ -194,7 +201,7 @@ def in_a_loop(
         "travel": float(np.hypot(after.x - before.x, after.z - before.z)),
         "turn": float(np.degrees(after.heading - before.heading)),
     }
-    once = cut(rounds, frames, 2 * frames)
+    once = frames_of(rounds, frames, 2 * frames)
     return Directed(moved_to(once, Place()), errors)
 
 
@@ -217,16 +224,6 @@ def join_error(rounds: Motion, frames: int) -> dict[str, float]:
         "join_acceleration": float(sizes[near].max()),
         "p99_acceleration": float(np.percentile(sizes[~near], 99)),
     }
-
-
-def cut(motion: Motion, start: int, stop: int) -> Motion:
-    """Frames [start, stop) of a motion."""
-    return replace(
-        motion,
-        quaternions=motion.quaternions[start:stop],
-        root_position=motion.root_position[start:stop],
-        contacts=motion.contacts[start:stop],
-    )
 
 
 def moved_to(motion: Motion, place: Place) -> Motion:

@@ -14,6 +14,7 @@ from torch import Tensor
 
 from src.shared.inference.editing import GROUND, Given, Place
 from src.shared.inference.motion_stream import OVERLAP, Passage, StreamSettings, stream_features
+from src.shared.inference.trajectory_constraint import untwisted
 from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import MotionGenerator
 from src.shared.motion.motion import Motion
@@ -126,6 +127,8 @@ def finish(
     if foot_lock is not None:
         config = config.model_copy(update={"foot_lock": foot_lock})
     place = place or Place()
+    own = untwisted(features)  # what was made of the pelvis may have a heading of its own
+    features = own if known is None else torch.where(known[:, : features.shape[1]], features, own)
     return MotionPostProcessor(config)(
         features,
         known=known,

@@ -7,6 +7,7 @@ heading, so windows are chained as they are. One window is in memory at a time.
 Letters: T frames, R rows (bones, root track), C channels, O frames that neighbours share.
 """
 
+import time
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -17,8 +18,11 @@ from torch import Tensor
 
 from src.shared.errors import UsageError
 from src.shared.inference.borders import smooth_borders
+from src.shared.inference.editing import Place
+from src.shared.inference.settling import Settler
 from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import MotionGenerator
+from src.shared.motion.motion import Motion
 
 WINDOW, OVERLAP = 150, 30  # frames
 SHORTEST = 48  # frames; a shorter window is made as long as this and cut: training saw few
@@ -161,3 +165,129 @@ def lengthened(known: Constraint, frames: int) -> Constraint:
         values=torch.cat((known.values, free.values)),
         known=torch.cat((known.known, free.known)),
     )
+
+
+# ---------------------------------------------------------------- settled motion
+
+
+@dataclass(frozen=True)
+class Latency:
+    """How far a stream is behind.
+
+    Attributes:
+        first: seconds of computing until the first piece was there; None before.
+        lookahead: seconds of motion that must be made behind a frame before it settles.
+        reaction: seconds of motion, at most, between what is seen and what a new text changes.
+        load: seconds of computing for a second of motion, since the first piece; below 1 it is
+            faster than real time. None before.
+    """
+
+    first: float | None
+    lookahead: float
+    reaction: float
+    load: float | None
+
+
+class MotionStream:
+    """Motion without end, in pieces that follow each other, while prompts change.
+
+        stream = MotionStream(generator, "a person walks forward")
+        for piece in stream:
+            show(piece)
+            if tired:
+                stream.say("a person sits down")
+
+    Pieces stand where the ones before led to; what has been given out never changes. Joined, they
+    are the same motion however they were cut.
+
+    Args:
+        generator: trained.
+        prompts: one text, that goes on until `say` or `stop`; or any iterable of texts and
+            passages, taken one by one, after which the stream ends.
+        seconds: of a text that comes without a length. The shorter, the sooner a new one is heard.
+        constraint: see `stream_features`.
+        place: of the first frame; None = the origin, facing +Z.
+        window, overlap: see `stream_features`.
+        settings: of sampling.
+        foot_lock: hold standing feet; None = the model's own setting.
+
+    Raises:
+        UserError: while it runs, as `stream_features`.
+    """
+
+    def __init__(
+        self,
+        generator: MotionGenerator,
+        prompts: str | Iterable[str | Passage],
+        *,
+        seconds: float = 2.0,
+        constraint: ConstraintOf | None = None,
+        place: Place | None = None,
+        window: int = WINDOW,
+        overlap: int = OVERLAP,
+        settings: StreamSettings | None = None,
+        foot_lock: bool | None = None,
+    ) -> None:
+        self._fps = generator.card.fps
+        self._frames = round(seconds * self._fps)
+        self._prompts = [] if isinstance(prompts, str) else prompts
+        self._now = Passage(prompts, self._frames) if isinstance(prompts, str) else None
+        self._constraint = constraint
+        self._settler = Settler.of(generator, place=place, foot_lock=foot_lock)
+        self._pieces = stream_features(
+            generator,
+            self._passages(),
+            constraint=constraint,
+            window=window,
+            overlap=overlap,
+            **vars(settings or StreamSettings()),
+        )
+        self._text, self._made, self._window = "", 0, window - overlap
+        self._first: float | None = None
+        self._spent, self._given = 0.0, 0  # since the first piece: seconds, frames
+
+    def say(self, text: str, *, tag: str | None = None) -> None:
+        """What is shown from the next window on, in place of the text so far."""
+        self._now = Passage(text, self._frames, tag)
+
+    def stop(self) -> None:
+        """End after what is made already."""
+        self._now = None
+
+    def __iter__(self) -> Iterator[Motion]:
+        """Pieces of one frame or more; see the class."""
+        started = time.perf_counter()
+        for features in self._pieces:
+            start, self._made = self._made, self._made + len(features)
+            given = None if self._constraint is None else self._constraint(start, self._made)
+            piece = self._settler.add(features, None if given is None else given.known)
+            if piece is not None:
+                self._count(time.perf_counter() - started, piece.num_frames)
+                yield replace(piece, text=self._text)
+                started = time.perf_counter()
+        piece = self._settler.finish()
+        if piece is not None:
+            yield replace(piece, text=self._text)
+
+    @property
+    def latency(self) -> Latency:
+        """As measured so far."""
+        lookahead = self._settler.lookahead / self._fps
+        window = min(self._window, self._frames) / self._fps
+        load = self._spent * self._fps / self._given if self._given else None
+        return Latency(self._first, lookahead, lookahead + window, load)
+
+    def _passages(self) -> Iterator[Passage]:
+        for prompt in self._prompts:
+            passage = Passage(prompt, self._frames) if isinstance(prompt, str) else prompt
+            self._text = passage.text
+            yield passage
+        while self._now is not None:
+            self._text = self._now.text
+            yield self._now
+
+    def _count(self, seconds: float, frames: int) -> None:
+        if self._first is None:
+            self._first = seconds
+        else:
+            self._spent, self._given = self._spent + seconds, self._given + frames

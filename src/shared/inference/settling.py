@@ -1,0 +1,260 @@
+"""Post-processing of a motion that is still being made: frames settle a little behind it.
+
+The steps are those of `MotionPostProcessor`, one class each; every class takes pieces of any length
+and gives back what no longer changes. Smoothing waits for a frame or two, the foot lock for `AHEAD`
+frames; there it differs from that of a whole motion, which sees to the end of every step.
+
+Letters: T frames, R rows (bones, root track), C channels.
+"""
+
+from dataclasses import replace
+from functools import reduce
+from typing import Any
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from src.shared.config_schema import PostProcessingConfig
+from src.shared.inference.editing import Place
+from src.shared.model.generation.motion_generator import MotionGenerator
+from src.shared.motion.foot_lock import kept_legs, lock_feet
+from src.shared.motion.motion import Motion
+from src.shared.motion.postprocess import clamp_velocity, smooth_features
+from src.shared.motion.root_track import ROOT_ROW, decode_features, integrate_root
+from src.shared.motion.rotations import (
+    quaternion_conjugate,
+    quaternion_continuous,
+    quaternion_multiply,
+    quaternion_slerp,
+)
+
+BLOCK, AHEAD, BEHIND = 15, 12, 24  # frames: locked at once, waited for, remembered
+FADE = 10  # frames in which the correction at the end of a block fades out in the next one
+
+Piece = tuple[Tensor, Tensor]  # features [t,R,6] and what is known of them, bool
+
+
+class Smoother:
+    """Smooths all but the known entries; the last frames wait for their neighbours."""
+
+    def __init__(self, kernel_size: int) -> None:
+        self.kernel_size, self.reach = kernel_size, kernel_size // 2
+        self._raw: Tensor | None = None  # what waits, and `reach` frames before it
+        self._known = torch.zeros(0)
+        self._behind = 0  # of them, frames that were given back
+
+    def add(self, features: Tensor, known: Tensor) -> Piece:
+        """What settles with these next frames [t,R,6]."""
+        if self._raw is not None:
+            features = torch.cat((self._raw, features))
+            known = torch.cat((self._known, known))
+        return self._settle(features, known, len(features) - self.reach)
+
+    def finish(self) -> Piece | None:
+        """The last frames; None where there were none at all."""
+        if self._raw is None:
+            return None
+        return self._settle(self._raw, self._known, len(self._raw))
+
+    def _settle(self, features: Tensor, known: Tensor, stop: int) -> Piece:
+        smooth = features
+        if len(features):
+            smooth = smooth_features(features, self.kernel_size)
+            smooth = torch.where(known, features, smooth)
+        start = self._behind
+        stop = max(start, stop)
+        keep = max(0, stop - self.reach)
+        self._raw, self._known, self._behind = features[keep:], known[keep:], stop - keep
+        return smooth[start:stop], known[start:stop]
+
+
+class Decoder:
+    """Features to motion, each piece placed where the one before led to."""
+
+    def __init__(self, max_velocity: float | None, fps: float, place: Place) -> None:
+        self.max_velocity, self.fps, self.place = max_velocity, fps, place
+        self._before: Tensor | None = None  # quaternions [22,4] of the last frame
+
+    def add(self, features: Tensor) -> Motion:
+        """The next frames [t,R,6], t ≥ 1."""
+        place: dict[str, Any] = {
+            "start_position": (self.place.x, self.place.z),
+            "start_heading": self.place.heading,
+        }
+        motion = decode_features(features, fps=self.fps, **place)
+        if features.shape[1] > ROOT_ROW:
+            root = features[:, ROOT_ROW].double()
+            path, heading = integrate_root(torch.cat((root, root[-1:])), self.fps, **place)
+            x, _, z = path[-1].tolist()
+            self.place = Place(x, z, float(heading[-1]))
+        quaternions = torch.as_tensor(motion.quaternions)
+        if self._before is not None:
+            quaternions = torch.cat((self._before[None], quaternions))
+            quaternions = quaternion_continuous(quaternions, dim=0)
+        quaternions = clamp_velocity(quaternions, self.max_velocity, self.fps)
+        quaternions = quaternions[-motion.num_frames :]
+        self._before = quaternions[-1]
+        return replace(motion, quaternions=quaternions.numpy())
+
+
+class FootLock:
+    """Holds standing feet, block by block.
+
+    A block sees the settled frames before it, whose feet stay where they are, and some frames after
+    it. What the lock had corrected at the end of one block fades out in the next one unless a foot
+    stands on.
+    """
+
+    def __init__(self) -> None:
+        self._waiting: Motion | None = None
+        self._known = torch.zeros(0)
+        self._settled: Motion | None = None  # the last `BEHIND` frames
+        self._unlocked: Tensor | None = None  # quaternions [22,4] of the last one, as they came
+
+    def add(self, motion: Motion | None, known: Tensor, *, last: bool = False) -> Motion | None:
+        """The blocks that settle with these next frames."""
+        if motion is not None and self._waiting is not None:
+            motion, known = joined(self._waiting, motion), torch.cat((self._known, known))
+        elif motion is None:
+            motion, known = self._waiting, self._known
+        settled: Motion | None = None
+        while motion is not None and (last or motion.num_frames >= BLOCK + AHEAD):
+            block = self._block(motion, known)
+            settled = block if settled is None else joined(settled, block)
+            rest = motion.num_frames - BLOCK
+            motion = frames_of(motion, BLOCK, motion.num_frames) if rest > 0 else None
+            known = known[BLOCK:]
+        self._waiting, self._known = motion, known
+        return settled
+
+    def _block(self, motion: Motion, known: Tensor) -> Motion:
+        """The first `BLOCK` frames, or fewer at the end, with what is seen beyond them."""
+        size = min(BLOCK, motion.num_frames)
+        ahead = min(motion.num_frames, BLOCK + AHEAD)
+        wanted, legs = frames_of(motion, 0, ahead), kept_legs(known[:ahead])
+        raw = torch.as_tensor(wanted.quaternions)
+        behind = 0
+        if self._settled is not None and self._unlocked is not None:
+            behind = self._settled.num_frames
+            corrected = torch.as_tensor(self._settled.quaternions[-1])
+            wanted = replace(wanted, quaternions=_faded(raw, corrected, self._unlocked, legs))
+            wanted = joined(self._settled, wanted)
+            legs = np.concatenate((np.ones((behind, 2), dtype=bool), legs))
+        locked = lock_feet(wanted, kept=legs)
+        self._unlocked = raw[size - 1]
+        self._settled = frames_of(locked, max(0, behind + size - BEHIND), behind + size)
+        return frames_of(locked, behind, behind + size)
+
+
+def _faded(raw: Tensor, corrected: Tensor, before: Tensor, legs: np.ndarray) -> np.ndarray:
+    """Quaternions [T,22,4] that first differ from `raw` as `corrected` does from `before` [22,4].
+
+    Known legs [T,2] end it at once: they are not to be touched.
+    """
+    miss = quaternion_multiply(quaternion_conjugate(before), corrected)
+    x = torch.arange(1, len(raw) + 1) / (FADE + 1)
+    share = (1 - x.clamp(0, 1) ** 2 * (3 - 2 * x.clamp(0, 1))) * ~torch.as_tensor(legs.any(1))
+    still = torch.zeros_like(raw)
+    still[..., 0] = 1.0
+    turns = quaternion_slerp(still, miss.expand_as(raw), share[:, None, None])
+    return quaternion_continuous(quaternion_multiply(raw, turns), dim=0).numpy()
+
+
+class Settler:
+    """All of it, as configured.
+
+    Args:
+        config: what is done.
+        fps: frames a second.
+        place: of the first frame; None = the origin, facing +Z.
+    """
+
+    def __init__(
+        self, config: PostProcessingConfig, *, fps: float, place: Place | None = None
+    ) -> None:
+        self._smoother = Smoother(config.smoothing_kernel)
+        self._decoder = Decoder(config.max_velocity, fps, place or Place())
+        self._lock = FootLock() if config.foot_lock else None
+        self._before: np.ndarray | None = None  # quaternions [22,4] of the last frame given back
+
+    @classmethod
+    def of(
+        cls,
+        generator: MotionGenerator,
+        *,
+        place: Place | None = None,
+        foot_lock: bool | None = None,
+    ) -> "Settler":
+        """As a generator's own motions are finished; `foot_lock` goes before its setting."""
+        config = generator.network.generation.post_processing
+        if foot_lock is not None:
+            config = config.model_copy(update={"foot_lock": foot_lock})
+        return cls(config, fps=generator.card.fps, place=place)
+
+    @property
+    def lookahead(self) -> int:
+        """Frames that must be there behind a frame before it settles, at most."""
+        return self._smoother.reach + (0 if self._lock is None else AHEAD + BLOCK - 1)
+
+    def add(self, features: Tensor, known: Tensor | None = None) -> Motion | None:
+        """The frames that settle with these next ones; None where none does.
+
+        Args:
+            features: raw [t,R,6].
+            known: bool [t,R,6], entries that stay as they are.
+        """
+        mask = torch.zeros(features.shape, dtype=torch.bool) if known is None else known
+        return self._go_on(self._smoother.add(features, mask[:, : features.shape[1]]), last=False)
+
+    def finish(self) -> Motion | None:
+        """The frames that waited for more; None where there are none."""
+        piece = self._smoother.finish()
+        return None if piece is None else self._go_on(piece, last=True)
+
+    def _go_on(self, piece: Piece, *, last: bool) -> Motion | None:
+        smooth, mask = piece
+        motion = self._decoder.add(smooth) if len(smooth) else None
+        if self._lock is not None:
+            motion = self._lock.add(motion, mask, last=last)
+        if motion is not None and self._before is not None:
+            motion = replace(motion, quaternions=_following(motion.quaternions, self._before))
+        if motion is not None:
+            self._before = motion.quaternions[-1]
+        return motion
+
+
+def settled(
+    generator: MotionGenerator, features: Tensor, *, foot_lock: bool | None = None
+) -> Motion:
+    """All of some features [T,R,6] at once: what their pieces, joined, would be."""
+    settler = Settler.of(generator, foot_lock=foot_lock)
+    pieces = [settler.add(features), settler.finish()]
+    return reduce(joined, [piece for piece in pieces if piece is not None])
+
+
+def _following(quaternions: np.ndarray, before: np.ndarray) -> np.ndarray:
+    """Quaternions [T,22,4] with the signs that carry on from those before them [22,4]."""
+    flipped = (quaternions[0] * before).sum(-1, keepdims=True) < 0
+    return np.where(flipped, -quaternions, quaternions)
+
+
+def joined(first: Motion, second: Motion) -> Motion:
+    """Two motions one after the other, both where they are; quaternion signs go on."""
+    quaternions = np.concatenate((first.quaternions, second.quaternions))
+    return replace(
+        first,
+        quaternions=quaternion_continuous(torch.as_tensor(quaternions), dim=0).numpy(),
+        root_position=np.concatenate((first.root_position, second.root_position)),
+        contacts=np.concatenate((first.contacts, second.contacts)),
+    )
+
+
+def frames_of(motion: Motion, start: int, stop: int) -> Motion:
+    """Frames [start, stop) of a motion."""
+    return replace(
+        motion,
+        quaternions=motion.quaternions[start:stop],
+        root_position=motion.root_position[start:stop],
+        contacts=motion.contacts[start:stop],
+    )
