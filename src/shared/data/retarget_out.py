@@ -10,37 +10,30 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.data.guesses import guess_up, joint_indices, upright
+from src.shared.data.guesses import guess_up, joint_indices, rest_frame, upright
 from src.shared.data.mapping import SkeletonMapping, find_mapping, load_mappings
 from src.shared.data.retarget import leg_length, rest_corrections
 from src.shared.errors import UserError
-from src.shared.formats.bvh import read_bvh
+from src.shared.formats.bvh import BvhClip, read_bvh
 from src.shared.formats.glb_character import write_glb_character
 from src.shared.formats.glb_reader import GlbSkeleton, read_glb_skeleton
 from src.shared.formats.registry import check_motion, write_clip
 from src.shared.formats.rig import Rig, RigClip, canonical_rig
 from src.shared.motion.motion import Motion
-from src.shared.motion.skeleton import (
-    FOOT_JOINTS,
-    JOINT_INDEX,
-    JOINT_NAMES,
-    LEG_LENGTH,
-    REST_FOOT_HEIGHT,
-)
+from src.shared.motion.skeleton import JOINT_INDEX, LEG_LENGTH, NUM_JOINTS, REST_FOOT_HEIGHT
 
+HIPS = (JOINT_INDEX["l_hip"], JOINT_INDEX["r_hip"])
 STANDING = 0.3  # of the legs: feet of a rest pose that are no higher than this stand on the floor
 
 
-def retarget_out(
-    motion: Motion, rig: Rig, mapping: SkeletonMapping, *, up: str | None = None
-) -> RigClip:
+def retarget_out(motion: Motion, rig: Rig, mapping: SkeletonMapping, *, up: str = "Y") -> RigClip:
     """A motion as the movement of another skeleton, on the floor, at the motion's rate.
 
     Args:
         motion: what to carry over.
         rig: the skeleton, in its own unit.
         mapping: which of its joints play ours; all of them are there.
-        up: the rig's up axis, "Y" or "Z"; None guesses it from the rest pose.
+        up: the up axis of the rig's world: "Y", "Z", "-X", …
 
     Raises:
         UserError: the rig's legs have no length.
@@ -51,25 +44,29 @@ def retarget_out(
         raise UserError("the skeleton's legs have no length: check the mapping of hips, knees "
                         "and ankles")  # fmt: skip
     scale = legs / LEG_LENGTH
-    turn = upright(up or guess_up(rest, mapping)[0])  # the rig's world → ours
-    corrections = rest_corrections(rest, mapping)
-    index = joint_indices(rest, mapping)
-    players = {index[ours]: ours for ours in sorted(mapping.joints, key=JOINT_NAMES.index)}
-    ours_world = motion.global_rotations().astype(np.float64)
+    turn = upright(up)  # the rig's world → ours
+    ours = motion.global_rotations().astype(np.float64)
+    clip = replace(_turned(rest, mapping, ours, turn), fps=motion.fps, text=motion.text)
+    t_pose = _turned(rest, mapping, np.tile(np.eye(3), (1, NUM_JOINTS, 1, 1)), turn)
+    hips = motion.positions()[:, list(HIPS)].mean(1).astype(np.float64) * scale
+    hips[:, 1] += _lift(rest, t_pose, mapping, turn, scale)
+    return _placed(clip, joint_indices(rest, mapping), hips @ turn)
 
-    world = np.empty((motion.num_frames, len(rig.names), 3, 3))
+
+def _turned(rest: RigClip, mapping: SkeletonMapping, ours: np.ndarray, turn: np.ndarray) -> RigClip:
+    """The rig with the world rotations [T,22,3,3] of our joints, its root at rest."""
+    corrections = rest_corrections(rest, mapping)
+    players = {joint: name for name, joint in joint_indices(rest, mapping).items()}
+    world = np.empty((len(ours), len(rest.names), 3, 3))
     local = np.empty_like(world)
-    for joint, parent in enumerate(rig.parents):
+    for joint, parent in enumerate(rest.parents):
         above = world[:, parent] if parent >= 0 else np.broadcast_to(np.eye(3), world[:, 0].shape)
+        world[:, joint] = above
         if joint in players:
-            ours = players[joint]
-            world[:, joint] = turn.T @ ours_world[:, JOINT_INDEX[ours]] @ corrections[ours].T
-        else:
-            world[:, joint] = above
+            name = players[joint]
+            world[:, joint] = turn.T @ ours[:, JOINT_INDEX[name]] @ corrections[name].T
         local[:, joint] = above.swapaxes(-1, -2) @ world[:, joint]
-    translations = np.repeat(rig.offsets[None].astype(np.float64), motion.num_frames, 0)
-    clip = RigClip(rig, local, translations, motion.fps, motion.text)
-    return _placed(clip, motion, index, turn, scale)
+    return RigClip(rest.rig, local, np.repeat(rest.translations, len(ours), 0), rest.fps)
 
 
 def rest_clip(rig: Rig) -> RigClip:
@@ -78,16 +75,10 @@ def rest_clip(rig: Rig) -> RigClip:
     return RigClip(rig, turns, rig.offsets[None].astype(np.float64), 30.0)
 
 
-def _placed(
-    clip: RigClip, motion: Motion, index: dict[str, int], turn: np.ndarray, scale: float
-) -> RigClip:
-    """Move the pelvis so that the middle of the hips goes where ours does, times `scale`."""
-    hips = [JOINT_INDEX["l_hip"], JOINT_INDEX["r_hip"]]
-    wanted = motion.positions()[:, hips].mean(1).astype(np.float64) * scale
-    wanted[:, 1] += _lift(clip.rig, index, turn, scale)
+def _placed(clip: RigClip, index: dict[str, int], hips: np.ndarray) -> RigClip:
+    """Move the pelvis so that the middle of the hips is at `hips` [T,3], in the rig's world."""
     positions, world = clip.world()
-    found = positions[:, [index["l_hip"], index["r_hip"]]].mean(1)
-    step = wanted @ turn - found  # in the rig's world
+    step = hips - positions[:, [index["l_hip"], index["r_hip"]]].mean(1)
     mover = index["pelvis"] if _carries_hips(clip.rig, index) else 0
     parent = clip.parents[mover]
     if parent >= 0:
@@ -97,30 +88,25 @@ def _placed(
     return replace(clip, translations=translations)
 
 
-def _lift(rig: Rig, index: dict[str, int], turn: np.ndarray, scale: float) -> float:
-    """How far the rig's feet must go up, for the balls to stand as high as they do at rest.
+def _lift(
+    rest: RigClip, t_pose: RigClip, mapping: SkeletonMapping, turn: np.ndarray, scale: float
+) -> float:
+    """How much higher the hips must be than ours, scaled, for the feet to stand on the floor.
 
-    A rest pose whose feet are on the floor says how high that is; of others it is our own
-    height, scaled.
+    The balls of the feet shall be as high in our T-pose as in a rest pose that stands on the
+    floor; where the rest pose does not, as ours are, scaled.
     """
-    rest = rig.rest() @ turn.T  # +Y up
-    balls = [name for name in ("l_foot", "r_foot") if name in index]
-    if len(balls) < 2:
+    index = joint_indices(rest, mapping)
+    balls = [index[name] for name in ("l_foot", "r_foot") if name in index]
+    if not balls:
         return 0.0
-    height = float(np.mean([rest[index[name], 1] for name in balls]))
-    hips = float(np.mean([rest[index[f"{side}_hip"], 1] for side in "lr"]))
-    ours = _rest_hips_above_ball()
-    standing = 0.0 <= height < STANDING * scale * LEG_LENGTH
-    floor = height if standing else REST_FOOT_HEIGHT * scale
-    # In our rest pose the hips are at (ball + `ours`) · scale; the rig's ball is hips - height
-    # below them.
-    return floor + (hips - height) - (REST_FOOT_HEIGHT + ours) * scale
-
-
-def _rest_hips_above_ball() -> float:
-    """Metres from the ball of the foot up to the hip in our rest pose."""
-    rest = canonical_rig().rest()
-    return float(rest[JOINT_INDEX["l_hip"], 1] - rest[FOOT_JOINTS[0][1], 1])
+    heights = (t_pose.world()[0] @ turn.T)[0, :, 1]
+    below = heights[[index["l_hip"], index["r_hip"]]].mean() - heights[balls].mean()
+    floor = REST_FOOT_HEIGHT * scale
+    if rest_frame(rest, mapping) is not None:
+        ball = (rest.rig.rest() @ turn.T)[balls, 1].mean()
+        floor = ball if 0.0 <= ball < STANDING * scale * LEG_LENGTH else floor
+    return float(floor + below - canonical_rig().rest()[list(HIPS), 1].mean() * scale)
 
 
 def _carries_hips(rig: Rig, index: dict[str, int]) -> bool:
@@ -142,17 +128,19 @@ class Target:
         path: the file it came from.
         rig: the skeleton, in its file's unit.
         mapping: the profile that fits it.
+        up: its up axis.
         character: of a GLB, whose mesh then moves as well.
     """
 
     path: Path
     rig: Rig
     mapping: SkeletonMapping
+    up: str = "Y"
     character: GlbSkeleton | None = None
 
     def clip(self, motion: Motion) -> RigClip:
         """The motion on this skeleton."""
-        return retarget_out(motion, self.rig, self.mapping, up="Y" if self.character else None)
+        return retarget_out(motion, self.rig, self.mapping, up=self.up)
 
     def write(self, motion: Motion, path: Path) -> Path:
         """Write the motion on this skeleton in the format that `path` ends with.
@@ -172,32 +160,34 @@ class Target:
 
 
 def read_target(path: str | Path, *, mapping: Path | None = None) -> Target:
-    """A skeleton to move, from a BVH or GLB file; its own motion is left aside.
+    """A skeleton to move, from a BVH or GLB file; its own motion only tells its up axis.
 
     Args:
         path: the file.
         mapping: YAML with skeleton profiles that go before ours.
 
     Raises:
-        UserError: missing, damaged, or with joints that no profile maps.
+        UserError: missing, damaged, with several roots, or with joints that no profile maps.
     """
     path = Path(path)
-    character = read_glb_skeleton(path) if path.suffix.lower() == ".glb" else None
-    rig = character.rig if character else bvh_rig(path)
+    if path.suffix.lower() == ".glb":
+        character = read_glb_skeleton(path)
+        rig = character.rig
+        return Target(path, rig, _profile(path, rig.names, mapping), character=character)
+    clip = read_bvh(path)
+    profile = _profile(path, clip.names, mapping)
+    return Target(path, _bvh_rig(path, clip), profile, guess_up(clip, profile)[0])
+
+
+def _profile(path: Path, names: tuple[str, ...], extra: Path | None) -> SkeletonMapping:
     try:
-        profile = find_mapping(rig.names, load_mappings(mapping))
+        return find_mapping(names, load_mappings(extra))
     except UserError as error:
         raise UserError(f"{path}: {error}") from None
-    return Target(path, rig, profile, character)
 
 
-def bvh_rig(path: Path) -> Rig:
-    """The skeleton of a BVH file, in its own unit.
-
-    Raises:
-        UserError: missing, damaged or with several roots.
-    """
-    clip = read_bvh(path)
+def _bvh_rig(path: Path, clip: BvhClip) -> Rig:
+    """The skeleton of a BVH file, in its own unit."""
     roots = [name for name, parent in zip(clip.names, clip.parents, strict=True) if parent < 0]
     if len(roots) > 1:
         raise UserError(f"{path}: has the roots {', '.join(roots)}; a character has one")

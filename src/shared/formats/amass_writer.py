@@ -3,7 +3,7 @@
 | array           | shape   | type    | meaning                                                  |
 |-----------------|---------|---------|----------------------------------------------------------|
 | poses           | [T,156] | float64 | rotation vectors: 22 body joints, then 30 of the hands, 0 |
-| trans           | [T,3]   | float64 | of the model, metres, +Z up: pelvis - `SMPL_PELVIS`      |
+| trans           | [T,3]   | float64 | metres, +Z up: pelvis - `amass.SMPL_PELVIS`               |
 | mocap_framerate | ()      | float64 | frames a second                                          |
 | gender          | ()      | str     | neutral                                                  |
 | betas           | [16]    | float64 | 0: the mean shape                                        |
@@ -19,11 +19,10 @@ from pathlib import Path
 import numpy as np
 
 from src.shared.files import atomic_write
+from src.shared.formats.amass import SMPL_PELVIS
 from src.shared.formats.rig import quaternions_to_matrices
 from src.shared.motion.motion import Motion
 
-# SMPL turns about a pelvis that lies below its origin: metres, +Y up, mean neutral shape.
-SMPL_PELVIS = np.array([-0.002, -0.223, 0.028])
 Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])  # of our world
 BODY, ALL = 22, 52  # joints
 
@@ -42,7 +41,7 @@ def write_amass(motion: Motion, path: str | Path) -> Path:
         np.savez_compressed(
             stream,
             poses=poses,
-            trans=(motion.root_position.astype(np.float64) - SMPL_PELVIS) @ Z_UP.T,
+            trans=motion.root_position.astype(np.float64) @ Z_UP.T - SMPL_PELVIS,
             mocap_framerate=np.float64(motion.fps),
             gender=np.array("neutral"),
             betas=np.zeros(16),

@@ -123,10 +123,15 @@ def _hierarchy(rig: Rig, order: list[int], moving: list[int]) -> list[str]:
     level = -1
     for joint in order:
         depth = depths[joint] = depths[rig.parents[joint]] + 1
-        lines += ["\t" * closed + "}" for closed in range(level, depth - 1, -1)]
+        lines += [_pad(closed) + "}" for closed in range(level, depth - 1, -1)]
         level = depth
-        lines += _joint(rig, joint, "\t" * depth, joint in moving)
-    return lines + ["\t" * closed + "}" for closed in range(level, -1, -1)]
+        lines += _joint(rig, joint, _pad(depth), joint in moving)
+    return lines + [_pad(closed) + "}" for closed in range(level, -1, -1)]
+
+
+def _pad(depth: int) -> str:
+    """Indentation; that of long chains would outgrow their content."""
+    return "\t" * min(depth, 40)
 
 
 def _joint(rig: Rig, joint: int, pad: str, moves: bool) -> list[str]:

@@ -18,6 +18,7 @@ from src.shared.formats.limits import FRAME_RATES, MAX_FRAMES, MAX_JOINTS, MAX_V
 from src.shared.formats.rig import Rig, RigClip, quaternions_to_matrices
 
 DEFAULT_FPS = 30.0
+EVEN = 1e-3  # of a frame: keys that are no further from even times are taken as frames
 UNEVEN = 0.02  # relative difference of a node's three scales that no skeleton needs
 
 
@@ -283,16 +284,17 @@ def _times(keys: list[np.ndarray], num_nodes: int) -> tuple[np.ndarray, float]:
     densest = max(keys, key=len, default=np.zeros(1))
     if len(densest) < 2:
         return densest[:1], DEFAULT_FPS
-    fps = float(1.0 / np.median(np.diff(densest)))
-    mean = (len(densest) - 1) / float(densest[-1] - densest[0])
-    if abs(fps / mean - 1) < 1e-3:  # float32 times: the mean is the better measure
-        fps = mean
-    fps = round(fps, 3)
     start, end = min(k[0] for k in keys), max(k[-1] for k in keys)
+    fps = float(1.0 / np.median(np.diff(densest)))
+    even = np.linspace(start, end, len(densest))
+    exact = bool(np.abs(densest - even).max() < EVEN * (even[1] - even[0]))
+    if exact:  # times are float32: their mean step is the better measure
+        fps = (len(densest) - 1) / float(end - start)
+    fps = round(fps, 2) if abs(fps - round(fps, 2)) < 1e-4 else fps
     count = round((end - start) * fps) + 1 if FRAME_RATES[0] <= fps <= FRAME_RATES[1] else 0
     if not 0 < count <= MAX_FRAMES or count * num_nodes > MAX_VALUES // 16:
         raise GlbError(f"animates {end - start:g} s at {fps:g} frames a second, which is too much")
-    return start + np.arange(count) / fps, fps
+    return densest if exact else start + np.arange(count) / fps, fps
 
 
 def _moved(
