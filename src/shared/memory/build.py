@@ -1,16 +1,17 @@
 """From paired phrases of music and motion (`prepare-audio`) to a memory.
 
 Each is cut at bars; each piece gets two keys in the shared space, of its sound and of its body.
+What is done is kept in parts/ until the memory is whole, so that a stopped build goes on.
 
 Letters: B pieces at a time, C = 163 or 167 rows of sound, T frames, D width of the space.
 """
 
 import hashlib
 import json
-from collections.abc import Iterator, Sequence
-from itertools import islice
+import shutil
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 import torch
 from torch import Tensor
@@ -20,12 +21,13 @@ from src.shared.data.phrases.layout import PhraseRecord
 from src.shared.errors import UserError
 from src.shared.memory.folder import read_manifest
 from src.shared.memory.index import MemoryIndex, Phrase
-from src.shared.memory.search import add_library, library_installed
+from src.shared.memory.search import add_library, has_tables, library_installed, open_index
 from src.shared.memory.source import Piece, Progress, Source
 
-VERSION = 1  # of the method: another number builds anew
+VERSION = 2  # of the method: another number builds anew
 BATCH = 32
-BUFFER = 512  # pieces sorted by length before they are embedded, so that little is padding
+CHUNK = 64  # phrases of the data in a part: what an interruption costs at most
+PARTS = "parts"
 
 
 class Space(Protocol):
@@ -59,6 +61,8 @@ def build_memory(
 ) -> MemoryIndex:
     """Build and write the memory of a prepared audio folder; an up-to-date one is only opened.
 
+    Stopped, it goes on with the parts that are there and gives the same bytes.
+
     Args:
         data: what `prepare-audio` wrote, a folder or a URL.
         space: embeds sound and bodies.
@@ -75,24 +79,35 @@ def build_memory(
     """
     config = config or MemoryConfig()
     source = Source(str(data), split)
-    made_of = _made_of(source.records, space, config)
-    if _is_there(Path(out), made_of):
+    made_of, out = _made_of(source.records, space, config), Path(out)
+    if _made(out, made_of):
         progress(len(source.records), len(source.records))
-        return MemoryIndex.open(out)
-    pieces = source.pieces(config, progress)
-    index = MemoryIndex.from_phrases(
-        _embedded(pieces, space, source.root),
-        data=source.root,
-        split=split,
-        space=space.fingerprint,
-        space_name=space_name,
-        bars=config.bars,
-        made_of=made_of,
-        left_out=source.bad,
-    )
-    index.save(out)
-    if len(index) > config.library_above and library_installed():
-        return add_library(index, Path(out))
+    else:
+        parts = [
+            part
+            for first in range(0, len(source.records), CHUNK)
+            if (part := _part(source, first, space, config, out / PARTS, made_of, progress))
+        ]
+        if not parts:
+            raise UserError(
+                f"{source.root}: no phrase is long enough to be cut at bars; lower min-frames"
+            )
+        _joined(
+            parts,
+            data=source.root,
+            split=split,
+            space=space.fingerprint,
+            space_name=space_name,
+            bars=config.bars,
+            made_of=made_of,
+            left_out=source.bad,
+        ).save(out)
+        del parts  # they are mapped
+        shutil.rmtree(out / PARTS, ignore_errors=True)
+    index = open_index(out, library_above=config.library_above)
+    large = len(index) > config.library_above
+    if large and library_installed() and not has_tables(out):
+        return add_library(index, out)
     return index
 
 
@@ -103,30 +118,86 @@ def _made_of(records: Sequence[PhraseRecord], space: Space, config: MemoryConfig
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def _is_there(out: Path, made_of: str) -> bool:
+def _made(folder: Path, made_of: str) -> bool:
+    """Whether there is a memory that was made of this."""
     try:
-        return bool(read_manifest(out)["about"].get("made_of") == made_of)
+        return bool(read_manifest(folder)["about"].get("made_of") == made_of)
     except UserError:
         return False
 
 
-# ---------------------------------------------------------------- keys
+# ---------------------------------------------------------------- parts
 
 
-def _embedded(pieces: Iterator[Piece], space: Space, root: str) -> list[Phrase]:
-    """Pieces with their keys, in their order."""
-    found: list[Phrase] = []
-    while buffer := list(islice(pieces, BUFFER)):
-        order = sorted(range(len(buffer)), key=lambda n: len(buffer[n].body))
-        phrases: dict[int, Phrase] = {}
-        for start in range(0, len(order), BATCH):
-            numbers = order[start : start + BATCH]
-            made = _embed([buffer[number] for number in numbers], space)
-            phrases |= dict(zip(numbers, made, strict=True))
-        found += [phrases[number] for number in range(len(buffer))]
-    if not found:
-        raise UserError(f"{root}: no phrase is long enough to be cut at bars; lower min-frames")
-    return found
+def _part(
+    source: Source,
+    first: int,
+    space: Space,
+    config: MemoryConfig,
+    folder: Path,
+    made_of: str,
+    progress: Progress,
+) -> MemoryIndex | None:
+    """The pieces of `CHUNK` phrases from `first` on; None where all are too short.
+
+    Kept as a memory of its own. One that leaves a phrase out is not kept: the phrase may be better
+    next time.
+    """
+    last = min(first + CHUNK, len(source.records))
+    folder = folder / f"{first:08d}"
+    if _made(folder, made_of):
+        part = MemoryIndex.open(folder)
+        progress(last, len(source.records))
+        return part
+    bad = len(source.bad)
+    phrases = _embedded(list(source.pieces(config, progress, first=first, last=last)), space)
+    if not phrases:
+        return None
+    part = MemoryIndex.from_phrases(phrases, made_of=made_of)
+    if len(source.bad) == bad:
+        part.save(folder)
+    return part
+
+
+def _joined(parts: Sequence[MemoryIndex], **about: Any) -> MemoryIndex:
+    """The phrases of one or more memories of one space, in their order."""
+    songs = tuple(sorted({song for part in parts for song in part.songs}))
+    number = {song: n for n, song in enumerate(songs)}
+    renamed = [torch.tensor([number[song] for song in part.songs])[part.song] for part in parts]
+    lengths = torch.cat([part.offsets.diff() for part in parts])
+
+    def rows(name: str) -> Tensor:
+        return torch.cat([getattr(part, name) for part in parts])
+
+    def texts(name: str) -> tuple[str, ...]:
+        return tuple(text for part in parts for text in getattr(part, name))
+
+    return MemoryIndex(
+        audio_keys=rows("audio_keys"),
+        motion_keys=rows("motion_keys"),
+        start_phase=rows("start_phase"),
+        tempo=rows("tempo"),
+        song=torch.cat(renamed),
+        offsets=torch.nn.functional.pad(lengths.cumsum(0), (1, 0)),
+        trajectories=rows("trajectories"),
+        priors=rows("priors"),
+        songs=songs,
+        ids=texts("ids"),
+        captions=texts("captions"),
+        clips=texts("clips"),
+        about=about,
+    )
+
+
+def _embedded(pieces: Sequence[Piece], space: Space) -> list[Phrase]:
+    """Pieces with their keys, in their order; embedded by length, so that little is padding."""
+    order = sorted(range(len(pieces)), key=lambda n: len(pieces[n].body))
+    phrases: dict[int, Phrase] = {}
+    for start in range(0, len(order), BATCH):
+        numbers = order[start : start + BATCH]
+        made = _embed([pieces[number] for number in numbers], space)
+        phrases |= dict(zip(numbers, made, strict=True))
+    return [phrases[number] for number in range(len(pieces))]
 
 
 def _embed(pieces: Sequence[Piece], space: Space) -> list[Phrase]:

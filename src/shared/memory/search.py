@@ -151,9 +151,7 @@ def open_index(folder: str | Path, *, library_above: int) -> MemoryIndex:
     """
     folder = Path(folder)
     index = MemoryIndex.open(folder)
-    files = read_manifest(folder)["files"]
-    has_tables = all(_file(key) in files for key in SIDES)
-    if len(index) <= library_above or not has_tables or not library_installed():
+    if len(index) <= library_above or not has_tables(folder) or not library_installed():
         return index
     import faiss
 
@@ -162,6 +160,12 @@ def open_index(folder: str | Path, *, library_above: int) -> MemoryIndex:
     except RuntimeError as error:
         raise UserError(f"{folder} is damaged ({error}); build the memory again") from error
     return LibraryIndex.of(index, tables)
+
+
+def has_tables(folder: Path) -> bool:
+    """Whether a memory has the tables of both sides."""
+    files = read_manifest(folder)["files"]
+    return all(_file(key) in files for key in SIDES)
 
 
 def _file(key: str) -> str:

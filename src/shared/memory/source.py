@@ -13,24 +13,15 @@ from typing import Any
 import numpy as np
 
 from src.shared.config_memory import MemoryConfig
-from src.shared.data.phrases.layout import (
-    MANIFEST,
-    BadContent,
-    PhraseRecord,
-    common_length,
-    decode_body,
-    decode_features,
-    decode_trajectory,
-    phase_rows,
-)
+from src.shared.data.phrases.decoded import read_phrase
+from src.shared.data.phrases.layout import MANIFEST, BadContent, PhraseRecord
 from src.shared.data.phrases.remote import Backoff, Remote, Unreachable
 from src.shared.data.phrases.store import PhraseStore
 from src.shared.errors import UserError
 from src.shared.memory.phrases import cut_at_bars
 from src.shared.memory.priors import prior_curves
 from src.shared.motion.root_track import LEFT_CONTACT, ROOT_ROW
-from src.shared.motion.trajectory import FPS, PHASE
-from src.shared.motion.trajectory_math import unwrap_phase
+from src.shared.motion.trajectory import FPS
 from src.shared.motion.window import encode_window, place_window
 
 ONSETS = 162  # row of a condition
@@ -95,13 +86,15 @@ class Source:
             if record.id in self._pairs and record.caption
         }
 
-    def pieces(self, config: MemoryConfig, progress: Progress) -> Iterator[Piece]:
-        """All phrases, cut at bars.
+    def pieces(
+        self, config: MemoryConfig, progress: Progress, *, first: int = 0, last: int | None = None
+    ) -> Iterator[Piece]:
+        """The phrases from `first` to before `last`, cut at bars.
 
         Raises:
             UserError: too many are bad.
         """
-        for done, record in enumerate(self.records, 1):
+        for done, record in enumerate(self.records[first:last], first + 1):
             try:
                 yield from self._cut(record, config)
             except (BadContent, Unreachable) as error:
@@ -118,20 +111,12 @@ class Source:
             )
 
     def _cut(self, record: PhraseRecord, config: MemoryConfig) -> Iterator[Piece]:
-        assert record.body is not None
-        trajectory = self.store.load(record.motion, decode_trajectory)
-        sound = self.store.load(record.features, decode_features)
-        body = self.store.load(record.body, decode_body)
-        frames = min(common_length(trajectory, sound), len(body))
-        audio = sound.stacked[:, :frames]
-        if sound.phase is not None:
-            audio = np.concatenate([audio, phase_rows(sound.phase[:frames], sound.meter)])
-        phase = unwrap_phase(trajectory[:frames, PHASE])
-        priors = prior_curves(
-            trajectory[:frames],
-            onsets=audio[ONSETS],
-            contacts=body[:frames, ROOT_ROW, LEFT_CONTACT:],
-        )
+        phrase = read_phrase(self.store, record, beat_phase=True, body=True)
+        trajectory, phase, audio = phrase.trajectory, phrase.phase, phrase.audio
+        assert phrase.body is not None  # `bare` phrases were refused
+        body = phrase.body.astype(np.float32)
+        contacts = body[:, ROOT_ROW, LEFT_CONTACT:]
+        priors = prior_curves(trajectory, onsets=audio[ONSETS], contacts=contacts)
         for start, stop in cut_at_bars(phase, bars=config.bars, min_frames=config.min_frames):
             part = slice(start, stop)
             window = encode_window(trajectory[part], phase[part])

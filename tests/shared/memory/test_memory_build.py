@@ -1,16 +1,21 @@
 """Building a memory: what is in it, that it is found again, and what is refused."""
 
 import json
+import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import fsspec
 import numpy as np
 import pytest
 import torch
+from torch import Tensor
 
 from src.shared.config_memory import MemoryConfig
 from src.shared.data.phrases.layout import MANIFEST, body_path
 from src.shared.errors import UserError
+from src.shared.memory import build
 from src.shared.memory.build import build_memory
 from src.shared.memory.index import MemoryIndex
 from tests.shared.memory.tiny_memory import LinearSpace, write_dancers
@@ -67,6 +72,83 @@ def test_an_up_to_date_memory_is_only_opened(pairs: Path, tmp_path: Path) -> Non
     assert MemoryIndex.open(tmp_path).about["space"] == LinearSpace(1).fingerprint
     longer = build_memory(pairs, LinearSpace(1), tmp_path, config=MemoryConfig(bars=3))
     assert longer.about["bars"] == 3
+
+
+# ---------------------------------------------------------------- stopped
+
+KILLED = """
+import os, signal, sys
+from src.shared.memory import build
+from tests.shared.memory.tiny_memory import LinearSpace
+
+class Killed(LinearSpace):
+    calls = 0
+    def embed_audio(self, condition, mask=None):
+        Killed.calls += 1
+        if Killed.calls == 4:
+            os.kill(os.getpid(), signal.SIGKILL)
+        return super().embed_audio(condition, mask)
+
+build.CHUNK = 2
+build.build_memory(sys.argv[1], Killed(), sys.argv[2])
+"""
+
+
+class Counting(LinearSpace):
+    """Counts what it embeds."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.calls = 0
+
+    def embed_audio(self, condition: Tensor, mask: Tensor | None = None) -> Tensor:
+        self.calls += 1
+        return super().embed_audio(condition, mask)
+
+
+def test_a_killed_build_goes_on_where_it_was(
+    pairs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(build, "CHUNK", 2)
+    whole, stopped = tmp_path / "whole", tmp_path / "stopped"
+    space = Counting()
+    build_memory(pairs, space, whole)
+    assert space.calls == 5, "ten phrases, two a part"
+    command = [sys.executable, "-c", KILLED, str(pairs), str(stopped)]
+    assert subprocess.run(command, check=False).returncode == -signal.SIGKILL
+    assert len(list((stopped / build.PARTS).iterdir())) == 3
+    with pytest.raises(UserError, match="no memory"):
+        MemoryIndex.open(stopped)
+    told: list[tuple[int, int]] = []
+    space = Counting()
+    build_memory(pairs, space, stopped, progress=lambda *n: told.append(n))
+    assert space.calls == 2 and told[:4] == [(2, 10), (4, 10), (6, 10), (7, 10)]
+    files = sorted(path.name for path in stopped.iterdir())
+    assert files == sorted(path.name for path in whole.iterdir()), "the parts are gone"
+    for name in files:
+        assert (stopped / name).read_bytes() == (whole / name).read_bytes(), name
+
+
+def test_parts_of_something_else_are_not_taken(
+    pairs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(build, "CHUNK", 2)
+
+    class Stops(LinearSpace):
+        def embed_motion(self, features: Tensor, mask: Tensor | None = None) -> Tensor:
+            if any((tmp_path / build.PARTS).glob("*/manifest.json")):
+                raise KeyboardInterrupt
+            return super().embed_motion(features, mask)
+
+    with pytest.raises(KeyboardInterrupt):
+        build_memory(pairs, Stops(), tmp_path)
+    index = build_memory(pairs, LinearSpace(1), tmp_path)
+    monkeypatch.setattr(build, "CHUNK", 64)
+    other = build_memory(pairs, LinearSpace(1), tmp_path / "other")
+    assert index.ids == other.ids and index.songs == other.songs
+    for name in ("song", "offsets", "start_phase", "trajectories", "priors"):
+        assert torch.equal(getattr(index, name), getattr(other, name)), name
+    assert torch.allclose(index.audio_keys, other.audio_keys, atol=1e-5)
 
 
 def test_a_folder_without_bodies_says_what_to_do(tmp_path: Path) -> None:
