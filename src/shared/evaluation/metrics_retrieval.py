@@ -58,7 +58,7 @@ def best_ranks(distances: np.ndarray, relevant: np.ndarray) -> Ranks:
     """Rank the best right answer of each query.
 
     Args:
-        distances: [Q, M] of each query to each candidate; must be finite.
+        distances: [Q, M] of each query to each candidate; infinity takes one out of the list.
         relevant: [Q, M] bool, the candidates that count as right; a query without any never hits.
     """
     best = np.where(relevant, distances, np.inf).min(1, keepdims=True)

@@ -1,50 +1,32 @@
 """Retrieval across a shared space: R@1, 5, 10 and median rank in batches of one size.
 
+The ranks are those of the text branch; what is taken out of a list is infinitely far.
+
 Letters: M items of a batch, Q queries, D embed dim.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from src.shared.evaluation.intervals import Estimate
+from src.shared.evaluation.metrics_retrieval import Ranks, best_ranks
 
-BATCH = 32
 TOP = (1, 5, 10)
 RESAMPLES = 500
 
 
-@dataclass(frozen=True)
-class Ranks:
-    """Where each query found its own: `better` [Q] items above it, `tied` [Q] others level."""
-
-    better: np.ndarray
-    tied: np.ndarray
-
-    def recall(self, k: int) -> np.ndarray:
-        """Chance [Q] to be among the first k, equal similarities in any order."""
-        return np.clip((k - self.better) / (self.tied + 1), 0.0, 1.0)
-
-    @property
-    def rank(self) -> np.ndarray:
-        """Mean place [Q] over all orders of the ties, counted from 1."""
-        return self.better + 1 + self.tied / 2
-
-
 def ranks(query: np.ndarray, items: np.ndarray, kin: np.ndarray) -> Ranks:
-    """Rank of item i for query i.
+    """Rank of item i for query i, by cosine.
 
     Args:
         query, items: [M, D] unit-norm; row i belongs together.
         kin: [M, M] bool, items that are neither right nor wrong for a query (same song, say) and
             are taken out of its list; what it says of the diagonal does not matter.
     """
+    own = np.eye(len(kin), dtype=bool)
     similarity = query.astype(np.float64) @ items.astype(np.float64).T  # M M
-    own = np.diag(similarity)[:, None]
-    wrong = ~(kin | np.eye(len(kin), dtype=bool))
-    better = ((similarity > own) & wrong).sum(1)
-    return Ranks(better, ((similarity == own) & wrong).sum(1))
+    return best_ranks(np.where(kin & ~own, np.inf, -similarity), own)
 
 
 def by_song(
@@ -86,9 +68,9 @@ def retrieval_figures(
     """
     figures = {
         f"r_at_{k}": by_song(
-            np.concatenate([part.recall(k) for part in found]), songs, np.mean, seed=seed
+            np.concatenate([part.hits(k) for part in found]), songs, np.mean, seed=seed
         )
         for k in TOP
     }
-    places = np.concatenate([part.rank for part in found])
+    places = np.concatenate([part.mean() for part in found])
     return figures | {"median_rank": by_song(places, songs, np.median, seed=seed)}

@@ -15,7 +15,8 @@ from torch import Tensor
 from src.shared.data.phrases.dataset import MotionPhraseDataset
 from src.shared.evaluation.families import Column
 from src.shared.evaluation.grids import Grid, GridRow, report_data
-from src.shared.evaluation.metrics_space import BATCH, TOP
+from src.shared.evaluation.metrics_retrieval import BATCH
+from src.shared.evaluation.metrics_space import TOP
 from src.shared.evaluation.space_neighbours import Neighbours
 from src.shared.evaluation.space_retrieval import Bench
 from src.shared.evaluation.space_windows import Windows

@@ -9,7 +9,8 @@ import numpy as np
 from torch import Tensor
 
 from src.shared.evaluation.intervals import Estimate
-from src.shared.evaluation.metrics_space import BATCH, ranks, retrieval_figures
+from src.shared.evaluation.metrics_retrieval import BATCH
+from src.shared.evaluation.metrics_space import ranks, retrieval_figures
 from src.shared.evaluation.space_windows import Windows, related
 
 Figures = dict[str, Estimate]
