@@ -18,7 +18,7 @@ from src.shared.formats.bvh import BvhClip, read_bvh
 from src.shared.formats.glb_character import write_glb_character
 from src.shared.formats.glb_reader import GlbSkeleton, read_glb_skeleton
 from src.shared.formats.registry import check_motion, write_clip
-from src.shared.formats.rig import Rig, RigClip, canonical_rig
+from src.shared.formats.rig import Rig, RigClip, canonical_rig, motion_clip
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import JOINT_INDEX, LEG_LENGTH, NUM_JOINTS, REST_FOOT_HEIGHT
 
@@ -45,10 +45,10 @@ def retarget_out(motion: Motion, rig: Rig, mapping: SkeletonMapping, *, up: str 
                         "and ankles")  # fmt: skip
     scale = legs / LEG_LENGTH
     turn = upright(up)  # the rig's world → ours
-    ours = motion.global_rotations().astype(np.float64)
+    places, ours = motion_clip(motion).world()
     clip = replace(_turned(rest, mapping, ours, turn), fps=motion.fps, text=motion.text)
     t_pose = _turned(rest, mapping, np.tile(np.eye(3), (1, NUM_JOINTS, 1, 1)), turn)
-    hips = motion.positions()[:, list(HIPS)].mean(1).astype(np.float64) * scale
+    hips = places[:, list(HIPS)].mean(1) * scale
     hips[:, 1] += _lift(rest, t_pose, mapping, turn, scale)
     return _placed(clip, joint_indices(rest, mapping), hips @ turn)
 
@@ -61,11 +61,11 @@ def _turned(rest: RigClip, mapping: SkeletonMapping, ours: np.ndarray, turn: np.
     local = np.empty_like(world)
     for joint, parent in enumerate(rest.parents):
         above = world[:, parent] if parent >= 0 else np.broadcast_to(np.eye(3), world[:, 0].shape)
-        world[:, joint] = above
+        world[:, joint], local[:, joint] = above, np.eye(3)
         if joint in players:
             name = players[joint]
             world[:, joint] = turn.T @ ours[:, JOINT_INDEX[name]] @ corrections[name].T
-        local[:, joint] = above.swapaxes(-1, -2) @ world[:, joint]
+            local[:, joint] = above.swapaxes(-1, -2) @ world[:, joint]
     return RigClip(rest.rig, local, np.repeat(rest.translations, len(ours), 0), rest.fps)
 
 
