@@ -22,7 +22,7 @@ STAGES = ("read", "retarget", "encode")
 
 
 def measure_clip(path: Path, mappings: "tuple[SkeletonMapping, ...]") -> dict[str, float]:
-    """Seconds of motion in a file, and seconds spent on each stage, as `BvhFolder.read` does it.
+    """Seconds of motion in a file, and seconds spent on each stage, as `MotionFolder.read` does it.
 
     Raises:
         UserError: the file is faulty, or its joints are in no mapping.

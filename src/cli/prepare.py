@@ -15,13 +15,24 @@ def prepare(
     out: Annotated[Path, typer.Option(help="Folder for the training set.")],
     source: Annotated[
         list[Path] | None,
-        typer.Argument(metavar="[SOURCE]...", help="Folders of BVH files, or single files."),
+        typer.Argument(
+            metavar="[SOURCE]...",
+            help="Folders of motion files (bvh, amc, glb, npz, npy), or single files.",
+        ),
     ] = None,
     captions: Annotated[
         Path | None, typer.Option(help="CSV, TSV or JSON: clip, caption, language.")
     ] = None,
     mapping: Annotated[
         Path | None, typer.Option(help="YAML that names your skeleton's joints.")
+    ] = None,
+    unit: Annotated[str | None, typer.Option(help="Unit of length in the files.")] = None,
+    up: Annotated[str | None, typer.Option(help="Up axis of the files: Y, Z, -X, …")] = None,
+    skeleton: Annotated[
+        Path | None, typer.Option(help="ASF skeleton of AMC files; the one beside each.")
+    ] = None,
+    source_fps: Annotated[
+        float | None, typer.Option(help="Frames a second of files that do not say.")
     ] = None,
     labels: Annotated[
         Path | None, typer.Option(help="YAML rules that read labels from file names.")
@@ -49,19 +60,26 @@ def prepare(
       motion-tools prepare --synthetic 400 --out data/synthetic
     """
     if not source and not synthetic:
-        raise UsageError("no SOURCE; name folders of BVH files, or --synthetic N, or both")
-    tables = {"--captions": captions, "--mapping": mapping, "--labels": labels}
-    given = [flag for flag, path in tables.items() if path is not None]
+        raise UsageError("no SOURCE; name folders of motion files, or --synthetic N, or both")
+    about_files = {"--captions": captions, "--mapping": mapping, "--labels": labels,
+                   "--unit": unit, "--up": up, "--skeleton": skeleton,
+                   "--source-fps": source_fps}  # fmt: skip
+    given = [flag for flag, value in about_files.items() if value is not None]
     if given and not source:
-        raise UsageError(f"{given[0]} without SOURCE; name the folder of BVH files it is about")
-    options.check_ranges(synthetic=synthetic, workers=workers, seed=seed)
+        raise UsageError(f"{given[0]} without SOURCE; name the folder it is about")
+    options.check_ranges(synthetic=synthetic, workers=workers, seed=seed, source_fps=source_fps)
     options.check_folder("--out", out)
 
+    from src.shared.data.guesses import axis_vector, unit_metres
     from src.shared.data.prepare import prepare as prepare_folder
-    from src.shared.data.sources import BvhFolder, Source, SyntheticSource
+    from src.shared.data.sources import MotionFolder, Reading, Source, SyntheticSource
 
+    for check, value in ((unit_metres, unit), (axis_vector, up)):
+        if value is not None:
+            check(value)  # before any clip is read
+    reading = Reading(unit, up, skeleton, source_fps)
     sources: list[Source] = [
-        BvhFolder.open(root, captions=captions, labels=labels, mapping=mapping)
+        MotionFolder.open(root, captions=captions, labels=labels, mapping=mapping, reading=reading)
         for root in source or []
     ]
     if synthetic:

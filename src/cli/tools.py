@@ -20,6 +20,7 @@ from src.cli.export_onnx import export_onnx
 from src.cli.features import features
 from src.cli.generate import generate
 from src.cli.guard import guarded
+from src.cli.inspect import inspect
 from src.cli.memory import memory
 from src.cli.models import models
 from src.cli.plot import plot
@@ -43,6 +44,7 @@ for command in (
     generate,
     convert,
     features,
+    inspect,
     prepare,
     prepare_audio,
     shape_check,

@@ -19,10 +19,11 @@ FLAGS = {
         "--asf --format --fps --json --mapping --names --resume --root --skeleton --source-fps"
         " --unit --up FILES"
     ),
+    "inspect": ("--json --mapping --skeleton --source-fps --unit --up --write-mapping FILE"),
     "features": "--cache --cache-dir --chroma --json --meter --no-cache --out --plot SONG",
     "prepare": (
-        "--captions --json --labels --mapping --mirror --no-mirror --out --seed --synthetic"
-        " --templates --workers SOURCE"
+        "--captions --json --labels --mapping --mirror --no-mirror --out --seed --skeleton"
+        " --source-fps --synthetic --templates --unit --up --workers SOURCE"
     ),
     "prepare-audio": (
         "--json --max-seconds --meter --min-seconds --motion --music --no-synthetic-clips --out"

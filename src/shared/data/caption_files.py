@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Literal
 
+from src.shared.data.recordings import FOLDER_ENDINGS
 from src.shared.errors import UserError
 
 Captions = dict[str, dict[str, list[str]]]  # clip -> language -> captions
@@ -49,8 +50,9 @@ def read_captions(path: Path) -> Captions:
 
 
 def without_ending(name: str) -> str:
-    """The name without its `.bvh`, whatever the case."""
-    return name[: -len(".bvh")] if name.lower().endswith(".bvh") else name
+    """The name without the ending of a motion file, whatever the case."""
+    ending = next((e for e in FOLDER_ENDINGS if name.lower().endswith(e)), "")
+    return name[: len(name) - len(ending)]
 
 
 def match_captions(

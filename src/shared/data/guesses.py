@@ -29,6 +29,12 @@ def unit_metres(unit: str) -> float:
     return UNITS[unit]
 
 
+def unit_name(metres: float | None) -> str | None:
+    """The name of a unit of this length, if it has one."""
+    same = (name for name, length in UNITS.items() if abs((metres or 0.0) / length - 1) < 0.01)
+    return next(same, None)
+
+
 def guess_unit(legs: float) -> str:
     """The unit in which legs of this length, hip to ankle, are nearest an adult's."""
     return min(UNITS, key=lambda unit: abs(np.log(max(legs, 1e-12) * UNITS[unit] / LEGS)))

@@ -29,7 +29,7 @@ from safetensors.torch import load_file, save_file
 from src.shared.data.captions import CaptionBook, mirror_labels
 from src.shared.data.labels import group_of
 from src.shared.data.records import MIRRORED, SPLITS, ClipRecord
-from src.shared.data.sources import BvhFolder, Skipped, Source, all_items
+from src.shared.data.sources import MotionFolder, Skipped, Source, all_items
 from src.shared.data.splits import assign_splits, orbit
 from src.shared.data.worker_pool import run_jobs
 from src.shared.errors import UserError
@@ -106,7 +106,7 @@ def prepare(
 def _check_languages(sources: tuple[Source, ...], book: CaptionBook) -> None:
     """Mirrored captions need a table of the language's left and right."""
     for source in sources:
-        if not isinstance(source, BvhFolder):
+        if not isinstance(source, MotionFolder):
             continue
         for language in sorted({code for texts in source.captions.values() for code in texts}):
             if language not in book.languages:
@@ -119,7 +119,7 @@ def _check_languages(sources: tuple[Source, ...], book: CaptionBook) -> None:
 
 def _unmatched(sources: tuple[Source, ...]) -> list[str]:
     """Clips of the captions files that no source holds."""
-    rows = [source.caption_rows for source in sources if isinstance(source, BvhFolder)]
+    rows = [source.caption_rows for source in sources if isinstance(source, MotionFolder)]
     named = {name for found in rows for name in found}
     return sorted(named - {name for found in rows for name, matched in found.items() if matched})
 

@@ -5,18 +5,26 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.data.guesses import guess_unit, guess_up, joint_indices, unit_metres
+from src.shared.data.guesses import (
+    axis_vector,
+    guess_unit,
+    guess_up,
+    joint_indices,
+    rest_frame,
+    unit_metres,
+    unit_name,
+)
 from src.shared.data.mapping import SkeletonMapping, find_mapping, load_mappings
 from src.shared.data.recordings import Recording, open_recording
 from src.shared.data.retarget import leg_length, retarget
 from src.shared.errors import UserError
-from src.shared.formats.limits import MAX_FRAMES
 from src.shared.formats.source_clip import SourceClip
 from src.shared.motion.motion import Motion
 from src.shared.motion.resample import resample_motion
-from src.shared.motion.skeleton import JOINT_INDEX, canonical_skeleton
+from src.shared.motion.skeleton import JOINT_INDEX, JOINT_NAMES, canonical_skeleton
 
 SAME_BONES = 1e-4  # metres: a file with our own skeleton, so nothing is to be fitted
+LEGS = (0.4, 1.3)  # metres, hip to ankle: children to giants
 NEAR_RATE = 0.01  # relative: 119.88 frames a second are thinned out like 120
 
 
@@ -30,6 +38,7 @@ class Inspection:
         fps, frames, seconds: of the recording.
         unit: name of the unit of length (see `guesses.UNITS`), None where nothing tells.
         up: the up axis, for example "Z".
+        guessed: those of "unit" and "up" that were guessed.
         mapping: name of the skeleton profile that fits; None if none does.
         matched: our joint -> joint of the file.
         warnings: what is lost, guessed or odd, a sentence each.
@@ -42,6 +51,7 @@ class Inspection:
     seconds: float
     unit: str | None
     up: str
+    guessed: tuple[str, ...]
     mapping: str | None
     matched: dict[str, str]
     warnings: tuple[str, ...]
@@ -76,8 +86,6 @@ def read_motion(
             maps; names the file, the place and the remedy.
     """
     recording = open_recording(Path(path), skeleton=skeleton, fps=source_fps)
-    if recording.motion is not None:
-        return recording.motion if fps is None else resample_motion(recording.motion, fps)
     return fit(Path(path), recording, load_mappings(mapping), unit=unit, up=up, fps=fps)
 
 
@@ -91,6 +99,8 @@ def fit(
     fps: float | None = 30.0,
 ) -> Motion:
     """A recording onto our skeleton; the arguments are those of `read_motion`."""
+    if recording.motion is not None:
+        return recording.motion if fps is None else resample_motion(recording.motion, fps)
     clip = recording.clip
     assert clip is not None
     profile = _profile(path, clip, mappings)
@@ -158,46 +168,66 @@ def inspect_motion(
     Raises:
         UserError: missing, damaged, too large or of no known format.
     """
-    path = Path(path)
-    recording = open_recording(path, skeleton=skeleton, fps=source_fps)
+    recording = open_recording(Path(path), skeleton=skeleton, fps=source_fps)
     if recording.motion is not None:
         return _inspect_ours(recording, recording.motion)
     clip = recording.clip
     assert clip is not None
+    if up is not None:
+        axis_vector(up)
     warnings = list(recording.warnings)
-    profile, guessed_up, guessed_unit = None, up or recording.up or "Y", unit
+    unit, up = unit or unit_name(recording.metres), up or recording.up
+    profile = None
+    guessed = tuple(name for name, value in (("unit", unit), ("up", up)) if value is None)
     try:
         profile = find_mapping(clip.names, load_mappings(mapping))
     except UserError as error:
         warnings.append(str(error))
     if profile is not None:
-        found, certain = guess_up(clip, profile)
-        if up is None and recording.up is None and not is_ours(clip, profile):
-            guessed_up = found
-            if not certain:
-                warnings.append(f"the body is not upright on average: --up {found} is a guess")
-        elif guessed_up != found and certain and not is_ours(clip, profile):
-            warnings.append(f"the body stands along {found}, not {guessed_up}: check --up")
         legs = leg_length(clip, profile)
-        known = next((n for n in ("m",) if recording.metres == 1.0), None)
-        guessed_unit = unit or known or guess_unit(legs)
-        metres = unit_metres(guessed_unit) * legs
-        if not 0.4 < metres < 1.3:
-            warnings.append(f"legs of {metres:.2f} m in {guessed_unit}: check --unit")
-    if clip.num_frames > MAX_FRAMES:
-        warnings.append(f"more than {MAX_FRAMES} frames")
+        unit = unit or guess_unit(legs)
+        up, more = _upright(clip, profile, up)
+        warnings += more + _doubts(clip, profile, legs * unit_metres(unit), unit)
     return Inspection(
         format=recording.format,
         joints=tuple(zip(clip.names, clip.parents, strict=True)),
         fps=1.0 / clip.frame_time,
         frames=clip.num_frames,
         seconds=clip.num_frames * clip.frame_time,
-        unit=guessed_unit,
-        up=guessed_up,
+        unit=unit,
+        up=up or "Y",
+        guessed=guessed,
         mapping=profile.name if profile else None,
         matched=dict(profile.joints) if profile else {},
         warnings=tuple(warnings),
     )
+
+
+def _upright(clip: SourceClip, profile: SkeletonMapping, up: str | None) -> tuple[str, list[str]]:
+    """The up axis, and what is to be said of it."""
+    if up is None and is_ours(clip, profile):
+        return "Y", []
+    found, certain = guess_up(clip, profile)
+    if up is None:
+        doubt = f"the body is not upright on average: up axis {found} is a guess, state --up"
+        return found, [] if certain else [doubt]
+    if certain and not np.allclose(axis_vector(found), axis_vector(up)):
+        return up, [f"the body stands along {found}, not {up}: check --up"]
+    return up, []
+
+
+def _doubts(clip: SourceClip, profile: SkeletonMapping, legs: float, unit: str) -> list[str]:
+    """What a reader should know of a file before trusting it; `legs` in metres."""
+    doubts = []
+    if not LEGS[0] < legs < LEGS[1]:
+        doubts.append(f"legs of {legs:.2g} m, if the unit is {unit}: check --unit")
+    missing = [name for name in JOINT_NAMES if name not in profile.joints]
+    if missing:
+        doubts.append(f"no joint for {', '.join(missing)}: interpolated between the neighbours")
+    if not profile.axes and rest_frame(clip, profile) is None:
+        doubts.append("the rest pose is no standing body: which way its joints are twisted is "
+                      "found from the motion; `axes` in a profile state it")  # fmt: skip
+    return doubts
 
 
 def _inspect_ours(recording: Recording, motion: Motion) -> Inspection:
@@ -210,6 +240,7 @@ def _inspect_ours(recording: Recording, motion: Motion) -> Inspection:
         seconds=motion.seconds,
         unit="m",
         up="Y",
+        guessed=(),
         mapping="motion-suite",
         matched={name: name for name in skeleton.names},
         warnings=recording.warnings,

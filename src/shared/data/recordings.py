@@ -8,7 +8,8 @@ from src.shared.formats.limits import array_names, check_size
 from src.shared.formats.source_clip import SourceClip
 from src.shared.motion.motion import Motion
 
-ENDINGS = (".bvh", ".glb", ".amc", ".npz", ".npy", ".csv")
+FOLDER_ENDINGS = (".bvh", ".amc", ".npz", ".glb", ".npy")  # a folder's .csv may hold captions
+ENDINGS = (*FOLDER_ENDINGS, ".csv")
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +56,8 @@ def open_recording(
     if ending == ".glb":
         from src.shared.formats.glb_reader import read_glb
 
-        return Recording("GLB", clip=read_glb(path), up="Y", metres=1.0)
+        clip = read_glb(path)
+        return Recording("GLB", clip=clip, up="Y", metres=1.0, text=clip.text)
     if ending == ".csv":
         from src.shared.formats.motion_csv import read_motion_csv
 
@@ -64,11 +66,6 @@ def open_recording(
         return _amc(path, skeleton, fps)
     if ending == ".npz":
         return _npz(path, fps)
-    if ending == ".glb":
-        from src.shared.formats.glb_reader import read_glb
-
-        clip = read_glb(path)
-        return Recording("GLB", clip=clip, metres=1.0, text=clip.text)
     if ending == ".npy":
         return _npy(path, fps)
     raise UserError(f"{path}: no reader for {ending or 'a file without ending'!r}; "

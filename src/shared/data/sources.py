@@ -1,21 +1,25 @@
-"""Sources of clips: folders of BVH files and the project's own synthetic motions.
+"""Sources of clips: folders of motion files and the project's own synthetic motions.
 
 A source lists its items cheaply; each item is read later, in a worker process.
 """
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Protocol
 
 from src.shared.data.caption_files import Captions, match_captions, read_captions, without_ending
 from src.shared.data.labels import LabelRules, load_label_rules
-from src.shared.data.mapping import SkeletonMapping, find_mapping, load_mappings
+from src.shared.data.mapping import SkeletonMapping, load_mappings
+from src.shared.data.read_motion import fit
+from src.shared.data.recordings import FOLDER_ENDINGS, open_recording
 from src.shared.data.records import RawClip
-from src.shared.data.retarget import retarget
 from src.shared.errors import UserError
-from src.shared.formats.bvh import check_head, read_bvh
+from src.shared.formats.amc import find_skeleton
+from src.shared.formats.bvh import check_head
+from src.shared.motion.motion import Motion
 
 FPS = 30.0
 MIN_FRAMES = 8  # shorter clips teach nothing and cannot be windowed
@@ -47,13 +51,31 @@ class Source(Protocol):
 
 
 @dataclass(frozen=True)
-class BvhFolder:
-    """Every .bvh below a folder (or one file), with captions and label rules.
+class Reading:
+    """What a user states of files that do not say it; the fields are those of `read_motion`."""
+
+    unit: str | None = None
+    up: str | None = None
+    skeleton: Path | None = None
+    source_fps: float | None = None
+
+    def read(self, path: Path, mappings: tuple[SkeletonMapping, ...]) -> Motion:
+        """The motion of a file at the data's rate; raises UserError."""
+        recording = open_recording(path, skeleton=self.skeleton, fps=self.source_fps)
+        return fit(path, recording, mappings, unit=self.unit, up=self.up, fps=FPS)
+
+
+@dataclass(frozen=True)
+class MotionFolder:
+    """Every motion file below a folder (or one file), with captions and label rules.
+
+    Of one name in several formats, the first of `recordings.FOLDER_ENDINGS` is taken.
 
     Attributes:
         captions: of each item that has some.
         shared_stems: file names that several folders hold; their takes are told apart by folder.
         captions_file: where the captions come from.
+        reading: what the files do not say of themselves.
         caption_rows: clips that the file names, and whether a file was found for each.
     """
 
@@ -61,6 +83,7 @@ class BvhFolder:
     captions: Captions
     rules: LabelRules
     mappings: tuple[SkeletonMapping, ...]
+    reading: Reading = Reading()
     shared_stems: tuple[str, ...] = ()
     captions_file: Path | None = field(default=None, repr=False)
     caption_rows: Mapping[str, bool] = field(default_factory=dict, repr=False)
@@ -77,19 +100,22 @@ class BvhFolder:
         captions: Path | None = None,
         labels: Path | None = None,
         mapping: Path | None = None,
-    ) -> "BvhFolder":
-        """Check that the folder holds BVH files and read the tables.
+        reading: Reading | None = None,
+    ) -> "MotionFolder":
+        """Check that the folder holds motion files and read the tables.
 
         Raises:
-            UserError: no such folder, no BVH in it, a faulty captions, labels or mapping file, a
+            UserError: no such folder, no motion in it, a faulty captions, labels or mapping file, a
                 caption whose clip may be any of several files.
         """
         if not root.exists():
-            raise UserError(f"source {root} does not exist; give a folder of BVH files")
-        plain = cls(root, {}, load_label_rules(labels), load_mappings(mapping))
+            raise UserError(f"source {root} does not exist; give a folder of motion files")
+        reading = reading or Reading()
+        plain = cls(root, {}, load_label_rules(labels), load_mappings(mapping), reading)
         items = plain.items()
         if not items:
-            raise UserError(f"source {root} holds no .bvh file; give a folder of BVH files")
+            raise UserError(f"source {root} holds no motion file; give a folder of"
+                            f" {', '.join(FOLDER_ENDINGS)} files")  # fmt: skip
         rows = read_captions(captions) if captions else {}
         stems = Counter(Path(item).stem for item in items)
         name = root.resolve().parent.name if root.is_file() else plain.name
@@ -105,15 +131,23 @@ class BvhFolder:
     def items(self) -> list[str]:
         if self.root.is_file():
             return [self.root.name]
-        found = (p for p in self.root.rglob("*") if p.suffix.lower() == ".bvh" and p.is_file())
-        return sorted(path.relative_to(self.root).as_posix() for path in found)
+        best: dict[Path, Path] = {}
+        for path in sorted(self.root.rglob("*"), key=_rank):
+            if path.suffix.lower() in FOLDER_ENDINGS and path.is_file():
+                best.setdefault(path.with_suffix(""), path)
+        return sorted(path.relative_to(self.root).as_posix() for path in best.values())
 
     def _path(self, item: str) -> Path:
         return self.root if self.root.is_file() else self.root / item
 
     def fingerprint(self, item: str) -> str:
-        status = self._path(item).stat()
-        return f"{item}:{status.st_size}:{status.st_mtime_ns}"
+        path = self._path(item)
+        parts = [path]
+        if path.suffix.lower() == ".amc":
+            with suppress(UserError):  # none: reading tells
+                parts.append(self.reading.skeleton or find_skeleton(path))
+        found = [part.stat() for part in parts if part.exists()]
+        return ":".join([item, *(f"{status.st_size}:{status.st_mtime_ns}" for status in found)])
 
     def read(self, item: str) -> RawClip:
         path = self._path(item)
@@ -124,18 +158,19 @@ class BvhFolder:
         for caption in captions.get("en", []):
             labels = self.rules.of_caption(caption) | labels
         if not labels and not captions:
-            check_head(path)  # a broken file is told as such
+            if path.suffix.lower() == ".bvh":
+                check_head(path)  # a broken file is told as such
             raise Skipped("no caption and no label; add it to --captions or write a --labels rule")
-        clip = read_bvh(path)
-        rate = 1.0 / clip.frame_time
-        stride = round(rate / FPS)
-        if stride > 1 and abs(rate / stride - FPS) < 0.01 * FPS:
-            clip = read_bvh(path, stride=stride)
-        motion = retarget(clip, find_mapping(clip.names, self.mappings), fps=FPS)
+        motion = self.reading.read(path, self.mappings)
         if motion.num_frames < MIN_FRAMES:
             raise Skipped(f"{motion.num_frames} frames at {FPS:g} fps; {MIN_FRAMES} are needed")
         take = without_ending(item) if path.stem in self.shared_stems else path.stem
         return RawClip(item, take, motion, labels, captions)
+
+
+def _rank(path: Path) -> tuple[int, Path]:
+    ending = path.suffix.lower()
+    return (FOLDER_ENDINGS.index(ending) if ending in FOLDER_ENDINGS else len(FOLDER_ENDINGS), path)
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from src.shared.data.captions import mirror_labels
 from src.shared.data.labels import group_of, load_label_rules
 from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData, open_data
-from src.shared.data.sources import BvhFolder, SyntheticSource
+from src.shared.data.sources import MotionFolder, SyntheticSource
 from src.shared.data.splits import assign_splits, orbit
 from src.shared.data.synthetic import generate_clip, sample_specs
 from src.shared.data.text_motion import TextMotionDataset
@@ -94,7 +94,7 @@ def test_captions_without_labels_share_an_orbit_with_their_mirror_image() -> Non
 
 def test_prepare_twice_does_nothing_twice(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     root = bvh_folder(tmp_path / "in")
-    source = BvhFolder.open(root, captions=root / "captions.csv")
+    source = MotionFolder.open(root, captions=root / "captions.csv")
     prepare([source], tmp_path / "out", workers=1)
     before = {p.name: p.read_bytes() for p in (tmp_path / "out").iterdir() if p.is_file()}
     made = []
@@ -107,7 +107,7 @@ def test_prepare_twice_does_nothing_twice(tmp_path: Path, monkeypatch: pytest.Mo
 def test_an_interrupted_run_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(prepare_module, "CLIPS_PER_SHARD", 2)
     root = bvh_folder(tmp_path / "in")
-    source = BvhFolder.open(root, captions=root / "captions.csv")
+    source = MotionFolder.open(root, captions=root / "captions.csv")
     prepare([source], tmp_path / "whole", workers=1)
     real, calls = prepare_module._make_shard, []
 
@@ -142,7 +142,7 @@ def test_what_is_skipped_is_named_with_its_reason(tmp_path: Path) -> None:
     (root / "silent.bvh").write_bytes((root / "take0.bvh").read_bytes())
     with (root / "captions.csv").open("a") as stream:
         stream.write("\nbroken,breaks\nghost,haunts\n")
-    report = prepare([BvhFolder.open(root, captions=root / "captions.csv")], tmp_path / "out")
+    report = prepare([MotionFolder.open(root, captions=root / "captions.csv")], tmp_path / "out")
     reasons = {entry["clip"]: entry["reason"] for entry in report["skipped"]}
     assert report["clips"] == 3 and set(reasons) == {
         f"in/{name}.bvh" for name in ("broken", "mute", "silent")
@@ -161,7 +161,7 @@ def test_the_same_file_name_in_two_folders_is_two_takes(tmp_path: Path) -> None:
     (root / "run" / "take1.bvh").unlink()
     table = root / "captions.csv"
     table.write_text("walk/take0,walks\nrun/take0.bvh,runs\ntake1,waves\n")
-    source = BvhFolder.open(root, captions=table)
+    source = MotionFolder.open(root, captions=table)
     clips = {item: source.read(item) for item in source.items()}
     assert {item: (clip.take, clip.captions["en"]) for item, clip in clips.items()} == {
         "walk/take0.bvh": ("walk/take0", ["walks"]),
@@ -174,7 +174,7 @@ def test_an_unknown_language_stops_before_any_clip(tmp_path: Path) -> None:
     root = bvh_folder(tmp_path / "in", 1)
     table = root / "captions.csv"
     table.write_text("clip,caption,language\ntake0,kävelee,fi\n", encoding="utf-8")
-    source = BvhFolder.open(root, captions=table)
+    source = MotionFolder.open(root, captions=table)
     with pytest.raises(UserError, match=r"captions\.csv.*'fi'.*--no-mirror"):
         prepare([source], tmp_path / "out")
     assert not (tmp_path / "out").exists()
@@ -183,13 +183,13 @@ def test_an_unknown_language_stops_before_any_clip(tmp_path: Path) -> None:
 def test_nothing_usable_is_an_error(tmp_path: Path) -> None:
     root = tmp_path / "in"
     root.mkdir()
-    with pytest.raises(UserError, match=r"no \.bvh file"):
-        BvhFolder.open(root)
+    with pytest.raises(UserError, match=r"no motion file.*\.bvh, \.amc"):
+        MotionFolder.open(root)
     (root / "a.bvh").write_text("no")
     with pytest.raises(UserError, match="none of the 1 clips"):
-        prepare([BvhFolder.open(root)], tmp_path / "out", workers=1)
+        prepare([MotionFolder.open(root)], tmp_path / "out", workers=1)
     with pytest.raises(UserError, match="does not exist"):
-        BvhFolder.open(tmp_path / "nowhere")
+        MotionFolder.open(tmp_path / "nowhere")
 
 
 def test_a_damaged_folder_is_refused(tmp_path: Path) -> None:

@@ -1,0 +1,106 @@
+"""`inspect`: what a motion file holds, and how it would be read."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from src.cli import options
+from src.cli.guard import complain
+
+if TYPE_CHECKING:
+    from src.shared.data.read_motion import Inspection
+
+MAX_INDENT = 24  # levels; deeper joints are shown there
+
+
+def inspect(
+    file: Annotated[Path, typer.Argument(help="A motion file: bvh, amc, glb, npz or npy.")],
+    mapping: Annotated[
+        Path | None, typer.Option(help="YAML with skeleton profiles of your own.")
+    ] = None,
+    unit: Annotated[
+        str | None, typer.Option(help="Unit of length: m, cm, mm, in, ft, cmu; else guessed.")
+    ] = None,
+    up: Annotated[str | None, typer.Option(help="Up axis: Y, Z, -X, …; else guessed.")] = None,
+    skeleton: Annotated[
+        Path | None, typer.Option(help="ASF skeleton of an AMC motion; the one beside it.")
+    ] = None,
+    source_fps: Annotated[
+        float | None, typer.Option(help="Frames a second, for files that do not say.")
+    ] = None,
+    write_mapping: Annotated[
+        Path | None, typer.Option(help="Begin a skeleton profile for this file, to be filled in.")
+    ] = None,
+    json: options.Json = False,
+) -> None:
+    """Show skeleton, length, units, axes and mapping of a motion file.
+
+    \b
+    Examples:
+      motion-tools inspect dance.bvh
+      motion-tools inspect dance.bvh --write-mapping my.yaml
+    """
+    options.check_ranges(source_fps=source_fps)
+    from src.shared.data.read_motion import inspect_motion
+
+    found = inspect_motion(
+        file, mapping=mapping, unit=unit, up=up, skeleton=skeleton, source_fps=source_fps
+    )
+    if write_mapping is not None:
+        begin_mapping(found, mapping, write_mapping)
+    if json:
+        print_json(found)
+    else:
+        print(file)
+        print("\n".join(lines(found)))
+
+
+def begin_mapping(found: "Inspection", mapping: Path | None, out: Path) -> None:
+    """Write a profile of what was found, with a ? for each joint that was not."""
+    from src.shared.data.mapping import load_mappings, profile_text
+    from src.shared.files import write_text
+
+    names = tuple(name for name, _ in found.joints)
+    write_text(out, profile_text(names, load_mappings(mapping)))
+    complain(f"{out}: fill in every ?, then give it by --mapping")
+
+
+def lines(found: "Inspection") -> list[str]:
+    """The report for people."""
+    unit = found.unit or "unknown"
+    roles = {theirs: ours for ours, theirs in found.matched.items()}
+    result = [
+        f"  format    {found.format}",
+        f"  length    {found.seconds:.2f} s: {found.frames} frames, {found.fps:.5g} a second",
+        f"  unit      {unit}{' (guessed)' if 'unit' in found.guessed else ''}",
+        f"  up axis   {found.up}{' (guessed)' if 'up' in found.guessed else ''}",
+        f"  mapping   {found.mapping or 'none fits'}; {len(roles)} of our 22 joints",
+        f"  skeleton  {len(found.joints)} joints" + (", ours on the right" if roles else ""),
+    ]
+    for level, name in tree(found.joints):
+        label = "    " + "  " * min(level, MAX_INDENT) + name
+        result.append(f"{label:<44}{roles.get(name, '')}".rstrip())
+    return result + [f"  warning: {warning}" for warning in found.warnings]
+
+
+def tree(joints: tuple[tuple[str, int], ...]) -> list[tuple[int, str]]:
+    """(level, name) of each joint, every child below its parent."""
+    children: dict[int, list[int]] = {}
+    for joint, (_, parent) in enumerate(joints):
+        children.setdefault(parent, []).append(joint)
+    result, todo = [], [(0, joint) for joint in reversed(children.get(-1, []))]
+    while todo:
+        level, joint = todo.pop()
+        result.append((level, joints[joint][0]))
+        todo += [(level + 1, child) for child in reversed(children.get(joint, []))]
+    return result
+
+
+def print_json(found: "Inspection") -> None:
+    """The report for programs."""
+    import json
+    from dataclasses import asdict
+
+    joints = [{"name": name, "parent": parent} for name, parent in found.joints]
+    print(json.dumps(asdict(found) | {"joints": joints}, indent=1, ensure_ascii=False))
