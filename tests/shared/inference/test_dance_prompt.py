@@ -1,5 +1,7 @@
 """DancePrompter: sections at downbeats, prompts that suit sound, loudness and path."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 import torch
@@ -33,7 +35,7 @@ def test_sections_cover_everything_and_begin_at_downbeats(
     for known in (phase, None):
         parts = sections(frames, known)
         assert parts[0][0] == 0 and parts[-1][1] == frames
-        assert all(a[1] == b[0] for a, b in zip(parts[:-1], parts[1:], strict=True))
+        assert all(a[1] == b[0] for a, b in pairwise(parts))
         assert len(parts) == 1 or min(stop - start for start, stop in parts) >= 90
     for start, _ in sections(frames, phase)[1:]:
         assert phase[start] % 1 < 1 / 30 * tempo / 60 / meter + 1e-9  # the frame after a downbeat
