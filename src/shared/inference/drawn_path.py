@@ -126,7 +126,7 @@ def _numbers(rows: Sequence[Any], names: tuple[str, ...], path: Path) -> np.ndar
         for name, value in zip(names, row, strict=True):
             if not _is_number(value) or not math.isfinite(float(value)):
                 raise UserError(f"{path}: point {number}: {name} is {value!r}, not a number")
-    return np.array([[float(value) for value in row] for row in rows])
+    return np.array([[float(value) for value in row] for row in rows]).reshape(-1, len(names))
 
 
 def _is_number(value: Any) -> bool:

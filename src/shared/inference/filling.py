@@ -18,7 +18,7 @@ from src.shared.inference.trajectory_constraint import untwisted
 from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import MotionGenerator
 from src.shared.motion.motion import Motion
-from src.shared.motion.postprocess import MotionPostProcessor
+from src.shared.motion.postprocess import MotionPostProcessor, smooth_features
 from src.shared.motion.root_track import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, integrate_root
 from src.shared.motion.trajectory_math import turn_about_y
 
@@ -124,13 +124,17 @@ def finish(
         foot_lock: hold standing feet; None = the model's own setting.
     """
     config = generator.network.generation.post_processing
+    smooth = smooth_features(features, config.smoothing_kernel)
+    if known is not None:
+        # Neither what was made of the pelvis nor an average has a heading of its own to add.
+        smooth = untwisted(torch.where(known[:, : features.shape[1]], features, smooth))
+        smooth = torch.where(known[:, : features.shape[1]], features, smooth)
+    rest = {"smoothing_kernel": 1}
     if foot_lock is not None:
-        config = config.model_copy(update={"foot_lock": foot_lock})
+        rest |= {"foot_lock": foot_lock}
     place = place or Place()
-    own = untwisted(features)  # what was made of the pelvis may have a heading of its own
-    features = own if known is None else torch.where(known[:, : features.shape[1]], features, own)
-    return MotionPostProcessor(config)(
-        features,
+    return MotionPostProcessor(config.model_copy(update=rest))(
+        smooth,
         known=known,
         fps=generator.card.fps,
         text=text,

@@ -123,7 +123,7 @@ def _entry(row: Any, where: str) -> Entry:
     if not text:
         raise UserError(f"{where} has no text; say what is done, e.g. text: a person waves")
     start, end = (_seconds(row, key, where) for key in ("start", "end"))
-    if end - start < SHORTEST:
+    if end - start < SHORTEST - 1e-6:
         raise UserError(
             f"{where} ({text!r}) lasts from {start:g} to {end:g} s; give it {SHORTEST} s or more"
         )

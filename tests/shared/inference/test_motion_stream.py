@@ -1,8 +1,10 @@
 """stream_features: windows of any number, each carrying the one before on."""
 
 from collections.abc import Iterator
+from functools import reduce
 from itertools import pairwise
 
+import numpy as np
 import pytest
 import torch
 from hypothesis import given
@@ -10,7 +12,14 @@ from hypothesis import strategies as st
 
 from src.shared.errors import UsageError, UserError
 from src.shared.inference import motion_stream
-from src.shared.inference.motion_stream import Passage, stream_features, window_lengths
+from src.shared.inference.motion_stream import (
+    MotionStream,
+    Passage,
+    StreamSettings,
+    stream_features,
+    window_lengths,
+)
+from src.shared.inference.settling import joined, settled
 from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import MotionGenerator
 from src.shared.motion.root_track import FORWARD, ROOT_ROW
@@ -130,3 +139,37 @@ def test_what_cannot_be(generator: MotionGenerator) -> None:
         made(generator, WALK, constraint=lambda start, stop: Constraint.free(5), window=45)
     with pytest.raises(UserError, match="empty"):
         made(generator, Passage(" ", 20))
+
+
+def test_a_stream_is_the_settled_timeline(generator: MotionGenerator) -> None:
+    features = made(generator, WALK, WAVE)
+    settings = StreamSettings(seed=3)
+    stream = MotionStream(generator, [WALK, WAVE], window=40, overlap=10, settings=settings)
+    assert stream.latency.first is None
+    pieces = list(stream)
+    assert {piece.text for piece in pieces} == {WALK.text, WAVE.text}
+    whole = settled(generator, features)
+    motion = reduce(joined, pieces)
+    np.testing.assert_allclose(motion.positions(), whole.positions(), atol=1e-5)
+    latency = stream.latency
+    assert latency.first is not None and latency.load is not None
+    assert 0 < latency.lookahead < latency.reaction < 2
+
+
+def test_prompts_change_while_it_runs(generator: MotionGenerator) -> None:
+    stream = MotionStream(generator, "a person walks", seconds=0.5, foot_lock=True)
+    texts = []
+    for number, piece in enumerate(stream):
+        texts.append(piece.text)
+        if number == 2:
+            stream.say("somebody jumps twice")
+        if number == 4:
+            stream.stop()
+    assert texts[:3] == ["a person walks"] * 3 and texts[3:] == ["somebody jumps twice"] * 3
+
+
+def test_a_generator_of_prompts(generator: MotionGenerator) -> None:
+    texts = (text for text in ("a person walks", "a person waves"))
+    stream = MotionStream(generator, texts, seconds=0.6)
+    assert sum(piece.num_frames for piece in stream) == 36
+    assert list(MotionStream(generator, [])) == []
