@@ -1,13 +1,25 @@
 """The two errors a user can cause; the command line turns them into exit codes."""
 
+import re
+
+LONGEST = 2000  # characters of a message; what is quoted may be a whole file
+_UNSHOWN = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff]")
+
 
 class UserError(Exception):
     """Something the user gave cannot be worked with (exit code 1).
 
-    The message is one line: what is wrong, the value, the file or key, what to do.
+    The message is one line: what is wrong, the value, the file or key, what to do. As it may
+    quote a file, control characters are not shown, and of a long one only beginning and end.
     """
 
     exit_code = 1
+
+    def __str__(self) -> str:
+        text = _UNSHOWN.sub("\N{REPLACEMENT CHARACTER}", super().__str__())
+        if len(text) > LONGEST:
+            return f"{text[: LONGEST // 2]} … {text[-LONGEST // 4 :]}"
+        return text
 
 
 class UsageError(UserError):

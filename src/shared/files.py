@@ -1,4 +1,4 @@
-"""Whole files only: write beside the target, then rename; hash what was written."""
+"""Whole files only: write beside the target, then rename; hash what was written; JSON in."""
 
 import hashlib
 import json
@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from src.shared.errors import UserError
+
+MAX_JSON = 256 << 20  # bytes
 
 
 @contextmanager
@@ -43,6 +45,44 @@ def write_text(path: Path, text: str) -> None:
 def write_json(path: Path, value: Any) -> None:
     """Write JSON with stable key order, whole or not at all."""
     write_text(path, json.dumps(value, indent=1, ensure_ascii=False, sort_keys=True) + "\n")
+
+
+def load_json(path: str | Path, *, max_bytes: int = MAX_JSON) -> Any:
+    """The value in a JSON file.
+
+    Raises:
+        OSError: missing or unreadable.
+        ValueError: too large, not UTF-8, not JSON, or nested too deeply.
+    """
+    with Path(path).open("rb") as stream:
+        data = stream.read(max_bytes + 1)
+    if len(data) > max_bytes:
+        raise ValueError(f"larger than {max_bytes >> 20} MB")
+    return parse_json(data)
+
+
+def parse_json(data: str | bytes) -> Any:
+    """The value of a JSON text.
+
+    Raises:
+        ValueError: not UTF-8, not JSON, or nested too deeply.
+    """
+    try:
+        return json.loads(data)
+    except RecursionError:
+        raise ValueError("nested too deeply") from None
+
+
+def inside(folder: Path, name: str) -> Path:
+    """The path of a file that something in `folder` names, such as its manifest.
+
+    Raises:
+        UserError: the name leads out of the folder.
+    """
+    path = Path(folder) / name
+    if not path.resolve().is_relative_to(Path(folder).resolve()):
+        raise UserError(f"{name!r} leads out of {folder}, where it is named; write the folder anew")
+    return path
 
 
 def sha256_file(path: Path) -> str:

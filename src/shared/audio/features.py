@@ -84,12 +84,14 @@ class AudioFeatures:
             UserError: a feature is missing or has another shape.
         """
         rows = {"mel": MELS, "chroma": 12, "mfcc": MFCCS}
-        frames = arrays["onset_strength"].shape[-1] if "onset_strength" in arrays else 0
+        frames = arrays["onset_strength"].size if "onset_strength" in arrays else 0
         for name in (f.name for f in fields(cls)):
             wanted = (rows[name], frames) if name in rows else (frames,)
             found = arrays[name].shape if name in arrays else None
             if found != wanted:
                 raise UserError(f"{path}: array {name} is {found}, not {wanted}; make it again")
+            if arrays[name].dtype.kind not in "fiu":
+                raise UserError(f"{path}: array {name} holds no numbers; make it again")
         return cls(**{f.name: arrays[f.name].astype(np.float32) for f in fields(cls)})
 
 

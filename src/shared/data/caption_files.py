@@ -8,6 +8,7 @@ from typing import Any, Literal
 
 from src.shared.data.recordings import FOLDER_ENDINGS
 from src.shared.errors import UserError
+from src.shared.files import parse_json
 
 Captions = dict[str, dict[str, list[str]]]  # clip -> language -> captions
 _CLIP_KEYS = ("clip", "file", "id", "name")
@@ -142,9 +143,11 @@ def _table_rows(path: Path, text: str, delimiter: str) -> list[tuple[str, str, s
 
 def _json_rows(path: Path, text: str) -> list[tuple[str, str, str, str]]:
     try:
-        content: Any = json.loads(text)
-    except json.JSONDecodeError as error:
-        raise UserError(f"captions {path}, line {error.lineno}: not JSON: {error.msg}") from None
+        content: Any = parse_json(text)
+    except ValueError as error:
+        line = f", line {error.lineno}" if isinstance(error, json.JSONDecodeError) else ""
+        what = error.msg if isinstance(error, json.JSONDecodeError) else str(error)
+        raise UserError(f"captions {path}{line}: not JSON: {what}; mend the file") from None
     rows: list[tuple[str, str, str, str]] = []
     if isinstance(content, list):
         for number, entry in enumerate(content):
@@ -161,6 +164,6 @@ def _json_rows(path: Path, text: str) -> list[tuple[str, str, str, str]]:
         for language, texts in by_language.items():
             for caption in texts if isinstance(texts, list) else [texts]:
                 if not isinstance(caption, str):
-                    raise UserError(f"captions {path}, {clip!r}: {caption!r} is not text")
+                    raise UserError(f"captions {path}, {clip!r}: {caption!r:.60} is not text")
                 rows.append((f"{clip!r}", clip, language, caption))
     return rows

@@ -33,7 +33,7 @@ from src.shared.data.sources import MotionFolder, Skipped, Source, all_items
 from src.shared.data.splits import assign_splits, orbit
 from src.shared.data.worker_pool import run_jobs
 from src.shared.errors import UserError
-from src.shared.files import atomic_write, sha256_file, write_json, write_text
+from src.shared.files import atomic_write, load_json, sha256_file, write_json, write_text
 from src.shared.motion.mirror import mirror_features
 from src.shared.motion.root_track import encode_features
 
@@ -146,10 +146,14 @@ def _finished(job: _Job) -> bool:
     if not sidecar.exists() or not job.path.exists():
         return False
     try:
-        content = json.loads(sidecar.read_text(encoding="utf-8"))
+        content = load_json(sidecar)
     except (OSError, ValueError):
         return False
-    return content.get("key") == job.key and content.get("sha256") == sha256_file(job.path)
+    return (
+        isinstance(content, dict)
+        and content.get("key") == job.key
+        and content.get("sha256") == sha256_file(job.path)
+    )
 
 
 def _run(jobs: list[_Job], workers: int, progress: Progress, total: int) -> None:
@@ -201,7 +205,7 @@ def _collect(jobs: list[_Job]) -> tuple[list[dict[str, Any]], list[dict[str, str
     clips: list[dict[str, Any]] = []
     skipped: list[dict[str, str]] = []
     for job in jobs:
-        content = json.loads(job.path.with_suffix(".json").read_text(encoding="utf-8"))
+        content = load_json(job.path.with_suffix(".json"))
         clips += content["clips"]
         skipped += content["skipped"]
     return clips, skipped

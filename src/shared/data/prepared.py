@@ -1,21 +1,55 @@
 """Prepared data, opened for reading and checked against its manifest."""
 
-import hashlib
-import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cached_property
 from pathlib import Path
 
+import torch
+from pydantic import TypeAdapter, ValidationError
 from safetensors import SafetensorError
 from safetensors.torch import load_file
 from torch import Tensor
 
 from src.shared.data.records import SPLITS, ClipRecord
 from src.shared.errors import UserError
-from src.shared.files import sha256_file
+from src.shared.files import inside, load_json, sha256_file
 from src.shared.motion.mirror import mirror_features
 
 SYNTHETIC = "synthetic"
 SYNTHETIC_CLIPS = 1500
+ROWS = (23, 6)  # of a frame's features
+_TEXTS = TypeAdapter(tuple[str, ...])
+_FILES = TypeAdapter(dict[str, str])
+_CAPTIONS = TypeAdapter(dict[str, dict[str, list[str]]])
+_RECORD = TypeAdapter(ClipRecord)
+
+
+@contextmanager
+def damaged(path: Path) -> Iterator[None]:
+    """What fails inside is the fault of this file of a prepared folder.
+
+    Raises:
+        UserError: instead of what failed.
+    """
+    try:
+        yield
+    except ValidationError as error:
+        first = error.errors()[0]
+        place = ".".join(map(str, first["loc"]))
+        told = f"{place}: {first['msg']}" if place else first["msg"]
+        raise UserError(f"{path} is damaged ({told:.300}); run `prepare` again") from None
+    except (OSError, ValueError, TypeError, LookupError, SafetensorError) as error:
+        raise UserError(f"{path} is damaged ({error!s:.300}); run `prepare` again") from None
+
+
+def _checked(values: Tensor, shape: tuple[int, ...]) -> Tensor:
+    """The tensor, if it has this shape and finite numbers; ValueError if not."""
+    if tuple(values.shape) != shape or not values.is_floating_point():
+        raise ValueError(f"{values.dtype} {list(values.shape)} instead of numbers {list(shape)}")
+    if not values.isfinite().all():
+        raise ValueError("numbers that are not finite")
+    return values
 
 
 class PreparedData:
@@ -35,43 +69,48 @@ class PreparedData:
         path = self.folder / "manifest.json"
         if not path.exists():
             raise UserError(f"{folder} is not prepared data: no manifest.json; run `prepare` first")
-        text = path.read_text(encoding="utf-8")
-        self.manifest = json.loads(text)
-        self.manifest_hash = hashlib.sha256(text.encode()).hexdigest()
+        with damaged(path):
+            self.manifest = dict(load_json(path))
+            self.tags: tuple[str, ...] = _TEXTS.validate_python(self.manifest["tags"])
+            files = _FILES.validate_python(self.manifest["files"])
+        self.manifest_hash = sha256_file(path)
         if verify:
-            self._verify()
-        self.tags: tuple[str, ...] = tuple(self.manifest["tags"])
-        statistics = load_file(self.folder / "statistics.safetensors")
-        self.mean: Tensor = statistics["mean"]  # 23 6
-        self.std: Tensor = statistics["std"]  # 23 6
-        self._captions = json.loads((self.folder / "captions.json").read_text(encoding="utf-8"))
+            self._verify(files)
+        path = self.folder / "statistics.safetensors"
+        with damaged(path):
+            statistics = load_file(path)
+            self.mean: Tensor = _checked(statistics["mean"], ROWS)  # 23 6
+            self.std: Tensor = _checked(statistics["std"], ROWS)  # 23 6
+        path = self.folder / "captions.json"
+        with damaged(path):
+            self._captions = _CAPTIONS.validate_python(load_json(path))
 
     @classmethod
     def open(cls, folder: str | Path) -> "PreparedData":
         """Open a prepared folder; see `PreparedData`."""
         return cls(Path(folder))
 
-    def _verify(self) -> None:
-        for name, digest in self.manifest["files"].items():
-            path = self.folder / name
+    def _verify(self, files: dict[str, str]) -> None:
+        for name, digest in files.items():
+            path = inside(self.folder, name)
             if not path.exists() or sha256_file(path) != digest:
                 state = "is damaged" if path.exists() else "is missing"
                 raise UserError(f"{path} {state}; run `prepare` again with the same options")
 
     @cached_property
     def _all_records(self) -> list[ClipRecord]:
-        with (self.folder / "clips.jsonl").open(encoding="utf-8") as stream:
-            return [ClipRecord(**json.loads(line)) for line in stream]
+        path = self.folder / "clips.jsonl"
+        with damaged(path), path.open(encoding="utf-8") as stream:
+            return [_RECORD.validate_json(line) for line in stream]
 
     @cached_property
     def _shards(self) -> dict[str, Tensor]:
-        try:
-            return {
-                path.name: load_file(path)["features"]
-                for path in sorted((self.folder / "shards").glob("*.safetensors"))
-            }
-        except SafetensorError as error:
-            raise UserError(f"{self.folder}/shards: {error}; run `prepare` again") from None
+        shards = {}
+        for path in sorted((self.folder / "shards").glob("*.safetensors")):
+            with damaged(path):
+                features = load_file(path)["features"]
+                shards[path.name] = _checked(features, (len(features), *ROWS))
+        return shards
 
     def records(self, split: str | None = None) -> list[ClipRecord]:
         """Records of one split (train, val, test_seen, test_unseen), or all."""
@@ -79,8 +118,16 @@ class PreparedData:
         return [r for r in self._all_records if split is None or r.split == split]
 
     def features(self, record: ClipRecord) -> Tensor:
-        """Raw features [T,23,6] float32 of a record, mirrored where it says so."""
-        values = self._shards[record.shard][record.offset : record.offset + record.num_frames]
+        """Raw features [T,23,6] float32 of a record, mirrored where it says so.
+
+        Raises:
+            UserError: the record names frames that are not there.
+        """
+        shard = self._shards.get(record.shard, torch.zeros(0))
+        if not 0 <= record.offset < record.offset + record.num_frames <= len(shard):
+            raise UserError(f"{self.folder}/clips.jsonl: {record.id!r:.60} names frames that no"
+                            " shard holds; run `prepare` again")  # fmt: skip
+        values = shard[record.offset : record.offset + record.num_frames]
         return mirror_features(values) if record.mirrored else values
 
     def captions(self, record: ClipRecord) -> dict[str, list[str]]:

@@ -10,7 +10,6 @@ Design choices:
 Letters: B batch, T frames, S = ceil(T / 4) steps, F features, H hidden, D = 32 embedding channels.
 """
 
-import json
 import math
 from collections.abc import Sequence
 from pathlib import Path
@@ -18,6 +17,7 @@ from typing import Any, Self
 
 import torch
 import torch.nn.functional as F
+from safetensors import SafetensorError
 from safetensors.torch import load_file, save_file
 from torch import Tensor, nn
 
@@ -25,7 +25,7 @@ from src.shared.config_schema import Config
 from src.shared.errors import UserError
 from src.shared.evaluation.joint_features import NUM_FEATURES, joint_features
 from src.shared.evaluation.text_hashing import NUM_BUCKETS, bag
-from src.shared.files import atomic_write, sha256_file, write_json
+from src.shared.files import atomic_write, load_json, sha256_file, write_json
 from src.shared.motion.motion import Motion
 from src.shared.motion.root_track import encode_features
 
@@ -205,27 +205,30 @@ class Evaluator(nn.Module):
             known = sorted(
                 path.parent.name
                 for path in PRETRAINED.glob("*/config.json")
-                if json.loads(path.read_text(encoding="utf-8")).get("kind") == "evaluator"
+                if load_json(path).get("kind") == "evaluator"
             )
             raise UserError(
                 f"no evaluator {str(name)!r}; there are: {', '.join(known) or 'none'}, or a folder"
                 " from `accelerate launch -m src.train.train_evaluator`"
             )
         try:
-            content = json.loads((folder / "config.json").read_text(encoding="utf-8"))
+            content = dict(load_json(folder / "config.json"))
             weights = load_file(folder / WEIGHTS)
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, TypeError, SafetensorError) as error:
             raise UserError(
                 f"the evaluator in {folder} is damaged ({error}); copy the folder again, or train"
                 " one with src.train.train_evaluator"
             ) from error
         if content.get("kind") != "evaluator":
             raise UserError(f"{folder} holds a {content.get('kind')!r}, not an evaluator")
-        model = cls(EvaluatorConfig.model_validate(content["evaluator"]))
         try:
+            model = cls(EvaluatorConfig.model_validate(content["evaluator"]))
             model.load_state_dict({key: value.float() for key, value in weights.items()})
-        except RuntimeError as error:
-            raise UserError(f"weights in {folder} do not fit its config.json: {error}") from error
+        except (KeyError, ValueError, RuntimeError) as error:
+            raise UserError(
+                f"weights in {folder} do not fit its config.json ({error!s:.300}); copy the folder"
+                " again"
+            ) from error
         model.notes = {k: v for k, v in content.items() if k not in ("kind", "evaluator")}
         model.content_hash = sha256_file(folder / WEIGHTS)[:12]
         return model.to(device).eval()

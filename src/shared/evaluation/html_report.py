@@ -22,6 +22,7 @@ from src.shared.evaluation.report import (
     printed,
 )
 from src.shared.evaluation.svg_plots import grid_plots
+from src.shared.files import inside
 from src.shared.formats.html import write_html
 from src.shared.formats.npz import read_npz
 from src.shared.formats.trajectory_beats import SongTrack
@@ -163,7 +164,7 @@ def _player(samples: Sequence[dict[str, Any]], folder: Path, branch: str) -> str
 def player(samples: Sequence[dict[str, Any]], folder: Path, branch: str) -> str:
     """The formats' own viewer with these motions side by side, or with one and its song."""
     titles = [f"{sample['rank']} of {sample['of']}: {sample['title']}" for sample in samples]
-    files = [folder / sample["file"] for sample in samples]
+    files = [inside(folder, sample["file"]) for sample in samples]
     with tempfile.TemporaryDirectory() as temporary:
         path = Path(temporary) / "player.html"
         if branch == "text":
@@ -171,7 +172,7 @@ def player(samples: Sequence[dict[str, Any]], folder: Path, branch: str) -> str:
             write_html([replace(motion, text=title) for motion, title in motions], path)
         else:
             (sample,) = samples
-            song = SongTrack(folder / sample["sound"], meter=sample["meter"])
+            song = SongTrack(inside(folder, sample["sound"]), meter=sample["meter"])
             write_trajectory_html(read_trajectory_npz(files[0]), path, song, titles)
         return path.read_text(encoding="utf-8")
 
@@ -179,7 +180,7 @@ def player(samples: Sequence[dict[str, Any]], folder: Path, branch: str) -> str:
 def _pictures(pictures: Sequence[dict[str, Any]], folder: Path) -> str:
     shown = ""
     for picture in pictures:
-        data = base64.b64encode((folder / picture["file"]).read_bytes()).decode()
+        data = base64.b64encode(inside(folder, picture["file"]).read_bytes()).decode()
         title = escape(picture["title"])
         shown += f'<h2>{title}</h2><img alt="{title}" src="data:image/png;base64,{data}">'
     return f'<section id="pictures">{shown}</section>'

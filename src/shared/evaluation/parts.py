@@ -4,7 +4,6 @@ A folder of JSON files, each written whole, one a part; without a folder, memory
 part took is kept apart in timing.json, so that nothing else depends on the clock.
 """
 
-import json
 import re
 import time
 from collections.abc import Callable
@@ -12,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from src.shared.errors import UserError
-from src.shared.files import write_json
+from src.shared.files import inside, load_json, write_json
 
 Part = dict[str, Any]
 TIMING = "timing.json"
@@ -30,7 +29,7 @@ class Parts:
         self.known: dict[str, Part] = {}
         self.seconds: dict[str, float] = {}
         if folder is not None and (folder / TIMING).is_file():
-            self.seconds = json.loads((folder / TIMING).read_text(encoding="utf-8"))["seconds"]
+            self.seconds = dict(read_json(folder / TIMING).get("seconds", {}))
 
     def once(self, name: str, compute: Callable[[], Part]) -> Part:
         """The part of this name, computed and written unless it is there."""
@@ -56,7 +55,7 @@ class Parts:
         part = read_json(path)
         kept = [*part.get("samples", ()), *part.get("pictures", ())]
         files = [item[key] for item in kept for key in ("file", "sound") if key in item]
-        return part if all((self.folder / file).is_file() for file in files) else None
+        return part if all(inside(self.folder, file).is_file() for file in files) else None
 
     def _compute(self, name: str, compute: Callable[[], Part]) -> Part:
         started = time.perf_counter()
@@ -77,10 +76,9 @@ def read_json(path: Path) -> dict[str, Any]:
         UserError: missing, or not whole.
     """
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, ValueError) as error:
+        return dict(load_json(path))
+    except (OSError, ValueError, TypeError) as error:
         raise UserError(
             f"{path} cannot be read ({error}); delete it and run `evaluate` again with the same"
             " --out: only what is missing is measured"
         ) from error
-    return dict(content)

@@ -3,7 +3,6 @@
 matplotlib is imported when a plot is drawn; no window is opened.
 """
 
-import json
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -12,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from src.shared.errors import UserError
-from src.shared.files import atomic_write
+from src.shared.files import atomic_write, parse_json
 from src.shared.motion.trajectory import MotionTrajectory
 from src.shared.validation.sanity import SanityThresholds
 
@@ -145,11 +144,11 @@ def read_losses(path: str | Path) -> dict[str, list[float]]:
 def _rows(text: str) -> list[dict[str, Any]]:
     """Rows of any of the three forms."""
     try:
-        content = json.loads(text)
+        content = parse_json(text)
     except ValueError:  # more than one object: a line each, the last maybe cut off by a kill
         lines = text.splitlines()
         whole = lines if text.endswith("\n") else lines[:-1]
-        content = [json.loads(line) for line in whole if line.strip()]
+        content = [parse_json(line) for line in whole if line.strip()]
     if isinstance(content, dict):
         nested = next((v for v in content.values() if _is_table(v)), None)
         content = nested if nested is not None else _transposed(content)

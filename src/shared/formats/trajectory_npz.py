@@ -19,6 +19,7 @@ import numpy as np
 
 from src.shared.errors import UserError
 from src.shared.files import atomic_write
+from src.shared.formats.limits import array_names, read_array, read_arrays
 from src.shared.motion.trajectory import CHANNELS, FPS, QUATERNION, MotionTrajectory
 
 FORMAT_VERSION = 1
@@ -64,7 +65,7 @@ def read_trajectory_npz(path: str | Path) -> MotionTrajectory:
     for name in ("trajectory", "fps"):
         if name not in arrays:
             raise UserError(f"{path}: has no array {name!r}; is it a trajectory of this project?")
-    if tuple(arrays.get("columns", np.array(COLUMNS)).tolist()) != COLUMNS:
+    if "columns" in arrays and list(np.atleast_1d(arrays["columns"])) != list(COLUMNS):
         raise UserError(f"{path}: columns are not the {CHANNELS} of this project")
     fps = arrays["fps"]
     if fps.shape != () or fps.dtype.kind not in "fiu" or not 0 < float(fps) <= 10_000:
@@ -87,17 +88,9 @@ def load_arrays(path: Path) -> dict[str, np.ndarray]:
     Raises:
         UserError: missing or damaged.
     """
-    try:
-        loaded = np.load(path, allow_pickle=False)
-        if isinstance(loaded, np.ndarray):
-            return {"trajectory": loaded}
-        with loaded as archive:
-            return {name: archive[name] for name in archive.files}
-    except OSError as error:
-        raise UserError(f"{path}: cannot be read: {error.strerror or error}") from error
-    except Exception as error:  # a damaged archive fails in zipfile, zlib or numpy, in any way
-        raise UserError(f"{path}: is not a whole {path.suffix[1:].upper()} file ({error}); "
-                        "write it again") from error  # fmt: skip
+    if path.suffix.lower() == ".npy":
+        return {"trajectory": read_array(path)}
+    return read_arrays(path, array_names(path))
 
 
 def checked_trajectory(path: Path, data: np.ndarray, fps: float) -> MotionTrajectory:

@@ -9,12 +9,11 @@
 Nothing is executed on reading, and nothing is read that the manifest does not name.
 """
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from src.shared.errors import UserError
-from src.shared.files import atomic_write, sha256_file, write_json
+from src.shared.files import atomic_write, inside, load_json, sha256_file, write_json
 
 if TYPE_CHECKING:
     from src.shared.memory.index import MemoryIndex
@@ -28,6 +27,7 @@ MANIFEST, KEYS, MOTIONS, PHRASES = (
 )
 KEY_TENSORS = ("audio_keys", "motion_keys", "start_phase", "tempo", "song", "offsets")
 MOTION_TENSORS = ("trajectories", "priors")
+INTEGERS = ("song", "offsets")
 NAMES = ("songs", "ids", "captions", "clips")
 
 
@@ -72,7 +72,7 @@ def read_manifest(folder: Path) -> dict[str, Any]:
     """
     path = folder / MANIFEST
     try:
-        manifest = json.loads(path.read_text(encoding="utf-8"))
+        manifest = load_json(path)
     except FileNotFoundError as error:
         raise UserError(
             f"{folder} is no memory: it has no {MANIFEST}; make one with `memory build`"
@@ -100,18 +100,48 @@ def read_index(folder: Path, *, verify: bool) -> dict[str, Any]:
     from safetensors.torch import load_file
 
     manifest = read_manifest(folder)
-    for name, told in manifest["files"].items():
-        _check(folder / name, told, verify=verify)
     try:
+        for name in dict.fromkeys((KEYS, MOTIONS, PHRASES, *manifest["files"])):
+            _check(inside(folder, name), manifest["files"][name], verify=verify)
         fields: dict[str, Any] = {}
         for name, tensors in ((KEYS, KEY_TENSORS), (MOTIONS, MOTION_TENSORS)):
             stored = load_file(folder / name)  # mapped: pages are read when they are touched
             fields |= {part: stored[part] for part in tensors}
-        names = json.loads((folder / PHRASES).read_text(encoding="utf-8"))
+        names = load_json(folder / PHRASES)
         fields |= {name: tuple(names[name]) for name in NAMES}
-    except (OSError, ValueError, KeyError, SafetensorError) as error:
-        raise UserError(f"{folder} is damaged ({error}); build the memory again") from error
-    return fields | {"about": manifest["about"]}
+        fields["about"] = dict(manifest["about"])
+    except (OSError, ValueError, TypeError, LookupError, SafetensorError) as error:
+        raise UserError(f"{folder} is damaged ({error!s:.300}); build the memory again") from error
+    _check_fields(folder, fields)
+    return fields
+
+
+def _check_fields(folder: Path, fields: dict[str, Any]) -> None:
+    """Refuse counts and numbers that do not belong together; searches rely on them."""
+    count, frames = len(fields["audio_keys"]), len(fields["trajectories"])
+    offsets, song = fields["offsets"], fields["song"]
+    shapes = {
+        "audio_keys": (count, *fields["audio_keys"].shape[1:]),
+        "motion_keys": fields["audio_keys"].shape,
+        **dict.fromkeys(("start_phase", "tempo", "song"), (count,)),
+        "offsets": (count + 1,),
+        "trajectories": (frames, 25),
+        "priors": (frames, 4),
+    }
+    whole = all(tuple(fields[name].shape) == shape for name, shape in shapes.items())
+    whole &= all(len(fields[name]) == count for name in ("ids", "captions", "clips"))
+    whole &= count > 0 and fields["audio_keys"].ndim == 2
+    whole &= all(fields[name].dtype.is_floating_point for name in shapes if name not in INTEGERS)
+    whole = whole and not any(fields[name].dtype.is_floating_point for name in INTEGERS)
+    whole = whole and bool(offsets[0] == 0) and bool(offsets[-1] == frames)
+    whole = whole and bool((offsets.diff() > 0).all())
+    whole = whole and bool((song >= 0).all()) and bool((song < len(fields["songs"])).all())
+    finite = ("audio_keys", "motion_keys", "start_phase", "tempo")
+    whole = whole and all(bool(fields[name].isfinite().all()) for name in finite)
+    if not whole:
+        raise UserError(
+            f"{folder} is damaged: its tables do not belong together; build the memory again"
+        )
 
 
 def _check(path: Path, told: dict[str, Any], *, verify: bool) -> None:

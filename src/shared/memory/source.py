@@ -3,7 +3,6 @@
 Letters: C = 163 or 167 rows of sound, T frames.
 """
 
-import json
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -18,6 +17,7 @@ from src.shared.data.phrases.layout import MANIFEST, BadContent, PhraseRecord
 from src.shared.data.phrases.remote import Backoff, Remote, Unreachable
 from src.shared.data.phrases.store import PhraseStore
 from src.shared.errors import UserError
+from src.shared.files import parse_json
 from src.shared.memory.phrases import cut_at_bars
 from src.shared.memory.priors import prior_curves
 from src.shared.motion.root_track import LEFT_CONTACT, ROOT_ROW
@@ -148,7 +148,7 @@ class Source:
 def _pairs(remote: Remote) -> dict[str, dict[str, Any]]:
     """What the manifest says of the clips behind each phrase, if it does."""
     try:
-        phrases = json.loads(remote.read(MANIFEST))["phrases"]
+        phrases = parse_json(remote.read(MANIFEST))["phrases"]
     except FileNotFoundError:
         return {}
     return {phrase["id"]: phrase["pair"] for phrase in phrases if "pair" in phrase}

@@ -4,7 +4,6 @@ Reading a card imports no torch, so that listing models is quick. Weights are on
 safetensors; the card holds their SHA-256.
 """
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -15,7 +14,7 @@ from src.shared.config_audio import AudioNetworkConfig
 from src.shared.config_schema import Config, NetworkConfig
 from src.shared.config_space import AudioTowerConfig
 from src.shared.errors import UserError
-from src.shared.files import atomic_write, sha256_file, write_json
+from src.shared.files import atomic_write, load_json, sha256_file, write_json
 
 if TYPE_CHECKING:
     from torch import Tensor, nn
@@ -63,11 +62,9 @@ def read_card(folder: Path) -> ModelCard:
     """
     path = Path(folder) / CARD_FILE
     try:
-        return ModelCard.model_validate(json.loads(path.read_text(encoding="utf-8")))
+        return ModelCard.model_validate(load_json(path))
     except FileNotFoundError as error:
         raise UserError(f"{folder} is no model folder: it has no {CARD_FILE}") from error
-    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
-        raise UserError(f"{path} cannot be read ({error}); copy the model folder again") from error
     except ValidationError as error:
         first = error.errors()[0]
         key = ".".join(map(str, first["loc"]))
@@ -75,6 +72,8 @@ def read_card(folder: Path) -> ModelCard:
             f"{path}: {key}: {first['msg']} (got {first['input']!r:.60}); this version cannot read"
             " the model; copy the folder again or train anew"
         ) from error
+    except (OSError, ValueError) as error:
+        raise UserError(f"{path} cannot be read ({error}); copy the model folder again") from error
 
 
 def write_checkpoint(
@@ -151,7 +150,9 @@ def read_tensors(folder: Path, card: ModelCard) -> dict[str, "Tensor"]:
     try:
         tensors = load_file(path)
     except SafetensorError as error:
-        raise UserError(f"{path} is not a safetensors file ({error})") from error
+        raise UserError(
+            f"{path} is not a safetensors file ({error!s:.300}); copy the model folder again"
+        ) from error
     return {
         name: tensor.float() if tensor.is_floating_point() else tensor
         for name, tensor in dequantise(tensors).items()

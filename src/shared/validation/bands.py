@@ -1,6 +1,5 @@
 """What real motions measure: the 5th to 95th percentile of each figure, stored as JSON."""
 
-import json
 import math
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
@@ -9,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from src.shared.errors import UserError
-from src.shared.files import write_json
+from src.shared.files import load_json, write_json
 from src.shared.motion.trajectory import MotionTrajectory
 from src.shared.validation.checks import CHECKS
 from src.shared.validation.measures import MEASURES
@@ -96,7 +95,7 @@ class Bands:
             UserError: the file is missing, damaged or not ours.
         """
         try:
-            content = json.loads(Path(path).read_text(encoding="utf-8"))
+            content = load_json(path)
             bands = {name: _band(cells) for name, cells in content["bands"].items()}
             return cls(bands, int(content["motions"]))
         except OSError as error:

@@ -1,7 +1,6 @@
 """One song → its phrases on disk, each marked as finished under a key of all that went into it."""
 
 import hashlib
-import json
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -14,7 +13,7 @@ from src.shared.data.pairing.pair import MIN_SCORE, SPARE, PhrasePair, pair_phra
 from src.shared.data.pairing.time_warp import KNOT_SECONDS
 from src.shared.data.phrases.layout import PhraseRecord, write_phrase
 from src.shared.errors import UserError
-from src.shared.files import sha256_file, write_json
+from src.shared.files import load_json, sha256_file, write_json
 from src.shared.motion.style import measure_style
 from src.shared.motion.trajectory import STYLE, MotionTrajectory
 
@@ -168,10 +167,10 @@ def _mark(job: SongJob, entry: dict[str, Any]) -> dict[str, Any]:
 
 def _read(path: Path, key: str) -> dict[str, Any] | None:
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
+        content = load_json(path)
     except (OSError, ValueError):
         return None
-    return content if content.get("key") == key else None
+    return content if isinstance(content, dict) and content.get("key") == key else None
 
 
 def _read_finished(job: SongJob, name: str) -> dict[str, Any] | None:

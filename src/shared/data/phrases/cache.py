@@ -6,14 +6,13 @@ killed process leaves none behind.
 """
 
 import hashlib
-import json
 import os
 import time
 from contextlib import AbstractContextManager, suppress
 from pathlib import Path
 
 from src.shared.data.phrases.layout import StoredObject
-from src.shared.files import atomic_write, write_json
+from src.shared.files import atomic_write, load_json, write_json
 
 _STALE_SECONDS = 3600.0  # an unfinished file that old was left by a killed process
 
@@ -89,8 +88,8 @@ class ObjectCache:
 
     def _ref(self, obj: StoredObject) -> str:
         try:
-            return str(json.loads(self._ref_path(obj).read_text(encoding="utf-8"))["sha256"])
-        except (OSError, ValueError, KeyError):
+            return str(load_json(self._ref_path(obj))["sha256"])
+        except (OSError, ValueError, LookupError, TypeError):
             return ""
 
     def _evict(self, limit: int) -> None:

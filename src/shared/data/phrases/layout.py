@@ -7,15 +7,15 @@ before lack: `features` [T,23,6] float16 of the whole body (root_track.py).
 """
 
 import hashlib
-import io
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, ValidationError, field_validator
 
+from src.shared.array_files import BadArray, load_array, load_arrays
 from src.shared.audio.features import AudioFeatures
 from src.shared.errors import UserError
 from src.shared.files import atomic_write, sha256_file, write_text
@@ -46,6 +46,14 @@ class StoredObject(BaseModel, frozen=True):
     sha256: str = ""
     version: str = ""
     md5: str = ""
+
+    @field_validator("path")
+    @classmethod
+    def _is_inside(cls, path: str) -> str:
+        """A manifest of somebody else's names nothing outside its folder."""
+        if path.startswith("/") or ".." in path.split("/") or "\\" in path or ":" in path:
+            raise ValueError(f"{path!r:.60} leads out of the folder")
+        return path
 
     @property
     def key(self) -> str:
@@ -213,8 +221,8 @@ def decode_trajectory(data: bytes) -> np.ndarray:
         BadContent: not an array of that shape, values not finite or out of any range.
     """
     try:
-        values = np.lib.format.read_array(io.BytesIO(data), allow_pickle=False)
-    except Exception as error:  # NumPy raises a dozen kinds for a damaged header
+        values = load_array(data)
+    except BadArray as error:
         raise BadContent(f"not an npy file ({error})") from error
     if values.ndim != 2 or values.shape[1] != 25:
         raise BadContent(f"a trajectory is [T, 25], this is {list(values.shape)}")
@@ -232,9 +240,8 @@ def decode_body(data: bytes) -> np.ndarray:
         BadContent: not an array of that shape, or values not finite or out of any range.
     """
     try:
-        with np.load(io.BytesIO(data), allow_pickle=False) as file:
-            values = file["features"]
-    except Exception as error:  # likewise
+        values = load_arrays(data, ["features"])["features"]
+    except (BadArray, KeyError) as error:
         raise BadContent(f"not an npz file with `features` ({error})") from error
     if values.ndim != 3 or values.shape[1:] != (23, 6):
         raise BadContent(f"a body is [T, 23, 6], this is {list(values.shape)}")
@@ -249,15 +256,14 @@ def decode_features(data: bytes) -> SoundContent:
         BadContent: an array is missing, has another shape, or is not finite.
     """
     try:
-        with np.load(io.BytesIO(data), allow_pickle=False) as file:
-            arrays = {name: file[name] for name in file.files}
+        arrays = load_arrays(data)
         features = AudioFeatures.from_arrays(arrays, "features.npz")
         known = "phase" in arrays and "meter" in arrays
         phase = arrays["phase"].astype(np.float64) if known else None
         meter = int(arrays["meter"]) if known else 0
     except UserError as error:
         raise BadContent(str(error)) from error
-    except Exception as error:  # likewise
+    except (BadArray, TypeError, ValueError) as error:
         raise BadContent(f"not an npz file ({error})") from error
     for name, values in features.arrays().items():
         _require_usable(name, values)

@@ -1,13 +1,12 @@
 """The list of phrases that cannot be used, with reasons, kept beside the cache (ruling 17)."""
 
-import json
 import threading
 from collections.abc import Iterable
 from pathlib import Path
 
 from src.shared.data.phrases.layout import PhraseRecord
 from src.shared.errors import UserError
-from src.shared.files import write_json
+from src.shared.files import load_json, write_json
 
 _NAMED = 5  # bad phrases named in the error
 
@@ -54,7 +53,7 @@ class Quarantine:
 
     def _read(self) -> dict[str, dict[str, str]]:
         try:
-            saved = json.loads(self.path.read_text(encoding="utf-8"))
+            saved = load_json(self.path)
             return {name: entry for name, entry in saved["phrases"].items() if "key" in entry}
         except (OSError, ValueError, KeyError, AttributeError, TypeError):
             return {}  # no list yet, or one that a person broke: it fills again

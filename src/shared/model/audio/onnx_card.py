@@ -4,7 +4,6 @@ All that a program without PyTorch needs: the statistics, the learned "no audio"
 the diffusion, and the hashes of the graphs. Imports no torch.
 """
 
-import json
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Literal
@@ -14,7 +13,7 @@ from pydantic import ValidationError
 from src.shared.config_audio import AudioNetworkConfig
 from src.shared.config_schema import Config
 from src.shared.errors import UserError
-from src.shared.files import sha256_file
+from src.shared.files import load_json, sha256_file
 from src.shared.model.checkpoint import read_card
 from src.shared.model.zoo import resolve_model
 
@@ -86,13 +85,13 @@ def read_onnx_card(folder: Path) -> OnnxCard:
             f" `export-onnx{model} --out DIR` and name DIR"
         )
     try:
-        card = OnnxCard.model_validate(json.loads(path.read_text(encoding="utf-8")))
-    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
-        raise UserError(f"{path} cannot be read ({error}); export the model again") from error
+        card = OnnxCard.model_validate(load_json(path))
     except ValidationError as error:
         first = error.errors()[0]
         key = ".".join(map(str, first["loc"]))
         raise UserError(f"{path}: {key}: {first['msg']}; export the model again") from error
+    except (OSError, ValueError) as error:
+        raise UserError(f"{path} cannot be read ({error}); export the model again") from error
     for name in GRAPHS:
         graph = path.with_name(name)
         if not graph.is_file() or card.graphs.get(name) != graph_info(graph):

@@ -9,7 +9,6 @@ pretrained tower also knows synonyms, so there a close embedding is enough.
 Letters: N captions, A actions, D embed dim.
 """
 
-import json
 import math
 import re
 import unicodedata
@@ -22,7 +21,7 @@ from typing import Self
 import numpy as np
 
 from src.shared.errors import UserError
-from src.shared.files import atomic_write, write_json
+from src.shared.files import atomic_write, load_json, write_json
 
 TABLE_FILE, META_FILE = "scope.safetensors", "scope.json"
 COVERAGES = (0.9, 0.95, 0.98, 0.99, 1.0)  # share of an action's captions its key words cover
@@ -182,7 +181,7 @@ class PromptScope:
         if not (folder / META_FILE).is_file():
             return None
         try:
-            meta = json.loads((folder / META_FILE).read_text(encoding="utf-8"))
+            meta = load_json(folder / META_FILE)
             return cls(
                 actions=tuple(meta["actions"]),
                 key_words={word: tuple(rows) for word, rows in meta["key-words"].items()},
@@ -192,7 +191,14 @@ class PromptScope:
                 false_alarms=float(meta["false-alarms"]),
                 min_cosine=meta["min-cosine"],
             )
-        except (OSError, ValueError, KeyError, TypeError, SafetensorError) as error:
+        except (
+            OSError,
+            ValueError,
+            LookupError,
+            TypeError,
+            AttributeError,
+            SafetensorError,
+        ) as error:
             raise UserError(
                 f"{folder / META_FILE} or {TABLE_FILE} is damaged ({error});"
                 " copy the model folder again"

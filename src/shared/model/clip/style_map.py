@@ -84,7 +84,7 @@ class StyleMap:
             return None
         try:
             return cls(**load_file(path))
-        except (OSError, TypeError, SafetensorError) as error:
+        except (OSError, ValueError, TypeError, SafetensorError) as error:
             raise UserError(f"{path} is damaged ({error}); copy the model folder again") from error
 
 

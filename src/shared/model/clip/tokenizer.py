@@ -4,7 +4,6 @@ Letters: B batch, L tokens. Special ids are XLM-R's: bos 0, pad 1, eos 2, unk 3.
 """
 
 import io
-import json
 import logging
 import unicodedata
 from collections import Counter
@@ -16,7 +15,7 @@ import torch
 from torch import Tensor
 
 from src.shared.errors import UserError
-from src.shared.files import atomic_write, write_json
+from src.shared.files import atomic_write, load_json, write_json
 
 BOS, PAD, EOS, UNK = 0, 1, 2, 3
 MODEL_FILE = "sentencepiece.bpe.model"
@@ -159,12 +158,12 @@ class PromptTokenizer:
         if not meta_file.is_file():
             return cls(_Pretrained(str(name)), max_tokens)
         try:
-            meta = json.loads(meta_file.read_text(encoding="utf-8"))
+            meta = load_json(meta_file)
             kind, max_tokens = str(meta["kind"]), int(meta["max-tokens"])
             if kind == _Pretrained.kind:
                 return cls(_Pretrained(str(name)), max_tokens)
             return cls(_SentencePiece((Path(name) / MODEL_FILE).read_bytes()), max_tokens)
-        except (OSError, ValueError, KeyError, RuntimeError) as error:
+        except (OSError, ValueError, LookupError, TypeError, RuntimeError) as error:
             raise UserError(
                 f"the tokenizer in {name} is damaged ({error}); copy the whole folder again"
             ) from error

@@ -1,0 +1,159 @@
+"""Arrays from NPY and NPZ files that somebody else made: bounded, and never with pickles.
+
+The declared size of an array is held against the limit and against the bytes that are there
+before anything is allocated or unpacked; members that nobody asked for are not touched.
+"""
+
+import io
+import math
+import zipfile
+from collections.abc import Iterable
+from pathlib import Path
+from typing import IO
+
+import numpy as np
+
+MAX_VALUES = 16 << 20  # numbers kept of one array: 128 MB as float64
+_MAX_MEMBERS = 1000  # arrays of one archive
+_MAX_HEADER = 10_000  # bytes that describe one array
+_END = b"PK\5\6"  # of a ZIP archive: where its directory is
+_ZIP = b"PK\3\4"
+
+
+class BadArray(ValueError):
+    """No array file, a damaged or too large one, or one with pickles; the message says which."""
+
+
+def load_arrays(
+    source: str | Path | bytes,
+    wanted: Iterable[str] | None = None,
+    *,
+    max_values: int = MAX_VALUES,
+) -> dict[str, np.ndarray]:
+    """The arrays of an NPZ, those of `wanted` that it holds, or all.
+
+    Args:
+        source: path or content.
+        wanted: names; None = every one.
+        max_values: numbers in one array at most.
+
+    Raises:
+        OSError: the file is missing or cannot be read.
+        BadArray: see there.
+    """
+    with _opened(source) as stream:
+        try:
+            _check_directory(stream)
+            with zipfile.ZipFile(stream) as archive:
+                infos = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
+                names = [name for name in (infos if wanted is None else wanted) if name in infos]
+                return {name: _member(archive, infos[name], name, max_values) for name in names}
+        except (BadArray, OSError):
+            raise
+        except Exception as error:  # a damaged archive fails in zipfile, zlib or numpy, in any way
+            raise BadArray(f"is not a whole NPZ file ({error})") from error
+
+
+def array_names(source: str | Path | bytes) -> tuple[str, ...]:
+    """Names of the arrays in an NPZ.
+
+    Raises:
+        OSError: the file is missing or cannot be read.
+        BadArray: it is no NPZ.
+    """
+    with _opened(source) as stream:
+        try:
+            _check_directory(stream)
+            with zipfile.ZipFile(stream) as archive:
+                return tuple(name.removesuffix(".npy") for name in archive.namelist())
+        except (BadArray, OSError):
+            raise
+        except Exception as error:
+            raise BadArray(f"is not a whole NPZ file ({error})") from error
+
+
+def load_array(source: str | Path | bytes, *, max_values: int = MAX_VALUES) -> np.ndarray:
+    """The array of an NPY.
+
+    Raises:
+        OSError: the file is missing or cannot be read.
+        BadArray: see there.
+    """
+    with _opened(source) as stream:
+        size = stream.seek(0, io.SEEK_END)
+        stream.seek(0)
+        try:
+            return _array(stream, size, "the array", max_values)
+        except (BadArray, OSError):
+            raise
+        except Exception as error:
+            raise BadArray(f"is not a whole NPY file ({error})") from error
+
+
+def is_archive(path: str | Path) -> bool:
+    """Whether a file starts as an NPZ does, whatever its name.
+
+    Raises:
+        OSError: the file is missing or cannot be read.
+    """
+    with Path(path).open("rb") as stream:
+        return stream.read(4) == _ZIP
+
+
+def _opened(source: str | Path | bytes) -> IO[bytes]:
+    return io.BytesIO(source) if isinstance(source, bytes) else Path(source).open("rb")
+
+
+def _check_directory(stream: IO[bytes]) -> None:
+    """Refuse an archive whose directory alone would fill the memory."""
+    size = stream.seek(0, io.SEEK_END)
+    stream.seek(max(0, size - (1 << 16) - 22))
+    tail = stream.read()
+    at = tail.rfind(_END)
+    if at < 0 or len(tail) < at + 22:
+        raise BadArray("is not a whole NPZ file")
+    members = int.from_bytes(tail[at + 10 : at + 12], "little")
+    directory = int.from_bytes(tail[at + 12 : at + 16], "little")
+    if members > _MAX_MEMBERS or directory > _MAX_MEMBERS * 512 or b"PK\6\7" in tail[:at][-20:]:
+        raise BadArray(f"holds {members} arrays; a few are expected")
+    stream.seek(0)
+
+
+def _member(
+    archive: zipfile.ZipFile, info: zipfile.ZipInfo, name: str, max_values: int
+) -> np.ndarray:
+    """One array of an archive."""
+    if info.flag_bits & 1:
+        raise BadArray(f"array {name!r} is encrypted; save it without a password")
+    with archive.open(info) as stream:
+        return _array(stream, info.file_size, f"array {name!r}", max_values)
+
+
+def _array(stream: IO[bytes], size: int, what: str, max_values: int) -> np.ndarray:
+    """An array in NPY form of `size` bytes, header included."""
+    version = np.lib.format.read_magic(stream)
+    reader = {
+        (1, 0): np.lib.format.read_array_header_1_0,
+        (2, 0): np.lib.format.read_array_header_2_0,
+    }.get(version)
+    if reader is None:
+        raise BadArray(f"{what} has version {version} of the NPY form")
+    shape, fortran, dtype = reader(stream, max_header_size=_MAX_HEADER)
+    if dtype.hasobject or dtype.kind not in "biufUS":
+        raise BadArray(
+            f"{what} holds Python objects ({dtype}), which are never loaded: they can run code;"
+            " save plain numbers"
+        )
+    count = math.prod(shape)
+    if count > max_values or count * dtype.itemsize > 8 * max_values:
+        raise BadArray(f"{what} has shape {list(shape)}, more than {max_values} numbers; split it")
+    wanted = count * dtype.itemsize
+    if wanted > size or min(shape, default=0) < 0:
+        raise BadArray(f"{what} says shape {list(shape)}, but only {size} bytes follow; cut off")
+    data = stream.read(wanted)
+    if len(data) != wanted:
+        raise BadArray(f"{what} is cut off")
+    if not wanted:
+        return np.zeros(shape, dtype)
+    stream.read(1)  # lets the archive compare its checksum
+    return np.frombuffer(data, dtype).reshape(shape, order="F" if fortran else "C")
