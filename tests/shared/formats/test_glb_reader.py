@@ -25,8 +25,8 @@ def a_file(path: Path, joints: int = 4) -> GlbFile:
 
 def animated(file: GlbFile, keys: list[float], values: np.ndarray, kind: str, path: str) -> GlbFile:
     """The file with one channel, of its second joint."""
-    samplers = [{"input": file.accessor(np.array(keys, np.float32), bounds=True),
-                 "output": file.accessor(values.astype(np.float32)), "interpolation": kind}]  # fmt: skip
+    times, output = np.array(keys, np.float32), file.accessor(values.astype(np.float32))
+    samplers = [{"input": file.accessor(times), "output": output, "interpolation": kind}]
     channels = [{"sampler": 0, "target": {"node": 1, "path": path}}]
     file.document["animations"] = [{"samplers": samplers, "channels": channels}]
     return file

@@ -1,0 +1,75 @@
+"""Films: the right length in real time, the figure in the picture, and the camera on it."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image, ImageSequence
+
+from src.shared.errors import UserError
+from src.shared.formats import video
+from src.shared.formats.video import frames, gif_rate, write_gif, write_mp4
+from src.shared.motion.motion import Motion
+
+
+def walk(count: int, fps: float) -> Motion:
+    """A T-pose that glides 3 m along +X."""
+    quaternions = np.zeros((count, 22, 4), np.float32)
+    quaternions[..., 0] = 1
+    root = np.zeros((count, 3), np.float32)
+    root[:, 0], root[:, 1] = np.linspace(0, 3, count), 0.95
+    return Motion(quaternions, root, np.ones((count, 2), np.float32), fps, "歩く")
+
+
+@pytest.fixture(autouse=True)
+def small(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(video, "SIZE", (96, 96))
+
+
+@pytest.mark.parametrize(("fps", "expected"), [(30, 25), (24, 20), (60, 50), (25, 25), (100, 100)])
+def test_gif_rates_are_whole_hundredths(fps: float, expected: float) -> None:
+    assert gif_rate(fps) == pytest.approx(expected)
+
+
+def test_a_gif_plays_in_real_time(tmp_path: Path) -> None:
+    with Image.open(write_gif(walk(10, 30.0), tmp_path / "a.gif")) as film:
+        assert film.info["loop"] == 0
+        times = [picture.info["duration"] for picture in ImageSequence.Iterator(film)]
+    assert set(times) == {40}
+    assert sum(times) / 1000 == pytest.approx(10 / 30, abs=0.05)
+
+
+def test_an_mp4_has_every_frame(tmp_path: Path) -> None:
+    av = pytest.importorskip("av")
+    with av.open(str(write_mp4(walk(9, 30.0), tmp_path / "a.mp4"))) as film:
+        stream = film.streams.video[0]
+        assert (stream.width, stream.height) == video.SIZE
+        assert stream.codec_context.name == "h264"
+        assert float(stream.average_rate) == pytest.approx(30.0)
+        pictures = [frame.to_ndarray(format="rgb24") for frame in film.decode(stream)]
+    assert len(pictures) == 9
+    drawn = np.asarray(next(frames(walk(9, 30.0), video.SIZE)))
+    assert np.abs(pictures[0].astype(int) - drawn).mean() < 12  # chroma is halved
+
+
+def test_fast_motions_are_filmed_at_thirty(tmp_path: Path) -> None:
+    av = pytest.importorskip("av")
+    with av.open(str(write_mp4(walk(13, 120.0), tmp_path / "a.mp4"))) as film:
+        assert len(list(film.decode(video=0))) == 4
+
+
+def test_the_figure_is_in_the_middle_of_every_picture() -> None:
+    for picture in frames(walk(6, 3.0), (120, 120)):
+        pixels = np.asarray(picture).astype(int)
+        limbs = np.abs(pixels[..., 0] - pixels[..., 2]) > 60  # orange and blue
+        rows, columns = np.nonzero(limbs[15:])
+        assert 40 < columns.mean() < 80
+        assert rows.min() > 2
+
+
+def test_what_is_too_long_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(video, "MAX_PICTURES", 5)
+    with pytest.raises(UserError, match="too long"):
+        write_gif(replace(walk(30, 25.0)), tmp_path / "a.gif")
+    assert not list(tmp_path.iterdir())
