@@ -19,7 +19,6 @@ from src.shared.inference.motion_sampler import MotionSampler, SampleResult, hea
 from src.shared.inference.song_memory import (
     Question,
     ask,
-    ask_now,
     questions,
     recalling,
     same_question,
@@ -86,7 +85,7 @@ class MPMSMotionSampler(MotionSampler):
         return_all: bool = False,
         seed: int = 0,
     ) -> SampleResult:
-        """As `sample`, with memory; the event loop is not held up.
+        """As `sample`, with memory; the event loop is not held up. Without one: `asyncio.run`.
 
         Args:
             audio_condition, num_frames, num_samples, guidance_scale, num_steps: see `sample`.
@@ -104,27 +103,6 @@ class MPMSMotionSampler(MotionSampler):
         plan = await asyncio.to_thread(self._plan, sound, settings, audio_embedding, beat_phase)
         answers = await ask(self.mpms_service, plan.asked, exclude_songs)
         return await asyncio.to_thread(self._dance, plan, answers, return_all)
-
-    def sample_with_mpms_now(
-        self,
-        audio_condition: AudioCondition | np.ndarray | Tensor,
-        num_frames: int | None = None,
-        num_samples: int = 8,
-        audio_embedding: np.ndarray | Tensor | None = None,
-        beat_phase: float | None = None,
-        guidance_scale: float | None = None,
-        num_steps: int | None = None,
-        *,
-        exclude_songs: Set[str] | None = None,
-        return_all: bool = False,
-        seed: int = 0,
-    ) -> SampleResult:
-        """`sample_with_mpms` without an event loop."""
-        settings = SampleSettings(num_samples, guidance_scale, num_steps, seed=seed)
-        sound = hearable(audio_condition, num_frames)
-        plan = self._plan(sound, settings, audio_embedding, beat_phase)
-        answers = ask_now(self.mpms_service, plan.asked, exclude_songs)
-        return self._dance(plan, answers, return_all)
 
     def _plan(
         self,

@@ -10,6 +10,7 @@ from src.shared.config_audio import MemoryConditionConfig
 from src.shared.config_memory import MemoryConfig
 from src.shared.data.phrases.layout import phase_rows
 from src.shared.errors import UsageError, UserError
+from src.shared.inference.motion_sampler import hearable
 from src.shared.inference.mpms_sampler import MPMSMotionSampler
 from src.shared.inference.song_memory import (
     ask,
@@ -158,16 +159,19 @@ def test_the_call_that_ref_prints(model: AudioMotionModel) -> None:
     asyncio.run(main())
 
 
-def test_with_and_without_an_event_loop_are_the_same(
+def test_windows_that_ask_together_or_in_turn_are_the_same(
     model: AudioMotionModel, service: MPMService
 ) -> None:
     sampler = MPMSMotionSampler(model, service, LinearSpace(), device="cpu")
     wish = {"num_samples": 2, "num_steps": 1, "exclude_songs": {"song-2"}, "return_all": True}
-    later = asyncio.run(sampler.sample_with_mpms(sound(), **wish))
-    now = sampler.sample_with_mpms_now(sound(), **wish)
-    assert later.all_candidates is not None and now.all_candidates is not None
-    np.testing.assert_array_equal(later.all_candidates, now.all_candidates)
-    np.testing.assert_array_equal(later.trajectory, now.all_candidates[now.best])
+    together = asyncio.run(sampler.sample_with_mpms(sound(), **wish))
+    heard, alone = hearable(sound(), None), SongSampler(model, SampleSettings(2, steps=1))
+    bars, _ = heard.time() or (None, None)
+    recall = remembering(service, LinearSpace(), alone, heard.rows, bars, {"song-2"})
+    in_turn = sampler.keep_best(heard, alone, return_all=True, recall=recall)
+    assert together.all_candidates is not None and in_turn.all_candidates is not None
+    np.testing.assert_array_equal(together.all_candidates, in_turn.all_candidates)
+    np.testing.assert_array_equal(together.trajectory, together.all_candidates[together.best])
 
 
 def test_what_cannot_be_remembered_is_refused(
@@ -177,6 +181,6 @@ def test_what_cannot_be_remembered_is_refused(
         MPMSMotionSampler(plain, service)
     sampler = MPMSMotionSampler(model, service, device="cpu")
     with pytest.raises(UsageError, match="audio_embedding"):
-        sampler.sample_with_mpms_now(sound(), num_samples=1)
+        asyncio.run(sampler.sample_with_mpms(sound(), num_samples=1))
     with pytest.raises(UsageError, match="num_frames 61"):
-        sampler.sample_with_mpms_now(sound(), 61)
+        asyncio.run(sampler.sample_with_mpms(sound(), 61))
