@@ -130,7 +130,7 @@ def draw_pose(
     ground = camera.project(vertices * (1.0, 0.0, 1.0))[:, :2]
     shadow = Image.new("L", size, 0)
     pen = ImageDraw.Draw(shadow)
-    for triangle in ground[body.triangles[::2]].reshape(-1, 6).tolist():
+    for triangle in ground[body.triangles[::2]].reshape(-1, 6).astype(np.float32):
         pen.polygon(triangle, 95)
     image.paste((70, 76, 90), (0, 0), shadow.filter(ImageFilter.GaussianBlur(3 * OVERSAMPLE)))
     colours = vertex_colours(body, motion.contacts[frame])

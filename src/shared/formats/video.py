@@ -14,6 +14,7 @@ import numpy as np
 
 from src.shared.errors import UserError
 from src.shared.files import atomic_write
+from src.shared.formats.body import CONTACT
 from src.shared.formats.drawing import INK, OVERSAMPLE, font
 from src.shared.formats.png import AZIMUTH, draw_pose
 from src.shared.motion.motion import Motion
@@ -25,7 +26,8 @@ if TYPE_CHECKING:
 SIZE = (480, 480)  # pixels; even numbers, as video wants them
 MAX_FPS = 30.0  # pictures a second; more cost time and show nothing
 FOLLOW = 1.0  # seconds over which the camera's path is smoothed
-COLOURS = 96  # of a GIF
+COLOURS = 128  # of a GIF
+GREENS = 32  # rows of the shades of a foot on the ground, for the palette
 MAX_PICTURES = 18_000  # ten minutes
 
 
@@ -41,12 +43,11 @@ def write_gif(motion: Motion, path: str | Path) -> Path:
     _check(motion, path)
     pictures = frames(motion)
     first = next(pictures)
-    # One palette for all, of the first picture, so that nothing flickers.
     plain = Image.Dither.NONE
-    palette = first.quantize(COLOURS, dither=plain)
+    palette = _palette(first)
     rest = (picture.quantize(palette=palette, dither=plain) for picture in pictures)
     with atomic_write(Path(path)) as temporary:
-        palette.save(
+        first.quantize(palette=palette, dither=plain).save(
             temporary,
             format="GIF",
             save_all=True,
@@ -56,6 +57,18 @@ def write_gif(motion: Motion, path: str | Path) -> Path:
             optimize=False,
         )
     return Path(path)
+
+
+def _palette(first: "Image.Image") -> "Image.Image":
+    """One palette for all pictures, so that nothing flickers: the first's, and a foot's green."""
+    from PIL import Image
+
+    sheet = Image.new("RGB", (first.width, first.height + GREENS))
+    sheet.paste(first, (0, 0))
+    for row in range(GREENS):
+        green = tuple(round(255 * part * (0.5 + 0.5 * row / GREENS)) for part in CONTACT)
+        sheet.paste(green, (0, first.height + row, first.width, first.height + row + 1))
+    return sheet.quantize(COLOURS, dither=Image.Dither.NONE)
 
 
 def write_mp4(motion: Motion, path: str | Path) -> Path:
