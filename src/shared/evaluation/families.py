@@ -9,7 +9,7 @@ Letters: N motions of a sample, D embedding channels.
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import Literal, Protocol, TypeVar
+from typing import Literal, Protocol, Self, TypeVar
 
 import numpy as np
 
@@ -170,7 +170,16 @@ class DanceSample:
         return DanceSample(moved, self.source)
 
 
-Sample = TypeVar("Sample", MotionSample, DanceSample, contravariant=True)
+class AnySample(Protocol):
+    """What the engine asks of a set of N motions; the families of a kind know more of theirs."""
+
+    def __len__(self) -> int: ...
+    @property
+    def asked(self) -> list[str]: ...
+    def rows(self, index: Sequence[int]) -> Self: ...
+
+
+Sample = TypeVar("Sample", bound=AnySample, contravariant=True)
 
 
 class MetricFamily(Protocol[Sample]):

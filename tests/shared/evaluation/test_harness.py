@@ -172,7 +172,7 @@ def test_an_obedient_sampler_passes_the_control_tasks() -> None:
     table = control.control_table(sampler, book, None, languages=["en", "xx"], num_seeds=4)
 
     def deaf(prompts: Sequence[str], num_frames: Sequence[int], seed: int) -> list[Motion]:
-        return sampler(prompts[:1] * len(prompts), num_frames, seed)
+        return sampler([prompts[0]] * len(prompts), num_frames, seed)
 
     assert table["languages"] == ["en"]
     assert table["means"]["en"]["templates"]["value"] >= 0.9
