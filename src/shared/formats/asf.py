@@ -78,7 +78,7 @@ class _Reader:
             values = ()
         if len(values) != count:
             shown = " ".join(words)[:60]
-            raise self.fault(f"{what} {shown!r} is not {count} numbers; correct it")
+            raise self.fault(f"{what} {shown!r} is not {_counted(count)}; correct it")
         if not np.abs(values).max() < MAX_VALUE:
             raise self.fault(f"{what} {' '.join(words)[:60]!r} is impossibly large; correct it")
         return values
@@ -155,6 +155,10 @@ class _Reader:
         if words[0] in ("begin", "end"):
             return
         self.children.append((self.number, words[0], words[1:]))
+
+
+def _counted(count: int) -> str:
+    return "a number" if count == 1 else f"{count} numbers"
 
 
 def read_asf(path: str | Path) -> AsfSkeleton:

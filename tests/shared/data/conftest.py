@@ -28,3 +28,9 @@ def cmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def bandai(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The whole Bandai-Namco set."""
     return unpacked("bandai-namco.tar.xz", tmp_path_factory.mktemp("bandai"))
+
+
+@pytest.fixture(scope="session")
+def hdm05(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The HDM05 takes, ASF/AMC."""
+    return unpacked("hdm05.tar.xz", tmp_path_factory.mktemp("hdm05"))
