@@ -9,7 +9,7 @@ import typer
 
 from src.cli import options
 from src.cli.guard import complain
-from src.cli.wording import counted
+from src.cli.wording import counted, note_replaced
 from src.shared.errors import UsageError, UserError
 
 if TYPE_CHECKING:
@@ -86,22 +86,24 @@ def convert(
     jobs = list(plan(files, format))
     formats = list(dict.fromkeys(name for job in jobs for name in job.targets))
     check_rigged(formats, names, skeleton)
-    kept = [job for job in jobs if resume and is_done(job)]
+    kept = {job.source for job in jobs if resume and is_done(job)}
+    jobs = [job for job in jobs if job.source not in kept]
+    note_replaced((path for job in jobs for path in job.targets.values()), files[-1])
     write = writer(skeleton, mapping, names)
     reading = {"mapping": mapping, "unit": unit, "up": up, "fps": fps, "skeleton": asf}
     rows, faults = [], []
-    for job in (job for job in jobs if job not in kept):
+    for job in jobs:
         try:
             rows.append(one(job, reading | {"source_fps": source_fps}, root, write))
         except UserError as error:
-            if len(jobs) == 1:
+            if len(jobs) + len(kept) == 1 or isinstance(error, UsageError):
                 raise
             complain(f"error: {error}")
             faults.append({"file": str(job.source), "error": str(error)})
             continue
         if not json:
             print(*rows[-1]["files"].values(), sep="\n", flush=True)
-    report(rows, faults, [str(job.source) for job in kept], json=json)
+    report(rows, faults, sorted(map(str, kept)), json=json)
     if faults:
         raise UserError(f"{counted(len(faults), 'file')} of {len(jobs)} could not be converted")
 

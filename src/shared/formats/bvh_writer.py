@@ -152,4 +152,5 @@ def _joint(rig: Rig, joint: int, pad: str, moves: bool) -> list[str]:
 
 
 def _offset(offset: np.ndarray) -> str:
-    return "OFFSET " + " ".join(f"{value:.5f}" for value in offset.tolist())
+    # Rounded first, so that no "-0.00000" is left.
+    return "OFFSET " + " ".join(f"{round(value, 5) + 0.0:.5f}" for value in offset.tolist())
