@@ -14,6 +14,7 @@ import numpy as np
 import torch
 
 from src.shared.errors import UsageError
+from src.shared.inference.beat_accent import accented
 from src.shared.inference.motion_stream import Passage, stream_features
 from src.shared.inference.trajectory_constraint import (
     RootError,
@@ -38,15 +39,17 @@ class PerformerSettings:
         steps, sampler, guidance_scale: of the text branch.
         foot_lock: hold standing feet in place.
         tilt: the path also says how the pelvis leans and rolls.
-        on_beats: the body is to have its beats on the song's.
+        on_beats: the network is told to have the body's beats on the song's.
+        accent: how much the limbs linger on beats, 0 to below 1; see `beat_accent`.
     """
 
     steps: int | None = None
     sampler: str | None = None
     guidance_scale: float | None = None
     foot_lock: bool | None = None
-    tilt: bool = True
+    tilt: bool = False
     on_beats: bool = True
+    accent: float = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,6 +130,8 @@ class Performer:
                 progress(sum(map(len, pieces)), num_frames)
         post = self.generator.network.generation.post_processing
         smooth = smooth_features(torch.cat(pieces), post.smoothing_kernel)
+        if beats is not None and own.accent:
+            smooth = accented(smooth, beats, own.accent, fps=trajectory.fps)
         # Averaged rotations may turn a little: the heading is the path's alone.
         features = known.keep(untwisted(smooth))
         foot_lock = post.foot_lock if own.foot_lock is None else own.foot_lock

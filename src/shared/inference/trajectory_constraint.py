@@ -26,7 +26,7 @@ PELVIS = 0  # its row
 
 
 def pin(
-    trajectory: MotionTrajectory, *, beats: np.ndarray | None = None, tilt: bool = True
+    trajectory: MotionTrajectory, *, beats: np.ndarray | None = None, tilt: bool = False
 ) -> Constraint:
     """What is known of a body that moves along a path: velocity, height and turning, T frames.
 

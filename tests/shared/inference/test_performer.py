@@ -26,7 +26,7 @@ def path(frames: int = 200, turn: float = 0.2) -> MotionTrajectory:
     return nod(np.arange(frames + 2) / 30 * 0.5, turn)
 
 
-@pytest.mark.parametrize("settings", [PerformerSettings(), PerformerSettings(tilt=False)])
+@pytest.mark.parametrize("settings", [PerformerSettings(), PerformerSettings(tilt=True)])
 @pytest.mark.parametrize("trained", [False, True])
 def test_the_body_stands_on_the_path(settings: PerformerSettings, trained: bool) -> None:
     performer = Performer(tiny_generator(constraints=trained), settings)

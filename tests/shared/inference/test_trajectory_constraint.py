@@ -32,7 +32,7 @@ def wild_path(seed: int, frames: int) -> MotionTrajectory:
 @given(seed=st.integers(0, 10_000), frames=st.integers(2, 90))
 def test_a_body_that_keeps_to_the_pins_stands_on_the_path(seed: int, frames: int) -> None:
     path = wild_path(seed, frames)
-    motion = decode_features(pin(path).values, **start_of(path))
+    motion = decode_features(pin(path, tilt=True).values, **start_of(path))
     error = root_error(motion, path)
     assert error.max_metres < 1e-4 and error.max_degrees < 0.02
     assert error.mean_metres <= error.max_metres and error.mean_degrees <= error.max_degrees
@@ -42,7 +42,7 @@ def test_a_body_that_keeps_to_the_pins_stands_on_the_path(seed: int, frames: int
 
 def test_what_is_known() -> None:
     path = wild_path(1, 40)
-    whole, upright = pin(path, beats=np.array([0.5, 1.0])), pin(path, tilt=False)
+    whole, upright = pin(path, beats=np.array([0.5, 1.0]), tilt=True), pin(path)
     assert whole.known[:, ROOT_ROW, :LEFT_CONTACT].all() and whole.known[:, 0].all()
     assert int(whole.known.sum()) == 40 * 10  # four of the root row, six of the pelvis
     assert int(upright.known.sum()) == 40 * 4 and upright.beats is None
@@ -52,13 +52,13 @@ def test_what_is_known() -> None:
 
 def test_ten_minutes_do_not_drift() -> None:
     path = wild_path(2, 18_000)
-    error = root_error(decode_features(pin(path).values, **start_of(path)), path)
+    error = root_error(decode_features(pin(path, tilt=True).values, **start_of(path)), path)
     assert error.max_metres < 0.005 and error.max_degrees < 0.1
 
 
 def test_a_heading_in_the_pelvis_row_is_taken_out() -> None:
     path = wild_path(3, 30)
-    features = pin(path).values.clone()
+    features = pin(path, tilt=True).values.clone()
     twist = axis_angle_to_matrix(1, torch.full((30,), 0.3))
     features[:, 0] = matrix_to_rotation_6d(twist)
     features[:, 1:ROOT_ROW, 0] = features[:, 1:ROOT_ROW, 4] = 1.0
@@ -70,7 +70,7 @@ def test_a_heading_in_the_pelvis_row_is_taken_out() -> None:
 
 def test_errors_are_measured() -> None:
     path = wild_path(4, 30)
-    motion = decode_features(pin(path).values, **start_of(path))
+    motion = decode_features(pin(path, tilt=True).values, **start_of(path))
     motion.root_position[:, 0] += 0.1
     error = root_error(motion, path)
     np.testing.assert_allclose([error.mean_metres, error.max_metres], 0.1, atol=1e-4)
