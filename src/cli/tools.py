@@ -13,6 +13,7 @@ from src.cli.convert import convert
 from src.cli.evaluate import evaluate
 from src.cli.evaluate_audio import evaluate_audio
 from src.cli.evaluate_memory import evaluate_memory
+from src.cli.evaluate_performer import evaluate_performer
 from src.cli.evaluate_sanity import evaluate_sanity
 from src.cli.evaluate_selection import evaluate_selection
 from src.cli.evaluate_space import evaluate_space
@@ -51,6 +52,7 @@ for command in (
     evaluate,
     evaluate_audio,
     evaluate_memory,
+    evaluate_performer,
     evaluate_sanity,
     evaluate_selection,
     evaluate_space,

@@ -47,6 +47,11 @@ FLAGS = {
         "--data --device --guidance-scale --json --memory --model --num-phrases --num-songs --out"
         " --sampler --seed --shares --song-seconds --space --splits --steps --threads --top-k"
     ),
+    "evaluate-performer": (
+        "--audio-model --clips --data --device --edits --evaluator --guidance-scale --json --model"
+        " --num-songs --other --out --quick --replications --sampler --seed --song-seconds --songs"
+        " --steps --style-songs --threads --track-seconds"
+    ),
     "evaluate-sanity": (
         "--data --decoder-checkpoint --device --diffusion-checkpoint --json --model --num-frames"
         " --num-samples --num-steps --output-dir --quick --seed --threads"

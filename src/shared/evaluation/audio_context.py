@@ -26,6 +26,7 @@ from src.shared.evaluation.audio_songs import (
     tracks,
 )
 from src.shared.evaluation.families import Dance, DanceSample
+from src.shared.evaluation.metrics_rhythm import strangers
 from src.shared.files import atomic_write
 from src.shared.inference.song_generator import SongGenerator, own_noise
 from src.shared.inference.song_sampler import SampleSettings
@@ -219,9 +220,7 @@ class AudioContext:
         """The same motions, each on another song: what not listening scores."""
         sample = self.generated(replication)
         rng = np.random.default_rng([self.settings.seed, 4, replication])
-        order, other = rng.permutation(len(sample)), np.zeros(len(sample), dtype=int)
-        other[order] = np.roll(order, 1)  # one cycle: nobody keeps the own song
-        return sample.reordered(other.tolist())
+        return sample.reordered(strangers(len(sample), rng))
 
     def frozen_pose(self, replication: int) -> DanceSample:
         """The first pose of each motion held while the music goes on."""

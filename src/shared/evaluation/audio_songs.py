@@ -200,7 +200,7 @@ def phrases(
         if item is None or (whole and not bool(item.mask.all())):
             continue
         audio = item.audio[:, item.mask]
-        bars, beats = _clock(audio)
+        bars, beats = clock(audio)
         window = item.motion[:, item.mask].numpy()
         placed = place_window(window, phase=0.0 if bars is None else float(bars[0]))
         song = item.record.song or item.record.id
@@ -208,7 +208,7 @@ def phrases(
     return found
 
 
-def _clock(audio: Tensor) -> tuple[np.ndarray | None, np.ndarray]:
+def clock(audio: Tensor) -> tuple[np.ndarray | None, np.ndarray]:
     """Unwrapped bars [T] and beat times that the rows of beat and bar phase of [C,T] tell."""
     if len(audio) < CONDITION_ROWS or float(audio[BEAT].abs().sum()) == 0:
         return None, np.zeros(0)

@@ -108,7 +108,7 @@ def alignment_tables(context: AudioContext) -> list[Grid]:
     return [
         grid
         for name, sample in samples.items()
-        for grid in _alignment(name, alignment_rows(_danced(sample), seed))
+        for grid in alignment_grids(name, alignment_rows(_danced(sample), seed))
     ]
 
 
@@ -117,7 +117,8 @@ def _danced(sample: DanceSample) -> list[Danced]:
     return [Danced(dance.song, beats, dance.beats, dance.seconds) for dance, beats in pairs]
 
 
-def _alignment(name: str, part: dict[str, Any]) -> Iterator[Grid]:
+def alignment_grids(name: str, part: dict[str, Any]) -> Iterator[Grid]:
+    """What `alignment_rows` found of the motions called `name`: scores, and differences."""
     size = (
         f"{part['songs']} songs; beats a second: motion {part['motion_beats']:.2f}, music"
         f" {part['music_beats']:.2f}; {part['without_beats']} motions without beats"

@@ -158,6 +158,13 @@ def turned_round(
         yield np.sort((inside + shift) % seconds)
 
 
+def strangers(number: int, rng: np.random.Generator) -> list[int]:
+    """For each of `number` motions another one: a single cycle, so nobody keeps its own song."""
+    order, other = rng.permutation(number), np.zeros(number, dtype=int)
+    other[order] = np.roll(order, 1)
+    return other.tolist()
+
+
 def mean_rhythm(scores: list[Rhythm]) -> Rhythm:
     """The mean of each column over at least one score; distances that are NaN are left out."""
     table = np.array([[getattr(score, name) for name in COLUMNS] for score in scores])

@@ -13,9 +13,15 @@ from src.shared.evaluation.audio_tables import (
     seam_tables,
     track_table,
 )
+from src.shared.evaluation.dance_context import DanceContext
+from src.shared.evaluation.dance_sample import BodySample
+from src.shared.evaluation.dance_style import prompt_effect
+from src.shared.evaluation.dance_tables import alignment_tables as dance_alignment
+from src.shared.evaluation.dance_tables import seam_tables as dance_seams
 from src.shared.evaluation.engine import RowKind
 from src.shared.evaluation.families import DanceSample, MetricFamily, MotionSample
 from src.shared.evaluation.families_audio import BarPhase, BeatAlignment, TrajectorySanity
+from src.shared.evaluation.families_performer import FAMILIES as PERFORMER
 from src.shared.evaluation.families_text import (
     Frechet,
     GuoRetrieval,
@@ -80,4 +86,39 @@ AUDIO_EXTRAS: dict[str, Callable[[AudioContext], list[Grid]]] = {
     "alignment": alignment_tables,
     "seams": seam_tables,
     "tracks": track_table,
+}
+DANCE_FAMILIES: tuple[MetricFamily[BodySample], ...] = PERFORMER
+DANCE_ROWS: tuple[RowKind[DanceContext, BodySample], ...] = (
+    RowKind(
+        "real", DanceContext.real, when=lambda context: context.data is not None,
+        fixed=True, real=True,
+    ),
+    RowKind("generated", lambda context, run: context.danced("generated", run)),
+    RowKind("another song", DanceContext.another_song),
+    RowKind("frozen pose", DanceContext.frozen_pose, limit=lambda context: 1, fixed=True),
+    RowKind("path alone", DanceContext.path_alone, limit=lambda context: 1, fixed=True),
+    RowKind(
+        "beats not told",
+        lambda context, run: context.danced("beats not told", run),
+        limit=lambda context: context.settings.untrained,
+        when=lambda context: context.settings.untrained > 0
+        and context.generator.network.generation.constraints,
+    ),
+    RowKind(
+        "other model",
+        lambda context, run: context.danced("other", run),
+        limit=lambda context: context.settings.untrained,
+        when=lambda context: context.settings.untrained > 0 and context.other is not None,
+    ),
+    RowKind(
+        "untrained",
+        lambda context, run: context.danced("untrained", run),
+        limit=lambda context: context.settings.untrained,
+        when=lambda context: context.settings.untrained > 0,
+    ),
+)  # fmt: skip
+DANCE_EXTRAS: dict[str, Callable[[DanceContext], list[Grid]]] = {
+    "alignment": dance_alignment,
+    "seams": dance_seams,
+    "prompts": prompt_effect,
 }

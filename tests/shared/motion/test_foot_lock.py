@@ -16,6 +16,7 @@ from src.shared.motion.skeleton import (
     JOINT_INDEX,
     LEG_LENGTH,
     NUM_JOINTS,
+    PARENTS,
     REST_FOOT_HEIGHT,
     REST_PELVIS_HEIGHT,
     canonical_skeleton,
@@ -185,3 +186,35 @@ def test_ik_reaches_what_it_can(
         atol=1e-3,
     )
     torch.testing.assert_close(again_shin, new_shin, rtol=0, atol=2e-3)
+
+
+@settings(deadline=None, max_examples=12)
+@given(slide=st.floats(-0.4, 0.4), sink=st.floats(-0.03, 0.02), seed=st.integers(0, 99))
+def test_held_feet_rest_and_bones_keep_their_length(slide: float, sink: float, seed: int) -> None:
+    motion = sliding_walk(slide=slide)
+    noise = np.random.default_rng(seed).normal(0, 0.02, 3).astype(np.float32)
+    root = motion.root_position + noise * [1, 0, 1] + np.float32([0, sink, 0])
+    moved = replace(motion, root_position=root.astype(np.float32))
+    locked = lock_feet(moved)
+    positions = locked.positions().astype(np.float64)
+    for side, ball in enumerate(BALLS):
+        down = locked.contacts[:, side] > 0.5
+        steps = np.linalg.norm(np.diff(positions[:, ball][:, [0, 2]], axis=0), axis=-1)
+        assert steps[down[1:] & down[:-1]].max(initial=0) < 1e-3
+        assert positions[:, ball, 1].min() > REST_FOOT_HEIGHT - 1e-3
+    bones = positions[:, 1:] - positions[:, list(PARENTS[1:])]
+    lengths = np.linalg.norm(canonical_skeleton().offsets[1:], axis=-1)
+    np.testing.assert_allclose(
+        np.linalg.norm(bones, axis=-1), np.broadcast_to(lengths, bones.shape[:2]), atol=1e-5
+    )
+
+
+def test_kept_legs_stay() -> None:
+    motion = sliding_walk()
+    kept = np.zeros((60, 2), dtype=bool)
+    kept[:20], kept[:, 0] = True, True
+    locked = lock_feet(motion, kept=kept)
+    np.testing.assert_array_equal(locked.quaternions[:20], motion.quaternions[:20])
+    left = [JOINT_INDEX[f"l_{name}"] for name in ("hip", "knee", "ankle", "foot")]
+    np.testing.assert_array_equal(locked.quaternions[:, left], motion.quaternions[:, left])
+    assert (locked.quaternions[20:] != motion.quaternions[20:]).any()

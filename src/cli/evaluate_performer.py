@@ -1,0 +1,157 @@
+"""`evaluate-performer`: dances of whole bodies, and editing, each beside what must score less."""
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from src.cli import options
+from src.cli.evaluate import Judge, Quick, Replications, Seed, Songs, check_data, show
+from src.cli.evaluate_sanity import Pairs, check_limits, check_pairs
+from src.cli.guard import complain
+from src.shared.errors import UsageError
+
+QUICK = {"num_songs": 4, "replications": 1, "style_songs": 2, "edits": 6}
+LIMITS = {
+    "num_songs": (2, 10_000),
+    "song_seconds": (4.0, 600.0),
+    "track_seconds": (4.0, 7200.0),
+    "style_songs": (0, 10_000),
+    "edits": (0, 10_000),
+}
+
+
+def evaluate_performer(
+    model: options.Model = "starter",
+    audio_model: Annotated[
+        str, typer.Option(help="What makes the paths: a name, or a folder from training.")
+    ] = "starter-audio",
+    other: Annotated[
+        str | None, typer.Option(help="Another text model, for a row of its own.")
+    ] = None,
+    data: Pairs = None,
+    clips: Annotated[
+        str, typer.Option(help="What editing is measured on: a prepared folder, or synthetic.")
+    ] = "synthetic",
+    songs: Songs = None,
+    evaluator: Judge = "evaluator",
+    out: Annotated[Path, typer.Option(help="Folder of the report. Begun ones go on.")] = Path(
+        "outputs/performer"
+    ),
+    quick: Quick = False,
+    replications: Replications = None,
+    num_songs: Annotated[int | None, typer.Option(help="Held-out synthetic songs; 20.")] = None,
+    song_seconds: Annotated[float, typer.Option(help="Of each synthetic song.")] = 16.0,
+    track_seconds: Annotated[float, typer.Option(help="Of each sound file, at most.")] = 16.0,
+    style_songs: Annotated[
+        int | None, typer.Option(help="Songs danced to different prompts; 8.")
+    ] = None,
+    edits: Annotated[
+        int | None, typer.Option(help="Clips that are edited; 24. 0 = no editing.")
+    ] = None,
+    steps: options.Steps = None,
+    sampler: options.Sampler = None,
+    guidance_scale: options.GuidanceScale = None,
+    seed: Seed = 0,
+    device: options.Device = "auto",
+    threads: options.Threads = None,
+    json: options.Json = False,
+) -> None:
+    """Measure whole-body dances and edited motions: beats, prompts, paths, feet, seams.
+
+    Beside every figure: real dances, another song, a frozen pose, the path alone, an untrained
+    network. With --quick: 4 songs, one replication.
+
+    \b
+    Example:
+      motion-tools evaluate-performer --data data/pairs --clips data/mine --songs music
+    """
+    amount: dict[str, Any] = {
+        "num_songs": num_songs,
+        "replications": replications,
+        "style_songs": style_songs,
+        "edits": edits,
+    }
+    amount = {name: value for name, value in amount.items() if value is not None}
+    amount = (QUICK if quick else {}) | amount
+    options.check_ranges(
+        steps=steps, guidance_scale=guidance_scale, seed=seed, threads=threads,
+        replications=replications,
+    )  # fmt: skip
+    amount |= {"song_seconds": song_seconds, "track_seconds": track_seconds}
+    check_limits({k: v for k, v in amount.items() if k in LIMITS}, LIMITS)
+    check_pairs(data)
+    if songs is not None and not songs.is_dir():
+        raise UsageError(f"--songs {songs} is no folder; name one with sound files")
+    if amount.get("edits") != 0:
+        check_data(clips)
+    options.check_folder("--out", out)
+    sampling = {"steps": steps, "sampler": sampler, "guidance_scale": guidance_scale}
+    models = {"model": model, "audio_model": audio_model, "other": other, "evaluator": evaluator}
+    report = run(
+        models, amount | {"seed": seed}, sampling, data, clips, songs, out, device, threads
+    )
+    show(report, json=json)
+
+
+def run(
+    models: dict[str, str | None],
+    amount: dict[str, Any],
+    sampling: dict[str, Any],
+    data: str | None,
+    clips: str,
+    songs: Path | None,
+    out: Path,
+    device: str,
+    threads: int | None,
+) -> dict[str, Any]:
+    """Load, measure, and write the report.
+
+    Raises:
+        UserError: no such model, or data that cannot be used.
+    """
+    from src.shared.device import set_threads
+
+    set_threads(threads)
+    from src.shared.evaluation.dance_context import DanceContext, DanceSettings
+    from src.shared.evaluation.dance_harness import evaluate_performer as evaluate
+    from src.shared.evaluation.editing_context import EditContext, EditSettings
+    from src.shared.evaluation.evaluator import Evaluator
+    from src.shared.evaluation.held_out import open_held_out
+    from src.shared.evaluation.report_folder import save_report
+    from src.shared.inference.performer import PerformerSettings
+    from src.shared.inference.song_generator import SongGenerator
+    from src.shared.model.generation.motion_generator import MotionGenerator
+
+    judge = Evaluator.from_pretrained(str(models["evaluator"]))
+    generator = MotionGenerator.from_pretrained(str(models["model"]), device=device)
+    other = models["other"]
+    settings = DanceSettings(**amount)
+    context = DanceContext(
+        generator,
+        SongGenerator.from_pretrained(str(models["audio_model"]), device=device),
+        judge,
+        settings,
+        data=data,
+        songs=songs,
+        other=None if not other else MotionGenerator.from_pretrained(other, device=device),
+        sampling=PerformerSettings(**sampling),
+        progress=tell,
+    )
+    editing = None
+    if settings.edits:
+        editing = EditContext(
+            generator,
+            open_held_out(clips, Path("runs"), judge.trained_groups),
+            EditSettings(settings.edits, untrained=settings.untrained, seed=settings.seed),
+            progress=tell,
+        )
+    report = evaluate(context, editing, about=models, folder=out, progress=tell)
+    save_report(report, out)
+    tell(str(out / "report.html"))
+    return report
+
+
+def tell(text: str) -> None:
+    """Progress, on stderr."""
+    complain(f"evaluate-performer: {text}")

@@ -1,0 +1,199 @@
+"""The performer's families of metrics: beats of the body, the path it stands on, its feet.
+
+Letters: N dances.
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from src.shared.evaluation.dance_rhythm import body_beats, landings, limb_beats, seen_from_pelvis
+from src.shared.evaluation.dance_sample import BodyDance, BodySample
+from src.shared.evaluation.families import Column, Value
+from src.shared.evaluation.metrics_contact import contact, jerk_per_speed
+from src.shared.evaluation.metrics_physical import physics
+from src.shared.evaluation.metrics_rhythm import half_beat_later, rhythm, turned_round
+from src.shared.inference.trajectory_constraint import root_error
+
+OFFSETS = 16  # random offsets a dance, for the floor
+MOMENTS = {
+    "": lambda dance: body_beats(dance.motion),
+    "limbs_": lambda dance: limb_beats(dance.motion),
+    "landing_": lambda dance: landings(dance.motion),
+}
+
+
+class BodyRhythm:
+    """Do the body's beats, its limbs' and its landings fall on the music's?"""
+
+    name = "whole-body beats"
+    distance = False
+    columns = (
+        Column("motion_to_music", "motion→music", better="high"),
+        Column("music_to_motion", "music→motion", better="high"),
+        Column("f", "F", better="high"),
+        Column("hits", "hits F", better="high"),
+        Column("f_above_turned", "F above chance", better="high"),
+        Column("f_above_half", "F above half a beat", better="high"),
+        Column("limbs_f", "limbs F", better="high"),
+        Column("limbs_f_above_turned", "limbs above chance", better="high"),
+        Column("landing_to_music", "landing→music", better="high"),
+        Column("landing_above_turned", "landings above chance", better="high"),
+        Column("landings", "landings/s", 2),
+    )
+    definition = (
+        "Motion beats are minima of the mean speed of all 22 joints (Li et al. 2021), scores as in"
+        " the audio branch (σ = 0.05 s, both ways). A path that slows down on the beat carries"
+        " whatever stands on it, a statue too: the row *path alone* has high F. *limbs F* sees the"
+        " joints from the pelvis, where a carried statue has no beats: read both. *landing→music*:"
+        " feet that come down from 4 cm, one way only, as nobody lands on every beat. *above"
+        " chance*: minus the same beats turned round within the song by 16 random times. Who has"
+        " no beats scores 0."
+    )
+
+    def compute(
+        self, sample: BodySample, reference: BodySample, *, seed: int
+    ) -> Mapping[str, Value]:
+        """See `MetricFamily`."""
+        found: dict[str, list[float]] = {column.key: [] for column in self.columns}
+        moments = {key: sample.each(key + "beats", find) for key, find in MOMENTS.items()}
+        for index, dance in enumerate(sample.dances):
+            rng = np.random.default_rng([seed, 5, index])
+            figures: dict[str, float] = {}
+            for key, times in moments.items():
+                figures |= _scores(key, times[index], dance, rng)
+            figures["landings"] = len(moments["landing_"][index]) / dance.seconds
+            for key, values in found.items():
+                values.append(figures[key])
+        return {key: np.array(values) for key, values in found.items()}
+
+
+def _scores(
+    key: str, times: np.ndarray, dance: BodyDance, rng: np.random.Generator
+) -> dict[str, float]:
+    """What moments of one dance score on its music; `key` begins the names."""
+    own = rhythm(times, dance.beats, dance.seconds)
+    turned = [
+        rhythm(each, dance.beats, dance.seconds)
+        for each in turned_round(times, dance.seconds, rng, OFFSETS)
+    ]
+    later = rhythm(times, half_beat_later(dance.beats), dance.seconds)
+    if key == "landing_":
+        floor = float(np.mean([each.motion_to_music for each in turned]))
+        return {
+            "landing_to_music": own.motion_to_music,
+            "landing_above_turned": own.motion_to_music - floor,
+        }
+    floor = float(np.mean([each.f for each in turned]))
+    figures = {name: getattr(own, name) for name in ("motion_to_music", "music_to_motion", "hits")}
+    figures |= {"f": own.f, "f_above_turned": own.f - floor, "f_above_half": own.f - later.f}
+    return {key + name: value for name, value in figures.items()}
+
+
+class OnThePath:
+    """How far the pelvis is from the trajectory that pinned it."""
+
+    name = "root against the trajectory"
+    distance = False
+    columns = (
+        Column("root_mean", "mean cm", 2, "low"),
+        Column("root_max", "max cm", 2, "low"),
+        Column("turn_mean", "mean °", 2, "low"),
+        Column("turn_max", "max °", 2, "low"),
+        Column("joint_speed", "joint speed m/s", 2),
+        Column("limb_speed", "limb speed m/s", 2),
+    )
+    definition = (
+        "Distance of the pelvis and of its heading from the song's trajectory, frame by frame; rows"
+        " without a trajectory have none. A statue that is carried is perfect here: *limb speed*,"
+        " seen from the pelvis, says whether anything else moves."
+    )
+
+    def compute(
+        self, sample: BodySample, reference: BodySample, *, seed: int
+    ) -> Mapping[str, Value]:
+        """See `MetricFamily`."""
+        rows = [_path_figures(dance) for dance in sample.dances]
+        return {
+            column.key: np.array([row.get(column.key, np.nan) for row in rows])
+            for column in self.columns
+        }
+
+
+def _path_figures(dance: BodyDance) -> dict[str, float]:
+    figures = {
+        "joint_speed": _speed(dance.motion.positions(), dance.motion.fps),
+        "limb_speed": _speed(seen_from_pelvis(dance.motion), dance.motion.fps),
+    }
+    if dance.path is None:
+        return figures
+    error = root_error(dance.motion, dance.path)
+    return figures | {
+        "root_mean": 100 * error.mean_metres,
+        "root_max": 100 * error.max_metres,
+        "turn_mean": error.mean_degrees,
+        "turn_max": error.max_degrees,
+    }
+
+
+def _speed(points: np.ndarray, fps: float) -> float:
+    """Mean speed in m/s of points [T,K,3]."""
+    return float(np.linalg.norm(np.diff(points.astype(np.float64), axis=0), axis=-1).mean() * fps)
+
+
+FEET = {
+    "contact": "slide, contact cm/s",
+    "support": "slide, support cm/s",
+    "skating": "skating %",
+    "sunk": "sunk cm",
+    "floating": "floating cm",
+    "jerk": "jerk m/s³",
+}
+
+
+class Feet:
+    """Feet and floor before and after the feet were held."""
+
+    name = "feet"
+    distance = False
+    columns = tuple(
+        Column(
+            f"{key}{suffix}", f"{heading}, {when}", 0 if key in ("jerk", "skating") else 2, "low"
+        )
+        for key, heading in FEET.items()
+        for suffix, when in (("_before", "before"), ("", "after"))
+    ) + (Column("jerk_per_speed", "jerk / speed 1/s², after", 0),)
+    definition = (
+        "Before and after the clean-up of the feet; rows that have none show the same twice."
+        " *contact*: m/s of the ball of a foot while a detector that asks for a slow foot says that"
+        " it stands. *support*: the lower foot in every frame within 6 cm of its standing height,"
+        " no condition on its speed, so neither a fast glide nor the clean-up's own idea of a"
+        " contact escapes it. A frozen pose is perfect in all but *jerk / speed*, which it has not."
+    )
+
+    def compute(
+        self, sample: BodySample, reference: BodySample, *, seed: int
+    ) -> Mapping[str, Value]:
+        """See `MetricFamily`."""
+        rows = sample.each("feet", foot_figures)
+        return {column.key: np.array([row[column.key] for row in rows]) for column in self.columns}
+
+
+def foot_figures(dance: BodyDance) -> dict[str, float]:
+    """The columns of `Feet` for one dance."""
+    figures: dict[str, float] = {}
+    for suffix, motion in (("_before", dance.unheld), ("", dance.motion)):
+        speeds, floor = physics(motion), contact(motion)
+        figures |= {
+            f"contact{suffix}": speeds.contact_slide,
+            f"support{suffix}": speeds.support_slide,
+            f"skating{suffix}": floor.skating_frames,
+            f"sunk{suffix}": floor.sunk_depth,
+            f"floating{suffix}": floor.float_height,
+            f"jerk{suffix}": speeds.jerk,
+        }
+    positions = dance.motion.positions().astype(np.float64)
+    return figures | {"jerk_per_speed": jerk_per_speed(positions, dance.motion.fps)}
+
+
+FAMILIES = (BodyRhythm(), OnThePath(), Feet())

@@ -1,0 +1,129 @@
+"""When and where feet stand: runs, steps, reach, and curves between holds."""
+
+import numpy as np
+import pytest
+import torch
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.interpolate import CubicHermiteSpline
+
+from src.shared.motion.foot_holds import (
+    MAX_REACH,
+    contact_runs,
+    corrections,
+    foot_holds,
+    foot_shifts,
+    hermite,
+    standing,
+)
+from src.shared.motion.leg_ik import MAX_RISE, heel_rise
+from src.shared.motion.skeleton import REST_FOOT_HEIGHT
+
+FPS = 30.0
+
+
+def on_floor(frames: int, speed: float = 0.0) -> np.ndarray:
+    """A ball of the foot that glides along z."""
+    path = np.zeros((frames, 3))
+    path[:, 1] = REST_FOOT_HEIGHT
+    path[:, 2] = speed * np.arange(frames) / FPS
+    return path
+
+
+def hips_over(path: np.ndarray, height: float = 0.87) -> np.ndarray:
+    return path + np.array([0.0, height - REST_FOOT_HEIGHT, -0.1])
+
+
+def test_runs_bridge_short_gaps() -> None:
+    contact = np.array([0, 1, 1, 0, 1, 1, 0, 0, 0, 0, 1], dtype=bool)
+    assert contact_runs(contact, max_gap=2) == [(1, 6), (10, 11)]
+    assert contact_runs(contact, max_gap=0) == [(1, 3), (4, 6), (10, 11)]
+    assert contact_runs(np.zeros(4, dtype=bool), max_gap=2) == []
+    assert contact_runs(np.ones(4, dtype=bool), max_gap=2) == [(0, 4)]
+
+
+def test_the_lower_foot_carries_who_claims_nothing() -> None:
+    balls = np.stack((on_floor(20), on_floor(20) + [0, 0.03, 0]), 1)
+    hips = hips_over(balls)
+    assert standing(balls, hips, np.zeros((20, 2)), FPS).tolist() == [[True, False]] * 20
+    claimed = standing(balls, hips, np.tile([0.0, 1.0], (20, 1)), FPS)
+    assert claimed.tolist() == [[False, True]] * 20
+    high = balls + [0, 0.3, 0]
+    assert not standing(high, hips, np.ones((20, 2)), FPS).any()
+
+
+def test_who_falls_stands_on_nothing() -> None:
+    balls = np.stack((on_floor(20), on_floor(20)), 1)
+    fall = -9.81 / 2 * (np.arange(20) / FPS) ** 2
+    hips = hips_over(balls)
+    hips[..., 1] += fall[:, None]
+    assert not standing(balls, hips, np.zeros((20, 2)), FPS)[7:-7].any()
+
+
+def test_a_dragged_foot_takes_steps_in_turn_with_the_other() -> None:
+    path = on_floor(120, speed=0.5)  # two metres
+    stands, kept = np.ones(120, dtype=bool), np.zeros(120, dtype=bool)
+    left, right = (
+        foot_holds(path, hips_over(path), stands, FPS, kept, phase=phase) for phase in (0.0, 0.5)
+    )
+    assert len(left) >= 3 and len(right) >= 3
+    held = np.zeros((120, 2), dtype=bool)
+    for side, holds in enumerate((left, right)):
+        for hold in holds:
+            held[hold.start : hold.stop, side] = True
+            reach = np.linalg.norm(hips_over(path)[hold.start : hold.stop] - hold.point, axis=1)
+            assert reach.max() <= MAX_REACH
+    assert held.any(1).all()  # one foot is always down
+    assert not held.all()
+    shift = corrections(path, left, kept, FPS)
+    moved = path + shift
+    for hold in left:
+        ground = moved[hold.start : hold.stop, [0, 2]]
+        assert np.abs(ground - ground[0]).max() < 1e-9
+    between = slice(left[0].stop, left[1].start)
+    assert moved[between, 1].max() > REST_FOOT_HEIGHT + 0.03  # a step is lifted
+
+
+def test_a_kept_beginning_says_where_the_foot_stands_on() -> None:
+    path = on_floor(30, speed=0.3)
+    kept = np.arange(30) < 10
+    balls = np.stack((path, path), 1)
+    both = np.stack((kept, kept), 1)
+    shifts, held = foot_shifts(balls, hips_over(balls), np.ones((30, 2)), FPS, both)
+    assert np.abs(shifts[:10]).max() == 0.0
+    moved = balls + shifts
+    np.testing.assert_allclose(moved[10:, :, 2], path[9, 2], atol=1e-9)
+    assert held.all()
+
+
+@settings(deadline=None, max_examples=50)
+@given(st.lists(st.floats(-2, 2), min_size=4, max_size=4), st.integers(1, 20))
+def test_hermite_is_scipys(values: list[float], num: int) -> None:
+    left, right, left_slope, right_slope = (np.array([value, 0.0, 1.0]) for value in values)
+    ours = hermite(left, right, left_slope, right_slope, num)
+    theirs = CubicHermiteSpline([0, num], [left, right], [left_slope, right_slope])
+    np.testing.assert_allclose(ours, theirs(np.arange(num + 1)), atol=1e-9)
+
+
+@settings(deadline=None, max_examples=60)
+@given(
+    height=st.floats(0.6, 0.95),
+    away=st.tuples(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5)),
+    longest=st.floats(0.7, 0.8),
+)
+def test_a_heel_rises_no_further_than_needed(
+    height: float, away: tuple[float, float], longest: float
+) -> None:
+    hip = torch.tensor([away[0], height, away[1]], dtype=torch.float64)
+    ball = torch.tensor([0.0, REST_FOOT_HEIGHT, 0.0], dtype=torch.float64)
+    lever = torch.tensor([0.0, 0.06, -0.13], dtype=torch.float64)
+    turn = heel_rise(hip, ball, lever, torch.tensor(longest, dtype=torch.float64))
+    before = float((ball + lever - hip).norm())
+    after = float((ball + turn @ lever - hip).norm())
+    angle = float(torch.arccos(((turn.trace() - 1) / 2).clamp(-1, 1)))
+    if before <= longest:
+        assert angle < 1e-6
+    elif angle < MAX_RISE - 1e-6 and float((hip - ball).norm() - lever.norm()) < longest:
+        assert after == pytest.approx(longest, abs=1e-6)
+    else:
+        assert longest - 1e-9 < after < before
