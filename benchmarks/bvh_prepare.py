@@ -1,4 +1,4 @@
-"""How fast is BVH taken in? Reading, retargeting and encoding, in multiples of real time per core.
+"""How fast is mocap taken in? Reading, retargeting, encoding: multiples of real time per core.
 
 python -m benchmarks.bvh_prepare FOLDER [--clips 40] [--json OUT]
 
@@ -22,23 +22,19 @@ STAGES = ("read", "retarget", "encode")
 
 
 def measure_clip(path: Path, mappings: "tuple[SkeletonMapping, ...]") -> dict[str, float]:
-    """Seconds of motion in a file, and seconds spent on each stage, as `MotionFolder.read` does it.
+    """Seconds of motion in a file, and seconds spent on each stage, as `MotionFolder` reads it.
 
     Raises:
         UserError: the file is faulty, or its joints are in no mapping.
     """
-    from src.shared.data.mapping import find_mapping
-    from src.shared.data.retarget import retarget
-    from src.shared.formats.bvh import read_bvh
+    from src.shared.data.read_motion import fit
+    from src.shared.data.recordings import open_recording
     from src.shared.motion.root_track import encode_features
 
     start = time.process_time()
-    clip = read_bvh(path)
-    stride = round(1 / clip.frame_time / FPS)
-    if stride > 1:  # 60, 120 fps: read again, only the frames that are kept
-        clip = read_bvh(path, stride=stride)
+    recording = open_recording(path)
     read = time.process_time()
-    motion = retarget(clip, find_mapping(clip.names, mappings))
+    motion = fit(path, recording, mappings, fps=FPS)
     retargeted = time.process_time()
     encode_features(motion)
     encoded = time.process_time()
@@ -83,7 +79,7 @@ def show(result: dict[str, Any]) -> None:
 def main() -> None:
     """Parse, measure, print."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
-    parser.add_argument("folder", type=Path, help="BVH files, at any depth")
+    parser.add_argument("folder", type=Path, help="motion files, at any depth")
     parser.add_argument("--clips", type=int, default=40, help="how many, drawn at random")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--json", type=Path, help="write the result here")
@@ -92,12 +88,13 @@ def main() -> None:
     import torch
 
     from src.shared.data.mapping import load_mappings
+    from src.shared.data.recordings import FOLDER_ENDINGS
     from src.shared.errors import UserError
 
     torch.set_num_threads(1)
-    files = sorted(arguments.folder.rglob("*.bvh"))
+    files = sorted(p for p in arguments.folder.rglob("*") if p.suffix.lower() in FOLDER_ENDINGS)
     if not files:
-        raise SystemExit(f"{arguments.folder} holds no .bvh file")
+        raise SystemExit(f"{arguments.folder} holds no motion file")
     chosen = random.Random(arguments.seed).sample(files, min(arguments.clips, len(files)))
     mappings = load_mappings()
     measure_clip(chosen[0], mappings)  # first use compiles and allocates

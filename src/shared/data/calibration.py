@@ -12,17 +12,13 @@ import numpy as np
 
 from src.shared.data.guesses import SAMPLES, joint_indices
 from src.shared.data.mapping import SkeletonMapping
+from src.shared.formats.positions_ik import BENDS, LEFT, UP
 from src.shared.formats.source_clip import SourceClip
 from src.shared.motion.skeleton import JOINT_INDEX, JOINT_NAMES, PARENTS, canonical_skeleton
 
-LEFT, UP = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])
 # Joints that carry several bones: what lies left, right and above in their own axes.
 _FRAMES = {"pelvis": ("l_hip", "r_hip", ("spine1", "spine2", "spine3", "neck")),
            "spine3": ("l_shoulder", "r_shoulder", ("neck", "head"))}  # fmt: skip
-# Upper joint of a limb: its end joints, and the axis about which the middle one bends (T-pose).
-_BENDS = {"l_hip": ("l_knee", "l_ankle", LEFT), "r_hip": ("r_knee", "r_ankle", LEFT),
-          "l_shoulder": ("l_elbow", "l_wrist", -UP),
-          "r_shoulder": ("r_elbow", "r_wrist", UP)}  # fmt: skip
 BENT = 0.1  # mean sine of the bend below which it tells nothing
 NEAR = np.pi / 3  # a joint without a bone keeps its parent's axes, if they are this near
 ALIKE = 0.98  # cosine: two bones of a chain lie alike; a bone lies along an axis
@@ -100,9 +96,9 @@ class _Look:
 
     def bending(self, ours: str, bone: np.ndarray, rest: np.ndarray) -> np.ndarray | None:
         """Axes [3,3] of a limb's upper joint, by the way the limb bends."""
-        if ours not in _BENDS:
+        if ours not in BENDS:
             return None
-        middle, end, hinge = _BENDS[ours]
+        middle, end, hinge = BENDS[ours]
         lower = self.steps(middle, end, ours)
         lower /= np.maximum(np.linalg.norm(lower, axis=-1, keepdims=True), 1e-9)
         normals = np.cross(bone, lower)  # length: sine of the bend

@@ -88,8 +88,12 @@ def _npz(path: Path, fps: float | None) -> Recording:
     from src.shared.formats.npz import read_npz
 
     names = array_names(path)
-    if "format_version" in names or not is_amass(names):
+    if "quaternions" in names or "format_version" in names:
         return Recording("NPZ of this project", motion=read_npz(path))
+    if not is_amass(names):
+        shown = ", ".join(name[:40] for name in names[:8]) or "nothing"
+        raise UserError(f"{path}: holds {shown}: neither a motion of this project nor AMASS "
+                        "(trans, and poses or root_orient and pose_body)")  # fmt: skip
     clip = read_amass(path, fps=fps)
     return Recording(
         "AMASS", clip=clip, up="Z", metres=1.0, true_size=True, exact=clip.ours,

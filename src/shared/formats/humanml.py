@@ -1,8 +1,16 @@
-"""HumanML3D joints in: positions [T,22,3] as NPY, and rotations found for them.
+"""HumanML3D in: joint positions [T,22,3] or feature vectors [T,263] as NPY.
 
-The joints are in our order, +Y up, metres, 20 frames a second. Positions say nothing of the twist
-about a bone: pelvis and chest are fitted to the three bones that leave each, every other joint
-takes the smallest turn that aims its bone. Legend: T frames.
+The joints are in our order, +Y up, metres, 20 frames a second. Of the feature vectors (Guo et al.
+2022, "Generating Diverse and Natural 3D Human Motions from Text", section 5.1) the parts that give
+positions are read; rotations are found for them by `positions_ik`. Legend: T frames.
+
+| channels of 263 | meaning                                                             |
+|-----------------|---------------------------------------------------------------------|
+| 0               | half the turn of the root about +Y to the next frame, radians       |
+| 1:3             | step of the root to the next frame along its own x and z, metres    |
+| 3               | height of the root, metres                                          |
+| 4:67            | the other 21 joints: x and z from the root in its own axes, y as is |
+| 67:263          | rotations, velocities, contacts: not read                           |
 """
 
 from pathlib import Path
@@ -12,72 +20,50 @@ import numpy as np
 from src.shared.errors import UserError
 from src.shared.formats.joint_clip import JointClip
 from src.shared.formats.limits import read_array
-from src.shared.motion.skeleton import NUM_JOINTS, PARENTS, canonical_skeleton
+from src.shared.formats.positions_ik import clip_of_positions
+from src.shared.motion.skeleton import NUM_JOINTS, PARENTS
 
 FPS = 20.0
+FEATURES = 263
 MAX_VALUE = 1e4  # metres
+SPREAD = 0.25  # of a bone's length over time, relative: more, and they are no positions
 
 
 def read_humanml(path: str | Path, *, fps: float | None = None) -> JointClip:
-    """Read joint positions [T,22,3] and fit rotations to them.
+    """Read joint positions or feature vectors and fit rotations to them.
 
     Raises:
-        UserError: missing, damaged, of another shape, or with NaN.
+        UserError: missing, damaged, of another shape, with NaN, or normalised vectors.
     """
     path = Path(path)
     array = read_array(path)
-    if array.dtype.kind not in "fiu" or array.shape[1:] != (NUM_JOINTS, 3) or not len(array):
+    shapes = ((NUM_JOINTS, 3), (FEATURES,))
+    if array.dtype.kind not in "fiu" or array.shape[1:] not in shapes or not len(array):
         raise UserError(f"{path}: is {array.dtype}{list(array.shape)}, expected joint positions "
-                        f"[T,{NUM_JOINTS},3]")  # fmt: skip
-    positions = array.astype(np.float64)
-    if not np.abs(positions).max() < MAX_VALUE:
-        raise UserError(f"{path}: holds NaN or impossibly large values")
+                        f"[T,{NUM_JOINTS},3] or HumanML3D vectors [T,{FEATURES}]")  # fmt: skip
+    array = array.astype(np.float64)
+    if not np.abs(array).max() < MAX_VALUE:
+        raise UserError(f"{path}: holds NaN or impossibly large values; write it again")
+    positions = array if array.ndim == 3 else positions_of_features(array)
+    bones = np.linalg.norm(positions[:, 1:] - positions[:, list(PARENTS[1:])], axis=-1)
+    if (bones.std(0) > SPREAD * bones.mean(0).max()).any() or not bones.mean(0).max() > 0.01:
+        raise UserError(f"{path}: the bones change their length, so these are no positions in "
+                        "metres; undo a normalisation (times Std, plus Mean) first")  # fmt: skip
     return clip_of_positions(positions, fps or FPS)
 
 
-def clip_of_positions(positions: np.ndarray, fps: float) -> JointClip:
-    """Rotations for joint positions [T,22,3], bones of mean length along ours."""
-    rest = canonical_skeleton().offsets.astype(np.float64)
-    bones = positions - positions[:, [max(parent, 0) for parent in PARENTS]]
-    lengths = np.linalg.norm(bones, axis=-1).mean(0)
-    unit = rest / np.maximum(np.linalg.norm(rest, axis=-1, keepdims=True), 1e-9)
-    local = np.tile(np.eye(3), (len(positions), NUM_JOINTS, 1, 1))
-    world = local.copy()
-    for joint, parent in enumerate(PARENTS):
-        children = [child for child in range(NUM_JOINTS) if PARENTS[child] == joint]
-        above = world[:, parent] if parent >= 0 else np.tile(np.eye(3), (len(positions), 1, 1))
-        if len(children) > 1:
-            world[:, joint] = _fit(unit[children], _units(bones[:, children]))
-        elif children:
-            aimed = np.einsum("tji,tj->ti", above, _units(bones[:, children[0]]))
-            local[:, joint] = _swing(unit[children[0]], aimed)
-            world[:, joint] = above @ local[:, joint]
-        else:
-            world[:, joint] = above
-        local[:, joint] = np.swapaxes(above, -1, -2) @ world[:, joint]
-    return JointClip(local, positions[:, 0], unit * lengths[:, None], 1.0 / fps)
-
-
-def _units(vectors: np.ndarray) -> np.ndarray:
-    return vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-9)
-
-
-def _fit(rest: np.ndarray, seen: np.ndarray) -> np.ndarray:
-    """Rotations [T,3,3] that bring directions [C,3] nearest to [T,C,3] (Kabsch 1976)."""
-    u, _, v = np.linalg.svd(np.einsum("tci,cj->tij", seen, rest))
-    sign = np.sign(np.linalg.det(u @ v))
-    u[..., -1] *= np.where(sign == 0, 1, sign)[:, None]
-    return np.asarray(u @ v)
-
-
-def _swing(rest: np.ndarray, seen: np.ndarray) -> np.ndarray:
-    """Smallest rotations [T,3,3] that turn direction [3] into [T,3]."""
-    cross, cos = np.cross(rest, seen), seen @ rest
-    k = np.zeros((len(seen), 3, 3))
-    k[:, 0, 1], k[:, 0, 2], k[:, 1, 2] = -cross[:, 2], cross[:, 1], -cross[:, 0]
-    k -= np.swapaxes(k, -1, -2)
-    result = np.eye(3) + k + k @ k / np.maximum(1 + cos, 1e-9)[:, None, None]
-    axis = np.cross(rest, np.eye(3)[np.argmin(np.abs(rest))])
-    axis /= np.linalg.norm(axis)
-    half = 2 * np.outer(axis, axis) - np.eye(3)  # opposite: half a turn about any axis across
-    return np.where((cos < -0.999999)[:, None, None], half, result)
+def positions_of_features(features: np.ndarray) -> np.ndarray:
+    """World positions [T,22,3] of feature vectors [T,263], from the origin, facing +Z."""
+    turn = np.zeros(len(features))
+    turn[1:] = -2.0 * np.cumsum(features[:-1, 0])
+    cos, sin = np.cos(turn), np.sin(turn)
+    step = np.zeros((len(features), 2))
+    step[1:] = features[:-1, 1:3]
+    root = np.stack([cos * step[:, 0] + sin * step[:, 1], -sin * step[:, 0] + cos * step[:, 1]], -1)
+    root = np.cumsum(root, 0)
+    others = features[:, 4:67].reshape(-1, NUM_JOINTS - 1, 3)
+    x, y, z = others[..., 0], others[..., 1], others[..., 2]
+    cos, sin = cos[:, None], sin[:, None]
+    others = np.stack([cos * x + sin * z + root[:, :1], y, -sin * x + cos * z + root[:, 1:]], -1)
+    first = np.stack([root[:, 0], features[:, 3], root[:, 1]], -1)
+    return np.concatenate([first[:, None], others], 1)

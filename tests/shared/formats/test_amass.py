@@ -1,0 +1,82 @@
+"""AMASS: rotation vectors against scipy, every spelling of the arrays, and faults."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from src.shared.data.read_motion import inspect_motion, read_motion
+from src.shared.errors import UserError
+from src.shared.formats.amass import SMPL_PELVIS, read_amass
+from src.shared.motion.skeleton import JOINT_INDEX
+
+RNG = np.random.default_rng(4)
+POSES = RNG.normal(size=(9, 156)) * 0.4
+POSES[:, :3] = Rotation.from_euler("x", 90, degrees=True).as_rotvec()  # AMASS: +Z up, facing -Y
+TRANS = np.column_stack([np.linspace(0, 1, 9), np.linspace(0, -2, 9), np.full(9, 0.9)])
+GOOD = {"poses": POSES, "trans": TRANS, "mocap_framerate": np.float64(60), "betas": np.zeros(16)}
+
+
+def save(folder: Path, **changes: object) -> Path:
+    arrays = {name: value for name, value in (GOOD | changes).items() if value is not None}
+    np.savez(folder / "a.npz", **arrays)  # type: ignore[arg-type]
+    return folder / "a.npz"
+
+
+@pytest.mark.parametrize("changes", [
+    {},
+    {"poses": POSES[:, :66]},
+    {"poses": np.pad(POSES, ((0, 0), (0, 9)))},
+    {"mocap_framerate": None, "mocap_frame_rate": np.float32(60)},
+    {"poses": None, "root_orient": POSES[:, :3], "pose_body": POSES[:, 3:66]},
+])  # fmt: skip
+def test_every_spelling_is_the_same_body(tmp_path: Path, changes: dict) -> None:
+    clip = read_amass(save(tmp_path, **changes))
+    expected = Rotation.from_rotvec(POSES[:, :66].reshape(-1, 3)).as_matrix()
+    np.testing.assert_allclose(clip.rotations.reshape(-1, 3, 3), expected, atol=1e-12)
+    np.testing.assert_allclose(clip.root, TRANS + SMPL_PELVIS)
+    assert 1 / clip.frame_time == pytest.approx(60)
+
+
+def test_z_up_becomes_y_up(tmp_path: Path) -> None:
+    """Derived by hand: +Z is up, and who faced -Y walks along +Z."""
+    poses = np.zeros((9, 156))
+    poses[:, :3] = POSES[:, :3]
+    motion = read_motion(save(tmp_path, poses=poses), fps=None)
+    at = motion.positions()
+    assert motion.fps == pytest.approx(60)
+    assert at[0, JOINT_INDEX["head"], 1] > 1.4 and at[0, JOINT_INDEX["l_foot"], 1] < 0.1
+    assert at[0, JOINT_INDEX["l_wrist"], 0] > at[0, JOINT_INDEX["r_wrist"], 0] + 1
+    np.testing.assert_allclose(at[-1, 0] - at[0, 0], [1, 0, 2], atol=1e-5)
+    found = inspect_motion(save(tmp_path))
+    assert (found.format, found.up, found.unit, found.guessed) == ("AMASS", "Z", "m", ())
+    assert any("hands" in warning for warning in found.warnings)
+
+
+@pytest.mark.parametrize(("changes", "message"), [
+    ({"trans": None}, "neither a motion of this project nor AMASS"),
+    ({"poses": POSES[:, :60]}, "poses has 60 values"),
+    ({"poses": POSES[:5]}, "5 poses and 9 places"),
+    ({"poses": POSES.ravel()}, r"expected numbers of shape \[T,66 or more\]"),
+    ({"trans": TRANS * np.nan}, "trans holds NaN"),
+    ({"trans": TRANS.astype("U4")}, "trans is"),
+    ({"mocap_framerate": None}, "--source-fps"),
+    ({"mocap_framerate": np.float64(0)}, "0 frames a second"),
+    ({"mocap_framerate": np.zeros(2)}, "the frame rate is"),
+    ({"poses": np.array([{}])}, "Python objects"),
+])  # fmt: skip
+def test_faults_are_named(tmp_path: Path, changes: dict, message: str) -> None:
+    with pytest.raises(UserError, match=message) as caught:
+        read_motion(save(tmp_path, **changes))
+    assert "a.npz" in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_a_rate_can_be_stated(tmp_path: Path) -> None:
+    path = save(tmp_path, mocap_framerate=None)
+    assert read_motion(path, source_fps=120, fps=None).fps == pytest.approx(120)
+
+
+def test_an_unread_array_with_objects_does_no_harm(tmp_path: Path) -> None:
+    """Real AMASS files carry some; only what is needed is opened."""
+    assert read_motion(save(tmp_path, labels_obs=np.array([{"a": 1}]))).num_frames > 0
