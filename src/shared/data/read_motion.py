@@ -104,15 +104,14 @@ def fit(
     clip = recording.clip
     assert clip is not None
     profile = _profile(path, clip, mappings)
-    ours = is_ours(clip, profile)
-    exact = ours or recording.exact
+    ours = is_ours(clip, profile) if recording.exact is None else recording.exact
     up = up or recording.up or ("Y" if ours else guess_up(clip, profile)[0])
     metres = recording.metres if recording.true_size else our_scale(clip, profile) if ours else None
     metres = unit_metres(unit) if unit else metres
     if fps is not None:
         clip = thinned(clip, fps)
     try:
-        motion = retarget(clip, profile, fps=fps, up=up, metres=metres, ground=not exact)
+        motion = retarget(clip, profile, fps=fps, up=up, metres=metres, ground=not ours)
     except ValueError as error:
         raise UserError(f"{path}: {error}") from None
     return replace(motion, text=recording.text)

@@ -23,7 +23,8 @@ class Recording:
         up: the up axis, where the format fixes it.
         metres: of the unit of length, where the format fixes it.
         true_size: distances are not to be scaled to our legs: the file has no legs of its own.
-        exact: the body is ours already: rotations and places are taken as they are.
+        exact: the body is ours already: rotations and places are taken as they are; None: if the
+            bones are ours.
         text: caption or prompt, where the file holds one.
         warnings: what the format loses or does not say, a sentence each.
     """
@@ -34,7 +35,7 @@ class Recording:
     up: str | None = None
     metres: float | None = None
     true_size: bool = False
-    exact: bool = False
+    exact: bool | None = None
     text: str = ""
     warnings: tuple[str, ...] = ()
 

@@ -8,6 +8,7 @@
 | gender          | ()      | str     | neutral                                                  |
 | betas           | [16]    | float64 | 0: the mean shape                                        |
 | dmpls           | [T,8]   | float64 | 0: no soft tissue                                        |
+| skeleton        | ()      | str     | motion-suite: reading it again needs no fitting          |
 
 Rotations go over as they stand, for our joints are SMPL's and its rest pose is a T-pose too; its
 bones lie a few degrees off ours, so hands and feet end up a few centimetres elsewhere.
@@ -19,7 +20,7 @@ from pathlib import Path
 import numpy as np
 
 from src.shared.files import atomic_write
-from src.shared.formats.amass import SMPL_PELVIS
+from src.shared.formats.amass import OURS, SMPL_PELVIS
 from src.shared.formats.rig import quaternions_to_matrices
 from src.shared.motion.motion import Motion
 
@@ -46,6 +47,7 @@ def write_amass(motion: Motion, path: str | Path) -> Path:
             gender=np.array("neutral"),
             betas=np.zeros(16),
             dmpls=np.zeros((motion.num_frames, 8)),
+            skeleton=np.array(OURS),
         )
     return Path(path)
 

@@ -80,3 +80,12 @@ def test_a_rate_can_be_stated(tmp_path: Path) -> None:
 def test_an_unread_array_with_objects_does_no_harm(tmp_path: Path) -> None:
     """Real AMASS files carry some; only what is needed is opened."""
     assert read_motion(save(tmp_path, labels_obs=np.array([{"a": 1}]))).num_frames > 0
+
+
+def test_other_bodies_are_put_on_the_floor_and_ours_are_left(tmp_path: Path) -> None:
+    """A foreign file's body is not ours in size, so its heights say little of our feet."""
+    floating = {"trans": TRANS + [0, 0, 5], "poses": np.pad(POSES[:, :3], ((0, 0), (0, 153)))}
+    lowest = {skeleton: read_motion(save(tmp_path, skeleton=skeleton, **floating)).positions()
+              [:, [JOINT_INDEX["l_foot"], JOINT_INDEX["r_foot"]], 1].min()
+              for skeleton in (None, "motion-suite")}  # fmt: skip
+    assert lowest[None] < 0.05 and lowest["motion-suite"] > 4.5
