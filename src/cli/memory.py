@@ -41,7 +41,7 @@ def build(
 ) -> None:
     """Cut phrases at bars and remember how each sounds and moves.
 
-    A memory that is up to date is left as it is.
+    A memory that is up to date is left as it is; a stopped build goes on where it was.
 
     \b
     Example:

@@ -1,13 +1,14 @@
 """The engine on a bench whose figures are known: cells, halves, resuming, worst first."""
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from src.shared.errors import UserError
-from src.shared.evaluation.engine import estimate, motion_values, run_bench, worst_first
+from src.shared.evaluation.engine import Bench, Row, estimate, motion_values, run_bench, worst_first
 from src.shared.evaluation.families import Column
 from src.shared.evaluation.grids import Grid
 from src.shared.evaluation.parts import Parts
@@ -40,6 +41,45 @@ def test_the_real_row_is_measured_between_two_halves_where_it_would_be_zero() ->
     found = run(None)
     assert found["toy/apart"].value("generated", "apart") == pytest.approx(0.6)
     assert 0 < found["toy/apart"].value("real", "apart") < 0.4
+
+
+class Numbers:
+    """Motions of a new kind: all that the engine asks of them."""
+
+    def __init__(self, values: Sequence[float]) -> None:
+        self.values = list(values)
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    @property
+    def asked(self) -> list[str]:
+        return [str(number) for number in range(len(self))]
+
+    def rows(self, index: Sequence[int]) -> "Numbers":
+        return Numbers([self.values[i] for i in index])
+
+
+class Size:
+    """Its only family."""
+
+    name, distance = "size", False
+    columns = (Column("size", "size"),)
+    definition = "The number itself."
+
+    def compute(self, sample: Numbers, reference: Numbers, *, seed: int) -> dict[str, np.ndarray]:
+        return {"size": np.array(sample.values)}
+
+
+def test_another_kind_of_motion_needs_nothing_of_the_harness() -> None:
+    real = Numbers([1.0, 2.0, 3.0])
+    rows = [
+        Row("real", lambda replication: real, real=True),
+        Row("generated", lambda replication: Numbers([4.0, 5.0, 6.0])),
+    ]
+    bench = Bench("new", "new kind", lambda: real, rows, [Size()])
+    (grid,) = run_bench(bench, Parts(None), 2, 0, lambda text: None)
+    assert grid.value("real", "size") == 2 and grid.value("generated", "size") == 5
 
 
 def test_a_finished_part_is_not_measured_again(tmp_path: Path) -> None:
