@@ -15,6 +15,7 @@ from src.shared.formats.glb_reader import read_glb
 from src.shared.formats.joint_names import SCHEMES, joint_names
 from src.shared.formats.registry import write_clip
 from src.shared.formats.rig import RigClip, canonical_rig, motion_clip, rescaled
+from src.shared.motion.skeleton import JOINT_NAMES
 from tests.shared.formats.glb_reader import Glb
 from tests.shared.formats.rigs import differences, random_clip
 from tests.shared.formats.test_bvh_writer import random_motion
@@ -149,10 +150,27 @@ def test_names_are_22_and_plain(scheme: str, tmp_path: Path) -> None:
     names = joint_names(scheme)
     assert len(set(names)) == 22
     assert motion_clip(random_motion(1), scheme).names == names
-    # Blender flips left and right by these marks; Unity by the same ones.
-    marks = {"canonical": "l_", "mixamo": "Left", "unity": "Left", "unreal": "_l"}
-    left = [name for name in names if marks[scheme] in name and name != "spine_l"]
-    assert len([n for n in left if "pelvis" not in n]) == 8
+    assert scheme == "canonical" or not set(names) & {"l_hip", "r_hip"}
+
+
+def test_unity_finds_a_side_and_a_word_in_every_limb() -> None:
+    """Unity's mapper looks for these in a bone's name, and for none of them in its parent's."""
+    words = {"hip": ("up", "thigh"), "knee": ("lo", "calf", "knee", "shin"),
+             "ankle": ("foot", "ankle"), "foot": ("toe",), "elbow": ("lo", "fore", "elbow"),
+             "collar": ("shoulder", "collar", "clavicle"), "shoulder": ("up",),
+             "wrist": ("hand", "wrist"), "neck": ("neck",), "head": ("head",)}  # fmt: skip
+    names, parents = joint_names("unity"), canonical_rig().parents
+    for joint, ours in enumerate(JOINT_NAMES):
+        side = {"l_": "left", "r_": "right"}.get(ours[:2])
+        wanted = words.get(ours[2:] if side else ours, ())
+        name = names[joint].lower()
+        assert side is None or side in name
+        assert not wanted or any(word in name for word in wanted), name
+        above = names[parents[joint]].lower() if joint else ""
+        assert not any(word in above for word in wanted), name
+        if side is None:
+            assert "left" not in name
+            assert "right" not in name
 
 
 def test_unknown_names_are_refused() -> None:
