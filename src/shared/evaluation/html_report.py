@@ -136,7 +136,7 @@ def _worst(report: dict[str, Any], folder: Path) -> Iterator[str]:
     for bench in benches:
         samples = [sample for sample in report["samples"] if sample["bench"] == bench]
         # A page plays one song, so that each motion to music has a page of its own.
-        groups = [samples] if report["branch"] == "text" else [[sample] for sample in samples]
+        groups = [samples] if report["branch"] != "audio" else [[sample] for sample in samples]
         players = "".join(_player(group, folder, report["branch"]) for group in groups)
         keys = dict.fromkeys(key for sample in samples for key in sample["figures"])
         head = "".join(f"<th>{escape(key.replace('_', ' '))}</th>" for key in keys)
@@ -167,7 +167,7 @@ def player(samples: Sequence[dict[str, Any]], folder: Path, branch: str) -> str:
     files = [inside(folder, sample["file"]) for sample in samples]
     with tempfile.TemporaryDirectory() as temporary:
         path = Path(temporary) / "player.html"
-        if branch == "text":
+        if branch != "audio":
             motions = zip(map(read_npz, files), titles, strict=True)
             write_html([replace(motion, text=title) for motion, title in motions], path)
         else:
