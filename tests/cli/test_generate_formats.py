@@ -1,0 +1,21 @@
+"""`generate --format`: every format it offers gets the ending that `convert` reads it by."""
+
+from pathlib import Path
+
+from src.cli.generate_text import ALL_FORMATS, FORMATS, write_motions
+from src.shared.formats.registry import EXPORTERS, format_of
+from tests.shared.formats.test_registry import standing
+
+
+def test_offered_formats_are_written_under_their_ending(tmp_path: Path) -> None:
+    formats = [name for name in ALL_FORMATS if name not in ("mp4", "gif", "png", "html")]
+    (row,) = write_motions([standing()], 1, formats, tmp_path)
+    assert list(row["files"]) == formats
+    for name, path in row["files"].items():
+        assert Path(path).exists()
+        assert format_of(path) == name
+    assert row["files"]["amass"].endswith("01-stands.amass.npz")
+
+
+def test_the_default_is_part_of_the_offer() -> None:
+    assert set(FORMATS) < set(ALL_FORMATS) <= set(EXPORTERS)
