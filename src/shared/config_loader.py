@@ -22,6 +22,8 @@ from src.shared.errors import UsageError
 
 COMMAND_LINE = "command line"
 NETWORK_PREFIX = "network."
+MAX_YAML = 16 << 20  # characters
+MAX_NODES, MAX_DEPTH = 1_000_000, 50  # of what a YAML text may say
 
 ConfigT = TypeVar("ConfigT", bound=Config)
 TrainConfigT = TypeVar("TrainConfigT", bound=TrainConfig)
@@ -45,6 +47,10 @@ class _Loader(_Base):
         seen: set[Any] = set()
         for key_node, _ in node.value:
             key = self.construct_object(key_node, deep=True)
+            if isinstance(key, dict | list):
+                raise yaml.constructor.ConstructorError(
+                    None, None, "a key is a list or a mapping", key_node.start_mark
+                )
             if key in seen and key != "<<":
                 raise yaml.constructor.ConstructorError(
                     None, None, f"key {key!r} appears twice", key_node.start_mark
@@ -70,15 +76,54 @@ def parse_yaml(text: str, source: str) -> Any:
     """Parse one YAML document; `source` names it in the error.
 
     Raises:
-        UsageError: the text is not YAML.
+        UsageError: the text is not YAML, too long or too deep, or grows beyond measure by aliases.
     """
+    if len(text) > MAX_YAML:
+        raise UsageError(f"{source}: longer than {MAX_YAML >> 20} MB; split the file")
     try:
-        return yaml.load(text, Loader=_Loader)
+        _check_depth(text)
+        value = yaml.load(text, Loader=_Loader)
+        _weigh(value, {})
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         where = f" line {mark.line + 1}" if mark else ""
         what = getattr(error, "problem", None) or str(error).splitlines()[0]
         raise UsageError(f"{source}{where}: not valid YAML: {what}") from error
+    except (ValueError, OverflowError, RecursionError) as error:  # a date or number that is none
+        raise UsageError(f"{source}: not valid YAML: {error!s:.200}; mend the file") from error
+    return value
+
+
+def _check_depth(text: str) -> None:
+    """Refuse nesting that would overflow libyaml's stack, which ends the process.
+
+    Raises:
+        ValueError: nested too deeply.
+    """
+    depth = 0
+    for event in yaml.parse(text, Loader=_Loader):
+        depth += isinstance(event, yaml.CollectionStartEvent)
+        depth -= isinstance(event, yaml.CollectionEndEvent)
+        if depth > MAX_DEPTH:
+            raise ValueError("nested too deeply")
+
+
+def _weigh(value: Any, known: dict[int, int]) -> int:
+    """Values in a tree, those behind an alias once for every use.
+
+    Raises:
+        ValueError: too many, or a value that holds itself.
+    """
+    if not isinstance(value, dict | list):
+        return 1
+    if id(value) not in known:
+        known[id(value)] = 0  # being weighed
+        inner = value.values() if isinstance(value, dict) else value
+        known[id(value)] = 1 + sum(_weigh(item, known) for item in inner)
+    weight = known[id(value)]
+    if not 0 < weight <= MAX_NODES:
+        raise ValueError("a value holds itself" if not weight else "aliases make it grow too large")
+    return weight
 
 
 def load_yaml(path: Path | str) -> dict[str, Any]:
@@ -88,7 +133,8 @@ def load_yaml(path: Path | str) -> dict[str, Any]:
         UsageError: the file is missing, unreadable, no YAML, or no mapping.
     """
     try:
-        text = Path(path).read_text(encoding="utf-8")
+        with Path(path).open(encoding="utf-8") as stream:
+            text = stream.read(MAX_YAML + 1)
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or "not UTF-8 text"
         raise UsageError(f"{path}: cannot read it ({reason}); give an existing file") from error

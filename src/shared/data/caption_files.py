@@ -115,13 +115,11 @@ def _by_path(row: str, fitting: Sequence[str], folder: str) -> str | None:
 
 def _table_rows(path: Path, text: str, delimiter: str) -> list[tuple[str, str, str, str]]:
     quoting: Literal[0, 3] = csv.QUOTE_NONE if delimiter == "\t" else csv.QUOTE_MINIMAL
-    lines = [
-        (number, row)
-        for number, row in enumerate(
-            csv.reader(text.splitlines(), delimiter=delimiter, quoting=quoting), 1
-        )
-        if any(cell.strip() for cell in row)
-    ]
+    reader = csv.reader(text.splitlines(), delimiter=delimiter, quoting=quoting)
+    try:
+        lines = [(n, row) for n, row in enumerate(reader, 1) if any(cell.strip() for cell in row)]
+    except csv.Error as error:
+        raise UserError(f"captions {path}, line {reader.line_num}: {error}; mend it") from None
     columns = {"clip": 0, "caption": 1, "language": 2}
     header = [cell.strip().lower() for cell in lines[0][1]] if lines else []
     if set(header) & set(_CLIP_KEYS) and set(header) & set(_CAPTION_KEYS):

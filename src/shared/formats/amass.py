@@ -59,8 +59,12 @@ def read_amass(path: str | Path, *, fps: float | None = None) -> JointClip:
                             f"{3 * NUM_JOINTS} or more are needed")  # fmt: skip
         poses = poses[:, : 3 * NUM_JOINTS]
     else:
-        poses = np.concatenate([_numbers(path, arrays, "root_orient", (3,)),
-                                _numbers(path, arrays, "pose_body", (63,))], 1)  # fmt: skip
+        root = _numbers(path, arrays, "root_orient", (3,))
+        body = _numbers(path, arrays, "pose_body", (63,))
+        if len(root) != len(body):
+            raise UserError(f"{path}: root_orient has {len(root)} frames, pose_body {len(body)}; "
+                            "the file is damaged, export it again")  # fmt: skip
+        poses = np.concatenate([root, body], 1)
     if len(poses) != len(trans) or not len(trans):
         raise UserError(f"{path}: {len(poses)} poses and {len(trans)} places; "
                         "the file is damaged")  # fmt: skip

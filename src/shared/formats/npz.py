@@ -30,6 +30,7 @@ FORMAT_VERSION = 1
 _SHAPES = {"quaternions": (NUM_JOINTS, 4), "root_position": (3,), "contacts": (2,)}
 _NAMES = ("format_version", "fps", "text", "joint_names", *_SHAPES)
 MAX_VALUE = 1e6  # metres
+MIN_FPS = 0.1  # less, and resampling would make millions of frames of a few
 
 
 def write_npz(motion: Motion, path: str | Path) -> Path:
@@ -67,15 +68,16 @@ def read_npz(path: str | Path) -> Motion:
     for name in _NAMES:
         if name not in arrays:
             raise UserError(f"{path}: has no array {name!r}; is it a motion of this project?")
-    if tuple(arrays["joint_names"].tolist()) != JOINT_NAMES:
+    if tuple(np.atleast_1d(arrays["joint_names"]).tolist()) != JOINT_NAMES:
         raise UserError(f"{path}: joint_names are not the 22 joints of this project")
     num_frames = len(np.atleast_1d(arrays["quaternions"]))
     for name, shape in _SHAPES.items():
         _check(path, name, arrays[name], (num_frames, *shape))
     _check(path, "fps", arrays["fps"], ())
     fps = float(arrays["fps"])
-    if num_frames < 1 or not 0 < fps <= 10_000:
-        raise UserError(f"{path}: {num_frames} frames at {fps:g} frames a second is no motion")
+    if num_frames < 1 or not MIN_FPS <= fps <= 10_000:
+        raise UserError(f"{path}: {num_frames} frames at {fps:g} frames a second is no motion; "
+                        "write it again")  # fmt: skip
     quaternions = arrays["quaternions"].astype(np.float64)
     norms = np.linalg.norm(quaternions, axis=-1, keepdims=True)
     if norms.min() < 1e-3:

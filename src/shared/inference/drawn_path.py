@@ -77,7 +77,10 @@ def read_path(path: str | Path) -> DrawnPath:
 
 
 def _csv_rows(text: str, path: Path) -> tuple[tuple[str, ...], list[Any]]:
-    rows = [[cell.strip() for cell in row] for row in csv.reader(text.splitlines()) if any(row)]
+    try:
+        rows = [[cell.strip() for cell in row] for row in csv.reader(text.splitlines()) if any(row)]
+    except csv.Error as error:
+        raise UserError(f"{path}: is no table ({error}); give at least two lines x,z") from None
     if not rows:
         raise UserError(f"{path}: is empty; give at least two lines x,z")
     names = tuple(cell.lower() for cell in rows[0])
@@ -134,7 +137,7 @@ def _is_number(value: Any) -> bool:
         return False
     try:
         float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         return False
     return True
 

@@ -1,6 +1,5 @@
 """What `prepare-audio` made, in figures: alignment, warps, seams, and what was left out."""
 
-import json
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
@@ -10,7 +9,7 @@ import numpy as np
 
 from src.shared.data.pairing.clip_library import FPS, MARGIN, ClipLibrary
 from src.shared.data.pairing.motion_beats import motion_beats
-from src.shared.files import write_json
+from src.shared.files import load_json, write_json
 from src.shared.motion.trajectory import MotionTrajectory
 from src.shared.motion.window import encode_window
 
@@ -43,7 +42,7 @@ def encoded_windows(out: Path, entries: Sequence[Entry]) -> Iterator[np.ndarray]
 
 def training_trajectories(out: Path) -> Iterator[MotionTrajectory]:
     """Every trajectory of the training split, or of all where there is none."""
-    phrases = json.loads((out / "manifest.json").read_text(encoding="utf-8"))["phrases"]
+    phrases = load_json(out / "manifest.json")["phrases"]
     train = [phrase for phrase in phrases if phrase["split"] == "train"] or phrases
     for phrase in train:
         yield MotionTrajectory(np.load(out / phrase["motion"]["path"]))

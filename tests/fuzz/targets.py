@@ -1,0 +1,7 @@
+"""Every fuzzed reader by name."""
+
+from tests.fuzz.targets_folders import FOLDER_TARGETS
+from tests.fuzz.targets_motion import MOTION_TARGETS
+from tests.fuzz.targets_text import TEXT_TARGETS
+
+TARGETS = MOTION_TARGETS | TEXT_TARGETS | FOLDER_TARGETS
