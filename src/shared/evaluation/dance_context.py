@@ -139,7 +139,9 @@ class DanceContext:
 
     def performer(self, generator: MotionGenerator, *, on_beats: bool = True) -> Performer:
         """Puts bodies on paths, their feet not yet held."""
-        return Performer(generator, replace(self.sampling, foot_lock=False, on_beats=on_beats))
+        accent = self.sampling.accent if on_beats else 0.0
+        settings = replace(self.sampling, foot_lock=False, on_beats=on_beats, accent=accent)
+        return Performer(generator, settings)
 
     def _danced(self, who: str, replication: int) -> BodySample:
         """A dance for each song by one of the performers."""

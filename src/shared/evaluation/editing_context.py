@@ -14,6 +14,7 @@ from src.shared.evaluation.held_out import HeldOut
 from src.shared.evaluation.text_context import untrained
 from src.shared.inference.drawn_path import DrawnPath
 from src.shared.model.generation.motion_generator import MotionGenerator
+from src.shared.motion.motion import Motion
 
 Progress = Callable[[str], None]
 MIN_FRAMES, MAX_FRAMES = 90, 150  # of a clip that is edited
@@ -30,7 +31,8 @@ class EditSettings:
     """How much is measured; the report repeats it."""
 
     num: int = 24  # clips, and pairs of actions
-    repeats: int = 4  # motions along each path
+    repeats: int = 3  # motions along each path
+    max_real: int = 200  # clips that the real band is taken from
     untrained: int = 1  # 0 = no such rows
     seed: int = 0
 
@@ -57,17 +59,24 @@ class EditContext:
 
     @cached_property
     def clips(self) -> Clips:
-        """Real clips, of at least three seconds, spread over label groups.
+        """Real clips to edit, of at least three seconds, spread over label groups.
 
         Raises:
             UserError: there is none.
         """
-        records = [record for split in self.held_out.records.values() for record in split]
+        return self._real(self.settings.num, MIN_FRAMES)
+
+    @cached_property
+    def real(self) -> list[Motion]:
+        """Real clips that say how much a motion may accelerate."""
+        return self._real(self.settings.max_real, 16).motions
+
+    def _real(self, number: int, min_frames: int) -> Clips:
         return real_clips(
             self.held_out.data,
-            records,
-            num=self.settings.num,
-            min_frames=MIN_FRAMES,
+            [record for split in self.held_out.records.values() for record in split],
+            num=number,
+            min_frames=min_frames,
             max_frames=MAX_FRAMES,
             seed=self.settings.seed,
         )

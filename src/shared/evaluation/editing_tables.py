@@ -81,7 +81,7 @@ REDONE = {
 
 def kept_table(context: EditContext) -> Grid:
     """A row a kind of edit, and floors."""
-    limit = real_limit(context.clips.motions)
+    limit = real_limit(context.real)
     rows = {}
     for who, generator in context.generators.items():
         for kind in ("between ends", *REDONE):
@@ -212,7 +212,7 @@ def _path_row(made: Sequence[Followed]) -> GridRow:
 
 def transition_table(context: EditContext, judge: Evaluator) -> Grid:
     """One action after the other."""
-    limit = real_limit(context.clips.motions)
+    limit = real_limit(context.real)
     text = judge.embed_text(ACTIONS).numpy()
     pairs = context.pairs
     made = {}
