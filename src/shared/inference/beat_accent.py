@@ -42,16 +42,28 @@ def accent_shift(
     time = np.arange(frames) / fps
     if len(beats) < 2:
         return np.zeros(frames)
-    before, after = beats[1] - beats[0], beats[-1] - beats[-2]
-    # The first and the last beat length go on for a while: songs fade in and out.
-    early = beats[0] - before * np.arange(np.ceil(BEYOND / before), 0, -1)
-    late = beats[-1] + after * np.arange(1, np.ceil(BEYOND / after) + 1)
-    all_beats = np.concatenate((early, beats, late))
+    all_beats = beats_beyond(beats)
     phase = np.interp(time, all_beats, np.arange(len(all_beats)))
     middles = (all_beats[1:] + all_beats[:-1]) / 2
     period = np.interp(time, middles, np.diff(all_beats))
     size = np.minimum(strength * period / (2 * np.pi), MAX_SHIFT)
     return np.asarray(size * np.sin(2 * np.pi * phase))
+
+
+def beats_beyond(beats: np.ndarray, seconds: float | None = None) -> np.ndarray:
+    """Beats [M], M ≥ 2, and more of the first and the last length before and after them.
+
+    Args:
+        beats: seconds, increasing.
+        seconds: from before 0 to after these there are beats all along; None = `BEYOND` more on
+            both sides.
+    """
+    before, after = beats[1] - beats[0], beats[-1] - beats[-2]
+    head = BEYOND if seconds is None else max(float(beats[0]), 0.0)
+    tail = BEYOND if seconds is None else max(seconds - float(beats[-1]), 0.0)
+    early = beats[0] - before * np.arange(np.ceil(head / before) + 1, 0, -1)
+    late = beats[-1] + after * np.arange(1, np.ceil(tail / after) + 2)
+    return np.concatenate((early, beats, late))
 
 
 def accented(features: Tensor, beats: np.ndarray, strength: float, *, fps: float = 30.0) -> Tensor:

@@ -26,6 +26,7 @@ from src.shared.inference.trajectory_constraint import (
 from src.shared.model.generation.motion_generator import MotionGenerator
 from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess import MotionPostProcessor, smooth_features
+from src.shared.motion.root_track import LEFT_CONTACT, ROOT_ROW
 from src.shared.motion.trajectory import MotionTrajectory
 
 Progress = Callable[[int, int], None]  # frames done, frames in all
@@ -39,7 +40,8 @@ class PerformerSettings:
         steps, sampler, guidance_scale: of the text branch.
         foot_lock: hold standing feet in place.
         tilt: the path also says how the pelvis leans and rolls.
-        on_beats: the network is told to have the body's beats on the song's.
+        on_beats: the sampler is told to have the body's beats on the song's.
+        steps_on_beats: feet land on beats while the path travels; see `footsteps`.
         accent: how much the limbs linger on beats, 0 to below 1; see `beat_accent`.
     """
 
@@ -49,6 +51,7 @@ class PerformerSettings:
     foot_lock: bool | None = None
     tilt: bool = False
     on_beats: bool = True
+    steps_on_beats: bool = True
     accent: float = 0.5
 
 
@@ -114,7 +117,12 @@ class Performer:
         """
         num_frames, own = trajectory.num_frames, self.settings
         passages = _passages(what, num_frames)
-        known = pin(trajectory, beats=beats if own.on_beats else None, tilt=own.tilt)
+        known = pin(
+            trajectory,
+            beats=beats if own.on_beats else None,
+            steps=beats if own.steps_on_beats else None,
+            tilt=own.tilt,
+        )
         pieces = []
         for piece in stream_features(
             self.generator,
@@ -132,6 +140,7 @@ class Performer:
         smooth = smooth_features(torch.cat(pieces), post.smoothing_kernel)
         if beats is not None and own.accent:
             smooth = accented(smooth, beats, own.accent, fps=trajectory.fps)
+            known.known[:, ROOT_ROW, LEFT_CONTACT:] = False  # they have moved with the legs
         # Averaged rotations may turn a little: the heading is the path's alone.
         features = known.keep(untwisted(smooth))
         foot_lock = post.foot_lock if own.foot_lock is None else own.foot_lock

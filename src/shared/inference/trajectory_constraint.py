@@ -10,6 +10,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from src.shared.inference.footsteps import step_plan
 from src.shared.model.generation.constraint import Constraint
 from src.shared.motion.motion import Motion
 from src.shared.motion.root_track import LEFT_CONTACT, ROOT_ROW, headings
@@ -26,7 +27,11 @@ PELVIS = 0  # its row
 
 
 def pin(
-    trajectory: MotionTrajectory, *, beats: np.ndarray | None = None, tilt: bool = False
+    trajectory: MotionTrajectory,
+    *,
+    beats: np.ndarray | None = None,
+    steps: np.ndarray | None = None,
+    tilt: bool = False,
 ) -> Constraint:
     """What is known of a body that moves along a path: velocity, height and turning, T frames.
 
@@ -36,12 +41,17 @@ def pin(
     Args:
         trajectory: of the pelvis.
         beats: seconds [M] at which the body is to have a beat; None = it keeps its own time.
+        steps: beats [M] on which feet are to land while the path travels; see `step_plan`.
         tilt: also pin how the pelvis leans and rolls.
     """
     constraint = Constraint.free(trajectory.num_frames)
     values, known = constraint.values, constraint.known
     values[:, ROOT_ROW] = to_root(trajectory)
     known[:, ROOT_ROW, :LEFT_CONTACT] = True
+    if steps is not None:
+        contacts, planned = step_plan(trajectory, steps)
+        values[:, ROOT_ROW, LEFT_CONTACT:] = torch.from_numpy(contacts).float()
+        known[:, ROOT_ROW, LEFT_CONTACT:] = torch.from_numpy(planned)[:, None]
     if tilt:
         turns = quaternion_to_matrix(torch.tensor(trajectory.quaternion, dtype=torch.float64))
         level = yaw_to_matrix(-torch.from_numpy(trajectory.heading)) @ turns
