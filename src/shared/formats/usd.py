@@ -9,6 +9,7 @@ import json
 import re
 from collections.abc import Iterable
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 
@@ -60,10 +61,13 @@ def _write(clip: RigClip, body: Mannequin, path: Path) -> Path:
                         "install usd-core, or write .usda") from error  # fmt: skip
     layer = Sdf.Layer.CreateAnonymous(BINARY)
     layer.ImportFromString(text)
-    with atomic_write(path) as temporary:
-        packed = temporary.with_name(temporary.name + BINARY)  # the ending says what to write
-        layer.Export(str(packed))
-        packed.rename(temporary)
+    with atomic_write(path) as temporary, TemporaryDirectory(dir=path.parent) as folder:
+        packed = Path(folder) / f"packed{BINARY}"  # the ending says what is written
+        try:
+            layer.Export(str(packed))
+        except RuntimeError as error:
+            raise UserError(f"cannot write {path}: {error}; write .usda instead") from error
+        packed.replace(temporary)
     return path
 
 

@@ -1,5 +1,6 @@
 """Films: the right length in real time, the figure in the picture, and the camera on it."""
 
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -73,3 +74,9 @@ def test_what_is_too_long_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyP
     with pytest.raises(UserError, match="too long"):
         write_gif(replace(walk(30, 25.0)), tmp_path / "a.gif")
     assert not list(tmp_path.iterdir())
+
+
+def test_without_pyav_the_remedy_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "av", None)
+    with pytest.raises(UserError, match=r"a\.mp4: MP4 needs PyAV; install it with: pip install av"):
+        write_mp4(walk(3, 30.0), tmp_path / "a.mp4")
