@@ -91,7 +91,7 @@ class GenerationConfig(Config):
     dropout: float = Field(0.1, ge=0, lt=1)
     text_conditioning: Literal["pooled", "tokens"] = "pooled"  # ruling 22
     prediction_type: Literal["epsilon", "sample", "v"] = "epsilon"  # ruling 15
-    constraints: bool = False  # an input that says which entries are known, and where beats are
+    constraints: bool = False  # an input that says which entries are known
     beta_schedule: Literal["linear", "cosine", "sqrt"] = "cosine"
     sampler: Literal["ddpm", "ddim", "dpm-solver++"] = "ddim"
     sampling_steps: int = Field(20, ge=1)
@@ -229,12 +229,12 @@ class ConstraintShares(Config):
     """How often what is known in training (src/train/constraints.py); shares of clips."""
 
     free: float = Field(0.5, ge=0, le=1)  # no entry at all; those below are of what remains
-    root: float = Field(0.55, ge=0, le=1)  # the root row, or a part of it
+    root: float = Field(0.55, ge=0, le=1)  # the path and the heading
+    contacts: float = Field(0.4, ge=0, le=1)  # when each foot stands
     start: float = Field(0.5, ge=0, le=1)  # the first frames
     end: float = Field(0.2, ge=0, le=1)  # the last frames
     frames: float = Field(0.1, ge=0, le=1)  # a few frames here and there
     joints: float = Field(0.2, ge=0, le=1)  # instead: all but some joints during a span
-    beats: float = Field(0.4, ge=0, le=1)  # when the body has its beats; of all clips
 
 
 class TrainGenerationConfig(TrainConfig):

@@ -1,9 +1,9 @@
-"""What a clip's entries are known to the network in training: random masks, and its own beats.
+"""Which entries of a clip the network is told in training: random masks.
 
-The network learns every use of a constraint at once: a pinned path, windows that follow each other,
-gaps between two clips, joints done again, beats to be kept.
+It learns every use of a constraint at once: a pinned path, feet that land when they are to, windows
+that follow each other, gaps between two clips, joints done again.
 
-Letters: B batch, T frames, R rows, C channels.
+Letters: B batch, T frames, R rows.
 """
 
 import numpy as np
@@ -11,8 +11,6 @@ import torch
 from torch import Tensor
 
 from src.shared.config_schema import ConstraintShares
-from src.shared.data.pairing.motion_beats import motion_beats
-from src.shared.model.generation.constraint import BEAT_CHANNELS, Given, beat_track
 from src.shared.motion.root_track import (
     FORWARD,
     HEIGHT,
@@ -20,7 +18,6 @@ from src.shared.motion.root_track import (
     LEFT_CONTACT,
     ROOT_ROW,
     YAW_RATE,
-    decode_features,
 )
 from src.shared.motion.skeleton import JOINT_INDEX, LIMBS
 
@@ -47,6 +44,8 @@ def _draw_clip(known: Tensor, shares: ConstraintShares, rng: np.random.Generator
         return
     if known.shape[1] > ROOT_ROW and rng.random() < shares.root:
         _draw_root(known, rng)
+    if known.shape[1] > ROOT_ROW and rng.random() < shares.contacts:
+        known[_most(frames, rng), ROOT_ROW, LEFT_CONTACT:] = True
     longest = max(1, min(LONGEST_END, frames // 2))
     if rng.random() < shares.start:
         known[: rng.integers(1, longest + 1)] = True
@@ -70,41 +69,21 @@ def _draw_joints(known: Tensor, rng: np.random.Generator) -> None:
 
 
 def _draw_root(known: Tensor, rng: np.random.Generator) -> None:
-    """The path and the heading, mostly of the whole clip; at times height, contacts, pelvis."""
-    span = slice(None) if rng.random() < 0.85 else _span(len(known), rng)
+    """The path and the heading; at times the height and the pelvis' tilt."""
+    span = _most(len(known), rng)
     channels = [FORWARD, LATERAL, YAW_RATE]
     channels += [HEIGHT] if rng.random() < 0.6 else []
-    channels += [LEFT_CONTACT, LEFT_CONTACT + 1] if rng.random() < 0.25 else []
     for channel in channels:
         known[span, ROOT_ROW, channel] = True
     if rng.random() < 0.25:
         known[span, 0] = True  # the pelvis' tilt
 
 
+def _most(frames: int, rng: np.random.Generator) -> slice:
+    """Nearly always the whole clip."""
+    return slice(None) if rng.random() < 0.85 else _span(frames, rng)
+
+
 def _span(frames: int, rng: np.random.Generator) -> slice:
     start, stop = sorted(rng.integers(0, frames + 1, size=2).tolist())
     return slice(start, max(stop, start + 1))
-
-
-def clip_beats(features: Tensor, fps: float) -> Tensor:
-    """Motion beats [M] in seconds of one clip's raw features [T, R, 6]."""
-    beats = motion_beats(decode_features(features, fps=fps).positions(), fps)
-    return torch.from_numpy(beats.times).float()
-
-
-def draw_given(
-    features: Tensor,
-    mask: Tensor,
-    shares: ConstraintShares,
-    rng: np.random.Generator,
-    *,
-    fps: float = 30.0,
-) -> Given:
-    """What is given of raw clips [B, T, R, 6] with real frames `mask` [B, T]."""
-    known = draw_known(mask, features.shape[2], shares, rng)
-    beats = torch.zeros(*mask.shape, BEAT_CHANNELS)
-    for row, length in enumerate(mask.sum(1).tolist()):
-        if rng.random() < shares.beats:
-            times = clip_beats(features[row, :length], fps)
-            beats[row, :length] = beat_track(times, length, fps)
-    return Given(known, beats)

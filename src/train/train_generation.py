@@ -26,11 +26,10 @@ from src.shared.model.checkpoint import WEIGHTS_FILE, ModelCard
 from src.shared.model.clip.core import TextFeatures
 from src.shared.model.clip.pretrained import load_text_tower
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
-from src.shared.model.generation.constraint import BEAT_CHANNELS, Given
 from src.shared.model.generation.denoiser import MotionDenoiser
 from src.shared.model.generation.losses import GenerationLoss
 from src.shared.model.generation.motion_generator import KIND, MotionGenerator
-from src.train.constraints import draw_given
+from src.train.constraints import draw_known
 from src.train.launch import stage_app
 from src.train.seeding import generator
 from src.train.style_fit import fit_style_map
@@ -58,8 +57,7 @@ class DenoiserBatch:
         timesteps, tag: [B] long.
         drop: [B] bool, rows that see no text.
         input_ids, attention_mask: [B,L] captions.
-        known, beats: [B,T,R,6] bool and [B,T,3], see `Given`; all False and 0 where the network
-            takes no constraints.
+        known: [B,T,R,6] bool, entries that the network is told; none if it takes no constraints.
     """
 
     clean: Tensor
@@ -71,7 +69,6 @@ class DenoiserBatch:
     input_ids: Tensor
     attention_mask: Tensor
     known: Tensor
-    beats: Tensor
 
 
 class GuidedDenoiser(nn.Module):
@@ -89,12 +86,12 @@ class GuidedDenoiser(nn.Module):
         tag: Tensor,
         mask: Tensor,
         drop: Tensor,
-        given: Given,
+        known: Tensor,
     ) -> Tensor:
         """As MotionDenoiser.forward; rows where drop [B] is True see the null text."""
         heard = self.denoiser.drop_text(text, drop)
-        told = given if self.denoiser.given_proj is not None else None
-        output: Tensor = self.denoiser(noisy, timesteps, heard, tag, mask, given=told)
+        told = known if self.denoiser.known_proj is not None else None
+        output: Tensor = self.denoiser(noisy, timesteps, heard, tag, mask, known=told)
         return output
 
 
@@ -192,18 +189,11 @@ class GenerationTask:
         if self.config.init:
             clean = (clean * self.data_std + self.data_mean - self.mean) / self.std
         noise = torch.randn(clean.shape, generator=draws)
-        given = self._given(clean, clips.mask, rng)
+        known = torch.zeros(clean.shape, dtype=torch.bool)
+        if rng is not None and self.network.generation.constraints:
+            known = draw_known(clips.mask, clean.shape[2], self.config.constraints, rng)
         words = self.tokenizer(captions)
-        return DenoiserBatch(
-            clean, noise, clips.mask, timesteps, tag, drop, *words, given.known, given.beats
-        )
-
-    def _given(self, clean: Tensor, mask: Tensor, rng: np.random.Generator | None) -> Given:
-        """What the network is told of clips [B,T,R,6]; without a generator nothing."""
-        if rng is None or not self.network.generation.constraints:
-            known = torch.zeros(clean.shape, dtype=torch.bool)
-            return Given(known, torch.zeros(*mask.shape, BEAT_CHANNELS))
-        return draw_given(clean * self.std + self.mean, mask, self.config.constraints, rng)
+        return DenoiserBatch(clean, noise, clips.mask, timesteps, tag, drop, *words, known)
 
     # ------------------------------------------------------------ learning
 
@@ -212,9 +202,8 @@ class GenerationTask:
         with torch.no_grad(), autocast(self.compute):
             text = self.tower(batch.input_ids, batch.attention_mask)
         noisy = self.diffusion.q_sample(batch.clean, batch.timesteps, batch.noise)
-        given = Given(batch.known, batch.beats)
         seen = torch.where(batch.known, batch.clean, noisy)
-        output = module(seen, batch.timesteps, text, batch.tag, batch.mask, batch.drop, given)
+        output = module(seen, batch.timesteps, text, batch.tag, batch.mask, batch.drop, batch.known)
         # Sampling puts the known entries back, so what is judged is the motion with them in it.
         target = self.diffusion.target(batch.clean, batch.noise, batch.timesteps)
         output = torch.where(batch.known, target, output.float())

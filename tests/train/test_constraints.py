@@ -1,16 +1,15 @@
-"""Random masks of training: every kind occurs, none leaves the clip, beats are the clip's own."""
+"""Random masks of training: every kind occurs, none leaves the clip."""
 
 import numpy as np
 import pytest
 import torch
 
 from src.shared.config_schema import ConstraintShares
-from src.shared.data.synthetic import generate_clip, sample_specs
-from src.shared.motion.root_track import FORWARD, HEIGHT, LEFT_CONTACT, ROOT_ROW, encode_features
+from src.shared.motion.root_track import FORWARD, HEIGHT, LEFT_CONTACT, ROOT_ROW
 from src.shared.motion.skeleton import NUM_JOINTS
-from src.train.constraints import clip_beats, draw_given, draw_known
+from src.train.constraints import draw_known
 
-NOTHING = {"free": 0, "root": 0, "start": 0, "end": 0, "frames": 0, "joints": 0, "beats": 0}
+NOTHING = dict.fromkeys(ConstraintShares.model_fields, 0)
 
 
 def masks(clips: int = 64, frames: int = 60, **shares: float) -> torch.Tensor:
@@ -46,9 +45,8 @@ def test_the_root_row_is_pinned_alone():
     assert not known[:, :, 1:NUM_JOINTS].any()
     row = known[:, :, ROOT_ROW]
     assert row[..., FORWARD].any(1).all()
-    for channel in (HEIGHT, LEFT_CONTACT):
-        share = row[..., channel].any(1).float().mean()
-        assert 0.1 < share < 0.9
+    assert 0.1 < row[..., HEIGHT].any(1).float().mean() < 0.9
+    assert not row[..., LEFT_CONTACT:].any()
 
 
 def test_joints_are_done_again_within_one_span():
@@ -60,30 +58,14 @@ def test_joints_are_done_again_within_one_span():
     assert whole.any() and not whole.all()
 
 
-def test_given_beats_are_those_of_the_clip():
-    specs = sample_specs(60, 0)
-    walking = next(spec for spec in specs if spec.labels["action"] == "walk")
-    features = encode_features(generate_clip(walking, seed=0))
-    frames = len(features)
-    padded = torch.zeros(1, frames + 7, *features.shape[1:])
-    padded[0, :frames] = features
-    real = (torch.arange(frames + 7) < frames)[None]
-    shares = ConstraintShares(**(NOTHING | {"beats": 1}))
-    given = draw_given(padded, real, shares, np.random.default_rng(0))
-    beats = clip_beats(features, 30.0)
-    assert len(beats) >= 2
-    nearest = given.beats[0, (beats * 30).round().long(), 0]
-    assert (nearest > 0.9).all()
-    assert not given.beats[0, frames:].any() and not given.known.any()
-    silent = ConstraintShares(**NOTHING)
-    assert not draw_given(padded, real, silent, np.random.default_rng(0)).beats.any()
+def test_contacts_are_given_by_themselves():
+    known = masks(contacts=1)
+    assert not known[:, :, :NUM_JOINTS].any() and not known[:, :, ROOT_ROW, :LEFT_CONTACT].any()
+    assert known[:, :, ROOT_ROW, LEFT_CONTACT:].flatten(1).any(1).all()
 
 
 @pytest.mark.parametrize("frames", [1, 2, 8])
 def test_short_clips(frames: int):
-    motion = torch.zeros(4, frames, 23, 6)
-    motion[:, :, :22, 0] = motion[:, :, :22, 4] = 1
-    real = torch.ones(4, frames, dtype=torch.bool)
-    shares = ConstraintShares(free=0, beats=1)
-    given = draw_given(motion, real, shares, np.random.default_rng(0))
-    assert given.known.shape == motion.shape and torch.isfinite(given.beats).all()
+    real = torch.ones(64, frames, dtype=torch.bool)
+    known = draw_known(real, 23, ConstraintShares(free=0), np.random.default_rng(0))
+    assert known.shape == (64, frames, 23, 6) and known.any()

@@ -9,6 +9,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from src.shared.motion.kinematics import forward_kinematics
 from src.shared.motion.motion import Motion
 from src.shared.motion.rotations import (
     heading_angle,
@@ -19,7 +20,12 @@ from src.shared.motion.rotations import (
     rotation_6d_to_matrix,
     yaw_to_matrix,
 )
-from src.shared.motion.skeleton import NUM_JOINTS, REST_PELVIS_HEIGHT
+from src.shared.motion.skeleton import (
+    NUM_JOINTS,
+    PARENTS,
+    REST_PELVIS_HEIGHT,
+    canonical_skeleton,
+)
 
 FORWARD, LATERAL, HEIGHT, YAW_RATE, LEFT_CONTACT, RIGHT_CONTACT = range(6)
 ROOT_ROW = NUM_JOINTS  # index of the root track among the rows
@@ -76,6 +82,38 @@ def integrate_root(
     x = start_position[0] + accumulate(forward * sine + lateral * cosine)
     z = start_position[1] + accumulate(forward * cosine - lateral * sine)
     return torch.stack((x, root[..., HEIGHT], z), -1), heading
+
+
+def to_world(joints: Tensor, root: Tensor, fps: float) -> Tensor:
+    """Joints [...,T,J,3] in the heading frame, over the origin → the world, where the path began.
+
+    Args:
+        joints: with their heights, the pelvis at x = z = 0.
+        root: the rows [...,T,6] of the path.
+        fps: frames per second.
+    """
+    path, heading = integrate_root(root, fps)  # [..., T, 3], [..., T]
+    turned = (yaw_to_matrix(heading)[..., None, :, :] @ joints[..., None]).squeeze(-1)
+    ground = path * path.new_tensor([1.0, 0.0, 1.0])  # the height is in the joints already
+    return turned + ground[..., None, :]
+
+
+def heading_joints(rotations: Tensor, height: Tensor) -> Tensor:
+    """Joints [...,T,K,3] over the origin of local rotations [...,T,K,3,3] at pelvis heights
+    [...,T], metres, in the heading frame."""
+    pelvis = torch.stack((torch.zeros_like(height), height, torch.zeros_like(height)), -1)
+    offsets = torch.as_tensor(canonical_skeleton().offsets, device=height.device)
+    positions, _ = forward_kinematics(rotations, pelvis, offsets, PARENTS)
+    return positions
+
+
+def world_joints(features: Tensor, fps: float) -> Tensor:
+    """World joints [...,T,K,3] in metres of features [...,T,R,6]; differentiable."""
+    rotations = rotation_6d_to_matrix(features[..., :NUM_JOINTS, :])
+    if features.shape[-2] == NUM_JOINTS:
+        return heading_joints(rotations, torch.full_like(features[..., 0, 0], REST_PELVIS_HEIGHT))
+    root = features[..., ROOT_ROW, :]
+    return to_world(heading_joints(rotations, root[..., HEIGHT]), root, fps)
 
 
 def decode_features(

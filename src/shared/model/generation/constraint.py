@@ -1,9 +1,9 @@
 """What of a motion is given beforehand: known entries, and the moments of its beats.
 
-A network with `generation.constraints` sees the known entries clean, beside a mask of them and the
-beats (Cohan et al. 2024, CondMDI: observed entries overwrite the noisy ones and the mask is an
-input). Any other network gets them noised to each step (Lugmayr et al. 2022, RePaint, without its
-resampling), and no beats.
+A network with `generation.constraints` sees the known entries clean, beside a mask of them (Cohan
+et al. 2024, CondMDI: observed entries overwrite the noisy ones and the mask is an input). Any other
+network gets them noised to each step (Lugmayr et al. 2022, RePaint, without its resampling). Beats
+are no input: knowing them hardly helps to denoise (docs/experiments.md); they guide the sampling.
 
 Letters: B batch, T frames, K rows (bones, root track), C channels, M beats.
 """
@@ -18,10 +18,7 @@ from torch import Tensor
 from src.shared.errors import UsageError
 from src.shared.model.diffusion.conditions import ModelFn
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
-
-BEAT_CHANNELS = 3
-BEAT_WIDTH = 1.2  # frames, standard deviation of the bump at a beat
-BEAT_REACH = 0.5  # seconds; beats further away are not heard
+from src.shared.model.generation.rhythm import RhythmGuidance
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,11 +30,15 @@ class Constraint:
         known: [T, K, C] bool.
         beats: seconds [M] from the first frame at which the body is to have a beat, a minimum of
             its joints' mean speed; None = it keeps its own time.
+        told: [T, K, C] bool, which of the known entries the network is shown clean, if it is one
+            that can be; it gets the others noised, as any network does. A network that is told
+            most of a body makes the rest fit it, whatever the text says. None = all of them.
     """
 
     values: Tensor
     known: Tensor
     beats: Tensor | None = None
+    told: Tensor | None = None
 
     @classmethod
     def free(cls, frames: int, rows: int = 23, channels: int = 6) -> Self:
@@ -51,7 +52,8 @@ class Constraint:
     def window(self, start: int, stop: int, *, fps: float = 30.0) -> "Constraint":
         """Frames [start, stop); the beats count from its first frame."""
         beats = None if self.beats is None else self.beats - start / fps
-        return Constraint(self.values[start:stop], self.known[start:stop], beats)
+        told = None if self.told is None else self.told[start:stop]
+        return Constraint(self.values[start:stop], self.known[start:stop], beats, told)
 
     def keep(self, features: Tensor) -> Tensor:
         """Raw features [T, K, C] with the known entries as they were given."""
@@ -59,36 +61,20 @@ class Constraint:
         return torch.where(self.known[:, :rows], self.values[:, :rows], features)
 
 
-@dataclass(frozen=True)
-class Given:
-    """A batch of constraints as the network sees them: known [B, T, K, C] bool, beats
-    [B, T, BEAT_CHANNELS]."""
-
-    known: Tensor
-    beats: Tensor
-
-
-def beat_track(beats: Tensor | None, frames: int, fps: float) -> Tensor:
-    """Beats in seconds [M] as channels [T, 3]: a bump at each, the signed time from the nearest
-    in units of `BEAT_REACH`, and whether beats are given at all; zeros without."""
-    track = torch.zeros(frames, BEAT_CHANNELS)
-    if beats is None:
-        return track
-    track[:, 2] = 1.0
-    if len(beats):
-        away = torch.arange(frames)[:, None] / fps - beats.float()  # [T, M]
-        nearest = away.gather(1, away.abs().argmin(dim=1, keepdim=True))[:, 0]
-        track[:, 0] = torch.exp(-0.5 * (nearest * fps / BEAT_WIDTH) ** 2)
-        track[:, 1] = (nearest / BEAT_REACH).clamp(-1, 1)
-    return track
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class KnownBatch:
-    """Constraints of one batch: z-scored values [B, T, K, C] where `given.known`."""
+    """Constraints of one batch.
+
+    Attributes:
+        values: [B, T, K, C] z-scored, used where `known` [B, T, K, C] bool.
+        told: [B, T, K, C] bool, the known entries that the network is shown clean.
+        rhythm: what leads the bodies to their beats; None where nobody has any.
+    """
 
     values: Tensor
-    given: Given
+    known: Tensor
+    told: Tensor
+    rhythm: RhythmGuidance | None
 
     @classmethod
     def of(
@@ -105,18 +91,20 @@ class KnownBatch:
             return None
         rows, channels = mean.shape
         values = torch.zeros(len(constraints), frames, rows, channels)
-        known = torch.zeros(values.shape, dtype=torch.bool)
-        beats = torch.zeros(len(constraints), frames, BEAT_CHANNELS)
+        known, told = (torch.zeros(values.shape, dtype=torch.bool) for _ in range(2))
+        beats: list[Tensor | None] = [None] * len(constraints)
         for row, constraint in enumerate(constraints):
             if constraint is not None:
                 length = len(constraint)
                 values[row, :length] = constraint.values[:, :rows]
                 known[row, :length] = constraint.known[:, :rows]
-                beats[row, :length] = beat_track(constraint.beats, length, fps)
-        device = mean.device
-        known = known.to(device)
-        z_scored = torch.where(known, (values.to(device) - mean) / std, 0.0)
-        return cls(z_scored, Given(known, beats.to(device)))
+                shown = constraint.known if constraint.told is None else constraint.told
+                told[row, :length] = (constraint.known & shown)[:, :rows]
+                beats[row] = constraint.beats
+        known, told = known.to(mean.device), told.to(mean.device)
+        z_scored = torch.where(known, (values.to(mean.device) - mean) / std, 0.0)
+        rhythm = RhythmGuidance.of(beats, frames, mean, std, fps=fps)
+        return cls(z_scored, known, told, rhythm)
 
     def hold(
         self, model_fn: ModelFn, diffusion: GaussianDiffusion, noise: Tensor, *, clean: bool
@@ -127,13 +115,17 @@ class KnownBatch:
             model_fn: with its condition inside.
             diffusion: its process.
             noise: [B, T, K, C] that sampling starts from; the known entries are noised with it.
-            clean: hand the known entries over without noise, as the network learned it.
+            clean: hand over what is told without noise, as the network learned it.
         """
-        known = self.given.known
+        known, told = self.known, self.told & clean
 
         def held(x_t: Tensor, t: Tensor) -> Tensor:
             noised = diffusion.q_sample(self.values, t, noise)
-            output = model_fn(torch.where(known, self.values if clean else noised, x_t), t)
+            shown = torch.where(known & ~told, noised, x_t)
+            output = model_fn(torch.where(told, self.values, shown), t).to(x_t.dtype)
+            if self.rhythm is not None:
+                x_0 = torch.where(known, self.values, diffusion.predict_x0(output, x_t, t))
+                output = diffusion.output_for(self.rhythm(x_0, free=~known), x_t, t)
             return torch.where(known, diffusion.output_for(self.values, x_t, t), output)
 
         return held

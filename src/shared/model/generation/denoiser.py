@@ -10,7 +10,6 @@ from torch.nn.functional import silu
 
 from src.shared.config_schema import NetworkConfig
 from src.shared.model.clip.core import TextFeatures
-from src.shared.model.generation.constraint import BEAT_CHANNELS, Given
 from src.shared.model.layers.adaln import AdaLN
 from src.shared.model.layers.attention import CrossAttention, KeyValue, MultiHeadAttention
 from src.shared.model.layers.dropout import ChannelDropout
@@ -74,10 +73,10 @@ class MotionDenoiser(nn.Module):
         motion_dim = config.motion_rows * generation.motion_channels
 
         self.motion_proj = nn.Linear(motion_dim, dim)
-        self.given_proj = None
+        self.known_proj = None
         if generation.constraints:  # starts at zero: a network without it can be gone on from
-            self.given_proj = nn.Linear(motion_dim + BEAT_CHANNELS, dim, bias=False)
-            nn.init.zeros_(self.given_proj.weight)
+            self.known_proj = nn.Linear(motion_dim, dim, bias=False)
+            nn.init.zeros_(self.known_proj.weight)
         self.text_scale = nn.Parameter(torch.tensor(float(dim) ** 0.5))  # unit-norm -> unit RMS
         self.text_proj = nn.Linear(dim, dim)
         self.null_pooled = nn.Parameter(torch.randn(dim) * dim**-0.5)  # ruling 14
@@ -105,7 +104,7 @@ class MotionDenoiser(nn.Module):
         tag: Tensor,
         mask: Tensor | None = None,
         *,
-        given: Given | None = None,
+        known: Tensor | None = None,
         keys_values: list[KeyValue] | None = None,
     ) -> Tensor:
         """One prediction.
@@ -116,7 +115,7 @@ class MotionDenoiser(nn.Module):
             text: B texts; see TextFeatures.
             tag: [B] long, `num_tags` where there is none.
             mask: [B, T] bool, True = real frame, or None.
-            given: which entries are known, and the beats; for networks with `constraints`.
+            known: [B, T, K, C] bool, the entries that are; for networks with `constraints`.
             keys_values: what `text_keys_values(text)` gave, to spare computing it each step.
 
         Returns:
@@ -126,10 +125,9 @@ class MotionDenoiser(nn.Module):
         motion_h = self.motion_proj(noisy.flatten(2))  # [B, T, D]
         text_h = self.text_proj(text.pooled * self.text_scale)[:, None]  # [B, 1, D]
         h = motion_h + text_h  # [B, T, D]
-        if given is not None:
-            assert self.given_proj is not None, "this network was not made for constraints"
-            known = given.known.flatten(2).to(given.beats.dtype)  # [B, T, K*C]
-            h = h + self.given_proj(torch.cat((known, given.beats), dim=-1))  # [B, T, D]
+        if known is not None:
+            assert self.known_proj is not None, "this network was not made for constraints"
+            h = h + self.known_proj(known.flatten(2).to(noisy.dtype))  # [B, T, D]
         condition = torch.cat(
             [self.timestep_embed(timesteps), self.tag_embed(tag)], dim=-1
         )  # [B, 2D]

@@ -15,10 +15,15 @@ from torch import Tensor, nn
 from src.shared.config_schema import LossWeights
 from src.shared.errors import UsageError
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
-from src.shared.motion.kinematics import forward_kinematics
-from src.shared.motion.root_track import HEIGHT, LEFT_CONTACT, ROOT_ROW, integrate_root
-from src.shared.motion.rotations import rotation_6d_to_matrix, yaw_to_matrix
-from src.shared.motion.skeleton import FOOT_JOINTS, NUM_JOINTS, PARENTS, canonical_skeleton
+from src.shared.motion.root_track import (
+    HEIGHT,
+    LEFT_CONTACT,
+    ROOT_ROW,
+    heading_joints,
+    to_world,
+)
+from src.shared.motion.rotations import rotation_6d_to_matrix
+from src.shared.motion.skeleton import FOOT_JOINTS, NUM_JOINTS
 
 NEED_ROOT_TRACK = ("root", "foot_contact", "foot_slide")
 
@@ -39,7 +44,6 @@ class GenerationLoss(nn.Module):
 
     mean: Tensor
     std: Tensor
-    offsets: Tensor
 
     def __init__(
         self,
@@ -60,8 +64,6 @@ class GenerationLoss(nn.Module):
         self.fps = fps
         self.register_buffer("mean", mean, persistent=False)
         self.register_buffer("std", std, persistent=False)
-        offsets = torch.as_tensor(canonical_skeleton().offsets)
-        self.register_buffer("offsets", offsets, persistent=False)
 
     def forward(
         self,
@@ -124,7 +126,6 @@ class RawMotion:
 
     def __init__(self, features: Tensor, owner: GenerationLoss) -> None:
         self.features = features * owner.std + owner.mean  # [B, T, R, 6]
-        self._offsets = owner.offsets
 
     @cached_property
     def rotations(self) -> Tensor:
@@ -134,11 +135,9 @@ class RawMotion:
     @cached_property
     def joints(self) -> Tensor:
         """Joints [B, T, K, 3] in the heading frame, pelvis over the origin, metres."""
-        pelvis = self.features.new_zeros(*self.features.shape[:2], 3)
-        if self.features.shape[2] > ROOT_ROW:
-            pelvis[..., 1] = self.features[..., ROOT_ROW, HEIGHT]
-        positions, _ = forward_kinematics(self.rotations, pelvis, self._offsets, PARENTS)
-        return positions
+        rooted = self.features.shape[2] > ROOT_ROW
+        height = self.features[..., ROOT_ROW, HEIGHT] if rooted else self.features.new_zeros(1)
+        return heading_joints(self.rotations, height.expand(self.features.shape[:2]))
 
 
 class Motions:
@@ -195,10 +194,7 @@ def foot_slide_loss(motions: Motions) -> Tensor:
     """Mean squared world speed (m/s)^2 of feet that truly stand (MDM, equation 4)."""
     balls = motions.raw_predicted.joints[:, :, [ball for _, ball in FOOT_JOINTS]]  # [B, T, 2, 3]
     root = motions.raw_predicted.features[:, :, ROOT_ROW]  # [B, T, 6]
-    path, heading = integrate_root(root, motions.fps)  # [B, T, 3], [B, T]
-    turned = (yaw_to_matrix(heading)[:, :, None] @ balls[..., None]).squeeze(-1)
-    ground = path * path.new_tensor([1.0, 0.0, 1.0])  # the height is in the joints already
-    world = turned + ground[:, :, None]  # [B, T, 2, 3]
+    world = to_world(balls, root, motions.fps)  # [B, T, 2, 3]
     speed = (world[:, 1:] - world[:, :-1]) * motions.fps  # [B, T-1, 2, 3]
     stands = motions.raw_true.features[:, :, ROOT_ROW, LEFT_CONTACT:] > 0.5  # [B, T, 2]
     pairs = motions.mask[:, 1:, None] & stands[:, 1:] & stands[:, :-1]  # [B, T-1, 2]

@@ -114,7 +114,7 @@ def _each(value: Any, count: int, name: str) -> list[Any]:
 
 def _frames(seconds: float | None, fps: float) -> int:
     if not isinstance(seconds, int | float) or not math.isfinite(seconds):
-        raise UserError(f"seconds {seconds!r} is not a number")
+        raise UserError(f"seconds {seconds!r} is not a number; give one, such as 4")
     frames = round(seconds * fps)
     if frames < MIN_FRAMES:
         raise UserError(f"seconds {seconds:g} is too short; ask for {MIN_FRAMES / fps:.2f} or more")

@@ -12,7 +12,7 @@ from torch import Tensor
 from src.shared.model.clip.core import TextFeatures
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
 from src.shared.model.diffusion.guidance import guided
-from src.shared.model.generation.constraint import Given, KnownBatch
+from src.shared.model.generation.constraint import KnownBatch
 from src.shared.model.generation.denoiser import MotionDenoiser
 from src.shared.model.generation.requests import SampleRequest
 
@@ -54,12 +54,12 @@ def sample_batch(
     tag = torch.tensor([request.tag for request in requests], device=device)
     no_tag = torch.full_like(tag, denoiser.num_tags)
     null = denoiser.null_text(len(requests), text.mask.shape[1])
-    learned = denoiser.given_proj is not None
-    given = known.given if known is not None and learned else None
+    learned = denoiser.known_proj is not None
+    told = known.told if known is not None and learned else None
     model_fn = guided(
         denoiser,
-        _condition(denoiser, text, tag, mask, given),
-        _condition(denoiser, null, no_tag, mask, given),
+        _condition(denoiser, text, tag, mask, told),
+        _condition(denoiser, null, no_tag, mask, told),
         guidance_scale,
     )
     noise = noise.to(device)
@@ -80,7 +80,7 @@ def _condition(
     text: TextFeatures,
     tag: Tensor,
     mask: Tensor | None,
-    given: Given | None,
+    known: Tensor | None,
 ) -> dict[str, Any]:
     keys_values = denoiser.text_keys_values(text)  # once a sample, not once a step
-    return {"text": text, "tag": tag, "mask": mask, "given": given, "keys_values": keys_values}
+    return {"text": text, "tag": tag, "mask": mask, "known": known, "keys_values": keys_values}
