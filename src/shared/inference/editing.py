@@ -137,15 +137,20 @@ def redo(clip: Motion, start: int, stop: int, joints: set[str] | None = None) ->
 
 
 def all_but(features: Tensor, start: int, stop: int, joints: set[str] | None) -> Constraint:
-    """Features [T,R,6] are known but for some joints, or everything, in frames [start, stop)."""
+    """Features [T,R,6] are known but for some joints, or everything, in frames [start, stop).
+
+    Of the other joints the network is not told: it would make these as the body has them already,
+    and not as the text says.
+    """
     known = torch.ones(features.shape, dtype=torch.bool)
+    told = None if joints is None else torch.zeros_like(known)
     if joints is None:
         known[start:stop] = False
     else:
         known[start:stop, [JOINT_INDEX[name] for name in sorted(joints)]] = False
         if joints & set(LEGS) and features.shape[1] > ROOT_ROW:
             known[start:stop, ROOT_ROW, LEFT_CONTACT:] = False
-    return Constraint(features, known)
+    return Constraint(features, known, told=told)
 
 
 # ---------------------------------------------------------------- how well it is kept

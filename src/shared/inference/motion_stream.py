@@ -147,11 +147,17 @@ def carried_on(before: Tensor, given: Constraint | None, frames: int) -> Constra
     rows = before.shape[1]
     known = Constraint.free(frames, rows) if given is None else given
     if len(known) != frames:
-        raise UsageError(f"a constraint of {len(known)} frames was given where {frames} were asked")
+        raise UsageError(
+            f"a constraint of {len(known)} frames was given where {frames} were asked"
+            "; make it as long"
+        )
     values, mask = known.values[:, :rows].clone(), known.known[:, :rows].clone()
     values[: len(before)] = before
     mask[: len(before)] = True
-    return replace(known, values=values, known=mask)
+    told = None if known.told is None else known.told[:, :rows].clone()
+    if told is not None:
+        told[: len(before)] = True
+    return replace(known, values=values, known=mask, told=told)
 
 
 def lengthened(known: Constraint, frames: int) -> Constraint:
@@ -164,6 +170,7 @@ def lengthened(known: Constraint, frames: int) -> Constraint:
         known,
         values=torch.cat((known.values, free.values)),
         known=torch.cat((known.known, free.known)),
+        told=None if known.told is None else torch.cat((known.told, free.known)),
     )
 
 
