@@ -105,7 +105,10 @@ def convert(
             print(*rows[-1]["files"].values(), sep="\n", flush=True)
     report(rows, faults, sorted(map(str, kept)), json=json)
     if faults:
-        raise UserError(f"{counted(len(faults), 'file')} of {len(jobs)} could not be converted")
+        raise UserError(
+            f"{counted(len(faults), 'file')} of {len(jobs)} could not be converted"
+            "; mend or leave out what is named above"
+        )
 
 
 # ---------------------------------------------------------------- what to do
@@ -123,7 +126,7 @@ def plan(files: list[Path], format: str | None) -> Iterator[Job]:
             raise UserError(f"{source} does not exist; name a motion file or a folder of them")
     if format is None:
         if len(sources) > 1 or sources[0].is_dir() or out.is_dir():
-            raise UsageError(f"{out}: with a folder, --format says what to write, e.g. "
+            raise UsageError(f"{out}: with a folder, --format says what to write; give one, e.g. "
                              "--format glb")  # fmt: skip
         name = format_of(out)
         check_apart(sources[0], out)
@@ -182,13 +185,18 @@ def check_rigged(formats: list[str], names: str, skeleton: Path | None) -> None:
     known = ", ".join(CLIP_EXPORTERS)
     if skeleton is not None:
         if names != "canonical":
-            raise UsageError("--names does not go with --skeleton, which has names of its own")
+            raise UsageError(
+                "--names does not go with --skeleton, which has names of its own; leave one out"
+            )
         if other := sorted(set(formats) - set(rigged)):
             raise UsageError(f"--skeleton does not go with {other[0]}; choose from {known}")
         if skeleton.suffix.lower() not in (".bvh", ".glb"):
-            raise UsageError(f"--skeleton {skeleton} is no .bvh or .glb file")
+            raise UsageError(
+                f"--skeleton {skeleton} is no .bvh or .glb file"
+                "; export the character as one of them"
+            )
     elif names != "canonical" and not rigged:
-        raise UsageError(f"--names {names} goes with {known} only")
+        raise UsageError(f"--names {names} goes with {known} only; leave it out")
 
 
 def is_done(job: Job) -> bool:

@@ -89,13 +89,19 @@ class Directions:
     def _check_spans(self, seconds: float | None) -> None:
         if seconds is not None and (self.edit is not None or self.timeline is not None):
             file = "--edit" if self.edit is not None else "--timeline"
-            raise UsageError(f"--seconds does not go with {file}, which says how long it is")
+            raise UsageError(
+                f"--seconds does not go with {file}, which says how long it is; leave it out"
+            )
         if self.begin is not None and self.until is not None and self.until <= self.begin:
-            raise UsageError(f"--to {self.until:g} is not after --from {self.begin:g}")
+            raise UsageError(
+                f"--to {self.until:g} is not after --from {self.begin:g}; give a later --to"
+            )
 
     def _check_prompts(self, prompts: int) -> None:
         if self.timeline is not None and prompts:
-            raise UsageError("--prompt does not go with --timeline, which has texts of its own")
+            raise UsageError(
+                "--prompt does not go with --timeline, which has texts of its own; leave one out"
+            )
         if prompts > 1:
             raise UsageError(
                 f"--prompt is given {prompts} times beside {self.given()[0]}, which makes one"

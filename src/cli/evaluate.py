@@ -248,7 +248,9 @@ def refuse(model: str, audio: bool, request: Request) -> None:
     for name in foreign:
         if getattr(request, name) is not None:
             flag, kind = "--" + name.replace("_", "-"), "music" if audio else "text"
-            raise UsageError(f"{flag} is not for {model}, which makes motion from {kind}")
+            raise UsageError(
+                f"{flag} is not for {model}, which makes motion from {kind}; leave it out"
+            )
 
 
 def check_data(data: str) -> None:

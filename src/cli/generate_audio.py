@@ -35,7 +35,7 @@ def only_song(paths: list[Path] | None) -> Path | None:
     if not paths:
         return None
     if len(paths) > 1:
-        raise UsageError(f"--audio is given {len(paths)} times; one song a run")
+        raise UsageError(f"--audio is given {len(paths)} times; name one song")
     (path,) = paths
     if path.is_dir():
         raise UsageError(f"--audio {path} is a folder; name a wav, flac, ogg or mp3 file in it")

@@ -44,7 +44,9 @@ def read_timed(directions: Directions, wanted: dict[str, Any]) -> TimedTask:
 
     path = None if directions.path is None else read_path(directions.path)
     if path is not None and path.times is not None and wanted["seconds"] is not None:
-        raise UsageError(f"--seconds does not go with {directions.path}, which has times")
+        raise UsageError(
+            f"--seconds does not go with {directions.path}, which has times; leave it out"
+        )
     if directions.timeline is not None:
         timeline = read_timeline(directions.timeline, fps=FPS)
     else:

@@ -88,7 +88,7 @@ def parse_yaml(text: str, source: str) -> Any:
         mark = getattr(error, "problem_mark", None)
         where = f" line {mark.line + 1}" if mark else ""
         what = getattr(error, "problem", None) or str(error).splitlines()[0]
-        raise UsageError(f"{source}{where}: not valid YAML: {what}") from error
+        raise UsageError(f"{source}{where}: not valid YAML: {what}; mend the file") from error
     except (ValueError, OverflowError, RecursionError) as error:  # a date or number that is none
         raise UsageError(f"{source}: not valid YAML: {error!s:.200}; mend the file") from error
     return value
@@ -164,7 +164,7 @@ def parse_overrides(overrides: Sequence[str]) -> dict[str, Any]:
     for text in overrides:
         key, equals, value = text.partition("=")
         if not equals or not key.strip():
-            raise UsageError(f"{COMMAND_LINE}: {text!r} is not of the form key=value")
+            raise UsageError(f"{COMMAND_LINE}: {text!r} is not of the form key=value; write it so")
         flat[key.strip()] = parse_yaml(value, f"{COMMAND_LINE}: {key.strip()}={value}")
     return flat
 
@@ -189,7 +189,9 @@ def _normalise(values: dict[Any, Any], source: str, prefix: str = "") -> dict[st
     for key, value in values.items():
         name = _kebab(key)
         if name in result:
-            raise UsageError(f"{source}: {prefix}{name} is given twice, in two spellings")
+            raise UsageError(
+                f"{source}: {prefix}{name} is given twice, in two spellings; leave one out"
+            )
         nested = isinstance(value, dict)
         result[name] = _normalise(value, source, f"{prefix}{name}.") if nested else value
     return result

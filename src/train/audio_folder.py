@@ -32,6 +32,7 @@ def network_of(name_or_folder: str | Path, overrides: Sequence[str] = ()) -> Aud
         if not override.startswith(DECODER_PREFIX):
             raise UsageError(
                 f"{override}: the network is that of {folder}; only {DECODER_PREFIX}* can change"
+                "; leave the rest out"
             )
     values = dump_config(card.audio_network)
     return load_config(AudioNetworkConfig, values, str(folder), overrides, prefix=NETWORK_PREFIX)

@@ -241,6 +241,7 @@ def run(overrides: list[str], config: Path | None = None, *, resume: bool = Fals
     if network_overrides:
         raise UsageError(
             f"{network_overrides[0]}: the network is that of --checkpoint and --decoder-checkpoint"
+            "; leave it out"
         )
     settings = load_train(config, FinetuneE2eConfig, own)
     network = network_of(settings.checkpoint)

@@ -208,7 +208,9 @@ def train(
         given = [*(overrides or []), *as_overrides(flags | {"output": output})]
         own, network_overrides = split_network_overrides(given)
         if network_overrides:
-            raise UsageError(f"{network_overrides[0]}: the network is that of --audio; see part.*")
+            raise UsageError(
+                f"{network_overrides[0]}: the network is that of --audio; see part.*; leave it out"
+            )
         settings = load_train(config, TrainMemoryConfig, own)
         network = network_of(settings.audio)
         from src.train.engine import Trainer

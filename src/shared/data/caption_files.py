@@ -162,6 +162,9 @@ def _json_rows(path: Path, text: str) -> list[tuple[str, str, str, str]]:
         for language, texts in by_language.items():
             for caption in texts if isinstance(texts, list) else [texts]:
                 if not isinstance(caption, str):
-                    raise UserError(f"captions {path}, {clip!r}: {caption!r:.60} is not text")
+                    raise UserError(
+                        f"captions {path}, {clip!r}: {caption!r:.60} is not text"
+                        "; write it in quotes"
+                    )
                 rows.append((f"{clip!r}", clip, language, caption))
     return rows

@@ -62,6 +62,7 @@ class CaptionBook:
             if extends not in ("packaged", "nothing"):
                 raise UserError(
                     f"caption file {file}: extends: {extends!r} is neither 'packaged' nor 'nothing'"
+                    "; write one of them"
                 )
             alone |= extends == "nothing"
             base = packaged.get(code, {}) if extends == "packaged" else {}
@@ -183,7 +184,9 @@ def _caption_files(path: Path) -> list[Path]:
     if path.is_dir():
         found = sorted([*path.glob("*.yaml"), *path.glob("*.yml")])
         if not found:
-            raise UserError(f"no caption files (*.yaml) in {path}")
+            raise UserError(
+                f"no caption files (*.yaml) in {path}; name a file or a folder that holds some"
+            )
         return found
     if not path.is_file():
         raise UserError(f"caption file {path} does not exist; check the path")

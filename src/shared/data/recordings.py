@@ -70,7 +70,7 @@ def open_recording(
     if ending == ".npy":
         return _npy(path, fps)
     raise UserError(f"{path}: no reader for {ending or 'a file without ending'!r}; "
-                    f"known: {', '.join(ENDINGS)}")  # fmt: skip
+                    f"known: {', '.join(ENDINGS)}; export it as one of them")  # fmt: skip
 
 
 def _amc(path: Path, skeleton: Path | None, fps: float | None) -> Recording:
@@ -94,7 +94,8 @@ def _npz(path: Path, fps: float | None) -> Recording:
     if not is_amass(names):
         shown = ", ".join(name[:40] for name in names[:8]) or "nothing"
         raise UserError(f"{path}: holds {shown}: neither a motion of this project nor AMASS "
-                        "(trans, and poses or root_orient and pose_body)")  # fmt: skip
+                        "(trans, and poses or root_orient and pose_body); "
+                        "export it as one of them")  # fmt: skip
     clip = read_amass(path, fps=fps)
     return Recording(
         "AMASS", clip=clip, up="Z", metres=1.0, true_size=True, exact=clip.ours,

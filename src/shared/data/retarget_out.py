@@ -190,7 +190,9 @@ def _bvh_rig(path: Path, clip: BvhClip) -> Rig:
     """The skeleton of a BVH file, in its own unit."""
     roots = [name for name, parent in zip(clip.names, clip.parents, strict=True) if parent < 0]
     if len(roots) > 1:
-        raise UserError(f"{path}: has the roots {', '.join(roots)}; a character has one")
+        raise UserError(
+            f"{path}: has the roots {', '.join(roots)}; a character has one; export one character"
+        )
     orders = tuple(o if sorted(o) == ["X", "Y", "Z"] else "ZXY" for o in clip.rotation_orders)
     frames = np.tile(np.eye(3), (len(clip.names), 1, 1))
     return Rig(clip.names, clip.parents, clip.offsets, clip.end_sites, frames, orders)

@@ -100,7 +100,10 @@ def real_clips(
         if record.num_frames >= min_frames and data.captions(record).get(language)
     ]
     if not usable:
-        raise UserError(f"no clip of {min_frames} frames with a {language!r} caption to evaluate")
+        raise UserError(
+            f"no clip of {min_frames} frames with a {language!r} caption to evaluate"
+            "; prepare longer or captioned clips"
+        )
     chosen = spread_over_groups(usable, num, seed)
     return Clips(
         motions=[decode_features(data.features(record)[:max_frames]) for record in chosen],

@@ -76,7 +76,10 @@ def compare(a: Side, b: Side, *, seed: int = 0) -> dict[str, Any]:
         if grid.plot and (table := _difference(grid, a, b, seed)) is not None
     ]
     if not tables:
-        raise UserError(f"{a.folder} has no row {a.row!r}, or {b.folder} has no row {b.row!r}")
+        raise UserError(
+            f"{a.folder} has no row {a.row!r}, or {b.folder} has no row {b.row!r}"
+            "; evaluate both with it"
+        )
     about = {
         "a": f"{a.folder}, row {a.row}, model {ours['about'].get('model')}",
         "b": f"{b.folder}, row {b.row}, model {theirs['about'].get('model')}",

@@ -220,7 +220,10 @@ class Evaluator(nn.Module):
                 " one with src.train.train_evaluator"
             ) from error
         if content.get("kind") != "evaluator":
-            raise UserError(f"{folder} holds a {content.get('kind')!r}, not an evaluator")
+            raise UserError(
+                f"{folder} holds a {content.get('kind')!r}, not an evaluator"
+                "; name a folder of train_evaluator"
+            )
         try:
             model = cls(EvaluatorConfig.model_validate(content["evaluator"]))
             model.load_state_dict({key: value.float() for key, value in weights.items()})

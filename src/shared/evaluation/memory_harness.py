@@ -96,6 +96,7 @@ def evaluate_memory(
     if len(items) < MIN_PAIRS:
         raise UserError(
             f"{data}: {len(items)} held-back phrases of {model.config.window} frames are too few"
+            "; prepare more data"
         )
     pieces = held_out_songs(
         settings.num_songs, settings.song_seconds, settings.seed, tell_meter=settings.tell_meter

@@ -75,7 +75,9 @@ def plot_losses(
     """
     panels = _panels([name for name in history if name != "step"])
     if not panels:
-        raise UserError(f"cannot write {path}: the log holds no numbers to draw")
+        raise UserError(
+            f"cannot write {path}: the log holds no numbers to draw; name the log of a run"
+        )
     columns = min(3, len(panels))
     rows = math.ceil(len(panels) / columns)
     figure = new_figure(5 * columns, 3.6 * rows)
@@ -123,7 +125,9 @@ def read_losses(path: str | Path) -> dict[str, list[float]]:
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        raise UserError(f"{path}: cannot be read: {error}") from error
+        raise UserError(
+            f"{path}: cannot be read: {error}; name a log.jsonl or training_log.json"
+        ) from error
     try:
         rows = _rows(text)
     except (ValueError, TypeError, KeyError) as error:

@@ -182,7 +182,9 @@ def evaluate_songs(
         dataset = open_split(data, "test", round(settings.song_seconds * FPS), settings.seed)
         real = [phrase.motion for phrase in phrases(dataset, settings.max_real)]
         if len(real) < 4:
-            raise UserError(f"{data}: {len(real)} test phrases are too few to compare with")
+            raise UserError(
+                f"{data}: {len(real)} test phrases are too few to compare with; prepare more songs"
+            )
         facts |= {"data_hash": dataset.fingerprint[:12], "real_motions": len(real)}
     generator, judge = SongGenerator.from_pretrained(model, device=device), AudioJudge(bands)
     progress("songs")

@@ -227,7 +227,10 @@ def evaluate_prompts(
         seed=settings.seed,
     )
     if len(clips) < BATCH:
-        raise UserError(f"{data}: {len(clips)} clips of {settings.split} are fewer than {BATCH}")
+        raise UserError(
+            f"{data}: {len(clips)} clips of {settings.split} are fewer than {BATCH}"
+            "; prepare more clips"
+        )
     best_of = PromptSampler(generator, TextJudge(tower))
     pool = prompt_pool(
         best_of,

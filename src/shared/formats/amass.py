@@ -67,7 +67,7 @@ def read_amass(path: str | Path, *, fps: float | None = None) -> JointClip:
         poses = np.concatenate([root, body], 1)
     if len(poses) != len(trans) or not len(trans):
         raise UserError(f"{path}: {len(poses)} poses and {len(trans)} places; "
-                        "the file is damaged")  # fmt: skip
+                        "the file is damaged; export it again")  # fmt: skip
     return JointClip(
         rotations=rotation_matrices(poses.reshape(-1, NUM_JOINTS, 3)),
         root=trans + SMPL_PELVIS,
@@ -98,10 +98,12 @@ def _rate(path: Path, arrays: dict[str, np.ndarray], fps: float | None) -> float
                         "state it by --source-fps")  # fmt: skip
     if given[0].size != 1 or given[0].dtype.kind not in "fiu":
         raise UserError(f"{path}: the frame rate is {given[0].dtype}{list(given[0].shape)}, "
-                        "not a number")  # fmt: skip
+                        "not a number; state it by --source-fps")  # fmt: skip
     rate = float(given[0].reshape(()))
     if not FRAME_RATES[0] <= rate <= FRAME_RATES[1]:
-        raise UserError(f"{path}: {rate:g} frames a second are not possible")
+        raise UserError(
+            f"{path}: {rate:g} frames a second are not possible; state it by --source-fps"
+        )
     return rate
 
 
@@ -116,5 +118,5 @@ def _numbers(
                         f"of shape {wanted}")  # fmt: skip
     array = array.astype(np.float64)
     if array.size and not np.abs(array).max() < MAX_VALUE:
-        raise UserError(f"{path}: {name} holds NaN or impossibly large values")
+        raise UserError(f"{path}: {name} holds NaN or impossibly large values; export it again")
     return array

@@ -46,7 +46,7 @@ def write_html(motions: Sequence[Motion] | Motion, path: str | Path) -> Path:
     """
     shown = [motions] if isinstance(motions, Motion) else list(motions)
     if not shown:
-        raise UserError(f"cannot write {path}: there is no motion to show")
+        raise UserError(f"cannot write {path}: there is no motion to show; give one")
     return write_page({"motions": [motion_data(motion) for motion in shown]}, path)
 
 

@@ -49,7 +49,9 @@ def check_size(path: Path, max_bytes: int = MAX_BYTES) -> int:
         size = path.stat().st_size
     except (OSError, ValueError) as error:  # ValueError: a zero byte in the name
         reason = getattr(error, "strerror", None) or error
-        raise UserError(f"{path}: cannot be read: {reason}") from error
+        raise UserError(
+            f"{path}: cannot be read: {reason}; name a file that may be read"
+        ) from error
     if not path.is_file():  # a device or pipe would never end
         raise UserError(f"{path}: is not a file; name a motion file")
     if size > max_bytes:
@@ -71,7 +73,9 @@ def read_bytes(path: Path, max_bytes: int = MAX_BYTES) -> bytes:
         with path.open("rb") as stream:
             return stream.read(max_bytes)
     except OSError as error:
-        raise UserError(f"{path}: cannot be read: {error.strerror or error}") from error
+        raise UserError(
+            f"{path}: cannot be read: {error.strerror or error}; name a file that may be read"
+        ) from error
 
 
 def read_arrays(path: Path, wanted: Iterable[str]) -> dict[str, np.ndarray]:
@@ -115,4 +119,6 @@ def _told(path: Path) -> Iterator[None]:
     except BadArray as error:
         raise UserError(f"{path}: {error}; write it again") from error
     except OSError as error:
-        raise UserError(f"{path}: cannot be read: {error.strerror or error}") from error
+        raise UserError(
+            f"{path}: cannot be read: {error.strerror or error}; name a file that may be read"
+        ) from error

@@ -65,23 +65,28 @@ def read_motion_csv(path: str | Path) -> Motion:
             lines = csv.reader(stream)
             if tuple(next(lines, ())) != HEADER:
                 raise UserError(f"{path}: its first line is not the header of a motion, "
-                                "time,pelvis_x,pelvis_y, ...")  # fmt: skip
+                                "time,pelvis_x,pelvis_y, ...; write it again by "
+                                "`convert`")  # fmt: skip
             for number, line in enumerate(lines, 2):
                 if line:
                     rows.append(_numbers(path, number, line))
                 if len(rows) > MAX_FRAMES:
                     raise UserError(f"{path}: more than {MAX_FRAMES} frames; split the file")
     except OSError as error:
-        raise UserError(f"{path}: cannot be read: {error.strerror or error}") from error
+        raise UserError(
+            f"{path}: cannot be read: {error.strerror or error}; name a file that may be read"
+        ) from error
     except (UnicodeDecodeError, csv.Error) as error:
-        raise UserError(f"{path}: is not a CSV file in UTF-8 ({error})") from error
+        raise UserError(f"{path}: is not a CSV file in UTF-8 ({error}); save it as such") from error
     if not rows:
-        raise UserError(f"{path}: has no frames")
+        raise UserError(f"{path}: has no frames; write it again")
     table = np.array(rows)
     joints = table[:, 1:-2].reshape(-1, NUM_JOINTS, len(_PARTS))
     world = torch.as_tensor(joints[..., 3:])
     if world.norm(dim=-1).min() < 1e-3:
-        raise UserError(f"{path}: holds a quaternion of zeros, which is no rotation")
+        raise UserError(
+            f"{path}: holds a quaternion of zeros, which is no rotation; write it again"
+        )
     local = matrix_to_quaternion(global_to_local(quaternion_to_matrix(world), PARENTS))
     return Motion(
         quaternion_continuous(local).numpy().astype(np.float32),
@@ -100,7 +105,9 @@ def _numbers(path: Path, number: int, line: list[str]) -> np.ndarray:
     if len(values) != len(HEADER):
         raise UserError(f"{path} line {number}: {len(values)} cells, expected {len(HEADER)}")
     if not np.abs(values).max() < MAX_VALUE:
-        raise UserError(f"{path} line {number}: holds NaN or impossibly large values")
+        raise UserError(
+            f"{path} line {number}: holds NaN or impossibly large values; write it again"
+        )
     return values
 
 
@@ -110,8 +117,10 @@ def _frame_rate(path: Path, times: np.ndarray) -> float:
     steps = np.diff(times)
     step = (times[-1] - times[0]) / len(steps)
     if not (step > 0 and np.abs(steps - step).max() < 0.01 * step):
-        raise UserError(f"{path}: its times do not grow evenly; a motion has one frame rate")
+        raise UserError(
+            f"{path}: its times do not grow evenly; a motion has one frame rate; write it again"
+        )
     fps = round(float(1 / step), 4)
     if not FRAME_RATES[0] <= fps <= FRAME_RATES[1]:
-        raise UserError(f"{path}: {fps:g} frames a second are not possible")
+        raise UserError(f"{path}: {fps:g} frames a second are not possible; correct the times")
     return fps

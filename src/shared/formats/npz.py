@@ -67,9 +67,13 @@ def read_npz(path: str | Path) -> Motion:
     arrays = read_arrays(path, _NAMES)
     for name in _NAMES:
         if name not in arrays:
-            raise UserError(f"{path}: has no array {name!r}; is it a motion of this project?")
+            raise UserError(
+                f"{path}: has no array {name!r}, so it is no motion of this project; write it again"
+            )
     if tuple(np.atleast_1d(arrays["joint_names"]).tolist()) != JOINT_NAMES:
-        raise UserError(f"{path}: joint_names are not the 22 joints of this project")
+        raise UserError(
+            f"{path}: joint_names are not the 22 joints of this project; write it again"
+        )
     num_frames = len(np.atleast_1d(arrays["quaternions"]))
     for name, shape in _SHAPES.items():
         _check(path, name, arrays[name], (num_frames, *shape))
@@ -81,7 +85,7 @@ def read_npz(path: str | Path) -> Motion:
     quaternions = arrays["quaternions"].astype(np.float64)
     norms = np.linalg.norm(quaternions, axis=-1, keepdims=True)
     if norms.min() < 1e-3:
-        raise UserError(f"{path}: quaternions holds zeros, which are no rotations")
+        raise UserError(f"{path}: quaternions holds zeros, which are no rotations; write it again")
     return Motion(
         (quaternions / norms).astype(np.float32),
         arrays["root_position"].astype(np.float32),
@@ -97,4 +101,4 @@ def _check(path: Path, name: str, array: np.ndarray, shape: tuple[int, ...]) -> 
         raise UserError(f"{path}: {name} is {array.dtype}{list(array.shape)}, expected numbers "
                         f"of shape {list(shape)}")  # fmt: skip
     if array.size and not np.abs(array.astype(np.float64)).max() < MAX_VALUE:
-        raise UserError(f"{path}: {name} holds NaN or impossibly large values")
+        raise UserError(f"{path}: {name} holds NaN or impossibly large values; write it again")

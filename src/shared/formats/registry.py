@@ -146,8 +146,9 @@ def find_writer(writers: Mapping[str, Writer], name: str, given: str) -> Writer:
 def check_motion(motion: Motion, path: str | Path) -> None:
     """Refuse what no viewer could show; a diverged model makes such motions."""
     if not motion.num_frames:
-        raise UserError(f"cannot write {path}: the motion has no frames")
+        raise UserError(f"cannot write {path}: the motion has no frames; give one with some")
     arrays = (motion.quaternions, motion.root_position, motion.contacts)
     if not all(np.isfinite(array).all() for array in arrays):
         raise UserError(f"cannot write {path}: the motion holds NaN or infinite values; "
-                        "the model that made it may have diverged in training")  # fmt: skip
+                        "the model that made it may have diverged in training"
+                        "; train it anew or take an earlier checkpoint")  # fmt: skip

@@ -41,12 +41,14 @@ def read_trajectory_csv(path: str | Path) -> MotionTrajectory:
         with path.open(encoding="utf-8-sig", newline="") as stream:  # spreadsheets add a mark
             lines = [line for line in csv.reader(stream) if line]
     except OSError as error:
-        raise UserError(f"{path}: cannot be read: {error.strerror or error}") from error
+        raise UserError(
+            f"{path}: cannot be read: {error.strerror or error}; name a file that may be read"
+        ) from error
     except (UnicodeDecodeError, csv.Error) as error:
-        raise UserError(f"{path}: is not a CSV file in UTF-8 ({error})") from error
+        raise UserError(f"{path}: is not a CSV file in UTF-8 ({error}); save it as such") from error
     if not lines or tuple(lines[0]) != HEADER:
         raise UserError(f"{path}: its first line is not the header of a trajectory, "
-                        "time,position_x,position_y, ...")  # fmt: skip
+                        "time,position_x,position_y, ...; write it again")  # fmt: skip
     table = np.array([_numbers(path, number, line) for number, line in enumerate(lines[1:], 2)])
     table = table.reshape(-1, len(HEADER))
     return checked_trajectory(path, table[:, 1:], _frame_rate(path, table[:, 0]))
@@ -68,5 +70,7 @@ def _frame_rate(path: Path, times: np.ndarray) -> float:
     steps = np.diff(times)
     step = (times[-1] - times[0]) / len(steps)
     if not (step > 0 and np.abs(steps - step).max() < 0.01 * step):
-        raise UserError(f"{path}: its times do not grow evenly; a trajectory has one frame rate")
+        raise UserError(
+            f"{path}: its times do not grow evenly; a trajectory has one frame rate; write it again"
+        )
     return round(float(1 / step), 4)

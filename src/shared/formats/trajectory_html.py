@@ -53,7 +53,7 @@ def write_trajectory_html(
     """
     shown = [trajectories] if isinstance(trajectories, MotionTrajectory) else list(trajectories)
     if not shown:
-        raise UserError(f"cannot write {path}: there is no trajectory to show")
+        raise UserError(f"cannot write {path}: there is no trajectory to show; give one")
     song = song or SongTrack()
     media = ""
     if song.path is not None:

@@ -64,9 +64,12 @@ def read_trajectory_npz(path: str | Path) -> MotionTrajectory:
                         "`features SONG --plot PICTURE` draws it")  # fmt: skip
     for name in ("trajectory", "fps"):
         if name not in arrays:
-            raise UserError(f"{path}: has no array {name!r}; is it a trajectory of this project?")
+            raise UserError(
+                f"{path}: has no array {name!r}, so it is no trajectory of this project"
+                "; write it again"
+            )
     if "columns" in arrays and list(np.atleast_1d(arrays["columns"])) != list(COLUMNS):
-        raise UserError(f"{path}: columns are not the {CHANNELS} of this project")
+        raise UserError(f"{path}: columns are not the {CHANNELS} of this project; write it again")
     fps = arrays["fps"]
     if fps.shape != () or fps.dtype.kind not in "fiu" or not 0 < float(fps) <= 10_000:
         raise UserError(f"{path}: fps is not a frame rate; expected a number above 0")
@@ -103,9 +106,11 @@ def checked_trajectory(path: Path, data: np.ndarray, fps: float) -> MotionTrajec
         raise UserError(f"{path}: holds {data.dtype}{list(data.shape)}, expected numbers of shape "
                         f"[T, {CHANNELS}], time first, one trajectory")  # fmt: skip
     if not len(data):
-        raise UserError(f"{path}: holds no frames")
+        raise UserError(f"{path}: holds no frames; write it again")
     if not np.abs(data.astype(np.float64)).max() < MAX_VALUE:
-        raise UserError(f"{path}: holds NaN or impossibly large values")
+        raise UserError(f"{path}: holds NaN or impossibly large values; write it again")
     if np.linalg.norm(data[:, QUATERNION].astype(np.float64), axis=1).min() < 1e-3:
-        raise UserError(f"{path}: quaternion columns hold zeros, which are no rotations")
+        raise UserError(
+            f"{path}: quaternion columns hold zeros, which are no rotations; write it again"
+        )
     return MotionTrajectory(data.astype(np.float32), fps)

@@ -134,10 +134,11 @@ def _track(song: SongTrack | str | Path | None) -> SongTrack:
 def _check(trajectory: MotionTrajectory, path: str | Path) -> None:
     """Refuse what no viewer could show; a diverged model makes such trajectories."""
     if not trajectory.num_frames:
-        raise UserError(f"cannot write {path}: the trajectory has no frames")
+        raise UserError(f"cannot write {path}: the trajectory has no frames; give one with some")
     if not np.isfinite(trajectory.data).all():
         raise UserError(f"cannot write {path}: the trajectory holds NaN or infinite values; "
-                        "the model that made it may have diverged in training")  # fmt: skip
+                        "the model that made it may have diverged in training"
+                        "; train it anew or take an earlier checkpoint")  # fmt: skip
     if np.linalg.norm(trajectory.quaternion, axis=-1).min() < 1e-6:
         raise UserError(f"cannot write {path}: the trajectory holds a quaternion of zeros, "
-                        "which is no rotation")  # fmt: skip
+                        "which is no rotation; make it again")  # fmt: skip

@@ -99,7 +99,8 @@ def _listed_rows(value: Any, path: Path) -> tuple[tuple[str, ...], list[Any]]:
         for number, point in enumerate(points, start=1):
             if not isinstance(point, dict) or {str(key).lower() for key in point} != set(names):
                 raise UserError(
-                    f"{path}: point {number} is not like the first one ({', '.join(names)})"
+                    f"{path}: point {number} is not like the first one ({', '.join(names)});"
+                    " mend it"
                 )
             rows.append([point[key] for name in names for key in point if str(key).lower() == name])
         return names, rows
@@ -122,13 +123,17 @@ def _numbers(rows: Sequence[Any], names: tuple[str, ...], path: Path) -> np.ndar
     if not 2 <= len(names) <= len(COLUMNS):
         raise UserError(f"{path}: a point needs 2 to 4 numbers: x, z, t, heading")
     if len(rows) > MAX_POINTS:
-        raise UserError(f"{path}: {len(rows)} points are over the limit of {MAX_POINTS}")
+        raise UserError(
+            f"{path}: {len(rows)} points are over the limit of {MAX_POINTS}; leave some out"
+        )
     for number, row in enumerate(rows, start=1):
         if not isinstance(row, list) or len(row) != len(names):
-            raise UserError(f"{path}: point {number} is {row!r}, not {len(names)} numbers")
+            raise UserError(f"{path}: point {number} is {row!r}, not {len(names)} numbers; mend it")
         for name, value in zip(names, row, strict=True):
             if not _is_number(value) or not math.isfinite(float(value)):
-                raise UserError(f"{path}: point {number}: {name} is {value!r}, not a number")
+                raise UserError(
+                    f"{path}: point {number}: {name} is {value!r}, not a number; mend it"
+                )
     return np.array([[float(value) for value in row] for row in rows]).reshape(-1, len(names))
 
 

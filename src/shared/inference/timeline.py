@@ -104,7 +104,7 @@ def read_timeline(path: str | Path, *, fps: float) -> Timeline:
         if part.end > whole[-1].end:
             raise UserError(
                 f"{path}: {part.text!r} ends at {part.end:g} s, after the body's last entry"
-                f" ({whole[-1].end:g} s)"
+                f" ({whole[-1].end:g} s); let it end sooner"
             )
     for joint in sorted(set().union(*(part.parts for part in parts))):
         _check_overlaps([part for part in parts if joint in part.parts], path, f" with its {joint}")
@@ -132,7 +132,7 @@ def _entry(row: Any, where: str) -> Entry:
     if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
         raise UserError(f"{where}: parts is {parts!r}; name joints or groups, e.g. [left-arm]")
     if tag is not None and not isinstance(tag, str):
-        raise UserError(f"{where}: tag is {tag!r}, not a word")
+        raise UserError(f"{where}: tag is {tag!r}, not a word; write one word")
     try:
         return Entry(text, start, end, frozenset(chosen_joints(names)), tag)
     except UsageError as error:

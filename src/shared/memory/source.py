@@ -107,7 +107,7 @@ class Source:
             named = "; ".join(f"{name}: {why}" for name, why in islice(self.bad.items(), 3))
             raise UserError(
                 f"{self.root}: more than {MAX_BAD_FRACTION:.0%} of {len(self.records)} phrases"
-                f" cannot be used ({named}); {AGAIN}"
+                f" cannot be used ({named}); {AGAIN}; prepare the data again"
             )
 
     def _cut(self, record: PhraseRecord, config: MemoryConfig) -> Iterator[Piece]:

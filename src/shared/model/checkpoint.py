@@ -64,7 +64,10 @@ def read_card(folder: Path) -> ModelCard:
     try:
         return ModelCard.model_validate(load_json(path))
     except FileNotFoundError as error:
-        raise UserError(f"{folder} is no model folder: it has no {CARD_FILE}") from error
+        raise UserError(
+            f"{folder} is no model folder: it has no {CARD_FILE}"
+            "; name a folder from training, or a name that `models` lists"
+        ) from error
     except ValidationError as error:
         first = error.errors()[0]
         key = ".".join(map(str, first["loc"]))
@@ -177,12 +180,13 @@ def load_state(
             raise UserError(
                 f"{folder}: {start}{name} has shape {tuple(given[name].shape)}, the configuration"
                 f" asks for {tuple(tensor.shape)}; {CARD_FILE} and the weights belong together"
+                "; copy the folder again"
             )
     extra = sorted(given.keys() - wanted.keys())
     if extra:
         raise UserError(
             f"{folder}: the weights have {start}{extra[0]}, which the configuration has no place"
-            f" for; {CARD_FILE} and the weights belong together"
+            f" for; {CARD_FILE} and the weights belong together; copy the folder again"
         )
     module.load_state_dict(given)
 

@@ -83,6 +83,9 @@ def resolve_model(name_or_folder: str | Path) -> Path:
             f" and name the run's folder{use}"
         )
     if folder.is_dir():
-        raise UserError(f"{folder} is no model folder: it has no {CARD_FILE}")
+        raise UserError(
+            f"{folder} is no model folder: it has no {CARD_FILE}"
+            "; name a folder from training, or a name that `models` lists"
+        )
     hint = f"; did you mean {nearest(name, shipped)!r}? `models` lists all" if shipped else ""
     raise UserError(f"no model named {name!r}, and no such folder{hint}")

@@ -99,7 +99,9 @@ class Bands:
             bands = {name: _band(cells) for name, cells in content["bands"].items()}
             return cls(bands, int(content["motions"]))
         except OSError as error:
-            raise UserError(f"{path}: cannot be read: {error.strerror or error}") from error
+            raise UserError(
+                f"{path}: cannot be read: {error.strerror or error}; name a file that may be read"
+            ) from error
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             raise UserError(
                 f"{path}: is not a file of bands ({type(error).__name__}: {error}); "

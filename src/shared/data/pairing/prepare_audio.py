@@ -77,7 +77,10 @@ def prepare_audio(
     left_out = sorted((e for e in made if "record" not in e), key=lambda e: e["id"])
     if not phrases:
         example = f", e.g. {left_out[0]['id']}: {left_out[0]['reason']}" if left_out else ""
-        raise UserError(f"no phrase could be made of {len(jobs)} songs{example}")
+        raise UserError(
+            f"no phrase could be made of {len(jobs)} songs{example}"
+            "; give longer songs or more clips"
+        )
     add_bodies(out, phrases, data)
     _remove_stale(out, {entry["id"] for entry in made})
     write_json(out / "manifest.json", _manifest(phrases, data, options))

@@ -50,7 +50,7 @@ def _statistics(
         count += values.shape[1]
         total, squares = total + values.sum(1), squares + (values**2).sum(1)
     if count == 0:
-        raise UserError(f"{dataset.root} has no phrase that can be used")
+        raise UserError(f"{dataset.root} has no phrase that can be used; prepare it again")
     mean = total / count
     std = np.sqrt(np.maximum(squares / count - mean**2, 0)).clip(least_std)
     return torch.from_numpy(mean).float(), torch.from_numpy(std).float()

@@ -103,7 +103,10 @@ class PromptScope:
             UserError: there are no captions.
         """
         if not captions:
-            raise UserError("cannot learn what prompts are known: no captions in the data")
+            raise UserError(
+                "cannot learn what prompts are known: no captions in the data"
+                "; prepare the data with captions"
+            )
         names = tuple(sorted(set(actions)))
         labels = np.array([names.index(action) for action in actions])
         means = _unit(np.stack([embeddings[labels == a].mean(axis=0) for a in range(len(names))]))
