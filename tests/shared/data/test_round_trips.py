@@ -66,3 +66,10 @@ def test_contacts_come_back(tmp_path: Path, name: str) -> None:
     contacts = np.random.default_rng(2).uniform(0, 1, (9, 2)).astype(np.float32)
     path = write_motion(replace(motion, contacts=contacts), tmp_path / f"a.{name}")
     np.testing.assert_array_equal(read_motion(path, fps=None).contacts, contacts)
+
+
+@pytest.mark.parametrize("name", ["npz", "glb"])
+def test_captions_come_back(tmp_path: Path, name: str) -> None:
+    motion = replace(random_motion(3, 1, 30.0), text='says "hi", 歩く')
+    path = write_motion(motion, tmp_path / f"a.{name}")
+    assert read_motion(path, fps=None).text == motion.text

@@ -25,7 +25,7 @@ def test_arrays_are_those_of_smpl_h(tmp_path: Path) -> None:
     arrays = np.load(write_amass(facing_left(), tmp_path / "a.npz"), allow_pickle=False)
     shapes = {name: arrays[name].shape for name in arrays.files}
     assert shapes == {"poses": (1, 156), "trans": (1, 3), "mocap_framerate": (), "gender": (),
-                      "betas": (16,), "dmpls": (1, 8)}  # fmt: skip
+                      "betas": (16,), "dmpls": (1, 8), "skeleton": ()}  # fmt: skip
     assert str(arrays["gender"]) == "neutral"
     assert float(arrays["mocap_framerate"]) == 60.0
     assert not arrays["betas"].any()
