@@ -40,7 +40,8 @@ class PerformerSettings:
         steps, sampler, guidance_scale: of the text branch.
         foot_lock: hold standing feet in place.
         tilt: the path also says how the pelvis leans and rolls.
-        on_beats: the sampler is told to have the body's beats on the song's.
+        on_beats: False = the song's beats are not used at all.
+        guide: the sampler leads the body to slow down on beats.
         steps_on_beats: feet land on beats while the path travels; see `footsteps`.
         accent: how much the limbs linger on beats, 0 to below 1; see `beat_accent`.
     """
@@ -51,6 +52,7 @@ class PerformerSettings:
     foot_lock: bool | None = None
     tilt: bool = False
     on_beats: bool = True
+    guide: bool = True
     steps_on_beats: bool = True
     accent: float = 0.5
 
@@ -117,9 +119,10 @@ class Performer:
         """
         num_frames, own = trajectory.num_frames, self.settings
         passages = _passages(what, num_frames)
+        beats = beats if own.on_beats else None
         known = pin(
             trajectory,
-            beats=beats if own.on_beats else None,
+            beats=beats if own.guide else None,
             steps=beats if own.steps_on_beats else None,
             tilt=own.tilt,
         )
