@@ -21,8 +21,9 @@ THRESHOLD = 0.5  # contact above it = on the ground
 MAX_GAP_SECONDS = 2 / 30  # a contact that breaks off for no longer than this goes on
 MIN_HOLD_SECONDS = 3 / 30  # a shorter contact is none
 BLEND_SECONDS = 9 / 30  # how long a correction fades in before, and out after, a contact
-STEP_SECONDS = 8 / 30  # of a step that was put in, and LIFT metres its height
-LIFT = 0.05
+STEP_SECONDS = 8 / 30  # of a step that was put in
+LIFT, SLOPE = 0.12, 0.12  # metres that a foot is lifted on its way, at most and for each metre
+SOFT = 0.01  # metres around which that lift sets in
 MAX_CLAIM = 0.12  # metres above the standing height; a higher foot stands on nothing
 MAX_SUPPORT = 0.08  # metres; a lower foot carries the body if none other does,
 MAX_VERTICAL = 0.5  # m/s, unless it rises or falls faster than this
@@ -30,17 +31,17 @@ FALL = -3.0  # m/s² of the hips, below which the body flies
 ROLL = 0.015  # metres that the ball of a standing foot may be above its standing height
 MAX_DRAG = 0.22  # metres that a held foot may be from where it was; further off it steps
 MAX_SLOPE = 1.0  # m/s at which a correction may start from a hold
+UNDER = (0.0, 0.5, 1.0)  # shares of the way from where a foot was to below its hip
 MAX_REACH = 0.93  # metres from the hip to the ball of a held foot, its heel up
 
 
 @dataclass(frozen=True, eq=False)
 class Hold:
-    """A foot that stands on `point` [3] in frames [start, stop); `step`: it steps there."""
+    """A foot that stands on `point` [3] in frames [start, stop)."""
 
     start: int
     stop: int
     point: np.ndarray
-    step: bool = False
 
 
 def foot_shifts(
@@ -133,13 +134,14 @@ def foot_holds(
     for start, stop in contact_runs(stands, round(MAX_GAP_SECONDS * fps)):
         fixed = np.flatnonzero(kept[start:stop])
         pieces = [(start, stop)] if len(fixed) else _steps(ball[start:stop], start, fps, phase)
-        for number, (first, last) in enumerate(pieces):
-            path = ball[first:last]
-            point = path[_border(fixed)] if len(fixed) else path.mean(0)
-            point = np.array([point[0], REST_FOOT_HEIGHT, point[2]])
-            first, last = _reached(point, hip, first, last)
+        for first, last in pieces:
+            if len(fixed):
+                point = _on_floor(ball[first + _border(fixed)])
+                first, last = _reached(point, hip, first, last)
+            else:
+                point, last = _in_reach(ball, hip, first, last, shortest)
             if last - first >= min(shortest, len(ball)):
-                found.append(Hold(first, last, point, step=number > 0))
+                found.append(Hold(first, last, point))
     return found
 
 
@@ -165,6 +167,27 @@ def _steps(path: np.ndarray, start: int, fps: float, phase: float) -> list[tuple
     edges = [-half, *cuts.tolist(), len(path) + half]
     pairs = [(a + half, b - half) for a, b in pairwise(edges)]
     return [(start + max(a, 0), start + min(b, len(path))) for a, b in pairs if b > a]
+
+
+def _on_floor(point: np.ndarray) -> np.ndarray:
+    return np.array([point[0], REST_FOOT_HEIGHT, point[2]])
+
+
+def _in_reach(
+    ball: np.ndarray, hip: np.ndarray, start: int, stop: int, shortest: int
+) -> tuple[np.ndarray, int]:
+    """Where a foot stands from `start` on, and until when its leg gets there.
+
+    The middle of its way, or nearer to below the hip; of a way that is too long, the longest
+    beginning: a foot lands when it is to land, and leaves sooner.
+    """
+    for last in range(stop, start + shortest - 1, -1):
+        foot, under = ball[start:last].mean(0), hip[start:last].mean(0)
+        for share in UNDER:
+            point = _on_floor((1 - share) * foot + share * under)
+            if np.linalg.norm(hip[start:last] - point, axis=1).max() <= MAX_REACH:
+                return point, last
+    return _on_floor(ball[start]), start
 
 
 def _reached(point: np.ndarray, hip: np.ndarray, start: int, stop: int) -> tuple[int, int]:
@@ -194,11 +217,14 @@ def corrections(ball: np.ndarray, holds: list[Hold], kept: np.ndarray, fps: floa
         known[hold.start : hold.stop] = True
     shift[kept] = 0
     for before, after in pairwise(holds):
-        if after.step:
-            rise = np.linspace(0, np.pi, after.start - before.stop + 2)[1:-1]
-            lift[before.stop : after.start] = LIFT * np.sin(rise) ** 2
+        rise = np.linspace(0, np.pi, after.start - before.stop + 2)[1:-1]
+        way = np.linalg.norm(after.point - before.point)
+        lift[before.stop : after.start] = min(LIFT, SLOPE * way) * np.sin(rise) ** 2
     shift = _bridged(shift, known, round(BLEND_SECONDS * fps), fps)
-    shift[~known, 1] += lift[~known]
+    missing = lift - (ball[:, 1] + shift[:, 1] - REST_FOOT_HEIGHT)
+    soft = np.clip((missing + SOFT) / (2 * SOFT), 0, 1) ** 2 * SOFT  # sets in without a corner
+    raised = np.where(missing < SOFT, soft, missing)
+    shift[:, 1] += np.where(known | (lift == 0), 0.0, raised * np.minimum(lift / SOFT, 1))
     shift[:, 1] += _above_floor(ball[:, 1] + shift[:, 1], known, fps)
     return shift
 

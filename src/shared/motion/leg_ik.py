@@ -17,7 +17,7 @@ STRAIGHT, BENT = 0.02, 0.1  # sine between which the knee's own plane takes over
 
 def longest_reach(length: Tensor) -> Tensor:
     """How far an ankle may be from its hip [...], of a leg that is `length` [...] long now."""
-    return length.clamp_min(MAX_STRETCH * LEG_LENGTH)
+    return length.clamp_min(0.985 * LEG_LENGTH)
 
 
 def heel_rise(hip: Tensor, ball: Tensor, lever: Tensor, longest: Tensor) -> Tensor:
