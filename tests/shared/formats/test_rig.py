@@ -70,6 +70,10 @@ def test_trimesh_and_pygltflib_read_a_character_of_bones(tmp_path: Path) -> None
     scene = trimesh.load(path, force="scene")
     for name, place in zip(clip.names, clip.rig.rest(), strict=True):
         np.testing.assert_allclose(scene.graph.get(name)[0][:3, 3], place, atol=1e-5)
+    (mesh,) = scene.geometry.values()
+    mesh.merge_vertices(merge_tex=True, merge_norm=True)
+    assert mesh.is_watertight
+    assert mesh.volume > 0  # faces look outwards
     document = pygltflib.GLTF2().load(str(path))
     assert len(document.skins[0].joints) == len(clip.names)
 
