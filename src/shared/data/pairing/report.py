@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from src.shared.array_files import load_array, load_arrays
 from src.shared.data.pairing.clip_library import FPS, MARGIN, ClipLibrary
 from src.shared.data.pairing.motion_beats import motion_beats
-from src.shared.files import load_json, write_json
+from src.shared.files import inside, load_json, write_json
 from src.shared.motion.trajectory import MotionTrajectory
 from src.shared.motion.window import encode_window
 
@@ -22,13 +23,12 @@ Entry = dict[str, Any]
 
 def load_trajectory(out: Path, entry: Entry) -> np.ndarray:
     """Trajectory [T,25] of a phrase."""
-    return np.asarray(np.load(out / entry["record"]["motion"]["path"]))
+    return load_array(out / entry["record"]["motion"]["path"])
 
 
 def load_phase(out: Path, entry: Entry) -> np.ndarray:
     """Unwrapped bars [T] of a phrase."""
-    with np.load(out / entry["record"]["features"]["path"]) as file:
-        return np.asarray(file["phase"])
+    return load_arrays(out / entry["record"]["features"]["path"], ["phase"])["phase"]
 
 
 def encoded_windows(out: Path, entries: Sequence[Entry]) -> Iterator[np.ndarray]:
@@ -45,7 +45,7 @@ def training_trajectories(out: Path) -> Iterator[MotionTrajectory]:
     phrases = load_json(out / "manifest.json")["phrases"]
     train = [phrase for phrase in phrases if phrase["split"] == "train"] or phrases
     for phrase in train:
-        yield MotionTrajectory(np.load(out / phrase["motion"]["path"]))
+        yield MotionTrajectory(load_array(inside(out, phrase["motion"]["path"])))
 
 
 def write_statistics(out: Path, entries: Sequence[Entry]) -> None:

@@ -183,7 +183,9 @@ def _build_encoder(
         rest = {key: value for key, value in encoder_config.items() if key != "model_type"}
         return AutoModel.from_config(AutoConfig.for_model(encoder_config["model_type"], **rest))
     try:
-        return AutoModel.from_pretrained(config.text_model)
+        return AutoModel.from_pretrained(
+            config.text_model, use_safetensors=True, trust_remote_code=False
+        )
     except (OSError, ValueError) as error:
         where = "folder" if Path(config.text_model).exists() else "hub model"
         raise UserError(

@@ -71,7 +71,7 @@ class _Pretrained:
         from transformers import AutoTokenizer
 
         try:
-            self.tokenizer: Any = AutoTokenizer.from_pretrained(name)
+            self.tokenizer: Any = AutoTokenizer.from_pretrained(name, trust_remote_code=False)
         except (OSError, ValueError, ImportError) as error:
             raise UserError(
                 f"cannot load the tokenizer of {name!r} ({str(error).splitlines()[0]});"
