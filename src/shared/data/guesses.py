@@ -46,7 +46,8 @@ def axis_vector(axis: str) -> np.ndarray:
     Raises:
         UsageError: no such axis.
     """
-    name = axis.upper().removeprefix("+")
+    name = axis.upper()
+    name = name[1:] if name[:1] == "+" and "-" not in name else name
     if name not in AXES:
         raise UsageError(f"--up {axis!r} is not an axis; choose from {', '.join(AXES)}")
     return np.eye(3)["XYZ".index(name[-1])] * (-1.0 if name[0] == "-" else 1.0)

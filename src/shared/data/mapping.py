@@ -94,10 +94,11 @@ def find_mapping(names: tuple[str, ...], mappings: tuple[SkeletonMapping, ...]) 
     for mapping, translated in zip(mappings, found, strict=True):
         if len(translated) == len(mapping.joints):
             return _renamed(mapping, translated)
-    best = max(range(len(found)), key=lambda i: (_required(found[i]), len(found[i]), -i))
-    if _required(found[best]) == len(REQUIRED):
-        return _renamed(mappings[best], found[best])
-    raise UserError(_missing_text(names, mappings[best], found[best]))
+    profiles = list(zip(mappings, found, strict=True))
+    best, translated = max(profiles, key=lambda p: (_required(p[1]), len(p[1]), -len(p[0].joints)))
+    if _required(translated) == len(REQUIRED):
+        return _renamed(best, translated)
+    raise UserError(_missing_text(names, best, translated))
 
 
 def _required(translated: dict[str, str]) -> int:

@@ -25,6 +25,7 @@ from src.shared.motion.skeleton import JOINT_INDEX, JOINT_NAMES, canonical_skele
 
 SAME_BONES = 1e-4  # metres: a file with our own skeleton, so nothing is to be fitted
 LEGS = (0.4, 1.3)  # metres, hip to ankle: children to giants
+MAX_FRAMES = 200_000  # of a result at another rate: nearly two hours at 30 a second
 NEAR_RATE = 0.01  # relative: 119.88 frames a second are thinned out like 120
 
 
@@ -110,6 +111,10 @@ def fit(
     metres = unit_metres(unit) if unit else metres
     if fps is not None:
         clip = thinned(clip, fps)
+        if clip.num_frames * clip.frame_time * fps > MAX_FRAMES:
+            raise UserError(f"{path}: {clip.num_frames * clip.frame_time:.0f} s at {fps:g} frames "
+                            f"a second are over the limit of {MAX_FRAMES} frames; split the file "
+                            "or keep its own rate")  # fmt: skip
     try:
         motion = retarget(clip, profile, fps=fps, up=up, metres=metres, ground=not ours)
     except ValueError as error:

@@ -4,6 +4,7 @@ T frames, N source joints, K = 22. World rotations are carried over, not local o
 joints in between (a second spine, a hip helper) need no counterpart.
 """
 
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -14,7 +15,7 @@ from src.shared.data.guesses import joint_indices, rest_frame, upright
 from src.shared.data.mapping import SkeletonMapping
 from src.shared.formats.source_clip import SourceClip
 from src.shared.motion.contacts import detect_contacts
-from src.shared.motion.kinematics import forward_kinematics, global_to_local
+from src.shared.motion.kinematics import global_to_local
 from src.shared.motion.motion import Motion
 from src.shared.motion.resample import resample_motion
 from src.shared.motion.rotations import (
@@ -108,7 +109,7 @@ def leg_length(clip: SourceClip, mapping: SkeletonMapping) -> float:
     )
 
 
-BLOCK = 50_000  # frames times joints that are worked on at once
+BLOCK = 200_000  # frames times joints that are worked on at once
 CALIBRATION_JUMP = 0.15  # radians a joint, mean, between the first two frames
 
 
@@ -164,12 +165,9 @@ def retarget(
     if not legs > 1e-6:
         raise ValueError("the legs have no length: check the OFFSETs of hips, knees and ankles")
     scale = LEG_LENGTH / legs if metres is None else metres
-    world, root = _carry_over(clip, mapping, upright(up), scale)
-    local = global_to_local(torch.as_tensor(world), PARENTS)
-    quaternions = quaternion_continuous(matrix_to_quaternion(local), dim=0).numpy()
-    motion = Motion(
-        quaternions, root, np.zeros((len(root), 2), np.float32), fps=1.0 / clip.frame_time
-    )
+    quaternions, root = _carry_over(clip, mapping, upright(up), scale)
+    contacts = np.zeros((len(root), 2), np.float32)
+    motion = Motion(quaternions, root, contacts, fps=1.0 / clip.frame_time)
     if ground:
         motion = _without_calibration(motion)
     motion = motion if fps is None else resample_motion(motion, fps)
@@ -179,27 +177,29 @@ def retarget(
 def _carry_over(
     clip: SourceClip, mapping: SkeletonMapping, turn: np.ndarray, scale: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """World rotations [T,22,3,3] and pelvis path [T,3] on our skeleton, +Y up, float32.
+    """Local quaternions [T,22,4] and pelvis path [T,3] on our skeleton, +Y up, float32.
 
-    Frames are worked through in blocks: the source may have hundreds of joints.
+    Frames are worked through in blocks: there may be hundreds of joints, or an hour.
     """
     index = joint_indices(clip, mapping)
     corrections = rest_corrections(clip, mapping)
     mapped = sorted(mapping.joints, key=JOINT_NAMES.index)
     ours, theirs = [JOINT_INDEX[name] for name in mapped], [index[name] for name in mapped]
     turned = np.stack([corrections[name] for name in mapped])
-    world = np.empty((clip.num_frames, NUM_JOINTS, 3, 3), np.float32)
+    quaternions = np.empty((clip.num_frames, NUM_JOINTS, 4), np.float32)
     root = np.empty((clip.num_frames, 3), np.float32)
-    block = max(1, BLOCK // len(clip.names))
+    block = max(1, BLOCK // max(NUM_JOINTS, len(clip.names)))
     for start in range(0, clip.num_frames, block):
         frames = slice(start, start + block)
         positions, rotations = clip.world(frames)
-        part = np.empty((len(positions), NUM_JOINTS, 3, 3), np.float32)
-        part[:, ours] = turn @ rotations[:, theirs] @ turned
-        world[frames] = _fill_gaps(part, set(mapping.joints))
+        world = np.empty((len(positions), NUM_JOINTS, 3, 3), np.float32)
+        world[:, ours] = turn @ rotations[:, theirs] @ turned
+        world = _fill_gaps(world, set(mapping.joints))
         hips = positions[:, [index["l_hip"], index["r_hip"]]].mean(1) @ turn.T
-        root[frames] = hips * scale - world[frames, 0] @ _hip_centre()
-    return world, root
+        root[frames] = hips * scale - world[:, 0] @ _hip_centre()
+        local = global_to_local(torch.as_tensor(world), PARENTS)
+        quaternions[frames] = matrix_to_quaternion(local).numpy()
+    return quaternion_continuous(torch.as_tensor(quaternions), dim=0).numpy(), root
 
 
 def _without_calibration(motion: Motion) -> Motion:
@@ -215,11 +215,14 @@ def _without_calibration(motion: Motion) -> Motion:
 
 def _ground(motion: Motion, *, lift: bool) -> Motion:
     """Put the floor under the feet, if asked to, and find the contacts."""
-    offsets = torch.as_tensor(canonical_skeleton().offsets)
-    local = quaternion_to_matrix(torch.as_tensor(motion.quaternions))
-    joints = forward_kinematics(local, torch.as_tensor(motion.root_position), offsets, PARENTS)[0]
-    balls = joints[:, [ball for _, ball in FOOT_JOINTS], 1].amin(1).numpy()
+    block = BLOCK // NUM_JOINTS
+    joints = np.concatenate([
+        replace(motion, quaternions=motion.quaternions[start : start + block],
+                root_position=motion.root_position[start : start + block]).positions()
+        for start in range(0, motion.num_frames, block)
+    ])  # fmt: skip
+    balls = joints[:, [ball for _, ball in FOOT_JOINTS], 1].min(1)
     height = REST_FOOT_HEIGHT - np.percentile(balls, 2) if lift else 0.0
     shift = np.array([0, height, 0], np.float32)
-    contacts = detect_contacts(joints.numpy() + shift, motion.fps)
+    contacts = detect_contacts(joints + shift, motion.fps)
     return Motion(motion.quaternions, motion.root_position + shift, contacts, motion.fps)

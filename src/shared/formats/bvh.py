@@ -5,6 +5,7 @@ the hierarchy (end sites apart), C channels of all nodes together.
 """
 
 from dataclasses import dataclass, replace
+from itertools import accumulate
 from pathlib import Path
 
 import numpy as np
@@ -98,8 +99,7 @@ class BvhClip:
 
     def _channel_starts(self) -> list[int]:
         """First column of each joint in `values`."""
-        counts = [len(channels) for channels in self.channels]
-        return [sum(counts[:joint]) for joint in range(len(counts))]
+        return [0, *accumulate(len(channels) for channels in self.channels)][:-1]
 
     def _rotations(self, joint: int, starts: list[int]) -> list[int]:
         """Columns of a joint's rotation channels."""
@@ -132,7 +132,8 @@ def read_bvh(path: str | Path, *, stride: int = 1, max_bytes: int = MAX_BYTES) -
     except BvhError as error:
         raise _user_error(path, error) from None
     except OSError as error:
-        raise UserError(f"{path}: cannot be read: {error.strerror or error}") from error
+        raise UserError(f"{path}: cannot be read: {error.strerror or error}"
+            "; name a BVH file that may be read") from error
     nodes = head.nodes
     return BvhClip(
         names=tuple(node.name for node in nodes),
@@ -161,7 +162,8 @@ def check_head(path: Path) -> None:
     except BvhError as error:
         raise _user_error(path, error) from None
     except OSError as error:
-        raise UserError(f"{path}: cannot be read: {error.strerror or error}") from error
+        raise UserError(f"{path}: cannot be read: {error.strerror or error}"
+            "; name a BVH file that may be read") from error
 
 
 def _user_error(path: Path, error: BvhError) -> UserError:

@@ -114,7 +114,7 @@ def read_rows(path: Path, stream: IO[bytes], head: Head) -> np.ndarray:
             break
     if count != total:
         raise _explain(path, head, deadline)
-    if not np.abs(values).max() < MAX_VALUE:  # also true for NaN
+    if not max(values.max(), -values.min()) < MAX_VALUE:  # also true for NaN
         worst = int(np.flatnonzero(~(np.abs(values) < MAX_VALUE))[0])
         frame = worst // head.num_channels
         raise BvhError(f"value {values[worst]:g} in frame {frame + 1} is not a possible angle or "
