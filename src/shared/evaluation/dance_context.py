@@ -139,8 +139,7 @@ class DanceContext:
 
     def performer(self, generator: MotionGenerator, *, on_beats: bool = True) -> Performer:
         """Puts bodies on paths, their feet not yet held."""
-        accent = self.sampling.accent if on_beats else 0.0
-        settings = replace(self.sampling, foot_lock=False, on_beats=on_beats, accent=accent)
+        settings = replace(self.sampling, foot_lock=False, on_beats=on_beats)
         return Performer(generator, settings)
 
     def _danced(self, who: str, replication: int) -> BodySample:

@@ -8,9 +8,9 @@ Letters: T frames, M beats, S steps.
 """
 
 import numpy as np
+import torch
 from scipy.ndimage import gaussian_filter1d
 
-from src.shared.inference.beat_accent import beats_beyond
 from src.shared.motion.trajectory import MotionTrajectory
 from src.shared.motion.trajectory_math import turn_about_y
 
@@ -57,10 +57,18 @@ def landings(beats: np.ndarray, seconds: float) -> np.ndarray:
     return every
 
 
+def beats_beyond(beats: np.ndarray, seconds: float) -> np.ndarray:
+    """Beats [M], M ≥ 2, and more of the first and the last length, from before 0 to after
+    `seconds`."""
+    before, after = beats[1] - beats[0], beats[-1] - beats[-2]
+    head, tail = max(float(beats[0]), 0.0), max(seconds - float(beats[-1]), 0.0)
+    early = beats[0] - before * np.arange(np.ceil(head / before) + 1, 0, -1)
+    late = beats[-1] + after * np.arange(1, np.ceil(tail / after) + 2)
+    return np.concatenate((early, beats, late))
+
+
 def _parity(trajectory: MotionTrajectory, number: np.ndarray) -> int:
     """0 if even steps are the left foot's, 1 if odd ones are, by how the pelvis sways."""
-    import torch
-
     path = trajectory.position.astype(np.float64)
     sway = path - gaussian_filter1d(path, SWAY * trajectory.fps, axis=0, mode="nearest")
     local = turn_about_y(torch.from_numpy(sway), -torch.from_numpy(trajectory.heading))

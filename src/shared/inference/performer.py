@@ -14,7 +14,6 @@ import numpy as np
 import torch
 
 from src.shared.errors import UsageError
-from src.shared.inference.beat_accent import accented
 from src.shared.inference.motion_stream import Passage, stream_features
 from src.shared.inference.trajectory_constraint import (
     RootError,
@@ -26,7 +25,6 @@ from src.shared.inference.trajectory_constraint import (
 from src.shared.model.generation.motion_generator import MotionGenerator
 from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess import MotionPostProcessor, smooth_features
-from src.shared.motion.root_track import LEFT_CONTACT, ROOT_ROW
 from src.shared.motion.trajectory import MotionTrajectory
 
 Progress = Callable[[int, int], None]  # frames done, frames in all
@@ -43,7 +41,6 @@ class PerformerSettings:
         on_beats: False = the song's beats are not used at all.
         guide: the sampler leads the body to slow down on beats.
         steps_on_beats: feet land on beats while the path travels; see `footsteps`.
-        accent: how much the limbs linger on beats, 0 to below 1; see `beat_accent`.
     """
 
     steps: int | None = None
@@ -54,7 +51,6 @@ class PerformerSettings:
     on_beats: bool = True
     guide: bool = True
     steps_on_beats: bool = True
-    accent: float = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,9 +137,6 @@ class Performer:
                 progress(sum(map(len, pieces)), num_frames)
         post = self.generator.network.generation.post_processing
         smooth = smooth_features(torch.cat(pieces), post.smoothing_kernel)
-        if beats is not None and own.accent:
-            smooth = accented(smooth, beats, own.accent, fps=trajectory.fps)
-            known.known[:, ROOT_ROW, LEFT_CONTACT:] = False  # they have moved with the legs
         # Averaged rotations may turn a little: the heading is the path's alone.
         features = known.keep(untwisted(smooth))
         foot_lock = post.foot_lock if own.foot_lock is None else own.foot_lock
