@@ -4,7 +4,7 @@ Letters: N pairs, D embedding channels, M pairs in one batch (32 in the protocol
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.special import gammaln
@@ -15,11 +15,16 @@ TOP = (1, 2, 3)
 
 @dataclass(frozen=True)
 class Retrieval:
-    """R-precision at 1, 2, 3 (fractions) and the mean distance of matching pairs."""
+    """R-precision at 1, 2, 3 (fractions) and the mean distance of matching pairs.
+
+    Attributes:
+        hits: chance of a right answer at 1, 2, 3 [3, Q], text by text in any order.
+    """
 
     r_precision: tuple[float, float, float]
     matching_distance: float
     num_batches: int
+    hits: np.ndarray = field(compare=False, repr=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,17 +117,17 @@ def guo_retrieval(
     columns.append(np.arange(len(text)))
     order = np.random.default_rng(seed).permutation(len(text))
     num_batches = len(text) // batch
-    hits = np.zeros(len(TOP))
+    hits: list[list[np.ndarray]] = []
     matching = 0.0
     for rows in order[: num_batches * batch].reshape(num_batches, batch):
         distances = pair_distances(text[rows], motion[rows])
         relevant = np.any([ids[rows][:, None] == ids[rows][None] for ids in columns], axis=0)
         ranks = best_ranks(distances, relevant)
-        hits += [ranks.hits(k).sum() for k in TOP]
+        hits.append([ranks.hits(k) for k in TOP])
         matching += float(np.diag(distances).sum())
-    count = num_batches * batch
-    at_1, at_2, at_3 = (hits / count).tolist()
-    return Retrieval((at_1, at_2, at_3), matching / count, num_batches)
+    found = np.concatenate(hits, axis=1)
+    at_1, at_2, at_3 = found.mean(1).tolist()
+    return Retrieval((at_1, at_2, at_3), matching / found.shape[1], num_batches, found)
 
 
 def normalised_score(generated: float, chance: float, real: float) -> float:

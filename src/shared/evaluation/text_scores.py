@@ -19,7 +19,7 @@ def score_grid(split: str, grids: Sequence[Grid], names: Sequence[str]) -> Grid:
         "normalised: (row - chance) / (real - chance). joint ratio: joint FD over that of real"
         " motions under shuffled labels; tag ratio: FD by tag over FD by wrong tag; the others:"
         " row over real. Real motion is 1 (near 0 in joint and tag ratio); chance is 0 where"
-        " normalised, 1 in the joint ratio."
+        " normalised, 1 in the joint ratio. Of the tables above, where the intervals are."
     )
     return Grid(f"{split}/scores", f"{split}: against real and chance", columns, rows, note)
 

@@ -10,6 +10,7 @@ from src.shared.evaluation.control_table import FLOORS, control_table
 from src.shared.evaluation.families import Column
 from src.shared.evaluation.families_text import r_precision
 from src.shared.evaluation.grids import Cell, Grid, GridRow, plain
+from src.shared.evaluation.intervals import bootstrap_mean
 from src.shared.evaluation.metrics_retrieval import BATCH, normalised_score
 from src.shared.evaluation.text_context import UNTRAINED, TextContext
 
@@ -44,16 +45,17 @@ def languages(context: TextContext) -> list[Grid]:
         for name, sampler in made_by.items():
             motions = sampler(asked.clips.captions, asked.clips.num_frames, settings.seed)
             samples[name] = context.made(asked, motions)
-        cells: dict[str, Cell] = {
-            name: r_precision(sample, settings.seed).r_precision[2]
+        at_3 = {
+            name: bootstrap_mean(r_precision(sample, settings.seed).hits[2].tolist())
             for name, sample in samples.items()
         }
-        score = normalised_score(*(float(cells[k]) for k in ("generated", "chance", "real")))  # type: ignore[arg-type]
+        score = normalised_score(*(at_3[k].value for k in ("generated", "chance", "real")))
+        cells = {name: estimate.as_dict() for name, estimate in at_3.items()}
         rows[language] = GridRow({**cells, "normalised": plain(score)}, num, 1)
     columns = tuple(Column(key, key) for key in ("real", "chance", *made_by, "normalised"))
     note = (
-        "One replication. normalised: (generated - chance) / (real - chance)."
-        f" Seed {settings.seed}; real and chance over all real clips."
+        "One replication; ± is 95% over prompts. normalised: (generated - chance) / (real -"
+        f" chance). Seed {settings.seed}; real and chance over all real clips."
     )
     title = "R@3 by language (seen combinations)"
     return [Grid("languages", title, columns, rows, note, "language")] if rows else []

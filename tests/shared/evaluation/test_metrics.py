@@ -115,7 +115,7 @@ def test_retrieval_of_perfect_constant_and_random_embeddings() -> None:
     rng = np.random.default_rng(0)
     text = rng.normal(size=(640, 16))
     perfect = guo_retrieval(text, text, [])
-    assert perfect.r_precision == (1.0, 1.0, 1.0)
+    assert perfect.r_precision == (1.0, 1.0, 1.0) and perfect.hits.shape == (3, 640)
     assert perfect.matching_distance == pytest.approx(0) and perfect.num_batches == 20
     constant = guo_retrieval(np.ones((64, 4)), np.ones((64, 4)), [])
     assert constant.r_precision == pytest.approx((1 / 32, 2 / 32, 3 / 32))
