@@ -7,8 +7,13 @@ from hypothesis import strategies as st
 
 from src.shared.inference.trajectory_constraint import pin, root_error, start_of, untwisted
 from src.shared.motion.root_track import LEFT_CONTACT, ROOT_ROW, decode_features
-from src.shared.motion.rotations import axis_angle_to_matrix, matrix_to_rotation_6d
+from src.shared.motion.rotations import (
+    axis_angle_to_matrix,
+    matrix_to_quaternion,
+    matrix_to_rotation_6d,
+)
 from src.shared.motion.trajectory import MotionTrajectory
+from tests.shared.evaluation.tiny_pairs import nod
 
 
 def wild_path(seed: int, frames: int) -> MotionTrajectory:
@@ -22,8 +27,6 @@ def wild_path(seed: int, frames: int) -> MotionTrajectory:
         @ axis_angle_to_matrix(0, torch.from_numpy(lean))
         @ axis_angle_to_matrix(2, torch.from_numpy(roll))
     )
-    from src.shared.motion.rotations import matrix_to_quaternion
-
     return MotionTrajectory.from_pose(
         walk, matrix_to_quaternion(turn).numpy(), np.arange(frames) / 60.0
     )
@@ -48,6 +51,15 @@ def test_what_is_known() -> None:
     assert int(upright.known.sum()) == 40 * 4 and upright.beats is None
     assert whole.beats is not None and whole.beats.tolist() == [0.5, 1.0]
     assert whole.window(15, 30).beats.tolist() == [0.0, 0.5]  # type: ignore[union-attr]
+
+
+def test_steps_are_known_where_the_path_walks() -> None:
+    way = nod(np.arange(122) / 30 * 0.5)  # about a metre a second
+    constraint = pin(way, steps=np.arange(1, 10) * 0.5)
+    contacts = constraint.values[:, ROOT_ROW, LEFT_CONTACT:]
+    assert constraint.known[:, ROOT_ROW, LEFT_CONTACT:].all() and constraint.beats is None
+    assert set(contacts.unique().tolist()) == {0.0, 1.0} and contacts.any(1).all()
+    assert not pin(wild_path(1, 40)).known[:, ROOT_ROW, LEFT_CONTACT:].any()
 
 
 def test_ten_minutes_do_not_drift() -> None:
