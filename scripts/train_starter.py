@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Make the starter weights anew: prepare, seven trainings, and the shipped folders.
+"""Make the starter weights anew: prepare, eight trainings, and the shipped folders.
 
     python scripts/train_starter.py SOURCE ... --captions FILE [--work DIR] [--ship]
 
-SOURCES are folders of BVH files (the shipped set: bandai-namco and cmu). Every stage resumes, and
-does nothing when it is finished. The starter is the weighted mean of the last two generators, which
-serves combinations that training did not see better than either. `--ship` writes fp16 copies into
+SOURCES are folders of motion files (the shipped set: bandai-namco and cmu). Every stage resumes,
+and does nothing when it is finished. The weighted mean of the second and the third generator serves
+combinations that training did not see better than either; it learns constraints in a last round,
+which is the starter. `--ship` writes fp16 copies into
 src/shared/pretrained.
 """
 
@@ -19,6 +20,9 @@ SYNTHETIC_CLIPS = 3000
 FIRST = ["min-frames=40", "max-frames=150", "losses.position=1.0", "losses.foot-slide=0.02"]
 SECOND = ["min-frames=40", "max-frames=180", "losses.position=2.0", "losses.foot-slide=0.1"]
 THIRD = [*SECOND, "losses.root=0.5"]
+FREE = "network.generation.constraints=false"  # learned last, by a network that can walk
+FOURTH = [*THIRD, "constraints.free=0.4"]
+AVERAGE = "average"
 SHARE = 0.6  # of the third generator in the mean; the only one that was tried
 LICENCE = "CC BY-NC 4.0 (learned from the Bandai-Namco Research Motiondataset: non-commercial)"
 DESCRIPTION = "text to body motion; Bandai-Namco, CMU and synthetic; en es fr de ja zh"
@@ -39,21 +43,24 @@ def stages(options: argparse.Namespace) -> list[list[str]]:
          "--output", str(clip), "--resume"],
         ["-m", "src.train.train_evaluator", "--data", data, f"threads={options.threads}",
          "steps=1500", "--output", str(work / "evaluator"), "--resume"],
-        [*learn, *FIRST, f"clip={clip}", f"steps={options.steps}", "--output", str(first),
+        [*learn, *FIRST, FREE, f"clip={clip}", f"steps={options.steps}", "--output", str(first),
          "--resume"],
         ["-m", "src.train.train_text", *train, *FIRST[:2], f"clip={clip}", "steps=2500",
          "--output", str(hardened), "--resume"],
-        [*learn, *SECOND, f"clip={hardened}", f"init={first}", f"steps={options.steps}",
+        [*learn, *SECOND, FREE, f"clip={hardened}", f"init={first}", f"steps={options.steps}",
          "learning-rate=6e-4", "--output", str(second), "--resume"],
         ["-m", "src.train.train_text", *train, *FIRST[:2], f"clip={clip}", "steps=2000",
          "--output", str(again), "--resume"],
-        [*learn, *THIRD, f"clip={again}", f"init={second}", f"steps={options.steps}",
+        [*learn, *THIRD, FREE, f"clip={again}", f"init={second}", f"steps={options.steps}",
          "learning-rate=5e-4", "--output", str(work / "third"), "--resume"],
+        [AVERAGE],
+        [*learn, *FOURTH, f"clip={again}", f"init={work / 'mean'}", f"steps={options.steps}",
+         "learning-rate=5e-4", "--output", str(work / "starter"), "--resume"],
     ]  # fmt: skip
 
 
 def average(work: Path) -> None:
-    """Write the mean of the last two generators' weights (Wortsman et al. 2022) as `starter`."""
+    """Write the mean of two generators' weights (Wortsman et al. 2022) as `mean`."""
     import torch
 
     from src.shared.model.generation.motion_generator import MotionGenerator
@@ -65,7 +72,7 @@ def average(work: Path) -> None:
     generator.denoiser.load_state_dict(mean)
     summary = generator.card.training | {"averaged": {"second": 1 - SHARE, "third": SHARE}}
     generator.card = generator.card.model_copy(update={"training": summary})
-    generator.save_pretrained(work / "starter")
+    generator.save_pretrained(work / "mean")
 
 
 def ship(work: Path) -> None:
@@ -89,18 +96,18 @@ def main() -> int:
     parser.add_argument("sources", nargs="+")
     parser.add_argument("--captions", required=True, help="CSV, TSV or JSON")
     parser.add_argument("--work", type=Path, default=Path("runs/starter"))
-    parser.add_argument(
-        "--steps", type=int, default=5800, help="of each of three generation stages"
-    )
+    parser.add_argument("--steps", type=int, default=5800, help="of each of four generation stages")
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--ship", action="store_true", help="write src/shared/pretrained")
     options = parser.parse_args()
+    sys.path.insert(0, str(ROOT))
     for arguments in stages(options):
+        if arguments == [AVERAGE]:
+            average(options.work)
+            continue
         print("$ python", *arguments, flush=True)
         if code := subprocess.call([sys.executable, *arguments], cwd=ROOT):
             return code
-    sys.path.insert(0, str(ROOT))
-    average(options.work)
     if options.ship:
         ship(options.work)
     return 0
