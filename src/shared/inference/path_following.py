@@ -29,7 +29,8 @@ NATURAL, SLOWEST = 1.2, 0.25  # m/s
 MAX_SIDEWAYS = 2.0  # m/s², acceleration in bends
 MAX_ALONG = 1.5  # m/s², acceleration when starting and stopping
 MAX_TURN, FASTEST_TURN = 2.5, 4.0  # rad/s, in bends and where the path turns back
-START_SPEED = 0.3  # m/s; nobody stands still for the first frame only
+START_SPEED = 0.1  # m/s, of the first and the last step
+REST = 0.4  # seconds of standing at either end; without them the feet end apart
 TURN_SMOOTHING = 0.12  # seconds, standard deviation, of the heading
 
 
@@ -91,9 +92,11 @@ def time_path(
     else:
         line, share = _rounded(drawn.points)
         moments = _moments(line, min(max(speed, SLOWEST), FASTEST))
+        rest = REST if seconds is None else min(REST, seconds / 8)
         if seconds is not None:
-            moments = _in_seconds(line, moments, seconds)
+            moments = _in_seconds(line, moments, seconds - 2 * rest)
         frames = np.linspace(0, moments[-1], max(2, round(moments[-1] * fps) + 1))
+        frames = np.pad(frames, round(rest * fps), mode="edge")
         points = np.stack([np.interp(frames, moments, line[:, axis]) for axis in (0, 1)], axis=1)
         along = np.interp(frames, moments, share)
         given_at = _shares(drawn.points)
@@ -154,8 +157,8 @@ def _in_seconds(line: np.ndarray, moments: np.ndarray, seconds: float) -> np.nda
     if fastest > FASTEST:
         shortest = seconds * fastest / FASTEST
         raise UserError(
-            f"the path takes at least {shortest:.1f} s at {FASTEST:g} m/s; ask for more than"
-            f" {seconds:g} s"
+            f"the path is too long for its time: it takes {shortest:.1f} s at {FASTEST:g} m/s, the"
+            " fastest there is; give it more seconds"
         )
     return stretched
 

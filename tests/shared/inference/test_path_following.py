@@ -76,7 +76,7 @@ def test_seconds_and_facing() -> None:
     np.testing.assert_allclose(backward.headings, np.pi, atol=1e-6)
     values = backward.constraint().values[:, ROOT_ROW]
     assert values[60, FORWARD] < -0.5 and abs(values[60, LATERAL]) < 1e-5
-    with pytest.raises(UserError, match="at least"):
+    with pytest.raises(UserError, match="too long for its time"):
         time_path(LINE, fps=30.0, seconds=0.5)
 
 
