@@ -19,7 +19,7 @@ from torch import Tensor
 from src.shared.config_memory import MemoryConfig
 from src.shared.data.phrases.layout import PhraseRecord
 from src.shared.errors import UserError
-from src.shared.memory.folder import read_manifest
+from src.shared.memory.folder import MANIFEST
 from src.shared.memory.index import MemoryIndex, Phrase
 from src.shared.memory.search import add_library, has_tables, library_installed, open_index
 from src.shared.memory.source import Piece, Progress, Source
@@ -80,7 +80,7 @@ def build_memory(
     config = config or MemoryConfig()
     source = Source(str(data), split)
     made_of, out = _made_of(source.records, space, config), Path(out)
-    if _made(out, made_of):
+    if _opened(out, made_of):
         progress(len(source.records), len(source.records))
     else:
         parts = [
@@ -118,12 +118,13 @@ def _made_of(records: Sequence[PhraseRecord], space: Space, config: MemoryConfig
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def _made(folder: Path, made_of: str) -> bool:
-    """Whether there is a memory that was made of this."""
+def _opened(folder: Path, made_of: str) -> MemoryIndex | None:
+    """The memory that was made of this, if it is there and whole."""
     try:
-        return bool(read_manifest(folder)["about"].get("made_of") == made_of)
+        index = MemoryIndex.open(folder) if (folder / MANIFEST).is_file() else None
     except UserError:
-        return False
+        return None
+    return index if index and index.about.get("made_of") == made_of else None
 
 
 # ---------------------------------------------------------------- parts
@@ -145,8 +146,7 @@ def _part(
     """
     last = min(first + CHUNK, len(source.records))
     folder = folder / f"{first:08d}"
-    if _made(folder, made_of):
-        part = MemoryIndex.open(folder)
+    if part := _opened(folder, made_of):
         progress(last, len(source.records))
         return part
     bad = len(source.bad)

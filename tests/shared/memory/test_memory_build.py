@@ -116,17 +116,22 @@ def test_a_killed_build_goes_on_where_it_was(
     assert space.calls == 5, "ten phrases, two a part"
     command = [sys.executable, "-c", KILLED, str(pairs), str(stopped)]
     assert subprocess.run(command, check=False).returncode == -signal.SIGKILL
-    assert len(list((stopped / build.PARTS).iterdir())) == 3
+    first, *others = sorted((stopped / build.PARTS).iterdir())
+    assert len(others) == 2
+    (first / "keys.safetensors").write_bytes(b"damaged meanwhile")
     with pytest.raises(UserError, match="no memory"):
         MemoryIndex.open(stopped)
     told: list[tuple[int, int]] = []
     space = Counting()
     build_memory(pairs, space, stopped, progress=lambda *n: told.append(n))
-    assert space.calls == 2 and told[:4] == [(2, 10), (4, 10), (6, 10), (7, 10)]
+    assert space.calls == 3 and told[:5] == [(1, 10), (2, 10), (4, 10), (6, 10), (7, 10)]
     files = sorted(path.name for path in stopped.iterdir())
     assert files == sorted(path.name for path in whole.iterdir()), "the parts are gone"
     for name in files:
         assert (stopped / name).read_bytes() == (whole / name).read_bytes(), name
+    (stopped / "motions.safetensors").write_bytes(b"damaged later")
+    build_memory(pairs, LinearSpace(), stopped)
+    assert len(MemoryIndex.open(stopped)) == len(MemoryIndex.open(whole))
 
 
 def test_parts_of_something_else_are_not_taken(
