@@ -88,7 +88,8 @@ def convert(
     check_rigged(formats, names, skeleton)
     kept = {job.source for job in jobs if resume and is_done(job)}
     jobs = [job for job in jobs if job.source not in kept]
-    note_replaced((path for job in jobs for path in job.targets.values()), files[-1])
+    folder = files[-1] if format else files[-1].parent
+    note_replaced((path for job in jobs for path in job.targets.values()), folder)
     write = writer(skeleton, mapping, names)
     reading = {"mapping": mapping, "unit": unit, "up": up, "fps": fps, "skeleton": asf}
     rows, faults = [], []

@@ -10,7 +10,14 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.data.guesses import guess_up, joint_indices, rest_frame, upright
+from src.shared.data.guesses import (
+    UNITS,
+    guess_unit,
+    guess_up,
+    joint_indices,
+    rest_frame,
+    upright,
+)
 from src.shared.data.mapping import SkeletonMapping, find_mapping, load_mappings
 from src.shared.data.retarget import leg_length, rest_corrections
 from src.shared.errors import UserError
@@ -18,7 +25,7 @@ from src.shared.formats.bvh import BvhClip, read_bvh
 from src.shared.formats.glb_character import write_glb_character
 from src.shared.formats.glb_reader import GlbSkeleton, read_glb_skeleton
 from src.shared.formats.registry import check_motion, write_clip
-from src.shared.formats.rig import Rig, RigClip, canonical_rig, motion_clip
+from src.shared.formats.rig import Rig, RigClip, canonical_rig, motion_clip, turned
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import JOINT_INDEX, LEG_LENGTH, NUM_JOINTS, REST_FOOT_HEIGHT
 
@@ -156,7 +163,10 @@ class Target:
             raise UserError(f"{path} is the skeleton's own file; name another OUT")
         if self.character is not None and path.suffix.lower() == ".glb":
             return write_glb_character(self.character, self.clip(motion), path)
-        return write_clip(self.clip(motion), path)
+        clip = self.clip(motion)
+        if path.suffix.lower() != ".bvh":  # all others are +Y up
+            clip = turned(clip, upright(self.up))
+        return write_clip(clip, path)
 
 
 def read_target(path: str | Path, *, mapping: Path | None = None) -> Target:
@@ -176,7 +186,8 @@ def read_target(path: str | Path, *, mapping: Path | None = None) -> Target:
         return Target(path, rig, _profile(path, rig.names, mapping), character=character)
     clip = read_bvh(path)
     profile = _profile(path, clip.names, mapping)
-    return Target(path, _bvh_rig(path, clip), profile, guess_up(clip, profile)[0])
+    metres = UNITS[guess_unit(leg_length(clip, profile))]
+    return Target(path, _bvh_rig(path, clip, metres), profile, guess_up(clip, profile)[0])
 
 
 def _profile(path: Path, names: tuple[str, ...], extra: Path | None) -> SkeletonMapping:
@@ -186,8 +197,8 @@ def _profile(path: Path, names: tuple[str, ...], extra: Path | None) -> Skeleton
         raise UserError(f"{path}: {error}") from None
 
 
-def _bvh_rig(path: Path, clip: BvhClip) -> Rig:
-    """The skeleton of a BVH file, in its own unit."""
+def _bvh_rig(path: Path, clip: BvhClip, metres: float) -> Rig:
+    """The skeleton of a BVH file, in its own unit of so many metres."""
     roots = [name for name, parent in zip(clip.names, clip.parents, strict=True) if parent < 0]
     if len(roots) > 1:
         raise UserError(
@@ -195,4 +206,4 @@ def _bvh_rig(path: Path, clip: BvhClip) -> Rig:
         )
     orders = tuple(o if sorted(o) == ["X", "Y", "Z"] else "ZXY" for o in clip.rotation_orders)
     frames = np.tile(np.eye(3), (len(clip.names), 1, 1))
-    return Rig(clip.names, clip.parents, clip.offsets, clip.end_sites, frames, orders)
+    return Rig(clip.names, clip.parents, clip.offsets, clip.end_sites, frames, orders, metres)

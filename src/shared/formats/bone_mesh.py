@@ -3,6 +3,9 @@
 Legend: V vertices, F triangles, N joints.
 """
 
+import re
+from collections.abc import Sequence
+
 import numpy as np
 
 from src.shared.formats.mannequin import Mannequin
@@ -10,15 +13,26 @@ from src.shared.formats.rig import Rig
 
 WAIST = 0.15  # of the bone's length from its start, where it is widest
 WIDTH = 0.09  # half of that width, of the bone's length
-SIDE = 0.03  # of the body's height: joints further from its middle are left or right
+_LEFT, _RIGHT = (
+    re.compile(rf"{word}|(^|[_. :-]){word[0]}($|[_. -])", re.I) for word in ("left", "right")
+)
 _FACES = np.array([(0, 2, 1), (0, 3, 2), (0, 4, 3), (0, 1, 4),
                    (5, 1, 2), (5, 2, 3), (5, 3, 4), (5, 4, 1)])  # fmt: skip
 
 
-def bone_mesh(rig: Rig) -> Mannequin:
-    """The bones of a rig as a skinned mesh, each vertex moved by one joint."""
+def bone_mesh(rig: Rig, loose: Sequence[int] = ()) -> Mannequin:
+    """The bones of a rig as a skinned mesh, each vertex moved by one joint.
+
+    Args:
+        rig: the skeleton.
+        loose: joints that move against their parents, to which no bone leads.
+    """
     rest = rig.rest()
-    bones = [(parent, rest[parent], rest[j]) for j, parent in enumerate(rig.parents) if parent >= 0]
+    bones = [
+        (parent, rest[parent], rest[joint])
+        for joint, parent in enumerate(rig.parents)
+        if parent >= 0 and joint not in loose
+    ]
     bones += [(joint, rest[joint], rest[joint] + tip) for joint, tip in rig.tips]
     bones = [bone for bone in bones if np.linalg.norm(bone[2] - bone[1]) > 1e-6]
     if not bones:  # a lone joint
@@ -28,9 +42,7 @@ def bone_mesh(rig: Rig) -> Mannequin:
     normals /= np.linalg.norm(normals, axis=-1, keepdims=True)
     owners = np.repeat([owner for owner, _, _ in bones], 3 * len(_FACES))
     count = len(owners)
-    middle, height = np.median(rest[:, 0]), max(1e-6, float(np.ptp(rest[:, 1])))
-    across = rest[:, 0] - middle
-    sides = np.where(np.abs(across) > SIDE * height, np.sign(across), 0.0)
+    sides = np.array([float(bool(_LEFT.search(n))) - bool(_RIGHT.search(n)) for n in rig.names])
     joints = np.zeros((count, 4), np.uint8 if len(rig.names) <= 256 else np.uint16)
     joints[:, 0] = owners
     return Mannequin(

@@ -45,7 +45,7 @@ def write_glb_clip(clip: RigClip, path: str | Path) -> Path:
     from src.shared.formats.bone_mesh import bone_mesh
 
     clip = rescaled(clip, 1.0)
-    return _write(clip, bone_mesh(clip.rig), path)
+    return _write(clip, bone_mesh(clip.rig, clip.moving()), path)
 
 
 def _write(clip: RigClip, body: Mannequin, path: str | Path) -> Path:

@@ -145,6 +145,15 @@ def rescaled(clip: RigClip, metres: float) -> RigClip:
     return replace(clip, rig=rig, translations=clip.translations * factor)
 
 
+def turned(clip: RigClip, turn: np.ndarray) -> RigClip:
+    """The same clip in a world that is turned by a rotation [3,3]."""
+    rig = clip.rig
+    tips = tuple((j, tuple((turn @ np.array(tip)).tolist())) for j, tip in rig.tips)
+    rig = replace(rig, offsets=rig.offsets @ turn.T, tips=tips, frames=turn @ rig.frames)
+    rotations = turn @ clip.rotations @ turn.T
+    return replace(clip, rig=rig, rotations=rotations, translations=clip.translations @ turn.T)
+
+
 def quaternions_to_matrices(quaternions: np.ndarray) -> np.ndarray:
     """Rotation matrices [...,3,3] float64 of quaternions [...,4], normalised first."""
     quaternions = quaternions.astype(np.float64)

@@ -46,7 +46,7 @@ def write_usd_clip(clip: RigClip, path: str | Path) -> Path:
     from src.shared.formats.bone_mesh import bone_mesh
 
     clip = rescaled(clip, 1.0)
-    return _write(clip, bone_mesh(clip.rig), Path(path))
+    return _write(clip, bone_mesh(clip.rig, clip.moving()), Path(path))
 
 
 def _write(clip: RigClip, body: Mannequin, path: Path) -> Path:

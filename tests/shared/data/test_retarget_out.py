@@ -192,6 +192,24 @@ def test_a_bvh_skeleton_keeps_names_offsets_orders_and_unit(tmp_path: Path) -> N
     assert after.fps == pytest.approx(60.0, rel=1e-5)
     angle, _ = differences(random_motion(5, 13, 60.0), read_motion(out, fps=None))
     assert angle <= 1e-4
+    # GLB counts in metres: the centimetres of the skeleton are guessed from its legs.
+    glb = read_glb(target.write(random_motion(5, 13, 60.0), tmp_path / "moved.glb"))
+    np.testing.assert_allclose(glb.offsets * 100, before.offsets, atol=1e-3)
+
+
+def test_a_skeleton_that_stands_along_z_stands_up_in_glb(tmp_path: Path) -> None:
+    from src.shared.formats.rig import turned
+
+    turn = Rotation.from_euler("X", 90, degrees=True).as_matrix()
+    source = write_clip(turned(rest_clip(own_rig(17)), turn), tmp_path / "own.bvh")
+    target = read_target(source)
+    assert target.up == "Z"
+    upright = read_glb(target.write(standing(), tmp_path / "moved.glb"))
+    places = upright.world()[0][0]
+    head, ankle = (places[upright.names.index(f"mixamorig:{n}")] for n in ("Head", "LeftFoot"))
+    assert head[1] - ankle[1] > 1.2
+    lying = read_bvh(target.write(standing(), tmp_path / "moved.bvh")).world()[0][0]
+    assert np.ptp(lying[:, 2]) > 120
 
 
 def test_faults_name_the_file(tmp_path: Path) -> None:

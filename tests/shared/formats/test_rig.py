@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 from src.shared.errors import UsageError
 from src.shared.formats.bvh import read_bvh
@@ -14,7 +15,7 @@ from src.shared.formats.glb import write_glb_clip
 from src.shared.formats.glb_reader import read_glb
 from src.shared.formats.joint_names import SCHEMES, joint_names
 from src.shared.formats.registry import write_clip
-from src.shared.formats.rig import RigClip, canonical_rig, motion_clip, rescaled
+from src.shared.formats.rig import RigClip, canonical_rig, motion_clip, rescaled, turned
 from src.shared.motion.skeleton import JOINT_NAMES
 from tests.shared.formats.glb_reader import Glb
 from tests.shared.formats.rigs import differences, random_clip
@@ -139,6 +140,14 @@ def test_another_unit_moves_nothing() -> None:
     centimetres = rescaled(clip, 0.01)
     np.testing.assert_allclose(centimetres.world()[0], clip.world()[0] * 100)
     np.testing.assert_allclose(rescaled(centimetres, 1.0).rig.tips[0][1], clip.rig.tips[0][1])
+
+
+def test_a_turned_world_turns_everything() -> None:
+    clip = random_clip(4, axes=True)
+    turn = Rotation.random(random_state=1).as_matrix()
+    (places, turns), (others, turned_too) = clip.world(), turned(clip, turn).world()
+    np.testing.assert_allclose(others, places @ turn.T, atol=1e-12)
+    np.testing.assert_allclose(turned_too, turn @ turns @ turn.T, atol=1e-12)
 
 
 def test_thinning_keeps_every_other_frame() -> None:
