@@ -77,7 +77,6 @@ def fuzz(reader: str, seed: int, first: int, runs: int, out: Path) -> dict[str, 
         part = run_worker(reader, seed, begin, min(begin + BATCH, first + runs), folder)
         report = part if report is None else merged(report, part)
     assert report is not None
-    shutil.rmtree(folder / "data", ignore_errors=True)
     return {"reader": reader, "seconds": round(time.perf_counter() - start, 1), **report}
 
 

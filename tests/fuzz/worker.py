@@ -8,7 +8,6 @@ started the process knows which case ended it.
 """
 
 import contextlib
-import faulthandler
 import io
 import json
 import os
@@ -16,6 +15,7 @@ import random
 import resource
 import signal
 import sys
+import tempfile
 import time
 import traceback
 import warnings
@@ -72,19 +72,19 @@ def mutation_of(target: Target, path: Path, rng: random.Random) -> Mutation:
 
 @contextlib.contextmanager
 def limits() -> Iterator[None]:
-    """Processor time of one case; and a last resort for code that never comes back to Python."""
+    """Processor time of one case; one that never comes back to Python ends the process."""
 
     def stop(_number: int, _frame: Any) -> None:
         raise TooSlow
 
     before = signal.signal(signal.SIGPROF, stop)
-    faulthandler.dump_traceback_later(WALL_SECONDS, exit=True)
+    signal.setitimer(signal.ITIMER_REAL, WALL_SECONDS)  # nobody handles its signal
     signal.setitimer(signal.ITIMER_PROF, CPU_SECONDS)
     try:
         yield
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
-        faulthandler.cancel_dump_traceback_later()
+        signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGPROF, before)
 
 
@@ -156,10 +156,11 @@ class Run:
     def __init__(self, name: str, seed: int, folder: Path) -> None:
         self.name, self.seed, self.folder = name, seed, folder
         self.target = TARGETS[name]
-        self.data = folder / "data"
-        self.data.mkdir(parents=True, exist_ok=True)
-        if not any(self.data.iterdir()):
-            self.target.prepare(self.data)
+        folder.mkdir(parents=True, exist_ok=True)
+        memory = Path("/dev/shm")  # tens of thousands of files are written
+        self.scratch = tempfile.TemporaryDirectory(dir=memory if memory.is_dir() else None)
+        self.data = Path(self.scratch.name)
+        self.target.prepare(self.data)
         self.whole = {p: p.read_bytes() for p in sorted(self.data.rglob("*")) if p.is_file()}
         self.choices = [p for p in self.whole if p.match(self.target.damaged)]
         self.counts: Counter[str] = Counter()
@@ -232,6 +233,7 @@ def main(names: str, seed: int, first: int, stop: int, folder: Path) -> None:
                 "megabytes": round((peak_bytes() - base) / 2**20, 1),
             }
             print(json.dumps(report), flush=True)
+            run.scratch.cleanup()
 
 
 if __name__ == "__main__":
