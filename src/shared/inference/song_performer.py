@@ -20,7 +20,7 @@ from src.shared.inference.motion_stream import Passage
 from src.shared.inference.performance_judge import PerformanceJudge
 from src.shared.inference.performer import Performance, Performer, Progress
 from src.shared.inference.selection import ScoreTable
-from src.shared.inference.song_generator import SongGenerator, heard
+from src.shared.inference.song_generator import SongGenerator, heard, of_song
 from src.shared.inference.song_sampler import SampleSettings
 from src.shared.model.generation.motion_generator import MotionGenerator
 from src.shared.motion.trajectory import MotionTrajectory
@@ -183,10 +183,11 @@ def perform(
     path = path or SongGenerator.from_pretrained("starter-audio", device=device)
     performer = performer or Performer(MotionGenerator.from_pretrained("starter", device=device))
     song = analyse(audio)
+    listened = HeardSong.of(song, seconds)
     if style is None and prompt is not None:
         style = performer.generator.style_of(prompt)
-    settings = SampleSettings(num_samples=num_samples, seed=seed)
-    made = path.generate_from_audio(audio, seconds=seconds, style=style, settings=settings)
+    settings = of_song(SampleSettings(num_samples=num_samples, seed=seed), song)
+    raw = path.generate(listened.condition, phase=listened.phase, style=style, settings=settings)
     prompter = None if prompt else DancePrompter.beside(performer.generator)
     dancers = SongPerformer(performer, prompter=prompter)
-    return dancers.dance(made.trajectories, HeardSong.of(song, seconds), prompt, seed=seed)
+    return dancers.dance(raw, listened, prompt, seed=seed)
