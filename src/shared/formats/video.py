@@ -28,7 +28,7 @@ MAX_FPS = 30.0  # pictures a second; more cost time and show nothing
 FOLLOW = 1.0  # seconds over which the camera's path is smoothed
 COLOURS = 128  # of a GIF
 GREENS = 32  # rows of the shades of a foot on the ground, for the palette
-MAX_PICTURES = 18_000  # ten minutes
+MAX_PICTURES = {"gif": 1500, "mp4": 18_000}  # a minute, which Pillow keeps in memory; ten minutes
 
 
 def write_gif(motion: Motion, path: str | Path) -> Path:
@@ -40,7 +40,7 @@ def write_gif(motion: Motion, path: str | Path) -> Path:
     from PIL import Image
 
     motion = resample_motion(motion, gif_rate(min(motion.fps, MAX_FPS)))
-    _check(motion, path)
+    _check(motion, path, "gif")
     pictures = frames(motion)
     first = next(pictures)
     plain = Image.Dither.NONE
@@ -83,7 +83,7 @@ def write_mp4(motion: Motion, path: str | Path) -> Path:
         raise UserError(f"cannot write {path}: MP4 needs PyAV; install it with: pip install av, "
                         "or write a .gif") from error  # fmt: skip
     motion = motion if motion.fps <= MAX_FPS else resample_motion(motion, MAX_FPS)
-    _check(motion, path)
+    _check(motion, path, "mp4")
     with atomic_write(Path(path)) as temporary:
         try:
             _film(motion, temporary)
@@ -137,8 +137,8 @@ def _smooth(path: np.ndarray, fps: float) -> np.ndarray:
     return np.asarray((sums[width:] - sums[:-width]) / width)
 
 
-def _check(motion: Motion, path: str | Path) -> None:
-    if motion.num_frames > MAX_PICTURES:
-        limit = MAX_PICTURES / motion.fps / 60
-        raise UserError(f"cannot write {path}: a film of {motion.seconds / 60:.0f} minutes is too "
-                        f"long, {limit:.0f} are the limit; write html")  # fmt: skip
+def _check(motion: Motion, path: str | Path, kind: str) -> None:
+    if motion.num_frames > MAX_PICTURES[kind]:
+        limit = MAX_PICTURES[kind] / motion.fps
+        raise UserError(f"cannot write {path}: {motion.seconds:.0f} s are too long for {kind}, "
+                        f"{limit:.0f} s are the limit; cut the motion or write html")  # fmt: skip

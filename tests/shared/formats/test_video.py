@@ -70,8 +70,8 @@ def test_the_figure_is_in_the_middle_of_every_picture() -> None:
 
 
 def test_what_is_too_long_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(video, "MAX_PICTURES", 5)
-    with pytest.raises(UserError, match="too long"):
+    monkeypatch.setitem(video.MAX_PICTURES, "gif", 5)
+    with pytest.raises(UserError, match=r"a\.gif: 1 s are too long for gif, 0 s are the limit"):
         write_gif(replace(walk(30, 25.0)), tmp_path / "a.gif")
     assert not list(tmp_path.iterdir())
 
