@@ -15,19 +15,17 @@ from itertools import pairwise
 import numpy as np
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
+from src.shared.motion.foot_stance import contact_runs, grounding, standing
 from src.shared.motion.skeleton import REST_FOOT_HEIGHT
 
-THRESHOLD = 0.5  # contact above it = on the ground
 MAX_GAP_SECONDS = 2 / 30  # a contact that breaks off for no longer than this goes on
 MIN_HOLD_SECONDS = 3 / 30  # a shorter contact is none
+MIN_SWING_SECONDS = 8 / 30  # that a foot has to get from one hold to the next
+SOONER_SECONDS = 12 / 30  # a foot lands sooner by so much at most, else there is a step between
 BLEND_SECONDS = 9 / 30  # how long a correction fades in before, and out after, a contact
 STEP_SECONDS = 8 / 30  # of a step that was put in
 LIFT, SLOPE = 0.12, 0.12  # metres that a foot is lifted on its way, at most and for each metre
 SOFT = 0.01  # metres around which that lift sets in
-MAX_CLAIM = 0.12  # metres above the standing height; a higher foot stands on nothing
-MAX_SUPPORT = 0.08  # metres; a lower foot carries the body if none other does,
-MAX_VERTICAL = 0.5  # m/s, unless it rises or falls faster than this
-FALL = -3.0  # m/s² of the hips, below which the body flies
 ROLL = 0.015  # metres that the ball of a standing foot may be above its standing height
 MAX_DRAG = 0.22  # metres that a held foot may be from where it was; further off it steps
 MAX_SLOPE = 1.0  # m/s at which a correction may start from a hold
@@ -61,88 +59,105 @@ def foot_shifts(
         kept: legs [T,2] bool that must stay as they are; a foot that stands on goes on standing
             where it was kept.
     """
+    kept = np.zeros((len(balls), 2), dtype=bool) if kept is None else kept
+    shifts = grounding(balls, kept, fps)
+    balls = balls + shifts
     stands = standing(balls, hips, contacts, fps)
-    shifts, held = np.zeros_like(balls), np.zeros(stands.shape, dtype=bool)
-    for side in (0, 1):
-        frozen = np.zeros(len(balls), dtype=bool) if kept is None else kept[:, side]
-        holds = foot_holds(
-            balls[:, side], hips[:, side], stands[:, side], fps, frozen, phase=0.5 * side
-        )
-        shifts[:, side] = corrections(balls[:, side], holds, frozen, fps)
+    held = np.zeros(stands.shape, dtype=bool)
+    for side, holds in enumerate(foot_holds(balls, hips, stands, fps, kept)):
+        shifts[:, side] += corrections(balls[:, side], holds, kept[:, side], fps)
         for hold in holds:
             held[hold.start : hold.stop, side] = True
     return shifts, held
-
-
-# ---------------------------------------------------------------- when
-
-
-def standing(balls: np.ndarray, hips: np.ndarray, contacts: np.ndarray, fps: float) -> np.ndarray:
-    """Which feet [T,2] carry the body: those that claim to, else the lower one if it is low.
-
-    Nothing carries a body whose hips fall as a thrown thing does, and a foot that moves up or down
-    fast is landing or swinging.
-    """
-    height = balls[..., 1] - REST_FOOT_HEIGHT  # T 2
-    claimed = (contacts > THRESHOLD) & (height < MAX_CLAIM)
-    if len(balls) < 2:
-        return np.asarray(claimed)
-    vertical = np.abs(np.gradient(height, axis=0)) * fps
-    waist = gaussian_filter1d(hips[..., 1].mean(1), 0.05 * fps, mode="nearest")
-    flies = np.gradient(np.gradient(waist)) * fps**2 < FALL
-    low = (height < MAX_SUPPORT) & (vertical < MAX_VERTICAL) & ~flies[:, None]
-    lower = np.arange(2) == height.argmin(1)[:, None]
-    return np.asarray(claimed | (~claimed.any(1, keepdims=True) & low & lower))
-
-
-def contact_runs(contact: np.ndarray, max_gap: int) -> list[tuple[int, int]]:
-    """First and past-the-last frame of each contact in bool [T]; short gaps are bridged."""
-    edges = np.flatnonzero(np.diff(np.concatenate(([0], contact.astype(int), [0]))))
-    runs: list[tuple[int, int]] = []
-    for start, stop in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
-        if runs and start - runs[-1][1] <= max_gap:
-            runs[-1] = (runs[-1][0], stop)
-        else:
-            runs.append((start, stop))
-    return runs
 
 
 # ---------------------------------------------------------------- where
 
 
 def foot_holds(
-    ball: np.ndarray,
-    hip: np.ndarray,
-    stands: np.ndarray,
-    fps: float,
-    kept: np.ndarray,
-    *,
-    phase: float = 0.0,
-) -> list[Hold]:
-    """The holds of one foot, in order.
+    balls: np.ndarray, hips: np.ndarray, stands: np.ndarray, fps: float, kept: np.ndarray
+) -> tuple[list[Hold], list[Hold]]:
+    """The holds of the left and of the right foot, in order.
+
+    Where one foot must leave before the other was to land, the other one lands sooner, or steps
+    are put between.
 
     Args:
-        ball: [T,3].
-        hip: [T,3].
-        stands: [T] bool.
+        balls: [T,2,3].
+        hips: [T,2,3].
+        stands: [T,2] bool.
         fps: frames per second.
-        kept: [T] bool, frames that stay as they are.
-        phase: of the steps that are put in; the other foot's differs by a half.
+        kept: [T,2] bool, legs that stay as they are.
     """
-    shortest = round(MIN_HOLD_SECONDS * fps)
-    found: list[Hold] = []
-    for start, stop in contact_runs(stands, round(MAX_GAP_SECONDS * fps)):
-        fixed = np.flatnonzero(kept[start:stop])
-        pieces = [(start, stop)] if len(fixed) else _steps(ball[start:stop], start, fps, phase)
-        for first, last in pieces:
-            if len(fixed):
-                point = _on_floor(ball[first + _border(fixed)])
-                first, last = _reached(point, hip, first, last)
-            else:
-                point, last = _in_reach(ball, hip, first, last, shortest)
-            if last - first >= min(shortest, len(ball)):
-                found.append(Hold(first, last, point))
-    return found
+    free = np.asarray(stands.any(1) & ~kept.any(1))
+    planner = _Planner(balls, hips, free, fps, kept)
+    for start, stop, side in _runs(balls, stands, fps, kept):
+        planner.plant(start, stop, side)
+    return planner.found
+
+
+class _Planner:
+    """Takes the times that feet stand, in order, and finds where and how long they can."""
+
+    def __init__(
+        self, balls: np.ndarray, hips: np.ndarray, free: np.ndarray, fps: float, kept: np.ndarray
+    ) -> None:
+        self.balls, self.hips, self.free, self.kept = balls, hips, free, kept
+        self.shortest = min(round(MIN_HOLD_SECONDS * fps), len(balls))
+        self.swing, self.sooner = round(MIN_SWING_SECONDS * fps), round(SOONER_SECONDS * fps)
+        self.found: tuple[list[Hold], list[Hold]] = ([], [])
+        self.until, self.last = 0, 0  # some foot stands up to here; the foot that stood last
+
+    def plant(self, start: int, stop: int, side: int) -> None:
+        """A foot is to stand in frames [start, stop)."""
+        while self._gap(start) and (start - self.until > self.sooner or side == self.last):
+            before, side_between = self.until, 1 - self.last
+            end = start - self.swing if side_between == side else start
+            self._hold(self._ready(side_between), end, side_between)
+            if self.until == before:
+                break
+        if self._gap(start) and start - self.until <= self.sooner:
+            start = max(self._ready(side), min(start, self.until))
+        self._hold(start, stop, side)
+
+    def _gap(self, start: int) -> bool:
+        """Whether the body is carried, by nobody so far, until `start`."""
+        return self.until < start and bool(self.free[self.until : start].all())
+
+    def _ready(self, side: int) -> int:
+        """When a foot may land that has to get here from where it stood."""
+        before = self.found[side][-1].stop + self.swing if self.found[side] else 0
+        return max(self.until, before)
+
+    def _hold(self, start: int, stop: int, side: int) -> None:
+        """Hold a foot as long as its leg reaches."""
+        ball, hip = self.balls[:, side], self.hips[:, side]
+        fixed = np.flatnonzero(self.kept[start:stop, side])
+        if len(fixed):
+            point = _on_floor(ball[start + _border(fixed)])
+            first, last = _reached(point, hip, start, stop)
+        elif stop - start < self.shortest:
+            return
+        else:
+            point, first, last = _in_reach(ball, hip, start, stop, self.shortest)
+        if last - first >= self.shortest:
+            self.found[side].append(Hold(first, last, point))
+            if last > self.until:
+                self.until, self.last = last, side
+
+
+def _runs(
+    balls: np.ndarray, stands: np.ndarray, fps: float, kept: np.ndarray
+) -> list[tuple[int, int, int]]:
+    """First and past-the-last frame and side of each time that a foot stands, by their start."""
+    runs = []
+    for side in (0, 1):
+        for start, stop in contact_runs(stands[:, side], round(MAX_GAP_SECONDS * fps)):
+            path = balls[start:stop, side]
+            whole = bool(kept[start:stop, side].any())
+            pieces = [(start, stop)] if whole else _steps(path, start, fps, 0.5 * side)
+            runs += [(first, last, side) for first, last in pieces]
+    return sorted(runs)
 
 
 def _border(fixed: np.ndarray) -> int:
@@ -175,19 +190,20 @@ def _on_floor(point: np.ndarray) -> np.ndarray:
 
 def _in_reach(
     ball: np.ndarray, hip: np.ndarray, start: int, stop: int, shortest: int
-) -> tuple[np.ndarray, int]:
-    """Where a foot stands from `start` on, and until when its leg gets there.
+) -> tuple[np.ndarray, int, int]:
+    """Where a foot stands, and the first frame and the one past the last in which its leg reaches.
 
     The middle of its way, or nearer to below the hip; of a way that is too long, the longest
-    beginning: a foot lands when it is to land, and leaves sooner.
+    beginning: a foot lands when it is to land, and leaves sooner. No frames where no leg reaches.
     """
-    for last in range(stop, start + shortest - 1, -1):
-        foot, under = ball[start:last].mean(0), hip[start:last].mean(0)
-        for share in UNDER:
-            point = _on_floor((1 - share) * foot + share * under)
-            if np.linalg.norm(hip[start:last] - point, axis=1).max() <= MAX_REACH:
-                return point, last
-    return _on_floor(ball[start]), start
+    for first in range(start, stop - shortest + 1):
+        for last in range(stop, first + shortest - 1, -1):
+            foot, under = ball[first:last].mean(0), hip[first:last].mean(0)
+            for share in UNDER:
+                point = _on_floor((1 - share) * foot + share * under)
+                if np.linalg.norm(hip[first:last] - point, axis=1).max() <= MAX_REACH:
+                    return point, first, last
+    return _on_floor(ball[start]), start, start
 
 
 def _reached(point: np.ndarray, hip: np.ndarray, start: int, stop: int) -> tuple[int, int]:

@@ -9,13 +9,12 @@ from scipy.interpolate import CubicHermiteSpline
 
 from src.shared.motion.foot_holds import (
     MAX_REACH,
-    contact_runs,
     corrections,
     foot_holds,
     foot_shifts,
     hermite,
-    standing,
 )
+from src.shared.motion.foot_stance import contact_runs, grounding, standing
 from src.shared.motion.leg_ik import MAX_RISE, heel_rise
 from src.shared.motion.skeleton import REST_FOOT_HEIGHT
 
@@ -62,10 +61,8 @@ def test_who_falls_stands_on_nothing() -> None:
 
 def test_a_dragged_foot_takes_steps_in_turn_with_the_other() -> None:
     path = on_floor(120, speed=0.5)  # two metres
-    stands, kept = np.ones(120, dtype=bool), np.zeros(120, dtype=bool)
-    left, right = (
-        foot_holds(path, hips_over(path), stands, FPS, kept, phase=phase) for phase in (0.0, 0.5)
-    )
+    balls, kept = np.stack((path, path), 1), np.zeros((120, 2), dtype=bool)
+    left, right = foot_holds(balls, hips_over(balls), ~kept, FPS, kept)
     assert len(left) >= 3 and len(right) >= 3
     held = np.zeros((120, 2), dtype=bool)
     for side, holds in enumerate((left, right)):
@@ -75,13 +72,43 @@ def test_a_dragged_foot_takes_steps_in_turn_with_the_other() -> None:
             assert reach.max() <= MAX_REACH
     assert held.any(1).all()  # one foot is always down
     assert not held.all()
-    shift = corrections(path, left, kept, FPS)
+    shift = corrections(path, left, kept[:, 0], FPS)
     moved = path + shift
     for hold in left:
         ground = moved[hold.start : hold.stop, [0, 2]]
         assert np.abs(ground - ground[0]).max() < 1e-9
     between = slice(left[0].stop, left[1].start)
     assert moved[between, 1].max() > REST_FOOT_HEIGHT + 0.03  # a step is lifted
+
+
+def test_a_body_too_fast_for_its_steps_takes_more_of_them() -> None:
+    path = on_floor(120, speed=1.8)
+    balls = np.stack((path, path), 1)
+    turn = np.arange(120) // 24 % 2  # each foot in turn, for much longer than a leg is
+    stands = np.stack((turn == 0, turn == 1), 1)
+    kept = np.zeros((120, 2), dtype=bool)
+    hips = hips_over(balls)
+    found = foot_holds(balls, hips, stands, FPS, kept)
+    held = np.zeros((120, 2), dtype=bool)
+    for side, holds in enumerate(found):
+        assert len(holds) >= 4
+        for hold in holds:
+            held[hold.start : hold.stop, side] = True
+            ways = hips[hold.start : hold.stop, side] - hold.point
+            assert np.linalg.norm(ways, axis=1).max() <= MAX_REACH
+    assert held.any(1).mean() > 0.9
+
+
+def test_a_body_that_hovers_is_put_on_the_floor_and_a_jump_stays() -> None:
+    balls = np.stack((on_floor(60), on_floor(60) + [0, 0.1, 0]), 1) + [0, 0.06, 0]
+    kept = np.zeros((60, 2), dtype=bool)
+    low = (balls + grounding(balls, kept, FPS))[..., 1] - REST_FOOT_HEIGHT
+    assert np.abs(low[:, 0]).max() < 0.011
+    np.testing.assert_allclose(low[:, 1] - low[:, 0], 0.1, atol=1e-9)
+    jump = np.stack((on_floor(60), on_floor(60)), 1)
+    jump[25:35, :, 1] += 0.3
+    assert np.abs(grounding(jump, kept, FPS)).max() == 0
+    assert np.abs(grounding(jump + [0, 0.5, 0], kept, FPS)).max() == 0  # who hangs, hangs
 
 
 def test_a_kept_beginning_says_where_the_foot_stands_on() -> None:
