@@ -143,6 +143,8 @@ def build_command(settings: Any, program: str, folder: str) -> list[str]:
         if not song:
             raise ProgramError("no song is chosen; choose a wav, flac, ogg or mp3 file")
         command += [f"--audio={song}"]
+        said = settings.dance.strip()
+        command += [f"--prompt={said}"] if said else ["--body"]
         if settings.style.strip():
             command += [f"--style={settings.style.strip()}"]
     else:
@@ -152,7 +154,8 @@ def build_command(settings: Any, program: str, folder: str) -> list[str]:
     if settings.seconds > 0:
         command += [f"--seconds={settings.seconds:g}"]
     if settings.model.strip():
-        command += [f"--model={settings.model.strip()}"]
+        flag = "--body-model" if settings.source == "SONG" else "--model"
+        command += [f"{flag}={settings.model.strip()}"]
     return command
 
 
@@ -223,6 +226,9 @@ class MotionSuiteSettings(bpy.types.PropertyGroup):
     )
     prompt: bpy.props.StringProperty(name="Prompt", default="a person walks forward")
     song: bpy.props.StringProperty(name="Song", subtype="FILE_PATH")
+    dance: bpy.props.StringProperty(
+        name="Prompt", description="What the body does to the song; as the music says if empty"
+    )
     style: bpy.props.StringProperty(name="Style", description='For a song: "tired, elderly"')
     seconds: bpy.props.FloatProperty(
         name="Seconds", description="0: four for a prompt, all of a song", min=0.0, soft_max=60.0
@@ -321,7 +327,7 @@ class MOTIONSUITE_PT_panel(bpy.types.Panel):
         settings, layout = context.scene.motion_suite, self.layout
         layout.prop(settings, "source", expand=True)
         of_song = settings.source == "SONG"
-        for name in ("song", "style") if of_song else ("prompt",):
+        for name in ("song", "dance", "style") if of_song else ("prompt",):
             layout.prop(settings, name)
         for name in ("seconds", "seed", "model", "format", "set_rate"):
             layout.prop(settings, name)

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from src.cli.generate import generate
+from src.shared.audio.synthetic_songs import SongSpec, render_song
 from src.shared.motion.skeleton import JOINT_NAMES
 from tests.integrations.blender_run import blender_python, run_in_blender
 
@@ -19,10 +20,12 @@ in_blender = pytest.mark.skipif(blender_python() is None, reason="no bpy; BPY_PY
 
 @pytest.fixture(scope="module")
 def session(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
-    """What happened in one Blender: a motion of each format, then one fault after another."""
+    """What happened in one Blender: motions of prompts and of a song, then fault after fault."""
     scratch = tmp_path_factory.mktemp("addon")
     preferences = {"program": str(PROGRAM), "folder": str(scratch / "out")}
     good = {"prompt": "a person walks forward", "seconds": 1.0, "seed": 3, "format": "bvh"}
+    song = scratch / "song.wav"
+    render_song(SongSpec(seconds=4.0, tempo=112.0, seed=1)).write_wav(song)
     runs = [
         ({}, {}),
         ({"prompt": "- waves", "format": "glb"}, {}),
@@ -30,6 +33,7 @@ def session(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
         ({"model": "no-such-model"}, {}),
         ({"source": "SONG", "song": str(scratch / "none.wav")}, {}),
         ({}, {"program": str(scratch / "nothing-here")}),
+        ({"source": "SONG", "song": str(song), "seconds": 2.0}, {}),
     ]
     fresh = {"source": "PROMPT", "model": "", "set_rate": True}
     wanted = [
@@ -46,13 +50,13 @@ def session(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
 class TestInBlender:
     """One session, looked at from several sides."""
 
-    @pytest.mark.parametrize("index", [0, 1])
-    def test_a_prompt_becomes_an_armature(self, session: dict[str, Any], index: int) -> None:
+    @pytest.mark.parametrize(("index", "frames"), [(0, 30), (1, 30), (6, 60)])
+    def test_an_armature_appears(self, session: dict[str, Any], index: int, frames: int) -> None:
         made = session["runs"][index]
         assert made["answer"] == ["FINISHED"]
         assert made["bones"] == [sorted(JOINT_NAMES)]
         first, last = made["ranges"][0]
-        assert round(last - first) + 1 == 30
+        assert round(last - first) + 1 == frames
         assert made["fps"] == 30.0
         assert made["end"] >= last
 
