@@ -8,6 +8,7 @@ Letters: S songs, P prompts, W windows of a dance, D channels of the judge.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from scipy.spatial.distance import cdist, pdist
@@ -86,7 +87,7 @@ def dancers(context: DanceContext) -> dict[str, Dancer]:
         (motion,) = context.generator.generate([prompt], seconds=seconds, seed=noise)
         return motion
 
-    own = by(context.performer(context.generator))
+    own = cache(by(context.performer(context.generator)))
     found: dict[str, Dancer] = {
         "generated": own,
         "words alone": alone,
