@@ -177,14 +177,16 @@ def inspect_motion(
         return _inspect_ours(recording, recording.motion)
     clip = recording.clip
     assert clip is not None
-    if up is not None:
-        axis_vector(up)
+    profiles = load_mappings(mapping)
+    for check, value in ((axis_vector, up), (unit_metres, unit)):
+        if value is not None:
+            check(value)
     warnings = list(recording.warnings)
     unit, up = unit or unit_name(recording.metres), up or recording.up
     profile = None
     guessed = tuple(name for name, value in (("unit", unit), ("up", up)) if value is None)
     try:
-        profile = find_mapping(clip.names, load_mappings(mapping))
+        profile = find_mapping(clip.names, profiles)
     except UserError as error:
         warnings.append(str(error))
     if profile is not None:

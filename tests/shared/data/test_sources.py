@@ -1,0 +1,71 @@
+"""Folders of any mixture of motion files become clips."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from src.shared.data.sources import MotionFolder, Reading
+from src.shared.data.synthetic import generate_clip, sample_specs
+from src.shared.errors import UserError
+from src.shared.formats.registry import write_motion
+from src.shared.motion.motion import Motion
+from tests.shared.formats.test_amc import ASF
+
+
+@pytest.fixture(scope="module")
+def walk() -> Motion:
+    return generate_clip(sample_specs(40, seed=3)[17], seed=5)
+
+
+@pytest.fixture
+def mixture(walk: Motion, tmp_path: Path) -> Path:
+    """One walk in every format that is read."""
+    root = tmp_path / "mixture"
+    root.mkdir()
+    for name in ("a.bvh", "b.npz", "c.glb", "d.amass.npz"):
+        write_motion(walk, root / name)
+    np.save(root / "e.npy", walk.positions())
+    lines = [f"{name},a person walks" for name in ("a", "b", "c.glb", "d.amass", "e")]
+    (root / "captions.csv").write_text("\n".join(["clip,caption", *lines]))
+    return root
+
+
+def test_every_format_gives_the_same_walk(mixture: Path, walk: Motion) -> None:
+    folder = MotionFolder.open(mixture, captions=mixture / "captions.csv")
+    assert folder.items() == ["a.bvh", "b.npz", "c.glb", "d.amass.npz", "e.npy"]
+    assert all(folder.caption_rows.values())
+    for item in folder.items():
+        motion = folder.read(item).motion
+        seconds = walk.seconds * (1.5 if item == "e.npy" else 1)  # HumanML3D: 20 a second
+        assert motion.fps == 30 and motion.seconds == pytest.approx(seconds, abs=0.05)
+        if item != "e.npy":
+            np.testing.assert_allclose(motion.positions(), walk.positions(), atol=2e-4)
+
+
+def test_what_files_do_not_say_can_be_stated(mixture: Path, walk: Motion) -> None:
+    reading = Reading(source_fps=30.0)
+    folder = MotionFolder.open(mixture, captions=mixture / "captions.csv", reading=reading)
+    found = folder.read("e.npy").motion.positions()
+    np.testing.assert_allclose(found - found[:1, :1], walk.positions() - walk.positions()[:1, :1],
+                               atol=0.01)  # fmt: skip
+
+
+def test_one_name_in_several_formats_is_one_clip(mixture: Path, walk: Motion) -> None:
+    write_motion(walk, mixture / "b.bvh")
+    assert [item for item in MotionFolder.open(mixture).items() if item[0] == "b"] == ["b.bvh"]
+
+
+def test_another_skeleton_beside_an_amc_is_another_clip(tmp_path: Path) -> None:
+    (tmp_path / "x.amc").write_text("1\n")
+    folder = MotionFolder.open(tmp_path)
+    before = folder.fingerprint("x.amc")
+    (tmp_path / "x.asf").write_text(ASF)
+    assert folder.fingerprint("x.amc") != before
+
+
+def test_links_do_not_lead_to_devices(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe.bvh")
+    with pytest.raises(UserError, match="holds no motion file"):
+        MotionFolder.open(tmp_path)
