@@ -8,7 +8,8 @@ Letters: N motions of one cell.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
+from functools import partial
 from itertools import chain
 from typing import Any
 
@@ -17,10 +18,12 @@ from src.shared.evaluation.clips import Clips, Sampler, frozen
 from src.shared.evaluation.controllability import CONTROL_TASKS, ControlTask
 from src.shared.evaluation.intervals import Estimate, success_rate
 from src.shared.evaluation.measurements import Measurements, measure
+from src.shared.evaluation.parts import Part
 from src.shared.motion.motion import Motion
 from src.shared.motion.root_track import decode_features, encode_features
 
 Labels = dict[str, str]
+Once = Callable[[str, Callable[[], Part]], Part]
 WORDINGS = ("templates", "paraphrases")
 FLOORS = ("real", "chance", "still", "untrained")
 NUM_TEMPLATES = 12  # captions of one label set and language that the seeds go round
@@ -89,6 +92,38 @@ def fill_cells(
     return motions[: len(cells[0].prompts)]
 
 
+def _filled(
+    cells: Sequence[Cell],
+    sampler: Sampler,
+    num_frames: int,
+    seed: int,
+    name: str,
+    progress: Callable[[str], None],
+) -> Part:
+    """`fill_cells` as plain data: what was measured, and the first cell's motions held still."""
+    progress(f"controllability: {name}, {len(cells)} cells of {len(cells[0].prompts)} motions")
+    first = fill_cells(cells, sampler, num_frames=num_frames, seed=seed)
+    return {
+        "made": [[asdict(one) for one in cell.made] for cell in cells],
+        "others": [[asdict(one) for one in cell.others] for cell in cells],
+        "still": [asdict(one) for one in _stand_still(first)],
+    }
+
+
+def _take(cells: Sequence[Cell], found: Part) -> None:
+    """Fill the cells with what `_filled` found."""
+    for cell, made, others in zip(cells, found["made"], found["others"], strict=True):
+        cell.made, cell.others = _measured(made), _measured(others)
+
+
+def _measured(rows: Sequence[dict[str, Any]]) -> list[Measurements]:
+    """Measurements again; JSON has no tuples."""
+    return [
+        Measurements(**{k: tuple(v) if isinstance(v, list) else v for k, v in row.items()})
+        for row in rows
+    ]
+
+
 def rate(
     task: ControlTask, motions: Sequence[Measurements], others: Sequence[Measurements]
 ) -> Estimate:
@@ -123,6 +158,7 @@ def control_table(
     seed: int = 0,
     untrained: Sampler | None = None,
     progress: Callable[[str], None] = lambda text: None,
+    once: Once = lambda name, compute: compute(),
 ) -> dict[str, Any]:
     """Success rates as plain data: `tasks`, `means`, `languages`, `wordings`, `num_seeds`.
 
@@ -133,6 +169,7 @@ def control_table(
         num_seeds: motions a cell.
         num_frames: length of each.
         untrained: asked the templates of the first language; None = its column stays empty.
+        once: `Parts.once`: what is finished is not made again.
     """
     languages = [language for language in languages if language in book.languages]
     cells = plan_cells(book, languages, num_seeds, seed)
@@ -140,13 +177,14 @@ def control_table(
     for language in languages:
         own = [cell for cell in cells if cell.language == language]
         if own:
-            progress(f"controllability: {language}, {len(own)} cells of {num_seeds} motions")
-            first = fill_cells(own, sampler, num_frames=num_frames, seed=seed)
-            still = still or _stand_still(first)
+            compute = partial(_filled, own, sampler, num_frames, seed, language, progress)
+            found = once(f"controllability.{language}", compute)
+            _take(own, found)
+            still = still or _measured(found["still"])
     floor = [] if untrained is None else _templates_of(cells, languages[:1])
     if untrained is not None and floor:
-        progress(f"controllability: untrained, {len(floor)} cells of {num_seeds} motions")
-        fill_cells(floor, untrained, num_frames=num_frames, seed=seed)
+        compute = partial(_filled, floor, untrained, num_frames, seed, "untrained", progress)
+        _take(floor, once("controllability.untrained", compute))
     tasks = {
         task.name: {
             "generated": _rates([cell for cell in cells if cell.task is task]),

@@ -196,8 +196,8 @@ def evaluate_samplers(
         See `report_data`.
     """
     settings = settings or TextSettings()
-    context = TextContext(held_out, evaluator, samplers, settings, progress)
     parts = Parts(folder)
+    context = TextContext(held_out, evaluator, samplers, settings, progress, parts)
     tables: list[Grid] = []
     samples: list[dict[str, Any]] = []
     for name, records in held_out.records.items():

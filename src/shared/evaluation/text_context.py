@@ -4,7 +4,7 @@ Letters: N clips.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ from src.shared.evaluation.clips import Clips, Sampler, frozen, real_clips
 from src.shared.evaluation.evaluator import Evaluator
 from src.shared.evaluation.families import MotionSample
 from src.shared.evaluation.held_out import HeldOut
+from src.shared.evaluation.parts import Parts
 from src.shared.motion.motion import Motion
 from src.shared.motion.root_track import decode_features, encode_features
 
@@ -49,6 +50,7 @@ class TextContext:
 
     Attributes:
         samplers: by the name of their row; the first is the model that the other tables are about.
+        parts: where a table that takes long keeps what it has finished.
     """
 
     held_out: HeldOut
@@ -56,6 +58,7 @@ class TextContext:
     samplers: dict[str, Sampler]
     settings: TextSettings
     progress: Progress
+    parts: Parts = field(default_factory=Parts)
 
     @property
     def sampler(self) -> Sampler:

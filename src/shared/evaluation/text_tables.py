@@ -1,17 +1,20 @@
 """Tables of the text branch with rows of their own: languages, and controllability by task."""
 
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from src.shared.data.captions import CaptionBook
 from src.shared.errors import UserError
+from src.shared.evaluation.clips import Sampler
 from src.shared.evaluation.control_table import FLOORS, control_table
 from src.shared.evaluation.families import Column
 from src.shared.evaluation.families_text import r_precision
 from src.shared.evaluation.grids import Cell, Grid, GridRow, plain
 from src.shared.evaluation.intervals import bootstrap_mean
 from src.shared.evaluation.metrics_retrieval import BATCH, normalised_score
+from src.shared.evaluation.parts import Part
 from src.shared.evaluation.text_context import UNTRAINED, TextContext
 
 SHORT = {"templates": "tmpl", "paraphrases": "para"}
@@ -25,40 +28,52 @@ CONTROL_NOTE = (
 
 def languages(context: TextContext) -> list[Grid]:
     """R-precision at 3 by language on seen combinations: real, chance, generated, untrained."""
-    rows = {}
     settings = context.settings
-    num = min(settings.language_samples, settings.num_samples)
-    made_by = {"generated": context.sampler}
-    if context.untrained is not None:
-        made_by[UNTRAINED] = context.untrained
-    for language in settings.languages if num else ():
-        try:
-            real = context.real(context.held_out.records["seen"], language)
-        except UserError:
-            continue  # the data has no captions in this language
-        if min(len(real), num) < BATCH:
-            continue
-        context.progress(f"languages: {num} motions in {language}")
-        asked = real.rows([row % len(real) for row in range(num)])
-        order = np.random.default_rng(settings.seed).permutation(len(real)).tolist()
-        samples = {"real": real, "chance": real.reordered(order)}
-        for name, sampler in made_by.items():
-            motions = sampler(asked.clips.captions, asked.clips.num_frames, settings.seed)
-            samples[name] = context.made(asked, motions)
-        at_3 = {
-            name: bootstrap_mean(r_precision(sample, settings.seed).hits[2].tolist())
-            for name, sample in samples.items()
-        }
-        score = normalised_score(*(at_3[k].value for k in ("generated", "chance", "real")))
-        cells = {name: estimate.as_dict() for name, estimate in at_3.items()}
-        rows[language] = GridRow({**cells, "normalised": plain(score)}, num, 1)
-    columns = tuple(Column(key, key) for key in ("real", "chance", *made_by, "normalised"))
+    if not settings.language_samples:
+        return []
+    rows = {}
+    for language in settings.languages:
+        found = context.parts.once(f"languages.{language}", partial(_language, context, language))
+        if found["cells"]:
+            rows[language] = GridRow(found["cells"], found["num"], 1)
+    columns = tuple(Column(key, key) for key in ("real", "chance", *_made_by(context)))
+    columns += (Column("normalised", "normalised"),)
     note = (
         "One replication; ± is 95% over prompts. normalised: (generated - chance) / (real -"
         f" chance). Seed {settings.seed}; real and chance over all real clips."
     )
     title = "R@3 by language (seen combinations)"
     return [Grid("languages", title, columns, rows, note, "language")] if rows else []
+
+
+def _made_by(context: TextContext) -> dict[str, Sampler]:
+    made_by = {"generated": context.sampler}
+    return made_by if context.untrained is None else made_by | {UNTRAINED: context.untrained}
+
+
+def _language(context: TextContext, language: str) -> Part:
+    """The cells of one language; none where the data has too few captions in it."""
+    settings = context.settings
+    num = min(settings.language_samples, settings.num_samples)
+    try:
+        real = context.real(context.held_out.records["seen"], language)
+    except UserError:
+        return {"cells": None}  # the data has no captions in this language
+    if min(len(real), num) < BATCH:
+        return {"cells": None}
+    context.progress(f"languages: {num} motions in {language}")
+    asked = real.rows([row % len(real) for row in range(num)])
+    order = np.random.default_rng(settings.seed).permutation(len(real)).tolist()
+    samples = {"real": real, "chance": real.reordered(order)}
+    for name, sampler in _made_by(context).items():
+        motions = sampler(asked.clips.captions, asked.clips.num_frames, settings.seed)
+        samples[name] = context.made(asked, motions)
+    at_3 = {
+        name: bootstrap_mean(r_precision(sample, settings.seed).hits[2].tolist())
+        for name, sample in samples.items()
+    }
+    score = normalised_score(*(at_3[k].value for k in ("generated", "chance", "real")))
+    return {"cells": plain({**at_3, "normalised": score}), "num": num}
 
 
 def controllability(context: TextContext) -> list[Grid]:
@@ -76,6 +91,7 @@ def controllability(context: TextContext) -> list[Grid]:
         seed=settings.seed,
         untrained=context.untrained,
         progress=context.progress,
+        once=context.parts.once,
     )
     return [control_grid(found)]
 
