@@ -33,7 +33,14 @@ HIPS = (JOINT_INDEX["l_hip"], JOINT_INDEX["r_hip"])
 STANDING = 0.3  # of the legs: feet of a rest pose that are no higher than this stand on the floor
 
 
-def retarget_out(motion: Motion, rig: Rig, mapping: SkeletonMapping, *, up: str = "Y") -> RigClip:
+def retarget_out(
+    motion: Motion,
+    rig: Rig,
+    mapping: SkeletonMapping,
+    *,
+    up: str = "Y",
+    corrections: dict[str, np.ndarray] | None = None,
+) -> RigClip:
     """A motion as the movement of another skeleton, on the floor, at the motion's rate.
 
     Args:
@@ -41,6 +48,8 @@ def retarget_out(motion: Motion, rig: Rig, mapping: SkeletonMapping, *, up: str 
         rig: the skeleton, in its own unit.
         mapping: which of its joints play ours; all of them are there.
         up: the up axis of the rig's world: "Y", "Z", "-X", …
+        corrections: of `rest_corrections`; by default what the rest pose tells, which is nothing
+            where all its bones lie along one axis.
 
     Raises:
         UserError: the rig's legs have no length.
@@ -53,25 +62,31 @@ def retarget_out(motion: Motion, rig: Rig, mapping: SkeletonMapping, *, up: str 
     scale = legs / LEG_LENGTH
     turn = upright(up)  # the rig's world → ours
     places, ours = motion_clip(motion).world()
-    clip = replace(_turned(rest, mapping, ours, turn), fps=motion.fps, text=motion.text)
-    t_pose = _turned(rest, mapping, np.tile(np.eye(3), (1, NUM_JOINTS, 1, 1)), turn)
+    known = corrections or rest_corrections(rest, mapping)
+    index = joint_indices(rest, mapping)
+    players = {index[name]: (JOINT_INDEX[name], known[name]) for name in index}
+    clip = replace(_turned(rest, players, ours, turn), fps=motion.fps, text=motion.text)
+    t_pose = _turned(rest, players, np.tile(np.eye(3), (1, NUM_JOINTS, 1, 1)), turn)
     hips = places[:, list(HIPS)].mean(1) * scale
     hips[:, 1] += _lift(rest, t_pose, mapping, turn, scale)
-    return _placed(clip, joint_indices(rest, mapping), hips @ turn)
+    return _placed(clip, index, hips @ turn)
 
 
-def _turned(rest: RigClip, mapping: SkeletonMapping, ours: np.ndarray, turn: np.ndarray) -> RigClip:
-    """The rig with the world rotations [T,22,3,3] of our joints, its root at rest."""
-    corrections = rest_corrections(rest, mapping)
-    players = {joint: name for name, joint in joint_indices(rest, mapping).items()}
+def _turned(
+    rest: RigClip, players: dict[int, tuple[int, np.ndarray]], ours: np.ndarray, turn: np.ndarray
+) -> RigClip:
+    """The rig with the world rotations [T,22,3,3] of our joints, its root at rest.
+
+    `players` says of each mapped joint which of ours it plays, and its correction.
+    """
     world = np.empty((len(ours), len(rest.names), 3, 3))
     local = np.empty_like(world)
     for joint, parent in enumerate(rest.parents):
         above = world[:, parent] if parent >= 0 else np.broadcast_to(np.eye(3), world[:, 0].shape)
         world[:, joint], local[:, joint] = above, np.eye(3)
         if joint in players:
-            name = players[joint]
-            world[:, joint] = turn.T @ ours[:, JOINT_INDEX[name]] @ corrections[name].T
+            played, correction = players[joint]
+            world[:, joint] = turn.T @ ours[:, played] @ correction.T
             local[:, joint] = above.swapaxes(-1, -2) @ world[:, joint]
     return RigClip(rest.rig, local, np.repeat(rest.translations, len(ours), 0), rest.fps)
 
@@ -135,6 +150,7 @@ class Target:
         path: the file it came from.
         rig: the skeleton, in its file's unit.
         mapping: the profile that fits it.
+        corrections: between its axes and ours, of `rest_corrections`.
         up: its up axis.
         character: of a GLB, whose mesh then moves as well.
     """
@@ -142,12 +158,15 @@ class Target:
     path: Path
     rig: Rig
     mapping: SkeletonMapping
+    corrections: dict[str, np.ndarray]
     up: str = "Y"
     character: GlbSkeleton | None = None
 
     def clip(self, motion: Motion) -> RigClip:
         """The motion on this skeleton."""
-        return retarget_out(motion, self.rig, self.mapping, up=self.up)
+        return retarget_out(
+            motion, self.rig, self.mapping, up=self.up, corrections=self.corrections
+        )
 
     def write(self, motion: Motion, path: Path) -> Path:
         """Write the motion on this skeleton in the format that `path` ends with.
@@ -170,7 +189,9 @@ class Target:
 
 
 def read_target(path: str | Path, *, mapping: Path | None = None) -> Target:
-    """A skeleton to move, from a BVH or GLB file; its own motion only tells its up axis.
+    """A skeleton to move, from a BVH or GLB file.
+
+    Its own motion only tells which way is up and, where the rest pose does not, its axes.
 
     Args:
         path: the file.
@@ -183,11 +204,14 @@ def read_target(path: str | Path, *, mapping: Path | None = None) -> Target:
     if path.suffix.lower() == ".glb":
         character = read_glb_skeleton(path)
         rig = character.rig
-        return Target(path, rig, _profile(path, rig.names, mapping), character=character)
+        profile = _profile(path, rig.names, mapping)
+        known = rest_corrections(rest_clip(rig), profile)
+        return Target(path, rig, profile, known, character=character)
     clip = read_bvh(path)
     profile = _profile(path, clip.names, mapping)
     metres = UNITS[guess_unit(leg_length(clip, profile))]
-    return Target(path, _bvh_rig(path, clip, metres), profile, guess_up(clip, profile)[0])
+    known = rest_corrections(clip, profile)
+    return Target(path, _bvh_rig(path, clip, metres), profile, known, guess_up(clip, profile)[0])
 
 
 def _profile(path: Path, names: tuple[str, ...], extra: Path | None) -> SkeletonMapping:

@@ -212,6 +212,23 @@ def test_a_skeleton_that_stands_along_z_stands_up_in_glb(tmp_path: Path) -> None
     assert np.ptp(lying[:, 2]) > 120
 
 
+def test_a_rest_pose_that_tells_nothing_is_read_off_the_motion(tmp_path: Path) -> None:
+    """All bones along X, as in LaFAN1's files: the recording in the file tells the axes."""
+    rig = own_rig(19)
+    offsets = rig.offsets.copy()
+    for joint, name in enumerate(JOINT_NAMES):
+        if not name.endswith(("pelvis", "hip", "collar")):
+            offsets[joint] = (np.linalg.norm(offsets[joint]), 0.0, 0.0)
+    stick = replace(rig, offsets=offsets)
+    moving = random_motion(60, 19, 30.0)
+    corrections = {name: Rotation.random(random_state=1).as_matrix() for name in JOINT_NAMES}
+    own = retarget_out(moving, stick, mapping_of(stick), corrections=corrections)
+    path = write_clip(own, tmp_path / "own.bvh")
+    target, recorded = read_target(path), read_bvh(path)
+    ours = retarget(recorded, target.mapping, fps=None, up=target.up, ground=False)
+    np.testing.assert_allclose(target.clip(ours).world()[1], recorded.world()[1], atol=1e-3)
+
+
 def test_faults_name_the_file(tmp_path: Path) -> None:
     two = tmp_path / "two.bvh"
     one = "{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n}\n"
