@@ -4,6 +4,7 @@ Every mutation is a function of (a random generator, the whole file's bytes), so
 named by reader, seed and number alone.
 """
 
+import copy
 import io
 import json
 import random
@@ -148,11 +149,11 @@ def mutate_tree(rng: random.Random, tree: Any) -> Any:
     for _ in range(rng.choice((1, 1, 1, 2, 5))):
         places = list(_places(tree))
         if not places:
-            return rng.choice(VALUES)
+            return copy.deepcopy(rng.choice(VALUES))
         holder, key = rng.choice(places)
         match rng.randrange(8):
             case 0 | 1 | 2:
-                holder[key] = rng.choice(VALUES)
+                holder[key] = copy.deepcopy(rng.choice(VALUES))
             case 3:
                 if isinstance(holder[key], (int, float)):
                     holder[key] = holder[key] + rng.choice((-1, 1, 1000, 0.5, -1000))

@@ -178,7 +178,9 @@ def _transposed(columns: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 def _is_number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return False
+    return isinstance(value, float) or abs(value) < 2**1000  # a float holds it
 
 
 def _gapped(trajectory: MotionTrajectory) -> np.ndarray:

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Self
 
 import numpy as np
+from pydantic import BaseModel, ConfigDict
 
 from src.shared.errors import UserError
 from src.shared.files import atomic_write, load_json, write_json
@@ -185,14 +186,21 @@ class PromptScope:
             return None
         try:
             meta = load_json(folder / META_FILE)
+            means = load_file(folder / TABLE_FILE)["means"].astype(np.float32)
+            told = _Meta.model_validate(meta)
+            rows = {row for found in told.key_words.values() for row in found}
+            if means.ndim != 2 or len(means) != len(told.actions) or not np.isfinite(means).all():
+                raise ValueError(f"{len(told.actions)} actions and means {list(means.shape)}")
+            if rows and not 0 <= min(rows) <= max(rows) < len(told.actions):
+                raise ValueError("a key word tells of an action that is not there")
             return cls(
-                actions=tuple(meta["actions"]),
-                key_words={word: tuple(rows) for word, rows in meta["key-words"].items()},
-                words=frozenset(meta["words"]),
-                fillers=frozenset(meta["fillers"]),
-                means=load_file(folder / TABLE_FILE)["means"].astype(np.float32),
-                false_alarms=float(meta["false-alarms"]),
-                min_cosine=meta["min-cosine"],
+                actions=told.actions,
+                key_words=told.key_words,
+                words=told.words,
+                fillers=told.fillers,
+                means=means,
+                false_alarms=told.false_alarms,
+                min_cosine=told.min_cosine,
             )
         except (
             OSError,
@@ -206,6 +214,19 @@ class PromptScope:
                 f"{folder / META_FILE} or {TABLE_FILE} is damaged ({error});"
                 " copy the model folder again"
             ) from error
+
+
+class _Meta(BaseModel):
+    """What scope.json holds."""
+
+    model_config = ConfigDict(alias_generator=lambda name: name.replace("_", "-"))
+
+    actions: tuple[str, ...]
+    key_words: dict[str, tuple[int, ...]]
+    words: frozenset[str]
+    fillers: frozenset[str]
+    false_alarms: float
+    min_cosine: float | None
 
 
 def _unit(vectors: np.ndarray) -> np.ndarray:

@@ -83,7 +83,16 @@ class StyleMap:
         if not path.is_file():
             return None
         try:
-            return cls(**load_file(path))
+            found = cls(**load_file(path))
+            wanted = ((*found.weight.shape[:1], len(PAIRS)), (len(PAIRS),), (len(PAIRS),))
+            arrays = (found.weight, found.offset, found.correlations)
+            if tuple(array.shape for array in arrays) != wanted:
+                raise ValueError(f"shapes {[list(array.shape) for array in arrays]}")
+            if any(array.dtype.kind != "f" or np.isinf(array).any() for array in arrays) or (
+                np.isnan(found.weight).any() or np.isnan(found.offset).any()
+            ):
+                raise ValueError("numbers that are not finite")
+            return found
         except (OSError, ValueError, TypeError, SafetensorError) as error:
             raise UserError(f"{path} is damaged ({error}); copy the model folder again") from error
 
