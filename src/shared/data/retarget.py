@@ -163,7 +163,7 @@ def retarget(
     """
     legs = leg_length(clip, mapping)
     if not legs > 1e-6:
-        raise ValueError("the legs have no length: check the OFFSETs of hips, knees and ankles")
+        raise ValueError("the legs have no length; check the bones of hips, knees and ankles")
     scale = LEG_LENGTH / legs if metres is None else metres
     quaternions, root = _carry_over(clip, mapping, upright(up), scale)
     contacts = np.zeros((len(root), 2), np.float32)

@@ -50,13 +50,13 @@ def read_amass(path: str | Path, *, fps: float | None = None) -> JointClip:
     arrays = read_arrays(path, NAMES)
     if not is_amass(tuple(arrays)):
         raise UserError(f"{path}: needs 'trans' and 'poses', or 'root_orient' and 'pose_body'; "
-                        f"it holds {', '.join(arrays) or 'none of them'}")  # fmt: skip
+                        f"it holds {', '.join(arrays) or 'none'}, export it again")  # fmt: skip
     trans = _numbers(path, arrays, "trans", (3,))
     if "poses" in arrays:
         poses = _numbers(path, arrays, "poses", None)
         if poses.shape[1] < 3 * NUM_JOINTS:
             raise UserError(f"{path}: poses has {poses.shape[1]} values a frame; "
-                            f"{3 * NUM_JOINTS} or more are needed")  # fmt: skip
+                            f"{3 * NUM_JOINTS} or more are needed; export it again")  # fmt: skip
         poses = poses[:, : 3 * NUM_JOINTS]
     else:
         root = _numbers(path, arrays, "root_orient", (3,))
@@ -115,7 +115,7 @@ def _numbers(
     if array.ndim != 2 or array.dtype.kind not in "fiu" or shape not in (None, array.shape[1:]):
         wanted = f"[T,{shape[0]}]" if shape else "[T,66 or more]"
         raise UserError(f"{path}: {name} is {array.dtype}{list(array.shape)}, expected numbers "
-                        f"of shape {wanted}")  # fmt: skip
+                        f"of shape {wanted}; export it again")  # fmt: skip
     array = array.astype(np.float64)
     if array.size and not np.abs(array).max() < MAX_VALUE:
         raise UserError(f"{path}: {name} holds NaN or impossibly large values; export it again")

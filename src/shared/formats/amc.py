@@ -7,7 +7,6 @@ whose axes are the world's at rest, as in BVH. Legend: T frames, N bones (root f
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from io import BytesIO
 from pathlib import Path
 
 import numpy as np
@@ -21,12 +20,13 @@ from src.shared.formats.limits import (
     MAX_VALUE,
     MAX_VALUES,
     Deadline,
-    read_bytes,
+    check_size,
+    remedied,
 )
 from src.shared.formats.source_clip import ALL, compose
 
 USUAL_RATE = 120.0  # AMC files do not say; HDM05 and nearly all of CMU are at 120
-_RATE_LINE = b":SAMPLES-PER-SECOND"
+_RATE_LINE = ":SAMPLES-PER-SECOND"
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,19 +119,27 @@ def read_amc(
             file and, where there is one, the line.
     """
     path = Path(path)
-    data = read_bytes(path)
+    check_size(path)
     asf = read_asf(Path(skeleton) if skeleton else find_skeleton(path))
     reader = _Reader(path, asf)
-    for reader.number, line in enumerate(BytesIO(data), start=1):
-        reader.take(line)
+    try:
+        with path.open("rb") as start:
+            head = start.read(MAX_LINE)
+        newline = "\r" if b"\r" in head and b"\n" not in head else "\n"
+        with path.open(encoding="latin-1", newline=newline) as stream:
+            while line := stream.readline(MAX_LINE):
+                reader.take(line)
+    except OSError as error:
+        raise UserError(f"{path}: cannot be read: {error.strerror or error}; "
+                        "name a file that may be read") from error  # fmt: skip
     reader.finish_frame()
     if not reader.frames:
-        raise UserError(f"{path}: holds no frames: not an AMC motion, or cut off")
-    values = np.frombuffer(b"".join(reader.frames)).reshape(len(reader.frames), -1)
+        raise UserError(f"{path}: holds no frames: not an AMC motion, or cut off; export it again")
+    values = np.frombuffer(reader.frames).reshape(-1, reader.count)
     rate = fps or reader.rate or USUAL_RATE
-    degrees = asf.degrees if reader.degrees is None else reader.degrees
-    turning = [c[0] == "r" for bone in asf.bones for c in bone.dof]
-    values = values * np.where(turning, np.pi / 180 if degrees else 1.0, 1.0)
+    if asf.degrees if reader.degrees is None else reader.degrees:
+        turning = [c[0] == "r" for bone in asf.bones for c in bone.dof]
+        values *= np.where(turning, np.pi / 180, 1.0)
     return AmcClip(asf, 1.0 / rate, values, rate_is_known=bool(fps or reader.rate))
 
 
@@ -158,69 +166,70 @@ class _Reader:
         self.path, self.number = path, 0
         self.degrees: bool | None = None
         self.rate: float | None = None
-        self.frames: list[bytes] = []
+        self.frames, self.done = bytearray(), 0  # rows of float64, and how many
         self.row: list[float] | None = None
         self.deadline = Deadline(path)
-        self.columns: dict[bytes, slice] = {}
+        self.columns: dict[str, slice] = {}
         count = 0
         for bone in skeleton.bones:
             if bone.dof:
-                self.columns[bone.name.encode("latin-1")] = slice(count, count + len(bone.dof))
+                self.columns[bone.name] = slice(count, count + len(bone.dof))
                 count += len(bone.dof)
         self.count = count
         self.empty = [np.nan] * count
         self.max_frames = min(MAX_FRAMES, MAX_VALUES // max(count, 1))
 
     def fault(self, message: str) -> UserError:
-        return UserError(f"{self.path}, line {self.number}: {message}")
+        return UserError(f"{self.path}, line {self.number}: {remedied(message)}")
 
-    def take(self, line: bytes) -> None:
-        """One line of the file."""
-        if len(line) > MAX_LINE:
+    def take(self, line: str) -> None:
+        """The next line of the file."""
+        self.number += 1
+        if len(line) >= MAX_LINE:
             raise self.fault("the line is impossibly long: not an AMC motion")
         words = line.split()
-        if not words or line.startswith(b"#"):
+        if not words or line.startswith("#"):
             return
-        if words[0].startswith(b":"):
+        if words[0].startswith(":"):
             self.header(words)
-        elif len(words) == 1 and words[0].isdigit():
+        elif len(words) == 1 and words[0].isdecimal():
             self.finish_frame()
             self.row = self.empty.copy()
         else:
             self.bone(words)
 
-    def header(self, words: list[bytes]) -> None:
+    def header(self, words: list[str]) -> None:
         word = words[0].upper()
-        if word.startswith(b":DEG"):
+        if word.startswith(":DEG"):
             self.degrees = True
-        elif word.startswith(b":RAD"):
+        elif word.startswith(":RAD"):
             self.degrees = False
         elif word == _RATE_LINE:
             try:
                 rate = float(words[1])
             except (IndexError, ValueError):
-                raise self.fault("SAMPLES-PER-SECOND is not followed by a number") from None
+                raise self.fault("SAMPLES-PER-SECOND is not followed by a number; "
+                                 "correct it") from None  # fmt: skip
             if not FRAME_RATES[0] <= rate <= FRAME_RATES[1]:
                 raise self.fault(f"{rate:g} samples a second are not possible")
             self.rate = rate
 
-    def bone(self, words: list[bytes]) -> None:
+    def bone(self, words: list[str]) -> None:
         """`name value value …`"""
         columns = self.columns.get(words[0])
         if columns is None or self.row is None:
-            shown = words[0][:40].decode("latin-1")
-            known = self.row is None or words[0]
-            raise self.fault(
-                f"{shown!r} before the first frame's number: not an AMC motion" if known is True
-                else f"{shown!r} is no moving bone of the skeleton; name the right one by "
-                "--skeleton FILE")  # fmt: skip
+            if self.row is None:
+                raise self.fault(f"{words[0][:40]!r} before the first frame's number: "
+                                 "not an AMC motion")  # fmt: skip
+            raise self.fault(f"{words[0][:40]!r} is no moving bone of the skeleton; name the "
+                             "right one by --skeleton FILE")  # fmt: skip
         try:
             values = [float(word) for word in words[1:]]
         except ValueError:
-            shown = b" ".join(words)[:60].decode("latin-1")
+            shown = " ".join(words)[:60]
             raise self.fault(f"{shown!r} does not hold numbers only") from None
         if len(values) != columns.stop - columns.start:
-            raise self.fault(f"{words[0].decode('latin-1')!r} has {len(values)} values, the "
+            raise self.fault(f"{words[0][:40]!r} has {len(values)} values, the "
                              f"skeleton says {columns.stop - columns.start}")  # fmt: skip
         self.row[columns] = values
 
@@ -233,11 +242,12 @@ class _Reader:
             column = int(np.flatnonzero(~(np.abs(row) < MAX_VALUE))[0])
             name = next(n for n, c in self.columns.items() if c.start <= column < c.stop)
             what = "is missing from" if np.isnan(row[column]) else "is impossibly large in"
-            raise self.fault(f"{name.decode('latin-1')!r} {what} frame {len(self.frames) + 1}, "
+            raise self.fault(f"{name[:40]!r} {what} frame {self.done + 1}, "
                              "which ends here; the file is damaged or cut off")  # fmt: skip
-        if len(self.frames) >= self.max_frames:
+        if self.done >= self.max_frames:
             raise self.fault(f"more than {self.max_frames} frames; split the file")
-        self.frames.append(row.tobytes())
+        self.frames += row.tobytes()
+        self.done += 1
         self.row = None
-        if not len(self.frames) % 256:
+        if not self.done % 256:
             self.deadline.check()

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from src.shared.errors import UserError
-from src.shared.formats.limits import MAX_JOINTS, MAX_VALUE, read_bytes
+from src.shared.formats.limits import MAX_JOINTS, MAX_VALUE, read_bytes, remedied
 
 ROOT = "root"
 MAX_BYTES = 8 << 20
@@ -69,7 +69,7 @@ class _Reader:
         self.bone: Bone | None = None
 
     def fault(self, message: str) -> UserError:
-        return UserError(f"{self.path}, line {self.number}: {message}")
+        return UserError(f"{self.path}, line {self.number}: {remedied(message)}")
 
     def numbers(self, words: list[str], count: int, what: str) -> tuple[float, ...]:
         try:
@@ -78,9 +78,9 @@ class _Reader:
             values = ()
         if len(values) != count:
             shown = " ".join(words)[:60]
-            raise self.fault(f"{what} {shown!r} is not {_counted(count)}; correct it")
+            raise self.fault(f"{what} {shown!r} is not {_counted(count)}")
         if not np.abs(values).max() < MAX_VALUE:
-            raise self.fault(f"{what} {' '.join(words)[:60]!r} is impossibly large; correct it")
+            raise self.fault(f"{what} {' '.join(words)[:60]!r} is impossibly large")
         return values
 
     def order(self, word: str) -> str:
@@ -185,7 +185,9 @@ def read_asf(path: str | Path) -> AsfSkeleton:
             words[0] = words[0] if section == "hierarchy" else words[0].lower()
             sections[section](words)
     if not reader.children:
-        raise UserError(f"{path}: has no :hierarchy: not an ASF skeleton, or cut off")
+        raise UserError(
+            f"{path}: has no :hierarchy: not an ASF skeleton, or cut off; export it again"
+        )
     return AsfSkeleton(_sorted(reader), reader.degrees, INCH / reader.unit)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from src.shared.errors import UserError
 from src.shared.formats.bvh_header import BvhError
 from src.shared.formats.bvh_rows import read_head, read_rows
-from src.shared.formats.limits import MAX_BYTES, check_size
+from src.shared.formats.limits import MAX_BYTES, check_size, remedied
 from src.shared.formats.source_clip import ALL, compose
 
 
@@ -132,8 +132,9 @@ def read_bvh(path: str | Path, *, stride: int = 1, max_bytes: int = MAX_BYTES) -
     except BvhError as error:
         raise _user_error(path, error) from None
     except OSError as error:
-        raise UserError(f"{path}: cannot be read: {error.strerror or error}"
-            "; name a BVH file that may be read") from error
+        raise UserError(
+            f"{path}: cannot be read: {error.strerror or error}; name a BVH file that may be read"
+        ) from error
     nodes = head.nodes
     return BvhClip(
         names=tuple(node.name for node in nodes),
@@ -162,9 +163,11 @@ def check_head(path: Path) -> None:
     except BvhError as error:
         raise _user_error(path, error) from None
     except OSError as error:
-        raise UserError(f"{path}: cannot be read: {error.strerror or error}"
-            "; name a BVH file that may be read") from error
+        raise UserError(
+            f"{path}: cannot be read: {error.strerror or error}; name a BVH file that may be read"
+        ) from error
 
 
 def _user_error(path: Path, error: BvhError) -> UserError:
-    return UserError(f"{path}{f', line {error.line}' if error.line else ''}: {error}")
+    place = f", line {error.line}" if error.line else ""
+    return UserError(f"{path}{place}: {remedied(str(error))}")

@@ -40,7 +40,8 @@ def read_humanml(path: str | Path, *, fps: float | None = None) -> JointClip:
     shapes = ((NUM_JOINTS, 3), (FEATURES,))
     if array.dtype.kind not in "fiu" or array.shape[1:] not in shapes or not len(array):
         raise UserError(f"{path}: is {array.dtype}{list(array.shape)}, expected joint positions "
-                        f"[T,{NUM_JOINTS},3] or HumanML3D vectors [T,{FEATURES}]")  # fmt: skip
+                        f"[T,{NUM_JOINTS},3] or HumanML3D vectors [T,{FEATURES}]; "
+                        "save one of the two")  # fmt: skip
     array = array.astype(np.float64)
     if not np.abs(array).max() < MAX_VALUE:
         raise UserError(f"{path}: holds NaN or impossibly large values; write it again")

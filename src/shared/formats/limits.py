@@ -25,6 +25,11 @@ MAX_SECONDS = 120.0  # of reading one file
 FRAME_RATES = (1.0, 2000.0)  # frames a second that a recording can have
 
 
+def remedied(message: str, remedy: str = "correct it or export the file again") -> str:
+    """The message, with what to do about it where it does not say so itself."""
+    return message if ";" in message else f"{message}; {remedy}"
+
+
 class Deadline:
     """Time that reading one file may take."""
 

@@ -99,6 +99,6 @@ def _check(path: Path, name: str, array: np.ndarray, shape: tuple[int, ...]) -> 
     """Refuse an array of another shape or type, or with values that cannot be."""
     if array.shape != shape or array.dtype.kind not in "fiu":
         raise UserError(f"{path}: {name} is {array.dtype}{list(array.shape)}, expected numbers "
-                        f"of shape {list(shape)}")  # fmt: skip
+                        f"of shape {list(shape)}; write it again")  # fmt: skip
     if array.size and not np.abs(array.astype(np.float64)).max() < MAX_VALUE:
         raise UserError(f"{path}: {name} holds NaN or impossibly large values; write it again")

@@ -184,6 +184,7 @@ def test_radians_rates_and_blocks(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("change", [
     lambda text: text.replace("\n", "\r\n"),
+    lambda text: text.replace("\n", "\r"),
     lambda text: text.replace("  ", "\t"),
     lambda text: text.replace("\n", "\n\n# a remark\n"),
     lambda text: text.rstrip("\n"),
