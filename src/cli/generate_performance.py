@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from src.shared.audio.song import Song
     from src.shared.inference.performance_judge import PerformanceJudge
     from src.shared.inference.performer import Performance
-    from src.shared.inference.song_performer import Dances, SongPerformer
+    from src.shared.inference.runtime import Runtime
+    from src.shared.inference.song_performer import Dances, HeardSong, SongPerformer
     from src.shared.model.generation.motion_generator import MotionGenerator
 
 BODY_MODEL = "starter"
@@ -58,7 +59,6 @@ def produce_dances(
     from src.shared.device import set_threads
     from src.shared.inference.runtime import load_runtime
     from src.shared.inference.song_performer import HeardSong
-    from src.shared.inference.song_sampler import SampleSettings
     from src.shared.model.generation.motion_generator import MotionGenerator
 
     clock.lap("import")
@@ -75,11 +75,59 @@ def produce_dances(
     song = analyse(wanted["audio"], meter=wanted["meter"])
     heard = HeardSong.of(song, wanted["seconds"])
     clock.lap("listen")
+    found, warnings = dance_prompts(
+        dancers, loaded, song, heard, wanted, (style, remembered), clock
+    )
+    kept = number if return_all else 1
+    rows, index = write_dances(found, kept, wanted["audio"], song, formats, out)
+    seed = wanted["sampling"]["seed"]
+    for place, row in enumerate(rows):
+        row |= {"seed": seed, "warning": warnings[place // kept]}
+    clock.lap("write")
+    about = generate_audio.told_of_song(wanted["audio"], song) | {
+        "model": model,
+        "body-model": body_model,
+        "runtime": runtime,
+        "device": str(generator.device),
+        "seed": seed,
+        "memory": remembered and generate_audio.told_of_memory(wanted["memory"], remembered[0]),
+    }
+    judged = found if number > 1 else []
+    scores = [scored(each.prompt or str(wanted["audio"]), each.table) for each in judged]
+    results = {"motions": rows, "selection": scores, "index": index}
+    return about | results | {"timings": clock.seconds()}
+
+
+def dance_prompts(
+    dancers: "SongPerformer",
+    loaded: "Runtime",
+    song: "Song",
+    heard: "HeardSong",
+    wanted: dict[str, Any],
+    path: tuple[Any, Any],
+    clock: Stopwatch,
+) -> "tuple[list[Dances], list[str | None]]":
+    """Paths and bodies for each prompt, or for none; and the warning of each.
+
+    Args:
+        dancers: who dances.
+        loaded: the audio branch.
+        song, heard: whole, and as long as asked for.
+        wanted: see `produce_dances`.
+        path: the style of `--style`, and the memory; None where there is none.
+        clock: told of `path` and `body`.
+    """
+    from src.shared.inference.song_sampler import SampleSettings
+
+    generator, (style, remembered) = dancers.performer.generator, path
     settings = SampleSettings(**wanted["sampling"] | {"guidance_scale": None})
     prompts: list[str | None] = wanted["prompts"] or [None]
-    warnings = generator.scope_warnings(wanted["prompts"]) if wanted["prompts"] else [None]
+    warnings: list[str | None] = [None]
+    if wanted["prompts"]:
+        warnings = generator.scope_warnings(wanted["prompts"])
     for warning in filter(None, warnings):
         complain(f"warning: {warning}")
+    frames = settings.num_samples * heard.condition.shape[1]
     found: list[Dances] = []
     for prompt, tag in zip(prompts, wanted["tags"] or [None] * len(prompts), strict=True):
         own = generator.style_of(prompt) if style is None and prompt else style
@@ -87,28 +135,13 @@ def produce_dances(
             loaded, song, heard.condition, heard.phase, settings, own, remembered
         )
         clock.lap("path")
-        with generate_audio.progress_bar(number * heard.condition.shape[1]) as progress:
-            found.append(
-                dancers.dance(raw, heard, prompt, tag=tag, seed=settings.seed, progress=progress)
+        with generate_audio.progress_bar(frames) as progress:
+            dances = dancers.dance(
+                raw, heard, prompt, tag=tag, seed=settings.seed, progress=progress
             )
+        found.append(dances)
         clock.lap("body")
-    kept = number if return_all else 1
-    rows, index = write_dances(found, kept, wanted["audio"], song, formats, out)
-    for place, row in enumerate(rows):
-        row |= {"seed": settings.seed, "warning": warnings[place // kept]}
-    clock.lap("write")
-    about = generate_audio.told_of_song(wanted["audio"], song) | {
-        "model": model,
-        "body-model": body_model,
-        "runtime": runtime,
-        "device": str(generator.device),
-        "seed": settings.seed,
-        "memory": remembered and generate_audio.told_of_memory(wanted["memory"], remembered[0]),
-    }
-    judged = zip(prompts, found, strict=True) if number > 1 else ()
-    scores = [scored(prompt or str(wanted["audio"]), dances.table) for prompt, dances in judged]
-    results = {"motions": rows, "selection": scores, "index": index}
-    return about | results | {"timings": clock.seconds()}
+    return found, warnings
 
 
 def open_dancers(
