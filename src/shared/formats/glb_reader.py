@@ -14,11 +14,10 @@ import numpy as np
 
 from src.shared.errors import UserError
 from src.shared.formats.glb_file import GlbError, GlbFile
-from src.shared.formats.limits import FRAME_RATES, MAX_FRAMES, MAX_JOINTS, MAX_VALUE, MAX_VALUES
-from src.shared.formats.rig import Rig, RigClip, quaternions_to_matrices
+from src.shared.formats.glb_tracks import even_times, moved_matrices, read_tracks, rest_matrix
+from src.shared.formats.limits import MAX_JOINTS, MAX_VALUE
+from src.shared.formats.rig import Rig, RigClip
 
-DEFAULT_FPS = 30.0
-EVEN = 1e-3  # of a frame: keys that are no further from even times are taken as frames
 UNEVEN = 0.02  # relative difference of a node's three scales that no skeleton needs
 
 
@@ -91,7 +90,7 @@ def _skeleton(file: GlbFile) -> GlbSkeleton:
     parents = _parents(nodes)
     joints = _joints(file.document, nodes, parents)
     index = {node: joint for joint, node in enumerate(joints)}
-    poses = {node: _matrix(nodes[node]) for node in _with_ancestors(joints, parents)}
+    poses = {node: rest_matrix(nodes[node]) for node in _with_ancestors(joints, parents)}
     world: dict[int, np.ndarray] = {}
     for node in _with_ancestors(joints, parents):  # parents first
         world[node] = (world[parents[node]] if parents[node] >= 0 else np.eye(4)) @ poses[node]
@@ -180,32 +179,6 @@ def _names(nodes: list[dict[str, Any]], joints: list[int]) -> tuple[str, ...]:
     return tuple(names)
 
 
-def _matrix(node: dict[str, Any]) -> np.ndarray:
-    """The local matrix [4,4] of a node's default pose."""
-    if "matrix" in node:
-        matrix = np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
-    else:
-        matrix = _compose(
-            np.array([node.get("translation", (0, 0, 0))], dtype=np.float64),
-            np.array([node.get("rotation", (0, 0, 0, 1))], dtype=np.float64),
-            np.array([node.get("scale", (1, 1, 1))], dtype=np.float64),
-        )[0]
-    if not np.isfinite(matrix).all():
-        raise GlbError(f"node {node.get('name')!r} is at an impossible place")
-    return matrix
-
-
-def _compose(translation: np.ndarray, rotation: np.ndarray, scale: np.ndarray) -> np.ndarray:
-    """Matrices [T,4,4] of translations [T,3], quaternions x y z w [T,4] and scales [T,3]."""
-    matrices = np.tile(np.eye(4), (max(map(len, (translation, rotation, scale))), 1, 1))
-    if np.linalg.norm(rotation, axis=-1).min() < 1e-6:
-        raise GlbError("holds a quaternion of zeros, which is no rotation")
-    turn = quaternions_to_matrices(rotation[:, [3, 0, 1, 2]])
-    matrices[:, :3, :3] = turn * scale[:, None, :]
-    matrices[:, :3, 3] = translation
-    return matrices
-
-
 def _split(matrices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Rotations [...,3,3] and even scales [...] of matrices [...,3,3]."""
     sizes = np.linalg.norm(matrices, axis=-2)
@@ -226,20 +199,14 @@ def _clip(skeleton: GlbSkeleton) -> RigClip:
     """The first animation, sampled evenly."""
     document = skeleton.file.document
     nodes = document["nodes"]
-    line = _with_ancestors(skeleton.nodes, _parents(nodes))
-    tracks = _tracks(skeleton.file, set(line))
-    times, fps = _times([keys for keys, _, _ in tracks.values()], len(line))
-    joints = {node: joint for joint, node in enumerate(skeleton.nodes)}
+    above = _parents(nodes)
+    line = _with_ancestors(skeleton.nodes, above)
+    tracks = read_tracks(skeleton.file, set(line))
+    times, fps = even_times([keys for keys, _, _ in tracks.values()], len(line))
     world: dict[int, np.ndarray] = {}
-    parents = dict(zip(line[: len(line) - len(joints)], [-1, *line], strict=False))
-    for node in skeleton.nodes:
-        above = skeleton.rig.parents[joints[node]]
-        parents[node] = skeleton.nodes[above] if above >= 0 else ([-1, *line])[
-            len(line) - len(joints)
-        ]  # fmt: skip
     for node in line:
-        local = _moved(nodes[node], node, tracks, times)
-        world[node] = world[parents[node]] @ local if parents[node] >= 0 else local
+        local = moved_matrices(nodes[node], node, tracks, times)
+        world[node] = world[above[node]] @ local if above[node] >= 0 else local
     places = np.stack([np.broadcast_to(world[n], (len(times), 4, 4)) for n in skeleton.nodes], 1)
     turns = _split(places[..., :3, :3])[0] @ skeleton.rig.frames.swapaxes(-1, -2)
     positions = places[..., :3, 3]
@@ -255,102 +222,3 @@ def _clip(skeleton: GlbSkeleton) -> RigClip:
     scene = (document.get("scenes") or [{}])[document.get("scene", 0)]
     text = str((scene.get("extras") or {}).get("text", ""))
     return RigClip(skeleton.rig, rotations, translations, fps, text)
-
-
-Track = tuple[np.ndarray, np.ndarray, str]
-
-
-def _tracks(file: GlbFile, wanted: set[int]) -> dict[tuple[int, str], Track]:
-    """Key times [S], values and interpolation of each (node, path) of the first animation."""
-    animations = file.document.get("animations") or [{"channels": []}]
-    tracks: dict[tuple[int, str], Track] = {}
-    for channel in animations[0]["channels"]:
-        target = channel["target"]
-        node, path = target.get("node"), target["path"]
-        if node not in wanted or path not in ("translation", "rotation", "scale"):
-            continue
-        sampler = animations[0]["samplers"][channel["sampler"]]
-        keys, values = file.array(sampler["input"])[:, 0], file.array(sampler["output"])
-        kind = str(sampler.get("interpolation", "LINEAR"))
-        width, each = (4 if path == "rotation" else 3), (3 if kind == "CUBICSPLINE" else 1)
-        if values.shape != (each * len(keys), width) or (np.diff(keys) <= 0).any():
-            raise GlbError(f"animates the {path} of node {node} with keys that do not fit")
-        tracks[node, path] = (keys, values, kind)
-    return tracks
-
-
-def _times(keys: list[np.ndarray], num_nodes: int) -> tuple[np.ndarray, float]:
-    """Evenly spaced times [T] in seconds over all keys, and their rate."""
-    densest = max(keys, key=len, default=np.zeros(1))
-    if len(densest) < 2:
-        return densest[:1], DEFAULT_FPS
-    start, end = min(k[0] for k in keys), max(k[-1] for k in keys)
-    fps = float(1.0 / np.median(np.diff(densest)))
-    even = np.linspace(start, end, len(densest))
-    exact = bool(np.abs(densest - even).max() < EVEN * (even[1] - even[0]))
-    if exact:  # times are float32: their mean step is the better measure
-        fps = (len(densest) - 1) / float(end - start)
-    fps = round(fps, 2) if abs(fps - round(fps, 2)) < 1e-4 else fps
-    count = round((end - start) * fps) + 1 if FRAME_RATES[0] <= fps <= FRAME_RATES[1] else 0
-    if not 0 < count <= MAX_FRAMES or count * num_nodes > MAX_VALUES // 16:
-        raise GlbError(f"animates {end - start:g} s at {fps:g} frames a second, which is too much")
-    return densest if exact else start + np.arange(count) / fps, fps
-
-
-def _moved(
-    node: dict[str, Any], index: int, tracks: dict[tuple[int, str], Track], times: np.ndarray
-) -> np.ndarray:
-    """Local matrices [T,4,4], or [1,4,4] of a node that stays."""
-    animated = [path for path in ("translation", "rotation", "scale") if (index, path) in tracks]
-    if not animated:
-        return _matrix(node)[None]
-    if "matrix" in node:
-        raise GlbError(f"animates node {index}, whose pose is a matrix")
-    rest = {"translation": (0, 0, 0), "rotation": (0, 0, 0, 1), "scale": (1, 1, 1)}
-    values = [
-        _sampled(*tracks[index, path], times, turning=path == "rotation")
-        if path in animated
-        else np.array([node.get(path, rest[path])], dtype=np.float64)
-        for path in rest
-    ]
-    return _compose(*values)
-
-
-def _sampled(
-    keys: np.ndarray, values: np.ndarray, kind: str, times: np.ndarray, *, turning: bool
-) -> np.ndarray:
-    """Values [T,width] between keys (glTF 2.0, appendix C)."""
-    after = np.clip(np.searchsorted(keys, times, "right"), 1, max(1, len(keys) - 1))
-    before = after - 1
-    after = np.minimum(after, len(keys) - 1)
-    width = np.where(after > before, keys[after] - keys[before], 1.0)
-    part = np.clip((times - keys[before]) / width, 0.0, 1.0)[:, None]
-    if kind == "CUBICSPLINE":
-        t, triples = part, values.reshape(len(keys), 3, -1)
-        first, last = triples[before], triples[after]
-        leave, arrive = first[:, 2] * width[:, None], last[:, 0] * width[:, None]
-        return np.asarray(
-            (2 * t**3 - 3 * t**2 + 1) * first[:, 1] + (t**3 - 2 * t**2 + t) * leave
-            + (3 * t**2 - 2 * t**3) * last[:, 1] + (t**3 - t**2) * arrive
-        )  # fmt: skip
-    first, last = values[before], values[after]
-    if kind == "STEP":
-        return np.where(part >= 1.0, last, first)
-    if not turning:
-        return np.asarray(first + part * (last - first))
-    return _slerp(first, last, part)
-
-
-def _slerp(first: np.ndarray, last: np.ndarray, part: np.ndarray) -> np.ndarray:
-    """Between quaternions [T,4] of any component order, on the short way (Shoemake 1985)."""
-    first = first / np.maximum(np.linalg.norm(first, axis=-1, keepdims=True), 1e-12)
-    last = last / np.maximum(np.linalg.norm(last, axis=-1, keepdims=True), 1e-12)
-    cosine = (first * last).sum(-1, keepdims=True)
-    last, cosine = np.where(cosine < 0, -last, last), np.abs(cosine).clip(0.0, 1.0)
-    angle = np.arccos(cosine)
-    sine = np.sin(angle)
-    near = sine < 1e-6
-    safe = np.where(near, 1.0, sine)
-    a = np.where(near, 1 - part, np.sin((1 - part) * angle) / safe)
-    b = np.where(near, part, np.sin(part * angle) / safe)
-    return np.asarray(a * first + b * last)
