@@ -129,7 +129,8 @@ def read_tensors(folder: Path, card: ModelCard) -> dict[str, "Tensor"]:
     """The weights of a model folder in float32 on the CPU.
 
     Raises:
-        UserError: the file is missing, truncated, or not the one the card vouches for.
+        UserError: the file is missing, truncated, not the one the card vouches for, or holds
+            numbers that are not finite.
     """
     from safetensors import SafetensorError
     from safetensors.torch import load_file
@@ -156,10 +157,17 @@ def read_tensors(folder: Path, card: ModelCard) -> dict[str, "Tensor"]:
         raise UserError(
             f"{path} is not a safetensors file ({error!s:.300}); copy the model folder again"
         ) from error
-    return {
+    whole = {
         name: tensor.float() if tensor.is_floating_point() else tensor
         for name, tensor in dequantise(tensors).items()
     }
+    for name, tensor in whole.items():
+        if tensor.is_floating_point() and not tensor.isfinite().all():
+            raise UserError(
+                f"{path}: {name} holds numbers that are not finite; copy the model folder again,"
+                " or take an earlier checkpoint: its training may have diverged"
+            )
+    return whole
 
 
 def load_state(
