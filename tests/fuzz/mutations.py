@@ -156,7 +156,8 @@ def mutate_tree(rng: random.Random, tree: Any) -> Any:
                 holder[key] = copy.deepcopy(rng.choice(VALUES))
             case 3:
                 if isinstance(holder[key], (int, float)):
-                    holder[key] = holder[key] + rng.choice((-1, 1, 1000, 0.5, -1000))
+                    step = rng.choice((-1, 1, 1000, 0.5, -1000))
+                    holder[key] += int(step) if isinstance(holder[key], int) else step
                 else:
                     holder[key] = [holder[key]]
             case 4:
