@@ -10,6 +10,7 @@ from dataclasses import asdict, replace
 
 import numpy as np
 import torch
+from scipy.ndimage import distance_transform_edt
 from torch import Tensor
 
 from src.shared.inference.editing import GROUND, Given, Place
@@ -17,10 +18,15 @@ from src.shared.inference.motion_stream import OVERLAP, Passage, StreamSettings,
 from src.shared.inference.trajectory_constraint import untwisted
 from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import MotionGenerator
+from src.shared.motion.foot_lock import kept_legs, lock_feet
 from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess import MotionPostProcessor, smooth_features
 from src.shared.motion.root_track import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, integrate_root
+from src.shared.motion.rotations import quaternion_continuous, quaternion_slerp
+from src.shared.motion.skeleton import JOINT_INDEX, LIMBS
 from src.shared.motion.trajectory_math import turn_about_y
+
+EASE = 10  # frames until a leg is held as if nothing of it had been kept
 
 
 def fill(
@@ -129,11 +135,11 @@ def finish(
         # Neither what was made of the pelvis nor an average has a heading of its own to add.
         smooth = untwisted(torch.where(known[:, : features.shape[1]], features, smooth))
         smooth = torch.where(known[:, : features.shape[1]], features, smooth)
-    rest = {"smoothing_kernel": 1}
-    if foot_lock is not None:
-        rest |= {"foot_lock": foot_lock}
     place = place or Place()
-    return MotionPostProcessor(config.model_copy(update=rest))(
+    locks = config.foot_lock if foot_lock is None else foot_lock
+    loose = MotionPostProcessor(
+        config.model_copy(update={"smoothing_kernel": 1, "foot_lock": False})
+    )(
         smooth,
         known=known,
         fps=generator.card.fps,
@@ -141,3 +147,21 @@ def finish(
         start_position=(place.x, place.z),
         start_heading=place.heading,
     )
+    if not locks:
+        return loose
+    kept = None if known is None else kept_legs(known)
+    locked = lock_feet(loose, kept=kept)
+    return locked if kept is None else eased(loose, locked, kept)
+
+
+def eased(loose: Motion, locked: Motion, kept: np.ndarray) -> Motion:
+    """Legs held little by little from where they are kept [T,2] bool: no foot jumps to its hold."""
+    quaternions = torch.as_tensor(locked.quaternions).clone()
+    before = torch.as_tensor(loose.quaternions)
+    for side, limb in enumerate(("left-leg", "right-leg")):
+        away = distance_transform_edt(~kept[:, side]) if kept[:, side].any() else np.inf
+        x = torch.as_tensor(np.minimum(away / EASE, 1.0), dtype=torch.float32)
+        share = (x**2 * (3 - 2 * x)).expand(len(before))[:, None, None]
+        joints = [JOINT_INDEX[name] for name in LIMBS[limb]]
+        quaternions[:, joints] = quaternion_slerp(before[:, joints], quaternions[:, joints], share)
+    return replace(locked, quaternions=quaternion_continuous(quaternions, dim=0).numpy())

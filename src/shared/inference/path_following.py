@@ -31,6 +31,7 @@ MAX_ALONG = 1.5  # m/s², acceleration when starting and stopping
 MAX_TURN, FASTEST_TURN = 2.5, 4.0  # rad/s, in bends and where the path turns back
 START_SPEED = 0.1  # m/s, of the first and the last step
 REST = 0.4  # seconds of standing at either end; without them the feet end apart
+RUNNING = 2.0  # m/s; who is faster neither starts nor stops: a runner at rest stands on one leg
 TURN_SMOOTHING = 0.12  # seconds, standard deviation, of the heading
 
 
@@ -92,11 +93,12 @@ def time_path(
     else:
         line, share = _rounded(drawn.points)
         moments = _moments(line, min(max(speed, SLOWEST), FASTEST))
-        rest = REST if seconds is None else min(REST, seconds / 8)
+        rest = 0.0 if speed > RUNNING else REST if seconds is None else min(REST, seconds / 8)
+        still = int(rest * fps)  # frames
         if seconds is not None:
-            moments = _in_seconds(line, moments, seconds - 2 * rest)
+            moments = _in_seconds(line, moments, seconds - 2 * still / fps)
         frames = np.linspace(0, moments[-1], max(2, round(moments[-1] * fps) + 1))
-        frames = np.pad(frames, round(rest * fps), mode="edge")
+        frames = np.pad(frames, still, mode="edge")
         points = np.stack([np.interp(frames, moments, line[:, axis]) for axis in (0, 1)], axis=1)
         along = np.interp(frames, moments, share)
         given_at = _shares(drawn.points)
@@ -141,7 +143,8 @@ def _moments(line: np.ndarray, speed: float) -> np.ndarray:
         np.sqrt(MAX_SIDEWAYS / np.maximum(bend, 1e-6)), MAX_TURN / np.maximum(bend, 1e-6)
     )
     limits = np.clip(limits, min(SLOWEST, speed), speed)
-    limits[[0, -1]] = np.minimum(limits[[0, -1]], START_SPEED)
+    if speed <= RUNNING:
+        limits[[0, -1]] = np.minimum(limits[[0, -1]], START_SPEED)
     for order in (range(1, len(limits)), range(len(limits) - 2, -1, -1)):
         for at in order:
             near = at - order.step

@@ -1,5 +1,7 @@
 """Editing: what is kept stays as it was, in the body and in the world; the rest is made."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import torch
@@ -18,7 +20,7 @@ from src.shared.inference.editing import (
     place_of,
     redo,
 )
-from src.shared.inference.filling import bend_back, fill, fill_free
+from src.shared.inference.filling import bend_back, eased, fill, fill_free
 from src.shared.inference.motion_stream import StreamSettings
 from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import MotionGenerator
@@ -141,6 +143,20 @@ def test_a_path_is_bent_without_a_jump(generator: MotionGenerator, clip: Motion)
     np.testing.assert_allclose(path[70:].numpy(), clip.root_position[70:], atol=1e-4)
     change = bent.values[30:70, ROOT_ROW, :2] - free[30:70, ROOT_ROW, :2]
     assert float(change[[0, -1]].abs().max()) < 0.25 * float(change.abs().max()) + 1e-3
+
+
+def test_feet_are_held_little_by_little(clip: Motion) -> None:
+    """Next to kept frames a leg is as it was made; further off, as the lock has it."""
+    turned = clip.quaternions.copy()
+    turned[:, 4] = [0.96, 0.28, 0.0, 0.0]  # another left knee
+    locked = replace(clip, quaternions=turned)
+    kept = np.zeros((clip.num_frames, 2), dtype=bool)
+    kept[:20, 0] = True
+    apart = angles(eased(clip, locked, kept), clip)[:, 4]
+    whole = angles(locked, clip)[:, 4]
+    assert apart[:20].max() < 1e-3 and apart[20] < 0.1 * whole[20]
+    assert angles(eased(clip, locked, kept), locked)[30:].max() < 1e-3
+    assert angles(eased(clip, locked, np.zeros_like(kept)), locked).max() < 1e-3
 
 
 def test_names_of_joints() -> None:

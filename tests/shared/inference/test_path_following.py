@@ -80,6 +80,22 @@ def test_seconds_and_facing() -> None:
         time_path(LINE, fps=30.0, seconds=0.5)
 
 
+@given(st.integers(75, 400), st.floats(0.5, 3.0))
+def test_as_many_frames_as_asked_for(frames: int, speed: float) -> None:
+    assert len(time_path(LINE, fps=30.0, seconds=(frames - 1) / 30, speed=speed)) == frames
+
+
+def test_who_runs_neither_starts_nor_stops() -> None:
+    speeds = {
+        speed: np.linalg.norm(
+            np.diff(time_path(LINE, fps=30.0, speed=speed).points, axis=0), axis=1
+        )
+        for speed in (1.0, 3.0)
+    }
+    assert speeds[3.0].min() * 30 > 2.9
+    assert (speeds[1.0][[*range(12), *range(-12, 0)]] == 0).all()
+
+
 def test_times_and_headings_of_the_file_count() -> None:
     drawn = DrawnPath(
         np.array([[0, 0], [0, 1], [0, 1.5], [0, 4.0]]),
