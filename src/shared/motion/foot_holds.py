@@ -1,10 +1,8 @@
 """Where feet stand, and how far each frame's foot is from there.
 
-A motion's own contacts say when a foot stands. A body on a path that is not its own (a dancer
-pinned to a song's trajectory) slides more than a held foot can make up for; so whatever carries
-the body is held too, and a foot that would be dragged takes short steps instead, left and right in
-turn. Between two holds the correction follows a cubic Hermite curve, so that feet neither jump nor
-jerk (displacement maps: Kovar et al. 2002, "Footskate cleanup", §4).
+A body on a path that is not its own (a dancer pinned to a song's trajectory) slides more than a held
+foot can make up for; where a leg ends, feet take steps in turn. Between two holds the correction
+follows a cubic Hermite curve (Kovar et al. 2002, "Footskate cleanup", §4).
 
 Letters: T frames, N frames of a curve.
 """
@@ -24,13 +22,13 @@ MIN_SWING_SECONDS = 8 / 30  # that a foot has to get from one hold to the next
 SOONER_SECONDS = 12 / 30  # a foot lands sooner by so much at most, else there is a step between
 BLEND_SECONDS = 9 / 30  # how long a correction fades in before, and out after, a contact
 STEP_SECONDS = 8 / 30  # of a step that was put in
-LIFT, SLOPE = 0.12, 0.12  # metres that a foot is lifted on its way, at most and for each metre
+LIFT, SLOPE = 0.1, 0.1  # metres that a foot is lifted on its way, at most and for each metre
 SOFT = 0.01  # metres around which that lift sets in
 ROLL = 0.005  # metres that the ball of a standing foot may be above its standing height
 MAX_DRAG = 0.22  # metres that a held foot may be from where it was; further off it steps
-MAX_SLOPE = 1.0  # m/s at which a correction may start from a hold
+MAX_SLOPE = 2.5  # m/s at which a correction may start from a hold
 UNDER = (0.0, 0.5, 1.0)  # shares of the way from where a foot was to below its hip
-MAX_REACH = 0.93  # metres from the hip to the ball of a held foot, its heel up
+MAX_REACH = 0.9  # metres from the hip to the ball of a held foot, its heel up
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,10 +75,8 @@ def foot_shifts(
 def foot_holds(
     balls: np.ndarray, hips: np.ndarray, stands: np.ndarray, fps: float, kept: np.ndarray
 ) -> tuple[list[Hold], list[Hold]]:
-    """The holds of the left and of the right foot, in order.
-
-    Where one foot must leave before the other was to land, the other one lands sooner, or steps
-    are put between.
+    """The holds of the left and of the right foot, in order; where one foot must leave before the
+    other was to land, the other one lands sooner, or steps are put between.
 
     Args:
         balls: [T,2,3].
@@ -93,6 +89,7 @@ def foot_holds(
     planner = _Planner(balls, hips, free, fps, kept)
     for start, stop, side in _runs(balls, stands, fps, kept):
         planner.plant(start, stop, side)
+    planner.step_on(len(balls))
     return planner.found
 
 
@@ -110,15 +107,19 @@ class _Planner:
 
     def plant(self, start: int, stop: int, side: int) -> None:
         """A foot is to stand in frames [start, stop)."""
-        while self._gap(start) and (start - self.until > self.sooner or side == self.last):
-            before, side_between = self.until, 1 - self.last
-            end = start - self.swing if side_between == side else start
-            self._hold(self._ready(side_between), end, side_between)
-            if self.until == before:
-                break
+        self.step_on(start, side)
         if self._gap(start) and start - self.until <= self.sooner:
             start = max(self._ready(side), min(start, self.until))
         self._hold(start, stop, side)
+
+    def step_on(self, start: int, side: int | None = None) -> None:
+        """Steps until `start`, when `side` is to land (None = nobody is), where nobody stands."""
+        while self._gap(start) and (start - self.until > self.sooner or side in (None, self.last)):
+            before, between = self.until, 1 - self.last
+            end = start - self.swing if between == side else start
+            self._hold(self._ready(between), end, between)
+            if self.until == before:
+                break
 
     def _gap(self, start: int) -> bool:
         """Whether the body is carried, by nobody so far, until `start`."""

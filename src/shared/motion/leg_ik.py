@@ -11,13 +11,14 @@ from src.shared.motion.rotations import quaternion_exp, quaternion_to_matrix
 from src.shared.motion.skeleton import LEG_LENGTH
 
 MAX_STRETCH = 0.995  # of the leg's length; beyond it a leg is only as long as it already was
+RISE_AT = 0.97  # of the leg's length, from which on the heel rises instead
 MAX_RISE = 0.8  # radians that a foot turns about its ball
 STRAIGHT, BENT = 0.02, 0.1  # sine between which the knee's own plane takes over from the hinge
 
 
 def longest_reach(length: Tensor) -> Tensor:
-    """How far an ankle may be from its hip [...], of a leg that is `length` [...] long now."""
-    return length.clamp_min(0.985 * LEG_LENGTH)
+    """How far an ankle may be from its hip [...] with its heel down; `length` [...] is what it is."""
+    return length.clamp_min(RISE_AT * LEG_LENGTH)
 
 
 def heel_rise(hip: Tensor, ball: Tensor, lever: Tensor, longest: Tensor) -> Tensor:
@@ -59,7 +60,7 @@ def two_bone_ik(
     """
     length_upper, length_lower = upper.norm(), lower.norm()
     before = (thigh @ upper + shin @ lower).norm(dim=-1)
-    longest = longest_reach(before)
+    longest = before.clamp_min(MAX_STRETCH * LEG_LENGTH)
     shortest = 1.05 * (length_upper - length_lower).abs() + 0.05
     wanted = (target - hip).norm(dim=-1)
     reach = wanted.minimum(longest).maximum(before.minimum(shortest))

@@ -90,7 +90,7 @@ def test_feet_are_held_across_blocks_without_a_jump(walk: torch.Tensor) -> None:
         np.linalg.norm(np.diff(motion.positions(), 2, axis=0), axis=-1).max() * 900
         for motion in (loose, held)
     ]
-    assert sizes[1] < 2 * sizes[0]
+    assert sizes[1] < 2.5 * sizes[0]
 
 
 def test_known_entries_and_legs_stay(walk: torch.Tensor) -> None:
