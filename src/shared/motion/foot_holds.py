@@ -1,8 +1,8 @@
 """Where feet stand, and how far each frame's foot is from there.
 
-A body on a path that is not its own (a dancer pinned to a song's trajectory) slides more than a held
-foot can make up for; where a leg ends, feet take steps in turn. Between two holds the correction
-follows a cubic Hermite curve (Kovar et al. 2002, "Footskate cleanup", §4).
+A body on a path that is not its own (a dancer pinned to a song's trajectory) slides more than a
+held foot can make up for; where a leg ends, feet take steps in turn. Between two holds the
+correction follows a cubic Hermite curve (Kovar et al. 2002, "Footskate cleanup", §4).
 
 Letters: T frames, N frames of a curve.
 """

@@ -17,7 +17,7 @@ STRAIGHT, BENT = 0.02, 0.1  # sine between which the knee's own plane takes over
 
 
 def longest_reach(length: Tensor) -> Tensor:
-    """How far an ankle may be from its hip [...] with its heel down; `length` [...] is what it is."""
+    """How far an ankle may be from its hip [...] with its heel down, `length` [...] away now."""
     return length.clamp_min(RISE_AT * LEG_LENGTH)
 
 
