@@ -3,7 +3,10 @@
 import re
 
 LONGEST = 2000  # characters of a message; what is quoted may be a whole file
-_UNSHOWN = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff]")
+# Control characters, marks that turn the direction of writing or show nothing, half characters.
+_UNSHOWN = re.compile(
+    "[\0-\x08\x0b-\x1f\x7f-\x9f\xad\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ud800-\udfff]"
+)
 
 
 class UserError(Exception):

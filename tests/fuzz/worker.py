@@ -18,6 +18,7 @@ import sys
 import tempfile
 import time
 import traceback
+import unicodedata
 import warnings
 from collections import Counter
 from collections.abc import Iterator
@@ -117,7 +118,8 @@ def outcome(target: Target, path: Path) -> tuple[str, str, BaseException | None]
 
 def judge_message(text: str, path: Path) -> str:
     """Is a refusal something to show to a user?"""
-    if len(text) > LONGEST_MESSAGE or (not text.isprintable() and "\n" not in text):
+    hidden = any(unicodedata.category(c) in ("Cc", "Cf", "Cs") and c not in "\n\t" for c in text)
+    if len(text) > LONGEST_MESSAGE or hidden:
         return "unreadable-message"
     return "refused"
 

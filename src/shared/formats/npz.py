@@ -70,7 +70,8 @@ def read_npz(path: str | Path) -> Motion:
             raise UserError(
                 f"{path}: has no array {name!r}, so it is no motion of this project; write it again"
             )
-    if tuple(np.atleast_1d(arrays["joint_names"]).tolist()) != JOINT_NAMES:
+    joint_names = arrays["joint_names"]
+    if joint_names.shape != (NUM_JOINTS,) or tuple(joint_names.tolist()) != JOINT_NAMES:
         raise UserError(
             f"{path}: joint_names are not the 22 joints of this project; write it again"
         )

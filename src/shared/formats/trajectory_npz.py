@@ -68,7 +68,8 @@ def read_trajectory_npz(path: str | Path) -> MotionTrajectory:
                 f"{path}: has no array {name!r}, so it is no trajectory of this project"
                 "; write it again"
             )
-    if "columns" in arrays and list(np.atleast_1d(arrays["columns"])) != list(COLUMNS):
+    columns = arrays.get("columns", np.array(COLUMNS))
+    if columns.shape != (CHANNELS,) or columns.tolist() != list(COLUMNS):
         raise UserError(f"{path}: columns are not the {CHANNELS} of this project; write it again")
     fps = arrays["fps"]
     if fps.shape != () or fps.dtype.kind not in "fiu" or not 0 < float(fps) <= 10_000:
