@@ -102,7 +102,7 @@ def open_motion(motion: str, out: Path) -> "PreparedData":
 
     from src.shared.data.pairing.bvh_motion import prepare_unlabelled
 
-    complain(f"preparing the BVH files of {folder} ...")
+    complain(f"preparing the motion files of {folder} ...")
     return prepare_unlabelled(folder, out / ".motion" / "bvh")
 
 
