@@ -118,10 +118,11 @@ def _take(cells: Sequence[Cell], found: Part) -> None:
 
 def _measured(rows: Sequence[dict[str, Any]]) -> list[Measurements]:
     """Measurements again; JSON has no tuples."""
-    return [
-        Measurements(**{k: tuple(v) if isinstance(v, list) else v for k, v in row.items()})
-        for row in rows
-    ]
+
+    def whole(row: dict[str, Any]) -> dict[str, Any]:
+        return {key: tuple(v) if isinstance(v, list) else v for key, v in row.items()}
+
+    return [Measurements(**whole(row)) for row in rows]
 
 
 def rate(

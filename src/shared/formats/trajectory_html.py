@@ -67,8 +67,8 @@ def write_trajectory_html(
         np.linalg.norm(trajectory.velocity, axis=-1) for trajectory in shown
     ]
     cards = [
-        _card(*each, song) | ({"text": name} if name else {})
-        for *each, name in zip(shown, figures, speeds, names, strict=True)
+        _card(trajectory, figure, speed, song) | ({"text": name} if name else {})
+        for trajectory, figure, speed, name in zip(shown, figures, speeds, names, strict=True)
     ]
     colours = [PATH] if song.beatless else phase_palette()
     palette = ["#" + bytes(colour).hex() for colour in colours]
