@@ -104,7 +104,7 @@ def outcome(target: Target, path: Path) -> tuple[str, str, BaseException | None]
     except target.refusals as error:
         if any(isinstance(cause, MemoryError) for cause in chain(error)):
             return "memory", place(error), error
-        return judge_message(str(error), path), place(error), error
+        return judge_message(str(error)), place(error), error
     except BaseException as error:
         return "crash", f"{type(error).__name__} {place(error)}", error
     noise = [w for w in warned if issubclass(w.category, RuntimeWarning)]
@@ -116,7 +116,7 @@ def outcome(target: Target, path: Path) -> tuple[str, str, BaseException | None]
     return "parsed", "", None
 
 
-def judge_message(text: str, path: Path) -> str:
+def judge_message(text: str) -> str:
     """Is a refusal something to show to a user?"""
     hidden = any(unicodedata.category(c) in ("Cc", "Cf", "Cs") and c not in "\n\t" for c in text)
     if len(text) > LONGEST_MESSAGE or hidden:
