@@ -6,7 +6,7 @@
 SOURCES are folders of motion files (the shipped set: bandai-namco and cmu). Every stage resumes,
 and does nothing when it is finished. The weighted mean of the second and the third generator serves
 combinations that training did not see better than either; it learns constraints in a last round,
-which is the starter. `--ship` writes fp16 copies into
+and the mean of before and after is the starter. `--ship` writes fp16 copies into
 src/shared/pretrained.
 """
 
@@ -23,7 +23,10 @@ THIRD = [*SECOND, "losses.root=0.5"]
 FREE = "network.generation.constraints=false"  # learned last, by a network that can walk
 FOURTH = [*THIRD, "constraints.free=0.4"]
 AVERAGE = "average"
-SHARE = 0.6  # of the third generator in the mean; the only one that was tried
+MEANS = {  # what is averaged: the two runs, and the share of the second
+    "mean": ("second", "third", 0.6),
+    "starter": ("mean", "constrained", 0.5),
+}  # the only shares that were tried
 LICENCE = "CC BY-NC 4.0 (learned from the Bandai-Namco Research Motiondataset: non-commercial)"
 DESCRIPTION = "text to body motion; Bandai-Namco, CMU and synthetic; en es fr de ja zh"
 
@@ -53,26 +56,29 @@ def stages(options: argparse.Namespace) -> list[list[str]]:
          "--output", str(again), "--resume"],
         [*learn, *THIRD, FREE, f"clip={again}", f"init={second}", f"steps={options.steps}",
          "learning-rate=5e-4", "--output", str(work / "third"), "--resume"],
-        [AVERAGE],
+        [AVERAGE, "mean"],
         [*learn, *FOURTH, f"clip={again}", f"init={work / 'mean'}", f"steps={options.steps}",
-         "learning-rate=5e-4", "--output", str(work / "starter"), "--resume"],
+         "learning-rate=5e-4", "--output", str(work / "constrained"), "--resume"],
+        [AVERAGE, "starter"],
     ]  # fmt: skip
 
 
-def average(work: Path) -> None:
-    """Write the mean of two generators' weights (Wortsman et al. 2022) as `mean`."""
+def average(work: Path, name: str) -> None:
+    """Write the mean of two generators' weights (Wortsman et al. 2022); what only the second has
+    is taken as it is."""
     import torch
 
     from src.shared.model.generation.motion_generator import MotionGenerator
 
-    before = MotionGenerator.from_pretrained(work / "second").denoiser.state_dict()
-    generator = MotionGenerator.from_pretrained(work / "third")
+    first, second, share = MEANS[name]
+    before = MotionGenerator.from_pretrained(work / first).denoiser.state_dict()
+    generator = MotionGenerator.from_pretrained(work / second)
     weights = generator.denoiser.state_dict()
-    mean = {name: torch.lerp(before[name], weights[name], SHARE) for name in weights}
+    mean = {key: torch.lerp(before.get(key, weights[key]), weights[key], share) for key in weights}
     generator.denoiser.load_state_dict(mean)
-    summary = generator.card.training | {"averaged": {"second": 1 - SHARE, "third": SHARE}}
+    summary = generator.card.training | {"averaged": {first: 1 - share, second: share}}
     generator.card = generator.card.model_copy(update={"training": summary})
-    generator.save_pretrained(work / "mean")
+    generator.save_pretrained(work / name)
 
 
 def ship(work: Path) -> None:
@@ -102,8 +108,8 @@ def main() -> int:
     options = parser.parse_args()
     sys.path.insert(0, str(ROOT))
     for arguments in stages(options):
-        if arguments == [AVERAGE]:
-            average(options.work)
+        if arguments[0] == AVERAGE:
+            average(options.work, arguments[1])
             continue
         print("$ python", *arguments, flush=True)
         if code := subprocess.call([sys.executable, *arguments], cwd=ROOT):
