@@ -25,6 +25,10 @@ def atomic_write(path: Path) -> Iterator[Path]:
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         yield temporary
+        if path.exists():
+            temporary.chmod(path.stat().st_mode & 0o777)
+        else:  # as any new file: some writers make theirs for its owner alone
+            temporary.chmod(0o666 & ~_umask())
         os.replace(temporary, path)
     except OSError as error:
         reason = error.strerror or str(error)
@@ -34,6 +38,13 @@ def atomic_write(path: Path) -> Iterator[Path]:
     finally:
         with suppress(OSError):  # a parent that is a file, say: the error above told already
             temporary.unlink()
+
+
+def _umask() -> int:
+    """The process's; it can only be read by setting it."""
+    mask = os.umask(0o022)
+    os.umask(mask)
+    return mask
 
 
 def write_text(path: Path, text: str) -> None:

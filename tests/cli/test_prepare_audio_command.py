@@ -47,7 +47,7 @@ def test_a_folder_without_motion_is_told(tmp_path: Path) -> None:
     (tmp_path / "empty").mkdir()
     command = ["prepare-audio", "--motion", str(tmp_path / "empty"), "--music", "synthetic:1"]
     result = RUN.invoke(app, [*command, "--out", str(tmp_path / "out")])
-    assert result.exit_code == 1 and "holds no .bvh file" in result.output
+    assert result.exit_code == 1 and "holds no motion" in result.output
 
 
 def test_bvh_files_and_songs_become_pairs(tmp_path: Path) -> None:

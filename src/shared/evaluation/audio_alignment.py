@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.evaluation.intervals import bootstrap_mean
+from src.shared.evaluation.intervals import FEW, bootstrap_mean
 from src.shared.evaluation.metrics_rhythm import (
     COLUMNS,
     Rhythm,
@@ -43,7 +43,8 @@ def alignment_rows(dances: Sequence[Danced], seed: int) -> dict[str, Any]:
     Returns:
         rows: own song and each of `HELD_AGAINST`, columns of `Rhythm` with intervals over songs;
         above: for each of `HELD_AGAINST` the paired difference own minus other, and `apart`: the
-        two rows' intervals do not overlap; songs, motion_beats, music_beats, without_beats.
+        two rows' intervals do not overlap, and there are `FEW` songs or more; songs, motion_beats,
+        music_beats, without_beats.
     """
     scores: dict[str, list[Rhythm]] = {name: [] for name in ("own song", *HELD_AGAINST)}
     for index, dance in enumerate(dances):
@@ -55,7 +56,7 @@ def alignment_rows(dances: Sequence[Danced], seed: int) -> dict[str, Any]:
     above = {
         name: {
             column: _difference(scores["own song"], scores[name], column)
-            | {"apart": own[column]["low"] > rows[name][column]["high"]}
+            | {"apart": len(dances) >= FEW and own[column]["low"] > rows[name][column]["high"]}
             for column in SCORES
         }
         for name in HELD_AGAINST

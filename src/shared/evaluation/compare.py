@@ -16,11 +16,11 @@ from src.shared.evaluation.bootstrap import MIN_PAIRS, Difference, paired_bootst
 from src.shared.evaluation.engine import motion_values, part_name
 from src.shared.evaluation.families import Column
 from src.shared.evaluation.grids import Grid, GridRow, plain, report_data
+from src.shared.evaluation.intervals import FEW
 from src.shared.evaluation.parts import Part, Parts, read_json
 from src.shared.evaluation.report import grids
 
 FREE = ("model", "sampling", "statistics", "environment")  # what a comparison may be about
-FEW = 8  # pairs below which a percentile bootstrap is too sure of itself
 NOTE = (
     "b - a, ± half a 95% interval of a paired bootstrap (10,000 resamples): over prompts, each the"
     " mean of its replications, where a figure belongs to a single motion; over replications with"

@@ -64,6 +64,7 @@ class MotionSample:
         source: row [N] of the reference clip whose caption was asked for, -1 = none.
         memos: one a motion; it goes with the motion wherever that goes.
         memo: `sample.memo.once("features", lambda: ...)` computes a thing once a sample.
+        whole: of which this is a part; units fitted on halves would differ from row to row.
     """
 
     clips: Clips
@@ -72,6 +73,7 @@ class MotionSample:
     source: np.ndarray
     memos: list[Memo]
     memo: Memo = field(default_factory=Memo, repr=False)
+    whole: "MotionSample | None" = field(default=None, repr=False)
 
     @classmethod
     def of(
@@ -98,7 +100,8 @@ class MotionSample:
         at = list(index)
         memos = [self.memos[row] for row in at]
         clips = self.clips.rows(at)
-        return MotionSample(clips, self.text[at], self.motion[at], self.source[at], memos)
+        text, motion, source = self.text[at], self.motion[at], self.source[at]
+        return MotionSample(clips, text, motion, source, memos, whole=self.whole or self)
 
     def reordered(self, order: Sequence[int]) -> "MotionSample":
         """Captions and labels stay, motions change places: what ignoring the prompt gives."""
@@ -137,11 +140,12 @@ class Dance:
 
 @dataclass(frozen=True, eq=False)
 class DanceSample:
-    """N motions of the audio branch, each with its music; `source`, `memo` as in `MotionSample`."""
+    """N motions of the audio branch, each with its music; the rest as in `MotionSample`."""
 
     dances: list[Dance]
     source: np.ndarray
     memo: Memo = field(default_factory=Memo, repr=False)
+    whole: "DanceSample | None" = field(default=None, repr=False)
 
     def __len__(self) -> int:
         return len(self.dances)
@@ -157,7 +161,8 @@ class DanceSample:
 
     def rows(self, index: Sequence[int]) -> "DanceSample":
         """The dances at these rows, in this order."""
-        return DanceSample([self.dances[i] for i in index], self.source[list(index)])
+        rows = [self.dances[i] for i in index]
+        return DanceSample(rows, self.source[list(index)], whole=self.whole or self)
 
     def reordered(self, order: Sequence[int]) -> "DanceSample":
         """The music stays, motions change places: what not listening gives."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 Z95 = 1.959963984540054  # 97.5% quantile of the standard normal
+FEW = 8  # observations below which a percentile bootstrap is too sure of itself
 
 
 @dataclass(frozen=True)

@@ -137,26 +137,33 @@ def _stack(rows: list[tuple[np.ndarray, np.ndarray, float]]) -> Features:
     return Features(np.stack(kinetic), np.stack(geometric), np.array(speed))
 
 
-def kinetic_columns(made: Features, real: Features, *, kinds: int) -> dict[str, float]:
+def kinetic_columns(
+    made: Features, real: Features, *, kinds: int, units_of: Features | None = None
+) -> dict[str, float]:
     """Distances and diversity of both sets of features, and the amount of motion.
 
     Args:
         made: N ≥ 2 motions.
-        real: M ≥ 2 motions, which the units are of.
+        real: M ≥ 2 motions.
         kinds: kinetic features a joint; they have units of their own.
+        units_of: motions whose spread is the unit; None = `real`.
 
     Returns:
         fid_k, fid_g; fid_k_axes, fid_g_axes along 16 principal axes of the real motions, where
         there are more features; div_k, div_g; amount.
     """
     found: dict[str, float] = {}
-    sets = (("k", made.kinetic, real.kinetic), ("g", made.geometric, real.geometric))
-    for name, ours, theirs in sets:
+    base = units_of or real
+    sets = (
+        ("k", made.kinetic, real.kinetic, base.kinetic),
+        ("g", made.geometric, real.geometric, base.geometric),
+    )
+    for name, ours, theirs, whole in sets:
         units = np.arange(ours.shape[1]) % kinds if name == "k" else np.zeros(ours.shape[1])
-        space = FeatureSpace.fit(theirs, units)
+        space = FeatureSpace.fit(whole, units)
         found[f"fid_{name}"] = space.distance(ours, theirs)
         if ours.shape[1] > AXES:
-            axes = Projection.fit(space(theirs), AXES)
+            axes = Projection.fit(space(whole), AXES)
             found[f"fid_{name}_axes"] = space.distance(ours, theirs, axes)
         found[f"div_{name}"] = mean_pairwise(space(ours))
     return found | {"amount": float(made.amount.mean())}
@@ -201,7 +208,9 @@ class BodyKinetics:
         """Nothing for fewer than two motions on either side; no random choice."""
         if min(len(sample), len(reference)) < 2:
             return {}
-        return kinetic_columns(body_sample(sample), body_sample(reference), kinds=3)
+        whole = body_sample(reference.whole or reference)
+        real = body_sample(reference)
+        return kinetic_columns(body_sample(sample), real, kinds=3, units_of=whole)
 
 
 @dataclass(frozen=True)
@@ -231,5 +240,7 @@ class RootKinetics:
         """Nothing for fewer than two motions on either side; no random choice."""
         if min(len(sample), len(reference)) < 2:
             return {}
-        found = kinetic_columns(root_sample(sample), root_sample(reference), kinds=5)
+        whole = root_sample(reference.whole or reference)
+        real = root_sample(reference)
+        found = kinetic_columns(root_sample(sample), real, kinds=5, units_of=whole)
         return {f"{name}_root": value for name, value in found.items()}

@@ -135,14 +135,17 @@ def selection_report(pool: Pool, largest: int) -> dict[str, Any]:
         gains[figure.key] = {"role": figure.role, **_compared(*cells, higher=figure.higher)}
         if figure.key in many:
             paired = (many[figure.key] - one[figure.key]).tolist()
-            gains[figure.key]["difference"] = bootstrap_mean(paired).as_dict()
+            gain = bootstrap_mean(paired).as_dict()
+            gains[figure.key]["difference"] = gain
+            # Replications share their prompts: alone they say nothing of other prompts.
+            gains[figure.key]["apart"] &= gain["low"] > 0 if figure.higher else gain["high"] < 0
     outside = [key for key, gain in gains.items() if gain["role"] == "outside" and gain["apart"]]
     return {"rows": rows, "gains": gains, "outside_apart": outside}
 
 
 def _compared(one: dict[str, Any], many: dict[str, Any], *, higher: bool) -> dict[str, bool]:
     low, high = (one, many) if higher else (many, one)
-    known = min(one["count"], many["count"]) > 1
+    known = min(one["count"], many["count"]) > 2
     return {
         "better": bool(low["value"] < high["value"]),
         "apart": bool(known and low["high"] < high["low"]),

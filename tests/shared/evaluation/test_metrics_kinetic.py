@@ -207,3 +207,20 @@ def test_few_features_need_no_axes() -> None:
     found = kinetic_columns(few, few, kinds=5)
     assert "fid_k_axes" not in found and "fid_g_axes" in found
     assert frechet_distance(few.kinetic, few.kinetic) == pytest.approx(0, abs=1e-9)
+
+
+def test_halves_are_measured_in_the_units_of_the_whole() -> None:
+    """Few motions have a spread of their own: in units of a half, real is far from real."""
+    rng = np.random.default_rng(0)
+    features = Features(rng.normal(size=(8, 5)), rng.normal(size=(8, 12)), np.ones(8))
+
+    def half(rows: slice) -> Features:
+        return Features(features.kinetic[rows], features.geometric[rows], np.ones(4))
+
+    first, second = half(slice(4)), half(slice(4, 8))
+    both = kinetic_columns(first, second, kinds=5, units_of=features)
+    swapped = kinetic_columns(second, first, kinds=5, units_of=features)
+    assert both["fid_k"] == pytest.approx(swapped["fid_k"])
+    assert both["fid_g"] == pytest.approx(swapped["fid_g"])
+    part = sample(REAL).rows([0, 1]).rows([1])
+    assert part.whole is not None and len(part.whole) == len(REAL)

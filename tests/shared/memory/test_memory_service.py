@@ -85,7 +85,7 @@ def test_two_hundred_at_once_are_right_or_counted_nulls() -> None:
     assert service.counts["failed"] + service.counts["timed_out"] == nulls
     assert service.counts["failed"] > 0 and service.counts["timed_out"] > 0
     assert service.counts["failed"] <= failing
-    assert max(waited) < deadline + 5.0, "the deadline, and what a busy machine adds"
+    assert max(waited) < deadline + 2.0, "the deadline, and what a busy machine adds"
 
 
 def test_a_hanging_index_takes_nothing_but_its_deadline(tmp_path: Path) -> None:

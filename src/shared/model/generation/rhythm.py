@@ -83,7 +83,7 @@ def beat_weight(beats: Tensor | None, frames: int, fps: float) -> Tensor:
     """cos 2 pi phi between neighbouring frames [T - 1]; 1 on beats [M] in seconds, 0 far away."""
     if beats is None or len(beats) < 2:
         return torch.zeros(frames - 1)
-    times = np.sort(beats.double().numpy())
+    times = np.sort(beats.cpu().numpy().astype(np.float64))
     before, after = times[1] - times[0], times[-1] - times[-2]
     known = np.concatenate((times[:1] - 2 * before, times, times[-1:] + 2 * after))
     count = np.concatenate(([-2.0], np.arange(len(times)), [len(times) + 1.0]))
