@@ -83,7 +83,8 @@ def test_real_motion_keeps_the_beat_and_the_tracker_beats_chance(report: dict[st
     found = named(report)
     assert found["alignment/real/rows"].value("own song", "motion_to_music") > 0.9
     assert found["songs/beat alignment"].value("real", "f") > 0.9
-    assert cell(found["alignment/real/above"], "half a beat later", "f")["apart"]
+    above = cell(found["alignment/real/above"], "half a beat later", "f")
+    assert above["low"] > 0 and not above["apart"], "two songs prove nothing"
     phase = found["phase"]
     assert phase.value("beat tracker", "beat") < phase.value("chance", "beat")
     assert "*" in markdown(report)
