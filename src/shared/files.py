@@ -88,11 +88,13 @@ def inside(folder: Path, name: str) -> Path:
     """The path of a file that something in `folder` names, such as its manifest.
 
     Raises:
-        UserError: the name leads out of the folder.
+        UserError: the name leads out of the folder, or is a folder's.
     """
     path = Path(folder) / name
     if not path.resolve().is_relative_to(Path(folder).resolve()):
         raise UserError(f"{name!r} leads out of {folder}, where it is named; write the folder anew")
+    if path.is_dir():
+        raise UserError(f"{path} is named as a file and is a folder; write {folder} anew")
     return path
 
 

@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from src.shared.files import atomic_write
+from src.shared.errors import UserError
+from src.shared.files import atomic_write, inside
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no such permissions")
@@ -37,3 +38,11 @@ def test_a_failure_leaves_what_was_there(tmp_path: Path) -> None:
         raise RuntimeError
     assert [path.name for path in tmp_path.iterdir()] == ["kept"]
     assert (tmp_path / "kept").read_text() == "old"
+
+
+@pytest.mark.parametrize("name", [".", "", "sub", "../other", "/etc"])
+def test_a_name_in_a_manifest_is_that_of_a_file_inside(tmp_path: Path, name: str) -> None:
+    (tmp_path / "folder" / "sub").mkdir(parents=True)
+    with pytest.raises(UserError, match="anew"):
+        inside(tmp_path / "folder", name)
+    assert inside(tmp_path / "folder", "sub/new.json").parent.is_dir()
