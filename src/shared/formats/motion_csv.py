@@ -2,20 +2,17 @@
 
 Columns: `time` in seconds; for each of the 22 joints its world position in metres (+Y up) and
 world rotation as a quaternion, `pelvis_x, pelvis_y, pelvis_z, pelvis_qw, pelvis_qx, pelvis_qy,
-pelvis_qz`, …; `left_contact` and `right_contact`, 0 to 1. Numbers have nine digits, so float32
-values come back exactly; the frame rate is read back from the times.
+pelvis_qz`, …; `left_contact` and `right_contact`, 0 to 1.
 """
 
-import csv
 from pathlib import Path
 
 import numpy as np
 import torch
 
 from src.shared.errors import UserError
-from src.shared.files import atomic_write
+from src.shared.formats.csv_table import read_table, write_table
 from src.shared.formats.glb import continuous
-from src.shared.formats.limits import FRAME_RATES, MAX_FRAMES, MAX_VALUE, check_size
 from src.shared.formats.rig import matrices_to_quaternions
 from src.shared.motion.kinematics import global_to_local
 from src.shared.motion.motion import Motion
@@ -33,7 +30,6 @@ HEADER = (
     "left_contact",
     "right_contact",
 )
-DEFAULT_FPS = 30.0  # of a single frame
 
 
 def write_motion_csv(motion: Motion, path: str | Path) -> Path:
@@ -42,46 +38,23 @@ def write_motion_csv(motion: Motion, path: str | Path) -> Path:
     Raises:
         UserError: the file cannot be written.
     """
-    times = np.arange(motion.num_frames) / motion.fps
     turns = continuous(matrices_to_quaternions(motion.global_rotations()))
     joints = np.concatenate((motion.positions(), turns), -1).reshape(motion.num_frames, -1)
-    table = np.concatenate((times[:, None], joints, motion.contacts), 1)
-    with atomic_write(Path(path)) as temporary, temporary.open("w", encoding="utf-8") as stream:
-        np.savetxt(stream, table, fmt="%.9g", delimiter=",", header=",".join(HEADER), comments="")
-    return Path(path)
+    columns = np.concatenate((joints, motion.contacts), 1)
+    return write_table(Path(path), HEADER, columns, motion.fps)
 
 
 def read_motion_csv(path: str | Path) -> Motion:
     """Read what `write_motion_csv` wrote; positions other than the pelvis' are left aside.
 
     Raises:
-        UserError: missing, too large, another header, cells that are no numbers, uneven times.
+        UserError: as `read_table`; no frames, or a rotation that is none.
     """
     path = Path(path)
-    check_size(path)
-    rows = []
-    try:
-        with path.open(encoding="utf-8-sig", newline="") as stream:  # spreadsheets add a mark
-            lines = csv.reader(stream)
-            if tuple(next(lines, ())) != HEADER:
-                raise UserError(f"{path}: its first line is not the header of a motion, "
-                                "time,pelvis_x,pelvis_y, ...; write it again by "
-                                "`convert`")  # fmt: skip
-            for number, line in enumerate(lines, 2):
-                if line:
-                    rows.append(_numbers(path, number, line))
-                if len(rows) > MAX_FRAMES:
-                    raise UserError(f"{path}: more than {MAX_FRAMES} frames; split the file")
-    except OSError as error:
-        raise UserError(
-            f"{path}: cannot be read: {error.strerror or error}; name a file that may be read"
-        ) from error
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise UserError(f"{path}: is not a CSV file in UTF-8 ({error}); save it as such") from error
-    if not rows:
+    table, fps = read_table(path, HEADER, "motion")
+    if not len(table):
         raise UserError(f"{path}: has no frames; write it again")
-    table = np.array(rows)
-    joints = table[:, 1:-2].reshape(-1, NUM_JOINTS, len(_PARTS))
+    joints = table[:, :-2].reshape(-1, NUM_JOINTS, len(_PARTS))
     world = torch.as_tensor(joints[..., 3:])
     if world.norm(dim=-1).min() < 1e-3:
         raise UserError(
@@ -92,35 +65,5 @@ def read_motion_csv(path: str | Path) -> Motion:
         quaternion_continuous(local).numpy().astype(np.float32),
         joints[:, 0, :3].astype(np.float32),
         table[:, -2:].astype(np.float32),
-        _frame_rate(path, table[:, 0]),
+        fps,
     )
-
-
-def _numbers(path: Path, number: int, line: list[str]) -> np.ndarray:
-    """The cells of a line."""
-    try:
-        values = np.array([float(cell) for cell in line])
-    except ValueError as error:
-        raise UserError(f"{path} line {number}: {error}") from None
-    if len(values) != len(HEADER):
-        raise UserError(f"{path} line {number}: {len(values)} cells, expected {len(HEADER)}")
-    if not np.abs(values).max() < MAX_VALUE:
-        raise UserError(
-            f"{path} line {number}: holds NaN or impossibly large values; write it again"
-        )
-    return values
-
-
-def _frame_rate(path: Path, times: np.ndarray) -> float:
-    if len(times) < 2:
-        return DEFAULT_FPS
-    steps = np.diff(times)
-    step = (times[-1] - times[0]) / len(steps)
-    if not (step > 0 and np.abs(steps - step).max() < 0.01 * step):
-        raise UserError(
-            f"{path}: its times do not grow evenly; a motion has one frame rate; write it again"
-        )
-    fps = round(float(1 / step), 4)
-    if not FRAME_RATES[0] <= fps <= FRAME_RATES[1]:
-        raise UserError(f"{path}: {fps:g} frames a second are not possible; correct the times")
-    return fps

@@ -92,7 +92,7 @@ def test_damaged_tables_are_named_by_line(tmp_path: Path) -> None:
     lines = path.read_text(encoding="utf-8").splitlines()
     for spoiled, message in (
         (["x" + lines[0], *lines[1:]], "header"),
-        ([], "header"),
+        ([], "is empty"),
         (lines[:1], "no frames"),
         ([*lines[:2], lines[2] + ",1"], "line 3: 27 cells"),
         ([*lines[:2], "hop" + lines[2]], "line 3: could not convert"),
