@@ -8,12 +8,11 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[4]))
-sys.path.insert(0, str(Path(__file__).parent))
-from gcs_proxy import BUCKET, options
-from phrase_samples import plain_encode
 
 from src.shared.data.phrases.dataset import MotionPhraseDataset
 from src.shared.files import write_json
+from tests.shared.data.phrases.gcs_proxy import BUCKET, options
+from tests.shared.data.phrases.phrase_samples import plain_encode
 
 
 def main(address: str, cache: Path, ledger: Path) -> None:

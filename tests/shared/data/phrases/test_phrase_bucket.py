@@ -11,12 +11,15 @@ from typing import Any
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parent))
-from gcs_proxy import BUCKET, FaultProxy, emulator, options  # before gcsfs: sets its switch
-from phrase_samples import flip_bit, plain_encode, store_phrases
-
 from src.shared.data.phrases.dataset import MotionPhraseDataset
 from src.shared.data.phrases.layout import features_path, trajectory_path
+from tests.shared.data.phrases.gcs_proxy import (  # before gcsfs: sets its switch
+    BUCKET,
+    FaultProxy,
+    emulator,
+    options,
+)
+from tests.shared.data.phrases.phrase_samples import flip_bit, plain_encode, store_phrases
 
 pytest.importorskip("gcp_storage_emulator")
 gcsfs = pytest.importorskip("gcsfs")

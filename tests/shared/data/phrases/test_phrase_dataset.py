@@ -3,7 +3,6 @@
 import io
 import json
 import pickle
-import sys
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -29,9 +28,7 @@ from src.shared.data.phrases.layout import (
 )
 from src.shared.data.phrases.statistics import motion_statistics, sound_statistics
 from src.shared.errors import UsageError, UserError
-
-sys.path.insert(0, str(Path(__file__).parent))
-from phrase_samples import (
+from tests.shared.data.phrases.phrase_samples import (
     flip_bit,
     make_features,
     make_trajectory,

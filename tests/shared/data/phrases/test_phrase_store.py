@@ -15,9 +15,13 @@ from src.shared.data.phrases.dataset import MotionPhraseDataset
 from src.shared.data.phrases.layout import StoredObject, features_path, trajectory_path
 from src.shared.data.phrases.remote import Backoff, Remote, Unreachable
 from src.shared.errors import UserError
-
-sys.path.insert(0, str(Path(__file__).parent))
-from phrase_samples import FlakyFileSystem, flip_bit, no_wait, plain_encode, store_phrases
+from tests.shared.data.phrases.phrase_samples import (
+    FlakyFileSystem,
+    flip_bit,
+    no_wait,
+    plain_encode,
+    store_phrases,
+)
 
 LENGTHS = [130, 140, 125, 121, 160, 131]
 ROOT = "flaky://bucket/phrases"
