@@ -11,6 +11,7 @@ from typing import Any
 from src.shared.errors import UserError
 
 MAX_JSON = 256 << 20  # bytes
+MAX_TEXT = 64 << 20
 
 
 @contextmanager
@@ -24,11 +25,11 @@ def atomic_write(path: Path) -> Iterator[Path]:
     temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        temporary.touch()  # its mode is that of any new file; some writers make theirs private
+        mode = (path if path.exists() else temporary).stat().st_mode & 0o777
+        temporary.unlink()
         yield temporary
-        if path.exists():
-            temporary.chmod(path.stat().st_mode & 0o777)
-        else:  # as any new file: some writers make theirs for its owner alone
-            temporary.chmod(0o666 & ~_umask())
+        temporary.chmod(mode)
         os.replace(temporary, path)
     except OSError as error:
         reason = error.strerror or str(error)
@@ -40,13 +41,6 @@ def atomic_write(path: Path) -> Iterator[Path]:
             temporary.unlink()
 
 
-def _umask() -> int:
-    """The process's; it can only be read by setting it."""
-    mask = os.umask(0o022)
-    os.umask(mask)
-    return mask
-
-
 def write_text(path: Path, text: str) -> None:
     """Write UTF-8 text whole or not at all."""
     with atomic_write(path) as temporary:
@@ -56,6 +50,30 @@ def write_text(path: Path, text: str) -> None:
 def write_json(path: Path, value: Any) -> None:
     """Write JSON with stable key order, whole or not at all."""
     write_text(path, json.dumps(value, indent=1, ensure_ascii=False, sort_keys=True) + "\n")
+
+
+def read_text(path: Path, remedy: str, *, max_bytes: int = MAX_TEXT) -> str:
+    """The text of a file that people write, in UTF-8 with or without a mark.
+
+    Args:
+        path: the file.
+        remedy: what to give instead, for errors.
+        max_bytes: of it.
+
+    Raises:
+        UserError: missing, unreadable, too large, or not UTF-8.
+    """
+    try:
+        with Path(path).open("rb") as stream:
+            data = stream.read(max_bytes + 1)
+        if len(data) <= max_bytes:
+            return data.decode("utf-8-sig")
+        reason = f"larger than {max_bytes >> 20} MB"
+    except OSError as error:
+        reason = error.strerror or str(error)
+    except UnicodeDecodeError as error:
+        reason = f"not UTF-8 text: {error.reason} at byte {error.start}"
+    raise UserError(f"{path}: cannot be read ({reason}); {remedy}")
 
 
 def load_json(path: str | Path, *, max_bytes: int = MAX_JSON) -> Any:

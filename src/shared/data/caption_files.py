@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from src.shared.data.recordings import FOLDER_ENDINGS
 from src.shared.errors import UserError
-from src.shared.files import parse_json
+from src.shared.files import parse_json, read_text
 
 Captions = dict[str, dict[str, list[str]]]  # clip -> language -> captions
 _CLIP_KEYS = ("clip", "file", "id", "name")
@@ -25,12 +25,7 @@ def read_captions(path: Path) -> Captions:
     Raises:
         UserError: missing file, unknown ending, a line without clip or caption.
     """
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise UserError(
-            f"captions {path}: cannot read it ({error}); give a UTF-8 CSV, TSV or JSON file"
-        ) from None
+    text = read_text(path, "give a UTF-8 CSV, TSV or JSON file of captions")
     ending = path.suffix.lower()
     if ending == ".json":
         rows = _json_rows(path, text)

@@ -17,6 +17,7 @@ import numpy as np
 
 from src.shared.config_loader import parse_yaml
 from src.shared.errors import UserError
+from src.shared.files import read_text
 
 COLUMNS = ("x", "z", "t", "heading")
 SHORTEST, LONGEST = 0.01, 1000.0  # metres of a path
@@ -55,11 +56,7 @@ def read_path(path: str | Path) -> DrawnPath:
             too fast; names the point.
     """
     path = Path(path)
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "not UTF-8 text"
-        raise UserError(f"{path}: cannot be read ({reason}); give a CSV, JSON or YAML") from None
+    text = read_text(path, "give a CSV, JSON or YAML")
     if path.suffix.lower() == ".csv":
         names, rows = _csv_rows(text, path)
     else:

@@ -18,6 +18,7 @@ from torch import Tensor
 
 from src.shared.config_loader import nearest, parse_yaml
 from src.shared.errors import UsageError, UserError
+from src.shared.files import read_text
 from src.shared.inference.editing import all_but, chosen_joints
 from src.shared.inference.filling import fill_free
 from src.shared.inference.motion_stream import (
@@ -86,12 +87,7 @@ def read_timeline(path: str | Path, *, fps: float) -> Timeline:
         UsageError: no YAML or JSON, or an unknown joint.
     """
     path = Path(path)
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "not UTF-8 text"
-        raise UserError(f"{path}: cannot be read ({reason}); give a YAML or JSON file") from None
-    rows = parse_yaml(text, str(path))
+    rows = parse_yaml(read_text(path, "give a YAML or JSON file"), str(path))
     if not isinstance(rows, list) or not rows:
         raise UserError(f"{path}: holds no list; write entries - {{text: …, start: 0, end: 4}}")
     entries = [_entry(row, f"{path}: entry {number}") for number, row in enumerate(rows, start=1)]

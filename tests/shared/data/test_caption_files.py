@@ -57,7 +57,7 @@ def test_faults_are_named(tmp_path: Path, name: str, text: str, message: str) ->
 
 
 def test_a_missing_or_binary_file(tmp_path: Path) -> None:
-    with pytest.raises(UserError, match="cannot read"):
+    with pytest.raises(UserError, match="cannot be read"):
         read_captions(tmp_path / "none.csv")
     (tmp_path / "b.csv").write_bytes(b"\xff\xfe\x00\x80")
     with pytest.raises(UserError, match="UTF-8"):
