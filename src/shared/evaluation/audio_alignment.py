@@ -14,15 +14,13 @@ from src.shared.evaluation.intervals import FEW, bootstrap_mean
 from src.shared.evaluation.metrics_rhythm import (
     COLUMNS,
     Rhythm,
-    half_beat_later,
+    against_chance,
     mean_rhythm,
     rhythm,
-    turned_round,
 )
 
 HELD_AGAINST = ("chance", "another song", "half a beat later")
 OTHERS = 8  # other songs that each motion is held against
-OFFSETS = 16  # random offsets a motion, for chance
 Cells = dict[str, dict[str, Any]]
 SCORES = ("motion_to_music", "music_to_motion", "f", "hits")
 
@@ -77,12 +75,8 @@ def song_scores(
     rng: np.random.Generator,
 ) -> dict[str, Rhythm]:
     """One motion against its own song and everything else."""
-    turned = turned_round(dance.motion, dance.seconds, rng, OFFSETS)
-    scores = {
-        "own song": rhythm(dance.motion, dance.music, dance.seconds),
-        "chance": mean_rhythm([rhythm(m, dance.music, dance.seconds) for m in turned]),
-        "half a beat later": rhythm(dance.motion, half_beat_later(dance.music), dance.seconds),
-    }
+    own, chance, off = against_chance(dance.motion, dance.music, dance.seconds, rng)
+    scores = {"own song": own, "chance": chance, "half a beat later": off}
     strangers = [other for other in dances if other.song != dance.song]
     if strangers:
         drawn = rng.permutation(len(strangers))[:OTHERS]

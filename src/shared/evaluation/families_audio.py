@@ -11,12 +11,10 @@ import numpy as np
 from src.shared.data.pairing.motion_beats import motion_beats
 from src.shared.evaluation.audio_phase import song_phase
 from src.shared.evaluation.families import Column, Dance, DanceSample, Value
-from src.shared.evaluation.metrics_rhythm import half_beat_later, rhythm, turned_round
+from src.shared.evaluation.metrics_rhythm import against_chance
 from src.shared.motion.trajectory import MotionTrajectory
 from src.shared.validation.measures import MEASURES, UNITS
 from src.shared.validation.sanity import SEVEN, SanityChecker
-
-OFFSETS = 16  # random offsets a motion, for the floor
 
 
 def beats_of(trajectory: MotionTrajectory) -> np.ndarray:
@@ -62,14 +60,11 @@ class BeatAlignment:
 
     @staticmethod
     def _song(dance: Dance, beats: np.ndarray, seed: list[int]) -> dict[str, float]:
-        own = rhythm(beats, dance.beats, dance.seconds)
         rng = np.random.default_rng(seed)
-        turned = turned_round(beats, dance.seconds, rng, OFFSETS)
-        floor = np.mean([rhythm(each, dance.beats, dance.seconds).f for each in turned])
-        later = rhythm(beats, half_beat_later(dance.beats), dance.seconds)
+        own, chance, off = against_chance(beats, dance.beats, dance.seconds, rng)
         figures = asdict(own)
         figures["beat_distance"] = figures.pop("distance")
-        return figures | {"f_above_turned": own.f - float(floor), "f_above_half": own.f - later.f}
+        return figures | {"f_above_turned": own.f - chance.f, "f_above_half": own.f - off.f}
 
 
 class BarPhase:

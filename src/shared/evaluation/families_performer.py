@@ -12,10 +12,9 @@ from src.shared.evaluation.dance_sample import BodyDance, BodySample
 from src.shared.evaluation.families import Column, Value
 from src.shared.evaluation.metrics_contact import contact, jerk_per_speed
 from src.shared.evaluation.metrics_physical import physics
-from src.shared.evaluation.metrics_rhythm import half_beat_later, rhythm, turned_round
+from src.shared.evaluation.metrics_rhythm import against_chance
 from src.shared.inference.trajectory_constraint import root_error
 
-OFFSETS = 16  # random offsets a dance, for the floor
 MOMENTS = {
     "": lambda dance: body_beats(dance.motion),
     "limbs_": lambda dance: limb_beats(dance.motion),
@@ -72,21 +71,14 @@ def _scores(
     key: str, times: np.ndarray, dance: BodyDance, rng: np.random.Generator
 ) -> dict[str, float]:
     """What moments of one dance score on its music; `key` begins the names."""
-    own = rhythm(times, dance.beats, dance.seconds)
-    turned = [
-        rhythm(each, dance.beats, dance.seconds)
-        for each in turned_round(times, dance.seconds, rng, OFFSETS)
-    ]
-    later = rhythm(times, half_beat_later(dance.beats), dance.seconds)
+    own, chance, off = against_chance(times, dance.beats, dance.seconds, rng)
     if key == "landing_":
-        floor = float(np.mean([each.motion_to_music for each in turned]))
         return {
             "landing_to_music": own.motion_to_music,
-            "landing_above_turned": own.motion_to_music - floor,
+            "landing_above_turned": own.motion_to_music - chance.motion_to_music,
         }
-    floor = float(np.mean([each.f for each in turned]))
     figures = {name: getattr(own, name) for name in ("motion_to_music", "music_to_motion", "hits")}
-    figures |= {"f": own.f, "f_above_turned": own.f - floor, "f_above_half": own.f - later.f}
+    figures |= {"f": own.f, "f_above_turned": own.f - chance.f, "f_above_half": own.f - off.f}
     return {key + name: value for name, value in figures.items()}
 
 

@@ -84,6 +84,7 @@ class Rhythm:
         return asdict(self)
 
 
+OFFSETS = 16  # random times a motion, for the floor
 COLUMNS = ("motion_to_music", "music_to_motion", "f", "hits", "distance")
 
 
@@ -156,6 +157,18 @@ def turned_round(
     inside = motion[(motion >= 0) & (motion < seconds)]
     for shift in (np.arange(n) + rng.random(n)) * (seconds / n):
         yield np.sort((inside + shift) % seconds)
+
+
+def against_chance(
+    motion: np.ndarray, music: np.ndarray, seconds: float, rng: np.random.Generator
+) -> tuple[Rhythm, Rhythm, Rhythm]:
+    """A motion's beats on the music's, by chance, and on the off-beats; see `rhythm`.
+
+    Chance is the mean over `OFFSETS` random times that the motion is turned round by.
+    """
+    turned = [rhythm(each, music, seconds) for each in turned_round(motion, seconds, rng, OFFSETS)]
+    own, off = rhythm(motion, music, seconds), rhythm(motion, half_beat_later(music), seconds)
+    return own, mean_rhythm(turned), off
 
 
 def strangers(number: int, rng: np.random.Generator) -> list[int]:

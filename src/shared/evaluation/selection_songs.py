@@ -19,7 +19,7 @@ from src.shared.errors import UserError
 from src.shared.evaluation.audio_songs import Piece, held_out_songs, open_split, phrases
 from src.shared.evaluation.kinetic_features import root_geometric_features, root_kinetic_features
 from src.shared.evaluation.metrics_kinetic import Features, kinetic_columns
-from src.shared.evaluation.metrics_rhythm import rhythm, turned_round
+from src.shared.evaluation.metrics_rhythm import against_chance, rhythm
 from src.shared.evaluation.selection_harness import Figure, Pool, report_of
 from src.shared.inference.audio_condition import AudioCondition
 from src.shared.inference.audio_judge import AudioJudge
@@ -29,7 +29,6 @@ from src.shared.motion.trajectory import FPS, MotionTrajectory
 from src.shared.validation.bands import Bands
 
 KINDS = 5  # kinetic features of a pelvis, each of a unit of its own
-OFFSETS = 16  # random offsets a motion, for chance
 HITS = Figure("hits", "hits F, true beats", 3, True, "akin")
 DISTANCES = (
     Figure("fid_g", "FID_g, pelvis", 3, False, "outside"),
@@ -113,8 +112,7 @@ def _chance(
     for index, (row, piece) in enumerate(zip(made, pieces, strict=True)):
         times = motion_beats(row[0].position, row[0].fps).times
         rng = np.random.default_rng([seed, index])
-        turned = turned_round(times, piece.seconds, rng, OFFSETS)
-        found.append(np.mean([rhythm(t, piece.beats, piece.seconds).hits for t in turned]))
+        found.append(against_chance(times, piece.beats, piece.seconds, rng)[1].hits)
     return np.array(found)
 
 

@@ -10,6 +10,7 @@ from src.shared.data.pairing.motion_beats import motion_beats
 from src.shared.evaluation.metrics_rhythm import (
     COLUMNS,
     Rhythm,
+    against_chance,
     beats_of_phase,
     circular_error,
     half_beat_later,
@@ -200,3 +201,9 @@ def test_nan_is_named_and_one_beat_has_no_off_beat() -> None:
     with pytest.raises(ValueError, match="NaN"):
         rhythm(BEATS, np.array([np.inf]), 16.0)
     assert len(half_beat_later(BEATS[:1])) == len(half_beat_later(np.zeros(0))) == 0
+
+
+def test_against_chance_a_dance_on_the_beat_beats_the_off_beat() -> None:
+    own, chance, off = against_chance(BEATS, BEATS, 16.0, np.random.default_rng(0))
+    assert own.f == pytest.approx(1) and off.f < 0.01
+    assert off.f < chance.f < 0.5
