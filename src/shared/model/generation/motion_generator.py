@@ -181,8 +181,10 @@ class MotionGenerator:
         sampler = sampler or settings.sampler
         scale = settings.guidance_scale if guidance_scale is None else guidance_scale
         draws_on_the_way = sampler == "ddpm" or self.diffusion.config.eta > 0
+        led = any(each is not None and each.beats is not None for each in given)
         samples: dict[int, Tensor] = {}
-        for batch in batches(requests, MAX_BATCH, equal_lengths=draws_on_the_way):
+        # Neither draws nor rhythm guidance leave padding out, and company must change nothing.
+        for batch in batches(requests, MAX_BATCH, equal_lengths=draws_on_the_way or led):
             chosen = [requests[index] for index in batch]
             rows = torch.tensor([row_of[request.prompt] for request in chosen], device=self.device)
             known = KnownBatch.of(

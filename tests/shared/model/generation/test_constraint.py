@@ -1,5 +1,7 @@
 """Constraints: what is known comes out as given, with any network, sampler and company."""
 
+from dataclasses import replace
+
 import pytest
 import torch
 
@@ -64,6 +66,16 @@ def test_a_motion_does_not_depend_on_what_others_are_given(make_generator):
     alone = generator.sample_features(prompts[1:], seconds=1.0)[0]
     both = generator.sample_features(prompts, seconds=seconds, constraints=[constraint, None])
     assert torch.allclose(both[1], alone, atol=2e-4)
+
+
+def test_a_motion_led_to_beats_does_not_depend_on_its_company(make_generator):
+    """Guidance looks at whole motions: padding beside a longer one would change it."""
+    generator = make_generator(constraints=True)
+    led = [replace(some(each, generator), beats=torch.arange(0.1, 1.0, 0.3)) for each in (15, 30)]
+    prompts, seconds = ["a person walks forward", "somebody jumps"], [0.5, 1.0]
+    both = generator.sample_features(prompts, seconds=seconds, constraints=led)
+    alone = generator.sample_features(prompts[:1], seconds=0.5, constraints=led[:1])
+    assert torch.allclose(both[0], alone[0], atol=2e-4)
 
 
 def test_generate_keeps_the_known_path(generator: MotionGenerator):
