@@ -1,13 +1,14 @@
 """`generate`: prompts or a song in, motion files out."""
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from src.cli import generate_audio, generate_edit, generate_performance, generate_text, options
+from src.cli import options
 from src.cli.directions import Directions
+from src.cli.generate_audio import only_song
+from src.cli.generate_request import Request, produce
 from src.cli.guard import complain
 from src.cli.score_table import show_scores
 from src.cli.wording import counted
@@ -146,153 +147,29 @@ def generate(
         guidance_scale=guidance_scale,
         threads=threads,
     )
-    shared = {
+    options.check_folder("--out", out)
+    if judge is not None and num_samples == 1:
+        raise UsageError("--judge compares candidates: give --num-samples 2 or more with it")
+    sampling = {
         "num_samples": num_samples,
         "seed": seed,
         "steps": steps,
         "sampler": sampler,
         "guidance_scale": guidance_scale,
     }
-    options.check_folder("--out", out)
-    if judge is not None and num_samples == 1:
-        raise UsageError("--judge compares candidates: give --num-samples 2 or more with it")
-    song = generate_audio.only_song(audio)
-    wanted: dict[str, Any]
-    if song is not None:
-        directions.refuse("--audio")
-    if song is None:
-        refuse_with("--prompt", body=body or None, body_model=body_model)
-    if song is not None and (prompt or body):
-        generate_audio.check_runtime(runtime, device)
-        generate_audio.check_memory(memory, runtime)
-        if not prompt:
-            refuse_with("--body alone", tag=tag)
-        wanted = {"audio": song, "meter": meter, "seconds": seconds, "style": style}
-        wanted |= {"memory": memory, "foot_lock": foot_lock, "sampling": shared}
-        wanted["prompts"] = checked_prompts(prompt) if prompt else []
-        wanted["tags"] = checked_tags(tag, len(prompt or ()))
-        formats = checked_formats(
-            format or ",".join(generate_text.FORMATS), generate_text.ALL_FORMATS
+    result = produce(
+        Request(
+            prompt or [], only_song(audio), directions, sampling, body=body, style=style,
+            meter=meter, memory=memory, tag=tag, seconds=seconds, return_all=return_all,
+            judge=judge, foot_lock=foot_lock, format=format, out=out, model=model,
+            body_model=body_model, runtime=runtime, device=device, threads=threads,
         )
-        result = generate_performance.produce_dances(
-            wanted,
-            formats,
-            out,
-            model=generate_audio.MODEL if model is None else model,
-            body_model=generate_performance.BODY_MODEL if body_model is None else body_model,
-            runtime=runtime or "torch",
-            device=device,
-            threads=threads,
-            return_all=return_all,
-            judge=judge,
-        )
-        generate_audio.warn_of_beats(result)
-    elif song is not None:
-        no_body = {"tag": tag, "foot_lock": foot_lock, "judge": judge, "body_model": body_model}
-        refuse_with("--audio alone", **no_body)
-        generate_performance.check_path_formats(format or "")
-        generate_audio.check_runtime(runtime, device)
-        generate_audio.check_memory(memory, runtime)
-        wanted = {"audio": song, "meter": meter}
-        wanted |= {"seconds": seconds, "style": style, "memory": memory}
-        formats = checked_formats(format or "npz,glb,html", generate_audio.FORMATS)
-        result = generate_audio.produce_song(
-            wanted | {"sampling": shared},
-            formats,
-            out,
-            model=generate_audio.MODEL if model is None else model,
-            runtime=runtime or "torch",
-            device=device,
-            threads=threads,
-            return_all=return_all,
-        )
-        generate_audio.warn_of_beats(result)
-    elif directions.given():
-        refuse_with(directions.given()[0], style=style, meter=meter, memory=memory, runtime=runtime)
-        directions.check(len(prompt or ()), num_samples=num_samples, seconds=seconds)
-        texts = [*(prompt or ()), *(then or ())]
-        wanted = {"prompts": checked_prompts(texts) if texts else [], "seconds": seconds}
-        wanted |= {"tags": checked_tags(tag, len(texts)), "foot_lock": foot_lock}
-        wanted["sampling"] = {name: shared[name] for name in generate_edit.SAMPLING}
-        result = generate_edit.produce_directed(
-            directions,
-            wanted,
-            checked_formats(format or ",".join(generate_text.FORMATS), generate_text.ALL_FORMATS),
-            out,
-            model=generate_text.MODEL if model is None else model,
-            device=device,
-            threads=threads,
-        )
-    else:
-        refuse_with("--prompt", style=style, meter=meter, memory=memory, runtime=runtime)
-        wanted = shared | {
-            "prompts": checked_prompts(prompt),
-            "tags": checked_tags(tag, len(prompt or ())),
-            "seconds": 4.0 if seconds is None else seconds,
-            "foot_lock": foot_lock,
-        }
-        formats = checked_formats(
-            format or ",".join(generate_text.FORMATS), generate_text.ALL_FORMATS
-        )
-        result = generate_text.produce(
-            wanted,
-            formats,
-            out,
-            model=generate_text.MODEL if model is None else model,
-            device=device,
-            threads=threads,
-            return_all=return_all,
-            judge=judge,
-        )
+    )  # fmt: skip
     show_scores(result["selection"])
     if json:
         print_json(result)
     else:
         print_files(result)
-
-
-# ---------------------------------------------------------------- arguments
-
-
-def checked_prompts(prompts: list[str] | None) -> list[str]:
-    """The prompts without stray blanks; at least one, none empty."""
-    cleaned = [" ".join(text.split()) for text in prompts or []]
-    if not cleaned or not all(cleaned):
-        raise UsageError('--prompt is missing or empty; give one, e.g. --prompt "a person waves"')
-    return cleaned
-
-
-def checked_tags(tags: list[str] | None, num_prompts: int) -> list[str | None] | None:
-    """One tag a prompt, from one for all or one each."""
-    if not tags:
-        return None
-    if len(tags) == 1:
-        return list(tags * num_prompts)
-    if len(tags) != num_prompts:
-        raise UsageError(
-            f"--tag is given {len(tags)} times for {num_prompts} prompts;"
-            " give one for all or one a prompt"
-        )
-    return list(tags)
-
-
-def refuse_with(flag: str, **others: Any) -> None:
-    """Refuse options that mean nothing beside this one."""
-    for name, value in others.items():
-        if value not in (None, []):
-            raise UsageError(f"--{name.replace('_', '-')} does not go with {flag}; leave one out")
-
-
-def checked_formats(text: str, known: Sequence[str]) -> list[str]:
-    """The wanted formats, each once, before anything slow starts."""
-    names = list(dict.fromkeys(part.strip().lower() for part in text.split(",") if part.strip()))
-    unknown = [name for name in names if name not in known]
-    if unknown or not names:
-        raise UsageError(
-            f"--format {text!r}: {', '.join(map(repr, unknown)) or 'nothing'} is not a format"
-            f" written here; choose from {', '.join(known)}"
-        )
-    return names
 
 
 # ---------------------------------------------------------------- results

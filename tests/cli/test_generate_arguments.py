@@ -1,14 +1,13 @@
 """`generate` refuses wrong usage with exit code 2, before any model is loaded."""
 
 import string
-import sys
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from typer.testing import CliRunner
 
-from src.cli import generate as command
+from src.cli import generate_request as command
 from src.cli import generate_text
 from src.cli.tools import app
 from src.shared.errors import UsageError
@@ -88,7 +87,7 @@ def test_interrupt_ends_with_130_and_one_line(monkeypatch: pytest.MonkeyPatch) -
     def interrupted(_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(sys.modules["src.cli.generate"], "checked_prompts", interrupted)
+    monkeypatch.setattr(command, "checked_prompts", interrupted)
     result = runner.invoke(app, WAVE)
     assert result.exit_code == 130
     assert result.stderr.startswith("interrupted") and len(result.stderr.splitlines()) == 1
