@@ -102,7 +102,7 @@ class Bands:
             raise UserError(
                 f"{path}: cannot be read: {error.strerror or error}; name a file that may be read"
             ) from error
-        except (ValueError, KeyError, TypeError, AttributeError) as error:
+        except (ValueError, OverflowError, KeyError, TypeError, AttributeError) as error:
             raise UserError(
                 f"{path}: is not a file of bands ({type(error).__name__}: {error}); "
                 "prepare the data again"

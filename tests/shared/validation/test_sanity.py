@@ -158,6 +158,7 @@ def test_bands_go_to_a_file_and_back(bands: Bands, tmp_path: Path) -> None:
         "[]",
         '{"bands": {"jerk": {"low": 1}}, "motions": 2}',
         '{"bands": {"a": {"low": NaN, "median": 1, "high": 1}}}',
+        f'{{"bands": {{"a": {{"low": {10**400}, "median": 1, "high": 1}}}}}}',
     ],
 )
 def test_damaged_bands_are_named(text: str, tmp_path: Path) -> None:

@@ -59,7 +59,7 @@ class StyleMap:
     def __call__(self, embedding: np.ndarray) -> np.ndarray:
         """Embeddings [..., D] to unit styles [..., 8]."""
         logits = embedding.astype(np.float64) @ self.weight + self.offset
-        return style_vector(1 / (1 + np.exp(-logits)))
+        return style_vector((1 + np.tanh(logits / 2)) / 2)  # the logistic, which cannot overflow
 
     def save_pretrained(self, folder: str | Path) -> None:
         """Write style.safetensors into a model folder."""

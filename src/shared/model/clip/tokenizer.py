@@ -163,7 +163,7 @@ class PromptTokenizer:
             if kind == _Pretrained.kind:
                 return cls(_Pretrained(str(name)), max_tokens)
             return cls(_SentencePiece((Path(name) / MODEL_FILE).read_bytes()), max_tokens)
-        except (OSError, ValueError, LookupError, TypeError, RuntimeError) as error:
+        except (OSError, ValueError, OverflowError, LookupError, TypeError, RuntimeError) as error:
             raise UserError(
                 f"the tokenizer in {name} is damaged ({error}); copy the whole folder again"
             ) from error

@@ -2,6 +2,7 @@
 
 import json
 import logging
+import math
 
 import pytest
 import torch
@@ -85,9 +86,10 @@ def test_damaged_folders_are_errors(tokenizer: PromptTokenizer, tmp_path):
     (tmp_path / MODEL_FILE).write_bytes(b"nonsense")
     with pytest.raises(UserError, match="damaged"):
         PromptTokenizer.from_pretrained(tmp_path)
-    (tmp_path / META_FILE).write_text(json.dumps({"kind": "sentencepiece"}))
-    with pytest.raises(UserError, match="damaged"):
-        PromptTokenizer.from_pretrained(tmp_path)
+    for meta in ({"kind": "sentencepiece"}, {"kind": "sentencepiece", "max-tokens": math.inf}):
+        (tmp_path / META_FILE).write_text(json.dumps(meta))
+        with pytest.raises(UserError, match="damaged"):
+            PromptTokenizer.from_pretrained(tmp_path)
     with pytest.raises(UserError, match="cannot load the tokenizer"):
         PromptTokenizer.from_pretrained(tmp_path / "nowhere")
 

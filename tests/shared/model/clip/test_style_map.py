@@ -53,3 +53,9 @@ def test_files(tmp_path: Path) -> None:
     (tmp_path / STYLE_FILE).write_bytes(b"cut")
     with pytest.raises(UserError, match="damaged"):
         StyleMap.from_pretrained(tmp_path)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_map_far_beyond_its_data_saturates() -> None:
+    style = StyleMap.fit(*samples(50))(np.full(8, -1e6, dtype=np.float32))
+    assert np.isfinite(style).all() and np.linalg.norm(style) == pytest.approx(1)
