@@ -26,7 +26,7 @@ from src.shared.inference.song_generator import SongGenerator, own_noise
 from src.shared.inference.song_performer import candidate_seed, finished
 from src.shared.inference.song_sampler import SampleSettings
 from src.shared.model.generation.motion_generator import MotionGenerator
-from src.shared.motion.foot_lock import lock_feet
+from src.shared.motion.carried_feet import hold_carried_feet
 from src.shared.motion.motion import Motion
 from src.shared.motion.root_track import decode_features
 from src.shared.motion.trajectory import FPS, MotionTrajectory, to_motion
@@ -130,7 +130,7 @@ class DanceContext:
         raw = performer.perform(path, prompt, beats=heard_beats(piece), seed=own).motion
         return BodyDance(
             song=piece.name,
-            motion=lock_feet(raw),
+            motion=hold_carried_feet(raw),
             beats=piece.beats,
             raw=raw,
             path=path,

@@ -137,6 +137,7 @@ def along_path(
         text=timeline.text,
         place=Place(x, z, float(path.headings[0])),
         foot_lock=foot_lock,
+        carried=True,
     )
     error = path_error(motion, path, drawn)
     walked = {"seconds": len(path) / fps, "length": drawn.length, "speed": speed}

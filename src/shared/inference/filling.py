@@ -18,6 +18,7 @@ from src.shared.inference.motion_stream import OVERLAP, Passage, StreamSettings,
 from src.shared.inference.trajectory_constraint import untwisted
 from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import MotionGenerator
+from src.shared.motion.carried_feet import hold_carried_feet
 from src.shared.motion.foot_lock import kept_legs, lock_feet
 from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess import MotionPostProcessor, smooth_features
@@ -118,6 +119,7 @@ def finish(
     text: str,
     place: Place | None = None,
     foot_lock: bool | None = None,
+    carried: bool = False,
 ) -> Motion:
     """Post-processed as the generator's own motions are, in its place; known entries stay.
 
@@ -128,6 +130,7 @@ def finish(
         text: its caption.
         place: of the first frame; None = the origin, facing +Z.
         foot_lock: hold standing feet; None = the model's own setting.
+        carried: a path that is not the body's own is known.
     """
     config = generator.network.generation.post_processing
     smooth = smooth_features(features, config.smoothing_kernel)
@@ -150,7 +153,7 @@ def finish(
     if not locks:
         return loose
     kept = None if known is None else kept_legs(known)
-    locked = lock_feet(loose, kept=kept)
+    locked = (hold_carried_feet if carried else lock_feet)(loose, kept=kept)
     return locked if kept is None else eased(loose, locked, kept)
 
 

@@ -23,6 +23,7 @@ from src.shared.inference.trajectory_constraint import (
     untwisted,
 )
 from src.shared.model.generation.motion_generator import MotionGenerator
+from src.shared.motion.carried_feet import hold_carried_feet
 from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess import MotionPostProcessor, smooth_features
 from src.shared.motion.trajectory import MotionTrajectory
@@ -140,7 +141,7 @@ class Performer:
         # Averaged rotations may turn a little: the heading is the path's alone.
         features = known.keep(untwisted(smooth))
         foot_lock = post.foot_lock if own.foot_lock is None else own.foot_lock
-        rest = post.model_copy(update={"smoothing_kernel": 1, "foot_lock": foot_lock})
+        rest = post.model_copy(update={"smoothing_kernel": 1, "foot_lock": False})
         motion = MotionPostProcessor(rest)(
             features,
             known=known.known,
@@ -148,6 +149,8 @@ class Performer:
             text=_title(passages),
             **start_of(trajectory),
         )
+        if foot_lock:
+            motion = hold_carried_feet(motion)
         return Performance(motion, trajectory, passages, root_error(motion, trajectory))
 
 
