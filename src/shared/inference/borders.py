@@ -3,18 +3,22 @@
 A network that is shown some frames makes the others so that they nearly fit. What misses at a
 border is taken up within a third of a second: the step across it becomes the mean of the steps on
 both sides, so that neither pose nor velocity jumps. `carry_on` does the same for the paths of the
-audio branch.
+audio branch. Accelerations still do; where all frames are there, `soften_cuts` evens them out.
 
 Letters: T frames, R rows, C channels, N columns (one channel of one row).
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 import torch
+from scipy.ndimage import gaussian_filter1d
 from torch import Tensor
 
 from src.shared.motion.root_track import LEFT_CONTACT, ROOT_ROW
 
 FADE = 10  # frames until what was made is left alone
+BLUR, REACH = 1.5, 4.0  # frames, standard deviations: of the average at a cut, of where it is made
 
 
 def smooth_borders(features: Tensor, known: Tensor, *, fade: int = FADE) -> Tensor:
@@ -32,6 +36,24 @@ def smooth_borders(features: Tensor, known: Tensor, *, fade: int = FADE) -> Tens
     _meet(smooth, fixed, fade)
     _meet(smooth[::-1], fixed[::-1], fade)
     return torch.from_numpy(smooth).to(features.dtype).view_as(features)
+
+
+def soften_cuts(features: Tensor, cuts: Sequence[int]) -> Tensor:
+    """Features averaged over time near the first frames of new pieces; contacts stay.
+
+    Args:
+        features: raw [T,R,C].
+        cuts: frames at which a piece begins.
+    """
+    if not cuts:
+        return features
+    away = np.abs(np.arange(len(features))[:, None] + 0.5 - np.asarray(cuts)).min(1)
+    share = np.where(away < 4 * REACH, np.exp(-0.5 * (away / REACH) ** 2), 0.0)
+    rows = features.double().numpy()
+    mean = gaussian_filter1d(rows, BLUR, axis=0, mode="nearest")
+    soft = torch.from_numpy(rows + share[:, None, None] * (mean - rows)).to(features.dtype)
+    soft[:, ROOT_ROW:, LEFT_CONTACT:] = features[:, ROOT_ROW:, LEFT_CONTACT:]
+    return soft
 
 
 def _meet(values: np.ndarray, fixed: np.ndarray, fade: int) -> None:

@@ -9,11 +9,13 @@ Letters: T frames, M beats.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 
 import numpy as np
 import torch
 
 from src.shared.errors import UsageError
+from src.shared.inference.borders import soften_cuts
 from src.shared.inference.motion_stream import Passage, stream_features
 from src.shared.inference.trajectory_constraint import (
     RootError,
@@ -137,7 +139,8 @@ class Performer:
             if progress is not None:
                 progress(sum(map(len, pieces)), num_frames)
         post = self.generator.network.generation.post_processing
-        smooth = smooth_features(torch.cat(pieces), post.smoothing_kernel)
+        cuts = list(accumulate(map(len, pieces)))[:-1]
+        smooth = smooth_features(soften_cuts(torch.cat(pieces), cuts), post.smoothing_kernel)
         # Averaged rotations may turn a little: the heading is the path's alone.
         features = known.keep(untwisted(smooth))
         foot_lock = post.foot_lock if own.foot_lock is None else own.foot_lock

@@ -4,7 +4,7 @@ import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.inference.borders import FADE, smooth_borders
+from src.shared.inference.borders import FADE, smooth_borders, soften_cuts
 from src.shared.motion.root_track import LEFT_CONTACT, ROOT_ROW
 
 SHAPE = (23, 6)
@@ -71,3 +71,17 @@ def test_nothing_known_changes_nothing() -> None:
     features = torch.randn(20, *SHAPE)
     torch.testing.assert_close(smooth_borders(features, prefix(20, 0)), features)
     torch.testing.assert_close(smooth_borders(features, prefix(20, 20)), features)
+
+
+def test_cuts_are_softened_and_the_rest_is_left_alone() -> None:
+    """A corner at frame 40 becomes a curve; contacts and far frames stay to the bit."""
+    line = torch.arange(80.0)
+    corner = torch.where(line < 40, line, 80 - line) / 30
+    features = corner[:, None, None].repeat(1, ROOT_ROW + 1, 6)
+    soft = soften_cuts(features, [40])
+    change = (soft[2:] - 2 * soft[1:-1] + soft[:-2]).abs()
+    before = (features[2:] - 2 * features[1:-1] + features[:-2]).abs()
+    assert change[:, :ROOT_ROW].max() < 0.4 * before.max()
+    assert torch.equal(soft[:, ROOT_ROW, LEFT_CONTACT:], features[:, ROOT_ROW, LEFT_CONTACT:])
+    assert torch.equal(soft[:24], features[:24]) and torch.equal(soft[56:], features[56:])
+    assert soften_cuts(features, []) is features
