@@ -19,7 +19,7 @@ from src.shared.motion.motion import Motion
 from src.shared.motion.rotations import quaternion_continuous
 from src.shared.motion.skeleton import JOINT_INDEX, LIMBS
 
-FIRST, LAST = 1 / 30, 0.5 / 30  # seconds, standard deviations of the two smoothings
+FIRST, LAST = 1.5 / 30, 0.5 / 30  # seconds, standard deviations of the two smoothings
 LEGS = [[JOINT_INDEX[joint] for joint in LIMBS[leg]] for leg in ("left-leg", "right-leg")]
 
 
