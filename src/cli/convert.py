@@ -86,6 +86,7 @@ def convert(
     jobs = list(plan(files, format))
     formats = list(dict.fromkeys(name for job in jobs for name in job.targets))
     check_rigged(formats, names, skeleton)
+    check_sources(jobs, asf, skeleton)
     kept = {job.source for job in jobs if resume and is_done(job)}
     jobs = [job for job in jobs if job.source not in kept]
     folder = files[-1] if format else files[-1].parent
@@ -176,6 +177,16 @@ def check_apart(source: Path, target: Path) -> None:
     """Refuse to write over what is read."""
     if source.resolve() == target.resolve():
         raise UsageError(f"{target} would be written over itself; name another OUT")
+
+
+def check_sources(jobs: list[Job], asf: Path | None, skeleton: Path | None) -> None:
+    """Refuse an ASF that no motion is on, and to write over the character."""
+    if asf is not None and not any(job.source.suffix.lower() == ".amc" for job in jobs):
+        raise UsageError(f"--asf {asf} is the skeleton of an .amc, and IN is none; leave it out")
+    for job in jobs:
+        for target in job.targets.values():
+            if skeleton is not None and target.resolve() == skeleton.resolve():
+                raise UsageError(f"{target} is the skeleton's own file; name another OUT")
 
 
 def check_rigged(formats: list[str], names: str, skeleton: Path | None) -> None:

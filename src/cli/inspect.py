@@ -7,6 +7,7 @@ import typer
 
 from src.cli import options
 from src.cli.guard import complain
+from src.shared.errors import UsageError
 
 if TYPE_CHECKING:
     from src.shared.data.read_motion import Inspection
@@ -42,6 +43,11 @@ def inspect(
       motion-tools inspect dance.bvh --write-mapping my.yaml
     """
     options.check_ranges(source_fps=source_fps)
+    if skeleton is not None and file.suffix.lower() != ".amc":
+        raise UsageError(
+            f"--skeleton {skeleton} is the skeleton of an .amc, and {file} is none; leave it out"
+        )
+    check_new_mapping(write_mapping)
     from src.shared.data.read_motion import inspect_motion
 
     found = inspect_motion(
@@ -54,6 +60,16 @@ def inspect(
     else:
         print(file)
         print("\n".join(lines(found)))
+
+
+def check_new_mapping(path: Path | None) -> None:
+    """Refuse to write a profile over anything: a recording, or what somebody filled in."""
+    if path is None:
+        return
+    if path.suffix.lower() not in (".yaml", ".yml"):
+        raise UsageError(f"--write-mapping {path} is no .yaml file; name one")
+    if path.exists():
+        raise UsageError(f"--write-mapping {path} is there already; name another file")
 
 
 def begin_mapping(found: "Inspection", mapping: Path | None, out: Path) -> None:

@@ -69,6 +69,8 @@ def prepare(
         raise UsageError(f"{given[0]} without SOURCE; name the folder it is about")
     options.check_ranges(synthetic=synthetic, workers=workers, seed=seed, source_fps=source_fps)
     options.check_folder("--out", out)
+    if any(out.resolve() == root.resolve() for root in source or []):
+        raise UsageError(f"--out {out} is a SOURCE, whose files it would mix with; name another")
 
     from src.shared.data.guesses import axis_vector, unit_metres
     from src.shared.data.prepare import prepare as prepare_folder

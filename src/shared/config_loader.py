@@ -137,7 +137,7 @@ def load_yaml(path: Path | str) -> dict[str, Any]:
             text = stream.read(MAX_YAML + 1)
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or "not UTF-8 text"
-        raise UsageError(f"{path}: cannot read it ({reason}); give an existing file") from error
+        raise UsageError(f"{path}: cannot read it ({reason}); give a YAML file in UTF-8") from error
     value = parse_yaml(text, str(path))
     if value is None:
         return {}

@@ -52,12 +52,12 @@ def write_json(path: Path, value: Any) -> None:
     write_text(path, json.dumps(value, indent=1, ensure_ascii=False, sort_keys=True) + "\n")
 
 
-def read_text(path: Path, remedy: str, *, max_bytes: int = MAX_TEXT) -> str:
+def read_text(path: Path, wanted: str, *, max_bytes: int = MAX_TEXT) -> str:
     """The text of a file that people write, in UTF-8 with or without a mark.
 
     Args:
         path: the file.
-        remedy: what to give instead, for errors.
+        wanted: what it should be, with its article, for errors.
         max_bytes: of it.
 
     Raises:
@@ -73,7 +73,7 @@ def read_text(path: Path, remedy: str, *, max_bytes: int = MAX_TEXT) -> str:
         reason = error.strerror or str(error)
     except UnicodeDecodeError as error:
         reason = f"not UTF-8 text: {error.reason} at byte {error.start}"
-    raise UserError(f"{path}: cannot be read ({reason}); {remedy}")
+    raise UserError(f"{path}: cannot be read ({reason}); give {wanted}")
 
 
 def load_json(path: str | Path, *, max_bytes: int = MAX_JSON) -> Any:

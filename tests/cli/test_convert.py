@@ -145,3 +145,19 @@ def test_missing_files_are_named(walk: Path, tmp_path: Path) -> None:
     assert (result.exit_code, "holds no motion file" in result.stderr) == (1, True)
     result = run(walk, tmp_path / "a.glb", "--skeleton", tmp_path / "hero.glb")
     assert (result.exit_code, "hero.glb" in result.stderr) == (1, True)
+
+
+def test_skeletons_that_mean_nothing_or_would_be_lost_are_refused(
+    walk: Path, tmp_path: Path
+) -> None:
+    character = write_motion(stroll(), tmp_path / "character.bvh")
+    before = character.read_bytes()
+    for arguments, message in (
+        ((walk, tmp_path / "a.glb", "--asf", character), "leave it out"),
+        ((walk, character, "--skeleton", character), "own file"),
+        ((walk, tmp_path / "a"), "does not end in a format"),
+    ):
+        result = run(*arguments)
+        assert result.exit_code == 2 and message in result.stderr
+        assert len(result.stderr.splitlines()) == 1
+    assert character.read_bytes() == before

@@ -85,3 +85,16 @@ def test_wrong_flags(bvh: Path, flags: list[str], code: int, message: str) -> No
 def test_a_missing_file_is_one_line(tmp_path: Path) -> None:
     result = run(tmp_path / "none.bvh")
     assert result.exit_code == 1 and result.stderr.count("\n") == 1
+
+
+def test_a_profile_is_written_over_nothing(bvh: Path, tmp_path: Path) -> None:
+    clip, filled = tmp_path / "clip.bvh", tmp_path / "mine.yaml"
+    clip.write_bytes(bvh.read_bytes())
+    filled.write_text("profiles: []\n")
+    before = clip.read_bytes()
+    for taken, message in ((clip, "is no .yaml file"), (filled, "is there already")):
+        result = run(clip, "--write-mapping", taken)
+        assert result.exit_code == 2 and message in result.stderr
+    assert clip.read_bytes() == before and filled.read_text() == "profiles: []\n"
+    result = run(clip, "--skeleton", tmp_path / "no.asf")
+    assert result.exit_code == 2 and "leave it out" in result.stderr

@@ -25,7 +25,7 @@ def read_captions(path: Path) -> Captions:
     Raises:
         UserError: missing file, unknown ending, a line without clip or caption.
     """
-    text = read_text(path, "give a UTF-8 CSV, TSV or JSON file of captions")
+    text = read_text(path, "a CSV, TSV or JSON file of captions, in UTF-8")
     ending = path.suffix.lower()
     if ending == ".json":
         rows = _json_rows(path, text)

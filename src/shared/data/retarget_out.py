@@ -20,7 +20,7 @@ from src.shared.data.guesses import (
 )
 from src.shared.data.mapping import SkeletonMapping, find_mapping, load_mappings
 from src.shared.data.retarget import leg_length, rest_corrections
-from src.shared.errors import UserError
+from src.shared.errors import UsageError, UserError
 from src.shared.formats.bvh import BvhClip, read_bvh
 from src.shared.formats.glb_character import write_glb_character
 from src.shared.formats.glb_reader import GlbSkeleton, read_glb_skeleton
@@ -174,12 +174,12 @@ class Target:
         A GLB character is written with its own mesh; all else with the skeleton alone.
 
         Raises:
-            UsageError: no format that holds any skeleton ends like this.
-            UserError: the file cannot be written, or is the skeleton's own.
+            UsageError: no format that holds any skeleton ends so, or it is the skeleton's own file.
+            UserError: the file cannot be written.
         """
         check_motion(motion, path)
         if path.resolve() == self.path.resolve():
-            raise UserError(f"{path} is the skeleton's own file; name another OUT")
+            raise UsageError(f"{path} is the skeleton's own file; name another OUT")
         if self.character is not None and path.suffix.lower() == ".glb":
             return write_glb_character(self.character, self.clip(motion), path)
         clip = self.clip(motion)

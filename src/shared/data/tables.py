@@ -24,4 +24,6 @@ def load_table(path: str | Path, table_class: type[Table]) -> Table:
         first = error.errors()[0]
         key = ".".join(str(part) for part in first["loc"])
         message = first["msg"].removeprefix("Value error, ")
-        raise UsageError(f"{path}: {key}: {message}") from None
+        message = message.replace("Input should be a valid tuple", "should be a list")
+        message = message.replace("Input should be", "should be")
+        raise UsageError(f"{path}: {key}: {message}; mend the file") from None

@@ -68,6 +68,8 @@ def format_of(path: str | Path) -> str:
         if name.endswith(f".{end}"):
             return known
     found = Path(name).suffix.removeprefix(".")
+    if not found:
+        raise UsageError(f"{path}: its name does not end in a format; end it in .glb, say")
     find_writer(EXPORTERS, found, str(path))
     return found
 

@@ -56,7 +56,7 @@ def read_path(path: str | Path) -> DrawnPath:
             too fast; names the point.
     """
     path = Path(path)
-    text = read_text(path, "give a CSV, JSON or YAML")
+    text = read_text(path, "a CSV, JSON or YAML file")
     if path.suffix.lower() == ".csv":
         names, rows = _csv_rows(text, path)
     else:

@@ -87,7 +87,7 @@ def read_timeline(path: str | Path, *, fps: float) -> Timeline:
         UsageError: no YAML or JSON, or an unknown joint.
     """
     path = Path(path)
-    rows = parse_yaml(read_text(path, "give a YAML or JSON file"), str(path))
+    rows = parse_yaml(read_text(path, "a YAML or JSON file"), str(path))
     if not isinstance(rows, list) or not rows:
         raise UserError(f"{path}: holds no list; write entries - {{text: …, start: 0, end: 4}}")
     entries = [_entry(row, f"{path}: entry {number}") for number, row in enumerate(rows, start=1)]
