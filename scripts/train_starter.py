@@ -2,12 +2,16 @@
 """Make the starter weights anew: prepare, eight trainings, and the shipped folders.
 
     python scripts/train_starter.py SOURCE ... --captions FILE [--work DIR] [--ship]
+    python scripts/train_starter.py CMU --captions FILE --free --work DIR [--ship]
 
 SOURCES are folders of motion files (the shipped set: bandai-namco and cmu). Every stage resumes,
 and does nothing when it is finished. The weighted mean of the second and the third generator serves
 combinations that training did not see better than either; it learns constraints in a last round,
 and the mean of before and after is the starter. `--ship` writes fp16 copies into
 src/shared/pretrained.
+
+With `--free` SOURCES are data that is free for any use (the shipped set: cmu), beside more
+synthetic clips, and one training of each kind makes starter-free in about an hour.
 """
 
 import argparse
@@ -16,7 +20,8 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-SYNTHETIC_CLIPS = 3000
+SHIPPED = ROOT / "src" / "shared" / "pretrained"
+SYNTHETIC_CLIPS, SYNTHETIC_FREE = 3000, 4000
 FIRST = ["min-frames=40", "max-frames=150", "losses.position=1.0", "losses.foot-slide=0.02"]
 SECOND = ["min-frames=40", "max-frames=180", "losses.position=2.0", "losses.foot-slide=0.1"]
 THIRD = [*SECOND, "losses.root=0.5"]
@@ -28,6 +33,8 @@ MEANS = {  # what is averaged: the two runs, and the share of the second
     "starter": ("mean", "constrained", 0.5),
 }  # the only shares that were tried
 LICENCE = "CC BY-NC 4.0 (learned from the Bandai-Namco Research Motiondataset: non-commercial)"
+FREE_LICENCE = "free for any use (learned from CMU motion capture and synthetic clips)"
+FREE_DESCRIPTION = "text to body motion; CMU and synthetic, free for any use; en es fr de ja zh"
 DESCRIPTION = "text to body motion; Bandai-Namco, CMU and synthetic; en es fr de ja zh"
 
 
@@ -63,6 +70,23 @@ def stages(options: argparse.Namespace) -> list[list[str]]:
     ]  # fmt: skip
 
 
+def free_stages(options: argparse.Namespace) -> list[list[str]]:
+    """The command of each stage of starter-free, in order."""
+    data, work = str(options.work / "data"), options.work
+    train = [f"threads={options.threads}", "precision=auto", "--data", data, *FIRST[:2]]
+    clip, text, last = work / "clip", work / "text", work / "free"
+    return [
+        ["-m", "src.cli.tools", "prepare", *options.sources, "--captions", options.captions,
+         "--synthetic", str(SYNTHETIC_FREE), "--out", data],
+        ["-m", "src.train.train_clip", *train, "batch-size=128", "steps=1500",
+         "--output", str(clip), "--resume"],
+        ["-m", "src.train.train_text", *train, f"clip={clip}", "steps=2000",
+         "--output", str(text), "--resume"],
+        ["-m", "src.train.train_generation", *train, *THIRD[2:], FREE, f"clip={text}",
+         "batch-size=48", "steps=4000", "learning-rate=1e-3", "--output", str(last), "--resume"],
+    ]  # fmt: skip
+
+
 def average(work: Path, name: str) -> None:
     """Write the mean of two generators' weights (Wortsman et al. 2022); what only the second has
     is taken as it is."""
@@ -81,19 +105,22 @@ def average(work: Path, name: str) -> None:
     generator.save_pretrained(work / name)
 
 
-def ship(work: Path) -> None:
-    """Write the generator and the evaluator, in fp16, where `from_pretrained` finds them."""
-    from src.shared.evaluation.evaluator import Evaluator
+def ship(trained: Path, name: str, licence: str, description: str) -> None:
+    """Write a generator, in fp16, where `from_pretrained` finds it."""
     from src.shared.model.generation.motion_generator import MotionGenerator
 
-    shipped = ROOT / "src" / "shared" / "pretrained"
-    generator = MotionGenerator.from_pretrained(work / "starter")
-    generator.card = generator.card.model_copy(
-        update={"name": "starter", "licence": LICENCE, "description": DESCRIPTION}
-    )
-    generator.save_pretrained(shipped / "starter", half=True)
-    judge = Evaluator.from_pretrained(work / "evaluator")
-    judge.save_pretrained(shipped / "evaluator", notes=judge.notes)
+    generator = MotionGenerator.from_pretrained(trained)
+    about = {"name": name, "licence": licence, "description": description}
+    generator.card = generator.card.model_copy(update=about)
+    generator.save_pretrained(SHIPPED / name, half=True)
+
+
+def ship_judge(trained: Path) -> None:
+    """Write the evaluator beside it."""
+    from src.shared.evaluation.evaluator import Evaluator
+
+    judge = Evaluator.from_pretrained(trained)
+    judge.save_pretrained(SHIPPED / "evaluator", notes=judge.notes)
 
 
 def main() -> int:
@@ -104,18 +131,22 @@ def main() -> int:
     parser.add_argument("--work", type=Path, default=Path("runs/starter"))
     parser.add_argument("--steps", type=int, default=5800, help="of each of four generation stages")
     parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--free", action="store_true", help="make starter-free instead")
     parser.add_argument("--ship", action="store_true", help="write src/shared/pretrained")
     options = parser.parse_args()
     sys.path.insert(0, str(ROOT))
-    for arguments in stages(options):
+    for arguments in (free_stages if options.free else stages)(options):
         if arguments[0] == AVERAGE:
             average(options.work, arguments[1])
             continue
         print("$ python", *arguments, flush=True)
         if code := subprocess.call([sys.executable, *arguments], cwd=ROOT):
             return code
-    if options.ship:
-        ship(options.work)
+    if options.ship and options.free:
+        ship(options.work / "free", "starter-free", FREE_LICENCE, FREE_DESCRIPTION)
+    elif options.ship:
+        ship(options.work / "starter", "starter", LICENCE, DESCRIPTION)
+        ship_judge(options.work / "evaluator")
     return 0
 
 
