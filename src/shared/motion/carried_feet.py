@@ -3,7 +3,8 @@
 A dancer who is pinned to the path of a song slides as fast as the path goes. The foot lock puts
 steps there, which begin and end with corners, on top of whatever the legs did. Smoothed, that is a
 body that steps by itself, and the second time there is little left to correct: standing feet slide
-less than after one lock, and accelerations stay as real ones (docs/experiments.md).
+less than after one lock, and accelerations stay as real ones (docs/experiments.md). Runs on the
+CPU in float64.
 
 Letters: T frames, J joints.
 """
