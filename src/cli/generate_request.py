@@ -72,7 +72,9 @@ def produce(request: Request) -> dict[str, Any]:
         result = made(request)
         generate_audio.warn_of_beats(result)
         return result
-    refuse_with("--prompt", body=request.body or None, body_model=request.body_model)
+    for flag, value in (("--body", request.body), ("--body-model", request.body_model)):
+        if value:
+            raise UsageError(f"{flag} is about a dance; name a song with --audio, or leave it out")
     return directed(request) if request.directions.given() else prompted(request)
 
 
@@ -82,6 +84,8 @@ def dance(request: Request) -> dict[str, Any]:
     generate_audio.check_memory(request.memory, request.runtime)
     if not request.prompt:
         refuse_with("--body alone", tag=request.tag)
+    elif request.body:
+        raise UsageError("--body lets the music say what --prompt says; leave one out")
     wanted = request.song | {
         "foot_lock": request.foot_lock,
         "prompts": checked_prompts(request.prompt) if request.prompt else [],

@@ -69,7 +69,8 @@ def format_of(path: str | Path) -> str:
             return known
     found = Path(name).suffix.removeprefix(".")
     if not found:
-        raise UsageError(f"{path}: its name does not end in a format; end it in .glb, say")
+        known = ", ".join(EXPORTERS)
+        raise UsageError(f"{path}: its name does not end in a format; choose from {known}")
     find_writer(EXPORTERS, found, str(path))
     return found
 

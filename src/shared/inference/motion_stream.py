@@ -254,7 +254,13 @@ class MotionStream:
         self._spent, self._given = 0.0, 0  # since the first piece: seconds, frames
 
     def say(self, text: str, *, tag: str | None = None) -> None:
-        """What is shown from the next window on, in place of the text so far."""
+        """What is shown from the next window on, in place of the text so far.
+
+        Raises:
+            UsageError: no text; the stream goes on as it was.
+        """
+        if not text.strip():
+            raise UsageError(f"say({text!r}) holds no text; give what is done next, or stop()")
         self._now = Passage(text, self._frames, tag)
 
     def stop(self) -> None:

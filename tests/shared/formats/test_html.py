@@ -152,7 +152,7 @@ def test_it_starts_in_a_browser_and_plays(tmp_path: Path) -> None:
     page = write_html([a_motion("走る人"), a_motion("still", 1)], tmp_path / "a.html")
     done = subprocess.run(
         [str(chromium()), "--headless", "--no-sandbox", "--disable-gpu", "--disable-3d-apis",
-         "--disable-background-networking", "--virtual-time-budget=1500", "--dump-dom",
+         "--disable-background-networking", "--virtual-time-budget=5000", "--dump-dom",
          "--enable-logging=stderr", f"--user-data-dir={tmp_path / 'profile'}",
          "--window-size=360,400", page.as_uri()],
         capture_output=True, text=True, timeout=300, check=False)  # fmt: skip

@@ -173,3 +173,12 @@ def test_a_generator_of_prompts(generator: MotionGenerator) -> None:
     stream = MotionStream(generator, texts, seconds=0.6)
     assert sum(piece.num_frames for piece in stream) == 36
     assert list(MotionStream(generator, [])) == []
+
+
+def test_nothing_to_say_is_refused_and_the_stream_goes_on(generator: MotionGenerator) -> None:
+    stream = MotionStream(generator, "a person walks forward", seconds=1.0)
+    pieces = iter(stream)
+    next(pieces)
+    with pytest.raises(UsageError, match="holds no text"):
+        stream.say("  ")
+    assert next(pieces).num_frames > 0
