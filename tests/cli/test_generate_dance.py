@@ -101,6 +101,7 @@ def test_a_song_without_beat(folder: Path, tmp_path: Path) -> None:
         ((*PROMPT, "--format", "fbx"), "'fbx'"),
         (("--prompt", " "), "--prompt"),
         (("--body", "--tag", "walk"), "--tag"),
+        ((*PROMPT, "--body"), "--body lets the music say"),
         (("--judge", "x", "--num-samples", "2"), "--judge"),
         ((*PROMPT, "--seconds", "0.5"), "--seconds"),
     ],
