@@ -1,10 +1,12 @@
 """Typed, frozen configurations: one line a field; YAML spells the keys in kebab-case."""
 
-from typing import Literal, Self
+from typing import Literal, Self, get_args
 
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field, model_validator
 
 Precision = Literal["auto", "no", "bf16", "fp16"]
+Provenance = Literal["captured", "procedural", "hand-made"]  # where a clip's motion comes from
+PROVENANCES: tuple[Provenance, ...] = get_args(Provenance)
 
 
 def _kebab(name: str) -> str:
@@ -92,6 +94,7 @@ class GenerationConfig(Config):
     text_conditioning: Literal["pooled", "tokens"] = "pooled"  # ruling 22
     prediction_type: Literal["epsilon", "sample", "v"] = "epsilon"  # ruling 15
     constraints: bool = False  # an input that says which entries are known
+    provenance: bool = False  # an input that says where a clip's motion comes from
     beta_schedule: Literal["linear", "cosine", "sqrt"] = "cosine"
     sampler: Literal["ddpm", "ddim", "dpm-solver++"] = "ddim"
     sampling_steps: int = Field(20, ge=1)
@@ -244,6 +247,7 @@ class TrainGenerationConfig(TrainConfig):
     init: str | None = None  # a trained generator to go on from (fine-tuning); None = from nothing
     condition_dropout: float = Field(0.1, ge=0, lt=1)  # ruling 14
     tag_dropout: float = Field(0.5, ge=0, le=1)
+    provenance_dropout: float = Field(0.1, ge=0, lt=1)
     word_dropout: float = Field(0.0, ge=0, lt=1)  # "walk backward" without its last word misleads
     losses: LossWeights = LossWeights()
     constraints: ConstraintShares = ConstraintShares()  # of networks with generation.constraints

@@ -16,7 +16,7 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from src.shared.config_schema import NetworkConfig, TrainGenerationConfig
+from src.shared.config_schema import PROVENANCES, NetworkConfig, TrainGenerationConfig
 from src.shared.data.text_motion import TextMotionBatch
 from src.shared.data.word_dropout import drop_words
 from src.shared.device import autocast, choose_compute
@@ -58,6 +58,7 @@ class DenoiserBatch:
         drop: [B] bool, rows that see no text.
         input_ids, attention_mask: [B,L] captions.
         known: [B,T,R,6] bool, entries that the network is told; none if it takes no constraints.
+        provenance: [B] long, index in PROVENANCES, its length where it is not told.
     """
 
     clean: Tensor
@@ -69,6 +70,7 @@ class DenoiserBatch:
     input_ids: Tensor
     attention_mask: Tensor
     known: Tensor
+    provenance: Tensor
 
 
 class GuidedDenoiser(nn.Module):
@@ -87,11 +89,19 @@ class GuidedDenoiser(nn.Module):
         mask: Tensor,
         drop: Tensor,
         known: Tensor,
+        provenance: Tensor,
     ) -> Tensor:
         """As MotionDenoiser.forward; rows where drop [B] is True see the null text."""
         heard = self.denoiser.drop_text(text, drop)
-        told = known if self.denoiser.known_proj is not None else None
-        output: Tensor = self.denoiser(noisy, timesteps, heard, tag, mask, known=told)
+        output: Tensor = self.denoiser(
+            noisy,
+            timesteps,
+            heard,
+            tag,
+            mask,
+            known=known if self.denoiser.known_proj is not None else None,
+            provenance=provenance if self.denoiser.provenance_embed is not None else None,
+        )
         return output
 
 
@@ -129,7 +139,8 @@ class GenerationTask:
     def _start_from(self, source: str, denoiser: MotionDenoiser) -> None:
         """Take over a trained denoiser and its z-scores; tags that both know keep their vector."""
         trained = MotionGenerator.from_pretrained(source, device="cpu")
-        loses = trained.network.generation.constraints and not self.network.generation.constraints
+        before, after = trained.network.generation, self.network.generation
+        loses = before.constraints > after.constraints or before.provenance > after.provenance
         if loses or _trained_shape(trained.network) != _trained_shape(self.network):
             raise UsageError(
                 f"init {source} is another network than profile {self.config.profile}; "
@@ -141,7 +152,7 @@ class GenerationTask:
         for index, name in enumerate((*self.data.tags, None)):
             if name in places:
                 tags[index] = state[TAG_WEIGHT][places[name]]
-        # Constraints can be learned by a network that had none: their input starts at zero.
+        # Constraints and provenance can be learned by a network that had none: they start at zero.
         denoiser.load_state_dict({**denoiser.state_dict(), **state, TAG_WEIGHT: tags})
         self.mean, self.std = trained.mean, trained.std
 
@@ -172,8 +183,10 @@ class GenerationTask:
         # rows without text have no tag either: the null of guidance knows neither
         untagged = drop | (torch.rand(size, generator=draws) < config.tag_dropout)
         tag = clips.tag.masked_fill(untagged, self.num_tags)
+        unknown = torch.rand(size, generator=draws) < config.provenance_dropout
+        provenance = clips.provenance.masked_fill(unknown, len(PROVENANCES))
         masks = numpy_generator("known", config.seed, part.step, part.index)
-        return self._noised(clips, captions, timesteps, tag, drop, draws, masks)
+        return self._noised(clips, captions, timesteps, tag, drop, provenance, draws, masks)
 
     def _noised(
         self,
@@ -182,6 +195,7 @@ class GenerationTask:
         timesteps: Tensor,
         tag: Tensor,
         drop: Tensor,
+        provenance: Tensor,
         draws: torch.Generator,
         rng: np.random.Generator | None = None,
     ) -> DenoiserBatch:
@@ -193,7 +207,9 @@ class GenerationTask:
         if rng is not None and self.network.generation.constraints:
             known = draw_known(clips.mask, clean.shape[2], self.config.constraints, rng)
         words = self.tokenizer(captions)
-        return DenoiserBatch(clean, noise, clips.mask, timesteps, tag, drop, *words, known)
+        return DenoiserBatch(
+            clean, noise, clips.mask, timesteps, tag, drop, *words, known, provenance
+        )
 
     # ------------------------------------------------------------ learning
 
@@ -203,7 +219,16 @@ class GenerationTask:
             text = self.tower(batch.input_ids, batch.attention_mask)
         noisy = self.diffusion.q_sample(batch.clean, batch.timesteps, batch.noise)
         seen = torch.where(batch.known, batch.clean, noisy)
-        output = module(seen, batch.timesteps, text, batch.tag, batch.mask, batch.drop, batch.known)
+        output = module(
+            seen,
+            batch.timesteps,
+            text,
+            batch.tag,
+            batch.mask,
+            batch.drop,
+            batch.known,
+            batch.provenance,
+        )
         # Sampling puts the known entries back, so what is judged is the motion with them in it.
         target = self.diffusion.target(batch.clean, batch.noise, batch.timesteps)
         output = torch.where(batch.known, target, output.float())
@@ -252,7 +277,8 @@ class GenerationTask:
         rng: np.random.Generator | None,
     ) -> dict[str, float]:
         device = next(module.parameters()).device
-        batch = self._noised(clips, clips.captions, timesteps, tag, drop, draws, rng)
+        told = clips.provenance
+        batch = self._noised(clips, clips.captions, timesteps, tag, drop, told, draws, rng)
         batch = DenoiserBatch(*(value.to(device) for value in vars(batch).values()))
         return {key: value.item() for key, value in self.training_step(module, batch).items()}
 
@@ -304,7 +330,8 @@ class GenerationTask:
 def _trained_shape(network: NetworkConfig) -> dict[str, Any]:
     """What weights are bound to: the network without its towers and how it is sampled."""
     free = {"sampler", "sampling_steps", "timestep_spacing", "guidance_scale", "post_processing"}
-    return network.model_dump(exclude={"clip": True, "generation": free | {"constraints"}})
+    learned_later = {"constraints", "provenance"}
+    return network.model_dump(exclude={"clip": True, "generation": free | learned_later})
 
 
 app = stage_app(

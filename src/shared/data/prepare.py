@@ -37,7 +37,7 @@ from src.shared.files import atomic_write, load_json, sha256_file, write_json, w
 from src.shared.motion.mirror import mirror_features
 from src.shared.motion.root_track import encode_features
 
-VERSION = 2
+VERSION = 3
 CLIPS_PER_SHARD = 128
 CAPTIONS_PER_GROUP = 24  # and language
 STD_FLOOR = 0.05  # a channel that hardly moves is not blown up
@@ -188,6 +188,7 @@ def _make_shard(job: _Job) -> None:
                 "take": f"{source.name}/{clip.take}",
                 "labels": clip.labels,
                 "captions": clip.captions,
+                "provenance": clip.provenance,
                 "num_frames": len(values),
                 "shard": job.path.name,
                 "offset": offset,
@@ -258,6 +259,7 @@ def _records(
                     shard=clip["shard"],
                     offset=clip["offset"],
                     captions=captions,
+                    provenance=clip["provenance"],
                 )
             )
     return records
@@ -300,6 +302,7 @@ def _report(records: list[ClipRecord], skipped: list[dict[str, str]]) -> dict[st
         "records": len(records),
         "seconds": round(sum(record.num_frames for record in originals) / 30.0, 1),
         "groups": len({record.group for record in records}),
+        "by_provenance": dict(Counter(record.provenance for record in originals)),
         "by_source": dict(Counter(record.source for record in originals)),
         "by_split": {split: sum(r.split == split for r in records) for split in SPLITS},
         "held_back_groups": sorted({r.group for r in records if r.split == "test_unseen"}),

@@ -3,6 +3,7 @@
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
+from src.shared.config_schema import Provenance
 from src.shared.motion.motion import Motion
 
 SPLITS = ("train", "val", "test_seen", "test_unseen")
@@ -17,6 +18,7 @@ class RawClip:
         id: unique name within its source.
         take: recording it belongs to; clips of one take never part between splits.
         captions: captions of this very clip by language, beside those its labels give.
+        provenance: where the motion comes from; a condition of the denoiser.
     """
 
     id: str
@@ -24,6 +26,7 @@ class RawClip:
     motion: Motion
     labels: dict[str, str]
     captions: dict[str, list[str]]
+    provenance: Provenance = "captured"
 
 
 @dataclass(frozen=True)
@@ -48,6 +51,7 @@ class ClipRecord:
     shard: str
     offset: int
     captions: dict[str, list[str]] = field(default_factory=dict)
+    provenance: Provenance = "captured"
 
     def to_json(self) -> dict[str, Any]:
         return asdict(self)

@@ -193,7 +193,7 @@ class SyntheticSource:
         index = int(item.rpartition("-")[2])
         spec = _specs(self.num_clips, self.seed)[index]
         motion = generate_clip(spec, seed=self.seed * 1_000_003 + index)
-        return RawClip(item, item, motion, dict(spec.labels), {})
+        return RawClip(item, item, motion, dict(spec.labels), {}, "procedural")
 
 
 _SPECS: dict[tuple[int, int], list[Any]] = {}

@@ -10,6 +10,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from src.shared.config_schema import PROVENANCES
 from src.shared.data.prepared import PreparedData
 from src.shared.data.records import ClipRecord
 from src.shared.motion.root_track import ROOT_ROW, YAW_RATE
@@ -33,6 +34,7 @@ class TextMotionBatch:
         captions, languages: B strings each.
         tag: index of the action label [B]; the number of tags where there is none.
         group: index of the label combination [B].
+        provenance: index in PROVENANCES [B].
         records: the B records behind it.
     """
 
@@ -42,6 +44,7 @@ class TextMotionBatch:
     languages: list[str]
     tag: Tensor
     group: Tensor
+    provenance: Tensor
     records: list[ClipRecord]
 
     def __len__(self) -> int:
@@ -158,6 +161,7 @@ class TextMotionDataset:
             languages=list(languages),
             tag=torch.tensor([self._tag_index.get(r.tag, none) for r in records]),
             group=torch.tensor([self._group_index[r.group] for r in records]),
+            provenance=torch.tensor([PROVENANCES.index(r.provenance) for r in records]),
             records=records,
         )
 

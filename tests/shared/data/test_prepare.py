@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import torch
 
+from src.shared.config_schema import PROVENANCES
 from src.shared.data import prepare as prepare_module
 from src.shared.data.captions import mirror_labels
 from src.shared.data.labels import group_of, load_label_rules
@@ -46,6 +47,15 @@ def test_features_survive_the_shards(data: PreparedData) -> None:
         expected = encode_features(clip.motion)
         expected = mirror_features(expected) if record.mirrored else expected
         torch.testing.assert_close(data.features(record), expected)
+
+
+def test_a_record_says_where_its_motion_comes_from(data: PreparedData, tmp_path: Path) -> None:
+    assert {record.provenance for record in data.records()} == {"procedural"}
+    root = bvh_folder(tmp_path / "in")
+    report = prepare([MotionFolder.open(root, captions=root / "captions.csv")], tmp_path / "out")
+    assert report["by_provenance"] == {"captured": 6}
+    batch = TextMotionDataset(data, "train").batch(0, 4)
+    assert batch.provenance.tolist() == [PROVENANCES.index("procedural")] * 4
 
 
 def test_mirror_images_swap_left_and_right_in_every_language(data: PreparedData) -> None:

@@ -8,7 +8,7 @@ import torch
 from torch import Tensor, nn
 from torch.nn.functional import silu
 
-from src.shared.config_schema import NetworkConfig
+from src.shared.config_schema import PROVENANCES, NetworkConfig
 from src.shared.model.clip.core import TextFeatures
 from src.shared.model.layers.adaln import AdaLN
 from src.shared.model.layers.attention import CrossAttention, KeyValue, MultiHeadAttention
@@ -85,6 +85,10 @@ class MotionDenoiser(nn.Module):
             self.null_token = nn.Parameter(torch.randn(dim))
         self.timestep_embed = TimestepEmbedding(dim)
         self.tag_embed = TagEmbedding(num_tags, dim)
+        self.provenance_embed = None
+        if generation.provenance:  # starts at zero, as known_proj
+            self.provenance_embed = TagEmbedding(len(PROVENANCES), dim)
+            nn.init.zeros_(self.provenance_embed.embedding.weight)
         self.blocks = nn.ModuleList(
             DenoiserBlock(
                 dim, generation.num_heads, dropout=generation.dropout, tokens=self.uses_tokens
@@ -105,6 +109,7 @@ class MotionDenoiser(nn.Module):
         mask: Tensor | None = None,
         *,
         known: Tensor | None = None,
+        provenance: Tensor | None = None,
         keys_values: list[KeyValue] | None = None,
     ) -> Tensor:
         """One prediction.
@@ -116,6 +121,8 @@ class MotionDenoiser(nn.Module):
             tag: [B] long, `num_tags` where there is none.
             mask: [B, T] bool, True = real frame, or None.
             known: [B, T, K, C] bool, the entries that are; for networks with `constraints`.
+            provenance: [B] long, index in PROVENANCES, its length where it is not known; for
+                networks with `provenance`.
             keys_values: what `text_keys_values(text)` gave, to spare computing it each step.
 
         Returns:
@@ -128,9 +135,11 @@ class MotionDenoiser(nn.Module):
         if known is not None:
             assert self.known_proj is not None, "this network was not made for constraints"
             h = h + self.known_proj(known.flatten(2).to(noisy.dtype))  # [B, T, D]
-        condition = torch.cat(
-            [self.timestep_embed(timesteps), self.tag_embed(tag)], dim=-1
-        )  # [B, 2D]
+        label_h = self.tag_embed(tag)  # [B, D]
+        if provenance is not None:
+            assert self.provenance_embed is not None, "this network was not made for provenance"
+            label_h = label_h + self.provenance_embed(provenance)  # [B, D]
+        condition = torch.cat([self.timestep_embed(timesteps), label_h], dim=-1)  # [B, 2D]
         condition = silu(condition)
         if keys_values is None:
             keys_values = self.text_keys_values(text)

@@ -9,6 +9,7 @@ from typing import Any
 import torch
 from torch import Tensor
 
+from src.shared.config_schema import PROVENANCES
 from src.shared.model.clip.core import TextFeatures
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
 from src.shared.model.diffusion.guidance import guided
@@ -55,11 +56,15 @@ def sample_batch(
     no_tag = torch.full_like(tag, denoiser.num_tags)
     null = denoiser.null_text(len(requests), text.mask.shape[1])
     learned = denoiser.known_proj is not None
-    told = known.told if known is not None and learned else None
+    shared = {
+        "mask": mask,
+        "known": known.told if known is not None and learned else None,
+        "provenance": _captured(denoiser, tag),
+    }
     model_fn = guided(
         denoiser,
-        _condition(denoiser, text, tag, mask, told),
-        _condition(denoiser, null, no_tag, mask, told),
+        _condition(denoiser, text, tag) | shared,
+        _condition(denoiser, null, no_tag) | shared,
         guidance_scale,
     )
     noise = noise.to(device)
@@ -75,12 +80,13 @@ def sample_batch(
     )
 
 
-def _condition(
-    denoiser: MotionDenoiser,
-    text: TextFeatures,
-    tag: Tensor,
-    mask: Tensor | None,
-    known: Tensor | None,
-) -> dict[str, Any]:
+def _condition(denoiser: MotionDenoiser, text: TextFeatures, tag: Tensor) -> dict[str, Any]:
     keys_values = denoiser.text_keys_values(text)  # once a sample, not once a step
-    return {"text": text, "tag": tag, "mask": mask, "known": known, "keys_values": keys_values}
+    return {"text": text, "tag": tag, "keys_values": keys_values}
+
+
+def _captured(denoiser: MotionDenoiser, like: Tensor) -> Tensor | None:
+    """Sampled motion is to look captured: procedural clips are there to teach, not to answer."""
+    if denoiser.provenance_embed is None:
+        return None
+    return torch.full_like(like, PROVENANCES.index("captured"))

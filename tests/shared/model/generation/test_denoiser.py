@@ -1,5 +1,7 @@
 """MotionDenoiser: TEXT's order and sizes, masks, the learned null, and that it learns."""
 
+from itertools import pairwise
+
 import pytest
 import torch
 from torch.nn.functional import normalize
@@ -8,6 +10,7 @@ from src.shared.model.clip.core import TextFeatures
 from src.shared.model.generation.denoiser import DenoiserBlock, MotionDenoiser
 
 B, T, L, D, TAGS = 3, 12, 5, 32, 4
+PROVENANCE_WEIGHT = "provenance_embed.embedding.weight"
 
 
 def text(batch: int = B) -> TextFeatures:
@@ -165,3 +168,23 @@ def test_autocast_stays_close_to_float32(denoiser):
 def test_no_float64_anywhere(denoiser):
     tensors = [*denoiser.state_dict().values(), *denoiser.buffers()]
     assert all(tensor.dtype != torch.float64 for tensor in tensors)
+
+
+def test_provenance_can_be_learned_later(make_network):
+    torch.manual_seed(1)
+    noisy, timesteps, features = inputs()
+    tag = torch.full((B,), TAGS)
+    plain = alive(MotionDenoiser(make_network(), TAGS))
+    model = alive(MotionDenoiser(make_network(provenance=True), TAGS))
+    assert set(model.state_dict()) - set(plain.state_dict()) == {PROVENANCE_WEIGHT}
+    model.load_state_dict(plain.state_dict(), strict=False)
+    captured, procedural, unknown = (torch.full((B,), index) for index in (0, 1, 3))
+    out = plain(noisy, timesteps, features, tag)
+    assert torch.equal(model(noisy, timesteps, features, tag, provenance=captured), out)
+
+    torch.nn.init.normal_(model.get_parameter(PROVENANCE_WEIGHT))
+    told = [
+        model(noisy, timesteps, features, tag, provenance=each)
+        for each in (captured, procedural, unknown)
+    ]
+    assert all((a - b).abs().amax() > 1e-3 for a, b in pairwise([*told, out]))

@@ -8,6 +8,7 @@ import pytest
 import torch
 from safetensors.torch import load_file, save_file
 
+from src.shared.config_schema import PROVENANCES
 from src.shared.errors import UsageError, UserError
 from src.shared.files import sha256_file, write_json
 from src.shared.model.checkpoint import CARD_FILE, WEIGHTS_FILE
@@ -246,3 +247,21 @@ def test_a_broken_card(folder):
     (folder / CARD_FILE).write_text("{")
     with pytest.raises(UserError, match="cannot be read"):
         MotionGenerator.from_pretrained(folder)
+
+
+def test_sampled_motion_is_asked_to_look_captured(make_generator):
+    generator = make_generator(provenance=True)
+    vectors = generator.denoiser.provenance_embed.embedding.weight
+
+    def sample() -> torch.Tensor:
+        return generator.sample_features(PROMPTS[:1], seconds=0.5)[0]
+
+    for modulation in (p for n, p in generator.denoiser.named_parameters() if "modulation" in n):
+        torch.nn.init.normal_(modulation, std=0.2)
+    before = sample()
+    with torch.no_grad():
+        vectors[1:] += 1.0  # procedural, hand-made, unknown
+    assert torch.equal(sample(), before)
+    with torch.no_grad():
+        vectors[PROVENANCES.index("captured")] += 1.0
+    assert not torch.allclose(sample(), before, atol=1e-3)
