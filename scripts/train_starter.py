@@ -26,6 +26,7 @@ FIRST = ["min-frames=40", "max-frames=150", "losses.position=1.0", "losses.foot-
 SECOND = ["min-frames=40", "max-frames=180", "losses.position=2.0", "losses.foot-slide=0.1"]
 THIRD = [*SECOND, "losses.root=0.5"]
 FREE = "network.generation.constraints=false"  # learned last, by a network that can walk
+OTHER = "other-tower=true"  # hardened anew, in the same space
 FOURTH = [*THIRD, "constraints.free=0.4"]
 AVERAGE = "average"
 MEANS = {  # what is averaged: the two runs, and the share of the second
@@ -57,14 +58,14 @@ def stages(options: argparse.Namespace) -> list[list[str]]:
          "--resume"],
         ["-m", "src.train.train_text", *train, *FIRST[:2], f"clip={clip}", "steps=2500",
          "--output", str(hardened), "--resume"],
-        [*learn, *SECOND, FREE, f"clip={hardened}", f"init={first}", f"steps={options.steps}",
-         "learning-rate=6e-4", "--output", str(second), "--resume"],
+        [*learn, *SECOND, FREE, f"clip={hardened}", f"init={first}", OTHER,
+         f"steps={options.steps}", "learning-rate=6e-4", "--output", str(second), "--resume"],
         ["-m", "src.train.train_text", *train, *FIRST[:2], f"clip={clip}", "steps=2000",
          "--output", str(again), "--resume"],
-        [*learn, *THIRD, FREE, f"clip={again}", f"init={second}", f"steps={options.steps}",
+        [*learn, *THIRD, FREE, f"clip={again}", f"init={second}", OTHER, f"steps={options.steps}",
          "learning-rate=5e-4", "--output", str(work / "third"), "--resume"],
         [AVERAGE, "mean"],
-        [*learn, *FOURTH, f"clip={again}", f"init={work / 'mean'}", f"steps={options.steps}",
+        [*learn, *FOURTH, f"clip={again}", f"init={work / 'mean'}", OTHER, f"steps={options.steps}",
          "learning-rate=5e-4", "--output", str(work / "constrained"), "--resume"],
         [AVERAGE, "starter"],
     ]  # fmt: skip

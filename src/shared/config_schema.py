@@ -243,8 +243,9 @@ class ConstraintShares(Config):
 class TrainGenerationConfig(TrainConfig):
     """train_generation.yaml: the denoiser with a frozen text tower."""
 
-    clip: str = "runs/clip"  # folder written by train_clip
+    clip: str | None = None  # train_clip's folder, or a generator; None: init, or runs/clip
     init: str | None = None  # a trained generator to go on from (fine-tuning); None = from nothing
+    other_tower: bool = False  # go on from init behind a tower that is not its own
     condition_dropout: float = Field(0.1, ge=0, lt=1)  # ruling 14
     tag_dropout: float = Field(0.5, ge=0, le=1)
     provenance_dropout: float = Field(0.1, ge=0, lt=1)

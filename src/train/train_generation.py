@@ -21,10 +21,9 @@ from src.shared.data.text_motion import TextMotionBatch
 from src.shared.data.word_dropout import drop_words
 from src.shared.device import autocast, choose_compute
 from src.shared.errors import UsageError
-from src.shared.files import sha256_file
-from src.shared.model.checkpoint import WEIGHTS_FILE, ModelCard
+from src.shared.model.checkpoint import ModelCard
 from src.shared.model.clip.core import TextFeatures
-from src.shared.model.clip.pretrained import load_text_tower
+from src.shared.model.clip.pretrained import load_text_tower, tower_hash
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
 from src.shared.model.generation.denoiser import MotionDenoiser
 from src.shared.model.generation.losses import GenerationLoss
@@ -119,7 +118,8 @@ class GenerationTask:
 
     def __init__(self, config: TrainGenerationConfig, network: NetworkConfig) -> None:
         self.config, self.network = config, network
-        self.tower, self.tokenizer = load_text_tower(config.clip, network.embed_dim)
+        source = config.clip or config.init or "runs/clip"
+        self.tower, self.tokenizer = load_text_tower(source, network.embed_dim)
         self.data = open_training_data(config, network)
         self.train = training_set(config, self.data)
         self.held_back = validation_set(config, self.data)
@@ -146,6 +146,12 @@ class GenerationTask:
                 f"init {source} is another network than profile {self.config.profile}; "
                 "train with the profile and the network overrides that it was trained with"
             )
+        if tower_hash(trained.text) != tower_hash(self.tower) and not self.config.other_tower:
+            raise UsageError(
+                f"init {source} was trained behind another text tower than that of clip"
+                f" {self.config.clip}: its prompts would mean other motions; leave clip out to keep"
+                " its own, or give other-tower=true and the steps to get used to the new one"
+            )
         state = trained.denoiser.state_dict()
         tags = denoiser.tag_embed.embedding.weight.detach().clone()  # [num_tags + 1, D]
         places = {name: index for index, name in enumerate((*trained.card.tags, None))}
@@ -161,7 +167,7 @@ class GenerationTask:
         return {
             "network": self.network.model_dump(mode="json", by_alias=True),
             "data-hash": self.data.manifest_hash,
-            "clip-hash": sha256_file(Path(self.config.clip) / WEIGHTS_FILE),
+            "tower-hash": tower_hash(self.tower),
         }
 
     def to(self, device: torch.device) -> None:

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from safetensors.torch import load_file
 from tiny_stage import clip_config, generation_config, tiny_network, train_clip, train_generation
 
-from src.shared.errors import UserError
+from src.shared.errors import UsageError, UserError
+from src.shared.model.clip.pretrained import ClipBundle, tower_hash
 from src.shared.model.generation.motion_generator import MotionGenerator
 from src.train.seeding import generator
 from src.train.task import Part
@@ -69,6 +70,31 @@ def test_fine_tuning_starts_where_another_run_ended(
     wider = tiny_network("generation.num-layers=2")
     with pytest.raises(UserError, match="is another network"):
         GenerationTask(config, wider)
+
+
+def test_what_ships_can_be_gone_on_from_without_its_clip_folder(
+    prepared: Path, clip: Path, tmp_path: Path
+) -> None:
+    first = tmp_path / "first"
+    trained = train_generation(generation_config(prepared, clip, first, "steps=2"))
+    config = generation_config(prepared, clip, tmp_path / "second", f"init={first}", "clip=null")
+    task = GenerationTask(config, tiny_network())
+    assert tower_hash(task.tower) == tower_hash(trained.tower)
+    assert task.tokenizer(["a person walks"])[0].equal(trained.tokenizer(["a person walks"])[0])
+
+
+def test_another_text_tower_is_refused_unless_it_is_meant(
+    prepared: Path, clip: Path, tmp_path: Path
+) -> None:
+    first, other = tmp_path / "first", tmp_path / "other"
+    train_generation(generation_config(prepared, clip, first, "steps=2"))
+    bundle = ClipBundle.from_pretrained(clip)
+    torch.nn.init.normal_(bundle.clip.text.text_proj.weight)
+    bundle.save_pretrained(other)
+    settings = (prepared, other, tmp_path / "second", f"init={first}")
+    with pytest.raises(UsageError, match="another text tower"):
+        GenerationTask(generation_config(*settings), tiny_network())
+    GenerationTask(generation_config(*settings, "other-tower=true"), tiny_network())
 
 
 @pytest.mark.parametrize("precision", ["no", "bf16"])

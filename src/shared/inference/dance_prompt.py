@@ -21,7 +21,8 @@ from torch import Tensor
 from src.shared.errors import UserError
 from src.shared.inference.motion_stream import Passage
 from src.shared.model.audio.conditioning import ENERGY
-from src.shared.model.audio.shared_space import SharedSpace, tower_hash
+from src.shared.model.audio.shared_space import SharedSpace
+from src.shared.model.clip.pretrained import tower_hash
 from src.shared.model.generation.motion_generator import MotionGenerator
 from src.shared.motion.root_track import FORWARD, HEIGHT, LATERAL
 from src.shared.motion.trajectory import FPS, MotionTrajectory, to_root

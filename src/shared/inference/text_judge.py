@@ -23,11 +23,11 @@ from torch import Tensor
 from src.shared.errors import UserError
 from src.shared.inference.selection import ScoreTable, SelectionConfig, distances, rank
 from src.shared.model.audio import shared_space
-from src.shared.model.audio.shared_space import MotionTower, SharedSpace, tower_hash
+from src.shared.model.audio.shared_space import MotionTower, SharedSpace
 from src.shared.model.checkpoint import read_card
 from src.shared.model.clip import pretrained
 from src.shared.model.clip.core import TextTower
-from src.shared.model.clip.pretrained import ClipBundle
+from src.shared.model.clip.pretrained import ClipBundle, tower_hash
 from src.shared.model.zoo import list_models, resolve_model
 from src.shared.motion.motion import Motion
 from src.shared.motion.root_track import encode_features

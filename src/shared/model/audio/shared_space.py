@@ -7,7 +7,6 @@ so what sound and motion share is tempo and energy.
 Letters: B batch, T frames, D embed dim, K rows (22 joints, root track), C rows of a condition.
 """
 
-import hashlib
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Self
@@ -29,7 +28,7 @@ from src.shared.model.checkpoint import (
     write_checkpoint,
 )
 from src.shared.model.clip.core import TextTower
-from src.shared.model.clip.pretrained import ClipBundle, encode_captions
+from src.shared.model.clip.pretrained import ClipBundle, encode_captions, tower_hash
 from src.shared.model.clip.tokenizer import PromptTokenizer
 from src.shared.model.layers.temporal_unet import TemporalUNet
 from src.shared.model.zoo import resolve_model, wrong_kind
@@ -178,13 +177,3 @@ class SharedSpace(nn.Module):
         space = cls(card.network, card.audio_tower, card)
         load_state(space, read_tensors(folder, card), PREFIX, folder)
         return space.to(device).eval()
-
-
-def tower_hash(tower: TextTower) -> str:
-    """SHA-256 of a text tower's weights as float16, as which generators may store them."""
-    digest = hashlib.sha256()
-    for name, tensor in sorted(tower.state_dict().items()):
-        if tensor.is_floating_point():
-            digest.update(name.encode())
-            digest.update(tensor.detach().cpu().half().numpy().tobytes())
-    return digest.hexdigest()

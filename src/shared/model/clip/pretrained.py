@@ -1,5 +1,6 @@
 """ClipBundle: MotionClip with its tokenizer and statistics, as one folder on disk."""
 
+import hashlib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Self
@@ -18,10 +19,11 @@ from src.shared.model.checkpoint import (
 )
 from src.shared.model.clip.core import MotionClip, TextTower
 from src.shared.model.clip.tokenizer import PromptTokenizer
-from src.shared.model.zoo import wrong_kind
+from src.shared.model.zoo import resolve_model, wrong_kind
 
 KIND = "motion-clip"
 TOKENIZER_FOLDER = "tokenizer"
+TOWER_OF = {KIND: "clip.text", "motion-generator": "text"}  # kind of model -> prefix of its tower
 
 
 @dataclass
@@ -79,16 +81,32 @@ class ClipBundle:
         )
 
 
-def load_text_tower(folder: str | Path, embed_dim: int) -> tuple[TextTower, PromptTokenizer]:
-    """The frozen text tower of a CLIP folder, for a denoiser of width `embed_dim`.
+def load_text_tower(
+    name_or_folder: str | Path, embed_dim: int
+) -> tuple[TextTower, PromptTokenizer]:
+    """The frozen text tower of a CLIP folder or of a generator, for a denoiser of `embed_dim`.
 
     Raises:
-        UserError: the two widths differ, or the folder cannot be read.
+        UserError: the two widths differ, or there is no such folder, model or tower.
     """
-    card = read_card(Path(folder))
-    check_embed_dims(card.network.embed_dim, embed_dim, f"the CLIP model in {folder}")
-    bundle = ClipBundle.from_pretrained(folder)
-    return bundle.clip.text.freeze(), bundle.tokenizer
+    folder = resolve_model(name_or_folder)
+    card = read_card(folder)
+    if card.kind not in TOWER_OF:
+        raise wrong_kind(folder, card.kind, KIND, "name a folder of train_clip, or a generator")
+    check_embed_dims(card.network.embed_dim, embed_dim, f"the text tower in {folder}")
+    tower = TextTower(card.network.clip, embed_dim, encoder_config=card.text_encoder)
+    load_state(tower, read_tensors(folder, card), TOWER_OF[card.kind], folder)
+    return tower.freeze(), PromptTokenizer.from_pretrained(folder / TOKENIZER_FOLDER)
+
+
+def tower_hash(tower: TextTower) -> str:
+    """SHA-256 of a text tower's weights as float16, as which generators may store them."""
+    digest = hashlib.sha256()
+    for name, tensor in sorted(tower.state_dict().items()):
+        if tensor.is_floating_point():
+            digest.update(name.encode())
+            digest.update(tensor.detach().cpu().half().numpy().tobytes())
+    return digest.hexdigest()
 
 
 def check_embed_dims(text_dim: int, denoiser_dim: int, where: str) -> None:

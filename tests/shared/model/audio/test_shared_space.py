@@ -11,10 +11,10 @@ from torch.nn.functional import cosine_similarity
 from src.shared.config_space import AudioTowerConfig
 from src.shared.errors import UserError
 from src.shared.model.audio.audio_tower import AudioTower, rate_rows
-from src.shared.model.audio.shared_space import SharedSpace, tower_hash
+from src.shared.model.audio.shared_space import SharedSpace
 from src.shared.model.checkpoint import ModelCard
 from src.shared.model.clip.core import MotionClip, TextTower
-from src.shared.model.clip.pretrained import ClipBundle, encode_captions
+from src.shared.model.clip.pretrained import ClipBundle, encode_captions, tower_hash
 from src.shared.model.clip.tokenizer import PromptTokenizer
 
 CONFIG = AudioTowerConfig(embed_dim=32, dim=16, num_heads=2, num_layers=1)
