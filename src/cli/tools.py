@@ -14,6 +14,7 @@ from src.cli.evaluate import evaluate
 from src.cli.evaluate_audio import evaluate_audio
 from src.cli.evaluate_memory import evaluate_memory
 from src.cli.evaluate_performer import evaluate_performer
+from src.cli.evaluate_requests import evaluate_requests
 from src.cli.evaluate_sanity import evaluate_sanity
 from src.cli.evaluate_selection import evaluate_selection
 from src.cli.evaluate_space import evaluate_space
@@ -55,6 +56,7 @@ for command in (
     evaluate_performer,
     evaluate_sanity,
     evaluate_selection,
+    evaluate_requests,
     evaluate_space,
     report,
     compare,

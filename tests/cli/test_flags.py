@@ -52,6 +52,9 @@ FLAGS = {
         " --num-songs --other --out --quick --replications --sampler --seed --song-seconds --songs"
         " --steps --style-songs --threads --track-seconds"
     ),
+    "evaluate-requests": (
+        "--data --json --languages --model --out --seconds --seed --threads --wordings"
+    ),
     "evaluate-sanity": (
         "--data --decoder-checkpoint --device --diffusion-checkpoint --json --model --num-frames"
         " --num-samples --num-steps --output-dir --quick --seed --threads"

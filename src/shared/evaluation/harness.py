@@ -4,9 +4,7 @@ Every family of `registry.py` is measured on real, shuffled, frozen, untrained a
 motions, seen and unseen label combinations apart, replication by replication.
 """
 
-import logging
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
@@ -28,6 +26,7 @@ from src.shared.evaluation.text_context import (
     Split,
     TextContext,
     TextSettings,
+    errors_only,
     model_sampler,
     untrained,
 )
@@ -79,7 +78,7 @@ def evaluate_text(
     samplers = {"generated": model_sampler(generator, **sampling)}
     if settings.untrained:
         samplers[UNTRAINED] = model_sampler(untrained(generator, settings.seed), **sampling)
-    with _errors_only(logging.getLogger("src.shared.model.generation.motion_generator")):
+    with errors_only():
         return evaluate_samplers(
             samplers,
             held_out,
@@ -89,17 +88,6 @@ def evaluate_text(
             folder=folder,
             progress=progress,
         )
-
-
-@contextmanager
-def _errors_only(logger: logging.Logger) -> Iterator[None]:
-    """Thousands of prompts would each say how near they are to what was trained."""
-    level = logger.level
-    logger.setLevel(logging.ERROR)
-    try:
-        yield
-    finally:
-        logger.setLevel(level)
 
 
 def _about(

@@ -3,7 +3,9 @@
 Letters: N clips.
 """
 
-from collections.abc import Callable, Sequence
+import logging
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -159,6 +161,18 @@ class Split:
 
 
 # ---------------------------------------------------------------- samplers
+
+
+@contextmanager
+def errors_only() -> Iterator[None]:
+    """Thousands of prompts would each say how near they are to what was trained."""
+    logger = logging.getLogger("src.shared.model.generation.motion_generator")
+    level = logger.level
+    logger.setLevel(logging.ERROR)
+    try:
+        yield
+    finally:
+        logger.setLevel(level)
 
 
 def model_sampler(generator: "MotionGenerator", **sampling: Any) -> Sampler:

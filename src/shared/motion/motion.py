@@ -1,6 +1,7 @@
 """A motion: local joint rotations, a pelvis path and foot contacts on the canonical skeleton."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 import torch
@@ -36,6 +37,16 @@ class Motion:
     @property
     def seconds(self) -> float:
         return self.num_frames / self.fps
+
+    def frames(self, start: int, stop: int) -> Self:
+        """The motion from frame `start` to before frame `stop`, where it is in the world."""
+        own = slice(start, stop)
+        return replace(
+            self,
+            quaternions=self.quaternions[own],
+            root_position=self.root_position[own],
+            contacts=self.contacts[own],
+        )
 
     def _kinematics(self) -> tuple[torch.Tensor, torch.Tensor]:
         return forward_kinematics(

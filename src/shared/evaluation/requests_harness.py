@@ -1,0 +1,552 @@
+"""Does a text model do what people ask for in their own words, as captured motion would show it?
+
+Prompts are hand-written (`requests.py`), real rows and references are captured clips alone, and
+the judge (`action_judge.py`) has seen no procedural clip of an action that a capture covers.
+
+Letters: N motions, F features.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from functools import partial
+from typing import Any, Protocol
+
+import numpy as np
+
+from src.shared.data.prepared import PreparedData
+from src.shared.data.records import ClipRecord
+from src.shared.data.requests import (
+    COMPOSITIONS,
+    FREE,
+    OUTSIDE,
+    Request,
+    drawn,
+    load_requests,
+)
+from src.shared.errors import UserError
+from src.shared.evaluation.action_judge import ActionJudge, descriptor
+from src.shared.evaluation.clips import frozen, spread_over_groups
+from src.shared.evaluation.controllability import check
+from src.shared.evaluation.families import Column
+from src.shared.evaluation.grids import Cell, Grid, GridRow, report_data
+from src.shared.evaluation.intervals import bootstrap_mean, success_rate
+from src.shared.evaluation.kinetic_features import kinetic_features
+from src.shared.evaluation.metrics_frechet import frechet_distance
+from src.shared.evaluation.metrics_kinetic import FeatureSpace
+from src.shared.evaluation.metrics_physical import support_slide
+from src.shared.evaluation.text_context import LANGUAGES, errors_only
+from src.shared.motion.motion import Motion
+from src.shared.motion.root_track import decode_features
+from src.shared.motion.skeleton import JOINT_INDEX
+
+Progress = Callable[[str], None]
+TWINS = ({"wave", "bye"}, {"bye", "wave"})  # one gesture under two names
+GESTURES = ("wave", "raise", "bow", "bye", "call", "respond", "guide", "clap")
+HAND_DOWN = 0.15  # metres above the pelvis, at most, of a hand at rest
+AT_REST = 3  # frames at either end
+PIECE, HOP = 60, 15  # frames: windows in which the parts of a composition are looked for
+KINETIC_AXES = 16
+WALK = "a person walks forward"
+LONG_WALKS = (2.0, 10.0, 30.0, 60.0)  # seconds
+MIN_FRAMES = 24
+FLOOR_SHARE = 4  # every so many-th plain request is put to the floors
+SHOWN = frozenset(
+    (
+        *("forward", "backward", "left", "right", "turn-left", "turn-right"),
+        *("left-hand", "right-hand", "both-hands"),
+        *("kick-left", "kick-right", "punch-left", "punch-right", "count", "angle"),
+    )
+)  # checks of which way, which side and how much; which action it is the judge says
+
+
+class Model(Protocol):
+    """What is asked of a model; `MotionGenerator` is one."""
+
+    def generate(self, prompts: Sequence[str], *, seconds: float, seed: int) -> list[Motion]: ...
+    def scope_warnings(self, prompts: Sequence[str]) -> list[str | None]: ...
+
+
+@dataclass(frozen=True)
+class RequestSettings:
+    """How much is measured; the report repeats it."""
+
+    wordings: int = 3  # of each set of labels and language
+    languages: tuple[str, ...] = LANGUAGES
+    seconds: float = 4.0
+    variety_seeds: int = 8
+    max_clips: int = 600  # captured clips of the reference
+    seed: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """N motions with what is measured of each: descriptors [N,F]."""
+
+    motions: list[Motion]
+    features: np.ndarray
+
+    @classmethod
+    def of(cls, motions: Sequence[Motion]) -> "Seen":
+        return cls(list(motions), np.stack([descriptor(motion) for motion in motions]))
+
+    def __len__(self) -> int:
+        return len(self.motions)
+
+    def rows(self, index: Sequence[int]) -> "Seen":
+        return Seen([self.motions[i] for i in index], self.features[list(index)])
+
+
+class Yardstick:
+    """Captured clips, the judge that learned from them, and the clips nobody recorded."""
+
+    def __init__(self, data: PreparedData, settings: RequestSettings, progress: Progress) -> None:
+        """Read the clips and fit the judge.
+
+        Raises:
+            UserError: too few captured clips are held back.
+        """
+        self.data, self.settings = data, settings
+        self.longest = round(settings.seconds * 30)
+        train = [r for r in data.records("train") if r.tag and r.num_frames >= MIN_FRAMES]
+        self.captured = {r.tag for r in train if r.provenance == "captured"}
+        progress("descriptors of the training clips")
+        fitted = [r for r in train if r.provenance == "captured" or r.tag not in self.captured]
+        fitted = spread_over_groups(fitted, 4 * settings.max_clips, settings.seed)
+        self.known = self.clips(fitted)
+        self.known_tags = [record.tag for record in fitted]
+        try:
+            self.judge = ActionJudge.fit(self.known.features, self.known_tags)
+        except ValueError as error:
+            raise UserError(f"no judge can be fitted ({error}); prepare captured clips") from error
+        self.space = FeatureSpace.fit(self.known.features, np.zeros(self.known.features.shape[1]))
+        held = [
+            r
+            for split in ("test_seen", "test_unseen", "val")
+            for r in data.records(split)
+            if r.provenance == "captured" and r.tag in self.captured and r.num_frames >= MIN_FRAMES
+        ]
+        if len(held) < 2:
+            raise UserError("no captured clip is held back from training; prepare more of them")
+        progress("descriptors of the held-out clips")
+        self.records = spread_over_groups(held, settings.max_clips, settings.seed)
+        self.real = self.clips(self.records)
+        made = [r for r in train if r.provenance == "procedural" and r.tag in self.captured]
+        made = spread_over_groups(made, settings.max_clips, settings.seed)
+        self.procedural = self.clips(made) if made else None
+        self.procedural_tags = [record.tag for record in made]
+
+    def clips(self, records: Sequence[ClipRecord]) -> Seen:
+        """The first seconds of these clips."""
+        return Seen.of([decode_features(self.data.features(r)[: self.longest]) for r in records])
+
+    def shows(self, seen: Seen) -> list[str]:
+        """The action that the judge sees in each."""
+        return self.judge(seen.features)
+
+    def obeyed(self, labels: Sequence[dict[str, str]], seen: Seen) -> np.ndarray:
+        """Whether each motion does what its labels say: the action, and which way or side [N]."""
+        found = self.shows(seen)
+        return np.array(
+            [
+                same_action(wanted.get("action", ""), action) and shown(wanted, motion)
+                for wanted, action, motion in zip(labels, found, seen.motions, strict=True)
+            ]
+        )
+
+    def nearer_to_procedural(self, tags: Sequence[str], seen: Seen) -> np.ndarray:
+        """Whether the nearest clip of the action is one that nobody recorded; NaN without any."""
+        if self.procedural is None:
+            return np.full(len(seen), np.nan)
+        own = self.space(seen.features)
+        captured, made = self.space(self.known.features), self.space(self.procedural.features)
+        answers = []
+        for tag, point in zip(tags, own, strict=True):
+            distances = [
+                np.linalg.norm(there[[t == tag for t in theirs]] - point, axis=1)
+                for there, theirs in (
+                    (captured, self.known_tags),
+                    (made, self.procedural_tags),
+                )
+            ]
+            both = all(len(each) for each in distances)
+            answers.append(float(distances[1].min() < distances[0].min()) if both else np.nan)
+        return np.array(answers)
+
+
+def same_action(wanted: str, found: str) -> bool:
+    """Whether two names stand for one action."""
+    return wanted == found or {wanted, found} in TWINS
+
+
+def shown(labels: dict[str, str], motion: Motion) -> bool:
+    """Whether direction, turn, side, count and angle are those of the labels, as far as asked."""
+    answers = check({key: value for key, value in labels.items() if key != "speed"}, motion)
+    return all(value for name, value in answers.items() if name in SHOWN)
+
+
+def evaluate_requests(
+    model: Model,
+    data: PreparedData,
+    *,
+    floors: dict[str, Model] | None = None,
+    settings: RequestSettings | None = None,
+    about: dict[str, Any] | None = None,
+    progress: Progress = lambda text: None,
+) -> dict[str, Any]:
+    """The whole report as plain data, see `report_data`.
+
+    Args:
+        model: whose every table is.
+        data: a prepared folder with captured clips; its train split fits the judge, what is held
+            back is the reference.
+        floors: models of which the first tables have a row too, by its name.
+
+    Raises:
+        UserError: the data holds too few captured clips, or the model is untrained.
+    """
+    settings = settings or RequestSettings()
+    yardstick = Yardstick(data, settings, progress)
+    requests = load_requests(settings.languages)
+    plain = drawn([r for r in requests if r.section == "plain"], settings.wordings, settings.seed)
+    plain = [r for r in plain if r.action in yardstick.judge.classes]
+    with errors_only():
+        tables = _tables(yardstick, model, floors or {}, requests, plain, progress)
+    facts = {**(about or {}), "data_hash": data.manifest_hash[:12], "judge": "captured clips"}
+    return report_data("text", facts, asdict(settings), tables, [])
+
+
+def _tables(
+    yardstick: Yardstick,
+    model: Model,
+    floors: dict[str, Model],
+    requests: Sequence[Request],
+    plain: Sequence[Request],
+    progress: Progress,
+) -> list[Grid]:
+    settings = yardstick.settings
+    make = partial(_make, model, settings)
+    progress(f"{len(plain)} plain requests")
+    made = make([r.text for r in plain])
+    few = plain[::FLOOR_SHARE]
+    asked = {"generated": plain, "frozen pose": plain} | dict.fromkeys(floors, few)
+    rows = {"generated": made, "frozen pose": Seen.of([_still(motion) for motion in made.motions])}
+    for name, floor in floors.items():
+        progress(f"{len(few)} of them by {name}")
+        rows[name] = _make(floor, settings, [r.text for r in few])
+    progress("numbers, sides, styles and compositions")
+    return [
+        _obedience(yardstick, asked, rows),
+        _by_action(yardstick, plain, made),
+        _realism(yardstick, asked, rows),
+        _exactness(yardstick, model, requests, make),
+        _warnings(yardstick, model, requests, plain, made, make),
+    ]
+
+
+def _make(model: Model, settings: RequestSettings, texts: Sequence[str]) -> Seen:
+    return Seen.of(model.generate(texts, seconds=settings.seconds, seed=settings.seed))
+
+
+def _still(motion: Motion) -> Motion:
+    from src.shared.motion.root_track import encode_features
+
+    return decode_features(frozen(encode_features(motion)))
+
+
+# ---------------------------------------------------------------- tables
+
+
+def _share(values: Sequence[bool] | np.ndarray) -> Cell:
+    known = np.asarray(values, float)
+    known = known[~np.isnan(known)]
+    return success_rate(int(known.sum()), len(known)).as_dict()
+
+
+def _obedience(
+    yardstick: Yardstick, asked: dict[str, Sequence[Request]], rows: dict[str, Seen]
+) -> Grid:
+    languages = yardstick.settings.languages
+    labels = [record.labels for record in yardstick.records]
+    real = yardstick.obeyed(labels, yardstick.real)
+    found = {"captured, held out": GridRow({"all": _share(real)}, len(real))}
+    if yardstick.procedural is not None:
+        tags = [{"action": tag} for tag in yardstick.procedural_tags]
+        share = _share(yardstick.obeyed(tags, yardstick.procedural))
+        found["procedural"] = GridRow({"all": share}, len(tags))
+    for name, seen in rows.items():
+        done = yardstick.obeyed([request.labels for request in asked[name]], seen)
+        cells: dict[str, Cell] = {"all": _share(done)}
+        for code in languages:
+            own = [row for row, request in enumerate(asked[name]) if request.language == code]
+            cells[code] = _share(done[own])
+        found[name] = GridRow(cells, len(seen))
+    columns = [Column(key, key, 2, "high", share=True) for key in ("all", *languages)]
+    note = (
+        "Share of motions that do what a hand-written, plain sentence asks: the action by a"
+        " discriminant fitted on captured clips, side, direction and turn by kinematics."
+        " *captured*: held-out clips under their own labels; *procedural*: the action alone."
+    )
+    return Grid("obeyed", "Plain requests obeyed", tuple(columns), found, note)
+
+
+def _by_action(yardstick: Yardstick, plain: Sequence[Request], made: Seen) -> Grid:
+    done = yardstick.obeyed([request.labels for request in plain], made)
+    real = yardstick.obeyed([record.labels for record in yardstick.records], yardstick.real)
+    instead = yardstick.shows(made)
+    rows = {}
+    for action in sorted({request.action for request in plain}):
+        own = [row for row, request in enumerate(plain) if request.action == action]
+        theirs = [row for row, record in enumerate(yardstick.records) if record.tag == action]
+        others = [instead[row] for row in own if not same_action(action, instead[row])]
+        cells: dict[str, Cell] = {
+            "obeyed": _share(done[own]),
+            "real": _share(real[theirs]),
+            "source": "captured" if action in yardstick.captured else "not captured",
+            "instead": max(set(others), key=others.count) if others else "",
+        }
+        rows[action] = GridRow(cells, len(own))
+    columns = (
+        Column("obeyed", "obeyed", 2, "high", share=True),
+        Column("real", "captured clips", 2, "high", share=True),
+        Column("source", "the judge knows it from"),
+        Column("instead", "most often shown instead"),
+    )
+    return Grid("actions", "Plain requests by action", columns, rows, head="action")
+
+
+def _realism(
+    yardstick: Yardstick, asked: dict[str, Sequence[Request]], rows: dict[str, Seen]
+) -> Grid:
+    """Distances from captured clips of the same actions, and what a body shows of itself."""
+    tags = [record.tag for record in yardstick.records]
+    rng = np.random.default_rng(yardstick.settings.seed)
+    halves = np.array_split(rng.permutation(len(tags)), 2)
+    real, kinetic = yardstick.real, _kinetic(yardstick.real)
+    space = FeatureSpace.fit(kinetic, np.arange(kinetic.shape[1]) % 3)
+
+    def distances(seen: Seen, wanted: Sequence[str], reference: np.ndarray) -> dict[str, Cell]:
+        """Against as many captured clips of the same actions."""
+        pool = [[i for i in reference if tags[i] == tag] for tag in wanted]
+        own = [row for row, same in enumerate(pool) if same]
+        if len(own) < 2:
+            return {}
+        there = [int(rng.choice(pool[row])) for row in own]
+        judge = yardstick.judge
+        a, b = seen.rows(own), real.rows(there)
+        nearer = yardstick.nearer_to_procedural([wanted[row] for row in own], a)
+        return {
+            "learned": frechet_distance(judge.embed(a.features), judge.embed(b.features)),
+            "kinematic": space.distance(_kinetic(a), _kinetic(b)),
+            "procedural": _share(nearer),
+        }
+
+    def walks(seen: Seen, wanted: Sequence[str]) -> dict[str, Cell]:
+        walking = [m for m, tag in zip(seen.motions, wanted, strict=True) if tag == "walk"]
+        running = [m for m, tag in zip(seen.motions, wanted, strict=True) if tag == "run"]
+        peaks = [float(np.percentile(_acceleration(m), 99)) for m in walking]
+        beyond = [float((_acceleration(m) > limit).mean()) for m in running]
+        slides = [support_slide(m.positions().astype(np.float64), m.fps) for m in walking]
+        return {
+            "peak": bootstrap_mean(peaks).as_dict(),
+            "teleports": bootstrap_mean([100 * share for share in beyond]).as_dict(),
+            "slide": bootstrap_mean(slides).as_dict(),
+        }
+
+    runs = [m for m, tag in zip(real.motions, tags, strict=True) if tag == "run"]
+    limit = np.percentile(np.concatenate([_acceleration(m) for m in runs]), 99.9) if runs else 0.0
+    half = real.rows(halves[0].tolist())
+    own = [tags[i] for i in halves[0]]
+    found = {
+        "captured, held out": GridRow(
+            distances(half, own, halves[1]) | walks(real, tags), len(half)
+        )
+    }
+    everything = np.arange(len(tags))
+    if yardstick.procedural is not None:
+        seen, wanted = yardstick.procedural, yardstick.procedural_tags
+        found["procedural"] = GridRow(
+            distances(seen, wanted, everything) | walks(seen, wanted), len(seen)
+        )
+    for name, seen in rows.items():
+        wanted = [request.action for request in asked[name]]
+        found[name] = GridRow(distances(seen, wanted, everything) | walks(seen, wanted), len(seen))
+    columns = (
+        Column("learned", "FD, judge's axes", 1, "low"),
+        Column("kinematic", "FID_k", 1, "low"),
+        Column("procedural", "nearer to procedural", 2, "low", share=True),
+        Column("peak", "walks: peak acceleration m/s²", 0),
+        Column("teleports", "runs: frames beyond captured %", 2, "low"),
+        Column("slide", "walks: carrying foot cm/s", 1),
+    )
+    note = (
+        "FD: Fréchet distance in the axes along which the judge tells captured actions apart, in"
+        " deviations within an action; FID_k: of 66 kinetic features. Each motion stands against"
+        " one captured clip of its action; the first row is one half of the held-out clips against"
+        " the other. *nearer to procedural*: the nearest clip of the same action is one that nobody"
+        " recorded. *frames beyond captured*: worst joint's acceleration above the 99.9th"
+        " percentile of captured runs. A frozen pose is smooth and does not slide: read the"
+        " distances first."
+    )
+    return Grid("realism", "Like captured motion", columns, found, note)
+
+
+def _kinetic(seen: Seen) -> np.ndarray:
+    return np.stack([kinetic_features(m.positions(), m.fps).reshape(-1) for m in seen.motions])
+
+
+def _acceleration(motion: Motion) -> np.ndarray:
+    """m/s² of the worst joint [T - 2]."""
+    second = np.diff(motion.positions().astype(np.float64), n=2, axis=0) * motion.fps**2
+    return np.asarray(np.linalg.norm(second, axis=-1).max(1))
+
+
+def _exactness(
+    yardstick: Yardstick,
+    model: Model,
+    requests: Sequence[Request],
+    make: Callable[[Sequence[str]], Seen],
+) -> Grid:
+    """Counts, angles, lengths, sides, styles, sequences: what a sentence says exactly."""
+    rows: dict[str, GridRow] = {}
+
+    def of(section: str, *, simultaneous: bool = False) -> list[Request]:
+        found = [r for r in requests if r.section == section and r.simultaneous == simultaneous]
+        known = yardstick.judge.classes
+        return [r for r in found if all(part.get("action") in known for part in r.parts)]
+
+    def row(name: str, wanted: Sequence[Request], does: Callable[[Request, Motion], bool]) -> None:
+        if wanted:
+            motions = make([r.text for r in wanted]).motions
+            done = [does(r, motion) for r, motion in zip(wanted, motions, strict=True)]
+            rows[name] = GridRow({"share": _share(done)}, len(done))
+
+    def obeys(request: Request, motion: Motion) -> bool:
+        return bool(yardstick.obeyed([request.labels], Seen.of([motion]))[0])
+
+    for section in ("counts", "angles", "sides"):
+        row(section, of(section), obeys)
+    row("lengths, ±20%", [r for r in of("lengths") if "metres" in r.labels], _metres)
+    row(
+        "two sides at once",
+        of("sides", simultaneous=True),
+        lambda r, motion: all(shown(part, motion) for part in r.parts),
+    )
+    row("one-sentence sequences", of(COMPOSITIONS), partial(in_order, yardstick))
+    rows |= _styles(yardstick, of("styled"), make)
+    gestures = [r for r in of("plain") if r.action in GESTURES]
+    gestures = drawn(gestures, 1, yardstick.settings.seed)
+    row("gestures from rest to rest", gestures, lambda r, motion: at_rest(motion))
+    if gestures:
+        name, longest = "gestures from rest to rest", yardstick.longest
+        pairs = zip(yardstick.records, yardstick.real.motions, strict=True)
+        whole = [at_rest(m) for r, m in pairs if r.tag in GESTURES and r.num_frames <= longest]
+        rows[name] = GridRow({**rows[name].cells, "real": _share(whole)}, rows[name].num)
+    for seconds in LONG_WALKS:
+        walk = model.generate([WALK], seconds=seconds, seed=yardstick.settings.seed)[0]
+        rows[f"a walk of {seconds:g} s, m/s"] = GridRow({"share": _speed(walk)}, 1)
+    columns = (
+        Column("share", "generated", 2, "high"),
+        Column("real", "captured clips", 2),
+    )
+    note = (
+        "Shares of hand-written sentences of all languages whose number, angle within 30°, length,"
+        " side or order is shown, beside the action itself."
+    )
+    return Grid("exactness", "What is said exactly", columns, rows, note, head="asked for")
+
+
+def _styles(
+    yardstick: Yardstick, wanted: Sequence[Request], make: Callable[[Sequence[str]], Seen]
+) -> dict[str, GridRow]:
+    """Style heard, by a discriminant of captured walks in styles, and whether it still walks."""
+    train = [r for r in yardstick.data.records("train") if r.provenance == "captured"
+             and r.tag == "walk" and r.num_frames >= MIN_FRAMES]  # fmt: skip
+    styles = {r.labels.get("style", "normal") for r in train}
+    wanted = [r for r in wanted if r.labels.get("style") in styles]
+    if len(styles) < 2 or not wanted:
+        return {}
+    limit = yardstick.settings.max_clips
+    train = spread_over_groups(train, 2 * limit, yardstick.settings.seed)
+    judge = ActionJudge.fit(
+        yardstick.clips(train).features, [r.labels.get("style", "normal") for r in train]
+    )
+    held = [i for i, r in enumerate(yardstick.records) if r.tag == "walk"]
+    told = [yardstick.records[i].labels.get("style", "normal") for i in held]
+    right = np.array(judge(yardstick.real.features[held])) == np.array(told)
+    made = make([r.text for r in wanted])
+    heard = np.array(judge(made.features)) == np.array([r.labels["style"] for r in wanted])
+    walks = [action == "walk" for action in yardstick.shows(made)]
+    return {
+        "styled walks: style heard": GridRow(
+            {"share": _share(heard), "real": _share(right)}, len(made)
+        ),
+        "styled walks: still a walk": GridRow({"share": _share(walks)}, len(made)),
+    }
+
+
+def _metres(request: Request, motion: Motion) -> bool:
+    way = np.linalg.norm(motion.root_position[-1, [0, 2]] - motion.root_position[0, [0, 2]])
+    return bool(abs(way / float(request.labels["metres"]) - 1) <= 0.2)
+
+
+def _speed(motion: Motion) -> float:
+    way = np.linalg.norm(np.diff(motion.root_position[:, [0, 2]], axis=0), axis=-1).sum()
+    return float(way / motion.seconds)
+
+
+def at_rest(motion: Motion) -> bool:
+    """Whether both hands hang at the beginning and at the end."""
+    joints = motion.positions()
+    hands = joints[:, [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]], 1] - joints[:, :1, 1]
+    ends = np.concatenate((hands[:AT_REST], hands[-AT_REST:]))
+    return bool((ends < HAND_DOWN).all())
+
+
+def in_order(yardstick: Yardstick, request: Request, motion: Motion) -> bool:
+    """Whether the parts are seen one after the other, each in some window of two seconds."""
+    starts = range(0, max(motion.num_frames - PIECE, 0) + 1, HOP)
+    pieces = Seen.of([motion.frames(at, at + PIECE) for at in starts])
+    found, at = yardstick.shows(pieces), 0
+    for part in request.parts:
+        while at < len(found) and not same_action(part["action"], found[at]):
+            at += 1
+        if at == len(found):
+            return False
+    return True
+
+
+def _warnings(
+    yardstick: Yardstick,
+    model: Model,
+    requests: Sequence[Request],
+    plain: Sequence[Request],
+    made: Seen,
+    make: Callable[[Sequence[str]], Seen],
+) -> Grid:
+    """Does it know what it does not know?"""
+    done = yardstick.obeyed([request.labels for request in plain], made)
+    warned = np.array([w is not None for w in model.scope_warnings([r.text for r in plain])])
+    outside = [r for r in requests if r.section == OUTSIDE]
+    foreign = [w is not None for w in model.scope_warnings([r.text for r in outside])]
+    free = [r for r in requests if r.section == FREE and len(r.parts) < 2]
+    told = np.array([w is not None for w in model.scope_warnings([r.text for r in free])])
+    inside = [i for i, r in enumerate(free) if r.parts and r.action in yardstick.judge.classes]
+    right = np.zeros(len(free), bool)
+    if inside:
+        seen = make([free[i].text for i in inside])
+        right[inside] = yardstick.obeyed([free[i].labels for i in inside], seen)
+    shares: dict[str, Sequence[bool] | np.ndarray] = {
+        "plain, missed": warned[~done],
+        "plain, obeyed": warned[done],
+        "outside the vocabulary": foreign,
+        "free prompts, right": right,
+        "free prompts, wrong but warned of": ~right & told,
+        "free prompts, wrong without a word": ~right & ~told,
+    }
+    rows = {name: GridRow({"share": _share(each)}, len(each)) for name, each in shares.items()}
+    note = (
+        "The first three rows: share that is warned of. Then the free prompts, half of which are"
+        " outside: every one is right, or wrong with or without a warning."
+    )
+    title = "Knowing what it does not know"
+    return Grid("warnings", title, (Column("share", "share", 2),), rows, note, head="requests")

@@ -1,0 +1,71 @@
+"""The discriminant that says which action a motion shows."""
+
+import numpy as np
+import pytest
+
+from src.shared.data.synthetic import generate_clip
+from src.shared.data.synthetic.spec import spec_for
+from src.shared.evaluation.action_judge import ActionJudge, descriptor
+from src.shared.evaluation.clips import frozen
+from src.shared.motion.root_track import decode_features, encode_features
+
+LABELS = {
+    "walk": {"action": "walk", "direction": "forward", "speed": "normal"},
+    "wave": {"action": "wave", "side": "right", "speed": "normal"},
+    "squat": {"action": "squat", "count": "2", "speed": "normal"},
+    "punch": {"action": "punch", "side": "left", "count": "1"},
+}
+
+
+@pytest.fixture(scope="module")
+def clips() -> dict[str, np.ndarray]:
+    return {
+        name: np.stack([descriptor(generate_clip(spec_for(labels, s), seed=s)) for s in range(16)])
+        for name, labels in LABELS.items()
+    }
+
+
+def fit(clips: dict[str, np.ndarray], seeds: slice) -> ActionJudge:
+    names = [name for name, rows in clips.items() for _ in rows[seeds]]
+    return ActionJudge.fit(np.concatenate([rows[seeds] for rows in clips.values()]), names)
+
+
+def test_it_tells_actions_of_clips_it_has_not_seen(clips: dict[str, np.ndarray]) -> None:
+    judge = fit(clips, slice(0, 10))
+    for name, rows in clips.items():
+        assert judge(rows[10:]) == [name] * 6
+
+
+def test_a_frozen_pose_is_no_walk(clips: dict[str, np.ndarray]) -> None:
+    judge = fit(clips, slice(0, 16))
+    walk = encode_features(generate_clip(spec_for(LABELS["walk"], 99), seed=99))
+    still = descriptor(decode_features(frozen(walk)))
+    assert np.isfinite(still).all()
+    assert judge(still[None]) != ["walk"]
+
+
+def test_labels_that_mean_nothing_give_chance(clips: dict[str, np.ndarray]) -> None:
+    everything = np.concatenate([rows for rows in clips.values()])
+    names = [name for name, rows in clips.items() for _ in rows]
+    rng = np.random.default_rng(0)
+    order = rng.permutation(len(names))
+    shuffled = [names[row] for row in order]
+    judge = ActionJudge.fit(everything[:40], shuffled[:40])
+    right = np.mean([a == b for a, b in zip(judge(everything[40:]), shuffled[40:], strict=True)])
+    assert right < 0.6
+
+
+def test_classes_lie_apart_in_its_axes_in_deviations_within_a_class(
+    clips: dict[str, np.ndarray],
+) -> None:
+    judge = fit(clips, slice(0, 16))
+    places = {name: judge.embed(rows) for name, rows in clips.items()}
+    within = np.mean([rows.std(0).mean() for rows in places.values()])
+    centres = np.stack([rows.mean(0) for rows in places.values()])
+    apart = [np.linalg.norm(a - b) for i, a in enumerate(centres) for b in centres[:i]]
+    assert places["walk"].shape == (16, 3) and min(apart) > 5 * within
+
+
+def test_one_class_is_refused(clips: dict[str, np.ndarray]) -> None:
+    with pytest.raises(ValueError, match="too few"):
+        ActionJudge.fit(clips["walk"], ["walk"] * 16)

@@ -1,0 +1,122 @@
+"""The yardstick on models whose score is known: one that obeys, a deaf one, a still one."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from src.shared.data.prepare import prepare
+from src.shared.data.prepared import PreparedData
+from src.shared.data.requests import Request, load_requests
+from src.shared.data.sources import SyntheticSource
+from src.shared.data.synthetic import generate_clip
+from src.shared.data.synthetic.labels import label_combinations
+from src.shared.data.synthetic.spec import spec_for
+from src.shared.errors import UserError
+from src.shared.evaluation.grids import Grid
+from src.shared.evaluation.requests_harness import RequestSettings, at_rest, evaluate_requests
+from src.shared.motion.motion import Motion
+
+SETTINGS = RequestSettings(wordings=1, languages=("en",), seconds=3.0, max_clips=60)
+CAPTURED = {"walk", "run", "wave", "squat", "bow", "kick", "raise", "clap"}
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory: pytest.TempPathFactory) -> PreparedData:
+    """Synthetic clips, half of which pass for captured ones."""
+    folder = tmp_path_factory.mktemp("prepared")
+    prepare([SyntheticSource(240)], folder, workers=1)
+    prepared = PreparedData.open(folder)
+    records = [
+        replace(record, provenance="captured") if record.tag in CAPTURED and row % 4 < 2 else record
+        for row, record in enumerate(prepared.records())
+    ]
+    prepared.__dict__["_all_records"] = records
+    return prepared
+
+
+class Puppet:
+    """Shows what the labels of a request say, or those of another one."""
+
+    def __init__(self, *, deaf: bool = False) -> None:
+        requests = load_requests(("en",))
+        self.asked = {request.text: request for request in requests}
+        others = [request for request in requests if request.action in CAPTURED]
+        self.other = others[:: max(1, len(others) // 7)] if deaf else []
+
+    def generate(self, prompts: Sequence[str], *, seconds: float, seed: int) -> list[Motion]:
+        return [self._motion(prompt, row, seconds) for row, prompt in enumerate(prompts)]
+
+    def _motion(self, prompt: str, row: int, seconds: float) -> Motion:
+        request = self.asked.get(prompt, Request(prompt, "en", "plain", ({"action": "walk"},)))
+        if self.other:
+            request = self.other[row % len(self.other)]
+        known = {key: v for key, v in request.labels.items() if key in ("action", "side")}
+        fitting = [labels for labels in label_combinations() if known.items() <= labels.items()]
+        labels = fitting[0] if request.action in CAPTURED and fitting else {"action": "stand"}
+        clip = generate_clip(spec_for(labels, row), seed=row)
+        return clip.frames(0, round(seconds * clip.fps))
+
+    def scope_warnings(self, prompts: Sequence[str]) -> list[str | None]:
+        known = {*CAPTURED, "stand"}
+        return [None if self.asked[prompt].action in known else "far" for prompt in prompts]
+
+
+@pytest.fixture(scope="module")
+def tables(data: PreparedData) -> dict[str, Grid]:
+    report = evaluate_requests(
+        Puppet(), data, floors={"deaf": Puppet(deaf=True)}, settings=SETTINGS
+    )
+    return {grid["name"]: Grid.from_dict(grid) for grid in report["tables"]}
+
+
+def test_who_obeys_stands_above_the_deaf_and_the_still(tables: dict[str, Grid]) -> None:
+    obeyed = tables["obeyed"]
+    by_action = [tables["actions"].value(action, "obeyed") for action in sorted(CAPTURED)]
+    assert np.mean(by_action) > 0.7
+    assert obeyed.value("captured, held out", "all") > 0.7
+    assert obeyed.value("deaf", "all") < 0.35 < obeyed.value("generated", "all")
+    assert obeyed.value("frozen pose", "all") < 0.35
+    assert obeyed.value("generated", "en") == obeyed.value("generated", "all")
+
+
+def test_distances_grow_where_nothing_moves(tables: dict[str, Grid]) -> None:
+    realism = tables["realism"]
+    for column in ("learned", "kinematic"):
+        near, far = (realism.value(row, column) for row in ("captured, held out", "frozen pose"))
+        assert far > 2 * near
+    assert 0 <= realism.value("generated", "procedural") <= 1
+
+
+def test_warnings_are_held_against_what_went_wrong(tables: dict[str, Grid]) -> None:
+    warned = tables["warnings"]
+    assert warned.value("outside the vocabulary", "share") == 1.0
+    assert warned.value("plain, obeyed", "share") == 0.0
+    parts = ("right", "wrong but warned of", "wrong without a word")
+    assert sum(warned.value(f"free prompts, {part}", "share") for part in parts) == pytest.approx(1)
+
+
+def test_every_action_the_judge_knows_has_a_row(tables: dict[str, Grid]) -> None:
+    assert tables["actions"].rows.keys() >= CAPTURED
+    assert tables["actions"].rows["walk"].cells["source"] == "captured"
+    assert tables["actions"].rows["punch"].cells["source"] == "not captured"
+    assert {"counts", "gestures from rest to rest", "a walk of 10 s, m/s"} <= tables[
+        "exactness"
+    ].rows.keys()
+
+
+def test_hands_that_hang_are_at_rest() -> None:
+    wave = generate_clip(spec_for({"action": "wave", "side": "right", "speed": "slow"}, 0), seed=0)
+    middle = wave.num_frames // 2
+    highest = int(np.argmax(wave.positions()[:, 21, 1]))
+    assert not at_rest(wave.frames(highest, highest + 4))
+    stand = generate_clip(spec_for({"action": "stand"}, 0), seed=0)
+    assert at_rest(stand) and middle > 0
+
+
+def test_data_without_captured_clips_is_refused(tmp_path: Path) -> None:
+    prepare([SyntheticSource(60)], tmp_path, workers=1)
+    with pytest.raises(UserError, match="captured"):
+        evaluate_requests(Puppet(), PreparedData.open(tmp_path), settings=SETTINGS)
