@@ -27,7 +27,7 @@ from src.train.ema import ExponentialMovingAverage
 from src.train.interrupt import Interrupted, InterruptGuard
 from src.train.learning_rate import learning_rate_factor
 from src.train.resume import refuse_to_overwrite, require_same_run, run_identity
-from src.train.run_log import RunLog, console
+from src.train.run_log import VALIDATION, RunLog, console
 from src.train.seeding import mix_seed
 from src.train.setup import make_accelerator, make_optimizer
 from src.train.task import Part, Task
@@ -104,13 +104,15 @@ class Trainer(Generic[ConfigT]):
                 steps=config.steps,
                 main=main,
                 tensorboard=config.tensorboard,
+                validate=self._is_validated(start),
             ) as log,
         ):
-            if config.validate_first and start == 0:
-                self._validate(0, log)
+            # that of `start` again: a kill may have come between its checkpoint and its samples
+            step, enough = start, self._look(start, log)
             batches = ahead(self.task.batch, self._parts(start), config.num_workers)
             since, since_step = time.perf_counter(), start
-            for step in range(start + 1, config.steps + 1):
+            while step < config.steps and not enough:
+                step += 1
                 self._optimize(step, batches)
                 log.advance(step)
                 last = step == config.steps
@@ -124,16 +126,8 @@ class Trainer(Generic[ConfigT]):
                     self._save(step)
                 if stop:
                     raise self._interrupted(step, guard)
-                if step % config.validate_every == 0 or last:
-                    self._validate(step, log)
-                    if not last and self._has_converged():
-                        self._say(f"no better for long: stopping early at step {step}")
-                        self._save(step)
-                        break
+                enough = self._look(step, log)
                 since += time.perf_counter() - finished  # speed is that of the steps alone
-            if start == config.steps:  # a run that was killed after its last step
-                step = start
-                self._validate(step, log)
             self._finish(step)
 
     def _parts(self, start: int) -> Iterator[Part]:
@@ -179,12 +173,18 @@ class Trainer(Generic[ConfigT]):
                 )
                 self._sums[key] = self._sums[key] + pair if key in self._sums else pair
 
-    def _averages(self, step: int, speed: float) -> dict[str, float]:
-        """Means since the last call, over processes; a loss that is not finite is a UserError."""
+    def _totals(self) -> dict[str, list[float]]:
+        """Sum and number of each figure since the last log line, over processes."""
+        if not self._sums:
+            return {}
         keys = list(self._sums)
         sums = self.accelerator.reduce(torch.stack([self._sums[key] for key in keys]), "sum")
+        return dict(zip(keys, sums.tolist(), strict=True))
+
+    def _averages(self, step: int, speed: float) -> dict[str, float]:
+        """Means since the last call, over processes; a loss that is not finite is a UserError."""
+        result = {key: total / count for key, (total, count) in self._totals().items()}
         self._sums.clear()
-        result = {key: float(total / count) for key, (total, count) in zip(keys, sums, strict=True)}
         self._require_finite(result["loss"], step)
         result["learning-rate"] = self.optimizer.param_groups[0]["lr"]
         result["steps-per-second"] = speed
@@ -200,13 +200,30 @@ class Trainer(Generic[ConfigT]):
             f" {self.config.learning_rate:g}, raise warmup-steps, or use precision=no"
         )
 
+    def _is_validated(self, step: int) -> bool:
+        """Whether figures and samples of a step are wanted; 0 is before training."""
+        if step == 0:
+            return self.config.validate_first
+        return step % self.config.validate_every == 0 or step == self.config.steps
+
+    def _look(self, step: int, log: RunLog) -> bool:
+        """Validate where that is wanted; whether the task wants no more steps."""
+        if not self._is_validated(step):
+            return False
+        self._validate(step, log)
+        if step == self.config.steps or not self._has_converged():
+            return False
+        self._say(f"no better for long: stopping early at step {step}")
+        self._save(step)
+        return True
+
     def _validate(self, step: int, log: RunLog) -> None:
         """Figures and samples of the averaged weights, on the main process."""
         if self.accelerator.is_main_process:
             torch.manual_seed(mix_seed("validation", self.config.seed))
             with torch.no_grad():
                 values = self.task.validation(self.ema.module)
-                log.write(step, {f"validation/{key}": value for key, value in values.items()})
+                log.write(step, {VALIDATION + key: value for key, value in values.items()})
                 self._export(self.output / "samples" / f"{step:08d}")
         self.accelerator.wait_for_everyone()
 
@@ -224,11 +241,12 @@ class Trainer(Generic[ConfigT]):
 
     def _save(self, step: int) -> None:
         """Write a checkpoint, unless the loss since the last log line is not finite."""
-        if "loss" in self._sums:
-            total, count = self.accelerator.reduce(self._sums["loss"], "sum").tolist()
-            self._require_finite(total / count, step)
+        sums = self._totals()
+        if "loss" in sums:
+            self._require_finite(sums["loss"][0], step)
         if self.accelerator.is_main_process:
             state: dict[str, Any] = {"step": step, "identity": self._identity()}
+            state["sums"] = list(sums.items())  # in their order, which JSON objects here lose
             if self.accelerator.scaler is not None:
                 state["scaler"] = self.accelerator.scaler.state_dict()
             save_checkpoint(
@@ -277,6 +295,11 @@ class Trainer(Generic[ConfigT]):
         self.module.load_state_dict(checkpoint.tensors("model"))
         self.ema.module.load_state_dict(checkpoint.tensors("ema"))
         load_optimizer(self.optimizer.optimizer, checkpoint.tensors("optimizer"))
+        share = float(self.accelerator.is_main_process)  # it goes on with what all have summed
+        self._sums = {
+            key: share * torch.tensor(pair, device=self.accelerator.device)
+            for key, pair in checkpoint.state.get("sums", [])
+        }
         if self.accelerator.scaler is not None and "scaler" in checkpoint.state:
             self.accelerator.scaler.load_state_dict(checkpoint.state["scaler"])
 

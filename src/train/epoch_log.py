@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-VALIDATION = "validation/"
+from src.train.run_log import VALIDATION
+
 ROWS = {  # of the table: figure, name
     "loss": "Total loss",
     "velocity-coherence": "Velocity coherence",

@@ -21,17 +21,33 @@ from rich.progress import (
 
 from src.shared.files import atomic_write
 
+VALIDATION = "validation/"  # begins the names of figures that are not of training
+
 console = Console(stderr=True, highlight=False, soft_wrap=True)
 
 
-def truncate_log(path: Path, step: int) -> None:
-    """Drop entries after `step` and a line cut off by a kill: resuming writes them again."""
+def announce(text: str) -> None:
+    """One line on stderr, from the main process alone; for tasks, which know no accelerator."""
+    if os.environ.get("RANK", "0") == "0":
+        console.print(text, markup=False)
+
+
+def truncate_log(path: Path, step: int, *, validate: bool = False) -> None:
+    """Drop what resuming writes again.
+
+    Args:
+        path: log.jsonl.
+        step: entries after it go, and a line that a kill cut off.
+        validate: the figures of `step` itself go, too.
+    """
     if not path.exists():
         return
     kept = []
     for line in path.read_text(encoding="utf-8").splitlines():
         try:
-            if json.loads(line)["step"] <= step:
+            entry = json.loads(line)
+            again = validate and any(key.startswith(VALIDATION) for key in entry)
+            if entry["step"] < step + (not again):
                 kept.append(line)
         except (ValueError, KeyError, TypeError):
             continue
@@ -60,8 +76,16 @@ class RunLog:
     """Scalars of one run; a context manager, silent on all processes but the main one."""
 
     def __init__(
-        self, folder: Path, *, start: int, steps: int, main: bool, tensorboard: bool
+        self,
+        folder: Path,
+        *,
+        start: int,
+        steps: int,
+        main: bool,
+        tensorboard: bool,
+        validate: bool = False,
     ) -> None:
+        """Open the log where a run goes on; `validate`: the figures of `start` come again."""
         self._main = main
         self._seconds = time.perf_counter()
         self._interactive = main and sys.stderr.isatty()
@@ -77,7 +101,8 @@ class RunLog:
         )
         self._bar = self._progress.add_task("training", total=steps, completed=start)
         if main:
-            truncate_log(folder / "log.jsonl", start or -1)  # a new run keeps nothing
+            # a new run keeps nothing
+            truncate_log(folder / "log.jsonl", start or -1, validate=validate)
             self._stream = (folder / "log.jsonl").open("a", encoding="utf-8")
             self._writer = (
                 _tensorboard_writer(folder / "tensorboard", start) if tensorboard else None

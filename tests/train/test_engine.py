@@ -2,6 +2,7 @@
 
 import json
 import math
+import sys
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -157,6 +158,78 @@ def test_a_resumed_log_has_each_step_once(tmp_path: Path) -> None:
     run(tmp_path, resume=True)
     lines = [json.loads(line) for line in (tmp_path / "log.jsonl").read_text().splitlines()]
     assert [line["step"] for line in lines if "loss" in line] == [4, 8, 12]
+
+
+def log_of(output: Path) -> list[dict[str, Any]]:
+    """Lines of log.jsonl without what time makes of them."""
+    lines = [json.loads(line) for line in (output / "log.jsonl").read_text().splitlines()]
+    return [{k: v for k, v in line.items() if k != "steps-per-second"} for line in lines]
+
+
+def killed_at(
+    output: Path, monkeypatch: pytest.MonkeyPatch, what: str, step: int, **settings: Any
+) -> None:
+    """A run that ends, as with `kill -9`, where `what` of the trainer is called for a step."""
+    whole = getattr(Trainer, what)
+
+    def killed(self: Trainer[TrainConfig], at: int, *rest: Any) -> Any:
+        if at == step:
+            raise SystemExit("killed")
+        return whole(self, at, *rest)
+
+    monkeypatch.setattr(Trainer, what, killed)
+    with pytest.raises(SystemExit):
+        run(output, **settings)
+    monkeypatch.undo()
+
+
+@pytest.mark.parametrize("log_every", [4, 5])
+def test_a_killed_and_resumed_run_logs_the_same(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, log_every: int
+) -> None:
+    """A mean over steps before and after the checkpoint is that of all of them."""
+    run(tmp_path / "whole", log_every=log_every)
+    killed_at(tmp_path / "killed", monkeypatch, "_optimize", 10, log_every=log_every)
+    run(tmp_path / "killed", resume=True, log_every=log_every)
+    assert log_of(tmp_path / "killed") == log_of(tmp_path / "whole")
+    assert same(final(tmp_path / "whole"), final(tmp_path / "killed"))
+
+
+@pytest.mark.parametrize("step", [6, 12])
+def test_a_kill_between_checkpoint_and_samples_loses_neither(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, step: int
+) -> None:
+    run(tmp_path / "whole", save_every=6)
+    killed_at(tmp_path / "killed", monkeypatch, "_validate", step, save_every=6)
+    assert not (tmp_path / "killed" / "samples" / f"{step:08d}").exists()
+    run(tmp_path / "killed", resume=True, save_every=6)
+    for output in ("whole", "killed"):
+        assert sorted(p.name for p in (tmp_path / output / "samples").iterdir()) == [
+            "00000006",
+            "00000012",
+        ]
+    assert log_of(tmp_path / "killed") == log_of(tmp_path / "whole")
+
+
+def test_a_kill_before_the_export_logs_the_last_step_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run(tmp_path / "whole")
+    killed_at(tmp_path / "killed", monkeypatch, "_finish", 12)
+    run(tmp_path / "killed", resume=True)
+    assert log_of(tmp_path / "killed") == log_of(tmp_path / "whole")
+
+
+def test_an_early_stop_that_was_killed_stays_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    settings: dict[str, Any] = {"validate_every": 3, "save_every": 100}
+    monkeypatch.setattr(Patient, "save_pretrained", lambda *_: sys.exit("killed"))
+    with pytest.raises(SystemExit):
+        run_patient(tmp_path, **settings)
+    monkeypatch.undo()
+    run_patient(tmp_path, resume=True, **settings)
+    assert json.loads((tmp_path / "finished.json").read_text()) == {"steps": 6, "planned": 12}
 
 
 def test_accumulation_equals_a_larger_batch(
