@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 SOURCE = Path(__file__).parents[1] / "src"
-ERRORS = ("UserError", "UsageError")
+ERRORS = ("UserError", "UsageError", "EmptySplit")
 HOLE = "{}"  # where a value is put in
 
 

@@ -13,14 +13,14 @@ from torch import Tensor
 from torch.nn import functional as F
 
 from src.shared.config_schema import TrainConfig
-from src.shared.data.phrases.dataset import MotionPhraseDataset, PhraseBatch
+from src.shared.data.phrases.dataset import EmptySplit, MotionPhraseDataset, PhraseBatch
 from src.shared.data.prepared import SYNTHETIC, open_data
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.audio.conditioning import BEAT, CONDITION_ROWS
 from src.shared.model.audio.decoder import wrapped_phase
 from src.shared.model.audio.unet import MIN_FRAMES
 from src.shared.motion.trajectory import PHASE
-from src.train.run_log import console
+from src.train.run_log import announce, console
 
 SYNTHETIC_SONGS = 40
 
@@ -51,6 +51,22 @@ def open_phrases(
         bodies=bodies,
         seed=config.seed,
     )
+
+
+def open_held_back(config: PhraseConfig, *, bodies: bool = False) -> MotionPhraseDataset:
+    """The split `val`; where nothing is held back the training phrases, with a word on stderr.
+
+    Raises:
+        UserError: as `open_phrases`.
+    """
+    try:
+        return open_phrases(config, "val", None, bodies=bodies)
+    except EmptySplit:
+        announce(
+            "no phrases are held back: validation reads training phrases, so that its figures say"
+            " nothing of other songs"
+        )
+        return open_phrases(config, "train", config.num_phrases, bodies=bodies)
 
 
 def synthetic_pairs(folder: Path) -> Path:

@@ -1,6 +1,5 @@
 """What both text-branch stages need: the data, its rows, and figures shared by their tasks."""
 
-import os
 from pathlib import Path
 
 import numpy as np
@@ -10,12 +9,13 @@ from src.shared.config_schema import NetworkConfig, TrainConfig
 from src.shared.data.prepared import PreparedData, open_data
 from src.shared.data.text_motion import TextMotionDataset
 from src.shared.errors import UsageError, UserError
+from src.shared.evaluation.metrics_retrieval import BATCH
 from src.shared.model.clip.core import SMALL, TextTower
 from src.shared.model.clip.pretrained import encode_captions
 from src.shared.model.clip.scope import PromptScope
 from src.shared.model.clip.tokenizer import PromptTokenizer
 from src.shared.motion.skeleton import NUM_JOINTS
-from src.train.run_log import console
+from src.train.run_log import announce
 from src.train.seeding import mix_seed
 
 SCOPE_CAPTIONS = 20_000  # at most so many captions teach PromptScope
@@ -49,9 +49,20 @@ def validation_set(config: TrainConfig, data: PreparedData) -> TextMotionDataset
     try:
         return split_set(config, data, "val")
     except ValueError:
-        if os.environ.get("RANK", "0") == "0":
-            console.print("no validation: the data is too little to hold clips back", markup=False)
+        announce("no validation: the data is too little to hold clips back")
         return None
+
+
+def can_retrieve(number: int) -> bool:
+    """Whether R@k, which goes by batches of 32, can be told of so many held-back clips.
+
+    Of two clips anyone finds the right one; where there are too few a word on stderr says so.
+    """
+    if number < BATCH:
+        announce(
+            f"{number} clips are held back and R@k needs {BATCH}: validation is the loss alone"
+        )
+    return number >= BATCH
 
 
 def split_set(config: TrainConfig, data: PreparedData, split: str) -> TextMotionDataset:

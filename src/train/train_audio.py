@@ -29,7 +29,7 @@ from src.shared.model.diffusion.gaussian import GaussianDiffusion, masked_loss
 from src.shared.motion.trajectory import FPS, POSITION, QUATERNION, STYLE
 from src.train.batches import to_device
 from src.train.launch import stage_app
-from src.train.phrases import PhraseConfig, export_song, open_phrases
+from src.train.phrases import PhraseConfig, export_song, open_held_back, open_phrases
 from src.train.seeding import generator
 from src.train.task import Part
 from src.train.train_generation import NOISE_LEVELS, spread_timesteps
@@ -116,7 +116,7 @@ class AudioTask:
         self.config = config
         self.network = network.model_copy(update={"window": config.target_frames})
         self.train: MotionPhraseDataset = open_phrases(config, "train", config.num_phrases)
-        self.held_back: MotionPhraseDataset = open_phrases(config, "val", None)
+        self.held_back: MotionPhraseDataset = open_held_back(config)
         self.model = self._start()
         self.mean, self.std = self.model.mean.clone(), self.model.std.clone()
         # a copy: samples are made by the task's own model, with averaged weights, on the CPU

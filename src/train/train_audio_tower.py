@@ -25,6 +25,7 @@ from src.shared.config_space import AudioTowerConfig
 from src.shared.data.phrases.dataset import MotionPhraseDataset
 from src.shared.data.phrases.layout import PhraseRecord
 from src.shared.data.phrases.statistics import sound_statistics
+from src.shared.evaluation.metrics_retrieval import BATCH
 from src.shared.evaluation.space_retrieval import Bench
 from src.shared.evaluation.space_windows import Windows
 from src.shared.model.audio.audio_tower import AudioTower
@@ -35,7 +36,8 @@ from src.shared.model.clip.losses import clip_loss
 from src.shared.model.clip.pretrained import ClipBundle
 from src.shared.motion.trajectory import FPS
 from src.train.launch import stage_app
-from src.train.phrases import PhraseConfig, open_phrases
+from src.train.phrases import PhraseConfig, open_held_back, open_phrases
+from src.train.run_log import announce
 from src.train.seeding import generator
 from src.train.task import Part
 from src.train.text_motion import numpy_generator
@@ -102,8 +104,13 @@ class AudioTowerTask:
         self.train = _windows(config, dataset, step=1, copies=config.copies)
         self.motion = self.train.embed_bodies(self.space.embed_motion)  # N D
         self.song, self.clips = _numbered(self.train.records)
-        self.held_back = _windows(config, open_phrases(config, "val", None, bodies=True))
+        self.held_back = _windows(config, open_held_back(config, bodies=True))
         self.held_back_motion = self.held_back.embed_bodies(self.space.embed_motion)
+        if (number := len(self.held_back.records)) < BATCH:
+            announce(
+                f"only {number} phrases to validate with: R@k and ranks among so few mean little,"
+                " whatever they are"
+            )
         self.bench = Bench.draw(self.held_back, replications=config.validation_batches)
         self.augment = ConditionAugmentation(config.tower.augmentation)
         # a copy: the space of the task gets the averaged weights

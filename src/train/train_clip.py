@@ -27,6 +27,7 @@ from src.shared.model.clip.tokenizer import PromptTokenizer
 from src.train.launch import stage_app
 from src.train.task import Part
 from src.train.text_motion import (
+    can_retrieve,
     motion_rows,
     numpy_generator,
     open_training_data,
@@ -94,6 +95,7 @@ class ClipTask:
         self.data = open_training_data(config, network)
         self.train = training_set(config, self.data)
         self.held_back = validation_set(config, self.data)
+        self.retrieves = self.held_back is not None and can_retrieve(len(self.held_back))
         self.tokenizer = self._tokenizer()
         clip = MotionClip(network)
         nn.init.constant_(clip.logit_scale, -math.log(config.temperature))
@@ -136,7 +138,7 @@ class ClipTask:
         return {**losses, "scale": scale}
 
     def validation(self, module: nn.Module) -> dict[str, float]:
-        """Loss and R@k of held-back clips in batches of 32, beside what guessing gives."""
+        """Loss of held-back clips; R@k in batches of 32, beside what guessing gives."""
         if self.held_back is None:
             return {}
         device = next(module.parameters()).device
@@ -153,13 +155,14 @@ class ClipTask:
             motions.append(motion.cpu().float())
             captions += clips.captions
             groups += clips.group.tolist()
-        columns = [groups, captions]
-        found = _recalls(torch.cat(texts), torch.cat(motions), columns)
-        blind = torch.zeros(len(groups), 1)  # every distance a tie
-        guessed = _recalls(blind, blind, columns)
         self.figures = {"loss": sum(losses) / len(losses)}
-        for k, value, chance in zip(TOP, found, guessed, strict=True):
-            self.figures |= {f"r-at-{k}": value, f"chance-at-{k}": chance}
+        if self.retrieves:
+            columns = [groups, captions]
+            found = _recalls(torch.cat(texts), torch.cat(motions), columns)
+            blind = torch.zeros(len(groups), 1)  # every distance a tie
+            guessed = _recalls(blind, blind, columns)
+            for k, value, chance in zip(TOP, found, guessed, strict=True):
+                self.figures |= {f"r-at-{k}": value, f"chance-at-{k}": chance}
         return self.figures
 
     def export_samples(self, module: nn.Module, folder: Path) -> None:
@@ -184,9 +187,8 @@ class ClipTask:
 
 
 def _recalls(text: Tensor, motion: Tensor, columns: list[Any]) -> tuple[float, ...]:
-    """R@1, 2, 3 within batches of 32, or of all where there are fewer."""
-    size = min(BATCH, len(text))
-    return guo_retrieval(text.numpy(), motion.numpy(), columns, batch=size).r_precision
+    """R@1, 2, 3 within batches of 32."""
+    return guo_retrieval(text.numpy(), motion.numpy(), columns).r_precision
 
 
 app = stage_app(

@@ -35,6 +35,7 @@ from src.train.phrases import (
     PhraseConfig,
     bar_phase_at_start,
     export_song,
+    open_held_back,
     open_phrases,
     true_trajectory,
     whole_windows,
@@ -168,7 +169,7 @@ class DecoderTask:
         self.model = AudioMotionModel.from_pretrained(config.audio)
         self.source = self.model.card
         self.train = open_phrases(config, "train", config.num_phrases)
-        self.held_back = open_phrases(config, "val", None)
+        self.held_back = open_held_back(config)
         self.model.replace_decoder(create_motion_decoder(network.decoder))
         self.module: nn.Module = DecoderObjective(self.model.decoder.train(), config)
         self.untrained = DecoderObjective(create_motion_decoder(network.decoder), config).eval()

@@ -16,11 +16,12 @@ from src.shared.config_schema import NetworkConfig, TrainConfig
 from src.shared.data.prepared import open_data
 from src.shared.data.word_dropout import drop_words
 from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig, contrastive_loss
-from src.shared.evaluation.metrics_retrieval import guo_retrieval
+from src.shared.evaluation.metrics_retrieval import BATCH, TOP, guo_retrieval
 from src.shared.evaluation.training_set import PairBatch, PairSet
 from src.train.launch import stage_app
 from src.train.seeding import mix_seed
 from src.train.task import Part
+from src.train.text_motion import can_retrieve
 
 
 class TrainEvaluatorConfig(TrainConfig):
@@ -41,6 +42,7 @@ class EvaluatorTask:
         self.train = self._pairs("train", config.balance)
         # A folder of few takes keeps none for validation; training goes on without figures.
         self.held_back = self._pairs("val", 1.0) if self.data.records("val") else None
+        self.retrieves = self.held_back is not None and can_retrieve(len(self.held_back.records))
         self.module: nn.Module = Evaluator(
             EvaluatorConfig(hidden_size=config.hidden_size, embed_dim=config.embed_dim)
         )
@@ -90,17 +92,18 @@ class EvaluatorTask:
         hits, losses = [], []
         for index in range(self.config.validation_batches):
             rng = np.random.default_rng(mix_seed("validation", index))
-            pairs = self.held_back.batch(32, rng)
+            pairs = self.held_back.batch(BATCH, rng)
             text, motion, scale = module(
                 pairs.captions, pairs.joints.to(device), pairs.mask.to(device)
             )
             losses.append(contrastive_loss(text, motion, pairs.same.to(device), scale).item())
-            group = [pairs.same[row].int().argmax().item() for row in range(32)]
+            group = [pairs.same[row].int().argmax().item() for row in range(BATCH)]
             arrays = text.cpu().float().numpy(), motion.cpu().float().numpy()
             hits.append(guo_retrieval(*arrays, [group, pairs.captions]).r_precision)
         module.train()
-        mean = np.mean(hits, axis=0)
-        self.figures = {f"r-at-{k}": float(mean[k - 1]) for k in (1, 2, 3)}
+        if self.retrieves:
+            mean = np.mean(hits, axis=0)
+            self.figures = {f"r-at-{k}": float(mean[k - 1]) for k in TOP}
         return {"loss": float(np.mean(losses)), **self.figures}
 
     def export_samples(self, module: nn.Module, folder: Path) -> None:

@@ -11,9 +11,14 @@ from safetensors.torch import load_file
 from tiny_stage import clip_config, tiny_network, train_clip
 from torch import Tensor
 
+from src.shared.config_schema import TrainClipConfig
+from src.shared.data.prepared import PreparedData
+from src.shared.data.text_motion import TextMotionDataset
 from src.shared.errors import UsageError, UserError
 from src.shared.model.clip.losses import clip_loss
 from src.shared.model.clip.pretrained import ClipBundle
+from src.train import train_clip as train_clip_stage
+from src.train.text_motion import split_set
 from src.train.train_clip import ClipTask, gather
 
 
@@ -34,6 +39,26 @@ def test_it_learns_and_leaves_a_folder(prepared: Path, tmp_path: Path) -> None:
     assert not torch.equal(ids[0], ids[1])
     assert bundle.clip.encode_text(ids, mask).shape == (2, 32)
     assert torch.equal(bundle.mean, task.data.mean)
+
+
+def test_two_held_back_clips_give_no_retrieval_figure(
+    prepared: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    """One of two is found by anyone: `r-at-1 1` would say nothing."""
+
+    def two(config: TrainClipConfig, data: PreparedData) -> TextMotionDataset:
+        found = split_set(config, data, "train")
+        found.records = found.records[:2]
+        return found
+
+    monkeypatch.setattr(train_clip_stage, "validation_set", two)
+    task = train_clip(clip_config(prepared, tmp_path, "steps=2"))
+    assert list(task.figures) == ["loss"]
+    told = capfd.readouterr().err
+    assert "2 clips are held back and R@k needs 32" in told and "r-at-1" not in told
 
 
 def test_resuming_is_bitwise_the_same(prepared: Path, tmp_path: Path) -> None:

@@ -6,6 +6,7 @@ import pytest
 import torch
 
 from src.shared.config_loader import load_train
+from src.shared.data.prepared import PreparedData
 from src.shared.evaluation.evaluator import Evaluator
 from src.train.task import Part
 from src.train.train_evaluator import EvaluatorTask, TrainEvaluatorConfig, app
@@ -45,6 +46,16 @@ def test_a_short_run_learns_and_resumes(data: Path, tmp_path: Path) -> None:
     figures = (tmp_path / "whole" / "config.json").read_text(encoding="utf-8")
     assert '"data-hash"' in figures and judge.config.hidden_size == 32
     run(f"output={tmp_path / 'whole'}", "--resume")
+
+
+def test_few_held_back_clips_give_no_retrieval_figure(
+    data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    overrides = [f"data={data}", f"output={tmp_path}", *SHORT]
+    monkeypatch.setattr(PreparedData, "records", lambda self, split=None: self._all_records[:4])
+    task = EvaluatorTask(load_train(None, TrainEvaluatorConfig, overrides))
+    with torch.no_grad():
+        assert list(task.validation(task.module)) == ["loss"]
 
 
 def test_batches_are_pure_functions_of_their_part(data: Path, tmp_path: Path) -> None:

@@ -92,3 +92,15 @@ def assign_splits(clips: Sequence[tuple[str, str, Labels]], seed: int) -> dict[s
         for take in ordered[num_test : num_test + num_val]:
             split[take] = "val"
     return split
+
+
+def assign_alike(names: Sequence[str], seed: int) -> dict[str, str]:
+    """Train, val or test of songs or takes of one kind.
+
+    Fewer than are needed for all three are all for training: what is held back of so few would be
+    missed there and tell little.
+    """
+    if len(names) < 2 * MIN_TAKES:
+        return dict.fromkeys(names, "train")
+    drawn = assign_splits([(name, "of one kind", {}) for name in names], seed)
+    return {name: split.partition("_")[0] for name, split in drawn.items()}

@@ -15,7 +15,7 @@ from torch import Tensor
 from src.shared.data.pairing.motion_beats import MotionBeats, motion_beats
 from src.shared.data.prepared import SYNTHETIC, PreparedData
 from src.shared.data.records import ClipRecord
-from src.shared.data.splits import assign_splits
+from src.shared.data.splits import assign_alike
 from src.shared.motion.root_track import (
     FORWARD,
     HEIGHT,
@@ -147,12 +147,11 @@ def open_library(data: PreparedData, *, synthetic: bool = True, seed: int = 0) -
 
 
 def _splits(records: list[ClipRecord], seed: int) -> dict[str, str]:
-    """Split of each take: the folder's own, or by hash where it holds nothing back."""
-    own = {r.take: "test" if r.split.startswith("test") else r.split for r in records}
+    """Split of each take: the folder's own, or another where it holds too little back."""
+    own = {r.take: r.split.partition("_")[0] for r in records}
     if {"train", "val", "test"} <= set(own.values()):
         return own
-    drawn = assign_splits([(take, "one group", {}) for take in own], seed)
-    return {take: "test" if split.startswith("test") else split for take, split in drawn.items()}
+    return assign_alike(list(own), seed)
 
 
 def _track(

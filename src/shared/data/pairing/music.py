@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from src.shared.data.pairing.pair import MusicBeats, strong_beats
-from src.shared.data.splits import assign_splits
+from src.shared.data.splits import assign_alike
 from src.shared.errors import UsageError, UserError
 from src.shared.files import sha256_file
 
@@ -155,15 +155,14 @@ class FolderMusic:
             )
         hashes = [sha256_file(path) for path in found]
         unique = list(dict.fromkeys(hashes))
-        splits = assign_splits([(digest, "songs", {}) for digest in unique], self.seed)
+        splits = assign_alike(unique, self.seed)
         entries = []
         for digest in unique:
             path = found[hashes.index(digest)]
-            split = "test" if splits[digest].startswith("test") else splits[digest]
             entries.append(
                 SongEntry(
                     f"{_slug(path.stem)}-{digest[:8]}",
-                    split,
+                    splits[digest],
                     f"{digest}:{self.meter}",
                     path.relative_to(self.root).as_posix(),
                 )

@@ -23,7 +23,7 @@ import hashlib
 import json
 import shutil
 from collections.abc import Callable, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -104,10 +104,12 @@ def _jobs(
     jobs: dict[str, SongJob] = {}  # a song that two sources hold is taken once
     for source in sources:
         for entry in source.entries():
+            clips = tuple(library.of_split(entry.split))
+            if not clips:  # too few were there to hold any back for this split
+                entry, clips = replace(entry, split="train"), tuple(library.of_split("train"))
             made_of = (entry.id, entry.split, entry.fingerprint, asdict(options))
             text = json.dumps([VERSION, data.manifest_hash, *made_of])
             key = hashlib.sha256(text.encode()).hexdigest()
-            clips = tuple(library.of_split(entry.split))
             jobs.setdefault(entry.id, SongJob(source, entry, clips, out, options, key))
     return list(jobs.values())
 

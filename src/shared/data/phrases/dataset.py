@@ -23,6 +23,11 @@ from src.shared.data.phrases.remote import Backoff, Remote, Unreachable
 from src.shared.data.phrases.store import PhraseStore
 from src.shared.errors import UsageError, UserError
 
+
+class EmptySplit(UserError):
+    """There are phrases, none of them of the split that was asked for."""
+
+
 Encode = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 
@@ -113,11 +118,16 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
         self.store = PhraseStore(remote, cache)
         everything = remote.phrases()
         self.phrases = [p for p in everything if split in (None, p.split)][:num_phrases]
-        if not self.phrases:
-            splits = ", ".join(sorted({phrase.split for phrase in everything})) or "none"
+        if not everything:
             raise UserError(
-                f"{self.root} has no phrases of split {split or 'any'} (splits: {splits}); it needs"
-                " audio_features/ID/features.npz and motion/ID/trajectory.npy"
+                f"{self.root} has no phrases; it needs audio_features/ID/features.npz and"
+                " motion/ID/trajectory.npy: make them with prepare-audio"
+            )
+        if not self.phrases:
+            splits = ", ".join(sorted({phrase.split for phrase in everything}))
+            raise EmptySplit(
+                f"{self.root} has no phrases of split {split} (splits: {splits}); name one of"
+                " these, or prepare more songs and clips"
             )
         if bodies and any(phrase.body is None for phrase in self.phrases):
             raise UserError(

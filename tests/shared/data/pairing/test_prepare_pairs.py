@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from src.shared.data.pairing.clip_library import open_library, speed_threshold
-from src.shared.data.pairing.music import SyntheticMusic, open_music
+from src.shared.data.pairing.music import FolderMusic, SyntheticMusic, open_music
 from src.shared.data.pairing.phrase_motion import Piece, join
 from src.shared.data.pairing.prepare_audio import PairOptions, prepare_audio
 from src.shared.data.pairing.report import WINDOW_FRAMES, training_trajectories
@@ -125,6 +125,25 @@ def test_the_manifest_rebuilds_a_phrase(made: tuple[Path, Any], walks: PreparedD
         trajectory = np.load(out / phrase["motion"]["path"])
         assert np.allclose(trajectory[:, :3], position, atol=1e-5)
         assert np.allclose(trajectory[:, 9:13], quaternion, atol=1e-5)
+
+
+def test_few_clips_and_songs_are_all_for_training(tmp_path: Path) -> None:
+    """None is lost to a split that the others cannot fill."""
+    prepare([Walks(7)], tmp_path / "motion", mirror=False, workers=1)
+    data = PreparedData.open(tmp_path / "motion")
+    assert {clip.split for clip in open_library(data).clips} == {"train"}
+    assert {split for split, _ in MUSIC.specs()} == {"train", "val", "test"}
+    report = prepare_audio(data, [MUSIC], tmp_path / "out", options=OPTIONS)
+    assert set(report["by_split"]) == {"train"}
+    assert report["songs"] == 4
+
+
+def test_songs_are_held_back_from_ten_on(tmp_path: Path) -> None:
+    for number in range(9):
+        (tmp_path / f"{number}.wav").write_bytes(bytes([number]))
+    assert {entry.split for entry in FolderMusic(tmp_path).entries()} == {"train"}
+    (tmp_path / "9.wav").write_bytes(b"9")
+    assert {entry.split for entry in FolderMusic(tmp_path).entries()} == {"train", "val", "test"}
 
 
 def test_statistics_are_of_the_training_windows(made: tuple[Path, Any]) -> None:

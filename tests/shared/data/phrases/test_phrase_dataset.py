@@ -108,8 +108,9 @@ def test_tech_spelling_and_selection(folder: Path, tmp_path: Path) -> None:
     assert data[1][0].shape == (25, 64)
     val = open_dataset(folder, tmp_path, split="val")
     assert val.phrase_ids == ["p004", "p009"]
-    with pytest.raises(UserError, match="splits: train, val"):
+    with pytest.raises(UserError, match=r"split test \(splits: train, val\)") as error:
         open_dataset(folder, tmp_path, split="test")
+    assert "features.npz" not in str(error.value), "which is there"
     with pytest.raises(UsageError, match="gcs_bucket"):
         MotionPhraseDataset()
     with pytest.raises(UserError, match="audio_features/ID"):
