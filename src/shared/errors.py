@@ -1,6 +1,10 @@
 """The two errors a user can cause; the command line turns them into exit codes."""
 
 import re
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pydantic import ValidationError
 
 LONGEST = 2000  # characters of a message; what is quoted may be a whole file
 # Control characters, marks that turn the direction of writing or show nothing, half characters.
@@ -29,3 +33,11 @@ class UsageError(UserError):
     """The command or its configuration is wrong, so nothing was started (exit code 2)."""
 
     exit_code = 2
+
+
+def first_fault(error: "ValidationError") -> str:
+    """The first thing that a model found wrong with a file: `key: what`, without web addresses."""
+    first = error.errors()[0]
+    place = ".".join(map(str, first["loc"]))
+    told = first["msg"].removeprefix("Value error, ")
+    return f"{place}: {told}" if place else told

@@ -12,10 +12,11 @@ from safetensors.torch import load_file
 from torch import Tensor
 
 from src.shared.data.records import SPLITS, ClipRecord
-from src.shared.errors import UserError
+from src.shared.errors import UserError, first_fault
 from src.shared.files import inside, load_json, sha256_file
 from src.shared.motion.mirror import mirror_features
 
+VERSION = 3  # of prepared folders; 2 did not say where motion comes from, 1 held other splits
 SYNTHETIC = "synthetic"
 SYNTHETIC_CLIPS = 1500
 ROWS = (23, 6)  # of a frame's features
@@ -35,9 +36,7 @@ def damaged(path: Path) -> Iterator[None]:
     try:
         yield
     except ValidationError as error:
-        first = error.errors()[0]
-        place = ".".join(map(str, first["loc"]))
-        told = f"{place}: {first['msg']}" if place else first["msg"]
+        told = first_fault(error)
         raise UserError(f"{path} is damaged ({told:.300}); run `prepare` again") from None
     except (OSError, ValueError, TypeError, LookupError, SafetensorError) as error:
         raise UserError(f"{path} is damaged ({error!s:.300}); run `prepare` again") from None
@@ -73,6 +72,13 @@ class PreparedData:
             self.manifest = dict(load_json(path))
             self.tags: tuple[str, ...] = _TEXTS.validate_python(self.manifest["tags"])
             files = _FILES.validate_python(self.manifest["files"])
+            version = int(self.manifest["version"])
+        if version != VERSION:
+            whose = "an older" if version < VERSION else "a newer"
+            raise UserError(
+                f"{folder} was prepared by {whose} version of this program (format {version}, this"
+                f" one reads {VERSION}); run `prepare` again with the same sources and --out"
+            )
         self.manifest_hash = sha256_file(path)
         if verify:
             self._verify(files)

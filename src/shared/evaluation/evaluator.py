@@ -17,6 +17,7 @@ from typing import Any, Self
 
 import torch
 import torch.nn.functional as F
+from pydantic import ValidationError
 from safetensors import SafetensorError
 from safetensors.torch import load_file, save_file
 from torch import Tensor, nn
@@ -26,6 +27,7 @@ from src.shared.errors import UserError
 from src.shared.evaluation.joint_features import NUM_FEATURES, joint_features
 from src.shared.evaluation.text_hashing import NUM_BUCKETS, bag
 from src.shared.files import atomic_write, load_json, sha256_file, write_json
+from src.shared.model.checkpoint import of_another_version
 from src.shared.motion.motion import Motion
 from src.shared.motion.root_track import encode_features
 
@@ -225,7 +227,11 @@ class Evaluator(nn.Module):
                 "; name a folder of train_evaluator"
             )
         try:
-            model = cls(EvaluatorConfig.model_validate(content["evaluator"]))
+            config = EvaluatorConfig.model_validate(content.get("evaluator"))
+        except ValidationError as error:
+            raise of_another_version(folder / "config.json", error) from error
+        try:
+            model = cls(config)
             model.load_state_dict({key: value.float() for key, value in weights.items()})
         except (KeyError, ValueError, RuntimeError) as error:
             raise UserError(

@@ -13,7 +13,7 @@ from pydantic import Field, ValidationError
 from src.shared.config_audio import AudioNetworkConfig
 from src.shared.config_schema import Config, NetworkConfig
 from src.shared.config_space import AudioTowerConfig
-from src.shared.errors import UserError
+from src.shared.errors import UserError, first_fault
 from src.shared.files import atomic_write, load_json, sha256_file, write_json
 
 if TYPE_CHECKING:
@@ -54,6 +54,16 @@ class ModelCard(Config):
     weights: WeightsInfo | None = None
 
 
+def of_another_version(path: Path, error: ValidationError) -> UserError:
+    """What to tell of a file in a model folder whose content is not what this version writes."""
+    first = error.errors()[0]
+    got = "" if first["type"] == "missing" else f" (got {first['input']!r:.60})"
+    return UserError(
+        f"{path}: {first_fault(error)}{got}; the folder is damaged, or another version of this"
+        " program made it: copy it again, or train it with this one"
+    )
+
+
 def read_card(folder: Path) -> ModelCard:
     """The card of a model folder.
 
@@ -69,12 +79,7 @@ def read_card(folder: Path) -> ModelCard:
             "; name a folder from training, or a name that `models` lists"
         ) from error
     except ValidationError as error:
-        first = error.errors()[0]
-        key = ".".join(map(str, first["loc"]))
-        raise UserError(
-            f"{path}: {key}: {first['msg']} (got {first['input']!r:.60}); this version cannot read"
-            " the model; copy the folder again or train anew"
-        ) from error
+        raise of_another_version(path, error) from error
     except (OSError, ValueError) as error:
         raise UserError(f"{path} cannot be read ({error}); copy the model folder again") from error
 

@@ -86,6 +86,10 @@ def test_loading_says_what_is_wrong(evaluator: Evaluator, tmp_path: Path) -> Non
     (tmp_path / "config.json").write_text(config.replace('"hidden_size": 16', '"hidden_size": 8'))
     with pytest.raises(UserError, match="do not fit"):
         Evaluator.from_pretrained(tmp_path)
+    (tmp_path / "config.json").write_text(config.replace('"hidden_size"', '"hidden"'))
+    with pytest.raises(UserError, match="another version of this program made it") as error:
+        Evaluator.from_pretrained(tmp_path)
+    assert "pydantic" not in str(error.value)
     (tmp_path / "config.json").write_text(config.replace('"kind": "evaluator"', '"kind": "clip"'))
     with pytest.raises(UserError, match="'clip', not an evaluator"):
         Evaluator.from_pretrained(tmp_path)

@@ -17,7 +17,7 @@ from pydantic import BaseModel, ValidationError, field_validator
 
 from src.shared.array_files import BadArray, load_array, load_arrays
 from src.shared.audio.features import AudioFeatures
-from src.shared.errors import UserError
+from src.shared.errors import UserError, first_fault
 from src.shared.files import atomic_write, sha256_file, write_text
 
 MANIFEST = "manifest.json"
@@ -181,10 +181,8 @@ def parse_manifest(text: bytes, where: str) -> list[PhraseRecord]:
     try:
         phrases = Manifest.model_validate_json(text).phrases
     except ValidationError as error:
-        first = error.errors()[0]
-        place = ".".join(map(str, first["loc"])) or "the file"
         raise UserError(
-            f"{where} is not a manifest: {place}: {first['msg']}; write it again with"
+            f"{where} is not a manifest: {first_fault(error)}; write it again with"
             " prepare-audio, or remove it to read the folder without checksums"
         ) from error
     if len({phrase.id for phrase in phrases}) < len(phrases):

@@ -12,7 +12,7 @@ from pydantic import ValidationError
 
 from src.shared.config_audio import AudioNetworkConfig
 from src.shared.config_schema import Config
-from src.shared.errors import UserError
+from src.shared.errors import UserError, first_fault
 from src.shared.files import load_json, sha256_file
 from src.shared.model.checkpoint import read_card
 from src.shared.model.zoo import resolve_model
@@ -87,9 +87,7 @@ def read_onnx_card(folder: Path) -> OnnxCard:
     try:
         card = OnnxCard.model_validate(load_json(path))
     except ValidationError as error:
-        first = error.errors()[0]
-        key = ".".join(map(str, first["loc"]))
-        raise UserError(f"{path}: {key}: {first['msg']}; export the model again") from error
+        raise UserError(f"{path}: {first_fault(error)}; export the model again") from error
     except (OSError, ValueError) as error:
         raise UserError(f"{path} cannot be read ({error}); export the model again") from error
     for name in GRAPHS:

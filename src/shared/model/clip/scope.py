@@ -19,10 +19,11 @@ from pathlib import Path
 from typing import Self
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, ValidationError
 
 from src.shared.errors import UserError
 from src.shared.files import atomic_write, load_json, write_json
+from src.shared.model.checkpoint import of_another_version
 
 TABLE_FILE, META_FILE = "scope.safetensors", "scope.json"
 COVERAGES = (0.9, 0.95, 0.98, 0.99, 1.0)  # share of an action's captions its key words cover
@@ -188,6 +189,8 @@ class PromptScope:
             meta = load_json(folder / META_FILE)
             means = load_file(folder / TABLE_FILE)["means"].astype(np.float32)
             told = _Meta.model_validate(meta)
+            # folders of before had none: a prompt of trained words alone told nothing
+            fillers = told.words if told.fillers is None else told.fillers
             rows = {row for found in told.key_words.values() for row in found}
             if means.ndim != 2 or len(means) != len(told.actions) or not np.isfinite(means).all():
                 raise ValueError(f"{len(told.actions)} actions and means {list(means.shape)}")
@@ -197,11 +200,13 @@ class PromptScope:
                 actions=told.actions,
                 key_words=told.key_words,
                 words=told.words,
-                fillers=told.fillers,
+                fillers=fillers,
                 means=means,
                 false_alarms=told.false_alarms,
                 min_cosine=told.min_cosine,
             )
+        except ValidationError as error:
+            raise of_another_version(folder / META_FILE, error) from error
         except (
             OSError,
             ValueError,
@@ -224,7 +229,7 @@ class _Meta(BaseModel):
     actions: tuple[str, ...]
     key_words: dict[str, tuple[int, ...]]
     words: frozenset[str]
-    fillers: frozenset[str]
+    fillers: frozenset[str] | None = None
     false_alarms: float
     min_cosine: float | None
 

@@ -1,5 +1,7 @@
 """PromptScope: nonsense is flagged, paraphrases are not, and it survives saving."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -102,9 +104,22 @@ def test_saving_keeps_the_verdicts(scope: PromptScope, tmp_path):
     assert (loaded.key_words, loaded.words) == (scope.key_words, scope.words)
     assert np.allclose(loaded.means, scope.means, atol=1e-3)
     (tmp_path / META_FILE).write_text("{}")
-    with pytest.raises(UserError, match="damaged"):
+    with pytest.raises(UserError, match=r"actions: Field required; .*another version") as error:
         PromptScope.from_pretrained(tmp_path)
+    assert "pydantic" not in str(error.value)
     assert PromptScope.from_pretrained(tmp_path / "nowhere") is None
+
+
+def test_an_older_folder_judges_as_it_did(scope: PromptScope, tmp_path):
+    """Before there were fillers only key words told, not trained words alone."""
+    scope.save_pretrained(tmp_path)
+    meta = json.loads((tmp_path / META_FILE).read_text())
+    del meta["fillers"]
+    (tmp_path / META_FILE).write_text(json.dumps(meta))
+    loaded = PromptScope.from_pretrained(tmp_path)
+    assert loaded is not None and loaded.fillers == loaded.words
+    assert loaded.check("a person bows", np.ones(9)).known
+    assert not loaded.check("a person", np.ones(9)).known
 
 
 def test_no_captions_is_an_error():
