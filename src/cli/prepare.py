@@ -80,10 +80,8 @@ def prepare(
         if value is not None:
             check(value)  # before any clip is read
     reading = Reading(unit, up, skeleton, source_fps)
-    sources: list[Source] = [
-        MotionFolder.open(root, captions=captions, labels=labels, mapping=mapping, reading=reading)
-        for root in source or []
-    ]
+    tables = {"captions": captions, "labels": labels, "mapping": mapping}
+    sources: list[Source] = [*MotionFolder.open_all(source or [], **tables, reading=reading)]
     if synthetic:
         sources.append(SyntheticSource(synthetic, seed))
     report = prepare_folder(

@@ -56,7 +56,7 @@ def _read_captions(path: Path) -> None:
 
     rows = read_captions(path)
     assert all(isinstance(t, str) for c in rows.values() for ts in c.values() for t in ts)
-    match_captions(rows, ["walk_01.bvh", "a/walk_02.bvh"], "set", path)
+    match_captions(rows, [("set", ["walk_01.bvh", "a/walk_02.bvh"])], path)
 
 
 YAML_WORDS = (

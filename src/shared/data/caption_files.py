@@ -4,7 +4,7 @@ import csv
 import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 from src.shared.data.recordings import FOLDER_ENDINGS
 from src.shared.errors import UserError
@@ -52,60 +52,61 @@ def without_ending(name: str) -> str:
 
 
 def match_captions(
-    captions: Captions, items: Sequence[str], folder: str, path: Path | None
-) -> tuple[Captions, dict[str, bool]]:
-    """Give each row to its file: by the path below `folder` first, by the file name otherwise.
+    captions: Captions, sources: Sequence[tuple[str, Sequence[str]]], path: Path | None
+) -> tuple[list[Captions], dict[str, bool]]:
+    """Give each row to its file: by the path below its folder first, by the file name otherwise.
 
     Args:
         captions: as `read_captions` gives them.
-        items: paths of the files relative to `folder`, with their endings.
-        folder: name of the source folder; a row may begin with it, or with folders above it.
+        sources: name of each folder, and the paths of its files relative to it, with their
+            endings; a row may begin with the name, or with folders above it.
         path: names the captions file in errors.
 
     Returns:
-        captions by item, and for each row whether it found a file.
+        captions by item of each source, and for each row whether it found a file.
 
     Raises:
-        UserError: a file name without folder fits several files.
+        UserError: a row fits several files alike.
     """
-    by_name: dict[str, list[str]] = {}
-    for name in items:
-        by_name.setdefault(Path(name).stem, []).append(name)
-    exact: dict[str, str | None] = {
-        row: _by_path(row, by_name.get(Path(row + ".bvh").stem, []), folder) for row in captions
-    }
-    taken = set(exact.values())
-    matched: Captions = {}
+    by_name: dict[str, list[_File]] = {}
+    for number, (folder, items) in enumerate(sources):
+        for item in items:
+            by_name.setdefault(Path(item).stem, []).append(_File(number, folder, item))
+    fitting = {row: by_name.get(Path(row + ".bvh").stem, []) for row in captions}
+    exact = {row: _by_path(row, files) for row, files in fitting.items()}
+    taken = {file for files in exact.values() for file in files}
+    matched: list[Captions] = [{} for _ in sources]
     found: dict[str, bool] = {}
     for row, texts in captions.items():
-        item = exact[row]
-        if item is None:
-            fitting = by_name.get(Path(row + ".bvh").stem, [])
-            if len(fitting) > 1 and "/" not in row:
-                raise UserError(
-                    f"captions {path}: clip {row!r} fits {len(fitting)} files"
-                    f" ({', '.join(fitting[:4])}); write the folder too"
-                )
-            # a row of another folder leaves a file alone that has rows of its own
-            only = fitting[0] if len(fitting) == 1 else None
-            item = None if "/" in row and only in taken else only
-        found[row] = item is not None
-        if item is not None:
-            languages = matched.setdefault(item, {})
+        files = exact[row] or fitting[row]
+        if len(files) > 1 and (exact[row] or "/" not in row):
+            named = ", ".join(f"{file.folder}/{file.item}" for file in files[:4])
+            raise UserError(
+                f"captions {path}: clip {row!r} fits {len(files)} files ({named}); write the"
+                " folder too"
+            )
+        file = files[0] if len(files) == 1 else None
+        if not exact[row] and "/" in row and file in taken:
+            file = None  # a row of another folder leaves a file alone that has rows of its own
+        found[row] = file is not None
+        if file is not None:
+            languages = matched[file.source].setdefault(file.item, {})
             for language, more in texts.items():
                 languages[language] = languages.get(language, []) + more
     return matched, found
 
 
-def _by_path(row: str, fitting: Sequence[str], folder: str) -> str | None:
-    """The file whose path below the source the row is, or ends with, the folder's name before."""
-    for item in fitting:
-        if row == without_ending(item):
-            return item
-    for item in fitting:
-        if f"/{row}".endswith(f"/{folder}/{without_ending(item)}"):
-            return item
-    return None
+class _File(NamedTuple):
+    source: int  # its number
+    folder: str
+    item: str
+
+
+def _by_path(row: str, files: Sequence[_File]) -> list[_File]:
+    """Files whose path below their source the row is, or ends with, the folder's name before."""
+    return [file for file in files if row == without_ending(file.item)] or [
+        file for file in files if f"/{row}".endswith(f"/{file.folder}/{without_ending(file.item)}")
+    ]
 
 
 def _table_rows(path: Path, text: str, delimiter: str) -> list[tuple[str, str, str, str]]:

@@ -28,16 +28,16 @@ from safetensors.torch import load_file, save_file
 
 from src.shared.data.captions import CaptionBook, mirror_labels
 from src.shared.data.labels import group_of
+from src.shared.data.prepared import VERSION
 from src.shared.data.records import MIRRORED, SPLITS, ClipRecord
 from src.shared.data.sources import MotionFolder, Skipped, Source, all_items
 from src.shared.data.splits import assign_splits, orbit
 from src.shared.data.worker_pool import run_jobs
-from src.shared.errors import UserError
+from src.shared.errors import UsageError, UserError
 from src.shared.files import atomic_write, load_json, sha256_file, write_json, write_text
 from src.shared.motion.mirror import mirror_features
 from src.shared.motion.root_track import encode_features
 
-VERSION = 3
 CLIPS_PER_SHARD = 128
 CAPTIONS_PER_GROUP = 24  # and language
 STD_FLOOR = 0.05  # a channel that hardly moves is not blown up
@@ -74,9 +74,16 @@ def prepare(
 
     Raises:
         UserError: a source or table is faulty, or no clip at all could be read.
+        UsageError: two sources have one name.
     """
     book = CaptionBook.load(templates)
     sources = tuple(sources)
+    for name, number in Counter(source.name for source in sources).items():
+        if number > 1:
+            raise UsageError(
+                f"two sources are called {name}, which would mix their clips; open folders"
+                " together, by MotionFolder.open_all"
+            )
     if mirror:
         _check_languages(sources, book)
     items = list(all_items(list(sources)))

@@ -4,7 +4,7 @@ A source lists its items cheaply; each item is read later, in a worker process.
 """
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -16,7 +16,7 @@ from src.shared.data.mapping import SkeletonMapping, load_mappings
 from src.shared.data.read_motion import fit
 from src.shared.data.recordings import FOLDER_ENDINGS, open_recording
 from src.shared.data.records import RawClip
-from src.shared.errors import UserError
+from src.shared.errors import UsageError, UserError
 from src.shared.formats.amc import find_skeleton
 from src.shared.formats.bvh import check_head
 from src.shared.motion.motion import Motion
@@ -72,6 +72,7 @@ class MotionFolder:
     Of one name in several formats, the first of `recordings.FOLDER_ENDINGS` is taken.
 
     Attributes:
+        name: begins the ids of its clips; no other source has it.
         captions: of each item that has some.
         shared_stems: file names that several folders hold; their takes are told apart by folder.
         captions_file: where the captions come from.
@@ -80,6 +81,7 @@ class MotionFolder:
     """
 
     root: Path
+    name: str
     captions: Captions
     rules: LabelRules
     mappings: tuple[SkeletonMapping, ...]
@@ -88,45 +90,59 @@ class MotionFolder:
     captions_file: Path | None = field(default=None, repr=False)
     caption_rows: Mapping[str, bool] = field(default_factory=dict, repr=False)
 
-    @property
-    def name(self) -> str:
-        return self.root.stem if self.root.is_file() else self.root.resolve().name
+    @classmethod
+    def open(cls, root: Path, **tables: Any) -> "MotionFolder":
+        """One folder or file; see `open_all`."""
+        return cls.open_all([root], **tables)[0]
 
     @classmethod
-    def open(
+    def open_all(
         cls,
-        root: Path,
+        roots: Sequence[Path],
         *,
         captions: Path | None = None,
         labels: Path | None = None,
         mapping: Path | None = None,
         reading: Reading | None = None,
-    ) -> "MotionFolder":
-        """Check that the folder holds motion files and read the tables.
+    ) -> list["MotionFolder"]:
+        """Check that the folders hold motion files and read the tables, which they share.
 
         Raises:
-            UserError: no such folder, no motion in it, a faulty captions, labels or mapping file, a
-                caption whose clip may be any of several files.
+            UserError: no such folder, no motion in it, one within another, a faulty captions,
+                labels or mapping file, a caption whose clip may be any of several files.
         """
-        if not root.exists():
-            raise UserError(f"source {root} does not exist; give a folder of motion files")
-        reading = reading or Reading()
-        plain = cls(root, {}, load_label_rules(labels), load_mappings(mapping), reading)
-        items = plain.items()
-        if not items:
-            raise UserError(f"source {root} holds no motion file; give a folder of"
-                            f" {', '.join(FOLDER_ENDINGS)} files")  # fmt: skip
+        for root in roots:
+            if not root.exists():
+                raise UserError(f"source {root} does not exist; give a folder of motion files")
+        rules, mappings = load_label_rules(labels), load_mappings(mapping)
+        plain = [
+            cls(root, name, {}, rules, mappings, reading or Reading())
+            for root, name in zip(roots, distinct_names(roots), strict=True)
+        ]
+        for folder in plain:
+            if not folder.items():
+                raise UserError(f"source {folder.root} holds no motion file; give a folder of"
+                                f" {', '.join(FOLDER_ENDINGS)} files")  # fmt: skip
         rows = read_captions(captions) if captions else {}
-        stems = Counter(Path(item).stem for item in items)
-        name = root.resolve().parent.name if root.is_file() else plain.name
-        matched, found = match_captions(rows, items, name, captions)
-        return replace(
-            plain,
-            captions=matched,
-            shared_stems=tuple(sorted(stem for stem, count in stems.items() if count > 1)),
-            captions_file=captions,
-            caption_rows=found,
-        )
+        listed = [(folder._captioned_as, folder.items()) for folder in plain]
+        matched, found = match_captions(rows, listed, captions)
+        return [
+            replace(
+                folder,
+                captions=own,
+                shared_stems=_repeated(Path(item).stem for item in items),
+                captions_file=captions,
+                caption_rows=found,
+            )
+            for folder, own, (_, items) in zip(plain, matched, listed, strict=True)
+        ]
+
+    @property
+    def _captioned_as(self) -> str:
+        """The folder that a row of the captions may name: a file's is the one it lies in."""
+        if self.root.is_dir():
+            return self.name
+        return "/".join(self.root.resolve().parts[-1 - self.name.count("/") - 1 : -1])
 
     def items(self) -> list[str]:
         if self.root.is_file():
@@ -166,6 +182,31 @@ class MotionFolder:
             raise Skipped(f"{motion.num_frames} frames at {FPS:g} fps; {MIN_FRAMES} are needed")
         take = without_ending(item) if path.stem in self.shared_stems else path.stem
         return RawClip(item, take, motion, labels, captions)
+
+
+def distinct_names(roots: Sequence[Path]) -> list[str]:
+    """The name of each folder or file, with the folders above it that tell it from the others.
+
+    Raises:
+        UsageError: one is within another, so that its clips would be taken twice.
+    """
+    paths = [root.resolve().with_suffix("") if root.is_file() else root.resolve() for root in roots]
+    for number, path in enumerate(paths):
+        for other in (*paths[:number], *paths[number + 1 :]):
+            if path.is_relative_to(other):
+                raise UsageError(f"source {roots[number]} is named twice, or lies within another"
+                                 " one; name every clip once")  # fmt: skip
+    depth = [1] * len(paths)
+    while True:
+        names = ["/".join(path.parts[-of:]) for path, of in zip(paths, depth, strict=True)]
+        alike = {*_repeated(names), SyntheticSource.name}
+        if alike.isdisjoint(names):
+            return names
+        depth = [of + (name in alike) for of, name in zip(depth, names, strict=True)]
+
+
+def _repeated(names: Iterable[str]) -> tuple[str, ...]:
+    return tuple(sorted(name for name, count in Counter(names).items() if count > 1))
 
 
 def _rank(path: Path) -> tuple[int, Path]:

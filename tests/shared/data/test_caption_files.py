@@ -67,7 +67,7 @@ def test_a_missing_or_binary_file(tmp_path: Path) -> None:
 def match(rows: list[str], *items: str) -> tuple[dict[str, list[str]], list[str]]:
     """Rows by file, and the rows without one; the caption of each row is the row."""
     captions = {row: {"en": [row]} for row in rows}
-    matched, found = match_captions(captions, items, "mocap", Path("c.csv"))
+    (matched,), found = match_captions(captions, [("mocap", items)], Path("c.csv"))
     given = {item: texts["en"] for item, texts in matched.items()}
     return given, [row for row, has_file in found.items() if not has_file]
 
@@ -80,12 +80,27 @@ def test_rows_find_their_files_by_path_then_by_name() -> None:
     assert lost == ["none", "hop/take1"]
     assert match(["take1"], "take1.bvh", "walk/take1.bvh")[0] == {"take1.bvh": ["take1"]}
     assert match(["else/where/a.b"], "x/a.b.bvh")[0] == {"x/a.b.bvh": ["else/where/a.b"]}
-    with pytest.raises(UserError, match=r"c\.csv: clip 'take1' fits 2 .*walk/take1.bvh, run/take1"):
+    with pytest.raises(
+        UserError, match=r"c\.csv: clip 'take1' fits 2 .*walk/take1.bvh, mocap/run/take1"
+    ):
         match(["take1"], *files)
 
 
 def test_the_folder_of_a_row_parts_two_sources() -> None:
     captions = {f"{folder}/take1": {"en": [folder]} for folder in ("walk", "run")}
-    matched, found = match_captions(captions, ["take1.bvh"], "run", None)
+    (matched,), found = match_captions(captions, [("run", ["take1.bvh"])], None)
     assert matched == {"take1.bvh": {"en": ["run"]}}
     assert found == {"walk/take1": False, "run/take1": True}
+    both = [("walk", ["take1.bvh"]), ("run", ["take1.bvh"])]
+    matched, found = match_captions(captions, both, None)
+    assert matched == [{"take1.bvh": {"en": [folder]}} for folder in ("walk", "run")]
+    assert all(found.values())
+
+
+def test_a_row_that_fits_a_file_of_each_source_is_refused() -> None:
+    sources = [("a/mocap", ["take1.bvh"]), ("b/mocap", ["take1.bvh", "take2.bvh"])]
+    with pytest.raises(UserError, match=r"'take1' fits 2 .*a/mocap/take1.bvh, b/mocap/take1.bvh"):
+        match_captions({"take1": {"en": ["walks"]}}, sources, Path("c.csv"))
+    rows = {"b/mocap/take1": {"en": ["walks"]}, "take2": {"en": ["runs"]}}
+    matched, _ = match_captions(rows, sources, None)
+    assert matched == [{}, {"take1.bvh": {"en": ["walks"]}, "take2.bvh": {"en": ["runs"]}}]

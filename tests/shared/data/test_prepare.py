@@ -1,6 +1,7 @@
 """From a folder of BVH to datasets: splits, captions, resuming, and what is skipped and why."""
 
 import json
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +18,7 @@ from src.shared.data.sources import MotionFolder, SyntheticSource
 from src.shared.data.splits import assign_splits, orbit
 from src.shared.data.synthetic import generate_clip, sample_specs
 from src.shared.data.text_motion import TextMotionDataset
-from src.shared.errors import UserError
+from src.shared.errors import UsageError, UserError
 from src.shared.formats.bvh_writer import write_bvh
 from src.shared.motion.mirror import mirror_features
 from src.shared.motion.root_track import ROOT_ROW, YAW_RATE, encode_features
@@ -178,6 +179,29 @@ def test_the_same_file_name_in_two_folders_is_two_takes(tmp_path: Path) -> None:
         "run/take0.bvh": ("run/take0", ["runs"]),
         "walk/take1.bvh": ("take1", ["waves"]),
     }
+
+
+def test_two_sources_of_one_name_are_told_apart(tmp_path: Path) -> None:
+    folders = [bvh_folder(tmp_path / place / "mocap", 1) for place in ("a", "b")]
+    table = tmp_path / "captions.csv"
+    table.write_text("a/mocap/take0,walks\nb/mocap/take0,runs\n")
+    prepare(MotionFolder.open_all(folders, captions=table), tmp_path / "out", mirror=False)
+    records = PreparedData.open(tmp_path / "out").records()
+    assert {r.take: (r.id, r.captions["en"]) for r in records} == {
+        "a/mocap/take0": ("a/mocap/take0.bvh", ["walks"]),
+        "b/mocap/take0": ("b/mocap/take0.bvh", ["runs"]),
+    }
+    apart = [MotionFolder.open(folder, captions=table) for folder in folders]
+    with pytest.raises(UsageError, match=r"two sources are called mocap.*open_all"):
+        prepare(apart, tmp_path / "mixed")
+
+
+def test_data_of_an_older_version_says_so(data: PreparedData, tmp_path: Path) -> None:
+    old = Path(shutil.copytree(data.folder, tmp_path / "old"))
+    content = json.loads((old / "manifest.json").read_text())
+    (old / "manifest.json").write_text(json.dumps({**content, "version": 1}))
+    with pytest.raises(UserError, match=r"an older version .*format 1.*`prepare` again"):
+        PreparedData.open(old)
 
 
 def test_an_unknown_language_stops_before_any_clip(tmp_path: Path) -> None:

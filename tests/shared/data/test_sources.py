@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from src.shared.data.sources import MotionFolder, Reading
+from src.shared.data.sources import MotionFolder, Reading, distinct_names
 from src.shared.data.synthetic import generate_clip, sample_specs
-from src.shared.errors import UserError
+from src.shared.errors import UsageError, UserError
 from src.shared.formats.registry import write_motion
 from src.shared.motion.motion import Motion
 from tests.shared.formats.test_amc import ASF
@@ -69,3 +69,20 @@ def test_links_do_not_lead_to_devices(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe.bvh")
     with pytest.raises(UserError, match="holds no motion file"):
         MotionFolder.open(tmp_path)
+
+
+def test_sources_have_names_of_their_own(tmp_path: Path) -> None:
+    for name in ("a/mocap", "b/mocap", "c", "synthetic"):
+        (tmp_path / name).mkdir(parents=True)
+    (tmp_path / "c/walk.bvh").touch()
+
+    def names(*roots: str) -> list[str]:
+        return distinct_names([tmp_path / root for root in roots])
+
+    assert names("a/mocap", "c") == ["mocap", "c"]
+    assert names("a/mocap", "c", "b/mocap") == ["a/mocap", "c", "b/mocap"]
+    assert names("c/walk.bvh") == ["walk"]
+    assert names("synthetic") == [f"{tmp_path.name}/synthetic"], "the project's own motions'"
+    for twice in (("c", "c"), ("c", "c/walk.bvh"), ("a", "a/mocap")):
+        with pytest.raises(UsageError, match="named twice, or lies within"):
+            names(*twice)

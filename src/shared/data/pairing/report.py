@@ -99,7 +99,7 @@ def make_report(
             "left_out": library.left_out,
             "speed_threshold": round(library.threshold, 4),
             "usable_by_kind": library.used,
-            "seconds_by_source": _seconds_by_source(entries),
+            "seconds_by_source": _seconds_by_source(entries, library),
         },
         "left_out": list(left_out),
     }
@@ -158,10 +158,11 @@ def _percentiles(values: np.ndarray) -> dict[str, float]:
     }
 
 
-def _seconds_by_source(entries: Sequence[Entry]) -> dict[str, float]:
+def _seconds_by_source(entries: Sequence[Entry], library: ClipLibrary) -> dict[str, float]:
     """Seconds of motion that each source of clips gave, seams counted twice."""
+    source = {clip.id: clip.source for clip in library.clips}
     total: Counter[str] = Counter()
     for entry in entries:
         for piece in entry["pair"]["pieces"]:
-            total[piece["clip"].partition("/")[0]] += piece["last"] - piece["first"] + 1
+            total[source[piece["clip"]]] += piece["last"] - piece["first"] + 1
     return {source: round(frames / FPS, 1) for source, frames in total.most_common()}
