@@ -142,7 +142,8 @@ class MotionFolder:
         """The folder that a row of the captions may name: a file's is the one it lies in."""
         if self.root.is_dir():
             return self.name
-        return "/".join(self.root.resolve().parts[-1 - self.name.count("/") - 1 : -1])
+        above = max(1, self.name.count("/"))
+        return "/".join(self.root.resolve().parts[-1 - above : -1])
 
     def items(self) -> list[str]:
         if self.root.is_file():

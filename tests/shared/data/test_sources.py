@@ -86,3 +86,15 @@ def test_sources_have_names_of_their_own(tmp_path: Path) -> None:
     for twice in (("c", "c"), ("c", "c/walk.bvh"), ("a", "a/mocap")):
         with pytest.raises(UsageError, match="named twice, or lies within"):
             names(*twice)
+
+
+def test_single_files_of_one_name_take_their_own_rows(tmp_path: Path) -> None:
+    files = [tmp_path / place / "walk.bvh" for place in ("a", "b")]
+    for file in files:
+        file.parent.mkdir()
+        file.touch()
+    table = tmp_path / "captions.csv"
+    table.write_text("a/walk,strolls\nb/walk,limps\n")
+    sources = MotionFolder.open_all(files, captions=table)
+    assert [source.name for source in sources] == ["a/walk", "b/walk"]
+    assert [source.captions["walk.bvh"]["en"] for source in sources] == [["strolls"], ["limps"]]
