@@ -138,6 +138,7 @@ def parts(generator: "MotionGenerator", repeats: int) -> dict[str, float]:
 
 STAGES = f"""
 import sys, time
+import src
 start = time.perf_counter()
 def told(name):
     global start
@@ -233,9 +234,9 @@ def main() -> None:
     parser.add_argument("--json", type=Path, help="write the result here")
     arguments = parser.parse_args()
 
-    import torch
+    from src.shared.device import set_threads
 
-    torch.set_num_threads(arguments.threads)
+    set_threads(arguments.threads)
     generator = load_generator(arguments.model, arguments.profile)
     result: dict[str, Any] = {
         "threads": arguments.threads,

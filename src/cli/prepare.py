@@ -120,7 +120,7 @@ def print_summary(report: dict[str, Any], out: Path) -> None:
         complain(f"{len(skipped)} clips were left out; {out / 'report.json'} says why, e.g.:")
         for entry in skipped[:3]:
             complain(f"  {entry['clip']}: {entry['reason']}")
-    print(f"next: accelerate launch -m src.train.train_clip --data {out} --output runs/clip")
+    print(f"next: motion-tools train clip --data {out} --output runs/clip")
 
 
 def print_json(report: dict[str, Any]) -> None:

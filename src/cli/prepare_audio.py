@@ -140,4 +140,4 @@ def print_summary(report: dict[str, Any], out: Path) -> None:
         print(f"  {number} clips left out: {reason}")
     if left_out := report["left_out"]:
         complain(f"{len(left_out)} phrases or songs were left out; {out / 'report.json'} says why")
-    print(f"next: accelerate launch -m src.train.train_audio --data {out} --output runs/audio")
+    print(f"next: motion-tools train audio --data {out} --output runs/audio")

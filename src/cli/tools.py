@@ -30,6 +30,7 @@ from src.cli.prepare import prepare
 from src.cli.prepare_audio import prepare_audio
 from src.cli.report import report
 from src.cli.shape_check import shape_check
+from src.cli.train import train
 
 PROGRAM = "motion-tools"
 
@@ -66,6 +67,7 @@ for command in (
 ):
     app.command()(guarded(command))
 app.add_typer(memory, name="memory")
+app.add_typer(train, name="train")
 
 
 def main() -> None:

@@ -187,7 +187,7 @@ class TrainConfig(Config):
     precision: Precision = "auto"  # bf16 where the hardware multiplies it natively
     device: Literal["auto", "cuda", "mps", "cpu"] = "auto"
     threads: int | None = Field(None, ge=1)  # CPU threads; None = torch's own choice
-    processes: int | None = Field(None, ge=1)  # how many must have been launched; None = any
+    processes: int | None = Field(None, ge=1)  # started if no launcher has; None = as launched
     num_workers: int = Field(0, ge=0)  # batches made ahead of time, in as many threads
     tensorboard: bool = True
     log_every: int = Field(20, ge=1)

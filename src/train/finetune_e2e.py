@@ -1,6 +1,6 @@
 """End-to-end fine-tuning: UNet, sampler and decoder learn to move coherently (TECH 7).
 
-accelerate launch -m src.train.finetune_e2e --checkpoint runs/decoder --data DIR_OR_URL
+motion-tools train finetune-e2e --checkpoint runs/decoder --data DIR_OR_URL
 [--epochs 50] [--lr-diffusion 1e-6] [--lr-decoder 5e-5] [key=value ...] [--resume]
 
 The UNet learns slowly, the decoder faster. After each epoch the averaged weights are judged on
@@ -10,7 +10,6 @@ held-back phrases; the best are kept, and `patience` epochs without a better tot
 import copy
 import math
 import os
-import sys
 from pathlib import Path
 from typing import Annotated, Any, Self
 
@@ -30,7 +29,7 @@ from src.train.audio_folder import network_of
 from src.train.batches import to_device
 from src.train.e2e_objective import E2eBatch, E2eObjective, E2eWeights
 from src.train.epoch_log import Epoch, best_epoch, read_epochs, results_table
-from src.train.launch import as_overrides, resume_command, short_errors
+from src.train.launch import Processes, as_overrides, new_app, run_task, short_errors
 from src.train.phrases import (
     bar_phase_at_start,
     export_song,
@@ -190,7 +189,7 @@ class FinetuneE2eTask(AudioTask):
         return self.model
 
 
-app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
+app = new_app()
 
 
 @app.command()
@@ -216,11 +215,12 @@ def finetune(
     patience: Annotated[
         int | None, typer.Option(help="epochs without a better total before stopping")
     ] = None,
+    processes: Processes = None,
     resume: Annotated[bool, typer.Option("--resume", help="continue the run in output")] = False,
 ) -> None:
     """Fine-tune UNet, sampler and decoder as one.
 
-    Example: accelerate launch -m src.train.finetune_e2e --checkpoint runs/decoder --data pairs
+    Example: motion-tools train finetune-e2e --checkpoint runs/decoder --data pairs
     """
     named = {key: value for key, value in locals().items() if key not in NOT_SETTINGS}
     flags = as_overrides({key.replace("_", "-"): value for key, value in named.items()})
@@ -246,10 +246,7 @@ def run(overrides: list[str], config: Path | None = None, *, resume: bool = Fals
     settings = load_train(config, FinetuneE2eConfig, own)
     network = network_of(settings.checkpoint)
     settings = settings.in_steps(len(open_phrases(settings, "train", settings.num_phrases)))
-    from src.train.engine import Trainer
-
-    command = resume_command(MODULE, sys.argv[1:])
-    Trainer(settings, lambda c: FinetuneE2eTask(c, network), command=command, resume=resume).train()
+    run_task(settings, lambda c: FinetuneE2eTask(c, network), module=MODULE, resume=resume)
 
 
 if __name__ == "__main__":

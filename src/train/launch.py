@@ -18,6 +18,7 @@ from src.shared.config_loader import (
 from src.shared.config_schema import Config, TrainConfig
 from src.shared.errors import UserError
 from src.train.interrupt import Interrupted
+from src.train.processes import end_with_parent, is_one_of_several, run_processes
 
 if TYPE_CHECKING:
     from src.train.task import Task
@@ -25,37 +26,45 @@ if TYPE_CHECKING:
 ConfigT = TypeVar("ConfigT", bound=TrainConfig)
 Builder = Callable[[ConfigT, Any], "Task"]  # settings and network
 NetworkLoader = Callable[..., Config]  # profile, file, overrides
+Processes = Annotated[
+    int | None,
+    typer.Option("--num-processes", help="processes on this machine, such as one a GPU"),
+]
 
 
 def resume_command(module: str, arguments: list[str]) -> str:
     """The shell command that continues the run started with these arguments."""
     kept = [argument for argument in arguments if argument != "--resume"]
-    return shlex.join(["accelerate", "launch", "-m", module, *kept, "--resume"])
+    by_command = kept[:1] == ["train"]  # `motion-tools train STAGE`
+    launcher = ["motion-tools"] if by_command else ["accelerate", "launch", "-m", module]
+    return shlex.join([*launcher, *kept, "--resume"])
 
 
-def run_stage(
-    model_class: type[ConfigT],
-    build: Builder[ConfigT],
-    *,
-    module: str,
-    config: Path | None,
-    overrides: list[str],
-    resume: bool,
-    network_file: Path | None = None,
-    load: NetworkLoader = load_network,
+def run_task(
+    settings: ConfigT, build: Callable[[ConfigT], "Task"], *, module: str, resume: bool
 ) -> None:
-    """Load the configurations and train.
+    """Train in this process, or in as many as the settings ask for and nobody has launched yet.
 
     Raises:
         UserError, Interrupted: see `Trainer`.
+        typer.Exit: one of several processes failed, and has said why.
     """
-    own, network_overrides = split_network_overrides(overrides)
-    settings = load_train(config, model_class, own)
-    network = load(settings.profile, network_file, network_overrides)
+    if (settings.processes or 1) > 1 and not is_one_of_several():
+        raise typer.Exit(run_processes(settings.processes or 1))
+    end_with_parent()
     from src.train.engine import Trainer  # every check that needs no torch comes before this
 
-    command = resume_command(module, sys.argv[1:])
-    Trainer(settings, lambda c: build(c, network), command=command, resume=resume).train()
+    Trainer(settings, build, command=resume_command(module, sys.argv[1:]), resume=resume).train()
+
+
+def new_app() -> typer.Typer:
+    """An application for the one command of a stage."""
+    return typer.Typer(
+        add_completion=False,
+        rich_markup_mode=None,
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
 
 
 def stage_app(
@@ -71,14 +80,15 @@ def stage_app(
     Args:
         model_class: configuration of the stage.
         build: makes its task.
-        module: what stands after `accelerate launch -m`.
+        module: of the stage.
         about: help text.
         audio: profiles are those of audio_network.yaml.
     """
     load: NetworkLoader = load_audio_network if audio else load_network
     networks = "audio_network.yaml" if audio else "network.yaml"
-    app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
-    example = f"Example: accelerate launch -m {module} --network-profile lightweight steps=500"
+    app = new_app()
+    name = module.removeprefix("src.train.train_").replace("_", "-")
+    example = f"Example: motion-tools train {name} --network-profile lightweight steps=500"
 
     @app.command(help=f"{about}\n\n{example}")
     def train(
@@ -90,22 +100,20 @@ def stage_app(
         output: Annotated[str | None, typer.Option(help="folder of this run")] = None,
         network_profile: Annotated[str | None, typer.Option(help=f"profile of {networks}")] = None,
         network_file: Annotated[Path | None, typer.Option(help=f"another {networks}")] = None,
+        processes: Processes = None,
         resume: Annotated[
             bool, typer.Option("--resume", help="continue the run in output")
         ] = False,
     ) -> None:
-        flags = {"data": data, "output": output, "profile": network_profile}
+        flags = {
+            "data": data, "output": output, "profile": network_profile, "processes": processes
+        }  # fmt: skip
         with short_errors():
-            run_stage(
-                model_class,
-                build,
-                module=module,
-                config=config,
-                overrides=[*(overrides or []), *as_overrides(flags)],
-                resume=resume,
-                network_file=network_file,
-                load=load,
-            )
+            given = [*(overrides or []), *as_overrides(flags)]
+            own, network_overrides = split_network_overrides(given)
+            settings = load_train(config, model_class, own)
+            network = load(settings.profile, network_file, network_overrides)
+            run_task(settings, lambda c: build(c, network), module=module, resume=resume)
 
     return app
 

@@ -29,8 +29,8 @@ def make_accelerator(config: TrainConfig, compute: ComputeChoice) -> Accelerator
     if accelerator.num_processes != expected:
         raise UsageError(
             f"{accelerator.num_processes} process(es) are running, {expected} were asked for;"
-            " `accelerate launch --cpu --num_processes N` starts only one:"
-            " use ACCELERATE_USE_CPU=true accelerate launch --multi_gpu --num_processes N"
+            f" let `motion-tools train STAGE --num-processes {expected}` start them, or leave"
+            " `processes` out"
         )
     return accelerator
 

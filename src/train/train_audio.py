@@ -1,6 +1,6 @@
 """Audio training: UNet1D learns trajectories from sound (TECH 6; rulings 8, 9, 13 to 15).
 
-accelerate launch -m src.train.train_audio --data DIR_OR_URL [key=value ...] [--resume]
+motion-tools train audio --data DIR_OR_URL [key=value ...] [--resume]
 
 Part of each batch has known entries: the first frames of a window, as sampling a long song goes
 on from the window before, or the style, as `--style` sets it. They come without noise and are not

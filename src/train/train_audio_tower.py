@@ -1,6 +1,6 @@
 """Audio tower: sound learns the place of the motion it was paired with, in a space that is fixed.
 
-accelerate launch -m src.train.train_audio_tower data=PAIRS clip=runs/clip [key=value ...]
+motion-tools train audio-tower data=PAIRS clip=runs/clip [key=value ...]
 
 Windows of a few bars, cut at bars. A batch holds several windows of each phrase, all of them
 right for one another. Phrases of the same song, or that show the same clip, are no negatives.

@@ -1,6 +1,6 @@
 """CLIP pretraining: a text tower and a motion tower learn one space (TEXT; ruling 20).
 
-accelerate launch -m src.train.train_clip [key=value ...] [--resume]
+motion-tools train clip [key=value ...] [--resume]
 
 The tokenizer is trained on the training captions when `clip.text-model` is "small". With several
 processes the contrastive loss sees the embeddings of all of them.

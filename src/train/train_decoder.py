@@ -1,6 +1,6 @@
 """Decoder training: from windows as the denoiser gives them to the true trajectories (ruling 5).
 
-accelerate launch -m src.train.train_decoder --audio runs/audio --data DIR_OR_URL
+motion-tools train decoder --audio runs/audio --data DIR_OR_URL
 [network.decoder.decoder=residual] [key=value ...] [--resume]
 
 The UNet rests. The decoder sees clean windows with Gaussian noise: row by row of the size of the
@@ -11,7 +11,6 @@ Letters: B batch, T frames.
 """
 
 import math
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Self
@@ -30,7 +29,7 @@ from src.shared.model.audio.decoder import Decoder, create_motion_decoder, wrapp
 from src.shared.model.audio.losses import DecoderLoss, total
 from src.shared.motion.trajectory import PHASE
 from src.train.audio_folder import network_of
-from src.train.launch import as_overrides, resume_command, short_errors
+from src.train.launch import Processes, as_overrides, new_app, run_task, short_errors
 from src.train.phrases import (
     PhraseConfig,
     bar_phase_at_start,
@@ -273,7 +272,7 @@ class DecoderTask:
         return self.model.eval()
 
 
-app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
+app = new_app()
 
 
 @app.command()
@@ -285,21 +284,19 @@ def train(
     audio: Annotated[str | None, typer.Option(help="folder of a train_audio run")] = None,
     data: Annotated[str | None, typer.Option(help="folder or bucket of prepare-audio")] = None,
     output: Annotated[str | None, typer.Option(help="folder of this run")] = None,
+    processes: Processes = None,
     resume: Annotated[bool, typer.Option("--resume", help="continue the run in output")] = False,
 ) -> None:
     """Train the decoder behind a train_audio run.
 
-    Example: accelerate launch -m src.train.train_decoder --audio runs/audio --data pairs
+    Example: motion-tools train decoder --audio runs/audio --data pairs
     """
-    flags = as_overrides({"audio": audio, "data": data, "output": output})
+    flags = as_overrides({"audio": audio, "data": data, "output": output, "processes": processes})
     with short_errors():
         own, network_overrides = split_network_overrides([*(overrides or []), *flags])
         settings = load_train(config, TrainDecoderConfig, own)
         network = network_of(settings.audio, network_overrides)
-        from src.train.engine import Trainer
-
-        command = resume_command(MODULE, sys.argv[1:])
-        Trainer(settings, lambda c: DecoderTask(c, network), command=command, resume=resume).train()
+        run_task(settings, lambda c: DecoderTask(c, network), module=MODULE, resume=resume)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """Training of the evaluator: multi-positive contrastive, on the train split only.
 
-accelerate launch -m src.train.train_evaluator [key=value ...] [--resume]
+motion-tools train evaluator [key=value ...] [--resume]
 """
 
 from dataclasses import replace

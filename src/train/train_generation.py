@@ -1,6 +1,6 @@
 """Generation training: the denoiser behind a frozen text tower (TEXT; rulings 13 to 15, 19, 21).
 
-accelerate launch -m src.train.train_generation [key=value ...] [--resume]
+motion-tools train generation [key=value ...] [--resume]
 
 Captions are encoded batch by batch, without gradients: with a small tower that is a few percent
 of a step, it lets words be dropped, and it is the same after a resume.

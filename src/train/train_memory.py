@@ -1,6 +1,6 @@
 """Memory training: a trained audio model learns to hear a memory (REF's MPMS; ruling 26).
 
-accelerate launch -m src.train.train_memory [--audio FOLDER] --memory FOLDER --data DIR_OR_URL
+motion-tools train memory [--audio FOLDER] --memory FOLDER --data DIR_OR_URL
 [--space FOLDER] [key=value ...] [--resume]
 
 Each window asks the memory with its own sound, and never finds its own song, nor another song that
@@ -10,7 +10,6 @@ rests, unless `base-learning-rate` is set: without a memory the model stays what
 Letters: B batch, T frames.
 """
 
-import sys
 from collections import defaultdict
 from dataclasses import replace
 from pathlib import Path
@@ -41,7 +40,7 @@ from src.shared.memory.service import MPMService
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.audio.memory_conditioning import MemoryCondition, known_frames
 from src.train.audio_folder import network_of
-from src.train.launch import as_overrides, resume_command, short_errors
+from src.train.launch import Processes, as_overrides, new_app, run_task, short_errors
 from src.train.train_audio import AudioBatch, AudioTask, TrainAudioConfig
 
 MODULE = "src.train.train_memory"
@@ -183,7 +182,7 @@ class MemoryTask(AudioTask):
         model.save_pretrained(folder)
 
 
-app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
+app = new_app()
 
 
 @app.command()
@@ -197,15 +196,19 @@ def train(
     space: Annotated[str | None, typer.Option(help="shared space of the memory's keys")] = None,
     data: Annotated[str | None, typer.Option(help="folder or bucket of prepare-audio")] = None,
     output: Annotated[str | None, typer.Option(help="folder of this run")] = None,
+    processes: Processes = None,
     resume: Annotated[bool, typer.Option("--resume", help="continue the run in output")] = False,
 ) -> None:
     """Teach a trained audio model to hear a memory.
 
-    Example: accelerate launch -m src.train.train_memory --memory runs/memory --data pairs
+    Example: motion-tools train memory --memory runs/memory --data pairs
     """
-    flags = {"audio": audio, "memory.folder": memory, "space": space, "data": data}
+    flags = {
+        "audio": audio, "memory.folder": memory, "space": space, "data": data, "output": output,
+        "processes": processes,
+    }  # fmt: skip
     with short_errors():
-        given = [*(overrides or []), *as_overrides(flags | {"output": output})]
+        given = [*(overrides or []), *as_overrides(flags)]
         own, network_overrides = split_network_overrides(given)
         if network_overrides:
             raise UsageError(
@@ -213,10 +216,7 @@ def train(
             )
         settings = load_train(config, TrainMemoryConfig, own)
         network = network_of(settings.audio)
-        from src.train.engine import Trainer
-
-        command = resume_command(MODULE, sys.argv[1:])
-        Trainer(settings, lambda c: MemoryTask(c, network), command=command, resume=resume).train()
+        run_task(settings, lambda c: MemoryTask(c, network), module=MODULE, resume=resume)
 
 
 if __name__ == "__main__":

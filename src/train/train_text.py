@@ -1,6 +1,6 @@
 """Hardening a trained text tower: more wordings, the same space, so that denoisers stay valid.
 
-accelerate launch -m src.train.train_text clip=runs/clip [generator=runs/generation] [key=value ...]
+motion-tools train text clip=runs/clip [generator=runs/generation] [key=value ...]
 
 Each label combination has a place in the space: the mean of its captions under the tower that was
 there before. The tower learns to send fresh captions of that combination, with words missing and

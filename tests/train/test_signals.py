@@ -58,7 +58,7 @@ def finish(output: Path, *more: str, **extra: str) -> str:
 
 
 def wait_for_checkpoint(process: "subprocess.Popen[str]", output: Path) -> None:
-    deadline = time.monotonic() + 60
+    deadline = time.monotonic() + 120
     while not list(output.glob("checkpoints/step-*")):
         assert process.poll() is None and time.monotonic() < deadline
         time.sleep(0.01)
@@ -110,6 +110,39 @@ def test_a_mistake_is_one_line_and_exit_code_2(tmp_path: Path) -> None:
     assert errors.strip().splitlines() == [
         "error: command line: unknown key stepz (value 3); the nearest valid key is steps"
     ]
+
+
+def test_several_processes_are_started_and_equal_one(tmp_path: Path) -> None:
+    errors = finish(tmp_path / "two", "--num-processes", "2", TINY_DROPOUT="0")
+    assert "2 process(es)" in errors and "Warning" not in errors
+    finish(tmp_path / "one", "batch-size=8", TINY_DROPOUT="0")
+    for name in ("model", "ema"):
+        two, one = final(tmp_path / "two", name), final(tmp_path / "one", name)
+        assert all(torch.allclose(two[key], one[key], atol=1e-5) for key in one)
+    again = start(tmp_path / "two", "--num-processes", "2")
+    _, errors = again.communicate(timeout=120)
+    assert again.returncode == 2
+    assert errors.startswith("error: ") and len(errors.splitlines()) == 1
+
+
+def test_ctrl_c_stops_several_processes_with_one_line(tmp_path: Path) -> None:
+    process = start(tmp_path / "stopped", "--num-processes", "2", TINY_SLEEP="0.05")
+    wait_for_checkpoint(process, tmp_path / "stopped")
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert "Traceback" not in errors
+    told = [line for line in errors.splitlines() if "continue with: " in line]
+    assert len(told) == 1 and told == errors.splitlines()[-1:]
+    assert "--num-processes 2" in told[0]
+
+
+def test_several_processes_do_not_outlive_the_one_that_started_them(tmp_path: Path) -> None:
+    process = start(tmp_path / "run", "--num-processes", "2", "steps=9999", TINY_SLEEP="0.05")
+    wait_for_checkpoint(process, tmp_path / "run")
+    process.kill()
+    _, errors = process.communicate(timeout=60)  # ends when nobody holds stderr any more
+    assert "stopped and saved" in errors
 
 
 def _free_port() -> int:

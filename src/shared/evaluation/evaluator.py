@@ -211,7 +211,7 @@ class Evaluator(nn.Module):
             )
             raise UserError(
                 f"no evaluator {str(name)!r}; there are: {', '.join(known) or 'none'}, or a folder"
-                " from `accelerate launch -m src.train.train_evaluator`"
+                " from `motion-tools train evaluator`"
             )
         try:
             content = dict(load_json(folder / "config.json"))

@@ -79,7 +79,7 @@ def resolve_model(name_or_folder: str | Path) -> Path:
         use = f", or use --model {shipped[0]}" if shipped else ""
         raise UserError(
             f"profile {name!r} is untrained: no weights of it are shipped; train it with"
-            f" `accelerate launch -m src.train.train_generation --network-profile {name}`"
+            f" `motion-tools train generation --network-profile {name}`"
             f" and name the run's folder{use}"
         )
     if folder.is_dir():

@@ -254,7 +254,7 @@ class MotionGenerator:
             name = self.card.name or "this model"
             raise UserError(
                 f"{name} is untrained and would only give noise; train it with"
-                " `accelerate launch -m src.train.train_generation`, or use a model that `models`"
+                " `motion-tools train generation`, or use a model that `models`"
                 " lists"
             )
 
