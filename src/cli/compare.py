@@ -19,7 +19,7 @@ from src.cli.evaluate import (
     run,
     show,
 )
-from src.cli.guard import complain
+from src.cli.guard import tell
 
 HELP = "A folder that `evaluate` wrote, or a model."
 
@@ -77,7 +77,7 @@ def compare(
     result = differences(Side(folders[0], row), Side(folders[1], other_row or row), seed=seed)
     save_report(result, out)
     show(result, json=json)
-    complain(f"compare: {out / 'report.html'}")
+    tell(f"compare: {out / 'report.html'}")
 
 
 def report_of(name: str, side: str, request: Request, out: Path) -> Path:

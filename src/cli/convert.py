@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from src.cli import options
-from src.cli.guard import complain
+from src.cli.guard import complain, tell
 from src.cli.wording import counted, note_replaced
 from src.shared.errors import UsageError, UserError
 
@@ -262,4 +262,4 @@ def report(
         result = {"converted": rows, "failed": faults, "skipped": kept}
         print(writer.dumps(result, indent=1, ensure_ascii=False))
     if kept:
-        complain(f"{counted(len(kept), 'file')} skipped: newer than what they were made from")
+        tell(f"{counted(len(kept), 'file')} skipped: newer than what they were made from")

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import typer
 
 from src.cli import options
-from src.cli.guard import complain
+from src.cli.guard import tell
 from src.shared.errors import UsageError
 
 QUICK_REPLICATIONS, QUICK_SONGS = 3, 10
@@ -152,7 +152,7 @@ def run(model: str, request: Request, out: Path | None) -> dict[str, Any]:
     from src.shared.evaluation.report_folder import save_report
 
     save_report(report, folder)
-    complain(f"evaluate: {folder / 'report.html'}")
+    tell(f"evaluate: {folder / 'report.html'}")
     return report
 
 
@@ -170,7 +170,7 @@ def run_text(model: str, request: Request, folder: Path) -> dict[str, Any]:
         settings=TextSettings(**request.amount("num_samples", "control_seeds")),
         device=request.device,
         folder=folder,
-        progress=tell,
+        progress=told,
         **request.sampling,
     )
 
@@ -198,13 +198,13 @@ def run_audio(model: str, request: Request, folder: Path) -> dict[str, Any]:
         sampling=request.sampling,
         about={"model": model, "decoder": request.decoder or model},
         folder=folder,
-        progress=tell,
+        progress=told,
     )
 
 
-def tell(text: str) -> None:
+def told(text: str) -> None:
     """Progress, on stderr."""
-    complain(f"evaluate: {text}")
+    tell(f"evaluate: {text}")
 
 
 # ---------------------------------------------------------------- arguments

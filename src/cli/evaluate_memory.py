@@ -7,7 +7,7 @@ import typer
 
 from src.cli import options
 from src.cli.evaluate_sanity import check_limits, check_pairs
-from src.cli.guard import complain
+from src.cli.guard import tell
 from src.shared.errors import UsageError
 
 Number = TypeVar("Number", int, float)
@@ -89,7 +89,7 @@ def evaluate_memory(
         ),
         sampling={"steps": steps, "sampler": sampler, "guidance_scale": guidance_scale},
         about={"model": model, "data": data, "threads": threads},
-        progress=lambda text: complain(f"evaluate-memory: {text}"),
+        progress=lambda text: tell(f"evaluate-memory: {text}"),
     )
     show(report, out, json=json)
 

@@ -8,7 +8,7 @@ import typer
 from src.cli import options
 from src.cli.evaluate import Judge, Quick, Replications, Seed, Songs, check_data, show
 from src.cli.evaluate_sanity import Pairs, check_limits, check_pairs
-from src.cli.guard import complain
+from src.cli.guard import tell
 from src.shared.errors import UsageError
 
 QUICK = {"num_songs": 4, "replications": 1, "style_songs": 2, "edits": 6}
@@ -136,7 +136,7 @@ def run(
         songs=songs,
         other=None if not other else MotionGenerator.from_pretrained(other, device=device),
         sampling=PerformerSettings(**sampling),
-        progress=tell,
+        progress=told,
     )
     editing = None
     if settings.edits:
@@ -144,14 +144,14 @@ def run(
             generator,
             open_held_out(clips, Path("runs"), judge.trained_groups),
             EditSettings(settings.edits, untrained=settings.untrained, seed=settings.seed),
-            progress=tell,
+            progress=told,
         )
-    report = evaluate(context, editing, about=models, folder=out, progress=tell)
+    report = evaluate(context, editing, about=models, folder=out, progress=told)
     save_report(report, out)
     tell(str(out / "report.html"))
     return report
 
 
-def tell(text: str) -> None:
+def told(text: str) -> None:
     """Progress, on stderr."""
-    complain(f"evaluate-performer: {text}")
+    tell(f"evaluate-performer: {text}")

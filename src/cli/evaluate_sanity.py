@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from src.cli import environment, options
-from src.cli.guard import complain
+from src.cli.guard import tell
 from src.shared.errors import UsageError
 
 if TYPE_CHECKING:
@@ -100,7 +100,7 @@ def evaluate_sanity(
         bands=shipped_bands(model) if data is None else None,
         settings=SanitySettings(seed=seed, **amount),
         about={"model": model, "decoder": decoder_checkpoint or model},
-        progress=lambda text: complain(f"evaluate-sanity: {text}"),
+        progress=lambda text: tell(f"evaluate-sanity: {text}"),
     )
     write_results(result, output_dir)
     from src.shared.evaluation.sanity_report import sanity_tables

@@ -8,7 +8,7 @@ import typer
 from src.cli import options
 from src.cli.evaluate import check_data
 from src.cli.evaluate_sanity import check_limits, check_pairs, shipped_bands
-from src.cli.guard import complain
+from src.cli.guard import tell
 from src.shared.errors import UsageError
 
 SYNTHETIC = "synthetic"
@@ -68,7 +68,7 @@ def evaluate_selection(
     if out is not None:
         options.check_folder("--out", out.parent)
     wanted: dict[str, Any] = {"steps": steps, "sampler": sampler, "guidance_scale": guidance_scale}
-    wanted |= {"device": device, "progress": lambda text: complain(f"evaluate-selection: {text}")}
+    wanted |= {"device": device, "progress": lambda text: tell(f"evaluate-selection: {text}")}
     model = model or MODELS[branch]
 
     from src.shared.device import set_threads

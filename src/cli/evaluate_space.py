@@ -7,7 +7,7 @@ import typer
 
 from src.cli import options
 from src.cli.evaluate_sanity import check_limits, check_pairs, show
-from src.cli.guard import complain
+from src.cli.guard import tell
 from src.shared.errors import UsageError
 
 MODEL, TEXT, NO_TEXT = "starter-space", "starter", "none"
@@ -72,7 +72,7 @@ def evaluate_space(
         texts=texts,
         settings=SpaceSettings(bars=bars, batch=batch, replications=runs, seed=seed),
         about={"model": model, "data": data, "text": text},
-        progress=lambda what: complain(f"evaluate-space: {what}"),
+        progress=lambda what: tell(f"evaluate-space: {what}"),
     )
     title = f"Shared space of {model}"
     write_json(out / "space.json", report)

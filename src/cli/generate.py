@@ -9,7 +9,7 @@ from src.cli import options
 from src.cli.directions import Directions
 from src.cli.generate_audio import only_song
 from src.cli.generate_request import Request, produce
-from src.cli.guard import complain
+from src.cli.guard import tell
 from src.cli.score_table import show_scores
 from src.cli.wording import counted
 from src.shared.errors import UsageError
@@ -184,7 +184,7 @@ def print_files(result: dict[str, Any]) -> None:
     times = result["timings"]
     parts = ", ".join(f"{name} {times[name]:.1f}" for name in times if name != "total")
     number = counted(len(result["motions"]), "motion")
-    complain(f"{number} in {times['total']:.1f} s ({parts}) on {result['device']}")
+    tell(f"{number} in {times['total']:.1f} s ({parts}) on {result['device']}")
 
 
 def print_json(result: dict[str, Any]) -> None:

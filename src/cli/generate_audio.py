@@ -1,12 +1,11 @@
 """`generate --audio`: a song in, trajectory files out."""
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from src.cli.evaluate_sanity import shipped_bands
-from src.cli.guard import complain
+from src.cli.guard import tell
+from src.cli.progress import progress_bar
 from src.cli.score_table import scored
 from src.cli.stopwatch import Stopwatch
 from src.cli.wording import note_replaced
@@ -139,7 +138,7 @@ def sample_paths(
     from src.shared.inference.song_memory import remembering
     from src.shared.inference.song_sampler import SongSampler
 
-    with progress_bar(condition.shape[1]) as progress:
+    with progress_bar("frames of the path") as progress:
         sampler = SongSampler(loaded, of_song(settings, song))
         recall = remembered and remembering(*remembered, sampler, condition, phase)
         return sampler.sample(condition, phase=phase, style=style, progress=progress, recall=recall)
@@ -197,19 +196,6 @@ def styled(text: str | None) -> Any:
     return named_style(text) if found is None else found  # the former says what is known
 
 
-@contextmanager
-def progress_bar(num_frames: int) -> Iterator[Callable[[int, int], None]]:
-    """Shown on stderr, if that is a screen; its value is told (frames done, frames in all)."""
-    from rich.console import Console
-    from rich.progress import Progress
-
-    screen = Console(stderr=True)
-    # Into a file a bar that vanishes would leave an empty line.
-    with Progress(console=screen, transient=True, disable=not screen.is_terminal) as bar:
-        task = bar.add_task("frames", total=num_frames)
-        yield lambda done, total: bar.update(task, completed=done)
-
-
 def write_trajectories(
     made: "SongMotions", audio: Path, formats: list[str], out: Path
 ) -> tuple[list[dict[str, Any]], str | None]:
@@ -254,4 +240,4 @@ def write_trajectories(
 def warn_of_beats(result: dict[str, Any]) -> None:
     """Say so when there was nothing to keep time with."""
     if result["tempo"] == 0:
-        complain(f"note: no beat was found in {result['audio']}; the motion keeps its own time")
+        tell(f"note: no beat was found in {result['audio']}; the motion keeps its own time")

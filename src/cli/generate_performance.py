@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from src.cli import generate_audio, generate_text
 from src.cli.evaluate_sanity import shipped_bands
 from src.cli.guard import complain
+from src.cli.progress import progress_bar
 from src.cli.score_table import scored
 from src.cli.stopwatch import Stopwatch
 from src.cli.wording import note_replaced
@@ -127,7 +128,6 @@ def dance_prompts(
         warnings = generator.scope_warnings(wanted["prompts"])
     for warning in filter(None, warnings):
         complain(f"warning: {warning}")
-    frames = settings.num_samples * heard.condition.shape[1]
     found: list[Dances] = []
     for prompt, tag in zip(prompts, wanted["tags"] or [None] * len(prompts), strict=True):
         own = generator.style_of(prompt) if style is None and prompt else style
@@ -135,7 +135,7 @@ def dance_prompts(
             loaded, song, heard.condition, heard.phase, settings, own, remembered
         )
         clock.lap("path")
-        with generate_audio.progress_bar(frames) as progress:
+        with progress_bar("frames of the body") as progress:
             dances = dancers.dance(
                 raw, heard, prompt, tag=tag, seed=settings.seed, progress=progress
             )

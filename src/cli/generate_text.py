@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from src.cli.guard import complain
+from src.cli.progress import progress_bar
 from src.cli.score_table import scored
 from src.cli.stopwatch import Stopwatch
 from src.cli.wording import note_replaced
@@ -58,7 +59,11 @@ def produce(
     warnings = generator.scope_warnings(wanted["prompts"])
     for warning in filter(None, warnings):
         complain(f"warning: {warning}")
-    found = PromptSampler(generator, TextJudge(tower)).sample(**wanted, return_all=return_all)
+    with progress_bar("motions") as progress:
+        found = PromptSampler(generator, TextJudge(tower)).sample(
+            **wanted, return_all=return_all, progress=progress
+        )
+    too_long = generator.length_warning(wanted["seconds"])  # on stderr by now
     clock.lap("sample")
     kept = number if return_all else 1
     motions = [motion for result in found for motion in result.ranked()]
@@ -66,7 +71,8 @@ def produce(
     places = [int(place) for result in found for place in result.table.order[:kept]]
     for at, (row, place) in enumerate(zip(rows, places, strict=True)):
         row |= {"sample": place, "rank": at % kept + 1}
-        row |= {"seed": wanted["seed"], "warning": warnings[at // kept]}
+        told = filter(None, (warnings[at // kept], too_long))
+        row |= {"seed": wanted["seed"], "warning": "; ".join(told) or None}
     index = write_index(motions, out) if "html" in formats and len(motions) > 1 else None
     clock.lap("write")
     about = {"model": model, "device": str(generator.device), "seed": wanted["seed"]}
@@ -102,17 +108,19 @@ def write_motions(
     names = stems([motion.text for motion in motions], num_samples)
     files = [{name: out / f"{stem}.{ending(name)}" for name in formats} for stem in names]
     note_replaced((path for paths in files for path in paths.values()), out)
-    for motion, paths in zip(motions, files, strict=True):
-        for path in paths.values():
-            write_motion(motion, path)
-        rows.append(
-            {
-                "prompt": motion.text,
-                "frames": motion.num_frames,
-                "fps": motion.fps,
-                "files": {name: str(path) for name, path in paths.items()},
-            }
-        )
+    with progress_bar("motions written") as progress:
+        for motion, paths in zip(motions, files, strict=True):
+            for path in paths.values():
+                write_motion(motion, path)
+            rows.append(
+                {
+                    "prompt": motion.text,
+                    "frames": motion.num_frames,
+                    "fps": motion.fps,
+                    "files": {name: str(path) for name, path in paths.items()},
+                }
+            )
+            progress(len(rows), len(motions))
     return rows
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from src.cli import options
-from src.cli.guard import complain
+from src.cli.guard import tell
 from src.shared.errors import UsageError
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ def begin_mapping(found: "Inspection", mapping: Path | None, out: Path) -> None:
 
     names = tuple(name for name, _ in found.joints)
     write_text(out, profile_text(names, load_mappings(mapping)))
-    complain(f"{out}: fill in every ?, then give it by --mapping")
+    tell(f"{out}: fill in every ?, then give it by --mapping")
 
 
 def lines(found: "Inspection") -> list[str]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from src.cli import options
-from src.cli.guard import complain, guarded
+from src.cli.guard import complain, guarded, tell, with_quiet
 from src.shared.errors import UsageError
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ def build(
     options.check_folder("--out", out)
     config = load_settings(bars=bars)
 
-    from src.cli.prepare_audio import progress_bar
+    from src.cli.progress import progress_bar
     from src.shared.device import set_threads
     from src.shared.memory.build import build_memory
     from src.shared.model.audio.shared_space import SharedSpace
@@ -80,7 +80,7 @@ def build(
         print(json_format.dumps(report, indent=1, ensure_ascii=False))
         return
     for name, reason in index.about["left_out"].items():
-        complain(f"left out {name}: {reason}")
+        tell(f"left out {name}: {reason}")
     print(f"{len(index)} phrases of {len(index.songs)} songs, {report['hours']:.2f} h: {out}")
     print(f"next: motion-tools memory query SONG --memory {out}")
 
@@ -137,7 +137,7 @@ def query(
 
 
 for command in (build, query):
-    memory.command()(guarded(command))
+    memory.command()(with_quiet(guarded(command)))
 
 
 def load_settings(**given: Any) -> "MemoryConfig":
@@ -168,7 +168,7 @@ def query_song(
 
     condition, phase = heard(analyse(path, meter=meter), None)
     if phase is None:
-        complain(f"{path.name}: no beat was heard; asking every 2 s")
+        tell(f"{path.name}: no beat was heard; asking every 2 s")
     return ask_song(index, space, condition, phase, config=config)
 
 

@@ -1,13 +1,13 @@
 """`prepare`: folders of motion capture become a training set."""
 
-import sys
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from src.cli import options
-from src.cli.guard import complain
+from src.cli.guard import complain, tell
+from src.cli.progress import progress_bar
 from src.shared.errors import UsageError
 
 
@@ -84,15 +84,16 @@ def prepare(
     sources: list[Source] = [*MotionFolder.open_all(source or [], **tables, reading=reading)]
     if synthetic:
         sources.append(SyntheticSource(synthetic, seed))
-    report = prepare_folder(
-        sources,
-        out,
-        templates=templates,
-        mirror=mirror,
-        seed=seed,
-        workers=workers,
-        progress=show_progress,
-    )
+    with progress_bar("clips") as progress:
+        report = prepare_folder(
+            sources,
+            out,
+            templates=templates,
+            mirror=mirror,
+            seed=seed,
+            workers=workers,
+            progress=progress,
+        )
     if unmatched := report["unmatched_captions"]:
         complain(
             f"warning: {len(unmatched)} clips in {captions} match no file, e.g."
@@ -104,12 +105,6 @@ def prepare(
         print_summary(report, out)
 
 
-def show_progress(done: int, total: int) -> None:
-    """A counter that stays on its line in a terminal."""
-    end = "\r" if sys.stderr.isatty() and done < total else "\n"
-    print(f"prepare: {done} of {total} clips", end=end, file=sys.stderr, flush=True)
-
-
 def print_summary(report: dict[str, Any], out: Path) -> None:
     """What was made, what was left out, and what to do next."""
     minutes = report["seconds"] / 60
@@ -117,9 +112,9 @@ def print_summary(report: dict[str, Any], out: Path) -> None:
     print("  by source:", ", ".join(f"{k} {v}" for k, v in report["by_source"].items()))
     print("  by split: ", ", ".join(f"{k} {v}" for k, v in report["by_split"].items()))
     if skipped := report["skipped"]:
-        complain(f"{len(skipped)} clips were left out; {out / 'report.json'} says why, e.g.:")
+        tell(f"{len(skipped)} clips were left out; {out / 'report.json'} says why, e.g.:")
         for entry in skipped[:3]:
-            complain(f"  {entry['clip']}: {entry['reason']}")
+            tell(f"  {entry['clip']}: {entry['reason']}")
     print(f"next: motion-tools train clip --data {out} --output runs/clip")
 
 

@@ -1,15 +1,14 @@
 """`prepare-audio`: motions and music that were never recorded together become pairs."""
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from src.cli import options
-from src.cli.guard import complain
+from src.cli.guard import tell
 from src.cli.prepare import print_json
+from src.cli.progress import progress_bar
 from src.shared.errors import UsageError
 
 if TYPE_CHECKING:
@@ -74,7 +73,7 @@ def prepare_audio(
     sources = open_music(music, seed=seed, meter=meter)
     data = open_motion(motion, out)
     synthetic = synthetic_clips or motion == "synthetic"
-    with progress_bar() as progress:
+    with progress_bar("songs") as progress:
         report = pair_all(
             data,
             sources,
@@ -102,7 +101,7 @@ def open_motion(motion: str, out: Path) -> "PreparedData":
 
     from src.shared.data.pairing.bvh_motion import prepare_unlabelled
 
-    complain(f"preparing the motion files of {folder} ...")
+    tell(f"preparing the motion files of {folder} ...")
     return prepare_unlabelled(folder, out / ".motion" / "bvh")
 
 
@@ -112,18 +111,6 @@ def write_bands(out: Path) -> None:
     from src.shared.validation.bands import Bands
 
     Bands.of(training_trajectories(out)).save(out / "bands.json")
-
-
-@contextmanager
-def progress_bar(what: str = "songs") -> Iterator[Callable[[int, int], None]]:
-    """How many are done, on stderr."""
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
-
-    columns = (what, BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True)) as bar:
-        task = bar.add_task(what, total=None)
-        yield lambda done, total: bar.update(task, completed=done, total=total)
 
 
 def print_summary(report: dict[str, Any], out: Path) -> None:
@@ -139,5 +126,5 @@ def print_summary(report: dict[str, Any], out: Path) -> None:
     for reason, number in report["clips"]["left_out"].items():
         print(f"  {number} clips left out: {reason}")
     if left_out := report["left_out"]:
-        complain(f"{len(left_out)} phrases or songs were left out; {out / 'report.json'} says why")
+        tell(f"{len(left_out)} phrases or songs were left out; {out / 'report.json'} says why")
     print(f"next: motion-tools train audio --data {out} --output runs/audio")

@@ -23,8 +23,8 @@ def report(
         raise UsageError(f"{folder} holds no report.json; name a folder that `evaluate` wrote")
 
     from src.cli.evaluate import show
-    from src.cli.guard import complain
+    from src.cli.guard import tell
     from src.shared.evaluation.report_folder import render
 
     show(render(folder), json=json)
-    complain(f"report: {folder / 'report.html'}")
+    tell(f"report: {folder / 'report.html'}")

@@ -3,6 +3,8 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from src.cli.guard import is_quiet
+
 if TYPE_CHECKING:
     from src.shared.inference.selection import ScoreTable
 
@@ -16,7 +18,7 @@ def scored(about: str, table: "ScoreTable") -> dict[str, Any]:
 
 def show_scores(selection: Sequence[dict[str, Any]]) -> None:
     """One short table a prompt or song on stderr."""
-    if not selection:
+    if not selection or is_quiet():
         return
     from rich.console import Console
     from rich.table import Table

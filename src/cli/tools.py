@@ -5,6 +5,7 @@ Nothing heavy is imported here: `--help` and shell completion answer at once.
 
 import sys
 from pathlib import Path
+from typing import Annotated
 
 import typer
 
@@ -21,7 +22,7 @@ from src.cli.evaluate_space import evaluate_space
 from src.cli.export_onnx import export_onnx
 from src.cli.features import features
 from src.cli.generate import generate
-from src.cli.guard import guarded
+from src.cli.guard import guarded, with_quiet
 from src.cli.inspect import inspect
 from src.cli.memory import memory
 from src.cli.models import models
@@ -41,8 +42,30 @@ app = typer.Typer(
     # Completion calls the program by its name, which `python -m` does not have.
     add_completion=Path(sys.argv[0]).stem == PROGRAM,
     help="From a prompt to a moving character, and from your own mocap to your own model.",
+    context_settings={"help_option_names": ["-h", "--help"]},
     epilog=f'Start here:  {PROGRAM} generate --prompt "a person waves"',
 )
+
+
+def show_version(wanted: bool) -> None:
+    """Name and version of the package, and nothing else."""
+    if wanted:
+        from importlib.metadata import version
+
+        print(f"{PROGRAM} {version('motionsuite')}")
+        raise typer.Exit
+
+
+@app.callback()
+def before_commands(
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=show_version, is_eager=True, help="Show it and exit."),
+    ] = False,
+) -> None:
+    """Options of the program itself; what it is for stands above."""
+
+
 for command in (
     generate,
     convert,
@@ -65,7 +88,7 @@ for command in (
     plot,
     export_onnx,
 ):
-    app.command()(guarded(command))
+    app.command()(with_quiet(guarded(command)))
 app.add_typer(memory, name="memory")
 app.add_typer(train, name="train")
 

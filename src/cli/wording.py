@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from src.cli.guard import complain
+from src.cli.guard import tell
 
 
 def counted(number: int, noun: str) -> str:
@@ -15,4 +15,4 @@ def note_replaced(paths: Iterable[Path], folder: Path) -> None:
     """Before writing: say how many of these files an earlier run has left in the folder."""
     if found := sum(path.exists() for path in paths):
         verb = "is" if found == 1 else "are"
-        complain(f"note: {counted(found, 'file')} of an earlier run in {folder} {verb} replaced")
+        tell(f"note: {counted(found, 'file')} of an earlier run in {folder} {verb} replaced")

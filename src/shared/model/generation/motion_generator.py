@@ -4,7 +4,7 @@ Letters: B batch, T frames, K rows (bones, root track), C channels, D embed dim,
 """
 
 import logging
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Self
 
@@ -38,6 +38,7 @@ from src.shared.motion.postprocess import MotionPostProcessor
 
 KIND = "motion-generator"
 MAX_BATCH = 64  # motions sampled at once
+Progress = Callable[[int, int], None]  # motions done, motions in all
 
 log = logging.getLogger(__name__)
 
@@ -101,6 +102,7 @@ class MotionGenerator:
         guidance_scale: float | None = None,
         foot_lock: bool | None = None,
         constraints: Sequence[Constraint | None] | None = None,
+        progress: Progress | None = None,
     ) -> list[Motion]:
         """Motions for the prompts, prompt-major: all samples of the first one come first.
 
@@ -118,6 +120,7 @@ class MotionGenerator:
             guidance_scale: 1 = no guidance.
             foot_lock: hold standing feet in place.
             constraints: what is given of each prompt's motions, as long as they are.
+            progress: told after each batch.
 
         Raises:
             UserError: the model is untrained, or an argument cannot be worked with.
@@ -132,6 +135,7 @@ class MotionGenerator:
             sampler=sampler,
             guidance_scale=guidance_scale,
             constraints=constraints,
+            progress=progress,
         )
         for warning in self.scope_warnings(prompts, again=False):
             if warning is not None:
@@ -160,6 +164,7 @@ class MotionGenerator:
         sampler: str | None = None,
         guidance_scale: float | None = None,
         constraints: Sequence[Constraint | None] | None = None,
+        progress: Progress | None = None,
     ) -> list[Tensor]:
         """Like `generate`, before post-processing: raw features [T, K, C] on the CPU."""
         self._require_trained()
@@ -172,7 +177,9 @@ class MotionGenerator:
             seed=seed,
             fps=self.card.fps,
         )
-        self._warn_of_length(max(request.frames for request in requests))
+        longest = max(request.frames for request in requests)
+        if warning := self.length_warning(longest / self.card.fps):
+            log.warning("%s", warning)
         given = [each for each in constraints or [None] * len(prompts) for _ in range(num_samples)]
         check_lengths(given, [request.frames for request in requests])
         row_of = {prompt: row for row, prompt in enumerate(dict.fromkeys(prompts))}
@@ -208,6 +215,8 @@ class MotionGenerator:
             for index, sample in zip(batch, features, strict=True):
                 cropped, constraint = sample[: requests[index].frames], given[index]
                 samples[index] = cropped if constraint is None else constraint.keep(cropped)
+            if progress is not None:
+                progress(len(samples), len(requests))
         return [samples[index] for index in range(len(requests))]
 
     # Prompts
@@ -258,15 +267,15 @@ class MotionGenerator:
                 " lists"
             )
 
-    def _warn_of_length(self, frames: int) -> None:
+    def length_warning(self, seconds: float) -> str | None:
+        """A line that says so if a motion is longer than any trained on; `generate` logs it."""
         longest = self.card.max_seconds
-        if longest is not None and frames > round(longest * self.card.fps):
-            log.warning(
-                "%.1f s is longer than the %.1f s this model was trained on;"
-                " the end may lose the prompt",
-                frames / self.card.fps,
-                longest,
-            )
+        if longest is None or round(seconds * self.card.fps) <= round(longest * self.card.fps):
+            return None
+        return (
+            f"{seconds:.1f} s is longer than the {longest:.1f} s this model was trained on;"
+            " the end may lose the prompt"
+        )
 
     # Folders
 
