@@ -31,6 +31,7 @@ def stage(module: str) -> Callable[[typer.Context], None]:
     """The command that hands its arguments, --help among them, to a stage's own."""
 
     def run(context: typer.Context) -> None:
+        """All of it is the stage's to read."""
         app = import_module(f"src.train.{module}").app
         app(context.args, prog_name=context.command_path)
 

@@ -23,7 +23,9 @@ def run(*arguments: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run([sys.executable, *arguments], capture_output=True, text=True)
 
 
-@pytest.mark.parametrize("arguments", [["--help"], ["generate", "--help"], ["prepare", "--help"]])
+@pytest.mark.parametrize(
+    "arguments", [["--help"], ["generate", "--help"], ["prepare", "--help"], ["train", "--help"]]
+)
 def test_help_imports_nothing_heavy(arguments: list[str]) -> None:
     """The import list instead of a clock: a slow machine does not fail, a heavy import does."""
     result = run("-X", "importtime", "-m", "src.cli.tools", *arguments)

@@ -120,3 +120,5 @@ def test_the_resume_command_survives_the_shell() -> None:
     words = shlex.split(command)
     assert words[:4] == ["accelerate", "launch", "-m", "src.train.x"]
     assert words[4:] == ["--output", "a folder", "steps=3", "--resume"]
+    own = resume_command("src.train.train_x", ["train", "x", "--output", "a folder"])
+    assert own == "motion-tools train x --output 'a folder' --resume"
