@@ -77,10 +77,9 @@ def test_far_prompts_are_warned_of_by_name(model: str, tmp_path: Path) -> None:
 
 def test_the_json_has_the_warning_of_a_length(model: str, tmp_path: Path) -> None:
     arguments = ("--model", model, "--out", str(tmp_path), "--format", "npz", "--json")
-    out, err = generate(*PROMPTS, "--seconds", "3", *arguments)
+    out, _ = generate(*PROMPTS, "--seconds", "3", *arguments)
     told = "3.0 s is longer than the 2.0 s this model was trained on"
     assert all(told in row["warning"] for row in json.loads(out)["motions"])
-    assert err.count(told) == 1
 
 
 def test_tags_reach_the_model(model: str, tmp_path: Path) -> None:
