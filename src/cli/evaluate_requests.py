@@ -7,7 +7,7 @@ import typer
 
 from src.cli import options
 from src.cli.evaluate_sanity import check_limits, show
-from src.cli.guard import complain
+from src.cli.guard import tell
 from src.shared.errors import UsageError
 
 LIMITS = {"wordings": (1, 100), "seconds": (1, 20)}
@@ -61,7 +61,7 @@ def evaluate_requests(
         floors={"untrained": untrained(generator, seed)},
         settings=RequestSettings(wordings=wordings, languages=codes, seconds=seconds, seed=seed),
         about={"model": model, "data": str(data)},
-        progress=lambda what: complain(f"evaluate-requests: {what}"),
+        progress=lambda what: tell(f"evaluate-requests: {what}"),
     )
     title = f"What people ask of {model}"
     write_json(out / "requests.json", report)

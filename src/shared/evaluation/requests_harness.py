@@ -412,7 +412,8 @@ def _exactness(
     def of(section: str, *, simultaneous: bool = False) -> list[Request]:
         found = [r for r in requests if r.section == section and r.simultaneous == simultaneous]
         known = yardstick.judge.classes
-        return [r for r in found if all(part.get("action") in known for part in r.parts)]
+        found = [r for r in found if all(part.get("action") in known for part in r.parts)]
+        return drawn(found, yardstick.settings.wordings, yardstick.settings.seed)
 
     def row(name: str, wanted: Sequence[Request], does: Callable[[Request, Motion], bool]) -> None:
         if wanted:
