@@ -1,4 +1,4 @@
-"""The two errors a user can cause; the command line turns them into exit codes."""
+"""The two errors a user can cause, which become exit codes; text that is safe to show."""
 
 import re
 from typing import TYPE_CHECKING
@@ -13,6 +13,14 @@ _UNSHOWN = re.compile(
 )
 
 
+def printable(text: str) -> str:
+    """The text with U+FFFD for what a terminal obeys or hides, and for bytes that were not UTF-8.
+
+    For whatever a file or an argument says: names, captions, paths.
+    """
+    return _UNSHOWN.sub("\N{REPLACEMENT CHARACTER}", text)
+
+
 class UserError(Exception):
     """Something the user gave cannot be worked with (exit code 1).
 
@@ -23,7 +31,7 @@ class UserError(Exception):
     exit_code = 1
 
     def __str__(self) -> str:
-        text = _UNSHOWN.sub("\N{REPLACEMENT CHARACTER}", super().__str__())
+        text = printable(super().__str__())
         if len(text) > LONGEST:
             return f"{text[: LONGEST // 2]} … {text[-LONGEST // 4 :]}"
         return text

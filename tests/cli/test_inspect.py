@@ -71,6 +71,21 @@ def test_an_unknown_joint_is_named_and_a_profile_begun(odd: Path, tmp_path: Path
     assert found["mapping"] == "mine" and found["matched"]["l_knee"] == "hinge"
 
 
+def test_joint_names_cannot_harm_a_terminal_or_a_profile(odd: Path, tmp_path: Path) -> None:
+    begun, wild = tmp_path / "mine.yaml", "hinge\x1b]0;x\x07\x7f\u009b2J"
+    odd.write_text(odd.read_text().replace("hinge", wild), encoding="utf-8")
+    for flags in ([], ["--json"]):
+        result = run(odd, *flags)
+        assert result.exit_code == 0
+        assert all(line.isprintable() for line in result.stdout.splitlines())
+    assert run(odd, "--write-mapping", begun).exit_code == 0
+    text = begun.read_text(encoding="utf-8")
+    name = next(word for word in text.replace(",", " ").split() if word.startswith("hinge"))
+    begun.write_text(text.replace('?"', f'{name}"'), encoding="utf-8")
+    found = json.loads(run(odd, "--mapping", begun, "--json").stdout)
+    assert found["mapping"] == "mine" and found["matched"]["l_knee"] == name
+
+
 @pytest.mark.parametrize(("flags", "code", "message"), [
     (["--unit", "parsec"], 2, "--unit 'parsec' is not known; choose from m, cm"),
     (["--up", "W"], 2, "--up 'W' is not an axis"),

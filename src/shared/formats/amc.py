@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.errors import UserError
+from src.shared.errors import UserError, printable
 from src.shared.formats.asf import AsfSkeleton, read_asf
 from src.shared.formats.limits import (
     FRAME_RATES,
@@ -49,7 +49,7 @@ class AmcClip:
 
     @property
     def names(self) -> tuple[str, ...]:
-        return tuple(bone.name for bone in self.skeleton.bones)
+        return tuple(printable(bone.name) for bone in self.skeleton.bones)
 
     @property
     def parents(self) -> tuple[int, ...]:

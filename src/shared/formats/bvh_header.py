@@ -4,6 +4,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from src.shared.errors import printable
+
 MAX_JOINTS = 2000
 _CHANNELS = {
     f"{axis}{kind}".lower(): f"{axis}{kind}" for axis in "XYZ" for kind in ("position", "rotation")
@@ -101,7 +103,7 @@ def _title(keyword: str, words: list[str], stack: list[tuple[Node, int]], number
         raise BvhError(f"{keyword} {place}", number)
     if stack and stack[-1][0].is_end:
         raise BvhError("JOINT inside an End Site", number)
-    name = " ".join(words[1:])
+    name = printable(" ".join(words[1:]))
     if not name:
         raise BvhError(f"{keyword} without a name", number)
     return Node(name, stack[-1][1] if stack else -1)

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.errors import UserError
+from src.shared.errors import UserError, printable
 from src.shared.formats.glb_file import GlbError, GlbFile
 from src.shared.formats.glb_tracks import even_times, moved_matrices, read_tracks, rest_matrix
 from src.shared.formats.limits import MAX_JOINTS, MAX_VALUE
@@ -171,10 +171,10 @@ def _with_ancestors(joints: list[int], parents: list[int]) -> list[int]:
 
 
 def _names(nodes: list[dict[str, Any]], joints: list[int]) -> tuple[str, ...]:
-    """Names without line breaks; numbered where two joints share one."""
+    """Names on one line, printable; numbered where two joints share one."""
     names: list[str] = []
     for node in joints:
-        name = " ".join(str(nodes[node].get("name", "")).split()) or f"node {node}"
+        name = printable(" ".join(str(nodes[node].get("name", "")).split())) or f"node {node}"
         names.append(name if name not in names else f"{name} {node}")
     return tuple(names)
 

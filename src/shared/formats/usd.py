@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from src.shared.errors import UserError
+from src.shared.errors import UserError, printable
 from src.shared.files import atomic_write, write_text
 from src.shared.formats.glb import continuous, parent_frames
 from src.shared.formats.mannequin import Mannequin, mannequin, side_colours
@@ -207,5 +207,5 @@ def _strings(values: Iterable[str]) -> str:
 
 
 def _string(text: str) -> str:
-    """In quotes, with what would end them escaped."""
-    return json.dumps(" ".join(text.split()), ensure_ascii=False)
+    """In quotes, with what would end them escaped; USD has no escapes for control characters."""
+    return json.dumps(printable(" ".join(text.split())), ensure_ascii=False)

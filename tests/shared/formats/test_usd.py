@@ -1,6 +1,7 @@
 """USD: OpenUSD's own library sees the motion, the skin and the facts of the stage."""
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -55,12 +56,17 @@ def test_the_skin_follows_the_joints(tmp_path: Path) -> None:
 
 def test_any_caption_is_text(tmp_path: Path) -> None:
     Sdf = pytest.importorskip("pxr").Sdf
-    from dataclasses import replace
-
     text = 'says "hi"\n\\ and 歩く # ( ) } @'
     path = write_usd(replace(random_motion(1), text=text), tmp_path / "a.usda")
     layer = Sdf.Layer.FindOrOpen(str(path))
     assert layer.customLayerData["text"] == " ".join(text.split())
+
+
+def test_no_control_character_gets_into_the_text(tmp_path: Path) -> None:
+    """USD knows no \\u escapes: of one, "u001b" would be left."""
+    motion = replace(random_motion(1), text="walks\x1b[2J\x7f\x9bend")
+    text = write_usd(motion, tmp_path / "a.usda").read_text(encoding="utf-8")
+    assert 'string text = "walks\ufffd[2J\ufffd\ufffdend"' in text and "u001b" not in text
 
 
 def test_without_openusd_only_the_packed_form_is_refused(
