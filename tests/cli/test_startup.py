@@ -40,6 +40,7 @@ def test_every_command_shows_an_example(command: str) -> None:
     result = run("-m", "src.cli.tools", command, "--help")
     assert result.returncode == 0
     assert f"motion-tools {command}" in result.stdout
+    assert "list[" not in result.stdout, "a user types values, not a Python list"
 
 
 def test_completion_is_offered_only_by_the_console_script() -> None:
