@@ -132,6 +132,8 @@ CASES: list[tuple[str, int, str]] = [
     ("inspect none.bvh", 1, r"none\.bvh"),
     ("generate", 2, "--prompt"),
     ("generate --prompt walk --seconds -1", 2, "-1"),
+    ("generate --prompt caf\udce9", 2, "caf.*is not UTF-8 text"),
+    (f"generate --audio {'a' * 300}.wav", 2, "its name is too long"),
     ("generate --prompt walk --format fbx", 2, "fbx"),
     ("generate --prompt walk --model no-such", 1, "no-such"),
     ("generate --prompt walk --model model", 1, r"config\.json"),

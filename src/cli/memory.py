@@ -1,6 +1,7 @@
 """`memory build` and `memory query`: phrases of real motion, found by song or by text."""
 
 import json as json_format
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -8,7 +9,8 @@ import typer
 
 from src.cli import options
 from src.cli.guard import complain, guarded, tell, with_quiet
-from src.shared.errors import UsageError
+from src.cli.help_page import Command
+from src.shared.errors import UsageError, printable
 
 if TYPE_CHECKING:
     from src.shared.config_memory import MemoryConfig
@@ -107,7 +109,7 @@ def query(
     options.check_ranges(threads=threads, meter=meter)
     if not ask.strip():
         raise UsageError("the question is empty; name a sound file or give words")
-    is_song = Path(ask).is_file()
+    is_song = os.path.isfile(ask)  # a sentence may be too long for `Path.is_file`
     if not is_song and Path(ask).suffix.lower() in SOUND_FILES:
         raise UsageError(f"{ask}: no such file; name a sound file, or give words")
 
@@ -137,7 +139,7 @@ def query(
 
 
 for command in (build, query):
-    memory.command()(with_quiet(guarded(command)))
+    memory.command(cls=Command)(with_quiet(guarded(command)))
 
 
 def load_settings(**given: Any) -> "MemoryConfig":
@@ -210,5 +212,5 @@ def print_hits(hits: list["Found"]) -> None:
 
 def name_of(hit: "Found") -> str:
     """What a phrase shows: its caption, else its clip; and its id."""
-    shown = hit.caption or Path(hit.clip).name  # "~mirrored" may follow its suffix
+    shown = printable(hit.caption or Path(hit.clip).name)  # "~mirrored" may follow its suffix
     return f"{shown[:NAME_WIDTH]} [{hit.phrase}]" if shown else hit.phrase

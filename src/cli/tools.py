@@ -22,7 +22,8 @@ from src.cli.evaluate_space import evaluate_space
 from src.cli.export_onnx import export_onnx
 from src.cli.features import features
 from src.cli.generate import generate
-from src.cli.guard import guarded, with_quiet
+from src.cli.guard import guarded, results_on_stdout, with_quiet
+from src.cli.help_page import Command
 from src.cli.inspect import inspect
 from src.cli.memory import memory
 from src.cli.models import models
@@ -88,14 +89,15 @@ for command in (
     plot,
     export_onnx,
 ):
-    app.command()(with_quiet(guarded(command)))
+    app.command(cls=Command)(with_quiet(guarded(command)))
 app.add_typer(memory, name="memory")
 app.add_typer(train, name="train")
 
 
 def main() -> None:
     """Entry point of the console script."""
-    app()
+    with results_on_stdout():
+        app()
 
 
 if __name__ == "__main__":

@@ -1,5 +1,7 @@
 """Whole files only: write beside the target, then rename; hash what was written; JSON in."""
 
+import codecs
+import errno
 import hashlib
 import json
 import os
@@ -19,7 +21,7 @@ def atomic_write(path: Path) -> Iterator[Path]:
     """Yield a temporary path in the same folder that replaces `path` when the block succeeds.
 
     Raises:
-        UserError: the folder or file cannot be written (no permission, disk full).
+        UserError: the folder or file cannot be written (no permission, disk full, name too long).
     """
     path = Path(path)
     temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
@@ -33,9 +35,9 @@ def atomic_write(path: Path) -> Iterator[Path]:
         os.replace(temporary, path)
     except OSError as error:
         reason = error.strerror or str(error)
-        raise UserError(
-            f"cannot write {path}: {reason}; free space or choose another folder"
-        ) from error
+        long = error.errno == errno.ENAMETOOLONG
+        remedy = "shorten its name" if long else "free space or choose another folder"
+        raise UserError(f"cannot write {path}: {reason}; {remedy}") from error
     finally:
         with suppress(OSError):  # a parent that is a file, say: the error above told already
             temporary.unlink()
@@ -53,7 +55,7 @@ def write_json(path: Path, value: Any) -> None:
 
 
 def read_text(path: Path, wanted: str, *, max_bytes: int = MAX_TEXT) -> str:
-    """The text of a file that people write, in UTF-8 with or without a mark.
+    """The text of a file that people write: UTF-8, or UTF-16 with its mark, as Excel writes it.
 
     Args:
         path: the file.
@@ -61,13 +63,14 @@ def read_text(path: Path, wanted: str, *, max_bytes: int = MAX_TEXT) -> str:
         max_bytes: of it.
 
     Raises:
-        UserError: missing, unreadable, too large, or not UTF-8.
+        UserError: missing, unreadable, too large, or in neither of them.
     """
     try:
         with Path(path).open("rb") as stream:
             data = stream.read(max_bytes + 1)
         if len(data) <= max_bytes:
-            return data.decode("utf-8-sig")
+            wide = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+            return data.decode("utf-16" if wide else "utf-8-sig")
         reason = f"larger than {max_bytes >> 20} MB"
     except OSError as error:
         reason = error.strerror or str(error)

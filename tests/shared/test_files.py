@@ -31,6 +31,14 @@ def test_a_file_that_is_replaced_keeps_its_permissions(tmp_path: Path) -> None:
     assert (tmp_path / "secret").read_text() == "new"
 
 
+def test_a_name_that_is_too_long_is_to_be_shortened(tmp_path: Path) -> None:
+    with (
+        pytest.raises(UserError, match="File name too long; shorten its name"),
+        atomic_write(tmp_path / f"{'a' * 300}.npz"),
+    ):
+        pass
+
+
 def test_a_failure_leaves_what_was_there(tmp_path: Path) -> None:
     (tmp_path / "kept").write_text("old")
     with pytest.raises(RuntimeError), atomic_write(tmp_path / "kept") as temporary:
