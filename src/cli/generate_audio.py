@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from src.cli.evaluate_sanity import shipped_bands
+from src.cli.generate_text import slug
 from src.cli.guard import tell
 from src.cli.progress import progress_bar
 from src.cli.score_table import scored
@@ -196,6 +197,11 @@ def styled(text: str | None) -> Any:
     return named_style(text) if found is None else found  # the former says what is known
 
 
+def song_stem(audio: Path) -> str:
+    """What the files of a song are called: its name, made safe as a prompt is."""
+    return slug(audio.stem, 60)
+
+
 def write_trajectories(
     made: "SongMotions", audio: Path, formats: list[str], out: Path
 ) -> tuple[list[dict[str, Any]], str | None]:
@@ -215,7 +221,8 @@ def write_trajectories(
     track = SongTrack(audio, beats.beat_times, beats.downbeat_times, beats.meter)
     processor = MotionPostProcessor()
     finished = [MotionTrajectory(processor.process(raw.data), raw.fps) for raw in made.trajectories]
-    stems = [audio.stem, *(f"{audio.stem}-{number + 1}" for number in range(1, len(finished)))]
+    first = song_stem(audio)
+    stems = [first, *(f"{first}-{number + 1}" for number in range(1, len(finished)))]
     alone = [name for name in formats if name != "html" or len(finished) == 1]
     page = out / "index.html"
     files = [out / f"{stem}.{name}" for stem in stems for name in alone]

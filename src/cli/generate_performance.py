@@ -189,7 +189,8 @@ def stems(audio: Path, prompts: Sequence[str | None], kept: int) -> list[str]:
     """`song-a-person-dances`, `song-a-person-dances-2`, …; `song-dance` without a prompt."""
     names: list[str] = []
     for prompt in prompts:
-        base = f"{audio.stem}-{DANCE if prompt is None else generate_text.slug(prompt)}"
+        said = DANCE if prompt is None else generate_text.slug(prompt)
+        base = f"{generate_audio.song_stem(audio)}-{said}"
         for _ in range(kept):
             name, number = base, 2
             while name in names:

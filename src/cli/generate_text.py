@@ -1,5 +1,6 @@
 """`generate --prompt`: prompts in, motion files out."""
 
+import unicodedata
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -83,9 +84,14 @@ def produce(
 
 
 def slug(text: str, length: int = 40) -> str:
-    """A file name from a prompt in any language: letters and digits, hyphens between."""
-    words = "".join(char if char.isalnum() else " " for char in text.lower()).split()
-    return "-".join(words)[:length].rstrip("-") or "motion"
+    """A file name from text in any language: letters and digits, hyphens between.
+
+    At most `length` characters, and twice as many bytes: a file's whole name may have 255.
+    """
+    text = unicodedata.normalize("NFC", text.lower())  # as composed letters, which file names part
+    words = "".join(char if char.isalnum() else " " for char in text).split()
+    cut = "-".join(words)[:length].encode()[: 2 * length].decode(errors="ignore")
+    return cut.rstrip("-") or "motion"
 
 
 def stems(prompts: Sequence[str], num_samples: int) -> list[str]:

@@ -68,9 +68,13 @@ def test_one_tag_serves_all_prompts() -> None:
 @given(st.text())
 def test_slug_is_a_safe_file_name(text: str) -> None:
     name = generate_text.slug(text)
-    assert 0 < len(name) <= 40
+    assert 0 < len(name) <= 40 and len(name.encode()) <= 80
     assert not set(name) & set(string.punctuation.replace("-", "") + string.whitespace)
     assert not name.startswith("-") and not name.endswith("-")
+
+
+def test_letters_that_file_systems_take_apart_stay_whole() -> None:
+    assert generate_text.slug("Café Müller") == generate_text.slug("Cafe\u0301 Mu\u0308ller")
 
 
 def test_file_names_tell_prompts_and_samples_apart() -> None:

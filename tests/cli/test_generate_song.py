@@ -1,6 +1,7 @@
 """`generate --audio` from the command line: one song a run, damaged songs, what goes to stderr."""
 
 import json
+import os
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +10,7 @@ import pytest
 import soundfile
 from typer.testing import CliRunner
 
+from src.cli.generate_performance import stems
 from src.cli.tools import app
 from src.shared.audio.song_spec import SongSpec
 from src.shared.audio.synthetic_songs import render_song
@@ -69,6 +71,28 @@ def test_a_song_without_beat_has_none_in_its_page(folder: Path, tmp_path: Path) 
     assert "no beat was found" in result.stderr
     (motion,) = Page(tmp_path / "still.html").data["motions"]
     assert motion["meter"] == 0 and motion["beats"] == ""
+
+
+@pytest.mark.parametrize(
+    ("name", "stem"),
+    [
+        ("A" * 240, "a" * 60),
+        ("歌" * 80, "歌" * 40),
+        ("01 - What's that?\x1b[2J; $(ls) <b>", "01-what-s-that-2j-ls-b"),
+    ],
+)
+@pytest.mark.skipif(os.name == "nt", reason="such files cannot be made there")
+def test_files_of_a_song_have_safe_names(
+    folder: Path, tmp_path: Path, name: str, stem: str
+) -> None:
+    """As those of a prompt: the longest name that a song can have leaves room for endings."""
+    song = tmp_path / f"{name}.wav"
+    song.write_bytes((folder / "song.wav").read_bytes())
+    generate(folder, song, "--format", "npz,html", "--out", tmp_path / "out")
+    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == [f"{stem}.html", f"{stem}.npz"]
+    prompt = "人" * 200
+    longest = stems(song, [prompt, prompt], 1)[1]
+    assert longest.startswith(f"{stem}-人") and len(longest.encode()) < 230
 
 
 def test_wrong_songs_are_refused(folder: Path, tmp_path: Path) -> None:
