@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
@@ -13,14 +14,17 @@ from src.shared.files import parse_json, read_text
 Captions = dict[str, dict[str, list[str]]]  # clip -> language -> captions
 _CLIP_KEYS = ("clip", "file", "id", "name")
 _CAPTION_KEYS = ("caption", "text", "description")
+# The first cell of a line, and what ends it: spreadsheets write ; where a comma is in numbers.
+_FIRST_CELL = re.compile(r'\s*(?:"(?:[^"]|"")*"|[^",;\t]*)\s*([,;\t])')
 
 
 def read_captions(path: Path) -> Captions:
     """Captions by clip (path or file name as given, without ending) and language.
 
-    CSV and TSV: columns clip, caption and, optionally, language (default en), with or without a
-    header line; several lines a clip are several captions. JSON: {clip: text}, {clip: [texts]},
-    {clip: {language: text or texts}} or a list of {clip, caption, language}.
+    CSV (with commas, semicolons or tabs) and TSV: columns clip, caption and, optionally, language
+    (default en), with or without a header line; several lines a clip are several captions. JSON:
+    {clip: text}, {clip: [texts]}, {clip: {language: text or texts}} or a list of {clip, caption,
+    language}.
 
     Raises:
         UserError: missing file, unknown ending, a line without clip or caption.
@@ -30,7 +34,7 @@ def read_captions(path: Path) -> Captions:
     if ending == ".json":
         rows = _json_rows(path, text)
     elif ending in (".csv", ".tsv"):
-        rows = _table_rows(path, text, "\t" if ending == ".tsv" else ",")
+        rows = _table_rows(path, text, "\t" if ending == ".tsv" else _delimiter(text))
     else:
         raise UserError(f"captions {path}: unknown ending {ending!r}; use .csv, .tsv or .json")
     captions: Captions = {}
@@ -107,6 +111,12 @@ def _by_path(row: str, files: Sequence[_File]) -> list[_File]:
     return [file for file in files if row == without_ending(file.item)] or [
         file for file in files if f"/{row}".endswith(f"/{file.folder}/{without_ending(file.item)}")
     ]
+
+
+def _delimiter(text: str) -> str:
+    """What parts the cells of a table: whatever ends the first one."""
+    found = _FIRST_CELL.match(text)
+    return found[1] if found else ","
 
 
 def _table_rows(path: Path, text: str, delimiter: str) -> list[tuple[str, str, str, str]]:

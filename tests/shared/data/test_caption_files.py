@@ -19,6 +19,9 @@ def write(tmp_path: Path, name: str, text: str) -> Path:
     [
         ("a.csv", 'clip,caption\nwalk.bvh,"walks, then stops"\nwave,waves\n'),
         ("a.csv", 'walk,"walks, then stops"\r\nwave,waves'),
+        ("a.csv", "clip;caption\r\nwalk.bvh;walks, then stops\r\nwave;waves\r\n"),
+        ("a.csv", '"walk.bvh";"walks, then stops"\n"wave";waves\n'),
+        ("a.csv", "clip\tcaption\nwalk\twalks, then stops\nwave\twaves\n"),
         ("a.tsv", "caption\tid\nwalks, then stops\twalk.bvh\nwaves\twave.BVH\n"),
         ("a.json", '{"walk": "walks, then stops", "wave.bvh": ["waves"]}'),
         ("a.json", '[{"file": "walk.bvh", "text": "walks, then stops"},'
@@ -29,6 +32,18 @@ def write(tmp_path: Path, name: str, text: str) -> Path:
 def test_accepted_forms(tmp_path: Path, name: str, text: str) -> None:
     captions = read_captions(write(tmp_path, name, text))
     assert captions == {"walk": {"en": ["walks, then stops"]}, "wave": {"en": ["waves"]}}
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-be", "utf-8-sig"])
+def test_text_as_spreadsheets_encode_it(tmp_path: Path, encoding: str) -> None:
+    mark = "\ufeff" if encoding == "utf-16-be" else ""  # the others write one themselves
+    (tmp_path / "a.csv").write_bytes(f"{mark}clip\tcaption\nwalk\t歩く\n".encode(encoding))
+    assert read_captions(tmp_path / "a.csv") == {"walk": {"en": ["歩く"]}}
+
+
+def test_a_comma_first_makes_semicolons_text(tmp_path: Path) -> None:
+    path = write(tmp_path, "a.csv", "walk,walks; stops\nwave,waves\n")
+    assert read_captions(path)["walk"] == {"en": ["walks; stops"]}
 
 
 def test_languages_and_several_captions(tmp_path: Path) -> None:
@@ -59,7 +74,7 @@ def test_faults_are_named(tmp_path: Path, name: str, text: str, message: str) ->
 def test_a_missing_or_binary_file(tmp_path: Path) -> None:
     with pytest.raises(UserError, match="cannot be read"):
         read_captions(tmp_path / "none.csv")
-    (tmp_path / "b.csv").write_bytes(b"\xff\xfe\x00\x80")
+    (tmp_path / "b.csv").write_bytes(b"\x80\x00\xff\xfe")
     with pytest.raises(UserError, match="UTF-8"):
         read_captions(tmp_path / "b.csv")
 
