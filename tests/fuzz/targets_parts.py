@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from src.shared.model.zoo import PRETRAINED
+from src.train.epoch_log import Epoch
 from tests.fuzz.target import Target, check_arrays
 
 SHIPPED = (
@@ -24,8 +25,8 @@ def _write(folder: Path) -> None:
         (folder / name).write_bytes((PRETRAINED / name).read_bytes())
     rows = [{"step": step, "loss": 1.0 / (step + 1)} for step in range(5)]
     (folder / "log.jsonl").write_text("".join(json.dumps(row) + "\n" for row in rows))
-    columns = {"epoch": [1, 2, 3], "loss": [3.0, 2.0, 1.0]}
-    (folder / "training_log.json").write_text(json.dumps({"history": columns}))
+    epochs = [Epoch(n, 3 * n, {"loss": 3.0 - n}, {"loss": 2.0}).as_json() for n in range(3)]
+    (folder / "training_log.json").write_text(json.dumps(epochs))
 
 
 def _read(path: Path) -> None:

@@ -19,7 +19,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-LOSSES = ("total", "diffusion", "decoder_pos", "velocity_coherence", "accel_coherence", "jerk")
+LOSSES = (
+    "loss", "diffusion", "decoder-position", "velocity-coherence", "accel-coherence", "jerk",
+)  # fmt: skip
 MAX_PANELS = 12
 FORMATS = ("png", "pdf", "svg")
 
@@ -97,7 +99,7 @@ def _panels(names: Sequence[str]) -> dict[str, list[str]]:
     """At most `MAX_PANELS` panels and their curves: `loss` and `validation/loss` share one."""
     grouped: dict[str, list[str]] = {}
     for name in names:
-        grouped.setdefault(name.rpartition("/")[2].replace("-", "_"), []).append(name)
+        grouped.setdefault(name.rpartition("/")[2], []).append(name)
     order = [*(name for name in LOSSES if name in grouped), *grouped]
     return {name: grouped[name] for name in list(dict.fromkeys(order))[:MAX_PANELS]}
 
@@ -105,7 +107,7 @@ def _panels(names: Sequence[str]) -> dict[str, list[str]]:
 def _plot_curve(axes: "Axes", name: str, history: Mapping[str, Sequence[float]]) -> None:
     values = np.asarray(history[name], dtype=np.float64)
     known = np.isfinite(values)  # evaluations come more rarely than steps
-    steps = np.asarray(history.get("step", np.arange(len(values))))[known]
+    steps = np.asarray(history["step"])[known]
     label = name.rpartition("/")[0] or "training"
     axes.plot(steps, values[known], marker="." if known.sum() < 50 else "", label=label)
     if known.any():
@@ -115,11 +117,8 @@ def _plot_curve(axes: "Axes", name: str, history: Mapping[str, Sequence[float]])
 def read_losses(path: str | Path) -> dict[str, list[float]]:
     """The numbers of a run's log.jsonl or training_log.json by name, NaN where a step has none.
 
-    Reads one JSON object a line, one list of objects, or one object of equally long lists. The
-    steps are under `step` (or were under `epoch`).
-
     Raises:
-        UserError: missing, or in none of these forms.
+        UserError: missing, or neither of them.
     """
     path = Path(path)
     try:
@@ -130,7 +129,7 @@ def read_losses(path: str | Path) -> dict[str, list[float]]:
         ) from error
     try:
         rows = _rows(text)
-    except (ValueError, TypeError, KeyError) as error:
+    except ValueError as error:
         raise UserError(
             f"{path}: is not the log of a run ({error}); name a log.jsonl or training_log.json"
         ) from error
@@ -140,41 +139,31 @@ def read_losses(path: str | Path) -> dict[str, list[float]]:
         name: [float(row[name]) if _is_number(row.get(name)) else math.nan for row in rows]
         for name in order
     }
-    if "step" not in history:
-        history["step"] = history.pop("epoch", [float(i) for i in range(len(rows))])
-    return history
+    return {"step": [float(number) for number in range(len(rows))]} | history
 
 
 def _rows(text: str) -> list[dict[str, Any]]:
-    """Rows of any of the three forms."""
+    """The figures of each step or epoch, under the names that log.jsonl has for them."""
     try:
         content = parse_json(text)
     except ValueError:  # more than one object: a line each, the last maybe cut off by a kill
         lines = text.splitlines()
         whole = lines if text.endswith("\n") else lines[:-1]
         content = [parse_json(line) for line in whole if line.strip()]
-    if isinstance(content, dict):
-        nested = next((v for v in content.values() if _is_table(v)), None)
-        content = nested if nested is not None else _transposed(content)
-    if not content or not all(isinstance(row, dict) for row in content):
+    rows = content if isinstance(content, list) else [content]
+    if not rows or not all(isinstance(row, dict) for row in rows):
         raise ValueError("it holds no rows")
-    return list(content)
+    return [_flat(row) for row in rows]
 
 
-def _is_table(value: Any) -> bool:
-    return isinstance(value, list) and bool(value) and all(isinstance(row, dict) for row in value)
-
-
-def _transposed(columns: dict[str, Any]) -> list[dict[str, Any]]:
-    """Rows of an object of lists; one object of numbers is one row."""
-    lists = {name: values for name, values in columns.items() if isinstance(values, list)}
-    if not lists:
-        return [columns]
-    length = max(len(values) for values in lists.values())
-    return [
-        {name: values[index] for name, values in lists.items() if index < len(values)}
-        for index in range(length)
-    ]
+def _flat(row: dict[str, Any]) -> dict[str, Any]:
+    """An entry of training_log.json with its two tables in one: `loss`, `validation/loss`."""
+    flat = {name: value for name, value in row.items() if name != "epoch"}
+    for table, prefix in (("train", ""), ("validation", "validation/")):
+        found = flat.pop(table, None)
+        if isinstance(found, dict):
+            flat |= {prefix + name: value for name, value in found.items()}
+    return flat
 
 
 def _is_number(value: Any) -> bool:
