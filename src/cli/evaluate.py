@@ -287,6 +287,6 @@ def show(report: dict[str, Any], *, json: bool) -> None:
     elif sys.stdout.isatty():
         from rich.console import Console
 
-        print_report(report, Console())
+        print_report(report, Console(markup=False))
     else:
         print(markdown(report))

@@ -180,6 +180,6 @@ def show(title: str, report: dict[str, Any], tables: list[Any], *, json: bool) -
     elif sys.stdout.isatty():
         from rich.console import Console
 
-        draw(heading(report), tables, Console())
+        draw(heading(report), tables, Console(markup=False))
     else:
         print(as_markdown(title, heading(report), tables))

@@ -23,7 +23,7 @@ def show_scores(selection: Sequence[dict[str, Any]]) -> None:
     from rich.console import Console
     from rich.table import Table
 
-    console = Console(stderr=True, highlight=False)
+    console = Console(stderr=True, highlight=False, markup=False)
     for chosen in selection:
         rows = chosen["candidates"]
         more = f", first {SHOWN} of {len(rows)}" if len(rows) > SHOWN else ""

@@ -1,6 +1,7 @@
 """Reports as text: tables on a terminal or in Markdown, from the data of report.json."""
 
 import math
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -115,7 +116,7 @@ def _worst(report: dict[str, Any]) -> str:
 
 def as_markdown(title: str, lines: Iterable[str], parts: Iterable[Table]) -> str:
     """Any report as a Markdown text: a title, facts line by line, tables."""
-    text = [f"# {title}", "", *(f"- {line}" for line in lines), ""]
+    text = [f"# {title}", "", *(f"- {_inert(line)}" for line in lines), ""]
     for table in parts:
         text += _table_lines(table)
     return "\n".join(text)
@@ -128,8 +129,13 @@ def _table_lines(table: Table) -> list[str]:
 
 
 def _line(cells: Sequence[str]) -> str:
-    """A row in Markdown; a bar within a cell is no border."""
-    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
+    """A row in Markdown."""
+    return "| " + " | ".join(map(_inert, cells)) + " |"
+
+
+def _inert(text: str) -> str:
+    """Text that is no HTML, link or border in Markdown, whatever prompt or file it quotes."""
+    return re.sub(r"[\\<\[|]", r"\\\g<0>", text)
 
 
 def print_report(report: dict[str, Any], console: "Console") -> None:

@@ -52,6 +52,14 @@ def test_one_page_holds_tables_plots_and_players(tmp_path: Path) -> None:
     assert not re.search(r'(?:src|href)="(?!data:|#)', outside)
 
 
+def test_markdown_takes_no_html_from_what_it_quotes(tmp_path: Path) -> None:
+    text = (write(tmp_path) / "report.md").read_text()
+    assert "- model: \\<script>alert(1)\\</script>" in text and "| \\<b>1" in text
+    assert not re.search(r"(?<!\\)<(?=[a-z/!])", text)
+    table = Table("t", ["asked for"], [["![x](http://x) [y](javascript:z) a|b \\"]])
+    assert "| !\\[x](http://x) \\[y](javascript:z) a\\|b \\\\ |" in as_markdown("t", [], [table])
+
+
 @pytest.mark.skipif(chromium() is None, reason="no Chromium here")
 def test_a_browser_has_nothing_to_complain_about(tmp_path: Path) -> None:
     folder = write(tmp_path / "report")
