@@ -142,8 +142,9 @@ class PromptScope:
         known = _known(frozenset(words_of(prompt)), self.key_words, self.words, self.fillers)
         if self.min_cosine is not None:
             known = known or float(cosines.max()) >= self.min_cosine
-        nearest = np.argsort(-cosines, kind="stable")[:NUM_NEAREST]
-        return ScopeResult(known, [self.actions[index] for index in nearest])
+        ranked = [self.actions[index] for index in np.argsort(-cosines, kind="stable")]
+        named = [action for action in ranked if action]  # "" is that of clips without a label
+        return ScopeResult(known, named[:NUM_NEAREST])
 
     def warning(self, prompt: str, embedding: np.ndarray) -> str | None:
         """A line for the user when the prompt is far from anything trained, else None."""

@@ -1,6 +1,7 @@
 """PromptScope: nonsense is flagged, paraphrases are not, and it survives saving."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -62,6 +63,12 @@ def test_far_prompts_are_flagged(scope: PromptScope, prompt: str):
     assert not result.known
     assert result.nearest[0] == "bow"
     assert len(result.nearest) == 3
+
+
+def test_clips_without_an_action_are_not_named(scope: PromptScope):
+    unlabelled = replace(scope, actions=("", *scope.actions[1:]))
+    result = unlabelled.check("make me a sandwich", np.eye(len(scope.actions))[0])
+    assert len(result.nearest) == 3 and all(result.nearest)
 
 
 def test_paraphrases_are_known_in_every_language(scope: PromptScope, book):
