@@ -127,9 +127,11 @@ class GlbFile:
         end = start + (count - 1) * stride + width * kind.itemsize
         if count < 1 or start < 0 or stride < width * kind.itemsize or end > len(self.data):
             raise GlbError(f"accessor {index} lies outside the data; the file is cut off")
-        values = np.ndarray(
+        stored = np.ndarray(
             (count, width), kind, bytes(self.data[start:end]), strides=(stride, kind.itemsize)
-        ).astype(np.float64)
+        )
+        with np.errstate(invalid="ignore"):  # signalling NaN; refused below
+            values = stored.astype(np.float64)
         if accessor.get("normalized"):  # section 3.11: integers stand for -1 … 1
             values = np.maximum(values / np.iinfo(kind).max, -1.0)
         if not np.isfinite(values).all():

@@ -55,6 +55,25 @@ def test_steps_hold_and_splines_bend(tmp_path: Path) -> None:
     np.testing.assert_allclose(clip.translations[:, 1], places, atol=1e-6)
 
 
+def test_names_are_printable_and_tell_joints_apart(tmp_path: Path) -> None:
+    file = a_file(tmp_path)
+    for node, name in enumerate(("a\x1b[2J\nb", "c\x07", "c\x9b")):
+        file.document["nodes"][node]["name"] = name
+    names = read_glb(file.write(tmp_path / "b.glb")).rig.names
+    assert names[0] == "a\ufffd[2J b" and all(name.isprintable() for name in names)
+    assert names[1:3] == ("c\ufffd", "c\ufffd 2")
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_signalling_nan_is_refused_without_a_warning(tmp_path: Path) -> None:
+    file = animated(a_file(tmp_path), [0.0, 1.0], np.zeros((2, 3)), "LINEAR", "translation")
+    last = file.document["bufferViews"][file.document["accessors"][-2]["bufferView"]]
+    start = last["byteOffset"]
+    file.data[start : start + 4] = struct.pack("<I", 0x7FA00000)
+    with pytest.raises(UserError, match="NaN"):
+        read_glb(file.write(tmp_path / "b.glb"))
+
+
 def test_scale_above_the_skeleton_counts(tmp_path: Path) -> None:
     file = a_file(tmp_path)
     before = read_glb(file.write(tmp_path / "b.glb")).world()[0]
