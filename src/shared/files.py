@@ -36,8 +36,10 @@ def atomic_write(path: Path) -> Iterator[Path]:
     except OSError as error:
         reason = error.strerror or str(error)
         long = error.errno == errno.ENAMETOOLONG
-        remedy = "shorten its name" if long else "free space or choose another folder"
-        raise UserError(f"cannot write {path}: {reason}; {remedy}") from error
+        raise UserError(
+            f"cannot write {path}: {reason}; "
+            + ("shorten its name" if long else "free space or choose another folder")
+        ) from error
     finally:
         with suppress(OSError):  # a parent that is a file, say: the error above told already
             temporary.unlink()

@@ -104,6 +104,7 @@ def test_words_are_answered_by_motions(world: Path) -> None:
     assert [hit["rank"] for hit in answer["hits"]] == [1, 2, 3, 4]
     lines = invoke(*arguments)[0].splitlines()
     assert lines[0].startswith("confidence") and "stability" in lines[1] and len(lines) == 2 + 8
+    invoke("query", "a person walks and " * 30, *arguments[2:])  # longer than a file's name
 
 
 def test_silence_is_asked_every_two_seconds(world: Path, tmp_path: Path) -> None:

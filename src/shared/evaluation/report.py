@@ -116,14 +116,14 @@ def _worst(report: dict[str, Any]) -> str:
 
 def as_markdown(title: str, lines: Iterable[str], parts: Iterable[Table]) -> str:
     """Any report as a Markdown text: a title, facts line by line, tables."""
-    text = [f"# {title}", "", *(f"- {_inert(line)}" for line in lines), ""]
+    text = [f"# {_inert(title)}", "", *(f"- {_inert(line)}" for line in lines), ""]
     for table in parts:
         text += _table_lines(table)
     return "\n".join(text)
 
 
 def _table_lines(table: Table) -> list[str]:
-    lines = [f"## {table.title}", "", _line(table.header), "|" + "---|" * len(table.header)]
+    lines = [f"## {_inert(table.title)}", "", _line(table.header), "|" + "---|" * len(table.header)]
     lines += [_line(row) for row in table.rows]
     return [*lines, "", table.note, ""] if table.note else [*lines, ""]
 
