@@ -65,7 +65,8 @@ def test_a_file_of_any_name_is_read_and_its_path_printed(tmp_path: Path) -> None
     name = os.fsdecode(b"caf\xe9.bvh")
     write_bvh(random_motion(2), tmp_path / name)
     command = [*TOOLS, "convert", str(tmp_path / name), str(tmp_path), "--format", "npz"]
-    done = subprocess.run(command, capture_output=True)
+    strict = os.environ | {"PYTHONIOENCODING": "utf-8:strict"}  # as in most locales
+    done = subprocess.run(command, capture_output=True, env=strict)
     assert (done.returncode, done.stderr) == (0, b"")
     assert done.stdout == os.fsencode(tmp_path) + b"/caf\xe9.npz\n"
 
