@@ -156,4 +156,5 @@ def _array(stream: IO[bytes], size: int, what: str, max_values: int) -> np.ndarr
     if not wanted:
         return np.zeros(shape, dtype)
     stream.read(1)  # lets the archive compare its checksum
-    return np.frombuffer(data, dtype).reshape(shape, order="F" if fortran else "C")
+    # A bytearray, so that the array may be written to, as torch wants of what it shares.
+    return np.frombuffer(bytearray(data), dtype).reshape(shape, order="F" if fortran else "C")

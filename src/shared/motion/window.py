@@ -49,7 +49,7 @@ def encode_window(trajectory: np.ndarray, phase_unwrapped: np.ndarray) -> np.nda
         trajectory: T frames.
         phase_unwrapped: bars [T].
     """
-    data = torch.from_numpy(np.array(trajectory, dtype=np.float64))  # a file's is not writable
+    data = torch.as_tensor(trajectory, dtype=torch.float64)
     heading = float(heading_of(data[0, QUATERNION]))
     local = _move(data, -heading, -turn_about_y(data[0, POSITION], -heading))
     local[:, QUATERNION] = continuous_sign(local[:, QUATERNION])

@@ -97,12 +97,3 @@ def assert_close(data: np.ndarray, expected: np.ndarray) -> None:
     assert error[:, ACCELERATION].max() < 5e-3
     error[:, ACCELERATION] = 0
     assert error.max() < 1e-4
-
-
-@pytest.mark.filterwarnings("error")
-def test_frames_of_a_file_may_be_read_only() -> None:
-    whole = smooth_trajectory(1, 20)
-    data = whole.data.astype(np.float64)
-    data.flags.writeable = False
-    window = encode_window(data, whole.phase_unwrapped)
-    np.testing.assert_array_equal(window, encode_window(whole.data, whole.phase_unwrapped))
