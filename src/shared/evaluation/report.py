@@ -71,7 +71,9 @@ def printed(grid: Grid) -> Table:
 
 def counts(num: int | None, replications: int | None) -> str:
     """Motions times replications."""
-    return "–" if num is None else f"{num} × {replications}"
+    if num is None:
+        return "–"
+    return str(num) if replications is None else f"{num} × {replications}"
 
 
 def heading(report: dict[str, Any]) -> list[str]:

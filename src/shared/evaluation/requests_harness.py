@@ -73,7 +73,7 @@ class RequestSettings:
     wordings: int = 3  # of each set of labels and language
     languages: tuple[str, ...] = LANGUAGES
     seconds: float = 4.0
-    variety_seeds: int = 8
+    variety_seeds: int = 8  # of the spread of gestures
     max_clips: int = 600  # captured clips of the reference
     seed: int = 0
 
@@ -442,6 +442,7 @@ def _exactness(
         pairs = zip(yardstick.records, yardstick.real.motions, strict=True)
         whole = [at_rest(m) for r, m in pairs if r.tag in GESTURES and r.num_frames <= longest]
         rows[name] = GridRow({**rows[name].cells, "real": _share(whole)}, rows[name].num)
+    rows["spread of a gesture, cm"] = _spread_row(yardstick, model, gestures)
     for seconds in LONG_WALKS:
         walk = model.generate([WALK], seconds=seconds, seed=yardstick.settings.seed)[0]
         rows[f"a walk of {seconds:g} s, m/s"] = GridRow({"share": _speed(walk)}, 1)
@@ -454,6 +455,31 @@ def _exactness(
         " side or order is shown, beside the action itself."
     )
     return Grid("exactness", "What is said exactly", columns, rows, note, head="asked for")
+
+
+def _spread_row(yardstick: Yardstick, model: Model, gestures: Sequence[Request]) -> GridRow:
+    """How far apart motions for one sentence are, over seeds; and captured clips of one label."""
+    settings = yardstick.settings
+    prompts = [r.text for r in gestures if r.language == settings.languages[0]]
+    by_seed = [
+        model.generate(prompts, seconds=settings.seconds, seed=seed)
+        for seed in range(settings.variety_seeds)
+    ]
+    made = [spread(list(motions)) for motions in zip(*by_seed, strict=True)]
+    groups: dict[str, list[Motion]] = {}
+    for record, motion in zip(yardstick.records, yardstick.real.motions, strict=True):
+        if record.tag in GESTURES and motion.num_frames >= PIECE:
+            groups.setdefault(record.group, []).append(motion)
+    real = [spread(motions) for motions in groups.values() if len(motions) > 3]
+    cells = {"share": bootstrap_mean(made).as_dict(), "real": bootstrap_mean(real).as_dict()}
+    return GridRow(cells, len(made) * settings.variety_seeds)
+
+
+def spread(motions: Sequence[Motion]) -> float:
+    """Deviation of the joints, seen from the pelvis, over motions of two seconds or more; cm."""
+    joints = np.stack([motion.positions()[:PIECE] for motion in motions])
+    deviation: np.ndarray = (joints - joints[:, :, :1]).std(0)  # T K 3
+    return float(100 * np.linalg.norm(deviation, axis=-1).mean())
 
 
 def _styles(
