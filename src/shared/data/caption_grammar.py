@@ -7,7 +7,7 @@ about languages or labels.
 import random
 import re
 import unicodedata
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 from functools import cache
 from typing import TypeVar
@@ -72,6 +72,17 @@ def slots_in(sequence: Sequence) -> Iterator[str]:
         elif isinstance(node, Choice):
             for option in node.options:
                 yield from slots_in(option)
+
+
+def without(sequence: Sequence, names: Collection[str]) -> Sequence:
+    """The template without the slots of these names."""
+    kept: list[Node] = []
+    for node in sequence:
+        if isinstance(node, Choice):
+            node = Choice(tuple(without(option, names) for option in node.options))
+        if not (isinstance(node, Slot) and node.name in names):
+            kept.append(node)
+    return tuple(kept)
 
 
 def render(sequence: Sequence, fill: Callable[[str], str], rng: random.Random | None) -> str:

@@ -4,7 +4,7 @@ import random
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cache, cached_property, lru_cache
 from itertools import product
 from typing import Any
 
@@ -16,11 +16,11 @@ from src.shared.data.caption_grammar import (
     render,
     slots_in,
     tidy,
+    without,
 )
 from src.shared.data.caption_mirror import TextMirror
 from src.shared.data.caption_schema import (
     OTHER,
-    Action,
     Frame,
     LanguageFile,
     Paraphrases,
@@ -29,6 +29,7 @@ from src.shared.data.caption_schema import (
 )
 
 Labels = dict[str, str]
+Pair = tuple[Sequence, Sequence]  # a verb and what follows it
 SENTENCE_RATE = 0.3  # share of captions written as a sentence: capital letter and full stop
 _BRACES = re.compile(r"(\{[^{}]*\})")
 
@@ -39,7 +40,7 @@ class Wording:
 
     frame: Frame
     text: Sequence
-    pairs: tuple[tuple[Sequence, Sequence], ...]
+    pairs: tuple[Pair, ...]
 
 
 class CaptionLanguage:
@@ -125,10 +126,7 @@ class CaptionLanguage:
         stated = frozenset(
             label for label in labels if label != "action" and self._says(name, label, labels)
         )
-        scored = [
-            (wording, missing)
-            for wording, missing in self._wordings(self.content.actions[name], labels, stated)
-        ]
+        scored = list(self._wordings(name, labels, stated))
         fewest = min(missing for _, missing in scored)
         return tuple(wording for wording, missing in scored if missing == fewest)
 
@@ -149,28 +147,35 @@ class CaptionLanguage:
         return table.get(str(value)) or table.get(OTHER) or []
 
     def _wordings(
-        self, action: Action, labels: Labels, stated: frozenset[str]
+        self, action: str, labels: Labels, stated: frozenset[str]
     ) -> Iterator[tuple[Wording, int]]:
-        phrases = [phrase for phrase in action.phrases if _allowed(phrase, labels)]
-        if not phrases:
-            phrases = list(action.phrases)
+        table = self._slots[action]
+        worded = {name for name in table if self._entries(action, name, labels)}
+        phrases = self.content.actions[action].phrases
+        phrases = [phrase for phrase in phrases if _allowed(phrase, labels)] or phrases
+
+        @cache  # many frames differ in their subject alone
+        def pairs_for(form: str, framed: frozenset[str]) -> dict[int, list[Pair]]:
+            index = self.content.forms.index(form)
+            by_missing: dict[int, list[Pair]] = {}
+            for phrase in phrases:
+                if phrase.forms is not None and form not in phrase.forms:
+                    continue
+                said = _labels(framed).union(phrase.when)
+                for verb, rest in product(phrase.verbs, phrase.rest):
+                    words = verb.split("|")[index].strip()
+                    slots = (framed, _slots(words), _slots(rest) - said)
+                    missing = _missing(slots, phrase, stated, worded)
+                    if words != "-" and missing is not None:
+                        pair = (parse(words), _sparing(rest, said))
+                        by_missing.setdefault(missing, []).extend([pair] * phrase.weight)
+            return by_missing
+
         for frame in self.content.frames:
-            form = self.content.forms.index(frame.form)
             for template in frame.text:
-                text = parse(template)
-                by_missing: dict[int, list[tuple[Sequence, Sequence]]] = {}
-                for phrase in phrases:
-                    if phrase.forms is not None and frame.form not in phrase.forms:
-                        continue
-                    for verb, rest in product(phrase.verbs, phrase.rest):
-                        words = verb.split("|")[form].strip()
-                        parts = (text, parse(words), parse(rest))
-                        missing = _missing(parts, phrase, stated, labels)
-                        if words != "-" and missing is not None:
-                            pairs = by_missing.setdefault(missing, [])
-                            pairs += [(parts[1], parts[2])] * phrase.weight
-                for missing, pairs in by_missing.items():
-                    wording = Wording(frame, text, tuple(pairs))
+                pairs = pairs_for(frame.form, _slots(template).intersection(table))
+                for missing, fitting in pairs.items():
+                    wording = Wording(frame, parse(template), tuple(fitting))
                     for _ in range(frame.weight):
                         yield wording, missing
 
@@ -240,24 +245,34 @@ def _values(values: Any) -> list[str]:
 
 
 def _missing(
-    parts: tuple[Sequence, ...], phrase: Phrase, stated: frozenset[str], labels: Labels
+    parts: tuple[frozenset[str], ...], phrase: Phrase, stated: frozenset[str], worded: set[str]
 ) -> int | None:
-    """How many labels this wording leaves out; None if it would say one twice.
+    """How many labels a wording with these slots leaves out; None if it would say one twice.
 
-    A dotted slot ("with {side.hand}") makes no sense without its label: that counts double.
+    A dotted slot ("with {side.hand}") makes no sense without its words: that counts double.
     """
-    names = [set(slots_in(sequence)) for sequence in parts]
-    used = [label for each in names for label in {name.split(".")[0] for name in each}]
+    used = [label for slots in parts for label in _labels(slots)]
     used += phrase.when
     mentioned = [label for label in used if label in stated]
     if len(mentioned) > len(set(mentioned)):
         return None
-    dangling = {name for each in names for name in each if "." in name and not _given(name, labels)}
+    dangling = {name for slots in parts for name in slots if "." in name} - worded
     return len(stated) - len(mentioned) + 2 * len(dangling)
 
 
-def _given(slot: str, labels: Labels) -> bool:
-    return bool(labels.get(slot.split(".")[0]))
+@cache
+def _slots(template: str) -> frozenset[str]:
+    return frozenset(slots_in(parse(template)))
+
+
+@cache
+def _labels(slots: frozenset[str]) -> frozenset[str]:
+    return frozenset(name.split(".")[0] for name in slots)
+
+
+@cache
+def _sparing(rest: str, said: frozenset[str]) -> Sequence:
+    return without(parse(rest), said)
 
 
 _SIDES = re.compile(r"(?<![a-z])(left|right|clockwise|counterclockwise)(?![a-z])")
