@@ -57,6 +57,44 @@ def test_a_user_adds_an_action_and_a_style_to_english(tmp_path: Path) -> None:
     assert CaptionBook.load().language("en").find_action("limp") == "other"
 
 
+WHO = """
+language: it
+name: italiano
+forms: [plain]
+frames: [{form: plain, text: ["{style.who} {verb} {rest}"]}]
+slots:
+  style: {sad: [tristemente], happy: [allegramente]}
+  style.who: {sad: [un uomo triste]}
+actions:
+  walk:
+    name: camminare
+    phrases:
+      - {verbs: [cammina], rest: ["piano {style}"]}
+      - {verbs: [si trascina], rest: ["{style}"], when: {style: sad}}
+  other: {name: altro, phrases: [{verbs: ["{action}"], rest: ["{style}"]}]}
+mirror: {pairs: [[sinistra, destra]]}
+extends: nothing
+"""
+
+
+def test_what_the_frame_or_the_condition_says_is_left_out_of_the_rest(tmp_path: Path) -> None:
+    sad = {"action": "walk", "style": "sad"}
+    framed = _book(tmp_path, WHO).captions(sad, num=9, seed=0)["it"]
+    assert {text.lower().strip(".") for text in framed} == {"un uomo triste cammina piano"}
+    plain = WHO.replace("{style.who} {verb}", "{verb}")
+    assert _book(tmp_path, plain).captions(sad, num=9, seed=0)["it"] == [
+        "cammina piano tristemente",
+        "si trascina",
+    ]
+
+
+def test_a_dotted_slot_without_words_for_the_value_gives_way(tmp_path: Path) -> None:
+    both = WHO.replace('{verb} {rest}"', '{verb} {rest}", "{verb} {rest}"')
+    happy = {"action": "walk", "style": "happy"}
+    texts = _book(tmp_path, both).captions(happy, num=9, seed=0)["it"]
+    assert {text.lower().strip(".") for text in texts} == {"cammina piano allegramente"}
+
+
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [

@@ -12,7 +12,7 @@ from src.shared.data.caption_grammar import normalised
 from src.shared.data.captions import CaptionBook, known_actions, packaged_book
 
 sys.path.insert(0, str(Path(__file__).parent))
-from caption_labels import ALL, LANGUAGES, SYNTHETIC
+from caption_labels import ALL, LANGUAGES, OTHERS, STYLES, SYNTHETIC
 from caption_matcher import CaptionMatcher
 
 combinations = st.sampled_from(ALL)
@@ -31,6 +31,23 @@ def test_every_synthetic_combination_has_many_captions(book: CaptionBook, lang: 
     for labels in SYNTHETIC:
         texts = book.language(lang).captions(labels, 16, random.Random(0))
         assert len({normalised(text) for text in texts}) == 16, labels
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_every_action_has_wordings_of_its_own(book: CaptionBook, lang: str) -> None:
+    language = book.language(lang)
+    for labels in OTHERS:
+        phrases = language.content.actions[labels["action"]].phrases
+        assert sum(len(phrase.verbs) for phrase in phrases) >= 4, labels
+        assert len(language.captions(labels, 24, random.Random(0))) == 24, labels
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_every_style_is_worded_as_adverb_subject_and_gait(book: CaptionBook, lang: str) -> None:
+    language = book.language(lang)
+    for style in set(STYLES) - {"normal"}:
+        for slot in ("style", "style.who", "style.gait"):
+            assert (language.slot_table("walk", slot) or {}).get(style), (style, slot)
 
 
 @settings(max_examples=40)
@@ -96,6 +113,18 @@ def test_canonical_captions_are_the_plainest(
             {"action": "walk", "direction": "backward", "speed": "slow"},
             ["a person is walking backwards slowly", "slowly walk in reverse"],
         ),
+        (
+            "en",
+            {"action": "walk", "style": "sad"},
+            ["a sad man walks", "trudge along", "he walks with shoulders slumped", "a sad walk"],
+        ),
+        ("en", {"action": "kick", "side": "left"}, ["swing your left leg up"]),
+        ("en", {"action": "roundhouse-kick"}, ["roundhouse kick", "do a roundhouse"]),
+        ("es", {"action": "walk", "style": "sad"}, ["una mujer triste camina"]),
+        ("fr", {"action": "walk", "style": "elderly"}, ["un vieil homme marche"]),
+        ("de", {"action": "walk", "style": "tired"}, ["ein müder Mann geht", "sich schleppen"]),
+        ("ja", {"action": "walk", "style": "sad"}, ["とぼとぼと歩く", "悲しい人が歩く"]),
+        ("zh", {"action": "walk", "style": "sad"}, ["一个伤心的男人走"]),
         ("es", {"action": "run", "speed": "fast"}, ["corre rápido"]),
         ("de", {"action": "walk", "direction": "backward"}, ["geh rückwärts"]),
         ("ja", {"action": "wave", "side": "left"}, ["左手を振る"]),
