@@ -27,6 +27,7 @@ from src.shared.data.caption_schema import (
     Phrase,
     SlotTables,
 )
+from src.shared.data.requests import requested
 
 Labels = dict[str, str]
 Pair = tuple[Sequence, Sequence]  # a verb and what follows it
@@ -59,14 +60,18 @@ class CaptionLanguage:
     # -------------------------------------------------------------- what callers ask for
 
     def captions(self, labels: Labels, num: int, rng: random.Random) -> list[str]:
-        """Up to `num` different captions; fewer only where the templates allow no more."""
+        """Up to `num` different captions; fewer only where the templates allow no more.
+
+        The hand-written requests that models are measured by are never among them.
+        """
         plan = self._plan(self._key(labels))
         found: dict[str, str] = {}
         for _ in range(30 * num):
             if len(found) >= num:
                 break
             text = self._write(labels, plan, rng)
-            found.setdefault(normalised(text), text)
+            if normalised(text) not in requested(self.code):
+                found.setdefault(normalised(text), text)
         return list(found.values())
 
     def canonical(self, labels: Labels) -> str:

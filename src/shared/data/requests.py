@@ -6,11 +6,13 @@ the captions that train. Whoever tunes on them has no yardstick left.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
 
 from src.shared.config_loader import load_yaml, packaged_config
+from src.shared.data.caption_grammar import normalised
 from src.shared.data.labels import Labels
 
 SECTIONS = ("plain", "styled", "counts", "angles", "lengths", "sides")
@@ -47,6 +49,14 @@ class Request:
 def load_requests(languages: Sequence[str]) -> list[Request]:
     """All requests of these languages, in the order of the files."""
     return [request for code in languages for request in _of_language(code)]
+
+
+@cache
+def requested(language: str) -> frozenset[str]:
+    """All sentences of a language, normalised; none where nobody has written any."""
+    if not packaged_config(f"requests/{language}.yaml").is_file():
+        return frozenset()
+    return frozenset(normalised(request.text) for request in _of_language(language))
 
 
 def _of_language(code: str) -> Iterator[Request]:

@@ -5,7 +5,16 @@ from collections import Counter
 import pytest
 
 from src.shared.data.caption_grammar import normalised
-from src.shared.data.requests import COMPOSITIONS, FREE, OUTSIDE, SECTIONS, drawn, load_requests
+from src.shared.data.captions import packaged_book
+from src.shared.data.requests import (
+    COMPOSITIONS,
+    FREE,
+    OUTSIDE,
+    SECTIONS,
+    drawn,
+    load_requests,
+    requested,
+)
 
 LANGUAGES = ("en", "es", "fr", "de", "ja", "zh")
 
@@ -42,3 +51,12 @@ def test_wordings_are_drawn_by_the_seed() -> None:
     counts = Counter((r.language, str(r.parts)) for r in few)
     assert set(counts.values()) == {2}
     assert len(counts) == len({(r.language, str(r.parts)) for r in plain})
+
+
+def test_no_training_caption_is_a_request() -> None:
+    book = packaged_book()
+    for labels in ({"action": "walk"}, {"action": "jump"}, {"action": "backflip"}):
+        for language, texts in book.captions(labels, num=60, seed=0).items():
+            assert requested(language).isdisjoint(map(normalised, texts))
+            assert len(texts) >= 10
+    assert requested("tlh") == frozenset()
