@@ -86,6 +86,9 @@ def produce_song(
         return_all: write all candidates by rank, not only the best.
     """
     clock = Stopwatch()
+    from src.shared.audio.sound import check_sound
+
+    check_sound(wanted["audio"])
     from src.shared.audio.song import analyse
     from src.shared.device import set_threads
     from src.shared.inference.audio_judge import AudioJudge

@@ -56,6 +56,9 @@ def produce_dances(
         judge: folder of `train_clip`; None = the body model's own where one is shipped.
     """
     clock = Stopwatch()
+    from src.shared.audio.sound import check_sound
+
+    check_sound(wanted["audio"])
     from src.shared.audio.song import analyse
     from src.shared.device import set_threads
     from src.shared.inference.runtime import load_runtime

@@ -113,9 +113,12 @@ def query(
     if not is_song and Path(ask).suffix.lower() in SOUND_FILES:
         raise UsageError(f"{ask}: no such file; name a sound file, or give words")
 
+    from src.shared.audio.sound import check_sound
     from src.shared.device import set_threads
     from src.shared.inference.song_memory import open_memory
 
+    if is_song:
+        check_sound(ask)
     set_threads(threads)
     index, loaded = open_memory(memory, space or "")
     config = load_settings(top_k=top_k, bars=index.about["bars"])

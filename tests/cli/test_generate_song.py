@@ -100,3 +100,12 @@ def test_wrong_songs_are_refused(folder: Path, tmp_path: Path) -> None:
     assert "given 2 times" in generate(folder, song, "--audio", song, code=2).stderr
     assert "is a folder" in generate(folder, tmp_path, code=2).stderr
     assert "no such file" in generate(folder, tmp_path / "none.ogg", code=2).stderr
+
+
+def test_a_song_is_refused_before_any_model_is_loaded(tmp_path: Path) -> None:
+    (tmp_path / "empty.wav").touch()
+    for more in ([], ["--body"], ["--prompt", "a person dances"]):
+        command = ["generate", "--audio", str(tmp_path / "empty.wav"), "--model", "no-such", *more]
+        result = runner.invoke(app, command)
+        assert result.exit_code == 1
+        assert result.stderr == f"error: {tmp_path / 'empty.wav'} is empty; fetch it again\n"

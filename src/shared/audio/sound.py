@@ -1,6 +1,7 @@
 """Sound files of any rate and channel count become mono float32 samples at 44.1 kHz, in chunks."""
 
 import hashlib
+from array import array
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -55,10 +56,25 @@ def load_sound(path: str | Path) -> Sound:
     """
     path = Path(path)
     reader = SoundReader(path)
-    samples = np.concatenate([np.zeros(0, np.float32), *_chunks(reader, CHUNK_SECONDS)])
-    sound = Sound(samples, path, sha256_file(path), tuple(reader.notes()))
+    samples = array("f")  # grows where it is: chunks joined in the end would lie there twice
+    for chunk in _chunks(reader, CHUNK_SECONDS):
+        samples.frombytes(chunk.tobytes())
+    mono = np.frombuffer(samples, np.float32)
+    sound = Sound(mono, path, sha256_file(path), tuple(reader.notes()))
     _check_length(sound)
     return sound
+
+
+def check_sound(path: str | Path) -> None:
+    """Refuse at once what `load_sound` would refuse after whatever else has to be done first.
+
+    The header tells, and where it tells of next to nothing, reading all of it.
+
+    Raises:
+        UserError: missing, no sound file, shorter than 1 s, longer than 2 h.
+    """
+    if SoundReader(Path(path)).claimed < MIN_SECONDS:
+        load_sound(path)
 
 
 def sound_chunks(path: str | Path, seconds: float = CHUNK_SECONDS) -> Iterator[np.ndarray]:

@@ -74,7 +74,7 @@ class SoundReader:
         claimed: seconds that the file says it has; 0 where it does not say.
 
     Raises:
-        UserError: missing, no sound file, or of a rate that is none.
+        UserError: missing, no sound file, of a rate that is none, or longer than 2 h by its header.
     """
 
     def __init__(self, path: Path) -> None:
@@ -108,6 +108,11 @@ class SoundReader:
         if not RATES[0] <= self.rate <= RATES[1]:
             self._file.close()
             raise UserError(f"{path} has {self.rate} samples a second; convert it to 44100")
+        if (
+            self.claimed > MAX_SECONDS
+        ):  # before anything is decoded; `blocks` counts what is not told
+            self._file.close()
+            raise too_long(path, self.claimed)
         self._mender = Mender()
 
     @property

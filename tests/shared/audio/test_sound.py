@@ -1,5 +1,6 @@
 """Sound files in, whatever their rate, channels and state."""
 
+import tracemalloc
 from pathlib import Path
 
 import librosa
@@ -9,6 +10,7 @@ import soundfile
 
 from src.shared.audio.sound import (
     SAMPLE_RATE,
+    check_sound,
     load_sound,
     sound_chunks,
     sound_from_samples,
@@ -165,6 +167,44 @@ def test_length_limits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("src.shared.sound_files.reader.MAX_SECONDS", 2.0)
     with pytest.raises(UserError, match="at most"):
         load_sound(write(tmp_path / "long.wav", tone(3.0, SAMPLE_RATE)))
+
+
+def test_a_sound_that_is_too_long_is_refused_from_its_header(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = write(tmp_path / "day.flac", tone(1.0, SAMPLE_RATE))
+    data = bytearray(path.read_bytes())
+    samples = 24 * 3600 * SAMPLE_RATE
+    data[21:26] = [data[21] & 0xF0 | samples >> 32, *(samples & 2**32 - 1).to_bytes(4)]
+    path.write_bytes(data)
+
+    def decoded(*_: object, **__: object) -> None:
+        raise AssertionError("nothing is decoded")
+
+    monkeypatch.setattr(soundfile.SoundFile, "read", decoded)
+    for refuse in (load_sound, check_sound):
+        with pytest.raises(UserError, match="lasts 1440 minutes; at most 120 can be read: cut it"):
+            refuse(path)
+
+
+def test_a_song_is_checked_without_being_decoded(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    good, short = tmp_path / "good.wav", write(tmp_path / "short.wav", tone(0.5, SAMPLE_RATE))
+    write(good, tone(1.5, SAMPLE_RATE))
+    with pytest.raises(UserError, match=r"lasts 0\.50 s; at least 1 s"):
+        check_sound(short)
+    monkeypatch.setattr(soundfile.SoundFile, "read", None)
+    check_sound(good)
+
+
+def test_a_sound_lies_in_memory_once(tmp_path: Path) -> None:
+    path = write(tmp_path / "long.wav", np.zeros(SAMPLE_RATE * 60, np.int16))
+    tracemalloc.start()
+    sound = load_sound(path)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 1.6 * sound.samples.nbytes  # it grows by an eighth; a copy would make it 2
 
 
 def test_silence_and_clipping_are_fine(tmp_path: Path) -> None:
