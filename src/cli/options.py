@@ -1,6 +1,5 @@
 """Options that several commands share, and the checks of their values."""
 
-import contextlib
 import tempfile
 from pathlib import Path
 from typing import Annotated
@@ -9,6 +8,7 @@ import typer
 
 from src.cli import environment
 from src.shared.errors import UsageError
+from src.shared.files import made_folder
 
 Model = Annotated[str, typer.Option(help="A name that `models` lists, or a folder from training.")]
 Device = Annotated[str, typer.Option(envvar=environment.DEVICE, help="auto, cpu, cuda or mps.")]
@@ -65,17 +65,11 @@ def check_folder(flag: str, folder: Path) -> None:
             if not part.is_dir():
                 raise UsageError(f"{flag} {folder}: {part} is a file; name a folder")
             break
-    made = [part for part in (folder, *folder.parents) if not part.exists()]
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
+    try:  # a trial: whoever writes makes the folder
+        with made_folder(folder), tempfile.TemporaryFile(dir=folder):
             pass
     except OSError as error:
         reason = error.strerror or error
         raise UsageError(
             f"{flag} {folder}: cannot write there ({reason}); name another folder"
         ) from None
-    finally:
-        for part in made:  # it was a trial: whoever writes makes the folder
-            with contextlib.suppress(OSError):
-                part.rmdir()

@@ -14,6 +14,13 @@ from src.shared.errors import UserError
 
 MAX_JSON = 256 << 20  # bytes
 MAX_TEXT = 64 << 20
+# Names of what is not finished yet, or was not when its process was killed; safetensors' own last.
+LEFTOVERS = (".*.part", ".tmp??????")
+# What systems say of a full disk. Libraries in C++ and Rust quote it in errors of their own.
+_FULL = (
+    *map(os.strerror, (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)),
+    "not enough space on the disk",
+)
 
 
 @contextmanager
@@ -24,7 +31,7 @@ def atomic_write(path: Path) -> Iterator[Path]:
         UserError: the folder or file cannot be written (no permission, disk full, name too long).
     """
     path = Path(path)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
+    temporary = unfinished(path)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         temporary.touch()  # its mode is that of any new file; some writers make theirs private
@@ -33,9 +40,10 @@ def atomic_write(path: Path) -> Iterator[Path]:
         yield temporary
         temporary.chmod(mode)
         os.replace(temporary, path)
-    except OSError as error:
-        reason = error.strerror or str(error)
-        long = error.errno == errno.ENAMETOOLONG
+    except Exception as error:
+        if isinstance(error, UserError) or (reason := why_not_written(error)) is None:
+            raise
+        long = isinstance(error, OSError) and error.errno == errno.ENAMETOOLONG
         raise UserError(
             f"cannot write {path}: {reason}; "
             + ("shorten its name" if long else "free space or choose another folder")
@@ -43,6 +51,35 @@ def atomic_write(path: Path) -> Iterator[Path]:
     finally:
         with suppress(OSError):  # a parent that is a file, say: the error above told already
             temporary.unlink()
+
+
+def unfinished(path: Path) -> Path:
+    """Where a file or folder is written before it takes its name; one of `LEFTOVERS`."""
+    return path.with_name(f".{path.name}.{os.getpid()}.part")
+
+
+def why_not_written(error: Exception) -> str | None:
+    """What the system said when a file could not be written; None where the fault is another."""
+    if isinstance(error, OSError):
+        return error.strerror or str(error)
+    return next((words for words in _FULL if words in str(error)), None)
+
+
+@contextmanager
+def made_folder(folder: Path) -> Iterator[None]:
+    """Make a folder; afterwards what of it and its parents is new and empty goes again.
+
+    Raises:
+        OSError: it cannot be made.
+    """
+    new = [part for part in (folder, *folder.parents) if not part.exists()]
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        yield
+    finally:
+        for part in new:
+            with suppress(OSError):
+                part.rmdir()
 
 
 def write_text(path: Path, text: str) -> None:
@@ -107,6 +144,11 @@ def parse_json(data: str | bytes) -> Any:
         raise ValueError("nested too deeply") from None
 
 
+def same_place(one: Path, other: Path) -> bool:
+    """Whether two paths lead to one place, through links; a loop of links is its own place."""
+    return os.path.realpath(one) == os.path.realpath(other)  # `Path.resolve` may raise at a loop
+
+
 def inside(folder: Path, name: str) -> Path:
     """The path of a file that something in `folder` names, such as its manifest.
 
@@ -114,7 +156,7 @@ def inside(folder: Path, name: str) -> Path:
         UserError: the name leads out of the folder, or is a folder's.
     """
     path = Path(folder) / name
-    if not path.resolve().is_relative_to(Path(folder).resolve()):
+    if not Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder)):
         raise UserError(f"{name!r} leads out of {folder}, where it is named; write the folder anew")
     if path.is_dir():
         raise UserError(f"{path} is named as a file and is a folder; write {folder} anew")

@@ -19,9 +19,8 @@ from safetensors.torch import load_file, save_file
 from torch import Tensor, nn
 
 from src.shared.errors import UserError
-from src.shared.files import sha256_file, write_json
+from src.shared.files import sha256_file, unfinished, why_not_written, write_json
 
-_PARTIAL = ".part"
 _FILES = ("model", "ema", "optimizer")
 
 
@@ -83,11 +82,9 @@ def save_checkpoint(
         UserError: the folder cannot be written.
     """
     target = root / f"step-{state['step']:08d}"
-    partial = root / f".{target.name}{_PARTIAL}"
+    partial = unfinished(target)
     contents = (model.state_dict(), ema.state_dict(), optimizer_tensors(optimizer))
     try:
-        for leftover in root.glob(f".step-*{_PARTIAL}"):  # of a killed run
-            shutil.rmtree(leftover, ignore_errors=True)
         partial.mkdir(parents=True)
         for name, tensors in zip(_FILES, contents, strict=True):
             save_file(_contiguous(tensors), partial / f"{name}.safetensors")
@@ -96,10 +93,12 @@ def save_checkpoint(
         shutil.rmtree(target, ignore_errors=True)
         os.replace(partial, target)
     except (OSError, SafetensorError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
+        reason = why_not_written(error) or str(error)
         raise UserError(
             f"cannot write checkpoint {target}: {reason}; free space and run again with --resume"
         ) from error
+    finally:
+        shutil.rmtree(partial, ignore_errors=True)  # gone already, if all went well
     for old in _folders(root)[keep:]:
         shutil.rmtree(old, ignore_errors=True)
     return target

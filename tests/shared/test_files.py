@@ -1,12 +1,17 @@
 """Files that replace others whole: who may read them afterwards, and what a failure leaves."""
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
+import torch
+from safetensors.torch import save_file
 
 from src.shared.errors import UserError
-from src.shared.files import atomic_write, inside
+from src.shared.files import atomic_write, inside, same_place, write_json
+from tests.full_disk import full_disk
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no such permissions")
@@ -46,6 +51,56 @@ def test_a_failure_leaves_what_was_there(tmp_path: Path) -> None:
         raise RuntimeError
     assert [path.name for path in tmp_path.iterdir()] == ["kept"]
     assert (tmp_path / "kept").read_text() == "old"
+
+
+def write_table(path: Path) -> None:
+    faiss = pytest.importorskip("faiss")
+    table = faiss.IndexFlatL2(10)
+    table.add(np.zeros((1000, 10), np.float32))
+    faiss.write_index(table, str(path))
+
+
+@pytest.mark.parametrize(
+    "write",
+    [
+        lambda path: save_file({"values": torch.zeros(1000)}, path),
+        lambda path: np.savez(path.open("wb"), values=np.zeros(1000)),
+        lambda path: path.write_bytes(bytes(5000)),
+        write_table,
+    ],
+    ids=["safetensors", "numpy", "bytes", "faiss"],
+)
+def test_a_full_disk_is_one_line_and_leaves_nothing(
+    tmp_path: Path, write: Callable[[Path], None]
+) -> None:
+    """Whatever error the library has for it."""
+    with full_disk(), pytest.raises(UserError) as caught, atomic_write(tmp_path / "a") as temporary:
+        write(temporary)
+    start, _, reason = str(caught.value).partition(": ")
+    assert start == f"cannot write {tmp_path / 'a'}"
+    assert reason.endswith("; free space or choose another folder") and len(reason) < 100
+    assert not list(tmp_path.iterdir())
+
+
+def test_an_error_inside_keeps_its_own_words(tmp_path: Path) -> None:
+    with (
+        full_disk(),
+        pytest.raises(UserError, match=r"^cannot write .*inner: "),
+        atomic_write(tmp_path / "outer"),
+    ):
+        write_json(tmp_path / "inner", "x" * 5000)
+
+
+def test_a_loop_of_links_is_its_own_place(tmp_path: Path) -> None:
+    loop, link = tmp_path / "loop", tmp_path / "link"
+    try:
+        loop.symlink_to(loop)
+        link.symlink_to(tmp_path)
+    except OSError:
+        pytest.skip("no links here")
+    assert same_place(loop, loop) and not same_place(loop, tmp_path)
+    assert same_place(link, tmp_path)
+    assert inside(tmp_path, "loop") == loop
 
 
 @pytest.mark.parametrize("name", [".", "", "sub", "../other", "/etc"])

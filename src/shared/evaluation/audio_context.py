@@ -3,6 +3,7 @@
 Letters: T frames, N songs.
 """
 
+import io
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
@@ -123,10 +124,10 @@ class AudioContext:
         settings = self.settings
         specs = held_out_specs(settings.num_songs, settings.song_seconds, settings.seed)
         song = render_song(specs[index])
+        sound = io.BytesIO()  # libsndfile does not say what the disk said
+        soundfile.write(sound, song.samples, song.sample_rate, subtype="PCM_16", format="FLAC")
         with atomic_write(path) as temporary:
-            soundfile.write(
-                temporary, song.samples, song.sample_rate, subtype="PCM_16", format="FLAC"
-            )
+            temporary.write_bytes(sound.getvalue())
 
     def dance(
         self,

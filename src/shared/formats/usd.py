@@ -61,13 +61,16 @@ def _write(clip: RigClip, body: Mannequin, path: Path) -> Path:
                         "install usd-core, or write .usda") from error  # fmt: skip
     layer = Sdf.Layer.CreateAnonymous(BINARY)
     layer.ImportFromString(text)
-    with atomic_write(path) as temporary, TemporaryDirectory(dir=path.parent) as folder:
-        packed = Path(folder) / f"packed{BINARY}"  # the ending says what is written
-        try:
+    try:
+        with (
+            atomic_write(path) as temporary,
+            TemporaryDirectory(dir=path.parent, prefix=".", suffix=".part") as folder,
+        ):
+            packed = Path(folder) / f"packed{BINARY}"  # the ending says what is written
             layer.Export(str(packed))
-        except RuntimeError as error:
-            raise UserError(f"cannot write {path}: {error}; write .usda instead") from error
-        packed.replace(temporary)
+            packed.replace(temporary)
+    except RuntimeError as error:
+        raise UserError(f"cannot write {path}: {error}; write .usda instead") from error
     return path
 
 

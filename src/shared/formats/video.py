@@ -88,6 +88,8 @@ def write_mp4(motion: Motion, path: str | Path) -> Path:
         try:
             _film(motion, temporary)
         except av.FFmpegError as error:
+            if isinstance(error, OSError):  # the disk's fault, not the film's
+                raise
             raise UserError(f"cannot write {path}: {error}; write a .gif instead") from error
     return Path(path)
 

@@ -22,6 +22,7 @@ from src.shared.errors import UsageError, UserError
 from src.shared.formats.bvh_writer import write_bvh
 from src.shared.motion.mirror import mirror_features
 from src.shared.motion.root_track import ROOT_ROW, YAW_RATE, encode_features
+from tests.full_disk import full_disk
 
 
 @pytest.fixture(scope="module")
@@ -113,6 +114,12 @@ def test_prepare_twice_does_nothing_twice(tmp_path: Path, monkeypatch: pytest.Mo
     prepare([source], tmp_path / "out", workers=1)
     after = {p.name: p.read_bytes() for p in (tmp_path / "out").iterdir() if p.is_file()}
     assert not made and before == after
+
+
+def test_a_full_disk_is_one_line(tmp_path: Path) -> None:
+    with full_disk(), pytest.raises(UserError, match=r"cannot write .*\.safetensors: File too"):
+        prepare([SyntheticSource(1)], tmp_path, workers=1)
+    assert not [path for path in tmp_path.rglob("*") if path.is_file()]
 
 
 def test_an_interrupted_run_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

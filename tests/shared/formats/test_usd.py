@@ -11,6 +11,7 @@ from src.shared.errors import UserError
 from src.shared.formats.mannequin import mannequin
 from src.shared.formats.rig import motion_clip
 from src.shared.formats.usd import write_usd
+from tests.full_disk import full_disk
 from tests.shared.formats.test_bvh_writer import random_motion
 from tests.shared.formats.test_rig import assert_usd_agrees
 
@@ -67,6 +68,13 @@ def test_no_control_character_gets_into_the_text(tmp_path: Path) -> None:
     motion = replace(random_motion(1), text="walks\x1b[2J\x7f\x9bend")
     text = write_usd(motion, tmp_path / "a.usda").read_text(encoding="utf-8")
     assert 'string text = "walks\ufffd[2J\ufffd\ufffdend"' in text and "u001b" not in text
+
+
+def test_a_full_disk_is_one_line(tmp_path: Path) -> None:
+    pytest.importorskip("pxr")
+    with full_disk(), pytest.raises(UserError, match=r"a\.usdc: File too large; free space"):
+        write_usd(random_motion(5), tmp_path / "a.usdc")
+    assert not list(tmp_path.iterdir())
 
 
 def test_without_openusd_only_the_packed_form_is_refused(

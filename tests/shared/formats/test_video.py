@@ -12,6 +12,7 @@ from src.shared.errors import UserError
 from src.shared.formats import video
 from src.shared.formats.video import frames, gif_rate, write_gif, write_mp4
 from src.shared.motion.motion import Motion
+from tests.full_disk import full_disk
 
 
 def walk(count: int, fps: float) -> Motion:
@@ -80,3 +81,10 @@ def test_without_pyav_the_remedy_is_named(tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.setitem(sys.modules, "av", None)
     with pytest.raises(UserError, match=r"a\.mp4: MP4 needs PyAV; install it with: pip install av"):
         write_mp4(walk(3, 30.0), tmp_path / "a.mp4")
+
+
+def test_a_full_disk_is_one_line(tmp_path: Path) -> None:
+    pytest.importorskip("av")
+    with full_disk(), pytest.raises(UserError, match=r"a\.mp4: File too large; free space"):
+        write_mp4(walk(9, 30.0), tmp_path / "a.mp4")
+    assert not list(tmp_path.iterdir())
