@@ -6,6 +6,7 @@ python scripts/tasks.py TASK [further arguments]
 
 import os
 import shutil
+import signal
 import subprocess
 import sys
 from collections.abc import Callable
@@ -136,6 +137,8 @@ def main() -> int:
         for name, task in TASKS.items():
             print(f"  {name:12} {str(task.__doc__).splitlines()[0]}")
         return 2
+    # An exit on the way of `subprocess.call` ends what it started.
+    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
     try:
         return TASKS[sys.argv[1]](sys.argv[2:])
     except KeyboardInterrupt:

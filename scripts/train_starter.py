@@ -15,6 +15,7 @@ synthetic clips, and one training of each kind makes starter-free in about an ho
 """
 
 import argparse
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -136,6 +137,8 @@ def main() -> int:
     parser.add_argument("--ship", action="store_true", help="write src/shared/pretrained")
     options = parser.parse_args()
     sys.path.insert(0, str(ROOT))
+    # An exit on the way of `subprocess.call` ends the stage that it started.
+    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
     for arguments in (free_stages if options.free else stages)(options):
         if arguments[0] == AVERAGE:
             average(options.work, arguments[1])

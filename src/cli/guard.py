@@ -1,4 +1,4 @@
-"""From exceptions to exit codes: 0 done, 1 failed, 2 wrong usage, 130 interrupted; and --quiet."""
+"""Exit codes: 0 done, 1 failed, 2 wrong usage, 130 Ctrl-C, 143 ended; and --quiet."""
 
 import errno
 import functools
@@ -14,6 +14,7 @@ from typing import Annotated, Any, ParamSpec
 import typer
 
 from src.shared.errors import UsageError, UserError, printable
+from src.shared.signals import orderly_termination
 
 Parameters = ParamSpec("Parameters")
 INTERRUPTED = 130
@@ -56,7 +57,7 @@ def guarded(command: Callable[Parameters, None]) -> Callable[Parameters, None]:
         logging.basicConfig(format="warning: %(message)s")  # from warnings upwards, on stderr
         try:
             check_texts(kwargs)
-            with short_names():
+            with orderly_termination(), short_names():
                 command(*args, **kwargs)
         except UserError as error:
             complain(f"error: {error}")

@@ -1,14 +1,23 @@
-"""Jobs spread over worker processes; Ctrl-C is the parent's to answer, with one line."""
+"""Jobs spread over worker processes, which end when their parent does, however it ends.
+
+Ctrl-C is the parent's to answer, with one line.
+"""
 
 import multiprocessing
+import os
 import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from contextlib import contextmanager
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import suppress
+from multiprocessing.connection import Connection
 from typing import TypeVar
 
 import torch
+
+from src.shared.errors import UserError
+from src.shared.signals import answered
 
 Job = TypeVar("Job")
 Result = TypeVar("Result")
@@ -23,35 +32,41 @@ def run_jobs(
         function: of a module, so that processes can be handed it.
         jobs: each is sent to one process.
         workers: processes; one works in this process.
+
+    Raises:
+        UserError: a worker was killed.
     """
     if workers == 1 or len(jobs) <= 1:
         for job in jobs:
             yield job, function(job)
         return
     context = multiprocessing.get_context("spawn")  # forking a process with torch threads hangs
-    with ProcessPoolExecutor(min(workers, len(jobs)), context, _start_worker) as pool:
-        with _interrupts_ignored():
+    parent, lifeline = context.Pipe(duplex=False)
+    pool = ProcessPoolExecutor(min(workers, len(jobs)), context, _start_worker, (parent,))
+    with parent, lifeline, pool:
+        with answered(signal.SIGINT, signal.SIG_IGN):
             pending = {pool.submit(function, job): job for job in jobs}
         try:
             for future in as_completed(pending):
                 yield pending[future], future.result()
-        except BaseException:
+        except BaseException as error:
             pool.shutdown(wait=False, cancel_futures=True)
+            lifeline.close()
+            if isinstance(error, BrokenProcessPool):
+                raise UserError(
+                    "a worker process was killed, most likely because memory ran out; give fewer"
+                    " --workers and run again: what is finished is kept"
+                ) from error
             raise
 
 
-@contextmanager
-def _interrupts_ignored() -> Iterator[None]:
-    """Processes that start inside inherit it."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
-
-
-def _start_worker() -> None:
+def _start_worker(parent: Connection) -> None:
     torch.set_num_threads(1)
+    threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
+
+
+def _end_with(parent: Connection) -> None:
+    """End this process when the other end of the pipe is closed, by the parent or its death."""
+    with suppress(EOFError, OSError):
+        parent.recv_bytes()
+    os._exit(1)
