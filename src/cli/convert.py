@@ -11,6 +11,7 @@ from src.cli import options
 from src.cli.guard import complain, tell
 from src.cli.wording import counted, note_replaced
 from src.shared.errors import UsageError, UserError
+from src.shared.files import same_place
 
 if TYPE_CHECKING:
     from src.shared.motion.motion import Motion
@@ -175,7 +176,7 @@ def stem(name: str) -> str:
 
 def check_apart(source: Path, target: Path) -> None:
     """Refuse to write over what is read."""
-    if source.resolve() == target.resolve():
+    if same_place(source, target):
         raise UsageError(f"{target} would be written over itself; name another OUT")
 
 
@@ -185,7 +186,7 @@ def check_sources(jobs: list[Job], asf: Path | None, skeleton: Path | None) -> N
         raise UsageError(f"--asf {asf} is the skeleton of an .amc, and IN is none; leave it out")
     for job in jobs:
         for target in job.targets.values():
-            if skeleton is not None and target.resolve() == skeleton.resolve():
+            if skeleton is not None and same_place(skeleton, target):
                 raise UsageError(f"{target} is the skeleton's own file; name another OUT")
 
 
@@ -213,6 +214,8 @@ def check_rigged(formats: list[str], names: str, skeleton: Path | None) -> None:
 
 def is_done(job: Job) -> bool:
     """Whether all targets are there and newer than the source."""
+    if not job.source.exists():  # a link to nowhere: reading tells
+        return False
     when = job.source.stat().st_mtime
     return all(path.exists() and path.stat().st_mtime >= when for path in job.targets.values())
 

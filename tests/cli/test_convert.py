@@ -96,6 +96,27 @@ def test_folders_keep_their_shape_and_faults_do_not_stop_the_rest(
     assert "1 file of 4" in result.stderr
 
 
+@pytest.mark.parametrize("more", [(), ("--resume",)])
+def test_links_that_lead_nowhere_do_not_stop_the_rest(
+    walk: Path, tmp_path: Path, more: tuple[str, ...]
+) -> None:
+    source = tmp_path / "in"
+    source.mkdir()
+    (source / "walk.npz").write_bytes(walk.read_bytes())
+    try:
+        (source / "loop.bvh").symlink_to(source / "loop.bvh")
+        (source / "lost.bvh").symlink_to(source / "missing.bvh")
+        (source / "again").symlink_to(source)
+    except OSError:
+        pytest.skip("no links here")
+    result = run(source, tmp_path / "out", "--format", "csv", *more)
+    assert result.exit_code == 1 and "Traceback" not in result.output
+    errors = result.stderr.splitlines()
+    assert len(errors) == 3 and "2 files of 3 could not be converted" in errors[-1]
+    assert "loop.bvh" in errors[0] and "lost.bvh" in errors[1]
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["walk.csv"]
+
+
 def test_resume_skips_what_is_newer(walk: Path, tmp_path: Path) -> None:
     source = write_motion(stroll(5), tmp_path / "a.npz")
     arguments = (source, walk, tmp_path / "out", "--format", "bvh", "--resume", "--json")

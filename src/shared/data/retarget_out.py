@@ -21,6 +21,7 @@ from src.shared.data.guesses import (
 from src.shared.data.mapping import SkeletonMapping, find_mapping, load_mappings
 from src.shared.data.retarget import leg_length, rest_corrections
 from src.shared.errors import UsageError, UserError
+from src.shared.files import same_place
 from src.shared.formats.bvh import BvhClip, read_bvh
 from src.shared.formats.glb_character import write_glb_character
 from src.shared.formats.glb_reader import GlbSkeleton, read_glb_skeleton
@@ -178,7 +179,7 @@ class Target:
             UserError: the file cannot be written.
         """
         check_motion(motion, path)
-        if path.resolve() == self.path.resolve():
+        if same_place(path, self.path):
             raise UsageError(f"{path} is the skeleton's own file; name another OUT")
         if self.character is not None and path.suffix.lower() == ".glb":
             return write_glb_character(self.character, self.clip(motion), path)
