@@ -145,13 +145,15 @@ def run(model: str, request: Request, out: Path | None) -> dict[str, Any]:
     refuse(model, audio, request)
 
     from src.shared.device import set_threads
+    from src.shared.sole_writer import sole_writer
 
     set_threads(request.threads)
-    report = (run_audio if audio else run_text)(model, request, folder)
+    with sole_writer(folder):
+        report = (run_audio if audio else run_text)(model, request, folder)
 
-    from src.shared.evaluation.report_folder import save_report
+        from src.shared.evaluation.report_folder import save_report
 
-    save_report(report, folder)
+        save_report(report, folder)
     tell(f"evaluate: {folder / 'report.html'}")
     return report
 

@@ -88,9 +88,12 @@ def evaluate_performer(
     options.check_folder("--out", out)
     sampling = {"steps": steps, "sampler": sampler, "guidance_scale": guidance_scale}
     models = {"model": model, "audio_model": audio_model, "other": other, "evaluator": evaluator}
-    report = run(
-        models, amount | {"seed": seed}, sampling, data, clips, songs, out, device, threads
-    )
+    from src.shared.sole_writer import sole_writer
+
+    with sole_writer(out):
+        report = run(
+            models, amount | {"seed": seed}, sampling, data, clips, songs, out, device, threads
+        )
     show(report, json=json)
 
 

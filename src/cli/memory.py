@@ -57,10 +57,11 @@ def build(
     from src.shared.device import set_threads
     from src.shared.memory.build import build_memory
     from src.shared.model.audio.shared_space import SharedSpace
+    from src.shared.sole_writer import sole_writer
 
     set_threads(threads)
     loaded = SharedSpace.from_pretrained(space)
-    with progress_bar("phrases") as progress:
+    with sole_writer(out), progress_bar("phrases") as progress:
         index = build_memory(
             data,
             loaded,

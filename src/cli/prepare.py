@@ -9,6 +9,7 @@ from src.cli import options
 from src.cli.guard import complain, tell
 from src.cli.progress import progress_bar
 from src.shared.errors import UsageError
+from src.shared.files import same_place
 
 
 def prepare(
@@ -69,12 +70,13 @@ def prepare(
         raise UsageError(f"{given[0]} without SOURCE; name the folder it is about")
     options.check_ranges(synthetic=synthetic, workers=workers, seed=seed, source_fps=source_fps)
     options.check_folder("--out", out)
-    if any(out.resolve() == root.resolve() for root in source or []):
+    if any(same_place(out, root) for root in source or []):
         raise UsageError(f"--out {out} is a SOURCE, whose files it would mix with; name another")
 
     from src.shared.data.guesses import axis_vector, unit_metres
     from src.shared.data.prepare import prepare as prepare_folder
     from src.shared.data.sources import MotionFolder, Reading, Source, SyntheticSource
+    from src.shared.sole_writer import sole_writer
 
     for check, value in ((unit_metres, unit), (axis_vector, up)):
         if value is not None:
@@ -84,7 +86,7 @@ def prepare(
     sources: list[Source] = [*MotionFolder.open_all(source or [], **tables, reading=reading)]
     if synthetic:
         sources.append(SyntheticSource(synthetic, seed))
-    with progress_bar("clips") as progress:
+    with sole_writer(out), progress_bar("clips") as progress:
         report = prepare_folder(
             sources,
             out,

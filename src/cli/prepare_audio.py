@@ -69,20 +69,22 @@ def prepare_audio(
     from src.shared.data.pairing.music import open_music
     from src.shared.data.pairing.prepare_audio import PairOptions
     from src.shared.data.pairing.prepare_audio import prepare_audio as pair_all
+    from src.shared.sole_writer import sole_writer
 
     sources = open_music(music, seed=seed, meter=meter)
-    data = open_motion(motion, out)
     synthetic = synthetic_clips or motion == "synthetic"
-    with progress_bar("songs") as progress:
-        report = pair_all(
-            data,
-            sources,
-            out,
-            options=PairOptions(min_seconds, max_seconds, passes, synthetic, seed),
-            workers=workers,
-            progress=progress,
-        )
-    write_bands(out)
+    with sole_writer(out):
+        data = open_motion(motion, out)
+        with progress_bar("songs") as progress:
+            report = pair_all(
+                data,
+                sources,
+                out,
+                options=PairOptions(min_seconds, max_seconds, passes, synthetic, seed),
+                workers=workers,
+                progress=progress,
+            )
+        write_bands(out)
     if json:
         print_json(report)
     else:

@@ -1,9 +1,10 @@
 """The command line that every training stage shares: parse, check, train, report."""
 
+import os
 import shlex
 import sys
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
@@ -17,6 +18,8 @@ from src.shared.config_loader import (
 )
 from src.shared.config_schema import Config, TrainConfig
 from src.shared.errors import UserError
+from src.shared.signals import orderly_termination
+from src.shared.sole_writer import sole_writer
 from src.train.interrupt import Interrupted
 from src.train.processes import end_with_parent, is_one_of_several, run_processes
 
@@ -52,9 +55,12 @@ def run_task(
     if (settings.processes or 1) > 1 and not is_one_of_several():
         raise typer.Exit(run_processes(settings.processes or 1))
     end_with_parent()
-    from src.train.engine import Trainer  # every check that needs no torch comes before this
+    main = os.environ.get("RANK", "0") == "0"  # of the processes of one run
+    with sole_writer(settings.output) if main else nullcontext():
+        from src.train.engine import Trainer  # every check that needs no torch comes before this
 
-    Trainer(settings, build, command=resume_command(module, sys.argv[1:]), resume=resume).train()
+        command = resume_command(module, sys.argv[1:])
+        Trainer(settings, build, command=command, resume=resume).train()
 
 
 def new_app() -> typer.Typer:
@@ -122,7 +128,8 @@ def stage_app(
 def short_errors() -> Iterator[None]:
     """One line on stderr and an exit code for what a user can do something about."""
     try:
-        yield
+        with orderly_termination():
+            yield
     except Interrupted as stop:
         raise _leave(str(stop), stop.exit_code) from None
     except UserError as error:

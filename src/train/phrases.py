@@ -73,14 +73,16 @@ def synthetic_pairs(folder: Path) -> Path:
     """Parametric motions paired with rendered songs, all the project's own."""
     from src.shared.data.pairing.music import open_music
     from src.shared.data.pairing.prepare_audio import PairOptions, prepare_audio
+    from src.shared.sole_writer import sole_writer
 
     console.print(f"pairing synthetic motions with synthetic songs in {folder}", markup=False)
-    prepare_audio(
-        open_data(SYNTHETIC, folder / ".motion"),
-        open_music([f"{SYNTHETIC}:{SYNTHETIC_SONGS}"], seed=0),
-        folder,
-        options=PairOptions(synthetic_clips=True),
-    )
+    with sole_writer(folder, wait=True):
+        prepare_audio(
+            open_data(SYNTHETIC, folder / ".motion"),
+            open_music([f"{SYNTHETIC}:{SYNTHETIC_SONGS}"], seed=0),
+            folder,
+            options=PairOptions(synthetic_clips=True),
+        )
     return folder
 
 

@@ -13,6 +13,8 @@ import pytest
 import torch
 from safetensors.torch import load_file
 
+from tests.shared.holder import held
+
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="POSIX signals")
 ROOT = Path(__file__).parents[2]
 PROGRAM = str(Path(__file__).with_name("tiny_task.py"))
@@ -143,6 +145,16 @@ def test_several_processes_do_not_outlive_the_one_that_started_them(tmp_path: Pa
     process.kill()
     _, errors = process.communicate(timeout=60)  # ends when nobody holds stderr any more
     assert "stopped and saved" in errors
+
+
+def test_a_second_run_in_the_same_folder_is_refused(tmp_path: Path) -> None:
+    output = tmp_path / "run"
+    with held(output):
+        process = start(output)
+        _, errors = process.communicate(timeout=120)
+    assert process.returncode == 1
+    assert errors.startswith(f"error: another process is writing {output}; wait")
+    assert len(errors.splitlines()) == 1
 
 
 def _free_port() -> int:

@@ -158,7 +158,9 @@ def open_data(data: str, cache: Path, *, synthetic_clips: int = SYNTHETIC_CLIPS)
         return PreparedData.open(data)
     from src.shared.data.prepare import prepare
     from src.shared.data.sources import SyntheticSource
+    from src.shared.sole_writer import sole_writer
 
     folder = cache / f"synthetic-{synthetic_clips}"
-    prepare([SyntheticSource(synthetic_clips)], folder)
+    with sole_writer(folder, wait=True):
+        prepare([SyntheticSource(synthetic_clips)], folder)
     return PreparedData.open(folder)

@@ -47,9 +47,11 @@ def open_held_out(data: str, cache: Path, trained_groups: frozenset[str]) -> Hel
         return HeldOut(prepared, records, f"test splits of {data}")
     from src.shared.data.prepare import prepare
     from src.shared.data.sources import SyntheticSource
+    from src.shared.sole_writer import sole_writer
 
     folder = cache / f"synthetic-test-{FRESH_CLIPS}"
-    prepare([SyntheticSource(FRESH_CLIPS, seed=FRESH_SEED)], folder)
+    with sole_writer(folder, wait=True):
+        prepare([SyntheticSource(FRESH_CLIPS, seed=FRESH_SEED)], folder)
     prepared = PreparedData.open(folder)
     everything = prepared.records()
     seen = [record for record in everything if record.group in trained_groups]
