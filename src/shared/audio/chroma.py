@@ -9,6 +9,8 @@ halves both rate and hop, and each octave is one product of short frames with it
 Letters: S samples, T frames, N samples of a frame, F frequencies, K = 36 bins of an octave.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 
 from src.shared.audio.sound import FPS, HOP, SAMPLE_RATE
@@ -22,8 +24,8 @@ FAST_RATE, FAST_HOP = FPS * 512, 512
 TUNING_HOP = N_FFT // 4
 TUNING_HERTZ = (150.0, 4000.0)
 PEAK_THRESHOLD = 0.1
-EXACT_BLOCK = 600  # frames
-EXACT_CONTEXT = 90  # frames: the longest filter and the resampler reach 1.6 s
+FAST_BLOCK, EXACT_BLOCK = 18_000, 600  # frames: what lies in memory at a time
+CONTEXT = 90  # frames: the longest filter and the resampler reach 1.6 s
 
 
 class TuningEstimator:
@@ -76,6 +78,25 @@ def estimate_tuning(samples: np.ndarray, hop: int) -> float:
 
 def fast_chroma(samples: np.ndarray, tuning: float) -> np.ndarray:
     """Chroma [12, 1 + S//1470] float32 of samples [S] at 44.1 kHz, tuned by `tuning` bins."""
+    return _in_blocks(lambda part: _fast_chroma(part, tuning), samples, FAST_BLOCK)
+
+
+def _in_blocks(
+    chroma: Callable[[np.ndarray], np.ndarray], samples: np.ndarray, block: int
+) -> np.ndarray:
+    """`chroma` of samples [S], so many frames at a time, each block heard with what is around."""
+    count = 1 + len(samples) // HOP
+    pieces = []
+    for first in range(0, count, block):
+        last = min(first + block, count)
+        start = max(0, first - CONTEXT)
+        part = chroma(samples[start * HOP : (last + CONTEXT) * HOP])
+        pieces.append(part[:, first - start : last - start])
+    return np.concatenate(pieces, axis=1).astype(np.float32, copy=False)
+
+
+def _fast_chroma(samples: np.ndarray, tuning: float) -> np.ndarray:
+    """`fast_chroma` of a part."""
     import soxr
 
     count = 1 + len(samples) // HOP
@@ -125,14 +146,10 @@ def exact_chroma(samples: np.ndarray) -> np.ndarray:
     import librosa
 
     tuning = estimate_tuning(samples, TUNING_HOP)
-    count = 1 + len(samples) // HOP
-    pieces = []
-    for first in range(0, count, EXACT_BLOCK):
-        last = min(first + EXACT_BLOCK, count)
-        start = max(0, first - EXACT_CONTEXT)
-        part = samples[start * HOP : (last + EXACT_CONTEXT) * HOP]
-        block = librosa.feature.chroma_cqt(
+
+    def exact(part: np.ndarray) -> np.ndarray:
+        return librosa.feature.chroma_cqt(
             y=part, sr=SAMPLE_RATE, hop_length=HOP, n_chroma=CLASSES, tuning=tuning
         )
-        pieces.append(block[:, first - start : last - start])
-    return np.concatenate(pieces, axis=1).astype(np.float32)
+
+    return _in_blocks(exact, samples, EXACT_BLOCK)

@@ -23,6 +23,7 @@ MELS, MFCCS = 128, 20
 MEL_HERTZ = (20.0, 8000.0)
 FULL_HERTZ = (0.0, SAMPLE_RATE / 2)
 TINY = 1e-8
+DCT_BLOCK = 18_000  # frames in double precision at a time
 STILL_DB = 1e-2  # an MFCC that varies less is constant; its z-score would be rounding noise
 
 
@@ -138,7 +139,12 @@ def _mfcc(full_db: np.ndarray) -> np.ndarray:
     """Mel spectra [T,128] in dB -> standardised cepstra [T,20]."""
     from scipy.fft import dct
 
-    cepstra = dct(full_db.astype(np.float64), axis=1, norm="ortho")[:, :MFCCS]
+    cepstra = np.concatenate(
+        [
+            dct(full_db[first : first + DCT_BLOCK].astype(np.float64), norm="ortho")[:, :MFCCS]
+            for first in range(0, len(full_db), DCT_BLOCK)
+        ]
+    )
     spread = cepstra.std(axis=0)
     spread[spread < STILL_DB] = np.inf
     return ((cepstra - cepstra.mean(axis=0)) / (spread + TINY)).astype(np.float32)

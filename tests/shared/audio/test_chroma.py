@@ -52,6 +52,13 @@ def test_fast_is_close_to_exact(cents: float) -> None:
     assert np.median(found) > 0.998 and np.quantile(found, 0.05) > 0.99
 
 
+def test_fast_is_the_same_in_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
+    samples = melody(12.0, cents=7.0)
+    whole = fast_chroma(samples, 0.1)
+    monkeypatch.setattr("src.shared.audio.chroma.FAST_BLOCK", 70)
+    np.testing.assert_allclose(fast_chroma(samples, 0.1), whole, atol=1e-5)
+
+
 @pytest.mark.skipif(not SHORT_TRACKS, reason="no music at hand")
 def test_fast_is_close_to_exact_on_real_music() -> None:
     for path in SHORT_TRACKS:
