@@ -48,8 +48,9 @@ def evaluate_requests(
     from src.shared.data.prepared import PreparedData
     from src.shared.device import set_threads
     from src.shared.evaluation.report import as_markdown, heading, tables
-    from src.shared.evaluation.requests_harness import RequestSettings, evaluate_requests
+    from src.shared.evaluation.requests_harness import evaluate_requests
     from src.shared.evaluation.text_context import untrained
+    from src.shared.evaluation.yardstick import RequestSettings
     from src.shared.files import write_json, write_text
     from src.shared.model.generation.motion_generator import MotionGenerator
 

@@ -117,7 +117,6 @@ def test_a_full_disk_is_one_line_and_leaves_no_checkpoint(
     def full(*_: object) -> None:
         raise SafetensorError("I/O error: No space left on device")
 
-    (tmp_path / "checkpoints" / ".step-00000001.part").mkdir(parents=True)  # of a killed run
     monkeypatch.setattr("src.train.checkpoint.save_file", full)
     with pytest.raises(UserError, match=r"step-00000004: .*No space left.*--resume"):
         run(tmp_path)

@@ -1,62 +1,52 @@
 """Does a text model do what people ask for in their own words, as captured motion would show it?
 
-Prompts are hand-written (`requests.py`), real rows and references are captured clips alone, and
-the judge (`action_judge.py`) has seen no procedural clip of an action that a capture covers.
+Prompts are hand-written (`data/requests.py`), real rows and references are captured clips alone
+(`yardstick.py`).
 
-Letters: N motions, F features.
+Letters: N motions.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from functools import partial
 from typing import Any, Protocol
 
 import numpy as np
 
 from src.shared.data.prepared import PreparedData
-from src.shared.data.records import ClipRecord
-from src.shared.data.requests import (
-    COMPOSITIONS,
-    FREE,
-    OUTSIDE,
-    Request,
-    drawn,
-    load_requests,
-)
-from src.shared.errors import UserError
-from src.shared.evaluation.action_judge import ActionJudge, descriptor
+from src.shared.data.requests import COMPOSITIONS, FREE, OUTSIDE, Request, drawn, load_requests
+from src.shared.evaluation.action_judge import ActionJudge
 from src.shared.evaluation.clips import frozen, spread_over_groups
-from src.shared.evaluation.controllability import check
 from src.shared.evaluation.families import Column
 from src.shared.evaluation.grids import Cell, Grid, GridRow, report_data
-from src.shared.evaluation.intervals import bootstrap_mean, success_rate
-from src.shared.evaluation.kinetic_features import kinetic_features
+from src.shared.evaluation.intervals import Estimate, bootstrap_mean, success_rate
 from src.shared.evaluation.metrics_frechet import frechet_distance
 from src.shared.evaluation.metrics_kinetic import FeatureSpace
-from src.shared.evaluation.metrics_physical import support_slide
-from src.shared.evaluation.text_context import LANGUAGES, errors_only
+from src.shared.evaluation.text_context import errors_only
+from src.shared.evaluation.yardstick import (
+    MIN_FRAMES,
+    PIECE,
+    Progress,
+    RequestSettings,
+    Seen,
+    Yardstick,
+    at_rest,
+    covers,
+    gaits,
+    in_order,
+    kinetic,
+    mean_speed,
+    same_action,
+    shown,
+    spread,
+)
 from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import decode_features
-from src.shared.motion.skeleton import JOINT_INDEX
+from src.shared.motion.root_track import decode_features, encode_features
 
-Progress = Callable[[str], None]
-TWINS = ({"wave", "bye"}, {"bye", "wave"})  # one gesture under two names
 GESTURES = ("wave", "raise", "bow", "bye", "call", "respond", "guide", "clap")
-HAND_DOWN = 0.15  # metres above the pelvis, at most, of a hand at rest
-AT_REST = 3  # frames at either end
-PIECE, HOP = 60, 15  # frames: windows in which the parts of a composition are looked for
-KINETIC_AXES = 16
 WALK = "a person walks forward"
 LONG_WALKS = (2.0, 10.0, 30.0, 60.0)  # seconds
-MIN_FRAMES = 24
 FLOOR_SHARE = 4  # every so many-th plain request is put to the floors
-SHOWN = frozenset(
-    (
-        *("forward", "backward", "left", "right", "turn-left", "turn-right"),
-        *("left-hand", "right-hand", "both-hands"),
-        *("kick-left", "kick-right", "punch-left", "punch-right", "count", "angle"),
-    )
-)  # checks of which way, which side and how much; which action it is the judge says
 
 
 class Model(Protocol):
@@ -64,124 +54,6 @@ class Model(Protocol):
 
     def generate(self, prompts: Sequence[str], *, seconds: float, seed: int) -> list[Motion]: ...
     def scope_warnings(self, prompts: Sequence[str]) -> list[str | None]: ...
-
-
-@dataclass(frozen=True)
-class RequestSettings:
-    """How much is measured; the report repeats it."""
-
-    wordings: int = 3  # of each set of labels and language
-    languages: tuple[str, ...] = LANGUAGES
-    seconds: float = 4.0
-    variety_seeds: int = 8  # of the spread of gestures
-    max_clips: int = 600  # captured clips of the reference
-    seed: int = 0
-
-
-@dataclass(frozen=True, eq=False)
-class Seen:
-    """N motions with what is measured of each: descriptors [N,F]."""
-
-    motions: list[Motion]
-    features: np.ndarray
-
-    @classmethod
-    def of(cls, motions: Sequence[Motion]) -> "Seen":
-        return cls(list(motions), np.stack([descriptor(motion) for motion in motions]))
-
-    def __len__(self) -> int:
-        return len(self.motions)
-
-    def rows(self, index: Sequence[int]) -> "Seen":
-        return Seen([self.motions[i] for i in index], self.features[list(index)])
-
-
-class Yardstick:
-    """Captured clips, the judge that learned from them, and the clips nobody recorded."""
-
-    def __init__(self, data: PreparedData, settings: RequestSettings, progress: Progress) -> None:
-        """Read the clips and fit the judge.
-
-        Raises:
-            UserError: too few captured clips are held back.
-        """
-        self.data, self.settings = data, settings
-        self.longest = round(settings.seconds * 30)
-        train = [r for r in data.records("train") if r.tag and r.num_frames >= MIN_FRAMES]
-        self.captured = {r.tag for r in train if r.provenance == "captured"}
-        progress("descriptors of the training clips")
-        fitted = [r for r in train if r.provenance == "captured" or r.tag not in self.captured]
-        fitted = spread_over_groups(fitted, 4 * settings.max_clips, settings.seed)
-        self.known = self.clips(fitted)
-        self.known_tags = [record.tag for record in fitted]
-        try:
-            self.judge = ActionJudge.fit(self.known.features, self.known_tags)
-        except ValueError as error:
-            raise UserError(f"no judge can be fitted ({error}); prepare captured clips") from error
-        self.space = FeatureSpace.fit(self.known.features, np.zeros(self.known.features.shape[1]))
-        held = [
-            r
-            for split in ("test_seen", "test_unseen", "val")
-            for r in data.records(split)
-            if r.provenance == "captured" and r.tag in self.captured and r.num_frames >= MIN_FRAMES
-        ]
-        if len(held) < 2:
-            raise UserError("no captured clip is held back from training; prepare more of them")
-        progress("descriptors of the held-out clips")
-        self.records = spread_over_groups(held, settings.max_clips, settings.seed)
-        self.real = self.clips(self.records)
-        made = [r for r in train if r.provenance == "procedural" and r.tag in self.captured]
-        made = spread_over_groups(made, settings.max_clips, settings.seed)
-        self.procedural = self.clips(made) if made else None
-        self.procedural_tags = [record.tag for record in made]
-
-    def clips(self, records: Sequence[ClipRecord]) -> Seen:
-        """The first seconds of these clips."""
-        return Seen.of([decode_features(self.data.features(r)[: self.longest]) for r in records])
-
-    def shows(self, seen: Seen) -> list[str]:
-        """The action that the judge sees in each."""
-        return self.judge(seen.features)
-
-    def obeyed(self, labels: Sequence[dict[str, str]], seen: Seen) -> np.ndarray:
-        """Whether each motion does what its labels say: the action, and which way or side [N]."""
-        found = self.shows(seen)
-        return np.array(
-            [
-                same_action(wanted.get("action", ""), action) and shown(wanted, motion)
-                for wanted, action, motion in zip(labels, found, seen.motions, strict=True)
-            ]
-        )
-
-    def nearer_to_procedural(self, tags: Sequence[str], seen: Seen) -> np.ndarray:
-        """Whether the nearest clip of the action is one that nobody recorded; NaN without any."""
-        if self.procedural is None:
-            return np.full(len(seen), np.nan)
-        own = self.space(seen.features)
-        captured, made = self.space(self.known.features), self.space(self.procedural.features)
-        answers = []
-        for tag, point in zip(tags, own, strict=True):
-            distances = [
-                np.linalg.norm(there[[t == tag for t in theirs]] - point, axis=1)
-                for there, theirs in (
-                    (captured, self.known_tags),
-                    (made, self.procedural_tags),
-                )
-            ]
-            both = all(len(each) for each in distances)
-            answers.append(float(distances[1].min() < distances[0].min()) if both else np.nan)
-        return np.array(answers)
-
-
-def same_action(wanted: str, found: str) -> bool:
-    """Whether two names stand for one action."""
-    return wanted == found or {wanted, found} in TWINS
-
-
-def shown(labels: dict[str, str], motion: Motion) -> bool:
-    """Whether direction, turn, side, count and angle are those of the labels, as far as asked."""
-    answers = check({key: value for key, value in labels.items() if key != "speed"}, motion)
-    return all(value for name, value in answers.items() if name in SHOWN)
 
 
 def evaluate_requests(
@@ -248,8 +120,6 @@ def _make(model: Model, settings: RequestSettings, texts: Sequence[str]) -> Seen
 
 
 def _still(motion: Motion) -> Motion:
-    from src.shared.motion.root_track import encode_features
-
     return decode_features(frozen(encode_features(motion)))
 
 
@@ -260,6 +130,10 @@ def _share(values: Sequence[bool] | np.ndarray) -> Cell:
     known = np.asarray(values, float)
     known = known[~np.isnan(known)]
     return success_rate(int(known.sum()), len(known)).as_dict()
+
+
+def _plain(figures: dict[str, Estimate]) -> dict[str, Cell]:
+    return {key: value.as_dict() for key, value in figures.items()}
 
 
 def _obedience(
@@ -321,8 +195,8 @@ def _realism(
     tags = [record.tag for record in yardstick.records]
     rng = np.random.default_rng(yardstick.settings.seed)
     halves = np.array_split(rng.permutation(len(tags)), 2)
-    real, kinetic = yardstick.real, _kinetic(yardstick.real)
-    space = FeatureSpace.fit(kinetic, np.arange(kinetic.shape[1]) % 3)
+    real, features = yardstick.real, kinetic(yardstick.real)
+    space = FeatureSpace.fit(features, np.arange(features.shape[1]) % 3)
 
     def distances(seen: Seen, wanted: Sequence[str], reference: np.ndarray) -> dict[str, Cell]:
         """Against as many captured clips of the same actions."""
@@ -336,40 +210,31 @@ def _realism(
         nearer = yardstick.nearer_to_procedural([wanted[row] for row in own], a)
         return {
             "learned": frechet_distance(judge.embed(a.features), judge.embed(b.features)),
-            "kinematic": space.distance(_kinetic(a), _kinetic(b)),
+            "kinematic": space.distance(kinetic(a), kinetic(b)),
             "procedural": _share(nearer),
         }
 
-    def walks(seen: Seen, wanted: Sequence[str]) -> dict[str, Cell]:
-        walking = [m for m, tag in zip(seen.motions, wanted, strict=True) if tag == "walk"]
-        running = [m for m, tag in zip(seen.motions, wanted, strict=True) if tag == "run"]
-        peaks = [float(np.percentile(_acceleration(m), 99)) for m in walking]
-        beyond = [float((_acceleration(m) > limit).mean()) for m in running]
-        slides = [support_slide(m.positions().astype(np.float64), m.fps) for m in walking]
-        return {
-            "peak": bootstrap_mean(peaks).as_dict(),
-            "teleports": bootstrap_mean([100 * share for share in beyond]).as_dict(),
-            "slide": bootstrap_mean(slides).as_dict(),
-        }
-
-    runs = [m for m, tag in zip(real.motions, tags, strict=True) if tag == "run"]
-    limit = np.percentile(np.concatenate([_acceleration(m) for m in runs]), 99.9) if runs else 0.0
     half = real.rows(halves[0].tolist())
     own = [tags[i] for i in halves[0]]
     found = {
         "captured, held out": GridRow(
-            distances(half, own, halves[1]) | walks(real, tags), len(half)
+            distances(half, own, halves[1]) | _plain(gaits(real, tags, yardstick.top_run)),
+            len(half),
         )
     }
     everything = np.arange(len(tags))
     if yardstick.procedural is not None:
         seen, wanted = yardstick.procedural, yardstick.procedural_tags
         found["procedural"] = GridRow(
-            distances(seen, wanted, everything) | walks(seen, wanted), len(seen)
+            distances(seen, wanted, everything) | _plain(gaits(seen, wanted, yardstick.top_run)),
+            len(seen),
         )
     for name, seen in rows.items():
         wanted = [request.action for request in asked[name]]
-        found[name] = GridRow(distances(seen, wanted, everything) | walks(seen, wanted), len(seen))
+        found[name] = GridRow(
+            distances(seen, wanted, everything) | _plain(gaits(seen, wanted, yardstick.top_run)),
+            len(seen),
+        )
     columns = (
         Column("learned", "FD, judge's axes", 1, "low"),
         Column("kinematic", "FID_k", 1, "low"),
@@ -388,16 +253,6 @@ def _realism(
         " distances first."
     )
     return Grid("realism", "Like captured motion", columns, found, note)
-
-
-def _kinetic(seen: Seen) -> np.ndarray:
-    return np.stack([kinetic_features(m.positions(), m.fps).reshape(-1) for m in seen.motions])
-
-
-def _acceleration(motion: Motion) -> np.ndarray:
-    """m/s² of the worst joint [T - 2]."""
-    second = np.diff(motion.positions().astype(np.float64), n=2, axis=0) * motion.fps**2
-    return np.asarray(np.linalg.norm(second, axis=-1).max(1))
 
 
 def _exactness(
@@ -426,7 +281,7 @@ def _exactness(
 
     for section in ("counts", "angles", "sides"):
         row(section, of(section), obeys)
-    row("lengths, ±20%", [r for r in of("lengths") if "metres" in r.labels], _metres)
+    row("lengths, ±20%", [r for r in of("lengths") if "metres" in r.labels], covers)
     row(
         "two sides at once",
         of("sides", simultaneous=True),
@@ -445,7 +300,7 @@ def _exactness(
     rows["spread of a gesture, cm"] = _spread_row(yardstick, model, gestures)
     for seconds in LONG_WALKS:
         walk = model.generate([WALK], seconds=seconds, seed=yardstick.settings.seed)[0]
-        rows[f"a walk of {seconds:g} s, m/s"] = GridRow({"share": _speed(walk)}, 1)
+        rows[f"a walk of {seconds:g} s, m/s"] = GridRow({"share": mean_speed(walk)}, 1)
     columns = (
         Column("share", "generated", 2, "high"),
         Column("real", "captured clips", 2),
@@ -475,13 +330,6 @@ def _spread_row(yardstick: Yardstick, model: Model, gestures: Sequence[Request])
     return GridRow(cells, len(made) * settings.variety_seeds)
 
 
-def spread(motions: Sequence[Motion]) -> float:
-    """Deviation of the joints, seen from the pelvis, over motions of two seconds or more; cm."""
-    joints = np.stack([motion.positions()[:PIECE] for motion in motions])
-    deviation: np.ndarray = (joints - joints[:, :, :1]).std(0)  # T K 3
-    return float(100 * np.linalg.norm(deviation, axis=-1).mean())
-
-
 def _styles(
     yardstick: Yardstick, wanted: Sequence[Request], make: Callable[[Sequence[str]], Seen]
 ) -> dict[str, GridRow]:
@@ -509,37 +357,6 @@ def _styles(
         ),
         "styled walks: still a walk": GridRow({"share": _share(walks)}, len(made)),
     }
-
-
-def _metres(request: Request, motion: Motion) -> bool:
-    way = np.linalg.norm(motion.root_position[-1, [0, 2]] - motion.root_position[0, [0, 2]])
-    return bool(abs(way / float(request.labels["metres"]) - 1) <= 0.2)
-
-
-def _speed(motion: Motion) -> float:
-    way = np.linalg.norm(np.diff(motion.root_position[:, [0, 2]], axis=0), axis=-1).sum()
-    return float(way / motion.seconds)
-
-
-def at_rest(motion: Motion) -> bool:
-    """Whether both hands hang at the beginning and at the end."""
-    joints = motion.positions()
-    hands = joints[:, [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]], 1] - joints[:, :1, 1]
-    ends = np.concatenate((hands[:AT_REST], hands[-AT_REST:]))
-    return bool((ends < HAND_DOWN).all())
-
-
-def in_order(yardstick: Yardstick, request: Request, motion: Motion) -> bool:
-    """Whether the parts are seen one after the other, each in some window of two seconds."""
-    starts = range(0, max(motion.num_frames - PIECE, 0) + 1, HOP)
-    pieces = Seen.of([motion.frames(at, at + PIECE) for at in starts])
-    found, at = yardstick.shows(pieces), 0
-    for part in request.parts:
-        while at < len(found) and not same_action(part["action"], found[at]):
-            at += 1
-        if at == len(found):
-            return False
-    return True
 
 
 def _warnings(

@@ -16,7 +16,8 @@ from src.shared.data.synthetic.labels import label_combinations
 from src.shared.data.synthetic.spec import spec_for
 from src.shared.errors import UserError
 from src.shared.evaluation.grids import Grid
-from src.shared.evaluation.requests_harness import RequestSettings, at_rest, evaluate_requests
+from src.shared.evaluation.requests_harness import evaluate_requests
+from src.shared.evaluation.yardstick import RequestSettings, at_rest
 from src.shared.motion.motion import Motion
 
 SETTINGS = RequestSettings(wordings=1, languages=("en",), seconds=3.0, max_clips=60)

@@ -96,7 +96,7 @@ def test_nonsense_in_yaml(tmp_path: Path, text: str, message: str) -> None:
 def test_a_missing_and_a_binary_file(tmp_path: Path) -> None:
     with pytest.raises(UserError, match="cannot be read"):
         read_path(tmp_path / "none.csv")
-    (tmp_path / "b.csv").write_bytes(b"\xff\xfe\x00\x80")
+    (tmp_path / "b.csv").write_bytes(b"\xff\x00\x80")
     with pytest.raises(UserError, match="not UTF-8"):
         read_path(tmp_path / "b.csv")
 

@@ -43,7 +43,7 @@ def test_names_and_folders_resolve(shipped):
     ("name", "message"),
     [
         ("tiiny", "did you mean 'tiny'"),
-        ("default", "profile 'default' is untrained.*train_generation.*--model tiny"),
+        ("default", "profile 'default' is untrained.*train generation.*--model tiny"),
         ("/nowhere", "no such folder"),
         ("../pretrained/tiny", "no such folder"),
     ],

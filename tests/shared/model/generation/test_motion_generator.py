@@ -105,7 +105,7 @@ def test_an_untrained_model_refuses(generator: MotionGenerator):
     card = generator.card
     generator.card = card.model_copy(update={"trained": False})
     try:
-        with pytest.raises(UserError, match=r"untrained.*train_generation"):
+        with pytest.raises(UserError, match=r"untrained.*train generation"):
             generator.generate(PROMPTS)
     finally:
         generator.card = card
