@@ -59,6 +59,7 @@ EXCEPTIONS = {
     "tag {} is not one": ITS_PARTS,
     "{} holds {}, not {}": ITS_PARTS,
     "no model named {}": ITS_PARTS,
+    "{}: its bones tell no body": ITS_PARTS,
 }
 CATALOGUE = [message for message in messages() if not passes_on(message.text)]
 

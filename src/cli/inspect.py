@@ -74,11 +74,12 @@ def check_new_mapping(path: Path | None) -> None:
 
 def begin_mapping(found: "Inspection", mapping: Path | None, out: Path) -> None:
     """Write a profile of what was found, with a ? for each joint that was not."""
-    from src.shared.data.mapping import load_mappings, profile_text
+    from src.shared.data.mapping import closest_joints, load_mappings, profile_text
     from src.shared.files import write_text
 
     names = tuple(name for name, _ in found.joints)
-    write_text(out, profile_text(names, load_mappings(mapping)))
+    joints = found.matched or closest_joints(names, load_mappings(mapping))
+    write_text(out, profile_text(names, joints))
     tell(f"{out}: fill in every ?, then give it by --mapping")
 
 

@@ -28,8 +28,10 @@ def bvh(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def odd(bvh: Path, tmp_path: Path) -> Path:
-    """The same with a knee by another name, and other bones."""
-    text = bvh.read_text().replace("JOINT l_knee", "JOINT hinge").replace("OFFSET", "OFFSET ", 1)
+    """The same with a knee by another name, and so far down that the legs are no pair."""
+    text = bvh.read_text().replace("JOINT l_knee", "JOINT hinge")
+    head, tail = text.split("JOINT hinge")
+    text = f"{head}JOINT hinge{tail.replace('-', '-9', 1)}"
     path = tmp_path / "odd.bvh"
     path.write_text(text)
     return path

@@ -15,6 +15,7 @@ UNITS: dict[str, float] = {
 LEGS = 0.82  # metres, hip to ankle of an adult; from a child of six to a giant is 0.5 … 1.1
 AXES = ("X", "Y", "Z", "-X", "-Y", "-Z")
 STANDING = 0.7  # cosine: how nearly bones of a rest pose must point where a body's do
+PELVIS = (0.45, 0.8)  # its height, of the length from ankles to head, when the body stands
 SAMPLES = 200  # frames that are looked at
 
 
@@ -69,23 +70,29 @@ def upright(axis: str) -> np.ndarray:
 def guess_up(clip: SourceClip, mapping: SkeletonMapping) -> tuple[str, bool]:
     """The up axis, and whether the recording leaves little doubt.
 
-    It is the axis along which the head is above the ankles, on average over the frames; where
-    the body lies or tumbles, the rest pose decides.
+    It is the axis along which the head is above the ankles, on average over the frames. Where
+    the body lies or tumbles, or is stretched out along another axis than its rest pose and not
+    as high above the origin as one who stands (push-ups, say), the rest pose decides.
     """
     j = joint_indices(clip, mapping)
     stride = max(1, clip.num_frames // SAMPLES)
     positions = clip.every(stride).world()[0]
-    body = positions[:, j["head"]] - (positions[:, j["l_ankle"]] + positions[:, j["r_ankle"]]) / 2
+    ankles = (positions[:, j["l_ankle"]] + positions[:, j["r_ankle"]]) / 2
+    body = positions[:, j["head"]] - ankles
     length = np.linalg.norm(body, axis=-1, keepdims=True)
     mean = (body / np.maximum(length, 1e-9)).mean(0)
-    best = int(np.argmax(np.abs(mean)))
-    if abs(mean[best]) > STANDING:
-        return AXES[best if mean[best] > 0 else best + 3], True
     rest = rest_frame(clip, mapping)
-    if rest is not None:
-        best = int(np.argmax(np.abs(rest[1])))
-        return AXES[best if rest[1][best] > 0 else best + 3], False
-    return "Y", False
+    stands = _nearest_axis(mean) if np.abs(mean).max() > STANDING else None
+    rests = _nearest_axis(rest[1]) if rest is not None else None
+    if stands and rests not in (None, stands):
+        height = np.median(positions[:, j["pelvis"]] @ axis_vector(stands)) / np.median(length)
+        stands = stands if PELVIS[0] < height < PELVIS[1] else None
+    return stands or rests or "Y", stands is not None
+
+
+def _nearest_axis(direction: np.ndarray) -> str:
+    best = int(np.argmax(np.abs(direction)))
+    return AXES[best if direction[best] > 0 else best + 3]
 
 
 def rest_frame(clip: SourceClip, mapping: SkeletonMapping) -> np.ndarray | None:

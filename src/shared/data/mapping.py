@@ -19,7 +19,8 @@ Axis = Literal["+X", "-X", "+Y", "-Y", "+Z", "-Z"]
 REQUIRED = tuple(
     name
     for name in JOINT_NAMES
-    if name not in ("spine1", "spine2", "spine3", "l_collar", "r_collar", "l_foot", "r_foot")
+    if name
+    not in ("spine1", "spine2", "spine3", "neck", "l_collar", "r_collar", "l_foot", "r_foot")
 )
 COMMON_PREFIX = 0.8  # of a file's joints must share what is taken for their prefix
 
@@ -169,10 +170,14 @@ def _missing_text(
     )
 
 
-def profile_text(names: tuple[str, ...], mappings: tuple[SkeletonMapping, ...]) -> str:
-    """YAML of a profile for a file, to be corrected: what was found, and `?` where nothing was."""
+def closest_joints(names: tuple[str, ...], mappings: tuple[SkeletonMapping, ...]) -> dict[str, str]:
+    """Our joint -> joint of the file, of the profile that finds most."""
     spelled = _spellings(names)
-    found = max((_translated(mapping, names, spelled) for mapping in mappings), key=len)
+    return max((_translated(mapping, names, spelled) for mapping in mappings), key=len)
+
+
+def profile_text(names: tuple[str, ...], found: dict[str, str]) -> str:
+    """YAML of a profile for a file, to be corrected: what was found, and `?` where nothing was."""
     lines = ["# Our joint: joint of the file. Fill in every ?; lines that no joint fits may go,",
              "# except " + ", ".join(REQUIRED) + ".",
              "# Joints of the file: " + ", ".join(names), "profiles:", "  - name: mine",

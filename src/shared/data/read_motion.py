@@ -14,9 +14,10 @@ from src.shared.data.guesses import (
     unit_metres,
     unit_name,
 )
-from src.shared.data.mapping import SkeletonMapping, find_mapping, load_mappings
+from src.shared.data.mapping import SkeletonMapping, load_mappings
 from src.shared.data.recordings import Recording, open_recording
 from src.shared.data.retarget import leg_length, retarget
+from src.shared.data.topology import GUESSED, mapping_of
 from src.shared.errors import UserError
 from src.shared.formats.source_clip import SourceClip
 from src.shared.motion.motion import Motion
@@ -104,7 +105,7 @@ def fit(
         return recording.motion if fps is None else resample_motion(recording.motion, fps)
     clip = recording.clip
     assert clip is not None
-    profile = _profile(path, clip, mappings)
+    profile = mapping_of(path, clip, mappings)
     ours = is_ours(clip, profile) if recording.exact is None else recording.exact
     up = up or recording.up or ("Y" if ours else guess_up(clip, profile)[0])
     metres = recording.metres if recording.true_size else our_scale(clip, profile) if ours else None
@@ -149,15 +150,6 @@ def our_scale(clip: SourceClip, mapping: SkeletonMapping) -> float:
     return float(np.linalg.norm(thigh)) / max(length, 1e-12)
 
 
-def _profile(
-    path: Path, clip: SourceClip, mappings: tuple[SkeletonMapping, ...]
-) -> SkeletonMapping:
-    try:
-        return find_mapping(clip.names, mappings)
-    except UserError as error:
-        raise UserError(f"{path}: {error}") from None
-
-
 def inspect_motion(
     path: str | Path,
     *,
@@ -186,7 +178,7 @@ def inspect_motion(
     profile = None
     guessed = tuple(name for name, value in (("unit", unit), ("up", up)) if value is None)
     try:
-        profile = find_mapping(clip.names, profiles)
+        profile = mapping_of(Path(path), clip, profiles)
     except UserError as error:
         warnings.append(str(error))
     if profile is not None:
@@ -225,6 +217,9 @@ def _upright(clip: SourceClip, profile: SkeletonMapping, up: str | None) -> tupl
 def _doubts(clip: SourceClip, profile: SkeletonMapping, legs: float, unit: str) -> list[str]:
     """What a reader should know of a file before trusting it; `legs` in metres."""
     doubts = []
+    if profile.name == GUESSED:
+        doubts.append("no profile knows the joints' names, so bones and words told which is which; "
+                      "where that is wrong, correct it (--write-mapping begins)")  # fmt: skip
     if not LEGS[0] < legs < LEGS[1]:
         doubts.append(f"legs of {legs:.2g} m, if the unit is {unit}: check --unit")
     missing = [name for name in JOINT_NAMES if name not in profile.joints]

@@ -25,7 +25,6 @@ from src.shared.motion.rotations import (
     quaternion_to_matrix,
 )
 from src.shared.motion.skeleton import (
-    FOOT_JOINTS,
     JOINT_INDEX,
     JOINT_NAMES,
     LEG_LENGTH,
@@ -86,13 +85,18 @@ def rest_corrections(clip: SourceClip, mapping: SkeletonMapping) -> dict[str, np
     return corrections
 
 
+def _line(clip: SourceClip, joint: int, descendant: int) -> list[int]:
+    """The joints below a joint down to a descendant, the lowest first; none if it is not below."""
+    line = []
+    while descendant != joint and descendant >= 0:
+        line.append(descendant)
+        descendant = clip.parents[descendant]
+    return line if descendant == joint else []
+
+
 def _bone(clip: SourceClip, joint: int, descendant: int) -> np.ndarray:
     """Rest offset of a descendant in a joint's frame (rest rotations are identities in BVH)."""
-    total = np.zeros(3)
-    while descendant != joint and descendant >= 0:
-        total += clip.offsets[descendant]
-        descendant = clip.parents[descendant]
-    return total if descendant == joint else np.zeros(3)
+    return np.asarray(clip.offsets[_line(clip, joint, descendant)].sum(0), np.float64)
 
 
 def leg_length(clip: SourceClip, mapping: SkeletonMapping) -> float:
@@ -109,6 +113,20 @@ def leg_length(clip: SourceClip, mapping: SkeletonMapping) -> float:
     )
 
 
+def has_short_legs(clip: SourceClip, mapping: SkeletonMapping) -> bool:
+    """Whether the body has a cartoon's proportions: hardly any legs for its trunk."""
+    j = joint_indices(clip, mapping)
+    trunk = clip.offsets[_line(clip, j["pelvis"], j["head"])]
+    return bool(np.linalg.norm(trunk, axis=-1).sum() > SHORT_LEGS * leg_length(clip, mapping))
+
+
+SHORT_LEGS = 1.2  # trunk and neck in legs; people have 0.5 … 0.9
+# How high over the floor the joints that may touch it are when they do, metres.
+_TOUCH = {
+    "l_foot": REST_FOOT_HEIGHT, "r_foot": REST_FOOT_HEIGHT, "l_knee": 0.04, "r_knee": 0.04,
+    "pelvis": 0.08, "spine3": 0.1, "head": 0.08,
+    "l_elbow": 0.03, "r_elbow": 0.03, "l_wrist": 0.02, "r_wrist": 0.02,
+}  # fmt: skip
 BLOCK = 200_000  # frames times joints that are worked on at once
 CALIBRATION_JUMP = 0.15  # radians a joint, mean, between the first two frames
 
@@ -150,7 +168,9 @@ def retarget(
     """A clip as a Motion on the canonical skeleton, on the floor, at `fps`.
 
     Lengths are scaled so that the source's legs (hip to ankle) get ours' length, which settles
-    the unit as well. The floor is put under the lower ball of the foot (2nd percentile).
+    the unit as well. The floor is put under what is lowest of the body (2nd percentile): the ball
+    of a foot, mostly. Of a cartoon with short legs the rotations alone are taken: our body is put
+    on the floor anew in each frame, so its jumps are lost.
 
     Args:
         fps: None keeps the source's own rate.
@@ -169,6 +189,8 @@ def retarget(
     contacts = np.zeros((len(root), 2), np.float32)
     motion = Motion(quaternions, root, contacts, fps=1.0 / clip.frame_time)
     if ground:
+        if has_short_legs(clip, mapping):
+            root[:, 1] -= _lowest(_positions(motion))
         motion = _without_calibration(motion)
     motion = motion if fps is None else resample_motion(motion, fps)
     return _ground(motion, lift=ground)
@@ -214,15 +236,25 @@ def _without_calibration(motion: Motion) -> Motion:
 
 
 def _ground(motion: Motion, *, lift: bool) -> Motion:
-    """Put the floor under the feet, if asked to, and find the contacts."""
+    """Put the floor under the body, if asked to, and find the contacts."""
+    joints = _positions(motion)
+    height = -np.percentile(_lowest(joints), 2) if lift else 0.0
+    shift = np.array([0, height, 0], np.float32)
+    contacts = detect_contacts(joints + shift, motion.fps)
+    return Motion(motion.quaternions, motion.root_position + shift, contacts, motion.fps)
+
+
+def _positions(motion: Motion) -> np.ndarray:
+    """Joints [T,22,3], worked out in blocks."""
     block = BLOCK // NUM_JOINTS
-    joints = np.concatenate([
+    return np.concatenate([
         replace(motion, quaternions=motion.quaternions[start : start + block],
                 root_position=motion.root_position[start : start + block]).positions()
         for start in range(0, motion.num_frames, block)
     ])  # fmt: skip
-    balls = joints[:, [ball for _, ball in FOOT_JOINTS], 1].min(1)
-    height = REST_FOOT_HEIGHT - np.percentile(balls, 2) if lift else 0.0
-    shift = np.array([0, height, 0], np.float32)
-    contacts = detect_contacts(joints + shift, motion.fps)
-    return Motion(motion.quaternions, motion.root_position + shift, contacts, motion.fps)
+
+
+def _lowest(joints: np.ndarray) -> np.ndarray:
+    """Height of the lowest part of the body [T] over a floor at 0; joints [T,22,3]."""
+    heights = joints[:, [JOINT_INDEX[name] for name in _TOUCH], 1] - list(_TOUCH.values())
+    return np.asarray(heights.min(1))

@@ -18,8 +18,9 @@ from src.shared.data.guesses import (
     rest_frame,
     upright,
 )
-from src.shared.data.mapping import SkeletonMapping, find_mapping, load_mappings
+from src.shared.data.mapping import SkeletonMapping, load_mappings
 from src.shared.data.retarget import leg_length, rest_corrections
+from src.shared.data.topology import mapping_of
 from src.shared.errors import UsageError, UserError
 from src.shared.files import same_place
 from src.shared.formats.bvh import BvhClip, read_bvh
@@ -201,25 +202,19 @@ def read_target(path: str | Path, *, mapping: Path | None = None) -> Target:
     Raises:
         UserError: missing, damaged, with several roots, or with joints that no profile maps.
     """
-    path = Path(path)
+    path, profiles = Path(path), load_mappings(mapping)
     if path.suffix.lower() == ".glb":
         character = read_glb_skeleton(path)
         rig = character.rig
-        profile = _profile(path, rig.names, mapping)
-        known = rest_corrections(rest_clip(rig), profile)
+        rest = rest_clip(rig)
+        profile = mapping_of(path, rest, profiles)
+        known = rest_corrections(rest, profile)
         return Target(path, rig, profile, known, character=character)
     clip = read_bvh(path)
-    profile = _profile(path, clip.names, mapping)
+    profile = mapping_of(path, clip, profiles)
     metres = UNITS[guess_unit(leg_length(clip, profile))]
     known = rest_corrections(clip, profile)
     return Target(path, _bvh_rig(path, clip, metres), profile, known, guess_up(clip, profile)[0])
-
-
-def _profile(path: Path, names: tuple[str, ...], extra: Path | None) -> SkeletonMapping:
-    try:
-        return find_mapping(names, load_mappings(extra))
-    except UserError as error:
-        raise UserError(f"{path}: {error}") from None
 
 
 def _bvh_rig(path: Path, clip: BvhClip, metres: float) -> Rig:

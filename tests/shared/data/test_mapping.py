@@ -4,7 +4,13 @@ from pathlib import Path
 
 import pytest
 
-from src.shared.data.mapping import find_mapping, load_mappings, plain, profile_text
+from src.shared.data.mapping import (
+    closest_joints,
+    find_mapping,
+    load_mappings,
+    plain,
+    profile_text,
+)
 from src.shared.errors import UserError
 from src.shared.motion.skeleton import JOINT_NAMES
 
@@ -90,7 +96,7 @@ def test_a_joint_that_can_be_interpolated_may_be_missing() -> None:
 def test_an_exact_fit_wins_over_a_bigger_one_and_the_users_over_ours(tmp_path: Path) -> None:
     mine = tmp_path / "mine.yaml"
     names = tuple(DIALECTS["lafan1"])
-    mine.write_text(profile_text(names, OURS))
+    mine.write_text(profile_text(names, closest_joints(names, OURS)))
     assert find_mapping(names, load_mappings(mine)).name == "mine"
 
 
@@ -102,7 +108,7 @@ def test_what_is_missing_is_named_with_the_remedy() -> None:
 
 def test_a_begun_profile_needs_only_the_question_marks(tmp_path: Path) -> None:
     names = tuple("Knee: cap" if name == "LeftLeg" else name for name in DIALECTS["mixamo-like"])
-    text = profile_text(names, OURS)
+    text = profile_text(names, closest_joints(names, OURS))
     assert text.count('"?"') == 1 and all(f"{ours}: " in text for ours in JOINT_NAMES)
     path = tmp_path / "my.yaml"
     path.write_text(text.replace('"?"', '"Knee: cap"'))

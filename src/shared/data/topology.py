@@ -1,0 +1,253 @@
+"""Which joint plays which part where no profile names them all: by tree, bone lengths and names.
+
+A body hangs two legs from its pelvis and two arms from its chest, alike in pairs, and a head
+between the arms. In a limb the two long bones in a row are thigh and shin, or upper arm and
+forearm; words in the names say so too, in any spelling. Left is told by the names, else by which
+way feet and knees point. Legend: T frames, N joints of the file.
+"""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import cache
+from itertools import combinations, pairwise
+from pathlib import Path
+
+import numpy as np
+
+from src.shared.data.mapping import SkeletonMapping, find_mapping
+from src.shared.errors import UserError
+from src.shared.formats.source_clip import SourceClip
+
+GUESSED = "guessed"  # name of a mapping that no profile gave
+
+# Words of joint names without their side. One word may be two parts; the place in the limb tells.
+_WORDS = {
+    "hip": ("upleg", "upperleg", "thigh", "femur", "hip", "buttock"),
+    "knee": ("leg", "lowleg", "lowerleg", "shin", "calf", "tibia", "knee"),
+    "ankle": ("foot", "ankle"),
+    "shoulder": ("arm", "uparm", "upperarm", "humerus", "shldr", "shoulder"),
+    "elbow": ("forearm", "lowarm", "lowerarm", "farm", "radius", "elbow"),
+    "wrist": ("hand", "wrist"),
+    "neck": ("neck",),
+    "head": ("head",),
+}
+_NOISE = {"bone", "jnt", "joint"}  # ends of names that say nothing
+_SIDES = {"l": "l", "left": "l", "r": "r", "right": "r"}
+LEG, ARM = ("hip", "knee", "ankle"), ("shoulder", "elbow", "wrist")
+ALIKE = 0.15  # relative: how far two limbs of a pair may differ in length
+LIKE_WORD = 0.8  # ratio of two spellings of one word
+NAMED = 0.3  # what a fitting name counts beside a bone's share of its limb
+SHORT, AFTER = 0.5, 0.4  # what other bones cost within a part, and the longest one beyond
+SAMPLES = 50  # frames that are looked at
+
+
+class Unclear(Exception):
+    """The bones do not tell a body; the text says what of it is missing."""
+
+
+@dataclass(frozen=True)
+class _Limb:
+    """A limb's joints from where it hangs to its tip, and which of them are the three joints."""
+
+    chain: tuple[int, ...]
+    joints: tuple[int, int, int]
+
+    def before(self) -> int | None:
+        """The joint between body and limb, if there is one: a collar."""
+        place = self.chain.index(self.joints[0])
+        return self.chain[place - 1] if place else None
+
+    def after(self) -> int | None:
+        """The joint after the last: a toe."""
+        place = self.chain.index(self.joints[2])
+        return self.chain[place + 1] if place + 1 < len(self.chain) else None
+
+
+def mapping_of(
+    path: Path, clip: SourceClip, mappings: tuple[SkeletonMapping, ...]
+) -> SkeletonMapping:
+    """The profile that fits a file's joints, or what its bones and names tell of them.
+
+    Raises:
+        UserError: neither does; names the file, the closest profile and the remedy.
+    """
+    try:
+        return find_mapping(clip.names, mappings)
+    except UserError as error:
+        unnamed = error
+    try:
+        return SkeletonMapping(name=GUESSED, joints=guess_joints(clip))
+    except Unclear as unclear:
+        raise UserError(
+            f"{path}: its bones tell no body ({unclear}) and its names none either: {unnamed}"
+        ) from None
+
+
+def guess_joints(clip: SourceClip) -> dict[str, str]:
+    """Our joint -> joint of the file, with all that a body needs.
+
+    Raises:
+        Unclear: the bones are not those of one body.
+    """
+    return _Body(clip).joints()
+
+
+class _Body:
+    """The tree of a clip's bones."""
+
+    def __init__(self, clip: SourceClip) -> None:
+        self.clip = clip
+        self.names, self.parents = clip.names, clip.parents
+        self.lengths = np.linalg.norm(clip.offsets, axis=-1)
+        self.children: list[list[int]] = [[] for _ in self.names]
+        self.longest: list[tuple[int, ...]] = [() for _ in self.names]  # from it to a tip
+        for joint in reversed(range(len(self.names))):
+            below = max((self.longest[c] for c in self.children[joint]), key=self.reach, default=())
+            self.longest[joint] = (joint, *below)
+            if self.parents[joint] >= 0:
+                self.children[self.parents[joint]].insert(0, joint)
+
+    def reach(self, chain: tuple[int, ...]) -> float:
+        """Length of a chain, from what it hangs on to its tip."""
+        return float(self.lengths[list(chain)].sum())
+
+    def above(self, joint: int) -> list[int]:
+        """A joint and its ancestors, up to the root."""
+        line = []
+        while joint >= 0:
+            line.append(joint)
+            joint = self.parents[joint]
+        return line
+
+    def joints(self) -> dict[str, str]:
+        """`guess_joints` of the clip."""
+        (pelvis, *legs), (chest, *arms) = self.limb_pairs()
+        left_leg, right_leg, left_arm, right_arm = self.sided(
+            pelvis, [self.limb(leg, LEG) for leg in legs], [self.limb(arm, ARM) for arm in arms]
+        )
+        found = {"pelvis": pelvis, **self.trunk(pelvis, chest, arms)}
+        for side, leg, arm in (("l", left_leg, left_arm), ("r", right_leg, right_arm)):
+            found |= {f"{side}_{part}": j for part, j in zip(LEG, leg.joints, strict=True)}
+            found |= {f"{side}_{part}": j for part, j in zip(ARM, arm.joints, strict=True)}
+            for part, joint in (("foot", leg.after()), ("collar", arm.before())):
+                if joint is not None:
+                    found[f"{side}_{part}"] = joint
+        return {ours: self.names[joint] for ours, joint in found.items()}
+
+    def limb_pairs(self) -> tuple[tuple[int, int, int], tuple[int, int, int]]:
+        """(joint they hang from, one, other) of the legs, and of the arms."""
+        pairs = sorted(self.alike(), key=lambda pair: -self.reach(self.longest[pair[1]]))
+        for one, other in combinations(pairs, 2):
+            first, second = self.above(one[0]), self.above(other[0])
+            if set(one[1:]) & {*second, *other[1:]} or set(other[1:]) & set(first):
+                continue  # the same limb, or one hangs from the other: fingers
+            # the spine grows from the pelvis; where neither carries the other, legs are longer
+            return (other, one) if other[0] in first[1:] else (one, other)
+        raise Unclear("no two pairs of limbs are alike in it")
+
+    def alike(self) -> Iterator[tuple[int, int, int]]:
+        """Pairs of branches of one joint with as many bones as a limb has, and alike in length."""
+        for joint, children in enumerate(self.children):
+            for one, other in combinations(children, 2):
+                first, second = self.longest[one], self.longest[other]
+                long, short = sorted((self.reach(first), self.reach(second)), reverse=True)
+                if min(len(first), len(second)) >= 3 and 0 < long <= (1 + ALIKE) * short:
+                    yield joint, one, other
+
+    def limb(self, top: int, parts: tuple[str, str, str]) -> _Limb:
+        """The joints of a limb: two long bones in a row, and names that say so."""
+        chain = self.longest[top]
+        bones, total = self.lengths[list(chain)], self.reach(chain)
+
+        def score(places: tuple[int, int, int]) -> float:
+            upper, lower = (bones[a + 1 : b + 1] for a, b in pairwise(places))
+            long = upper.max() + lower.max()
+            extra = upper.sum() + lower.sum() - long  # a collar, a finger
+            long -= SHORT * extra + AFTER * bones[places[2] + 1 :].max(initial=0)
+            called = [
+                self.is_called(chain[place], part)
+                for place, part in zip(places, parts, strict=True)
+            ]
+            return float(long / total + NAMED * sum(called))
+
+        best = max(combinations(range(len(chain)), 3), key=score)
+        first, second, third = (chain[place] for place in best)
+        return _Limb(chain, (first, second, third))
+
+    def trunk(self, pelvis: int, chest: int, arms: list[int]) -> dict[str, int]:
+        """Spine, neck and head."""
+        line = self.above(chest)
+        spine = line[: line.index(pelvis)][::-1] if pelvis in line else [chest]
+        upper = [c for c in self.children[chest] if c not in arms and chest != pelvis] or [
+            c for c in self.children[chest] if c not in arms and len(self.longest[c]) < 4
+        ]
+        if not upper:
+            raise Unclear(f"nothing between the arms at {self.names[chest]!r} is a head")
+        neck = max(upper, key=lambda j: (self.is_called(j, "neck"), self.reach(self.longest[j])))
+        called = [joint for joint in self.longest[neck] if self.is_called(joint, "head")]
+        forks = [joint for joint in self.longest[neck][1:] if len(self.children[joint]) > 1]
+        head = (called or forks or self.longest[neck][-1:])[0]
+        found = {"head": head} | ({"neck": neck} if head != neck else {})
+        found |= {"spine3": spine[-1]} if spine else {}
+        found |= {"spine1": spine[0]} if len(spine) > 1 else {}
+        return found | ({"spine2": spine[len(spine) // 2]} if len(spine) > 2 else {})
+
+    def sided(self, pelvis: int, legs: list[_Limb], arms: list[_Limb]) -> Iterator[_Limb]:
+        """Left leg, right leg, left arm, right arm."""
+        told = [self.side(pair) for pair in (legs, arms)]
+        if not all(told):
+            told = self.sides_by_motion(pelvis, legs, arms)
+        for pair, sign in zip((legs, arms), told, strict=True):
+            yield from pair if sign > 0 else pair[::-1]
+
+    def side(self, pair: list[_Limb]) -> int:
+        """Whether the names say that the first limb is the left one: 1, the right one: -1, or 0."""
+        first, second = (
+            [_side_and_parts(self.names[joint])[0] for joint in limb.joints] for limb in pair
+        )
+        votes = sum((s == "l") - (s == "r") for s in first)
+        votes -= sum((s == "l") - (s == "r") for s in second)
+        return int(np.sign(votes))
+
+    def sides_by_motion(self, pelvis: int, legs: list[_Limb], arms: list[_Limb]) -> list[int]:
+        """The same by where feet and knees point, seen from the spine."""
+        clip = self.clip.every(max(1, self.clip.num_frames // SAMPLES))
+        places = clip.world()[0]
+        hips, knees, ankles = (places[:, [leg.joints[i] for leg in legs]] for i in range(3))
+        elbows = places[:, [arm.joints[1] for arm in arms]]
+        across, forward = knees[:, 0] - knees[:, 1], (knees - (hips + ankles) / 2).sum(1)
+        tips = [tip for leg in legs if (tip := leg.after()) is not None]
+        if len(tips) == len(legs):
+            forward += (places[:, tips] - ankles).sum(1)
+        left = np.cross(elbows.mean(1) - places[:, pelvis], forward)
+        leg = int(np.sign((across * left).sum()))
+        arm = int(np.sign((across * (elbows[:, 0] - elbows[:, 1])).sum()))
+        if not leg * arm:
+            raise Unclear("neither names nor feet tell left from right")
+        return [leg, leg * arm]
+
+    def is_called(self, joint: int, part: str) -> bool:
+        """Whether a joint's name has a word for a part of the body."""
+        return part in _side_and_parts(self.names[joint])[1]
+
+
+@cache
+def _side_and_parts(name: str) -> tuple[str, tuple[str, ...]]:
+    """Side (l, r or none) and the parts of the body that a joint's name may stand for."""
+    found = re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|[^\W\d_a-zA-Z]+", name)
+    tokens = [word.casefold() for word in found]
+    side = next((_SIDES[word] for word in tokens if word in _SIDES), "")
+    word = "".join(word for word in tokens if word not in _SIDES and word not in _NOISE)
+    if not side and word[:1] in _SIDES and _parts(word[1:]):
+        side, word = word[0], word[1:]
+    return side, _parts(word)
+
+
+def _parts(word: str) -> tuple[str, ...]:
+    """Parts whose word is the longest that ends a name, else the one spelled most alike."""
+    known = {text for words in _WORDS.values() for text in words}
+    ends = sorted((text for text in known if word.endswith(text)), key=len)
+    alike = ends[-1:] or get_close_matches(word, sorted(known), 1, LIKE_WORD)
+    return tuple(part for part, words in _WORDS.items() if set(alike) & set(words))
