@@ -22,7 +22,8 @@ def prepare(
         ),
     ] = None,
     captions: Annotated[
-        Path | None, typer.Option(help="CSV, TSV or JSON: clip, caption, language.")
+        list[Path] | None,
+        typer.Option(help="CSV, TSV or JSON: clip, caption; times, labels. May be repeated."),
     ] = None,
     mapping: Annotated[
         Path | None, typer.Option(help="YAML that names your skeleton's joints.")
@@ -74,6 +75,7 @@ def prepare(
         raise UsageError(f"--out {out} is a SOURCE, whose files it would mix with; name another")
 
     from src.shared.data.guesses import axis_vector, unit_metres
+    from src.shared.data.mapping import words
     from src.shared.data.prepare import prepare as prepare_folder
     from src.shared.data.sources import MotionFolder, Reading, Source, SyntheticSource
     from src.shared.sole_writer import sole_writer
@@ -82,8 +84,17 @@ def prepare(
         if value is not None:
             check(value)  # before any clip is read
     reading = Reading(unit, up, skeleton, source_fps)
-    tables = {"captions": captions, "labels": labels, "mapping": mapping}
-    sources: list[Source] = [*MotionFolder.open_all(source or [], **tables, reading=reading)]
+    folders = MotionFolder.open_all(
+        source or [], captions=captions or (), labels=labels, mapping=mapping, reading=reading
+    )
+    for folder in folders:
+        if folder.from_names and (wordless := folder.wordless()):
+            example = " ".join(words(Path(wordless[0]).stem))
+            complain(
+                f"warning: no captions for {folder.root}: {len(wordless)} files have the words of"
+                f" their names for captions, e.g. {wordless[0]}: {example!r}; give --captions"
+            )
+    sources: list[Source] = [*folders]
     if synthetic:
         sources.append(SyntheticSource(synthetic, seed))
     with sole_writer(out), progress_bar("clips") as progress:
@@ -97,8 +108,9 @@ def prepare(
             progress=progress,
         )
     if unmatched := report["unmatched_captions"]:
+        tables = ", ".join(map(str, captions or []))
         complain(
-            f"warning: {len(unmatched)} clips in {captions} match no file, e.g."
+            f"warning: {len(unmatched)} clips in {tables} match no file, e.g."
             f" {', '.join(unmatched[:3])}; {out / 'report.json'} lists them"
         )
     if json:

@@ -55,8 +55,9 @@ def _read_captions(path: Path) -> None:
     from src.shared.data.caption_files import match_captions, read_captions
 
     rows = read_captions(path)
-    assert all(isinstance(t, str) for c in rows.values() for ts in c.values() for t in ts)
-    match_captions(rows, [("set", ["walk_01.bvh", "a/walk_02.bvh"])], path)
+    pieces = [piece for row in rows.values() for piece in row]
+    assert all(isinstance(t, str) for p in pieces for ts in p.captions.values() for t in ts)
+    match_captions(rows, [("set", ["walk_01.bvh", "a/walk_02.bvh"])], [path])
 
 
 YAML_WORDS = (
@@ -66,5 +67,5 @@ YAML_WORDS = (
 TEXT_TARGETS = {
     "tables": Target(_write_tables, _read_table, words=YAML_WORDS),
     "templates": Target(_write_templates, _read_templates, words=YAML_WORDS),
-    "captions": Target(_write_captions, _read_captions, words=(b"clip,text", b"id", b'"a\nb"')),
+    "captions": Target(_write_captions, _read_captions, words=(b"clip,text,end", b"id", b'"a\nb"')),
 }

@@ -143,6 +143,12 @@ def plain(name: str) -> str:
     return re.sub(r"[\W_]", "", name).casefold()
 
 
+def words(name: str) -> list[str]:
+    """The words of a name, told by case, digits and punctuation, in small letters."""
+    found = re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|[^\W\d_a-zA-Z]+", name)
+    return [word.casefold() for word in found]
+
+
 def _spellings(names: tuple[str, ...]) -> dict[str, str]:
     """Plain name -> name in the file, for names with and without a prefix that most share."""
     heads = Counter(head[0] for name in names if (head := re.match(r"^[^ _.\-]+[ _.\-]", name)))

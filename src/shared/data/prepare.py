@@ -115,10 +115,12 @@ def _check_languages(sources: tuple[Source, ...], book: CaptionBook) -> None:
     for source in sources:
         if not isinstance(source, MotionFolder):
             continue
-        for language in sorted({code for texts in source.captions.values() for code in texts}):
+        pieces = [piece for pieces in source.table.values() for piece in pieces]
+        for language in sorted({code for piece in pieces for code in piece.captions}):
             if language not in book.languages:
+                tables = ", ".join(map(str, source.captions_files))
                 raise UserError(
-                    f"captions {source.captions_file}: no mirror table for language {language!r};"
+                    f"captions {tables}: no mirror table for language {language!r};"
                     f" correct it (known: {', '.join(book.languages)}), add a caption file by"
                     " --templates, or give --no-mirror"
                 )

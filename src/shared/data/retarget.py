@@ -193,7 +193,7 @@ def retarget(
             root[:, 1] -= _lowest(_positions(motion))
         motion = _without_calibration(motion)
     motion = motion if fps is None else resample_motion(motion, fps)
-    return _ground(motion, lift=ground)
+    return on_floor(motion, lift=ground)
 
 
 def _carry_over(
@@ -235,7 +235,7 @@ def _without_calibration(motion: Motion) -> Motion:
     return Motion(motion.quaternions[1:], motion.root_position[1:], motion.contacts[1:], motion.fps)
 
 
-def _ground(motion: Motion, *, lift: bool) -> Motion:
+def on_floor(motion: Motion, *, lift: bool = True) -> Motion:
     """Put the floor under the body, if asked to, and find the contacts."""
     joints = _positions(motion)
     height = -np.percentile(_lowest(joints), 2) if lift else 0.0

@@ -7,21 +7,32 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Protocol
 
-from src.shared.data.caption_files import Captions, match_captions, read_captions, without_ending
+import numpy as np
+
+from src.shared.data.caption_files import (
+    Piece,
+    Table,
+    match_captions,
+    read_captions,
+    without_ending,
+)
 from src.shared.data.labels import LabelRules, load_label_rules
-from src.shared.data.mapping import SkeletonMapping, load_mappings
+from src.shared.data.mapping import SkeletonMapping, load_mappings, words
 from src.shared.data.read_motion import fit
 from src.shared.data.recordings import FOLDER_ENDINGS, open_recording
 from src.shared.data.records import RawClip
+from src.shared.data.retarget import on_floor
 from src.shared.errors import UsageError, UserError
 from src.shared.formats.amc import find_skeleton
 from src.shared.formats.bvh import check_head
 from src.shared.motion.motion import Motion
 
 FPS = 30.0
+END_SLACK = 0.2  # seconds that a piece may reach beyond the end of its file
 MIN_FRAMES = 8  # shorter clips teach nothing and cannot be windowed
 
 
@@ -69,25 +80,28 @@ class Reading:
 class MotionFolder:
     """Every motion file below a folder (or one file), with captions and label rules.
 
-    Of one name in several formats, the first of `recordings.FOLDER_ENDINGS` is taken.
+    Of one name in several formats, the first of `recordings.FOLDER_ENDINGS` is taken. A file is one
+    clip, or as many as the table cuts it into; these stay one take.
 
     Attributes:
         name: begins the ids of its clips; no other source has it.
-        captions: of each item that has some.
+        table: the pieces of each file that has some.
+        from_names: files without words of their own have those of their names as English captions.
         shared_stems: file names that several folders hold; their takes are told apart by folder.
-        captions_file: where the captions come from.
+        captions_files: where the captions come from.
         reading: what the files do not say of themselves.
         caption_rows: clips that the file names, and whether a file was found for each.
     """
 
     root: Path
     name: str
-    captions: Captions
+    table: Table
     rules: LabelRules
     mappings: tuple[SkeletonMapping, ...]
     reading: Reading = Reading()
     shared_stems: tuple[str, ...] = ()
-    captions_file: Path | None = field(default=None, repr=False)
+    from_names: bool = False
+    captions_files: tuple[Path, ...] = field(default=(), repr=False)
     caption_rows: Mapping[str, bool] = field(default_factory=dict, repr=False)
 
     @classmethod
@@ -100,7 +114,7 @@ class MotionFolder:
         cls,
         roots: Sequence[Path],
         *,
-        captions: Path | None = None,
+        captions: Sequence[Path] = (),
         labels: Path | None = None,
         mapping: Path | None = None,
         reading: Reading | None = None,
@@ -120,18 +134,19 @@ class MotionFolder:
             for root, name in zip(roots, distinct_names(roots), strict=True)
         ]
         for folder in plain:
-            if not folder.items():
+            if not folder.files():
                 raise UserError(f"source {folder.root} holds no motion file; give a folder of"
                                 f" {', '.join(FOLDER_ENDINGS)} files")  # fmt: skip
-        rows = read_captions(captions) if captions else {}
-        listed = [(folder._captioned_as, folder.items()) for folder in plain]
+        rows = read_captions(*captions)
+        listed = [(folder._captioned_as, folder.files()) for folder in plain]
         matched, found = match_captions(rows, listed, captions)
         return [
             replace(
                 folder,
-                captions=own,
+                table=own,
+                from_names=not own,
                 shared_stems=_repeated(Path(item).stem for item in items),
-                captions_file=captions,
+                captions_files=tuple(captions),
                 caption_rows=found,
             )
             for folder, own, (_, items) in zip(plain, matched, listed, strict=True)
@@ -146,6 +161,21 @@ class MotionFolder:
         return "/".join(self.root.resolve().parts[-1 - above : -1])
 
     def items(self) -> list[str]:
+        return list(self._pieces)
+
+    @cached_property
+    def _pieces(self) -> dict[str, tuple[str, Piece]]:
+        """File and piece behind each item."""
+        found = {}
+        for file in self.files():
+            for piece in self.table.get(file, (Piece(),)):
+                end = "" if piece.end is None else f"{piece.end:g}"
+                item = file if piece.whole else f"{file}@{piece.start:g}-{end}"
+                found[item] = (file, piece)
+        return found
+
+    def files(self) -> list[str]:
+        """The motion files, below the root."""
         if self.root.is_file():
             return [self.root.name]
         best: dict[Path, Path] = {}
@@ -158,7 +188,7 @@ class MotionFolder:
         return self.root if self.root.is_file() else self.root / item
 
     def fingerprint(self, item: str) -> str:
-        path = self._path(item)
+        path = self._path(self._pieces[item][0])
         parts = [path]
         if path.suffix.lower() == ".amc":
             with suppress(UserError):  # none: reading tells
@@ -166,23 +196,69 @@ class MotionFolder:
         found = [part.stat() for part in parts if part.exists()]
         return ":".join([item, *(f"{status.st_size}:{status.st_mtime_ns}" for status in found)])
 
+    def wordless(self) -> list[str]:
+        """Files that neither a table nor a label rule says anything of."""
+        return [
+            file
+            for file in self.files()
+            if file not in self.table and not any(self.rules.of_file(Path(file).stem))
+        ]
+
     def read(self, item: str) -> RawClip:
-        path = self._path(item)
+        file, piece = self._pieces[item]
+        path = self._path(file)
         labels, skip = self.rules.of_file(path.stem)
         if skip:
             raise Skipped(skip)
-        captions = self.captions.get(item, {})
+        captions = {language: list(texts) for language, texts in piece.captions.items()}
+        if self.from_names and not labels and (named := words(path.stem)):
+            captions = {"en": [" ".join(named)]}
+        labels |= piece.labels
         for caption in captions.get("en", []):
             labels = self.rules.of_caption(caption) | labels
         if not labels and not captions:
             if path.suffix.lower() == ".bvh":
                 check_head(path)  # a broken file is told as such
             raise Skipped("no caption and no label; add it to --captions or write a --labels rule")
-        motion = self.reading.read(path, self.mappings)
+        motion = cut(_last_read(self.reading, path, self.mappings), piece)
         if motion.num_frames < MIN_FRAMES:
             raise Skipped(f"{motion.num_frames} frames at {FPS:g} fps; {MIN_FRAMES} are needed")
-        take = without_ending(item) if path.stem in self.shared_stems else path.stem
-        return RawClip(item, take, motion, labels, captions)
+        take = without_ending(file) if path.stem in self.shared_stems else path.stem
+        return RawClip(item, take, motion, labels, captions, piece.provenance)
+
+
+_LAST: list[tuple[tuple[Reading, Path], Motion]] = []  # the file that was read last
+
+
+def _last_read(reading: Reading, path: Path, mappings: tuple[SkeletonMapping, ...]) -> Motion:
+    """`Reading.read`, once for all pieces of a file."""
+    if not _LAST or _LAST[0][0] != (reading, path):
+        _LAST[:] = [((reading, path), reading.read(path, mappings))]
+    return _LAST[0][1]
+
+
+def cut(motion: Motion, piece: Piece) -> Motion:
+    """A piece of a motion, put on the floor by itself; its repetitions go on where it ended.
+
+    Raises:
+        UserError: the motion ends before the piece does.
+    """
+    if piece == replace(piece, start=0.0, end=None, repeat=1, hold=0.0):
+        return motion
+    end = motion.seconds if piece.end is None else piece.end
+    if end > motion.seconds + END_SLACK or piece.start >= motion.seconds:
+        raise UserError(f"the piece {piece.start:g} to {end:g} s is not within the file's"
+                        f" {motion.seconds:.2f} s")  # fmt: skip
+    frames = slice(round(piece.start * motion.fps), round(end * motion.fps))
+    order = np.arange(motion.num_frames)[frames]
+    root = motion.root_position[order]
+    stride = (2 * root[-1] - root[-2] - root[0]) * (1, 0, 1) if len(root) > 1 else 0 * root[0]
+    root = np.concatenate([root + time * stride for time in range(piece.repeat)])
+    last = round(piece.hold * motion.fps)
+    order = np.concatenate([np.tile(order, piece.repeat), np.full(last, order[-1])])
+    root = np.concatenate([root, np.repeat(root[-1:], last, 0)]).astype(np.float32)
+    quaternions, contacts = motion.quaternions[order], motion.contacts[order]
+    return on_floor(Motion(quaternions, root, contacts, motion.fps))
 
 
 def distinct_names(roots: Sequence[Path]) -> list[str]:

@@ -6,7 +6,6 @@ forearm; words in the names say so too, in any spelling. Left is told by the nam
 way feet and knees point. Legend: T frames, N joints of the file.
 """
 
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -16,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.data.mapping import SkeletonMapping, find_mapping
+from src.shared.data.mapping import SkeletonMapping, find_mapping, words
 from src.shared.errors import UserError
 from src.shared.formats.source_clip import SourceClip
 
@@ -236,8 +235,7 @@ class _Body:
 @cache
 def _side_and_parts(name: str) -> tuple[str, tuple[str, ...]]:
     """Side (l, r or none) and the parts of the body that a joint's name may stand for."""
-    found = re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|[^\W\d_a-zA-Z]+", name)
-    tokens = [word.casefold() for word in found]
+    tokens = words(name)
     side = next((_SIDES[word] for word in tokens if word in _SIDES), "")
     word = "".join(word for word in tokens if word not in _SIDES and word not in _NOISE)
     if not side and word[:1] in _SIDES and _parts(word[1:]):
@@ -247,7 +245,7 @@ def _side_and_parts(name: str) -> tuple[str, tuple[str, ...]]:
 
 def _parts(word: str) -> tuple[str, ...]:
     """Parts whose word is the longest that ends a name, else the one spelled most alike."""
-    known = {text for words in _WORDS.values() for text in words}
+    known = {text for spellings in _WORDS.values() for text in spellings}
     ends = sorted((text for text in known if word.endswith(text)), key=len)
     alike = ends[-1:] or get_close_matches(word, sorted(known), 1, LIKE_WORD)
-    return tuple(part for part, words in _WORDS.items() if set(alike) & set(words))
+    return tuple(part for part, spellings in _WORDS.items() if set(alike) & set(spellings))

@@ -54,7 +54,7 @@ def test_features_survive_the_shards(data: PreparedData) -> None:
 def test_a_record_says_where_its_motion_comes_from(data: PreparedData, tmp_path: Path) -> None:
     assert {record.provenance for record in data.records()} == {"procedural"}
     root = bvh_folder(tmp_path / "in")
-    report = prepare([MotionFolder.open(root, captions=root / "captions.csv")], tmp_path / "out")
+    report = prepare([MotionFolder.open(root, captions=[root / "captions.csv"])], tmp_path / "out")
     assert report["by_provenance"] == {"captured": 6}
     batch = TextMotionDataset(data, "train").batch(0, 4)
     assert batch.provenance.tolist() == [PROVENANCES.index("procedural")] * 4
@@ -106,7 +106,7 @@ def test_captions_without_labels_share_an_orbit_with_their_mirror_image() -> Non
 
 def test_prepare_twice_does_nothing_twice(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     root = bvh_folder(tmp_path / "in")
-    source = MotionFolder.open(root, captions=root / "captions.csv")
+    source = MotionFolder.open(root, captions=[root / "captions.csv"])
     prepare([source], tmp_path / "out", workers=1)
     before = {p.name: p.read_bytes() for p in (tmp_path / "out").iterdir() if p.is_file()}
     made = []
@@ -125,7 +125,7 @@ def test_a_full_disk_is_one_line(tmp_path: Path) -> None:
 def test_an_interrupted_run_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(prepare_module, "CLIPS_PER_SHARD", 2)
     root = bvh_folder(tmp_path / "in")
-    source = MotionFolder.open(root, captions=root / "captions.csv")
+    source = MotionFolder.open(root, captions=[root / "captions.csv"])
     prepare([source], tmp_path / "whole", workers=1)
     real, calls = prepare_module._make_shard, []
 
@@ -160,7 +160,7 @@ def test_what_is_skipped_is_named_with_its_reason(tmp_path: Path) -> None:
     (root / "silent.bvh").write_bytes((root / "take0.bvh").read_bytes())
     with (root / "captions.csv").open("a") as stream:
         stream.write("\nbroken,breaks\nghost,haunts\n")
-    report = prepare([MotionFolder.open(root, captions=root / "captions.csv")], tmp_path / "out")
+    report = prepare([MotionFolder.open(root, captions=[root / "captions.csv"])], tmp_path / "out")
     reasons = {entry["clip"]: entry["reason"] for entry in report["skipped"]}
     assert report["clips"] == 3 and set(reasons) == {
         f"in/{name}.bvh" for name in ("broken", "mute", "silent")
@@ -179,7 +179,7 @@ def test_the_same_file_name_in_two_folders_is_two_takes(tmp_path: Path) -> None:
     (root / "run" / "take1.bvh").unlink()
     table = root / "captions.csv"
     table.write_text("walk/take0,walks\nrun/take0.bvh,runs\ntake1,waves\n")
-    source = MotionFolder.open(root, captions=table)
+    source = MotionFolder.open(root, captions=[table])
     clips = {item: source.read(item) for item in source.items()}
     assert {item: (clip.take, clip.captions["en"]) for item, clip in clips.items()} == {
         "walk/take0.bvh": ("walk/take0", ["walks"]),
@@ -192,13 +192,13 @@ def test_two_sources_of_one_name_are_told_apart(tmp_path: Path) -> None:
     folders = [bvh_folder(tmp_path / place / "mocap", 1) for place in ("a", "b")]
     table = tmp_path / "captions.csv"
     table.write_text("a/mocap/take0,walks\nb/mocap/take0,runs\n")
-    prepare(MotionFolder.open_all(folders, captions=table), tmp_path / "out", mirror=False)
+    prepare(MotionFolder.open_all(folders, captions=[table]), tmp_path / "out", mirror=False)
     records = PreparedData.open(tmp_path / "out").records()
     assert {r.take: (r.id, r.captions["en"]) for r in records} == {
         "a/mocap/take0": ("a/mocap/take0.bvh", ["walks"]),
         "b/mocap/take0": ("b/mocap/take0.bvh", ["runs"]),
     }
-    apart = [MotionFolder.open(folder, captions=table) for folder in folders]
+    apart = [MotionFolder.open(folder, captions=[table]) for folder in folders]
     with pytest.raises(UsageError, match=r"two sources are called mocap.*open_all"):
         prepare(apart, tmp_path / "mixed")
 
@@ -215,7 +215,7 @@ def test_an_unknown_language_stops_before_any_clip(tmp_path: Path) -> None:
     root = bvh_folder(tmp_path / "in", 1)
     table = root / "captions.csv"
     table.write_text("clip,caption,language\ntake0,kävelee,fi\n", encoding="utf-8")
-    source = MotionFolder.open(root, captions=table)
+    source = MotionFolder.open(root, captions=[table])
     with pytest.raises(UserError, match=r"captions\.csv.*'fi'.*--no-mirror"):
         prepare([source], tmp_path / "out")
     assert not (tmp_path / "out").exists()

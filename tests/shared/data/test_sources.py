@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from src.shared.data.sources import MotionFolder, Reading, distinct_names
+from src.shared.data.sources import MotionFolder, Reading, Skipped, distinct_names
 from src.shared.data.synthetic import generate_clip, sample_specs
 from src.shared.errors import UsageError, UserError
 from src.shared.formats.registry import write_motion
@@ -33,7 +33,7 @@ def mixture(walk: Motion, tmp_path: Path) -> Path:
 
 
 def test_every_format_gives_the_same_walk(mixture: Path, walk: Motion) -> None:
-    folder = MotionFolder.open(mixture, captions=mixture / "captions.csv")
+    folder = MotionFolder.open(mixture, captions=[mixture / "captions.csv"])
     assert folder.items() == ["a.bvh", "b.npz", "c.glb", "d.amass.npz", "e.npy"]
     assert all(folder.caption_rows.values())
     for item in folder.items():
@@ -46,10 +46,54 @@ def test_every_format_gives_the_same_walk(mixture: Path, walk: Motion) -> None:
 
 def test_what_files_do_not_say_can_be_stated(mixture: Path, walk: Motion) -> None:
     reading = Reading(source_fps=30.0)
-    folder = MotionFolder.open(mixture, captions=mixture / "captions.csv", reading=reading)
+    folder = MotionFolder.open(mixture, captions=[mixture / "captions.csv"], reading=reading)
     found = folder.read("e.npy").motion.positions()
     np.testing.assert_allclose(found - found[:1, :1], walk.positions() - walk.positions()[:1, :1],
                                atol=0.01)  # fmt: skip
+
+
+def same(one: np.ndarray, other: np.ndarray) -> None:
+    np.testing.assert_allclose(one, other, atol=1e-6)
+
+
+def pieces(root: Path, *rows: str) -> MotionFolder:
+    table = root / "pieces.csv"
+    table.write_text("\n".join(["clip,start,end,repeat,action,provenance,hold", *rows]))
+    return MotionFolder.open(root, captions=[table])
+
+
+def test_pieces_of_a_file_are_clips_of_one_take(mixture: Path, walk: Motion) -> None:
+    end = walk.seconds
+    folder = pieces(mixture, "b,0,1,,walk,", f"b,1,{end},,wave,hand-made", "b,0.5,1,3,hop,,0.5")
+    clips = {item: folder.read(item) for item in folder.items() if item.startswith("b.")}
+    assert list(clips) == ["b.npz@0-1", f"b.npz@1-{end:g}", "b.npz@0.5-1"]
+    first, second, loop = clips.values()
+    assert {clip.take for clip in clips.values()} == {"b"}
+    assert (first.motion.num_frames, loop.motion.num_frames) == (30, 60)
+    assert second.labels == {"action": "wave"} and second.provenance == "hand-made"
+    same(second.motion.quaternions, walk.quaternions[30:])
+    same(loop.motion.quaternions[15:30], walk.quaternions[15:30])
+    same(loop.motion.quaternions[45:], walk.quaternions[[29] * 15])
+    steps = np.linalg.norm(np.diff(loop.motion.root_position[:45, [0, 2]], axis=0), axis=-1)
+    assert steps.max() < 2 * steps.mean()  # it walks on
+
+
+def test_a_piece_beyond_the_end_is_told(mixture: Path) -> None:
+    folder = pieces(mixture, "b,2,99,,walk,")
+    with pytest.raises(UserError, match="2 to 99 s is not within the file's"):
+        folder.read("b.npz@2-99")
+
+
+def test_a_folder_without_captions_has_the_words_of_its_names(walk: Motion, tmp_path: Path) -> None:
+    for name in ("Dance_Body-Roll02", "12_34"):
+        write_motion(walk, tmp_path / f"{name}.npz")
+    folder = MotionFolder.open(tmp_path)
+    assert folder.from_names and folder.wordless() == ["12_34.npz", "Dance_Body-Roll02.npz"]
+    clip = folder.read("Dance_Body-Roll02.npz")
+    assert clip.captions == {"en": ["dance body roll"]} and clip.labels == {"action": "dance"}
+    with pytest.raises(Skipped, match="no caption"):
+        folder.read("12_34.npz")
+    assert not pieces(tmp_path, "12_34,,,,walk,").from_names
 
 
 def test_one_name_in_several_formats_is_one_clip(mixture: Path, walk: Motion) -> None:
@@ -95,6 +139,9 @@ def test_single_files_of_one_name_take_their_own_rows(tmp_path: Path) -> None:
         file.touch()
     table = tmp_path / "captions.csv"
     table.write_text("a/walk,strolls\nb/walk,limps\n")
-    sources = MotionFolder.open_all(files, captions=table)
+    sources = MotionFolder.open_all(files, captions=[table])
     assert [source.name for source in sources] == ["a/walk", "b/walk"]
-    assert [source.captions["walk.bvh"]["en"] for source in sources] == [["strolls"], ["limps"]]
+    assert [source.table["walk.bvh"][0].captions["en"] for source in sources] == [
+        ["strolls"],
+        ["limps"],
+    ]

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from pathlib import Path
 
+from src.shared.data.caption_files import Piece
 from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
 from src.shared.data.sources import MotionFolder
@@ -17,6 +18,6 @@ def prepare_unlabelled(source: Path, out: Path) -> PreparedData:
         UserError: no motion file, or none can be used.
     """
     folder = MotionFolder.open(source)
-    folder = replace(folder, captions=dict.fromkeys(folder.items(), CAPTION))
+    folder = replace(folder, table=dict.fromkeys(folder.files(), (Piece(captions=CAPTION),)))
     prepare([folder], out, workers=1)
     return PreparedData.open(out)
