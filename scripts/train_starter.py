@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Make the starter weights anew: prepare, eight trainings, and the shipped folders.
 
-    python scripts/train_starter.py SOURCE ... --captions FILE [--work DIR] [--ship]
-    python scripts/train_starter.py CMU --captions FILE --free --work DIR [--ship]
+    python scripts/train_starter.py SOURCE ... --captions FILE ... [--work DIR] [--ship]
+    python scripts/train_starter.py CMU --captions FILE ... --free --work DIR [--ship]
 
-SOURCES are folders of motion files (the shipped set: bandai-namco and cmu). Every stage resumes,
-and does nothing when it is finished. The weighted mean of the second and the third generator serves
-combinations that training did not see better than either; it learns constraints in a last round,
-and the mean of before and after is the starter. `--ship` writes fp16 copies into
-src/shared/pretrained.
+SOURCES are folders of motion files (the shipped set: bandai-namco and cmu); captions come from
+scripts/starter_clips.tsv, which cuts and labels the takes of four more (cmu-more, o3de-locomotion,
+cc0-handmade, fair-mit), and from FILEs. Every stage resumes, and does nothing when it is finished.
+The weighted mean of the second and the third generator serves combinations that training did not
+see better than either; it learns constraints in a last round, and the mean of before and after is
+the starter. `--ship` writes fp16 copies into src/shared/pretrained.
 
 With `--free` SOURCES are data that is free for any use (the shipped set: cmu), beside more
 synthetic clips, and one training of each kind makes starter-free in about an hour.
@@ -21,6 +22,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+CLIPS = ROOT / "scripts" / "starter_clips.tsv"  # pieces and labels of the sources' takes
 SHIPPED = ROOT / "src" / "shared" / "pretrained"
 SYNTHETIC_CLIPS, SYNTHETIC_FREE = 3000, 4000
 FIRST = ["min-frames=40", "max-frames=150", "losses.position=1.0", "losses.foot-slide=0.02"]
@@ -49,7 +51,7 @@ def stages(options: argparse.Namespace) -> list[list[str]]:
     )
     learn = ["-m", "src.train.train_generation", *train, "batch-size=48"]
     return [
-        ["-m", "src.cli.tools", "prepare", *options.sources, "--captions", options.captions,
+        ["-m", "src.cli.tools", "prepare", *options.sources, *options.tables,
          "--synthetic", str(SYNTHETIC_CLIPS), "--out", data],
         ["-m", "src.train.train_clip", *train, *FIRST[:2], "batch-size=128", "steps=1800",
          "--output", str(clip), "--resume"],
@@ -78,7 +80,7 @@ def free_stages(options: argparse.Namespace) -> list[list[str]]:
     train = [f"threads={options.threads}", "precision=auto", "--data", data, *FIRST[:2]]
     clip, text, last = work / "clip", work / "text", work / "free"
     return [
-        ["-m", "src.cli.tools", "prepare", *options.sources, "--captions", options.captions,
+        ["-m", "src.cli.tools", "prepare", *options.sources, *options.tables,
          "--synthetic", str(SYNTHETIC_FREE), "--out", data],
         ["-m", "src.train.train_clip", *train, "batch-size=128", "steps=1500",
          "--output", str(clip), "--resume"],
@@ -129,13 +131,15 @@ def main() -> int:
     """Run the stages; stop at the first that fails."""
     parser = argparse.ArgumentParser(description=str(__doc__).splitlines()[0])
     parser.add_argument("sources", nargs="+")
-    parser.add_argument("--captions", required=True, help="CSV, TSV or JSON")
+    parser.add_argument("--captions", nargs="*", default=[], help="CSV, TSV or JSON")
     parser.add_argument("--work", type=Path, default=Path("runs/starter"))
     parser.add_argument("--steps", type=int, default=5800, help="of each of four generation stages")
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--free", action="store_true", help="make starter-free instead")
     parser.add_argument("--ship", action="store_true", help="write src/shared/pretrained")
     options = parser.parse_args()
+    tables = [str(CLIPS), *options.captions]
+    options.tables = [part for table in tables for part in ("--captions", table)]
     sys.path.insert(0, str(ROOT))
     # An exit on the way of `subprocess.call` ends the stage that it started.
     signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
