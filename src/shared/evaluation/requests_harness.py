@@ -19,7 +19,7 @@ from src.shared.evaluation.action_judge import ActionJudge
 from src.shared.evaluation.clips import frozen, spread_over_groups
 from src.shared.evaluation.families import Column
 from src.shared.evaluation.grids import Cell, Grid, GridRow, report_data
-from src.shared.evaluation.intervals import Estimate, bootstrap_mean, success_rate
+from src.shared.evaluation.intervals import bootstrap_mean, success_rate
 from src.shared.evaluation.metrics_frechet import frechet_distance
 from src.shared.evaluation.metrics_kinetic import FeatureSpace
 from src.shared.evaluation.text_context import errors_only
@@ -132,10 +132,6 @@ def _share(values: Sequence[bool] | np.ndarray) -> Cell:
     return success_rate(int(known.sum()), len(known)).as_dict()
 
 
-def _plain(figures: dict[str, Estimate]) -> dict[str, Cell]:
-    return {key: value.as_dict() for key, value in figures.items()}
-
-
 def _obedience(
     yardstick: Yardstick, asked: dict[str, Sequence[Request]], rows: dict[str, Seen]
 ) -> Grid:
@@ -198,6 +194,10 @@ def _realism(
     real, features = yardstick.real, kinetic(yardstick.real)
     space = FeatureSpace.fit(features, np.arange(features.shape[1]) % 3)
 
+    def figures(seen: Seen, wanted: Sequence[str], reference: np.ndarray) -> dict[str, Cell]:
+        gait = gaits(seen, wanted, yardstick.top_run)
+        return distances(seen, wanted, reference) | {k: v.as_dict() for k, v in gait.items()}
+
     def distances(seen: Seen, wanted: Sequence[str], reference: np.ndarray) -> dict[str, Cell]:
         """Against as many captured clips of the same actions."""
         pool = [[i for i in reference if tags[i] == tag] for tag in wanted]
@@ -215,26 +215,16 @@ def _realism(
         }
 
     half = real.rows(halves[0].tolist())
-    own = [tags[i] for i in halves[0]]
-    found = {
-        "captured, held out": GridRow(
-            distances(half, own, halves[1]) | _plain(gaits(real, tags, yardstick.top_run)),
-            len(half),
-        )
-    }
-    everything = np.arange(len(tags))
+    own, everything = [tags[i] for i in halves[0]], np.arange(len(tags))
+    gait = gaits(real, tags, yardstick.top_run)
+    apart = distances(half, own, halves[1]) | {k: v.as_dict() for k, v in gait.items()}
+    found = {"captured, held out": GridRow(apart, len(half))}
     if yardstick.procedural is not None:
         seen, wanted = yardstick.procedural, yardstick.procedural_tags
-        found["procedural"] = GridRow(
-            distances(seen, wanted, everything) | _plain(gaits(seen, wanted, yardstick.top_run)),
-            len(seen),
-        )
+        found["procedural"] = GridRow(figures(seen, wanted, everything), len(seen))
     for name, seen in rows.items():
         wanted = [request.action for request in asked[name]]
-        found[name] = GridRow(
-            distances(seen, wanted, everything) | _plain(gaits(seen, wanted, yardstick.top_run)),
-            len(seen),
-        )
+        found[name] = GridRow(figures(seen, wanted, everything), len(seen))
     columns = (
         Column("learned", "FD, judge's axes", 1, "low"),
         Column("kinematic", "FID_k", 1, "low"),
