@@ -1,4 +1,4 @@
-"""What two busy processes cost sampling, by how the threads of OpenMP wait.
+"""What two busy processes cost sampling, by how many threads it takes and how they wait.
 
 python -m benchmarks.contention [--seconds 10] [--rounds 5] [--busy 2] [--json OUT]
 
@@ -22,9 +22,13 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 WAYS = {
-    "sleeping, as shipped": {},
-    "spinning, torch's own": {"GOMP_SPINCOUNT": "300000"},  # libgomp's, where nothing is set
+    "idle cores, as shipped": {},
+    "all cores, always": {"OMP_NUM_THREADS": str(os.cpu_count() or 1)},
     "one thread": {"OMP_NUM_THREADS": "1"},
+    "all cores, sleeping": {
+        "OMP_NUM_THREADS": str(os.cpu_count() or 1),
+        "OMP_WAIT_POLICY": "passive",
+    },
 }
 Turn = tuple[float, float]  # wall and CPU seconds
 

@@ -17,13 +17,13 @@ ROOT = Path(__file__).parents[1]
 @pytest.mark.parametrize(
     ("given", "found"), [({}, "PASSIVE"), ({"OMP_WAIT_POLICY": "active"}, "ACTIVE")]
 )
-def test_threads_sleep_while_they_wait_unless_told_otherwise(
+def test_threads_of_training_sleep_while_they_wait_unless_told_otherwise(
     given: dict[str, str], found: str
 ) -> None:
     """As the OpenMP library itself reports when torch loads it."""
     own = {name: value for name, value in os.environ.items() if name != "OMP_WAIT_POLICY"}
     done = subprocess.run(
-        [sys.executable, "-c", "import src.shared.device"],
+        [sys.executable, "-c", "import src.train.launch, torch"],
         cwd=ROOT, env=own | given | {"OMP_DISPLAY_ENV": "true"}, capture_output=True, text=True,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr

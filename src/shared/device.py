@@ -4,7 +4,10 @@ Every choice comes with its reason, which the caller prints.
 """
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Literal
 
 import torch
@@ -111,9 +114,42 @@ def set_threads(threads: int | None) -> int:
 
     On a machine that others use too, one thread can be faster than two.
     """
+    global _threads_are_chosen
     if threads is not None:
         torch.set_num_threads(threads)
+        _threads_are_chosen = True
     return torch.get_num_threads()
+
+
+_threads_are_chosen = "OMP_NUM_THREADS" in os.environ
+
+
+@contextmanager
+def idle_threads() -> Iterator[None]:
+    """Inside, torch takes no more CPU threads than cores are idle, unless someone chose a number.
+
+    Threads that share out small operations wait for each other by spinning: one that has lost its
+    core to another process makes all of them twenty times slower (docs/experiments.md, section 6).
+    """
+    before = torch.get_num_threads()
+    if not _threads_are_chosen:
+        torch.set_num_threads(max(1, min(before, idle_cores())))
+    try:
+        yield
+    finally:
+        torch.set_num_threads(before)
+
+
+def idle_cores() -> int:
+    """Cores that no other process uses at this moment; all of them where nobody can tell."""
+    cores = os.cpu_count() or 1
+    try:
+        running = int(Path("/proc/loadavg").read_text().split()[3].partition("/")[0])
+        states = [task.read_text().rpartition(")")[2].split()[0]
+                  for task in Path("/proc/self/task").glob("*/stat")]  # fmt: skip
+    except (OSError, ValueError, IndexError):  # no Linux, or a thread that has just ended
+        return cores
+    return cores - (running - states.count("R"))
 
 
 def autocast(compute: ComputeChoice) -> torch.autocast:

@@ -1,5 +1,11 @@
 """Device and precision: the order of preference, the reasons, the errors."""
 
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
 import pytest
 import torch
 
@@ -87,3 +93,47 @@ def test_what_the_launcher_asks_for(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ACCELERATE_USE_CPU", "true")
     assert choose_compute().device == "cpu"
     assert choose_compute("mps").device == "mps"
+
+
+def test_sampling_leaves_busy_cores_to_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(device_module, "_threads_are_chosen", False)
+    before = torch.get_num_threads()
+    torch.set_num_threads(2)
+    try:
+        for idle, taken in ((5, 2), (1, 1), (-3, 1)):
+            monkeypatch.setattr(device_module, "idle_cores", lambda idle=idle: idle)
+            with device_module.idle_threads():
+                assert torch.get_num_threads() == taken
+            assert torch.get_num_threads() == 2
+        device_module.set_threads(2)  # a number that somebody chose is kept
+        with device_module.idle_threads():
+            assert torch.get_num_threads() == 2
+    finally:
+        torch.set_num_threads(before)
+
+
+@pytest.mark.skipif(not Path("/proc/loadavg").exists(), reason="Linux tells")
+def test_a_busy_process_takes_a_core() -> None:
+    def most_idle() -> int:
+        found = []
+        for _ in range(20):
+            found.append(device_module.idle_cores())
+            time.sleep(0.01)
+        return max(found)
+
+    code = "print(flush=True)\nwhile True: pass"
+    alone, cores = most_idle(), os.cpu_count() or 1
+    assert alone <= cores
+    busy = [
+        subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE)
+        for _ in range(2 * cores)
+    ]
+    try:
+        for process in busy:
+            assert process.stdout is not None
+            process.stdout.readline()
+        assert most_idle() <= 0
+    finally:
+        for process in busy:
+            process.kill()
+            process.communicate()

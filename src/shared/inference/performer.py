@@ -14,6 +14,7 @@ from itertools import accumulate
 import numpy as np
 import torch
 
+from src.shared.device import idle_threads
 from src.shared.errors import UsageError
 from src.shared.inference.borders import soften_cuts
 from src.shared.inference.motion_stream import Passage, stream_features
@@ -94,6 +95,7 @@ class Performer:
             )
         self.generator, self.settings = generator, settings or PerformerSettings()
 
+    @idle_threads()
     def perform(
         self,
         trajectory: MotionTrajectory,

@@ -17,6 +17,7 @@ from torch import Tensor, nn
 from torch.nn import functional as F
 
 from src.shared.config_audio import AudioNetworkConfig
+from src.shared.device import idle_threads
 from src.shared.errors import UsageError
 from src.shared.inference.carry_on import carry_on
 from src.shared.inference.runtime import Runtime
@@ -95,6 +96,7 @@ class SongSampler:
             self.settings.steps,
         )
 
+    @idle_threads()
     def sample(
         self,
         condition: Tensor,

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import torch
 from torch import Tensor
 
+from src.shared.device import idle_threads
 from src.shared.errors import UsageError
 from src.shared.model.diffusion.conditions import Model, ModelFn, with_condition
 from src.shared.model.diffusion.noise import Generators, standard_normal
@@ -44,6 +45,7 @@ class Sampler(ABC):
     ) -> Tensor:
         """One step from x_t to the next, less noisy timestep; after the last one, to x_0."""
 
+    @idle_threads()
     def run(
         self,
         model_fn: ModelFn,

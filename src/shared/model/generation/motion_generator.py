@@ -12,7 +12,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.device import choose_device
+from src.shared.device import choose_device, idle_threads
 from src.shared.errors import UserError
 from src.shared.model.checkpoint import (
     ModelCard,
@@ -89,6 +89,7 @@ class MotionGenerator:
 
     # Generating
 
+    @idle_threads()
     def generate(
         self,
         prompts: Sequence[str],
@@ -221,6 +222,7 @@ class MotionGenerator:
 
     # Prompts
 
+    @idle_threads()
     @torch.inference_mode()
     def encode_prompts(self, prompts: Sequence[str]) -> TextFeatures:
         """What the text tower makes of the prompts.
