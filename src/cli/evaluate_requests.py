@@ -52,12 +52,13 @@ def evaluate_requests(
     from src.shared.evaluation.text_context import untrained
     from src.shared.evaluation.yardstick import RequestSettings
     from src.shared.files import write_json, write_text
+    from src.shared.inference.spoken import SentenceGenerator
     from src.shared.model.generation.motion_generator import MotionGenerator
 
     set_threads(threads)
     generator = MotionGenerator.from_pretrained(model, device="cpu")
     report = evaluate_requests(
-        generator,
+        SentenceGenerator(generator),
         PreparedData.open(data),
         floors={"untrained": untrained(generator, seed)},
         settings=RequestSettings(wordings=wordings, languages=codes, seconds=seconds, seed=seed),

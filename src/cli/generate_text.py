@@ -57,14 +57,12 @@ def produce(
         text = generator.text
         tower = own_tower(text) if judge is None else load_tower(judge, text)
     clock.lap("load")
-    warnings = generator.scope_warnings(wanted["prompts"])
+    sampler = PromptSampler(generator, TextJudge(tower))
+    warnings = sampler.generator.scope_warnings(wanted["prompts"])
     for warning in filter(None, warnings):
         complain(f"warning: {warning}")
     with progress_bar("motions") as progress:
-        found = PromptSampler(generator, TextJudge(tower)).sample(
-            **wanted, return_all=return_all, progress=progress
-        )
-    too_long = generator.length_warning(wanted["seconds"])  # on stderr by now
+        found = sampler.sample(**wanted, return_all=return_all, progress=progress)
     clock.lap("sample")
     kept = number if return_all else 1
     motions = [motion for result in found for motion in result.ranked()]
@@ -72,8 +70,7 @@ def produce(
     places = [int(place) for result in found for place in result.table.order[:kept]]
     for at, (row, place) in enumerate(zip(rows, places, strict=True)):
         row |= {"sample": place, "rank": at % kept + 1}
-        told = filter(None, (warnings[at // kept], too_long))
-        row |= {"seed": wanted["seed"], "warning": "; ".join(told) or None}
+        row |= {"seed": wanted["seed"], "warning": warnings[at // kept]}
     index = write_index(motions, out) if "html" in formats and len(motions) > 1 else None
     clock.lap("write")
     about = {"model": model, "device": str(generator.device), "seed": wanted["seed"]}

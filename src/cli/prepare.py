@@ -45,6 +45,9 @@ def prepare(
     synthetic: Annotated[
         int, typer.Option(help="Add this many of the project's own parametric motions.")
     ] = 0,
+    only_gaps: Annotated[
+        bool, typer.Option("--only-gaps", help="Of them only what no captured clip shows.")
+    ] = False,
     mirror: Annotated[
         bool, typer.Option("--mirror/--no-mirror", help="Add mirror images, captions too.")
     ] = True,
@@ -69,6 +72,8 @@ def prepare(
     given = [flag for flag, value in about_files.items() if value is not None]
     if given and not source:
         raise UsageError(f"{given[0]} without SOURCE; name the folder it is about")
+    if only_gaps and not synthetic:
+        raise UsageError("--only-gaps without --synthetic N, the motions that would fill gaps")
     options.check_ranges(synthetic=synthetic, workers=workers, seed=seed, source_fps=source_fps)
     options.check_folder("--out", out)
     if any(same_place(out, root) for root in source or []):
@@ -102,6 +107,7 @@ def prepare(
             sources,
             out,
             templates=templates,
+            only_gaps=only_gaps,
             mirror=mirror,
             seed=seed,
             workers=workers,

@@ -89,6 +89,7 @@ class GenerationConfig(Config):
     num_layers: int = Field(3, ge=1)
     num_bones: int = Field(22, ge=1)
     motion_channels: int = Field(6, ge=1)
+    frames_per_token: int = Field(1, ge=1, le=16)  # more: that many times cheaper blocks
     diffusion_steps: int = Field(100, ge=2)
     dropout: float = Field(0.1, ge=0, lt=1)
     text_conditioning: Literal["pooled", "tokens"] = "pooled"  # ruling 22
@@ -211,6 +212,7 @@ class TrainConfig(Config):
 class TrainClipConfig(TrainConfig):
     """train_clip.yaml: aligning text and motion (ruling 20)."""
 
+    text: str | None = None  # folder of train_text, whose tower stays as it is
     temperature: float = Field(0.1, gt=0)
     cosine_weight: float = Field(0.2, ge=0)
     word_dropout: float = Field(0.1, ge=0, lt=1)

@@ -22,6 +22,7 @@ from src.shared.motion.root_track import (
 from src.shared.motion.skeleton import JOINT_INDEX, LIMBS
 
 LONGEST_END = 45  # frames known at a start or an end
+ROOT_WAYS = (0.7, 0.15, 0.15)  # shares of both, heading alone, path alone
 MOST_FRAMES = 6  # frames known here and there
 
 
@@ -69,9 +70,10 @@ def _draw_joints(known: Tensor, rng: np.random.Generator) -> None:
 
 
 def _draw_root(known: Tensor, rng: np.random.Generator) -> None:
-    """The path and the heading; at times the height and the pelvis' tilt."""
+    """The path and the heading, or one of them; at times the height and the pelvis' tilt."""
     span = _most(len(known), rng)
-    channels = [FORWARD, LATERAL, YAW_RATE]
+    ways = ([FORWARD, LATERAL, YAW_RATE], [YAW_RATE], [FORWARD, LATERAL])
+    channels = list(ways[rng.choice(len(ways), p=ROOT_WAYS)])
     channels += [HEIGHT] if rng.random() < 0.6 else []
     for channel in channels:
         known[span, ROOT_ROW, channel] = True

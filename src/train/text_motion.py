@@ -10,15 +10,9 @@ from src.shared.data.prepared import PreparedData, open_data
 from src.shared.data.text_motion import TextMotionDataset
 from src.shared.errors import UsageError, UserError
 from src.shared.evaluation.metrics_retrieval import BATCH
-from src.shared.model.clip.core import SMALL, TextTower
-from src.shared.model.clip.pretrained import encode_captions
-from src.shared.model.clip.scope import PromptScope
-from src.shared.model.clip.tokenizer import PromptTokenizer
 from src.shared.motion.skeleton import NUM_JOINTS
 from src.train.run_log import announce
 from src.train.seeding import mix_seed
-
-SCOPE_CAPTIONS = 20_000  # at most so many captions teach PromptScope
 
 
 def open_training_data(config: TrainConfig, network: NetworkConfig) -> PreparedData:
@@ -86,24 +80,3 @@ def numpy_generator(*parts: int | str) -> np.random.Generator:
 def motion_rows(motion: torch.Tensor, network: NetworkConfig) -> torch.Tensor:
     """Features [..., 23, 6] without the root track where the profile has none."""
     return motion[..., : network.motion_rows, :]
-
-
-def fit_scope(
-    data: PreparedData,
-    languages: tuple[str, ...],
-    tower: TextTower,
-    tokenizer: PromptTokenizer,
-) -> PromptScope:
-    """What prompts the training captions are near, as this tower sees them."""
-    action_of: dict[str, str] = {}
-    for record in {record.group: record for record in data.records("train")}.values():
-        captions = data.captions(record)
-        for language in languages:
-            for text in captions.get(language, []):
-                action_of.setdefault(text, record.tag)
-    texts = sorted(action_of)
-    texts = texts[:: -(-len(texts) // SCOPE_CAPTIONS)]
-    embeddings = encode_captions(tower, tokenizer, texts).numpy()
-    actions = [action_of[text] for text in texts]
-    pretrained = tower.config.text_model != SMALL
-    return PromptScope.fit(texts, actions, embeddings, pretrained_tower=pretrained)

@@ -22,6 +22,7 @@ from src.shared.config_audio import AudioNetworkConfig
 from src.shared.data.phrases.dataset import MotionPhraseDataset, PhraseBatch
 from src.shared.data.phrases.statistics import motion_statistics
 from src.shared.device import autocast, choose_compute
+from src.shared.errors import UsageError
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.audio.conditioning import ConditionAugmentation, with_phase_rows
 from src.shared.model.audio.memory_conditioning import MemoryCondition
@@ -38,6 +39,7 @@ from src.train.train_generation import NOISE_LEVELS, spread_timesteps
 class TrainAudioConfig(PhraseConfig):
     """train_audio.yaml."""
 
+    init: str | None = None  # a trained model, by name or folder, to go on from
     velocity_weight: float = Field(1.0, ge=0)  # of the error of frame differences, m/s
     prefix_share: float = Field(0.5, ge=0, le=1)  # windows whose first frames are known
     prefix_frames: tuple[int, int] = (8, 60)  # how many, at least and at most
@@ -127,9 +129,18 @@ class AudioTask:
         self.figures: dict[str, float] = {}
 
     def _start(self) -> AudioMotionModel:
-        """The model before training."""
+        """The model before training: nothing learned, or all of `init` with its z-scores."""
         model = AudioMotionModel(self.network)
-        model.set_statistics(*motion_statistics(self.train))
+        if self.config.init is None:
+            model.set_statistics(*motion_statistics(self.train))
+            return model
+        trained = AudioMotionModel.from_pretrained(self.config.init)
+        if _trained_shape(trained.config) != _trained_shape(self.network):
+            raise UsageError(
+                f"init {self.config.init} is another network than profile {self.config.profile};"
+                " train with the profile and the network overrides that it was trained with"
+            )
+        model.load_state_dict(trained.state_dict())
         return model
 
     def identity(self) -> dict[str, Any]:
@@ -245,6 +256,11 @@ class AudioTask:
     def _finished(self, module: nn.Module) -> AudioMotionModel:
         self.model.unet.load_state_dict(module.state_dict())
         return self.model.eval()
+
+
+def _trained_shape(network: AudioNetworkConfig) -> dict[str, Any]:
+    """What weights are bound to: the network without how it is sampled."""
+    return network.model_dump(include={"unet", "condition", "decoder"})
 
 
 app = stage_app(

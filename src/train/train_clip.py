@@ -2,8 +2,10 @@
 
 motion-tools train clip [key=value ...] [--resume]
 
-The tokenizer is trained on the training captions when `clip.text-model` is "small". With several
-processes the contrastive loss sees the embeddings of all of them.
+The tokenizer is trained on the training captions when `clip.text-model` is "small". With `text=` a
+text tower that train_text taught stays as it is, and the motion tower learns to meet it
+(locked-tower tuning, Zhai et al. 2022, LiT). With several processes the contrastive loss sees the
+embeddings of all of them.
 """
 
 import math
@@ -22,7 +24,7 @@ from src.shared.evaluation.metrics_retrieval import BATCH, TOP, guo_retrieval
 from src.shared.model.checkpoint import ModelCard
 from src.shared.model.clip.core import SMALL, MotionClip
 from src.shared.model.clip.losses import clip_loss
-from src.shared.model.clip.pretrained import KIND, ClipBundle
+from src.shared.model.clip.pretrained import KIND, ClipBundle, load_text_tower, tower_hash
 from src.shared.model.clip.tokenizer import PromptTokenizer
 from src.train.launch import stage_app
 from src.train.task import Part
@@ -96,9 +98,13 @@ class ClipTask:
         self.train = training_set(config, self.data)
         self.held_back = validation_set(config, self.data)
         self.retrieves = self.held_back is not None and can_retrieve(len(self.held_back))
-        self.tokenizer = self._tokenizer()
         clip = MotionClip(network)
+        if config.text is None:
+            self.tokenizer = self._tokenizer()
+        else:
+            clip.text, self.tokenizer = load_text_tower(config.text, network.embed_dim)
         nn.init.constant_(clip.logit_scale, -math.log(config.temperature))
+        self.text = clip.text
         self.module: nn.Module = ClipObjective(clip)
         self.figures: dict[str, float] = {}
 
@@ -111,9 +117,10 @@ class ClipTask:
         return PromptTokenizer.train(used, clip.text_vocab_size, max_tokens=clip.max_tokens)
 
     def identity(self) -> dict[str, Any]:
-        """A resumed run must have the same network and see the same clips."""
+        """A resumed run must have the same network, see the same clips and keep the same tower."""
         network = self.network.model_dump(mode="json", by_alias=True)
-        return {"network": network, "data-hash": self.data.manifest_hash}
+        kept = {} if self.config.text is None else {"tower-hash": tower_hash(self.text)}
+        return {"network": network, "data-hash": self.data.manifest_hash} | kept
 
     def to(self, device: torch.device) -> None:
         """Nothing but the module has weights."""

@@ -30,11 +30,11 @@ from src.shared.model.generation.losses import GenerationLoss
 from src.shared.model.generation.motion_generator import KIND, MotionGenerator
 from src.train.constraints import draw_known
 from src.train.launch import stage_app
+from src.train.scope_fit import fit_scope
 from src.train.seeding import generator
 from src.train.style_fit import fit_style_map
 from src.train.task import Part
 from src.train.text_motion import (
-    fit_scope,
     motion_rows,
     numpy_generator,
     open_training_data,
@@ -158,8 +158,9 @@ class GenerationTask:
         for index, name in enumerate((*self.data.tags, None)):
             if name in places:
                 tags[index] = state[TAG_WEIGHT][places[name]]
-        # Constraints and provenance can be learned by a network that had none: they start at zero.
-        denoiser.load_state_dict({**denoiser.state_dict(), **state, TAG_WEIGHT: tags})
+        # Constraints and provenance can be learned by a network that had none, starting at zero.
+        fresh = {name: torch.zeros_like(value) for name, value in denoiser.state_dict().items()}
+        denoiser.load_state_dict({**fresh, **state, TAG_WEIGHT: tags})
         self.mean, self.std = trained.mean, trained.std
 
     def identity(self) -> dict[str, Any]:

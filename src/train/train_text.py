@@ -1,19 +1,27 @@
-"""Hardening a trained text tower: more wordings, the same space, so that denoisers stay valid.
+"""The text tower alone: what labels a sentence has, from many more captions than there are clips.
 
+motion-tools train text clip=null [key=value ...]
 motion-tools train text clip=runs/clip [generator=runs/generation] [key=value ...]
 
-Each label combination has a place in the space: the mean of its captions under the tower that was
-there before. The tower learns to send fresh captions of that combination, with words missing and
-made-up words put in, to the same place. The motion tower and the denoiser are not touched.
+Each label combination has a place in the space, and the tower learns to send fresh captions of that
+combination there, with words missing and made-up words put in. Without a CLIP folder (`clip=null`)
+the tower starts from nothing, the places are learned with it (a cosine classifier), and every label
+is read off the embedding besides; `train_clip text=…` then teaches a motion tower to meet it
+(locked-tower tuning, Zhai et al. 2022, LiT). With one, a trained tower is hardened: a place is the
+mean of its captions under the tower that was there before, so that denoisers stay valid, and
+neither they nor the motion tower are touched.
 
 Letters: B batch, G label combinations, D shared dimensions.
 """
 
 import copy
+from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import torch
 from pydantic import Field
 from torch import Tensor, nn
@@ -21,31 +29,65 @@ from torch.nn.functional import cross_entropy, normalize
 
 from src.shared.config_schema import NetworkConfig, TrainConfig
 from src.shared.data.captions import packaged_book
+from src.shared.data.labels import Labels
 from src.shared.data.word_dropout import drop_words, insert_babble
 from src.shared.errors import UserError
 from src.shared.files import sha256_file
-from src.shared.model.checkpoint import WEIGHTS_FILE
-from src.shared.model.clip.core import TextTower
-from src.shared.model.clip.pretrained import ClipBundle, encode_captions
+from src.shared.model.checkpoint import WEIGHTS_FILE, ModelCard
+from src.shared.model.clip.core import SMALL, MotionClip, TextTower
+from src.shared.model.clip.pretrained import KIND, ClipBundle, encode_captions
+from src.shared.model.clip.tokenizer import PromptTokenizer
 from src.shared.model.generation.motion_generator import MotionGenerator
 from src.train.launch import stage_app
+from src.train.scope_fit import fit_scope
 from src.train.style_fit import fit_style_map
 from src.train.task import Part
-from src.train.text_motion import fit_scope, numpy_generator, open_training_data
+from src.train.text_motion import motion_rows, numpy_generator, open_training_data
 
 OLD_CAPTIONS = 8  # of each combination and language, whose mean is its place
+HEADS = 0.3  # weight of the labels beside the place, from nothing
 HELD_BACK_SEED = 1  # of the captions that validation reads; training reads those of seed 2
 
 
 class TrainTextConfig(TrainConfig):
     """train_text.yaml."""
 
-    clip: str = "runs/clip"  # folder written by train_clip
+    clip: str | None = "runs/clip"  # folder written by train_clip; null: from nothing
     generator: str | None = None  # a generator that gets the hardened tower in the output
     captions_per_group: int = Field(64, ge=1)  # fresh ones, of each combination and language
     word_dropout: float = Field(0.05, ge=0, lt=1)
     babble: float = Field(0.6, ge=0, le=1)  # share of captions with made-up words in them
     scale: float = Field(15.0, gt=0)  # factor on the cosines of the classification term
+
+
+class LabelledTower(nn.Module):
+    """A text tower with the places that it learns and a classifier for each label.
+
+    Args:
+        tower: to be trained.
+        labels: of each combination; a label that it does not have is a class of its own.
+    """
+
+    def __init__(self, tower: TextTower, labels: Sequence[Labels]) -> None:
+        super().__init__()
+        self.tower = tower
+        self.places = nn.Parameter(torch.randn(len(labels), tower.embed_dim))
+        keys = sorted({key for each in labels for key in each})
+        values = {key: sorted({each.get(key, "") for each in labels}) for key in keys}
+        self.heads = nn.ModuleList(nn.Linear(tower.embed_dim, len(values[key])) for key in keys)
+        rows = [[values[key].index(each.get(key, "")) for key in keys] for each in labels]
+        self.register_buffer("classes", torch.tensor(rows), persistent=False)  # [G, keys]
+
+    def forward(
+        self, input_ids: Tensor, attention_mask: Tensor, group: Tensor, scale: float
+    ) -> Any:
+        """Cross-entropies of the right place, of `scale` times the cosines, and of all labels."""
+        pooled = self.tower(input_ids, attention_mask).pooled  # [B, D]
+        choice = cross_entropy(scale * pooled @ normalize(self.places, dim=-1).T, group)
+        spread = pooled * pooled.shape[-1] ** 0.5
+        wanted = self.get_buffer("classes")[group].unbind(-1)  # [B] a label
+        terms = [cross_entropy(h(spread), c) for h, c in zip(self.heads, wanted, strict=True)]
+        return choice, torch.stack(terms).sum()
 
 
 @dataclass(frozen=True)
@@ -62,9 +104,8 @@ class TextTask:
 
     def __init__(self, config: TrainTextConfig, network: NetworkConfig) -> None:
         self.config = config
-        self.bundle = ClipBundle.from_pretrained(config.clip)
-        self.tokenizer = self.bundle.tokenizer
-        self.data = open_training_data(config, self.bundle.clip.config)
+        bundle = None if config.clip is None else ClipBundle.from_pretrained(config.clip)
+        self.data = open_training_data(config, bundle.clip.config if bundle else network)
         records = self.data.records("train")
         self.labels = {record.group: record.labels for record in records if record.labels}
         if not self.labels:
@@ -72,12 +113,49 @@ class TextTask:
                 f"{config.data} has no labels to write fresh captions from; this stage needs them"
             )
         self.groups = sorted(self.labels)
+        self.shares = self._shares()
         self.fresh = self._captions(HELD_BACK_SEED + 1, config.captions_per_group)
         self.held_back = self._captions(HELD_BACK_SEED, 2)
-        self.places = self._places()
-        tower = copy.deepcopy(self.bundle.clip.text)
-        self.module: nn.Module = tower.train().requires_grad_(True)
+        self.bundle = bundle or self._from_nothing(network)
+        self.tokenizer = self.bundle.tokenizer
+        tower = copy.deepcopy(self.bundle.clip.text).train().requires_grad_(True)
+        self.module: nn.Module = tower
+        self.places = torch.zeros(0)  # learned with the tower
+        if bundle is None:
+            self.module = LabelledTower(tower, [self.labels[group] for group in self.groups])
+        else:
+            self.places = self._places()
         self.figures: dict[str, float] = {}
+
+    def _from_nothing(self, network: NetworkConfig) -> ClipBundle:
+        """Two towers that know nothing, and a tokenizer of these captions."""
+        if network.clip.text_model != SMALL:
+            tokenizer = PromptTokenizer.from_pretrained(
+                network.clip.text_model, max_tokens=network.clip.max_tokens
+            )
+        else:
+            texts = [text for group in self.fresh for some in group.values() for text in some]
+            tokenizer = PromptTokenizer.train(
+                texts, network.clip.text_vocab_size, max_tokens=network.clip.max_tokens
+            )
+        mean, std = (motion_rows(v, network) for v in (self.data.mean, self.data.std))
+        card = ModelCard(
+            kind=KIND,
+            name=Path(self.config.output).name,
+            trained=True,
+            network=network,
+            tags=self.data.tags,
+            languages=self.config.languages,
+            data=self.data.manifest_hash,
+        )
+        return ClipBundle(MotionClip(network), tokenizer, mean, std, card)
+
+    def _shares(self) -> np.ndarray:
+        """How often a combination is drawn [G]: an action of n combinations weighs sqrt(n)."""
+        actions = [self.labels[group].get("action") for group in self.groups]
+        number = Counter(actions)
+        weights = np.array([number[action] ** -0.5 for action in actions])
+        return weights / weights.sum()
 
     def _captions(self, seed: int, num: int) -> list[dict[str, list[str]]]:
         book = packaged_book()
@@ -104,7 +182,7 @@ class TextTask:
         """A resumed run must start from the same tower and see the same labels."""
         return {
             "data-hash": self.data.manifest_hash,
-            "clip-hash": sha256_file(Path(self.config.clip) / WEIGHTS_FILE),
+            "clip-hash": self.config.clip and sha256_file(Path(self.config.clip) / WEIGHTS_FILE),
         }
 
     def to(self, device: torch.device) -> None:
@@ -112,10 +190,10 @@ class TextTask:
         self.places = self.places.to(device)
 
     def batch(self, part: Part) -> TextBatch:
-        """Fresh captions, half of them damaged in some way; combinations and languages alike."""
+        """Fresh captions, half of them damaged in some way; languages alike."""
         config = self.config
         rng = numpy_generator("text", config.seed, part.step, part.index)
-        chosen = rng.integers(len(self.groups), size=config.batch_size)
+        chosen = rng.choice(len(self.groups), size=config.batch_size, p=self.shares)
         captions = []
         for group in chosen:
             by_language = self.fresh[group]
@@ -131,16 +209,21 @@ class TextTask:
         return TextBatch(*self.tokenizer(captions), torch.from_numpy(chosen))
 
     def training_step(self, module: nn.Module, batch: TextBatch) -> dict[str, Tensor]:
-        """Distance to the right place, and its probability among all places."""
+        """Distance to the right place, and its probability among all places; from nothing, that
+        of the place and of each label."""
+        scale = self.config.scale
+        if self.config.clip is None:
+            choice, label = module(batch.input_ids, batch.attention_mask, batch.group, scale)
+            return {"loss": choice + HEADS * label, "choice": choice, "labels": label}
         pooled = module(batch.input_ids, batch.attention_mask).pooled  # [B, D]
         cosine = 1 - (pooled * self.places[batch.group]).sum(-1).mean()
-        choice = cross_entropy(self.config.scale * pooled @ self.places.T, batch.group)
+        choice = cross_entropy(scale * pooled @ self.places.T, batch.group)
         return {"loss": cosine + 0.1 * choice, "cosine": cosine, "choice": choice}
 
     def validation(self, module: nn.Module) -> dict[str, float]:
         """Of captions that training did not read: how many land nearest to the right place."""
-        assert isinstance(module, TextTower)
         module.eval()
+        tower, places = self._trained(module)
         self.figures = {}
         for language in self.config.languages:
             pairs = [
@@ -148,21 +231,27 @@ class TextTask:
             ]
             if not pairs:
                 continue
-            embeddings = encode_captions(module, self.tokenizer, [text for text, _ in pairs])
-            nearest = (embeddings @ self.places.cpu().T).argmax(-1)
+            embeddings = encode_captions(tower, self.tokenizer, [text for text, _ in pairs])
+            nearest = (embeddings @ places.T).argmax(-1)
             right = nearest == torch.tensor([index for _, index in pairs])
             self.figures[f"right-{language}"] = right.float().mean().item()
         self.figures["right"] = sum(self.figures.values()) / max(len(self.figures), 1)
         module.train()
         return self.figures
 
+    def _trained(self, module: nn.Module) -> tuple[TextTower, Tensor]:
+        """The tower, and the places [G,D] on the CPU."""
+        if isinstance(module, LabelledTower):
+            return module.tower, normalize(module.places.detach(), dim=-1).cpu()
+        assert isinstance(module, TextTower)
+        return module, self.places.cpu()
+
     def export_samples(self, module: nn.Module, folder: Path) -> None:
         """A text tower makes nothing to look at."""
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """The CLIP folder with the new tower; or the generator with it and a new scope."""
-        assert isinstance(module, TextTower)
-        tower = module.cpu().freeze()
+        tower = self._trained(module)[0].cpu().freeze()
         hardened = {"steps": self.config.steps, "validation": self.figures}
         if self.config.generator is None:
             self.bundle.clip.text = tower

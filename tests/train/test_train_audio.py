@@ -20,7 +20,7 @@ from tiny_audio_stage import (
     train_audio,
 )
 
-from src.shared.errors import UserError
+from src.shared.errors import UsageError, UserError
 from src.shared.inference.song_sampler import SampleSettings, SongSampler
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
@@ -51,6 +51,21 @@ def test_it_learns_and_leaves_a_folder(circles: Path, tmp_path: Path) -> None:
     settings = SampleSettings(window=32, overlap=8)
     made = SongSampler(model, settings).sample(torch.rand(167, 70))[0]
     assert made.data.shape == (70, 25)
+
+
+def test_it_goes_on_from_trained_weights_and_their_z_scores(circles: Path, tmp_path: Path) -> None:
+    train_audio(audio_config(circles, tmp_path / "first", "steps=3"))
+    first = AudioMotionModel.from_pretrained(tmp_path / "first")
+    config = audio_config(circles, tmp_path / "second", "steps=3", f"init='{tmp_path / 'first'}'")
+    network = tiny_audio_network()
+    task = AudioTask(config, network)
+    for name, value in first.state_dict().items():
+        assert torch.equal(value, task.model.state_dict()[name])
+    other = network.model_copy(
+        update={"unet": network.unet.model_copy(update={"channel_mult": (1, 2, 3)})}
+    )
+    with pytest.raises(UsageError, match="is another network than profile"):
+        AudioTask(config, other)
 
 
 def test_resuming_is_bitwise_the_same(circles: Path, tmp_path: Path) -> None:

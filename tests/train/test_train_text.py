@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import numpy as np
+import pytest
 import torch
 from safetensors.torch import load_file
 from tiny_stage import (
@@ -72,3 +73,38 @@ def test_batches_are_a_function_of_step_and_part(prepared: Path, tmp_path: Path)
     one, two, other = (task.batch(Part(step, 0, 1)) for step in (3, 3, 4))
     assert torch.equal(one.input_ids, two.input_ids) and torch.equal(one.group, two.group)
     assert not torch.equal(one.group, other.group)
+
+
+def test_a_tower_from_nothing_learns_labels_and_a_motion_tower_meets_it(
+    prepared: Path, tmp_path: Path
+) -> None:
+    config = text_config(
+        prepared, tmp_path, tmp_path / "text", "clip=null", "steps=150", "batch-size=32",
+        "learning-rate=0.003",
+    )  # fmt: skip
+    before = TextTask(config, tiny_network())
+    first = before.validation(before.module)["right"]
+    after = harden(config)
+    assert after.figures["right"] > first + 0.05
+    learned = ClipBundle.from_pretrained(tmp_path / "text")
+
+    train_clip(clip_config(prepared, tmp_path / "clip", "steps=3", f"text='{tmp_path / 'text'}'"))
+    met = ClipBundle.from_pretrained(tmp_path / "clip")
+    for key, value in learned.clip.text.state_dict().items():
+        assert torch.equal(value, met.clip.text.state_dict()[key])
+    old, new = learned.clip.motion.state_dict(), met.clip.motion.state_dict()
+    assert any(not torch.equal(value, new[key]) for key, value in old.items())
+    train_generation(generation_config(prepared, tmp_path / "text", tmp_path / "made", "steps=2"))
+
+
+def test_actions_of_few_combinations_are_drawn_as_often(prepared: Path, tmp_path: Path) -> None:
+    config = text_config(prepared, tmp_path, tmp_path / "text", "clip=null")
+    task = TextTask(config, tiny_network())
+    shares: dict[str, float] = {}
+    for group, share in zip(task.groups, task.shares, strict=True):
+        action = task.labels[group]["action"]
+        shares[action] = shares.get(action, 0) + share
+    numbers = {a: sum(v["action"] == a for v in task.labels.values()) for a in shares}
+    most, least = max(numbers, key=numbers.__getitem__), min(numbers, key=numbers.__getitem__)
+    ratio = numbers[most] / numbers[least]
+    assert shares[most] / shares[least] == pytest.approx(ratio**0.5)

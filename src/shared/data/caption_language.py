@@ -56,16 +56,20 @@ class CaptionLanguage:
             for name, action in content.actions.items()
         }
         self._plan = lru_cache(maxsize=4096)(self._make_plan)
+        self._sentences = self._whole_sentences()
 
     # -------------------------------------------------------------- what callers ask for
 
     def captions(self, labels: Labels, num: int, rng: random.Random) -> list[str]:
         """Up to `num` different captions; fewer only where the templates allow no more.
 
-        The hand-written requests that models are measured by are never among them.
+        Up to half of them are whole sentences, where the file has some for these labels. The
+        hand-written requests that models are measured by are never among them.
         """
         plan = self._plan(self._key(labels))
-        found: dict[str, str] = {}
+        whole = self._sentences.get(self._key(_told(labels)), [])
+        whole = rng.sample(whole, min(len(whole), num // 2))
+        found = {normalised(text): text for text in whole}
         for _ in range(30 * num):
             if len(found) >= num:
                 break
@@ -230,9 +234,26 @@ class CaptionLanguage:
             result[name] = full
         return result
 
+    def _whole_sentences(self) -> dict[tuple[tuple[str, str], ...], list[str]]:
+        """The file's sentences by their labels, and their mirror images."""
+        found: dict[tuple[tuple[str, str], ...], list[str]] = {}
+        for entry in self.content.sentences:
+            kept = [line for line in entry.text if normalised(line) not in requested(self.code)]
+            found.setdefault(self._key(entry.labels), []).extend(kept)
+            if (labels := mirror_labels(entry.labels)) != entry.labels:
+                mirrored = [self.mirror(line) for line in kept]
+                found.setdefault(self._key(labels), []).extend(mirrored)
+        return found
+
     def _mirror_template(self, template: str) -> str:
         parts = _BRACES.split(template)
         return "".join(part if part.startswith("{") else self.mirror(part) for part in parts)
+
+
+def _told(labels: Labels) -> Labels:
+    """Without what nobody says: once, at normal speed, by a right angle."""
+    silent = (("count", "1"), ("speed", "normal"), ("angle", "90"))
+    return {key: str(value) for key, value in labels.items() if (key, str(value)) not in silent}
 
 
 def _laid_over(general: SlotTables, own: SlotTables) -> SlotTables:

@@ -49,7 +49,7 @@ class Action(_Section):
 
 
 class Paraphrases(_Section):
-    """Sentences kept out of training that ask for the given labels."""
+    """Whole sentences that ask for the given labels."""
 
     labels: dict[str, str]
     text: list[str] = Field(min_length=1)
@@ -86,6 +86,7 @@ class LanguageFile(_Section):
     frames: list[Frame] = Field(min_length=1)
     slots: SlotTables = Field({})
     actions: dict[str, Action] = Field(min_length=1)
+    sentences: list[Paraphrases] = Field([])
     paraphrases: list[Paraphrases] = Field([])
     mirror: MirrorTable
 

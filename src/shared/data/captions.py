@@ -147,6 +147,10 @@ def _packaged_content() -> dict[str, dict[str, Any]]:
         for file in sorted(folder.glob("*.yaml")):
             content = load_yaml(file)
             contents[content["language"]] = content
+    with as_file(files("src.configs") / "sentences") as folder:  # a file each, as they are long
+        for file in sorted(folder.glob("*.yaml")):
+            content = load_yaml(file)
+            contents[content["language"]]["sentences"] = content["sentences"]
     return contents
 
 

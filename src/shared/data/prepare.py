@@ -40,6 +40,8 @@ from src.shared.motion.root_track import encode_features
 
 CLIPS_PER_SHARD = 128
 CAPTIONS_PER_GROUP = 24  # and language
+COVERING_CLIPS = 3  # captured ones that make procedural ones of the same labels superfluous
+_DEGREES = frozenset(("speed", "style", "count", "angle"))
 STD_FLOOR = 0.05  # a channel that hardly moves is not blown up
 
 Progress = Callable[[int, int], None]  # (clips done, clips in all)
@@ -58,6 +60,7 @@ def prepare(
     out: Path,
     *,
     templates: Path | None = None,
+    only_gaps: bool = False,
     mirror: bool = True,
     seed: int = 0,
     workers: int | None = None,
@@ -67,6 +70,7 @@ def prepare(
 
     Args:
         templates: caption templates of the user's own (see src/configs/captions).
+        only_gaps: keep procedural clips only of what no captured clip shows (`fill_gaps`).
         mirror: add the mirror image of each clip, with left and right swapped in its captions.
         seed: of splits and captions.
         workers: processes; default: one a CPU core.
@@ -91,6 +95,8 @@ def prepare(
     _run(jobs, workers or os.cpu_count() or 1, progress, len(items))
 
     clips, skipped = _collect(jobs)
+    if only_gaps:
+        clips = fill_gaps(clips, mirror=mirror)
     if not clips:
         reasons = Counter(entry["reason"] for entry in skipped)
         example = f"; most often: {reasons.most_common(1)[0][0]}" if reasons else ""
@@ -219,6 +225,30 @@ def _collect(jobs: list[_Job]) -> tuple[list[dict[str, Any]], list[dict[str, str
         clips += content["clips"]
         skipped += content["skipped"]
     return clips, skipped
+
+
+def fill_gaps(clips: list[dict[str, Any]], *, mirror: bool) -> list[dict[str, Any]]:
+    """The clips without the procedural ones of labels that captured clips, or with `mirror` their
+    mirror images, show.
+
+    Speed, style, count and angle are not compared: who asks for a fast walk is better served by
+    a captured walk than by a procedural fast one. A captured clip with fewer labels covers
+    nothing ("kick" does not cover "kick, left").
+    """
+
+    def shown(labels: dict[str, str]) -> frozenset[tuple[str, str]]:
+        return frozenset(item for item in labels.items() if item[0] not in _DEGREES)
+
+    captured: Counter[frozenset[tuple[str, str]]] = Counter()
+    for clip in clips:
+        if clip["provenance"] == "captured":
+            labels = clip["labels"]
+            captured.update({shown(labels), shown(mirror_labels(labels) if mirror else labels)})
+    return [
+        clip
+        for clip in clips
+        if clip["provenance"] != "procedural" or captured[shown(clip["labels"])] < COVERING_CLIPS
+    ]
 
 
 def _remove_stale_shards(out: Path, jobs: list[_Job]) -> None:

@@ -13,6 +13,7 @@ from torch import Tensor
 from src.shared.config_schema import PROVENANCES
 from src.shared.data.prepared import PreparedData
 from src.shared.data.records import ClipRecord
+from src.shared.data.shorten import SHORTEST_SHARE, comes_back, shorten
 from src.shared.motion.root_track import ROOT_ROW, YAW_RATE
 
 _TURN_TRIES = 4
@@ -68,8 +69,10 @@ class TextMotionDataset:
         """Select the records of a split.
 
         Args:
-            balance: 0 draws clips alike, 1 draws label combinations alike, between: a mixture
-                of exponents (a combination of n clips has weight n^(1-balance)).
+            balance: 0 draws clips alike, 1 draws actions alike and the label combinations of an
+                action alike; between: a mixture of exponents (a combination of n clips has
+                weight n^(1-balance), an action of combinations of weight w in all
+                w^(1-balance)).
 
         Raises:
             ValueError: no clip of the split is long enough or has a caption in `languages`.
@@ -95,8 +98,12 @@ class TextMotionDataset:
         weights = np.array(
             [counts[self._group_index[r.group]] ** -balance for r in self.records], np.float64
         )
+        for action in {record.tag for record in self.records}:
+            of_action = np.array([record.tag == action for record in self.records])
+            weights[of_action] *= weights[of_action].sum() ** -balance
         self._weights = weights
-        self._least = np.array([r.num_frames if _whole(r) else 0 for r in self.records])
+        self._gestures = {record.id for record in self.records if comes_back(data.features(record))}
+        self._least = np.array([self._fewest_frames(record) for record in self.records])
 
     def __len__(self) -> int:
         return len(self.records)
@@ -108,8 +115,20 @@ class TextMotionDataset:
         texts = captions[language]
         return texts[rng.integers(len(texts))], language
 
+    def _fewest_frames(self, record: ClipRecord) -> int:
+        """The shortest batch that a clip takes part in."""
+        if _whole(record):
+            return record.num_frames
+        if record.id in self._gestures:
+            shortest = max(self.min_frames, round(record.num_frames * SHORTEST_SHARE))
+            return min(record.num_frames, shortest)
+        return 0
+
     def window(self, record: ClipRecord, frames: int, rng: np.random.Generator) -> Tensor:
-        """A random window [≤frames,23,6] of raw features.
+        """A window [≤frames,23,6] of raw features, anywhere in the clip.
+
+        A gesture that comes back to where it began is not cut off: where it is too long, its
+        middle is left out, if two moments of it are alike enough to be joined.
 
         Where the labels tell of a turn, the window of several that turns most is taken: a crop
         without the turn would contradict its caption.
@@ -118,6 +137,8 @@ class TextMotionDataset:
         spare = len(values) - frames
         if spare <= 0:
             return values
+        if record.id in self._gestures and (whole := shorten(values, frames)) is not None:
+            return whole
         if "turn" not in record.labels and record.labels.get("action") != "turn":
             start = int(rng.integers(spare + 1))
             return values[start : start + frames]

@@ -50,7 +50,7 @@ FLOOR_SHARE = 4  # every so many-th plain request is put to the floors
 
 
 class Model(Protocol):
-    """What is asked of a model; `MotionGenerator` is one."""
+    """What is asked of a model; `SentenceGenerator` is one."""
 
     def generate(self, prompts: Sequence[str], *, seconds: float, seed: int) -> list[Motion]: ...
     def scope_warnings(self, prompts: Sequence[str]) -> list[str | None]: ...

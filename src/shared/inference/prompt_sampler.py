@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from src.shared.inference.selection import ScoreTable
+from src.shared.inference.spoken import SentenceGenerator
 from src.shared.inference.text_judge import TextJudge
 from src.shared.model.generation.motion_generator import MotionGenerator
 from src.shared.motion.motion import Motion
@@ -38,7 +39,7 @@ class PromptSampler:
     """
 
     def __init__(self, generator: MotionGenerator, judge: TextJudge | None = None) -> None:
-        self.generator, self.judge = generator, judge or TextJudge()
+        self.generator, self.judge = SentenceGenerator(generator), judge or TextJudge()
 
     def sample(
         self,
@@ -51,13 +52,13 @@ class PromptSampler:
         """Sample N candidates a prompt and keep the one that the judge puts first.
 
         Args:
-            prompts: see `MotionGenerator.generate`.
+            prompts: see `SentenceGenerator.generate`.
             num_samples: N; candidate i depends on (seed, prompt, i) alone.
             return_all: keep the others too.
-            settings: what else `MotionGenerator.generate` takes.
+            settings: what else `SentenceGenerator.generate` takes.
 
         Raises:
-            UserError: as `MotionGenerator.generate`.
+            UserError: as `SentenceGenerator.generate`.
         """
         motions = self.generator.generate(prompts, num_samples=num_samples, **settings)
         embeddings = self.generator.encode_prompts(prompts).pooled

@@ -24,6 +24,7 @@ BLEND_SECONDS = 9 / 30  # how long a correction fades in before, and out after, 
 STEP_SECONDS = 8 / 30  # of a step that was put in
 LIFT, SLOPE = 0.1, 0.1  # metres that a foot is lifted on its way, at most and for each metre
 SOFT = 0.01  # metres around which that lift sets in
+GIVE = 0.05  # m/s that a standing foot moves over the floor, on average, at most
 ROLL = 0.005  # metres that the ball of a standing foot may be above its standing height
 MAX_DRAG = 0.22  # metres that a held foot may be from where it was; further off it steps
 MAX_SLOPE = 2.5  # m/s at which a correction may start from a hold
@@ -228,6 +229,8 @@ def corrections(ball: np.ndarray, holds: list[Hold], kept: np.ndarray, fps: floa
     lift = np.zeros(len(ball))
     for hold in holds:
         own = hold.point - ball[hold.start : hold.stop]
+        if not kept[hold.start : hold.stop].any():  # there the foot stands where it was kept
+            own += _give(ball[hold.start : hold.stop], fps)
         path = ball[hold.start : hold.stop, 1]
         own[:, 1] = path.clip(REST_FOOT_HEIGHT, REST_FOOT_HEIGHT + ROLL) - path
         shift[hold.start : hold.stop] = own
@@ -244,6 +247,18 @@ def corrections(ball: np.ndarray, holds: list[Hold], kept: np.ndarray, fps: floa
     shift[:, 1] += np.where(known | (lift == 0), 0.0, raised * np.minimum(lift / SOFT, 1))
     shift[:, 1] += _above_floor(ball[:, 1] + shift[:, 1], known, fps)
     return shift
+
+
+def _give(path: np.ndarray, fps: float) -> np.ndarray:
+    """What a held ball keeps of its own way over the floor [N,3], no faster than GIVE on average.
+
+    A foot that rolls from heel to toe, or turns, moves a little; captured ones do (FIELD, foot
+    slide), and a foot that does not looks nailed down.
+    """
+    own = path - path.mean(0)
+    own[:, 1] = 0.0
+    speed = np.linalg.norm(np.diff(own, axis=0), axis=1).sum() * fps / max(len(path) - 1, 1)
+    return np.asarray(own * min(1.0, GIVE / max(speed, 1e-9)))
 
 
 def _bridged(shift: np.ndarray, known: np.ndarray, blend: int, fps: float) -> np.ndarray:

@@ -1,5 +1,6 @@
 """A user's own caption files: laid over ours, or alone; faults named by file and key."""
 
+import random
 from pathlib import Path
 
 import pytest
@@ -135,3 +136,21 @@ def test_any_template_parses_or_is_refused(template: str) -> None:
 def test_dropped_slots_leave_nothing_behind() -> None:
     assert tidy(" a  person , walks ,  ", True) == "a person, walks"
     assert tidy("人 が、 、 moon walk を", False) == "人が、moon walkを"
+
+
+def test_whole_sentences_are_half_of_the_captions(tmp_path: Path) -> None:
+    (tmp_path / "en.yaml").write_text(
+        "language: en\nsentences:\n  - labels: {action: wave, side: left}\n"
+        "    text: [greet with your left hand, left hand says hello, left palm up and shake]\n",
+        encoding="utf-8",
+    )
+    english = CaptionBook.load(tmp_path).language("en")
+    left = english.captions({"action": "wave", "side": "left"}, 6, random.Random(0))
+    assert len(left) == 6
+    assert sum("greet" in text or "palm" in text or "hello" in text for text in left) == 3
+    right = english.captions({"action": "wave", "side": "right"}, 6, random.Random(0))
+    assert "right palm up and shake" in right
+    both = english.captions({"action": "wave", "side": "both"}, 6, random.Random(0))
+    assert not any("palm" in text for text in both)
+    once = {"action": "wave", "side": "left", "count": "1", "speed": "normal"}
+    assert "left palm up and shake" in english.captions(once, 6, random.Random(0))

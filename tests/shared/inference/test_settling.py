@@ -14,6 +14,7 @@ from src.shared.data.synthetic.generate import generate_clip
 from src.shared.data.synthetic.spec import spec_for
 from src.shared.inference.editing import Place
 from src.shared.inference.settling import Settler, joined, settled
+from src.shared.motion.foot_holds import GIVE
 from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess import MotionPostProcessor
 from src.shared.motion.root_track import LATERAL, ROOT_ROW, YAW_RATE, encode_features
@@ -75,7 +76,7 @@ def test_with_foot_lock_all_pieces_join_to_one_motion(walk: torch.Tensor, sizes:
 
 
 def test_feet_are_held_across_blocks_without_a_jump(walk: torch.Tensor) -> None:
-    """The sideways slide of 15 cm/s is gone while a foot stands; accelerations stay in bounds."""
+    """A slide of 15 cm/s is gone but for what a foot gives; accelerations stay in bounds."""
     loose, _ = in_pieces(walk, [], PostProcessingConfig(smoothing_kernel=3))
     held, _ = in_pieces(walk, [30, 30], LOCKED)
     balls = [ball for _, ball in FOOT_JOINTS]
@@ -85,7 +86,7 @@ def test_feet_are_held_across_blocks_without_a_jump(walk: torch.Tensor) -> None:
         stands = held.contacts[:-1] * held.contacts[1:] > 0.5
         return float(30 * speed[stands].mean())
 
-    assert slide(held) < 0.25 * slide(loose)
+    assert slide(held) < min(1.5 * GIVE, 0.5 * slide(loose))
     sizes = [
         np.linalg.norm(np.diff(motion.positions(), 2, axis=0), axis=-1).max() * 900
         for motion in (loose, held)

@@ -8,6 +8,7 @@ import torch
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from src.shared.motion.foot_holds import GIVE
 from src.shared.motion.foot_lock import lock_feet
 from src.shared.motion.leg_ik import MAX_STRETCH, two_bone_ik
 from src.shared.motion.motion import Motion
@@ -64,7 +65,7 @@ def test_a_sliding_walk_stops_sliding() -> None:
     motion = sliding_walk()
     locked = lock_feet(motion)
     assert contact_speed(motion) == pytest.approx(30, rel=0.05)
-    assert contact_speed(locked) < 0.01
+    assert contact_speed(locked) == pytest.approx(100 * GIVE, rel=0.05)
     np.testing.assert_array_equal(locked.root_position, motion.root_position)
     others = [joint for joint in range(NUM_JOINTS) if joint not in LEGS]
     np.testing.assert_array_equal(locked.quaternions[:, others], motion.quaternions[:, others])
@@ -118,7 +119,7 @@ def test_who_claims_no_contact_is_held_all_the_same() -> None:
     motion = sliding_walk()
     silent = lock_feet(replace(motion, contacts=np.zeros_like(motion.contacts)))
     assert silent.contacts.any(1).mean() > 0.95
-    assert contact_speed(silent) < 0.01
+    assert contact_speed(silent) == pytest.approx(100 * GIVE, rel=0.05)
 
 
 def test_a_foot_that_stands_is_left_alone() -> None:
@@ -200,7 +201,8 @@ def test_held_feet_rest_and_bones_keep_their_length(slide: float, sink: float, s
     for side, ball in enumerate(BALLS):
         down = locked.contacts[:, side] > 0.5
         steps = np.linalg.norm(np.diff(positions[:, ball][:, [0, 2]], axis=0), axis=-1)
-        assert steps[down[1:] & down[:-1]].max(initial=0) < 1e-3
+        standing = steps[down[1:] & down[:-1]]
+        assert standing.sum() <= 1.1 * len(standing) * GIVE / motion.fps
         assert positions[:, ball, 1].min() > REST_FOOT_HEIGHT - 1e-3
     bones = positions[:, 1:] - positions[:, list(PARENTS[1:])]
     lengths = np.linalg.norm(canonical_skeleton().offsets[1:], axis=-1)

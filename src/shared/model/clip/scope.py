@@ -1,10 +1,16 @@
 """PromptScope: is a prompt near anything the model was trained on, and to which actions?
 
-A prompt is known when it has a key word of some action, or nothing but trained words that are not
-all fillers. The key words of an action are a small set of telling words that covers its training
-captions (greedy set cover), so "turn" is one and the "make" of "make a turn" is not. A text tower
-trained from nothing puts nonsense somewhere too, so its cosine only ranks the actions; a
-pretrained tower also knows synonyms, so there a close embedding is enough.
+What tells is its evidence: how near it lies to an action and how much nearer than to the next one,
+how many of its words training saw, and whether its key words agree with the place it lies at. A
+logistic model of these (`calibrated`) was fitted to prompts whose right action is known: captions,
+captions with words in them that nobody knows, and captions without their key words, which ask for
+nothing. Without one (older folders) a prompt is known when it has a key word of some action, or
+nothing but trained words that are not all fillers.
+
+The key words of an action are a small set of telling words that covers its training captions
+(greedy set cover), so "turn" is one and the "make" of "make a turn" is not. A text tower trained
+from nothing puts nonsense somewhere too, so its cosine alone tells little; a pretrained tower also
+knows synonyms, so there a close embedding is enough.
 
 Letters: N captions, A actions, D embed dim.
 """
@@ -14,7 +20,8 @@ import re
 import unicodedata
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Self
 
@@ -34,6 +41,8 @@ SAME_STEM = 0.65  # share of the longer word that two forms of one word begin al
 MIN_STEM = 4  # letters
 MIN_SEEN = 0.5  # share of words seen in training that a likeness to a key word needs around it
 NUM_NEAREST = 3
+FALSE_WARNINGS = 0.03  # share of the prompts it calibrates on that are understood, and warned of
+NEWTON_STEPS, RIDGE = 30, 1e-2
 
 _CJK = re.compile(r"[\u3040-\u30ff\u3400-\u9fff]")
 _HAN = re.compile(r"[\u3400-\u9fff]")
@@ -77,6 +86,8 @@ class PromptScope:
         means: [A, D] float32 unit-norm mean text embeddings.
         false_alarms: share of held-out captions it called unknown.
         min_cosine: for a pretrained text tower, enough on its own; None otherwise.
+        weights: of the evidence, the last one the bias: known where the sum is positive. None =
+            the rule of words alone.
     """
 
     actions: tuple[str, ...]
@@ -86,6 +97,7 @@ class PromptScope:
     means: np.ndarray
     false_alarms: float = 0.0
     min_cosine: float | None = None
+    weights: tuple[float, ...] | None = None
 
     @classmethod
     def fit(
@@ -139,12 +151,61 @@ class PromptScope:
     def check(self, prompt: str, embedding: np.ndarray) -> ScopeResult:
         """Judge one prompt by its words and its pooled text embedding [D]."""
         cosines = self.means @ _unit(embedding)
-        known = _known(frozenset(words_of(prompt)), self.key_words, self.words, self.fillers)
+        if self.weights is not None:
+            known = float(self.evidence(prompt, cosines) @ self.weights) > 0
+        else:
+            known = _known(frozenset(words_of(prompt)), self.key_words, self.words, self.fillers)
         if self.min_cosine is not None:
             known = known or float(cosines.max()) >= self.min_cosine
         ranked = [self.actions[index] for index in np.argsort(-cosines, kind="stable")]
         named = [action for action in ranked if action]  # "" is that of clips without a label
         return ScopeResult(known, named[:NUM_NEAREST])
+
+    @cached_property
+    def _by_stem(self) -> dict[str, list[str]]:
+        """Key words by their first letters."""
+        found: dict[str, list[str]] = {}
+        for key in self.key_words:
+            found.setdefault(key[:MIN_STEM], []).append(key)
+        return found
+
+    def evidence(self, prompt: str, cosines: np.ndarray) -> np.ndarray:
+        """What speaks for a prompt [6], its cosines with the A actions given; the last is 1."""
+        words = frozenset(words_of(prompt))
+        first, second = np.argsort(-cosines, kind="stable")[[0, min(1, len(cosines) - 1)]]
+        told = {action for word in words for action in self.key_words.get(word, ())}
+        for word in words - self.key_words.keys():
+            for key in self._by_stem.get(word[:MIN_STEM], ()):
+                if _same_stem(word, key):
+                    told.update(self.key_words[key])
+        seen = len(words & self.words) / max(len(words), 1)
+        agreement = 0.0 if not told else 1.0 if int(first) in told else -1.0
+        only_fillers = float(words <= self.fillers)
+        margin = float(cosines[first] - cosines[second])
+        return np.array([float(cosines[first]), margin, seen, agreement, only_fillers, 1.0])
+
+    def calibrated(
+        self, prompts: Sequence[str], embeddings: np.ndarray, right: Sequence[bool]
+    ) -> Self:
+        """The same scope, with weights for its evidence by logistic regression.
+
+        Args:
+            prompts: N.
+            embeddings: [N, D].
+            right: whether the place of each is that of the action it asks for.
+        """
+        cosines = _unit(embeddings) @ self.means.T
+        rows = np.stack([self.evidence(*each) for each in zip(prompts, cosines, strict=True)])
+        wanted = np.asarray(right, float)
+        weights = np.zeros(rows.shape[1])
+        for _ in range(NEWTON_STEPS):
+            chance = 1 / (1 + np.exp(-(rows @ weights).clip(-30, 30)))
+            slope = rows.T @ (wanted - chance) - RIDGE * weights
+            curve = (rows * (chance * (1 - chance))[:, None]).T @ rows
+            weights += np.linalg.solve(curve + RIDGE * np.eye(len(weights)), slope)
+        if wanted.any():
+            weights[-1] -= np.quantile(rows[wanted > 0] @ weights, FALSE_WARNINGS)
+        return replace(self, weights=tuple(weights.tolist()))
 
     def warning(self, prompt: str, embedding: np.ndarray) -> str | None:
         """A line for the user when the prompt is far from anything trained, else None."""
@@ -167,6 +228,7 @@ class PromptScope:
             "actions": self.actions,
             "false-alarms": self.false_alarms,
             "min-cosine": self.min_cosine,
+            "weights": self.weights,
             "key-words": self.key_words,
             "words": sorted(self.words),
             "fillers": sorted(self.fillers),
@@ -205,6 +267,7 @@ class PromptScope:
                 means=means,
                 false_alarms=told.false_alarms,
                 min_cosine=told.min_cosine,
+                weights=told.weights,
             )
         except ValidationError as error:
             raise of_another_version(folder / META_FILE, error) from error
@@ -233,6 +296,7 @@ class _Meta(BaseModel):
     fillers: frozenset[str] | None = None
     false_alarms: float
     min_cosine: float | None
+    weights: tuple[float, ...] | None = None
 
 
 def _unit(vectors: np.ndarray) -> np.ndarray:

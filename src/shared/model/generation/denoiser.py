@@ -6,7 +6,7 @@ L text tokens, H heads.
 
 import torch
 from torch import Tensor, nn
-from torch.nn.functional import silu
+from torch.nn.functional import pad, silu
 
 from src.shared.config_schema import PROVENANCES, NetworkConfig
 from src.shared.model.clip.core import TextFeatures
@@ -58,10 +58,33 @@ class DenoiserBlock(nn.Module):
         return self.transform(h)  # [B, T, D]
 
 
+class FrameRefiner(nn.Module):
+    """What tokens of several frames leave out: two convolutions over the frames themselves.
+
+    They see the noisy motion and what the tokens made of it, so that no seam shows between
+    tokens; they start at zero.
+    """
+
+    def __init__(self, motion_dim: int, hidden: int, kernel: int = 3) -> None:
+        super().__init__()
+        self.expand = nn.Conv1d(2 * motion_dim, hidden, kernel, padding=kernel // 2)
+        self.contract = nn.Conv1d(hidden, motion_dim, kernel, padding=kernel // 2)
+        for parameter in self.contract.parameters():
+            nn.init.zeros_(parameter)
+
+    def forward(self, noisy: Tensor, coarse: Tensor) -> Tensor:
+        """Both [B, T, K*C], zero where there is no frame -> [B, T, K*C], to be added."""
+        seen = torch.cat([noisy, coarse], dim=-1).transpose(1, 2)  # [B, 2*K*C, T]
+        change: Tensor = self.contract(silu(self.expand(seen)))  # [B, K*C, T]
+        return change.transpose(1, 2)  # [B, T, K*C]
+
+
 class MotionDenoiser(nn.Module):
     """Noisy motion, step, text and tag -> noise, clean motion or v, as the config says.
 
-    The output projection starts at zero, so the first prediction is the mean motion.
+    The output projection starts at zero, so the first prediction is the mean motion. With
+    `frames-per-token` above 1 the blocks see so many frames as one token (the patches of Peebles
+    and Xie 2023, DiT, section 3.2, along time) and a FrameRefiner mends the seams.
     """
 
     def __init__(self, config: NetworkConfig, num_tags: int) -> None:
@@ -70,12 +93,14 @@ class MotionDenoiser(nn.Module):
         self.config = config
         self.num_tags = num_tags
         self.uses_tokens = generation.text_conditioning == "tokens"
+        self.stride = generation.frames_per_token
         motion_dim = config.motion_rows * generation.motion_channels
+        token_dim = self.stride * motion_dim
 
-        self.motion_proj = nn.Linear(motion_dim, dim)
+        self.motion_proj = nn.Linear(token_dim, dim)
         self.known_proj = None
         if generation.constraints:  # starts at zero: a network without it can be gone on from
-            self.known_proj = nn.Linear(motion_dim, dim, bias=False)
+            self.known_proj = nn.Linear(token_dim, dim, bias=False)
             nn.init.zeros_(self.known_proj.weight)
         self.text_scale = nn.Parameter(torch.tensor(float(dim) ** 0.5))  # unit-norm -> unit RMS
         self.text_proj = nn.Linear(dim, dim)
@@ -86,9 +111,8 @@ class MotionDenoiser(nn.Module):
         self.timestep_embed = TimestepEmbedding(dim)
         self.tag_embed = TagEmbedding(num_tags, dim)
         self.provenance_embed = None
-        if generation.provenance:  # starts at zero, as known_proj
+        if generation.provenance:
             self.provenance_embed = TagEmbedding(len(PROVENANCES), dim)
-            nn.init.zeros_(self.provenance_embed.embedding.weight)
         self.blocks = nn.ModuleList(
             DenoiserBlock(
                 dim, generation.num_heads, dropout=generation.dropout, tokens=self.uses_tokens
@@ -96,9 +120,10 @@ class MotionDenoiser(nn.Module):
             for _ in range(generation.num_layers)
         )
         self.output_norm = nn.LayerNorm(dim)
-        self.output_proj = nn.Linear(dim, motion_dim)
+        self.output_proj = nn.Linear(dim, token_dim)
         nn.init.zeros_(self.output_proj.weight)
         nn.init.zeros_(self.output_proj.bias)
+        self.refiner = FrameRefiner(motion_dim, dim // 2) if self.stride > 1 else None
 
     def forward(
         self,
@@ -128,13 +153,20 @@ class MotionDenoiser(nn.Module):
         Returns:
             [B, T, K, C] in float32 outside autocast.
         """
-        mask = without_full_mask(mask)
-        motion_h = self.motion_proj(noisy.flatten(2))  # [B, T, D]
+        mask = frame_mask = without_full_mask(mask)
+        frames = noisy.shape[1]
+        if self.refiner is not None and mask is not None:
+            noisy = noisy * mask[:, :, None, None]  # a token may hold frames that are none
+        motion = noisy.flatten(2)  # [B, T, K*C]
+        # From here on T counts tokens.
+        mask = None if mask is None else self._tokens(mask[..., None]).any(dim=-1)  # [B, T]
+        motion_h = self.motion_proj(self._tokens(motion))  # [B, T, D]
         text_h = self.text_proj(text.pooled * self.text_scale)[:, None]  # [B, 1, D]
         h = motion_h + text_h  # [B, T, D]
         if known is not None:
             assert self.known_proj is not None, "this network was not made for constraints"
-            h = h + self.known_proj(known.flatten(2).to(noisy.dtype))  # [B, T, D]
+            told = known.flatten(2).to(noisy.dtype)  # [B, frames, K*C]
+            h = h + self.known_proj(self._tokens(told))  # [B, T, D]
         label_h = self.tag_embed(tag)  # [B, D]
         if provenance is not None:
             assert self.provenance_embed is not None, "this network was not made for provenance"
@@ -146,8 +178,19 @@ class MotionDenoiser(nn.Module):
         for index, block in enumerate(self.blocks):
             heard = keys_values[index] if keys_values else None
             h = block(h, condition, mask, heard, text.mask)  # [B, T, D]
-        out = self.output_proj(self.output_norm(h))  # [B, T, K*C]
-        return out.view_as(noisy)  # [B, T, K, C]
+        out = self.output_proj(self.output_norm(h))  # [B, T, stride*K*C]
+        out = out.unflatten(-1, (self.stride, -1)).flatten(1, 2)[:, :frames]  # [B, frames, K*C]
+        if self.refiner is not None:
+            coarse = out if frame_mask is None else out * frame_mask[..., None]
+            out = out + self.refiner(motion, coarse)  # [B, frames, K*C]
+        return out.view_as(noisy)  # [B, frames, K, C]
+
+    def _tokens(self, values: Tensor) -> Tensor:
+        """Rows of `stride` frames side by side: [B, frames, N] -> [B, T, stride * N]."""
+        if self.stride == 1:
+            return values
+        lacking = -values.shape[1] % self.stride
+        return pad(values, (0, 0, 0, lacking)).unflatten(1, (-1, self.stride)).flatten(2)
 
     def text_keys_values(self, text: TextFeatures) -> list[KeyValue]:
         """Keys and values of every block's cross-attention; empty for pooled conditioning."""

@@ -21,15 +21,17 @@ def text(batch: int = B) -> TextFeatures:
 def alive(denoiser: MotionDenoiser) -> MotionDenoiser:
     """The same with modulations and output away from their zeros."""
     for name, parameter in denoiser.named_parameters():
-        if "modulation" in name or "output_proj" in name:
+        if "modulation" in name or "output_proj" in name or "contract" in name:
             torch.nn.init.normal_(parameter, std=0.2)
     return denoiser.eval()
 
 
-@pytest.fixture(scope="module", params=["pooled", "tokens"])
+@pytest.fixture(scope="module", params=[("pooled", 1), ("tokens", 1), ("pooled", 4)], ids=str)
 def denoiser(request, make_network) -> MotionDenoiser:
     torch.manual_seed(0)
-    return alive(MotionDenoiser(make_network(text_conditioning=request.param), TAGS))
+    conditioning, stride = request.param
+    network = make_network(text_conditioning=conditioning, frames_per_token=stride)
+    return alive(MotionDenoiser(network, TAGS))
 
 
 def inputs(batch: int = B):
@@ -45,6 +47,20 @@ def test_shapes_are_the_documents(make_network, root_track: bool):
     )
     assert out.shape == motion.shape
     assert torch.equal(out, torch.zeros_like(out))  # the output projection starts at zero
+
+
+@pytest.mark.parametrize("frames", [1, 4, 10])
+def test_tokens_of_several_frames_give_every_frame(make_network, frames: int):
+    model = alive(MotionDenoiser(make_network(frames_per_token=4, constraints=True), TAGS))
+    lengths: list[int] = []
+    model.blocks[0].register_forward_hook(lambda *call: lengths.append(call[2].shape[1]))
+    noisy, timesteps, features = inputs()
+    noisy = noisy[:, :frames]
+    tag = torch.full((B,), TAGS)
+    out = model(noisy, timesteps, features, tag, known=noisy > 0)
+    assert out.shape == noisy.shape
+    assert lengths == [-(-frames // 4)]
+    assert (out - model(noisy, timesteps, features, tag, known=noisy > 1)).abs().amax() > 1e-4
 
 
 def test_layer_sizes_are_the_documents(make_network):
@@ -176,6 +192,7 @@ def test_provenance_can_be_learned_later(make_network):
     tag = torch.full((B,), TAGS)
     plain = alive(MotionDenoiser(make_network(), TAGS))
     model = alive(MotionDenoiser(make_network(provenance=True), TAGS))
+    torch.nn.init.zeros_(model.get_parameter(PROVENANCE_WEIGHT))
     assert set(model.state_dict()) - set(plain.state_dict()) == {PROVENANCE_WEIGHT}
     model.load_state_dict(plain.state_dict(), strict=False)
     captured, procedural, unknown = (torch.full((B,), index) for index in (0, 1, 3))
