@@ -73,7 +73,7 @@ def prepare(
     if given and not source:
         raise UsageError(f"{given[0]} without SOURCE; name the folder it is about")
     if only_gaps and not synthetic:
-        raise UsageError("--only-gaps without --synthetic N, the motions that would fill gaps")
+        raise UsageError("--only-gaps without --synthetic N; add it, or leave out --only-gaps")
     options.check_ranges(synthetic=synthetic, workers=workers, seed=seed, source_fps=source_fps)
     options.check_folder("--out", out)
     if any(same_place(out, root) for root in source or []):

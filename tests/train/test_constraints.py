@@ -5,7 +5,7 @@ import pytest
 import torch
 
 from src.shared.config_schema import ConstraintShares
-from src.shared.motion.root_track import FORWARD, HEIGHT, LEFT_CONTACT, ROOT_ROW
+from src.shared.motion.root_track import FORWARD, HEIGHT, LEFT_CONTACT, ROOT_ROW, YAW_RATE
 from src.shared.motion.skeleton import NUM_JOINTS
 from src.train.constraints import draw_known
 
@@ -44,7 +44,10 @@ def test_the_root_row_is_pinned_alone():
     known = masks(root=1)
     assert not known[:, :, 1:NUM_JOINTS].any()
     row = known[:, :, ROOT_ROW]
-    assert row[..., FORWARD].any(1).all()
+    path, heading = row[..., FORWARD].any(1), row[..., YAW_RATE].any(1)
+    assert (path | heading).all()
+    assert path.float().mean() > 0.6 and heading.float().mean() > 0.6
+    assert (path & ~heading).any() and (heading & ~path).any()
     assert 0.1 < row[..., HEIGHT].any(1).float().mean() < 0.9
     assert not row[..., LEFT_CONTACT:].any()
 

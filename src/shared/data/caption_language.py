@@ -241,7 +241,8 @@ class CaptionLanguage:
             kept = [line for line in entry.text if normalised(line) not in requested(self.code)]
             found.setdefault(self._key(entry.labels), []).extend(kept)
             if (labels := mirror_labels(entry.labels)) != entry.labels:
-                mirrored = [self.mirror(line) for line in kept]
+                pairs = [(line, self.mirror(line)) for line in kept]
+                mirrored = [image for line, image in pairs if image != line]  # a southpaw has none
                 found.setdefault(self._key(labels), []).extend(mirrored)
         return found
 

@@ -11,7 +11,7 @@ from src.shared.motion.root_track import FORWARD, LATERAL, ROOT_ROW
 SHORTEST_SHARE = 0.4  # of its frames a gesture keeps at least
 _IN_PLACE = 0.3  # m/s over the ground, on average
 _SAME_POSE = 1.0  # between [22,6] rotations: hands that hang, twice; half a step is 1.2
-_JOIN = 5  # frames over which the two moments are blended
+_JOIN = 10  # frames over which the two moments are blended
 _ENDS = 8  # frames at both ends that are never left out
 _PACE = 6.0  # frames of motion that weigh as much as the pose, when moments are compared
 
@@ -31,7 +31,7 @@ def shorten(values: Tensor, frames: int) -> Tensor | None:
     much would go, or no two moments are alike.
     """
     num = len(values)
-    excess = num - frames + _JOIN
+    excess = num - frames
     if frames < num * SHORTEST_SHARE or num - excess < 2 * _ENDS:
         return None
     pose = values[:, :ROOT_ROW].flatten(1)  # [T,132]

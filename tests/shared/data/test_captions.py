@@ -223,5 +223,5 @@ def test_the_matcher_accepts_what_the_templates_write(book: CaptionBook, lang: s
     language = book.language(lang)
     matcher = CaptionMatcher(language)
     for labels in rng.sample(ALL, 40):
-        for text in language.captions(labels, 2, rng):
+        for text in language.captions(labels, 1, rng):  # of one caption none is a whole sentence
             assert matcher.accepts(text), text

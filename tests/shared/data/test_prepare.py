@@ -316,11 +316,11 @@ def test_a_turn_stays_in_its_window(data: PreparedData) -> None:
         assert part.sign() == whole.sign() and part.abs() > 0.3 * whole.abs()
 
 
-def test_balance_evens_the_combinations(data: PreparedData) -> None:
+def test_balance_evens_the_actions(data: PreparedData) -> None:
     def spread(balance: float) -> float:
         train = dataset(data, balance=balance)
-        groups = torch.cat([train.batch(step, 64).group for step in range(20)])
-        return float(torch.bincount(groups).float().std())
+        actions = torch.cat([train.batch(step, 64).tag for step in range(20)])
+        return float(torch.bincount(actions, minlength=len(data.tags)).float().std())
 
     assert spread(1.0) < spread(0.0)
 

@@ -6,7 +6,7 @@ from src.shared.inference.prompt_sampler import PromptSampler
 from src.shared.inference.text_judge import TextJudge
 from tests.shared.model.conftest import tiny_generator
 
-PROMPTS = ["a person walks forward", "somebody jumps twice"]
+PROMPTS = ["a person walks forward", "somebody jumps"]
 
 
 def test_candidates_are_the_generators_and_the_best_is_the_judges() -> None:

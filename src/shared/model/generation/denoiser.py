@@ -72,10 +72,12 @@ class FrameRefiner(nn.Module):
         for parameter in self.contract.parameters():
             nn.init.zeros_(parameter)
 
-    def forward(self, noisy: Tensor, coarse: Tensor) -> Tensor:
-        """Both [B, T, K*C], zero where there is no frame -> [B, T, K*C], to be added."""
+    def forward(self, noisy: Tensor, coarse: Tensor, mask: Tensor | None = None) -> Tensor:
+        """Both [B, T, K*C], mask [B, T], True = real frame -> [B, T, K*C], to be added."""
         seen = torch.cat([noisy, coarse], dim=-1).transpose(1, 2)  # [B, 2*K*C, T]
-        change: Tensor = self.contract(silu(self.expand(seen)))  # [B, K*C, T]
+        real = 1 if mask is None else mask[:, None]  # [B, 1, T]
+        hidden = silu(self.expand(seen * real)) * real  # [B, hidden, T]
+        change: Tensor = self.contract(hidden)  # [B, K*C, T]
         return change.transpose(1, 2)  # [B, T, K*C]
 
 
@@ -181,8 +183,7 @@ class MotionDenoiser(nn.Module):
         out = self.output_proj(self.output_norm(h))  # [B, T, stride*K*C]
         out = out.unflatten(-1, (self.stride, -1)).flatten(1, 2)[:, :frames]  # [B, frames, K*C]
         if self.refiner is not None:
-            coarse = out if frame_mask is None else out * frame_mask[..., None]
-            out = out + self.refiner(motion, coarse)  # [B, frames, K*C]
+            out = out + self.refiner(motion, out, frame_mask)  # [B, frames, K*C]
         return out.view_as(noisy)  # [B, frames, K, C]
 
     def _tokens(self, values: Tensor) -> Tensor:

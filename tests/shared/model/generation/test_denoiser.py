@@ -21,7 +21,7 @@ def text(batch: int = B) -> TextFeatures:
 def alive(denoiser: MotionDenoiser) -> MotionDenoiser:
     """The same with modulations and output away from their zeros."""
     for name, parameter in denoiser.named_parameters():
-        if "modulation" in name or "output_proj" in name or "contract" in name:
+        if any(part in name for part in ("modulation", "output_proj", "contract", "known_proj")):
             torch.nn.init.normal_(parameter, std=0.2)
     return denoiser.eval()
 
