@@ -209,7 +209,13 @@ class TrainConfig(Config):
         return self
 
 
-class TrainClipConfig(TrainConfig):
+class TrainTowerConfig(TrainConfig):
+    """What the stages that train a text tower share."""
+
+    encoder_learning_rate: float = Field(1e-5, ge=0)  # of a pretrained text-model; 0: frozen
+
+
+class TrainClipConfig(TrainTowerConfig):
     """train_clip.yaml: aligning text and motion (ruling 20)."""
 
     text: str | None = None  # folder of train_text, whose tower stays as it is

@@ -26,6 +26,7 @@ from src.shared.model.clip.core import SMALL, MotionClip
 from src.shared.model.clip.losses import clip_loss
 from src.shared.model.clip.pretrained import KIND, ClipBundle, load_text_tower, tower_hash
 from src.shared.model.clip.tokenizer import PromptTokenizer
+from src.train.frozen_encoder import encoder_rates
 from src.train.launch import stage_app
 from src.train.task import Part
 from src.train.text_motion import (
@@ -105,6 +106,7 @@ class ClipTask:
             clip.text, self.tokenizer = load_text_tower(config.text, network.embed_dim)
         nn.init.constant_(clip.logit_scale, -math.log(config.temperature))
         self.text = clip.text
+        self.learning_rates = encoder_rates(clip.text, "clip.text.", config.encoder_learning_rate)
         self.module: nn.Module = ClipObjective(clip)
         self.figures: dict[str, float] = {}
 

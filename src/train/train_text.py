@@ -7,9 +7,10 @@ Each label combination has a place in the space, and the tower learns to send fr
 combination there, with words missing and made-up words put in. Without a CLIP folder (`clip=null`)
 the tower starts from nothing, the places are learned with it (a cosine classifier), and every label
 is read off the embedding besides; `train_clip text=…` then teaches a motion tower to meet it
-(locked-tower tuning, Zhai et al. 2022, LiT). With one, a trained tower is hardened: a place is the
-mean of its captions under the tower that was there before, so that denoisers stay valid, and
-neither they nor the motion tower are touched.
+(locked-tower tuning, Zhai et al. 2022, LiT). A pretrained `clip.text-model` learns at a rate of its
+own (`encoder-learning-rate`); at 0 it is frozen, and each caption is read once. With one, a trained
+tower is hardened: a place is the mean of its captions under the tower that was there before, so
+that denoisers stay valid, and neither they nor the motion tower are touched.
 
 Letters: B batch, G label combinations, D shared dimensions.
 """
@@ -23,11 +24,12 @@ from typing import Any
 
 import numpy as np
 import torch
+from accelerate import PartialState
 from pydantic import Field
 from torch import Tensor, nn
 from torch.nn.functional import cross_entropy, normalize
 
-from src.shared.config_schema import NetworkConfig, TrainConfig
+from src.shared.config_schema import NetworkConfig, TrainTowerConfig
 from src.shared.data.captions import packaged_book
 from src.shared.data.labels import Labels
 from src.shared.data.word_dropout import drop_words, insert_babble
@@ -38,6 +40,7 @@ from src.shared.model.clip.core import SMALL, MotionClip, TextTower
 from src.shared.model.clip.pretrained import KIND, ClipBundle, encode_captions
 from src.shared.model.clip.tokenizer import PromptTokenizer
 from src.shared.model.generation.motion_generator import MotionGenerator
+from src.train.frozen_encoder import MEANS_FILE, ZScores, caption_means, encoder_rates
 from src.train.launch import stage_app
 from src.train.scope_fit import fit_scope
 from src.train.style_fit import fit_style_map
@@ -49,7 +52,7 @@ HEADS = 0.3  # weight of the labels beside the place, from nothing
 HELD_BACK_SEED = 1  # of the captions that validation reads; training reads those of seed 2
 
 
-class TrainTextConfig(TrainConfig):
+class TrainTextConfig(TrainTowerConfig):
     """train_text.yaml."""
 
     clip: str | None = "runs/clip"  # folder written by train_clip; null: from nothing
@@ -78,25 +81,28 @@ class LabelledTower(nn.Module):
         rows = [[values[key].index(each.get(key, "")) for key in keys] for each in labels]
         self.register_buffer("classes", torch.tensor(rows), persistent=False)  # [G, keys]
 
-    def forward(
-        self, input_ids: Tensor, attention_mask: Tensor, group: Tensor, scale: float
-    ) -> Any:
+    def forward(self, batch: "TextBatch", scale: float) -> tuple[Tensor, Tensor]:
         """Cross-entropies of the right place, of `scale` times the cosines, and of all labels."""
-        pooled = self.tower(input_ids, attention_mask).pooled  # [B, D]
-        choice = cross_entropy(scale * pooled @ normalize(self.places, dim=-1).T, group)
+        if batch.mean is None:
+            pooled = self.tower(batch.input_ids, batch.attention_mask).pooled  # [B, D]
+        else:
+            pooled = self.tower.pool(batch.mean)  # [B, D]
+        choice = cross_entropy(scale * pooled @ normalize(self.places, dim=-1).T, batch.group)
         spread = pooled * pooled.shape[-1] ** 0.5
-        wanted = self.get_buffer("classes")[group].unbind(-1)  # [B] a label
+        wanted = self.get_buffer("classes")[batch.group].unbind(-1)  # [B] a label
         terms = [cross_entropy(h(spread), c) for h, c in zip(self.heads, wanted, strict=True)]
         return choice, torch.stack(terms).sum()
 
 
 @dataclass(frozen=True)
 class TextBatch:
-    """input_ids, attention_mask [B,L]; group [B] index of the right place."""
+    """input_ids, attention_mask [B,L]; group [B] index of the right place; mean [B,H] where a
+    frozen encoder has read the captions already, which then have no ids."""
 
     input_ids: Tensor
     attention_mask: Tensor
     group: Tensor
+    mean: Tensor | None = None
 
 
 class TextTask:
@@ -125,6 +131,12 @@ class TextTask:
             self.module = LabelledTower(tower, [self.labels[group] for group in self.groups])
         else:
             self.places = self._places()
+        prefix = "tower." if bundle is None else ""
+        self.learning_rates = encoder_rates(tower, prefix, config.encoder_learning_rate)
+        self.read_once = bundle is None and 0.0 in self.learning_rates.values()
+        self.rows: dict[tuple[int, str], list[int]] = {}  # of `means`, by combination and language
+        self.means = torch.zeros(0)  # z-scored
+        self.z_scores: ZScores | None = None
         self.figures: dict[str, float] = {}
 
     def _from_nothing(self, network: NetworkConfig) -> ClipBundle:
@@ -186,34 +198,65 @@ class TextTask:
         }
 
     def to(self, device: torch.device) -> None:
-        """The places follow the module."""
+        """The places follow the module, and the frozen encoder, there now, reads the captions."""
         self.places = self.places.to(device)
+        if isinstance(self.module, LabelledTower) and self.read_once:
+            captions = self._captions_to_read()
+            file = Path(self.config.output) / MEANS_FILE
+            with PartialState().main_process_first():
+                self.means = caption_means(self.module.tower, self.tokenizer, captions, file)
+            self.z_scores = ZScores.of(self.means)
+            self.means = self.z_scores(self.means).half()
+
+    def _captions_to_read(self) -> list[str]:
+        """Every fresh caption, as it is and damaged once; fills `rows`."""
+        rng = numpy_generator("text", self.config.seed, 0, 0)
+        captions: list[str] = []
+        for index, group in enumerate(self.fresh):
+            for language, texts in group.items():
+                both = texts + [self._damaged(text, language, rng) for text in texts]
+                self.rows[index, language] = list(range(len(captions), len(captions) + len(both)))
+                captions += both
+        return captions
 
     def batch(self, part: Part) -> TextBatch:
         """Fresh captions, half of them damaged in some way; languages alike."""
         config = self.config
         rng = numpy_generator("text", config.seed, part.step, part.index)
         chosen = rng.choice(len(self.groups), size=config.batch_size, p=self.shares)
-        captions = []
+        captions, rows = [], []
         for group in chosen:
             by_language = self.fresh[group]
             language = config.languages[rng.integers(len(config.languages))]
-            texts = by_language.get(language) or next(iter(by_language.values()))
-            text = texts[rng.integers(len(texts))]
-            if rng.random() < 0.5:
-                text = drop_words(text, config.word_dropout, rng)
-            if rng.random() < config.babble:
-                other = self.fresh[rng.integers(len(self.fresh))].get(language, [text])
-                text = insert_babble(text, other[rng.integers(len(other))], rng)
-            captions.append(text)
-        return TextBatch(*self.tokenizer(captions), torch.from_numpy(chosen))
+            if not by_language.get(language):
+                language = next(iter(by_language))
+            if self.read_once:
+                known = self.rows[int(group), language]
+                rows.append(known[rng.integers(len(known))])
+            else:
+                texts = by_language[language]
+                captions.append(self._damaged(texts[rng.integers(len(texts))], language, rng))
+        groups = torch.from_numpy(chosen)
+        if self.read_once:
+            none = torch.zeros(len(groups), 0, dtype=torch.long)
+            return TextBatch(none, none, groups, self.means[rows].float())
+        return TextBatch(*self.tokenizer(captions), groups)
+
+    def _damaged(self, text: str, language: str, rng: np.random.Generator) -> str:
+        """In half of the cases with words missing, in some with made-up words in it."""
+        if rng.random() < 0.5:
+            text = drop_words(text, self.config.word_dropout, rng)
+        if rng.random() < self.config.babble:
+            other = self.fresh[rng.integers(len(self.fresh))].get(language, [text])
+            text = insert_babble(text, other[rng.integers(len(other))], rng)
+        return text
 
     def training_step(self, module: nn.Module, batch: TextBatch) -> dict[str, Tensor]:
         """Distance to the right place, and its probability among all places; from nothing, that
         of the place and of each label."""
         scale = self.config.scale
         if self.config.clip is None:
-            choice, label = module(batch.input_ids, batch.attention_mask, batch.group, scale)
+            choice, label = module(batch, scale)
             return {"loss": choice + HEADS * label, "choice": choice, "labels": label}
         pooled = module(batch.input_ids, batch.attention_mask).pooled  # [B, D]
         cosine = 1 - (pooled * self.places[batch.group]).sum(-1).mean()
@@ -242,7 +285,8 @@ class TextTask:
     def _trained(self, module: nn.Module) -> tuple[TextTower, Tensor]:
         """The tower, and the places [G,D] on the CPU."""
         if isinstance(module, LabelledTower):
-            return module.tower, normalize(module.places.detach(), dim=-1).cpu()
+            tower = self.z_scores.folded(module.tower) if self.z_scores else module.tower
+            return tower, normalize(module.places.detach(), dim=-1).cpu()
         assert isinstance(module, TextTower)
         return module, self.places.cpu()
 

@@ -101,8 +101,11 @@ class TextTower(nn.Module):
             input_ids=input_ids, attention_mask=attention_mask
         ).last_hidden_state  # [B, L, H_text]
         tokens = self.text_proj(hidden)  # [B, L, D]
-        pooled = self.text_proj(masked_mean(hidden, mask))  # [B, D]
-        return TextFeatures(normalize(pooled.float(), dim=-1), tokens, mask)
+        return TextFeatures(self.pool(masked_mean(hidden, mask)), tokens, mask)
+
+    def pool(self, mean: Tensor) -> Tensor:
+        """The encoder's mean over a text's tokens [B, H_text] -> [B, D] unit-norm."""
+        return normalize(self.text_proj(mean).float(), dim=-1)
 
     def freeze(self) -> "TextTower":
         """Fix the weights and switch dropout off for good (generation training)."""

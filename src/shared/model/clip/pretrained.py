@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Self
 
 import torch
-from torch import Tensor
+from torch import Tensor, nn
 
 from src.shared.errors import UserError
 from src.shared.model.checkpoint import (
@@ -99,8 +99,9 @@ def load_text_tower(
     return tower.freeze(), PromptTokenizer.from_pretrained(folder / TOKENIZER_FOLDER)
 
 
-def tower_hash(tower: TextTower) -> str:
-    """SHA-256 of a text tower's weights as float16, as which generators may store them."""
+def tower_hash(tower: nn.Module) -> str:
+    """SHA-256 of the weights of a text tower, or of its encoder, as float16, as generators may
+    store them."""
     digest = hashlib.sha256()
     for name, tensor in sorted(tower.state_dict().items()):
         if tensor.is_floating_point():
