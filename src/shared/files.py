@@ -5,6 +5,7 @@ import errno
 import hashlib
 import json
 import os
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -14,8 +15,7 @@ from src.shared.errors import UserError
 
 MAX_JSON = 256 << 20  # bytes
 MAX_TEXT = 64 << 20
-# Names of what is not finished yet, or was not when its process was killed; safetensors' own last.
-LEFTOVERS = (".*.part", ".tmp??????")
+_UNFINISHED, _SAFETENSORS = re.compile(r"\..+\.\d+\.part"), re.compile(r"\.tmp[A-Za-z0-9]{6}")
 # What systems say of a full disk. Libraries in C++ and Rust quote it in errors of their own.
 _FULL = (
     *map(os.strerror, (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)),
@@ -54,8 +54,15 @@ def atomic_write(path: Path) -> Iterator[Path]:
 
 
 def unfinished(path: Path) -> Path:
-    """Where a file or folder is written before it takes its name; one of `LEFTOVERS`."""
+    """Where a file or folder is written before it takes its name; see `is_unfinished`."""
     return path.with_name(f".{path.name}.{os.getpid()}.part")
+
+
+def is_unfinished(path: Path) -> bool:
+    """Whether a path has a name of `unfinished`, or, as a file, one that safetensors gives."""
+    return bool(_UNFINISHED.fullmatch(path.name)) or (
+        bool(_SAFETENSORS.fullmatch(path.name)) and path.is_file()
+    )
 
 
 def why_not_written(error: Exception) -> str | None:

@@ -1,12 +1,13 @@
 """A folder that one process at a time writes."""
 
+import os
 import shutil
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from src.shared.errors import UserError
-from src.shared.files import LEFTOVERS, made_folder
+from src.shared.files import is_unfinished, made_folder
 
 LOCK = ".lock"
 
@@ -15,7 +16,8 @@ LOCK = ".lock"
 def sole_writer(folder: str | Path, *, wait: bool = False) -> Iterator[None]:
     """Hold `folder` against other processes, and clear what a killed one left half-written.
 
-    The lock is of the operating system: however its holder ends, the next one gets it.
+    The lock is of the operating system: however its holder ends, the next one gets it. That one
+    was killed here is told by its lock file, which stays; nothing is cleared without it.
 
     Args:
         wait: for the other process to finish, rather than refuse.
@@ -29,6 +31,7 @@ def sole_writer(folder: str | Path, *, wait: bool = False) -> Iterator[None]:
     with ExitStack() as held:
         try:
             held.enter_context(made_folder(folder))
+            killed = (folder / LOCK).exists()
             held.enter_context(FileLock(folder / LOCK, blocking=wait))
         except Timeout:
             raise UserError(
@@ -39,7 +42,8 @@ def sole_writer(folder: str | Path, *, wait: bool = False) -> Iterator[None]:
             reason = error.strerror or str(error)
             raise UserError(f"cannot write {folder}: {reason}; name another folder") from error
         try:
-            _clear(folder)
+            if killed:
+                _clear(folder)
             yield
         finally:
             with suppress(OSError):  # still held: whoever waits will make another one
@@ -47,9 +51,14 @@ def sole_writer(folder: str | Path, *, wait: bool = False) -> Iterator[None]:
 
 
 def _clear(folder: Path) -> None:
-    """Remove the unfinished files and folders of a process that was killed."""
-    for path in [path for pattern in LEFTOVERS for path in folder.rglob(pattern)]:
-        if path.is_dir():
-            shutil.rmtree(path, ignore_errors=True)
-        else:
-            path.unlink(missing_ok=True)
+    """Remove what has the name of something unfinished, but where another run writes or wrote."""
+    for place, folders, files in os.walk(folder):
+        own = [name for name in folders if is_unfinished(Path(place, name))]
+        for name in own:
+            shutil.rmtree(Path(place, name), ignore_errors=True)
+        folders[:] = [
+            name for name in folders if name not in own and not Path(place, name, LOCK).exists()
+        ]
+        for name in files:
+            if is_unfinished(Path(place, name)):
+                Path(place, name).unlink(missing_ok=True)

@@ -30,6 +30,7 @@ def test_a_shared_folder_is_waited_for(tmp_path: Path) -> None:
 
 def test_what_a_killed_run_left_half_written_is_cleared(tmp_path: Path) -> None:
     """Names as `atomic_write`, `save_checkpoint`, `write_usd` and safetensors give them."""
+    (tmp_path / ".lock").touch()
     (tmp_path / "checkpoints/.step-00000002.4711.part").mkdir(parents=True)
     (tmp_path / "checkpoints/.step-00000002.4711.part/model.safetensors").touch()
     (tmp_path / ".report.json.4711.part").touch()
@@ -39,6 +40,22 @@ def test_what_a_killed_run_left_half_written_is_cleared(tmp_path: Path) -> None:
     with sole_writer(tmp_path):
         left = sorted(path.name for path in tmp_path.rglob("*"))
     assert left == [".lock", "checkpoints", "notes.part", "step-00000001"]
+
+
+def test_files_of_others_stay(tmp_path: Path) -> None:
+    """Names that look alike, another run inside, and all where nobody was killed."""
+    (tmp_path / "run").mkdir()
+    theirs = [".download.part", ".tmpABC123/mine.txt", ".notes.v2.part", "run/.lock"]
+    alike = [".report.json.4711.part", "run/.model.4711.part", ".tmpaB3xYz"]
+    for name in theirs + alike:
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).touch()
+    with sole_writer(tmp_path):
+        assert all((tmp_path / name).exists() for name in theirs + alike)
+    (tmp_path / ".lock").touch()
+    with sole_writer(tmp_path):
+        assert all((tmp_path / name).exists() for name in [*theirs, alike[1]])
+        assert not any((tmp_path / name).exists() for name in (alike[0], alike[2]))
 
 
 def test_a_folder_that_stays_empty_is_not_left(tmp_path: Path) -> None:

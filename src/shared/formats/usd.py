@@ -6,6 +6,7 @@ OpenUSD's own library (`usd-core`). Legend: T frames, N joints.
 """
 
 import json
+import os
 import re
 from collections.abc import Iterable
 from pathlib import Path
@@ -64,7 +65,9 @@ def _write(clip: RigClip, body: Mannequin, path: Path) -> Path:
     try:
         with (
             atomic_write(path) as temporary,
-            TemporaryDirectory(dir=path.parent, prefix=".", suffix=".part") as folder,
+            TemporaryDirectory(
+                dir=path.parent, prefix=".packed.", suffix=f".{os.getpid()}.part"
+            ) as folder,
         ):
             packed = Path(folder) / f"packed{BINARY}"  # the ending says what is written
             layer.Export(str(packed))
