@@ -48,13 +48,10 @@ def printed_commands() -> list[str]:
 
 def run(line: str, folder: Path) -> None:
     """A printed command in a folder of the newcomer's, by this interpreter."""
-    programs = {
-        "motion-tools": ["-m", "src.cli.tools"],
-        "accelerate": ["-m", "accelerate.commands.accelerate_cli"],
-    }
     program, *arguments = shlex.split(line)
+    assert program == "motion-tools"
     done = subprocess.run(
-        [sys.executable, *programs[program], *arguments],
+        [sys.executable, "-m", "src.cli.tools", *arguments],
         cwd=folder,
         env={**os.environ, "PYTHONPATH": str(ROOT)},
         capture_output=True,
