@@ -35,11 +35,14 @@ from src.shared.data.labels import Labels
 from src.shared.data.word_dropout import drop_words, insert_babble
 from src.shared.errors import UserError
 from src.shared.files import sha256_file
-from src.shared.model.checkpoint import WEIGHTS_FILE, ModelCard
+from src.shared.model.checkpoint import WEIGHTS_FILE, ModelCard, read_card
 from src.shared.model.clip.core import SMALL, MotionClip, TextTower
-from src.shared.model.clip.pretrained import KIND, ClipBundle, encode_captions
+from src.shared.model.clip.pretrained import KIND, ClipBundle, encode_captions, load_text_tower
 from src.shared.model.clip.tokenizer import PromptTokenizer
+from src.shared.model.generation.motion_generator import KIND as GENERATOR
 from src.shared.model.generation.motion_generator import MotionGenerator
+from src.shared.model.zoo import resolve_model
+from src.train.captured_places import nearest_styles
 from src.train.frozen_encoder import MEANS_FILE, ZScores, caption_means, encoder_rates
 from src.train.launch import stage_app
 from src.train.scope_fit import fit_scope
@@ -55,12 +58,13 @@ HELD_BACK_SEED = 1  # of the captions that validation reads; training reads thos
 class TrainTextConfig(TrainTowerConfig):
     """train_text.yaml."""
 
-    clip: str | None = "runs/clip"  # folder written by train_clip; null: from nothing
+    clip: str | None = "runs/clip"  # folder of train_clip, or a generator; null: from nothing
     generator: str | None = None  # a generator that gets the hardened tower in the output
     captions_per_group: int = Field(64, ge=1)  # fresh ones, of each combination and language
     word_dropout: float = Field(0.05, ge=0, lt=1)
     babble: float = Field(0.6, ge=0, le=1)  # share of captions with made-up words in them
     scale: float = Field(15.0, gt=0)  # factor on the cosines of the classification term
+    unstyled_as_captured: bool = False  # plain words ask for what captured clips show in styles
 
 
 class LabelledTower(nn.Module):
@@ -110,7 +114,10 @@ class TextTask:
 
     def __init__(self, config: TrainTextConfig, network: NetworkConfig) -> None:
         self.config = config
-        bundle = None if config.clip is None else ClipBundle.from_pretrained(config.clip)
+        bundle = None if config.clip is None else open_tower(config.clip)
+        if bundle is not None and bundle.card.kind == GENERATOR:
+            config = config.model_copy(update={"generator": config.generator or config.clip})
+            self.config = config
         self.data = open_training_data(config, bundle.clip.config if bundle else network)
         records = self.data.records("train")
         self.labels = {record.group: record.labels for record in records if record.labels}
@@ -188,13 +195,18 @@ class TextTask:
         owner = [i for i, group in enumerate(captions) for texts in group.values() for _ in texts]
         embeddings = encode_captions(self.bundle.clip.text.eval(), self.tokenizer, texts)
         places = torch.zeros(len(self.groups), embeddings.shape[1])
-        return normalize(places.index_add_(0, torch.tensor(owner), embeddings), dim=-1)
+        places = normalize(places.index_add_(0, torch.tensor(owner), embeddings), dim=-1)
+        if self.config.unstyled_as_captured:
+            found = nearest_styles(self.data, self.groups)
+            places[list(found)] = places[list(found.values())]
+        return places
 
     def identity(self) -> dict[str, Any]:
         """A resumed run must start from the same tower and see the same labels."""
         return {
             "data-hash": self.data.manifest_hash,
-            "clip-hash": self.config.clip and sha256_file(Path(self.config.clip) / WEIGHTS_FILE),
+            "clip-hash": self.config.clip
+            and sha256_file(resolve_model(self.config.clip) / WEIGHTS_FILE),
         }
 
     def to(self, device: torch.device) -> None:
@@ -308,6 +320,22 @@ class TextTask:
         generator.style_map = fit_style_map(self.data, self.config.languages, tower, self.tokenizer)
         generator.card = _noted(generator.card, hardened)
         generator.save_pretrained(folder)
+
+
+def open_tower(name_or_folder: str) -> ClipBundle:
+    """A CLIP folder, or a generator's text tower with its tokenizer, beside an empty motion tower.
+
+    Raises:
+        UserError: neither.
+    """
+    folder = resolve_model(name_or_folder)
+    card = read_card(folder)
+    if card.kind != GENERATOR:
+        return ClipBundle.from_pretrained(folder)
+    clip = MotionClip(card.network, encoder_config=card.text_encoder)
+    clip.text, tokenizer = load_text_tower(folder, card.network.embed_dim)
+    statistics = torch.zeros(0), torch.zeros(0)  # of the motion tower, which is not written
+    return ClipBundle(clip, tokenizer, *statistics, card)
 
 
 def _noted(card: Any, hardened: dict[str, Any]) -> Any:

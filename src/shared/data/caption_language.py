@@ -67,7 +67,7 @@ class CaptionLanguage:
         hand-written requests that models are measured by are never among them.
         """
         plan = self._plan(self._key(labels))
-        whole = self._sentences.get(self._key(_told(labels)), [])
+        whole = self._sentences.get(self._key(told(labels)), [])
         whole = rng.sample(whole, min(len(whole), num // 2))
         found = {normalised(text): text for text in whole}
         for _ in range(30 * num):
@@ -251,7 +251,7 @@ class CaptionLanguage:
         return "".join(part if part.startswith("{") else self.mirror(part) for part in parts)
 
 
-def _told(labels: Labels) -> Labels:
+def told(labels: Labels) -> Labels:
     """Without what nobody says: once, at normal speed, by a right angle."""
     silent = (("count", "1"), ("speed", "normal"), ("angle", "90"))
     return {key: str(value) for key, value in labels.items() if (key, str(value)) not in silent}

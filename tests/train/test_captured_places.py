@@ -1,0 +1,75 @@
+"""Plain combinations take the place of the captured style nearest to none."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, cast
+
+import pytest
+import torch
+from test_train_text import text_config
+from tiny_stage import clip_config, generation_config, tiny_network, train_clip, train_generation
+
+from src.shared.data.prepared import PreparedData
+from src.shared.model.generation.motion_generator import KIND as GENERATOR
+from src.train import train_text
+from src.train.captured_places import nearest_styles
+from src.train.train_text import TextTask, open_tower
+
+
+@dataclass
+class Record:
+    group: str
+    labels: dict[str, str]
+    provenance: str
+    level: float
+
+
+class Clips:
+    """As much of PreparedData as is read: clips that stand still at a level."""
+
+    mean, std = torch.zeros(23, 6), torch.ones(23, 6)
+
+    def __init__(self, *records: Record) -> None:
+        self.all = records
+
+    def records(self, split: str) -> tuple[Record, ...]:
+        return self.all if split == "train" else ()
+
+    def features(self, record: Record) -> torch.Tensor:
+        return torch.full((8, 23, 6), record.level)
+
+
+def test_the_style_nearest_to_none_stands_for_none() -> None:
+    walk = {"action": "walk", "direction": "forward"}
+    clips = Clips(
+        Record("plain", walk, "captured", 0.0),
+        Record("once", walk | {"speed": "normal"}, "procedural", 9.0),
+        Record("fast", walk | {"speed": "fast"}, "procedural", 9.0),
+        Record("giant", walk | {"style": "giant"}, "captured", 3.0),
+        Record("proud", walk | {"style": "proud"}, "captured", 1.0),
+        Record("made", walk | {"style": "sad"}, "procedural", 0.0),
+        Record("bow", {"action": "bow", "count": "1"}, "procedural", 0.0),
+        Record("bow-a", {"action": "bow", "style": "giant"}, "captured", 0.0),
+        Record("bow-b", {"action": "bow", "style": "happy"}, "captured", 4.0),
+        Record("bow-c", {"action": "bow", "style": "proud"}, "captured", 2.1),
+        Record("kick", {"action": "kick"}, "captured", 0.0),
+    )
+    groups = [record.group for record in clips.all]
+    found = nearest_styles(cast(PreparedData, clips), groups)
+    named = {groups[one]: groups[other] for one, other in found.items()}
+    assert named == {"plain": "proud", "once": "proud", "bow": "bow-c"}
+
+
+def test_a_generators_own_tower_is_hardened_towards_them(
+    prepared: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    clip, made = tmp_path / "clip", tmp_path / "made"
+    train_clip(clip_config(prepared, clip, "steps=2"))
+    train_generation(generation_config(prepared, clip, made, "steps=2"))
+    assert open_tower(str(made)).card.kind == GENERATOR
+    settings: Any = text_config(prepared, made, tmp_path / "hard", "unstyled-as-captured=true")
+    monkeypatch.setattr(train_text, "nearest_styles", lambda data, groups: {0: 1})
+    task = TextTask(settings, tiny_network())
+    assert task.config.generator == str(made)
+    assert torch.equal(task.places[0], task.places[1])
+    assert not torch.equal(task.places[0], task.places[2])
