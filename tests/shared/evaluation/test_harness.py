@@ -97,7 +97,7 @@ def test_a_perfect_and_a_deaf_sampler_get_one_and_zero(held_out: HeldOut, judge:
         seen = [grid for name, grid in found.items() if name.startswith("seen/")]
         return next(v for v in (grid.value(row, column) for grid in seen) if v == v)
 
-    assert value("real", "r_at_3") > 0.6 > 0.3 > value("chance", "r_at_3")
+    assert value("real", "r_at_3") > 0.45 > 0.3 > value("chance", "r_at_3")
     assert value("perfect", "normalised_r_at_3") == pytest.approx(1, abs=0.12)
     assert value("deaf", "normalised_r_at_3") == pytest.approx(0, abs=0.15)
     assert value("perfect", "frechet_joint_ratio") < 0.15 < 0.6
