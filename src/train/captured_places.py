@@ -1,55 +1,75 @@
-"""Which captured style stands for no style: plain words may ask for its motion.
+"""Where sentences go that a trained denoiser has no place for: plain words, and new actions.
 
 A denoiser that learned plain captions mostly from procedural clips gives procedural motion for
 them, and captured motion for one word of style. Among the styles that captured clips show of a
 combination, the one nearest to its unstyled captured clips (or, without such, to the middle of all
-styles) is nearest to no style at all.
+styles) is nearest to no style at all. An action that it never learned would share the places of
+those whose captions sound alike: it gets a direction of its own.
 """
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import torch
 from torch import Tensor
+from torch.nn.functional import normalize
 
 from src.shared.data.caption_language import Labels, told
+from src.shared.data.labels import group_of
 from src.shared.data.prepared import PreparedData
+from src.train.seeding import generator
 
 Combination = tuple[tuple[str, str], ...]
 
 
-def nearest_styles(data: PreparedData, groups: Sequence[str]) -> dict[int, int]:
-    """For each unstyled combination of `groups` that captured clips show in styles: both indices.
+def with_unstyled(labels: dict[str, Labels]) -> dict[str, Labels]:
+    """`labels` of each group, and the unstyled combination of each that is only there in styles."""
+    known = {_combination(each) for each in labels.values() if "style" not in each}
+    found = dict(labels)
+    for each in labels.values():
+        if "style" in each and _combination(each) not in known:
+            plain = {key: value for key, value in each.items() if key != "style"}
+            found.setdefault(group_of(plain), plain)
+    return found
 
-    The second is that of the same combination in the style nearest to none, by means and spreads
-    over time of the z-scored features.
+
+def nearest_styles(data: PreparedData, labels: dict[str, Labels]) -> dict[str, str]:
+    """For each unstyled group of `labels` that captured clips show in styles: such a group.
+
+    It is that of the same combination in the style nearest to none, by means and spreads over time
+    of the z-scored features.
     """
-    index = {group: row for row, group in enumerate(groups)}
-    shown: dict[int, list[Tensor]] = defaultdict(list)  # captured clips
-    labels: dict[int, Labels] = {}
+    shown: dict[str, list[Tensor]] = defaultdict(list)  # captured clips
     for record in data.records("train"):
-        if record.group not in index:
-            continue
-        labels[index[record.group]] = record.labels
-        if record.provenance == "captured":
+        if record.group in labels and record.provenance == "captured":
             values = ((data.features(record) - data.mean) / data.std).flatten(1)  # [T,138]
-            shown[index[record.group]].append(torch.cat((values.mean(0), values.std(0))))
-    means = {row: torch.stack(clips).mean(0) for row, clips in shown.items()}
-    styled: dict[Combination, list[int]] = defaultdict(list)
+            shown[record.group].append(torch.cat((values.mean(0), values.std(0))))
+    means = {group: torch.stack(clips).mean(0) for group, clips in shown.items()}
+    styled: dict[Combination, list[str]] = defaultdict(list)
     plain: dict[Combination, Tensor] = {}
-    for row, mean in means.items():
-        key = _combination(labels[row])
-        if "style" in labels[row]:
-            styled[key].append(row)
+    for group, mean in means.items():
+        key = _combination(labels[group])
+        if "style" in labels[group]:
+            styled[key].append(group)
         else:
             plain[key] = mean
     found = {}
-    for row, of_row in labels.items():
-        if "style" in of_row or not (rows := styled.get(key := _combination(of_row))):
+    for group, of_group in labels.items():
+        if "style" in of_group or not (groups := styled.get(key := _combination(of_group))):
             continue
-        target = plain.get(key, torch.stack([means[each] for each in rows]).mean(0))
-        found[row] = min(rows, key=lambda each: float((means[each] - target).norm()))
+        target = plain.get(key, torch.stack([means[each] for each in groups]).mean(0))
+        found[group] = min(groups, key=lambda each: float((means[each] - target).norm()))
     return found
+
+
+def apart(places: Tensor, labels: Sequence[Labels], known: Collection[str]) -> Tensor:
+    """Unit places [G,D] where each action outside `known` has moved in a direction of its own."""
+    moved = places.clone()
+    for action in sorted({each["action"] for each in labels if "action" in each} - set(known)):
+        rows = [index for index, each in enumerate(labels) if each.get("action") == action]
+        way = torch.randn(places.shape[1], generator=generator("place", action))
+        moved[rows] = normalize(places[rows] + normalize(way, dim=0), dim=-1)
+    return moved
 
 
 def _combination(labels: Labels) -> Combination:

@@ -42,7 +42,7 @@ from src.shared.model.clip.tokenizer import PromptTokenizer
 from src.shared.model.generation.motion_generator import KIND as GENERATOR
 from src.shared.model.generation.motion_generator import MotionGenerator
 from src.shared.model.zoo import resolve_model
-from src.train.captured_places import nearest_styles
+from src.train.captured_places import apart, nearest_styles, with_unstyled
 from src.train.frozen_encoder import MEANS_FILE, ZScores, caption_means, encoder_rates
 from src.train.launch import stage_app
 from src.train.scope_fit import fit_scope
@@ -125,6 +125,8 @@ class TextTask:
             raise UserError(
                 f"{config.data} has no labels to write fresh captions from; this stage needs them"
             )
+        if config.unstyled_as_captured:
+            self.labels = with_unstyled(self.labels)
         self.groups = sorted(self.labels)
         self.shares = self._shares()
         self.fresh = self._captions(HELD_BACK_SEED + 1, config.captions_per_group)
@@ -196,9 +198,14 @@ class TextTask:
         embeddings = encode_captions(self.bundle.clip.text.eval(), self.tokenizer, texts)
         places = torch.zeros(len(self.groups), embeddings.shape[1])
         places = normalize(places.index_add_(0, torch.tensor(owner), embeddings), dim=-1)
+        if self.bundle.card.kind == GENERATOR:
+            labels = [self.labels[group] for group in self.groups]
+            places = apart(places, labels, self.bundle.card.tags)
         if self.config.unstyled_as_captured:
-            found = nearest_styles(self.data, self.groups)
-            places[list(found)] = places[list(found.values())]
+            index = {group: row for row, group in enumerate(self.groups)}
+            found = nearest_styles(self.data, self.labels)
+            rows, taken = ([index[g] for g in each] for each in (found, found.values()))
+            places[rows] = places[taken]
         return places
 
     def identity(self) -> dict[str, Any]:

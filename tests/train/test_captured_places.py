@@ -8,11 +8,12 @@ import pytest
 import torch
 from test_train_text import text_config
 from tiny_stage import clip_config, generation_config, tiny_network, train_clip, train_generation
+from torch.nn.functional import normalize
 
 from src.shared.data.prepared import PreparedData
 from src.shared.model.generation.motion_generator import KIND as GENERATOR
 from src.train import train_text
-from src.train.captured_places import nearest_styles
+from src.train.captured_places import apart, nearest_styles, with_unstyled
 from src.train.train_text import TextTask, open_tower
 
 
@@ -54,10 +55,30 @@ def test_the_style_nearest_to_none_stands_for_none() -> None:
         Record("bow-c", {"action": "bow", "style": "proud"}, "captured", 2.1),
         Record("kick", {"action": "kick"}, "captured", 0.0),
     )
-    groups = [record.group for record in clips.all]
-    found = nearest_styles(cast(PreparedData, clips), groups)
-    named = {groups[one]: groups[other] for one, other in found.items()}
-    assert named == {"plain": "proud", "once": "proud", "bow": "bow-c"}
+    labels = {record.group: record.labels for record in clips.all}
+    found = nearest_styles(cast(PreparedData, clips), labels)
+    assert found == {"plain": "proud", "once": "proud", "bow": "bow-c"}
+
+
+def test_what_is_only_there_in_styles_is_asked_for_without() -> None:
+    labels = {
+        "a": {"action": "bow", "count": "1"},
+        "b": {"action": "bow", "style": "sad"},
+        "c": {"action": "guide", "style": "sad"},
+        "d": {"action": "guide", "style": "tired"},
+    }
+    assert with_unstyled(labels) == labels | {"action=guide": {"action": "guide"}}
+
+
+def test_a_new_action_has_a_direction_of_its_own() -> None:
+    labels = [{"action": a} for a in ("walk", "karate", "salsa", "karate")]
+    places = normalize(torch.ones(4, 192), dim=-1)
+    moved = apart(places, labels, ["walk"])
+    assert torch.equal(moved[0], places[0])
+    assert torch.equal(moved[1], moved[3])
+    cosines = moved @ moved.T
+    assert float(cosines[0, 1]) < 0.9 and float(cosines[1, 2]) < 0.8
+    assert torch.allclose(moved.norm(dim=-1), torch.ones(4))
 
 
 def test_a_generators_own_tower_is_hardened_towards_them(
@@ -68,7 +89,8 @@ def test_a_generators_own_tower_is_hardened_towards_them(
     train_generation(generation_config(prepared, clip, made, "steps=2"))
     assert open_tower(str(made)).card.kind == GENERATOR
     settings: Any = text_config(prepared, made, tmp_path / "hard", "unstyled-as-captured=true")
-    monkeypatch.setattr(train_text, "nearest_styles", lambda data, groups: {0: 1})
+    first_is_second = lambda data, labels: dict([sorted(labels)[:2]])  # noqa: E731
+    monkeypatch.setattr(train_text, "nearest_styles", first_is_second)
     task = TextTask(settings, tiny_network())
     assert task.config.generator == str(made)
     assert torch.equal(task.places[0], task.places[1])

@@ -154,12 +154,16 @@ class PromptScope:
         if self.weights is not None:
             known = float(self.evidence(prompt, cosines) @ self.weights) > 0
         else:
-            known = _known(frozenset(words_of(prompt)), self.key_words, self.words, self.fillers)
+            known = self.familiar(prompt)
         if self.min_cosine is not None:
             known = known or float(cosines.max()) >= self.min_cosine
         ranked = [self.actions[index] for index in np.argsort(-cosines, kind="stable")]
         named = [action for action in ranked if action]  # "" is that of clips without a label
         return ScopeResult(known, named[:NUM_NEAREST])
+
+    def familiar(self, prompt: str) -> bool:
+        """Whether the words of a prompt are those of training, whatever it asks for."""
+        return _known(frozenset(words_of(prompt)), self.key_words, self.words, self.fillers)
 
     @cached_property
     def _by_stem(self) -> dict[str, list[str]]:

@@ -253,12 +253,12 @@ class MotionGenerator:
     def style_of(self, prompt: str) -> np.ndarray | None:
         """The 8-d unit style that a sentence speaks of (ruling 11).
 
-        None where the prompt is far from anything trained, or the model has no map of styles.
+        None where its words are far from anything trained, or the model has no map of styles. A
+        style is heard in a sentence whose action the model may miss.
         """
-        if self.style_map is None or self.scope is None:
+        if self.style_map is None or self.scope is None or not self.scope.familiar(prompt):
             return None
-        embedding = self.encode_prompts([prompt]).pooled[0].cpu().numpy()
-        return self.style_map(embedding) if self.scope.check(prompt, embedding).known else None
+        return self.style_map(self.encode_prompts([prompt]).pooled[0].cpu().numpy())
 
     def _require_trained(self) -> None:
         if not self.card.trained:
