@@ -5,8 +5,8 @@ from typing import Annotated
 
 import typer
 
-from src.cli import options
-from src.cli.evaluate import (
+from . import options
+from .evaluate import (
     ControlSeeds,
     Data,
     Judge,
@@ -19,7 +19,7 @@ from src.cli.evaluate import (
     run,
     show,
 )
-from src.cli.guard import tell
+from .guard import tell
 
 HELP = "A folder that `evaluate` wrote, or a model."
 
@@ -70,9 +70,9 @@ def compare(
     )
     folders = [report_of(name, side, request, out) for side, name in (("a", a), ("b", b))]
 
-    from src.shared.evaluation.compare import Side
-    from src.shared.evaluation.compare import compare as differences
-    from src.shared.evaluation.report_folder import save_report
+    from ..shared.evaluation.compare import Side
+    from ..shared.evaluation.compare import compare as differences
+    from ..shared.evaluation.report_folder import save_report
 
     result = differences(Side(folders[0], row), Side(folders[1], other_row or row), seed=seed)
     save_report(result, out)

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from src.cli import options
-from src.cli.guard import complain, tell
-from src.cli.wording import counted, note_replaced
-from src.shared.errors import UsageError, UserError
-from src.shared.files import same_place
+from ..shared.errors import UsageError, UserError
+from ..shared.files import same_place
+from . import options
+from .guard import complain, tell
+from .wording import counted, note_replaced
 
 if TYPE_CHECKING:
-    from src.shared.motion.motion import Motion
+    from ..shared.motion.motion import Motion
 
 ROOTS = ("on", "in-place")
 FPS = (1.0, 1000.0)
@@ -74,7 +74,7 @@ def convert(
       motion-tools convert walk.npz walk.bvh --skeleton my_character.bvh --fps 60
       motion-tools convert mocap/ converted/ --format glb,amass
     """
-    from src.shared.formats.joint_names import joint_names
+    from ..shared.formats.joint_names import joint_names
 
     if root not in ROOTS:
         raise UsageError(f"--root {root!r} is unknown; choose from {', '.join(ROOTS)}")
@@ -119,7 +119,7 @@ def convert(
 
 def plan(files: list[Path], format: str | None) -> Iterator[Job]:
     """Which files are read and written; everything the flags get wrong is said here."""
-    from src.shared.formats.registry import EXPORTERS, ending, find_writer, format_of
+    from ..shared.formats.registry import EXPORTERS, ending, find_writer, format_of
 
     if len(files) < 2:
         raise UsageError("OUT is missing: give what to read, then what to write")
@@ -192,7 +192,7 @@ def check_sources(jobs: list[Job], asf: Path | None, skeleton: Path | None) -> N
 
 def check_rigged(formats: list[str], names: str, skeleton: Path | None) -> None:
     """Refuse names and skeletons for formats that know ours only."""
-    from src.shared.formats.registry import CLIP_EXPORTERS
+    from ..shared.formats.registry import CLIP_EXPORTERS
 
     rigged = [name for name in formats if name in CLIP_EXPORTERS]
     known = ", ".join(CLIP_EXPORTERS)
@@ -227,8 +227,8 @@ def one(
     job: Job, reading: dict[str, Any], root: str, write: "Callable[[Motion, Path], Path]"
 ) -> dict[str, Any]:
     """Read one file and write its targets; what was done."""
-    from src.shared.data.read_motion import read_motion
-    from src.shared.motion.in_place import in_place
+    from ..shared.data.read_motion import read_motion
+    from ..shared.motion.in_place import in_place
 
     motion = read_motion(job.source, **reading)
     motion = in_place(motion) if root == "in-place" else motion
@@ -246,11 +246,11 @@ def writer(
     skeleton: Path | None, mapping: Path | None, names: str
 ) -> "Callable[[Motion, Path], Path]":
     """What writes a motion: on our skeleton, or on the user's, which is read once."""
-    from src.shared.formats.registry import write_motion
+    from ..shared.formats.registry import write_motion
 
     if skeleton is None:
         return lambda motion, path: write_motion(motion, path, names=names)
-    from src.shared.data.retarget_out import read_target
+    from ..shared.data.retarget_out import read_target
 
     return read_target(skeleton, mapping=mapping).write
 

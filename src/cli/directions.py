@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from src.shared.errors import UsageError
+from ..shared.errors import UsageError
 
 KEEP = 1.0  # seconds of a clip that are kept
 SECONDS = 4.0  # of a motion, or of each of its prompts

@@ -6,9 +6,9 @@ from typing import Annotated, Any
 
 import typer
 
-from src.cli import options
-from src.cli.guard import tell
-from src.shared.errors import UsageError
+from ..shared.errors import UsageError
+from . import options
+from .guard import tell
 
 QUICK_REPLICATIONS, QUICK_SONGS = 3, 10
 AUDIO_KIND = "audio-motion"
@@ -136,22 +136,22 @@ def run(model: str, request: Request, out: Path | None) -> dict[str, Any]:
     Raises:
         UserError: no such model, wrong flags, or data that cannot be used.
     """
-    from src.shared.model.checkpoint import read_card
-    from src.shared.model.zoo import resolve_model
+    from ..shared.model.checkpoint import read_card
+    from ..shared.model.zoo import resolve_model
 
     folder = out or Path("outputs/evaluation") / Path(model).name
     check(request, folder)
     audio = read_card(resolve_model(model)).kind == AUDIO_KIND
     refuse(model, audio, request)
 
-    from src.shared.device import set_threads
-    from src.shared.sole_writer import sole_writer
+    from ..shared.device import set_threads
+    from ..shared.sole_writer import sole_writer
 
     set_threads(request.threads)
     with sole_writer(folder):
         report = (run_audio if audio else run_text)(model, request, folder)
 
-        from src.shared.evaluation.report_folder import save_report
+        from ..shared.evaluation.report_folder import save_report
 
         save_report(report, folder)
     tell(f"evaluate: {folder / 'report.html'}")
@@ -162,8 +162,8 @@ def run_text(model: str, request: Request, folder: Path) -> dict[str, Any]:
     """The text branch's report."""
     check_data(request.data or "synthetic")
 
-    from src.shared.evaluation import harness
-    from src.shared.evaluation.text_context import TextSettings
+    from ..shared.evaluation import harness
+    from ..shared.evaluation.text_context import TextSettings
 
     return harness.evaluate_text(
         model,
@@ -179,13 +179,13 @@ def run_text(model: str, request: Request, folder: Path) -> dict[str, Any]:
 
 def run_audio(model: str, request: Request, folder: Path) -> dict[str, Any]:
     """The audio branch's report."""
-    from src.cli.evaluate_sanity import check_pairs, load_model
+    from .evaluate_sanity import check_pairs, load_model
 
     check_pairs(request.data)
 
-    from src.shared.evaluation import audio_harness
-    from src.shared.evaluation.audio_context import AudioSettings
-    from src.shared.inference.song_generator import SongGenerator
+    from ..shared.evaluation import audio_harness
+    from ..shared.evaluation.audio_context import AudioSettings
+    from ..shared.inference.song_generator import SongGenerator
 
     amount = request.amount("num_songs", "song_seconds", "track_seconds", "tell_meter")
     if request.quick:
@@ -218,7 +218,7 @@ def check(request: Request, folder: Path) -> None:
     Raises:
         UsageError: naming the flag.
     """
-    from src.cli.evaluate_sanity import check_limits
+    from .evaluate_sanity import check_limits
 
     options.check_ranges(
         **{
@@ -282,7 +282,7 @@ def show(report: dict[str, Any], *, json: bool) -> None:
     """JSON, or tables: drawn in a terminal, Markdown in a pipe, where drawn ones would be cut."""
     import sys
 
-    from src.shared.evaluation.report import markdown, print_report
+    from ..shared.evaluation.report import markdown, print_report
 
     if json:
         print_json(report)

@@ -5,9 +5,9 @@ from typing import Annotated
 
 import typer
 
-from src.cli import options
-from src.cli.evaluate import NumSongs, Quick, Replications, Request, Seed, Songs, run, show
-from src.cli.evaluate_sanity import MODEL, Decoder, Model, OutputDir, Pairs
+from . import options
+from .evaluate import NumSongs, Quick, Replications, Request, Seed, Songs, run, show
+from .evaluate_sanity import MODEL, Decoder, Model, OutputDir, Pairs
 
 
 def evaluate_audio(

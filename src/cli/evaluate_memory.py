@@ -5,10 +5,10 @@ from typing import Annotated, Any, TypeVar
 
 import typer
 
-from src.cli import options
-from src.cli.evaluate_sanity import check_limits, check_pairs
-from src.cli.guard import tell
-from src.shared.errors import UsageError
+from ..shared.errors import UsageError
+from . import options
+from .evaluate_sanity import check_limits, check_pairs
+from .guard import tell
 
 Number = TypeVar("Number", int, float)
 LIMITS = {"num_phrases": (2, 10_000), "num_songs": (2, 10_000), "song_seconds": (4.0, 600.0)}
@@ -63,12 +63,12 @@ def evaluate_memory(
     if out is not None:
         options.check_folder("--out", out.parent)
 
-    from src.cli.memory import load_settings
-    from src.shared.device import set_threads
-    from src.shared.evaluation import memory_harness
-    from src.shared.inference.mpms_sampler import require_memory
-    from src.shared.inference.runtime import load_trained
-    from src.shared.inference.song_memory import open_memory
+    from ..shared.device import set_threads
+    from ..shared.evaluation import memory_harness
+    from ..shared.inference.mpms_sampler import require_memory
+    from ..shared.inference.runtime import load_trained
+    from ..shared.inference.song_memory import open_memory
+    from .memory import load_settings
 
     set_threads(threads)
     loaded = load_trained(model, device)
@@ -110,8 +110,8 @@ def show(report: dict[str, Any], out: Path | None, *, json: bool) -> None:
     """The report in a file if there is one to be, and on stdout as tables or JSON."""
     import json as encoder
 
-    from src.shared.evaluation.report import as_markdown, heading, tables
-    from src.shared.files import write_json, write_text
+    from ..shared.evaluation.report import as_markdown, heading, tables
+    from ..shared.files import write_json, write_text
 
     said = [
         f"{name}: against no memory {words['without']}, against a random one {words['random']}"

@@ -5,11 +5,11 @@ from typing import Annotated, Any
 
 import typer
 
-from src.cli import options
-from src.cli.evaluate import Judge, Quick, Replications, Seed, Songs, check_data, show
-from src.cli.evaluate_sanity import Pairs, check_limits, check_pairs
-from src.cli.guard import tell
-from src.shared.errors import UsageError
+from ..shared.errors import UsageError
+from . import options
+from .evaluate import Judge, Quick, Replications, Seed, Songs, check_data, show
+from .evaluate_sanity import Pairs, check_limits, check_pairs
+from .guard import tell
 
 QUICK = {"num_songs": 4, "replications": 1, "style_songs": 2, "edits": 6}
 LIMITS = {
@@ -88,7 +88,7 @@ def evaluate_performer(
     options.check_folder("--out", out)
     sampling = {"steps": steps, "sampler": sampler, "guidance_scale": guidance_scale}
     models = {"model": model, "audio_model": audio_model, "other": other, "evaluator": evaluator}
-    from src.shared.sole_writer import sole_writer
+    from ..shared.sole_writer import sole_writer
 
     with sole_writer(out):
         report = run(
@@ -113,18 +113,18 @@ def run(
     Raises:
         UserError: no such model, or data that cannot be used.
     """
-    from src.shared.device import set_threads
+    from ..shared.device import set_threads
 
     set_threads(threads)
-    from src.shared.evaluation.dance_context import DanceContext, DanceSettings
-    from src.shared.evaluation.dance_harness import evaluate_performer as evaluate
-    from src.shared.evaluation.editing_context import EditContext, EditSettings
-    from src.shared.evaluation.evaluator import Evaluator
-    from src.shared.evaluation.held_out import open_held_out
-    from src.shared.evaluation.report_folder import save_report
-    from src.shared.inference.performer import PerformerSettings
-    from src.shared.inference.song_generator import SongGenerator
-    from src.shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.evaluation.dance_context import DanceContext, DanceSettings
+    from ..shared.evaluation.dance_harness import evaluate_performer as evaluate
+    from ..shared.evaluation.editing_context import EditContext, EditSettings
+    from ..shared.evaluation.evaluator import Evaluator
+    from ..shared.evaluation.held_out import open_held_out
+    from ..shared.evaluation.report_folder import save_report
+    from ..shared.inference.performer import PerformerSettings
+    from ..shared.inference.song_generator import SongGenerator
+    from ..shared.model.generation.motion_generator import MotionGenerator
 
     judge = Evaluator.from_pretrained(str(models["evaluator"]))
     generator = MotionGenerator.from_pretrained(str(models["model"]), device=device)

@@ -5,10 +5,10 @@ from typing import Annotated
 
 import typer
 
-from src.cli import options
-from src.cli.evaluate_sanity import check_limits, show
-from src.cli.guard import tell
-from src.shared.errors import UsageError
+from ..shared.errors import UsageError
+from . import options
+from .evaluate_sanity import check_limits, show
+from .guard import tell
 
 LIMITS = {"wordings": (1, 100), "seconds": (1, 20)}
 
@@ -36,7 +36,7 @@ def evaluate_requests(
     Example:
       motion-tools evaluate-requests --model starter --data data/prepared
     """
-    from src.shared.evaluation.text_context import LANGUAGES
+    from ..shared.evaluation.text_context import LANGUAGES
 
     check_limits({"wordings": wordings, "seconds": seconds}, LIMITS)
     options.check_ranges(seed=seed, threads=threads)
@@ -45,15 +45,15 @@ def evaluate_requests(
         raise UsageError(f"--languages {unknown[0]} is unknown; choose from {', '.join(LANGUAGES)}")
     options.check_folder("--out", out)
 
-    from src.shared.data.prepared import PreparedData
-    from src.shared.device import set_threads
-    from src.shared.evaluation.report import as_markdown, heading, tables
-    from src.shared.evaluation.requests_harness import evaluate_requests
-    from src.shared.evaluation.text_context import untrained
-    from src.shared.evaluation.yardstick import RequestSettings
-    from src.shared.files import write_json, write_text
-    from src.shared.inference.spoken import SentenceGenerator
-    from src.shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.data.prepared import PreparedData
+    from ..shared.device import set_threads
+    from ..shared.evaluation.report import as_markdown, heading, tables
+    from ..shared.evaluation.requests_harness import evaluate_requests
+    from ..shared.evaluation.text_context import untrained
+    from ..shared.evaluation.yardstick import RequestSettings
+    from ..shared.files import write_json, write_text
+    from ..shared.inference.spoken import SentenceGenerator
+    from ..shared.model.generation.motion_generator import MotionGenerator
 
     set_threads(threads)
     generator = MotionGenerator.from_pretrained(model, device="cpu")

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from src.cli import environment, options
-from src.cli.guard import tell
-from src.shared.errors import UsageError
+from ..shared.errors import UsageError
+from . import environment, options
+from .guard import tell
 
 if TYPE_CHECKING:
-    from src.shared.evaluation.audio_sanity import SanityEvaluation
-    from src.shared.model.audio.audio_motion_model import AudioMotionModel
-    from src.shared.validation.bands import Bands
+    from ..shared.evaluation.audio_sanity import SanityEvaluation
+    from ..shared.model.audio.audio_motion_model import AudioMotionModel
+    from ..shared.validation.bands import Bands
 
 MODEL = "starter-audio"
 FULL = {"num_samples": 100, "num_frames": 120, "num_steps": 20}
@@ -88,9 +88,9 @@ def evaluate_sanity(
     check_pairs(data)
     options.check_folder("--output-dir", output_dir)
 
-    from src.shared.device import set_threads
-    from src.shared.evaluation.audio_sanity import SanitySettings
-    from src.shared.evaluation.audio_sanity import evaluate_sanity as evaluate
+    from ..shared.device import set_threads
+    from ..shared.evaluation.audio_sanity import SanitySettings
+    from ..shared.evaluation.audio_sanity import evaluate_sanity as evaluate
 
     set_threads(threads)
     loaded = load_model(model, decoder_checkpoint, device)
@@ -103,7 +103,7 @@ def evaluate_sanity(
         progress=lambda text: tell(f"evaluate-sanity: {text}"),
     )
     write_results(result, output_dir)
-    from src.shared.evaluation.sanity_report import sanity_tables
+    from ..shared.evaluation.sanity_report import sanity_tables
 
     show("Sanity", result.report, list(sanity_tables(result.report)), json=json)
 
@@ -131,11 +131,11 @@ def check_pairs(data: str | None) -> None:
 
 def load_model(name: str, decoder: str | None, device: str) -> "AudioMotionModel":
     """A trained audio branch on a device, with another folder's decoder if one is named."""
-    from src.shared.inference.song_generator import SongGenerator
+    from ..shared.inference.song_generator import SongGenerator
 
     model = SongGenerator.from_pretrained(name, device=device).model
     if decoder is not None:
-        from src.shared.model.audio.audio_motion_model import load_decoder
+        from ..shared.model.audio.audio_motion_model import load_decoder
 
         model.decoder = load_decoder(decoder).to(model.mean.device).eval()
     return model
@@ -143,8 +143,8 @@ def load_model(name: str, decoder: str | None, device: str) -> "AudioMotionModel
 
 def shipped_bands(name: str) -> "Bands | None":
     """Bands of the training motions beside the weights, where the folder has them."""
-    from src.shared.model.zoo import resolve_model
-    from src.shared.validation.bands import Bands
+    from ..shared.model.zoo import resolve_model
+    from ..shared.validation.bands import Bands
 
     path = resolve_model(name) / "bands.json"
     return Bands.load(path) if path.is_file() else None
@@ -152,11 +152,11 @@ def shipped_bands(name: str) -> "Bands | None":
 
 def write_results(result: "SanityEvaluation", folder: Path) -> None:
     """sanity.json, sanity.md, bands.png and the first motion as trajectory.png."""
-    from src.shared.evaluation.audio_plots import plot_bands
-    from src.shared.evaluation.plots import plot_trajectory
-    from src.shared.evaluation.report import as_markdown, heading
-    from src.shared.evaluation.sanity_report import sanity_tables
-    from src.shared.files import write_json, write_text
+    from ..shared.evaluation.audio_plots import plot_bands
+    from ..shared.evaluation.plots import plot_trajectory
+    from ..shared.evaluation.report import as_markdown, heading
+    from ..shared.evaluation.sanity_report import sanity_tables
+    from ..shared.files import write_json, write_text
 
     report = result.report
     write_json(folder / "sanity.json", report)
@@ -171,10 +171,10 @@ def show(title: str, report: dict[str, Any], tables: list[Any], *, json: bool) -
     """JSON, or tables: drawn in a terminal, Markdown in a pipe."""
     import sys
 
-    from src.shared.evaluation.report import as_markdown, draw, heading
+    from ..shared.evaluation.report import as_markdown, draw, heading
 
     if json:
-        from src.cli.evaluate import print_json
+        from .evaluate import print_json
 
         print_json(report)
     elif sys.stdout.isatty():

@@ -5,11 +5,11 @@ from typing import Annotated, Any
 
 import typer
 
-from src.cli import options
-from src.cli.evaluate import check_data
-from src.cli.evaluate_sanity import check_limits, check_pairs, shipped_bands
-from src.cli.guard import tell
-from src.shared.errors import UsageError
+from ..shared.errors import UsageError
+from . import options
+from .evaluate import check_data
+from .evaluate_sanity import check_limits, check_pairs, shipped_bands
+from .guard import tell
 
 SYNTHETIC = "synthetic"
 MODELS = {"text": "starter", "audio": "starter-audio"}
@@ -71,13 +71,13 @@ def evaluate_selection(
     wanted |= {"device": device, "progress": lambda text: tell(f"evaluate-selection: {text}")}
     model = model or MODELS[branch]
 
-    from src.shared.device import set_threads
+    from ..shared.device import set_threads
 
     set_threads(threads)
     report: dict[str, Any]
     if branch == "text":
         check_data(data)
-        from src.shared.evaluation.selection_text import PromptSettings, evaluate_prompts
+        from ..shared.evaluation.selection_text import PromptSettings, evaluate_prompts
 
         prompts = PromptSettings(
             num_prompts=num_subjects or PromptSettings.num_prompts,
@@ -94,7 +94,7 @@ def evaluate_selection(
             raise UsageError("--judge and --unseen go with --branch text; leave them out")
         if data != SYNTHETIC:
             check_pairs(data)
-        from src.shared.evaluation.selection_songs import SongSettings, evaluate_songs
+        from ..shared.evaluation.selection_songs import SongSettings, evaluate_songs
 
         songs = SongSettings(
             num_songs=num_subjects or SongSettings.num_songs,
@@ -116,9 +116,9 @@ def show(report: dict[str, Any], out: Path | None, *, json: bool) -> None:
     """The report in a file if there is one to be, and on stdout as tables or JSON."""
     import json as encoder
 
-    from src.shared.evaluation.report import as_markdown
-    from src.shared.evaluation.selection_harness import selection_tables
-    from src.shared.files import write_json, write_text
+    from ..shared.evaluation.report import as_markdown
+    from ..shared.evaluation.selection_harness import selection_tables
+    from ..shared.files import write_json, write_text
 
     facts = {**report["about"], **report["settings"]}
     lines = [f"{key.replace('_', '-')}: {value}" for key, value in facts.items()]

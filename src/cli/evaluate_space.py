@@ -5,10 +5,10 @@ from typing import Annotated
 
 import typer
 
-from src.cli import options
-from src.cli.evaluate_sanity import check_limits, check_pairs, show
-from src.cli.guard import tell
-from src.shared.errors import UsageError
+from ..shared.errors import UsageError
+from . import options
+from .evaluate_sanity import check_limits, check_pairs, show
+from .guard import tell
 
 MODEL, TEXT, NO_TEXT = "starter-space", "starter", "none"
 SPLITS = ("test", "val")
@@ -52,12 +52,12 @@ def evaluate_space(
     check_pairs(data)
     options.check_folder("--out", out)
 
-    from src.shared.device import set_threads
-    from src.shared.evaluation.report import as_markdown, heading, tables
-    from src.shared.evaluation.space_harness import SpaceSettings, Texts, evaluate_space
-    from src.shared.files import write_json, write_text
-    from src.shared.model.audio.shared_space import SharedSpace
-    from src.shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.device import set_threads
+    from ..shared.evaluation.report import as_markdown, heading, tables
+    from ..shared.evaluation.space_harness import SpaceSettings, Texts, evaluate_space
+    from ..shared.files import write_json, write_text
+    from ..shared.model.audio.shared_space import SharedSpace
+    from ..shared.model.generation.motion_generator import MotionGenerator
 
     set_threads(threads)
     space = SharedSpace.from_pretrained(model)

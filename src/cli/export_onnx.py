@@ -5,8 +5,8 @@ from typing import Annotated
 
 import typer
 
-from src.cli import options
-from src.cli.generate_audio import MODEL
+from . import options
+from .generate_audio import MODEL
 
 
 def export_onnx(
@@ -23,9 +23,9 @@ def export_onnx(
     """
     options.check_folder("--out", out)
 
-    from src.shared.model.audio.audio_motion_model import AudioMotionModel
-    from src.shared.model.audio.onnx_card import CARD_FILE, require_packages
-    from src.shared.model.audio.onnx_export import export_onnx as export
+    from ..shared.model.audio.audio_motion_model import AudioMotionModel
+    from ..shared.model.audio.onnx_card import CARD_FILE, require_packages
+    from ..shared.model.audio.onnx_export import export_onnx as export
 
     require_packages("onnx", "onnxscript")
     card = export(AudioMotionModel.from_pretrained(model), out)

@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from src.cli import options
-from src.shared.errors import UsageError
+from ..shared.errors import UsageError
+from . import options
 
 if TYPE_CHECKING:
-    from src.shared.audio.song import Song
+    from ..shared.audio.song import Song
 
 CHROMA = ("fast", "cqt")
 METERS = range(2, 13)
@@ -48,13 +48,13 @@ def features(
     if cache_dir is not None:
         options.check_folder("--cache-dir", cache_dir)
 
-    from src.shared.audio.song import analyse
+    from ..shared.audio.song import analyse
 
     keep = cache_dir if cache and cache_dir else cache
     analysed = analyse(song, meter=meter, chroma=chroma, cache=keep)  # type: ignore[arg-type]
     analysed.save(out)
     if plot is not None:
-        from src.shared.formats.features_png import plot_features
+        from ..shared.formats.features_png import plot_features
 
         plot_features(analysed.arrays(), plot, title=describe(song, analysed))
     if json:

@@ -5,14 +5,14 @@ from typing import Annotated, Any
 
 import typer
 
-from src.cli import options
-from src.cli.directions import Directions
-from src.cli.generate_audio import only_song
-from src.cli.generate_request import Request, produce
-from src.cli.guard import tell
-from src.cli.score_table import show_scores
-from src.cli.wording import counted
-from src.shared.errors import UsageError
+from ..shared.errors import UsageError
+from . import options
+from .directions import Directions
+from .generate_audio import only_song
+from .generate_request import Request, produce
+from .guard import tell
+from .score_table import show_scores
+from .wording import counted
 
 
 def generate(

@@ -3,26 +3,26 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from src.cli.evaluate_sanity import shipped_bands
-from src.cli.generate_text import slug
-from src.cli.guard import tell
-from src.cli.progress import progress_bar
-from src.cli.score_table import scored
-from src.cli.stopwatch import Stopwatch
-from src.cli.wording import note_replaced
-from src.shared.errors import UsageError
+from ..shared.errors import UsageError
+from .evaluate_sanity import shipped_bands
+from .generate_text import slug
+from .guard import tell
+from .progress import progress_bar
+from .score_table import scored
+from .stopwatch import Stopwatch
+from .wording import note_replaced
 
 if TYPE_CHECKING:
     import numpy as np
     from torch import Tensor
 
-    from src.shared.audio.song import Song
-    from src.shared.inference.runtime import Runtime
-    from src.shared.inference.song_generator import SongMotions
-    from src.shared.inference.song_sampler import SampleSettings
-    from src.shared.memory.build import Space
-    from src.shared.memory.service import MPMService
-    from src.shared.motion.trajectory import MotionTrajectory
+    from ..shared.audio.song import Song
+    from ..shared.inference.runtime import Runtime
+    from ..shared.inference.song_generator import SongMotions
+    from ..shared.inference.song_sampler import SampleSettings
+    from ..shared.memory.build import Space
+    from ..shared.memory.service import MPMService
+    from ..shared.motion.trajectory import MotionTrajectory
 
 FORMATS = ("npz", "csv", "glb", "html", "png")
 MODEL = "starter-audio"
@@ -86,15 +86,15 @@ def produce_song(
         return_all: write all candidates by rank, not only the best.
     """
     clock = Stopwatch()
-    from src.shared.audio.sound import check_sound
+    from ..shared.audio.sound import check_sound
 
     check_sound(wanted["audio"])
-    from src.shared.audio.song import analyse
-    from src.shared.device import set_threads
-    from src.shared.inference.audio_judge import AudioJudge
-    from src.shared.inference.runtime import load_runtime
-    from src.shared.inference.song_generator import SongMotions, heard
-    from src.shared.inference.song_sampler import SampleSettings
+    from ..shared.audio.song import analyse
+    from ..shared.device import set_threads
+    from ..shared.inference.audio_judge import AudioJudge
+    from ..shared.inference.runtime import load_runtime
+    from ..shared.inference.song_generator import SongMotions, heard
+    from ..shared.inference.song_sampler import SampleSettings
 
     clock.lap("import")
     style = styled(wanted["style"])
@@ -138,9 +138,9 @@ def sample_paths(
     remembered: "tuple[MPMService, Space] | None",
 ) -> "list[MotionTrajectory]":
     """Candidates for a song as the decoder gave them, with a bar on the screen."""
-    from src.shared.inference.song_generator import of_song
-    from src.shared.inference.song_memory import remembering
-    from src.shared.inference.song_sampler import SongSampler
+    from ..shared.inference.song_generator import of_song
+    from ..shared.inference.song_memory import remembering
+    from ..shared.inference.song_sampler import SongSampler
 
     with progress_bar("frames of the path") as progress:
         sampler = SongSampler(loaded, of_song(settings, song))
@@ -166,10 +166,10 @@ def open_service(folder: Path | None, loaded: "Runtime") -> "tuple[MPMService, S
     """
     if folder is None:
         return None
-    from src.cli.memory import load_settings
-    from src.shared.inference.mpms_sampler import require_memory
-    from src.shared.inference.song_memory import open_memory
-    from src.shared.memory.service import MPMService
+    from ..shared.inference.mpms_sampler import require_memory
+    from ..shared.inference.song_memory import open_memory
+    from ..shared.memory.service import MPMService
+    from .memory import load_settings
 
     require_memory(loaded.config, "this model")
     index, space = open_memory(folder)
@@ -190,11 +190,11 @@ def styled(text: str | None) -> Any:
     """
     if text is None:
         return None
-    from src.shared.motion.style import named_style, only_style_words
+    from ..shared.motion.style import named_style, only_style_words
 
     if only_style_words(text):
         return named_style(text)
-    from src.shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.model.generation.motion_generator import MotionGenerator
 
     found = MotionGenerator.from_pretrained(STYLE_MODEL).style_of(text)
     return named_style(text) if found is None else found  # the former says what is known
@@ -212,13 +212,13 @@ def write_trajectories(
 
     Several share one page, so that the song is in it once; its path is the second value.
     """
-    from src.shared.formats.trajectory_beats import SongTrack
-    from src.shared.formats.trajectory_registry import (
+    from ..shared.formats.trajectory_beats import SongTrack
+    from ..shared.formats.trajectory_registry import (
         export_trajectory,
         write_trajectory_preview,
     )
-    from src.shared.motion.trajectory import MotionTrajectory
-    from src.shared.motion.trajectory_postprocess import MotionPostProcessor
+    from ..shared.motion.trajectory import MotionTrajectory
+    from ..shared.motion.trajectory_postprocess import MotionPostProcessor
 
     beats = made.song.beats
     track = SongTrack(audio, beats.beat_times, beats.downbeat_times, beats.meter)

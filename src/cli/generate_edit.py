@@ -3,18 +3,18 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from src.cli.directions import KEEP, Directions
-from src.cli.generate_text import write_motions
-from src.cli.guard import complain
-from src.cli.stopwatch import Stopwatch
-from src.shared.errors import UsageError, UserError
+from ..shared.errors import UsageError, UserError
+from .directions import KEEP, Directions
+from .generate_text import write_motions
+from .guard import complain
+from .stopwatch import Stopwatch
 
 if TYPE_CHECKING:
-    from src.shared.inference.directed import Directed
-    from src.shared.inference.editing import Given
-    from src.shared.inference.motion_stream import StreamSettings
-    from src.shared.model.generation.motion_generator import MotionGenerator
-    from src.shared.motion.motion import Motion
+    from ..shared.inference.directed import Directed
+    from ..shared.inference.editing import Given
+    from ..shared.inference.motion_stream import StreamSettings
+    from ..shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.motion.motion import Motion
 
 SAMPLING = ("seed", "steps", "sampler", "guidance_scale")
 
@@ -42,10 +42,10 @@ def produce_directed(
         threads: CPU threads; None = torch's choice.
     """
     clock = Stopwatch()
-    from src.cli.generate_timeline import make_timed, read_timed
-    from src.shared.device import set_threads
-    from src.shared.inference.motion_stream import StreamSettings
-    from src.shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.device import set_threads
+    from ..shared.inference.motion_stream import StreamSettings
+    from ..shared.model.generation.motion_generator import MotionGenerator
+    from .generate_timeline import make_timed, read_timed
 
     clock.lap("import")
     settings = StreamSettings(**wanted["sampling"])
@@ -81,7 +81,7 @@ def read_given(directions: Directions, seconds: float | None) -> "Given":
     Raises:
         UserError: a clip cannot be read, or is shorter than what is asked of it.
     """
-    from src.shared.inference.editing import chosen_joints
+    from ..shared.inference.editing import chosen_joints
 
     names = [part.strip() for part in (directions.joints or "").split(",") if part.strip()]
     if directions.joints is not None and not names:
@@ -98,7 +98,7 @@ def read_edit(directions: Directions, clip: "Motion", joints: set[str] | None) -
     Raises:
         UserError: the span is not in it.
     """
-    from src.shared.inference.editing import redo
+    from ..shared.inference.editing import redo
 
     begin, until = directions.begin or 0.0, directions.until
     until = clip.seconds if until is None else until
@@ -117,7 +117,7 @@ def read_ends(directions: Directions, seconds: float | None) -> "Given":
     Raises:
         UserError: a clip is shorter than what is to be kept, or nothing would be left to make.
     """
-    from src.shared.inference.editing import keep_ends
+    from ..shared.inference.editing import keep_ends
 
     start = None if directions.start is None else read_clip(directions.start)
     end = None if directions.end is None else read_clip(directions.end)
@@ -149,7 +149,7 @@ def read_clip(path: Path) -> "Motion":
     Raises:
         UserError: none, or not that.
     """
-    from src.shared.data.read_motion import read_motion
+    from ..shared.data.read_motion import read_motion
 
     return read_motion(path)
 
@@ -161,7 +161,7 @@ def make_edited(
     settings: "StreamSettings",
 ) -> "Directed":
     """What is given stays, the rest is made as the prompt says."""
-    from src.shared.inference.directed import edited
+    from ..shared.inference.directed import edited
 
     text = wanted["prompts"][0] if wanted["prompts"] else None
     tag = wanted["tags"][0] if wanted["tags"] else None

@@ -5,22 +5,22 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from src.cli import generate_audio, generate_text
-from src.cli.evaluate_sanity import shipped_bands
-from src.cli.guard import complain
-from src.cli.progress import progress_bar
-from src.cli.score_table import scored
-from src.cli.stopwatch import Stopwatch
-from src.cli.wording import note_replaced
-from src.shared.errors import UsageError
+from ..shared.errors import UsageError
+from . import generate_audio, generate_text
+from .evaluate_sanity import shipped_bands
+from .guard import complain
+from .progress import progress_bar
+from .score_table import scored
+from .stopwatch import Stopwatch
+from .wording import note_replaced
 
 if TYPE_CHECKING:
-    from src.shared.audio.song import Song
-    from src.shared.inference.performance_judge import PerformanceJudge
-    from src.shared.inference.performer import Performance
-    from src.shared.inference.runtime import Runtime
-    from src.shared.inference.song_performer import Dances, HeardSong, SongPerformer
-    from src.shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.audio.song import Song
+    from ..shared.inference.performance_judge import PerformanceJudge
+    from ..shared.inference.performer import Performance
+    from ..shared.inference.runtime import Runtime
+    from ..shared.inference.song_performer import Dances, HeardSong, SongPerformer
+    from ..shared.model.generation.motion_generator import MotionGenerator
 
 BODY_MODEL = "starter"
 DANCE = "dance"  # ends the file names of a dance that no prompt asked for
@@ -56,14 +56,14 @@ def produce_dances(
         judge: folder of `train_clip`; None = the body model's own where one is shipped.
     """
     clock = Stopwatch()
-    from src.shared.audio.sound import check_sound
+    from ..shared.audio.sound import check_sound
 
     check_sound(wanted["audio"])
-    from src.shared.audio.song import analyse
-    from src.shared.device import set_threads
-    from src.shared.inference.runtime import load_runtime
-    from src.shared.inference.song_performer import HeardSong
-    from src.shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.audio.song import analyse
+    from ..shared.device import set_threads
+    from ..shared.inference.runtime import load_runtime
+    from ..shared.inference.song_performer import HeardSong
+    from ..shared.model.generation.motion_generator import MotionGenerator
 
     clock.lap("import")
     style = generate_audio.styled(wanted["style"])
@@ -121,7 +121,7 @@ def dance_prompts(
         path: the style of `--style`, and the memory; None where there is none.
         clock: told of `path` and `body`.
     """
-    from src.shared.inference.song_sampler import SampleSettings
+    from ..shared.inference.song_sampler import SampleSettings
 
     generator, (style, remembered) = dancers.performer.generator, path
     settings = SampleSettings(**wanted["sampling"] | {"guidance_scale": None})
@@ -151,9 +151,9 @@ def open_dancers(
     generator: "MotionGenerator", wanted: dict[str, Any], judge: "PerformanceJudge | None"
 ) -> "SongPerformer":
     """Who dances: with the prompts that were given, or with what the music says."""
-    from src.shared.inference.dance_prompt import DancePrompter
-    from src.shared.inference.performer import Performer, PerformerSettings
-    from src.shared.inference.song_performer import SongPerformer
+    from ..shared.inference.dance_prompt import DancePrompter
+    from ..shared.inference.performer import Performer, PerformerSettings
+    from ..shared.inference.song_performer import SongPerformer
 
     own = {name: wanted["sampling"][name] for name in SAMPLING}
     performer = Performer(generator, PerformerSettings(**own, foot_lock=wanted["foot_lock"]))
@@ -163,8 +163,8 @@ def open_dancers(
 
 def open_judge(generator: "MotionGenerator", bands: Any, judge: str | None) -> "PerformanceJudge":
     """A judge of several candidates, with the motion tower that belongs to the generator."""
-    from src.shared.inference.performance_judge import PerformanceJudge
-    from src.shared.inference.text_judge import load_tower, own_tower
+    from ..shared.inference.performance_judge import PerformanceJudge
+    from ..shared.inference.text_judge import load_tower, own_tower
 
     text = generator.text
     return PerformanceJudge(bands, own_tower(text) if judge is None else load_tower(judge, text))
@@ -209,9 +209,9 @@ def write_dances(
 
     Several share one page, so that the song is in it once; its path is the second value.
     """
-    from src.shared.formats.performance_files import export_dance, write_dance_page
-    from src.shared.formats.registry import ending
-    from src.shared.formats.trajectory_beats import SongTrack
+    from ..shared.formats.performance_files import export_dance, write_dance_page
+    from ..shared.formats.registry import ending
+    from ..shared.formats.trajectory_beats import SongTrack
 
     beats = song.beats
     track = SongTrack(audio, beats.beat_times, beats.downbeat_times, beats.meter)
@@ -239,7 +239,7 @@ def write_dances(
 
 def told_of_dance(dance: "Performance", beats: Any) -> dict[str, Any]:
     """What was asked for, how exactly the body stands on its path, how it keeps the beat."""
-    from src.shared.inference.performance_judge import beat_report
+    from ..shared.inference.performance_judge import beat_report
 
     motion = dance.motion
     return {

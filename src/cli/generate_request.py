@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from src.cli import generate_audio, generate_edit, generate_performance, generate_text
-from src.cli.directions import Directions
-from src.shared.errors import UsageError
+from ..shared.errors import UsageError
+from . import generate_audio, generate_edit, generate_performance, generate_text
+from .directions import Directions
 
 
 @dataclass(frozen=True)

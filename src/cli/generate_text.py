@@ -5,14 +5,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from src.cli.guard import complain
-from src.cli.progress import progress_bar
-from src.cli.score_table import scored
-from src.cli.stopwatch import Stopwatch
-from src.cli.wording import note_replaced
+from .guard import complain
+from .progress import progress_bar
+from .score_table import scored
+from .stopwatch import Stopwatch
+from .wording import note_replaced
 
 if TYPE_CHECKING:
-    from src.shared.motion.motion import Motion
+    from ..shared.motion.motion import Motion
 
 FORMATS = ("bvh", "glb", "npz", "html")  # written where nothing else is asked for
 ALL_FORMATS = (*FORMATS, "usd", "amass", "csv", "png", "gif", "mp4")
@@ -43,10 +43,10 @@ def produce(
         judge: folder of `train_clip`; None = the model's own where one is shipped.
     """
     clock = Stopwatch()
-    from src.shared.device import set_threads
-    from src.shared.inference.prompt_sampler import PromptSampler
-    from src.shared.inference.text_judge import TextJudge, load_tower, own_tower
-    from src.shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.device import set_threads
+    from ..shared.inference.prompt_sampler import PromptSampler
+    from ..shared.inference.text_judge import TextJudge, load_tower, own_tower
+    from ..shared.model.generation.motion_generator import MotionGenerator
 
     clock.lap("import")
     set_threads(threads)
@@ -105,7 +105,7 @@ def write_motions(
     motions: "Sequence[Motion]", num_samples: int, formats: list[str], out: Path
 ) -> list[dict[str, Any]]:
     """Write every motion in every format; a row of facts and paths for each."""
-    from src.shared.formats.registry import ending, write_motion
+    from ..shared.formats.registry import ending, write_motion
 
     rows: list[dict[str, Any]] = []
     names = stems([motion.text for motion in motions], num_samples)
@@ -129,7 +129,7 @@ def write_motions(
 
 def write_index(motions: "Sequence[Motion]", out: Path) -> str:
     """One page with all motions side by side; returns its path."""
-    from src.shared.formats.registry import write_preview
+    from ..shared.formats.registry import write_preview
 
     write_preview(motions, out / "index.html")
     return str(out / "index.html")

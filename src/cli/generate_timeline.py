@@ -3,15 +3,15 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from src.cli.directions import SECONDS, Directions
-from src.shared.errors import UsageError
+from ..shared.errors import UsageError
+from .directions import SECONDS, Directions
 
 if TYPE_CHECKING:
-    from src.shared.inference.directed import Directed
-    from src.shared.inference.drawn_path import DrawnPath
-    from src.shared.inference.motion_stream import StreamSettings
-    from src.shared.inference.timeline import Timeline
-    from src.shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.inference.directed import Directed
+    from ..shared.inference.drawn_path import DrawnPath
+    from ..shared.inference.motion_stream import StreamSettings
+    from ..shared.inference.timeline import Timeline
+    from ..shared.model.generation.motion_generator import MotionGenerator
 
 FPS = 30.0
 
@@ -38,9 +38,9 @@ def read_timed(directions: Directions, wanted: dict[str, Any]) -> TimedTask:
     Raises:
         UserError: a file cannot be read or says what cannot be.
     """
-    from src.shared.inference.drawn_path import read_path
-    from src.shared.inference.motion_stream import Passage
-    from src.shared.inference.timeline import Timeline, read_timeline
+    from ..shared.inference.drawn_path import read_path
+    from ..shared.inference.motion_stream import Passage
+    from ..shared.inference.timeline import Timeline, read_timeline
 
     path = None if directions.path is None else read_path(directions.path)
     if path is not None and path.times is not None and wanted["seconds"] is not None:
@@ -65,7 +65,7 @@ def make_timed(
     foot_lock: bool | None,
 ) -> "Directed":
     """One motion of all that."""
-    from src.shared.inference.directed import along_path, by_timeline, in_a_loop
+    from ..shared.inference.directed import along_path, by_timeline, in_a_loop
 
     if task.path is not None:
         return along_path(

@@ -13,8 +13,8 @@ from typing import Annotated, Any, ParamSpec
 
 import typer
 
-from src.shared.errors import UsageError, UserError, printable
-from src.shared.signals import orderly_termination
+from ..shared.errors import UsageError, UserError, printable
+from ..shared.signals import orderly_termination
 
 Parameters = ParamSpec("Parameters")
 INTERRUPTED = 130

@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from src.cli import options
-from src.cli.guard import complain, guarded, tell, with_quiet
-from src.cli.help_page import Command
-from src.shared.errors import UsageError, printable
+from ..shared.errors import UsageError, printable
+from . import options
+from .guard import complain, guarded, tell, with_quiet
+from .help_page import Command
 
 if TYPE_CHECKING:
-    from src.shared.config_memory import MemoryConfig
-    from src.shared.memory.ask import Answer, Found
-    from src.shared.memory.index import MemoryIndex
-    from src.shared.model.audio.shared_space import SharedSpace
+    from ..shared.config_memory import MemoryConfig
+    from ..shared.memory.ask import Answer, Found
+    from ..shared.memory.index import MemoryIndex
+    from ..shared.model.audio.shared_space import SharedSpace
 
 SPACE = "starter-space"
 TEXT_MODEL = "starter"
@@ -53,11 +53,11 @@ def build(
     options.check_folder("--out", out)
     config = load_settings(bars=bars)
 
-    from src.cli.progress import progress_bar
-    from src.shared.device import set_threads
-    from src.shared.memory.build import build_memory
-    from src.shared.model.audio.shared_space import SharedSpace
-    from src.shared.sole_writer import sole_writer
+    from ..shared.device import set_threads
+    from ..shared.memory.build import build_memory
+    from ..shared.model.audio.shared_space import SharedSpace
+    from ..shared.sole_writer import sole_writer
+    from .progress import progress_bar
 
     set_threads(threads)
     loaded = SharedSpace.from_pretrained(space)
@@ -114,9 +114,9 @@ def query(
     if not is_song and Path(ask).suffix.lower() in SOUND_FILES:
         raise UsageError(f"{ask}: no such file; name a sound file, or give words")
 
-    from src.shared.audio.sound import check_sound
-    from src.shared.device import set_threads
-    from src.shared.inference.song_memory import open_memory
+    from ..shared.audio.sound import check_sound
+    from ..shared.device import set_threads
+    from ..shared.inference.song_memory import open_memory
 
     if is_song:
         check_sound(ask)
@@ -152,8 +152,8 @@ def load_settings(**given: Any) -> "MemoryConfig":
     Raises:
         UsageError: a value out of range.
     """
-    from src.shared.config_loader import load_config, load_yaml, packaged_config
-    from src.shared.config_memory import MemoryConfig
+    from ..shared.config_loader import load_config, load_yaml, packaged_config
+    from ..shared.config_memory import MemoryConfig
 
     path = packaged_config("memory.yaml")
     overrides = [f"{name}={value}" for name, value in given.items() if value is not None]
@@ -168,9 +168,9 @@ def query_song(
     meter: int | None,
 ) -> list["Answer"]:
     """Listen, then ask for each bar."""
-    from src.shared.audio.song import analyse
-    from src.shared.inference.song_generator import heard
-    from src.shared.memory.ask import ask_song
+    from ..shared.audio.song import analyse
+    from ..shared.inference.song_generator import heard
+    from ..shared.memory.ask import ask_song
 
     condition, phase = heard(analyse(path, meter=meter), None)
     if phase is None:
@@ -182,8 +182,8 @@ def query_text(
     text: str, index: "MemoryIndex", space: "SharedSpace", config: "MemoryConfig", model: str
 ) -> "Answer":
     """Read the words with the text model's tower, then ask."""
-    from src.shared.memory.ask import ask_text
-    from src.shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.memory.ask import ask_text
+    from ..shared.model.generation.motion_generator import MotionGenerator
 
     generator = MotionGenerator.from_pretrained(model, device="cpu")
     for warning in filter(None, generator.scope_warnings([text])):

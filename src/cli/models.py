@@ -1,6 +1,6 @@
 """`models`: what can be named in `--model`."""
 
-from src.cli import options
+from . import options
 
 COLUMNS = ("name", "kind", "trained", "licence", "size", "languages", "description")
 
@@ -14,7 +14,7 @@ def models(json: options.Json = False) -> None:
     """
     import json as json_format
 
-    from src.shared.model.zoo import list_models
+    from ..shared.model.zoo import list_models
 
     rows = list_models()
     if json:

@@ -5,8 +5,8 @@ from typing import Annotated
 
 import typer
 
-from src.cli import options
-from src.shared.errors import UsageError
+from ..shared.errors import UsageError
+from . import options
 
 PICTURES = (".png", ".pdf", ".svg")
 
@@ -37,12 +37,12 @@ def plot(
     options.check_folder("--out", picture.parent)
 
     if file.suffix.lower() in (".json", ".jsonl"):
-        from src.shared.evaluation.plots import plot_losses, read_losses
+        from ..shared.evaluation.plots import plot_losses, read_losses
 
         plot_losses(read_losses(file), picture, title=str(file))
     else:
-        from src.shared.evaluation.plots import plot_trajectory
-        from src.shared.formats.trajectory_reader import read_trajectory
+        from ..shared.evaluation.plots import plot_trajectory
+        from ..shared.formats.trajectory_reader import read_trajectory
 
         plot_trajectory(read_trajectory(file), picture, title=str(file))
     print(picture)

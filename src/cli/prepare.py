@@ -5,11 +5,11 @@ from typing import Annotated, Any
 
 import typer
 
-from src.cli import options
-from src.cli.guard import complain, tell
-from src.cli.progress import progress_bar
-from src.shared.errors import UsageError
-from src.shared.files import same_place
+from ..shared.errors import UsageError
+from ..shared.files import same_place
+from . import options
+from .guard import complain, tell
+from .progress import progress_bar
 
 
 def prepare(
@@ -79,11 +79,11 @@ def prepare(
     if any(same_place(out, root) for root in source or []):
         raise UsageError(f"--out {out} is a SOURCE, whose files it would mix with; name another")
 
-    from src.shared.data.guesses import axis_vector, unit_metres
-    from src.shared.data.mapping import words
-    from src.shared.data.prepare import prepare as prepare_folder
-    from src.shared.data.sources import MotionFolder, Reading, Source, SyntheticSource
-    from src.shared.sole_writer import sole_writer
+    from ..shared.data.guesses import axis_vector, unit_metres
+    from ..shared.data.mapping import words
+    from ..shared.data.prepare import prepare as prepare_folder
+    from ..shared.data.sources import MotionFolder, Reading, Source, SyntheticSource
+    from ..shared.sole_writer import sole_writer
 
     for check, value in ((unit_metres, unit), (axis_vector, up)):
         if value is not None:

@@ -5,14 +5,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from src.cli import options
-from src.cli.guard import tell
-from src.cli.prepare import print_json
-from src.cli.progress import progress_bar
-from src.shared.errors import UsageError
+from ..shared.errors import UsageError
+from . import options
+from .guard import tell
+from .prepare import print_json
+from .progress import progress_bar
 
 if TYPE_CHECKING:
-    from src.shared.data.prepared import PreparedData
+    from ..shared.data.prepared import PreparedData
 
 
 def prepare_audio(
@@ -66,10 +66,10 @@ def prepare_audio(
         raise UsageError(f"--motion {motion} is no folder; name one, or synthetic")
     options.check_folder("--out", out)
 
-    from src.shared.data.pairing.music import open_music
-    from src.shared.data.pairing.prepare_audio import PairOptions
-    from src.shared.data.pairing.prepare_audio import prepare_audio as pair_all
-    from src.shared.sole_writer import sole_writer
+    from ..shared.data.pairing.music import open_music
+    from ..shared.data.pairing.prepare_audio import PairOptions
+    from ..shared.data.pairing.prepare_audio import prepare_audio as pair_all
+    from ..shared.sole_writer import sole_writer
 
     sources = open_music(music, seed=seed, meter=meter)
     synthetic = synthetic_clips or motion == "synthetic"
@@ -93,7 +93,7 @@ def prepare_audio(
 
 def open_motion(motion: str, out: Path) -> "PreparedData":
     """A prepared folder; BVH files and synthetic motions are prepared beside the pairs, once."""
-    from src.shared.data.prepared import PreparedData, open_data
+    from ..shared.data.prepared import PreparedData, open_data
 
     if motion == "synthetic":
         return open_data(motion, out / ".motion")
@@ -101,7 +101,7 @@ def open_motion(motion: str, out: Path) -> "PreparedData":
     if (folder / "manifest.json").exists():
         return PreparedData.open(folder)
 
-    from src.shared.data.pairing.bvh_motion import prepare_unlabelled
+    from ..shared.data.pairing.bvh_motion import prepare_unlabelled
 
     tell(f"preparing the motion files of {folder} ...")
     return prepare_unlabelled(folder, out / ".motion" / "bvh")
@@ -109,8 +109,8 @@ def open_motion(motion: str, out: Path) -> "PreparedData":
 
 def write_bands(out: Path) -> None:
     """What the training phrases measure, in bands.json: the sanity suite compares with it."""
-    from src.shared.data.pairing.report import training_trajectories
-    from src.shared.validation.bands import Bands
+    from ..shared.data.pairing.report import training_trajectories
+    from ..shared.validation.bands import Bands
 
     Bands.of(training_trajectories(out)).save(out / "bands.json")
 

@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from src.cli.guard import is_quiet, tell
+from .guard import is_quiet, tell
 
 LINE_SECONDS = 10.0  # between lines where there is no screen
 

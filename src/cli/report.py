@@ -5,8 +5,8 @@ from typing import Annotated
 
 import typer
 
-from src.cli import options
-from src.shared.errors import UsageError
+from ..shared.errors import UsageError
+from . import options
 
 
 def report(
@@ -22,9 +22,9 @@ def report(
     if not (folder / "report.json").is_file():
         raise UsageError(f"{folder} holds no report.json; name a folder that `evaluate` wrote")
 
-    from src.cli.evaluate import show
-    from src.cli.guard import tell
-    from src.shared.evaluation.report_folder import render
+    from ..shared.evaluation.report_folder import render
+    from .evaluate import show
+    from .guard import tell
 
     show(render(folder), json=json)
     tell(f"report: {folder / 'report.html'}")

@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from src.cli.guard import is_quiet
+from .guard import is_quiet
 
 if TYPE_CHECKING:
-    from src.shared.inference.selection import ScoreTable
+    from ..shared.inference.selection import ScoreTable
 
 SHOWN = 8  # candidates in the printed table
 

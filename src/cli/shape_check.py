@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from src.cli import options
+from . import options
 
 if TYPE_CHECKING:
-    from src.cli.shape_stages import Stage
-    from src.shared.config_schema import NetworkConfig
+    from ..shared.config_schema import NetworkConfig
+    from .shape_stages import Stage
 
 
 def shape_check(
@@ -44,7 +44,7 @@ def shape_check(
       motion-tools shape-check --no-root-track generation.num-layers=6
       motion-tools shape-check --model audio unet.conditioning=film
     """
-    from src.shared.config_loader import load_network
+    from ..shared.config_loader import load_network
 
     check_branch(model, full=full, root_track=root_track)
     settings = list(overrides or [])
@@ -69,7 +69,7 @@ def check_branch(model: str, *, full: bool, root_track: bool | None) -> None:
     Raises:
         UsageError: naming the flag.
     """
-    from src.shared.errors import UsageError
+    from ..shared.errors import UsageError
 
     if model not in ("text", "audio"):
         raise UsageError(f"--model {model!r} is no branch; choose text or audio")
@@ -88,9 +88,9 @@ def collect_audio(
     """
     import torch
 
-    from src.cli.shape_stages_audio import AudioLetters, audio_stages
-    from src.shared.config_loader import load_audio_network
-    from src.shared.device import choose_device
+    from ..shared.config_loader import load_audio_network
+    from ..shared.device import choose_device
+    from .shape_stages_audio import AudioLetters, audio_stages
 
     network = load_audio_network(profile, path, overrides)
     stages = audio_stages(network, torch.device(choose_device(device)[0]))
@@ -105,9 +105,9 @@ def collect(network: "NetworkConfig", device: str, *, full: bool) -> "list[Stage
     """
     import torch
 
-    from src.cli.shape_stages import clip_stages, denoiser_stages, post_processing_stages
-    from src.shared.device import choose_device
-    from src.shared.errors import UsageError
+    from ..shared.device import choose_device
+    from ..shared.errors import UsageError
+    from .shape_stages import clip_stages, denoiser_stages, post_processing_stages
 
     channels = network.generation.motion_channels
     if full and channels != 6:
@@ -123,7 +123,7 @@ def collect(network: "NetworkConfig", device: str, *, full: bool) -> "list[Stage
 
 def letters_of(network: "NetworkConfig") -> dict[str, int]:
     """The document's letters with this profile's values."""
-    from src.cli.shape_stages import BATCH, FRAMES
+    from .shape_stages import BATCH, FRAMES
 
     generation = network.generation
     return {

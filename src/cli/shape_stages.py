@@ -12,11 +12,11 @@ from typing import Any
 import torch
 from torch import Tensor, nn
 
-from src.shared.config_schema import ClipConfig, NetworkConfig
-from src.shared.model.clip.core import MotionClip, TextFeatures
-from src.shared.model.generation.denoiser import MotionDenoiser
-from src.shared.motion.postprocess import clamp_velocity, smooth_features
-from src.shared.motion.rotations import matrix_to_quaternion, rotation_6d_to_matrix
+from ..shared.config_schema import ClipConfig, NetworkConfig
+from ..shared.model.clip.core import MotionClip, TextFeatures
+from ..shared.model.generation.denoiser import MotionDenoiser
+from ..shared.motion.postprocess import clamp_velocity, smooth_features
+from ..shared.motion.rotations import matrix_to_quaternion, rotation_6d_to_matrix
 
 BATCH, FRAMES, TOKENS, NUM_TAGS, FPS = 2, 40, 12, 5, 30.0
 QUARTER, PIECES = FRAMES // 4, FRAMES // 8  # after the stride-4 and the stride-2 convolution

@@ -8,11 +8,11 @@ decoders. Level i has T/2^i frames; both documents draw it (TECH 3.1.2, REF).
 import torch
 from torch import Tensor, nn
 
-from src.cli.shape_stages import Letters, Row, Stage, count, trace
-from src.shared.config_audio import AudioNetworkConfig, UNetConfig
-from src.shared.model.audio.conditioning import CONDITION_ROWS, AudioConditioner
-from src.shared.model.audio.decoder import create_motion_decoder
-from src.shared.model.audio.unet import UNet1D
+from ..shared.config_audio import AudioNetworkConfig, UNetConfig
+from ..shared.model.audio.conditioning import CONDITION_ROWS, AudioConditioner
+from ..shared.model.audio.decoder import create_motion_decoder
+from ..shared.model.audio.unet import UNet1D
+from .shape_stages import Letters, Row, Stage, count, trace
 
 BATCH, PIECES = 2, 6  # pieces at the deepest level, so that nothing needs padding
 

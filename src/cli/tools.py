@@ -9,30 +9,30 @@ from typing import Annotated
 
 import typer
 
-from src.cli.compare import compare
-from src.cli.convert import convert
-from src.cli.evaluate import evaluate
-from src.cli.evaluate_audio import evaluate_audio
-from src.cli.evaluate_memory import evaluate_memory
-from src.cli.evaluate_performer import evaluate_performer
-from src.cli.evaluate_requests import evaluate_requests
-from src.cli.evaluate_sanity import evaluate_sanity
-from src.cli.evaluate_selection import evaluate_selection
-from src.cli.evaluate_space import evaluate_space
-from src.cli.export_onnx import export_onnx
-from src.cli.features import features
-from src.cli.generate import generate
-from src.cli.guard import guarded, results_on_stdout, with_quiet
-from src.cli.help_page import Command
-from src.cli.inspect import inspect
-from src.cli.memory import memory
-from src.cli.models import models
-from src.cli.plot import plot
-from src.cli.prepare import prepare
-from src.cli.prepare_audio import prepare_audio
-from src.cli.report import report
-from src.cli.shape_check import shape_check
-from src.cli.train import train
+from .compare import compare
+from .convert import convert
+from .evaluate import evaluate
+from .evaluate_audio import evaluate_audio
+from .evaluate_memory import evaluate_memory
+from .evaluate_performer import evaluate_performer
+from .evaluate_requests import evaluate_requests
+from .evaluate_sanity import evaluate_sanity
+from .evaluate_selection import evaluate_selection
+from .evaluate_space import evaluate_space
+from .export_onnx import export_onnx
+from .features import features
+from .generate import generate
+from .guard import guarded, results_on_stdout, with_quiet
+from .help_page import Command
+from .inspect import inspect
+from .memory import memory
+from .models import models
+from .plot import plot
+from .prepare import prepare
+from .prepare_audio import prepare_audio
+from .report import report
+from .shape_check import shape_check
+from .train import train
 
 PROGRAM = "motion-tools"
 

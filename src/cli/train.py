@@ -5,7 +5,7 @@ from importlib import import_module
 
 import typer
 
-from src.cli.guard import guarded
+from .guard import guarded
 
 STAGES = {
     "clip": ("train_clip", "The text tower and the motion tower that share one space."),
@@ -32,7 +32,7 @@ def stage(module: str) -> Callable[[typer.Context], None]:
 
     def run(context: typer.Context) -> None:
         """All of it is the stage's to read."""
-        app = import_module(f"src.train.{module}").app
+        app = import_module(f"..train.{module}", __package__).app
         app(context.args, prog_name=context.command_path)
 
     return run

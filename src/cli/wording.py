@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from src.cli.guard import tell
+from .guard import tell
 
 
 def counted(number: int, noun: str) -> str:

@@ -4,7 +4,7 @@ from typing import Literal, Self
 
 from pydantic import Field, model_validator
 
-from src.shared.config_schema import Config, DiffusionConfig
+from .config_schema import Config, DiffusionConfig
 
 NORM_GROUPS = 32  # of every GroupNorm in UNet1D (TECH 3.1.3)
 

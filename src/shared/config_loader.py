@@ -8,7 +8,6 @@ import difflib
 import json
 import re
 from collections.abc import Iterator, Sequence
-from importlib.resources import files
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar, get_args
 
@@ -16,9 +15,9 @@ import yaml
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from src.shared.config_audio import AudioNetworkConfig
-from src.shared.config_schema import Config, NetworkConfig, TrainConfig
-from src.shared.errors import UsageError
+from .config_audio import AudioNetworkConfig
+from .config_schema import Config, NetworkConfig, TrainConfig
+from .errors import UsageError
 
 COMMAND_LINE = "command line"
 NETWORK_PREFIX = "network."
@@ -148,7 +147,7 @@ def load_yaml(path: Path | str) -> dict[str, Any]:
 
 def packaged_config(name: str) -> Path:
     """Path of a file in src/configs, installed or in the source tree."""
-    return Path(str(files("src.configs") / name))
+    return Path(__file__).parent.parent / "configs" / name
 
 
 # ---------------------------------------------------------------- overrides

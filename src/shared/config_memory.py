@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from src.shared.config_schema import Config
+from .config_schema import Config
 
 
 class MemoryConfig(Config):

@@ -4,8 +4,8 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
-from src.shared.config_audio import AugmentationConfig
-from src.shared.config_schema import Config
+from .config_audio import AugmentationConfig
+from .config_schema import Config
 
 
 class AudioTowerConfig(Config):

@@ -12,7 +12,7 @@ from typing import Literal
 
 import torch
 
-from src.shared.errors import UsageError
+from .errors import UsageError
 
 DeviceName = Literal["cuda", "mps", "cpu"]
 READINGS = 3  # of the idle cores: what runs for an instant only takes none

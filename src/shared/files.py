@@ -11,7 +11,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from src.shared.errors import UserError
+from .errors import UserError
 
 MAX_JSON = 256 << 20  # bytes
 MAX_TEXT = 64 << 20

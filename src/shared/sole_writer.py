@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
-from src.shared.errors import UserError
-from src.shared.files import is_unfinished, made_folder
+from .errors import UserError
+from .files import is_unfinished, made_folder
 
 LOCK = ".lock"
 

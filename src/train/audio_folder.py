@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from src.shared.config_audio import AudioNetworkConfig
-from src.shared.config_loader import NETWORK_PREFIX, dump_config, load_config
-from src.shared.errors import UsageError
-from src.shared.model.audio.audio_motion_model import KIND
-from src.shared.model.checkpoint import read_card
-from src.shared.model.zoo import resolve_model, wrong_kind
+from ..shared.config_audio import AudioNetworkConfig
+from ..shared.config_loader import NETWORK_PREFIX, dump_config, load_config
+from ..shared.errors import UsageError
+from ..shared.model.audio.audio_motion_model import KIND
+from ..shared.model.checkpoint import read_card
+from ..shared.model.zoo import resolve_model, wrong_kind
 
 DECODER_PREFIX = NETWORK_PREFIX + "decoder."
 

@@ -14,10 +14,10 @@ import torch
 from torch import Tensor
 from torch.nn.functional import normalize
 
-from src.shared.data.caption_language import Labels, told
-from src.shared.data.labels import group_of
-from src.shared.data.prepared import PreparedData
-from src.train.seeding import generator
+from ..shared.data.caption_language import Labels, told
+from ..shared.data.labels import group_of
+from ..shared.data.prepared import PreparedData
+from .seeding import generator
 
 Combination = tuple[tuple[str, str], ...]
 

@@ -18,8 +18,8 @@ from safetensors import SafetensorError
 from safetensors.torch import load_file, save_file
 from torch import Tensor, nn
 
-from src.shared.errors import UserError
-from src.shared.files import sha256_file, unfinished, why_not_written, write_json
+from ..shared.errors import UserError
+from ..shared.files import sha256_file, unfinished, why_not_written, write_json
 
 _FILES = ("model", "ema", "optimizer")
 

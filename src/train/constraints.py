@@ -10,8 +10,8 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.config_schema import ConstraintShares
-from src.shared.motion.root_track import (
+from ..shared.config_schema import ConstraintShares
+from ..shared.motion.root_track import (
     FORWARD,
     HEIGHT,
     LATERAL,
@@ -19,7 +19,7 @@ from src.shared.motion.root_track import (
     ROOT_ROW,
     YAW_RATE,
 )
-from src.shared.motion.skeleton import JOINT_INDEX, LIMBS
+from ..shared.motion.skeleton import JOINT_INDEX, LIMBS
 
 LONGEST_END = 45  # frames known at a start or an end
 ROOT_WAYS = (0.7, 0.15, 0.15)  # shares of both, heading alone, path alone

@@ -10,9 +10,9 @@ import torch
 from torch import Tensor
 from torch.utils.checkpoint import checkpoint
 
-from src.shared.model.diffusion.conditions import ModelFn
-from src.shared.model.diffusion.gaussian import GaussianDiffusion
-from src.shared.model.diffusion.samplers import DDIMSampler
+from ..shared.model.diffusion.conditions import ModelFn
+from ..shared.model.diffusion.gaussian import GaussianDiffusion
+from ..shared.model.diffusion.samplers import DDIMSampler
 
 
 class DifferentiableSampler:

@@ -12,14 +12,14 @@ import torch
 from pydantic import Field
 from torch import Tensor, nn
 
-from src.shared.config_audio import DecoderLossConfig, TemporalLossConfig
-from src.shared.inference.song_sampler import SPARE, holding
-from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.model.audio.losses import DecoderLoss, TemporalCoherenceLoss, total
-from src.shared.model.diffusion.conditions import with_condition
-from src.shared.motion.trajectory import FPS, POSITION, QUATERNION
-from src.train.differentiable_sampling import DifferentiableSampler
-from src.train.train_audio import AudioBatch, TrainAudioConfig, audio_losses
+from ..shared.config_audio import DecoderLossConfig, TemporalLossConfig
+from ..shared.inference.song_sampler import SPARE, holding
+from ..shared.model.audio.audio_motion_model import AudioMotionModel
+from ..shared.model.audio.losses import DecoderLoss, TemporalCoherenceLoss, total
+from ..shared.model.diffusion.conditions import with_condition
+from ..shared.motion.trajectory import FPS, POSITION, QUATERNION
+from .differentiable_sampling import DifferentiableSampler
+from .train_audio import AudioBatch, TrainAudioConfig, audio_losses
 
 CONTINUOUS = 0.95  # smallest dot of neighbouring quaternions that passes (ruling 18)
 

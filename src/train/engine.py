@@ -16,21 +16,21 @@ from typing import Any, Generic, TypeVar
 import torch
 from torch import Tensor
 
-from src.shared.ahead import ahead
-from src.shared.config_schema import TrainConfig
-from src.shared.device import choose_compute, set_threads
-from src.shared.errors import UsageError, UserError
-from src.shared.files import write_json
-from src.train.batches import to_device
-from src.train.checkpoint import Checkpoint, latest_checkpoint, load_optimizer, save_checkpoint
-from src.train.ema import ExponentialMovingAverage
-from src.train.interrupt import Interrupted, InterruptGuard
-from src.train.learning_rate import learning_rate_factor
-from src.train.resume import refuse_to_overwrite, require_same_run, run_identity
-from src.train.run_log import VALIDATION, RunLog, console
-from src.train.seeding import mix_seed
-from src.train.setup import make_accelerator, make_optimizer
-from src.train.task import Part, Task
+from ..shared.ahead import ahead
+from ..shared.config_schema import TrainConfig
+from ..shared.device import choose_compute, set_threads
+from ..shared.errors import UsageError, UserError
+from ..shared.files import write_json
+from .batches import to_device
+from .checkpoint import Checkpoint, latest_checkpoint, load_optimizer, save_checkpoint
+from .ema import ExponentialMovingAverage
+from .interrupt import Interrupted, InterruptGuard
+from .learning_rate import learning_rate_factor
+from .resume import refuse_to_overwrite, require_same_run, run_identity
+from .run_log import VALIDATION, RunLog, console
+from .seeding import mix_seed
+from .setup import make_accelerator, make_optimizer
+from .task import Part, Task
 
 _STOP_CHECK_EVERY = 10  # steps between agreeing on a stop, with several processes
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from src.train.run_log import VALIDATION
+from .run_log import VALIDATION
 
 ROWS = {  # of the table: figure, name
     "loss": "Total loss",

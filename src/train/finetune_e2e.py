@@ -18,29 +18,29 @@ import typer
 from pydantic import Field, model_validator
 from torch import Tensor, nn
 
-from src.shared.config_audio import AudioNetworkConfig
-from src.shared.config_loader import load_train, split_network_overrides
-from src.shared.data.phrases.dataset import PhraseBatch
-from src.shared.device import autocast
-from src.shared.errors import UsageError
-from src.shared.files import write_json, write_text
-from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.train.audio_folder import network_of
-from src.train.batches import to_device
-from src.train.e2e_objective import E2eBatch, E2eObjective, E2eWeights
-from src.train.epoch_log import Epoch, best_epoch, read_epochs, results_table
-from src.train.launch import Processes, as_overrides, new_app, run_task, short_errors
-from src.train.phrases import (
+from ..shared.config_audio import AudioNetworkConfig
+from ..shared.config_loader import load_train, split_network_overrides
+from ..shared.data.phrases.dataset import PhraseBatch
+from ..shared.device import autocast
+from ..shared.errors import UsageError
+from ..shared.files import write_json, write_text
+from ..shared.model.audio.audio_motion_model import AudioMotionModel
+from .audio_folder import network_of
+from .batches import to_device
+from .e2e_objective import E2eBatch, E2eObjective, E2eWeights
+from .epoch_log import Epoch, best_epoch, read_epochs, results_table
+from .launch import Processes, as_overrides, new_app, run_task, short_errors
+from .phrases import (
     bar_phase_at_start,
     export_song,
     open_phrases,
     true_trajectory,
     whole_windows,
 )
-from src.train.run_log import as_logged, console
-from src.train.seeding import generator
-from src.train.train_audio import AudioTask
-from src.train.train_generation import spread_timesteps
+from .run_log import as_logged, console
+from .seeding import generator
+from .train_audio import AudioTask
+from .train_generation import spread_timesteps
 
 MODULE = "src.train.finetune_e2e"
 BEST = "best"  # folder in the output, of the best weights so far

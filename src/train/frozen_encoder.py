@@ -15,12 +15,12 @@ from safetensors import safe_open
 from safetensors.torch import save_file
 from torch import Tensor
 
-from src.shared.files import atomic_write
-from src.shared.model.clip.core import SMALL, TextTower
-from src.shared.model.clip.pretrained import tower_hash
-from src.shared.model.clip.tokenizer import PromptTokenizer
-from src.shared.model.layers.masking import masked_mean
-from src.train.run_log import announce
+from ..shared.files import atomic_write
+from ..shared.model.clip.core import SMALL, TextTower
+from ..shared.model.clip.pretrained import tower_hash
+from ..shared.model.clip.tokenizer import PromptTokenizer
+from ..shared.model.layers.masking import masked_mean
+from .run_log import announce
 
 MEANS_FILE = "caption-means.safetensors"  # in the output folder: a resumed run reads it
 CHUNK = 128  # captions of one call

@@ -4,7 +4,7 @@ import signal
 from types import FrameType, TracebackType
 from typing import Any
 
-from src.shared.errors import UserError
+from ..shared.errors import UserError
 
 
 class Interrupted(UserError):

@@ -10,21 +10,21 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
-from src.shared.config_loader import (
+from ..shared.config_loader import (
     load_audio_network,
     load_network,
     load_train,
     split_network_overrides,
 )
-from src.shared.config_schema import Config, TrainConfig
-from src.shared.errors import UserError
-from src.shared.signals import orderly_termination
-from src.shared.sole_writer import sole_writer
-from src.train.interrupt import Interrupted
-from src.train.processes import end_with_parent, is_one_of_several, run_processes
+from ..shared.config_schema import Config, TrainConfig
+from ..shared.errors import UserError
+from ..shared.signals import orderly_termination
+from ..shared.sole_writer import sole_writer
+from .interrupt import Interrupted
+from .processes import end_with_parent, is_one_of_several, run_processes
 
 if TYPE_CHECKING:
-    from src.train.task import Task
+    from .task import Task
 
 ConfigT = TypeVar("ConfigT", bound=TrainConfig)
 Builder = Callable[[ConfigT, Any], "Task"]  # settings and network
@@ -57,7 +57,7 @@ def run_task(
     end_with_parent()
     main = os.environ.get("RANK", "0") == "0"  # of the processes of one run
     with sole_writer(settings.output) if main else nullcontext():
-        from src.train.engine import Trainer  # every check that needs no torch comes before this
+        from .engine import Trainer  # every check that needs no torch comes before this
 
         command = resume_command(module, sys.argv[1:])
         Trainer(settings, build, command=command, resume=resume).train()

@@ -12,15 +12,15 @@ from pydantic import Field
 from torch import Tensor
 from torch.nn import functional as F
 
-from src.shared.config_schema import TrainConfig
-from src.shared.data.phrases.dataset import EmptySplit, MotionPhraseDataset, PhraseBatch
-from src.shared.data.prepared import SYNTHETIC, open_data
-from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.model.audio.conditioning import BEAT, CONDITION_ROWS
-from src.shared.model.audio.decoder import wrapped_phase
-from src.shared.model.audio.unet import MIN_FRAMES
-from src.shared.motion.trajectory import PHASE
-from src.train.run_log import announce, console
+from ..shared.config_schema import TrainConfig
+from ..shared.data.phrases.dataset import EmptySplit, MotionPhraseDataset, PhraseBatch
+from ..shared.data.prepared import SYNTHETIC, open_data
+from ..shared.model.audio.audio_motion_model import AudioMotionModel
+from ..shared.model.audio.conditioning import BEAT, CONDITION_ROWS
+from ..shared.model.audio.decoder import wrapped_phase
+from ..shared.model.audio.unet import MIN_FRAMES
+from ..shared.motion.trajectory import PHASE
+from .run_log import announce, console
 
 SYNTHETIC_SONGS = 40
 
@@ -71,9 +71,9 @@ def open_held_back(config: PhraseConfig, *, bodies: bool = False) -> MotionPhras
 
 def synthetic_pairs(folder: Path) -> Path:
     """Parametric motions paired with rendered songs, all the project's own."""
-    from src.shared.data.pairing.music import open_music
-    from src.shared.data.pairing.prepare_audio import PairOptions, prepare_audio
-    from src.shared.sole_writer import sole_writer
+    from ..shared.data.pairing.music import open_music
+    from ..shared.data.pairing.prepare_audio import PairOptions, prepare_audio
+    from ..shared.sole_writer import sole_writer
 
     console.print(f"pairing synthetic motions with synthetic songs in {folder}", markup=False)
     with sole_writer(folder, wait=True):
@@ -115,8 +115,8 @@ def true_trajectory(motion: Tensor, start: Tensor) -> Tensor:
 
 def export_song(model: AudioMotionModel, phrases: MotionPhraseDataset, folder: Path) -> None:
     """The first phrase's sound, made into a trajectory: a picture of it in `folder`."""
-    from src.shared.formats.trajectory_registry import write_trajectory
-    from src.shared.inference.song_sampler import SongSampler
+    from ..shared.formats.trajectory_registry import write_trajectory
+    from ..shared.inference.song_sampler import SongSampler
 
     item = phrases.item(0, 0)
     if item is None:

@@ -4,10 +4,10 @@ import json
 from pathlib import Path
 from typing import Any
 
-from src.shared.config_loader import dump_config
-from src.shared.config_schema import TrainConfig
-from src.shared.errors import UsageError
-from src.train.checkpoint import Checkpoint
+from ..shared.config_loader import dump_config
+from ..shared.config_schema import TrainConfig
+from ..shared.errors import UsageError
+from .checkpoint import Checkpoint
 
 # Settings a resumed run may change: they say where, how fast and how often, not what is learned.
 # `steps` may grow (the decay of the learning rate then runs to the new end).

@@ -19,7 +19,7 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
-from src.shared.files import atomic_write
+from ..shared.files import atomic_write
 
 VALIDATION = "validation/"  # begins the names of figures that are not of training
 

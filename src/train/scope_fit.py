@@ -5,12 +5,12 @@ Letters: N prompts, D embed dim.
 
 import numpy as np
 
-from src.shared.data.prepared import PreparedData
-from src.shared.data.word_dropout import insert_babble
-from src.shared.model.clip.core import SMALL, TextTower
-from src.shared.model.clip.pretrained import encode_captions
-from src.shared.model.clip.scope import PromptScope, words_of
-from src.shared.model.clip.tokenizer import PromptTokenizer
+from ..shared.data.prepared import PreparedData
+from ..shared.data.word_dropout import insert_babble
+from ..shared.model.clip.core import SMALL, TextTower
+from ..shared.model.clip.pretrained import encode_captions
+from ..shared.model.clip.scope import PromptScope, words_of
+from ..shared.model.clip.tokenizer import PromptTokenizer
 
 SCOPE_CAPTIONS = 20_000  # at most so many captions teach PromptScope
 CALIBRATING = 3_000  # of them, each also with words that nobody knows, and without its key words

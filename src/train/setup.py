@@ -8,9 +8,9 @@ from accelerate import Accelerator, DistributedDataParallelKwargs
 from accelerate.state import AcceleratorState
 from torch import nn
 
-from src.shared.config_schema import TrainConfig
-from src.shared.device import ComputeChoice
-from src.shared.errors import UsageError
+from ..shared.config_schema import TrainConfig
+from ..shared.device import ComputeChoice
+from ..shared.errors import UsageError
 
 
 def make_accelerator(config: TrainConfig, compute: ComputeChoice) -> Accelerator:

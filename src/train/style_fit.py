@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from src.shared.data.prepared import PreparedData
-from src.shared.model.clip.core import TextTower
-from src.shared.model.clip.pretrained import encode_captions
-from src.shared.model.clip.style_map import StyleMap
-from src.shared.model.clip.tokenizer import PromptTokenizer
-from src.shared.motion.root_track import decode_features
-from src.shared.motion.style import measure_style, style_values
-from src.shared.motion.trajectory import from_motion
+from ..shared.data.prepared import PreparedData
+from ..shared.model.clip.core import TextTower
+from ..shared.model.clip.pretrained import encode_captions
+from ..shared.model.clip.style_map import StyleMap
+from ..shared.model.clip.tokenizer import PromptTokenizer
+from ..shared.motion.root_track import decode_features
+from ..shared.motion.style import measure_style, style_values
+from ..shared.motion.trajectory import from_motion
 
 MAX_CLIPS = 1500
 MIN_FRAMES = 40  # shorter paths say little about energy or rhythm

@@ -5,14 +5,14 @@ from pathlib import Path
 import numpy as np
 import torch
 
-from src.shared.config_schema import NetworkConfig, TrainConfig
-from src.shared.data.prepared import PreparedData, open_data
-from src.shared.data.text_motion import TextMotionDataset
-from src.shared.errors import UsageError, UserError
-from src.shared.evaluation.metrics_retrieval import BATCH
-from src.shared.motion.skeleton import NUM_JOINTS
-from src.train.run_log import announce
-from src.train.seeding import mix_seed
+from ..shared.config_schema import NetworkConfig, TrainConfig
+from ..shared.data.prepared import PreparedData, open_data
+from ..shared.data.text_motion import TextMotionDataset
+from ..shared.errors import UsageError, UserError
+from ..shared.evaluation.metrics_retrieval import BATCH
+from ..shared.motion.skeleton import NUM_JOINTS
+from .run_log import announce
+from .seeding import mix_seed
 
 
 def open_training_data(config: TrainConfig, network: NetworkConfig) -> PreparedData:

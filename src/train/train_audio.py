@@ -18,22 +18,22 @@ import torch
 from pydantic import Field
 from torch import Tensor, nn
 
-from src.shared.config_audio import AudioNetworkConfig
-from src.shared.data.phrases.dataset import MotionPhraseDataset, PhraseBatch
-from src.shared.data.phrases.statistics import motion_statistics
-from src.shared.device import autocast, choose_compute
-from src.shared.errors import UsageError
-from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.model.audio.conditioning import ConditionAugmentation, with_phase_rows
-from src.shared.model.audio.memory_conditioning import MemoryCondition
-from src.shared.model.diffusion.gaussian import GaussianDiffusion, masked_loss
-from src.shared.motion.trajectory import FPS, POSITION, QUATERNION, STYLE
-from src.train.batches import to_device
-from src.train.launch import stage_app
-from src.train.phrases import PhraseConfig, export_song, open_held_back, open_phrases
-from src.train.seeding import generator
-from src.train.task import Part
-from src.train.train_generation import NOISE_LEVELS, spread_timesteps
+from ..shared.config_audio import AudioNetworkConfig
+from ..shared.data.phrases.dataset import MotionPhraseDataset, PhraseBatch
+from ..shared.data.phrases.statistics import motion_statistics
+from ..shared.device import autocast, choose_compute
+from ..shared.errors import UsageError
+from ..shared.model.audio.audio_motion_model import AudioMotionModel
+from ..shared.model.audio.conditioning import ConditionAugmentation, with_phase_rows
+from ..shared.model.audio.memory_conditioning import MemoryCondition
+from ..shared.model.diffusion.gaussian import GaussianDiffusion, masked_loss
+from ..shared.motion.trajectory import FPS, POSITION, QUATERNION, STYLE
+from .batches import to_device
+from .launch import stage_app
+from .phrases import PhraseConfig, export_song, open_held_back, open_phrases
+from .seeding import generator
+from .task import Part
+from .train_generation import NOISE_LEVELS, spread_timesteps
 
 
 class TrainAudioConfig(PhraseConfig):

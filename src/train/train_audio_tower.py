@@ -20,28 +20,28 @@ import torch
 from pydantic import Field
 from torch import Tensor, nn
 
-from src.shared.config_schema import NetworkConfig
-from src.shared.config_space import AudioTowerConfig
-from src.shared.data.phrases.dataset import MotionPhraseDataset
-from src.shared.data.phrases.layout import PhraseRecord
-from src.shared.data.phrases.statistics import sound_statistics
-from src.shared.evaluation.metrics_retrieval import BATCH
-from src.shared.evaluation.space_retrieval import Bench
-from src.shared.evaluation.space_windows import Windows
-from src.shared.model.audio.audio_tower import AudioTower
-from src.shared.model.audio.conditioning import ConditionAugmentation
-from src.shared.model.audio.shared_space import SharedSpace
-from src.shared.model.clip.core import MAX_LOGIT_SCALE
-from src.shared.model.clip.losses import clip_loss
-from src.shared.model.clip.pretrained import ClipBundle
-from src.shared.motion.trajectory import FPS
-from src.train.launch import stage_app
-from src.train.phrases import PhraseConfig, open_held_back, open_phrases
-from src.train.run_log import announce
-from src.train.seeding import generator
-from src.train.task import Part
-from src.train.text_motion import numpy_generator
-from src.train.train_clip import gather
+from ..shared.config_schema import NetworkConfig
+from ..shared.config_space import AudioTowerConfig
+from ..shared.data.phrases.dataset import MotionPhraseDataset
+from ..shared.data.phrases.layout import PhraseRecord
+from ..shared.data.phrases.statistics import sound_statistics
+from ..shared.evaluation.metrics_retrieval import BATCH
+from ..shared.evaluation.space_retrieval import Bench
+from ..shared.evaluation.space_windows import Windows
+from ..shared.model.audio.audio_tower import AudioTower
+from ..shared.model.audio.conditioning import ConditionAugmentation
+from ..shared.model.audio.shared_space import SharedSpace
+from ..shared.model.clip.core import MAX_LOGIT_SCALE
+from ..shared.model.clip.losses import clip_loss
+from ..shared.model.clip.pretrained import ClipBundle
+from ..shared.motion.trajectory import FPS
+from .launch import stage_app
+from .phrases import PhraseConfig, open_held_back, open_phrases
+from .run_log import announce
+from .seeding import generator
+from .task import Part
+from .text_motion import numpy_generator
+from .train_clip import gather
 
 
 class TrainAudioTowerConfig(PhraseConfig):

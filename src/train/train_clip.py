@@ -17,19 +17,19 @@ import torch
 import torch.distributed
 from torch import Tensor, nn
 
-from src.shared.config_schema import NetworkConfig, TrainClipConfig
-from src.shared.data.text_motion import TextMotionBatch
-from src.shared.data.word_dropout import drop_words
-from src.shared.evaluation.metrics_retrieval import BATCH, TOP, guo_retrieval
-from src.shared.model.checkpoint import ModelCard
-from src.shared.model.clip.core import SMALL, MotionClip
-from src.shared.model.clip.losses import clip_loss
-from src.shared.model.clip.pretrained import KIND, ClipBundle, load_text_tower, tower_hash
-from src.shared.model.clip.tokenizer import PromptTokenizer
-from src.train.frozen_encoder import encoder_rates
-from src.train.launch import stage_app
-from src.train.task import Part
-from src.train.text_motion import (
+from ..shared.config_schema import NetworkConfig, TrainClipConfig
+from ..shared.data.text_motion import TextMotionBatch
+from ..shared.data.word_dropout import drop_words
+from ..shared.evaluation.metrics_retrieval import BATCH, TOP, guo_retrieval
+from ..shared.model.checkpoint import ModelCard
+from ..shared.model.clip.core import SMALL, MotionClip
+from ..shared.model.clip.losses import clip_loss
+from ..shared.model.clip.pretrained import KIND, ClipBundle, load_text_tower, tower_hash
+from ..shared.model.clip.tokenizer import PromptTokenizer
+from .frozen_encoder import encoder_rates
+from .launch import stage_app
+from .task import Part
+from .text_motion import (
     can_retrieve,
     motion_rows,
     numpy_generator,

@@ -20,17 +20,17 @@ import typer
 from pydantic import Field, model_validator
 from torch import Tensor, nn
 
-from src.shared.config_audio import AudioNetworkConfig, DecoderLossConfig
-from src.shared.config_loader import load_train, split_network_overrides
-from src.shared.data.phrases.dataset import PhraseBatch
-from src.shared.inference.song_sampler import SPARE
-from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.model.audio.decoder import Decoder, create_motion_decoder, wrapped_phase
-from src.shared.model.audio.losses import DecoderLoss, total
-from src.shared.motion.trajectory import PHASE
-from src.train.audio_folder import network_of
-from src.train.launch import Processes, as_overrides, new_app, run_task, short_errors
-from src.train.phrases import (
+from ..shared.config_audio import AudioNetworkConfig, DecoderLossConfig
+from ..shared.config_loader import load_train, split_network_overrides
+from ..shared.data.phrases.dataset import PhraseBatch
+from ..shared.inference.song_sampler import SPARE
+from ..shared.model.audio.audio_motion_model import AudioMotionModel
+from ..shared.model.audio.decoder import Decoder, create_motion_decoder, wrapped_phase
+from ..shared.model.audio.losses import DecoderLoss, total
+from ..shared.motion.trajectory import PHASE
+from .audio_folder import network_of
+from .launch import Processes, as_overrides, new_app, run_task, short_errors
+from .phrases import (
     PhraseConfig,
     bar_phase_at_start,
     export_song,
@@ -39,9 +39,9 @@ from src.train.phrases import (
     true_trajectory,
     whole_windows,
 )
-from src.train.run_log import console
-from src.train.seeding import generator
-from src.train.task import Part
+from .run_log import console
+from .seeding import generator
+from .task import Part
 
 MODULE = "src.train.train_decoder"
 ERROR_BATCHES = 4  # on which the UNet's error is measured

@@ -12,16 +12,16 @@ import torch
 from pydantic import Field
 from torch import Tensor, nn
 
-from src.shared.config_schema import NetworkConfig, TrainConfig
-from src.shared.data.prepared import open_data
-from src.shared.data.word_dropout import drop_words
-from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig, contrastive_loss
-from src.shared.evaluation.metrics_retrieval import BATCH, TOP, guo_retrieval
-from src.shared.evaluation.training_set import PairBatch, PairSet
-from src.train.launch import stage_app
-from src.train.seeding import mix_seed
-from src.train.task import Part
-from src.train.text_motion import can_retrieve
+from ..shared.config_schema import NetworkConfig, TrainConfig
+from ..shared.data.prepared import open_data
+from ..shared.data.word_dropout import drop_words
+from ..shared.evaluation.evaluator import Evaluator, EvaluatorConfig, contrastive_loss
+from ..shared.evaluation.metrics_retrieval import BATCH, TOP, guo_retrieval
+from ..shared.evaluation.training_set import PairBatch, PairSet
+from .launch import stage_app
+from .seeding import mix_seed
+from .task import Part
+from .text_motion import can_retrieve
 
 
 class TrainEvaluatorConfig(TrainConfig):

@@ -16,25 +16,25 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from src.shared.config_schema import PROVENANCES, NetworkConfig, TrainGenerationConfig
-from src.shared.data.text_motion import TextMotionBatch
-from src.shared.data.word_dropout import drop_words
-from src.shared.device import autocast, choose_compute
-from src.shared.errors import UsageError
-from src.shared.model.checkpoint import ModelCard
-from src.shared.model.clip.core import TextFeatures
-from src.shared.model.clip.pretrained import load_text_tower, tower_hash
-from src.shared.model.diffusion.gaussian import GaussianDiffusion
-from src.shared.model.generation.denoiser import MotionDenoiser
-from src.shared.model.generation.losses import GenerationLoss
-from src.shared.model.generation.motion_generator import KIND, MotionGenerator
-from src.train.constraints import draw_known
-from src.train.launch import stage_app
-from src.train.scope_fit import fit_scope
-from src.train.seeding import generator
-from src.train.style_fit import fit_style_map
-from src.train.task import Part
-from src.train.text_motion import (
+from ..shared.config_schema import PROVENANCES, NetworkConfig, TrainGenerationConfig
+from ..shared.data.text_motion import TextMotionBatch
+from ..shared.data.word_dropout import drop_words
+from ..shared.device import autocast, choose_compute
+from ..shared.errors import UsageError
+from ..shared.model.checkpoint import ModelCard
+from ..shared.model.clip.core import TextFeatures
+from ..shared.model.clip.pretrained import load_text_tower, tower_hash
+from ..shared.model.diffusion.gaussian import GaussianDiffusion
+from ..shared.model.generation.denoiser import MotionDenoiser
+from ..shared.model.generation.losses import GenerationLoss
+from ..shared.model.generation.motion_generator import KIND, MotionGenerator
+from .constraints import draw_known
+from .launch import stage_app
+from .scope_fit import fit_scope
+from .seeding import generator
+from .style_fit import fit_style_map
+from .task import Part
+from .text_motion import (
     motion_rows,
     numpy_generator,
     open_training_data,
@@ -316,7 +316,7 @@ class GenerationTask:
 
     def export_samples(self, module: nn.Module, folder: Path) -> None:
         """The validation prompts as BVH, and side by side as HTML."""
-        from src.shared.formats.registry import write_motion, write_preview
+        from ..shared.formats.registry import write_motion, write_preview
 
         seconds = min(SAMPLE_SECONDS, self.config.max_frames / 30.0)
         maker = self._generator(module)

@@ -20,28 +20,28 @@ import typer
 from pydantic import Field
 from torch import Tensor, nn
 
-from src.shared.config_audio import AudioNetworkConfig, MemoryConditionConfig
-from src.shared.config_loader import load_train, split_network_overrides
-from src.shared.config_memory import MemoryConfig
-from src.shared.data.phrases.dataset import PhraseBatch
-from src.shared.data.phrases.layout import PhraseRecord
-from src.shared.errors import UsageError
-from src.shared.formats.trajectory_registry import write_trajectory
-from src.shared.inference.audio_condition import AudioCondition
-from src.shared.inference.song_memory import (
+from ..shared.config_audio import AudioNetworkConfig, MemoryConditionConfig
+from ..shared.config_loader import load_train, split_network_overrides
+from ..shared.config_memory import MemoryConfig
+from ..shared.data.phrases.dataset import PhraseBatch
+from ..shared.data.phrases.layout import PhraseRecord
+from ..shared.errors import UsageError
+from ..shared.formats.trajectory_registry import write_trajectory
+from ..shared.inference.audio_condition import AudioCondition
+from ..shared.inference.song_memory import (
     as_condition,
     bars_of_sound,
     open_memory,
     remembering,
 )
-from src.shared.inference.song_sampler import SongSampler
-from src.shared.memory.context import retrieve
-from src.shared.memory.service import MPMService
-from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.model.audio.memory_conditioning import MemoryCondition, known_frames
-from src.train.audio_folder import network_of
-from src.train.launch import Processes, as_overrides, new_app, run_task, short_errors
-from src.train.train_audio import AudioBatch, AudioTask, TrainAudioConfig
+from ..shared.inference.song_sampler import SongSampler
+from ..shared.memory.context import retrieve
+from ..shared.memory.service import MPMService
+from ..shared.model.audio.audio_motion_model import AudioMotionModel
+from ..shared.model.audio.memory_conditioning import MemoryCondition, known_frames
+from .audio_folder import network_of
+from .launch import Processes, as_overrides, new_app, run_task, short_errors
+from .train_audio import AudioBatch, AudioTask, TrainAudioConfig
 
 MODULE = "src.train.train_memory"
 

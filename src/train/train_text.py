@@ -29,26 +29,26 @@ from pydantic import Field
 from torch import Tensor, nn
 from torch.nn.functional import cross_entropy, normalize
 
-from src.shared.config_schema import NetworkConfig, TrainTowerConfig
-from src.shared.data.captions import packaged_book
-from src.shared.data.labels import Labels
-from src.shared.data.word_dropout import drop_words, insert_babble
-from src.shared.errors import UserError
-from src.shared.files import sha256_file
-from src.shared.model.checkpoint import WEIGHTS_FILE, ModelCard, read_card
-from src.shared.model.clip.core import SMALL, MotionClip, TextTower
-from src.shared.model.clip.pretrained import KIND, ClipBundle, encode_captions, load_text_tower
-from src.shared.model.clip.tokenizer import PromptTokenizer
-from src.shared.model.generation.motion_generator import KIND as GENERATOR
-from src.shared.model.generation.motion_generator import MotionGenerator
-from src.shared.model.zoo import resolve_model
-from src.train.captured_places import apart, nearest_styles, with_unstyled
-from src.train.frozen_encoder import MEANS_FILE, ZScores, caption_means, encoder_rates
-from src.train.launch import stage_app
-from src.train.scope_fit import fit_scope
-from src.train.style_fit import fit_style_map
-from src.train.task import Part
-from src.train.text_motion import motion_rows, numpy_generator, open_training_data
+from ..shared.config_schema import NetworkConfig, TrainTowerConfig
+from ..shared.data.captions import packaged_book
+from ..shared.data.labels import Labels
+from ..shared.data.word_dropout import drop_words, insert_babble
+from ..shared.errors import UserError
+from ..shared.files import sha256_file
+from ..shared.model.checkpoint import WEIGHTS_FILE, ModelCard, read_card
+from ..shared.model.clip.core import SMALL, MotionClip, TextTower
+from ..shared.model.clip.pretrained import KIND, ClipBundle, encode_captions, load_text_tower
+from ..shared.model.clip.tokenizer import PromptTokenizer
+from ..shared.model.generation.motion_generator import KIND as GENERATOR
+from ..shared.model.generation.motion_generator import MotionGenerator
+from ..shared.model.zoo import resolve_model
+from .captured_places import apart, nearest_styles, with_unstyled
+from .frozen_encoder import MEANS_FILE, ZScores, caption_means, encoder_rates
+from .launch import stage_app
+from .scope_fit import fit_scope
+from .style_fit import fit_style_map
+from .task import Part
+from .text_motion import motion_rows, numpy_generator, open_training_data
 
 OLD_CAPTIONS = 8  # of each combination and language, whose mean is its place
 HEADS = 0.3  # weight of the labels beside the place, from nothing

@@ -12,9 +12,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from src.shared.audio import tempo
-from src.shared.audio.downbeats import find_downbeats
-from src.shared.audio.onsets import Onsets, detect_onsets
+from . import tempo
+from .downbeats import find_downbeats
+from .onsets import Onsets, detect_onsets
 
 DEFAULT_TEMPO = 120.0  # BPM of the phase where a song has no beat
 LENGTHS = np.arange(28, 137)  # frames: 214 to 44 BPM

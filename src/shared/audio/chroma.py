@@ -13,8 +13,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from src.shared.audio.sound import FPS, HOP, SAMPLE_RATE
-from src.shared.audio.spectrum import N_FFT, centred_frames, spectra
+from .sound import FPS, HOP, SAMPLE_RATE
+from .spectrum import N_FFT, centred_frames, spectra
 
 OCTAVES = 7
 BINS = 36  # per octave

@@ -9,7 +9,7 @@ Letters: N beats, F features, P pitch frames.
 
 import numpy as np
 
-from src.shared.audio.onsets import Onsets
+from .onsets import Onsets
 
 METERS = (3, 4)  # tried when the meter is not given
 SLIP_COST = 4.0  # about three bars of clear downbeats

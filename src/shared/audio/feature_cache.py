@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.audio.arrays import read_arrays, write_arrays
-from src.shared.errors import UserError
+from ..errors import UserError
+from .arrays import read_arrays, write_arrays
 
 FOLDER_VARIABLE = "MOTIONGEN_AUDIO_CACHE"
 

@@ -12,11 +12,11 @@ from typing import Literal
 
 import numpy as np
 
-from src.shared.audio.arrays import read_arrays, write_arrays
-from src.shared.audio.chroma import TuningEstimator, exact_chroma, fast_chroma
-from src.shared.audio.sound import HOP, SAMPLE_RATE, Sound, load_sound
-from src.shared.audio.spectrum import N_FFT, decibels, mel_matrix, spectra
-from src.shared.errors import UserError
+from ..errors import UserError
+from .arrays import read_arrays, write_arrays
+from .chroma import TuningEstimator, exact_chroma, fast_chroma
+from .sound import HOP, SAMPLE_RATE, Sound, load_sound
+from .spectrum import N_FFT, decibels, mel_matrix, spectra
 
 Chroma = Literal["fast", "cqt"]
 MELS, MFCCS = 128, 20

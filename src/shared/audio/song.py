@@ -10,13 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.audio.arrays import write_arrays
-from src.shared.audio.beats import Beats, bar_phase, track_beats
-from src.shared.audio.feature_cache import FeatureCache, cache_folder
-from src.shared.audio.features import AudioFeatures, Chroma, extract_features
-from src.shared.audio.sound import FPS, Sound, load_sound
-from src.shared.errors import UserError
-from src.shared.files import sha256_file
+from ..errors import UserError
+from ..files import sha256_file
+from .arrays import write_arrays
+from .beats import Beats, bar_phase, track_beats
+from .feature_cache import FeatureCache, cache_folder
+from .features import AudioFeatures, Chroma, extract_features
+from .sound import FPS, Sound, load_sound
 
 log = logging.getLogger(__name__)
 

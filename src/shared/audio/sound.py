@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.errors import UserError
-from src.shared.files import sha256_file
-from src.shared.sound_files.reader import MAX_SECONDS, Mender, SoundReader, too_long
+from ..errors import UserError
+from ..files import sha256_file
+from ..sound_files.reader import MAX_SECONDS, Mender, SoundReader, too_long
 
 SAMPLE_RATE = 44_100
 FPS = 30

@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from src.shared.audio.sound import SAMPLE_RATE
+from .sound import SAMPLE_RATE
 
 N_FFT = 2048
 FLOOR_POWER = 1e-10

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from src.shared.audio.song_spec import SongSpec
+    from .song_spec import SongSpec
 
 # Kick and snare positions in a bar, by meter. Each names the beat level: no half-time grooves.
 GROOVES: dict[int, tuple[tuple[tuple[float, ...], tuple[float, ...]], ...]] = {

@@ -11,10 +11,10 @@ from typing import Literal
 
 import numpy as np
 
-from src.shared.audio import synth_voices
-from src.shared.audio.song_spec import VOICES, SongSpec
-from src.shared.audio.synth_score import compose
-from src.shared.audio.synth_voices import SAMPLE_RATE
+from . import synth_voices
+from .song_spec import VOICES, SongSpec
+from .synth_score import compose
+from .synth_voices import SAMPLE_RATE
 
 # Bands of tempo in BPM, low inclusive, high exclusive: no tempo of one split occurs in the other.
 TRAIN_TEMPI = (

@@ -10,11 +10,11 @@ Legend: T frames, N source joints.
 
 import numpy as np
 
-from src.shared.data.guesses import SAMPLES, joint_indices
-from src.shared.data.mapping import SkeletonMapping
-from src.shared.formats.positions_ik import BENDS, LEFT, UP
-from src.shared.formats.source_clip import SourceClip
-from src.shared.motion.skeleton import JOINT_INDEX, JOINT_NAMES, PARENTS, canonical_skeleton
+from ..formats.positions_ik import BENDS, LEFT, UP
+from ..formats.source_clip import SourceClip
+from ..motion.skeleton import JOINT_INDEX, JOINT_NAMES, PARENTS, canonical_skeleton
+from .guesses import SAMPLES, joint_indices
+from .mapping import SkeletonMapping
 
 # Joints that carry several bones: what lies left, right and above in their own axes.
 _FRAMES = {"pelvis": ("l_hip", "r_hip", ("spine1", "spine2", "spine3", "neck")),

@@ -9,10 +9,10 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Literal, NamedTuple, get_args
 
-from src.shared.config_schema import Provenance
-from src.shared.data.recordings import FOLDER_ENDINGS
-from src.shared.errors import UserError
-from src.shared.files import parse_json, read_text
+from ..config_schema import Provenance
+from ..errors import UserError
+from ..files import parse_json, read_text
+from .recordings import FOLDER_ENDINGS
 
 _CLIP_KEYS = ("clip", "file", "id", "name")
 _CAPTION_KEYS = ("caption", "text", "description")

@@ -8,7 +8,7 @@ from functools import cache, cached_property, lru_cache
 from itertools import product
 from typing import Any
 
-from src.shared.data.caption_grammar import (
+from .caption_grammar import (
     Sequence,
     normalised,
     parse,
@@ -18,8 +18,8 @@ from src.shared.data.caption_grammar import (
     tidy,
     without,
 )
-from src.shared.data.caption_mirror import TextMirror
-from src.shared.data.caption_schema import (
+from .caption_mirror import TextMirror
+from .caption_schema import (
     OTHER,
     Frame,
     LanguageFile,
@@ -27,7 +27,7 @@ from src.shared.data.caption_schema import (
     Phrase,
     SlotTables,
 )
-from src.shared.data.requests import requested
+from .requests import requested
 
 Labels = dict[str, str]
 Pair = tuple[Sequence, Sequence]  # a verb and what follows it

@@ -3,7 +3,7 @@
 import re
 from functools import cached_property
 
-from src.shared.data.caption_schema import MirrorTable
+from .caption_schema import MirrorTable
 
 
 class TextMirror:

@@ -6,9 +6,9 @@ from typing import Any, Self
 
 from pydantic import ConfigDict, Field, ValidationError, field_validator, model_validator
 
-from src.shared.config_schema import Config
-from src.shared.data.caption_grammar import parse, slots_in
-from src.shared.errors import UserError
+from ..config_schema import Config
+from ..errors import UserError
+from .caption_grammar import parse, slots_in
 
 OTHER = "other"  # the key that stands for every action or value without an entry of its own
 BUILT_IN = frozenset({"verb", "rest", "value", "action"})

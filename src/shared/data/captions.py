@@ -3,15 +3,14 @@
 import random
 from collections.abc import Iterable
 from functools import lru_cache
-from importlib.resources import as_file, files
 from pathlib import Path
 from typing import Any
 
-from src.shared.config_loader import load_yaml
-from src.shared.data.caption_grammar import normalised
-from src.shared.data.caption_language import CaptionLanguage, Labels, mirror_labels, mirror_value
-from src.shared.data.caption_schema import validate_language
-from src.shared.errors import UserError
+from ..config_loader import load_yaml, packaged_config
+from ..errors import UserError
+from .caption_grammar import normalised
+from .caption_language import CaptionLanguage, Labels, mirror_labels, mirror_value
+from .caption_schema import validate_language
 
 __all__ = [
     "CaptionBook",
@@ -143,14 +142,12 @@ class CaptionBook:
 @lru_cache(maxsize=1)
 def _packaged_content() -> dict[str, dict[str, Any]]:
     contents: dict[str, dict[str, Any]] = {}
-    with as_file(files("src.configs") / "captions") as folder:
-        for file in sorted(folder.glob("*.yaml")):
-            content = load_yaml(file)
-            contents[content["language"]] = content
-    with as_file(files("src.configs") / "sentences") as folder:  # a file each, as they are long
-        for file in sorted(folder.glob("*.yaml")):
-            content = load_yaml(file)
-            contents[content["language"]]["sentences"] = content["sentences"]
+    for file in sorted(packaged_config("captions").glob("*.yaml")):
+        content = load_yaml(file)
+        contents[content["language"]] = content
+    for file in sorted(packaged_config("sentences").glob("*.yaml")):  # apart, as they are long
+        content = load_yaml(file)
+        contents[content["language"]]["sentences"] = content["sentences"]
     return contents
 
 

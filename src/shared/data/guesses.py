@@ -5,9 +5,9 @@ Legend: T frames, N source joints.
 
 import numpy as np
 
-from src.shared.data.mapping import SkeletonMapping
-from src.shared.errors import UsageError
-from src.shared.formats.source_clip import SourceClip
+from ..errors import UsageError
+from ..formats.source_clip import SourceClip
+from .mapping import SkeletonMapping
 
 UNITS: dict[str, float] = {
     "m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048, "cmu": 0.0254 / 0.45,

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, field_validator
 
-from src.shared.data.tables import load_table
+from .tables import load_table
 
 Labels = dict[str, str]
 

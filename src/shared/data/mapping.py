@@ -10,9 +10,9 @@ from typing import Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, field_validator
 
-from src.shared.data.tables import load_table
-from src.shared.errors import UserError
-from src.shared.motion.skeleton import JOINT_NAMES
+from ..errors import UserError
+from ..motion.skeleton import JOINT_NAMES
+from .tables import load_table
 
 Axis = Literal["+X", "-X", "+Y", "-Y", "+Z", "-Z"]
 # Joints without which a body cannot be told; the others are interpolated.

@@ -26,17 +26,17 @@ from typing import Any
 import torch
 from safetensors.torch import load_file, save_file
 
-from src.shared.data.captions import CaptionBook, mirror_labels
-from src.shared.data.labels import group_of
-from src.shared.data.prepared import VERSION
-from src.shared.data.records import MIRRORED, SPLITS, ClipRecord
-from src.shared.data.sources import MotionFolder, Skipped, Source, all_items
-from src.shared.data.splits import assign_splits, orbit
-from src.shared.data.worker_pool import run_jobs
-from src.shared.errors import UsageError, UserError
-from src.shared.files import atomic_write, load_json, sha256_file, write_json, write_text
-from src.shared.motion.mirror import mirror_features
-from src.shared.motion.root_track import encode_features
+from ..errors import UsageError, UserError
+from ..files import atomic_write, load_json, sha256_file, write_json, write_text
+from ..motion.mirror import mirror_features
+from ..motion.root_track import encode_features
+from .captions import CaptionBook, mirror_labels
+from .labels import group_of
+from .prepared import VERSION
+from .records import MIRRORED, SPLITS, ClipRecord
+from .sources import MotionFolder, Skipped, Source, all_items
+from .splits import assign_splits, orbit
+from .worker_pool import run_jobs
 
 CLIPS_PER_SHARD = 128
 CAPTIONS_PER_GROUP = 24  # and language

@@ -11,10 +11,10 @@ from safetensors import SafetensorError
 from safetensors.torch import load_file
 from torch import Tensor
 
-from src.shared.data.records import SPLITS, ClipRecord
-from src.shared.errors import UserError, first_fault
-from src.shared.files import inside, load_json, sha256_file
-from src.shared.motion.mirror import mirror_features
+from ..errors import UserError, first_fault
+from ..files import inside, load_json, sha256_file
+from ..motion.mirror import mirror_features
+from .records import SPLITS, ClipRecord
 
 VERSION = 3  # of prepared folders; 2 did not say where motion comes from, 1 held other splits
 SYNTHETIC = "synthetic"
@@ -156,9 +156,9 @@ def open_data(data: str, cache: Path, *, synthetic_clips: int = SYNTHETIC_CLIPS)
     """Open a prepared folder; "synthetic" is prepared on the spot into `cache`, once."""
     if data != SYNTHETIC:
         return PreparedData.open(data)
-    from src.shared.data.prepare import prepare
-    from src.shared.data.sources import SyntheticSource
-    from src.shared.sole_writer import sole_writer
+    from ..sole_writer import sole_writer
+    from .prepare import prepare
+    from .sources import SyntheticSource
 
     folder = cache / f"synthetic-{synthetic_clips}"
     with sole_writer(folder, wait=True):

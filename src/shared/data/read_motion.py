@@ -5,7 +5,12 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.data.guesses import (
+from ..errors import UserError
+from ..formats.source_clip import SourceClip
+from ..motion.motion import Motion
+from ..motion.resample import resample_motion
+from ..motion.skeleton import JOINT_INDEX, JOINT_NAMES, canonical_skeleton
+from .guesses import (
     axis_vector,
     guess_unit,
     guess_up,
@@ -14,15 +19,10 @@ from src.shared.data.guesses import (
     unit_metres,
     unit_name,
 )
-from src.shared.data.mapping import SkeletonMapping, load_mappings
-from src.shared.data.recordings import Recording, open_recording
-from src.shared.data.retarget import leg_length, retarget
-from src.shared.data.topology import GUESSED, mapping_of
-from src.shared.errors import UserError
-from src.shared.formats.source_clip import SourceClip
-from src.shared.motion.motion import Motion
-from src.shared.motion.resample import resample_motion
-from src.shared.motion.skeleton import JOINT_INDEX, JOINT_NAMES, canonical_skeleton
+from .mapping import SkeletonMapping, load_mappings
+from .recordings import Recording, open_recording
+from .retarget import leg_length, retarget
+from .topology import GUESSED, mapping_of
 
 SAME_BONES = 1e-4  # metres: a file with our own skeleton, so nothing is to be fitted
 LEGS = (0.4, 1.3)  # metres, hip to ankle: children to giants

@@ -3,8 +3,8 @@
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from src.shared.config_schema import Provenance
-from src.shared.motion.motion import Motion
+from ..config_schema import Provenance
+from ..motion.motion import Motion
 
 SPLITS = ("train", "val", "test_seen", "test_unseen")
 MIRRORED = "~mirrored"  # ends the id of a mirror image

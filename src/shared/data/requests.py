@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.config_loader import load_yaml, packaged_config
-from src.shared.data.caption_grammar import normalised
-from src.shared.data.labels import Labels
+from ..config_loader import load_yaml, packaged_config
+from .caption_grammar import normalised
+from .labels import Labels
 
 SECTIONS = ("plain", "styled", "counts", "angles", "lengths", "sides")
 COMPOSITIONS, OUTSIDE, FREE = "compositions", "outside", "free"

@@ -10,21 +10,18 @@ from functools import lru_cache
 import numpy as np
 import torch
 
-from src.shared.data.calibration import calibrated_axes
-from src.shared.data.guesses import joint_indices, rest_frame, upright
-from src.shared.data.mapping import SkeletonMapping
-from src.shared.formats.source_clip import SourceClip
-from src.shared.motion.contacts import detect_contacts
-from src.shared.motion.kinematics import global_to_local
-from src.shared.motion.motion import Motion
-from src.shared.motion.resample import resample_motion
-from src.shared.motion.rotations import (
+from ..formats.source_clip import SourceClip
+from ..motion.contacts import detect_contacts
+from ..motion.kinematics import global_to_local
+from ..motion.motion import Motion
+from ..motion.resample import resample_motion
+from ..motion.rotations import (
     matrix_to_quaternion,
     quaternion_continuous,
     quaternion_slerp,
     quaternion_to_matrix,
 )
-from src.shared.motion.skeleton import (
+from ..motion.skeleton import (
     JOINT_INDEX,
     JOINT_NAMES,
     LEG_LENGTH,
@@ -33,6 +30,9 @@ from src.shared.motion.skeleton import (
     REST_FOOT_HEIGHT,
     canonical_skeleton,
 )
+from .calibration import calibrated_axes
+from .guesses import joint_indices, rest_frame, upright
+from .mapping import SkeletonMapping
 
 # The child whose bone a joint aims; the pelvis and the chest carry several bones and aim none.
 _AIM: dict[str, str] = {

@@ -10,7 +10,16 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.data.guesses import (
+from ..errors import UsageError, UserError
+from ..files import same_place
+from ..formats.bvh import BvhClip, read_bvh
+from ..formats.glb_character import write_glb_character
+from ..formats.glb_reader import GlbSkeleton, read_glb_skeleton
+from ..formats.registry import check_motion, write_clip
+from ..formats.rig import Rig, RigClip, canonical_rig, motion_clip, turned
+from ..motion.motion import Motion
+from ..motion.skeleton import JOINT_INDEX, LEG_LENGTH, NUM_JOINTS, REST_FOOT_HEIGHT
+from .guesses import (
     UNITS,
     guess_unit,
     guess_up,
@@ -18,18 +27,9 @@ from src.shared.data.guesses import (
     rest_frame,
     upright,
 )
-from src.shared.data.mapping import SkeletonMapping, load_mappings
-from src.shared.data.retarget import leg_length, rest_corrections
-from src.shared.data.topology import mapping_of
-from src.shared.errors import UsageError, UserError
-from src.shared.files import same_place
-from src.shared.formats.bvh import BvhClip, read_bvh
-from src.shared.formats.glb_character import write_glb_character
-from src.shared.formats.glb_reader import GlbSkeleton, read_glb_skeleton
-from src.shared.formats.registry import check_motion, write_clip
-from src.shared.formats.rig import Rig, RigClip, canonical_rig, motion_clip, turned
-from src.shared.motion.motion import Motion
-from src.shared.motion.skeleton import JOINT_INDEX, LEG_LENGTH, NUM_JOINTS, REST_FOOT_HEIGHT
+from .mapping import SkeletonMapping, load_mappings
+from .retarget import leg_length, rest_corrections
+from .topology import mapping_of
 
 HIPS = (JOINT_INDEX["l_hip"], JOINT_INDEX["r_hip"])
 STANDING = 0.3  # of the legs: feet of a rest pose that are no higher than this stand on the floor

@@ -6,7 +6,7 @@ T frames. Features are those of src/shared/motion/root_track.py, raw.
 import torch
 from torch import Tensor
 
-from src.shared.motion.root_track import FORWARD, LATERAL, ROOT_ROW
+from ..motion.root_track import FORWARD, LATERAL, ROOT_ROW
 
 SHORTEST_SHARE = 0.4  # of its frames a gesture keeps at least
 _IN_PLACE = 0.3  # m/s over the ground, on average

@@ -13,23 +13,23 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from src.shared.data.caption_files import (
+from ..errors import UsageError, UserError
+from ..formats.amc import find_skeleton
+from ..formats.bvh import check_head
+from ..motion.motion import Motion
+from .caption_files import (
     Piece,
     Table,
     match_captions,
     read_captions,
     without_ending,
 )
-from src.shared.data.labels import LabelRules, load_label_rules
-from src.shared.data.mapping import SkeletonMapping, load_mappings, words
-from src.shared.data.read_motion import fit
-from src.shared.data.recordings import FOLDER_ENDINGS, open_recording
-from src.shared.data.records import RawClip
-from src.shared.data.retarget import on_floor
-from src.shared.errors import UsageError, UserError
-from src.shared.formats.amc import find_skeleton
-from src.shared.formats.bvh import check_head
-from src.shared.motion.motion import Motion
+from .labels import LabelRules, load_label_rules
+from .mapping import SkeletonMapping, load_mappings, words
+from .read_motion import fit
+from .recordings import FOLDER_ENDINGS, open_recording
+from .records import RawClip
+from .retarget import on_floor
 
 FPS = 30.0
 END_SLACK = 0.2  # seconds that a piece may reach beyond the end of its file
@@ -306,7 +306,7 @@ class SyntheticSource:
         return f"{item}:{self.num_clips}:{self.seed}"
 
     def read(self, item: str) -> RawClip:
-        from src.shared.data.synthetic import generate_clip
+        from .synthetic import generate_clip
 
         index = int(item.rpartition("-")[2])
         spec = _specs(self.num_clips, self.seed)[index]
@@ -319,7 +319,7 @@ _SPECS: dict[tuple[int, int], list[Any]] = {}
 
 def _specs(num_clips: int, seed: int) -> list[Any]:
     """Specifications of a synthetic set, made once a process."""
-    from src.shared.data.synthetic import sample_specs
+    from .synthetic import sample_specs
 
     if (num_clips, seed) not in _SPECS:
         _SPECS[num_clips, seed] = sample_specs(num_clips, seed)

@@ -5,8 +5,8 @@ import re
 from collections import defaultdict
 from collections.abc import Sequence
 
-from src.shared.data.captions import mirror_labels
-from src.shared.data.labels import Labels, group_of
+from .captions import mirror_labels
+from .labels import Labels, group_of
 
 VAL_FRACTION = 0.04
 TEST_FRACTION = 0.10

@@ -5,8 +5,8 @@ from typing import TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from src.shared.config_loader import load_yaml, packaged_config
-from src.shared.errors import UsageError
+from ..config_loader import load_yaml, packaged_config
+from ..errors import UsageError
 
 Table = TypeVar("Table", bound=BaseModel)
 

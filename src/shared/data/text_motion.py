@@ -10,11 +10,11 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.config_schema import PROVENANCES
-from src.shared.data.prepared import PreparedData
-from src.shared.data.records import ClipRecord
-from src.shared.data.shorten import SHORTEST_SHARE, comes_back, shorten
-from src.shared.motion.root_track import ROOT_ROW, YAW_RATE
+from ..config_schema import PROVENANCES
+from ..motion.root_track import ROOT_ROW, YAW_RATE
+from .prepared import PreparedData
+from .records import ClipRecord
+from .shorten import SHORTEST_SHARE, comes_back, shorten
 
 _TURN_TRIES = 4
 # Labels that speak of the whole clip: a window of it would contradict them.

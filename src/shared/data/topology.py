@@ -15,9 +15,9 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.data.mapping import SkeletonMapping, find_mapping, words
-from src.shared.errors import UserError
-from src.shared.formats.source_clip import SourceClip
+from ..errors import UserError
+from ..formats.source_clip import SourceClip
+from .mapping import SkeletonMapping, find_mapping, words
 
 GUESSED = "guessed"  # name of a mapping that no profile gave
 

@@ -16,8 +16,8 @@ from typing import TypeVar
 
 import torch
 
-from src.shared.errors import UserError
-from src.shared.signals import answered
+from ..errors import UserError
+from ..signals import answered
 
 Job = TypeVar("Job")
 Result = TypeVar("Result")

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import headings
-from src.shared.motion.rotations import quaternion_to_matrix
-from src.shared.motion.skeleton import JOINT_INDEX
+from ..motion.motion import Motion
+from ..motion.root_track import headings
+from ..motion.rotations import quaternion_to_matrix
+from ..motion.skeleton import JOINT_INDEX
 
 PARTS = 3  # beginning, middle, end: a wave is not a raise that stays up
 BANDS = ((0.3, 1.0), (1.0, 2.0), (2.0, 4.0), (4.0, 8.0))  # Hz

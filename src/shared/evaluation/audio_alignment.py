@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.evaluation.intervals import FEW, bootstrap_mean
-from src.shared.evaluation.metrics_rhythm import (
+from .intervals import FEW, bootstrap_mean
+from .metrics_rhythm import (
     COLUMNS,
     Rhythm,
     against_chance,

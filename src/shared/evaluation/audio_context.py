@@ -13,12 +13,17 @@ from zlib import crc32
 
 import numpy as np
 
-from src.shared.audio.synthetic_songs import render_song
-from src.shared.data.pairing.motion_beats import MotionBeats, motion_beats
-from src.shared.data.phrases.dataset import MotionPhraseDataset
-from src.shared.errors import UserError
-from src.shared.evaluation.audio_sanity import untrained
-from src.shared.evaluation.audio_songs import (
+from ..audio.synthetic_songs import render_song
+from ..data.pairing.motion_beats import MotionBeats, motion_beats
+from ..data.phrases.dataset import MotionPhraseDataset
+from ..errors import UserError
+from ..files import atomic_write
+from ..inference.song_generator import SongGenerator, own_noise
+from ..inference.song_sampler import SampleSettings
+from ..motion.trajectory import FPS, MotionTrajectory
+from ..validation.report import frozen
+from .audio_sanity import untrained
+from .audio_songs import (
     Piece,
     held_out_songs,
     held_out_specs,
@@ -26,13 +31,8 @@ from src.shared.evaluation.audio_songs import (
     phrases,
     tracks,
 )
-from src.shared.evaluation.families import Dance, DanceSample
-from src.shared.evaluation.metrics_rhythm import strangers
-from src.shared.files import atomic_write
-from src.shared.inference.song_generator import SongGenerator, own_noise
-from src.shared.inference.song_sampler import SampleSettings
-from src.shared.motion.trajectory import FPS, MotionTrajectory
-from src.shared.validation.report import frozen
+from .families import Dance, DanceSample
+from .metrics_rhythm import strangers
 
 Progress = Callable[[str], None]
 Made = list[tuple[Piece, MotionTrajectory]]

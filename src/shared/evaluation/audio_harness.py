@@ -11,20 +11,20 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from src.shared.evaluation import manifest
-from src.shared.evaluation.audio_context import AudioContext, AudioSettings, Picture
-from src.shared.evaluation.audio_phase import right_tempo
-from src.shared.evaluation.audio_plots import plot_phase
-from src.shared.evaluation.audio_songs import TEMPI
-from src.shared.evaluation.engine import Bench, Progress, part_name, run_bench
-from src.shared.evaluation.families import DanceSample
-from src.shared.evaluation.grids import Grid, report_data
-from src.shared.evaluation.parts import Part, Parts
-from src.shared.evaluation.registry import AUDIO_EXTRAS, AUDIO_FAMILIES, AUDIO_ROWS
-from src.shared.evaluation.worst import Keeper, write_dance
-from src.shared.files import sha256_file
-from src.shared.inference.song_generator import SongGenerator
-from src.shared.model.zoo import resolve_model
+from ..files import sha256_file
+from ..inference.song_generator import SongGenerator
+from ..model.zoo import resolve_model
+from . import manifest
+from .audio_context import AudioContext, AudioSettings, Picture
+from .audio_phase import right_tempo
+from .audio_plots import plot_phase
+from .audio_songs import TEMPI
+from .engine import Bench, Progress, part_name, run_bench
+from .families import DanceSample
+from .grids import Grid, report_data
+from .parts import Part, Parts
+from .registry import AUDIO_EXTRAS, AUDIO_FAMILIES, AUDIO_ROWS
+from .worst import Keeper, write_dance
 
 
 def evaluate_audio(

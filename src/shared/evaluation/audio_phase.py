@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.evaluation.audio_songs import Piece
-from src.shared.evaluation.intervals import bootstrap_mean
-from src.shared.evaluation.metrics_rhythm import phase_error
-from src.shared.motion.trajectory import FPS
+from ..motion.trajectory import FPS
+from .audio_songs import Piece
+from .intervals import bootstrap_mean
+from .metrics_rhythm import phase_error
 
 TEMPO_TOLERANCE = 0.04  # the usual one
 

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.evaluation.audio_context import Picture
-from src.shared.evaluation.plots import new_figure, save_figure
-from src.shared.motion.trajectory import FPS, MotionTrajectory
-from src.shared.validation.bands import Bands
-from src.shared.validation.measures import MEASURES, UNITS
+from ..motion.trajectory import FPS, MotionTrajectory
+from ..validation.bands import Bands
+from ..validation.measures import MEASURES, UNITS
+from .audio_context import Picture
+from .plots import new_figure, save_figure
 
 LINES = {"truth": ("black", "-"), "beat tracker": ("tab:blue", ":"), "generated": ("tab:red", "--")}
 COLOURS = {"generated": "tab:red", "real": "tab:green", "untrained": "grey", "frozen": "tab:blue"}

@@ -17,23 +17,23 @@ import torch
 from torch import Tensor
 from torch.nn import functional as F
 
-from src.shared.errors import UserError
-from src.shared.evaluation.audio_songs import (
+from ..errors import UserError
+from ..inference.song_sampler import SPARE
+from ..model.audio.audio_motion_model import AudioMotionModel
+from ..model.audio.conditioning import BEAT, CONDITION_ROWS
+from ..model.diffusion.noise import sample_generators, standard_normal
+from ..model.diffusion.samplers import make_sampler
+from ..motion.trajectory import MotionTrajectory
+from ..validation.bands import Bands
+from ..validation.report import frozen, sanity_row
+from ..validation.sanity import SEVEN, SanityChecker
+from .audio_songs import (
     TEMPI,
     conditions_of_songs,
     open_split,
     phrases,
 )
-from src.shared.evaluation.intervals import success_rate
-from src.shared.inference.song_sampler import SPARE
-from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.model.audio.conditioning import BEAT, CONDITION_ROWS
-from src.shared.model.diffusion.noise import sample_generators, standard_normal
-from src.shared.model.diffusion.samplers import make_sampler
-from src.shared.motion.trajectory import MotionTrajectory
-from src.shared.validation.bands import Bands
-from src.shared.validation.report import frozen, sanity_row
-from src.shared.validation.sanity import SEVEN, SanityChecker
+from .intervals import success_rate
 
 Progress = Callable[[str], None]
 BATCH = 10

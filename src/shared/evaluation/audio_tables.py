@@ -5,17 +5,17 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.evaluation.audio_alignment import Danced, alignment_rows, song_scores
-from src.shared.evaluation.audio_context import AudioContext
-from src.shared.evaluation.audio_phase import phase_row, right_tempo
-from src.shared.evaluation.audio_songs import Piece
-from src.shared.evaluation.families import Column, DanceSample
-from src.shared.evaluation.families_audio import beats_of
-from src.shared.evaluation.grids import Grid, GridRow, plain
-from src.shared.evaluation.metrics_rhythm import phase_error
-from src.shared.evaluation.metrics_seams import Seamed, seam_frames, seam_report
-from src.shared.inference.song_generator import SongGenerator
-from src.shared.motion.trajectory import MotionTrajectory
+from ..inference.song_generator import SongGenerator
+from ..motion.trajectory import MotionTrajectory
+from .audio_alignment import Danced, alignment_rows, song_scores
+from .audio_context import AudioContext
+from .audio_phase import phase_row, right_tempo
+from .audio_songs import Piece
+from .families import Column, DanceSample
+from .families_audio import beats_of
+from .grids import Grid, GridRow, plain
+from .metrics_rhythm import phase_error
+from .metrics_seams import Seamed, seam_frames, seam_report
 
 PHASE = (
     Column("beat", "beat |error|"), Column("beat_seconds", "in seconds"),

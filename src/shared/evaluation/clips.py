@@ -9,11 +9,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from torch import Tensor
 
-from src.shared.data.prepared import PreparedData
-from src.shared.data.records import ClipRecord
-from src.shared.errors import UserError
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, decode_features
+from ..data.prepared import PreparedData
+from ..data.records import ClipRecord
+from ..errors import UserError
+from ..motion.motion import Motion
+from ..motion.root_track import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, decode_features
 
 # Prompts and their numbers of frames, with a seed, to one motion each, in the same order.
 Sampler = Callable[[Sequence[str], Sequence[int], int], list[Motion]]

@@ -10,15 +10,15 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.errors import UserError
-from src.shared.evaluation import manifest
-from src.shared.evaluation.bootstrap import MIN_PAIRS, Difference, paired_bootstrap
-from src.shared.evaluation.engine import motion_values, part_name
-from src.shared.evaluation.families import Column
-from src.shared.evaluation.grids import Grid, GridRow, plain, report_data
-from src.shared.evaluation.intervals import FEW
-from src.shared.evaluation.parts import Part, Parts, read_json
-from src.shared.evaluation.report import grids
+from ..errors import UserError
+from . import manifest
+from .bootstrap import MIN_PAIRS, Difference, paired_bootstrap
+from .engine import motion_values, part_name
+from .families import Column
+from .grids import Grid, GridRow, plain, report_data
+from .intervals import FEW
+from .parts import Part, Parts, read_json
+from .report import grids
 
 FREE = ("model", "sampling", "statistics", "environment")  # what a comparison may be about
 NOTE = (

@@ -13,14 +13,14 @@ from functools import partial
 from itertools import chain
 from typing import Any
 
-from src.shared.data.captions import CaptionBook
-from src.shared.evaluation.clips import Clips, Sampler, frozen
-from src.shared.evaluation.controllability import CONTROL_TASKS, ControlTask
-from src.shared.evaluation.intervals import Estimate, success_rate
-from src.shared.evaluation.measurements import Measurements, measure
-from src.shared.evaluation.parts import Part
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import decode_features, encode_features
+from ..data.captions import CaptionBook
+from ..motion.motion import Motion
+from ..motion.root_track import decode_features, encode_features
+from .clips import Clips, Sampler, frozen
+from .controllability import CONTROL_TASKS, ControlTask
+from .intervals import Estimate, success_rate
+from .measurements import Measurements, measure
+from .parts import Part
 
 Labels = dict[str, str]
 Once = Callable[[str, Callable[[], Part]], Part]

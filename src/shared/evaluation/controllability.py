@@ -8,9 +8,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
-from src.shared.data.synthetic.labels import SPEED_METRES, SPEEDS
-from src.shared.evaluation.measurements import Measurements, measure
-from src.shared.motion.motion import Motion
+from ..data.synthetic.labels import SPEED_METRES, SPEEDS
+from ..motion.motion import Motion
+from .measurements import Measurements, measure
 
 Check = Callable[[Measurements], bool]
 

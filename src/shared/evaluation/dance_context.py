@@ -12,24 +12,24 @@ from zlib import crc32
 
 import numpy as np
 
-from src.shared.data.phrases.dataset import MotionPhraseDataset
-from src.shared.errors import UserError
-from src.shared.evaluation.audio_songs import Piece, clock, held_out_songs, tracks
-from src.shared.evaluation.dance_sample import BodyDance, BodySample
-from src.shared.evaluation.evaluator import Evaluator
-from src.shared.evaluation.metrics_rhythm import beats_of_phase, strangers
-from src.shared.evaluation.metrics_seams import REACH
-from src.shared.evaluation.text_context import untrained
-from src.shared.inference.motion_stream import OVERLAP, WINDOW, window_lengths
-from src.shared.inference.performer import Performer, PerformerSettings
-from src.shared.inference.song_generator import SongGenerator, own_noise
-from src.shared.inference.song_performer import candidate_seed, finished
-from src.shared.inference.song_sampler import SampleSettings
-from src.shared.model.generation.motion_generator import MotionGenerator
-from src.shared.motion.carried_feet import hold_carried_feet
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import decode_features
-from src.shared.motion.trajectory import FPS, MotionTrajectory, to_motion
+from ..data.phrases.dataset import MotionPhraseDataset
+from ..errors import UserError
+from ..inference.motion_stream import OVERLAP, WINDOW, window_lengths
+from ..inference.performer import Performer, PerformerSettings
+from ..inference.song_generator import SongGenerator, own_noise
+from ..inference.song_performer import candidate_seed, finished
+from ..inference.song_sampler import SampleSettings
+from ..model.generation.motion_generator import MotionGenerator
+from ..motion.carried_feet import hold_carried_feet
+from ..motion.motion import Motion
+from ..motion.root_track import decode_features
+from ..motion.trajectory import FPS, MotionTrajectory, to_motion
+from .audio_songs import Piece, clock, held_out_songs, tracks
+from .dance_sample import BodyDance, BodySample
+from .evaluator import Evaluator
+from .metrics_rhythm import beats_of_phase, strangers
+from .metrics_seams import REACH
+from .text_context import untrained
 
 Progress = Callable[[str], None]
 PROMPTS = (

@@ -10,19 +10,19 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from src.shared.evaluation import manifest
-from src.shared.evaluation.dance_context import DanceContext
-from src.shared.evaluation.dance_sample import BodySample
-from src.shared.evaluation.editing_context import EditContext
-from src.shared.evaluation.editing_tables import kept_table, path_table, transition_table
-from src.shared.evaluation.engine import Bench, Progress, part_name, run_bench
-from src.shared.evaluation.grids import Grid, report_data
-from src.shared.evaluation.parts import Part, Parts
-from src.shared.evaluation.registry import DANCE_EXTRAS, DANCE_FAMILIES, DANCE_ROWS
-from src.shared.evaluation.worst import Keeper
-from src.shared.files import sha256_file
-from src.shared.formats.npz import write_npz
-from src.shared.model.zoo import resolve_model
+from ..files import sha256_file
+from ..formats.npz import write_npz
+from ..model.zoo import resolve_model
+from . import manifest
+from .dance_context import DanceContext
+from .dance_sample import BodySample
+from .editing_context import EditContext
+from .editing_tables import kept_table, path_table, transition_table
+from .engine import Bench, Progress, part_name, run_bench
+from .grids import Grid, report_data
+from .parts import Part, Parts
+from .registry import DANCE_EXTRAS, DANCE_FAMILIES, DANCE_ROWS
+from .worst import Keeper
 
 
 def evaluate_performer(

@@ -8,9 +8,9 @@ Letters: T frames, K joints, N moments.
 
 import numpy as np
 
-from src.shared.data.pairing.motion_beats import motion_beats
-from src.shared.motion.motion import Motion
-from src.shared.motion.skeleton import FOOT_JOINTS, REST_FOOT_HEIGHT
+from ..data.pairing.motion_beats import motion_beats
+from ..motion.motion import Motion
+from ..motion.skeleton import FOOT_JOINTS, REST_FOOT_HEIGHT
 
 BALLS = [ball for _, ball in FOOT_JOINTS]
 DOWN, UP = 0.02, 0.04  # metres of a ball of the foot above its standing height

@@ -10,9 +10,9 @@ from typing import TypeVar
 
 import numpy as np
 
-from src.shared.evaluation.families import Memo
-from src.shared.motion.motion import Motion
-from src.shared.motion.trajectory import MotionTrajectory
+from ..motion.motion import Motion
+from ..motion.trajectory import MotionTrajectory
+from .families import Memo
 
 Found = TypeVar("Found")
 

@@ -12,11 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.evaluation.dance_sample import BodyDance
-from src.shared.evaluation.families import Column
-from src.shared.evaluation.grids import Grid, GridRow, plain
-from src.shared.evaluation.metrics_seams import compare
-from src.shared.motion.motion import Motion
+from ..motion.motion import Motion
+from .dance_sample import BodyDance
+from .families import Column
+from .grids import Grid, GridRow, plain
+from .metrics_seams import compare
 
 TOP = 99  # percentile of real motion that nothing at a seam is to pass
 ACCELERATION, JERK = "acceleration, m/s²", "jerk, m/s³"

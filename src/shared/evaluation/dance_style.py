@@ -13,17 +13,17 @@ from functools import cache
 import numpy as np
 from scipy.spatial.distance import cdist, pdist
 
-from src.shared.evaluation.dance_context import DanceContext, held_still
-from src.shared.evaluation.dance_rhythm import body_beats, limb_beats
-from src.shared.evaluation.evaluator import Evaluator
-from src.shared.evaluation.families import Column
-from src.shared.evaluation.grids import Grid, GridRow
-from src.shared.evaluation.intervals import bootstrap_mean
-from src.shared.evaluation.metrics_rhythm import rhythm
-from src.shared.inference.performer import Performer
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import encode_features
-from src.shared.motion.trajectory import to_motion
+from ..inference.performer import Performer
+from ..motion.motion import Motion
+from ..motion.root_track import encode_features
+from ..motion.trajectory import to_motion
+from .dance_context import DanceContext, held_still
+from .dance_rhythm import body_beats, limb_beats
+from .evaluator import Evaluator
+from .families import Column
+from .grids import Grid, GridRow
+from .intervals import bootstrap_mean
+from .metrics_rhythm import rhythm
 
 ASKED = (
     "a person dances", "a proud person dances", "an old man dances", "a tired person dances",

@@ -4,14 +4,14 @@ from collections.abc import Callable
 
 import numpy as np
 
-from src.shared.evaluation.audio_alignment import Danced, alignment_rows
-from src.shared.evaluation.audio_tables import alignment_grids
-from src.shared.evaluation.dance_context import DanceContext
-from src.shared.evaluation.dance_rhythm import body_beats, limb_beats
-from src.shared.evaluation.dance_sample import BodyDance
-from src.shared.evaluation.dance_seams import hard_cuts, seam_grid
-from src.shared.evaluation.grids import Grid
-from src.shared.motion.motion import Motion
+from ..motion.motion import Motion
+from .audio_alignment import Danced, alignment_rows
+from .audio_tables import alignment_grids
+from .dance_context import DanceContext
+from .dance_rhythm import body_beats, limb_beats
+from .dance_sample import BodyDance
+from .dance_seams import hard_cuts, seam_grid
+from .grids import Grid
 
 Find = Callable[[Motion], np.ndarray]
 

@@ -9,12 +9,12 @@ from functools import cached_property
 
 import numpy as np
 
-from src.shared.evaluation.clips import Clips, real_clips
-from src.shared.evaluation.held_out import HeldOut
-from src.shared.evaluation.text_context import untrained
-from src.shared.inference.drawn_path import DrawnPath
-from src.shared.model.generation.motion_generator import MotionGenerator
-from src.shared.motion.motion import Motion
+from ..inference.drawn_path import DrawnPath
+from ..model.generation.motion_generator import MotionGenerator
+from ..motion.motion import Motion
+from .clips import Clips, real_clips
+from .held_out import HeldOut
+from .text_context import untrained
 
 Progress = Callable[[str], None]
 MIN_FRAMES, MAX_FRAMES = 90, 150  # of a clip that is edited

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from src.shared.evaluation.dance_rhythm import seen_from_pelvis
-from src.shared.evaluation.dance_seams import ACCELERATION, body_quantities
-from src.shared.inference.directed import moved_to
-from src.shared.inference.editing import Given, kept_error, place_of
-from src.shared.inference.settling import joined
-from src.shared.motion.motion import Motion
+from ..inference.directed import moved_to
+from ..inference.editing import Given, kept_error, place_of
+from ..inference.settling import joined
+from ..motion.motion import Motion
+from .dance_rhythm import seen_from_pelvis
+from .dance_seams import ACCELERATION, body_quantities
 
 NEAR = 6  # frames on either side of a border
 

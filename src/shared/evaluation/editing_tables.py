@@ -6,32 +6,32 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.evaluation.dance_context import held_still
-from src.shared.evaluation.dance_rhythm import seen_from_pelvis
-from src.shared.evaluation.dance_style import embed, rank_of
-from src.shared.evaluation.editing_context import ACTIONS, EditContext, drawn_paths, seeds
-from src.shared.evaluation.editing_figures import (
+from ..inference.directed import along_path, by_timeline, edited, natural_gait
+from ..inference.drawn_path import DrawnPath
+from ..inference.editing import GROUPS, Given, keep_ends, redo
+from ..inference.motion_stream import Passage, StreamSettings
+from ..inference.path_following import distances_to_line, time_path
+from ..inference.settling import frames_of
+from ..inference.timeline import Timeline
+from ..model.generation.motion_generator import MotionGenerator
+from ..motion.motion import Motion
+from .dance_context import held_still
+from .dance_rhythm import seen_from_pelvis
+from .dance_style import embed, rank_of
+from .editing_context import ACTIONS, EditContext, drawn_paths, seeds
+from .editing_figures import (
     accelerations,
     borders_of,
     hard_cut,
     kept_figures,
     near,
 )
-from src.shared.evaluation.evaluator import Evaluator
-from src.shared.evaluation.families import Column
-from src.shared.evaluation.grids import Grid, GridRow, plain
-from src.shared.evaluation.intervals import bootstrap_mean
-from src.shared.evaluation.metrics_contact import jerk_per_speed
-from src.shared.evaluation.metrics_physical import support_slide
-from src.shared.inference.directed import along_path, by_timeline, edited, natural_gait
-from src.shared.inference.drawn_path import DrawnPath
-from src.shared.inference.editing import GROUPS, Given, keep_ends, redo
-from src.shared.inference.motion_stream import Passage, StreamSettings
-from src.shared.inference.path_following import distances_to_line, time_path
-from src.shared.inference.settling import frames_of
-from src.shared.inference.timeline import Timeline
-from src.shared.model.generation.motion_generator import MotionGenerator
-from src.shared.motion.motion import Motion
+from .evaluator import Evaluator
+from .families import Column
+from .grids import Grid, GridRow, plain
+from .intervals import bootstrap_mean
+from .metrics_contact import jerk_per_speed
+from .metrics_physical import support_slide
 
 TOP = 99  # percentile of real accelerations
 HALF = 75  # frames of each action of a transition

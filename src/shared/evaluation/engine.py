@@ -13,11 +13,11 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from src.shared.evaluation.families import Column, MetricFamily, Sample, Value
-from src.shared.evaluation.grids import Grid, GridRow, plain
-from src.shared.evaluation.intervals import Estimate, bootstrap_mean, replicated, success_rate
-from src.shared.evaluation.manifest import hash_names
-from src.shared.evaluation.parts import Part, Parts
+from .families import Column, MetricFamily, Sample, Value
+from .grids import Grid, GridRow, plain
+from .intervals import Estimate, bootstrap_mean, replicated, success_rate
+from .manifest import hash_names
+from .parts import Part, Parts
 
 Progress = Callable[[str], None]
 Context = TypeVar("Context")

@@ -22,14 +22,14 @@ from safetensors import SafetensorError
 from safetensors.torch import load_file, save_file
 from torch import Tensor, nn
 
-from src.shared.config_schema import Config
-from src.shared.errors import UserError
-from src.shared.evaluation.joint_features import NUM_FEATURES, joint_features
-from src.shared.evaluation.text_hashing import NUM_BUCKETS, bag
-from src.shared.files import atomic_write, load_json, sha256_file, write_json
-from src.shared.model.checkpoint import of_another_version
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import encode_features
+from ..config_schema import Config
+from ..errors import UserError
+from ..files import atomic_write, load_json, sha256_file, write_json
+from ..model.checkpoint import of_another_version
+from ..motion.motion import Motion
+from ..motion.root_track import encode_features
+from .joint_features import NUM_FEATURES, joint_features
+from .text_hashing import NUM_BUCKETS, bag
 
 PRETRAINED = Path(__file__).resolve().parents[1] / "pretrained"
 WEIGHTS = "model.safetensors"

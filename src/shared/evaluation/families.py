@@ -13,9 +13,9 @@ from typing import Literal, Protocol, Self, TypeVar
 
 import numpy as np
 
-from src.shared.evaluation.clips import Clips
-from src.shared.motion.motion import Motion
-from src.shared.motion.trajectory import MotionTrajectory
+from ..motion.motion import Motion
+from ..motion.trajectory import MotionTrajectory
+from .clips import Clips
 
 Better = Literal["high", "low", "real"]  # real: the nearer to the real row, the better
 Value = float | np.ndarray

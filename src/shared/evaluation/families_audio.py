@@ -8,13 +8,13 @@ from dataclasses import asdict
 
 import numpy as np
 
-from src.shared.data.pairing.motion_beats import motion_beats
-from src.shared.evaluation.audio_phase import song_phase
-from src.shared.evaluation.families import Column, Dance, DanceSample, Value
-from src.shared.evaluation.metrics_rhythm import against_chance
-from src.shared.motion.trajectory import MotionTrajectory
-from src.shared.validation.measures import MEASURES, UNITS
-from src.shared.validation.sanity import SEVEN, SanityChecker
+from ..data.pairing.motion_beats import motion_beats
+from ..motion.trajectory import MotionTrajectory
+from ..validation.measures import MEASURES, UNITS
+from ..validation.sanity import SEVEN, SanityChecker
+from .audio_phase import song_phase
+from .families import Column, Dance, DanceSample, Value
+from .metrics_rhythm import against_chance
 
 
 def beats_of(trajectory: MotionTrajectory) -> np.ndarray:

@@ -7,13 +7,13 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from src.shared.evaluation.dance_rhythm import body_beats, landings, limb_beats, seen_from_pelvis
-from src.shared.evaluation.dance_sample import BodyDance, BodySample
-from src.shared.evaluation.families import Column, Value
-from src.shared.evaluation.metrics_contact import contact, jerk_per_speed
-from src.shared.evaluation.metrics_physical import physics
-from src.shared.evaluation.metrics_rhythm import against_chance
-from src.shared.inference.trajectory_constraint import root_error
+from ..inference.trajectory_constraint import root_error
+from .dance_rhythm import body_beats, landings, limb_beats, seen_from_pelvis
+from .dance_sample import BodyDance, BodySample
+from .families import Column, Value
+from .metrics_contact import contact, jerk_per_speed
+from .metrics_physical import physics
+from .metrics_rhythm import against_chance
 
 MOMENTS = {
     "": lambda dance: body_beats(dance.motion),

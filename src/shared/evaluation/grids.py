@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from src.shared.evaluation.families import Column
-from src.shared.evaluation.intervals import Estimate
+from .families import Column
+from .intervals import Estimate
 
 FORMAT_VERSION = 1
 Cell = dict[str, Any] | float | str | None  # an `Estimate` as a dict, a number, or words

@@ -10,18 +10,18 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from src.shared.data.records import ClipRecord
-from src.shared.errors import UserError
-from src.shared.evaluation import manifest
-from src.shared.evaluation.clips import Sampler
-from src.shared.evaluation.engine import Bench, Progress, Row, part_name, run_bench
-from src.shared.evaluation.evaluator import Evaluator
-from src.shared.evaluation.families import Column, MotionSample
-from src.shared.evaluation.grids import Grid, GridRow, report_data
-from src.shared.evaluation.held_out import HeldOut, open_held_out
-from src.shared.evaluation.parts import Part, Parts
-from src.shared.evaluation.registry import TEXT_EXTRAS, TEXT_FAMILIES, TEXT_ROWS
-from src.shared.evaluation.text_context import (
+from ..data.records import ClipRecord
+from ..errors import UserError
+from . import manifest
+from .clips import Sampler
+from .engine import Bench, Progress, Row, part_name, run_bench
+from .evaluator import Evaluator
+from .families import Column, MotionSample
+from .grids import Grid, GridRow, report_data
+from .held_out import HeldOut, open_held_out
+from .parts import Part, Parts
+from .registry import TEXT_EXTRAS, TEXT_FAMILIES, TEXT_ROWS
+from .text_context import (
     UNTRAINED,
     Split,
     TextContext,
@@ -30,11 +30,11 @@ from src.shared.evaluation.text_context import (
     model_sampler,
     untrained,
 )
-from src.shared.evaluation.text_scores import score_grid
-from src.shared.evaluation.worst import Keeper, write_motion
+from .text_scores import score_grid
+from .worst import Keeper, write_motion
 
 if TYPE_CHECKING:
-    from src.shared.model.generation.motion_generator import MotionGenerator
+    from ..model.generation.motion_generator import MotionGenerator
 
 
 def evaluate_text(
@@ -64,7 +64,7 @@ def evaluate_text(
         UserError: no such model, evaluator or data, the model is untrained, or the folder holds
             another report.
     """
-    from src.shared.model.generation.motion_generator import MotionGenerator
+    from ..model.generation.motion_generator import MotionGenerator
 
     settings = settings or TextSettings()
     judge = Evaluator.from_pretrained(evaluator)
@@ -140,7 +140,7 @@ def _manifest(
     settings: TextSettings,
     sampling: dict[str, Any],
 ) -> dict[str, Any]:
-    from src.shared.model.zoo import PRETRAINED, resolve_model
+    from ..model.zoo import PRETRAINED, resolve_model
 
     judge_folder = Path(evaluator) if Path(evaluator).is_dir() else PRETRAINED / evaluator
     splits = {

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from src.shared.data.prepared import SYNTHETIC, PreparedData
-from src.shared.data.records import ClipRecord
+from ..data.prepared import SYNTHETIC, PreparedData
+from ..data.records import ClipRecord
 
 FRESH_SEED = 90210  # of synthetic clips made only to test: never one that trains
 FRESH_CLIPS = 800
@@ -45,9 +45,9 @@ def open_held_out(data: str, cache: Path, trained_groups: frozenset[str]) -> Hel
             "unseen": prepared.records("test_unseen"),
         }
         return HeldOut(prepared, records, f"test splits of {data}")
-    from src.shared.data.prepare import prepare
-    from src.shared.data.sources import SyntheticSource
-    from src.shared.sole_writer import sole_writer
+    from ..data.prepare import prepare
+    from ..data.sources import SyntheticSource
+    from ..sole_writer import sole_writer
 
     folder = cache / f"synthetic-test-{FRESH_CLIPS}"
     with sole_writer(folder, wait=True):

@@ -13,21 +13,21 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from src.shared.evaluation.grids import Grid
-from src.shared.evaluation.report import (
+from ..files import inside
+from ..formats.html import write_html
+from ..formats.npz import read_npz
+from ..formats.trajectory_beats import SongTrack
+from ..formats.trajectory_html import write_trajectory_html
+from ..formats.trajectory_npz import read_trajectory_npz
+from .grids import Grid
+from .report import (
     grids,
     heading,
     intervals_note,
     number,
     printed,
 )
-from src.shared.evaluation.svg_plots import grid_plots
-from src.shared.files import inside
-from src.shared.formats.html import write_html
-from src.shared.formats.npz import read_npz
-from src.shared.formats.trajectory_beats import SongTrack
-from src.shared.formats.trajectory_html import write_trajectory_html
-from src.shared.formats.trajectory_npz import read_trajectory_npz
+from .svg_plots import grid_plots
 
 POLICY = (
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:;"

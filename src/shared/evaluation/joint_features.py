@@ -13,10 +13,10 @@ from collections.abc import Sequence
 import torch
 from torch import Tensor
 
-from src.shared.motion.kinematics import forward_kinematics
-from src.shared.motion.root_track import FORWARD, HEIGHT, LATERAL, YAW_RATE
-from src.shared.motion.rotations import rotation_6d_to_matrix
-from src.shared.motion.skeleton import NUM_JOINTS, canonical_skeleton
+from ..motion.kinematics import forward_kinematics
+from ..motion.root_track import FORWARD, HEIGHT, LATERAL, YAW_RATE
+from ..motion.rotations import rotation_6d_to_matrix
+from ..motion.skeleton import NUM_JOINTS, canonical_skeleton
 
 FPS = 30.0
 NUM_FEATURES = 1 + 2 * 3 * (NUM_JOINTS - 1) + 3

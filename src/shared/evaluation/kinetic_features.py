@@ -15,14 +15,14 @@ Letters: T frames, K joints, F features, W windows.
 import numpy as np
 import torch
 
-from src.shared.motion.skeleton import (
+from ..motion.skeleton import (
     JOINT_INDEX,
     JOINT_NAMES,
     REST_PELVIS_HEIGHT,
     canonical_skeleton,
 )
-from src.shared.motion.trajectory import MotionTrajectory
-from src.shared.motion.trajectory_math import angular_velocity
+from ..motion.trajectory import MotionTrajectory
+from ..motion.trajectory_math import angular_velocity
 
 WINDOW = 2  # frames on either side of a velocity or an acceleration
 KINDS = ("horizontal", "vertical", "acceleration")  # kinetic features of a joint

@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 import torch
 
-from src.shared.errors import UsageError
-from src.shared.evaluation.families import MetricFamily
-from src.shared.evaluation.parts import read_json
-from src.shared.files import sha256_file, write_json
+from ..errors import UsageError
+from ..files import sha256_file, write_json
+from .families import MetricFamily
+from .parts import read_json
 
 MANIFEST = "manifest.json"
 FORMAT_VERSION = 1

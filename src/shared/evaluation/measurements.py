@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 import torch
 
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import headings
-from src.shared.motion.rotations import quaternion_to_matrix
-from src.shared.motion.skeleton import JOINT_INDEX, REST_PELVIS_HEIGHT, canonical_skeleton
+from ..motion.motion import Motion
+from ..motion.root_track import headings
+from ..motion.rotations import quaternion_to_matrix
+from ..motion.skeleton import JOINT_INDEX, REST_PELVIS_HEIGHT, canonical_skeleton
 
 Array = np.ndarray
 Pair = tuple[float, float]

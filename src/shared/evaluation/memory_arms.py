@@ -11,11 +11,11 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.config_memory import MemoryConfig
-from src.shared.inference.song_memory import as_condition
-from src.shared.memory.context import Memory, retrieve
-from src.shared.memory.index import MemoryIndex
-from src.shared.model.audio.memory_conditioning import MemoryCondition
+from ..config_memory import MemoryConfig
+from ..inference.song_memory import as_condition
+from ..memory.context import Memory, retrieve
+from ..memory.index import MemoryIndex
+from ..model.audio.memory_conditioning import MemoryCondition
 
 WITHOUT, WITH, RANDOM = "without", "with", "random"
 

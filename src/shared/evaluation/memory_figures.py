@@ -11,20 +11,20 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.data.phrases.dataset import PhraseBatch, PhraseItem, collate
-from src.shared.evaluation.audio_songs import Piece, open_split
-from src.shared.evaluation.families import Column, Dance, DanceSample
-from src.shared.evaluation.families_audio import BeatAlignment, TrajectorySanity
-from src.shared.evaluation.memory_arms import Arm, Asker
-from src.shared.inference.song_memory import bars_of_sound, bars_of_window
-from src.shared.inference.song_sampler import SPARE, Recall, SampleSettings, SongSampler
-from src.shared.memory.build import Space
-from src.shared.memory.priors import prior_curves
-from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.model.audio.memory_conditioning import MemoryCondition
-from src.shared.model.diffusion.noise import standard_normal
-from src.shared.motion.trajectory import MotionTrajectory
-from src.shared.motion.window import place_window
+from ..data.phrases.dataset import PhraseBatch, PhraseItem, collate
+from ..inference.song_memory import bars_of_sound, bars_of_window
+from ..inference.song_sampler import SPARE, Recall, SampleSettings, SongSampler
+from ..memory.build import Space
+from ..memory.priors import prior_curves
+from ..model.audio.audio_motion_model import AudioMotionModel
+from ..model.audio.memory_conditioning import MemoryCondition
+from ..model.diffusion.noise import standard_normal
+from ..motion.trajectory import MotionTrajectory
+from ..motion.window import place_window
+from .audio_songs import Piece, open_split
+from .families import Column, Dance, DanceSample
+from .families_audio import BeatAlignment, TrajectorySanity
+from .memory_arms import Arm, Asker
 
 Values = dict[str, np.ndarray]  # column -> one figure for each phrase or song [N]
 BATCH = 16

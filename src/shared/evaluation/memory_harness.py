@@ -13,15 +13,19 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.config_memory import MemoryConfig
-from src.shared.errors import UserError
-from src.shared.evaluation.audio_songs import held_out_songs
-from src.shared.evaluation.bootstrap import MIN_PAIRS, paired_bootstrap
-from src.shared.evaluation.families import Column
-from src.shared.evaluation.grids import Grid, GridRow, plain
-from src.shared.evaluation.intervals import bootstrap_mean
-from src.shared.evaluation.memory_arms import RANDOM, WITH, WITHOUT, Arm, Asker, arms, variations
-from src.shared.evaluation.memory_figures import (
+from ..config_memory import MemoryConfig
+from ..errors import UserError
+from ..inference.song_sampler import SampleSettings
+from ..memory.build import Space
+from ..memory.index import MemoryIndex
+from ..model.audio.audio_motion_model import AudioMotionModel
+from .audio_songs import held_out_songs
+from .bootstrap import MIN_PAIRS, paired_bootstrap
+from .families import Column
+from .grids import Grid, GridRow, plain
+from .intervals import bootstrap_mean
+from .memory_arms import RANDOM, WITH, WITHOUT, Arm, Asker, arms, variations
+from .memory_figures import (
     Curves,
     Denoising,
     Figures,
@@ -30,10 +34,6 @@ from src.shared.evaluation.memory_figures import (
     Values,
     held_back,
 )
-from src.shared.inference.song_sampler import SampleSettings
-from src.shared.memory.build import Space
-from src.shared.memory.index import MemoryIndex
-from src.shared.model.audio.audio_motion_model import AudioMotionModel
 
 Progress = Callable[[str], None]
 CHANCE = "real, of another song"

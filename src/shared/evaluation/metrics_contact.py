@@ -10,11 +10,11 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from src.shared.evaluation.families import Column, MotionSample
-from src.shared.evaluation.metrics_physical import SUPPORT_HEIGHT
-from src.shared.motion.motion import Motion
-from src.shared.motion.skeleton import FOOT_JOINTS, REST_FOOT_HEIGHT
-from src.shared.validation.body_measures import BALLS, ground_speed, mean_jerk
+from ..motion.motion import Motion
+from ..motion.skeleton import FOOT_JOINTS, REST_FOOT_HEIGHT
+from ..validation.body_measures import BALLS, ground_speed, mean_jerk
+from .families import Column, MotionSample
+from .metrics_physical import SUPPORT_HEIGHT
 
 GRAVITY = 9.81  # m/s²
 SKATING = 0.1  # m/s of a foot that carries the body

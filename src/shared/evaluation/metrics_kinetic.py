@@ -13,16 +13,16 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.distance import pdist
 
-from src.shared.evaluation.families import Column, DanceSample, MotionSample
-from src.shared.evaluation.kinetic_features import (
+from ..motion.motion import Motion
+from ..motion.trajectory import MotionTrajectory
+from .families import Column, DanceSample, MotionSample
+from .kinetic_features import (
     geometric_features,
     kinetic_features,
     root_geometric_features,
     root_kinetic_features,
 )
-from src.shared.evaluation.metrics_frechet import Projection, frechet_distance
-from src.shared.motion.motion import Motion
-from src.shared.motion.trajectory import MotionTrajectory
+from .metrics_frechet import Projection, frechet_distance
 
 AXES = 16  # of the reduced distance, which needs fewer motions
 PIECE = 4.0  # seconds: a mean over a longer motion varies less, so all pieces are of one length

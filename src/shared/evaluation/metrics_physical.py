@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from src.shared.motion.motion import Motion
-from src.shared.motion.skeleton import JOINT_INDEX, REST_FOOT_HEIGHT
-from src.shared.validation.body_measures import (
+from ..motion.motion import Motion
+from ..motion.skeleton import JOINT_INDEX, REST_FOOT_HEIGHT
+from ..validation.body_measures import (
     BALLS,
     contact_slide,
     ground_speed,

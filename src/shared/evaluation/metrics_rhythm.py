@@ -11,7 +11,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from src.shared.data.pairing.motion_beats import SIGMA, beat_alignment, distances
+from ..data.pairing.motion_beats import SIGMA, beat_alignment, distances
 
 HIT = 0.07  # seconds, the window of the F-measure in beat tracking (Davies et al. 2009)
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.distance import pdist
 
-from src.shared.evaluation.families import Column, MotionSample
+from .families import Column, MotionSample
 
 
 def diversity(embeddings: np.ndarray, *, num_pairs: int = 300, seed: int = 0) -> float:

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from src.shared.evaluation.families import Column, MotionSample
-from src.shared.evaluation.metrics_retrieval import BATCH, best_ranks
-from src.shared.evaluation.text_hashing import caption_buckets
+from .families import Column, MotionSample
+from .metrics_retrieval import BATCH, best_ranks
+from .text_hashing import caption_buckets
 
 TOP = (1, 2, 3, 5, 10)
 THRESHOLD = 0.95  # of (1 + cosine) / 2 of two texts, as in TMR

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 import torch
 
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import headings
-from src.shared.motion.rotations import quaternion_to_matrix
+from ..motion.motion import Motion
+from ..motion.root_track import headings
+from ..motion.rotations import quaternion_to_matrix
 
 MIN_TRAVEL = 0.5  # metres: below this a direction is noise
 

@@ -10,8 +10,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from src.shared.errors import UserError
-from src.shared.files import inside, load_json, write_json
+from ..errors import UserError
+from ..files import inside, load_json, write_json
 
 Part = dict[str, Any]
 TIMING = "timing.json"

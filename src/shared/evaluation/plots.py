@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from src.shared.errors import UserError
-from src.shared.files import atomic_write, parse_json
-from src.shared.motion.trajectory import MotionTrajectory
-from src.shared.validation.sanity import SanityThresholds
+from ..errors import UserError
+from ..files import atomic_write, parse_json
+from ..motion.trajectory import MotionTrajectory
+from ..validation.sanity import SanityThresholds
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -6,36 +6,36 @@ adds tables with rows of its own. Each is told what to draw on and gives plain f
 
 from collections.abc import Callable
 
-from src.shared.evaluation.audio_context import AudioContext
-from src.shared.evaluation.audio_tables import (
+from .audio_context import AudioContext
+from .audio_tables import (
     alignment_tables,
     phase_table,
     seam_tables,
     track_table,
 )
-from src.shared.evaluation.dance_context import DanceContext
-from src.shared.evaluation.dance_sample import BodySample
-from src.shared.evaluation.dance_style import prompt_effect
-from src.shared.evaluation.dance_tables import alignment_tables as dance_alignment
-from src.shared.evaluation.dance_tables import seam_tables as dance_seams
-from src.shared.evaluation.engine import RowKind
-from src.shared.evaluation.families import DanceSample, MetricFamily, MotionSample
-from src.shared.evaluation.families_audio import BarPhase, BeatAlignment, TrajectorySanity
-from src.shared.evaluation.families_performer import FAMILIES as PERFORMER
-from src.shared.evaluation.families_text import (
+from .dance_context import DanceContext
+from .dance_sample import BodySample
+from .dance_style import prompt_effect
+from .dance_tables import alignment_tables as dance_alignment
+from .dance_tables import seam_tables as dance_seams
+from .engine import RowKind
+from .families import DanceSample, MetricFamily, MotionSample
+from .families_audio import BarPhase, BeatAlignment, TrajectorySanity
+from .families_performer import FAMILIES as PERFORMER
+from .families_text import (
     Frechet,
     GuoRetrieval,
     Obedience,
     Plausibility,
     TravelErrors,
 )
-from src.shared.evaluation.grids import Grid
-from src.shared.evaluation.metrics_contact import ContactFamily
-from src.shared.evaluation.metrics_kinetic import BodyKinetics, RootKinetics
-from src.shared.evaluation.metrics_spread import Multimodality
-from src.shared.evaluation.metrics_tmr import FAMILIES as TMR
-from src.shared.evaluation.text_context import Split, TextContext
-from src.shared.evaluation.text_tables import controllability, languages
+from .grids import Grid
+from .metrics_contact import ContactFamily
+from .metrics_kinetic import BodyKinetics, RootKinetics
+from .metrics_spread import Multimodality
+from .metrics_tmr import FAMILIES as TMR
+from .text_context import Split, TextContext
+from .text_tables import controllability, languages
 
 TEXT_FAMILIES: tuple[MetricFamily[MotionSample], ...] = (
     GuoRetrieval(),

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from src.shared.evaluation.families import Column
-from src.shared.evaluation.grids import Cell, Grid
+from .families import Column
+from .grids import Cell, Grid
 
 if TYPE_CHECKING:
     from rich.console import Console

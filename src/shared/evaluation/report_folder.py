@@ -3,11 +3,11 @@
 from pathlib import Path
 from typing import Any
 
-from src.shared.errors import UserError
-from src.shared.evaluation.html_report import html_page
-from src.shared.evaluation.parts import read_json
-from src.shared.evaluation.report import markdown
-from src.shared.files import write_json, write_text
+from ..errors import UserError
+from ..files import write_json, write_text
+from .html_report import html_page
+from .parts import read_json
+from .report import markdown
 
 REPORT = "report.json"
 

@@ -13,17 +13,19 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from src.shared.data.prepared import PreparedData
-from src.shared.data.requests import COMPOSITIONS, FREE, OUTSIDE, Request, drawn, load_requests
-from src.shared.evaluation.action_judge import ActionJudge
-from src.shared.evaluation.clips import frozen, spread_over_groups
-from src.shared.evaluation.families import Column
-from src.shared.evaluation.grids import Cell, Grid, GridRow, report_data
-from src.shared.evaluation.intervals import bootstrap_mean, success_rate
-from src.shared.evaluation.metrics_frechet import frechet_distance
-from src.shared.evaluation.metrics_kinetic import FeatureSpace
-from src.shared.evaluation.text_context import errors_only
-from src.shared.evaluation.yardstick import (
+from ..data.prepared import PreparedData
+from ..data.requests import COMPOSITIONS, FREE, OUTSIDE, Request, drawn, load_requests
+from ..motion.motion import Motion
+from ..motion.root_track import decode_features, encode_features
+from .action_judge import ActionJudge
+from .clips import frozen, spread_over_groups
+from .families import Column
+from .grids import Cell, Grid, GridRow, report_data
+from .intervals import bootstrap_mean, success_rate
+from .metrics_frechet import frechet_distance
+from .metrics_kinetic import FeatureSpace
+from .text_context import errors_only
+from .yardstick import (
     MIN_FRAMES,
     PIECE,
     Progress,
@@ -40,8 +42,6 @@ from src.shared.evaluation.yardstick import (
     shown,
     spread,
 )
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import decode_features, encode_features
 
 GESTURES = ("wave", "raise", "bow", "bye", "call", "respond", "guide", "clap")
 WALK = "a person walks forward"

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from typing import Any
 
-from src.shared.evaluation.report import Table, number
-from src.shared.validation.sanity import SEVEN
+from ..validation.sanity import SEVEN
+from .report import Table, number
 
 NOTES = {
     "sanity": "What the decoder gave, not clamped, not made coherent. seven: TECH's five checks and"

@@ -18,8 +18,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from src.shared.evaluation.intervals import Estimate, bootstrap_mean, replicated
-from src.shared.evaluation.report import Table, interval
+from .intervals import Estimate, bootstrap_mean, replicated
+from .report import Table, interval
 
 Role = Literal["outside", "akin", "judge"]
 ROLES: dict[Role, str] = {

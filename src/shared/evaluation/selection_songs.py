@@ -14,19 +14,19 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.data.pairing.motion_beats import motion_beats
-from src.shared.errors import UserError
-from src.shared.evaluation.audio_songs import Piece, held_out_songs, open_split, phrases
-from src.shared.evaluation.kinetic_features import root_geometric_features, root_kinetic_features
-from src.shared.evaluation.metrics_kinetic import Features, kinetic_columns
-from src.shared.evaluation.metrics_rhythm import against_chance, rhythm
-from src.shared.evaluation.selection_harness import Figure, Pool, report_of
-from src.shared.inference.audio_condition import AudioCondition
-from src.shared.inference.audio_judge import AudioJudge
-from src.shared.inference.song_generator import SongGenerator
-from src.shared.inference.song_sampler import SampleSettings
-from src.shared.motion.trajectory import FPS, MotionTrajectory
-from src.shared.validation.bands import Bands
+from ..data.pairing.motion_beats import motion_beats
+from ..errors import UserError
+from ..inference.audio_condition import AudioCondition
+from ..inference.audio_judge import AudioJudge
+from ..inference.song_generator import SongGenerator
+from ..inference.song_sampler import SampleSettings
+from ..motion.trajectory import FPS, MotionTrajectory
+from ..validation.bands import Bands
+from .audio_songs import Piece, held_out_songs, open_split, phrases
+from .kinetic_features import root_geometric_features, root_kinetic_features
+from .metrics_kinetic import Features, kinetic_columns
+from .metrics_rhythm import against_chance, rhythm
+from .selection_harness import Figure, Pool, report_of
 
 KINDS = 5  # kinetic features of a pelvis, each of a unit of its own
 HITS = Figure("hits", "hits F, true beats", 3, True, "akin")

@@ -15,19 +15,19 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.errors import UserError
-from src.shared.evaluation.clips import Clips, real_clips
-from src.shared.evaluation.controllability import check
-from src.shared.evaluation.evaluator import Evaluator
-from src.shared.evaluation.held_out import open_held_out
-from src.shared.evaluation.metrics_physical import physics
-from src.shared.evaluation.metrics_retrieval import BATCH, TOP, best_ranks, pair_distances
-from src.shared.evaluation.metrics_travel import travel, travel_error
-from src.shared.evaluation.selection_harness import Chosen, Figure, Pool, report_of
-from src.shared.inference.prompt_sampler import PromptSampler
-from src.shared.inference.text_judge import TextJudge, load_tower, own_tower
-from src.shared.model.generation.motion_generator import MotionGenerator
-from src.shared.motion.motion import Motion
+from ..errors import UserError
+from ..inference.prompt_sampler import PromptSampler
+from ..inference.text_judge import TextJudge, load_tower, own_tower
+from ..model.generation.motion_generator import MotionGenerator
+from ..motion.motion import Motion
+from .clips import Clips, real_clips
+from .controllability import check
+from .evaluator import Evaluator
+from .held_out import open_held_out
+from .metrics_physical import physics
+from .metrics_retrieval import BATCH, TOP, best_ranks, pair_distances
+from .metrics_travel import travel, travel_error
+from .selection_harness import Chosen, Figure, Pool, report_of
 
 BATCHINGS = 20  # random batches of 32 that each prompt's R-precision is the mean of
 PROMPTS_AT_ONCE = 8

@@ -12,18 +12,18 @@ from dataclasses import asdict, dataclass
 import torch
 from torch import Tensor
 
-from src.shared.data.phrases.dataset import MotionPhraseDataset
-from src.shared.evaluation.families import Column
-from src.shared.evaluation.grids import Grid, GridRow, report_data
-from src.shared.evaluation.metrics_retrieval import BATCH
-from src.shared.evaluation.metrics_space import TOP
-from src.shared.evaluation.space_neighbours import Neighbours
-from src.shared.evaluation.space_retrieval import Bench
-from src.shared.evaluation.space_windows import Windows
-from src.shared.model.audio.audio_tower import AudioTower
-from src.shared.model.audio.shared_space import MotionTower, SharedSpace
-from src.shared.model.clip.core import TextTower
-from src.shared.model.clip.tokenizer import PromptTokenizer
+from ..data.phrases.dataset import MotionPhraseDataset
+from ..model.audio.audio_tower import AudioTower
+from ..model.audio.shared_space import MotionTower, SharedSpace
+from ..model.clip.core import TextTower
+from ..model.clip.tokenizer import PromptTokenizer
+from .families import Column
+from .grids import Grid, GridRow, report_data
+from .metrics_retrieval import BATCH
+from .metrics_space import TOP
+from .space_neighbours import Neighbours
+from .space_retrieval import Bench
+from .space_windows import Windows
 
 TEMPO_WIDTH = 0.05  # of the kernel, in log tempo: 5%
 SPACE, TEMPO, UNTRAINED, CHANCE = "shared space", "tempo alone", "untrained tower", "chance"

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from torch import Tensor
 
-from src.shared.evaluation.intervals import Estimate
-from src.shared.evaluation.metrics_space import by_song
-from src.shared.evaluation.space_retrieval import Bench
-from src.shared.evaluation.space_windows import Windows
-from src.shared.motion.root_track import FORWARD, LATERAL, ROOT_ROW
+from ..motion.root_track import FORWARD, LATERAL, ROOT_ROW
+from .intervals import Estimate
+from .metrics_space import by_song
+from .space_retrieval import Bench
+from .space_windows import Windows
 
 
 @dataclass(frozen=True)

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from torch import Tensor
 
-from src.shared.evaluation.intervals import Estimate
-from src.shared.evaluation.metrics_retrieval import BATCH
-from src.shared.evaluation.metrics_space import ranks, retrieval_figures
-from src.shared.evaluation.space_windows import Windows, related
+from .intervals import Estimate
+from .metrics_retrieval import BATCH
+from .metrics_space import ranks, retrieval_figures
+from .space_windows import Windows, related
 
 Figures = dict[str, Estimate]
 

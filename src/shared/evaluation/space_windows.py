@@ -10,11 +10,11 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.data.phrases.dataset import MotionPhraseDataset
-from src.shared.data.phrases.layout import PhraseRecord
-from src.shared.memory.phrases import cut_at_bars
-from src.shared.model.audio.conditioning import BEAT, with_phase_rows
-from src.shared.motion.root_track import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
+from ..data.phrases.dataset import MotionPhraseDataset
+from ..data.phrases.layout import PhraseRecord
+from ..memory.phrases import cut_at_bars
+from ..model.audio.conditioning import BEAT, with_phase_rows
+from ..motion.root_track import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
 
 Embed = Callable[[Tensor, Tensor], Tensor]
 

@@ -6,9 +6,9 @@ Text only, so that equal tables give equal bytes.
 import math
 from html import escape
 
-from src.shared.evaluation.families import Column
-from src.shared.evaluation.grids import Cell, Grid
-from src.shared.evaluation.report import number
+from .families import Column
+from .grids import Cell, Grid
+from .report import number
 
 WIDTH, LABEL, LINE, TOP, BOTTOM = 284, 92, 18, 22, 20
 COLOURS = {

@@ -12,17 +12,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from src.shared.data.records import ClipRecord
-from src.shared.evaluation.clips import Clips, Sampler, frozen, real_clips
-from src.shared.evaluation.evaluator import Evaluator
-from src.shared.evaluation.families import MotionSample
-from src.shared.evaluation.held_out import HeldOut
-from src.shared.evaluation.parts import Parts
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import decode_features, encode_features
+from ..data.records import ClipRecord
+from ..motion.motion import Motion
+from ..motion.root_track import decode_features, encode_features
+from .clips import Clips, Sampler, frozen, real_clips
+from .evaluator import Evaluator
+from .families import MotionSample
+from .held_out import HeldOut
+from .parts import Parts
 
 if TYPE_CHECKING:
-    from src.shared.model.generation.motion_generator import MotionGenerator
+    from ..model.generation.motion_generator import MotionGenerator
 
 Progress = Callable[[str], None]
 LANGUAGES = ("en", "es", "fr", "de", "ja", "zh")
@@ -166,7 +166,8 @@ class Split:
 @contextmanager
 def errors_only() -> Iterator[None]:
     """Thousands of prompts would each say how near they are to what was trained."""
-    logger = logging.getLogger("src.shared.model.generation.motion_generator")
+    from ..model.generation.motion_generator import log as logger
+
     level = logger.level
     logger.setLevel(logging.ERROR)
     try:
@@ -189,8 +190,8 @@ def untrained(generator: "MotionGenerator", seed: int) -> "MotionGenerator":
     """The same denoiser with fresh weights, text tower and statistics of the trained one."""
     import torch
 
-    from src.shared.model.generation.denoiser import MotionDenoiser
-    from src.shared.model.generation.motion_generator import MotionGenerator
+    from ..model.generation.denoiser import MotionDenoiser
+    from ..model.generation.motion_generator import MotionGenerator
 
     with torch.random.fork_rng(devices=[]):
         torch.manual_seed(seed)

@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 
-from src.shared.evaluation.families import Column
-from src.shared.evaluation.grids import Grid, GridRow, plain
-from src.shared.evaluation.metrics_retrieval import normalised_score
+from .families import Column
+from .grids import Grid, GridRow, plain
+from .metrics_retrieval import normalised_score
 
 RATIOS = ("contact_slide", "support_slide", "jerk", "hand_jerk", "speed", "diversity")
 

@@ -5,17 +5,17 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.data.captions import CaptionBook
-from src.shared.errors import UserError
-from src.shared.evaluation.clips import Sampler
-from src.shared.evaluation.control_table import FLOORS, control_table
-from src.shared.evaluation.families import Column
-from src.shared.evaluation.families_text import r_precision
-from src.shared.evaluation.grids import Cell, Grid, GridRow, plain
-from src.shared.evaluation.intervals import bootstrap_mean
-from src.shared.evaluation.metrics_retrieval import BATCH, normalised_score
-from src.shared.evaluation.parts import Part
-from src.shared.evaluation.text_context import UNTRAINED, TextContext
+from ..data.captions import CaptionBook
+from ..errors import UserError
+from .clips import Sampler
+from .control_table import FLOORS, control_table
+from .families import Column
+from .families_text import r_precision
+from .grids import Cell, Grid, GridRow, plain
+from .intervals import bootstrap_mean
+from .metrics_retrieval import BATCH, normalised_score
+from .parts import Part
+from .text_context import UNTRAINED, TextContext
 
 SHORT = {"templates": "tmpl", "paraphrases": "para"}
 CONTROL_NOTE = (

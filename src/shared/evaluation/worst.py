@@ -9,10 +9,10 @@ from typing import Any, Generic
 
 import numpy as np
 
-from src.shared.evaluation.families import DanceSample, MetricFamily, MotionSample, Sample
-from src.shared.evaluation.grids import plain
-from src.shared.formats.npz import write_npz
-from src.shared.formats.trajectory_npz import write_trajectory_npz
+from ..formats.npz import write_npz
+from ..formats.trajectory_npz import write_trajectory_npz
+from .families import DanceSample, MetricFamily, MotionSample, Sample
+from .grids import plain
 
 FOLDER = "samples"
 

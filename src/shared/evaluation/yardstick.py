@@ -10,21 +10,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from src.shared.data.prepared import PreparedData
-from src.shared.data.records import ClipRecord
-from src.shared.data.requests import Request
-from src.shared.errors import UserError
-from src.shared.evaluation.action_judge import ActionJudge, descriptor
-from src.shared.evaluation.clips import spread_over_groups
-from src.shared.evaluation.controllability import check
-from src.shared.evaluation.intervals import Estimate, bootstrap_mean
-from src.shared.evaluation.kinetic_features import kinetic_features
-from src.shared.evaluation.metrics_kinetic import FeatureSpace
-from src.shared.evaluation.metrics_physical import support_slide
-from src.shared.evaluation.text_context import LANGUAGES
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import decode_features
-from src.shared.motion.skeleton import JOINT_INDEX
+from ..data.prepared import PreparedData
+from ..data.records import ClipRecord
+from ..data.requests import Request
+from ..errors import UserError
+from ..motion.motion import Motion
+from ..motion.root_track import decode_features
+from ..motion.skeleton import JOINT_INDEX
+from .action_judge import ActionJudge, descriptor
+from .clips import spread_over_groups
+from .controllability import check
+from .intervals import Estimate, bootstrap_mean
+from .kinetic_features import kinetic_features
+from .metrics_kinetic import FeatureSpace
+from .metrics_physical import support_slide
+from .text_context import LANGUAGES
 
 Progress = Callable[[str], None]
 TWINS = ({"wave", "bye"},)  # one gesture under two names

@@ -17,10 +17,10 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.errors import UserError
-from src.shared.formats.joint_clip import JointClip
-from src.shared.formats.limits import FRAME_RATES, read_arrays
-from src.shared.motion.skeleton import NUM_JOINTS, canonical_skeleton
+from ..errors import UserError
+from ..motion.skeleton import NUM_JOINTS, canonical_skeleton
+from .joint_clip import JointClip
+from .limits import FRAME_RATES, read_arrays
 
 MAX_VALUE = 1e4  # metres or radians
 NAMES = ("poses", "root_orient", "pose_body", "trans", "mocap_framerate", "mocap_frame_rate",

@@ -19,10 +19,10 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.files import atomic_write
-from src.shared.formats.amass import OURS, SMPL_PELVIS
-from src.shared.formats.rig import quaternions_to_matrices
-from src.shared.motion.motion import Motion
+from ..files import atomic_write
+from ..motion.motion import Motion
+from .amass import OURS, SMPL_PELVIS
+from .rig import quaternions_to_matrices
 
 Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])  # of our world
 BODY, ALL = 22, 52  # joints
@@ -56,6 +56,6 @@ def _vectors(matrices: np.ndarray) -> np.ndarray:
     """Rotation vectors [...,3] in radians of matrices [...,3,3]."""
     import torch
 
-    from src.shared.motion.rotations import matrix_to_quaternion, quaternion_log
+    from ..motion.rotations import matrix_to_quaternion, quaternion_log
 
     return np.asarray(quaternion_log(matrix_to_quaternion(torch.as_tensor(matrices))).numpy())

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.errors import UserError, printable
-from src.shared.formats.asf import AsfSkeleton, read_asf
-from src.shared.formats.limits import (
+from ..errors import UserError, printable
+from .asf import AsfSkeleton, read_asf
+from .limits import (
     FRAME_RATES,
     MAX_FRAMES,
     MAX_LINE,
@@ -23,7 +23,7 @@ from src.shared.formats.limits import (
     check_size,
     remedied,
 )
-from src.shared.formats.source_clip import ALL, compose
+from .source_clip import ALL, compose
 
 USUAL_RATE = 120.0  # AMC files do not say; HDM05 and nearly all of CMU are at 120
 _RATE_LINE = ":SAMPLES-PER-SECOND"

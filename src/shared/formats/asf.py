@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.errors import UserError
-from src.shared.formats.limits import MAX_JOINTS, MAX_VALUE, read_bytes, remedied
+from ..errors import UserError
+from .limits import MAX_JOINTS, MAX_VALUE, read_bytes, remedied
 
 ROOT = "root"
 MAX_BYTES = 8 << 20

@@ -5,7 +5,7 @@ Every picture of a motion (frame strip, GLB, HTML preview) is made from this one
 
 from dataclasses import dataclass
 
-from src.shared.motion.skeleton import JOINT_INDEX, JOINT_NAMES
+from ..motion.skeleton import JOINT_INDEX, JOINT_NAMES
 
 Point = tuple[float, float, float]
 

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from src.shared.formats.mannequin import Mannequin
-from src.shared.formats.rig import Rig
+from .mannequin import Mannequin
+from .rig import Rig
 
 WAIST = 0.15  # of the bone's length from its start, where it is widest
 WIDTH = 0.09  # half of that width, of the bone's length

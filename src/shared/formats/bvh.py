@@ -10,11 +10,11 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.errors import UserError
-from src.shared.formats.bvh_header import BvhError
-from src.shared.formats.bvh_rows import read_head, read_rows
-from src.shared.formats.limits import MAX_BYTES, check_size, remedied
-from src.shared.formats.source_clip import ALL, compose
+from ..errors import UserError
+from .bvh_header import BvhError
+from .bvh_rows import read_head, read_rows
+from .limits import MAX_BYTES, check_size, remedied
+from .source_clip import ALL, compose
 
 
 @dataclass(frozen=True, eq=False)

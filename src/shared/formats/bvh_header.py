@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from src.shared.errors import printable
+from ..errors import printable
 
 MAX_JOINTS = 2000
 _CHANNELS = {

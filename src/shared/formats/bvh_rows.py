@@ -12,8 +12,8 @@ from typing import IO, TypeVar
 
 import numpy as np
 
-from src.shared.formats.bvh_header import BvhError, Node, parse_hierarchy
-from src.shared.formats.limits import (
+from .bvh_header import BvhError, Node, parse_hierarchy
+from .limits import (
     FRAME_RATES,
     MAX_FRAMES,
     MAX_LINE,

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.files import write_text
-from src.shared.formats.rig import Rig, RigClip, motion_clip, rescaled
-from src.shared.motion.motion import Motion
+from ..files import write_text
+from ..motion.motion import Motion
+from .rig import Rig, RigClip, motion_clip, rescaled
 
 CENTIMETRE = 0.01
 

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.errors import UserError
-from src.shared.files import atomic_write
-from src.shared.formats.limits import FRAME_RATES, MAX_FRAMES, MAX_VALUE, check_size
+from ..errors import UserError
+from ..files import atomic_write
+from .limits import FRAME_RATES, MAX_FRAMES, MAX_VALUE, check_size
 
 DEFAULT_FPS = 30.0  # of a single frame
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from src.shared.errors import UserError
-from src.shared.files import atomic_write
+from ..errors import UserError
+from ..files import atomic_write
 
 if TYPE_CHECKING:
     from PIL import Image, ImageDraw

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from src.shared.formats.drawing import INK, MARGIN, OVERSAMPLE, font, new_sheet, save_sheet
+from .drawing import INK, MARGIN, OVERSAMPLE, font, new_sheet, save_sheet
 
 if TYPE_CHECKING:
     from PIL import Image, ImageDraw

@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.formats.glb_file import INDEX_DATA, VERTEX_DATA, GlbFile
-from src.shared.formats.mannequin import Mannequin, mannequin, side_colours
-from src.shared.formats.rig import Rig, RigClip, matrices_to_quaternions, motion_clip, rescaled
-from src.shared.motion.motion import Motion
+from ..motion.motion import Motion
+from .glb_file import INDEX_DATA, VERTEX_DATA, GlbFile
+from .mannequin import Mannequin, mannequin, side_colours
+from .rig import Rig, RigClip, matrices_to_quaternions, motion_clip, rescaled
 
 PALETTE_SIZE = 32  # texels, right side to left side
 
@@ -42,7 +42,7 @@ def write_glb_clip(clip: RigClip, path: str | Path) -> Path:
     Raises:
         UserError: the file cannot be written.
     """
-    from src.shared.formats.bone_mesh import bone_mesh
+    from .bone_mesh import bone_mesh
 
     clip = rescaled(clip, 1.0)
     return _write(clip, bone_mesh(clip.rig, clip.moving()), path)

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from src.shared.formats.glb import animation
-from src.shared.formats.glb_reader import GlbSkeleton
-from src.shared.formats.rig import RigClip, rescaled
+from .glb import animation
+from .glb_reader import GlbSkeleton
+from .rig import RigClip, rescaled
 
 
 def write_glb_character(skeleton: GlbSkeleton, clip: RigClip, path: str | Path) -> Path:
@@ -18,7 +18,7 @@ def write_glb_character(skeleton: GlbSkeleton, clip: RigClip, path: str | Path) 
     Raises:
         UserError: the file cannot be written.
     """
-    from src.shared.formats.glb_file import GlbFile
+    from .glb_file import GlbFile
 
     document = dict(skeleton.file.document)
     for name in ("accessors", "bufferViews"):

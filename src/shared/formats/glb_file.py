@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.errors import UserError
-from src.shared.files import atomic_write
-from src.shared.formats.limits import read_bytes
+from ..errors import UserError
+from ..files import atomic_write
+from .limits import read_bytes
 
 MAX_JSON = 32 << 20
 VERTEX_DATA, INDEX_DATA = 34962, 34963  # bufferView.target

@@ -12,11 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.errors import UserError, printable
-from src.shared.formats.glb_file import GlbError, GlbFile
-from src.shared.formats.glb_tracks import even_times, moved_matrices, read_tracks, rest_matrix
-from src.shared.formats.limits import MAX_JOINTS, MAX_VALUE
-from src.shared.formats.rig import Rig, RigClip
+from ..errors import UserError, printable
+from .glb_file import GlbError, GlbFile
+from .glb_tracks import even_times, moved_matrices, read_tracks, rest_matrix
+from .limits import MAX_JOINTS, MAX_VALUE
+from .rig import Rig, RigClip
 
 UNEVEN = 0.02  # relative difference of a node's three scales that no skeleton needs
 

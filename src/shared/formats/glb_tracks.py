@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.formats.glb_file import GlbError, GlbFile
-from src.shared.formats.limits import FRAME_RATES, MAX_FRAMES, MAX_VALUES
-from src.shared.formats.rig import quaternions_to_matrices
+from .glb_file import GlbError, GlbFile
+from .limits import FRAME_RATES, MAX_FRAMES, MAX_VALUES
+from .rig import quaternions_to_matrices
 
 DEFAULT_FPS = 30.0
 EVEN = 1e-3  # of a frame: keys that are no further from even times are taken as frames

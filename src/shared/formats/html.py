@@ -16,13 +16,13 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.errors import UserError
-from src.shared.files import write_text
-from src.shared.formats.body import BODY, COLOURS, CONTACT, JOINT_SIDES
-from src.shared.formats.glb import whole_shares
-from src.shared.formats.mannequin import mannequin
-from src.shared.motion.motion import Motion
-from src.shared.motion.skeleton import FOOT_JOINTS, canonical_skeleton
+from ..errors import UserError
+from ..files import write_text
+from ..motion.motion import Motion
+from ..motion.skeleton import FOOT_JOINTS, canonical_skeleton
+from .body import BODY, COLOURS, CONTACT, JOINT_SIDES
+from .glb import whole_shares
+from .mannequin import mannequin
 
 SCRIPTS = (
     "preview_scene.js",
@@ -64,7 +64,7 @@ def write_page(
     Raises:
         UserError: the file cannot be written.
     """
-    resources = files("src.shared.formats")
+    resources = files(__package__)
     parts = {
         "@DATA@": script_safe_json(_body() | data),
         "@SCRIPT@": "\n".join(resources.joinpath(n).read_text("utf-8") for n in SCRIPTS),

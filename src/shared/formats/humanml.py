@@ -17,11 +17,11 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.errors import UserError
-from src.shared.formats.joint_clip import JointClip
-from src.shared.formats.limits import read_array
-from src.shared.formats.positions_ik import clip_of_positions
-from src.shared.motion.skeleton import NUM_JOINTS, PARENTS
+from ..errors import UserError
+from ..motion.skeleton import NUM_JOINTS, PARENTS
+from .joint_clip import JointClip
+from .limits import read_array
+from .positions_ik import clip_of_positions
 
 FPS = 20.0
 FEATURES = 263

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from src.shared.formats.source_clip import ALL, compose
-from src.shared.motion.skeleton import JOINT_NAMES, PARENTS
+from ..motion.skeleton import JOINT_NAMES, PARENTS
+from .source_clip import ALL, compose
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,8 +4,8 @@
 of Mixamo's characters, which Blender add-ons, Unity and Unreal's auto-characterizer know as well.
 """
 
-from src.shared.errors import UsageError
-from src.shared.motion.skeleton import JOINT_NAMES
+from ..errors import UsageError
+from ..motion.skeleton import JOINT_NAMES
 
 # Trunk, then one side; {s} is the side: Left or Right (mixamo, unity), l or r (unreal).
 _MIXAMO = {

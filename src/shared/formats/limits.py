@@ -11,10 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.array_files import MAX_VALUES as MAX_VALUES
-from src.shared.array_files import BadArray, load_array, load_arrays
-from src.shared.array_files import array_names as names_of
-from src.shared.errors import UserError
+from ..array_files import MAX_VALUES as MAX_VALUES
+from ..array_files import BadArray, load_array, load_arrays
+from ..array_files import array_names as names_of
+from ..errors import UserError
 
 MAX_BYTES = 256 << 20  # of one file
 MAX_LINE = 1 << 20  # bytes; hundreds of joints with long numbers

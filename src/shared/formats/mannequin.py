@@ -11,8 +11,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from src.shared.formats.body import BODY, COLOURS, JOINT_SIDES, Part
-from src.shared.motion.skeleton import PARENTS, REST_PELVIS_HEIGHT, canonical_skeleton
+from ..motion.skeleton import PARENTS, REST_PELVIS_HEIGHT, canonical_skeleton
+from .body import BODY, COLOURS, JOINT_SIDES, Part
 
 SPACING = 0.019  # metres between grid points
 BLEND = 0.040  # metres over which groups of cones melt into each other

@@ -10,18 +10,18 @@ from pathlib import Path
 import numpy as np
 import torch
 
-from src.shared.errors import UserError
-from src.shared.formats.csv_table import read_table, write_table
-from src.shared.formats.glb import continuous
-from src.shared.formats.rig import matrices_to_quaternions
-from src.shared.motion.kinematics import global_to_local
-from src.shared.motion.motion import Motion
-from src.shared.motion.rotations import (
+from ..errors import UserError
+from ..motion.kinematics import global_to_local
+from ..motion.motion import Motion
+from ..motion.rotations import (
     matrix_to_quaternion,
     quaternion_continuous,
     quaternion_to_matrix,
 )
-from src.shared.motion.skeleton import JOINT_NAMES, NUM_JOINTS, PARENTS
+from ..motion.skeleton import JOINT_NAMES, NUM_JOINTS, PARENTS
+from .csv_table import read_table, write_table
+from .glb import continuous
+from .rig import matrices_to_quaternions
 
 _PARTS = ("x", "y", "z", "qw", "qx", "qy", "qz")
 HEADER = (

@@ -20,11 +20,11 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.errors import UserError
-from src.shared.files import atomic_write
-from src.shared.formats.limits import read_arrays
-from src.shared.motion.motion import Motion
-from src.shared.motion.skeleton import JOINT_NAMES, NUM_JOINTS, canonical_skeleton
+from ..errors import UserError
+from ..files import atomic_write
+from ..motion.motion import Motion
+from ..motion.skeleton import JOINT_NAMES, NUM_JOINTS, canonical_skeleton
+from .limits import read_arrays
 
 FORMAT_VERSION = 1
 _SHAPES = {"quaternions": (NUM_JOINTS, 4), "root_position": (3,), "contacts": (2,)}

@@ -6,11 +6,11 @@ The page is that of the path, with the body instead of the stand-in.
 from collections.abc import Sequence
 from pathlib import Path
 
-from src.shared.formats.registry import check_motion, export_motion
-from src.shared.formats.trajectory_beats import SongTrack
-from src.shared.formats.trajectory_html import write_trajectory_html
-from src.shared.motion.motion import Motion
-from src.shared.motion.trajectory import MotionTrajectory
+from ..motion.motion import Motion
+from ..motion.trajectory import MotionTrajectory
+from .registry import check_motion, export_motion
+from .trajectory_beats import SongTrack
+from .trajectory_html import write_trajectory_html
 
 
 def export_dance(

@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from src.shared.errors import UserError
-from src.shared.formats.body import CONTACT
-from src.shared.formats.drawing import (
+from ..errors import UserError
+from ..motion.motion import Motion
+from ..motion.skeleton import FOOT_JOINTS
+from .body import CONTACT
+from .drawing import (
     FLOOR,
     GRID,
     INK,
@@ -23,10 +25,8 @@ from src.shared.formats.drawing import (
     new_sheet,
     save_sheet,
 )
-from src.shared.formats.mannequin import Mannequin, mannequin, side_colours
-from src.shared.formats.raster import Camera, draw_mesh
-from src.shared.motion.motion import Motion
-from src.shared.motion.skeleton import FOOT_JOINTS
+from .mannequin import Mannequin, mannequin, side_colours
+from .raster import Camera, draw_mesh
 
 if TYPE_CHECKING:
     from PIL import Image, ImageDraw

@@ -7,8 +7,8 @@ every other joint takes the smallest turn that aims its bone. Legend: T frames, 
 
 import numpy as np
 
-from src.shared.formats.joint_clip import JointClip
-from src.shared.motion.skeleton import JOINT_INDEX, NUM_JOINTS, PARENTS, canonical_skeleton
+from ..motion.skeleton import JOINT_INDEX, NUM_JOINTS, PARENTS, canonical_skeleton
+from .joint_clip import JointClip
 
 LEFT, UP = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])
 # Upper joint of a limb: its middle and end joints, and the axis about which the middle one bends.

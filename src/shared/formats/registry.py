@@ -7,9 +7,9 @@ from typing import TypeVar
 
 import numpy as np
 
-from src.shared.errors import UsageError, UserError
-from src.shared.formats.rig import RigClip
-from src.shared.motion.motion import Motion
+from ..errors import UsageError, UserError
+from ..motion.motion import Motion
+from .rig import RigClip
 
 Exporter = Callable[[Motion, Path], Path]
 Writer = TypeVar("Writer")
@@ -19,9 +19,7 @@ def _function(module: str, function: str) -> Callable[..., Path]:
     """A writer whose module is imported at its first use: no format pays for another."""
 
     def write(*args: object, **kwargs: object) -> Path:
-        found: Callable[..., Path] = getattr(
-            import_module(f"src.shared.formats.{module}"), function
-        )
+        found: Callable[..., Path] = getattr(import_module(f".{module}", __package__), function)
         return found(*args, **kwargs)
 
     return write
@@ -126,7 +124,7 @@ def write_preview(motions: Sequence[Motion] | Motion, path: str | Path) -> Path:
     Raises:
         UserError: no motion, one that is empty or holds NaN, or the file cannot be written.
     """
-    from src.shared.formats.html import write_html
+    from .html import write_html
 
     for motion in [motions] if isinstance(motions, Motion) else motions:
         check_motion(motion, path)

@@ -9,11 +9,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from src.shared.formats.body import END_SITES
-from src.shared.formats.joint_names import joint_names
-from src.shared.formats.source_clip import ALL, compose
-from src.shared.motion.motion import Motion
-from src.shared.motion.skeleton import JOINT_INDEX, REST_PELVIS_HEIGHT, canonical_skeleton
+from ..motion.motion import Motion
+from ..motion.skeleton import JOINT_INDEX, REST_PELVIS_HEIGHT, canonical_skeleton
+from .body import END_SITES
+from .joint_names import joint_names
+from .source_clip import ALL, compose
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,6 +172,6 @@ def matrices_to_quaternions(matrices: np.ndarray) -> np.ndarray:
     """Quaternions [...,4] float64, w >= 0, of rotation matrices [...,3,3]."""
     import torch
 
-    from src.shared.motion.rotations import matrix_to_quaternion
+    from ..motion.rotations import matrix_to_quaternion
 
     return np.asarray(matrix_to_quaternion(torch.as_tensor(matrices.astype(np.float64))).numpy())

@@ -8,8 +8,8 @@ import base64
 import io
 from pathlib import Path
 
-from src.shared.errors import UserError
-from src.shared.sound_files.reader import SoundReader
+from ..errors import UserError
+from ..sound_files.reader import SoundReader
 
 # Largest file in bytes that goes in as it is; lossless ones are encoded sooner.
 KEEP = {"OGG": 40_000_000, "MP3": 40_000_000, "FLAC": 8_000_000, "WAV": 3_000_000}

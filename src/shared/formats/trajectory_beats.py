@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.motion.trajectory import MotionTrajectory
+from ..motion.trajectory import MotionTrajectory
 
 
 @dataclass(frozen=True, eq=False)

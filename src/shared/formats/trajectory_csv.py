@@ -5,9 +5,9 @@ Columns: `time` in seconds, then the 25 of `trajectory_npz.COLUMNS`.
 
 from pathlib import Path
 
-from src.shared.formats.csv_table import read_table, write_table
-from src.shared.formats.trajectory_npz import COLUMNS, checked_trajectory
-from src.shared.motion.trajectory import MotionTrajectory
+from ..motion.trajectory import MotionTrajectory
+from .csv_table import read_table, write_table
+from .trajectory_npz import COLUMNS, checked_trajectory
 
 HEADER = ("time", *COLUMNS)
 

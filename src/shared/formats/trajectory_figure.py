@@ -10,9 +10,9 @@ from dataclasses import replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from src.shared.motion.motion import Motion
-from src.shared.motion.skeleton import JOINT_INDEX, LEG_LENGTH, canonical_skeleton
-from src.shared.motion.trajectory import MotionTrajectory, to_motion
+from ..motion.motion import Motion
+from ..motion.skeleton import JOINT_INDEX, LEG_LENGTH, canonical_skeleton
+from ..motion.trajectory import MotionTrajectory, to_motion
 
 ANKLE_HEIGHT = 0.08  # metres, in the rest pose
 MIN_REACH = 0.3  # share of the leg's length that a folded leg keeps

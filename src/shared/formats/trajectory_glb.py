@@ -6,9 +6,9 @@ with its height, all other joints have one key.
 
 from pathlib import Path
 
-from src.shared.formats.glb import write_glb
-from src.shared.formats.trajectory_figure import stand_in
-from src.shared.motion.trajectory import MotionTrajectory
+from ..motion.trajectory import MotionTrajectory
+from .glb import write_glb
+from .trajectory_figure import stand_in
 
 
 def write_trajectory_glb(trajectory: MotionTrajectory, path: str | Path, title: str = "") -> Path:

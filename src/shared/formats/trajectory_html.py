@@ -12,15 +12,15 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.errors import UserError
-from src.shared.formats.drawing import PATH
-from src.shared.formats.html import base64_array, motion_data, write_page
-from src.shared.formats.song_media import song_uri
-from src.shared.formats.trajectory_beats import SongTrack, beat_marks, phase_palette
-from src.shared.formats.trajectory_figure import stand_in
-from src.shared.motion.motion import Motion
-from src.shared.motion.style import PAIRS, style_values
-from src.shared.motion.trajectory import MotionTrajectory
+from ..errors import UserError
+from ..motion.motion import Motion
+from ..motion.style import PAIRS, style_values
+from ..motion.trajectory import MotionTrajectory
+from .drawing import PATH
+from .html import base64_array, motion_data, write_page
+from .song_media import song_uri
+from .trajectory_beats import SongTrack, beat_marks, phase_palette
+from .trajectory_figure import stand_in
 
 MUSIC_HINT = """The path has the colours of the bar and a dot at each beat; the dial's hand goes
     round once a bar and its hub lights up at the beats;"""

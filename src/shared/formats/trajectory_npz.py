@@ -17,10 +17,10 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.errors import UserError
-from src.shared.files import atomic_write
-from src.shared.formats.limits import array_names, read_array, read_arrays
-from src.shared.motion.trajectory import CHANNELS, FPS, QUATERNION, MotionTrajectory
+from ..errors import UserError
+from ..files import atomic_write
+from ..motion.trajectory import CHANNELS, FPS, QUATERNION, MotionTrajectory
+from .limits import array_names, read_array, read_arrays
 
 FORMAT_VERSION = 1
 MAX_VALUE = 1e6

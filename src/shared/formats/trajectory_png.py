@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from src.shared.formats.drawing import (
+from ..motion.trajectory import MotionTrajectory
+from .drawing import (
     FLOOR,
     GRID,
     INK,
@@ -22,8 +23,7 @@ from src.shared.formats.drawing import (
     new_sheet,
     save_sheet,
 )
-from src.shared.formats.trajectory_beats import BeatMarks, SongTrack, beat_marks, phase_palette
-from src.shared.motion.trajectory import MotionTrajectory
+from .trajectory_beats import BeatMarks, SongTrack, beat_marks, phase_palette
 
 if TYPE_CHECKING:
     from PIL import Image, ImageDraw

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from src.shared.errors import UsageError
-from src.shared.motion.trajectory import MotionTrajectory, from_motion
+from ..errors import UsageError
+from ..motion.trajectory import MotionTrajectory, from_motion
 
 ENDINGS = ("npz", "npy", "csv")
 
@@ -21,10 +21,10 @@ def read_trajectory(path: str | Path) -> MotionTrajectory:
         raise UsageError(f"{path}: {ending!r} is not a trajectory's ending; "
                          f"known are {', '.join(ENDINGS)}")  # fmt: skip
     if ending == "csv":
-        from src.shared.formats.trajectory_csv import read_trajectory_csv
+        from .trajectory_csv import read_trajectory_csv
 
         return read_trajectory_csv(path)
-    from src.shared.formats.trajectory_npz import (
+    from .trajectory_npz import (
         load_arrays,
         read_trajectory_npy,
         read_trajectory_npz,
@@ -33,7 +33,7 @@ def read_trajectory(path: str | Path) -> MotionTrajectory:
     if ending == "npy":
         return read_trajectory_npy(path)
     if "root_position" in load_arrays(path):
-        from src.shared.formats.npz import read_npz
+        from .npz import read_npz
 
         return from_motion(read_npz(path))
     return read_trajectory_npz(path)

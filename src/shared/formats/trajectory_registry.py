@@ -9,40 +9,40 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.errors import UserError
-from src.shared.formats.registry import find_writer
-from src.shared.formats.trajectory_beats import SongTrack
-from src.shared.motion.trajectory import MotionTrajectory
+from ..errors import UserError
+from ..motion.trajectory import MotionTrajectory
+from .registry import find_writer
+from .trajectory_beats import SongTrack
 
 Writer = Callable[[MotionTrajectory, Path, SongTrack, str], Path]
 
 
 def _npz(trajectory: MotionTrajectory, path: Path, song: SongTrack, title: str) -> Path:
-    from src.shared.formats.trajectory_npz import write_trajectory_npz
+    from .trajectory_npz import write_trajectory_npz
 
     return write_trajectory_npz(trajectory, path)
 
 
 def _csv(trajectory: MotionTrajectory, path: Path, song: SongTrack, title: str) -> Path:
-    from src.shared.formats.trajectory_csv import write_trajectory_csv
+    from .trajectory_csv import write_trajectory_csv
 
     return write_trajectory_csv(trajectory, path)
 
 
 def _glb(trajectory: MotionTrajectory, path: Path, song: SongTrack, title: str) -> Path:
-    from src.shared.formats.trajectory_glb import write_trajectory_glb
+    from .trajectory_glb import write_trajectory_glb
 
     return write_trajectory_glb(trajectory, path, title)
 
 
 def _html(trajectory: MotionTrajectory, path: Path, song: SongTrack, title: str) -> Path:
-    from src.shared.formats.trajectory_html import write_trajectory_html
+    from .trajectory_html import write_trajectory_html
 
     return write_trajectory_html(trajectory, path, song, [title])
 
 
 def _png(trajectory: MotionTrajectory, path: Path, song: SongTrack, title: str) -> Path:
-    from src.shared.formats.trajectory_png import render_trajectory
+    from .trajectory_png import render_trajectory
 
     return render_trajectory(trajectory, path, song, title)
 
@@ -117,7 +117,7 @@ def write_trajectory_preview(
     Raises:
         UserError: no trajectory, or as `write_trajectory`.
     """
-    from src.shared.formats.trajectory_html import write_trajectory_html
+    from .trajectory_html import write_trajectory_html
 
     shown = [trajectories] if isinstance(trajectories, MotionTrajectory) else trajectories
     for trajectory in shown:

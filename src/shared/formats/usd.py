@@ -14,12 +14,12 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from src.shared.errors import UserError, printable
-from src.shared.files import atomic_write, write_text
-from src.shared.formats.glb import continuous, parent_frames
-from src.shared.formats.mannequin import Mannequin, mannequin, side_colours
-from src.shared.formats.rig import Rig, RigClip, matrices_to_quaternions, motion_clip, rescaled
-from src.shared.motion.motion import Motion
+from ..errors import UserError, printable
+from ..files import atomic_write, write_text
+from ..motion.motion import Motion
+from .glb import continuous, parent_frames
+from .mannequin import Mannequin, mannequin, side_colours
+from .rig import Rig, RigClip, matrices_to_quaternions, motion_clip, rescaled
 
 BINARY = ".usdc"
 
@@ -44,7 +44,7 @@ def write_usd_clip(clip: RigClip, path: str | Path) -> Path:
     Raises:
         UserError: as `write_usd`.
     """
-    from src.shared.formats.bone_mesh import bone_mesh
+    from .bone_mesh import bone_mesh
 
     clip = rescaled(clip, 1.0)
     return _write(clip, bone_mesh(clip.rig, clip.moving()), Path(path))

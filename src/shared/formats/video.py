@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from src.shared.errors import UserError
-from src.shared.files import atomic_write
-from src.shared.formats.body import CONTACT
-from src.shared.formats.drawing import INK, OVERSAMPLE, font
-from src.shared.formats.png import AZIMUTH, draw_pose
-from src.shared.motion.motion import Motion
-from src.shared.motion.resample import resample_motion
+from ..errors import UserError
+from ..files import atomic_write
+from ..motion.motion import Motion
+from ..motion.resample import resample_motion
+from .body import CONTACT
+from .drawing import INK, OVERSAMPLE, font
+from .png import AZIMUTH, draw_pose
 
 if TYPE_CHECKING:
     from PIL import Image

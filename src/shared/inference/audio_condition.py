@@ -10,11 +10,11 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.audio.song import Song
-from src.shared.inference.song_generator import heard
-from src.shared.model.audio.conditioning import BEAT, CONDITION_ROWS, FEATURE_ROWS
-from src.shared.motion.trajectory import FPS
-from src.shared.motion.trajectory_math import unwrap_phase
+from ..audio.song import Song
+from ..model.audio.conditioning import BEAT, CONDITION_ROWS, FEATURE_ROWS
+from ..motion.trajectory import FPS
+from ..motion.trajectory_math import unwrap_phase
+from .song_generator import heard
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,12 +11,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from src.shared.data.pairing.motion_beats import alignment, motion_beats
-from src.shared.inference.selection import ScoreTable, SelectionConfig, distances, rank
-from src.shared.motion.trajectory import MotionTrajectory
-from src.shared.validation.bands import Bands
-from src.shared.validation.margins import mean_margin
-from src.shared.validation.sanity import SanityChecker
+from ..data.pairing.motion_beats import alignment, motion_beats
+from ..motion.trajectory import MotionTrajectory
+from ..validation.bands import Bands
+from ..validation.margins import mean_margin
+from ..validation.sanity import SanityChecker
+from .selection import ScoreTable, SelectionConfig, distances, rank
 
 SCALE = 2.0  # metres between paths that count as far apart
 AHEAD = 1.0  # metres: two motions on one path that face apart are apart as well

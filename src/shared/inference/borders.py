@@ -15,7 +15,7 @@ import torch
 from scipy.ndimage import gaussian_filter1d
 from torch import Tensor
 
-from src.shared.motion.root_track import LEFT_CONTACT, ROOT_ROW
+from ..motion.root_track import LEFT_CONTACT, ROOT_ROW
 
 FADE = 10  # frames until what was made is left alone
 BLUR, REACH = 1.5, 4.0  # frames, standard deviations: of the average at a cut, of where it is made

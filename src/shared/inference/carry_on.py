@@ -12,13 +12,13 @@ Letters: W frames of a window, K known ones.
 import numpy as np
 import torch
 
-from src.shared.motion.rotations import (
+from ..motion.rotations import (
     quaternion_conjugate,
     quaternion_multiply,
     quaternion_slerp,
 )
-from src.shared.motion.trajectory import POSITION, QUATERNION
-from src.shared.motion.trajectory_math import continuous_sign
+from ..motion.trajectory import POSITION, QUATERNION
+from ..motion.trajectory_math import continuous_sign
 
 SPEED_FRAMES = 10  # until the path has the speed that the network made
 POSE_FRAMES = 30  # until height and rotation are the network's

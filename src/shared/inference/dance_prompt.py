@@ -18,14 +18,14 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.errors import UserError
-from src.shared.inference.motion_stream import Passage
-from src.shared.model.audio.conditioning import ENERGY
-from src.shared.model.audio.shared_space import SharedSpace
-from src.shared.model.clip.pretrained import tower_hash
-from src.shared.model.generation.motion_generator import MotionGenerator
-from src.shared.motion.root_track import FORWARD, HEIGHT, LATERAL
-from src.shared.motion.trajectory import FPS, MotionTrajectory, to_root
+from ..errors import UserError
+from ..model.audio.conditioning import ENERGY
+from ..model.audio.shared_space import SharedSpace
+from ..model.clip.pretrained import tower_hash
+from ..model.generation.motion_generator import MotionGenerator
+from ..motion.root_track import FORWARD, HEIGHT, LATERAL
+from ..motion.trajectory import FPS, MotionTrajectory, to_root
+from .motion_stream import Passage
 
 log = logging.getLogger(__name__)
 

@@ -9,19 +9,19 @@ from typing import Any
 import numpy as np
 import torch
 
-from src.shared.errors import UserError
-from src.shared.inference.drawn_path import DrawnPath
-from src.shared.inference.editing import Given, Place, kept_error, place_of
-from src.shared.inference.filling import fill, finish
-from src.shared.inference.motion_stream import Passage, StreamSettings, stream_features
-from src.shared.inference.path_following import NATURAL, path_error, time_path
-from src.shared.inference.settling import frames_of, settled
-from src.shared.inference.timeline import Timeline, add_parts, make_loop, make_timeline
-from src.shared.model.generation.motion_generator import MotionGenerator
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import FORWARD, LATERAL, ROOT_ROW
-from src.shared.motion.rotations import quaternion_multiply
-from src.shared.motion.trajectory_math import turn_about_y, yaw_quaternion
+from ..errors import UserError
+from ..model.generation.motion_generator import MotionGenerator
+from ..motion.motion import Motion
+from ..motion.root_track import FORWARD, LATERAL, ROOT_ROW
+from ..motion.rotations import quaternion_multiply
+from ..motion.trajectory_math import turn_about_y, yaw_quaternion
+from .drawn_path import DrawnPath
+from .editing import Given, Place, kept_error, place_of
+from .filling import fill, finish
+from .motion_stream import Passage, StreamSettings, stream_features
+from .path_following import NATURAL, path_error, time_path
+from .settling import frames_of, settled
+from .timeline import Timeline, add_parts, make_loop, make_timeline
 
 NO_TEXT = "a person moves"  # where nothing is said: its weight is nothing, too
 STANDING = 0.25  # m/s; a prompt that moves less has no way of going

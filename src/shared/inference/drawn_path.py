@@ -15,9 +15,9 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.config_loader import parse_yaml
-from src.shared.errors import UserError
-from src.shared.files import read_text
+from ..config_loader import parse_yaml
+from ..errors import UserError
+from ..files import read_text
 
 COLUMNS = ("x", "z", "t", "heading")
 SHORTEST, LONGEST = 0.01, 1000.0  # metres of a path

@@ -14,11 +14,11 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.config_loader import nearest
-from src.shared.errors import UsageError
-from src.shared.model.generation.constraint import Constraint
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import (
+from ..config_loader import nearest
+from ..errors import UsageError
+from ..model.generation.constraint import Constraint
+from ..motion.motion import Motion
+from ..motion.root_track import (
     FORWARD,
     LATERAL,
     LEFT_CONTACT,
@@ -27,9 +27,9 @@ from src.shared.motion.root_track import (
     encode_features,
     headings,
 )
-from src.shared.motion.rotations import quaternion_to_matrix
-from src.shared.motion.skeleton import JOINT_INDEX, LIMBS
-from src.shared.motion.trajectory_math import turn_about_y
+from ..motion.rotations import quaternion_to_matrix
+from ..motion.skeleton import JOINT_INDEX, LIMBS
+from ..motion.trajectory_math import turn_about_y
 
 GROUND = [FORWARD, LATERAL, YAW_RATE]  # channels of the root row that say where the body goes
 LEGS = LIMBS["left-leg"] + LIMBS["right-leg"]

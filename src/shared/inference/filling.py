@@ -13,19 +13,19 @@ import torch
 from scipy.ndimage import distance_transform_edt
 from torch import Tensor
 
-from src.shared.inference.editing import GROUND, Given, Place
-from src.shared.inference.motion_stream import OVERLAP, Passage, StreamSettings, stream_features
-from src.shared.inference.trajectory_constraint import untwisted
-from src.shared.model.generation.constraint import Constraint
-from src.shared.model.generation.motion_generator import MotionGenerator
-from src.shared.motion.carried_feet import hold_carried_feet
-from src.shared.motion.foot_lock import kept_legs, lock_feet
-from src.shared.motion.motion import Motion
-from src.shared.motion.postprocess import MotionPostProcessor, smooth_features
-from src.shared.motion.root_track import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, integrate_root
-from src.shared.motion.rotations import quaternion_continuous, quaternion_slerp
-from src.shared.motion.skeleton import JOINT_INDEX, LIMBS
-from src.shared.motion.trajectory_math import turn_about_y
+from ..model.generation.constraint import Constraint
+from ..model.generation.motion_generator import MotionGenerator
+from ..motion.carried_feet import hold_carried_feet
+from ..motion.foot_lock import kept_legs, lock_feet
+from ..motion.motion import Motion
+from ..motion.postprocess import MotionPostProcessor, smooth_features
+from ..motion.root_track import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, integrate_root
+from ..motion.rotations import quaternion_continuous, quaternion_slerp
+from ..motion.skeleton import JOINT_INDEX, LIMBS
+from ..motion.trajectory_math import turn_about_y
+from .editing import GROUND, Given, Place
+from .motion_stream import OVERLAP, Passage, StreamSettings, stream_features
+from .trajectory_constraint import untwisted
 
 EASE = 10  # frames until a leg is held as if nothing of it had been kept
 

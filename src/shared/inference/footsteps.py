@@ -11,8 +11,8 @@ import numpy as np
 import torch
 from scipy.ndimage import gaussian_filter1d
 
-from src.shared.motion.trajectory import MotionTrajectory
-from src.shared.motion.trajectory_math import turn_about_y
+from ..motion.trajectory import MotionTrajectory
+from ..motion.trajectory_math import turn_about_y
 
 QUICK = 0.45  # seconds; beats closer than this are too fast for a step each
 BOTH_STAND = 0.2  # of a step, both feet are on the ground

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from torch import Tensor
 
-from src.shared.device import choose_device
-from src.shared.errors import UsageError
-from src.shared.inference.audio_condition import AudioCondition
-from src.shared.inference.audio_judge import AudioJudge
-from src.shared.inference.selection import ScoreTable
-from src.shared.inference.song_sampler import Recall, SampleSettings, SongSampler
-from src.shared.model.audio.audio_motion_model import AudioMotionModel
+from ..device import choose_device
+from ..errors import UsageError
+from ..model.audio.audio_motion_model import AudioMotionModel
+from .audio_condition import AudioCondition
+from .audio_judge import AudioJudge
+from .selection import ScoreTable
+from .song_sampler import Recall, SampleSettings, SongSampler
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,13 +16,13 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.errors import UsageError
-from src.shared.inference.borders import smooth_borders
-from src.shared.inference.editing import Place
-from src.shared.inference.settling import Settler
-from src.shared.model.generation.constraint import Constraint
-from src.shared.model.generation.motion_generator import MotionGenerator
-from src.shared.motion.motion import Motion
+from ..errors import UsageError
+from ..model.generation.constraint import Constraint
+from ..model.generation.motion_generator import MotionGenerator
+from ..motion.motion import Motion
+from .borders import smooth_borders
+from .editing import Place
+from .settling import Settler
 
 WINDOW, OVERLAP = 150, 30  # frames
 SHORTEST = 48  # frames; a shorter window is made as long as this and cut: training saw few

@@ -11,23 +11,23 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.config_audio import AudioNetworkConfig
-from src.shared.errors import UsageError, UserError
-from src.shared.inference.audio_condition import AudioCondition
-from src.shared.inference.audio_judge import AudioJudge
-from src.shared.inference.motion_sampler import MotionSampler, SampleResult, hearable
-from src.shared.inference.song_memory import (
+from ..config_audio import AudioNetworkConfig
+from ..errors import UsageError, UserError
+from ..memory.build import Space
+from ..memory.context import Memory
+from ..memory.service import MPMService
+from ..model.audio.audio_motion_model import AudioMotionModel
+from .audio_condition import AudioCondition
+from .audio_judge import AudioJudge
+from .motion_sampler import MotionSampler, SampleResult, hearable
+from .song_memory import (
     Question,
     ask,
     questions,
     recalling,
     same_question,
 )
-from src.shared.inference.song_sampler import SampleSettings, SongSampler
-from src.shared.memory.build import Space
-from src.shared.memory.context import Memory
-from src.shared.memory.service import MPMService
-from src.shared.model.audio.audio_motion_model import AudioMotionModel
+from .song_sampler import SampleSettings, SongSampler
 
 
 @dataclass(frozen=True, eq=False)

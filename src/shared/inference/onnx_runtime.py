@@ -9,14 +9,14 @@ from typing import Any, Self
 import torch
 from torch import Tensor
 
-from src.shared.errors import UserError
-from src.shared.model.audio.conditioning import with_phase_rows
-from src.shared.model.audio.decoder import Decoded
-from src.shared.model.audio.memory_conditioning import MemoryCondition
-from src.shared.model.audio.onnx_card import GRAPHS, OnnxCard, read_onnx_card, require_packages
-from src.shared.model.diffusion.conditions import ModelFn
-from src.shared.model.diffusion.gaussian import GaussianDiffusion
-from src.shared.model.diffusion.guidance import guided
+from ..errors import UserError
+from ..model.audio.conditioning import with_phase_rows
+from ..model.audio.decoder import Decoded
+from ..model.audio.memory_conditioning import MemoryCondition
+from ..model.audio.onnx_card import GRAPHS, OnnxCard, read_onnx_card, require_packages
+from ..model.diffusion.conditions import ModelFn
+from ..model.diffusion.gaussian import GaussianDiffusion
+from ..model.diffusion.guidance import guided
 
 
 class OnnxRuntime:

@@ -14,14 +14,14 @@ import numpy as np
 import torch
 from scipy.ndimage import gaussian_filter1d
 
-from src.shared.errors import UserError
-from src.shared.inference.drawn_path import FASTEST, DrawnPath
-from src.shared.model.generation.constraint import Constraint
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
-from src.shared.motion.skeleton import REST_PELVIS_HEIGHT
-from src.shared.motion.trajectory import MotionTrajectory, to_root
-from src.shared.motion.trajectory_math import yaw_quaternion
+from ..errors import UserError
+from ..model.generation.constraint import Constraint
+from ..motion.motion import Motion
+from ..motion.root_track import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
+from ..motion.skeleton import REST_PELVIS_HEIGHT
+from ..motion.trajectory import MotionTrajectory, to_root
+from ..motion.trajectory_math import yaw_quaternion
+from .drawn_path import FASTEST, DrawnPath
 
 SPACING = 0.01  # metres between samples
 ROUNDING = 0.12  # metres, standard deviation of what rounds corners

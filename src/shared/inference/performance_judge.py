@@ -12,20 +12,20 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.data.pairing.motion_beats import (
+from ..data.pairing.motion_beats import (
     Alignment,
     alignment,
     chance_alignment,
     motion_beats,
 )
-from src.shared.inference.audio_judge import AudioJudge
-from src.shared.inference.performer import Performance
-from src.shared.inference.selection import ScoreTable, SelectionConfig, distances, rank
-from src.shared.inference.text_judge import SCALE, TextJudge, Tower
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import encode_features
-from src.shared.motion.trajectory import MotionTrajectory
-from src.shared.validation.bands import Bands
+from ..motion.motion import Motion
+from ..motion.root_track import encode_features
+from ..motion.trajectory import MotionTrajectory
+from ..validation.bands import Bands
+from .audio_judge import AudioJudge
+from .performer import Performance
+from .selection import ScoreTable, SelectionConfig, distances, rank
+from .text_judge import SCALE, TextJudge, Tower
 
 WINDOW = 150  # frames that the motion tower sees at once: it learned from six seconds at most
 

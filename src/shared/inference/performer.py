@@ -14,22 +14,22 @@ from itertools import accumulate
 import numpy as np
 import torch
 
-from src.shared.device import idle_threads
-from src.shared.errors import UsageError
-from src.shared.inference.borders import soften_cuts
-from src.shared.inference.motion_stream import Passage, stream_features
-from src.shared.inference.trajectory_constraint import (
+from ..device import idle_threads
+from ..errors import UsageError
+from ..model.generation.motion_generator import MotionGenerator
+from ..motion.carried_feet import hold_carried_feet
+from ..motion.motion import Motion
+from ..motion.postprocess import MotionPostProcessor, smooth_features
+from ..motion.trajectory import MotionTrajectory
+from .borders import soften_cuts
+from .motion_stream import Passage, stream_features
+from .trajectory_constraint import (
     RootError,
     pin,
     root_error,
     start_of,
     untwisted,
 )
-from src.shared.model.generation.motion_generator import MotionGenerator
-from src.shared.motion.carried_feet import hold_carried_feet
-from src.shared.motion.motion import Motion
-from src.shared.motion.postprocess import MotionPostProcessor, smooth_features
-from src.shared.motion.trajectory import MotionTrajectory
 
 Progress = Callable[[int, int], None]  # frames done, frames in all
 

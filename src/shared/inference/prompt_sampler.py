@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from src.shared.inference.selection import ScoreTable
-from src.shared.inference.spoken import SentenceGenerator
-from src.shared.inference.text_judge import TextJudge
-from src.shared.model.generation.motion_generator import MotionGenerator
-from src.shared.motion.motion import Motion
+from ..model.generation.motion_generator import MotionGenerator
+from ..motion.motion import Motion
+from .selection import ScoreTable
+from .spoken import SentenceGenerator
+from .text_judge import TextJudge
 
 
 @dataclass(frozen=True, eq=False)

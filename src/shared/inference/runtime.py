@@ -6,16 +6,16 @@ from typing import Protocol
 import torch
 from torch import Tensor
 
-from src.shared.config_audio import AudioNetworkConfig
-from src.shared.device import choose_compute
-from src.shared.errors import UserError
-from src.shared.inference.onnx_runtime import OnnxRuntime
-from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.model.audio.decoder import Decoded
-from src.shared.model.audio.memory_conditioning import MemoryCondition
-from src.shared.model.audio.sampling_copy import sampling_copy
-from src.shared.model.diffusion.conditions import ModelFn
-from src.shared.model.diffusion.gaussian import GaussianDiffusion
+from ..config_audio import AudioNetworkConfig
+from ..device import choose_compute
+from ..errors import UserError
+from ..model.audio.audio_motion_model import AudioMotionModel
+from ..model.audio.decoder import Decoded
+from ..model.audio.memory_conditioning import MemoryCondition
+from ..model.audio.sampling_copy import sampling_copy
+from ..model.diffusion.conditions import ModelFn
+from ..model.diffusion.gaussian import GaussianDiffusion
+from .onnx_runtime import OnnxRuntime
 
 
 class Runtime(Protocol):

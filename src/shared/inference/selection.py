@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from pydantic import Field
 
-from src.shared.config_schema import Config
+from ..config_schema import Config
 
 FAILURE = 2.0  # what each failed check costs
 MAX_FRAMES = 256  # of a candidate that its distance to others looks at, evenly spread

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
-from src.shared.config_loader import load_yaml, packaged_config
+from ..config_loader import load_yaml, packaged_config
 
 MAX_COUNT, MAX_METRES, MAX_DEGREES, MAX_SECONDS = 20, 100.0, 720.0, 600.0
 _CJK = "\u3040-\u30ff\u3400-\u9fff"

@@ -15,19 +15,19 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.config_schema import PostProcessingConfig
-from src.shared.inference.editing import Place
-from src.shared.model.generation.motion_generator import MotionGenerator
-from src.shared.motion.foot_lock import kept_legs, lock_feet
-from src.shared.motion.motion import Motion
-from src.shared.motion.postprocess import clamp_velocity, smooth_features
-from src.shared.motion.root_track import ROOT_ROW, decode_features, integrate_root
-from src.shared.motion.rotations import (
+from ..config_schema import PostProcessingConfig
+from ..model.generation.motion_generator import MotionGenerator
+from ..motion.foot_lock import kept_legs, lock_feet
+from ..motion.motion import Motion
+from ..motion.postprocess import clamp_velocity, smooth_features
+from ..motion.root_track import ROOT_ROW, decode_features, integrate_root
+from ..motion.rotations import (
     quaternion_conjugate,
     quaternion_continuous,
     quaternion_multiply,
     quaternion_slerp,
 )
+from .editing import Place
 
 BLOCK, AHEAD, BEHIND = 15, 12, 24  # frames: locked at once, waited for, remembered
 FADE = 10  # frames in which the correction at the end of a block fades out in the next one

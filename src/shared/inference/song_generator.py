@@ -11,13 +11,13 @@ from typing import Self
 import numpy as np
 import torch
 
-from src.shared.audio.song import Song, analyse
-from src.shared.data.phrases.layout import phase_rows
-from src.shared.device import choose_device
-from src.shared.inference.runtime import load_trained
-from src.shared.inference.song_sampler import Progress, SampleSettings, SongSampler
-from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.motion.trajectory import FPS, MotionTrajectory
+from ..audio.song import Song, analyse
+from ..data.phrases.layout import phase_rows
+from ..device import choose_device
+from ..model.audio.audio_motion_model import AudioMotionModel
+from ..motion.trajectory import FPS, MotionTrajectory
+from .runtime import load_trained
+from .song_sampler import Progress, SampleSettings, SongSampler
 
 
 @dataclass(frozen=True)

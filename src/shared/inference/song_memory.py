@@ -17,16 +17,16 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.errors import UserError
-from src.shared.inference.song_sampler import Recall, SongSampler
-from src.shared.memory.build import Space
-from src.shared.memory.context import Memory
-from src.shared.memory.index import MemoryIndex
-from src.shared.memory.service import MPMService
-from src.shared.model.audio.conditioning import BEAT, with_phase_rows
-from src.shared.model.audio.memory_conditioning import MemoryCondition
-from src.shared.model.audio.shared_space import SharedSpace
-from src.shared.motion.trajectory_math import unwrap_phase
+from ..errors import UserError
+from ..memory.build import Space
+from ..memory.context import Memory
+from ..memory.index import MemoryIndex
+from ..memory.service import MPMService
+from ..model.audio.conditioning import BEAT, with_phase_rows
+from ..model.audio.memory_conditioning import MemoryCondition
+from ..model.audio.shared_space import SharedSpace
+from ..motion.trajectory_math import unwrap_phase
+from .song_sampler import Recall, SongSampler
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,17 +14,17 @@ from pathlib import Path
 import numpy as np
 from torch import Tensor
 
-from src.shared.audio.song import Song
-from src.shared.inference.dance_prompt import DancePrompter
-from src.shared.inference.motion_stream import Passage
-from src.shared.inference.performance_judge import PerformanceJudge
-from src.shared.inference.performer import Performance, Performer, Progress
-from src.shared.inference.selection import ScoreTable
-from src.shared.inference.song_generator import SongGenerator, heard, of_song
-from src.shared.inference.song_sampler import SampleSettings
-from src.shared.model.generation.motion_generator import MotionGenerator
-from src.shared.motion.trajectory import MotionTrajectory
-from src.shared.motion.trajectory_postprocess import MotionPostProcessor
+from ..audio.song import Song
+from ..model.generation.motion_generator import MotionGenerator
+from ..motion.trajectory import MotionTrajectory
+from ..motion.trajectory_postprocess import MotionPostProcessor
+from .dance_prompt import DancePrompter
+from .motion_stream import Passage
+from .performance_judge import PerformanceJudge
+from .performer import Performance, Performer, Progress
+from .selection import ScoreTable
+from .song_generator import SongGenerator, heard, of_song
+from .song_sampler import SampleSettings
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,7 +178,7 @@ def perform(
     Raises:
         UserError: the file or a model cannot be used.
     """
-    from src.shared.audio.song import analyse
+    from ..audio.song import analyse
 
     path = path or SongGenerator.from_pretrained("starter-audio", device=device)
     performer = performer or Performer(MotionGenerator.from_pretrained("starter", device=device))

@@ -16,18 +16,18 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
 
-from src.shared.config_audio import AudioNetworkConfig
-from src.shared.device import idle_threads
-from src.shared.errors import UsageError
-from src.shared.inference.carry_on import carry_on
-from src.shared.inference.runtime import Runtime
-from src.shared.model.audio.memory_conditioning import MemoryCondition, known_frames
-from src.shared.model.audio.unet import MIN_FRAMES
-from src.shared.model.diffusion.conditions import ModelFn
-from src.shared.model.diffusion.noise import sample_generators, standard_normal
-from src.shared.model.diffusion.samplers import make_sampler
-from src.shared.motion.trajectory import CHANNELS, PHASE, STYLE, MotionTrajectory
-from src.shared.motion.window import WindowJoiner, encode_window
+from ..config_audio import AudioNetworkConfig
+from ..device import idle_threads
+from ..errors import UsageError
+from ..model.audio.memory_conditioning import MemoryCondition, known_frames
+from ..model.audio.unet import MIN_FRAMES
+from ..model.diffusion.conditions import ModelFn
+from ..model.diffusion.noise import sample_generators, standard_normal
+from ..model.diffusion.samplers import make_sampler
+from ..motion.trajectory import CHANNELS, PHASE, STYLE, MotionTrajectory
+from ..motion.window import WindowJoiner, encode_window
+from .carry_on import carry_on
+from .runtime import Runtime
 
 SPARE = 8  # frames at the end that are made and cut off: no neighbour to learn from (ruling 6)
 TAIL = 2  # of them, what the last frames of a song are derived from

@@ -17,11 +17,16 @@ from itertools import accumulate
 import numpy as np
 import torch
 
-from src.shared.device import idle_threads
-from src.shared.errors import UserError
-from src.shared.inference.directed import natural_gait
-from src.shared.inference.drawn_path import DrawnPath
-from src.shared.inference.motion_stream import (
+from ..device import idle_threads
+from ..errors import UserError
+from ..model.clip.core import TextFeatures
+from ..model.generation.constraint import Constraint
+from ..model.generation.motion_generator import MotionGenerator, Progress
+from ..motion.motion import Motion
+from ..motion.root_track import ROOT_ROW, YAW_RATE
+from .directed import natural_gait
+from .drawn_path import DrawnPath
+from .motion_stream import (
     OVERLAP,
     WINDOW,
     Passage,
@@ -29,14 +34,9 @@ from src.shared.inference.motion_stream import (
     stream_features,
     window_seed,
 )
-from src.shared.inference.path_following import time_path
-from src.shared.inference.sentence import Clause, clauses
-from src.shared.inference.settling import settled
-from src.shared.model.clip.core import TextFeatures
-from src.shared.model.generation.constraint import Constraint
-from src.shared.model.generation.motion_generator import MotionGenerator, Progress
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import ROOT_ROW, YAW_RATE
+from .path_following import time_path
+from .sentence import Clause, clauses
+from .settling import settled
 
 TURN_SPEED, TURN_REST = 75.0, 0.5  # degrees a second; seconds before and after a turn
 ONCE = (1.6, 2.5)  # seconds of one repetition, from … to

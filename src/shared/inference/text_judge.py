@@ -20,19 +20,19 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.errors import UserError
-from src.shared.inference.selection import ScoreTable, SelectionConfig, distances, rank
-from src.shared.model.audio import shared_space
-from src.shared.model.audio.shared_space import MotionTower, SharedSpace
-from src.shared.model.checkpoint import read_card
-from src.shared.model.clip import pretrained
-from src.shared.model.clip.core import TextTower
-from src.shared.model.clip.pretrained import ClipBundle, tower_hash
-from src.shared.model.zoo import list_models, resolve_model
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import encode_features
-from src.shared.validation.body_measures import contact_slide, mean_jerk, penetration
-from src.shared.validation.margins import share
+from ..errors import UserError
+from ..model.audio import shared_space
+from ..model.audio.shared_space import MotionTower, SharedSpace
+from ..model.checkpoint import read_card
+from ..model.clip import pretrained
+from ..model.clip.core import TextTower
+from ..model.clip.pretrained import ClipBundle, tower_hash
+from ..model.zoo import list_models, resolve_model
+from ..motion.motion import Motion
+from ..motion.root_track import encode_features
+from ..validation.body_measures import contact_slide, mean_jerk, penetration
+from ..validation.margins import share
+from .selection import ScoreTable, SelectionConfig, distances, rank
 
 SLIDE = (9.0, 27.0)  # cm/s: where the margin begins to fall, and where it is 0
 DEPTH = (0.5, 5.0)  # cm below the floor; real feet are never deeper than 0.1

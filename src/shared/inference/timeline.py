@@ -16,12 +16,14 @@ from typing import Any
 import torch
 from torch import Tensor
 
-from src.shared.config_loader import nearest, parse_yaml
-from src.shared.errors import UsageError, UserError
-from src.shared.files import read_text
-from src.shared.inference.editing import all_but, chosen_joints
-from src.shared.inference.filling import fill_free
-from src.shared.inference.motion_stream import (
+from ..config_loader import nearest, parse_yaml
+from ..errors import UsageError, UserError
+from ..files import read_text
+from ..model.generation.constraint import Constraint
+from ..model.generation.motion_generator import MotionGenerator
+from .editing import all_but, chosen_joints
+from .filling import fill_free
+from .motion_stream import (
     OVERLAP,
     WINDOW,
     ConstraintOf,
@@ -29,8 +31,6 @@ from src.shared.inference.motion_stream import (
     StreamSettings,
     stream_features,
 )
-from src.shared.model.generation.constraint import Constraint
-from src.shared.model.generation.motion_generator import MotionGenerator
 
 KEYS = ("text", "start", "end", "parts", "tag")
 SHORTEST = 0.2  # seconds of an entry

@@ -10,18 +10,18 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.inference.footsteps import step_plan
-from src.shared.model.generation.constraint import Constraint
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import LEFT_CONTACT, ROOT_ROW, headings
-from src.shared.motion.rotations import (
+from ..model.generation.constraint import Constraint
+from ..motion.motion import Motion
+from ..motion.root_track import LEFT_CONTACT, ROOT_ROW, headings
+from ..motion.rotations import (
     matrix_to_rotation_6d,
     quaternion_to_matrix,
     rotation_6d_to_matrix,
     yaw_to_matrix,
 )
-from src.shared.motion.trajectory import MotionTrajectory, to_root
-from src.shared.motion.trajectory_math import heading_of
+from ..motion.trajectory import MotionTrajectory, to_root
+from ..motion.trajectory_math import heading_of
+from .footsteps import step_plan
 
 PELVIS = 0  # its row
 

@@ -10,12 +10,12 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.config_memory import MemoryConfig
-from src.shared.memory.build import BATCH, Space
-from src.shared.memory.context import retrieve
-from src.shared.memory.index import NOTHING, Hits, MemoryIndex
-from src.shared.memory.phrases import cut_at_bars
-from src.shared.motion.trajectory import FPS, VELOCITY
+from ..config_memory import MemoryConfig
+from ..motion.trajectory import FPS, VELOCITY
+from .build import BATCH, Space
+from .context import retrieve
+from .index import NOTHING, Hits, MemoryIndex
+from .phrases import cut_at_bars
 
 BEATLESS = 2.0  # seconds of a "bar" of a song without beats
 

@@ -16,13 +16,13 @@ from typing import Any, Protocol
 import torch
 from torch import Tensor
 
-from src.shared.config_memory import MemoryConfig
-from src.shared.data.phrases.layout import PhraseRecord
-from src.shared.errors import UserError
-from src.shared.memory.folder import MANIFEST
-from src.shared.memory.index import MemoryIndex, Phrase
-from src.shared.memory.search import add_library, has_tables, library_installed, open_index
-from src.shared.memory.source import Piece, Progress, Source
+from ..config_memory import MemoryConfig
+from ..data.phrases.layout import PhraseRecord
+from ..errors import UserError
+from .folder import MANIFEST
+from .index import MemoryIndex, Phrase
+from .search import add_library, has_tables, library_installed, open_index
+from .source import Piece, Progress, Source
 
 VERSION = 2  # of the method: another number builds anew
 BATCH = 32

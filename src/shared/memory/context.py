@@ -11,10 +11,10 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.memory.index import NOTHING, PHASE_WEIGHT, Excluded, Hits, Key, MemoryIndex
-from src.shared.memory.priors import NUM_PRIORS
-from src.shared.motion.trajectory import PHASE
-from src.shared.motion.trajectory_math import unwrap_phase
+from ..motion.trajectory import PHASE
+from ..motion.trajectory_math import unwrap_phase
+from .index import NOTHING, PHASE_WEIGHT, Excluded, Hits, Key, MemoryIndex
+from .priors import NUM_PRIORS
 
 CONTEXT_DIM = 256  # ruling 26
 TOP_K = 8

@@ -12,11 +12,11 @@ Nothing is executed on reading, and nothing is read that the manifest does not n
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from src.shared.errors import UserError
-from src.shared.files import atomic_write, inside, load_json, sha256_file, write_json
+from ..errors import UserError
+from ..files import atomic_write, inside, load_json, sha256_file, write_json
 
 if TYPE_CHECKING:
-    from src.shared.memory.index import MemoryIndex
+    from .index import MemoryIndex
 
 FORMAT_VERSION = 1
 MANIFEST, KEYS, MOTIONS, PHRASES = (

@@ -224,7 +224,7 @@ class MemoryIndex:
 
     def save(self, folder: str | Path) -> None:
         """Write the folder (see folder.py); raises UserError when that fails."""
-        from src.shared.memory.folder import save_index
+        from .folder import save_index
 
         save_index(self, Path(folder))
 
@@ -235,7 +235,7 @@ class MemoryIndex:
         Raises:
             UserError: no memory there, of another version, or a file is missing or damaged.
         """
-        from src.shared.memory.folder import read_index
+        from .folder import read_index
 
         return cls(**read_index(Path(folder), verify=verify))
 

@@ -17,7 +17,7 @@ T frames at 30 fps.
 
 import numpy as np
 
-from src.shared.motion.trajectory import ACCELERATION, FPS, POSITION, VELOCITY
+from ..motion.trajectory import ACCELERATION, FPS, POSITION, VELOCITY
 
 NUM_PRIORS = 4
 ENERGY, DENSITY, TENSION, STABILITY = range(NUM_PRIORS)
@@ -71,7 +71,7 @@ def _average(values: np.ndarray, seconds: float) -> np.ndarray:
 
 
 def _beats(position: np.ndarray) -> np.ndarray:
-    from src.shared.data.pairing.motion_beats import motion_beats
+    from ..data.pairing.motion_beats import motion_beats
 
     return motion_beats(position, FPS).times * FPS
 

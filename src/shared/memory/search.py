@@ -16,10 +16,10 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.errors import UserError
-from src.shared.files import atomic_write, sha256_file, write_json
-from src.shared.memory.folder import MANIFEST, read_manifest
-from src.shared.memory.index import (
+from ..errors import UserError
+from ..files import atomic_write, sha256_file, write_json
+from .folder import MANIFEST, read_manifest
+from .index import (
     NOTHING,
     PHASE_WEIGHT,
     Excluded,

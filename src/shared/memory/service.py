@@ -18,11 +18,11 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.config_memory import MemoryConfig
-from src.shared.errors import UsageError
-from src.shared.memory.context import Memory, null_memory, query_bars, retrieve
-from src.shared.memory.index import MemoryIndex
-from src.shared.memory.search import open_index
+from ..config_memory import MemoryConfig
+from ..errors import UsageError
+from .context import Memory, null_memory, query_bars, retrieve
+from .index import MemoryIndex
+from .search import open_index
 
 log = logging.getLogger(__name__)
 

@@ -11,18 +11,18 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.config_memory import MemoryConfig
-from src.shared.data.phrases.decoded import read_phrase
-from src.shared.data.phrases.layout import MANIFEST, BadContent, PhraseRecord
-from src.shared.data.phrases.remote import Backoff, Remote, Unreachable
-from src.shared.data.phrases.store import PhraseStore
-from src.shared.errors import UserError
-from src.shared.files import parse_json
-from src.shared.memory.phrases import cut_at_bars
-from src.shared.memory.priors import prior_curves
-from src.shared.motion.root_track import LEFT_CONTACT, ROOT_ROW
-from src.shared.motion.trajectory import FPS
-from src.shared.motion.window import encode_window, place_window
+from ..config_memory import MemoryConfig
+from ..data.phrases.decoded import read_phrase
+from ..data.phrases.layout import MANIFEST, BadContent, PhraseRecord
+from ..data.phrases.remote import Backoff, Remote, Unreachable
+from ..data.phrases.store import PhraseStore
+from ..errors import UserError
+from ..files import parse_json
+from ..motion.root_track import LEFT_CONTACT, ROOT_ROW
+from ..motion.trajectory import FPS
+from ..motion.window import encode_window, place_window
+from .phrases import cut_at_bars
+from .priors import prior_curves
 
 ONSETS = 162  # row of a condition
 MAX_BAD_FRACTION = 0.05  # ruling 17
@@ -135,7 +135,7 @@ class Source:
 
     def _clip(self, phrase: str, start: int, stop: int) -> str:
         """The clip that most frames of a phrase show; "" if the data does not tell."""
-        from src.shared.data.pairing.phrase_body import read_pair
+        from ..data.pairing.phrase_body import read_pair
 
         if phrase not in self._pairs:
             return ""

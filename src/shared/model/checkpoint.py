@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from pydantic import Field, ValidationError
 
-from src.shared.config_audio import AudioNetworkConfig
-from src.shared.config_schema import Config, NetworkConfig
-from src.shared.config_space import AudioTowerConfig
-from src.shared.errors import UserError, first_fault
-from src.shared.files import atomic_write, load_json, sha256_file, write_json
+from ..config_audio import AudioNetworkConfig
+from ..config_schema import Config, NetworkConfig
+from ..config_space import AudioTowerConfig
+from ..errors import UserError, first_fault
+from ..files import atomic_write, load_json, sha256_file, write_json
 
 if TYPE_CHECKING:
     from torch import Tensor, nn
@@ -107,7 +107,7 @@ def write_checkpoint(
     import torch
     from safetensors.torch import save_file
 
-    from src.shared.model.quantise import quantise
+    from .quantise import quantise
 
     folder = Path(folder)
     tensors = quantise(tensors) if int8 else tensors
@@ -140,7 +140,7 @@ def read_tensors(folder: Path, card: ModelCard) -> dict[str, "Tensor"]:
     from safetensors import SafetensorError
     from safetensors.torch import load_file
 
-    from src.shared.model.quantise import dequantise
+    from .quantise import dequantise
 
     path = Path(folder) / WEIGHTS_FILE
     if card.weights is None or not path.is_file():

@@ -2,8 +2,8 @@
 
 from typing import TYPE_CHECKING
 
-from src.shared.config_loader import load_audio_network, load_network
-from src.shared.errors import UsageError
+from ..config_loader import load_audio_network, load_network
+from ..errors import UsageError
 
 if TYPE_CHECKING:
     from torch import nn
@@ -28,18 +28,18 @@ def create_model(kind: str, profile: str, *, num_tags: int = 0) -> "nn.Module":
         return _create_audio_model(kind, profile)
     network = load_network(profile)
     if kind == "motion-clip":
-        from src.shared.model.clip.core import MotionClip
+        from .clip.core import MotionClip
 
         return MotionClip(network)
-    from src.shared.model.generation.denoiser import MotionDenoiser
+    from .generation.denoiser import MotionDenoiser
 
     return MotionDenoiser(network, num_tags)
 
 
 def _create_audio_model(kind: str, profile: str) -> "nn.Module":
-    from src.shared.model.audio.audio_motion_model import AudioMotionModel
-    from src.shared.model.audio.decoder import create_motion_decoder
-    from src.shared.model.audio.unet import UNet1D
+    from .audio.audio_motion_model import AudioMotionModel
+    from .audio.decoder import create_motion_decoder
+    from .audio.unet import UNet1D
 
     network = load_audio_network(profile)
     if kind == "audio-unet":

@@ -6,9 +6,9 @@ Only cards are read, and no torch is imported.
 from pathlib import Path
 from typing import Any
 
-from src.shared.config_loader import nearest, profile_names
-from src.shared.errors import UserError
-from src.shared.model.checkpoint import CARD_FILE, ModelCard, read_card
+from ..config_loader import nearest, profile_names
+from ..errors import UserError
+from .checkpoint import CARD_FILE, ModelCard, read_card
 
 PRETRAINED = Path(__file__).resolve().parents[1] / "pretrained"
 RUNS = Path("runs")

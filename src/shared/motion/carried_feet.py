@@ -15,10 +15,10 @@ import numpy as np
 import torch
 from scipy.ndimage import gaussian_filter1d
 
-from src.shared.motion.foot_lock import lock_feet
-from src.shared.motion.motion import Motion
-from src.shared.motion.rotations import quaternion_continuous
-from src.shared.motion.skeleton import JOINT_INDEX, LIMBS
+from .foot_lock import lock_feet
+from .motion import Motion
+from .rotations import quaternion_continuous
+from .skeleton import JOINT_INDEX, LIMBS
 
 FIRST, LAST = 1.5 / 30, 0.5 / 30  # seconds, standard deviations of the two smoothings
 LEGS = [[JOINT_INDEX[joint] for joint in LIMBS[leg]] for leg in ("left-leg", "right-leg")]

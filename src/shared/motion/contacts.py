@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from src.shared.motion.skeleton import FOOT_JOINTS, REST_FOOT_HEIGHT
+from .skeleton import FOOT_JOINTS, REST_FOOT_HEIGHT
 
 MAX_HEIGHT = 0.06  # metres of the ball of the foot above its rest height
 MAX_SPEED = 0.35  # m/s of the ball of the foot

@@ -13,8 +13,8 @@ from itertools import pairwise
 import numpy as np
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
-from src.shared.motion.foot_stance import contact_runs, grounding, standing
-from src.shared.motion.skeleton import REST_FOOT_HEIGHT
+from .foot_stance import contact_runs, grounding, standing
+from .skeleton import REST_FOOT_HEIGHT
 
 MAX_GAP_SECONDS = 2 / 30  # a contact that breaks off for no longer than this goes on
 MIN_HOLD_SECONDS = 3 / 30  # a shorter contact is none

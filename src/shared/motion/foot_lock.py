@@ -14,12 +14,12 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.motion.foot_holds import foot_shifts
-from src.shared.motion.kinematics import forward_kinematics
-from src.shared.motion.leg_ik import heel_rise, longest_reach, two_bone_ik
-from src.shared.motion.motion import Motion
-from src.shared.motion.rotations import matrix_to_quaternion, quaternion_to_matrix
-from src.shared.motion.skeleton import FOOT_JOINTS, PARENTS, canonical_skeleton
+from .foot_holds import foot_shifts
+from .kinematics import forward_kinematics
+from .leg_ik import heel_rise, longest_reach, two_bone_ik
+from .motion import Motion
+from .rotations import matrix_to_quaternion, quaternion_to_matrix
+from .skeleton import FOOT_JOINTS, PARENTS, canonical_skeleton
 
 MIN_CORRECTION = 1e-4  # metres; frames that need less stay exactly as they are
 

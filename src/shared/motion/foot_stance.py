@@ -6,7 +6,7 @@ Letters: T frames.
 import numpy as np
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d, minimum_filter1d
 
-from src.shared.motion.skeleton import REST_FOOT_HEIGHT
+from .skeleton import REST_FOOT_HEIGHT
 
 THRESHOLD = 0.5  # contact above it = on the ground
 MAX_CLAIM = 0.12  # metres above the standing height; a higher foot stands on nothing

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from src.shared.motion.motion import Motion
+from .motion import Motion
 
 
 def in_place(motion: Motion) -> Motion:

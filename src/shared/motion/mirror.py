@@ -6,9 +6,9 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import LATERAL, LEFT_CONTACT, RIGHT_CONTACT, YAW_RATE
-from src.shared.motion.skeleton import MIRROR, NUM_JOINTS
+from .motion import Motion
+from .root_track import LATERAL, LEFT_CONTACT, RIGHT_CONTACT, YAW_RATE
+from .skeleton import MIRROR, NUM_JOINTS
 
 _QUATERNION_SIGNS = np.array([1, 1, -1, -1], dtype=np.float32)  # M·R·M, M = diag(-1, 1, 1)
 _SIX_D_SIGNS = (1.0, -1.0, -1.0, -1.0, 1.0, 1.0)  # the same on the first two columns

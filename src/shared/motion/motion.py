@@ -6,9 +6,9 @@ from typing import Self
 import numpy as np
 import torch
 
-from src.shared.motion.kinematics import forward_kinematics
-from src.shared.motion.rotations import quaternion_to_matrix
-from src.shared.motion.skeleton import PARENTS, canonical_skeleton
+from .kinematics import forward_kinematics
+from .rotations import quaternion_to_matrix
+from .skeleton import PARENTS, canonical_skeleton
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,11 +14,11 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
 
-from src.shared.config_schema import PostProcessingConfig
-from src.shared.motion.foot_lock import kept_legs, lock_feet
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import LEFT_CONTACT, ROOT_ROW, decode_features
-from src.shared.motion.rotations import (
+from ..config_schema import PostProcessingConfig
+from .foot_lock import kept_legs, lock_feet
+from .motion import Motion
+from .root_track import LEFT_CONTACT, ROOT_ROW, decode_features
+from .rotations import (
     quaternion_conjugate,
     quaternion_continuous,
     quaternion_exp,

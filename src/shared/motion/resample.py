@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import torch
 
-from src.shared.motion.motion import Motion
-from src.shared.motion.rotations import quaternion_continuous, quaternion_slerp
+from .motion import Motion
+from .rotations import quaternion_continuous, quaternion_slerp
 
 SAME_RATE = 1e-3  # relative; files say 0.033333 s for 30 fps
 

@@ -9,9 +9,9 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.motion.kinematics import forward_kinematics
-from src.shared.motion.motion import Motion
-from src.shared.motion.rotations import (
+from .kinematics import forward_kinematics
+from .motion import Motion
+from .rotations import (
     heading_angle,
     matrix_to_quaternion,
     matrix_to_rotation_6d,
@@ -20,7 +20,7 @@ from src.shared.motion.rotations import (
     rotation_6d_to_matrix,
     yaw_to_matrix,
 )
-from src.shared.motion.skeleton import (
+from .skeleton import (
     NUM_JOINTS,
     PARENTS,
     REST_PELVIS_HEIGHT,

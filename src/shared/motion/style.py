@@ -21,10 +21,10 @@ import re
 import numpy as np
 import torch
 
-from src.shared.errors import UsageError
-from src.shared.motion.motion import Motion
-from src.shared.motion.trajectory import MotionTrajectory
-from src.shared.motion.trajectory_math import forward_difference
+from ..errors import UsageError
+from .motion import Motion
+from .trajectory import MotionTrajectory
+from .trajectory_math import forward_difference
 
 PAIRS = ("intensity", "extent", "rhythm", "attitude")
 WINDOW = 2.0  # seconds

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 import torch
 
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import FORWARD, HEIGHT, LATERAL, YAW_RATE
-from src.shared.motion.skeleton import NUM_JOINTS
-from src.shared.motion.trajectory_math import (
+from .motion import Motion
+from .root_track import FORWARD, HEIGHT, LATERAL, YAW_RATE
+from .skeleton import NUM_JOINTS
+from .trajectory_math import (
     angular_velocity,
     continuous_sign,
     derive,

@@ -8,7 +8,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.motion.rotations import (
+from .rotations import (
     quaternion_conjugate,
     quaternion_continuous,
     quaternion_log,

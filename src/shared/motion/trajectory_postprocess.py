@@ -14,8 +14,8 @@ import torch
 from torch import Tensor
 from torch.nn import functional as F
 
-from src.shared.errors import UsageError
-from src.shared.motion.trajectory import (
+from ..errors import UsageError
+from .trajectory import (
     ACCELERATION,
     ANGULAR_VELOCITY,
     FPS,
@@ -25,7 +25,7 @@ from src.shared.motion.trajectory import (
     STYLE,
     VELOCITY,
 )
-from src.shared.motion.trajectory_math import continuous_sign, forward_difference, smooth
+from .trajectory_math import continuous_sign, forward_difference, smooth
 
 
 @dataclass(frozen=True)

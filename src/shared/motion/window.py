@@ -15,8 +15,8 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.motion.rotations import quaternion_multiply, quaternion_slerp
-from src.shared.motion.trajectory import (
+from .rotations import quaternion_multiply, quaternion_slerp
+from .trajectory import (
     ACCELERATION,
     ANGULAR_VELOCITY,
     CHANNELS,
@@ -28,7 +28,7 @@ from src.shared.motion.trajectory import (
     VELOCITY,
     MotionTrajectory,
 )
-from src.shared.motion.trajectory_math import (
+from .trajectory_math import (
     continuous_sign,
     heading_of,
     turn_about_y,

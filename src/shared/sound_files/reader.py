@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.errors import UserError
-from src.shared.sound_files.mp3 import with_length
+from ..errors import UserError
+from .mp3 import with_length
 
 MAX_SECONDS = 7200.0
 RATES = (4_000, 768_000)  # Hz

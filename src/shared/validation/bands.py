@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.errors import UserError
-from src.shared.files import load_json, write_json
-from src.shared.motion.trajectory import MotionTrajectory
-from src.shared.validation.checks import CHECKS
-from src.shared.validation.measures import MEASURES
+from ..errors import UserError
+from ..files import load_json, write_json
+from ..motion.trajectory import MotionTrajectory
+from .checks import CHECKS
+from .measures import MEASURES
 
 FORMAT_VERSION = 1
 SLACK = 3.0  # a factor beyond the band at both ends that still passes

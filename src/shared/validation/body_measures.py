@@ -7,8 +7,8 @@ Letters: T frames, K joints.
 
 import numpy as np
 
-from src.shared.motion.contacts import detect_contacts
-from src.shared.motion.skeleton import FOOT_JOINTS, REST_FOOT_HEIGHT
+from ..motion.contacts import detect_contacts
+from ..motion.skeleton import FOOT_JOINTS, REST_FOOT_HEIGHT
 
 BALLS = [ball for _, ball in FOOT_JOINTS]
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from src.shared.motion.trajectory import (
+from ..motion.trajectory import (
     ACCELERATION,
     PHASE,
     POSITION,

@@ -12,7 +12,7 @@ The margin of a failed check is 0. Of a passed one:
 import math
 from collections.abc import Iterable
 
-from src.shared.validation.sanity import CheckResult
+from .sanity import CheckResult
 
 LIVELY = ("jerk", "roughness")
 BELOW = (*LIVELY, "velocity_coherence", "accel_coherence")

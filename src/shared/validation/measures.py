@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from src.shared.motion.trajectory import MotionTrajectory
+from ..motion.trajectory import MotionTrajectory
 
 
 def mean_speed(trajectory: MotionTrajectory) -> float:

@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.motion.trajectory import MotionTrajectory
-from src.shared.validation.measures import MEASURES
-from src.shared.validation.sanity import SEVEN, SanityChecker
+from ..motion.trajectory import MotionTrajectory
+from .measures import MEASURES
+from .sanity import SEVEN, SanityChecker
 
 
 def frozen(trajectory: MotionTrajectory) -> MotionTrajectory:

@@ -16,10 +16,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from src.shared.motion.trajectory import MotionTrajectory
-from src.shared.validation import checks
-from src.shared.validation.bands import Bands
-from src.shared.validation.measures import MEASURES, UNITS, mean_speed, roughness
+from ..motion.trajectory import MotionTrajectory
+from . import checks
+from .bands import Bands
+from .measures import MEASURES, UNITS, mean_speed, roughness
 
 SEVEN = tuple(checks.CHECKS)  # names of the documents' checks; the others have names of their own
 

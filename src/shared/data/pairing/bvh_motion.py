@@ -3,10 +3,10 @@
 from dataclasses import replace
 from pathlib import Path
 
-from src.shared.data.caption_files import Piece
-from src.shared.data.prepare import prepare
-from src.shared.data.prepared import PreparedData
-from src.shared.data.sources import MotionFolder
+from ..caption_files import Piece
+from ..prepare import prepare
+from ..prepared import PreparedData
+from ..sources import MotionFolder
 
 CAPTION = {"en": ["a person moves"]}  # what keeps `prepare` from skipping an unlabelled clip
 

@@ -12,11 +12,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.data.pairing.motion_beats import MotionBeats, motion_beats
-from src.shared.data.prepared import SYNTHETIC, PreparedData
-from src.shared.data.records import ClipRecord
-from src.shared.data.splits import assign_alike
-from src.shared.motion.root_track import (
+from ...motion.root_track import (
     FORWARD,
     HEIGHT,
     LATERAL,
@@ -24,14 +20,18 @@ from src.shared.motion.root_track import (
     YAW_RATE,
     integrate_root,
 )
-from src.shared.motion.rotations import (
+from ...motion.rotations import (
     quaternion_conjugate,
     quaternion_continuous,
     quaternion_log,
     quaternion_multiply,
     rotation_6d_to_quaternion,
 )
-from src.shared.motion.trajectory_math import yaw_quaternion
+from ...motion.trajectory_math import yaw_quaternion
+from ..prepared import SYNTHETIC, PreparedData
+from ..records import ClipRecord
+from ..splits import assign_alike
+from .motion_beats import MotionBeats, motion_beats
 
 FPS = 30.0
 MARGIN = 6  # frames that stay free around a cut, half a seam

@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from src.shared.data.pairing.pair import MusicBeats, strong_beats
-from src.shared.data.splits import assign_alike
-from src.shared.errors import UsageError, UserError
-from src.shared.files import sha256_file
+from ...errors import UsageError, UserError
+from ...files import sha256_file
+from ..splits import assign_alike
+from .pair import MusicBeats, strong_beats
 
 if TYPE_CHECKING:
-    from src.shared.audio.features import AudioFeatures
-    from src.shared.audio.synthetic_songs import SongSpec
+    from ...audio.features import AudioFeatures
+    from ...audio.synthetic_songs import SongSpec
 
 FPS = 30.0
 SYNTHETIC_SECONDS = 60.0
@@ -104,7 +104,7 @@ class SyntheticMusic:
 
     def specs(self) -> list[tuple[str, "SongSpec"]]:
         """(split, song) of each."""
-        from src.shared.audio.synthetic_songs import sample_song_specs
+        from ...audio.synthetic_songs import sample_song_specs
 
         test = max(round(TEST_SHARE * self.number), self.number >= 3)
         val = max(round(VAL_SHARE * self.number), self.number >= 3)
@@ -114,9 +114,9 @@ class SyntheticMusic:
         return [*zip(splits, seen, strict=True), *(("test", spec) for spec in unseen)]
 
     def read(self, entry: SongEntry) -> Music:
-        from src.shared.audio.features import extract_features
-        from src.shared.audio.sound import sound_from_samples
-        from src.shared.audio.synthetic_songs import render_song
+        from ...audio.features import extract_features
+        from ...audio.sound import sound_from_samples
+        from ...audio.synthetic_songs import render_song
 
         _, spec = self.specs()[int(entry.id.rpartition("-")[2])]
         song = render_song(spec)
@@ -170,7 +170,7 @@ class FolderMusic:
         return entries
 
     def read(self, entry: SongEntry) -> Music:
-        from src.shared.audio.song import analyse
+        from ...audio.song import analyse
 
         song = analyse(self.root / entry.path, meter=self.meter)
         beats = song.beats

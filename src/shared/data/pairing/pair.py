@@ -9,16 +9,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from src.shared.data.pairing.clip_library import FPS, Clip, Kind
-from src.shared.data.pairing.motion_beats import (
+from ..prepared import SYNTHETIC
+from .clip_library import FPS, Clip, Kind
+from .motion_beats import (
     Alignment,
     alignment,
     beat_alignment,
     chance_alignment,
     motion_beats,
 )
-from src.shared.data.pairing.phrase_motion import PhraseMotion, assemble
-from src.shared.data.pairing.time_warp import (
+from .phrase_motion import PhraseMotion, assemble
+from .time_warp import (
     LIMIT,
     MATCH_LIMIT,
     Warp,
@@ -27,7 +28,6 @@ from src.shared.data.pairing.time_warp import (
     plain_warp,
     resample,
 )
-from src.shared.data.prepared import SYNTHETIC
 
 KINDS, TRIES = 3, 4  # kinds of motion tried, and times each
 GOOD = 0.85  # a score that ends the search

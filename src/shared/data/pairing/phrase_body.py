@@ -15,21 +15,21 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.data.pairing.clip_library import FPS, track_of
-from src.shared.data.pairing.pair import SPARE
-from src.shared.data.pairing.phrase_motion import Piece, join, lay
-from src.shared.data.pairing.time_warp import Warp, resample, resample_rotations
-from src.shared.data.phrases.layout import StoredObject, write_body
-from src.shared.data.prepared import PreparedData
-from src.shared.data.records import MIRRORED
-from src.shared.files import sha256_file, write_json
-from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import LEFT_CONTACT, ROOT_ROW, encode_features
-from src.shared.motion.rotations import (
+from ...files import sha256_file, write_json
+from ...motion.motion import Motion
+from ...motion.root_track import LEFT_CONTACT, ROOT_ROW, encode_features
+from ...motion.rotations import (
     quaternion_continuous,
     quaternion_slerp,
     rotation_6d_to_quaternion,
 )
+from ..phrases.layout import StoredObject, write_body
+from ..prepared import PreparedData
+from ..records import MIRRORED
+from .clip_library import FPS, track_of
+from .pair import SPARE
+from .phrase_motion import Piece, join, lay
+from .time_warp import Warp, resample, resample_rotations
 
 Entry = dict[str, Any]
 

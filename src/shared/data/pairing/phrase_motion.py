@@ -13,10 +13,10 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.data.pairing.clip_library import FPS, MARGIN, Clip
-from src.shared.motion.root_track import FORWARD, HEIGHT, LATERAL, YAW_RATE, integrate_root
-from src.shared.motion.rotations import quaternion_multiply, quaternion_slerp
-from src.shared.motion.trajectory_math import yaw_quaternion
+from ...motion.root_track import FORWARD, HEIGHT, LATERAL, YAW_RATE, integrate_root
+from ...motion.rotations import quaternion_multiply, quaternion_slerp
+from ...motion.trajectory_math import yaw_quaternion
+from .clip_library import FPS, MARGIN, Clip
 
 NEAREST = 12  # candidates for the next clip, the best matches at the seam
 REPEAT_COST = 1.5  # how much better a clip that was used must fit

@@ -27,16 +27,16 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
-from src.shared.data.pairing.clip_library import FPS, ClipLibrary, open_library
-from src.shared.data.pairing.music import MusicSource
-from src.shared.data.pairing.phrase_body import add_bodies
-from src.shared.data.pairing.report import make_report, write_statistics
-from src.shared.data.pairing.song_pairs import PairOptions, SongJob, finished_song, pair_song
-from src.shared.data.phrases.layout import features_path, trajectory_path
-from src.shared.data.prepared import PreparedData
-from src.shared.data.worker_pool import run_jobs
-from src.shared.errors import UserError
-from src.shared.files import write_json
+from ...errors import UserError
+from ...files import write_json
+from ..phrases.layout import features_path, trajectory_path
+from ..prepared import PreparedData
+from ..worker_pool import run_jobs
+from .clip_library import FPS, ClipLibrary, open_library
+from .music import MusicSource
+from .phrase_body import add_bodies
+from .report import make_report, write_statistics
+from .song_pairs import PairOptions, SongJob, finished_song, pair_song
 
 VERSION = 2  # of the method: another number makes everything anew
 

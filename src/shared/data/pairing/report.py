@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.array_files import load_array, load_arrays
-from src.shared.data.pairing.clip_library import FPS, MARGIN, ClipLibrary
-from src.shared.data.pairing.motion_beats import motion_beats
-from src.shared.files import inside, load_json, write_json
-from src.shared.motion.trajectory import MotionTrajectory
-from src.shared.motion.window import encode_window
+from ...array_files import load_array, load_arrays
+from ...files import inside, load_json, write_json
+from ...motion.trajectory import MotionTrajectory
+from ...motion.window import encode_window
+from .clip_library import FPS, MARGIN, ClipLibrary
+from .motion_beats import motion_beats
 
 WINDOW_FRAMES = 120  # TECH §6.1's target length
 STD_FLOOR = 1e-4  # a row that does not vary is not blown up

@@ -7,15 +7,15 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.data.pairing.clip_library import FPS, Clip
-from src.shared.data.pairing.music import Music, MusicSource, SongEntry
-from src.shared.data.pairing.pair import MIN_SCORE, SPARE, PhrasePair, pair_phrase
-from src.shared.data.pairing.time_warp import KNOT_SECONDS
-from src.shared.data.phrases.layout import PhraseRecord, write_phrase
-from src.shared.errors import UserError
-from src.shared.files import load_json, sha256_file, write_json
-from src.shared.motion.style import measure_style
-from src.shared.motion.trajectory import STYLE, MotionTrajectory
+from ...errors import UserError
+from ...files import load_json, sha256_file, write_json
+from ...motion.style import measure_style
+from ...motion.trajectory import STYLE, MotionTrajectory
+from ..phrases.layout import PhraseRecord, write_phrase
+from .clip_library import FPS, Clip
+from .music import Music, MusicSource, SongEntry
+from .pair import MIN_SCORE, SPARE, PhrasePair, pair_phrase
+from .time_warp import KNOT_SECONDS
 
 
 @dataclass(frozen=True)

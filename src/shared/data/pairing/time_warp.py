@@ -13,7 +13,7 @@ import torch
 from scipy.interpolate import CubicSpline
 from scipy.optimize import lsq_linear
 
-from src.shared.motion.rotations import quaternion_continuous, quaternion_slerp
+from ...motion.rotations import quaternion_continuous, quaternion_slerp
 
 LIMIT = 0.15
 MATCH_LIMIT = 0.13  # between two matches; the rest of the limit lets the rate change smoothly

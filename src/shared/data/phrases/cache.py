@@ -11,8 +11,8 @@ import time
 from contextlib import AbstractContextManager, suppress
 from pathlib import Path
 
-from src.shared.data.phrases.layout import StoredObject
-from src.shared.files import atomic_write, load_json, write_json
+from ...files import atomic_write, load_json, write_json
+from .layout import StoredObject
 
 _STALE_SECONDS = 3600.0  # an unfinished file that old was left by a killed process
 

@@ -13,15 +13,15 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.ahead import ahead
-from src.shared.data.phrases.cache import ObjectCache, default_cache
-from src.shared.data.phrases.decoded import DecodedPhrase, read_phrase
-from src.shared.data.phrases.layout import BadContent, PhraseRecord
-from src.shared.data.phrases.prefetch import EpochIterator
-from src.shared.data.phrases.quarantine import Quarantine
-from src.shared.data.phrases.remote import Backoff, Remote, Unreachable
-from src.shared.data.phrases.store import PhraseStore
-from src.shared.errors import UsageError, UserError
+from ...ahead import ahead
+from ...errors import UsageError, UserError
+from .cache import ObjectCache, default_cache
+from .decoded import DecodedPhrase, read_phrase
+from .layout import BadContent, PhraseRecord
+from .prefetch import EpochIterator
+from .quarantine import Quarantine
+from .remote import Backoff, Remote, Unreachable
+from .store import PhraseStore
 
 
 class EmptySplit(UserError):
@@ -281,6 +281,6 @@ def collate(items: Sequence[PhraseItem]) -> PhraseBatch:
 
 
 def _encode_window(trajectory: np.ndarray, phase: np.ndarray) -> np.ndarray:
-    from src.shared.motion.window import encode_window
+    from ...motion.window import encode_window
 
     return encode_window(trajectory, phase)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from src.shared.data.phrases.layout import (
+from .layout import (
     BadContent,
     PhraseRecord,
     common_length,
@@ -13,7 +13,7 @@ from src.shared.data.phrases.layout import (
     decode_trajectory,
     phase_rows,
 )
-from src.shared.data.phrases.store import PhraseStore
+from .store import PhraseStore
 
 _PHASE = 16  # column of a trajectory: bars modulo 1
 

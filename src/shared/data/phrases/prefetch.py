@@ -3,11 +3,11 @@
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from src.shared.ahead import ahead
-from src.shared.errors import UserError
+from ...ahead import ahead
+from ...errors import UserError
 
 if TYPE_CHECKING:
-    from src.shared.data.phrases.dataset import MotionPhraseDataset, PhraseItem
+    from .dataset import MotionPhraseDataset, PhraseItem
 
 
 class EpochIterator:

@@ -4,9 +4,9 @@ import threading
 from collections.abc import Iterable
 from pathlib import Path
 
-from src.shared.data.phrases.layout import PhraseRecord
-from src.shared.errors import UserError
-from src.shared.files import load_json, write_json
+from ...errors import UserError
+from ...files import load_json, write_json
+from .layout import PhraseRecord
 
 _NAMED = 5  # bad phrases named in the error
 

@@ -8,14 +8,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
-from src.shared.data.phrases.layout import (
+from ...errors import UsageError, UserError
+from .layout import (
     MANIFEST,
     PhraseRecord,
     StoredObject,
     parse_manifest,
     phrases_of_listing,
 )
-from src.shared.errors import UsageError, UserError
 
 Result = TypeVar("Result")
 

@@ -6,8 +6,8 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.data.phrases.dataset import MotionPhraseDataset, PhraseItem
-from src.shared.errors import UserError
+from ...errors import UserError
+from .dataset import MotionPhraseDataset, PhraseItem
 
 MOST = 2000  # windows looked at
 LEAST_STD = 1e-3

@@ -6,9 +6,9 @@ from collections import Counter
 from collections.abc import Callable
 from typing import TypeVar
 
-from src.shared.data.phrases.cache import ObjectCache
-from src.shared.data.phrases.layout import BadContent, StoredObject
-from src.shared.data.phrases.remote import Remote
+from .cache import ObjectCache
+from .layout import BadContent, StoredObject
+from .remote import Remote
 
 Value = TypeVar("Value")
 

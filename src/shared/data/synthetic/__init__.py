@@ -1,8 +1,8 @@
 """The project's own motion source: parametric human motion whose labels are true by making."""
 
-from src.shared.data.synthetic.generate import generate_clip
-from src.shared.data.synthetic.labels import LABEL_VALUES, label_combinations
-from src.shared.data.synthetic.spec import SyntheticSpec, sample_specs, spec_for
+from .generate import generate_clip
+from .labels import LABEL_VALUES, label_combinations
+from .spec import SyntheticSpec, sample_specs, spec_for
 
 __all__ = [
     "LABEL_VALUES",

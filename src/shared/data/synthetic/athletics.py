@@ -5,11 +5,11 @@ T frames; key poses in degrees, lengths in metres.
 
 import numpy as np
 
-from src.shared.data.synthetic.curves import Array, bump, hermite, keyframes, min_jerk, ramp
-from src.shared.data.synthetic.gestures import pace_of, pose_arm, sides_of
-from src.shared.data.synthetic.rig import ELBOW, FLEX, LEFT, RIGHT, Body, rotation
-from src.shared.data.synthetic.scene import Scene
-from src.shared.motion.skeleton import REST_FOOT_HEIGHT
+from ...motion.skeleton import REST_FOOT_HEIGHT
+from .curves import Array, bump, hermite, keyframes, min_jerk, ramp
+from .gestures import pace_of, pose_arm, sides_of
+from .rig import ELBOW, FLEX, LEFT, RIGHT, Body, rotation
+from .scene import Scene
 
 _GRAVITY = 9.81
 

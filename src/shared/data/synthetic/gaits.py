@@ -6,7 +6,7 @@ Lengths in metres, angles in degrees, speeds in m/s. The placing of the feet und
 
 from dataclasses import dataclass, replace
 
-from src.shared.data.synthetic.steps import BALL_LEAD
+from .steps import BALL_LEAD
 
 
 @dataclass(frozen=True)

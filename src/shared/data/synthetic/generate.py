@@ -4,11 +4,11 @@ from collections.abc import Callable
 
 import numpy as np
 
-from src.shared.data.synthetic import athletics, gestures, locomotion
-from src.shared.data.synthetic.rig import FPS, Body, solve
-from src.shared.data.synthetic.scene import Scene
-from src.shared.data.synthetic.spec import SyntheticSpec
-from src.shared.motion.motion import Motion
+from ...motion.motion import Motion
+from . import athletics, gestures, locomotion
+from .rig import FPS, Body, solve
+from .scene import Scene
+from .spec import SyntheticSpec
 
 _ACTIONS: dict[str, Callable[[Scene], Body]] = {
     "stand": gestures.stand,

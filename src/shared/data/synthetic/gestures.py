@@ -5,8 +5,8 @@ T frames; key poses in degrees.
 
 import numpy as np
 
-from src.shared.data.synthetic.curves import Array, bump, keyframes, min_jerk, ramp, smooth_noise
-from src.shared.data.synthetic.rig import (
+from .curves import Array, bump, keyframes, min_jerk, ramp, smooth_noise
+from .rig import (
     ABDUCT,
     DEVIATE,
     ELBOW,
@@ -18,7 +18,7 @@ from src.shared.data.synthetic.rig import (
     WRIST,
     Body,
 )
-from src.shared.data.synthetic.scene import Scene
+from .scene import Scene
 
 _PACE = {"slow": 0.62, "normal": 1.0, "fast": 1.6}
 

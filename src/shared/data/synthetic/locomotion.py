@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from src.shared.data.synthetic.curves import Array, min_jerk, ramp, smooth_noise
-from src.shared.data.synthetic.gaits import (
+from ...motion.skeleton import REST_PELVIS_HEIGHT
+from .curves import Array, min_jerk, ramp, smooth_noise
+from .gaits import (
     Gait,
     backward_gait,
     crouched_gait,
@@ -17,7 +18,7 @@ from src.shared.data.synthetic.gaits import (
     stepping_in_place,
     walk_gait,
 )
-from src.shared.data.synthetic.rig import (
+from .rig import (
     ABDUCT,
     ELBOW,
     FLEX,
@@ -26,9 +27,8 @@ from src.shared.data.synthetic.rig import (
     TWIST,
     Body,
 )
-from src.shared.data.synthetic.scene import Scene
-from src.shared.data.synthetic.steps import Path, Stepping, plan_feet, time_grid
-from src.shared.motion.skeleton import REST_PELVIS_HEIGHT
+from .scene import Scene
+from .steps import Path, Stepping, plan_feet, time_grid
 
 
 def travel(scene: Scene) -> Body:

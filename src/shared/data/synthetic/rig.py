@@ -10,10 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 import torch
 
-from src.shared.data.synthetic.curves import Array, upper_envelope
-from src.shared.motion.motion import Motion
-from src.shared.motion.rotations import matrix_to_quaternion, quaternion_continuous
-from src.shared.motion.skeleton import (
+from ...motion.motion import Motion
+from ...motion.rotations import matrix_to_quaternion, quaternion_continuous
+from ...motion.skeleton import (
     JOINT_INDEX,
     LEG_LENGTH,
     NUM_JOINTS,
@@ -21,6 +20,7 @@ from src.shared.motion.skeleton import (
     REST_PELVIS_HEIGHT,
     canonical_skeleton,
 )
+from .curves import Array, upper_envelope
 
 FPS = 30.0
 FLEX, ABDUCT, TWIST, ELBOW, PRONATE, WRIST, DEVIATE = range(7)

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from src.shared.data.synthetic.curves import Array, smooth_noise
-from src.shared.data.synthetic.rig import ABDUCT, ELBOW, FLEX, LEFT, RIGHT, TWIST, Body
+from .curves import Array, smooth_noise
+from .rig import ABDUCT, ELBOW, FLEX, LEFT, RIGHT, TWIST, Body
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from src.shared.data.synthetic.labels import label_combinations, speed_metres
+from .labels import label_combinations, speed_metres
 
 # Drawn uniformly for every clip; 1 is neutral for factors, 0 for the others.
 _PARAMETER_RANGES: dict[str, tuple[float, float]] = {

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from src.shared.data.synthetic.curves import Array, bump, min_jerk, smooth_step
-from src.shared.data.synthetic.rig import BALL_LEAD, LEFT, RIGHT, Body
-from src.shared.motion.skeleton import REST_FOOT_HEIGHT
+from ...motion.skeleton import REST_FOOT_HEIGHT
+from .curves import Array, bump, min_jerk, smooth_step
+from .rig import BALL_LEAD, LEFT, RIGHT, Body
 
 _GRID_FPS = 120.0
 _BALL_TO_HEEL = 0.17  # metres; raises the ball when the heel strikes first

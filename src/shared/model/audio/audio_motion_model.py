@@ -10,13 +10,9 @@ from typing import Self
 import torch
 from torch import Tensor, nn
 
-from src.shared.config_audio import AudioNetworkConfig, MemoryConditionConfig
-from src.shared.config_schema import Config
-from src.shared.model.audio.conditioning import AudioConditioner, ConditionAugmentation
-from src.shared.model.audio.decoder import Decoded, Decoder, create_motion_decoder
-from src.shared.model.audio.memory_conditioning import MemoryCondition
-from src.shared.model.audio.unet import Prepared, UNet1D
-from src.shared.model.checkpoint import (
+from ...config_audio import AudioNetworkConfig, MemoryConditionConfig
+from ...config_schema import Config
+from ..checkpoint import (
     ModelCard,
     load_state,
     read_card,
@@ -24,10 +20,14 @@ from src.shared.model.checkpoint import (
     with_prefix,
     write_checkpoint,
 )
-from src.shared.model.diffusion.conditions import ModelFn
-from src.shared.model.diffusion.gaussian import GaussianDiffusion
-from src.shared.model.diffusion.guidance import guided
-from src.shared.model.zoo import resolve_model, wrong_kind
+from ..diffusion.conditions import ModelFn
+from ..diffusion.gaussian import GaussianDiffusion
+from ..diffusion.guidance import guided
+from ..zoo import resolve_model, wrong_kind
+from .conditioning import AudioConditioner, ConditionAugmentation
+from .decoder import Decoded, Decoder, create_motion_decoder
+from .memory_conditioning import MemoryCondition
+from .unet import Prepared, UNet1D
 
 KIND = "audio-motion"
 PREFIX = "model"

@@ -10,14 +10,14 @@ import torch
 from torch import Tensor, nn
 from torch.nn.functional import normalize, pad
 
-from src.shared.config_space import AudioTowerConfig
-from src.shared.model.audio.conditioning import (
+from ...config_space import AudioTowerConfig
+from ..layers.temporal_unet import TemporalUNet
+from .conditioning import (
     BEAT,
     CONDITION_ROWS,
     FEATURE_ROWS,
     with_phase_rows,
 )
-from src.shared.model.layers.temporal_unet import TemporalUNet
 
 HARMONICS = (1, 2)  # of the octave that a beat's rate lies in
 RATE_ROWS = 1 + 2 * len(HARMONICS)

@@ -8,10 +8,10 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
 
-from src.shared.config_audio import NORM_GROUPS
-from src.shared.model.audio.conditioning import FiLMLayer
-from src.shared.model.layers.attention import KeyValue, attend
-from src.shared.model.layers.rope import RotaryEmbedding
+from ...config_audio import NORM_GROUPS
+from ..layers.attention import KeyValue, attend
+from ..layers.rope import RotaryEmbedding
+from .conditioning import FiLMLayer
 
 
 def zeroed(layer: nn.Conv1d | nn.Linear) -> nn.Module:

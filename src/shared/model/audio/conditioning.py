@@ -11,7 +11,7 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
 
-from src.shared.config_audio import AudioConditionConfig, AugmentationConfig
+from ...config_audio import AudioConditionConfig, AugmentationConfig
 
 MEL, CHROMA, MFCC = slice(0, 128), slice(128, 140), slice(140, 160)
 ENERGY, BEAT = slice(160, 163), slice(163, 167)

@@ -15,8 +15,8 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
 
-from src.shared.config_audio import DecoderConfig
-from src.shared.motion.trajectory import (
+from ...config_audio import DecoderConfig
+from ...motion.trajectory import (
     ACCELERATION,
     ANGULAR_VELOCITY,
     PHASE,
@@ -25,7 +25,7 @@ from src.shared.motion.trajectory import (
     STYLE,
     VELOCITY,
 )
-from src.shared.motion.trajectory_math import continuous_sign, derive, forward_difference
+from ...motion.trajectory_math import continuous_sign, derive, forward_difference
 
 # About one over the spread of each column: bars a frame are near 1/60, accelerations near 10.
 INPUT_SCALE = (*(1.0,) * 6, *(0.1,) * 3, *(1.0,) * 4, *(0.5,) * 3, 50.0, *(3.0,) * 8)

@@ -13,8 +13,8 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
 
-from src.shared.config_audio import DecoderLossConfig, TemporalLossConfig
-from src.shared.motion.trajectory import (
+from ...config_audio import DecoderLossConfig, TemporalLossConfig
+from ...motion.trajectory import (
     ACCELERATION,
     ANGULAR_VELOCITY,
     PHASE,

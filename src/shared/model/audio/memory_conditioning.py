@@ -15,10 +15,10 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
 
-from src.shared.config_audio import MemoryConditionConfig
-from src.shared.model.audio.blocks import zeroed
-from src.shared.model.audio.conditioning import CONDITION_ROWS, with_phase_rows
-from src.shared.model.layers.temporal_layer import TemporalLayer
+from ...config_audio import MemoryConditionConfig
+from ..layers.temporal_layer import TemporalLayer
+from .blocks import zeroed
+from .conditioning import CONDITION_ROWS, with_phase_rows
 
 PRIORS = 4  # energy, density, tension, stability
 MOTION_ROWS = 25

@@ -10,12 +10,12 @@ from typing import Literal
 
 from pydantic import ValidationError
 
-from src.shared.config_audio import AudioNetworkConfig
-from src.shared.config_schema import Config
-from src.shared.errors import UserError, first_fault
-from src.shared.files import load_json, sha256_file
-from src.shared.model.checkpoint import read_card
-from src.shared.model.zoo import resolve_model
+from ...config_audio import AudioNetworkConfig
+from ...config_schema import Config
+from ...errors import UserError, first_fault
+from ...files import load_json, sha256_file
+from ..checkpoint import read_card
+from ..zoo import resolve_model
 
 CARD_FILE = "onnx.json"
 GRAPHS = ("unet.onnx", "decoder.onnx")

@@ -21,20 +21,20 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
 
-from src.shared.files import atomic_write, write_json
-from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.model.audio.blocks import Downsample, FrameRotary
-from src.shared.model.audio.conditioning import CONDITION_ROWS
-from src.shared.model.audio.decoder import Decoder, wrapped_phase
-from src.shared.model.audio.onnx_card import (
+from ...files import atomic_write, write_json
+from ...motion.trajectory import CHANNELS, PHASE
+from .audio_motion_model import AudioMotionModel
+from .blocks import Downsample, FrameRotary
+from .conditioning import CONDITION_ROWS
+from .decoder import Decoder, wrapped_phase
+from .onnx_card import (
     CARD_FILE,
     GRAPHS,
     OnnxCard,
     graph_info,
     require_packages,
 )
-from src.shared.model.audio.unet import UNet1D
-from src.shared.motion.trajectory import CHANNELS, PHASE
+from .unet import UNet1D
 
 OPSET = 18
 EXAMPLE_FRAMES = 37  # no multiple of anything, so that no length is taken for a constant

@@ -14,8 +14,8 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
 
-from src.shared.model.audio.stage import Stage
-from src.shared.model.audio.unet import UNet1D
+from .stage import Stage
+from .unet import UNet1D
 
 DEEP = 4  # downsampling factor from which a level counts as deep
 

@@ -15,11 +15,10 @@ import torch
 from torch import Tensor, nn
 from torch.nn.functional import normalize
 
-from src.shared.config_schema import NetworkConfig
-from src.shared.config_space import AudioTowerConfig
-from src.shared.errors import UserError
-from src.shared.model.audio.audio_tower import AudioTower
-from src.shared.model.checkpoint import (
+from ...config_schema import NetworkConfig
+from ...config_space import AudioTowerConfig
+from ...errors import UserError
+from ..checkpoint import (
     ModelCard,
     load_state,
     read_card,
@@ -27,11 +26,12 @@ from src.shared.model.checkpoint import (
     with_prefix,
     write_checkpoint,
 )
-from src.shared.model.clip.core import TextTower
-from src.shared.model.clip.pretrained import ClipBundle, encode_captions, tower_hash
-from src.shared.model.clip.tokenizer import PromptTokenizer
-from src.shared.model.layers.temporal_unet import TemporalUNet
-from src.shared.model.zoo import resolve_model, wrong_kind
+from ..clip.core import TextTower
+from ..clip.pretrained import ClipBundle, encode_captions, tower_hash
+from ..clip.tokenizer import PromptTokenizer
+from ..layers.temporal_unet import TemporalUNet
+from ..zoo import resolve_model, wrong_kind
+from .audio_tower import AudioTower
 
 KIND = "shared-space"
 PREFIX = "space"

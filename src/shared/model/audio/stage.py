@@ -11,10 +11,10 @@ from itertools import pairwise
 import torch
 from torch import Tensor, nn
 
-from src.shared.config_audio import UNetConfig
-from src.shared.model.audio.blocks import AttentionBlock, ResBlock
-from src.shared.model.audio.conditioning import FiLMLayer
-from src.shared.model.layers.attention import KeyValue
+from ...config_audio import UNetConfig
+from ..layers.attention import KeyValue
+from .blocks import AttentionBlock, ResBlock
+from .conditioning import FiLMLayer
 
 
 @dataclass(frozen=True)

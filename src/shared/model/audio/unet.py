@@ -12,21 +12,21 @@ from torch import Tensor, nn
 from torch.nn import functional as F
 from torch.utils.checkpoint import checkpoint
 
-from src.shared.config_audio import (
+from ...config_audio import (
     NORM_GROUPS,
     AudioConditionConfig,
     MemoryConditionConfig,
     UNetConfig,
 )
-from src.shared.model.audio.blocks import Downsample, Upsample, zeroed
-from src.shared.model.audio.conditioning import (
+from ..layers.positions import sinusoidal
+from .blocks import Downsample, Upsample, zeroed
+from .conditioning import (
     CONDITION_ROWS,
     AudioConditioner,
     with_phase_rows,
 )
-from src.shared.model.audio.memory_conditioning import MemoryCondition, MemoryJoin, Remembered
-from src.shared.model.audio.stage import Stage, StageCondition
-from src.shared.model.layers.positions import sinusoidal
+from .memory_conditioning import MemoryCondition, MemoryJoin, Remembered
+from .stage import Stage, StageCondition
 
 MIN_FRAMES = 8  # ruling 4
 

@@ -13,10 +13,10 @@ import torch
 from torch import Tensor, nn
 from torch.nn.functional import normalize
 
-from src.shared.config_schema import ClipConfig, NetworkConfig
-from src.shared.errors import UserError
-from src.shared.model.layers.masking import masked_mean
-from src.shared.model.layers.temporal_unet import TemporalUNet
+from ...config_schema import ClipConfig, NetworkConfig
+from ...errors import UserError
+from ..layers.masking import masked_mean
+from ..layers.temporal_unet import TemporalUNet
 
 if TYPE_CHECKING:
     from transformers import PreTrainedModel, XLMRobertaConfig

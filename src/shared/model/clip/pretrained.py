@@ -8,8 +8,8 @@ from typing import Self
 import torch
 from torch import Tensor, nn
 
-from src.shared.errors import UserError
-from src.shared.model.checkpoint import (
+from ...errors import UserError
+from ..checkpoint import (
     ModelCard,
     load_state,
     read_card,
@@ -17,9 +17,9 @@ from src.shared.model.checkpoint import (
     with_prefix,
     write_checkpoint,
 )
-from src.shared.model.clip.core import MotionClip, TextTower
-from src.shared.model.clip.tokenizer import PromptTokenizer
-from src.shared.model.zoo import resolve_model, wrong_kind
+from ..zoo import resolve_model, wrong_kind
+from .core import MotionClip, TextTower
+from .tokenizer import PromptTokenizer
 
 KIND = "motion-clip"
 TOKENIZER_FOLDER = "tokenizer"

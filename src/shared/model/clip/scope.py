@@ -28,9 +28,9 @@ from typing import Self
 import numpy as np
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from src.shared.errors import UserError
-from src.shared.files import atomic_write, load_json, write_json
-from src.shared.model.checkpoint import of_another_version
+from ...errors import UserError
+from ...files import atomic_write, load_json, write_json
+from ..checkpoint import of_another_version
 
 TABLE_FILE, META_FILE = "scope.safetensors", "scope.json"
 COVERAGES = (0.9, 0.95, 0.98, 0.99, 1.0)  # share of an action's captions its key words cover

@@ -13,9 +13,9 @@ from typing import Self
 
 import numpy as np
 
-from src.shared.errors import UserError
-from src.shared.files import atomic_write
-from src.shared.motion.style import PAIRS, style_vector
+from ...errors import UserError
+from ...files import atomic_write
+from ...motion.style import PAIRS, style_vector
 
 STYLE_FILE = "style.safetensors"
 _EDGE = 0.02  # measured values are kept this far from 0 and 1, whose logits are infinite

@@ -14,8 +14,8 @@ from typing import Any, Protocol, Self
 import torch
 from torch import Tensor
 
-from src.shared.errors import UserError
-from src.shared.files import atomic_write, load_json, write_json
+from ...errors import UserError
+from ...files import atomic_write, load_json, write_json
 
 BOS, PAD, EOS, UNK = 0, 1, 2, 3
 MODEL_FILE = "sentencepiece.bpe.model"

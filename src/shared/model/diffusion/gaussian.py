@@ -14,11 +14,11 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
 
-from src.shared.config_schema import DiffusionConfig
-from src.shared.model.diffusion.conditions import Model, with_condition
-from src.shared.model.diffusion.noise import Generators, standard_normal
-from src.shared.model.diffusion.samplers import Callback, make_sampler
-from src.shared.model.diffusion.schedule import NoiseSchedule
+from ...config_schema import DiffusionConfig
+from .conditions import Model, with_condition
+from .noise import Generators, standard_normal
+from .samplers import Callback, make_sampler
+from .schedule import NoiseSchedule
 
 ERRORS: dict[str, Callable[..., Tensor]] = {
     "mse": F.mse_loss,

@@ -5,7 +5,7 @@ from typing import Any
 import torch
 from torch import Tensor
 
-from src.shared.model.diffusion.conditions import (
+from .conditions import (
     Model,
     ModelFn,
     join_conditions,

@@ -14,14 +14,14 @@ from typing import TYPE_CHECKING, Any
 import torch
 from torch import Tensor
 
-from src.shared.device import idle_threads
-from src.shared.errors import UsageError
-from src.shared.model.diffusion.conditions import Model, ModelFn, with_condition
-from src.shared.model.diffusion.noise import Generators, standard_normal
-from src.shared.model.diffusion.schedule import sampling_timesteps
+from ...device import idle_threads
+from ...errors import UsageError
+from .conditions import Model, ModelFn, with_condition
+from .noise import Generators, standard_normal
+from .schedule import sampling_timesteps
 
 if TYPE_CHECKING:
-    from src.shared.model.diffusion.gaussian import GaussianDiffusion
+    from .gaussian import GaussianDiffusion
 
 Callback = Callable[[int, int], None]  # callback(steps done, steps in all)
 

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from src.shared.config_schema import DiffusionConfig
-from src.shared.errors import UsageError
+from ...config_schema import DiffusionConfig
+from ...errors import UsageError
 
 Array = NDArray[np.float64]
 

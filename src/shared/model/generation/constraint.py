@@ -15,10 +15,10 @@ from typing import Self
 import torch
 from torch import Tensor
 
-from src.shared.errors import UsageError
-from src.shared.model.diffusion.conditions import ModelFn
-from src.shared.model.diffusion.gaussian import GaussianDiffusion
-from src.shared.model.generation.rhythm import RhythmGuidance
+from ...errors import UsageError
+from ..diffusion.conditions import ModelFn
+from ..diffusion.gaussian import GaussianDiffusion
+from .rhythm import RhythmGuidance
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,16 +8,16 @@ import torch
 from torch import Tensor, nn
 from torch.nn.functional import pad, silu
 
-from src.shared.config_schema import PROVENANCES, NetworkConfig
-from src.shared.model.clip.core import TextFeatures
-from src.shared.model.layers.adaln import AdaLN
-from src.shared.model.layers.attention import CrossAttention, KeyValue, MultiHeadAttention
-from src.shared.model.layers.dropout import ChannelDropout
-from src.shared.model.layers.film import FiLM
-from src.shared.model.layers.masking import without_full_mask
-from src.shared.model.layers.temporal_layer import TemporalLayer
-from src.shared.model.layers.timestep import TagEmbedding, TimestepEmbedding
-from src.shared.model.layers.transform_layer import TransformLayer
+from ...config_schema import PROVENANCES, NetworkConfig
+from ..clip.core import TextFeatures
+from ..layers.adaln import AdaLN
+from ..layers.attention import CrossAttention, KeyValue, MultiHeadAttention
+from ..layers.dropout import ChannelDropout
+from ..layers.film import FiLM
+from ..layers.masking import without_full_mask
+from ..layers.temporal_layer import TemporalLayer
+from ..layers.timestep import TagEmbedding, TimestepEmbedding
+from ..layers.transform_layer import TransformLayer
 
 
 class DenoiserBlock(nn.Module):

@@ -12,18 +12,18 @@ from functools import cached_property
 import torch
 from torch import Tensor, nn
 
-from src.shared.config_schema import LossWeights
-from src.shared.errors import UsageError
-from src.shared.model.diffusion.gaussian import GaussianDiffusion
-from src.shared.motion.root_track import (
+from ...config_schema import LossWeights
+from ...errors import UsageError
+from ...motion.root_track import (
     HEIGHT,
     LEFT_CONTACT,
     ROOT_ROW,
     heading_joints,
     to_world,
 )
-from src.shared.motion.rotations import rotation_6d_to_matrix
-from src.shared.motion.skeleton import FOOT_JOINTS, NUM_JOINTS
+from ...motion.rotations import rotation_6d_to_matrix
+from ...motion.skeleton import FOOT_JOINTS, NUM_JOINTS
+from ..diffusion.gaussian import GaussianDiffusion
 
 NEED_ROOT_TRACK = ("root", "foot_contact", "foot_slide")
 

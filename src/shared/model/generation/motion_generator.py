@@ -12,9 +12,11 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.device import choose_device, idle_threads
-from src.shared.errors import UserError
-from src.shared.model.checkpoint import (
+from ...device import choose_device, idle_threads
+from ...errors import UserError
+from ...motion.motion import Motion
+from ...motion.postprocess import MotionPostProcessor
+from ..checkpoint import (
     ModelCard,
     load_state,
     read_card,
@@ -22,19 +24,17 @@ from src.shared.model.checkpoint import (
     with_prefix,
     write_checkpoint,
 )
-from src.shared.model.clip.core import TextFeatures, TextTower
-from src.shared.model.clip.pretrained import TOKENIZER_FOLDER, check_embed_dims
-from src.shared.model.clip.scope import PromptScope
-from src.shared.model.clip.style_map import StyleMap
-from src.shared.model.clip.tokenizer import PromptTokenizer
-from src.shared.model.diffusion.gaussian import GaussianDiffusion
-from src.shared.model.generation.constraint import Constraint, KnownBatch, check_lengths
-from src.shared.model.generation.denoiser import MotionDenoiser
-from src.shared.model.generation.requests import batches, make_requests
-from src.shared.model.generation.sampling import sample_batch
-from src.shared.model.zoo import resolve_model, wrong_kind
-from src.shared.motion.motion import Motion
-from src.shared.motion.postprocess import MotionPostProcessor
+from ..clip.core import TextFeatures, TextTower
+from ..clip.pretrained import TOKENIZER_FOLDER, check_embed_dims
+from ..clip.scope import PromptScope
+from ..clip.style_map import StyleMap
+from ..clip.tokenizer import PromptTokenizer
+from ..diffusion.gaussian import GaussianDiffusion
+from ..zoo import resolve_model, wrong_kind
+from .constraint import Constraint, KnownBatch, check_lengths
+from .denoiser import MotionDenoiser
+from .requests import batches, make_requests
+from .sampling import sample_batch
 
 KIND = "motion-generator"
 MAX_BATCH = 64  # motions sampled at once

@@ -11,8 +11,8 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from src.shared.config_loader import nearest
-from src.shared.errors import UserError
+from ...config_loader import nearest
+from ...errors import UserError
 
 MIN_FRAMES = 8
 

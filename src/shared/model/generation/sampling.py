@@ -9,13 +9,13 @@ from typing import Any
 import torch
 from torch import Tensor
 
-from src.shared.config_schema import PROVENANCES
-from src.shared.model.clip.core import TextFeatures
-from src.shared.model.diffusion.gaussian import GaussianDiffusion
-from src.shared.model.diffusion.guidance import guided
-from src.shared.model.generation.constraint import KnownBatch
-from src.shared.model.generation.denoiser import MotionDenoiser
-from src.shared.model.generation.requests import SampleRequest
+from ...config_schema import PROVENANCES
+from ..clip.core import TextFeatures
+from ..diffusion.gaussian import GaussianDiffusion
+from ..diffusion.guidance import guided
+from .constraint import KnownBatch
+from .denoiser import MotionDenoiser
+from .requests import SampleRequest
 
 
 def sample_batch(

@@ -5,7 +5,7 @@ Letters: B batch, T frames, D embed dim, E condition channels.
 
 from torch import Tensor, nn
 
-from src.shared.model.layers.film import FiLM
+from .film import FiLM
 
 
 class AdaLN(nn.Module):

@@ -9,7 +9,7 @@ import torch
 from torch import Tensor, nn
 from torch.nn.functional import scaled_dot_product_attention
 
-from src.shared.model.layers.rope import RotaryEmbedding
+from .rope import RotaryEmbedding
 
 KeyValue = tuple[Tensor, Tensor]  # each [B, H, L, d]
 

@@ -5,9 +5,9 @@ Letters: B batch, T frames, D embed dim, H heads.
 
 from torch import Tensor, nn
 
-from src.shared.model.layers.attention import MultiHeadAttention
-from src.shared.model.layers.dropout import ChannelDropout
-from src.shared.model.layers.transform_layer import TransformLayer
+from .attention import MultiHeadAttention
+from .dropout import ChannelDropout
+from .transform_layer import TransformLayer
 
 
 class TemporalLayer(nn.Module):

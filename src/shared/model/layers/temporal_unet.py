@@ -8,9 +8,9 @@ import torch
 from torch import Tensor, nn
 from torch.nn.functional import gelu
 
-from src.shared.model.layers.masking import masked_mean, without_full_mask
-from src.shared.model.layers.positions import sinusoidal
-from src.shared.model.layers.temporal_layer import TemporalLayer
+from .masking import masked_mean, without_full_mask
+from .positions import sinusoidal
+from .temporal_layer import TemporalLayer
 
 
 class TemporalUNet(nn.Module):

@@ -5,7 +5,7 @@ Letters: B batch, D embed dim.
 
 from torch import Tensor, nn
 
-from src.shared.model.layers.positions import sinusoidal
+from .positions import sinusoidal
 
 
 class TimestepEmbedding(nn.Module):

@@ -5,7 +5,7 @@ Letters: B batch, T frames, D embed dim.
 
 from torch import Tensor, nn
 
-from src.shared.model.layers.dropout import ChannelDropout
+from .dropout import ChannelDropout
 
 
 class TransformLayer(nn.Module):
