@@ -1,0 +1,62 @@
+"""motionsuite: a sentence or a song becomes human motion.
+
+    import motionsuite as ms
+    ms.load("starter").generate("a person waves").save("wave.bvh")
+
+Every name is imported when it is first used. In a wheel the code lies in `motionsuite.src`; in a
+checkout it lies beside this folder, where `python -m src.cli.tools` finds it, too.
+"""
+
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .src.shared.audio.song import Song
+    from .src.shared.data.prepare import prepare
+    from .src.shared.data.read_motion import read_motion
+    from .src.shared.model.generation.constraint import Constraint
+    from .src.shared.model.zoo import list_models as models
+    from .src.shared.motion.motion import Motion
+    from .src.shared.motion.trajectory import MotionTrajectory as Trajectory
+
+__all__ = ["Constraint", "Motion", "Song", "Trajectory", "models", "prepare", "read_motion"]
+
+_PLACES = {
+    "Constraint": "shared.model.generation.constraint",
+    "Motion": "shared.motion.motion",
+    "Song": "shared.audio.song",
+    "Trajectory": "shared.motion.trajectory:MotionTrajectory",
+    "models": "shared.model.zoo:list_models",
+    "prepare": "shared.data.prepare",
+    "read_motion": "shared.data.read_motion",
+}
+
+
+def _root() -> str:
+    """Name of the package that holds the code; never a `src` that is somebody else's."""
+    here = Path(__file__).resolve().parent
+    if not (here / "src").is_dir():
+        found = find_spec("src")
+        beside = here.parent / "src" / "__init__.py"
+        if found is not None and found.origin and Path(found.origin).resolve() == beside:
+            return "src"
+        __path__.append(str(here.parent))
+    return f"{__name__}.src"
+
+
+_ROOT = _root()
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _PLACES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    module, _, attribute = _PLACES[name].partition(":")
+    value = getattr(import_module(f"{_ROOT}.{module}"), attribute or name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

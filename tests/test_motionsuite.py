@@ -1,0 +1,70 @@
+"""`import motionsuite`: laid out as in the wheel and in a checkout, beside somebody's own `src`."""
+
+import os
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import motionsuite
+
+ROOT = Path(__file__).parents[1]
+FOREIGN = "MINE = 1\n"
+READ = "import src, motionsuite as ms; print(src.MINE, ms.Motion.__module__, len(ms.models()) > 2)"
+
+
+def run(place: Path, packages: Path, *arguments: str) -> str:
+    done = subprocess.run(
+        [sys.executable, *arguments],
+        cwd=place, env=os.environ | {"PYTHONPATH": str(packages)}, capture_output=True, text=True,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    return done.stdout.strip()
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder as the wheel unpacks, by pyproject's own table of packages."""
+    place = tmp_path_factory.mktemp("site-packages")
+    tables = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["poetry"]
+    for package in tables["packages"]:
+        if "wheel" in package.get("format", ["wheel"]):
+            target = place / package.get("to", "") / package["include"]
+            ignored = shutil.ignore_patterns("__pycache__", "*.safetensors")
+            shutil.copytree(ROOT / package["include"], target, ignore=ignored)
+    return place
+
+
+@pytest.fixture
+def foreign(tmp_path: Path) -> Path:
+    (tmp_path / "src").mkdir()
+    (tmp_path / "src" / "__init__.py").write_text(FOREIGN, encoding="utf-8")
+    return tmp_path
+
+
+def test_the_wheel_stands_beside_a_foreign_src(wheel: Path, foreign: Path) -> None:
+    assert run(foreign, wheel, "-c", READ) == "1 motionsuite.src.shared.motion.motion True"
+    assert run(foreign, wheel, "-m", "motionsuite", "--version").startswith("motion-tools ")
+    assert "Usage: " in run(foreign, wheel, "-m", "motionsuite.src.train.train_clip", "--help")
+
+
+def test_a_checkout_stands_beside_a_foreign_src(foreign: Path) -> None:
+    assert run(foreign, ROOT, "-c", READ) == "1 motionsuite.src.shared.motion.motion True"
+
+
+def test_a_checkout_has_one_copy_of_the_code() -> None:
+    names = "import motionsuite as ms, src.shared.motion.motion as m; print(ms.Motion is m.Motion)"
+    assert run(ROOT, ROOT, "-c", names) == "True"
+
+
+def test_every_public_name_is_there_and_none_costs_an_import_before() -> None:
+    for name in motionsuite.__all__:
+        assert getattr(motionsuite, name) is not None
+    assert set(motionsuite.__all__) <= set(dir(motionsuite))
+    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
+        motionsuite.nothing  # noqa: B018
+    loaded = "import sys, motionsuite; print({'torch', 'numpy', 'typer'} & sys.modules.keys())"
+    assert run(ROOT, ROOT, "-c", loaded) == "set()"
