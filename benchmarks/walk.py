@@ -1,0 +1,106 @@
+"""How far a datum walks: files, functions and changes of file from a request to what is written.
+
+    python benchmarks/walk.py                     # a prompt to BVH; a song and a sentence to BVH
+    python benchmarks/walk.py -- convert in.bvh out.glb
+
+Every call of a function of src/ is counted, imports and class bodies are not. A change of file is a
+call whose file is another one than that of the call before it.
+"""
+
+import argparse
+import contextlib
+import io
+import sys
+import tempfile
+import threading
+from collections import Counter
+from pathlib import Path
+from types import FrameType
+from typing import Any
+
+ROOT = Path(__file__).resolve().parent.parent
+SOURCE = str(ROOT / "src")
+
+
+class Walk:
+    """Counts calls while it is entered."""
+
+    def __init__(self) -> None:
+        self.calls: Counter[tuple[str, str]] = Counter()
+        self.changes = 0
+        self._last = ""
+
+    def __enter__(self) -> "Walk":
+        threading.setprofile(self._event)
+        sys.setprofile(self._event)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        sys.setprofile(None)
+        threading.setprofile(None)  # type: ignore[arg-type]
+
+    def _event(self, frame: FrameType, event: str, _: Any) -> None:
+        code = frame.f_code
+        if event != "call" or not code.co_filename.startswith(SOURCE) or _is_body(frame):
+            return
+        self.calls[code.co_filename, code.co_qualname] += 1
+        if code.co_filename != self._last:
+            self.changes += bool(self._last)
+            self._last = code.co_filename
+
+    @property
+    def files(self) -> list[str]:
+        """Those in which a function ran."""
+        return sorted({str(Path(file).relative_to(ROOT)) for file, _ in self.calls})
+
+
+def _is_body(frame: FrameType) -> bool:
+    """Whether a frame executes a module or a class, not a function."""
+    return frame.f_code.co_name == "<module>" or "__module__" in frame.f_locals
+
+
+def walk(arguments: list[str]) -> Walk:
+    """Run one command of motion-tools."""
+    from src.cli.tools import app
+
+    found = Walk()
+    shown = (contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()))
+    with shown[0], shown[1], found:
+        app(arguments, standalone_mode=False)
+    return found
+
+
+def main() -> None:
+    """Print a line a command."""
+    parser = argparse.ArgumentParser(description=str(__doc__).splitlines()[0])
+    parser.add_argument("--files", action="store_true", help="name the files")
+    parser.add_argument("command", nargs="*", help="of motion-tools, after --")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as place:
+        commands = {" ".join(options.command): options.command} if options.command else asked(place)
+        for name, arguments in commands.items():
+            found = walk(arguments)
+            print(
+                f"{name}: {len(found.files)} files, {len(found.calls)} functions,"
+                f" {found.changes} changes of file"
+            )
+            if options.files:
+                print(*(f"  {file}" for file in found.files), sep="\n")
+
+
+def asked(place: str) -> dict[str, list[str]]:
+    """The two requests of the issue."""
+    from src.shared.audio.song_spec import SongSpec
+    from src.shared.audio.synthetic_songs import render_song
+
+    song = Path(place) / "song.wav"
+    render_song(SongSpec(seconds=6.0, seed=1)).write_wav(song)
+    shared = ["--format", "bvh", "--out", f"{place}/made", "--threads", "1", "--device", "cpu"]
+    prompt = ["generate", "--prompt", "a person waves", *shared]
+    dance = ["generate", "--audio", str(song), "--prompt", "a person dances", *shared]
+    return {"a prompt": prompt, "a song and a sentence": dance}
+
+
+if __name__ == "__main__":
+    sys.path.insert(0, str(ROOT))
+    main()
