@@ -122,11 +122,13 @@ class ClipConfig(Config):
 
     motion_num_heads: int = Field(4, ge=1)
     motion_num_layers: int = Field(2, ge=1)
-    text_model: str = "xlm-roberta-base"  # hub name, folder, or "small": random-init XLM-R
+    text_model: str = "xlm-roberta-base"  # hub name, folder, "small": random-init XLM-R, or "pairs"
     text_hidden_size: int = Field(192, ge=8)  # the four below shape "small" only
     text_num_layers: int = Field(3, ge=1)
     text_num_heads: int = Field(4, ge=1)
     text_vocab_size: int = Field(4000, ge=64)
+    text_pairs: int = Field(0, ge=0)  # rows of "pairs": train text counts them
+    text_places: int = Field(0, ge=0)  # label combinations that texts are sent to; 0 = anywhere
     max_tokens: int = Field(48, ge=4)
 
     @model_validator(mode="after")

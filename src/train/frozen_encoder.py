@@ -16,7 +16,7 @@ from safetensors.torch import save_file
 from torch import Tensor
 
 from ..shared.files import atomic_write
-from ..shared.model.clip.core import SMALL, TextTower
+from ..shared.model.clip.core import OWN, TextTower
 from ..shared.model.clip.pretrained import tower_hash
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.layers.masking import masked_mean
@@ -28,7 +28,7 @@ CHUNK = 128  # captions of one call
 
 def encoder_rates(tower: TextTower, prefix: str, rate: float) -> dict[str, float]:
     """Learning rates for the task protocol: a pretrained encoder learns at `rate`, 0 freezes it."""
-    if tower.config.text_model == SMALL:
+    if tower.config.text_model in OWN:
         return {}
     for name, weight in tower.encoder.named_parameters():
         weight.requires_grad_(rate > 0 and not name.startswith("pooler."))  # which is not used

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..shared.data.prepared import PreparedData
 from ..shared.data.word_dropout import insert_babble
-from ..shared.model.clip.core import SMALL, TextTower
+from ..shared.model.clip.core import OWN, TextTower
 from ..shared.model.clip.pretrained import encode_captions
 from ..shared.model.clip.scope import PromptScope, words_of
 from ..shared.model.clip.tokenizer import PromptTokenizer
@@ -35,7 +35,7 @@ def fit_scope(
     texts = texts[:: -(-len(texts) // SCOPE_CAPTIONS)]
     embeddings = encode_captions(tower, tokenizer, texts).numpy()
     actions = [action_of[text] for text in texts]
-    pretrained = tower.config.text_model != SMALL
+    pretrained = tower.config.text_model not in OWN
     scope = PromptScope.fit(texts, actions, embeddings, pretrained_tower=pretrained)
     if len(scope.actions) < 2:  # nothing to take one for another
         return scope

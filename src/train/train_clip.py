@@ -20,11 +20,13 @@ from torch import Tensor, nn
 from ..shared.config_schema import NetworkConfig, TrainClipConfig
 from ..shared.data.text_motion import TextMotionBatch
 from ..shared.data.word_dropout import drop_words
+from ..shared.errors import UsageError
 from ..shared.evaluation.metrics_retrieval import BATCH, TOP, guo_retrieval
 from ..shared.model.checkpoint import ModelCard
-from ..shared.model.clip.core import SMALL, MotionClip
+from ..shared.model.clip.core import OWN, MotionClip
 from ..shared.model.clip.losses import clip_loss
 from ..shared.model.clip.pretrained import KIND, ClipBundle, load_text_tower, tower_hash
+from ..shared.model.clip.token_pairs import PAIRS
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from .frozen_encoder import encoder_rates
 from .launch import stage_app
@@ -99,6 +101,10 @@ class ClipTask:
         self.train = training_set(config, self.data)
         self.held_back = validation_set(config, self.data)
         self.retrieves = self.held_back is not None and can_retrieve(len(self.held_back))
+        if config.text is None and network.clip.text_model == PAIRS:
+            raise UsageError(
+                "clip.text-model pairs is made by `train text clip=null`; give its folder as text=…"
+            )
         clip = MotionClip(network)
         if config.text is None:
             self.tokenizer = self._tokenizer()
@@ -112,7 +118,7 @@ class ClipTask:
 
     def _tokenizer(self) -> PromptTokenizer:
         clip = self.network.clip
-        if clip.text_model != SMALL:
+        if clip.text_model not in OWN:
             return PromptTokenizer.from_pretrained(clip.text_model, max_tokens=clip.max_tokens)
         captions = self.data.all_captions("train")
         used = [text for language in self.config.languages for text in captions.get(language, [])]

@@ -20,7 +20,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import torch
@@ -36,8 +36,9 @@ from ..shared.data.word_dropout import drop_words, insert_babble
 from ..shared.errors import UserError
 from ..shared.files import sha256_file
 from ..shared.model.checkpoint import WEIGHTS_FILE, ModelCard, read_card
-from ..shared.model.clip.core import SMALL, MotionClip, TextTower
+from ..shared.model.clip.core import OWN, MotionClip, TextTower
 from ..shared.model.clip.pretrained import KIND, ClipBundle, encode_captions, load_text_tower
+from ..shared.model.clip.token_pairs import PAIRS, TokenPairEncoder, shared_keys
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.generation.motion_generator import KIND as GENERATOR
 from ..shared.model.generation.motion_generator import MotionGenerator
@@ -51,6 +52,7 @@ from .task import Part
 from .text_motion import motion_rows, numpy_generator, open_training_data
 
 OLD_CAPTIONS = 8  # of each combination and language, whose mean is its place
+PAIR_WIDTH = 64  # of the hidden states of a tower of token pairs
 HEADS = 0.3  # weight of the labels beside the place, from nothing
 HELD_BACK_SEED = 1  # of the captions that validation reads; training reads those of seed 2
 
@@ -65,6 +67,9 @@ class TrainTextConfig(TrainTowerConfig):
     babble: float = Field(0.6, ge=0, le=1)  # share of captions with made-up words in them
     scale: float = Field(15.0, gt=0)  # factor on the cosines of the classification term
     unstyled_as_captured: bool = False  # plain words ask for what captured clips show in styles
+    tower: Literal["same", "pairs"] = "same"  # "pairs": a new one of token pairs, the same places
+    least_captions: int = Field(3, ge=1)  # of a token or pair that such a tower knows
+    choice_weight: float = Field(0.1, gt=0)  # of the classification term when hardening
 
 
 class LabelledTower(nn.Module):
@@ -133,13 +138,15 @@ class TextTask:
         self.held_back = self._captions(HELD_BACK_SEED, 2)
         self.bundle = bundle or self._from_nothing(network)
         self.tokenizer = self.bundle.tokenizer
+        self.places = torch.zeros(0)  # learned with the tower
+        if bundle is not None:
+            self.places = self._places()
+            if config.tower == PAIRS:
+                self._replace_tower(bundle)
         tower = copy.deepcopy(self.bundle.clip.text).train().requires_grad_(True)
         self.module: nn.Module = tower
-        self.places = torch.zeros(0)  # learned with the tower
         if bundle is None:
             self.module = LabelledTower(tower, [self.labels[group] for group in self.groups])
-        else:
-            self.places = self._places()
         prefix = "tower." if bundle is None else ""
         self.learning_rates = encoder_rates(tower, prefix, config.encoder_learning_rate)
         self.read_once = bundle is None and 0.0 in self.learning_rates.values()
@@ -150,15 +157,18 @@ class TextTask:
 
     def _from_nothing(self, network: NetworkConfig) -> ClipBundle:
         """Two towers that know nothing, and a tokenizer of these captions."""
-        if network.clip.text_model != SMALL:
+        if network.clip.text_model not in OWN:
             tokenizer = PromptTokenizer.from_pretrained(
                 network.clip.text_model, max_tokens=network.clip.max_tokens
             )
         else:
-            texts = [text for group in self.fresh for some in group.values() for text in some]
             tokenizer = PromptTokenizer.train(
-                texts, network.clip.text_vocab_size, max_tokens=network.clip.max_tokens
+                self._texts(), network.clip.text_vocab_size, max_tokens=network.clip.max_tokens
             )
+        keys = torch.zeros(0)
+        if network.clip.text_model == PAIRS:
+            keys = self._shared_keys(tokenizer)
+            network = with_pairs(network, len(keys))
         mean, std = (motion_rows(v, network) for v in (self.data.mean, self.data.std))
         card = ModelCard(
             kind=KIND,
@@ -169,7 +179,29 @@ class TextTask:
             languages=self.config.languages,
             data=self.data.manifest_hash,
         )
-        return ClipBundle(MotionClip(network), tokenizer, mean, std, card)
+        clip = MotionClip(network)
+        if isinstance(clip.text.encoder, TokenPairEncoder):
+            clip.text.encoder.keys = keys
+        return ClipBundle(clip, tokenizer, mean, std, card)
+
+    def _texts(self) -> list[str]:
+        """Every fresh caption."""
+        return [text for group in self.fresh for some in group.values() for text in some]
+
+    def _shared_keys(self, tokenizer: PromptTokenizer) -> Tensor:
+        """Tokens and pairs of them that enough captions share [N]."""
+        texts = sorted(set(self._texts()))
+        batches = (tokenizer(texts[at : at + 1024])[0] for at in range(0, len(texts), 1024))
+        return shared_keys(batches, self.config.least_captions)
+
+    def _replace_tower(self, bundle: ClipBundle) -> None:
+        """A tower of token pairs that knows nothing yet, in place of the one that is there."""
+        keys = self._shared_keys(bundle.tokenizer)
+        network = with_pairs(bundle.clip.config, len(keys))
+        tower = TextTower(network.clip, network.embed_dim)
+        assert isinstance(tower.encoder, TokenPairEncoder)
+        tower.encoder.keys = keys
+        bundle.clip.text, bundle.clip.config = tower, network
 
     def _shares(self) -> np.ndarray:
         """How often a combination is drawn [G]: an action of n combinations weighs sqrt(n)."""
@@ -178,21 +210,21 @@ class TextTask:
         weights = np.array([number[action] ** -0.5 for action in actions])
         return weights / weights.sum()
 
-    def _captions(self, seed: int, num: int) -> list[dict[str, list[str]]]:
-        book = packaged_book()
-        kept = self.config.languages
-        return [
-            {
-                k: v
-                for k, v in book.captions(self.labels[g], num=num, seed=seed).items()
-                if k in kept
-            }
-            for g in self.groups
-        ]
+    def _captions(self, seed: int, num: int, *, whole: bool = True) -> list[dict[str, list[str]]]:
+        """For each combination and language; without `whole`, of the grammar alone."""
+        book, kept = packaged_book(), self.config.languages
+        found = (
+            book.captions(self.labels[group], num=num, seed=seed, whole_sentences=whole)
+            for group in self.groups
+        )
+        return [{k: v for k, v in captions.items() if k in kept} for captions in found]
 
     def _places(self) -> Tensor:
-        """Unit mean [G,D] of each combination's old captions under the old tower."""
-        captions = self._captions(0, OLD_CAPTIONS)
+        """Unit mean [G,D] of each combination's captions under the old tower.
+
+        Those of the grammar: it may not know what whole sentences ask for.
+        """
+        captions = self._captions(0, OLD_CAPTIONS, whole=False)
         texts = [text for group in captions for texts in group.values() for text in texts]
         owner = [i for i, group in enumerate(captions) for texts in group.values() for _ in texts]
         embeddings = encode_captions(self.bundle.clip.text.eval(), self.tokenizer, texts)
@@ -280,7 +312,8 @@ class TextTask:
         pooled = module(batch.input_ids, batch.attention_mask).pooled  # [B, D]
         cosine = 1 - (pooled * self.places[batch.group]).sum(-1).mean()
         choice = cross_entropy(scale * pooled @ self.places.T, batch.group)
-        return {"loss": cosine + 0.1 * choice, "cosine": cosine, "choice": choice}
+        loss = cosine + self.config.choice_weight * choice
+        return {"loss": loss, "cosine": cosine, "choice": choice}
 
     def validation(self, module: nn.Module) -> dict[str, float]:
         """Of captions that training did not read: how many land nearest to the right place."""
@@ -309,12 +342,21 @@ class TextTask:
         assert isinstance(module, TextTower)
         return module, self.places.cpu()
 
+    def _placed(self, tower: TextTower) -> TextTower:
+        """With the places of the combinations, each once."""
+        placed = with_places(tower, torch.unique(self.places.cpu(), dim=0))
+        network = self.bundle.clip.config.model_copy(update={"clip": placed.config})
+        self.bundle.clip.config = network
+        return placed
+
     def export_samples(self, module: nn.Module, folder: Path) -> None:
         """A text tower makes nothing to look at."""
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """The CLIP folder with the new tower; or the generator with it and a new scope."""
         tower = self._trained(module)[0].cpu().freeze()
+        if self.config.tower == PAIRS:
+            tower = self._placed(tower)
         hardened = {"steps": self.config.steps, "validation": self.figures}
         if self.config.generator is None:
             self.bundle.clip.text = tower
@@ -325,8 +367,24 @@ class TextTask:
         generator.text = tower
         generator.scope = fit_scope(self.data, self.config.languages, tower, self.tokenizer)
         generator.style_map = fit_style_map(self.data, self.config.languages, tower, self.tokenizer)
+        clip = self.bundle.clip.config.clip
+        generator.network = generator.network.model_copy(update={"clip": clip})
         generator.card = _noted(generator.card, hardened)
         generator.save_pretrained(folder)
+
+
+def with_places(tower: TextTower, places: Tensor) -> TextTower:
+    """The tower, frozen, sending every text to places [P,D] that are all different."""
+    config = tower.config.model_copy(update={"text_places": len(places)})
+    placed = TextTower(config, tower.embed_dim)
+    placed.load_state_dict({**tower.state_dict(), "places": places})
+    return placed.freeze()
+
+
+def with_pairs(network: NetworkConfig, number: int) -> NetworkConfig:
+    """The network with a text tower of so many tokens and pairs."""
+    sizes = {"text_model": PAIRS, "text_pairs": number, "text_hidden_size": PAIR_WIDTH}
+    return network.model_copy(update={"clip": network.clip.model_copy(update=sizes)})
 
 
 def open_tower(name_or_folder: str) -> ClipBundle:

@@ -66,6 +66,35 @@ def test_a_generator_gets_the_new_tower_and_keeps_its_denoiser(
     assert np.isfinite(generator.generate(["walk"], seconds=1.0)[0].quaternions).all()
 
 
+def test_a_generator_gets_a_tower_of_token_pairs(prepared: Path, tmp_path: Path) -> None:
+    clip, made, hard = tmp_path / "clip", tmp_path / "made", tmp_path / "hard"
+    train_clip(clip_config(prepared, clip, "steps=30"))
+    train_generation(generation_config(prepared, clip, made, "steps=2"))
+    settings = ("tower=pairs", "choice-weight=2", "least-captions=2", "captions-per-group=24")
+    size = ("steps=80", "batch-size=64", "learning-rate=0.03")
+    config = text_config(prepared, made, hard, *settings, *size)
+    before = TextTask(config, tiny_network())
+    first = before.validation(before.module)["right"]
+    assert harden(config).figures["right"] > first + 0.05
+    old, new = MotionGenerator.from_pretrained(made), MotionGenerator.from_pretrained(hard)
+    assert new.network.clip.text_model == "pairs" and new.network.clip.text_pairs > 50
+    for key, value in old.denoiser.state_dict().items():
+        assert torch.equal(value, new.denoiser.state_dict()[key])
+    assert new.generate(["a person walks"], seconds=1.5, steps=2)[0].num_frames == 45
+
+
+def test_a_tower_of_token_pairs_from_nothing(prepared: Path, tmp_path: Path) -> None:
+    network = tiny_network()
+    clip = network.clip.model_copy(update={"text_model": "pairs"})
+    task = TextTask(
+        text_config(prepared, tmp_path, tmp_path / "text", "clip=null"),
+        network.model_copy(update={"clip": clip}),
+    )
+    assert task.bundle.clip.config.clip.text_pairs > 50
+    loss = task.training_step(task.module, task.batch(Part(0, 0, 1)))["loss"]
+    assert torch.isfinite(loss)
+
+
 def test_batches_are_a_function_of_step_and_part(prepared: Path, tmp_path: Path) -> None:
     clip = tmp_path / "clip"
     train_clip(clip_config(prepared, clip, "steps=2"))

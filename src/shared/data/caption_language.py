@@ -60,15 +60,17 @@ class CaptionLanguage:
 
     # -------------------------------------------------------------- what callers ask for
 
-    def captions(self, labels: Labels, num: int, rng: random.Random) -> list[str]:
+    def captions(
+        self, labels: Labels, num: int, rng: random.Random, *, whole_sentences: bool = True
+    ) -> list[str]:
         """Up to `num` different captions; fewer only where the templates allow no more.
 
-        Up to half of them are whole sentences, where the file has some for these labels. The
-        hand-written requests that models are measured by are never among them.
+        Up to half of them are whole sentences, where they are wanted and the file has some for
+        these labels. The hand-written requests that models are measured by are never among them.
         """
         plan = self._plan(self._key(labels))
         whole = self._sentences.get(self._key(told(labels)), [])
-        whole = rng.sample(whole, min(len(whole), num // 2))
+        whole = rng.sample(whole, min(len(whole), num // 2 if whole_sentences else 0))
         found = {normalised(text): text for text in whole}
         for _ in range(30 * num):
             if len(found) >= num:

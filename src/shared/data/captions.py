@@ -97,11 +97,18 @@ class CaptionBook:
             )
         return self._languages[code]
 
-    def captions(self, labels: Labels, *, num: int, seed: int) -> dict[str, list[str]]:
-        """Training captions: up to `num` different ones per language, the same for one seed."""
+    def captions(
+        self, labels: Labels, *, num: int, seed: int, whole_sentences: bool = True
+    ) -> dict[str, list[str]]:
+        """Training captions: up to `num` different ones per language, the same for one seed.
+
+        Without whole sentences they are those of the grammar alone.
+        """
         key = "|".join(f"{name}={labels[name]}" for name in sorted(labels))
         return {
-            code: self._languages[code].captions(labels, num, random.Random(f"{seed}|{code}|{key}"))
+            code: self._languages[code].captions(
+                labels, num, random.Random(f"{seed}|{code}|{key}"), whole_sentences=whole_sentences
+            )
             for code in self.languages
         }
 

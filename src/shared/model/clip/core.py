@@ -17,11 +17,14 @@ from ...config_schema import ClipConfig, NetworkConfig
 from ...errors import UserError
 from ..layers.masking import masked_mean
 from ..layers.temporal_unet import TemporalUNet
+from .token_pairs import PAIRS, TokenPairEncoder
 
 if TYPE_CHECKING:
     from transformers import PreTrainedModel, XLMRobertaConfig
 
 SMALL = "small"  # text-model name of the random-init tower
+OWN = (SMALL, PAIRS)  # made here, with a tokenizer of our own; any other is a pretrained one
+PLACE_SCALE = 30.0  # factor on cosines to places, in training of them, too
 INITIAL_TEMPERATURE = 0.1  # TMR's value
 MAX_LOGIT_SCALE = math.log(100.0)  # Radford et al. 2021, section 2.5
 
@@ -60,8 +63,9 @@ class TextTower(nn.Module):
     """XLM-R, masked mean, `text_proj` to D.
 
     Args:
-        config: `text_model` "small" is a random-init XLM-R of the `text-*` sizes; any other
-            value is a folder or hub name whose weights transformers reads.
+        config: `text_model` "small" is a random-init XLM-R of the `text-*` sizes, "pairs" a
+            table of tokens and pairs of them (token_pairs.py); any other value is a folder or hub
+            name whose weights transformers reads.
         embed_dim: D.
         encoder_config: transformers' own configuration from a model folder; builds that
             architecture without reading weights, for a state dict that follows.
@@ -81,6 +85,8 @@ class TextTower(nn.Module):
         self.config = config
         self.encoder = _build_encoder(config, encoder_config)
         self.text_proj = nn.Linear(self.encoder.config.hidden_size, embed_dim)
+        if config.text_places:
+            self.register_buffer("places", torch.zeros(config.text_places, embed_dim))
 
     @property
     def embed_dim(self) -> int:
@@ -88,8 +94,8 @@ class TextTower(nn.Module):
         return self.text_proj.out_features
 
     def encoder_config(self) -> dict[str, Any] | None:
-        """What a model folder must keep to rebuild the encoder; None for "small"."""
-        if self.config.text_model == SMALL:
+        """What a model folder must keep to rebuild the encoder; None for our own."""
+        if self.config.text_model in OWN:
             return None
         kept: dict[str, Any] = self.encoder.config.to_dict()
         return kept
@@ -104,8 +110,17 @@ class TextTower(nn.Module):
         return TextFeatures(self.pool(masked_mean(hidden, mask)), tokens, mask)
 
     def pool(self, mean: Tensor) -> Tensor:
-        """The encoder's mean over a text's tokens [B, H_text] -> [B, D] unit-norm."""
-        return normalize(self.text_proj(mean).float(), dim=-1)
+        """The encoder's mean over a text's tokens [B, H_text] -> [B, D] unit-norm.
+
+        With places [P, D], their mean by the probability of each: a denoiser that has learned
+        what lies there is never asked for what lies between.
+        """
+        pooled = normalize(self.text_proj(mean).float(), dim=-1)
+        if not self.config.text_places or self.training:
+            return pooled
+        places = self.get_buffer("places").float()
+        shares = (PLACE_SCALE * pooled @ places.T).softmax(-1)  # [B, P]
+        return normalize(shares @ places, dim=-1)
 
     def freeze(self) -> "TextTower":
         """Fix the weights and switch dropout off for good (generation training)."""
@@ -173,7 +188,9 @@ def small_text_config(config: ClipConfig) -> "XLMRobertaConfig":
 
 def _build_encoder(
     config: ClipConfig, encoder_config: Mapping[str, Any] | None
-) -> "PreTrainedModel":
+) -> "PreTrainedModel | TokenPairEncoder":
+    if config.text_model == PAIRS:
+        return TokenPairEncoder(config.text_pairs, config.text_hidden_size)
     # Only XLM-R's own module: the Auto classes cost seconds more to import.
     if config.text_model == SMALL:
         from transformers.models.xlm_roberta.modeling_xlm_roberta import XLMRobertaModel

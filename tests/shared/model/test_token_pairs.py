@@ -1,0 +1,54 @@
+"""Tokens and pairs of them as hidden states: what is shared counts, what nobody knows does not."""
+
+import torch
+from hypothesis import given
+from hypothesis import strategies as st
+
+from src.shared.model.clip.token_pairs import TokenPairEncoder, keys_of, shared_keys
+
+BOS, PAD, EOS = 0, 1, 2
+ids = st.lists(st.integers(3, 500), min_size=1, max_size=9)
+
+
+def row(words: list[int], length: int = 12) -> torch.Tensor:
+    return torch.tensor([[BOS, *words, EOS, *[PAD] * (length - len(words) - 2)]])
+
+
+def encoder(*texts: list[int], least: int = 1) -> TokenPairEncoder:
+    keys = shared_keys([row(text) for text in texts], least)
+    made = TokenPairEncoder(len(keys), 8)
+    made.keys = keys
+    return made.eval()
+
+
+@given(ids)
+def test_padding_changes_nothing(words: list[int]) -> None:
+    made = encoder(words)
+    short, long = row(words, len(words) + 2), row(words, 20)
+    first = made(short, short != PAD).last_hidden_state
+    second = made(long, long != PAD).last_hidden_state
+    assert torch.equal(second[:, : first.shape[1]], first)
+    assert not second[:, first.shape[1] :].any()
+
+
+@given(ids, ids)
+def test_order_counts_and_unknown_tokens_do_not(words: list[int], others: list[int]) -> None:
+    made = encoder(words)
+    strange = [word + 1000 for word in others]
+    text = row([*words, *strange], 24)
+    hidden = made(text, text != PAD).last_hidden_state[0]
+    assert not hidden[len(words) + 2 : -1].any()
+    there, back = row([7, 8, 9]), row([9, 8, 7])
+    pairs = {int(key) for key in keys_of(there)[..., 1].unique() if key}
+    assert pairs.isdisjoint({int(key) for key in keys_of(back)[..., 1].unique() if key})
+
+
+def test_a_row_is_kept_where_enough_texts_share_it() -> None:
+    texts = [row([5, 6]), row([5, 6]), row([6, 7])]
+    assert len(shared_keys(texts, 3)) == 1  # token 6
+    assert len(shared_keys(texts, 2)) == 5  # 5, 6, their pair, bos 5, 6 eos
+    assert shared_keys(texts, 1).tolist() == sorted(shared_keys(texts, 1).tolist())
+
+
+def test_one_text_counts_a_key_once() -> None:
+    assert len(shared_keys([row([5, 5, 5])], 2)) == 0
