@@ -135,7 +135,7 @@ def _names(labels: dict[str, str]) -> list[str]:
         names += {"run": ["run"], "crouch-walk": ["crouched"]}.get(action, [])
         return names + ([f"turn-{turn}"] if turn else [])
     if action in ("turn", "spin"):
-        return [f"turn-{direction}", "in-place"]
+        return [*([f"turn-{direction}"] if direction else []), "in-place"]
     if action in ("wave", "raise"):
         names = ["both-hands" if side == "both" else f"{side}-hand"] if side else []
         return names + (["wave"] if action == "wave" else [])

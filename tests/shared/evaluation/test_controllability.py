@@ -154,3 +154,8 @@ def test_measure_leaves_torch_state_alone() -> None:
     torch.manual_seed(0)
     measure(_clip(action="stand"))
     assert torch.equal(torch.rand(1), expected)
+
+
+def test_a_spin_to_no_side_in_particular_can_be_judged() -> None:
+    spinning = _clip(action="spin", direction="left")
+    assert check({"action": "spin"}, spinning) == {"in-place": True}
