@@ -103,7 +103,8 @@ class ClipTask:
         self.retrieves = self.held_back is not None and can_retrieve(len(self.held_back))
         if config.text is None and network.clip.text_model == PAIRS:
             raise UsageError(
-                "clip.text-model pairs is made by `train text clip=null`; give its folder as text=…"
+                f"clip.text-model {PAIRS} is made by `train text clip=null`;"
+                " give that run's folder as text=FOLDER"
             )
         clip = MotionClip(network)
         if config.text is None:
