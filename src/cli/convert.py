@@ -74,7 +74,7 @@ def convert(
       motion-tools convert walk.npz walk.bvh --skeleton my_character.bvh --fps 60
       motion-tools convert mocap/ converted/ --format glb,amass
     """
-    from ..shared.formats.joint_names import joint_names
+    from ..shared.formats.rig import joint_names
 
     if root not in ROOTS:
         raise UsageError(f"--root {root!r} is unknown; choose from {', '.join(ROOTS)}")

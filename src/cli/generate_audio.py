@@ -212,11 +212,8 @@ def write_trajectories(
 
     Several share one page, so that the song is in it once; its path is the second value.
     """
-    from ..shared.formats.trajectory_beats import SongTrack
-    from ..shared.formats.trajectory_registry import (
-        export_trajectory,
-        write_trajectory_preview,
-    )
+    from ..shared.formats.preview.trajectory import SongTrack
+    from ..shared.formats.registry import export_trajectory, write_trajectory_preview
     from ..shared.motion.trajectory import MotionTrajectory
     from ..shared.motion.trajectory_postprocess import MotionPostProcessor
 

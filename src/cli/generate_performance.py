@@ -209,9 +209,8 @@ def write_dances(
 
     Several share one page, so that the song is in it once; its path is the second value.
     """
-    from ..shared.formats.performance_files import export_dance, write_dance_page
-    from ..shared.formats.registry import ending
-    from ..shared.formats.trajectory_beats import SongTrack
+    from ..shared.formats.preview.trajectory import SongTrack
+    from ..shared.formats.registry import ending, export_dance, write_dance_page
 
     beats = song.beats
     track = SongTrack(audio, beats.beat_times, beats.downbeat_times, beats.meter)

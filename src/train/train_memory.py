@@ -26,7 +26,7 @@ from ..shared.config_memory import MemoryConfig
 from ..shared.data.phrases.dataset import PhraseBatch
 from ..shared.data.phrases.layout import PhraseRecord
 from ..shared.errors import UsageError
-from ..shared.formats.trajectory_registry import write_trajectory
+from ..shared.formats.registry import write_trajectory
 from ..shared.inference.audio_condition import AudioCondition
 from ..shared.inference.song_memory import (
     as_condition,

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 from src.cli.tools import app
 from src.shared.audio.song_spec import SongSpec
 from src.shared.audio.synthetic_songs import render_song
-from src.shared.formats.trajectory_npz import read_trajectory_npz
+from src.shared.formats.arrays import read_trajectory_npz
 from tests.shared.evaluation.tiny_pairs import tiny_model
 from tests.shared.inference.tiny_recall import remember, save_memory, save_space
 

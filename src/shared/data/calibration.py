@@ -10,8 +10,8 @@ Legend: T frames, N source joints.
 
 import numpy as np
 
-from ..formats.positions_ik import BENDS, LEFT, UP
-from ..formats.source_clip import SourceClip
+from ..formats.readers.humanml import BENDS, LEFT, UP
+from ..formats.rig import SourceClip
 from ..motion.skeleton import JOINT_INDEX, JOINT_NAMES, PARENTS, canonical_skeleton
 from .guesses import SAMPLES, joint_indices
 from .mapping import SkeletonMapping

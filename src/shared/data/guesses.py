@@ -6,7 +6,7 @@ Legend: T frames, N source joints.
 import numpy as np
 
 from ..errors import UsageError
-from ..formats.source_clip import SourceClip
+from ..formats.rig import SourceClip
 from .mapping import SkeletonMapping
 
 UNITS: dict[str, float] = {

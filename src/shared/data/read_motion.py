@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import UserError
-from ..formats.source_clip import SourceClip
+from ..formats.rig import SourceClip
 from ..motion.motion import Motion
 from ..motion.resample import resample_motion
 from ..motion.skeleton import JOINT_INDEX, JOINT_NAMES, canonical_skeleton

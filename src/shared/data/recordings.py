@@ -5,7 +5,7 @@ from pathlib import Path
 
 from ..errors import UserError
 from ..formats.limits import array_names, check_size
-from ..formats.source_clip import SourceClip
+from ..formats.rig import SourceClip
 from ..motion.motion import Motion
 
 FOLDER_ENDINGS = (".bvh", ".amc", ".npz", ".glb", ".npy")  # a folder's .csv may hold captions
@@ -51,16 +51,16 @@ def open_recording(
     check_size(path)
     ending = path.suffix.lower()
     if ending == ".bvh":
-        from ..formats.bvh import read_bvh
+        from ..formats.readers.bvh import read_bvh
 
         return Recording("BVH", clip=read_bvh(path))
     if ending == ".glb":
-        from ..formats.glb_reader import read_glb
+        from ..formats.readers.glb import read_glb
 
         clip = read_glb(path)
         return Recording("GLB", clip=clip, up="Y", metres=1.0, text=clip.text)
     if ending == ".csv":
-        from ..formats.motion_csv import read_motion_csv
+        from ..formats.csv_files import read_motion_csv
 
         return Recording("CSV of this project", motion=read_motion_csv(path))
     if ending == ".amc":
@@ -74,7 +74,7 @@ def open_recording(
 
 
 def _amc(path: Path, skeleton: Path | None, fps: float | None) -> Recording:
-    from ..formats.amc import read_amc
+    from ..formats.readers.acclaim import read_amc
 
     clip = read_amc(path, skeleton, fps=fps)
     warnings = () if clip.rate_is_known else (
@@ -86,7 +86,7 @@ def _amc(path: Path, skeleton: Path | None, fps: float | None) -> Recording:
 
 def _npz(path: Path, fps: float | None) -> Recording:
     from ..formats.amass import is_amass, read_amass
-    from ..formats.npz import read_npz
+    from ..formats.arrays import read_npz
 
     names = array_names(path)
     if "quaternions" in names or "format_version" in names:
@@ -105,7 +105,7 @@ def _npz(path: Path, fps: float | None) -> Recording:
 
 
 def _npy(path: Path, fps: float | None) -> Recording:
-    from ..formats.humanml import read_humanml
+    from ..formats.readers.humanml import read_humanml
 
     return Recording(
         "HumanML3D joints", clip=read_humanml(path, fps=fps), up="Y", metres=1.0,

@@ -10,7 +10,7 @@ from functools import lru_cache
 import numpy as np
 import torch
 
-from ..formats.source_clip import SourceClip
+from ..formats.rig import SourceClip
 from ..motion.contacts import detect_contacts
 from ..motion.kinematics import global_to_local
 from ..motion.motion import Motion

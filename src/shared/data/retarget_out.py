@@ -12,11 +12,11 @@ import numpy as np
 
 from ..errors import UsageError, UserError
 from ..files import same_place
-from ..formats.bvh import BvhClip, read_bvh
-from ..formats.glb_character import write_glb_character
-from ..formats.glb_reader import GlbSkeleton, read_glb_skeleton
+from ..formats.readers.bvh import BvhClip, read_bvh
+from ..formats.readers.glb import GlbSkeleton, read_glb_skeleton
 from ..formats.registry import check_motion, write_clip
 from ..formats.rig import Rig, RigClip, canonical_rig, motion_clip, turned
+from ..formats.writers.glb import write_glb_character
 from ..motion.motion import Motion
 from ..motion.skeleton import JOINT_INDEX, LEG_LENGTH, NUM_JOINTS, REST_FOOT_HEIGHT
 from .guesses import (

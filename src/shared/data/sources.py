@@ -14,8 +14,8 @@ from typing import Any, Protocol
 import numpy as np
 
 from ..errors import UsageError, UserError
-from ..formats.amc import find_skeleton
-from ..formats.bvh import check_head
+from ..formats.readers.acclaim import find_skeleton
+from ..formats.readers.bvh import check_head
 from ..motion.motion import Motion
 from .caption_files import (
     Piece,

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import UserError
-from ..formats.source_clip import SourceClip
+from ..formats.rig import SourceClip
 from .mapping import SkeletonMapping, find_mapping, words
 
 GUESSED = "guessed"  # name of a mapping that no profile gave

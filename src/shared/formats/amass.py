@@ -1,26 +1,29 @@
-"""AMASS files in: SMPL, SMPL-H and SMPL-X parameters as NPZ.
+"""AMASS files in and out: SMPL, SMPL-H and SMPL-X parameters as NPZ, +Z up.
 
 | array                                   | shape              | meaning                         |
 |-----------------------------------------|--------------------|---------------------------------|
 | poses                                   | [T,72] [T,156] [T,165] | rotation vectors, body first |
 | or root_orient, pose_body               | [T,3], [T,63]      | the same, named                 |
-| trans                                   | [T,3]              | metres, +Z up                   |
+| trans                                   | [T,3]              | metres: pelvis - `SMPL_PELVIS`  |
 | mocap_framerate or mocap_frame_rate     | ()                 | frames a second                 |
 | skeleton                                | ()                 | "motion-suite": the body is ours |
+| written only: gender, betas, dmpls      | (), [16], [T,8]    | neutral, 0, 0: the mean shape   |
 
 The 22 body joints are in our order already. No body model is read: the shape (`betas`), the hands,
 jaw and eyes are dropped, and the rotations go onto our own bones, whose rest directions differ
-from the model's by a few degrees. Legend: T frames.
-"""
+from the model's by a few degrees; written, they go over as they stand, so hands and feet end up a
+few centimetres elsewhere. Legend: T frames."""
 
 from pathlib import Path
 
 import numpy as np
 
 from ..errors import UserError
+from ..files import atomic_write
+from ..motion.motion import Motion
 from ..motion.skeleton import NUM_JOINTS, canonical_skeleton
-from .joint_clip import JointClip
 from .limits import FRAME_RATES, read_arrays
+from .rig import JointClip, quaternions_to_matrices
 
 MAX_VALUE = 1e4  # metres or radians
 NAMES = ("poses", "root_orient", "pose_body", "trans", "mocap_framerate", "mocap_frame_rate",
@@ -120,3 +123,40 @@ def _numbers(
     if array.size and not np.abs(array).max() < MAX_VALUE:
         raise UserError(f"{path}: {name} holds NaN or impossibly large values; export it again")
     return array
+
+
+Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])  # of our world
+BODY, ALL = 22, 52  # joints
+
+
+def write_amass(motion: Motion, path: str | Path) -> Path:
+    """Write one motion with the arrays of the module's table.
+
+    Raises:
+        UserError: the file cannot be written.
+    """
+    matrices = quaternions_to_matrices(motion.quaternions)
+    matrices[:, 0] = Z_UP @ matrices[:, 0]
+    poses = np.zeros((motion.num_frames, ALL * 3))
+    poses[:, : BODY * 3] = _vectors(matrices).reshape(motion.num_frames, -1)
+    with atomic_write(Path(path)) as temporary, temporary.open("wb") as stream:
+        np.savez_compressed(
+            stream,
+            poses=poses,
+            trans=motion.root_position.astype(np.float64) @ Z_UP.T - SMPL_PELVIS,
+            mocap_framerate=np.float64(motion.fps),
+            gender=np.array("neutral"),
+            betas=np.zeros(16),
+            dmpls=np.zeros((motion.num_frames, 8)),
+            skeleton=np.array(OURS),
+        )
+    return Path(path)
+
+
+def _vectors(matrices: np.ndarray) -> np.ndarray:
+    """Rotation vectors [...,3] in radians of matrices [...,3,3]."""
+    import torch
+
+    from ..motion.rotations import matrix_to_quaternion, quaternion_log
+
+    return np.asarray(quaternion_log(matrix_to_quaternion(torch.as_tensor(matrices))).numpy())

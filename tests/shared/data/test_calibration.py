@@ -12,10 +12,8 @@ from src.shared.data.mapping import SkeletonMapping, find_mapping, load_mappings
 from src.shared.data.retarget import _AIM, leg_length, retarget
 from src.shared.data.synthetic import generate_clip, sample_specs
 from src.shared.errors import UsageError
-from src.shared.formats.bvh import read_bvh
-from src.shared.formats.joint_clip import JointClip
-from src.shared.formats.rig import quaternions_to_matrices
-from src.shared.formats.source_clip import compose
+from src.shared.formats.readers.bvh import read_bvh
+from src.shared.formats.rig import JointClip, compose, quaternions_to_matrices
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import JOINT_NAMES, PARENTS, canonical_skeleton
 

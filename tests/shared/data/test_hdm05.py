@@ -7,7 +7,7 @@ import pytest
 
 from src.shared.data.mapping import find_mapping, load_mappings
 from src.shared.data.read_motion import inspect_motion, read_motion
-from src.shared.formats.amc import read_amc
+from src.shared.formats.readers.acclaim import read_amc
 from src.shared.motion.skeleton import JOINT_INDEX
 
 L_WRIST, R_WRIST, HEAD = (JOINT_INDEX[name] for name in ("l_wrist", "r_wrist", "head"))

@@ -7,8 +7,8 @@ import pytest
 
 from src.shared.data.read_motion import inspect_motion, read_motion
 from src.shared.errors import UserError
-from src.shared.formats.bvh_writer import write_bvh
-from src.shared.formats.npz import write_npz
+from src.shared.formats.arrays import write_npz
+from src.shared.formats.writers.bvh import write_bvh
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import NUM_JOINTS
 

@@ -10,8 +10,8 @@ from src.shared.data.mapping import SkeletonMapping, find_mapping, load_mappings
 from src.shared.data.retarget import rest_corrections, retarget
 from src.shared.data.synthetic import generate_clip, sample_specs
 from src.shared.errors import UsageError, UserError
-from src.shared.formats.bvh import BvhClip, read_bvh
-from src.shared.formats.bvh_writer import write_bvh
+from src.shared.formats.readers.bvh import BvhClip, read_bvh
+from src.shared.formats.writers.bvh import write_bvh
 from src.shared.motion.skeleton import JOINT_INDEX, canonical_skeleton
 
 OURS = load_mappings()[0]

@@ -14,12 +14,11 @@ from src.shared.data.read_motion import read_motion
 from src.shared.data.retarget import retarget
 from src.shared.data.retarget_out import Target, read_target, rest_clip, retarget_out
 from src.shared.errors import UserError
-from src.shared.formats.bvh import read_bvh
-from src.shared.formats.glb import write_glb_clip
-from src.shared.formats.glb_reader import read_glb, read_glb_skeleton
+from src.shared.formats.readers.bvh import read_bvh
+from src.shared.formats.readers.glb import read_glb, read_glb_skeleton
 from src.shared.formats.registry import write_clip, write_motion
-from src.shared.formats.rig import Rig, RigClip, canonical_rig
-from src.shared.formats.source_clip import SourceClip
+from src.shared.formats.rig import Rig, RigClip, SourceClip, canonical_rig
+from src.shared.formats.writers.glb import write_glb_clip
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import FOOT_JOINTS, JOINT_INDEX, JOINT_NAMES, REST_FOOT_HEIGHT
 from tests.shared.data.test_round_trips import differences, random_motion

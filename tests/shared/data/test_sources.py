@@ -11,7 +11,7 @@ from src.shared.data.synthetic import generate_clip, sample_specs
 from src.shared.errors import UsageError, UserError
 from src.shared.formats.registry import write_motion
 from src.shared.motion.motion import Motion
-from tests.shared.formats.test_amc import ASF
+from tests.shared.formats.readers.test_acclaim import ASF
 
 
 @pytest.fixture(scope="module")
