@@ -149,7 +149,7 @@ def read_clip(path: Path) -> "Motion":
     Raises:
         UserError: none, or not that.
     """
-    from ..shared.data.read_motion import read_motion
+    from ..shared.data.retarget.read_motion import read_motion
 
     return read_motion(path)
 

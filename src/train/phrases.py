@@ -14,7 +14,8 @@ from torch.nn import functional as F
 
 from ..shared.config_schema import TrainConfig
 from ..shared.data.phrases.dataset import EmptySplit, MotionPhraseDataset, PhraseBatch
-from ..shared.data.prepared import SYNTHETIC, open_data
+from ..shared.data.prepare import open_data
+from ..shared.data.prepared import SYNTHETIC
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
 from ..shared.model.audio.conditioning import BEAT, CONDITION_ROWS
 from ..shared.model.audio.decoder import wrapped_phase

@@ -17,8 +17,8 @@ import torch
 from torch import Tensor, nn
 
 from ..shared.config_schema import PROVENANCES, NetworkConfig, TrainGenerationConfig
+from ..shared.data.captions.word_dropout import drop_words
 from ..shared.data.text_motion import TextMotionBatch
-from ..shared.data.word_dropout import drop_words
 from ..shared.device import autocast, choose_compute
 from ..shared.errors import UsageError
 from ..shared.model.checkpoint import ModelCard

@@ -30,9 +30,9 @@ from torch import Tensor, nn
 from torch.nn.functional import cross_entropy, normalize
 
 from ..shared.config_schema import NetworkConfig, TrainTowerConfig
-from ..shared.data.captions import packaged_book
-from ..shared.data.labels import Labels
-from ..shared.data.word_dropout import drop_words, insert_babble
+from ..shared.data.captions.book import packaged_book
+from ..shared.data.captions.schema import Labels
+from ..shared.data.captions.word_dropout import drop_words, insert_babble
 from ..shared.errors import UserError
 from ..shared.files import sha256_file
 from ..shared.model.checkpoint import WEIGHTS_FILE, ModelCard, read_card

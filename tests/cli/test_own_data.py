@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from src.shared.data.captions import CaptionBook
+from src.shared.data.captions.book import CaptionBook
 from src.shared.data.synthetic import generate_clip, spec_for
 from src.shared.evaluation.controllability import check
 from src.shared.formats.arrays import read_npz

@@ -131,20 +131,20 @@ def _write_directions(folder: Path) -> None:
 
 
 def _read_any(path: Path) -> None:
-    from src.shared.data.read_motion import read_motion
+    from src.shared.data.retarget.read_motion import read_motion
 
     check_motion(read_motion(path))
 
 
 def _read_acclaim(path: Path) -> None:
-    from src.shared.data.read_motion import read_motion
+    from src.shared.data.retarget.read_motion import read_motion
 
     check_motion(read_motion(path.with_suffix(".amc"), skeleton=path.with_suffix(".asf")))
 
 
 def _read_rig(path: Path) -> None:
     """As a motion, and as the skeleton of somebody's character."""
-    from src.shared.data.retarget_out import read_target
+    from src.shared.data.retarget.to_rig import read_target
     from src.shared.errors import UserError
 
     with contextlib.suppress(UserError):

@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..data.records import ClipRecord
+from ..data.prepared import ClipRecord
 from ..errors import UserError
 from . import manifest
 from .clips import Sampler

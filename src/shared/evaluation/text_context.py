@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..data.records import ClipRecord
+from ..data.prepared import ClipRecord
 from ..motion.motion import Motion
 from ..motion.root_track import decode_features, encode_features
 from .clips import Clips, Sampler, frozen, real_clips

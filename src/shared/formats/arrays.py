@@ -123,7 +123,7 @@ def write_trajectory_npz(trajectory: MotionTrajectory, path: str | Path) -> Path
     | name           | shape   | type    | meaning                                                 |
     |----------------|---------|---------|---------------------------------------------------------|
     | format_version | ()      | int32   | 1                                                       |
-    | trajectory     | [T,25]  | float32 | columns as `columns` names them; metres, seconds, radians |
+    | trajectory     | [T,25]  | float32 | columns as `columns` names them; metres, radians        |
     | phase_bars     | [T]     | float64 | bar phase that grows on, from the first frame's phase   |
     | fps            | ()      | float32 | frames a second                                         |
     | columns        | [25]    | str     | name of each column                                     |

@@ -10,7 +10,7 @@ import pytest
 from src.shared.data.phrases.layout import parse_manifest, write_body, write_manifest
 from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
-from src.shared.data.sources import SyntheticSource
+from src.shared.data.sources.folders import SyntheticSource
 from src.shared.evaluation.dance_context import DanceContext, DanceSettings
 from src.shared.evaluation.dance_harness import evaluate_performer
 from src.shared.evaluation.editing_context import EditContext, EditSettings

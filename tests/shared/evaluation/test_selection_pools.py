@@ -7,7 +7,7 @@ import pytest
 import torch
 
 from src.shared.data.synthetic import generate_clip
-from src.shared.data.synthetic.spec import spec_for
+from src.shared.data.synthetic.clips import spec_for
 from src.shared.evaluation.audio_songs import held_out_songs
 from src.shared.evaluation.clips import Clips
 from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from src.shared.data.read_motion import inspect_motion, read_motion
+from src.shared.data.retarget.read_motion import inspect_motion, read_motion
 from src.shared.errors import UserError
 from src.shared.formats.amass import SMPL_PELVIS, read_amass, write_amass
 from src.shared.motion.motion import Motion

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 import torch
 
-from src.shared.data.synthetic.generate import generate_clip
-from src.shared.data.synthetic.spec import spec_for
+from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.errors import UsageError
 from src.shared.inference.directed import edited, moved_to
 from src.shared.inference.editing import (

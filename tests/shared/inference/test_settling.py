@@ -10,8 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from src.shared.config_schema import PostProcessingConfig
-from src.shared.data.synthetic.generate import generate_clip
-from src.shared.data.synthetic.spec import spec_for
+from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.inference.editing import Place
 from src.shared.inference.settling import Settler, joined, settled
 from src.shared.motion.foot_holds import GIVE

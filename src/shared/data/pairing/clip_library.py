@@ -12,14 +12,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from ...motion.root_track import (
-    FORWARD,
-    HEIGHT,
-    LATERAL,
-    ROOT_ROW,
-    YAW_RATE,
-    integrate_root,
-)
+from ...motion.root_track import FORWARD, HEIGHT, LATERAL, ROOT_ROW, YAW_RATE, integrate_root
 from ...motion.rotations import (
     quaternion_conjugate,
     quaternion_continuous,
@@ -28,8 +21,7 @@ from ...motion.rotations import (
     rotation_6d_to_quaternion,
 )
 from ...motion.trajectory_math import yaw_quaternion
-from ..prepared import SYNTHETIC, PreparedData
-from ..records import ClipRecord
+from ..prepared import SYNTHETIC, ClipRecord, PreparedData
 from ..splits import assign_alike
 from .motion_beats import MotionBeats, motion_beats
 

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from ...audio.features import AudioFeatures
     from ...audio.synthetic_songs import SongSpec
 
+
 FPS = 30.0
 SYNTHETIC_SECONDS = 60.0
 TEST_SHARE, VAL_SHARE = 0.1, 0.08  # of synthetic songs; the test songs have tempi of their own

@@ -9,26 +9,20 @@ import numpy as np
 
 from ...motion.skeleton import REST_PELVIS_HEIGHT
 from .curves import Array, min_jerk, ramp, smooth_noise
-from .gaits import (
+from .rig import ABDUCT, ELBOW, FLEX, LEFT, RIGHT, TWIST, Body, Scene
+from .steps import (
     Gait,
+    Path,
+    Stepping,
     backward_gait,
     crouched_gait,
+    plan_feet,
     run_gait,
     sideways_gait,
     stepping_in_place,
+    time_grid,
     walk_gait,
 )
-from .rig import (
-    ABDUCT,
-    ELBOW,
-    FLEX,
-    LEFT,
-    RIGHT,
-    TWIST,
-    Body,
-)
-from .scene import Scene
-from .steps import Path, Stepping, plan_feet, time_grid
 
 
 def travel(scene: Scene) -> Body:

@@ -6,8 +6,7 @@ import pytest
 import torch
 from torch import Tensor
 
-from src.shared.data.synthetic.generate import generate_clip
-from src.shared.data.synthetic.spec import spec_for
+from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.model.audio.conditioning import CONDITION_ROWS, FEATURE_ROWS
 from src.shared.model.audio.shared_space import KIND, SharedSpace
 from src.shared.model.checkpoint import WEIGHTS_FILE
