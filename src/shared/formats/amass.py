@@ -17,6 +17,7 @@ few centimetres elsewhere. Legend: T frames."""
 from pathlib import Path
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from ..errors import UserError
 from ..files import atomic_write
@@ -71,25 +72,14 @@ def read_amass(path: str | Path, *, fps: float | None = None) -> JointClip:
     if len(poses) != len(trans) or not len(trans):
         raise UserError(f"{path}: {len(poses)} poses and {len(trans)} places; "
                         "the file is damaged; export it again")  # fmt: skip
+    rotations = Rotation.from_rotvec(poses.reshape(-1, 3))
     return JointClip(
-        rotations=rotation_matrices(poses.reshape(-1, NUM_JOINTS, 3)),
+        rotations=rotations.as_matrix().reshape(-1, NUM_JOINTS, 3, 3),
         root=trans + SMPL_PELVIS,
         offsets=canonical_skeleton().offsets.astype(np.float64),
         frame_time=1.0 / _rate(path, arrays, fps),
         ours="skeleton" in arrays and str(arrays["skeleton"]) == OURS,
     )
-
-
-def rotation_matrices(vectors: np.ndarray) -> np.ndarray:
-    """Rotation vectors [...,3] in radians → matrices [...,3,3] (Rodrigues)."""
-    angle = np.linalg.norm(vectors, axis=-1)[..., None, None]
-    axis = vectors[..., None] / np.maximum(angle, 1e-12)  # a column
-    x, y, z = axis[..., 0, 0], axis[..., 1, 0], axis[..., 2, 0]
-    zero = np.zeros_like(x)
-    cross = np.stack((zero, -z, y, z, zero, -x, -y, x, zero), -1).reshape(*x.shape, 3, 3)
-    outer = axis * np.swapaxes(axis, -1, -2)
-    cos, sin = np.cos(angle), np.sin(angle)
-    return np.asarray(cos * np.eye(3) + sin * cross + (1 - cos) * outer)
 
 
 def _rate(path: Path, arrays: dict[str, np.ndarray], fps: float | None) -> float:

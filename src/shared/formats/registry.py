@@ -305,10 +305,7 @@ def export_dance(
 
 
 def write_dance_page(
-    motions: Sequence[Motion],
-    trajectories: Sequence[MotionTrajectory],
-    path: Path,
-    song: SongTrack,
+    motions: Sequence[Motion], trajectories: Sequence[MotionTrajectory], path: Path, song: SongTrack
 ) -> Path:
     """One page that plays the song with its dances side by side, offline.
 

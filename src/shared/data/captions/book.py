@@ -8,18 +8,8 @@ from typing import Any
 
 from ...config_loader import load_yaml, packaged_config
 from ...errors import UserError
-from .language import CaptionLanguage, mirror_labels, mirror_value
-from .schema import Labels, normalised, validate_language
-
-__all__ = [
-    "CaptionBook",
-    "known_actions",
-    "mirror_labels",
-    "mirror_text",
-    "mirror_value",
-    "normalised",
-    "packaged_book",
-]
+from .language import CaptionLanguage
+from .schema import Labels, validate_language
 
 HOW_TO_ADD = (
     "add a caption file with 'language: {code}' and a 'mirror:' table "

@@ -235,10 +235,7 @@ def read_pair(pair: Entry) -> tuple[list[Piece], Warp]:
 
 
 def phrase_body(
-    pieces: Sequence[Piece],
-    warp: Warp,
-    num_frames: int,
-    features_of: Callable[[str], Tensor],
+    pieces: Sequence[Piece], warp: Warp, num_frames: int, features_of: Callable[[str], Tensor]
 ) -> Tensor:
     """Features of a phrase's body; its pelvis is that of the phrase's trajectory.
 

@@ -425,10 +425,7 @@ def sound_statistics(
 
 
 def _statistics(
-    dataset: MotionPhraseDataset,
-    rows: Callable[[PhraseItem], Tensor],
-    most: int,
-    least_std: float,
+    dataset: MotionPhraseDataset, rows: Callable[[PhraseItem], Tensor], most: int, least_std: float
 ) -> tuple[Tensor, Tensor]:
     count, total, squares = 0, np.zeros(1), np.zeros(1)
     for number, item in enumerate(dataset.epoch(0)):

@@ -112,11 +112,7 @@ def _draw_legend(draw: "ImageDraw.ImageDraw", meter: int) -> None:
 
 
 def _draw_row(
-    span: tuple[float, float],
-    speed: np.ndarray,
-    colours: np.ndarray,
-    marks: BeatMarks,
-    fps: float,
+    span: tuple[float, float], speed: np.ndarray, colours: np.ndarray, marks: BeatMarks, fps: float
 ) -> "Image.Image":
     """Speed between two times; a column of pixels shows the fastest of its frames."""
     image, draw = new_sheet(ROW_WIDTH + MARGIN, ROW_HEIGHT)

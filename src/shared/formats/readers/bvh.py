@@ -5,7 +5,8 @@ memory. Legend: T frames, N nodes of the hierarchy (end sites apart), C channels
 
 import re
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from itertools import accumulate
 from pathlib import Path
@@ -18,6 +19,7 @@ from ..limits import (
     FRAME_RATES,
     MAX_BYTES,
     MAX_FRAMES,
+    MAX_JOINTS,
     MAX_LINE,
     MAX_VALUE,
     MAX_VALUES,
@@ -27,7 +29,6 @@ from ..limits import (
 )
 from ..rig import ALL, compose
 
-MAX_JOINTS = 2000
 _CHANNELS = {
     f"{axis}{kind}".lower(): f"{axis}{kind}" for axis in "XYZ" for kind in ("position", "rotation")
 }
@@ -430,16 +431,9 @@ def read_bvh(path: str | Path, *, stride: int = 1, max_bytes: int = MAX_BYTES) -
     """
     path = Path(path)
     check_size(path, max_bytes)
-    try:
-        with path.open("rb") as stream:
-            head = read_head(stream)
-            values = read_rows(path, stream, head)
-    except BvhError as error:
-        raise _user_error(path, error) from None
-    except OSError as error:
-        raise UserError(
-            f"{path}: cannot be read: {error.strerror or error}; name a BVH file that may be read"
-        ) from error
+    with _opened(path) as stream:
+        head = read_head(stream)
+        values = read_rows(path, stream, head)
     nodes = head.nodes
     return BvhClip(
         names=tuple(node.name for node in nodes),
@@ -462,17 +456,20 @@ def check_head(path: Path) -> None:
         UserError: it is broken, or no motion follows it.
     """
     check_size(path)
+    with _opened(path) as stream:
+        read_head(stream)
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[IO[bytes]]:
+    """The file's bytes; what is wrong with them names file and line."""
     try:
         with path.open("rb") as stream:
-            read_head(stream)
+            yield stream
     except BvhError as error:
-        raise _user_error(path, error) from None
+        place = f", line {error.line}" if error.line else ""
+        raise UserError(f"{path}{place}: {remedied(str(error))}") from None
     except OSError as error:
         raise UserError(
             f"{path}: cannot be read: {error.strerror or error}; name a BVH file that may be read"
         ) from error
-
-
-def _user_error(path: Path, error: BvhError) -> UserError:
-    place = f", line {error.line}" if error.line else ""
-    return UserError(f"{path}{place}: {remedied(str(error))}")

@@ -5,6 +5,8 @@ them count as joints too. The default pose of the nodes is the rest pose. Legend
 N joints, M nodes that matter (joints and everything above them)."""
 
 import struct
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -189,25 +191,19 @@ def read_glb(path: str | Path) -> RigClip:
         return _clip(skeleton)
 
 
-class _faults:
+@contextmanager
+def _faults(path: Path) -> Iterator[None]:
     """Faults of the file become one sentence that names it."""
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-
-    def __enter__(self) -> None:
-        return None
-
-    def __exit__(self, kind: Any, error: BaseException | None, trace: Any) -> None:
-        if isinstance(error, GlbError):
-            raise UserError(f"{self.path}: {error}") from None
+    try:
+        yield
+    except GlbError as error:
+        raise UserError(f"{path}: {error}") from None
+    except (LookupError, TypeError, ValueError, AttributeError, OverflowError, struct.error,
+            np.linalg.LinAlgError) as error:  # fmt: skip
         # What a document with a missing, wrong or foreign entry leads to.
-        wrong = (LookupError, TypeError, ValueError, AttributeError, OverflowError, struct.error,
-                 np.linalg.LinAlgError)  # fmt: skip
-        if isinstance(error, wrong):
-            raise UserError(
-                f"{self.path}: does not hold what glTF 2.0 asks for ({error!r}); export it again"
-            ) from None
+        raise UserError(
+            f"{path}: does not hold what glTF 2.0 asks for ({error!r}); export it again"
+        ) from None
 
 
 def _skeleton(file: GlbFile) -> GlbSkeleton:
