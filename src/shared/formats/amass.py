@@ -29,7 +29,7 @@ from .rig import JointClip, quaternions_to_matrices
 MAX_VALUE = 1e4  # metres or radians
 NAMES = ("poses", "root_orient", "pose_body", "trans", "mocap_framerate", "mocap_frame_rate",
          "skeleton")  # fmt: skip
-OURS = "motion-suite"  # `skeleton` of files that `amass_writer` wrote
+OURS = "motion-suite"  # `skeleton` of files that `write_amass` wrote
 # `trans` moves the model's origin; its pelvis lies here, whichever way the body is turned
 # (metres, mean neutral shape).
 SMPL_PELVIS = np.array([-0.002, -0.223, 0.028])

@@ -179,7 +179,7 @@ class Rig:
 
 @dataclass(frozen=True, eq=False)
 class RigClip:
-    """A rig in motion; what `source_clip.SourceClip` promises, so any reader's user takes it.
+    """A rig in motion; what `SourceClip` promises, so any reader's user takes it.
 
     Attributes:
         rig: the skeleton.
@@ -237,7 +237,7 @@ class RigClip:
 
 
 def canonical_rig(names: str = "canonical") -> Rig:
-    """Our skeleton, its joints named as a tool likes (`joint_names.SCHEMES`)."""
+    """Our skeleton, its joints named as a tool likes (`rig.SCHEMES`)."""
     skeleton = canonical_skeleton()
     offsets = skeleton.offsets.astype(np.float64)
     offsets[0] = (0.0, REST_PELVIS_HEIGHT, 0.0)

@@ -143,7 +143,7 @@ class Inspection:
         format: of the file, for example "BVH".
         joints: (name, index of the parent or -1), parents first.
         fps, frames, seconds: of the recording.
-        unit: name of the unit of length (see `guesses.UNITS`), None where nothing tells.
+        unit: name of the unit of length (see `UNITS`), None where nothing tells.
         up: the up axis, for example "Z".
         guessed: those of "unit" and "up" that were guessed.
         mapping: name of the skeleton profile that fits; None if none does.
@@ -181,7 +181,7 @@ def read_motion(
 
     Args:
         mapping: YAML with skeleton profiles that go before ours (see configs/skeletons.yaml).
-        unit: of length in the file, by name (`guesses.UNITS`): distances then stay true instead
+        unit: of length in the file, by name (see `UNITS`): distances then stay true instead
             of being scaled to our legs.
         up: the file's up axis, "Y", "Z", "-X", …; default: as the file says, or guessed.
         fps: of the result; None keeps the file's own.

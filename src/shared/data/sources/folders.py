@@ -92,7 +92,7 @@ class Reading:
 class MotionFolder:
     """Every motion file below a folder (or one file), with captions and label rules.
 
-    Of one name in several formats, the first of `recordings.FOLDER_ENDINGS` is taken. A file is one
+    Of one name in several formats, the first of `FOLDER_ENDINGS` is taken. A file is one
     clip, or as many as the table cuts it into; these stay one take.
 
     Attributes:

@@ -224,7 +224,7 @@ def write_trajectory_html(
         path: the page to write.
         song: its file is put into the page, cut to the longest trajectory.
         titles: one caption a trajectory; a body's own text where there is none.
-        bodies: one a trajectory, frame by frame on it; none = the stand-in.
+        bodies: one a trajectory, frame by frame on it; none = the proxy body.
 
     Raises:
         UserError: no trajectory, a song that cannot be read, or the page cannot be written.

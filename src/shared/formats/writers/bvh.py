@@ -24,7 +24,7 @@ def write_bvh(motion: Motion, path: str | Path, *, names: str = "canonical") -> 
     Args:
         motion: what to write.
         path: the file.
-        names: what the joints are called (`joint_names.SCHEMES`).
+        names: what the joints are called (`rig.SCHEMES`).
 
     Raises:
         UserError: the file cannot be written.

@@ -39,7 +39,7 @@ def write_glb(motion: Motion, path: str | Path, *, names: str = "canonical") -> 
     Args:
         motion: what to write.
         path: the file.
-        names: what the joints are called (`joint_names.SCHEMES`).
+        names: what the joints are called (`rig.SCHEMES`).
 
     Raises:
         UserError: the file cannot be written.
@@ -266,7 +266,7 @@ def write_glb_character(skeleton: GlbSkeleton, clip: RigClip, path: str | Path) 
     """Write the character's file again, mesh and all, with the clip as its only animation.
 
     Args:
-        skeleton: of `glb_reader.read_glb_skeleton`.
+        skeleton: of `readers.glb.read_glb_skeleton`.
         clip: a motion of `skeleton.rig`.
         path: the file; may not be the character's own.
 

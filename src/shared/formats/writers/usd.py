@@ -37,7 +37,7 @@ def write_usd(motion: Motion, path: str | Path, *, names: str = "canonical") -> 
     Args:
         motion: what to write.
         path: a file that ends in .usd, .usda or .usdc.
-        names: what the joints are called (`joint_names.SCHEMES`).
+        names: what the joints are called (`rig.SCHEMES`).
 
     Raises:
         UserError: the file cannot be written, or .usdc without `usd-core`.
