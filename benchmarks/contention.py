@@ -36,11 +36,11 @@ Turn = tuple[float, float]  # wall and CPU seconds
 def jobs(song_file: Path, seconds: float) -> dict[str, Callable[[], object]]:
     """What is timed, its models and its song loaded."""
     from src.shared.audio.song import analyse
-    from src.shared.inference.performer import Performer
-    from src.shared.inference.song_generator import SongGenerator, of_song
-    from src.shared.inference.song_performer import HeardSong, SongPerformer
-    from src.shared.inference.song_sampler import SampleSettings
     from src.shared.model.generation.motion_generator import MotionGenerator
+    from src.shared.pipelines.body import Performer
+    from src.shared.pipelines.dance import HeardSong, SongPerformer
+    from src.shared.pipelines.song import SongGenerator, of_song
+    from src.shared.pipelines.song_sampler import SampleSettings
 
     generator = MotionGenerator.from_pretrained("starter", device="cpu")
     paths = SongGenerator.from_pretrained("starter-audio", device="cpu")

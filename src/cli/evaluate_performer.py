@@ -122,9 +122,9 @@ def run(
     from ..shared.evaluation.evaluator import Evaluator
     from ..shared.evaluation.held_out import open_held_out
     from ..shared.evaluation.report_folder import save_report
-    from ..shared.inference.performer import PerformerSettings
-    from ..shared.inference.song_generator import SongGenerator
     from ..shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.pipelines.body import PerformerSettings
+    from ..shared.pipelines.song import SongGenerator
 
     judge = Evaluator.from_pretrained(str(models["evaluator"]))
     generator = MotionGenerator.from_pretrained(str(models["model"]), device=device)

@@ -17,12 +17,12 @@ if TYPE_CHECKING:
     from torch import Tensor
 
     from ..shared.audio.song import Song
-    from ..shared.inference.runtime import Runtime
-    from ..shared.inference.song_generator import SongMotions
-    from ..shared.inference.song_sampler import SampleSettings
     from ..shared.memory.build import Space
     from ..shared.memory.service import MPMService
     from ..shared.motion.trajectory import MotionTrajectory
+    from ..shared.pipelines.runtime import Runtime
+    from ..shared.pipelines.song import SongMotions
+    from ..shared.pipelines.song_sampler import SampleSettings
 
 FORMATS = ("npz", "csv", "glb", "html", "png")
 MODEL = "starter-audio"
@@ -91,10 +91,10 @@ def produce_song(
     check_sound(wanted["audio"])
     from ..shared.audio.song import analyse
     from ..shared.device import set_threads
-    from ..shared.inference.audio_judge import AudioJudge
-    from ..shared.inference.runtime import load_runtime
-    from ..shared.inference.song_generator import SongMotions, heard
-    from ..shared.inference.song_sampler import SampleSettings
+    from ..shared.pipelines.ranking import AudioJudge
+    from ..shared.pipelines.runtime import load_runtime
+    from ..shared.pipelines.song import SongMotions, heard
+    from ..shared.pipelines.song_sampler import SampleSettings
 
     clock.lap("import")
     style = styled(wanted["style"])
@@ -138,9 +138,9 @@ def sample_paths(
     remembered: "tuple[MPMService, Space] | None",
 ) -> "list[MotionTrajectory]":
     """Candidates for a song as the decoder gave them, with a bar on the screen."""
-    from ..shared.inference.song_generator import of_song
-    from ..shared.inference.song_memory import remembering
-    from ..shared.inference.song_sampler import SongSampler
+    from ..shared.pipelines.song import of_song
+    from ..shared.pipelines.song_memory import remembering
+    from ..shared.pipelines.song_sampler import SongSampler
 
     with progress_bar("frames of the path") as progress:
         sampler = SongSampler(loaded, of_song(settings, song))
@@ -166,9 +166,9 @@ def open_service(folder: Path | None, loaded: "Runtime") -> "tuple[MPMService, S
     """
     if folder is None:
         return None
-    from ..shared.inference.mpms_sampler import require_memory
-    from ..shared.inference.song_memory import open_memory
     from ..shared.memory.service import MPMService
+    from ..shared.pipelines.motion_sampler import require_memory
+    from ..shared.pipelines.song_memory import open_memory
     from .memory import load_settings
 
     require_memory(loaded.config, "this model")

@@ -10,11 +10,10 @@ from .guard import complain
 from .stopwatch import Stopwatch
 
 if TYPE_CHECKING:
-    from ..shared.inference.directed import Directed
-    from ..shared.inference.editing import Given
-    from ..shared.inference.motion_stream import StreamSettings
     from ..shared.model.generation.motion_generator import MotionGenerator
     from ..shared.motion.motion import Motion
+    from ..shared.pipelines.edit import ControlledMotion, Given
+    from ..shared.pipelines.stream import StreamSettings
 
 SAMPLING = ("seed", "steps", "sampler", "guidance_scale")
 
@@ -43,8 +42,8 @@ def produce_directed(
     """
     clock = Stopwatch()
     from ..shared.device import set_threads
-    from ..shared.inference.motion_stream import StreamSettings
     from ..shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.pipelines.stream import StreamSettings
     from .generate_timeline import make_timed, read_timed
 
     clock.lap("import")
@@ -81,7 +80,7 @@ def read_given(directions: Directions, seconds: float | None) -> "Given":
     Raises:
         UserError: a clip cannot be read, or is shorter than what is asked of it.
     """
-    from ..shared.inference.editing import chosen_joints
+    from ..shared.pipelines.edit import chosen_joints
 
     names = [part.strip() for part in (directions.joints or "").split(",") if part.strip()]
     if directions.joints is not None and not names:
@@ -98,7 +97,7 @@ def read_edit(directions: Directions, clip: "Motion", joints: set[str] | None) -
     Raises:
         UserError: the span is not in it.
     """
-    from ..shared.inference.editing import redo
+    from ..shared.pipelines.edit import redo
 
     begin, until = directions.begin or 0.0, directions.until
     until = clip.seconds if until is None else until
@@ -117,7 +116,7 @@ def read_ends(directions: Directions, seconds: float | None) -> "Given":
     Raises:
         UserError: a clip is shorter than what is to be kept, or nothing would be left to make.
     """
-    from ..shared.inference.editing import keep_ends
+    from ..shared.pipelines.edit import keep_ends
 
     start = None if directions.start is None else read_clip(directions.start)
     end = None if directions.end is None else read_clip(directions.end)
@@ -159,9 +158,9 @@ def make_edited(
     given: "Given",
     wanted: dict[str, Any],
     settings: "StreamSettings",
-) -> "Directed":
+) -> "ControlledMotion":
     """What is given stays, the rest is made as the prompt says."""
-    from ..shared.inference.directed import edited
+    from ..shared.pipelines.edit import edited
 
     text = wanted["prompts"][0] if wanted["prompts"] else None
     tag = wanted["tags"][0] if wanted["tags"] else None

@@ -16,11 +16,11 @@ from .wording import note_replaced
 
 if TYPE_CHECKING:
     from ..shared.audio.song import Song
-    from ..shared.inference.performance_judge import PerformanceJudge
-    from ..shared.inference.performer import Performance
-    from ..shared.inference.runtime import Runtime
-    from ..shared.inference.song_performer import Dances, HeardSong, SongPerformer
     from ..shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.pipelines.body import Performance
+    from ..shared.pipelines.dance import Dances, HeardSong, SongPerformer
+    from ..shared.pipelines.ranking import PerformanceJudge
+    from ..shared.pipelines.runtime import Runtime
 
 BODY_MODEL = "starter"
 DANCE = "dance"  # ends the file names of a dance that no prompt asked for
@@ -61,9 +61,9 @@ def produce_dances(
     check_sound(wanted["audio"])
     from ..shared.audio.song import analyse
     from ..shared.device import set_threads
-    from ..shared.inference.runtime import load_runtime
-    from ..shared.inference.song_performer import HeardSong
     from ..shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.pipelines.dance import HeardSong
+    from ..shared.pipelines.runtime import load_runtime
 
     clock.lap("import")
     style = generate_audio.styled(wanted["style"])
@@ -121,7 +121,7 @@ def dance_prompts(
         path: the style of `--style`, and the memory; None where there is none.
         clock: told of `path` and `body`.
     """
-    from ..shared.inference.song_sampler import SampleSettings
+    from ..shared.pipelines.song_sampler import SampleSettings
 
     generator, (style, remembered) = dancers.performer.generator, path
     settings = SampleSettings(**wanted["sampling"] | {"guidance_scale": None})
@@ -151,9 +151,8 @@ def open_dancers(
     generator: "MotionGenerator", wanted: dict[str, Any], judge: "PerformanceJudge | None"
 ) -> "SongPerformer":
     """Who dances: with the prompts that were given, or with what the music says."""
-    from ..shared.inference.dance_prompt import DancePrompter
-    from ..shared.inference.performer import Performer, PerformerSettings
-    from ..shared.inference.song_performer import SongPerformer
+    from ..shared.pipelines.body import Performer, PerformerSettings
+    from ..shared.pipelines.dance import DancePrompter, SongPerformer
 
     own = {name: wanted["sampling"][name] for name in SAMPLING}
     performer = Performer(generator, PerformerSettings(**own, foot_lock=wanted["foot_lock"]))
@@ -163,8 +162,7 @@ def open_dancers(
 
 def open_judge(generator: "MotionGenerator", bands: Any, judge: str | None) -> "PerformanceJudge":
     """A judge of several candidates, with the motion tower that belongs to the generator."""
-    from ..shared.inference.performance_judge import PerformanceJudge
-    from ..shared.inference.text_judge import load_tower, own_tower
+    from ..shared.pipelines.ranking import PerformanceJudge, load_tower, own_tower
 
     text = generator.text
     return PerformanceJudge(bands, own_tower(text) if judge is None else load_tower(judge, text))
@@ -239,7 +237,7 @@ def write_dances(
 
 def told_of_dance(dance: "Performance", beats: Any) -> dict[str, Any]:
     """What was asked for, how exactly the body stands on its path, how it keeps the beat."""
-    from ..shared.inference.performance_judge import beat_report
+    from ..shared.pipelines.ranking import beat_report
 
     motion = dance.motion
     return {

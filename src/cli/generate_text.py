@@ -44,9 +44,9 @@ def produce(
     """
     clock = Stopwatch()
     from ..shared.device import set_threads
-    from ..shared.inference.prompt_sampler import PromptSampler
-    from ..shared.inference.text_judge import TextJudge, load_tower, own_tower
     from ..shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.pipelines.ranking import TextJudge, load_tower, own_tower
+    from ..shared.pipelines.text import PromptSampler
 
     clock.lap("import")
     set_threads(threads)

@@ -7,11 +7,11 @@ from ..shared.errors import UsageError
 from .directions import SECONDS, Directions
 
 if TYPE_CHECKING:
-    from ..shared.inference.directed import Directed
-    from ..shared.inference.drawn_path import DrawnPath
-    from ..shared.inference.motion_stream import StreamSettings
-    from ..shared.inference.timeline import Timeline
     from ..shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.pipelines.edit import ControlledMotion
+    from ..shared.pipelines.path import DrawnPath
+    from ..shared.pipelines.stream import StreamSettings
+    from ..shared.pipelines.timeline import Timeline
 
 FPS = 30.0
 
@@ -38,9 +38,9 @@ def read_timed(directions: Directions, wanted: dict[str, Any]) -> TimedTask:
     Raises:
         UserError: a file cannot be read or says what cannot be.
     """
-    from ..shared.inference.drawn_path import read_path
-    from ..shared.inference.motion_stream import Passage
-    from ..shared.inference.timeline import Timeline, read_timeline
+    from ..shared.pipelines.path import read_path
+    from ..shared.pipelines.stream import Passage
+    from ..shared.pipelines.timeline import Timeline, read_timeline
 
     path = None if directions.path is None else read_path(directions.path)
     if path is not None and path.times is not None and wanted["seconds"] is not None:
@@ -63,9 +63,10 @@ def make_timed(
     task: TimedTask,
     settings: "StreamSettings",
     foot_lock: bool | None,
-) -> "Directed":
+) -> "ControlledMotion":
     """One motion of all that."""
-    from ..shared.inference.directed import along_path, by_timeline, in_a_loop
+    from ..shared.pipelines.path import along_path
+    from ..shared.pipelines.timeline import by_timeline, in_a_loop
 
     if task.path is not None:
         return along_path(

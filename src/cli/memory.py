@@ -116,7 +116,7 @@ def query(
 
     from ..shared.audio.sound import check_sound
     from ..shared.device import set_threads
-    from ..shared.inference.song_memory import open_memory
+    from ..shared.pipelines.song_memory import open_memory
 
     if is_song:
         check_sound(ask)
@@ -169,8 +169,8 @@ def query_song(
 ) -> list["Answer"]:
     """Listen, then ask for each bar."""
     from ..shared.audio.song import analyse
-    from ..shared.inference.song_generator import heard
     from ..shared.memory.ask import ask_song
+    from ..shared.pipelines.song import heard
 
     condition, phase = heard(analyse(path, meter=meter), None)
     if phase is None:

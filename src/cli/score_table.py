@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 from .guard import is_quiet
 
 if TYPE_CHECKING:
-    from ..shared.inference.selection import ScoreTable
+    from ..shared.pipelines.ranking import ScoreTable
 
 SHOWN = 8  # candidates in the printed table
 

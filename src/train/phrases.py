@@ -116,7 +116,7 @@ def true_trajectory(motion: Tensor, start: Tensor) -> Tensor:
 def export_song(model: AudioMotionModel, phrases: MotionPhraseDataset, folder: Path) -> None:
     """The first phrase's sound, made into a trajectory: a picture of it in `folder`."""
     from ..shared.formats.trajectory_registry import write_trajectory
-    from ..shared.inference.song_sampler import SongSampler
+    from ..shared.pipelines.song_sampler import SongSampler
 
     item = phrases.item(0, 0)
     if item is None:

@@ -161,8 +161,8 @@ def _read_trajectory(path: Path) -> None:
 
 
 def _read_direction(path: Path) -> None:
-    from src.shared.inference.drawn_path import read_path
-    from src.shared.inference.timeline import read_timeline
+    from src.shared.pipelines.path import read_path
+    from src.shared.pipelines.timeline import read_timeline
 
     if path.stem == "timeline":
         read_timeline(path, fps=30.0)

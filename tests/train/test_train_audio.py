@@ -21,10 +21,10 @@ from tiny_audio_stage import (
 )
 
 from src.shared.errors import UsageError, UserError
-from src.shared.inference.song_sampler import SampleSettings, SongSampler
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
 from src.shared.motion.trajectory import STYLE
+from src.shared.pipelines.song_sampler import SampleSettings, SongSampler
 from src.train.learning_rate import learning_rate_factor
 from src.train.task import Part
 from src.train.train_audio import AudioBatch, AudioTask, TrainAudioConfig, audio_losses

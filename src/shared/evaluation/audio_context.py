@@ -18,9 +18,9 @@ from ..data.pairing.motion_beats import MotionBeats, motion_beats
 from ..data.phrases.dataset import MotionPhraseDataset
 from ..errors import UserError
 from ..files import atomic_write
-from ..inference.song_generator import SongGenerator, own_noise
-from ..inference.song_sampler import SampleSettings
 from ..motion.trajectory import FPS, MotionTrajectory
+from ..pipelines.song import SongGenerator, own_noise
+from ..pipelines.song_sampler import SampleSettings
 from ..validation.report import frozen
 from .audio_sanity import untrained
 from .audio_songs import (

@@ -14,16 +14,16 @@ import numpy as np
 
 from ..data.phrases.dataset import MotionPhraseDataset
 from ..errors import UserError
-from ..inference.motion_stream import OVERLAP, WINDOW, window_lengths
-from ..inference.performer import Performer, PerformerSettings
-from ..inference.song_generator import SongGenerator, own_noise
-from ..inference.song_performer import candidate_seed, finished
-from ..inference.song_sampler import SampleSettings
 from ..model.generation.motion_generator import MotionGenerator
 from ..motion.carried_feet import hold_carried_feet
 from ..motion.motion import Motion
 from ..motion.root_track import decode_features
 from ..motion.trajectory import FPS, MotionTrajectory, to_motion
+from ..pipelines.body import Performer, PerformerSettings
+from ..pipelines.dance import candidate_seed, finished
+from ..pipelines.song import SongGenerator, own_noise
+from ..pipelines.song_sampler import SampleSettings
+from ..pipelines.stream import OVERLAP, WINDOW, window_lengths
 from .audio_songs import Piece, clock, held_out_songs, tracks
 from .dance_sample import BodyDance, BodySample
 from .evaluator import Evaluator

@@ -9,9 +9,9 @@ from functools import cached_property
 
 import numpy as np
 
-from ..inference.drawn_path import DrawnPath
 from ..model.generation.motion_generator import MotionGenerator
 from ..motion.motion import Motion
+from ..pipelines.path import DrawnPath
 from .clips import Clips, real_clips
 from .held_out import HeldOut
 from .text_context import untrained

@@ -6,15 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from ..inference.directed import along_path, by_timeline, edited, natural_gait
-from ..inference.drawn_path import DrawnPath
-from ..inference.editing import GROUPS, Given, keep_ends, redo
-from ..inference.motion_stream import Passage, StreamSettings
-from ..inference.path_following import distances_to_line, time_path
-from ..inference.settling import frames_of
-from ..inference.timeline import Timeline
 from ..model.generation.motion_generator import MotionGenerator
 from ..motion.motion import Motion
+from ..pipelines.edit import GROUPS, Given, edited, keep_ends, redo
+from ..pipelines.path import DrawnPath, along_path, distances_to_line, natural_gait, time_path
+from ..pipelines.postprocess import frames_of
+from ..pipelines.stream import Passage, StreamSettings
+from ..pipelines.timeline import Timeline, by_timeline
 from .dance_context import held_still
 from .dance_rhythm import seen_from_pelvis
 from .dance_style import embed, rank_of

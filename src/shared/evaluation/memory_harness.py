@@ -15,10 +15,10 @@ import numpy as np
 
 from ..config_memory import MemoryConfig
 from ..errors import UserError
-from ..inference.song_sampler import SampleSettings
 from ..memory.build import Space
 from ..memory.index import MemoryIndex
 from ..model.audio.audio_motion_model import AudioMotionModel
+from ..pipelines.song_sampler import SampleSettings
 from .audio_songs import held_out_songs
 from .bootstrap import MIN_PAIRS, paired_bootstrap
 from .families import Column

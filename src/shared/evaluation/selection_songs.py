@@ -16,11 +16,10 @@ import numpy as np
 
 from ..data.pairing.motion_beats import motion_beats
 from ..errors import UserError
-from ..inference.audio_condition import AudioCondition
-from ..inference.audio_judge import AudioJudge
-from ..inference.song_generator import SongGenerator
-from ..inference.song_sampler import SampleSettings
 from ..motion.trajectory import FPS, MotionTrajectory
+from ..pipelines.ranking import AudioJudge
+from ..pipelines.song import AudioCondition, SongGenerator
+from ..pipelines.song_sampler import SampleSettings
 from ..validation.bands import Bands
 from .audio_songs import Piece, held_out_songs, open_split, phrases
 from .kinetic_features import root_geometric_features, root_kinetic_features

@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 
 from ..errors import UserError
-from ..inference.prompt_sampler import PromptSampler
-from ..inference.text_judge import TextJudge, load_tower, own_tower
 from ..model.generation.motion_generator import MotionGenerator
 from ..motion.motion import Motion
+from ..pipelines.ranking import TextJudge, load_tower, own_tower
+from ..pipelines.text import PromptSampler
 from .clips import Clips, real_clips
 from .controllability import check
 from .evaluator import Evaluator

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 import torch
+from tests.shared.pipelines.tiny_recall import remember, save_memory, save_space
 from typer.testing import CliRunner
 
 from src.cli.evaluate_memory import numbers
@@ -25,10 +26,9 @@ from src.shared.evaluation.memory_harness import (
     over_songs,
     word,
 )
-from src.shared.inference.song_sampler import SampleSettings
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
+from src.shared.pipelines.song_sampler import SampleSettings
 from tests.shared.evaluation.tiny_pairs import tiny_model, write_pairs
-from tests.shared.inference.tiny_recall import remember, save_memory, save_space
 from tests.shared.memory.tiny_memory import LinearSpace, make_index
 
 SMALL = MemorySettings(

@@ -15,10 +15,10 @@ from src.shared.evaluation.metrics_retrieval import guo_retrieval
 from src.shared.evaluation.selection_harness import choices, measured, report_of
 from src.shared.evaluation.selection_songs import song_pool
 from src.shared.evaluation.selection_text import FIGURES, _retrieval, prompt_pool
-from src.shared.inference.audio_judge import AudioJudge
-from src.shared.inference.prompt_sampler import PromptSampler
-from src.shared.inference.song_generator import SongGenerator
-from src.shared.inference.song_sampler import SampleSettings
+from src.shared.pipelines.ranking import AudioJudge
+from src.shared.pipelines.song import SongGenerator
+from src.shared.pipelines.song_sampler import SampleSettings
+from src.shared.pipelines.text import PromptSampler
 from tests.shared.evaluation.tiny_pairs import nod, tiny_model
 from tests.shared.model.conftest import tiny_generator
 
