@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from ..shared.motion.trajectory import MotionTrajectory
     from ..shared.pipelines.runtime import Runtime
     from ..shared.pipelines.song import SongMotions
-    from ..shared.pipelines.song_sampler import SampleSettings
+    from ..shared.pipelines.song_sampler import SongSampling
 
 FORMATS = ("npz", "csv", "glb", "html", "png")
 MODEL = "starter-audio"
@@ -76,7 +76,7 @@ def produce_song(
     """Load, listen, sample, choose, write; says which trajectory lies in which files and the times.
 
     Args:
-        wanted: audio, meter, seconds, style, memory; under `sampling`, what `SampleSettings` takes.
+        wanted: audio, meter, seconds, style, memory; under `sampling`, what `SongSampling` takes.
         formats: any of `FORMATS`.
         out: folder for the files.
         model: name or folder; for onnx, a folder of `export-onnx`.
@@ -94,7 +94,7 @@ def produce_song(
     from ..shared.pipelines.ranking import AudioJudge
     from ..shared.pipelines.runtime import load_runtime
     from ..shared.pipelines.song import SongMotions, heard
-    from ..shared.pipelines.song_sampler import SampleSettings
+    from ..shared.pipelines.song_sampler import SongSampling
 
     clock.lap("import")
     style = styled(wanted["style"])
@@ -105,7 +105,7 @@ def produce_song(
     song = analyse(wanted["audio"], meter=wanted["meter"])
     condition, phase = heard(song, wanted["seconds"])
     clock.lap("listen")
-    settings = SampleSettings(**wanted["sampling"])
+    settings = SongSampling(**wanted["sampling"])
     made = sample_paths(loaded, song, condition, phase, settings, style, remembered)
     judge = AudioJudge(shipped_bands(model) if runtime == "torch" else None)
     table = judge.judge(made, song.beats.beat_times if song.beats.tempo > 0 else None)
@@ -133,7 +133,7 @@ def sample_paths(
     song: "Song",
     condition: "Tensor",
     phase: "np.ndarray | None",
-    settings: "SampleSettings",
+    settings: "SongSampling",
     style: "np.ndarray | None",
     remembered: "tuple[MPMService, Space] | None",
 ) -> "list[MotionTrajectory]":
@@ -194,9 +194,9 @@ def styled(text: str | None) -> Any:
 
     if only_style_words(text):
         return named_style(text)
-    from ..shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.model.generation.motion_generator import TextToMotion
 
-    found = MotionGenerator.from_pretrained(STYLE_MODEL).style_of(text)
+    found = TextToMotion.from_pretrained(STYLE_MODEL).style_of(text)
     return named_style(text) if found is None else found  # the former says what is known
 
 

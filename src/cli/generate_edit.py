@@ -10,10 +10,10 @@ from .guard import complain
 from .stopwatch import Stopwatch
 
 if TYPE_CHECKING:
-    from ..shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.model.diffusion.samplers import Sampling
+    from ..shared.model.generation.motion_generator import TextToMotion
     from ..shared.motion.motion import Motion
     from ..shared.pipelines.edit import ControlledMotion, Given
-    from ..shared.pipelines.stream import StreamSettings
 
 SAMPLING = ("seed", "steps", "sampler", "guidance_scale")
 
@@ -33,7 +33,7 @@ def produce_directed(
     Args:
         directions: checked.
         wanted: prompts and tags (several follow each other), seconds, foot_lock; under `sampling`,
-            what `StreamSettings` takes.
+            what `Sampling` takes.
         formats: any of `generate_text.FORMATS`.
         out: folder for the files.
         model: name or folder.
@@ -42,18 +42,18 @@ def produce_directed(
     """
     clock = Stopwatch()
     from ..shared.device import set_threads
-    from ..shared.model.generation.motion_generator import MotionGenerator
-    from ..shared.pipelines.stream import StreamSettings
+    from ..shared.model.diffusion.samplers import Sampling
+    from ..shared.model.generation.motion_generator import TextToMotion
     from .generate_timeline import make_timed, read_timed
 
     clock.lap("import")
-    settings = StreamSettings(**wanted["sampling"])
+    settings = Sampling(**wanted["sampling"])
     timed = directions.kind in ("path", "timeline")
     given = None if timed else read_given(directions, wanted["seconds"])
     task = read_timed(directions, wanted) if timed else None
     clock.lap("read")
     set_threads(threads)
-    generator = MotionGenerator.from_pretrained(model, device=device)
+    generator = TextToMotion.from_pretrained(model, device=device)
     clock.lap("load")
     texts = task.texts if task is not None else wanted["prompts"]
     warnings = generator.scope_warnings(texts) if texts else []
@@ -154,10 +154,10 @@ def read_clip(path: Path) -> "Motion":
 
 
 def make_edited(
-    generator: "MotionGenerator",
+    generator: "TextToMotion",
     given: "Given",
     wanted: dict[str, Any],
-    settings: "StreamSettings",
+    settings: "Sampling",
 ) -> "ControlledMotion":
     """What is given stays, the rest is made as the prompt says."""
     from ..shared.pipelines.edit import edited

@@ -16,11 +16,12 @@ from .wording import note_replaced
 
 if TYPE_CHECKING:
     from ..shared.audio.song import Song
-    from ..shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.model.generation.motion_generator import TextToMotion
     from ..shared.pipelines.body import Performance
-    from ..shared.pipelines.dance import Dances, HeardSong, SongPerformer
+    from ..shared.pipelines.dance import Dances, SongPerformer
     from ..shared.pipelines.ranking import PerformanceJudge
     from ..shared.pipelines.runtime import Runtime
+    from ..shared.pipelines.song import SongCondition
 
 BODY_MODEL = "starter"
 DANCE = "dance"  # ends the file names of a dance that no prompt asked for
@@ -44,7 +45,7 @@ def produce_dances(
 
     Args:
         wanted: audio, meter, seconds, style, memory; prompts (none = what the music says), tags,
-            foot_lock; under `sampling`, what `SampleSettings` takes: the guidance is the body's.
+            foot_lock; under `sampling`, what `SongSampling` takes: the guidance is the body's.
         formats: any of `generate_text.ALL_FORMATS`.
         out: folder for the files.
         model: of the path: name or folder, for onnx a folder of `export-onnx`.
@@ -61,23 +62,23 @@ def produce_dances(
     check_sound(wanted["audio"])
     from ..shared.audio.song import analyse
     from ..shared.device import set_threads
-    from ..shared.model.generation.motion_generator import MotionGenerator
-    from ..shared.pipelines.dance import HeardSong
+    from ..shared.model.generation.motion_generator import TextToMotion
     from ..shared.pipelines.runtime import load_runtime
+    from ..shared.pipelines.song import SongCondition
 
     clock.lap("import")
     style = generate_audio.styled(wanted["style"])
     set_threads(threads)
     loaded = load_runtime(runtime, model, device)
     remembered = generate_audio.open_service(wanted["memory"], loaded)
-    generator = MotionGenerator.from_pretrained(body_model, device=device)
+    generator = TextToMotion.from_pretrained(body_model, device=device)
     bands = shipped_bands(model) if runtime == "torch" else None
     number = wanted["sampling"]["num_samples"]
     judging = open_judge(generator, bands, judge) if number > 1 else None
     dancers = open_dancers(generator, wanted, judging)
     clock.lap("load")
     song = analyse(wanted["audio"], meter=wanted["meter"])
-    heard = HeardSong.of(song, wanted["seconds"])
+    heard = SongCondition.of(song, wanted["seconds"])
     clock.lap("listen")
     found, warnings = dance_prompts(
         dancers, loaded, song, heard, wanted, (style, remembered), clock
@@ -106,7 +107,7 @@ def dance_prompts(
     dancers: "SongPerformer",
     loaded: "Runtime",
     song: "Song",
-    heard: "HeardSong",
+    heard: "SongCondition",
     wanted: dict[str, Any],
     path: tuple[Any, Any],
     clock: Stopwatch,
@@ -121,10 +122,10 @@ def dance_prompts(
         path: the style of `--style`, and the memory; None where there is none.
         clock: told of `path` and `body`.
     """
-    from ..shared.pipelines.song_sampler import SampleSettings
+    from ..shared.pipelines.song_sampler import SongSampling
 
     generator, (style, remembered) = dancers.performer.generator, path
-    settings = SampleSettings(**wanted["sampling"] | {"guidance_scale": None})
+    settings = SongSampling(**wanted["sampling"] | {"guidance_scale": None})
     prompts: list[str | None] = wanted["prompts"] or [None]
     warnings: list[str | None] = [None]
     if wanted["prompts"]:
@@ -148,7 +149,7 @@ def dance_prompts(
 
 
 def open_dancers(
-    generator: "MotionGenerator", wanted: dict[str, Any], judge: "PerformanceJudge | None"
+    generator: "TextToMotion", wanted: dict[str, Any], judge: "PerformanceJudge | None"
 ) -> "SongPerformer":
     """Who dances: with the prompts that were given, or with what the music says."""
     from ..shared.pipelines.body import Performer, PerformerSettings
@@ -160,7 +161,7 @@ def open_dancers(
     return SongPerformer(performer, prompter=prompter, judge=judge)
 
 
-def open_judge(generator: "MotionGenerator", bands: Any, judge: str | None) -> "PerformanceJudge":
+def open_judge(generator: "TextToMotion", bands: Any, judge: str | None) -> "PerformanceJudge":
     """A judge of several candidates, with the motion tower that belongs to the generator."""
     from ..shared.pipelines.ranking import PerformanceJudge, load_tower, own_tower
 

@@ -44,13 +44,13 @@ def produce(
     """
     clock = Stopwatch()
     from ..shared.device import set_threads
-    from ..shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.model.generation.motion_generator import TextToMotion
     from ..shared.pipelines.ranking import TextJudge, load_tower, own_tower
     from ..shared.pipelines.text import PromptSampler
 
     clock.lap("import")
     set_threads(threads)
-    generator = MotionGenerator.from_pretrained(model, device=device)
+    generator = TextToMotion.from_pretrained(model, device=device)
     number = wanted["num_samples"]
     tower = None
     if number > 1:

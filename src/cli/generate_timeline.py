@@ -7,10 +7,10 @@ from ..shared.errors import UsageError
 from .directions import SECONDS, Directions
 
 if TYPE_CHECKING:
-    from ..shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.model.diffusion.samplers import Sampling
+    from ..shared.model.generation.motion_generator import TextToMotion
     from ..shared.pipelines.edit import ControlledMotion
     from ..shared.pipelines.path import DrawnPath
-    from ..shared.pipelines.stream import StreamSettings
     from ..shared.pipelines.timeline import Timeline
 
 FPS = 30.0
@@ -59,9 +59,9 @@ def read_timed(directions: Directions, wanted: dict[str, Any]) -> TimedTask:
 
 
 def make_timed(
-    generator: "MotionGenerator",
+    generator: "TextToMotion",
     task: TimedTask,
-    settings: "StreamSettings",
+    settings: "Sampling",
     foot_lock: bool | None,
 ) -> "ControlledMotion":
     """One motion of all that."""

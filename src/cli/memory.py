@@ -183,9 +183,9 @@ def query_text(
 ) -> "Answer":
     """Read the words with the text model's tower, then ask."""
     from ..shared.memory.ask import ask_text
-    from ..shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.model.generation.motion_generator import TextToMotion
 
-    generator = MotionGenerator.from_pretrained(model, device="cpu")
+    generator = TextToMotion.from_pretrained(model, device="cpu")
     for warning in filter(None, generator.scope_warnings([text])):
         complain(f"warning: {warning}")
     embedding = space.embed_text([text], generator.text, generator.tokenizer)

@@ -40,7 +40,7 @@ from ..shared.model.clip.core import SMALL, MotionClip, TextTower
 from ..shared.model.clip.pretrained import KIND, ClipBundle, encode_captions, load_text_tower
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.generation.motion_generator import KIND as GENERATOR
-from ..shared.model.generation.motion_generator import MotionGenerator
+from ..shared.model.generation.motion_generator import TextToMotion
 from ..shared.model.zoo import resolve_model
 from .captured_places import apart, nearest_styles, with_unstyled
 from .frozen_encoder import MEANS_FILE, ZScores, caption_means, encoder_rates
@@ -321,7 +321,7 @@ class TextTask:
             self.bundle.card = _noted(self.bundle.card, hardened)
             self.bundle.save_pretrained(folder)
             return
-        generator = MotionGenerator.from_pretrained(self.config.generator)
+        generator = TextToMotion.from_pretrained(self.config.generator)
         generator.text = tower
         generator.scope = fit_scope(self.data, self.config.languages, tower, self.tokenizer)
         generator.style_map = fit_style_map(self.data, self.config.languages, tower, self.tokenizer)

@@ -20,7 +20,7 @@ from ..model.diffusion.noise import standard_normal
 from ..motion.trajectory import MotionTrajectory
 from ..motion.window import place_window
 from ..pipelines.song_memory import bars_of_sound, bars_of_window
-from ..pipelines.song_sampler import SPARE, Recall, SampleSettings, SongSampler
+from ..pipelines.song_sampler import SPARE, Recall, SongSampler, SongSampling
 from .audio_songs import Piece, open_split
 from .families import Column, Dance, DanceSample
 from .families_audio import BeatAlignment, TrajectorySanity
@@ -70,7 +70,7 @@ class Setting:
     model: AudioMotionModel
     space: Space
     asker: Asker
-    sampled: SampleSettings
+    sampled: SongSampling
 
 
 # ---------------------------------------------------------------- held-back phrases

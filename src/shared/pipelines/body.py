@@ -9,8 +9,8 @@ is known.
 Letters: T frames, R rows (bones, root track), M beats, S steps.
 """
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import Any
 
@@ -20,8 +20,9 @@ from scipy.ndimage import gaussian_filter1d
 
 from ..device import idle_threads
 from ..errors import UsageError
+from ..model.diffusion.samplers import Sampling
 from ..model.generation.constraint import Constraint
-from ..model.generation.motion_generator import MotionGenerator
+from ..model.generation.motion_generator import TextToMotion
 from ..motion.carried_feet import hold_carried_feet
 from ..motion.motion import Motion
 from ..motion.postprocess import MotionPostProcessor, smooth_features
@@ -34,6 +35,7 @@ from ..motion.rotations import (
 from ..motion.trajectory import MotionTrajectory, to_root
 from ..motion.trajectory_math import heading_of, turn_about_y
 from .postprocess import soften_cuts, untwisted
+from .song_sampler import Progress
 from .stream import Passage, stream_features
 
 QUICK = 0.45  # seconds; beats closer than this are too fast for a step each
@@ -166,25 +168,18 @@ def root_error(motion: Motion, trajectory: MotionTrajectory) -> RootError:
     )
 
 
-Progress = Callable[[int, int], None]  # frames done, frames in all
-
-
-@dataclass(frozen=True)
-class PerformerSettings:
+@dataclass(frozen=True, kw_only=True)
+class PerformerSettings(Sampling):
     """How a body is filled in; None = the model's own setting.
 
     Attributes:
-        steps, sampler, guidance_scale: of the text branch.
         foot_lock: hold standing feet in place.
         tilt: the path also says how the pelvis leans and rolls.
         on_beats: False = the song's beats are not used at all.
         guide: the sampler leads the body to slow down on beats.
-        steps_on_beats: feet land on beats while the path travels; see `footsteps`.
+        steps_on_beats: feet land on beats while the path travels; see `step_plan`.
     """
 
-    steps: int | None = None
-    sampler: str | None = None
-    guidance_scale: float | None = None
     foot_lock: bool | None = None
     tilt: bool = False
     on_beats: bool = True
@@ -220,9 +215,7 @@ class Performer:
         UsageError: the generator has no root track.
     """
 
-    def __init__(
-        self, generator: MotionGenerator, settings: PerformerSettings | None = None
-    ) -> None:
+    def __init__(self, generator: TextToMotion, settings: PerformerSettings | None = None) -> None:
         if not generator.network.root_track:
             raise UsageError(
                 "this text model has no root track, so no path can carry its bodies; use one"
@@ -237,7 +230,7 @@ class Performer:
         what: str | Sequence[Passage],
         *,
         beats: np.ndarray | None = None,
-        seed: int = 0,
+        seed: int | None = None,
         progress: Progress | None = None,
     ) -> Performance:
         """A body on a path.
@@ -246,12 +239,13 @@ class Performer:
             trajectory: post-processed, of the pelvis, T frames at the generator's frame rate.
             what: a prompt, or passages that last as long as the path.
             beats: of the song in seconds [M]; None = none known.
-            seed: 0 or more; with the path and the prompts it decides everything (on the CPU).
+            seed: with the path and the prompts it decides everything (on the CPU); None = the
+                settings'.
             progress: told after each window.
 
         Raises:
             UsageError: passages of another length, or an argument that the generator refuses.
-            UserError: as `MotionGenerator.sample_features`.
+            UserError: as `TextToMotion.sample_features`.
         """
         num_frames, own = trajectory.num_frames, self.settings
         passages = _passages(what, num_frames)
@@ -266,11 +260,8 @@ class Performer:
         for piece in stream_features(
             self.generator,
             passages,
+            own if seed is None else replace(own, seed=seed),
             constraint=lambda start, stop: known.window(start, stop),
-            seed=seed,
-            guidance_scale=own.guidance_scale,
-            steps=own.steps,
-            sampler=own.sampler,
         ):
             pieces.append(piece)
             if progress is not None:

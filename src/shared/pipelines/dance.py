@@ -20,19 +20,18 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from ..audio.song import Song
 from ..errors import UserError
 from ..model.audio.conditioning import ENERGY
 from ..model.audio.shared_space import SharedSpace
 from ..model.clip.pretrained import tower_hash
-from ..model.generation.motion_generator import MotionGenerator
+from ..model.generation.motion_generator import TextToMotion
 from ..motion.root_track import FORWARD, HEIGHT, LATERAL
 from ..motion.trajectory import FPS, MotionTrajectory, to_root
 from ..motion.trajectory_postprocess import MotionPostProcessor
 from .body import Performance, Performer, Progress
 from .ranking import PerformanceJudge, ScoreTable
-from .song import SongGenerator, heard, of_song
-from .song_sampler import SampleSettings
+from .song import SongCondition, SongGenerator, of_song
+from .song_sampler import SongSampling
 from .stream import Passage
 
 log = logging.getLogger(__name__)
@@ -97,7 +96,7 @@ class DancePrompter:
         self.embeddings, self.space, self.prompts = embeddings.float().cpu(), space, tuple(prompts)
 
     @classmethod
-    def beside(cls, generator: MotionGenerator, space: str = SPACE) -> Self:
+    def beside(cls, generator: TextToMotion, space: str = SPACE) -> Self:
         """For a generator's prompts; without the space where its text tower is another one."""
         embeddings = generator.encode_prompts([prompt.text for prompt in PROMPTS]).pooled
         try:
@@ -188,30 +187,6 @@ def sections(frames: int, phase: np.ndarray | None) -> list[tuple[int, int]]:
 
 
 @dataclass(frozen=True, eq=False)
-class HeardSong:
-    """What a performer needs of a song.
-
-    Attributes:
-        condition: what the audio branch hears, [167,T].
-        phase: bars [T] of the beat tracker, unwrapped; None = no beat found.
-        beats: seconds [M] of the tracker; none where it found none.
-        seed: a number of the song's own, so that two songs are not danced alike.
-    """
-
-    condition: Tensor
-    phase: np.ndarray | None
-    beats: np.ndarray
-    seed: int = 0
-
-    @classmethod
-    def of(cls, song: Song, seconds: float | None = None) -> "HeardSong":
-        """The first `seconds` of a song; None = all of it."""
-        condition, phase = heard(song, seconds)
-        beats = np.asarray(song.beats.beat_times) if song.beats.tempo > 0 else np.zeros(0)
-        return cls(condition, phase, beats, int(song.sha256, 16))
-
-
-@dataclass(frozen=True, eq=False)
 class Dances:
     """What was asked for, the dances by rank, and what was found of them in the order sampled."""
 
@@ -242,7 +217,7 @@ class SongPerformer:
     def dance(
         self,
         raw: Sequence[MotionTrajectory],
-        song: HeardSong,
+        song: SongCondition,
         prompt: str | None = None,
         *,
         tag: str | None = None,
@@ -281,7 +256,7 @@ class SongPerformer:
     def _passages(
         self,
         path: MotionTrajectory,
-        song: HeardSong,
+        song: SongCondition,
         prompt: str | None,
         tag: str | None,
         seed: int,
@@ -341,12 +316,12 @@ def perform(
     from ..audio.song import analyse
 
     path = path or SongGenerator.from_pretrained("starter-audio", device=device)
-    performer = performer or Performer(MotionGenerator.from_pretrained("starter", device=device))
+    performer = performer or Performer(TextToMotion.from_pretrained("starter", device=device))
     song = analyse(audio)
-    listened = HeardSong.of(song, seconds)
+    listened = SongCondition.of(song, seconds)
     if style is None and prompt is not None:
         style = performer.generator.style_of(prompt)
-    settings = of_song(SampleSettings(num_samples=num_samples, seed=seed), song)
+    settings = of_song(SongSampling(num_samples=num_samples, seed=seed), song)
     raw = path.generate(listened.condition, phase=listened.phase, style=style, settings=settings)
     prompter = None if prompt else DancePrompter.beside(performer.generator)
     dancers = SongPerformer(performer, prompter=prompter)

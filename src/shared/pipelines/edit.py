@@ -8,7 +8,7 @@ Letters: T frames, R rows (bones, root track), C channels.
 """
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from itertools import chain
 from typing import Any
 
@@ -19,7 +19,7 @@ from torch import Tensor
 from ..config_loader import nearest
 from ..errors import UsageError
 from ..model.generation.constraint import Constraint
-from ..model.generation.motion_generator import MotionGenerator
+from ..model.generation.motion_generator import TextToMotion
 from ..motion.motion import Motion
 from ..motion.root_track import (
     FORWARD,
@@ -33,7 +33,7 @@ from ..motion.root_track import (
 from ..motion.skeleton import JOINT_INDEX, LIMBS
 from ..motion.trajectory_math import turn_about_y
 from .postprocess import ORIGIN, Place, finish, place_of
-from .stream import OVERLAP, Passage, StreamSettings, stream_features
+from .stream import OVERLAP, Passage, Sampling, stream_features
 
 GROUND = [FORWARD, LATERAL, YAW_RATE]  # channels of the root row that say where the body goes
 LEGS = LIMBS["left-leg"] + LIMBS["right-leg"]
@@ -194,10 +194,10 @@ class ControlledMotion:
 
 
 def fill(
-    generator: MotionGenerator,
+    generator: TextToMotion,
     text: str,
     given: Given,
-    settings: StreamSettings,
+    sampling: Sampling,
     *,
     tag: str | None = None,
 ) -> tuple[Tensor, Constraint]:
@@ -207,19 +207,19 @@ def fill(
         UserError: as `stream_features`.
     """
     constraint = given.constraint
-    features = fill_free(generator, text, constraint, settings, tag=tag)
+    features = fill_free(generator, text, constraint, sampling, tag=tag)
     if given.rejoin is not None:
         bent = bend_back(features, given, fps=generator.card.fps)
-        features = fill_free(generator, text, bent, settings, tag=tag)
+        features = fill_free(generator, text, bent, sampling, tag=tag)
         constraint = replace(constraint, values=bent.values, known=bent.known)
     return features, constraint
 
 
 def fill_free(
-    generator: MotionGenerator,
+    generator: TextToMotion,
     text: str,
     constraint: Constraint,
-    settings: StreamSettings,
+    sampling: Sampling,
     *,
     tag: str | None = None,
 ) -> Tensor:
@@ -235,7 +235,7 @@ def fill_free(
         generator,
         [Passage(text, stop - start, tag)],
         constraint=lambda first, last: near.window(first, last, fps=generator.card.fps),
-        **asdict(settings),
+        sampling=sampling,
     )
     features = constraint.values[:, :rows].clone()
     features[start:stop] = torch.cat(list(pieces))
@@ -275,10 +275,10 @@ def bend_back(features: Tensor, given: Given, *, fps: float) -> Constraint:
 
 
 def edited(
-    generator: MotionGenerator,
+    generator: TextToMotion,
     text: str | None,
     given: Given,
-    settings: StreamSettings,
+    sampling: Sampling,
     *,
     tag: str | None = None,
     foot_lock: bool | None = None,
@@ -289,7 +289,7 @@ def edited(
         generator: trained.
         text: what the rest shows; None = nothing is said.
         given: see `editing`.
-        settings: of sampling.
+        sampling: how.
         tag: action label beside the text.
         foot_lock: None = the model's own.
 
@@ -297,8 +297,8 @@ def edited(
         errors: rotation and root, see `kept_error`; frames and entries, the share that was kept.
     """
     if text is None:
-        settings = replace(settings, guidance_scale=0.0)
-    features, constraint = fill(generator, text or NO_TEXT, given, settings, tag=tag)
+        sampling = replace(sampling, guidance_scale=0.0)
+    features, constraint = fill(generator, text or NO_TEXT, given, sampling, tag=tag)
     motion = finish(
         generator,
         features,

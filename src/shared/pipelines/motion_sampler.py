@@ -27,7 +27,7 @@ from .song_memory import (
     recalling,
     same_question,
 )
-from .song_sampler import Recall, SampleSettings, SongSampler
+from .song_sampler import Recall, SongSampler, SongSampling
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +87,9 @@ class MotionSampler:
             UsageError: N, the steps or the frames are out of range.
         """
         condition = hearable(audio_condition, num_frames)
-        settings = SampleSettings(num_samples, guidance_scale, num_steps, seed=seed)
+        settings = SongSampling(
+            num_samples, guidance_scale=guidance_scale, steps=num_steps, seed=seed
+        )
         return self.keep_best(condition, SongSampler(self.model, settings), return_all=return_all)
 
     def keep_best(
@@ -187,7 +189,9 @@ class MPMSMotionSampler(MotionSampler):
         Raises:
             UsageError: N, the steps or the frames are out of range; neither space nor embedding.
         """
-        settings = SampleSettings(num_samples, guidance_scale, num_steps, seed=seed)
+        settings = SongSampling(
+            num_samples, guidance_scale=guidance_scale, steps=num_steps, seed=seed
+        )
         sound = hearable(audio_condition, num_frames)
         plan = await asyncio.to_thread(self._plan, sound, settings, audio_embedding, beat_phase)
         answers = await ask(self.mpms_service, plan.asked, exclude_songs)
@@ -196,7 +200,7 @@ class MPMSMotionSampler(MotionSampler):
     def _plan(
         self,
         sound: AudioCondition,
-        settings: SampleSettings,
+        settings: SongSampling,
         embedding: np.ndarray | Tensor | None,
         beat_phase: float | None,
     ) -> Plan:

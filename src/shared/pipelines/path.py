@@ -23,7 +23,7 @@ from ..config_loader import parse_yaml
 from ..errors import UserError
 from ..files import read_text
 from ..model.generation.constraint import Constraint
-from ..model.generation.motion_generator import MotionGenerator
+from ..model.generation.motion_generator import TextToMotion
 from ..motion.motion import Motion
 from ..motion.root_track import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
 from ..motion.skeleton import REST_PELVIS_HEIGHT
@@ -31,7 +31,7 @@ from ..motion.trajectory import MotionTrajectory, to_root
 from ..motion.trajectory_math import yaw_quaternion
 from .edit import ControlledMotion
 from .postprocess import Place, finish
-from .stream import Passage, StreamSettings, stream_features
+from .stream import Passage, Sampling, stream_features
 from .timeline import Timeline, make_timeline
 
 COLUMNS = ("x", "z", "t", "heading")
@@ -395,10 +395,10 @@ STANDING = 0.25  # m/s; a prompt that moves less has no way of going
 
 
 def along_path(
-    generator: MotionGenerator,
+    generator: TextToMotion,
     timeline: Timeline,
     drawn: DrawnPath,
-    settings: StreamSettings,
+    sampling: Sampling,
     *,
     seconds: float | None = None,
     foot_lock: bool | None = None,
@@ -410,7 +410,7 @@ def along_path(
         timeline: one text, and it takes as long as the path; or several, and the path takes as
             long as they.
         drawn: the path.
-        settings: of sampling.
+        sampling: how.
         seconds: how long it takes; None = as long as the prompt's own speed says.
         foot_lock: None = the model's own.
 
@@ -423,7 +423,7 @@ def along_path(
             path.
     """
     fps = generator.card.fps
-    speed, facing = natural_gait(generator, timeline.passages[0], settings)
+    speed, facing = natural_gait(generator, timeline.passages[0], sampling)
     alone = len(timeline.passages) == 1 and not timeline.parts
     if not alone:
         seconds = (timeline.num_frames - 1) / fps
@@ -439,7 +439,7 @@ def along_path(
     features = make_timeline(
         generator,
         timeline,
-        settings,
+        sampling,
         constraint=lambda start, stop: given.window(start, stop, fps=fps),
     )
     x, z = path.points[0].tolist()
@@ -459,13 +459,13 @@ def along_path(
 
 
 def natural_gait(
-    generator: MotionGenerator, passage: Passage, settings: StreamSettings
+    generator: TextToMotion, passage: Passage, sampling: Sampling
 ) -> tuple[float, float]:
     """How fast a body goes that nobody directs, m/s, and radians from its way to its heading.
 
     A prompt may say backward or sideways; the angle is a multiple of a quarter turn.
     """
-    (features,) = stream_features(generator, [replace(passage, frames=90)], **vars(settings))
+    (features,) = stream_features(generator, [replace(passage, frames=90)], sampling)
     ground = features[:, ROOT_ROW, [FORWARD, LATERAL]].numpy()  # 90 2
     speed = float(np.percentile(np.hypot(*ground.T), 75))  # it may have to start first
     forward, lateral = ground.mean(0)

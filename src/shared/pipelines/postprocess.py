@@ -20,7 +20,7 @@ from scipy.ndimage import distance_transform_edt, gaussian_filter1d
 from torch import Tensor
 
 from ..config_schema import PostProcessingConfig
-from ..model.generation.motion_generator import MotionGenerator
+from ..model.generation.motion_generator import TextToMotion
 from ..motion.carried_feet import hold_carried_feet
 from ..motion.foot_lock import kept_legs, lock_feet
 from ..motion.motion import Motion
@@ -168,7 +168,7 @@ EASE = 10  # frames until a leg is held as if nothing of it had been kept
 
 
 def finish(
-    generator: MotionGenerator,
+    generator: TextToMotion,
     features: Tensor,
     known: Tensor | None,
     *,
@@ -377,7 +377,7 @@ class Settler:
     @classmethod
     def of(
         cls,
-        generator: MotionGenerator,
+        generator: TextToMotion,
         *,
         place: Place | None = None,
         foot_lock: bool | None = None,
@@ -420,9 +420,7 @@ class Settler:
         return motion
 
 
-def settled(
-    generator: MotionGenerator, features: Tensor, *, foot_lock: bool | None = None
-) -> Motion:
+def settled(generator: TextToMotion, features: Tensor, *, foot_lock: bool | None = None) -> Motion:
     """All of some features [T,R,6] at once: what their pieces, joined, would be."""
     settler = Settler.of(generator, foot_lock=foot_lock)
     pieces = [settler.add(features), settler.finish()]

@@ -20,7 +20,7 @@ from ..model.audio.conditioning import BEAT, CONDITION_ROWS, FEATURE_ROWS
 from ..motion.trajectory import FPS, MotionTrajectory
 from ..motion.trajectory_math import unwrap_phase
 from .runtime import load_trained
-from .song_sampler import Progress, SampleSettings, SongSampler
+from .song_sampler import Progress, SongSampler, SongSampling
 
 
 @dataclass(frozen=True)
@@ -29,6 +29,30 @@ class SongMotions:
 
     trajectories: list[MotionTrajectory]
     song: Song
+
+
+@dataclass(frozen=True, eq=False)
+class SongCondition:
+    """A song, or its first seconds, as the networks are told of it.
+
+    Attributes:
+        condition: what the audio branch hears, [167,T].
+        phase: bars [T] of the beat tracker, unwrapped; None = no beat found.
+        beats: seconds [M] of the tracker; none where it found none.
+        seed: a number of the song's own, so that two songs are not danced alike.
+    """
+
+    condition: Tensor
+    phase: np.ndarray | None
+    beats: np.ndarray
+    seed: int = 0
+
+    @classmethod
+    def of(cls, song: Song, seconds: float | None = None) -> "SongCondition":
+        """The first `seconds` of a song; None = all of it."""
+        condition, phase = heard(song, seconds)
+        beats = np.asarray(song.beats.beat_times) if song.beats.tempo > 0 else np.zeros(0)
+        return cls(condition, phase, beats, int(song.sha256, 16))
 
 
 class SongGenerator:
@@ -58,7 +82,7 @@ class SongGenerator:
         *,
         phase: np.ndarray | None = None,
         style: np.ndarray | None = None,
-        settings: SampleSettings | None = None,
+        settings: SongSampling | None = None,
         progress: Progress | None = None,
     ) -> list[MotionTrajectory]:
         """Trajectories from features [163 or 167, T]; see `SongSampler.stream`."""
@@ -73,7 +97,7 @@ class SongGenerator:
         meter: int | None = None,
         seconds: float | None = None,
         style: np.ndarray | None = None,
-        settings: SampleSettings | None = None,
+        settings: SongSampling | None = None,
         progress: Progress | None = None,
     ) -> SongMotions:
         """Trajectories for a sound file.
@@ -89,7 +113,7 @@ class SongGenerator:
         """
         song = analyse(path, meter=meter)
         condition, phase = heard(song, seconds)
-        settings = of_song(settings or SampleSettings(), song)
+        settings = of_song(settings or SongSampling(), song)
         made = self.generate(
             condition, phase=phase, style=style, settings=settings, progress=progress
         )
@@ -100,15 +124,15 @@ class SongGenerator:
         song: Song,
         *,
         style: np.ndarray | None = None,
-        settings: SampleSettings | None = None,
+        settings: SongSampling | None = None,
     ) -> Iterator[list[MotionTrajectory]]:
         """Pieces that follow each other, one a sample, as soon as they are settled."""
         condition, phase = heard(song, None)
-        sampler = SongSampler(self.model, of_song(settings or SampleSettings(), song))
+        sampler = SongSampler(self.model, of_song(settings or SongSampling(), song))
         yield from sampler.stream(condition, phase=phase, style=style)
 
 
-def of_song(settings: SampleSettings, song: Song) -> SampleSettings:
+def of_song(settings: SongSampling, song: Song) -> SongSampling:
     """The settings with noise of the song's own, the same whenever it is played.
 
     The sound sets the beat and little of the path: with one seed for all, every song would walk
@@ -117,7 +141,7 @@ def of_song(settings: SampleSettings, song: Song) -> SampleSettings:
     return own_noise(settings, int(song.sha256, 16))
 
 
-def own_noise(settings: SampleSettings, *parts: int) -> SampleSettings:
+def own_noise(settings: SongSampling, *parts: int) -> SongSampling:
     """The settings with a seed that depends on theirs and on every part, each 0 or more."""
     mixed = np.random.SeedSequence((settings.seed, *parts))
     return replace(settings, seed=int(mixed.generate_state(1)[0]))

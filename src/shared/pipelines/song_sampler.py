@@ -24,7 +24,7 @@ from ..model.audio.memory_conditioning import MemoryCondition, known_frames
 from ..model.audio.unet import MIN_FRAMES
 from ..model.diffusion.conditions import ModelFn
 from ..model.diffusion.noise import sample_generators, standard_normal
-from ..model.diffusion.samplers import make_sampler
+from ..model.diffusion.samplers import Sampling, make_sampler
 from ..motion.rotations import (
     quaternion_conjugate,
     quaternion_multiply,
@@ -42,19 +42,15 @@ Recall = Callable[[int, int], MemoryCondition]  # first frame and length of a wi
 
 
 @dataclass(frozen=True)
-class SampleSettings:
+class SongSampling(Sampling):
     """How a song is sampled; None = the model's own setting.
 
     Attributes:
-        sampler: ddim, ddpm or dpm-solver++.
+        num_samples: candidates.
         window, overlap: frames W and O; a window longer than those of training is a guess.
     """
 
     num_samples: int = 1
-    guidance_scale: float | None = None
-    steps: int | None = None
-    sampler: str | None = None
-    seed: int = 0
     window: int | None = None
     overlap: int = 30
 
@@ -67,7 +63,7 @@ class SampleSettings:
                 f"overlap {self.overlap} must lie between {MIN_FRAMES} and half the window ({half})"
             )
 
-    def resolved(self, config: AudioNetworkConfig) -> "SampleSettings":
+    def resolved(self, config: AudioNetworkConfig) -> "SongSampling":
         """With the model's own window where none was chosen, and an overlap that fits it."""
         if self.window is not None:
             return self
@@ -88,12 +84,12 @@ class SongSampler:
 
     Args:
         model: trained; used on the device it is on, a torch module in evaluation mode.
-        settings: see `SampleSettings`.
+        settings: see `SongSampling`.
     """
 
-    def __init__(self, model: Runtime, settings: SampleSettings | None = None) -> None:
+    def __init__(self, model: Runtime, settings: SongSampling | None = None) -> None:
         self.model = model.eval() if isinstance(model, nn.Module) else model
-        self.settings = (settings or SampleSettings()).resolved(model.config)
+        self.settings = (settings or SongSampling()).resolved(model.config)
         self.device = model.mean.device
         diffusion = model.config.diffusion
         self.sampler = make_sampler(

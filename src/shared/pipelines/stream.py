@@ -17,12 +17,14 @@ import torch
 from torch import Tensor
 
 from ..errors import UsageError
+from ..model.diffusion.samplers import Sampling
 from ..model.generation.constraint import Constraint
-from ..model.generation.motion_generator import MotionGenerator
+from ..model.generation.motion_generator import TextToMotion
 from ..motion.motion import Motion
 from .postprocess import Place, Settler, smooth_borders
 
 WINDOW, OVERLAP = 150, 30  # frames
+DEFAULT_SAMPLING = Sampling()
 SHORTEST = 48  # frames; a shorter window is made as long as this and cut: training saw few
 
 ConstraintOf = Callable[[int, int], Constraint | None]  # what is known of frames [start, stop)
@@ -47,27 +49,14 @@ class Passage:
             raise UsageError(f"passage {self.text!r}: {self.frames} frames; 1 or more are needed")
 
 
-@dataclass(frozen=True)
-class StreamSettings:
-    """How windows are sampled; None = the model's own."""
-
-    seed: int = 0
-    guidance_scale: float | None = None
-    steps: int | None = None
-    sampler: str | None = None
-
-
 def stream_features(
-    generator: MotionGenerator,
+    generator: TextToMotion,
     passages: Iterable[Passage],
+    sampling: Sampling = DEFAULT_SAMPLING,
     *,
     constraint: ConstraintOf | None = None,
     window: int = WINDOW,
     overlap: int = OVERLAP,
-    seed: int = 0,
-    guidance_scale: float | None = None,
-    steps: int | None = None,
-    sampler: str | None = None,
 ) -> Iterator[Tensor]:
     """Raw features [t, R, 6] in pieces that follow each other and never change again.
 
@@ -76,16 +65,15 @@ def stream_features(
     Args:
         generator: trained.
         passages: taken one by one, each when the motion before it is made.
+        sampling: the seed of all windows, and how each is sampled.
         constraint: what is known of frames [start, stop), counted from the beginning; None where
             nothing is.
         window: frames at most, the shared ones among them.
         overlap: frames O that a window shares with the one before.
-        seed: 0 or more.
-        guidance_scale, steps, sampler: None = the model's own.
 
     Raises:
         UsageError: the overlap does not fit the window, or a constraint is not as long as asked.
-        UserError: as `MotionGenerator.sample_features`.
+        UserError: as `TextToMotion.sample_features`.
     """
     if not 1 <= overlap <= window // 2:
         raise UsageError(f"overlap {overlap} must lie between 1 and half the window ({window})")
@@ -100,10 +88,10 @@ def stream_features(
                 [passage.text],
                 seconds=max(len(known), SHORTEST) / generator.card.fps,
                 tags=[passage.tag],
-                seed=window_seed(seed, number),
-                steps=steps,
-                sampler=sampler,
-                guidance_scale=guidance_scale,
+                seed=window_seed(sampling.seed, number),
+                steps=sampling.steps,
+                sampler=sampling.sampler,
+                guidance_scale=sampling.guidance_scale,
                 constraints=[lengthened(known, SHORTEST)],
             )
             smooth = smooth_borders(features[: len(known)], known.known)
@@ -213,7 +201,7 @@ class MotionStream:
         constraint: see `stream_features`.
         place: of the first frame; None = the origin, facing +Z.
         window, overlap: see `stream_features`.
-        settings: of sampling.
+        sampling: see `stream_features`.
         foot_lock: hold standing feet; None = the model's own setting.
 
     Raises:
@@ -222,7 +210,7 @@ class MotionStream:
 
     def __init__(
         self,
-        generator: MotionGenerator,
+        generator: TextToMotion,
         prompts: str | Iterable[str | Passage],
         *,
         seconds: float = 2.0,
@@ -230,7 +218,7 @@ class MotionStream:
         place: Place | None = None,
         window: int = WINDOW,
         overlap: int = OVERLAP,
-        settings: StreamSettings | None = None,
+        sampling: Sampling = DEFAULT_SAMPLING,
         foot_lock: bool | None = None,
     ) -> None:
         self._fps = generator.card.fps
@@ -242,10 +230,10 @@ class MotionStream:
         self._pieces = stream_features(
             generator,
             self._passages(),
+            sampling,
             constraint=constraint,
             window=window,
             overlap=overlap,
-            **vars(settings or StreamSettings()),
         )
         self._text, self._made, self._window = "", 0, window - overlap
         self._first: float | None = None

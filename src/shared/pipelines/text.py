@@ -11,7 +11,7 @@ Letters: N candidates, T frames, R rows (bones, root track).
 import logging
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import Any
 
@@ -22,14 +22,14 @@ from ..device import idle_threads
 from ..errors import UserError
 from ..model.clip.core import TextFeatures
 from ..model.generation.constraint import Constraint
-from ..model.generation.motion_generator import MotionGenerator, Progress
+from ..model.generation.motion_generator import Progress, TextToMotion
 from ..motion.motion import Motion
 from ..motion.root_track import ROOT_ROW, YAW_RATE
 from .path import DrawnPath, natural_gait, time_path
 from .postprocess import settled
 from .ranking import ScoreTable, TextJudge
 from .sentence import Clause, clauses
-from .stream import OVERLAP, WINDOW, Passage, StreamSettings, stream_features, window_seed
+from .stream import OVERLAP, WINDOW, Passage, Sampling, stream_features, window_seed
 
 TURN_SPEED, TURN_REST = 75.0, 0.5  # degrees a second; seconds before and after a turn
 ONCE = (1.6, 2.5)  # seconds of one repetition, from … to
@@ -51,13 +51,13 @@ class _Stretch:
 
 
 class SentenceGenerator:
-    """A `MotionGenerator` that does what its sentences say of order, number, angle and length.
+    """A `TextToMotion` that does what its sentences say of order, number, angle and length.
 
     Args:
         generator: trained.
     """
 
-    def __init__(self, generator: MotionGenerator) -> None:
+    def __init__(self, generator: TextToMotion) -> None:
         self.generator = generator
         self.card, self.text = generator.card, generator.text
         self._read: dict[str, list[Clause]] = {}
@@ -82,15 +82,15 @@ class SentenceGenerator:
         foot_lock: bool | None = None,
         progress: Progress | None = None,
     ) -> list[Motion]:
-        """Motions for the prompts, prompt-major; as `MotionGenerator.generate` but for the length.
+        """Motions for the prompts, prompt-major; as `TextToMotion.generate` but for the length.
 
         Args:
             seconds: of each clause that names no length of its own; any length.
 
         Raises:
-            UserError: as `MotionGenerator.generate`.
+            UserError: as `TextToMotion.generate`.
         """
-        settings = StreamSettings(seed, guidance_scale, steps, sampler)
+        sampling = Sampling(seed=seed, steps=steps, sampler=sampler, guidance_scale=guidance_scale)
         lengths = list(seconds) if isinstance(seconds, Sequence) else [seconds] * len(prompts)
         labels = list(tags) if tags is not None else [None] * len(prompts)
         whole = [self._is_whole(*each) for each in zip(prompts, lengths, strict=True)]
@@ -122,7 +122,7 @@ class SentenceGenerator:
                     log.warning("%s", warning)
                 made[index] = []
                 for sample in range(num_samples):
-                    own = replace(settings, seed=window_seed(seed, 1000 * sample))
+                    own = replace(sampling, seed=window_seed(seed, 1000 * sample))
                     made[index].append(
                         self._one(prompt, lengths[index], labels[index], own, foot_lock)
                     )
@@ -130,7 +130,7 @@ class SentenceGenerator:
         return [motion for index in range(len(prompts)) for motion in made[index]]
 
     def encode_prompts(self, prompts: Sequence[str]) -> TextFeatures:
-        """See `MotionGenerator.encode_prompts`."""
+        """See `TextToMotion.encode_prompts`."""
         return self.generator.encode_prompts(prompts)
 
     def scope_warnings(self, prompts: Sequence[str]) -> list[str | None]:
@@ -167,11 +167,11 @@ class SentenceGenerator:
         prompt: str,
         seconds: float,
         tag: str | None,
-        settings: StreamSettings,
+        sampling: Sampling,
         foot_lock: bool | None,
     ) -> Motion:
         parts = self.clauses(prompt)
-        stretches = [self._stretch(part, seconds, tag, settings) for part in parts]
+        stretches = [self._stretch(part, seconds, tag, sampling) for part in parts]
         starts = [0, *accumulate(stretch.frames for stretch in stretches)]
         given = Constraint.free(starts[-1])
         for start, stretch in zip(starts, stretches, strict=False):
@@ -188,7 +188,7 @@ class SentenceGenerator:
             constraint=(lambda start, stop: given.window(start, stop, fps=fps)) if led else None,
             window=self._window(),
             overlap=REPEATED_OVERLAP if repeated else OVERLAP,
-            **asdict(settings),
+            sampling=sampling,
         )
         motion = settled(self.generator, torch.cat(list(pieces)), foot_lock=foot_lock)
         return replace(motion, text=prompt)
@@ -199,7 +199,7 @@ class SentenceGenerator:
         return min(WINDOW, max(2 * OVERLAP, round(longest * self.card.fps)))
 
     def _stretch(
-        self, clause: Clause, seconds: float, tag: str | None, settings: StreamSettings
+        self, clause: Clause, seconds: float, tag: str | None, sampling: Sampling
     ) -> _Stretch:
         """Passages and constraint of one clause."""
         fps, text = self.card.fps, clause.text
@@ -208,16 +208,16 @@ class SentenceGenerator:
             given = turned(clause.degrees, fps)
             return _Stretch([Passage(text, len(given), tag)], given)
         if clause.metres is not None:
-            given = self._led(Passage(text, round(seconds * fps), tag), clause, settings)
+            given = self._led(Passage(text, round(seconds * fps), tag), clause, sampling)
             return _Stretch([Passage(text, len(given), tag)], given)
         if clause.count > 1:
             once = float(np.clip(seconds / clause.count, *ONCE))
             return _Stretch([Passage(text, round(once * fps), tag)] * clause.count)
         return _Stretch([Passage(text, max(1, round(seconds * fps)), tag)])
 
-    def _led(self, passage: Passage, clause: Clause, settings: StreamSettings) -> Constraint:
+    def _led(self, passage: Passage, clause: Clause, sampling: Sampling) -> Constraint:
         """So many metres, at the pace and in the direction that are the clause's own."""
-        speed, facing = natural_gait(self.generator, passage, settings)
+        speed, facing = natural_gait(self.generator, passage, sampling)
         ahead = np.array([[0.0, 0.0], [0.0, clause.metres or 0.0]])
         try:
             path = time_path(
@@ -267,7 +267,7 @@ class PromptSampler:
             makes one without.
     """
 
-    def __init__(self, generator: MotionGenerator, judge: TextJudge | None = None) -> None:
+    def __init__(self, generator: TextToMotion, judge: TextJudge | None = None) -> None:
         self.generator, self.judge = SentenceGenerator(generator), judge or TextJudge()
 
     def sample(
@@ -276,7 +276,7 @@ class PromptSampler:
         num_samples: int = 8,
         *,
         return_all: bool = False,
-        **settings: Any,
+        **sampling: Any,
     ) -> list[PromptResult]:
         """Sample N candidates a prompt and keep the one that the judge puts first.
 
@@ -284,12 +284,12 @@ class PromptSampler:
             prompts: see `SentenceGenerator.generate`.
             num_samples: N; candidate i depends on (seed, prompt, i) alone.
             return_all: keep the others too.
-            settings: what else `SentenceGenerator.generate` takes.
+            sampling: what else `SentenceGenerator.generate` takes.
 
         Raises:
             UserError: as `SentenceGenerator.generate`.
         """
-        motions = self.generator.generate(prompts, num_samples=num_samples, **settings)
+        motions = self.generator.generate(prompts, num_samples=num_samples, **sampling)
         embeddings = self.generator.encode_prompts(prompts).pooled
         results = []
         for number, embedding in enumerate(embeddings):

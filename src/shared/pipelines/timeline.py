@@ -8,7 +8,7 @@ Letters: T frames, R rows (bones, root track), C channels.
 """
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -21,11 +21,11 @@ from ..config_loader import nearest, parse_yaml
 from ..errors import UsageError, UserError
 from ..files import read_text
 from ..model.generation.constraint import Constraint
-from ..model.generation.motion_generator import MotionGenerator
+from ..model.generation.motion_generator import TextToMotion
 from ..motion.motion import Motion
 from .edit import ControlledMotion, all_but, chosen_joints, fill_free
 from .postprocess import Place, finish, frames_of, moved_to, place_of, settled
-from .stream import OVERLAP, WINDOW, ConstraintOf, Passage, StreamSettings, stream_features
+from .stream import OVERLAP, WINDOW, ConstraintOf, Passage, Sampling, stream_features
 
 KEYS = ("text", "start", "end", "parts", "tag")
 SHORTEST = 0.2  # seconds of an entry
@@ -166,9 +166,9 @@ def _timeline(whole: Sequence[Entry], parts: Sequence[Entry], fps: float) -> Tim
 
 
 def make_timeline(
-    generator: MotionGenerator,
+    generator: TextToMotion,
     timeline: Timeline,
-    settings: StreamSettings,
+    sampling: Sampling,
     *,
     constraint: ConstraintOf | None = None,
 ) -> Tensor:
@@ -177,23 +177,21 @@ def make_timeline(
     Raises:
         UserError: as `stream_features`.
     """
-    pieces = _stream(generator, timeline.passages, settings, constraint)
-    return add_parts(generator, torch.cat(pieces), timeline.parts, settings)
+    pieces = _stream(generator, timeline.passages, sampling, constraint)
+    return add_parts(generator, torch.cat(pieces), timeline.parts, sampling)
 
 
 def add_parts(
-    generator: MotionGenerator, features: Tensor, parts: Sequence[Part], settings: StreamSettings
+    generator: TextToMotion, features: Tensor, parts: Sequence[Part], sampling: Sampling
 ) -> Tensor:
     """Features [T,R,6] in which some joints do what the parts say, and the rest stays."""
     for part in parts:
         known = all_but(features, part.start, part.stop, set(part.joints))
-        features = fill_free(generator, part.text, known, settings)
+        features = fill_free(generator, part.text, known, sampling)
     return features
 
 
-def make_loop(
-    generator: MotionGenerator, passages: Sequence[Passage], settings: StreamSettings
-) -> Tensor:
+def make_loop(generator: TextToMotion, passages: Sequence[Passage], sampling: Sampling) -> Tensor:
     """Raw features [T,R,6] of a motion whose last frame leads into its first one.
 
     The last window knows both what goes before it and the first frames, which follow it.
@@ -211,7 +209,7 @@ def make_loop(
     closing = min(last.frames if earlier else frames // 2, WINDOW - 2 * OVERLAP)
     if last.frames > closing:
         earlier.append(Passage(last.text, last.frames - closing, last.tag))
-    made = torch.cat(_stream(generator, earlier, settings))
+    made = torch.cat(_stream(generator, earlier, sampling))
     shared = min(OVERLAP, len(made))
     ends = torch.cat((made[-shared:], torch.zeros(closing, *made.shape[1:]), made[:shared]))
     known = Constraint(ends, torch.ones(ends.shape, dtype=torch.bool))
@@ -219,16 +217,16 @@ def make_loop(
     (window,) = _stream(
         generator,
         [Passage(last.text, len(ends), last.tag)],
-        settings,
+        sampling,
         lambda start, stop: known.window(start, stop),
     )
     return torch.cat((made, window[shared : shared + closing]))
 
 
 def _stream(
-    generator: MotionGenerator,
+    generator: TextToMotion,
     passages: Sequence[Passage],
-    settings: StreamSettings,
+    sampling: Sampling,
     constraint: ConstraintOf | None = None,
 ) -> list[Tensor]:
     return list(
@@ -236,15 +234,15 @@ def _stream(
             generator,
             passages,
             constraint=constraint,
-            **asdict(settings),
+            sampling=sampling,
         )
     )
 
 
 def by_timeline(
-    generator: MotionGenerator,
+    generator: TextToMotion,
     timeline: Timeline,
-    settings: StreamSettings,
+    sampling: Sampling,
     *,
     foot_lock: bool | None = None,
 ) -> ControlledMotion:
@@ -253,15 +251,15 @@ def by_timeline(
     Returns:
         errors: none, as nothing is given.
     """
-    features = make_timeline(generator, timeline, settings)
+    features = make_timeline(generator, timeline, sampling)
     motion = settled(generator, features, foot_lock=foot_lock)
     return ControlledMotion(replace(motion, text=timeline.text))
 
 
 def in_a_loop(
-    generator: MotionGenerator,
+    generator: TextToMotion,
     timeline: Timeline,
-    settings: StreamSettings,
+    sampling: Sampling,
     *,
     foot_lock: bool | None = None,
 ) -> ControlledMotion:
@@ -272,8 +270,8 @@ def in_a_loop(
     Returns:
         errors: see `join_error`; travel, turn: metres and degrees of one round.
     """
-    features = make_loop(generator, timeline.passages, settings)
-    features = add_parts(generator, features, timeline.parts, settings)
+    features = make_loop(generator, timeline.passages, sampling)
+    features = add_parts(generator, features, timeline.parts, sampling)
     frames = len(features)
     rounds = finish(
         generator, torch.cat([features] * 3), None, text=timeline.text, foot_lock=foot_lock

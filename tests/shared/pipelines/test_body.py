@@ -31,9 +31,10 @@ from src.shared.pipelines.body import (
     start_of,
     step_plan,
 )
-from src.shared.pipelines.dance import HeardSong, SongPerformer, candidate_seed, finished, perform
+from src.shared.pipelines.dance import SongPerformer, candidate_seed, finished, perform
 from src.shared.pipelines.postprocess import untwisted
 from src.shared.pipelines.ranking import PerformanceJudge, beat_report
+from src.shared.pipelines.song import SongCondition
 from src.shared.pipelines.stream import Passage
 from tests.shared.evaluation.tiny_pairs import nod
 from tests.shared.model.conftest import tiny_generator
@@ -215,9 +216,9 @@ def test_without_a_root_track_nobody_can_follow_a_path() -> None:
         Performer(generator)
 
 
-def song(frames: int = 90, seed: int = 7) -> HeardSong:
+def song(frames: int = 90, seed: int = 7) -> SongCondition:
     phase = np.arange(frames) / 60.0
-    return HeardSong(torch.zeros(167, frames), phase, np.arange(6) * 0.5, seed)
+    return SongCondition(torch.zeros(167, frames), phase, np.arange(6) * 0.5, seed)
 
 
 def test_each_path_gets_a_body_and_the_best_comes_first() -> None:

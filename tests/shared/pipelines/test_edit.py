@@ -9,8 +9,9 @@ import torch
 from src.shared.data.synthetic.generate import generate_clip
 from src.shared.data.synthetic.spec import spec_for
 from src.shared.errors import UsageError
+from src.shared.model.diffusion.samplers import Sampling
 from src.shared.model.generation.constraint import Constraint
-from src.shared.model.generation.motion_generator import MotionGenerator
+from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.motion import Motion
 from src.shared.motion.root_track import FORWARD, ROOT_ROW, integrate_root
 from src.shared.motion.skeleton import JOINT_INDEX, JOINT_NAMES
@@ -27,15 +28,14 @@ from src.shared.pipelines.edit import (
     redo,
 )
 from src.shared.pipelines.postprocess import Place, eased, moved_to, place_of
-from src.shared.pipelines.stream import StreamSettings
 from tests.shared.model.conftest import tiny_generator
 
 WALK = "a person walks"
-SETTINGS = StreamSettings(seed=2)
+SETTINGS = Sampling(seed=2)
 
 
 @pytest.fixture(scope="module")
-def generator() -> MotionGenerator:
+def generator() -> TextToMotion:
     return tiny_generator()
 
 
@@ -58,7 +58,7 @@ def angles(one: Motion, two: Motion) -> np.ndarray:
     return np.arccos(dots) * 2
 
 
-def test_both_ends_are_kept(generator: MotionGenerator, clip: Motion, other: Motion) -> None:
+def test_both_ends_are_kept(generator: TextToMotion, clip: Motion, other: Motion) -> None:
     given = keep_ends(clip, other, 25, 90)
     made = edited(generator, WALK, given, SETTINGS)
     motion = made.motion
@@ -71,7 +71,7 @@ def test_both_ends_are_kept(generator: MotionGenerator, clip: Motion, other: Mot
     assert kept_positions_error(motion, other, slice(30, 55), slice(last - 25, last)) > 0.01
 
 
-def test_one_end_is_enough(generator: MotionGenerator, clip: Motion) -> None:
+def test_one_end_is_enough(generator: TextToMotion, clip: Motion) -> None:
     motion = edited(generator, WALK, keep_ends(None, clip, 10, 50), SETTINGS).motion
     error = kept_positions_error(
         motion, clip, slice(40, 50), slice(clip.num_frames - 10, clip.num_frames)
@@ -80,7 +80,7 @@ def test_one_end_is_enough(generator: MotionGenerator, clip: Motion) -> None:
     assert place_of(motion, 0) == Place(0.0, 0.0, pytest.approx(0.0, abs=1e-3))
 
 
-def test_the_end_of_the_same_clip_is_where_it_was(generator: MotionGenerator, clip: Motion) -> None:
+def test_the_end_of_the_same_clip_is_where_it_was(generator: TextToMotion, clip: Motion) -> None:
     frames = clip.num_frames
     given = keep_ends(clip, clip, 20, frames, rejoin=True)
     motion = edited(generator, WALK, given, SETTINGS).motion
@@ -88,7 +88,7 @@ def test_the_end_of_the_same_clip_is_where_it_was(generator: MotionGenerator, cl
 
 
 def test_chosen_joints_are_made_anew_and_nothing_else(
-    generator: MotionGenerator, clip: Motion
+    generator: TextToMotion, clip: Motion
 ) -> None:
     joints = chosen_joints(["left-arm", "head"])
     made = edited(generator, None, redo(clip, 20, 60, joints), SETTINGS)
@@ -102,7 +102,7 @@ def test_chosen_joints_are_made_anew_and_nothing_else(
     assert made.motion.text == ""
 
 
-def test_a_span_leads_back_to_its_place(generator: MotionGenerator, clip: Motion) -> None:
+def test_a_span_leads_back_to_its_place(generator: TextToMotion, clip: Motion) -> None:
     made = edited(generator, WALK, redo(clip, 30, 70), SETTINGS)
     np.testing.assert_allclose(made.motion.positions()[:30], clip.positions()[:30], atol=1e-3)
     np.testing.assert_allclose(made.motion.positions()[70:], clip.positions()[70:], atol=1e-3)
@@ -112,7 +112,7 @@ def test_a_span_leads_back_to_its_place(generator: MotionGenerator, clip: Motion
 
 
 def test_only_the_surroundings_are_sampled(
-    generator: MotionGenerator, clip: Motion, monkeypatch
+    generator: TextToMotion, clip: Motion, monkeypatch
 ) -> None:
     long = Constraint(torch.zeros(500, 23, 6), torch.ones(500, 23, 6, dtype=torch.bool))
     long.known[300:320, 5] = False
@@ -132,7 +132,7 @@ def test_only_the_surroundings_are_sampled(
     assert len(lengths) == 1
 
 
-def test_a_path_is_bent_without_a_jump(generator: MotionGenerator, clip: Motion) -> None:
+def test_a_path_is_bent_without_a_jump(generator: TextToMotion, clip: Motion) -> None:
     given = redo(clip, 30, 70)
     free = fill_free(generator, WALK, given.constraint, SETTINGS)
     bent = bend_back(free, given, fps=30.0)

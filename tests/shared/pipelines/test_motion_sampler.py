@@ -8,7 +8,7 @@ from src.shared.errors import UsageError
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.pipelines.motion_sampler import MotionSampler
 from src.shared.pipelines.song import AudioCondition
-from src.shared.pipelines.song_sampler import SampleSettings, SongSampler
+from src.shared.pipelines.song_sampler import SongSampler, SongSampling
 from tests.shared.model.audio.tiny_audio import awake, network_config, walk
 
 FRAMES = 60
@@ -37,7 +37,7 @@ def test_candidates_are_the_song_samplers_and_the_best_is_among_them(
     assert result.all_candidates is not None
     assert result.all_candidates.shape == (3, 40, 25)
     np.testing.assert_array_equal(result.trajectory, result.all_candidates[result.best])
-    plain = SongSampler(model, SampleSettings(num_samples=3, steps=2)).sample(sound()[:, :40])
+    plain = SongSampler(model, SongSampling(num_samples=3, steps=2)).sample(sound()[:, :40])
     np.testing.assert_array_equal(result.all_candidates, np.stack([t.data for t in plain]))
 
 

@@ -22,12 +22,12 @@ from src.shared.pipelines.song_memory import (
     recalling,
     remembering,
 )
-from src.shared.pipelines.song_sampler import SampleSettings, SongSampler
+from src.shared.pipelines.song_sampler import SongSampler, SongSampling
 from tests.shared.memory.tiny_memory import LinearSpace, make_index
 from tests.shared.model.audio.tiny_audio import awake, network_config, walk
 
 FRAMES, WINDOW = 60, 40
-SETTINGS = SampleSettings(steps=2, window=WINDOW, overlap=10)
+SETTINGS = SongSampling(steps=2, window=WINDOW, overlap=10)
 
 
 @pytest.fixture(scope="module")
@@ -164,7 +164,7 @@ def test_windows_that_ask_together_or_in_turn_are_the_same(
     sampler = MPMSMotionSampler(model, service, LinearSpace(), device="cpu")
     wish = {"num_samples": 2, "num_steps": 1, "exclude_songs": {"song-2"}, "return_all": True}
     together = asyncio.run(sampler.sample_with_mpms(sound(), **wish))
-    heard, alone = hearable(sound(), None), SongSampler(model, SampleSettings(2, steps=1))
+    heard, alone = hearable(sound(), None), SongSampler(model, SongSampling(2, steps=1))
     bars, _ = heard.time() or (None, None)
     recall = remembering(service, LinearSpace(), alone, heard.rows, bars, {"song-2"})
     in_turn = sampler.keep_best(heard, alone, return_all=True, recall=recall)

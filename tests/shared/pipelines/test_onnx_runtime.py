@@ -19,7 +19,7 @@ from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.audio.onnx_card import CARD_FILE, GRAPHS, read_onnx_card
 from src.shared.model.checkpoint import ModelCard
 from src.shared.pipelines.runtime import OnnxRuntime, run
-from src.shared.pipelines.song_sampler import SampleSettings, SongSampler
+from src.shared.pipelines.song_sampler import SongSampler, SongSampling
 from tests.shared.model.audio.tiny_audio import awake, network_config, unet_config, walk
 
 pytest.importorskip("onnxruntime")
@@ -122,7 +122,7 @@ def test_three_levels_and_the_residual_decoder(tmp_path: Path, conditioning: str
 
 
 def test_same_seed_same_motion(model: AudioMotionModel, runtime: OnnxRuntime) -> None:
-    settings = SampleSettings(
+    settings = SongSampling(
         num_samples=2, steps=3, guidance_scale=1.5, seed=4, window=60, overlap=15
     )
     condition = torch.rand(167, 110)

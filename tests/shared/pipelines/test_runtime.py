@@ -13,10 +13,10 @@ from src.shared.model.checkpoint import ModelCard
 from src.shared.pipelines import runtime
 from src.shared.pipelines.runtime import load_runtime, load_trained
 from src.shared.pipelines.song import SongGenerator
-from src.shared.pipelines.song_sampler import SampleSettings, SongSampler
+from src.shared.pipelines.song_sampler import SongSampler, SongSampling
 from tests.shared.model.audio.tiny_audio import awake, network_config, unet_config
 
-SETTINGS = SampleSettings(steps=2, window=60, overlap=15)
+SETTINGS = SongSampling(steps=2, window=60, overlap=15)
 
 
 def saved(folder: Path, *, trained: bool) -> AudioMotionModel:

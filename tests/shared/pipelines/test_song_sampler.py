@@ -18,8 +18,8 @@ from src.shared.pipelines.song_sampler import (
     POSE_FRAMES,
     SPARE,
     SPEED_FRAMES,
-    SampleSettings,
     SongSampler,
+    SongSampling,
     carry_on,
     spans,
 )
@@ -37,7 +37,7 @@ def sampler() -> SongSampler:
     rows = walk(WINDOW)[0]
     # calm, yet made around another place than the known frames lead to: unmended it jumps
     model.set_statistics(rows.mean(0), 0.003 * (0.1 + rows.std(0)))
-    return SongSampler(model, SampleSettings(window=WINDOW, overlap=OVERLAP, steps=2))
+    return SongSampler(model, SongSampling(window=WINDOW, overlap=OVERLAP, steps=2))
 
 
 def sound(frames: int) -> torch.Tensor:
@@ -71,7 +71,7 @@ def test_no_seam_jumps_however_short_the_last_window(sampler: SongSampler, more:
 
 def test_a_window_that_fits_no_overlap_is_refused() -> None:
     with pytest.raises(UsageError, match="overlap"):
-        SampleSettings(window=20, overlap=20)
+        SongSampling(window=20, overlap=20)
 
 
 def test_the_end_is_derived_like_the_rest_and_the_start_is_the_origin(sampler: SongSampler) -> None:

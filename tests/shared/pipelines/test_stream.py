@@ -11,29 +11,24 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from src.shared.errors import UsageError, UserError
+from src.shared.model.diffusion.samplers import Sampling
 from src.shared.model.generation.constraint import Constraint
-from src.shared.model.generation.motion_generator import MotionGenerator
+from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.root_track import FORWARD, ROOT_ROW
 from src.shared.pipelines import stream as motion_stream
 from src.shared.pipelines.postprocess import joined, settled
-from src.shared.pipelines.stream import (
-    MotionStream,
-    Passage,
-    StreamSettings,
-    stream_features,
-    window_lengths,
-)
+from src.shared.pipelines.stream import MotionStream, Passage, stream_features, window_lengths
 from tests.shared.model.conftest import tiny_generator
 
 WALK, WAVE = Passage("a person walks", 70), Passage("a person waves", 33)
 
 
 @pytest.fixture(scope="module")
-def generator() -> MotionGenerator:
+def generator() -> TextToMotion:
     return tiny_generator()
 
 
-def made(generator: MotionGenerator, *passages: Passage, **settings: object) -> torch.Tensor:
+def made(generator: TextToMotion, *passages: Passage, **settings: object) -> torch.Tensor:
     settings = {"window": 40, "overlap": 10, "seed": 3} | settings
     return torch.cat(list(stream_features(generator, passages, **settings)))
 
@@ -52,24 +47,24 @@ def test_windows_are_few_and_alike(frames: int, window: int, data: st.DataObject
     assert len(lengths) == 1 or frames + known > fewer
 
 
-def test_length_and_seeds(generator: MotionGenerator) -> None:
+def test_length_and_seeds(generator: TextToMotion) -> None:
     first = made(generator, WALK, WAVE)
     assert first.shape == (103, 23, 6)
     torch.testing.assert_close(first, made(generator, WALK, WAVE), rtol=0, atol=0)
     assert not torch.allclose(first, made(generator, WALK, WAVE, seed=4))
 
 
-def test_the_past_does_not_depend_on_the_future(generator: MotionGenerator) -> None:
+def test_the_past_does_not_depend_on_the_future(generator: TextToMotion) -> None:
     whole = made(generator, WALK, WAVE)
     torch.testing.assert_close(made(generator, WALK), whole[:70], rtol=0, atol=0)
 
 
-def test_one_window_is_what_the_generator_samples(generator: MotionGenerator) -> None:
+def test_one_window_is_what_the_generator_samples(generator: TextToMotion) -> None:
     (plain,) = generator.sample_features(["a person walks"], seconds=2.0, seed=3)
     torch.testing.assert_close(made(generator, Passage("a person walks", 60), window=60), plain)
 
 
-def test_passages_are_taken_one_by_one(generator: MotionGenerator) -> None:
+def test_passages_are_taken_one_by_one(generator: TextToMotion) -> None:
     taken = []
 
     def endless() -> Iterator[Passage]:
@@ -82,7 +77,7 @@ def test_passages_are_taken_one_by_one(generator: MotionGenerator) -> None:
     assert len(taken) == 3
 
 
-def test_what_is_given_comes_out(generator: MotionGenerator) -> None:
+def test_what_is_given_comes_out(generator: TextToMotion) -> None:
     """Across windows, a path along the whole motion and a pose at its end."""
     asked = []
     values = torch.zeros(103, 23, 6)
@@ -102,7 +97,7 @@ def test_what_is_given_comes_out(generator: MotionGenerator) -> None:
     assert all(later[0] == earlier[1] - 10 for earlier, later in pairwise(asked))
 
 
-def test_each_window_knows_the_one_before(generator: MotionGenerator, monkeypatch) -> None:
+def test_each_window_knows_the_one_before(generator: TextToMotion, monkeypatch) -> None:
     seen = []
     plain = generator.sample_features
 
@@ -125,12 +120,12 @@ def motion_lengths() -> list[int]:
     return window_lengths(70, 0, 40, 10) + window_lengths(33, 10, 40, 10)
 
 
-def test_short_windows_are_made_longer_and_cut(generator: MotionGenerator) -> None:
+def test_short_windows_are_made_longer_and_cut(generator: TextToMotion) -> None:
     assert made(generator, Passage("a person walks", 1)).shape[0] == 1
     assert motion_stream.SHORTEST > 1
 
 
-def test_what_cannot_be(generator: MotionGenerator) -> None:
+def test_what_cannot_be(generator: TextToMotion) -> None:
     with pytest.raises(UsageError, match="overlap 30"):
         made(generator, WALK, overlap=30)
     with pytest.raises(UsageError, match="0 frames"):
@@ -141,9 +136,9 @@ def test_what_cannot_be(generator: MotionGenerator) -> None:
         made(generator, Passage(" ", 20))
 
 
-def test_a_stream_is_the_settled_timeline(generator: MotionGenerator) -> None:
+def test_a_stream_is_the_settled_timeline(generator: TextToMotion) -> None:
     features = made(generator, WALK, WAVE)
-    settings = StreamSettings(seed=3)
+    settings = Sampling(seed=3)
     stream = MotionStream(generator, [WALK, WAVE], window=40, overlap=10, settings=settings)
     assert stream.latency.first is None
     pieces = list(stream)
@@ -156,7 +151,7 @@ def test_a_stream_is_the_settled_timeline(generator: MotionGenerator) -> None:
     assert 0 < latency.lookahead < latency.reaction < 2
 
 
-def test_prompts_change_while_it_runs(generator: MotionGenerator) -> None:
+def test_prompts_change_while_it_runs(generator: TextToMotion) -> None:
     stream = MotionStream(generator, "a person walks", seconds=0.5, foot_lock=True)
     texts = []
     for number, piece in enumerate(stream):
@@ -168,14 +163,14 @@ def test_prompts_change_while_it_runs(generator: MotionGenerator) -> None:
     assert texts[:3] == ["a person walks"] * 3 and texts[3:] == ["somebody jumps twice"] * 3
 
 
-def test_a_generator_of_prompts(generator: MotionGenerator) -> None:
+def test_a_generator_of_prompts(generator: TextToMotion) -> None:
     texts = (text for text in ("a person walks", "a person waves"))
     stream = MotionStream(generator, texts, seconds=0.6)
     assert sum(piece.num_frames for piece in stream) == 36
     assert list(MotionStream(generator, [])) == []
 
 
-def test_nothing_to_say_is_refused_and_the_stream_goes_on(generator: MotionGenerator) -> None:
+def test_nothing_to_say_is_refused_and_the_stream_goes_on(generator: TextToMotion) -> None:
     stream = MotionStream(generator, "a person walks forward", seconds=1.0)
     pieces = iter(stream)
     next(pieces)

@@ -8,7 +8,7 @@ import pytest
 import torch
 
 from src.shared.errors import UserError
-from src.shared.model.generation.motion_generator import MotionGenerator
+from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.motion import Motion
 from src.shared.motion.root_track import ROOT_ROW, YAW_RATE, encode_features
 from src.shared.pipelines.ranking import TextJudge
@@ -17,12 +17,12 @@ from tests.shared.model.conftest import tiny_generator
 
 
 @pytest.fixture(scope="module")
-def generator() -> MotionGenerator:
+def generator() -> TextToMotion:
     return tiny_generator()
 
 
 @pytest.fixture(scope="module")
-def sentences(generator: MotionGenerator) -> SentenceGenerator:
+def sentences(generator: TextToMotion) -> SentenceGenerator:
     return SentenceGenerator(generator)
 
 
@@ -31,7 +31,7 @@ def turn_of(motion: Motion) -> float:
     return float(np.degrees(rate.sum() / motion.fps))
 
 
-def test_a_plain_sentence_is_one_sample(generator: MotionGenerator, sentences: SentenceGenerator):
+def test_a_plain_sentence_is_one_sample(generator: TextToMotion, sentences: SentenceGenerator):
     prompts = ["a person walks", "a person waves"]
     made = sentences.generate(prompts, seconds=[1.0, 1.5], seed=3, num_samples=2)
     same = generator.generate(prompts, seconds=[1.0, 1.5], seed=3, num_samples=2)
@@ -46,7 +46,7 @@ def test_clauses_follow_each_other(sentences: SentenceGenerator):
 
 
 def test_an_angle_and_a_length_are_kept():
-    sentences = SentenceGenerator(MotionGenerator.from_pretrained("starter", device="cpu"))
+    sentences = SentenceGenerator(TextToMotion.from_pretrained("starter", device="cpu"))
     left, right, metres = sentences.generate(
         ["turn 90 degrees to the left", "turn 180° right", "walk three metres"], seconds=2.0
     )

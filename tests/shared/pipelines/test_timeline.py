@@ -9,12 +9,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from src.shared.errors import UserError
-from src.shared.model.generation.motion_generator import MotionGenerator
+from src.shared.model.diffusion.samplers import Sampling
+from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.root_track import ROOT_ROW
 from src.shared.motion.skeleton import JOINT_INDEX
 from src.shared.pipelines.edit import chosen_joints
 from src.shared.pipelines.path import DrawnPath, along_path, natural_gait
-from src.shared.pipelines.stream import Passage, StreamSettings
+from src.shared.pipelines.stream import Passage
 from src.shared.pipelines.timeline import (
     Part,
     Timeline,
@@ -27,12 +28,12 @@ from src.shared.pipelines.timeline import (
 )
 from tests.shared.model.conftest import tiny_generator
 
-SETTINGS = StreamSettings(seed=5)
+SETTINGS = Sampling(seed=5)
 TWO = Timeline((Passage("a person walks", 70), Passage("somebody jumps twice", 40)))
 
 
 @pytest.fixture(scope="module")
-def generator() -> MotionGenerator:
+def generator() -> TextToMotion:
     return tiny_generator()
 
 
@@ -114,7 +115,7 @@ def test_lengths_add_up(tmp_path_factory, steps: list[tuple[float, float]]) -> N
     assert read_timeline(file, fps=30.0).num_frames == round(now * 30)
 
 
-def test_parts_leave_the_rest_alone(generator: MotionGenerator) -> None:
+def test_parts_leave_the_rest_alone(generator: TextToMotion) -> None:
     body = make_timeline(generator, TWO, SETTINGS)
     part = Part("a person walks", 20, 60, frozenset(chosen_joints(["right-arm"])))
     made = add_parts(generator, body, [part], SETTINGS)
@@ -129,7 +130,7 @@ def test_parts_leave_the_rest_alone(generator: MotionGenerator) -> None:
 
 
 @pytest.mark.parametrize("frames", [30, 60, 150])
-def test_a_loop_goes_on(generator: MotionGenerator, frames: int) -> None:
+def test_a_loop_goes_on(generator: TextToMotion, frames: int) -> None:
     """The step from the last frame to the first is like its neighbours, in features."""
     features = make_loop(generator, [Passage("a person walks", frames)], SETTINGS)
     assert len(features) == frames
@@ -139,7 +140,7 @@ def test_a_loop_goes_on(generator: MotionGenerator, frames: int) -> None:
     assert float(step) < 2 * float(steps.max())
 
 
-def test_a_loop_of_several_texts(generator: MotionGenerator) -> None:
+def test_a_loop_of_several_texts(generator: TextToMotion) -> None:
     made = in_a_loop(generator, TWO, SETTINGS)
     assert made.motion.num_frames == 110
     assert made.errors["join_acceleration"] < 2 * made.errors["p99_acceleration"] + 5
@@ -148,7 +149,7 @@ def test_a_loop_of_several_texts(generator: MotionGenerator) -> None:
         in_a_loop(generator, Timeline((Passage("a person walks", 15),)), SETTINGS)
 
 
-def test_along_a_path(generator: MotionGenerator) -> None:
+def test_along_a_path(generator: TextToMotion) -> None:
     drawn = DrawnPath(np.array([[1, 0], [1, 2], [2, 2.5]]))
     one = Timeline((Passage("a person walks", 1),))
     made = along_path(generator, one, drawn, SETTINGS)

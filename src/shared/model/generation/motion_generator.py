@@ -1,4 +1,4 @@
-"""MotionGenerator: prompts in, motions out; everything a trained text branch needs in one object.
+"""TextToMotion: prompts in, motions out; everything a trained text branch needs in one object.
 
 Letters: B batch, T frames, K rows (bones, root track), C channels, D embed dim, L text tokens.
 """
@@ -43,7 +43,7 @@ Progress = Callable[[int, int], None]  # motions done, motions in all
 log = logging.getLogger(__name__)
 
 
-class MotionGenerator:
+class TextToMotion:
     """Samples motions from prompts.
 
     Args:
