@@ -10,7 +10,7 @@ import pytest
 import soundfile
 from typer.testing import CliRunner
 
-from src.cli.generate_performance import stems
+from src.cli.generate_files import dance_stems
 from src.cli.tools import app
 from src.shared.audio.song_spec import SongSpec
 from src.shared.audio.synthetic_songs import render_song
@@ -91,7 +91,7 @@ def test_files_of_a_song_have_safe_names(
     generate(folder, song, "--format", "npz,html", "--out", tmp_path / "out")
     assert sorted(p.name for p in (tmp_path / "out").iterdir()) == [f"{stem}.html", f"{stem}.npz"]
     prompt = "人" * 200
-    longest = stems(song, [prompt, prompt], 1)[1]
+    longest = dance_stems(song, [prompt, prompt], 1)[1]
     assert longest.startswith(f"{stem}-人") and len(longest.encode()) < 230
 
 

@@ -20,8 +20,8 @@ from ..motion.motion import Motion
 from ..motion.root_track import decode_features
 from ..motion.trajectory import FPS, MotionTrajectory, to_motion
 from ..pipelines.body import Performer, PerformerSettings
-from ..pipelines.dance import candidate_seed, finished
-from ..pipelines.song import SongGenerator, own_noise
+from ..pipelines.dance import candidate_seed
+from ..pipelines.song import SongGenerator, finished, own_noise
 from ..pipelines.song_sampler import SongSampling
 from ..pipelines.stream import OVERLAP, WINDOW, window_lengths
 from .audio_songs import Piece, clock, held_out_songs, tracks

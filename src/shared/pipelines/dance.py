@@ -13,7 +13,6 @@ Letters: N candidates, P prompts, T frames, M beats, D width of the shared space
 import logging
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Self
 
 import numpy as np
@@ -27,11 +26,9 @@ from ..model.clip.pretrained import tower_hash
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.root_track import FORWARD, HEIGHT, LATERAL
 from ..motion.trajectory import FPS, MotionTrajectory, to_root
-from ..motion.trajectory_postprocess import MotionPostProcessor
 from .body import Performance, Performer, Progress
-from .ranking import PerformanceJudge, ScoreTable
-from .song import SongCondition, SongGenerator, of_song
-from .song_sampler import SongSampling
+from .ranking import PerformanceJudge, ScoreTable, unranked
+from .song import SongCondition, finished
 from .stream import Passage
 
 log = logging.getLogger(__name__)
@@ -249,8 +246,10 @@ class SongPerformer:
             made.append(
                 self.performer.perform(path, passages, beats=beats, seed=own, progress=told)
             )
-        prompts = [self._embedded(dance.passages) for dance in made]
-        table = self.judge.judge(made, raw, prompts, beats)
+        table = unranked()
+        if len(made) > 1:
+            prompts = [self._embedded(dance.passages) for dance in made]
+            table = self.judge.judge(made, raw, prompts, beats)
         return Dances(prompt, [made[place] for place in table.order], table)
 
     def _passages(
@@ -270,11 +269,6 @@ class SongPerformer:
         return self.performer.generator.encode_prompts([each.text for each in passages]).pooled
 
 
-def finished(raw: MotionTrajectory) -> MotionTrajectory:
-    """A path as it is written to files, and pinned: post-processed."""
-    return MotionTrajectory(MotionPostProcessor().process(raw.data), raw.fps)
-
-
 def candidate_seed(seed: int, song: int, number: int) -> int:
     """A seed of its own for each candidate of each song."""
     mixed = np.random.SeedSequence((seed, song, number)).generate_state(1, np.uint64)
@@ -283,46 +277,3 @@ def candidate_seed(seed: int, song: int, number: int) -> int:
 
 def _from(progress: Progress, before: int, total: int) -> Progress:
     return lambda done, _: progress(before + done, total)
-
-
-def perform(
-    audio: str | Path,
-    prompt: str | None = None,
-    *,
-    path: SongGenerator | None = None,
-    performer: Performer | None = None,
-    seconds: float | None = None,
-    style: np.ndarray | None = None,
-    num_samples: int = 1,
-    seed: int = 0,
-    device: str = "auto",
-) -> Dances:
-    """A sound file and a sentence become dances, the best first: all of it in one call.
-
-    Args:
-        audio: wav, flac, ogg or mp3.
-        prompt: what the body does; None = what the music says.
-        path: the audio branch; None = `starter-audio`.
-        performer: of bodies; None = with `starter`.
-        seconds: only the first so many; None = all.
-        style: of the path, [8] unit; None = what the prompt says of it, else the model's choice.
-        num_samples: candidates N.
-        seed: 0 or more.
-        device: auto, cuda, mps or cpu, for what is loaded here.
-
-    Raises:
-        UserError: the file or a model cannot be used.
-    """
-    from ..audio.song import analyse
-
-    path = path or SongGenerator.from_pretrained("starter-audio", device=device)
-    performer = performer or Performer(TextToMotion.from_pretrained("starter", device=device))
-    song = analyse(audio)
-    listened = SongCondition.of(song, seconds)
-    if style is None and prompt is not None:
-        style = performer.generator.style_of(prompt)
-    settings = of_song(SongSampling(num_samples=num_samples, seed=seed), song)
-    raw = path.generate(listened.condition, phase=listened.phase, style=style, settings=settings)
-    prompter = None if prompt else DancePrompter.beside(performer.generator)
-    dancers = SongPerformer(performer, prompter=prompter)
-    return dancers.dance(raw, listened, prompt, seed=seed)

@@ -17,7 +17,7 @@ import torch
 from torch import Tensor
 
 from ..config_loader import nearest
-from ..errors import UsageError
+from ..errors import UsageError, UserError
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.motion import Motion
@@ -35,6 +35,7 @@ from ..motion.trajectory_math import turn_about_y
 from .postprocess import ORIGIN, Place, finish, place_of
 from .stream import OVERLAP, Passage, Sampling, stream_features
 
+KEEP = 1.0  # seconds of a clip that are kept
 GROUND = [FORWARD, LATERAL, YAW_RATE]  # channels of the root row that say where the body goes
 LEGS = LIMBS["left-leg"] + LIMBS["right-leg"]
 GROUPS: dict[str, tuple[str, ...]] = LIMBS | {
@@ -122,6 +123,70 @@ def redo(clip: Motion, start: int, stop: int, joints: set[str] | None = None) ->
     open_end = joints is not None or stop >= clip.num_frames
     rejoin = None if open_end else (stop, place_of(clip, stop))
     return Given(known, place_of(clip, 0), rejoin)
+
+
+def edit_clip(
+    clip: Motion, begin: float = 0.0, until: float | None = None, joints: set[str] | None = None
+) -> Given:
+    """A clip of which the seconds from `begin` to `until` are made anew; see `redo`.
+
+    Args:
+        clip: T frames.
+        begin, until: seconds; None = its end.
+        joints: only these; None = the whole body and its path.
+
+    Raises:
+        UserError: the span is not in the clip.
+    """
+    until = clip.seconds if until is None else until
+    start, stop = round(begin * clip.fps), round(until * clip.fps)
+    if begin < 0 or stop > clip.num_frames or start >= stop:
+        raise UserError(
+            f"from {begin:g} to {until:g} s: the clip lasts {clip.seconds:.2f} s; choose a span of"
+            " it"
+        )
+    return redo(clip, start, stop, joints)
+
+
+def continue_clips(
+    start: Motion | None,
+    end: Motion | None = None,
+    *,
+    keep: float = KEEP,
+    seconds: float | None = None,
+    rejoin: bool = False,
+) -> Given:
+    """A motion that begins with the first seconds of a clip, or ends with the last ones; or both.
+
+    Args:
+        start, end: one of them at least.
+        keep: seconds of each that stay.
+        seconds: of the whole; None = what is kept at both ends and 2 s between, or with `rejoin`
+            as long as the clip.
+        rejoin: it ends where `end` stands; both are usually one clip, whose middle is made anew.
+
+    Raises:
+        UserError: a clip is shorter than what is to be kept.
+        UsageError: no clip, or nothing would be left to make.
+    """
+    clips = [clip for clip in (start, end) if clip is not None]
+    if not clips:
+        raise UsageError("no clip is given; give one to begin with, or to end with")
+    for name, clip in (("start", start), ("end", end)):
+        if clip is not None and clip.seconds < keep:
+            raise UserError(
+                f"{name}: the clip lasts {clip.seconds:.2f} s, less than the {keep:g} s to be kept;"
+                " keep less"
+            )
+    if seconds is None:
+        seconds = clips[0].seconds if rejoin else 2 * keep + 2.0
+    frames, kept = round(seconds * clips[0].fps), round(keep * clips[0].fps)
+    if frames - len(clips) * kept < 1 or kept < 1:
+        raise UsageError(
+            f"{seconds:g} seconds leave nothing to make: {len(clips)} × {keep:g} s are kept; give"
+            " more seconds or keep less"
+        )
+    return keep_ends(start, end, kept, frames, rejoin=rejoin)
 
 
 def all_but(features: Tensor, start: int, stop: int, joints: set[str] | None) -> Constraint:

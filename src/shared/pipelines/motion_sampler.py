@@ -11,20 +11,20 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from ..config_audio import AudioNetworkConfig
 from ..device import choose_device
-from ..errors import UsageError, UserError
+from ..errors import UsageError
 from ..memory.build import Space
 from ..memory.context import Memory
 from ..memory.service import MPMService
 from ..model.audio.audio_motion_model import AudioMotionModel
 from .ranking import AudioJudge, ScoreTable
-from .song import AudioCondition
+from .song import AudioCondition, own_noise
 from .song_memory import (
     Question,
     ask,
     questions,
     recalling,
+    require_memory,
     same_question,
 )
 from .song_sampler import Recall, SongSampler, SongSampling
@@ -90,6 +90,7 @@ class MotionSampler:
         settings = SongSampling(
             num_samples, guidance_scale=guidance_scale, steps=num_steps, seed=seed
         )
+        settings = _as_of_song(settings, condition)
         return self.keep_best(condition, SongSampler(self.model, settings), return_all=return_all)
 
     def keep_best(
@@ -119,6 +120,11 @@ def hearable(sound: AudioCondition | np.ndarray | Tensor, num_frames: int | None
     if not 1 <= frames <= condition.num_frames:
         raise UsageError(f"num_frames {frames}: choose 1 to {condition.num_frames}, the sound's")
     return condition.first(frames)
+
+
+def _as_of_song(settings: SongSampling, condition: AudioCondition) -> SongSampling:
+    """With noise of the song's own, as `generate --audio` has it; mere rows are of no song."""
+    return settings if condition.song is None else own_noise(settings, condition.song.seed)
 
 
 @dataclass(frozen=True, eq=False)
@@ -193,6 +199,7 @@ class MPMSMotionSampler(MotionSampler):
             num_samples, guidance_scale=guidance_scale, steps=num_steps, seed=seed
         )
         sound = hearable(audio_condition, num_frames)
+        settings = _as_of_song(settings, sound)
         plan = await asyncio.to_thread(self._plan, sound, settings, audio_embedding, beat_phase)
         answers = await ask(self.mpms_service, plan.asked, exclude_songs)
         return await asyncio.to_thread(self._dance, plan, answers, return_all)
@@ -221,12 +228,3 @@ class MPMSMotionSampler(MotionSampler):
     def _dance(self, plan: Plan, answers: Sequence[Memory], return_all: bool) -> SampleResult:
         recall = recalling(plan.windows, answers)
         return self.keep_best(plan.condition, plan.sampler, return_all=return_all, recall=recall)
-
-
-def require_memory(config: AudioNetworkConfig, name: str) -> None:
-    """Raises UserError for a model that hears no memory."""
-    if config.unet.memory is None:
-        raise UserError(
-            f"{name} hears no memory: train that on top of it with src.train.train_memory, and"
-            " name the folder"
-        )

@@ -138,6 +138,11 @@ def rank(
     return ScoreTable(clean, np.asarray(failed), score, order, distance, weights)
 
 
+def unranked() -> ScoreTable:
+    """Of one candidate: there is nothing to judge."""
+    return rank({}, np.zeros(1, dtype=int), lambda chosen: np.zeros(1))
+
+
 def _greedy(
     score: np.ndarray, distance_from: Callable[[int], np.ndarray], weight: float
 ) -> tuple[np.ndarray, np.ndarray]:

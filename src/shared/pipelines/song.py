@@ -3,10 +3,11 @@
 Letters: T frames, M beats.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Self
+from typing import Any, Generic, Self, TypeVar
 
 import numpy as np
 import torch
@@ -17,17 +18,42 @@ from ..data.phrases.layout import phase_rows
 from ..device import choose_device
 from ..model.audio.audio_motion_model import AudioMotionModel
 from ..model.audio.conditioning import BEAT, CONDITION_ROWS, FEATURE_ROWS
+from ..model.generation.motion_generator import TextToMotion
+from ..model.zoo import resolve_model
+from ..motion.style import named_style, only_style_words
 from ..motion.trajectory import FPS, MotionTrajectory
 from ..motion.trajectory_math import unwrap_phase
-from .runtime import load_trained
+from ..motion.trajectory_postprocess import MotionPostProcessor
+from ..validation.bands import Bands
+from .ranking import AudioJudge, ScoreTable, unranked
+from .runtime import Runtime, load_runtime
+from .song_memory import SongMemory, require_memory
 from .song_sampler import Progress, SongSampler, SongSampling
 
+STYLE_MODEL = "starter"  # reads a style that is a sentence
+ModelT = TypeVar("ModelT", bound=Runtime)
+Stage = Callable[[str], AbstractContextManager[Progress]]
 
-@dataclass(frozen=True)
+
+def silently(stage: str) -> AbstractContextManager[Progress]:
+    """For a `Stage`: nobody is told how far it is."""
+    return nullcontext(lambda done, total: None)
+
+
+@dataclass(frozen=True, eq=False)
 class SongMotions:
-    """Trajectories of one song, and the song as it was heard."""
+    """Trajectories of one song, the best first, and the song as it was heard.
+
+    Attributes:
+        trajectories: post-processed.
+        raw: the same as the decoder gave them.
+        table: what was found of them, in the order sampled.
+        song: analysed.
+    """
 
     trajectories: list[MotionTrajectory]
+    raw: list[MotionTrajectory]
+    table: ScoreTable
     song: Song
 
 
@@ -55,26 +81,94 @@ class SongCondition:
         return cls(condition, phase, beats, int(song.sha256, 16))
 
 
-class SongGenerator:
+class SongGenerator(Generic[ModelT]):
     """A trained audio branch.
 
     Args:
-        model: trained.
+        model: trained; a torch model is moved to the device.
         device: auto, cuda, mps or cpu.
+        bands: of real motions, for the judge of candidates; None = built-in bounds.
+        memory: what its windows are told of like phrases; None = nothing.
+
+    Raises:
+        UserError: a memory for a model that hears none.
     """
 
-    def __init__(self, model: AudioMotionModel, *, device: str | None = None) -> None:
-        self.device = torch.device(choose_device(device or "auto")[0])
-        self.model = model.to(self.device).eval()
+    def __init__(
+        self,
+        model: ModelT,
+        *,
+        device: str | None = None,
+        bands: Bands | None = None,
+        memory: SongMemory | None = None,
+    ) -> None:
+        if memory is not None:
+            require_memory(model.config, "this model")
+        if isinstance(model, AudioMotionModel):
+            model.to(choose_device(device or "auto")[0]).eval()
+        self.model, self.bands, self.memory = model, bands, memory
+        self.device = model.mean.device
 
     @classmethod
-    def from_pretrained(cls, name_or_folder: str | Path, *, device: str | None = None) -> Self:
-        """By the name of shipped weights, or a folder that training wrote.
+    def from_pretrained(
+        cls,
+        name_or_folder: str | Path,
+        *,
+        device: str | None = None,
+        runtime: str = "torch",
+        memory: SongMemory | None = None,
+    ) -> "SongGenerator[Any]":
+        """By the name of shipped weights, or a folder that training or `export-onnx` wrote.
 
         Raises:
-            UserError: no such model, another kind, damaged, or never trained.
+            UserError: no such model, another kind, damaged, or never trained; or it hears no
+                memory and one is given.
         """
-        return cls(load_trained(name_or_folder, device or "auto"), device=device)
+        model: Any = load_runtime(runtime, name_or_folder, device or "auto")
+        bands = shipped_bands(name_or_folder) if runtime == "torch" else None
+        return cls(model, device=device, bands=bands, memory=memory)
+
+    def sample(
+        self,
+        song: SongCondition,
+        settings: SongSampling | None = None,
+        *,
+        style: np.ndarray | None = None,
+        progress: Progress | None = None,
+    ) -> list[MotionTrajectory]:
+        """Candidates as the decoder gave them, with noise of the song's own."""
+        sampler = SongSampler(self.model, own_noise(settings or SongSampling(), song.seed))
+        recall = None
+        if self.memory is not None:
+            recall = self.memory.recall(sampler, song.condition, song.phase)
+        return sampler.sample(
+            song.condition, phase=song.phase, style=style, progress=progress, recall=recall
+        )
+
+    def trajectories(
+        self,
+        song: Song,
+        settings: SongSampling | None = None,
+        *,
+        seconds: float | None = None,
+        style: np.ndarray | None = None,
+        progress: Progress | None = None,
+    ) -> SongMotions:
+        """Candidates for a song, ranked and post-processed: what `generate --audio` writes.
+
+        Args:
+            song: analysed.
+            settings: how many candidates, and how they are sampled.
+            seconds: only the first so many; None = all.
+            style: [8] unit, see `styled`; None = the model's choice.
+            progress: told the frames that are done.
+        """
+        condition = SongCondition.of(song, seconds)
+        raw = self.sample(condition, settings, style=style, progress=progress)
+        judge = AudioJudge(self.bands)
+        table = judge.judge(raw, condition.beats) if len(raw) > 1 else unranked()
+        ranked = [raw[place] for place in table.order]
+        return SongMotions([finished(path) for path in ranked], ranked, table, song)
 
     def generate(
         self,
@@ -100,7 +194,7 @@ class SongGenerator:
         settings: SongSampling | None = None,
         progress: Progress | None = None,
     ) -> SongMotions:
-        """Trajectories for a sound file.
+        """Trajectories for a sound file, the best first.
 
         Args:
             path: wav, flac, ogg or mp3 of 1 s or more.
@@ -112,12 +206,7 @@ class SongGenerator:
             UserError: the file cannot be used.
         """
         song = analyse(path, meter=meter)
-        condition, phase = heard(song, seconds)
-        settings = of_song(settings or SongSampling(), song)
-        made = self.generate(
-            condition, phase=phase, style=style, settings=settings, progress=progress
-        )
-        return SongMotions(made, song)
+        return self.trajectories(song, settings, seconds=seconds, style=style, progress=progress)
 
     def stream(
         self,
@@ -130,6 +219,31 @@ class SongGenerator:
         condition, phase = heard(song, None)
         sampler = SongSampler(self.model, of_song(settings or SongSampling(), song))
         yield from sampler.stream(condition, phase=phase, style=style)
+
+
+def finished(raw: MotionTrajectory) -> MotionTrajectory:
+    """A path as it is written to files, and pinned: post-processed."""
+    return MotionTrajectory(MotionPostProcessor().process(raw.data), raw.fps)
+
+
+def shipped_bands(name_or_folder: str | Path) -> Bands | None:
+    """Bands of the training motions beside the weights, where the folder has them."""
+    path = resolve_model(name_or_folder) / "bands.json"
+    return Bands.load(path) if path.is_file() else None
+
+
+def styled(text: str | None) -> np.ndarray | None:
+    """The style [8] that a text names; None without one.
+
+    A list of style words is looked up; any other text is read as a prompt, through the map of
+    styles that the text model has learned (ruling 11).
+    """
+    if text is None:
+        return None
+    if only_style_words(text):
+        return named_style(text)
+    found = TextToMotion.from_pretrained(STYLE_MODEL).style_of(text)
+    return named_style(text) if found is None else found  # the former says what is known
 
 
 def of_song(settings: SongSampling, song: Song) -> SongSampling:
@@ -161,11 +275,16 @@ def heard(song: Song, seconds: float | None) -> tuple[torch.Tensor, np.ndarray |
 class AudioCondition:
     """Rows [163 or 167, T] at 30 fps: features, and beat and bar phase where they are known.
 
+    Attributes:
+        rows: what the network hears.
+        song: the same with what the beat tracker found, if the rows are an analysed song's.
+
     Raises:
         ValueError: another shape.
     """
 
     rows: Tensor
+    song: SongCondition | None = None
 
     def __post_init__(self) -> None:
         if self.rows.ndim != 2 or len(self.rows) not in (FEATURE_ROWS, CONDITION_ROWS):
@@ -175,7 +294,8 @@ class AudioCondition:
     def of(cls, sound: Song | np.ndarray | Tensor) -> Self:
         """Of an analysed song; or of rows, with a batch of one in front or without."""
         if isinstance(sound, Song):
-            return cls(heard(sound, None)[0])
+            song = SongCondition.of(sound)
+            return cls(song.condition, song)
         rows = torch.as_tensor(sound).float()
         return cls(rows[0] if rows.ndim == 3 and len(rows) == 1 else rows)
 
@@ -186,10 +306,16 @@ class AudioCondition:
 
     def first(self, num_frames: int) -> Self:
         """Its first frames."""
-        return type(self)(self.rows[:, :num_frames])
+        song = self.song
+        if song is not None:
+            phase = None if song.phase is None else song.phase[:num_frames]
+            song = replace(song, condition=song.condition[:, :num_frames], phase=phase)
+        return type(self)(self.rows[:, :num_frames], song)
 
     def time(self) -> tuple[np.ndarray, np.ndarray] | None:
         """Unwrapped bars [T], and times [M] of beats in seconds; None where they are unknown."""
+        if self.song is not None:
+            return None if self.song.phase is None else (self.song.phase, self.song.beats)
         beat_and_bar = self.rows[BEAT].double().cpu().numpy()
         if not len(beat_and_bar) or not np.hypot(*beat_and_bar[:2]).min() > 0.5:
             return None

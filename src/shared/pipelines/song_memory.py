@@ -17,6 +17,9 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from ..config_audio import AudioNetworkConfig
+from ..config_loader import load_config, load_yaml, packaged_config
+from ..config_memory import MemoryConfig
 from ..errors import UserError
 from ..memory.build import Space
 from ..memory.context import Memory
@@ -57,6 +60,15 @@ def open_memory(folder: str | Path, space: str | Path = "") -> tuple[MemoryIndex
             " one, or build the memory again"
         )
     return index, found
+
+
+def require_memory(config: AudioNetworkConfig, name: str) -> None:
+    """Raises UserError for a model that hears no memory."""
+    if config.unet.memory is None:
+        raise UserError(
+            f"{name} hears no memory: train that on top of it with src.train.train_memory, and"
+            " name the folder"
+        )
 
 
 def as_condition(memory: Memory) -> MemoryCondition:
@@ -139,6 +151,30 @@ def recalling(windows: Sequence[tuple[int, int]], memories: Sequence[Memory]) ->
     return lambda start, length: answers[start, length]
 
 
+@dataclass(frozen=True, eq=False)
+class SongMemory:
+    """A memory that answers, and the space of its keys."""
+
+    service: MPMService
+    space: Space
+
+    @classmethod
+    def open(cls, folder: str | Path) -> "SongMemory":
+        """The memory in a folder, asked as memory.yaml says.
+
+        Raises:
+            UserError: it or its space is not there, damaged, or they do not belong together.
+        """
+        index, space = open_memory(folder)
+        path = packaged_config("memory.yaml")
+        settings = load_config(MemoryConfig, load_yaml(path), str(path), [f"folder={folder}"])
+        return cls(MPMService(settings, index), space)
+
+    def recall(self, sampler: SongSampler, condition: Tensor, bars: np.ndarray | None) -> Recall:
+        """All that a sampler's windows of a condition [C,T] are told; bars [T] as `questions`."""
+        return remembering(self.service, self.space, sampler, condition, bars)
+
+
 def remembering(
     service: MPMService,
     space: Space,
@@ -147,7 +183,7 @@ def remembering(
     bars: np.ndarray | None,
     exclude_songs: Set[str] | None = None,
 ) -> Recall:
-    """All that a sampler's windows of a condition [C,T] will be told; bars [T] as `questions`."""
+    """See `SongMemory.recall`; some songs may be left out."""
     windows = sampler.windows(condition.shape[1])
     asked = questions(space, condition, bars, windows)
     return recalling(windows, ask_now(service, asked, exclude_songs))

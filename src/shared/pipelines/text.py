@@ -27,7 +27,7 @@ from ..motion.motion import Motion
 from ..motion.root_track import ROOT_ROW, YAW_RATE
 from .path import DrawnPath, natural_gait, time_path
 from .postprocess import settled
-from .ranking import ScoreTable, TextJudge
+from .ranking import ScoreTable, TextJudge, unranked
 from .sentence import Clause, clauses
 from .stream import OVERLAP, WINDOW, Passage, Sampling, stream_features, window_seed
 
@@ -262,13 +262,18 @@ class PromptSampler:
     """Best of N for prompts, the text side's `MotionSampler`.
 
     Args:
-        generator: trained.
+        generator: trained; a `SentenceGenerator` is used as it is.
         judge: of the candidates; one with the generator's motion tower sees the prompt, None
             makes one without.
     """
 
-    def __init__(self, generator: TextToMotion, judge: TextJudge | None = None) -> None:
-        self.generator, self.judge = SentenceGenerator(generator), judge or TextJudge()
+    def __init__(
+        self, generator: TextToMotion | SentenceGenerator, judge: TextJudge | None = None
+    ) -> None:
+        if isinstance(generator, TextToMotion):
+            generator = SentenceGenerator(generator)
+        self.generator = generator
+        self.judge = judge or TextJudge()
 
     def sample(
         self,
@@ -276,7 +281,7 @@ class PromptSampler:
         num_samples: int = 8,
         *,
         return_all: bool = False,
-        **sampling: Any,
+        **options: Any,
     ) -> list[PromptResult]:
         """Sample N candidates a prompt and keep the one that the judge puts first.
 
@@ -284,16 +289,18 @@ class PromptSampler:
             prompts: see `SentenceGenerator.generate`.
             num_samples: N; candidate i depends on (seed, prompt, i) alone.
             return_all: keep the others too.
-            sampling: what else `SentenceGenerator.generate` takes.
+            options: what else `SentenceGenerator.generate` takes.
 
         Raises:
             UserError: as `SentenceGenerator.generate`.
         """
-        motions = self.generator.generate(prompts, num_samples=num_samples, **sampling)
-        embeddings = self.generator.encode_prompts(prompts).pooled
+        motions = self.generator.generate(prompts, num_samples=num_samples, **options)
+        embeddings = None if num_samples == 1 else self.generator.encode_prompts(prompts).pooled
         results = []
-        for number, embedding in enumerate(embeddings):
+        for number in range(len(prompts)):
             made = motions[number * num_samples : (number + 1) * num_samples]
-            table = self.judge.judge(made, embedding)
+            table = unranked()
+            if embeddings is not None:
+                table = self.judge.judge(made, embeddings[number])
             results.append(PromptResult(made[table.best], made if return_all else None, table))
         return results

@@ -30,6 +30,7 @@ from .stream import OVERLAP, WINDOW, ConstraintOf, Passage, Sampling, stream_fea
 KEYS = ("text", "start", "end", "parts", "tag")
 SHORTEST = 0.2  # seconds of an entry
 LONGEST = 7200.0  # seconds of a timeline
+SECONDS = 4.0  # of a text that comes without a length
 SHORTEST_LOOP = 1.0  # seconds
 
 
@@ -49,6 +50,26 @@ class Timeline:
 
     passages: tuple[Passage, ...]
     parts: tuple[Part, ...] = ()
+
+    @classmethod
+    def of(
+        cls,
+        texts: Sequence[str],
+        seconds: float | None = None,
+        tags: Sequence[str | None] | None = None,
+        *,
+        fps: float = 30.0,
+    ) -> "Timeline":
+        """Texts one after another, each of so many seconds; None = 4."""
+        frames = round((SECONDS if seconds is None else seconds) * fps)
+        pairs = zip(texts, tags or [None] * len(texts), strict=True)
+        return cls(tuple(Passage(text, frames, tag) for text, tag in pairs))
+
+    @property
+    def texts(self) -> list[str]:
+        """All of them, those of single parts of the body too."""
+        whole = [passage.text for passage in self.passages]
+        return whole + [part.text for part in self.parts]
 
     @property
     def num_frames(self) -> int:
@@ -74,7 +95,7 @@ class Entry:
     tag: str | None
 
 
-def read_timeline(path: str | Path, *, fps: float) -> Timeline:
+def read_timeline(path: str | Path, *, fps: float = 30.0) -> Timeline:
     """A timeline file; a gap between two entries belongs to the later one, which begins sooner.
 
     Raises:

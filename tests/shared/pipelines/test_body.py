@@ -31,10 +31,10 @@ from src.shared.pipelines.body import (
     start_of,
     step_plan,
 )
-from src.shared.pipelines.dance import SongPerformer, candidate_seed, finished, perform
+from src.shared.pipelines.dance import SongPerformer, candidate_seed, perform
 from src.shared.pipelines.postprocess import untwisted
 from src.shared.pipelines.ranking import PerformanceJudge, beat_report
-from src.shared.pipelines.song import SongCondition
+from src.shared.pipelines.song import SongCondition, finished
 from src.shared.pipelines.stream import Passage
 from tests.shared.evaluation.tiny_pairs import nod
 from tests.shared.model.conftest import tiny_generator

@@ -29,8 +29,9 @@ def generator() -> TextToMotion:
 
 
 def made(generator: TextToMotion, *passages: Passage, **settings: object) -> torch.Tensor:
-    settings = {"window": 40, "overlap": 10, "seed": 3} | settings
-    return torch.cat(list(stream_features(generator, passages, **settings)))
+    sampling = Sampling(seed=settings.pop("seed", 3))
+    settings = {"window": 40, "overlap": 10} | settings
+    return torch.cat(list(stream_features(generator, passages, sampling, **settings)))
 
 
 @given(st.integers(1, 3000), st.integers(8, 180), st.data())
@@ -138,8 +139,8 @@ def test_what_cannot_be(generator: TextToMotion) -> None:
 
 def test_a_stream_is_the_settled_timeline(generator: TextToMotion) -> None:
     features = made(generator, WALK, WAVE)
-    settings = Sampling(seed=3)
-    stream = MotionStream(generator, [WALK, WAVE], window=40, overlap=10, settings=settings)
+    sampling = Sampling(seed=3)
+    stream = MotionStream(generator, [WALK, WAVE], window=40, overlap=10, sampling=sampling)
     assert stream.latency.first is None
     pieces = list(stream)
     assert {piece.text for piece in pieces} == {WALK.text, WAVE.text}
