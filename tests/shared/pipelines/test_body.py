@@ -31,7 +31,7 @@ from src.shared.pipelines.body import (
     start_of,
     step_plan,
 )
-from src.shared.pipelines.dance import SongPerformer, candidate_seed, perform
+from src.shared.pipelines.dance import SongPerformer, candidate_seed
 from src.shared.pipelines.postprocess import untwisted
 from src.shared.pipelines.ranking import PerformanceJudge, beat_report
 from src.shared.pipelines.song import SongCondition, finished
@@ -244,9 +244,15 @@ def test_the_judge_sees_the_words_where_it_has_a_tower() -> None:
         Performer(generator),
         judge=PerformanceJudge(tower=lambda features: torch.eye(32)[:1].expand(len(features), -1)),
     )
-    table = dancers.dance([path(90)], song(), PROMPT).table
+    table = dancers.dance([path(90), path(90, 0.4)], song(), PROMPT).table
     prompt = generator.encode_prompts([PROMPT]).pooled[0]
-    np.testing.assert_allclose(table.terms["similarity"], [max(0.0, float(prompt[0]))], atol=1e-6)
+    said = [max(0.0, float(prompt[0]))] * 2
+    np.testing.assert_allclose(table.terms["similarity"], said, atol=1e-6)
+
+
+def test_one_candidate_is_not_judged() -> None:
+    table = SongPerformer(Performer(tiny_generator())).dance([path(90)], song(), PROMPT).table
+    assert table.best == 0 and table.terms == {}
 
 
 def test_beats_are_told_with_their_chance() -> None:
@@ -254,20 +260,3 @@ def test_beats_are_told_with_their_chance() -> None:
     told = beat_report(performer.perform(path(120), PROMPT).motion, np.arange(8) * 0.5)
     assert set(told) == {"motion-to-music", "music-to-motion", "chance"}
     assert all(0 <= value <= 1 for value in told.values())
-
-
-def test_all_in_one_call(tmp_path) -> None:  # type: ignore[no-untyped-def]
-    from src.shared.audio.song_spec import SongSpec
-    from src.shared.audio.synthetic_songs import render_song
-    from src.shared.pipelines.song import SongGenerator
-    from tests.shared.evaluation.tiny_pairs import tiny_model
-
-    render_song(SongSpec(seconds=2.0, seed=1)).write_wav(tmp_path / "song.wav")
-    found = perform(
-        tmp_path / "song.wav",
-        PROMPT,
-        path=SongGenerator(tiny_model(), device="cpu"),
-        performer=Performer(tiny_generator()),
-        num_samples=2,
-    )
-    assert len(found.ranked) == 2 and found.ranked[0].error.max_metres < 0.001
