@@ -23,9 +23,7 @@ from ..errors import UsageError
 from ..model.diffusion.samplers import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
-from ..motion.carried_feet import hold_carried_feet
 from ..motion.motion import Motion
-from ..motion.postprocess import MotionPostProcessor, smooth_features
 from ..motion.root_track import LEFT_CONTACT, ROOT_ROW
 from ..motion.rotations import (
     matrix_to_rotation_6d,
@@ -34,7 +32,7 @@ from ..motion.rotations import (
 )
 from ..motion.trajectory import MotionTrajectory, to_root
 from ..motion.trajectory_math import heading_of, turn_about_y
-from .postprocess import soften_cuts, untwisted
+from .postprocess import Place, finish, soften_cuts
 from .song_sampler import Progress
 from .stream import Passage, stream_features
 
@@ -266,22 +264,17 @@ class Performer:
             pieces.append(piece)
             if progress is not None:
                 progress(sum(map(len, pieces)), num_frames)
-        post = self.generator.network.generation.post_processing
         cuts = list(accumulate(map(len, pieces)))[:-1]
-        smooth = smooth_features(soften_cuts(torch.cat(pieces), cuts), post.smoothing_kernel)
-        # Averaged rotations may turn a little: the heading is the path's alone.
-        features = known.keep(untwisted(smooth))
-        foot_lock = post.foot_lock if own.foot_lock is None else own.foot_lock
-        rest = post.model_copy(update={"smoothing_kernel": 1, "foot_lock": False})
-        motion = MotionPostProcessor(rest)(
-            features,
-            known=known.known,
-            fps=trajectory.fps,
+        x, _, z = trajectory.position[0].tolist()
+        motion = finish(
+            self.generator,
+            known.keep(soften_cuts(torch.cat(pieces), cuts)),
+            known.known,
             text=_title(passages),
-            **start_of(trajectory),
+            place=Place(x, z, float(trajectory.heading[0])),
+            foot_lock=own.foot_lock,
+            carried=True,
         )
-        if foot_lock:
-            motion = hold_carried_feet(motion)
         return Performance(motion, trajectory, passages, root_error(motion, trajectory))
 
 

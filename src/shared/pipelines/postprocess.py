@@ -209,8 +209,10 @@ def finish(
     if not locks:
         return loose
     kept = None if known is None else kept_legs(known)
+    if kept is None or not kept.any():
+        return (hold_carried_feet if carried else lock_feet)(loose)
     locked = (hold_carried_feet if carried else lock_feet)(loose, kept=kept)
-    return locked if kept is None else eased(loose, locked, kept)
+    return eased(loose, locked, kept)
 
 
 def eased(loose: Motion, locked: Motion, kept: np.ndarray) -> Motion:
