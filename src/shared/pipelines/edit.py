@@ -183,8 +183,8 @@ def continue_clips(
     frames, kept = round(seconds * clips[0].fps), round(keep * clips[0].fps)
     if frames - len(clips) * kept < 1 or kept < 1:
         raise UsageError(
-            f"{seconds:g} seconds leave nothing to make: {len(clips)} × {keep:g} s are kept; give"
-            " more seconds or keep less"
+            f"a length of {seconds:g} s leaves nothing to make: {len(clips)} × {keep:g} s are kept;"
+            " give more seconds or keep less"
         )
     return keep_ends(start, end, kept, frames, rejoin=rejoin)
 
