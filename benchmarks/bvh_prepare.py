@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from src.shared.data.mapping import SkeletonMapping
+    from src.shared.data.retarget.mapping import SkeletonMapping
 
 FPS = 30.0
 STAGES = ("read", "retarget", "encode")
@@ -27,8 +27,7 @@ def measure_clip(path: Path, mappings: "tuple[SkeletonMapping, ...]") -> dict[st
     Raises:
         UserError: the file is faulty, or its joints are in no mapping.
     """
-    from src.shared.data.read_motion import fit
-    from src.shared.data.recordings import open_recording
+    from src.shared.data.retarget.read_motion import fit, open_recording
     from src.shared.motion.root_track import encode_features
 
     start = time.process_time()
@@ -87,8 +86,8 @@ def main() -> None:
 
     import torch
 
-    from src.shared.data.mapping import load_mappings
-    from src.shared.data.recordings import FOLDER_ENDINGS
+    from src.shared.data.retarget.mapping import load_mappings
+    from src.shared.data.retarget.read_motion import FOLDER_ENDINGS
     from src.shared.errors import UserError
 
     torch.set_num_threads(1)

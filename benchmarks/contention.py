@@ -36,16 +36,16 @@ Turn = tuple[float, float]  # wall and CPU seconds
 def jobs(song_file: Path, seconds: float) -> dict[str, Callable[[], object]]:
     """What is timed, its models and its song loaded."""
     from src.shared.audio.song import analyse
-    from src.shared.inference.performer import Performer
-    from src.shared.inference.song_generator import SongGenerator, of_song
-    from src.shared.inference.song_performer import HeardSong, SongPerformer
-    from src.shared.inference.song_sampler import SampleSettings
-    from src.shared.model.generation.motion_generator import MotionGenerator
+    from src.shared.model.generation.motion_generator import TextToMotion
+    from src.shared.pipelines.body import Performer
+    from src.shared.pipelines.dance import SongPerformer
+    from src.shared.pipelines.song import SongCondition, SongGenerator, of_song
+    from src.shared.pipelines.song_sampler import SongSampling
 
-    generator = MotionGenerator.from_pretrained("starter", device="cpu")
+    generator = TextToMotion.from_pretrained("starter", device="cpu")
     paths = SongGenerator.from_pretrained("starter-audio", device="cpu")
     song = analyse(song_file)
-    heard, settings = HeardSong.of(song, seconds), of_song(SampleSettings(), song)
+    heard, settings = SongCondition.of(song, seconds), of_song(SongSampling(), song)
     rough = paths.generate(heard.condition, phase=heard.phase, settings=settings)
     dancers = SongPerformer(Performer(generator))
     return {

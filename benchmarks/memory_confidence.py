@@ -24,14 +24,14 @@ from src.shared.audio.song import analyse_sound
 from src.shared.audio.sound import sound_from_samples
 from src.shared.audio.synthetic_songs import SongSpec, render_song
 from src.shared.config_memory import MemoryConfig
-from src.shared.inference.song_generator import heard
-from src.shared.inference.song_memory import open_memory
 from src.shared.memory.ask import BEATLESS
 from src.shared.memory.context import retrieve
 from src.shared.memory.index import MemoryIndex
 from src.shared.memory.phrases import cut_at_bars
 from src.shared.model.audio.shared_space import SharedSpace
 from src.shared.motion.trajectory import FPS
+from src.shared.pipelines.song import heard
+from src.shared.pipelines.song_memory import open_memory
 
 RATE, SECONDS = 44100, 10
 SLOW, FAST = (45, 55, 60, 65), (185, 200, 220)  # BPM; the memory's songs have 70 to 180

@@ -55,10 +55,10 @@ def stream(seconds: float, threads: int, model: str) -> dict[str, Any]:
     from src.shared.device import set_threads
 
     set_threads(threads)
-    from src.shared.inference.motion_stream import MotionStream
-    from src.shared.model.generation.motion_generator import MotionGenerator
+    from src.shared.model.generation.motion_generator import TextToMotion
+    from src.shared.pipelines.stream import MotionStream
 
-    generator = MotionGenerator.from_pretrained(model, device="cpu")
+    generator = TextToMotion.from_pretrained(model, device="cpu")
     generator.generate([PROMPT], seconds=4.0)  # the first call of all allocates
     made, running = 0.0, MotionStream(generator, PROMPT)
     for piece in running:

@@ -14,8 +14,8 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.data.read_motion import read_motion
-from src.shared.data.retarget_out import read_target
+from src.shared.data.retarget.read_motion import read_motion
+from src.shared.data.retarget.to_rig import read_target
 from src.shared.motion.motion import Motion
 
 ENDINGS = (".bvh", ".amc", ".npz", ".glb")

@@ -4,7 +4,7 @@ python -m benchmarks.sampling [--model starter | --profile lightweight] [--threa
 
 The yardstick is a plain transformer encoder of MDM's size (Tevet et al. 2023: 8 layers, 512 wide,
 FFN 1024, 4 heads) with random weights, 50 guided steps, 120 frames. Ours is the whole of
-`MotionGenerator.generate` for one prompt of 4 s with the model's own steps and guidance, from text
+`TextToMotion.generate` for one prompt of 4 s with the model's own steps and guidance, from text
 to finished motion. The two alternate, so that both see the same machine.
 
 Letters: B batch, T frames, D width.
@@ -28,7 +28,7 @@ PROMPT = "a person walks forward and waves with the left hand"
 MARK = "@seconds "
 
 if TYPE_CHECKING:
-    from src.shared.model.generation.motion_generator import MotionGenerator
+    from src.shared.model.generation.motion_generator import TextToMotion
 
 
 def yardstick(steps: int = 50) -> Callable[[], None]:
@@ -54,12 +54,12 @@ def yardstick(steps: int = 50) -> Callable[[], None]:
     return sample
 
 
-def load_generator(model: str | None, profile: str) -> "MotionGenerator":
+def load_generator(model: str | None, profile: str) -> "TextToMotion":
     """A trained model, or random weights of a profile: speed does not depend on training."""
-    from src.shared.model.generation.motion_generator import MotionGenerator
+    from src.shared.model.generation.motion_generator import TextToMotion
 
     if model:
-        return MotionGenerator.from_pretrained(model, device="cpu")
+        return TextToMotion.from_pretrained(model, device="cpu")
     import torch
 
     from src.shared.config_loader import load_network
@@ -71,7 +71,7 @@ def load_generator(model: str | None, profile: str) -> "MotionGenerator":
     network = load_network(profile)
     words = ["a", "person", "walks", "runs", "jumps", "waves", "turns", "forward", "left", "slowly"]
     captions = [f"{a} {b} {c}" for a in words for b in words for c in words]
-    return MotionGenerator(
+    return TextToMotion(
         MotionDenoiser(network, 0),
         TextTower(network.clip, network.embed_dim),
         PromptTokenizer.train(captions, 400, max_tokens=network.clip.max_tokens),
@@ -89,7 +89,7 @@ def timed(run: Callable[[], object]) -> float:
     return time.perf_counter() - start
 
 
-def compare(generator: "MotionGenerator", repeats: int) -> dict[str, Any]:
+def compare(generator: "TextToMotion", repeats: int) -> dict[str, Any]:
     """Seconds of ours and of the yardstick, alternating; the order changes every round."""
     runs: dict[str, Callable[[], object]] = {
         "ours": lambda: generator.generate([PROMPT], seconds=SECONDS),
@@ -115,7 +115,7 @@ def compare(generator: "MotionGenerator", repeats: int) -> dict[str, Any]:
     }
 
 
-def parts(generator: "MotionGenerator", repeats: int) -> dict[str, float]:
+def parts(generator: "TextToMotion", repeats: int) -> dict[str, float]:
     """Median seconds of the parts of `generate`: text, denoising, finishing."""
     from src.shared.motion.postprocess import MotionPostProcessor
 
@@ -147,11 +147,11 @@ def told(name):
 import torch
 told("import-torch")
 from src.shared.device import set_threads
-from src.shared.model.generation.motion_generator import MotionGenerator
+from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.formats.registry import write_motion
 set_threads(int(sys.argv[2]))
 told("import-ours")
-generator = MotionGenerator.from_pretrained(sys.argv[1], device="cpu")
+generator = TextToMotion.from_pretrained(sys.argv[1], device="cpu")
 told("load-model")
 motions = generator.generate([sys.argv[3]], seconds={SECONDS})
 told("sample")

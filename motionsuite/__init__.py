@@ -1,7 +1,8 @@
 """motionsuite: a sentence or a song becomes human motion.
 
     import motionsuite as ms
-    ms.load("starter").generate("a person waves").save("wave.bvh")
+    [wave] = ms.load("starter").generate("a person waves")
+    ms.save(wave, "wave.bvh")
 
 Every name is imported when it is first used. In a wheel the code lies in `motionsuite.src`; in a
 checkout it lies beside this folder, where `python -m src.cli.tools` finds it, too.
@@ -15,22 +16,41 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .src.shared.audio.song import Song
     from .src.shared.data.prepare import prepare
-    from .src.shared.data.read_motion import read_motion
+    from .src.shared.data.retarget.read_motion import read_motion
+    from .src.shared.formats.registry import write_motion as save
+    from .src.shared.model.diffusion.samplers import Sampling
     from .src.shared.model.generation.constraint import Constraint
     from .src.shared.model.zoo import list_models as models
     from .src.shared.motion.motion import Motion
     from .src.shared.motion.trajectory import MotionTrajectory as Trajectory
+    from .src.shared.pipelines.motion_generator import MotionGenerator, load
 
-__all__ = ["Constraint", "Motion", "Song", "Trajectory", "models", "prepare", "read_motion"]
+__all__ = [
+    "Constraint",
+    "Motion",
+    "MotionGenerator",
+    "Sampling",
+    "Song",
+    "Trajectory",
+    "load",
+    "models",
+    "prepare",
+    "read_motion",
+    "save",
+]
 
 _PLACES = {
     "Constraint": "shared.model.generation.constraint",
     "Motion": "shared.motion.motion",
+    "MotionGenerator": "shared.pipelines.motion_generator",
+    "Sampling": "shared.model.diffusion.samplers",
     "Song": "shared.audio.song",
     "Trajectory": "shared.motion.trajectory:MotionTrajectory",
+    "load": "shared.pipelines.motion_generator",
     "models": "shared.model.zoo:list_models",
     "prepare": "shared.data.prepare",
-    "read_motion": "shared.data.read_motion",
+    "read_motion": "shared.data.retarget.read_motion",
+    "save": "shared.formats.registry:write_motion",
 }
 
 

@@ -61,9 +61,9 @@ def stages(options: argparse.Namespace) -> list[list[str]]:
 
 def ship(trained: Path, name: str, licence: str, description: str) -> None:
     """Write a generator, in fp16, where `from_pretrained` finds it."""
-    from src.shared.model.generation.motion_generator import MotionGenerator
+    from src.shared.model.generation.motion_generator import TextToMotion
 
-    generator = MotionGenerator.from_pretrained(trained)
+    generator = TextToMotion.from_pretrained(trained)
     about = {"name": name, "licence": licence, "description": description}
     generator.card = generator.card.model_copy(update=about)
     generator.save_pretrained(SHIPPED / name, half=True)

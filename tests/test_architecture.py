@@ -38,7 +38,7 @@ def test_module_says_its_subject_and_stays_small(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     subject = (ast.get_docstring(ast.parse(text)) or "").partition("\n")[0]
     assert len(subject) >= 20, "the first docstring line says the module's one subject"
-    assert text.count("\n") <= 400
+    assert text.count("\n") <= 600
 
 
 def test_the_model_path_has_no_float64() -> None:

@@ -17,7 +17,7 @@ from src.shared.array_files import BadArray, load_array, load_arrays
 from src.shared.config_loader import parse_yaml
 from src.shared.data.phrases.layout import StoredObject
 from src.shared.data.prepared import VERSION, PreparedData
-from src.shared.data.read_motion import read_motion
+from src.shared.data.retarget.read_motion import read_motion
 from src.shared.errors import UsageError, UserError
 from src.shared.evaluation.html_report import _pictures
 from src.shared.files import inside, load_json

@@ -74,7 +74,7 @@ def convert(
       motion-tools convert walk.npz walk.bvh --skeleton my_character.bvh --fps 60
       motion-tools convert mocap/ converted/ --format glb,amass
     """
-    from ..shared.formats.joint_names import joint_names
+    from ..shared.formats.rig import joint_names
 
     if root not in ROOTS:
         raise UsageError(f"--root {root!r} is unknown; choose from {', '.join(ROOTS)}")
@@ -227,7 +227,7 @@ def one(
     job: Job, reading: dict[str, Any], root: str, write: "Callable[[Motion, Path], Path]"
 ) -> dict[str, Any]:
     """Read one file and write its targets; what was done."""
-    from ..shared.data.read_motion import read_motion
+    from ..shared.data.retarget.read_motion import read_motion
     from ..shared.motion.in_place import in_place
 
     motion = read_motion(job.source, **reading)
@@ -250,7 +250,7 @@ def writer(
 
     if skeleton is None:
         return lambda motion, path: write_motion(motion, path, names=names)
-    from ..shared.data.retarget_out import read_target
+    from ..shared.data.retarget.to_rig import read_target
 
     return read_target(skeleton, mapping=mapping).write
 

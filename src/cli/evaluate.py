@@ -185,7 +185,7 @@ def run_audio(model: str, request: Request, folder: Path) -> dict[str, Any]:
 
     from ..shared.evaluation import audio_harness
     from ..shared.evaluation.audio_context import AudioSettings
-    from ..shared.inference.song_generator import SongGenerator
+    from ..shared.pipelines.song import SongGenerator
 
     amount = request.amount("num_songs", "song_seconds", "track_seconds", "tell_meter")
     if request.quick:

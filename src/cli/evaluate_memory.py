@@ -65,9 +65,8 @@ def evaluate_memory(
 
     from ..shared.device import set_threads
     from ..shared.evaluation import memory_harness
-    from ..shared.inference.mpms_sampler import require_memory
-    from ..shared.inference.runtime import load_trained
-    from ..shared.inference.song_memory import open_memory
+    from ..shared.pipelines.runtime import load_trained
+    from ..shared.pipelines.song_memory import open_memory, require_memory
     from .memory import load_settings
 
     set_threads(threads)

@@ -122,12 +122,12 @@ def run(
     from ..shared.evaluation.evaluator import Evaluator
     from ..shared.evaluation.held_out import open_held_out
     from ..shared.evaluation.report_folder import save_report
-    from ..shared.inference.performer import PerformerSettings
-    from ..shared.inference.song_generator import SongGenerator
-    from ..shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.model.generation.motion_generator import TextToMotion
+    from ..shared.pipelines.body import PerformerSettings
+    from ..shared.pipelines.song import SongGenerator
 
     judge = Evaluator.from_pretrained(str(models["evaluator"]))
-    generator = MotionGenerator.from_pretrained(str(models["model"]), device=device)
+    generator = TextToMotion.from_pretrained(str(models["model"]), device=device)
     other = models["other"]
     settings = DanceSettings(**amount)
     context = DanceContext(
@@ -137,7 +137,7 @@ def run(
         settings,
         data=data,
         songs=songs,
-        other=None if not other else MotionGenerator.from_pretrained(other, device=device),
+        other=None if not other else TextToMotion.from_pretrained(other, device=device),
         sampling=PerformerSettings(**sampling),
         progress=told,
     )

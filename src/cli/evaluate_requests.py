@@ -52,11 +52,11 @@ def evaluate_requests(
     from ..shared.evaluation.text_context import untrained
     from ..shared.evaluation.yardstick import RequestSettings
     from ..shared.files import write_json, write_text
-    from ..shared.inference.spoken import SentenceGenerator
-    from ..shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.model.generation.motion_generator import TextToMotion
+    from ..shared.pipelines.text import SentenceGenerator
 
     set_threads(threads)
-    generator = MotionGenerator.from_pretrained(model, device="cpu")
+    generator = TextToMotion.from_pretrained(model, device="cpu")
     report = evaluate_requests(
         SentenceGenerator(generator),
         PreparedData.open(data),

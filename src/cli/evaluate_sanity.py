@@ -131,7 +131,7 @@ def check_pairs(data: str | None) -> None:
 
 def load_model(name: str, decoder: str | None, device: str) -> "AudioMotionModel":
     """A trained audio branch on a device, with another folder's decoder if one is named."""
-    from ..shared.inference.song_generator import SongGenerator
+    from ..shared.pipelines.song import SongGenerator
 
     model = SongGenerator.from_pretrained(name, device=device).model
     if decoder is not None:

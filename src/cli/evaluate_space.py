@@ -57,13 +57,13 @@ def evaluate_space(
     from ..shared.evaluation.space_harness import SpaceSettings, Texts, evaluate_space
     from ..shared.files import write_json, write_text
     from ..shared.model.audio.shared_space import SharedSpace
-    from ..shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.model.generation.motion_generator import TextToMotion
 
     set_threads(threads)
     space = SharedSpace.from_pretrained(model)
     texts = None
     if text != NO_TEXT:
-        generator = MotionGenerator.from_pretrained(text, device="cpu")
+        generator = TextToMotion.from_pretrained(text, device="cpu")
         texts = Texts(generator.text, generator.tokenizer)
     report = evaluate_space(
         space,

@@ -6,12 +6,12 @@ from typing import Annotated
 import typer
 
 from . import options
-from .generate_audio import MODEL
+from .generate_request import AUDIO_MODEL
 
 
 def export_onnx(
     out: Annotated[Path, typer.Option(help="Folder for unet.onnx, decoder.onnx, onnx.json.")],
-    model: options.Model = MODEL,
+    model: options.Model = AUDIO_MODEL,
     json: options.Json = False,
 ) -> None:
     """Write UNet and decoder of an audio model for onnxruntime; any length, any batch.

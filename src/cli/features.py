@@ -54,7 +54,7 @@ def features(
     analysed = analyse(song, meter=meter, chroma=chroma, cache=keep)  # type: ignore[arg-type]
     analysed.save(out)
     if plot is not None:
-        from ..shared.formats.features_png import plot_features
+        from ..shared.formats.preview.charts import plot_features
 
         plot_features(analysed.arrays(), plot, title=describe(song, analysed))
     if json:

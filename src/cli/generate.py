@@ -7,11 +7,9 @@ import typer
 
 from ..shared.errors import UsageError
 from . import options
-from .directions import Directions
-from .generate_audio import only_song
-from .generate_request import Request, produce
+from .generate_files import show_scores
+from .generate_request import Directions, Request, only_song, produce
 from .guard import tell
-from .score_table import show_scores
 from .wording import counted
 
 
@@ -150,19 +148,13 @@ def generate(
     options.check_folder("--out", out)
     if judge is not None and num_samples == 1:
         raise UsageError("--judge compares candidates: give --num-samples 2 or more with it")
-    sampling = {
-        "num_samples": num_samples,
-        "seed": seed,
-        "steps": steps,
-        "sampler": sampler,
-        "guidance_scale": guidance_scale,
-    }
     result = produce(
         Request(
-            prompt or [], only_song(audio), directions, sampling, body=body, style=style,
-            meter=meter, memory=memory, tag=tag, seconds=seconds, return_all=return_all,
-            judge=judge, foot_lock=foot_lock, format=format, out=out, model=model,
-            body_model=body_model, runtime=runtime, device=device, threads=threads,
+            prompt or [], only_song(audio), directions, body=body, style=style, meter=meter,
+            memory=memory, tag=tag, seconds=seconds, num_samples=num_samples,
+            return_all=return_all, judge=judge, seed=seed, steps=steps, sampler=sampler,
+            guidance_scale=guidance_scale, foot_lock=foot_lock, format=format, out=out,
+            model=model, body_model=body_model, runtime=runtime, device=device, threads=threads,
         )
     )  # fmt: skip
     show_scores(result["selection"])

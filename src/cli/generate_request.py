@@ -1,13 +1,130 @@
-"""What `generate` was asked, and which of its four kinds that is: each checks it and produces."""
+"""What `generate` was asked, and which of its four kinds that is: each checks, makes and writes."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..shared.errors import UsageError
-from . import generate_audio, generate_edit, generate_performance, generate_text
-from .directions import Directions
+from . import generate_files as files
+from .guard import complain, tell
+from .progress import progress_bar
+from .stopwatch import Stopwatch
+
+if TYPE_CHECKING:
+    from ..shared.audio.song import Song
+    from ..shared.model.diffusion.samplers import Sampling
+    from ..shared.pipelines.edit import Given
+    from ..shared.pipelines.motion_generator import MotionGenerator, Progress
+    from ..shared.pipelines.path import DrawnPath
+    from ..shared.pipelines.timeline import Timeline
+
+TEXT_MODEL, AUDIO_MODEL = "starter", "starter-audio"
+RUNTIMES = ("torch", "onnx")
+FLAGS = {"begin": "--from", "until": "--to"}  # the others are called as their attributes
+STAGES = {"path": "frames of the path", "body": "frames of the body"}
+
+
+@dataclass(frozen=True)
+class Directions:
+    """What `generate` was told beside prompts; None and False = not."""
+
+    start: Path | None = None
+    end: Path | None = None
+    keep: float | None = None
+    edit: Path | None = None
+    joints: str | None = None
+    begin: float | None = None
+    until: float | None = None
+    path: Path | None = None
+    timeline: Path | None = None
+    then: list[str] | None = None
+    loop: bool = False
+
+    def given(self) -> list[str]:
+        """The flags that were given, as they are typed."""
+        return [
+            FLAGS.get(name, f"--{name}")
+            for name, value in vars(self).items()
+            if value not in (None, False, [])
+        ]
+
+    @property
+    def kind(self) -> str:
+        """edit, ends, path or timeline: what has the say."""
+        if self.edit is not None:
+            return "edit"
+        if self.start is not None or self.end is not None:
+            return "ends"
+        return "timeline" if self.path is None else "path"
+
+    def refuse(self, beside: str) -> None:
+        """Raises UsageError if any was given: none means anything beside that flag."""
+        if given := self.given():
+            raise UsageError(f"{given[0]} does not go with {beside}; leave one out")
+
+    def check(self, prompts: int, *, num_samples: int, seconds: float | None) -> None:
+        """Refuse what does not go together, before anything slow starts.
+
+        Args:
+            prompts: how often --prompt was given.
+            num_samples: of --num-samples.
+            seconds: of --seconds.
+
+        Raises:
+            UsageError: naming the flags.
+        """
+        own = {
+            "edit": ("--edit", "--joints", "--from", "--to"),
+            "ends": ("--start", "--end", "--keep"),
+            "path": ("--path", "--timeline", "--then"),
+            "timeline": ("--timeline", "--then", "--loop"),
+        }[self.kind]
+        given = self.given()
+        chief = next(flag for flag in (*own, *given) if flag in given)
+        for flag in given:
+            if flag in ("--joints", "--from", "--to") and self.edit is None:
+                raise UsageError(f"{flag} says what of a clip is made anew: give --edit CLIP too")
+            if flag == "--keep" and self.kind != "ends":
+                raise UsageError("--keep says how much of a clip stays: give --start or --end too")
+            if flag not in own:
+                raise UsageError(f"{flag} does not go with {chief}; leave one out")
+        if self.edit is not None and given == ["--edit"]:
+            raise UsageError("--edit: say what is made anew, by --joints, or --from and --to")
+        if self.timeline is not None and self.then:
+            raise UsageError("--timeline does not go with --then; leave one out")
+        if num_samples > 1:
+            raise UsageError(
+                f"--num-samples does not go with {chief}, which makes one motion; another --seed"
+                " makes another one"
+            )
+        self._check_spans(seconds)
+        self._check_prompts(prompts)
+
+    def _check_spans(self, seconds: float | None) -> None:
+        if seconds is not None and (self.edit is not None or self.timeline is not None):
+            file = "--edit" if self.edit is not None else "--timeline"
+            raise UsageError(
+                f"--seconds does not go with {file}, which says how long it is; leave it out"
+            )
+        if self.begin is not None and self.until is not None and self.until <= self.begin:
+            raise UsageError(
+                f"--to {self.until:g} is not after --from {self.begin:g}; give a later --to"
+            )
+
+    def _check_prompts(self, prompts: int) -> None:
+        if self.timeline is not None and prompts:
+            raise UsageError(
+                "--prompt does not go with --timeline, which has texts of its own; leave one out"
+            )
+        if prompts > 1:
+            raise UsageError(
+                f"--prompt is given {prompts} times beside {self.given()[0]}, which makes one"
+                " motion: --then TEXT says what comes next"
+            )
+        if not prompts and self.timeline is None and self.kind in ("path", "timeline"):
+            raise UsageError('--prompt is missing; give one, e.g. --prompt "a person walks"')
 
 
 @dataclass(frozen=True)
@@ -16,22 +133,25 @@ class Request:
 
     Attributes:
         prompt, audio, directions: what decides the kind.
-        sampling: num_samples, seed, steps, sampler, guidance_scale.
         body ... threads: as the options are called.
     """
 
     prompt: list[str]
     audio: Path | None
     directions: Directions
-    sampling: dict[str, Any]
     body: bool
     style: str | None
     meter: int | None
     memory: Path | None
     tag: list[str] | None
     seconds: float | None
+    num_samples: int
     return_all: bool
     judge: str | None
+    seed: int
+    steps: int | None
+    sampler: str | None
+    guidance_scale: float | None
     foot_lock: bool | None
     format: str | None
     out: Path
@@ -42,21 +162,52 @@ class Request:
     threads: int | None
 
     @property
-    def where(self) -> dict[str, Any]:
-        """What it is computed on."""
-        return {"device": self.device, "threads": self.threads}
+    def sampling(self) -> "Sampling":
+        """Seed, steps, sampler and guidance."""
+        from ..shared.model.diffusion.samplers import Sampling
+
+        return Sampling(
+            seed=self.seed,
+            steps=self.steps,
+            sampler=self.sampler,
+            guidance_scale=self.guidance_scale,
+        )
 
     @property
-    def song(self) -> dict[str, Any]:
-        """What is asked of a song's path."""
-        names = ("audio", "meter", "seconds", "style", "memory", "sampling")
-        return {name: getattr(self, name) for name in names}
+    def kept(self) -> int:
+        """Candidates that are written."""
+        return self.num_samples if self.return_all else 1
+
+    @property
+    def text_model(self) -> str:
+        """What makes bodies; an empty name is refused where it is loaded."""
+        name = self.model if self.audio is None else self.body_model
+        return TEXT_MODEL if name is None else name
+
+    @property
+    def audio_model(self) -> str:
+        """What makes the paths of songs."""
+        return AUDIO_MODEL if self.model is None else self.model
+
+    def generator(self) -> "MotionGenerator":
+        """With these models; none is loaded yet."""
+        from ..shared.device import set_threads
+        from ..shared.pipelines.motion_generator import MotionGenerator
+
+        set_threads(self.threads)
+        return MotionGenerator(
+            self.text_model,
+            self.audio_model,
+            device=self.device,
+            runtime=self.runtime or "torch",
+            memory=self.memory,
+            judge=self.judge,
+        )
 
     def body_formats(self) -> list[str]:
         """Formats of a body's files."""
-        return checked_formats(
-            self.format or ",".join(generate_text.FORMATS), generate_text.ALL_FORMATS
-        )
+        wanted = ",".join(files.FORMATS) if self.format is None else self.format
+        return files.checked_formats(wanted, files.ALL_FORMATS)
 
 
 def produce(request: Request) -> dict[str, Any]:
@@ -69,115 +220,321 @@ def produce(request: Request) -> dict[str, Any]:
     if request.audio is not None:
         request.directions.refuse("--audio")
         made = dance if request.prompt or request.body else song_path
-        result = made(request)
-        generate_audio.warn_of_beats(result)
+        result = made(request, request.audio)
+        if result["tempo"] == 0:
+            tell(f"note: no beat was found in {result['audio']}; the motion keeps its own time")
         return result
     for flag, value in (("--body", request.body), ("--body-model", request.body_model)):
         if value:
             raise UsageError(f"{flag} is about a dance; name a song with --audio, or leave it out")
-    return directed(request) if request.directions.given() else prompted(request)
+    return controlled(request) if request.directions.given() else prompted(request)
 
 
-def dance(request: Request) -> dict[str, Any]:
-    """A body that dances to a song."""
-    generate_audio.check_runtime(request.runtime, request.device)
-    generate_audio.check_memory(request.memory, request.runtime)
-    if not request.prompt:
-        refuse_with("--body alone", tag=request.tag)
-    elif request.body:
-        raise UsageError("--body lets the music say what --prompt says; leave one out")
-    wanted = request.song | {
-        "foot_lock": request.foot_lock,
-        "prompts": checked_prompts(request.prompt) if request.prompt else [],
-        "tags": checked_tags(request.tag, len(request.prompt)),
-    }
-    return generate_performance.produce_dances(
-        wanted,
-        request.body_formats(),
-        request.out,
-        model=given(request.model, generate_audio.MODEL),
-        body_model=given(request.body_model, generate_performance.BODY_MODEL),
-        runtime=given(request.runtime, "torch"),
-        return_all=request.return_all,
-        judge=request.judge,
-        **request.where,
-    )
-
-
-def song_path(request: Request) -> dict[str, Any]:
-    """The path of a song alone."""
-    no_body = {name: getattr(request, name) for name in ("tag", "foot_lock", "judge", "body_model")}
-    refuse_with("--audio alone", **no_body)
-    generate_performance.check_path_formats(request.format or "")
-    generate_audio.check_runtime(request.runtime, request.device)
-    generate_audio.check_memory(request.memory, request.runtime)
-    return generate_audio.produce_song(
-        request.song,
-        checked_formats(request.format or "npz,glb,html", generate_audio.FORMATS),
-        request.out,
-        model=given(request.model, generate_audio.MODEL),
-        runtime=given(request.runtime, "torch"),
-        return_all=request.return_all,
-        **request.where,
-    )
-
-
-def directed(request: Request) -> dict[str, Any]:
-    """One motion after a path, a clip, a timeline or several texts."""
-    directions = request.directions
-    refuse_music(request, directions.given()[0])
-    directions.check(
-        len(request.prompt),
-        num_samples=request.sampling["num_samples"],
-        seconds=request.seconds,
-    )
-    texts = [*request.prompt, *(directions.then or ())]
-    wanted = {
-        "prompts": checked_prompts(texts) if texts else [],
-        "tags": checked_tags(request.tag, len(texts)),
-        "seconds": request.seconds,
-        "foot_lock": request.foot_lock,
-        "sampling": {name: request.sampling[name] for name in generate_edit.SAMPLING},
-    }
-    return generate_edit.produce_directed(
-        directions,
-        wanted,
-        request.body_formats(),
-        request.out,
-        model=given(request.model, generate_text.MODEL),
-        **request.where,
-    )
+# ---------------------------------------------------------------- the four kinds
 
 
 def prompted(request: Request) -> dict[str, Any]:
     """A motion for each prompt."""
     refuse_music(request, "--prompt")
-    wanted = request.sampling | {
-        "prompts": checked_prompts(request.prompt),
-        "tags": checked_tags(request.tag, len(request.prompt)),
-        "seconds": 4.0 if request.seconds is None else request.seconds,
-        "foot_lock": request.foot_lock,
+    prompts = checked_prompts(request.prompt)
+    tags, formats = checked_tags(request.tag, len(prompts)), request.body_formats()
+    clock = Stopwatch()
+    generator = request.generator()
+    clock.lap("import")
+    several = request.num_samples > 1
+    _ = generator.text, generator.tower if several else None
+    clock.lap("load")
+    warnings = warn(generator.sentences.scope_warnings(prompts))
+    with progress_bar("motions") as progress:
+        found = generator.candidates(
+            prompts,
+            request.num_samples,
+            return_all=request.return_all,
+            seconds=4.0 if request.seconds is None else request.seconds,
+            tags=tags,
+            sampling=request.sampling,
+            foot_lock=request.foot_lock,
+            progress=progress,
+        )
+    clock.lap("sample")
+    kept = request.kept
+    motions = [motion for result in found for motion in result.ranked()]
+    rows = files.write_motions(motions, kept, formats, request.out)
+    places = [int(place) for result in found for place in result.table.order[:kept]]
+    for at, (row, place) in enumerate(zip(rows, places, strict=True)):
+        row |= {"sample": place, "rank": at % kept + 1}
+        row |= {"seed": request.seed, "warning": warnings[at // kept]}
+    paged = "html" in formats and len(motions) > 1
+    index = files.write_index(motions, request.out) if paged else None
+    clock.lap("write")
+    judged = zip(prompts, found, strict=True) if several else ()
+    return {
+        "model": request.text_model,
+        "device": str(generator.text.device),
+        "seed": request.seed,
+        "motions": rows,
+        "selection": [files.scored(prompt, result.table) for prompt, result in judged],
+        "index": index,
+        "timings": clock.seconds(),
     }
-    return generate_text.produce(
-        wanted,
-        request.body_formats(),
-        request.out,
-        model=given(request.model, generate_text.MODEL),
-        return_all=request.return_all,
-        judge=request.judge,
-        **request.where,
+
+
+def controlled(request: Request) -> dict[str, Any]:
+    """One motion after a path, a clip, a timeline or several texts."""
+    directions = request.directions
+    refuse_music(request, directions.given()[0])
+    directions.check(len(request.prompt), num_samples=request.num_samples, seconds=request.seconds)
+    texts = [*request.prompt, *(directions.then or ())]
+    texts = checked_prompts(texts) if texts else []
+    tags, formats = checked_tags(request.tag, len(texts)), request.body_formats()
+    clock = Stopwatch()
+    generator = request.generator()
+    clock.lap("import")
+    options: dict[str, Any] = {"sampling": request.sampling, "foot_lock": request.foot_lock}
+    if directions.kind in ("path", "timeline"):
+        path, timeline = read_timed(directions, texts, tags, request.seconds)
+        texts = timeline.texts
+        clock.lap("read")
+        _ = generator.text
+        clock.lap("load")
+        warnings = warn(generator.text.scope_warnings(texts))
+        made = generator.timeline(
+            timeline, path=path, seconds=request.seconds, loop=directions.loop, **options
+        )
+    else:
+        given = read_given(directions, request.seconds)
+        clock.lap("read")
+        _ = generator.text
+        clock.lap("load")
+        warnings = warn(generator.text.scope_warnings(texts)) if texts else []
+        text, tag = (each[0] if each else None for each in (texts, tags))
+        made = generator.edit(given, text, tag=tag, **options)
+    clock.lap("sample")
+    rows = files.write_motions([made.motion], 1, formats, request.out)
+    rows[0] |= {"seed": request.seed, "directions": directions.given(), "errors": made.errors}
+    rows[0] |= {"warning": next(filter(None, warnings), None)}
+    clock.lap("write")
+    return {
+        "model": request.text_model,
+        "device": str(generator.text.device),
+        "seed": request.seed,
+        "motions": rows,
+        "selection": [],
+        "index": None,
+        "timings": clock.seconds(),
+    }
+
+
+def song_path(request: Request, audio: Path) -> dict[str, Any]:
+    """The path of a song alone."""
+    no_body = {name: getattr(request, name) for name in ("tag", "foot_lock", "judge", "body_model")}
+    refuse_with("--audio alone", **no_body)
+    files.check_path_formats(request.format or "")
+    check_runtime(request)
+    formats = files.checked_formats(request.format or "npz,glb,html", files.PATH_FORMATS)
+    with listening(request, audio, bodies=False) as (generator, song, clock, style):
+        made = generator.trajectory(
+            song,
+            seconds=request.seconds,
+            style=style,
+            num_samples=request.num_samples,
+            sampling=request.sampling,
+            stage=staged(clock, {"path": "sample"}),
+        )
+        rows, index = files.write_trajectories(made, request.kept, audio, formats, request.out)
+        clock.lap("write")
+        selection = [(str(audio), made.table)] if request.num_samples > 1 else []
+        return told_of_song(request, generator, song, rows, index, selection, clock)
+
+
+def dance(request: Request, audio: Path) -> dict[str, Any]:
+    """A body that dances to a song."""
+    check_runtime(request)
+    if not request.prompt:
+        refuse_with("--body alone", tag=request.tag)
+    elif request.body:
+        raise UsageError("--body lets the music say what --prompt says; leave one out")
+    said = checked_prompts(request.prompt) if request.prompt else []
+    prompts: list[str | None] = [*said] or [None]
+    tags = checked_tags(request.tag, len(said)) or [None] * len(prompts)
+    formats = request.body_formats()
+    with listening(request, audio, bodies=True) as (generator, song, clock, style):
+        warnings = warn(generator.text.scope_warnings(said)) if said else [None]
+        found = [
+            generator.dance(
+                song,
+                prompt,
+                tag=tag,
+                seconds=request.seconds,
+                style=style,
+                num_samples=request.num_samples,
+                sampling=request.sampling,
+                foot_lock=request.foot_lock,
+                stage=staged(clock),
+            )
+            for prompt, tag in zip(prompts, tags, strict=True)
+        ]
+        rows, index = files.write_dances(found, request.kept, audio, song, formats, request.out)
+        for place, row in enumerate(rows):
+            row |= {"seed": request.seed, "warning": warnings[place // request.kept]}
+        clock.lap("write")
+        several = found if request.num_samples > 1 else []
+        selection = [(each.prompt or str(audio), each.table) for each in several]
+        return told_of_song(request, generator, song, rows, index, selection, clock)
+
+
+# ---------------------------------------------------------------- songs
+
+
+@contextmanager
+def listening(
+    request: Request, audio: Path, *, bodies: bool
+) -> "Iterator[tuple[MotionGenerator, Song, Stopwatch, Any]]":
+    """Models loaded, and the song analysed: generator, song, clock, and what `--style` says."""
+    clock = Stopwatch()
+    from ..shared.audio.sound import check_sound
+
+    check_sound(audio)
+    from ..shared.audio.song import analyse
+    from ..shared.pipelines.song import styled
+
+    generator = request.generator()
+    clock.lap("import")
+    style = styled(request.style)
+    _ = generator.audio
+    if bodies:
+        _ = generator.text, generator.tower if request.num_samples > 1 else None
+        _ = None if request.prompt else generator.prompter
+    clock.lap("load")
+    song = analyse(audio, meter=request.meter)
+    clock.lap("listen")
+    yield generator, song, clock, style
+
+
+def staged(clock: Stopwatch, names: dict[str, str] | None = None) -> Any:
+    """A bar for each stage, and its time; under another name where `names` has one."""
+
+    @contextmanager
+    def stage(name: str) -> "Iterator[Progress]":
+        with progress_bar(STAGES[name]) as progress:
+            yield progress
+        clock.lap((names or {}).get(name, name))
+
+    return stage
+
+
+def told_of_song(
+    request: Request,
+    generator: "MotionGenerator",
+    song: "Song",
+    rows: list[dict[str, Any]],
+    index: str | None,
+    selection: list[tuple[str, Any]],
+    clock: Stopwatch,
+) -> dict[str, Any]:
+    """What was heard, what it was made with, and the results."""
+    paths, memory = generator.audio, generator.audio.memory
+    dancing = bool(request.prompt or request.body)
+    remembered = None
+    if memory is not None:
+        counts = dict(memory.service.counts)
+        unanswered = counts["timed_out"] + counts["failed"]
+        remembered = {"folder": str(request.memory), **counts, "null": unanswered}
+    return {
+        "audio": str(request.audio),
+        "tempo": round(song.beats.tempo, 2),
+        "meter": song.beats.meter,
+        "beats": len(song.beats.beat_times),
+        "model": request.audio_model,
+        **({"body-model": request.text_model} if dancing else {}),
+        "runtime": request.runtime or "torch",
+        "device": str(generator.text.device if dancing else paths.device),
+        "seed": request.seed,
+        "memory": remembered,
+        "motions": rows,
+        "selection": [files.scored(about, table) for about, table in selection],
+        "index": index,
+        "timings": clock.seconds(),
+    }
+
+
+def only_song(paths: list[Path] | None) -> Path | None:
+    """The one song that was named, None without; refused before anything slow starts."""
+    if not paths:
+        return None
+    if len(paths) > 1:
+        raise UsageError(f"--audio is given {len(paths)} times; name one song")
+    (path,) = paths
+    if path.is_dir():
+        raise UsageError(f"--audio {path} is a folder; name a wav, flac, ogg or mp3 file in it")
+    if not path.is_file():
+        raise UsageError(f"--audio {path}: no such file; name a wav, flac, ogg or mp3 file")
+    return path
+
+
+def check_runtime(request: Request) -> None:
+    """Refuse an unknown runtime, a device or memory that it has not, and what is no memory."""
+    runtime, device, memory = request.runtime, request.device, request.memory
+    if runtime not in (None, *RUNTIMES):
+        raise UsageError(f"--runtime {runtime} is unknown; choose from {', '.join(RUNTIMES)}")
+    if runtime == "onnx" and device not in ("auto", "cpu"):
+        raise UsageError(f"--device {device}: --runtime onnx computes on the cpu; leave one out")
+    if memory is not None and runtime == "onnx":
+        raise UsageError("--runtime onnx hears no memory: an export leaves it out; use torch")
+    if memory is not None and not memory.is_dir():
+        raise UsageError(f"--memory {memory} is no folder; make one with `memory build`")
+
+
+# ---------------------------------------------------------------- clips, paths, timelines
+
+
+def read_timed(
+    directions: Directions, texts: list[str], tags: list[str | None] | None, seconds: float | None
+) -> "tuple[DrawnPath | None, Timeline]":
+    """The files that were named, and the prompts one after another.
+
+    Raises:
+        UserError: a file cannot be read or says what cannot be.
+    """
+    from ..shared.pipelines.path import read_path
+    from ..shared.pipelines.timeline import Timeline, read_timeline
+
+    path = None if directions.path is None else read_path(directions.path)
+    if path is not None and path.times is not None and seconds is not None:
+        raise UsageError(
+            f"--seconds does not go with {directions.path}, which has times; leave it out"
+        )
+    if directions.timeline is not None:
+        return path, read_timeline(directions.timeline)
+    return path, Timeline.of(texts, seconds, tags)
+
+
+def read_given(directions: Directions, seconds: float | None) -> "Given":
+    """What is kept of the clips that were named.
+
+    Raises:
+        UserError: a clip cannot be read, or is shorter than what is asked of it.
+    """
+    from ..shared.data.retarget.read_motion import read_motion
+    from ..shared.pipelines.edit import KEEP, chosen_joints, continue_clips, edit_clip
+
+    names = [part.strip() for part in (directions.joints or "").split(",") if part.strip()]
+    if directions.joints is not None and not names:
+        raise UsageError("--joints is empty; name joints or groups, e.g. --joints left-arm,head")
+    joints = chosen_joints(names) if names else None
+    if directions.edit is not None:
+        clip = read_motion(directions.edit)
+        return edit_clip(clip, directions.begin or 0.0, directions.until, joints)
+    start, end = (
+        None if path is None else read_motion(path) for path in (directions.start, directions.end)
     )
-
-
-def given(value: str | None, default: str) -> str:
-    """The value; the default only where there is none: an empty one is refused further on."""
-    return default if value is None else value
-
-
-def refuse_music(request: Request, flag: str) -> None:
-    """Refuse what only a song can use."""
-    names = ("style", "meter", "memory", "runtime")
-    refuse_with(flag, **{name: getattr(request, name) for name in names})
+    return continue_clips(
+        start,
+        end,
+        keep=KEEP if directions.keep is None else directions.keep,
+        seconds=seconds,
+        rejoin=directions.start == directions.end,
+    )
 
 
 # ---------------------------------------------------------------- arguments
@@ -205,6 +562,12 @@ def checked_tags(tags: list[str] | None, num_prompts: int) -> list[str | None] |
     return list(tags)
 
 
+def refuse_music(request: Request, flag: str) -> None:
+    """Refuse what only a song can use."""
+    names = ("style", "meter", "memory", "runtime")
+    refuse_with(flag, **{name: getattr(request, name) for name in names})
+
+
 def refuse_with(flag: str, **others: Any) -> None:
     """Refuse options that mean nothing beside this one."""
     for name, value in others.items():
@@ -212,13 +575,8 @@ def refuse_with(flag: str, **others: Any) -> None:
             raise UsageError(f"--{name.replace('_', '-')} does not go with {flag}; leave one out")
 
 
-def checked_formats(text: str, known: Sequence[str]) -> list[str]:
-    """The wanted formats, each once, before anything slow starts."""
-    names = list(dict.fromkeys(part.strip().lower() for part in text.split(",") if part.strip()))
-    unknown = [name for name in names if name not in known]
-    if unknown or not names:
-        raise UsageError(
-            f"--format {text!r}: {', '.join(map(repr, unknown)) or 'nothing'} is not a format"
-            f" written here; choose from {', '.join(known)}"
-        )
-    return names
+def warn(warnings: list[str | None]) -> list[str | None]:
+    """Say those that there are."""
+    for warning in filter(None, warnings):
+        complain(f"warning: {warning}")
+    return warnings

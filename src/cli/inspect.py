@@ -10,7 +10,7 @@ from . import options
 from .guard import tell
 
 if TYPE_CHECKING:
-    from ..shared.data.read_motion import Inspection
+    from ..shared.data.retarget.read_motion import Inspection
 
 MAX_INDENT = 24  # levels; deeper joints are shown there
 
@@ -48,7 +48,7 @@ def inspect(
             f"--skeleton {skeleton} is the skeleton of an .amc, and {file} is none; leave it out"
         )
     check_new_mapping(write_mapping)
-    from ..shared.data.read_motion import inspect_motion
+    from ..shared.data.retarget.read_motion import inspect_motion
 
     found = inspect_motion(
         file, mapping=mapping, unit=unit, up=up, skeleton=skeleton, source_fps=source_fps
@@ -74,7 +74,7 @@ def check_new_mapping(path: Path | None) -> None:
 
 def begin_mapping(found: "Inspection", mapping: Path | None, out: Path) -> None:
     """Write a profile of what was found, with a ? for each joint that was not."""
-    from ..shared.data.mapping import closest_joints, load_mappings, profile_text
+    from ..shared.data.retarget.mapping import closest_joints, load_mappings, profile_text
     from ..shared.files import write_text
 
     names = tuple(name for name, _ in found.joints)

@@ -116,7 +116,7 @@ def query(
 
     from ..shared.audio.sound import check_sound
     from ..shared.device import set_threads
-    from ..shared.inference.song_memory import open_memory
+    from ..shared.pipelines.song_memory import open_memory
 
     if is_song:
         check_sound(ask)
@@ -169,8 +169,8 @@ def query_song(
 ) -> list["Answer"]:
     """Listen, then ask for each bar."""
     from ..shared.audio.song import analyse
-    from ..shared.inference.song_generator import heard
     from ..shared.memory.ask import ask_song
+    from ..shared.pipelines.song import heard
 
     condition, phase = heard(analyse(path, meter=meter), None)
     if phase is None:
@@ -183,9 +183,9 @@ def query_text(
 ) -> "Answer":
     """Read the words with the text model's tower, then ask."""
     from ..shared.memory.ask import ask_text
-    from ..shared.model.generation.motion_generator import MotionGenerator
+    from ..shared.model.generation.motion_generator import TextToMotion
 
-    generator = MotionGenerator.from_pretrained(model, device="cpu")
+    generator = TextToMotion.from_pretrained(model, device="cpu")
     for warning in filter(None, generator.scope_warnings([text])):
         complain(f"warning: {warning}")
     embedding = space.embed_text([text], generator.text, generator.tokenizer)

@@ -79,10 +79,10 @@ def prepare(
     if any(same_place(out, root) for root in source or []):
         raise UsageError(f"--out {out} is a SOURCE, whose files it would mix with; name another")
 
-    from ..shared.data.guesses import axis_vector, unit_metres
-    from ..shared.data.mapping import words
     from ..shared.data.prepare import prepare as prepare_folder
-    from ..shared.data.sources import MotionFolder, Reading, Source, SyntheticSource
+    from ..shared.data.retarget.autodetection import axis_vector, unit_metres
+    from ..shared.data.retarget.mapping import words
+    from ..shared.data.sources.folders import MotionFolder, Reading, Source, SyntheticSource
     from ..shared.sole_writer import sole_writer
 
     for check, value in ((unit_metres, unit), (axis_vector, up)):

@@ -93,7 +93,8 @@ def prepare_audio(
 
 def open_motion(motion: str, out: Path) -> "PreparedData":
     """A prepared folder; BVH files and synthetic motions are prepared beside the pairs, once."""
-    from ..shared.data.prepared import PreparedData, open_data
+    from ..shared.data.prepare import open_data
+    from ..shared.data.prepared import PreparedData
 
     if motion == "synthetic":
         return open_data(motion, out / ".motion")
@@ -101,7 +102,7 @@ def open_motion(motion: str, out: Path) -> "PreparedData":
     if (folder / "manifest.json").exists():
         return PreparedData.open(folder)
 
-    from ..shared.data.pairing.bvh_motion import prepare_unlabelled
+    from ..shared.data.pairing.prepare_audio import prepare_unlabelled
 
     tell(f"preparing the motion files of {folder} ...")
     return prepare_unlabelled(folder, out / ".motion" / "bvh")

@@ -14,9 +14,10 @@ import torch
 from torch import Tensor
 from torch.nn.functional import normalize
 
-from ..shared.data.caption_language import Labels, told
-from ..shared.data.labels import group_of
+from ..shared.data.captions.language import spoken_labels
+from ..shared.data.captions.schema import Labels
 from ..shared.data.prepared import PreparedData
+from ..shared.data.splits import group_of
 from .seeding import generator
 
 Combination = tuple[tuple[str, str], ...]
@@ -73,4 +74,4 @@ def apart(places: Tensor, labels: Sequence[Labels], known: Collection[str]) -> T
 
 
 def _combination(labels: Labels) -> Combination:
-    return tuple(sorted((k, v) for k, v in told(labels).items() if k != "style"))
+    return tuple(sorted((k, v) for k, v in spoken_labels(labels).items() if k != "style"))

@@ -13,11 +13,11 @@ from pydantic import Field
 from torch import Tensor, nn
 
 from ..shared.config_audio import DecoderLossConfig, TemporalLossConfig
-from ..shared.inference.song_sampler import SPARE, holding
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
 from ..shared.model.audio.losses import DecoderLoss, TemporalCoherenceLoss, total
 from ..shared.model.diffusion.conditions import with_condition
 from ..shared.motion.trajectory import FPS, POSITION, QUATERNION
+from ..shared.pipelines.song_sampler import SPARE, holding
 from .differentiable_sampling import DifferentiableSampler
 from .train_audio import AudioBatch, TrainAudioConfig, audio_losses
 

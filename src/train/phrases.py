@@ -14,7 +14,8 @@ from torch.nn import functional as F
 
 from ..shared.config_schema import TrainConfig
 from ..shared.data.phrases.dataset import EmptySplit, MotionPhraseDataset, PhraseBatch
-from ..shared.data.prepared import SYNTHETIC, open_data
+from ..shared.data.prepare import open_data
+from ..shared.data.prepared import SYNTHETIC
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
 from ..shared.model.audio.conditioning import BEAT, CONDITION_ROWS
 from ..shared.model.audio.decoder import wrapped_phase
@@ -115,8 +116,8 @@ def true_trajectory(motion: Tensor, start: Tensor) -> Tensor:
 
 def export_song(model: AudioMotionModel, phrases: MotionPhraseDataset, folder: Path) -> None:
     """The first phrase's sound, made into a trajectory: a picture of it in `folder`."""
-    from ..shared.formats.trajectory_registry import write_trajectory
-    from ..shared.inference.song_sampler import SongSampler
+    from ..shared.formats.registry import write_trajectory
+    from ..shared.pipelines.song_sampler import SongSampler
 
     item = phrases.item(0, 0)
     if item is None:

@@ -5,8 +5,8 @@ Letters: N prompts, D embed dim.
 
 import numpy as np
 
+from ..shared.data.captions.word_dropout import insert_babble
 from ..shared.data.prepared import PreparedData
-from ..shared.data.word_dropout import insert_babble
 from ..shared.model.clip.core import OWN, TextTower
 from ..shared.model.clip.pretrained import encode_captions
 from ..shared.model.clip.scope import PromptScope, words_of

@@ -6,7 +6,8 @@ import numpy as np
 import torch
 
 from ..shared.config_schema import NetworkConfig, TrainConfig
-from ..shared.data.prepared import PreparedData, open_data
+from ..shared.data.prepare import open_data
+from ..shared.data.prepared import PreparedData
 from ..shared.data.text_motion import TextMotionDataset
 from ..shared.errors import UsageError, UserError
 from ..shared.evaluation.metrics_retrieval import BATCH

@@ -19,8 +19,7 @@ from pydantic import Field
 from torch import Tensor, nn
 
 from ..shared.config_audio import AudioNetworkConfig
-from ..shared.data.phrases.dataset import MotionPhraseDataset, PhraseBatch
-from ..shared.data.phrases.statistics import motion_statistics
+from ..shared.data.phrases.dataset import MotionPhraseDataset, PhraseBatch, motion_statistics
 from ..shared.device import autocast, choose_compute
 from ..shared.errors import UsageError
 from ..shared.model.audio.audio_motion_model import AudioMotionModel

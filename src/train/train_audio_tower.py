@@ -22,9 +22,8 @@ from torch import Tensor, nn
 
 from ..shared.config_schema import NetworkConfig
 from ..shared.config_space import AudioTowerConfig
-from ..shared.data.phrases.dataset import MotionPhraseDataset
+from ..shared.data.phrases.dataset import MotionPhraseDataset, sound_statistics
 from ..shared.data.phrases.layout import PhraseRecord
-from ..shared.data.phrases.statistics import sound_statistics
 from ..shared.evaluation.metrics_retrieval import BATCH
 from ..shared.evaluation.space_retrieval import Bench
 from ..shared.evaluation.space_windows import Windows

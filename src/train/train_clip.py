@@ -18,8 +18,8 @@ import torch.distributed
 from torch import Tensor, nn
 
 from ..shared.config_schema import NetworkConfig, TrainClipConfig
+from ..shared.data.captions.word_dropout import drop_words
 from ..shared.data.text_motion import TextMotionBatch
-from ..shared.data.word_dropout import drop_words
 from ..shared.errors import UsageError
 from ..shared.evaluation.metrics_retrieval import BATCH, TOP, guo_retrieval
 from ..shared.model.checkpoint import ModelCard

@@ -23,11 +23,11 @@ from torch import Tensor, nn
 from ..shared.config_audio import AudioNetworkConfig, DecoderLossConfig
 from ..shared.config_loader import load_train, split_network_overrides
 from ..shared.data.phrases.dataset import PhraseBatch
-from ..shared.inference.song_sampler import SPARE
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
 from ..shared.model.audio.decoder import Decoder, create_motion_decoder, wrapped_phase
 from ..shared.model.audio.losses import DecoderLoss, total
 from ..shared.motion.trajectory import PHASE
+from ..shared.pipelines.song_sampler import SPARE
 from .audio_folder import network_of
 from .launch import Processes, as_overrides, new_app, run_task, short_errors
 from .phrases import (

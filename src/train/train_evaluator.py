@@ -13,8 +13,8 @@ from pydantic import Field
 from torch import Tensor, nn
 
 from ..shared.config_schema import NetworkConfig, TrainConfig
-from ..shared.data.prepared import open_data
-from ..shared.data.word_dropout import drop_words
+from ..shared.data.captions.word_dropout import drop_words
+from ..shared.data.prepare import open_data
 from ..shared.evaluation.evaluator import Evaluator, EvaluatorConfig, contrastive_loss
 from ..shared.evaluation.metrics_retrieval import BATCH, TOP, guo_retrieval
 from ..shared.evaluation.training_set import PairBatch, PairSet

@@ -17,8 +17,8 @@ import torch
 from torch import Tensor, nn
 
 from ..shared.config_schema import PROVENANCES, NetworkConfig, TrainGenerationConfig
+from ..shared.data.captions.word_dropout import drop_words
 from ..shared.data.text_motion import TextMotionBatch
-from ..shared.data.word_dropout import drop_words
 from ..shared.device import autocast, choose_compute
 from ..shared.errors import UsageError
 from ..shared.model.checkpoint import ModelCard
@@ -27,7 +27,7 @@ from ..shared.model.clip.pretrained import load_text_tower, tower_hash
 from ..shared.model.diffusion.gaussian import GaussianDiffusion
 from ..shared.model.generation.denoiser import MotionDenoiser
 from ..shared.model.generation.losses import GenerationLoss
-from ..shared.model.generation.motion_generator import KIND, MotionGenerator
+from ..shared.model.generation.motion_generator import KIND, TextToMotion
 from .constraints import draw_known
 from .launch import stage_app
 from .scope_fit import fit_scope
@@ -138,7 +138,7 @@ class GenerationTask:
 
     def _start_from(self, source: str, denoiser: MotionDenoiser) -> None:
         """Take over a trained denoiser and its z-scores; tags that both know keep their vector."""
-        trained = MotionGenerator.from_pretrained(source, device="cpu")
+        trained = TextToMotion.from_pretrained(source, device="cpu")
         before, after = trained.network.generation, self.network.generation
         loses = before.constraints > after.constraints or before.provenance > after.provenance
         if loses or _trained_shape(trained.network) != _trained_shape(self.network):
@@ -291,7 +291,7 @@ class GenerationTask:
 
     # ------------------------------------------------------------ results
 
-    def _generator(self, module: nn.Module) -> MotionGenerator:
+    def _generator(self, module: nn.Module) -> TextToMotion:
         assert isinstance(module, GuidedDenoiser)
         card = ModelCard(
             kind=KIND,
@@ -304,7 +304,7 @@ class GenerationTask:
             data=self.data.manifest_hash,
             training={"steps": self.config.steps, "validation": self.figures},
         )
-        return MotionGenerator(
+        return TextToMotion(
             module.denoiser,
             self.tower,
             self.tokenizer,
@@ -327,7 +327,7 @@ class GenerationTask:
         write_preview(motions, folder / "index.html")
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
-        """A folder that `MotionGenerator.from_pretrained` and `generate --model` read."""
+        """A folder that `TextToMotion.from_pretrained` and `generate --model` read."""
         generator = self._generator(module)
         known = (self.data, self.config.languages, self.tower, self.tokenizer)
         generator.scope, generator.style_map = fit_scope(*known), fit_style_map(*known)

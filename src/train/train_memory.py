@@ -26,19 +26,14 @@ from ..shared.config_memory import MemoryConfig
 from ..shared.data.phrases.dataset import PhraseBatch
 from ..shared.data.phrases.layout import PhraseRecord
 from ..shared.errors import UsageError
-from ..shared.formats.trajectory_registry import write_trajectory
-from ..shared.inference.audio_condition import AudioCondition
-from ..shared.inference.song_memory import (
-    as_condition,
-    bars_of_sound,
-    open_memory,
-    remembering,
-)
-from ..shared.inference.song_sampler import SongSampler
+from ..shared.formats.registry import write_trajectory
 from ..shared.memory.context import retrieve
 from ..shared.memory.service import MPMService
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
 from ..shared.model.audio.memory_conditioning import MemoryCondition, known_frames
+from ..shared.pipelines.song import AudioCondition
+from ..shared.pipelines.song_memory import as_condition, bars_of_sound, open_memory, remembering
+from ..shared.pipelines.song_sampler import SongSampler
 from .audio_folder import network_of
 from .launch import Processes, as_overrides, new_app, run_task, short_errors
 from .train_audio import AudioBatch, AudioTask, TrainAudioConfig

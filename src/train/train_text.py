@@ -30,9 +30,9 @@ from torch import Tensor, nn
 from torch.nn.functional import cross_entropy, normalize
 
 from ..shared.config_schema import NetworkConfig, TrainTowerConfig
-from ..shared.data.captions import packaged_book
-from ..shared.data.labels import Labels
-from ..shared.data.word_dropout import drop_words, insert_babble
+from ..shared.data.captions.book import packaged_book
+from ..shared.data.captions.schema import Labels
+from ..shared.data.captions.word_dropout import drop_words, insert_babble
 from ..shared.errors import UserError
 from ..shared.files import sha256_file
 from ..shared.model.checkpoint import WEIGHTS_FILE, ModelCard, read_card
@@ -41,7 +41,7 @@ from ..shared.model.clip.pretrained import KIND, ClipBundle, encode_captions, lo
 from ..shared.model.clip.token_pairs import PAIRS, TokenPairEncoder, shared_keys
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.generation.motion_generator import KIND as GENERATOR
-from ..shared.model.generation.motion_generator import MotionGenerator
+from ..shared.model.generation.motion_generator import TextToMotion
 from ..shared.model.zoo import resolve_model
 from .captured_places import apart, nearest_styles, with_unstyled
 from .frozen_encoder import MEANS_FILE, ZScores, caption_means, encoder_rates
@@ -363,7 +363,7 @@ class TextTask:
             self.bundle.card = _noted(self.bundle.card, hardened)
             self.bundle.save_pretrained(folder)
             return
-        generator = MotionGenerator.from_pretrained(self.config.generator)
+        generator = TextToMotion.from_pretrained(self.config.generator)
         generator.text = tower
         generator.scope = fit_scope(self.data, self.config.languages, tower, self.tokenizer)
         generator.style_map = fit_style_map(self.data, self.config.languages, tower, self.tokenizer)

@@ -9,12 +9,12 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from src.cli.tools import app
-from src.shared.data.read_motion import read_motion
-from src.shared.formats.bvh import read_bvh
-from src.shared.formats.glb_reader import read_glb_skeleton
+from src.shared.data.retarget.read_motion import read_motion
+from src.shared.formats.readers.bvh import read_bvh
+from src.shared.formats.readers.glb import read_glb_skeleton
 from src.shared.formats.registry import write_motion
 from src.shared.motion.motion import Motion
-from tests.shared.data.test_round_trips import differences
+from tests.shared.data.retarget.test_round_trips import differences
 
 
 def run(*arguments: object) -> Result:

@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from typer.testing import CliRunner
 
+from src.cli import generate_files
 from src.cli import generate_request as command
-from src.cli import generate_text
 from src.cli.tools import app
 from src.shared.errors import UsageError
 
@@ -55,7 +55,7 @@ def test_unknown_format_is_told_before_the_model_loads() -> None:
 
 
 def test_formats_are_taken_once_each_in_the_order_given() -> None:
-    assert command.checked_formats(" GLB,bvh,glb ", generate_text.FORMATS) == ["glb", "bvh"]
+    assert generate_files.checked_formats(" GLB,bvh,glb ", generate_files.FORMATS) == ["glb", "bvh"]
 
 
 def test_one_tag_serves_all_prompts() -> None:
@@ -67,19 +67,19 @@ def test_one_tag_serves_all_prompts() -> None:
 
 @given(st.text())
 def test_slug_is_a_safe_file_name(text: str) -> None:
-    name = generate_text.slug(text)
+    name = generate_files.slug(text)
     assert 0 < len(name) <= 40 and len(name.encode()) <= 80
     assert not set(name) & set(string.punctuation.replace("-", "") + string.whitespace)
     assert not name.startswith("-") and not name.endswith("-")
 
 
 def test_letters_that_file_systems_take_apart_stay_whole() -> None:
-    assert generate_text.slug("Café Müller") == generate_text.slug("Cafe\u0301 Mu\u0308ller")
+    assert generate_files.slug("Café Müller") == generate_files.slug("Cafe\u0301 Mu\u0308ller")
 
 
 def test_file_names_tell_prompts_and_samples_apart() -> None:
     prompts = ["A person waves!"] * 2 + ["人が手を振る"] * 2
-    assert generate_text.stems(prompts, 2) == [
+    assert generate_files.stems(prompts, 2) == [
         "01-a-person-waves",
         "01-a-person-waves-2",
         "02-人が手を振る",

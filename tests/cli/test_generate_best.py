@@ -12,8 +12,7 @@ from typer.testing import CliRunner
 from src.cli.tools import app
 from src.shared.audio.song_spec import SongSpec
 from src.shared.audio.synthetic_songs import render_song
-from src.shared.formats.npz import read_npz
-from src.shared.formats.trajectory_npz import read_trajectory_npz
+from src.shared.formats.arrays import read_npz, read_trajectory_npz
 from src.shared.model.checkpoint import ModelCard
 from src.shared.model.clip.core import MotionClip
 from src.shared.model.clip.pretrained import ClipBundle

@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 from src.cli.tools import app
 from src.shared.audio.song_spec import SongSpec
 from src.shared.audio.synthetic_songs import render_song
-from src.shared.formats.npz import read_npz
+from src.shared.formats.arrays import read_npz
 from tests.shared.evaluation.tiny_pairs import tiny_model
 from tests.shared.formats.pages import Page, array
 from tests.shared.model.conftest import tiny_generator

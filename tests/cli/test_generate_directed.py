@@ -8,7 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 from src.cli.tools import app
-from src.shared.formats.npz import read_npz
+from src.shared.formats.arrays import read_npz
 from src.shared.formats.registry import write_motion
 from tests.shared.model.conftest import tiny_generator
 

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from src.cli.generate_text import ALL_FORMATS, FORMATS, write_motions
+from src.cli.generate_files import ALL_FORMATS, FORMATS, write_motions
 from src.shared.formats.registry import EXPORTERS, format_of
 from tests.shared.formats.test_registry import standing
 

@@ -11,9 +11,9 @@ from typer.testing import CliRunner
 from src.cli.tools import app
 from src.shared.audio.song_spec import SongSpec
 from src.shared.audio.synthetic_songs import render_song
-from src.shared.formats.trajectory_npz import read_trajectory_npz
+from src.shared.formats.arrays import read_trajectory_npz
 from tests.shared.evaluation.tiny_pairs import tiny_model
-from tests.shared.inference.tiny_recall import remember, save_memory, save_space
+from tests.shared.pipelines.tiny_recall import remember, save_memory, save_space
 
 runner = CliRunner()
 
@@ -60,7 +60,7 @@ def test_a_memory_is_asked_and_heard(folder: Path, tmp_path: Path) -> None:
 
 def windows(frames: int) -> int:
     """Of the tiny model, for so many frames."""
-    from src.shared.inference.song_sampler import SongSampler
+    from src.shared.pipelines.song_sampler import SongSampler
 
     return len(SongSampler(tiny_model()).windows(frames))
 

@@ -10,11 +10,11 @@ import pytest
 import soundfile
 from typer.testing import CliRunner
 
-from src.cli.generate_performance import stems
+from src.cli.generate_files import dance_stems
 from src.cli.tools import app
 from src.shared.audio.song_spec import SongSpec
 from src.shared.audio.synthetic_songs import render_song
-from src.shared.formats.trajectory_npz import read_trajectory_npz
+from src.shared.formats.arrays import read_trajectory_npz
 from tests.shared.evaluation.tiny_pairs import tiny_model
 from tests.shared.formats.pages import Page
 
@@ -91,7 +91,7 @@ def test_files_of_a_song_have_safe_names(
     generate(folder, song, "--format", "npz,html", "--out", tmp_path / "out")
     assert sorted(p.name for p in (tmp_path / "out").iterdir()) == [f"{stem}.html", f"{stem}.npz"]
     prompt = "人" * 200
-    longest = stems(song, [prompt, prompt], 1)[1]
+    longest = dance_stems(song, [prompt, prompt], 1)[1]
     assert longest.startswith(f"{stem}-人") and len(longest.encode()) < 230
 
 

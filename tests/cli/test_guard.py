@@ -10,8 +10,8 @@ from typer.testing import CliRunner
 
 from src.cli.guard import complain
 from src.cli.tools import app
-from src.shared.formats.bvh_writer import write_bvh
-from tests.shared.formats.test_bvh_writer import random_motion
+from src.shared.formats.writers.bvh import write_bvh
+from tests.shared.formats.writers.test_bvh import random_motion
 
 TOOLS = [sys.executable, "-m", "src.cli.tools"]
 FULL = Path("/dev/full")  # takes nothing, as a full disk does

@@ -8,7 +8,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from src.cli.tools import app
-from src.shared.formats.bvh_writer import write_bvh
+from src.shared.formats.writers.bvh import write_bvh
 from src.shared.motion.motion import Motion
 
 

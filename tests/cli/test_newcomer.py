@@ -19,9 +19,8 @@ import pytest
 from src.shared.audio.song_spec import SongSpec
 from src.shared.audio.synthetic_songs import render_song
 from src.shared.data.synthetic import generate_clip, spec_for
-from src.shared.formats.bvh_writer import write_bvh
-from src.shared.formats.npz import read_npz
-from src.shared.formats.trajectory_npz import read_trajectory_npz
+from src.shared.formats.arrays import read_npz, read_trajectory_npz
+from src.shared.formats.writers.bvh import write_bvh
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "quickstart.md"

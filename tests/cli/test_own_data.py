@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from src.shared.data.captions import CaptionBook
+from src.shared.data.captions.book import CaptionBook
 from src.shared.data.synthetic import generate_clip, spec_for
 from src.shared.evaluation.controllability import check
-from src.shared.formats.bvh_writer import write_bvh
-from src.shared.formats.npz import read_npz
+from src.shared.formats.arrays import read_npz
+from src.shared.formats.writers.bvh import write_bvh
 
 ROOT = Path(__file__).parents[2]
 ACTIONS = (

@@ -2,7 +2,7 @@
 
 import pytest
 
-from src.cli.score_table import show_scores
+from src.cli.generate_files import show_scores
 
 
 def test_a_prompt_is_no_markup(capsys: pytest.CaptureFixture[str]) -> None:

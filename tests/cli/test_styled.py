@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from src.cli.generate_audio import styled
 from src.shared.errors import UsageError
 from src.shared.motion.style import named_style, style_values
+from src.shared.pipelines.song import styled
 
 
 def test_words_are_looked_up() -> None:

@@ -40,7 +40,7 @@ BONES = (
 
 
 def _write_bvh(folder: Path) -> None:
-    from src.shared.formats.bvh_writer import write_bvh
+    from src.shared.formats.writers.bvh import write_bvh
 
     text = write_bvh(some_motion(), folder / "ours.bvh").read_text()
     write_bvh(some_motion(5), folder / "more.bvh")
@@ -77,7 +77,7 @@ def _write_asf(folder: Path) -> None:
 
 
 def _write_amass(folder: Path) -> None:
-    from src.shared.formats.amass_writer import write_amass
+    from src.shared.formats.amass import write_amass
 
     write_amass(some_motion(), folder / "ours.npz")
     rng = np.random.default_rng(0)
@@ -103,7 +103,7 @@ def _write_motions(*endings: str) -> Callable[[Path], None]:
 
 
 def _write_trajectories(folder: Path) -> None:
-    from src.shared.formats.trajectory_registry import write_trajectory
+    from src.shared.formats.registry import write_trajectory
     from src.shared.motion.trajectory import from_motion
 
     trajectory = from_motion(some_motion())
@@ -131,20 +131,20 @@ def _write_directions(folder: Path) -> None:
 
 
 def _read_any(path: Path) -> None:
-    from src.shared.data.read_motion import read_motion
+    from src.shared.data.retarget.read_motion import read_motion
 
     check_motion(read_motion(path))
 
 
 def _read_acclaim(path: Path) -> None:
-    from src.shared.data.read_motion import read_motion
+    from src.shared.data.retarget.read_motion import read_motion
 
     check_motion(read_motion(path.with_suffix(".amc"), skeleton=path.with_suffix(".asf")))
 
 
 def _read_rig(path: Path) -> None:
     """As a motion, and as the skeleton of somebody's character."""
-    from src.shared.data.retarget_out import read_target
+    from src.shared.data.retarget.to_rig import read_target
     from src.shared.errors import UserError
 
     with contextlib.suppress(UserError):
@@ -153,7 +153,7 @@ def _read_rig(path: Path) -> None:
 
 
 def _read_trajectory(path: Path) -> None:
-    from src.shared.formats.trajectory_reader import read_trajectory
+    from src.shared.formats.registry import read_trajectory
 
     trajectory = read_trajectory(path)
     check_arrays([trajectory.data])
@@ -161,8 +161,8 @@ def _read_trajectory(path: Path) -> None:
 
 
 def _read_direction(path: Path) -> None:
-    from src.shared.inference.drawn_path import read_path
-    from src.shared.inference.timeline import read_timeline
+    from src.shared.pipelines.path import read_path
+    from src.shared.pipelines.timeline import read_timeline
 
     if path.stem == "timeline":
         read_timeline(path, fps=30.0)

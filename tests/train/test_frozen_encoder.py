@@ -8,14 +8,14 @@ from tiny_stage import SETTINGS, generation_config, tiny_network, train_generati
 
 from src.shared.config_loader import load_train
 from src.shared.config_schema import NetworkConfig
-from src.shared.data.captions import packaged_book
+from src.shared.data.captions.book import packaged_book
 from src.shared.model.clip.core import small_text_config
 from src.shared.model.clip.pretrained import ClipBundle
 from src.train import frozen_encoder
 from src.train.engine import Trainer
 from src.train.frozen_encoder import MEANS_FILE
 from src.train.train_text import LabelledTower, TextTask, TrainTextConfig
-from tests.shared.data.caption_labels import SYNTHETIC
+from tests.shared.data.captions.caption_labels import SYNTHETIC
 
 
 @pytest.fixture(scope="module")

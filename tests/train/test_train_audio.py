@@ -21,10 +21,10 @@ from tiny_audio_stage import (
 )
 
 from src.shared.errors import UsageError, UserError
-from src.shared.inference.song_sampler import SampleSettings, SongSampler
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
 from src.shared.motion.trajectory import STYLE
+from src.shared.pipelines.song_sampler import SongSampler, SongSampling
 from src.train.learning_rate import learning_rate_factor
 from src.train.task import Part
 from src.train.train_audio import AudioBatch, AudioTask, TrainAudioConfig, audio_losses
@@ -48,7 +48,7 @@ def test_it_learns_and_leaves_a_folder(circles: Path, tmp_path: Path) -> None:
     model = AudioMotionModel.from_pretrained(tmp_path)
     assert model.card.trained and model.card.data == task.train.fingerprint
     assert torch.equal(model.mean, task.model.mean)
-    settings = SampleSettings(window=32, overlap=8)
+    settings = SongSampling(window=32, overlap=8)
     made = SongSampler(model, settings).sample(torch.rand(167, 70))[0]
     assert made.data.shape == (70, 25)
 

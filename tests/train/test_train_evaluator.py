@@ -22,7 +22,7 @@ SHORT = [f"{key}={value}" for key, value in SETTINGS.items()]
 
 @pytest.fixture(scope="module")
 def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    from src.shared.data.prepared import open_data
+    from src.shared.data.prepare import open_data
 
     folder = tmp_path_factory.mktemp("data")
     return open_data("synthetic", folder, synthetic_clips=120).folder

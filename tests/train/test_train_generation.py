@@ -13,7 +13,7 @@ from tiny_stage import clip_config, generation_config, tiny_network, train_clip,
 
 from src.shared.errors import UsageError, UserError
 from src.shared.model.clip.pretrained import ClipBundle, tower_hash
-from src.shared.model.generation.motion_generator import MotionGenerator
+from src.shared.model.generation.motion_generator import TextToMotion
 from src.train.seeding import generator
 from src.train.task import Part
 from src.train.train_generation import GenerationTask, spread_timesteps
@@ -37,7 +37,7 @@ def test_it_learns_and_its_folder_generates(prepared: Path, clip: Path, tmp_path
         samples = tmp_path / "samples" / step
         assert (samples / "01.bvh").exists() and (samples / "index.html").exists()
 
-    made = MotionGenerator.from_pretrained(tmp_path, device="cpu")
+    made = TextToMotion.from_pretrained(tmp_path, device="cpu")
     prompts = ["a person walks forward", "una persona salta"]
     motions = made.generate(prompts, seconds=1.0, num_samples=2)
     assert [motion.text for motion in motions] == [prompts[0]] * 2 + [prompts[1]] * 2
@@ -50,7 +50,7 @@ def test_fine_tuning_starts_where_another_run_ended(
 ) -> None:
     first = tmp_path / "first"
     train_generation(generation_config(prepared, clip, first, "steps=3", "learning-rate=0.01"))
-    trained = MotionGenerator.from_pretrained(first, device="cpu")
+    trained = TextToMotion.from_pretrained(first, device="cpu")
     trained.mean += 0.5  # as if it had been trained on other data, with other tags
     trained.card = trained.card.model_copy(update={"tags": tuple(reversed(trained.card.tags))})
     trained.save_pretrained(tmp_path / "other")
@@ -121,7 +121,7 @@ def test_tokens_epsilon_and_all_losses(prepared: Path, clip: Path, tmp_path: Pat
     train_generation(config, network)
     line = json.loads((tmp_path / "log.jsonl").read_text().splitlines()[0])
     assert {"reconstruction", "velocity", "geodesic", "foot_slide"} <= line.keys()
-    MotionGenerator.from_pretrained(tmp_path, device="cpu")
+    TextToMotion.from_pretrained(tmp_path, device="cpu")
 
 
 def test_without_a_root_track(prepared: Path, tmp_path: Path) -> None:
@@ -129,7 +129,7 @@ def test_without_a_root_track(prepared: Path, tmp_path: Path) -> None:
     train_clip(clip_config(prepared, tmp_path / "clip", "steps=2"), network)
     config = generation_config(prepared, tmp_path / "clip", tmp_path / "generation", "steps=2")
     train_generation(config, network)
-    made = MotionGenerator.from_pretrained(tmp_path / "generation", device="cpu")
+    made = TextToMotion.from_pretrained(tmp_path / "generation", device="cpu")
     assert made.sample_features(["wave"], seconds=1.0)[0].shape == (30, 22, 6)
 
 

@@ -11,17 +11,17 @@ from tiny_audio_stage import PREFIX, SETTINGS, STEPS, assert_equal_runs, audio_c
 from src.shared.config_loader import load_train
 from src.shared.data.phrases.dataset import MotionPhraseDataset
 from src.shared.errors import UsageError, UserError
-from src.shared.inference.song_memory import bars_of_sound
 from src.shared.memory.context import retrieve
 from src.shared.memory.index import MemoryIndex
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.motion.trajectory import PHASE
+from src.shared.pipelines.song_memory import bars_of_sound
 from src.train.audio_folder import network_of
 from src.train.engine import Trainer
 from src.train.task import Part
 from src.train.train_memory import MemoryTask, TrainMemoryConfig
-from tests.shared.inference.tiny_recall import save_space
 from tests.shared.memory.tiny_memory import make_phrase
+from tests.shared.pipelines.tiny_recall import save_space
 
 SMALL = ["part.width=16", "part.num-heads=2", "part.num-layers=1", "memory.top-k=2"]
 

@@ -17,7 +17,7 @@ from tiny_stage import (
 
 from src.shared.config_loader import load_train
 from src.shared.model.clip.pretrained import ClipBundle
-from src.shared.model.generation.motion_generator import MotionGenerator
+from src.shared.model.generation.motion_generator import TextToMotion
 from src.train.engine import Trainer
 from src.train.task import Part
 from src.train.train_text import TextTask, TrainTextConfig
@@ -61,7 +61,7 @@ def test_a_generator_gets_the_new_tower_and_keeps_its_denoiser(
     old, new = (load_file(folder / "model.safetensors") for folder in (made, hard))
     changed = {key for key in old if not torch.equal(old[key], new[key])}
     assert changed and all(key.startswith("text.") for key in changed)
-    generator = MotionGenerator.from_pretrained(hard, device="cpu")
+    generator = TextToMotion.from_pretrained(hard, device="cpu")
     assert generator.scope is not None and "text-hardening" in generator.card.training
     assert np.isfinite(generator.generate(["walk"], seconds=1.0)[0].quaternions).all()
 
@@ -76,7 +76,7 @@ def test_a_generator_gets_a_tower_of_token_pairs(prepared: Path, tmp_path: Path)
     before = TextTask(config, tiny_network())
     first = before.validation(before.module)["right"]
     assert harden(config).figures["right"] > first + 0.05
-    old, new = MotionGenerator.from_pretrained(made), MotionGenerator.from_pretrained(hard)
+    old, new = TextToMotion.from_pretrained(made), TextToMotion.from_pretrained(hard)
     assert new.network.clip.text_model == "pairs" and new.network.clip.text_pairs > 50
     for key, value in old.denoiser.state_dict().items():
         assert torch.equal(value, new.denoiser.state_dict()[key])

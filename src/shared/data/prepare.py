@@ -30,12 +30,19 @@ from ..errors import UsageError, UserError
 from ..files import atomic_write, load_json, sha256_file, write_json, write_text
 from ..motion.mirror import mirror_features
 from ..motion.root_track import encode_features
-from .captions import CaptionBook, mirror_labels
-from .labels import group_of
-from .prepared import VERSION
-from .records import MIRRORED, SPLITS, ClipRecord
-from .sources import MotionFolder, Skipped, Source, all_items
-from .splits import assign_splits, orbit
+from .captions.book import CaptionBook
+from .captions.language import mirror_labels
+from .prepared import (
+    MIRRORED,
+    SPLITS,
+    SYNTHETIC,
+    SYNTHETIC_CLIPS,
+    VERSION,
+    ClipRecord,
+    PreparedData,
+)
+from .sources.folders import MotionFolder, Skipped, Source, SyntheticSource, all_items
+from .splits import assign_splits, group_of, orbit
 from .worker_pool import run_jobs
 
 CLIPS_PER_SHARD = 128
@@ -137,6 +144,18 @@ def _unmatched(sources: tuple[Source, ...]) -> list[str]:
     rows = [source.caption_rows for source in sources if isinstance(source, MotionFolder)]
     named = {name for found in rows for name in found}
     return sorted(named - {name for found in rows for name, matched in found.items() if matched})
+
+
+def open_data(data: str, cache: Path, *, synthetic_clips: int = SYNTHETIC_CLIPS) -> PreparedData:
+    """Open a prepared folder; "synthetic" is prepared on the spot into `cache`, once."""
+    if data != SYNTHETIC:
+        return PreparedData.open(data)
+    from ..sole_writer import sole_writer
+
+    folder = cache / f"synthetic-{synthetic_clips}"
+    with sole_writer(folder, wait=True):
+        prepare([SyntheticSource(synthetic_clips)], folder)
+    return PreparedData.open(folder)
 
 
 # ---------------------------------------------------------------- shards

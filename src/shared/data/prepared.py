@@ -2,8 +2,10 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import torch
 from pydantic import TypeAdapter, ValidationError
@@ -11,10 +13,42 @@ from safetensors import SafetensorError
 from safetensors.torch import load_file
 from torch import Tensor
 
+from ..config_schema import Provenance
 from ..errors import UserError, first_fault
 from ..files import inside, load_json, sha256_file
 from ..motion.mirror import mirror_features
-from .records import SPLITS, ClipRecord
+
+SPLITS = ("train", "val", "test_seen", "test_unseen")
+MIRRORED = "~mirrored"  # ends the id of a mirror image
+
+
+@dataclass(frozen=True)
+class ClipRecord:
+    """One line of clips.jsonl.
+
+    Attributes:
+        group: whole label combination; its captions are in captions.json.
+        mirrored: the stored features are to be mirrored (captions and labels already are).
+        shard, offset: where its `num_frames` rows start.
+    """
+
+    id: str
+    source: str
+    take: str
+    tag: str
+    group: str
+    labels: dict[str, str]
+    mirrored: bool
+    split: str
+    num_frames: int
+    shard: str
+    offset: int
+    captions: dict[str, list[str]] = field(default_factory=dict)
+    provenance: Provenance = "captured"
+
+    def to_json(self) -> dict[str, Any]:
+        return asdict(self)
+
 
 VERSION = 3  # of prepared folders; 2 did not say where motion comes from, 1 held other splits
 SYNTHETIC = "synthetic"
@@ -150,17 +184,3 @@ class PreparedData:
             for language, texts in self.captions(record).items():
                 found.setdefault(language, set()).update(texts)
         return {language: sorted(texts) for language, texts in sorted(found.items())}
-
-
-def open_data(data: str, cache: Path, *, synthetic_clips: int = SYNTHETIC_CLIPS) -> PreparedData:
-    """Open a prepared folder; "synthetic" is prepared on the spot into `cache`, once."""
-    if data != SYNTHETIC:
-        return PreparedData.open(data)
-    from ..sole_writer import sole_writer
-    from .prepare import prepare
-    from .sources import SyntheticSource
-
-    folder = cache / f"synthetic-{synthetic_clips}"
-    with sole_writer(folder, wait=True):
-        prepare([SyntheticSource(synthetic_clips)], folder)
-    return PreparedData.open(folder)

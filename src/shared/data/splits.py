@@ -5,14 +5,24 @@ import re
 from collections import defaultdict
 from collections.abc import Sequence
 
-from .captions import mirror_labels
-from .labels import Labels, group_of
+from .captions.language import mirror_labels
+from .captions.schema import Labels
 
 VAL_FRACTION = 0.04
 TEST_FRACTION = 0.10
 UNSEEN_FRACTION = 0.08
 MIN_SUPPORT = 0.5  # share of a label's combinations that stays in training
 MIN_TAKES = 5  # a combination with fewer takes keeps them all for training
+
+
+def group_of(labels: Labels, caption: str = "") -> str:
+    """Name of the whole label combination: the unit of splits and of positive pairs.
+
+    A clip without labels is named by its caption.
+    """
+    if not labels:
+        return f"caption={' '.join(caption.lower().split())}"
+    return "|".join(f"{key}={labels[key]}" for key in sorted(labels))
 
 
 def _order(seed: int, text: str) -> str:

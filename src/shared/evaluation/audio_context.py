@@ -18,9 +18,9 @@ from ..data.pairing.motion_beats import MotionBeats, motion_beats
 from ..data.phrases.dataset import MotionPhraseDataset
 from ..errors import UserError
 from ..files import atomic_write
-from ..inference.song_generator import SongGenerator, own_noise
-from ..inference.song_sampler import SampleSettings
 from ..motion.trajectory import FPS, MotionTrajectory
+from ..pipelines.song import SongGenerator, own_noise
+from ..pipelines.song_sampler import SongSampling
 from ..validation.report import frozen
 from .audio_sanity import untrained
 from .audio_songs import (
@@ -98,7 +98,7 @@ class AudioContext:
     ) -> None:
         self.generator, self.settings, self.progress = generator, settings, progress
         self.data, self.songs = data, songs
-        given = SampleSettings(**(sampling or {}))
+        given = SongSampling(**(sampling or {}))
         self.sampled = given.resolved(generator.model.config)
         self.made = cache(self._made)
         self.made_untrained = cache(self._made_untrained)

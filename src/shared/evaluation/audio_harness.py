@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from ..files import sha256_file
-from ..inference.song_generator import SongGenerator
 from ..model.zoo import resolve_model
+from ..pipelines.song import SongGenerator
 from . import manifest
 from .audio_context import AudioContext, AudioSettings, Picture
 from .audio_phase import right_tempo

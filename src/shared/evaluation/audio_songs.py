@@ -27,10 +27,10 @@ from ..audio.synthetic_songs import (
 )
 from ..data.phrases.dataset import MotionPhraseDataset
 from ..errors import UserError
-from ..inference.song_generator import heard
 from ..model.audio.conditioning import BEAT, CONDITION_ROWS
 from ..motion.trajectory import FPS, MotionTrajectory
 from ..motion.window import place_window
+from ..pipelines.song import heard
 from .metrics_rhythm import beats_of_phase
 
 FRESH_SEED = 90210  # of songs made only to test: no training draws from the held-out tempi

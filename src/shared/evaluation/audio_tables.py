@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from ..inference.song_generator import SongGenerator
 from ..motion.trajectory import MotionTrajectory
+from ..pipelines.song import SongGenerator
 from .audio_alignment import Danced, alignment_rows, song_scores
 from .audio_context import AudioContext
 from .audio_phase import phase_row, right_tempo

@@ -9,8 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from torch import Tensor
 
-from ..data.prepared import PreparedData
-from ..data.records import ClipRecord
+from ..data.prepared import ClipRecord, PreparedData
 from ..errors import UserError
 from ..motion.motion import Motion
 from ..motion.root_track import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, decode_features

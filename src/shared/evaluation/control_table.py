@@ -13,7 +13,7 @@ from functools import partial
 from itertools import chain
 from typing import Any
 
-from ..data.captions import CaptionBook
+from ..data.captions.book import CaptionBook
 from ..motion.motion import Motion
 from ..motion.root_track import decode_features, encode_features
 from .clips import Clips, Sampler, frozen

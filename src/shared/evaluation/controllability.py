@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
-from ..data.synthetic.labels import SPEED_METRES, SPEEDS
+from ..data.synthetic.clips import SPEED_METRES, SPEEDS
 from ..motion.motion import Motion
 from .measurements import Measurements, measure
 

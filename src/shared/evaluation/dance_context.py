@@ -14,16 +14,16 @@ import numpy as np
 
 from ..data.phrases.dataset import MotionPhraseDataset
 from ..errors import UserError
-from ..inference.motion_stream import OVERLAP, WINDOW, window_lengths
-from ..inference.performer import Performer, PerformerSettings
-from ..inference.song_generator import SongGenerator, own_noise
-from ..inference.song_performer import candidate_seed, finished
-from ..inference.song_sampler import SampleSettings
-from ..model.generation.motion_generator import MotionGenerator
+from ..model.generation.motion_generator import TextToMotion
 from ..motion.carried_feet import hold_carried_feet
 from ..motion.motion import Motion
 from ..motion.root_track import decode_features
 from ..motion.trajectory import FPS, MotionTrajectory, to_motion
+from ..pipelines.body import Performer, PerformerSettings
+from ..pipelines.dance import candidate_seed
+from ..pipelines.song import SongGenerator, finished, own_noise
+from ..pipelines.song_sampler import SongSampling
+from ..pipelines.stream import OVERLAP, WINDOW, window_lengths
 from .audio_songs import Piece, clock, held_out_songs, tracks
 from .dance_sample import BodyDance, BodySample
 from .evaluator import Evaluator
@@ -73,14 +73,14 @@ class DanceContext:
 
     def __init__(
         self,
-        generator: MotionGenerator,
+        generator: TextToMotion,
         singer: SongGenerator,
         judge: Evaluator,
         settings: DanceSettings,
         *,
         data: str | None = None,
         songs: Path | None = None,
-        other: MotionGenerator | None = None,
+        other: TextToMotion | None = None,
         sampling: PerformerSettings | None = None,
         progress: Progress = lambda text: None,
     ) -> None:
@@ -108,7 +108,7 @@ class DanceContext:
         """The path of a song, post-processed as it is pinned."""
         piece = self.pieces[number]
         settings = own_noise(
-            SampleSettings(seed=self.settings.seed), replication, crc32(piece.name.encode())
+            SongSampling(seed=self.settings.seed), replication, crc32(piece.name.encode())
         )
         (made,) = self.singer.generate(piece.condition, phase=piece.phase, settings=settings)
         return finished(made)
@@ -137,7 +137,7 @@ class DanceContext:
             seams=near_seams(path.num_frames),
         )
 
-    def performer(self, generator: MotionGenerator, *, on_beats: bool = True) -> Performer:
+    def performer(self, generator: TextToMotion, *, on_beats: bool = True) -> Performer:
         """Puts bodies on paths, their feet not yet held."""
         settings = replace(self.sampling, foot_lock=False, on_beats=on_beats)
         return Performer(generator, settings)
@@ -164,7 +164,7 @@ class DanceContext:
         }
 
     @cached_property
-    def fresh(self) -> MotionGenerator:
+    def fresh(self) -> TextToMotion:
         """The same denoiser without its training."""
         return untrained(self.generator, self.settings.seed)
 

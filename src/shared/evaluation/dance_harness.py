@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ..files import sha256_file
-from ..formats.npz import write_npz
+from ..formats.arrays import write_npz
 from ..model.zoo import resolve_model
 from . import manifest
 from .dance_context import DanceContext

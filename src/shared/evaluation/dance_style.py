@@ -13,10 +13,10 @@ from functools import cache
 import numpy as np
 from scipy.spatial.distance import cdist, pdist
 
-from ..inference.performer import Performer
 from ..motion.motion import Motion
 from ..motion.root_track import encode_features
 from ..motion.trajectory import to_motion
+from ..pipelines.body import Performer
 from .dance_context import DanceContext, held_still
 from .dance_rhythm import body_beats, limb_beats
 from .evaluator import Evaluator

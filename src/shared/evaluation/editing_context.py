@@ -9,9 +9,9 @@ from functools import cached_property
 
 import numpy as np
 
-from ..inference.drawn_path import DrawnPath
-from ..model.generation.motion_generator import MotionGenerator
+from ..model.generation.motion_generator import TextToMotion
 from ..motion.motion import Motion
+from ..pipelines.path import DrawnPath
 from .clips import Clips, real_clips
 from .held_out import HeldOut
 from .text_context import untrained
@@ -49,7 +49,7 @@ class EditContext:
 
     def __init__(
         self,
-        generator: MotionGenerator,
+        generator: TextToMotion,
         held_out: HeldOut,
         settings: EditSettings,
         progress: Progress = lambda text: None,
@@ -82,7 +82,7 @@ class EditContext:
         )
 
     @cached_property
-    def generators(self) -> dict[str, MotionGenerator]:
+    def generators(self) -> dict[str, TextToMotion]:
         """By the name of their row."""
         found = {"generated": self.generator}
         if self.settings.untrained:

@@ -7,10 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..inference.directed import moved_to
-from ..inference.editing import Given, kept_error, place_of
-from ..inference.settling import joined
 from ..motion.motion import Motion
+from ..pipelines.edit import Given, kept_error
+from ..pipelines.postprocess import joined, moved_to, place_of
 from .dance_rhythm import seen_from_pelvis
 from .dance_seams import ACCELERATION, body_quantities
 

@@ -6,15 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from ..inference.directed import along_path, by_timeline, edited, natural_gait
-from ..inference.drawn_path import DrawnPath
-from ..inference.editing import GROUPS, Given, keep_ends, redo
-from ..inference.motion_stream import Passage, StreamSettings
-from ..inference.path_following import distances_to_line, time_path
-from ..inference.settling import frames_of
-from ..inference.timeline import Timeline
-from ..model.generation.motion_generator import MotionGenerator
+from ..model.diffusion.samplers import Sampling
+from ..model.generation.motion_generator import TextToMotion
 from ..motion.motion import Motion
+from ..pipelines.edit import GROUPS, Given, edited, keep_ends, redo
+from ..pipelines.path import DrawnPath, along_path, distances_to_line, natural_gait, time_path
+from ..pipelines.postprocess import frames_of
+from ..pipelines.stream import Passage
+from ..pipelines.timeline import Timeline, by_timeline
 from .dance_context import held_still
 from .dance_rhythm import seen_from_pelvis
 from .dance_style import embed, rank_of
@@ -117,9 +116,9 @@ def _tasks(context: EditContext, kind: str) -> Iterator[tuple[Motion, Given, str
 
 
 def _edit(
-    generator: MotionGenerator, kind: str, clip: Motion, given: Given, text: str, seed: int
+    generator: TextToMotion, kind: str, clip: Motion, given: Given, text: str, seed: int
 ) -> Motion:
-    return edited(generator, text, given, StreamSettings(seed=seed)).motion
+    return edited(generator, text, given, Sampling(seed=seed)).motion
 
 
 def _kept_row(made: Sequence[tuple[Motion, Motion, Given]], limit: float) -> GridRow:
@@ -174,8 +173,8 @@ def path_table(context: EditContext) -> Grid:
 Followed = tuple[Motion, np.ndarray, DrawnPath]  # with where the pelvis was to be [T,2]
 
 
-def _follow(generator: MotionGenerator, drawn: DrawnPath, seed: int) -> Followed:
-    settings = StreamSettings(seed=seed % 2**31)
+def _follow(generator: TextToMotion, drawn: DrawnPath, seed: int) -> Followed:
+    settings = Sampling(seed=seed % 2**31)
     passage = Passage("a person walks", 1)
     motion = along_path(generator, Timeline((passage,)), drawn, settings).motion
     speed, facing = natural_gait(generator, passage, settings)
@@ -183,7 +182,7 @@ def _follow(generator: MotionGenerator, drawn: DrawnPath, seed: int) -> Followed
     return motion, path.points, drawn
 
 
-def _free(generator: MotionGenerator, like: Motion, seed: int) -> Motion:
+def _free(generator: TextToMotion, like: Motion, seed: int) -> Motion:
     (motion,) = generator.generate(["a person walks"], seconds=like.seconds, seed=seed)
     return motion
 
@@ -233,9 +232,9 @@ def transition_table(context: EditContext, judge: Evaluator) -> Grid:
     return Grid("transitions", title, TRANSITION, rows, NOTES["transitions"])
 
 
-def _transition(generator: MotionGenerator, pair: tuple[str, str], seed: int) -> Motion:
+def _transition(generator: TextToMotion, pair: tuple[str, str], seed: int) -> Motion:
     timeline = Timeline(tuple(Passage(text, HALF) for text in pair))
-    return by_timeline(generator, timeline, StreamSettings(seed=seed)).motion
+    return by_timeline(generator, timeline, Sampling(seed=seed)).motion
 
 
 def _transition_row(

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ..inference.trajectory_constraint import root_error
+from ..pipelines.body import root_error
 from .dance_rhythm import body_beats, landings, limb_beats, seen_from_pelvis
 from .dance_sample import BodyDance, BodySample
 from .families import Column, Value

@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..data.records import ClipRecord
+from ..data.prepared import ClipRecord
 from ..errors import UserError
 from . import manifest
 from .clips import Sampler
@@ -34,7 +34,7 @@ from .text_scores import score_grid
 from .worst import Keeper, write_motion
 
 if TYPE_CHECKING:
-    from ..model.generation.motion_generator import MotionGenerator
+    from ..model.generation.motion_generator import TextToMotion
 
 
 def evaluate_text(
@@ -64,11 +64,11 @@ def evaluate_text(
         UserError: no such model, evaluator or data, the model is untrained, or the folder holds
             another report.
     """
-    from ..model.generation.motion_generator import MotionGenerator
+    from ..model.generation.motion_generator import TextToMotion
 
     settings = settings or TextSettings()
     judge = Evaluator.from_pretrained(evaluator)
-    generator = MotionGenerator.from_pretrained(model, device=device)
+    generator = TextToMotion.from_pretrained(model, device=device)
     held_out = open_held_out(data, cache, judge.trained_groups)
     about = _about(model, generator, evaluator, judge, held_out, sampling)
     if folder is not None:
@@ -92,7 +92,7 @@ def evaluate_text(
 
 def _about(
     model: str,
-    generator: "MotionGenerator",
+    generator: "TextToMotion",
     evaluator: str,
     judge: Evaluator,
     held_out: HeldOut,
@@ -133,7 +133,7 @@ def _told_apart(held_out: HeldOut, model_data: str, judge: Evaluator) -> str:
 
 def _manifest(
     model: str,
-    generator: "MotionGenerator",
+    generator: "TextToMotion",
     evaluator: str,
     judge: Evaluator,
     held_out: HeldOut,

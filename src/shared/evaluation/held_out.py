@@ -3,8 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..data.prepared import SYNTHETIC, PreparedData
-from ..data.records import ClipRecord
+from ..data.prepared import SYNTHETIC, ClipRecord, PreparedData
 
 FRESH_SEED = 90210  # of synthetic clips made only to test: never one that trains
 FRESH_CLIPS = 800
@@ -46,7 +45,7 @@ def open_held_out(data: str, cache: Path, trained_groups: frozenset[str]) -> Hel
         }
         return HeldOut(prepared, records, f"test splits of {data}")
     from ..data.prepare import prepare
-    from ..data.sources import SyntheticSource
+    from ..data.sources.folders import SyntheticSource
     from ..sole_writer import sole_writer
 
     folder = cache / f"synthetic-test-{FRESH_CLIPS}"

@@ -14,11 +14,9 @@ from pathlib import Path
 from typing import Any
 
 from ..files import inside
-from ..formats.html import write_html
-from ..formats.npz import read_npz
-from ..formats.trajectory_beats import SongTrack
-from ..formats.trajectory_html import write_trajectory_html
-from ..formats.trajectory_npz import read_trajectory_npz
+from ..formats.arrays import read_npz, read_trajectory_npz
+from ..formats.preview.html import write_html, write_trajectory_html
+from ..formats.preview.trajectory import SongTrack
 from .grids import Grid
 from .report import (
     grids,

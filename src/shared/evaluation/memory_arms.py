@@ -12,10 +12,10 @@ import torch
 from torch import Tensor
 
 from ..config_memory import MemoryConfig
-from ..inference.song_memory import as_condition
 from ..memory.context import Memory, retrieve
 from ..memory.index import MemoryIndex
 from ..model.audio.memory_conditioning import MemoryCondition
+from ..pipelines.song_memory import as_condition
 
 WITHOUT, WITH, RANDOM = "without", "with", "random"
 

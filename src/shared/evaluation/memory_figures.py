@@ -12,8 +12,6 @@ import torch
 from torch import Tensor
 
 from ..data.phrases.dataset import PhraseBatch, PhraseItem, collate
-from ..inference.song_memory import bars_of_sound, bars_of_window
-from ..inference.song_sampler import SPARE, Recall, SampleSettings, SongSampler
 from ..memory.build import Space
 from ..memory.priors import prior_curves
 from ..model.audio.audio_motion_model import AudioMotionModel
@@ -21,6 +19,8 @@ from ..model.audio.memory_conditioning import MemoryCondition
 from ..model.diffusion.noise import standard_normal
 from ..motion.trajectory import MotionTrajectory
 from ..motion.window import place_window
+from ..pipelines.song_memory import bars_of_sound, bars_of_window
+from ..pipelines.song_sampler import SPARE, Recall, SongSampler, SongSampling
 from .audio_songs import Piece, open_split
 from .families import Column, Dance, DanceSample
 from .families_audio import BeatAlignment, TrajectorySanity
@@ -70,7 +70,7 @@ class Setting:
     model: AudioMotionModel
     space: Space
     asker: Asker
-    sampled: SampleSettings
+    sampled: SongSampling
 
 
 # ---------------------------------------------------------------- held-back phrases

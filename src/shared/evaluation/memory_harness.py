@@ -15,10 +15,10 @@ import numpy as np
 
 from ..config_memory import MemoryConfig
 from ..errors import UserError
-from ..inference.song_sampler import SampleSettings
 from ..memory.build import Space
 from ..memory.index import MemoryIndex
 from ..model.audio.audio_motion_model import AudioMotionModel
+from ..pipelines.song_sampler import SongSampling
 from .audio_songs import held_out_songs
 from .bootstrap import MIN_PAIRS, paired_bootstrap
 from .families import Column
@@ -81,14 +81,14 @@ def evaluate_memory(
         data: folder or bucket of pairs with the splits to measure on.
         config: how the memory is asked.
         settings: how much is measured.
-        sampling: what `SampleSettings` takes, the seed aside.
+        sampling: what `SongSampling` takes, the seed aside.
         about: what to repeat in the report.
         progress: told what begins.
 
     Raises:
         UserError: the data cannot be used.
     """
-    sampled = SampleSettings(seed=settings.seed, **(sampling or {})).resolved(model.config)
+    sampled = SongSampling(seed=settings.seed, **(sampling or {})).resolved(model.config)
     setting = Setting(model, space, Asker(index, config, settings.seed), sampled)
     items = held_back(
         data, settings.splits, model.config.window, settings.num_phrases, settings.seed

@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 
-from ..inference.song_sampler import SPARE, spans
 from ..motion.trajectory import MotionTrajectory
+from ..pipelines.song_sampler import SPARE, spans
 
 REACH = 3  # frames around a seam: differences look ahead, and known frames end with it
 POINTS = (50, 95)  # percentiles

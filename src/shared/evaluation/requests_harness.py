@@ -13,8 +13,8 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from ..data.captions.requests import COMPOSITIONS, FREE, OUTSIDE, Request, drawn, load_requests
 from ..data.prepared import PreparedData
-from ..data.requests import COMPOSITIONS, FREE, OUTSIDE, Request, drawn, load_requests
 from ..motion.motion import Motion
 from ..motion.root_track import decode_features, encode_features
 from .action_judge import ActionJudge

@@ -16,11 +16,10 @@ import numpy as np
 
 from ..data.pairing.motion_beats import motion_beats
 from ..errors import UserError
-from ..inference.audio_condition import AudioCondition
-from ..inference.audio_judge import AudioJudge
-from ..inference.song_generator import SongGenerator
-from ..inference.song_sampler import SampleSettings
 from ..motion.trajectory import FPS, MotionTrajectory
+from ..pipelines.ranking import AudioJudge
+from ..pipelines.song import AudioCondition, SongGenerator
+from ..pipelines.song_sampler import SongSampling
 from ..validation.bands import Bands
 from .audio_songs import Piece, held_out_songs, open_split, phrases
 from .kinetic_features import root_geometric_features, root_kinetic_features
@@ -55,7 +54,7 @@ def song_pool(
     pieces: Sequence[Piece],
     real: Sequence[MotionTrajectory],
     *,
-    settings: SampleSettings,
+    settings: SongSampling,
     progress: Progress = lambda text: None,
 ) -> Pool:
     """C candidates for each of P songs, measured.
@@ -188,7 +187,7 @@ def evaluate_songs(
     progress("songs")
     pieces = list(held_out_songs(settings.num_songs, settings.song_seconds, settings.seed))
     number = settings.num_candidates * settings.replications
-    sampled = SampleSettings(number, seed=settings.seed, **sampling)
+    sampled = SongSampling(number, seed=settings.seed, **sampling)
     pool = song_pool(generator, judge, pieces, real, settings=sampled, progress=progress)
     card = generator.model.card
     facts |= {

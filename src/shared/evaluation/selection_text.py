@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 
 from ..errors import UserError
-from ..inference.prompt_sampler import PromptSampler
-from ..inference.text_judge import TextJudge, load_tower, own_tower
-from ..model.generation.motion_generator import MotionGenerator
+from ..model.generation.motion_generator import TextToMotion
 from ..motion.motion import Motion
+from ..pipelines.ranking import TextJudge, load_tower, own_tower
+from ..pipelines.text import PromptSampler
 from .clips import Clips, real_clips
 from .controllability import check
 from .evaluator import Evaluator
@@ -215,7 +215,7 @@ def evaluate_prompts(
     """
     settings = settings or PromptSettings()
     outside = Evaluator.from_pretrained(evaluator)
-    generator = MotionGenerator.from_pretrained(model, device=device)
+    generator = TextToMotion.from_pretrained(model, device=device)
     tower = own_tower(generator.text) if judge is None else load_tower(judge, generator.text)
     held_out = open_held_out(data, cache, outside.trained_groups)
     clips = real_clips(

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..data.records import ClipRecord
+from ..data.prepared import ClipRecord
 from ..motion.motion import Motion
 from ..motion.root_track import decode_features, encode_features
 from .clips import Clips, Sampler, frozen, real_clips
@@ -22,7 +22,7 @@ from .held_out import HeldOut
 from .parts import Parts
 
 if TYPE_CHECKING:
-    from ..model.generation.motion_generator import MotionGenerator
+    from ..model.generation.motion_generator import TextToMotion
 
 Progress = Callable[[str], None]
 LANGUAGES = ("en", "es", "fr", "de", "ja", "zh")
@@ -176,7 +176,7 @@ def errors_only() -> Iterator[None]:
         logger.setLevel(level)
 
 
-def model_sampler(generator: "MotionGenerator", **sampling: Any) -> Sampler:
+def model_sampler(generator: "TextToMotion", **sampling: Any) -> Sampler:
     """A sampler over a generator: steps, sampler, guidance_scale, foot_lock; None = its own."""
 
     def sample(prompts: Sequence[str], num_frames: Sequence[int], seed: int) -> list[Motion]:
@@ -186,19 +186,19 @@ def model_sampler(generator: "MotionGenerator", **sampling: Any) -> Sampler:
     return sample
 
 
-def untrained(generator: "MotionGenerator", seed: int) -> "MotionGenerator":
+def untrained(generator: "TextToMotion", seed: int) -> "TextToMotion":
     """The same denoiser with fresh weights, text tower and statistics of the trained one."""
     import torch
 
     from ..model.generation.denoiser import MotionDenoiser
-    from ..model.generation.motion_generator import MotionGenerator
+    from ..model.generation.motion_generator import TextToMotion
 
     with torch.random.fork_rng(devices=[]):
         torch.manual_seed(seed)
         fresh = MotionDenoiser(generator.network, generator.denoiser.num_tags)
         # As training begins the last layer is zero, and every motion the mean one.
         torch.nn.init.xavier_uniform_(fresh.output_proj.weight)
-    return MotionGenerator(
+    return TextToMotion(
         fresh,
         generator.text,
         generator.tokenizer,

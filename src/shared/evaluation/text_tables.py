@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ..data.captions import CaptionBook
+from ..data.captions.book import CaptionBook
 from ..errors import UserError
 from .clips import Sampler
 from .control_table import FLOORS, control_table

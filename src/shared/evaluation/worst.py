@@ -9,8 +9,7 @@ from typing import Any, Generic
 
 import numpy as np
 
-from ..formats.npz import write_npz
-from ..formats.trajectory_npz import write_trajectory_npz
+from ..formats.arrays import write_npz, write_trajectory_npz
 from .families import DanceSample, MetricFamily, MotionSample, Sample
 from .grids import plain
 

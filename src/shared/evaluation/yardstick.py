@@ -10,9 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..data.prepared import PreparedData
-from ..data.records import ClipRecord
-from ..data.requests import Request
+from ..data.captions.requests import Request
+from ..data.prepared import ClipRecord, PreparedData
 from ..errors import UserError
 from ..motion.motion import Motion
 from ..motion.root_track import decode_features

@@ -1,31 +1,35 @@
-"""AMASS files in: SMPL, SMPL-H and SMPL-X parameters as NPZ.
+"""AMASS files in and out: SMPL, SMPL-H and SMPL-X parameters as NPZ, +Z up.
 
 | array                                   | shape              | meaning                         |
 |-----------------------------------------|--------------------|---------------------------------|
 | poses                                   | [T,72] [T,156] [T,165] | rotation vectors, body first |
 | or root_orient, pose_body               | [T,3], [T,63]      | the same, named                 |
-| trans                                   | [T,3]              | metres, +Z up                   |
+| trans                                   | [T,3]              | metres: pelvis - `SMPL_PELVIS`  |
 | mocap_framerate or mocap_frame_rate     | ()                 | frames a second                 |
 | skeleton                                | ()                 | "motion-suite": the body is ours |
+| written only: gender, betas, dmpls      | (), [16], [T,8]    | neutral, 0, 0: the mean shape   |
 
 The 22 body joints are in our order already. No body model is read: the shape (`betas`), the hands,
 jaw and eyes are dropped, and the rotations go onto our own bones, whose rest directions differ
-from the model's by a few degrees. Legend: T frames.
-"""
+from the model's by a few degrees; written, they go over as they stand, so hands and feet end up a
+few centimetres elsewhere. Legend: T frames."""
 
 from pathlib import Path
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from ..errors import UserError
+from ..files import atomic_write
+from ..motion.motion import Motion
 from ..motion.skeleton import NUM_JOINTS, canonical_skeleton
-from .joint_clip import JointClip
 from .limits import FRAME_RATES, read_arrays
+from .rig import JointClip, quaternions_to_matrices
 
 MAX_VALUE = 1e4  # metres or radians
 NAMES = ("poses", "root_orient", "pose_body", "trans", "mocap_framerate", "mocap_frame_rate",
          "skeleton")  # fmt: skip
-OURS = "motion-suite"  # `skeleton` of files that `amass_writer` wrote
+OURS = "motion-suite"  # `skeleton` of files that `write_amass` wrote
 # `trans` moves the model's origin; its pelvis lies here, whichever way the body is turned
 # (metres, mean neutral shape).
 SMPL_PELVIS = np.array([-0.002, -0.223, 0.028])
@@ -68,25 +72,14 @@ def read_amass(path: str | Path, *, fps: float | None = None) -> JointClip:
     if len(poses) != len(trans) or not len(trans):
         raise UserError(f"{path}: {len(poses)} poses and {len(trans)} places; "
                         "the file is damaged; export it again")  # fmt: skip
+    rotations = Rotation.from_rotvec(poses.reshape(-1, 3))
     return JointClip(
-        rotations=rotation_matrices(poses.reshape(-1, NUM_JOINTS, 3)),
+        rotations=rotations.as_matrix().reshape(-1, NUM_JOINTS, 3, 3),
         root=trans + SMPL_PELVIS,
         offsets=canonical_skeleton().offsets.astype(np.float64),
         frame_time=1.0 / _rate(path, arrays, fps),
         ours="skeleton" in arrays and str(arrays["skeleton"]) == OURS,
     )
-
-
-def rotation_matrices(vectors: np.ndarray) -> np.ndarray:
-    """Rotation vectors [...,3] in radians → matrices [...,3,3] (Rodrigues)."""
-    angle = np.linalg.norm(vectors, axis=-1)[..., None, None]
-    axis = vectors[..., None] / np.maximum(angle, 1e-12)  # a column
-    x, y, z = axis[..., 0, 0], axis[..., 1, 0], axis[..., 2, 0]
-    zero = np.zeros_like(x)
-    cross = np.stack((zero, -z, y, z, zero, -x, -y, x, zero), -1).reshape(*x.shape, 3, 3)
-    outer = axis * np.swapaxes(axis, -1, -2)
-    cos, sin = np.cos(angle), np.sin(angle)
-    return np.asarray(cos * np.eye(3) + sin * cross + (1 - cos) * outer)
 
 
 def _rate(path: Path, arrays: dict[str, np.ndarray], fps: float | None) -> float:
@@ -120,3 +113,40 @@ def _numbers(
     if array.size and not np.abs(array).max() < MAX_VALUE:
         raise UserError(f"{path}: {name} holds NaN or impossibly large values; export it again")
     return array
+
+
+Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])  # of our world
+BODY, ALL = 22, 52  # joints
+
+
+def write_amass(motion: Motion, path: str | Path) -> Path:
+    """Write one motion with the arrays of the module's table.
+
+    Raises:
+        UserError: the file cannot be written.
+    """
+    matrices = quaternions_to_matrices(motion.quaternions)
+    matrices[:, 0] = Z_UP @ matrices[:, 0]
+    poses = np.zeros((motion.num_frames, ALL * 3))
+    poses[:, : BODY * 3] = _vectors(matrices).reshape(motion.num_frames, -1)
+    with atomic_write(Path(path)) as temporary, temporary.open("wb") as stream:
+        np.savez_compressed(
+            stream,
+            poses=poses,
+            trans=motion.root_position.astype(np.float64) @ Z_UP.T - SMPL_PELVIS,
+            mocap_framerate=np.float64(motion.fps),
+            gender=np.array("neutral"),
+            betas=np.zeros(16),
+            dmpls=np.zeros((motion.num_frames, 8)),
+            skeleton=np.array(OURS),
+        )
+    return Path(path)
+
+
+def _vectors(matrices: np.ndarray) -> np.ndarray:
+    """Rotation vectors [...,3] in radians of matrices [...,3,3]."""
+    import torch
+
+    from ..motion.rotations import matrix_to_quaternion, quaternion_log
+
+    return np.asarray(quaternion_log(matrix_to_quaternion(torch.as_tensor(matrices))).numpy())

@@ -1,9 +1,8 @@
-"""The mannequin's skin: one smooth surface around the cones of `body.py`, with skin weights.
+"""The mannequin of every picture: round-ended cones on the 22 joints, and a smooth skin on them.
 
 Our own shape, computed when first needed (about 0.3 s): a smooth union of distance fields on a
 grid, turned into triangles by naive surface nets (Gibson 1998, "Constrained elastic surface
-nets"), then pulled onto the exact surface. Legend: V vertices, F triangles, P points, M cones.
-"""
+nets"), then pulled onto the exact surface. Legend: V vertices, F triangles, P points, M cones."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,8 +10,96 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..motion.skeleton import PARENTS, REST_PELVIS_HEIGHT, canonical_skeleton
-from .body import BODY, COLOURS, JOINT_SIDES, Part
+from ..motion.skeleton import (
+    JOINT_INDEX,
+    JOINT_NAMES,
+    PARENTS,
+    REST_PELVIS_HEIGHT,
+    canonical_skeleton,
+)
+
+Point = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Part:
+    """A cone with round ends, fixed to one joint.
+
+    Attributes:
+        joint: index of the joint that carries it.
+        start: centre of the first ball, relative to the joint at rest.
+        end: centre of the second ball.
+        radii: radius at `start` and at `end`.
+        width: factor by which the cone is wider along X than it is deep.
+        group: parts of a group form one limb and meet with equal radii; groups melt together.
+        side: "left", "right" or "centre".
+    """
+
+    joint: int
+    start: Point
+    end: Point
+    radii: tuple[float, float]
+    width: float
+    group: str
+    side: str
+
+
+_Row = tuple[str, str, Point, Point, tuple[float, float], float]
+# Trunk and head: group, joint, start, end, radii, width.
+_CENTRE: tuple[_Row, ...] = (
+    ("trunk", "pelvis", (0.0, -0.050, -0.008), (0.0, 0.020, -0.004), (0.098, 0.100), 1.62),
+    ("trunk", "pelvis", (0.0, 0.020, -0.004), (0.0, 0.110, 0.0), (0.100, 0.092), 1.50),
+    ("trunk", "spine1", (0.0, 0.0, 0.0), (0.0, 0.130, 0.0), (0.092, 0.102), 1.44),
+    ("trunk", "spine2", (0.0, 0.0, 0.0), (0.0, 0.060, 0.004), (0.102, 0.108), 1.50),
+    ("trunk", "spine3", (0.0, 0.0, 0.004), (0.0, 0.085, 0.004), (0.108, 0.106), 1.56),
+    ("trunk", "spine3", (0.0, 0.085, 0.004), (0.0, 0.165, -0.012), (0.106, 0.064), 1.60),
+    ("neck", "neck", (0.0, -0.060, -0.012), (0.0, 0.090, 0.006), (0.058, 0.052), 1.0),
+    ("head", "head", (0.0, 0.030, 0.032), (0.0, 0.095, 0.008), (0.064, 0.090), 0.94),
+    ("nose", "head", (0.0, 0.038, 0.098), (0.0, 0.062, 0.092), (0.013, 0.008), 1.0),
+)
+# Left limbs; the right ones are their mirror images.
+_LEFT: tuple[_Row, ...] = (
+    ("shoulder", "collar", (-0.010, -0.010, -0.004), (0.090, 0.018, 0.0), (0.070, 0.060), 1.0),
+    ("trapezius", "collar", (-0.055, 0.075, -0.014), (0.070, 0.036, -0.008), (0.036, 0.028), 1.0),
+    ("arm", "shoulder", (0.0, 0.0, 0.0), (0.09, 0.0, 0.0), (0.056, 0.052), 1.0),
+    ("arm", "shoulder", (0.09, 0.0, 0.0), (0.26, 0.0, 0.0), (0.052, 0.041), 1.0),
+    ("arm", "elbow", (0.0, 0.0, 0.0), (0.07, 0.0, 0.0), (0.041, 0.043), 1.0),
+    ("arm", "elbow", (0.07, 0.0, 0.0), (0.25, 0.0, 0.0), (0.043, 0.028), 1.0),
+    ("hand", "wrist", (0.030, 0.0, -0.008), (0.085, 0.0, -0.014), (0.024, 0.024), 1.0),
+    ("hand", "wrist", (0.030, 0.0, 0.008), (0.085, 0.0, 0.016), (0.024, 0.024), 1.0),
+    ("fingers", "wrist", (0.085, 0.0, -0.014), (0.160, -0.008, -0.010), (0.019, 0.014), 1.0),
+    ("fingers", "wrist", (0.085, 0.0, 0.014), (0.165, -0.008, 0.010), (0.019, 0.014), 1.0),
+    ("thumb", "wrist", (0.035, -0.004, 0.022), (0.085, -0.012, 0.058), (0.018, 0.013), 1.0),
+    ("leg", "hip", (0.002, 0.0, 0.0), (0.002, -0.120, 0.0), (0.090, 0.080), 1.0),
+    ("leg", "hip", (0.002, -0.120, 0.0), (0.0, -0.400, 0.0), (0.080, 0.055), 1.0),
+    ("seat", "hip", (-0.006, 0.000, -0.040), (0.0, -0.050, -0.026), (0.076, 0.066), 1.0),
+    ("leg", "knee", (0.0, 0.0, 0.0), (0.0, -0.130, -0.012), (0.055, 0.056), 1.0),
+    ("leg", "knee", (0.0, -0.130, -0.012), (0.0, -0.400, 0.0), (0.056, 0.037), 1.0),
+    ("foot", "ankle", (0.0, -0.034, -0.035), (0.0, -0.039, 0.120), (0.037, 0.032), 1.0),
+    ("toes", "foot", (-0.014, 0.013, 0.0), (-0.010, 0.009, 0.068), (0.025, 0.021), 1.0),
+    ("toes", "foot", (0.016, 0.013, 0.0), (0.016, 0.009, 0.048), (0.025, 0.021), 1.0),
+)
+
+
+def _build() -> tuple[Part, ...]:
+    parts = []
+    for group, name, start, end, radii, width in _CENTRE:
+        parts.append(Part(JOINT_INDEX[name], start, end, radii, width, group, "centre"))
+    for group, name, (x0, y0, z0), (x1, y1, z1), radii, width in _LEFT:
+        left, right = JOINT_INDEX[f"l_{name}"], JOINT_INDEX[f"r_{name}"]
+        parts.append(Part(left, (x0, y0, z0), (x1, y1, z1), radii, width, group, "left"))
+        parts.append(Part(right, (-x0, y0, z0), (-x1, y1, z1), radii, width, group, "right"))
+    return tuple(parts)
+
+
+BODY: tuple[Part, ...] = _build()
+# RGB of the limbs of each side, 0 to 1, in every picture and viewer.
+COLOURS = {"left": (0.93, 0.52, 0.24), "right": (0.27, 0.52, 0.86), "centre": (0.72, 0.74, 0.78)}
+CONTACT = (0.25, 0.72, 0.38)  # a foot on the ground
+JOINT_SIDES: tuple[str, ...] = tuple(
+    {"l_": "left", "r_": "right"}.get(name[:2], "centre") for name in JOINT_NAMES
+)
+
 
 SPACING = 0.019  # metres between grid points
 BLEND = 0.040  # metres over which groups of cones melt into each other
@@ -91,6 +178,13 @@ def side_colours(side: np.ndarray) -> np.ndarray:
     share = side[:, None]
     mixed = trunk + np.maximum(share, 0) * (left - trunk) + np.maximum(-share, 0) * (right - trunk)
     return np.asarray(mixed)
+
+
+def whole_shares(weights: np.ndarray, total: int) -> np.ndarray:
+    """Weights [V,4] (heaviest first, summing to 1) as integers that sum to `total` exactly."""
+    shares = np.floor(weights.astype(np.float64) * total).astype(np.int64)
+    shares[:, 0] += total - shares.sum(-1)
+    return shares
 
 
 def _rest_positions() -> np.ndarray:

@@ -1,51 +1,68 @@
-"""Motion files out, by the ending of their name: one table of writers."""
+"""Files of motions, trajectories and dances, by the ending of their name: tables of writers.
+
+A module is imported at the first use of its format: none pays for another.
+"""
 
 from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
 from ..errors import UsageError, UserError
 from ..motion.motion import Motion
+from ..motion.trajectory import MotionTrajectory, from_motion
+from .preview.trajectory import SongTrack
 from .rig import RigClip
 
-Exporter = Callable[[Motion, Path], Path]
 Writer = TypeVar("Writer")
+Song = SongTrack | str | Path | None  # with its beats where they are known, else its file
 
 
-def _function(module: str, function: str) -> Callable[..., Path]:
-    """A writer whose module is imported at its first use: no format pays for another."""
+def _lazy(module: str, function: str) -> Callable[..., Any]:
+    """A function whose module is imported at its first use."""
 
-    def write(*args: object, **kwargs: object) -> Path:
-        found: Callable[..., Path] = getattr(import_module(f".{module}", __package__), function)
-        return found(*args, **kwargs)
+    def call(*args: object, **kwargs: object) -> Any:
+        return getattr(import_module(f".{module}", __package__), function)(*args, **kwargs)
 
-    return write
+    return call
 
 
-EXPORTERS: dict[str, Exporter] = {
-    "bvh": _function("bvh_writer", "write_bvh"),
-    "glb": _function("glb", "write_glb"),
-    "usd": _function("usd", "write_usd"),
-    "usda": _function("usd", "write_usd"),
-    "usdc": _function("usd", "write_usd"),
-    "npz": _function("npz", "write_npz"),
-    "amass": _function("amass_writer", "write_amass"),
-    "csv": _function("motion_csv", "write_motion_csv"),
-    "html": _function("html", "write_html"),
-    "png": _function("png", "render_strip"),
-    "gif": _function("video", "write_gif"),
-    "mp4": _function("video", "write_mp4"),
+EXPORTERS: dict[str, Callable[..., Path]] = {
+    "bvh": _lazy("writers.bvh", "write_bvh"),
+    "glb": _lazy("writers.glb", "write_glb"),
+    **dict.fromkeys(("usd", "usda", "usdc"), _lazy("writers.usd", "write_usd")),
+    "npz": _lazy("arrays", "write_npz"),
+    "amass": _lazy("amass", "write_amass"),
+    "csv": _lazy("csv_files", "write_motion_csv"),
+    "html": _lazy("preview.html", "write_html"),
+    "png": _lazy("preview.figures", "render_strip"),
+    "gif": _lazy("preview.figures", "write_gif"),
+    "mp4": _lazy("preview.figures", "write_mp4"),
 }
 # Formats that hold any skeleton, under any names.
 CLIP_EXPORTERS: dict[str, Callable[[RigClip, Path], Path]] = {
-    "bvh": _function("bvh_writer", "write_bvh_clip"),
-    "glb": _function("glb", "write_glb_clip"),
-    "usd": _function("usd", "write_usd_clip"),
-    "usda": _function("usd", "write_usd_clip"),
-    "usdc": _function("usd", "write_usd_clip"),
+    "bvh": _lazy("writers.bvh", "write_bvh_clip"),
+    "glb": _lazy("writers.glb", "write_glb_clip"),
+    **dict.fromkeys(("usd", "usda", "usdc"), _lazy("writers.usd", "write_usd_clip")),
+}
+_trajectory_npz = _lazy("arrays", "write_trajectory_npz")
+_trajectory_csv = _lazy("csv_files", "write_trajectory_csv")
+_trajectory_glb = _lazy("writers.glb", "write_trajectory_glb")
+_trajectory_html = _lazy("preview.html", "write_trajectory_html")
+# Of (trajectory, path, song, title); formats without a place for song or title leave them out.
+TRAJECTORY_EXPORTERS: dict[str, Callable[[MotionTrajectory, Path, SongTrack, str], Path]] = {
+    "npz": lambda trajectory, path, song, title: _trajectory_npz(trajectory, path),
+    "csv": lambda trajectory, path, song, title: _trajectory_csv(trajectory, path),
+    "glb": lambda trajectory, path, song, title: _trajectory_glb(trajectory, path, title),
+    "html": lambda trajectory, path, song, title: _trajectory_html(trajectory, path, song, [title]),
+    "png": _lazy("preview.charts", "render_trajectory"),
+}
+TRAJECTORY_READERS: dict[str, Callable[[Path], MotionTrajectory]] = {
+    "npz": lambda path: _trajectory_of_npz(path),
+    "npy": _lazy("arrays", "read_trajectory_npy"),
+    "csv": _lazy("csv_files", "read_trajectory_csv"),
 }
 ENDINGS = {"amass": "amass.npz"}  # of formats whose name is not the ending
 
@@ -73,13 +90,29 @@ def format_of(path: str | Path) -> str:
     return found
 
 
+def find_writer(writers: Mapping[str, Writer], name: str, given: str) -> Writer:
+    """The writer of a format in a table; `given` is what the user wrote.
+
+    Raises:
+        UsageError: no format has this name.
+    """
+    try:
+        return writers[name.lower()]
+    except KeyError:
+        known = ", ".join(writers)
+        raise UsageError(f"{given}: {name!r} is not a format; choose from {known}") from None
+
+
+# ---------------------------------------------------------------- motions
+
+
 def write_motion(motion: Motion, path: str | Path, *, names: str = "canonical") -> Path:
     """Write one motion in the format that the ending of `path` names; returns the path.
 
     Args:
         motion: what to write.
         path: the file; its folder is made where it is missing.
-        names: what BVH, GLB and USD call the joints (`joint_names.SCHEMES`).
+        names: what BVH, GLB and USD call the joints (`rig.SCHEMES`).
 
     Raises:
         UsageError: no format has this ending.
@@ -89,7 +122,7 @@ def write_motion(motion: Motion, path: str | Path, *, names: str = "canonical") 
     name = format_of(path)
     check_motion(motion, path)
     if name in CLIP_EXPORTERS and names != "canonical":
-        return EXPORTERS[name](motion, path, names=names)  # type: ignore[call-arg]
+        return EXPORTERS[name](motion, path, names=names)
     return EXPORTERS[name](motion, path)
 
 
@@ -124,24 +157,9 @@ def write_preview(motions: Sequence[Motion] | Motion, path: str | Path) -> Path:
     Raises:
         UserError: no motion, one that is empty or holds NaN, or the file cannot be written.
     """
-    from .html import write_html
-
     for motion in [motions] if isinstance(motions, Motion) else motions:
         check_motion(motion, path)
-    return write_html(motions, path)
-
-
-def find_writer(writers: Mapping[str, Writer], name: str, given: str) -> Writer:
-    """The writer of a format in a table; `given` is what the user wrote.
-
-    Raises:
-        UsageError: no format has this name.
-    """
-    try:
-        return writers[name.lower()]
-    except KeyError:
-        known = ", ".join(writers)
-        raise UsageError(f"{given}: {name!r} is not a format; choose from {known}") from None
+    return EXPORTERS["html"](motions, path)
 
 
 def check_motion(motion: Motion, path: str | Path) -> None:
@@ -149,7 +167,152 @@ def check_motion(motion: Motion, path: str | Path) -> None:
     if not motion.num_frames:
         raise UserError(f"cannot write {path}: the motion has no frames; give one with some")
     arrays = (motion.quaternions, motion.root_position, motion.contacts)
+    _check_finite("motion", path, *arrays)
+
+
+def _check_finite(what: str, path: str | Path, *arrays: np.ndarray) -> None:
     if not all(np.isfinite(array).all() for array in arrays):
-        raise UserError(f"cannot write {path}: the motion holds NaN or infinite values; "
+        raise UserError(f"cannot write {path}: the {what} holds NaN or infinite values; "
                         "the model that made it may have diverged in training"
                         "; train it anew or take an earlier checkpoint")  # fmt: skip
+
+
+# ---------------------------------------------------------------- trajectories
+
+
+def read_trajectory(path: str | Path) -> MotionTrajectory:
+    """Read a trajectory; of a body's NPZ its pelvis.
+
+    Raises:
+        UsageError: no format has this ending.
+        UserError: missing, damaged, or not a trajectory.
+    """
+    path = Path(path)
+    name = path.suffix.removeprefix(".").lower()
+    if name not in TRAJECTORY_READERS:
+        raise UsageError(f"{path}: {name!r} is not a trajectory's ending; "
+                         f"known are {', '.join(TRAJECTORY_READERS)}")  # fmt: skip
+    return TRAJECTORY_READERS[name](path)
+
+
+def _trajectory_of_npz(path: Path) -> MotionTrajectory:
+    from .arrays import load_arrays, read_npz, read_trajectory_npz
+
+    if "root_position" in load_arrays(path):
+        return from_motion(read_npz(path))
+    return read_trajectory_npz(path)
+
+
+def write_trajectory(
+    trajectory: MotionTrajectory, path: str | Path, song: Song = None, *, title: str = ""
+) -> Path:
+    """Write one trajectory in the format that the ending of `path` names; returns the path.
+
+    Args:
+        trajectory: what to write.
+        path: the file; its folder is made where it is missing.
+        song: beats are taken from the trajectory's bar phase where it does not know them.
+        title: caption, name of the animation.
+
+    Raises:
+        UsageError: no format has this ending.
+        UserError: the trajectory is empty or holds NaN, the song cannot be read, or the file
+            cannot be written.
+    """
+    path = Path(path)
+    writer = find_writer(TRAJECTORY_EXPORTERS, path.suffix.removeprefix("."), str(path))
+    _check_trajectory(trajectory, path)
+    return writer(trajectory, path, _track(song), title)
+
+
+def export_trajectory(
+    trajectory: MotionTrajectory,
+    folder: str | Path,
+    stem: str,
+    formats: Sequence[str] = ("npz", "html"),
+    song: Song = None,
+    *,
+    title: str = "",
+) -> dict[str, Path]:
+    """Write one trajectory as `folder/stem.<format>` for each format; the path of each.
+
+    Raises:
+        UsageError: an unknown format; nothing has been written then.
+        UserError: as `write_trajectory`.
+    """
+    for name in formats:
+        find_writer(TRAJECTORY_EXPORTERS, name, name)
+    return {
+        name: write_trajectory(trajectory, Path(folder) / f"{stem}.{name}", song, title=title)
+        for name in formats
+    }
+
+
+def write_trajectory_preview(
+    trajectories: Sequence[MotionTrajectory] | MotionTrajectory,
+    path: str | Path,
+    song: Song = None,
+    titles: Sequence[str] = (),
+) -> Path:
+    """Write one HTML page that plays the song with its trajectories side by side, offline.
+
+    Raises:
+        UserError: no trajectory, or as `write_trajectory`.
+    """
+    shown = [trajectories] if isinstance(trajectories, MotionTrajectory) else trajectories
+    for trajectory in shown:
+        _check_trajectory(trajectory, path)
+    return Path(_trajectory_html(shown, path, _track(song), titles))
+
+
+def _track(song: Song) -> SongTrack:
+    if isinstance(song, SongTrack):
+        return song
+    return SongTrack(None if song is None else Path(song))
+
+
+def _check_trajectory(trajectory: MotionTrajectory, path: str | Path) -> None:
+    """Refuse what no viewer could show; a diverged model makes such trajectories."""
+    if not trajectory.num_frames:
+        raise UserError(f"cannot write {path}: the trajectory has no frames; give one with some")
+    _check_finite("trajectory", path, trajectory.data)
+    if np.linalg.norm(trajectory.quaternion, axis=-1).min() < 1e-6:
+        raise UserError(f"cannot write {path}: the trajectory holds a quaternion of zeros, "
+                        "which is no rotation; make it again")  # fmt: skip
+
+
+# ---------------------------------------------------------------- dances
+
+
+def export_dance(
+    motion: Motion,
+    trajectory: MotionTrajectory,
+    folder: Path,
+    stem: str,
+    formats: Sequence[str],
+    song: SongTrack,
+) -> dict[str, Path]:
+    """Write one dance as `folder/stem.<format>` for each format, its page with the song; the paths.
+
+    Raises:
+        UsageError: an unknown format; nothing has been written then.
+        UserError: as `write_motion`, or the song cannot be read.
+    """
+    paths = export_motion(motion, folder, stem, [name for name in formats if name != "html"])
+    if "html" in formats:
+        paths["html"] = write_dance_page([motion], [trajectory], folder / f"{stem}.html", song)
+    return {name: paths[name] for name in formats}
+
+
+def write_dance_page(
+    motions: Sequence[Motion], trajectories: Sequence[MotionTrajectory], path: Path, song: SongTrack
+) -> Path:
+    """One page that plays the song with its dances side by side, offline.
+
+    Raises:
+        UserError: a motion holds NaN, the song cannot be read, or the page cannot be written.
+    """
+    for motion in motions:
+        check_motion(motion, path)
+    titles = [motion.text for motion in motions]
+    return Path(_trajectory_html(trajectories, path, song, titles, motions))

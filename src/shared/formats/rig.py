@@ -1,19 +1,144 @@
-"""A moving skeleton with its own names, lengths and axes: what BVH, GLB and USD files hold.
+"""Moving skeletons: what readers hand over, and what BVH, GLB and USD files hold.
 
-Rotations are told from the rest pose with the world's axes, whatever axes the joints of the file
+Rotations are given from the rest pose with the world's axes, whatever axes the joints of the file
 have: a joint at rest has the identity. Files with axes of their own (GLB) keep them in `frames`.
-Legend: T frames, N joints.
-"""
+Legend: T frames, N joints."""
 
 from dataclasses import dataclass, replace
+from typing import Protocol, Self
 
 import numpy as np
 
+from ..errors import UsageError
 from ..motion.motion import Motion
-from ..motion.skeleton import JOINT_INDEX, REST_PELVIS_HEIGHT, canonical_skeleton
-from .body import END_SITES
-from .joint_names import joint_names
-from .source_clip import ALL, compose
+from ..motion.skeleton import (
+    JOINT_INDEX,
+    JOINT_NAMES,
+    PARENTS,
+    REST_PELVIS_HEIGHT,
+    canonical_skeleton,
+)
+
+ALL = slice(None)
+
+
+class SourceClip(Protocol):
+    """A recording as it stands in its file: its own joint names, axes and unit of length.
+
+    At rest every joint's axes are parallel to the file's world axes, and `offsets` are the bones.
+    """
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Joint names, parents before children."""
+        ...
+
+    @property
+    def parents(self) -> tuple[int, ...]:
+        """Index of each joint's parent; -1 for a root."""
+        ...
+
+    @property
+    def offsets(self) -> np.ndarray:
+        """Each joint's place in its parent's axes at rest [N,3]."""
+        ...
+
+    @property
+    def frame_time(self) -> float:
+        """Seconds between two frames."""
+        ...
+
+    @property
+    def num_frames(self) -> int:
+        """T."""
+        ...
+
+    def every(self, stride: int) -> Self:
+        """Only every `stride`-th frame, `frame_time` lengthened accordingly."""
+        ...
+
+    def world(self, frames: slice = ALL) -> tuple[np.ndarray, np.ndarray]:
+        """World positions [T,N,3], in the file's unit, and world rotations [T,N,3,3]."""
+        ...
+
+
+def compose(
+    parents: tuple[int, ...], rotations: np.ndarray, translations: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Local to world, in place: positions [T,N,3] and rotations [T,N,3,3].
+
+    Args:
+        rotations: of each joint against its parent [T,N,3,3].
+        translations: of each joint in its parent's axes [T,N,3].
+    """
+    for joint, parent in enumerate(parents):
+        if parent >= 0:
+            above = rotations[:, parent]
+            rotations[:, joint] = above @ rotations[:, joint]
+            moved = above @ translations[:, joint, :, None]
+            translations[:, joint] = moved[..., 0] + translations[:, parent]
+    return translations, rotations
+
+
+# Trunk, then one side; {s} is the side: Left or Right (mixamo, unity), l or r (unreal).
+_MIXAMO = {
+    "pelvis": "Hips", "spine1": "Spine", "spine2": "Spine1", "spine3": "Spine2",
+    "neck": "Neck", "head": "Head", "collar": "{s}Shoulder", "shoulder": "{s}Arm",
+    "elbow": "{s}ForeArm", "wrist": "{s}Hand", "hip": "{s}UpLeg", "knee": "{s}Leg",
+    "ankle": "{s}Foot", "foot": "{s}ToeBase",
+}  # fmt: skip
+_UNITY = {
+    "pelvis": "Hips", "spine1": "Spine", "spine2": "Chest", "spine3": "UpperChest",
+    "neck": "Neck", "head": "Head", "collar": "{s}Shoulder", "shoulder": "{s}UpperArm",
+    "elbow": "{s}LowerArm", "wrist": "{s}Hand", "hip": "{s}UpperLeg", "knee": "{s}LowerLeg",
+    "ankle": "{s}Foot", "foot": "{s}Toes",
+}  # fmt: skip
+_UNREAL = {
+    "pelvis": "pelvis", "spine1": "spine_01", "spine2": "spine_02", "spine3": "spine_03",
+    "neck": "neck_01", "head": "head", "collar": "clavicle_{s}", "shoulder": "upperarm_{s}",
+    "elbow": "lowerarm_{s}", "wrist": "hand_{s}", "hip": "thigh_{s}", "knee": "calf_{s}",
+    "ankle": "foot_{s}", "foot": "ball_{s}",
+}  # fmt: skip
+
+
+def _scheme(table: dict[str, str], left: str, right: str) -> tuple[str, ...]:
+    """The table's names in our order of joints."""
+    sides = {"l_": left, "r_": right}
+    return tuple(
+        table[name[2:]].format(s=sides[name[:2]]) if name[:2] in sides else table[name]
+        for name in JOINT_NAMES
+    )
+
+
+SCHEMES: dict[str, tuple[str, ...]] = {
+    "canonical": JOINT_NAMES,
+    "mixamo": tuple(f"mixamorig:{name}" for name in _scheme(_MIXAMO, "Left", "Right")),
+    "unity": _scheme(_UNITY, "Left", "Right"),
+    "unreal": _scheme(_UNREAL, "l", "r"),
+}
+
+
+def joint_names(scheme: str) -> tuple[str, ...]:
+    """The 22 names of a scheme, in our order of joints.
+
+    Raises:
+        UsageError: no scheme has this name.
+    """
+    try:
+        return SCHEMES[scheme]
+    except KeyError:
+        known = ", ".join(SCHEMES)
+        raise UsageError(f"{scheme!r} names no joints; choose from {known}") from None
+
+
+# Tips of the chains, for formats that want an end to every bone: joint → offset in metres.
+END_SITES: dict[int, tuple[float, float, float]] = {
+    JOINT_INDEX["head"]: (0.0, 0.18, 0.0),
+    JOINT_INDEX["l_wrist"]: (0.17, 0.0, 0.0),
+    JOINT_INDEX["r_wrist"]: (-0.17, 0.0, 0.0),
+    JOINT_INDEX["l_foot"]: (0.0, 0.0, 0.08),
+    JOINT_INDEX["r_foot"]: (0.0, 0.0, 0.08),
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +179,7 @@ class Rig:
 
 @dataclass(frozen=True, eq=False)
 class RigClip:
-    """A rig in motion; what `source_clip.SourceClip` promises, so any reader's user takes it.
+    """A rig in motion; what `SourceClip` promises, so any reader's user takes it.
 
     Attributes:
         rig: the skeleton.
@@ -112,7 +237,7 @@ class RigClip:
 
 
 def canonical_rig(names: str = "canonical") -> Rig:
-    """Our skeleton, its joints named as a tool likes (`joint_names.SCHEMES`)."""
+    """Our skeleton, its joints named as a tool likes (`rig.SCHEMES`)."""
     skeleton = canonical_skeleton()
     offsets = skeleton.offsets.astype(np.float64)
     offsets[0] = (0.0, REST_PELVIS_HEIGHT, 0.0)
@@ -175,3 +300,57 @@ def matrices_to_quaternions(matrices: np.ndarray) -> np.ndarray:
     from ..motion.rotations import matrix_to_quaternion
 
     return np.asarray(matrix_to_quaternion(torch.as_tensor(matrices.astype(np.float64))).numpy())
+
+
+@dataclass(frozen=True, eq=False)
+class JointClip:
+    """Rotations on our joints, with the file's own bone lengths.
+
+    Attributes:
+        rotations: of each joint against its parent [T,22,3,3].
+        root: world position of the pelvis [T,3], metres.
+        offsets: bones at rest [22,3], metres.
+        ours: the body is our own, so places are taken as they are.
+    """
+
+    rotations: np.ndarray
+    root: np.ndarray
+    offsets: np.ndarray
+    frame_time: float
+    names: tuple[str, ...] = JOINT_NAMES
+    parents: tuple[int, ...] = PARENTS
+    metres: float = 1.0
+    ours: bool = False
+
+    @property
+    def num_frames(self) -> int:
+        return len(self.root)
+
+    def every(self, stride: int) -> "JointClip":
+        return replace(self, rotations=self.rotations[::stride], root=self.root[::stride],
+                       frame_time=self.frame_time * stride)  # fmt: skip
+
+    def world(self, frames: slice = ALL) -> tuple[np.ndarray, np.ndarray]:
+        """World positions [T,22,3] and world rotations [T,22,3,3]."""
+        root = self.root[frames]
+        translations = np.repeat(self.offsets[None].astype(np.float64), len(root), axis=0)
+        translations[:, 0] = root
+        return compose(self.parents, self.rotations[frames].astype(np.float64), translations)
+
+
+def parent_frames(rig: Rig, frames: np.ndarray, base: np.ndarray | None = None) -> np.ndarray:
+    """The axes [N,3,3] in which each joint's own pose is told: its parent's, at rest."""
+    top = np.eye(3) if base is None else base[:3, :3] / np.linalg.norm(base[:3, :3], axis=0)
+    return np.array([frames[parent] if parent >= 0 else top for parent in rig.parents])
+
+
+def continuous(quaternions: np.ndarray) -> np.ndarray:
+    """Unit quaternions [T,...,4] with signs chosen so that neighbouring frames are near.
+
+    Some players mix neighbouring keys as they stand, and would turn the long way round.
+    """
+    unit = quaternions.astype(np.float64)
+    unit = unit / np.linalg.norm(unit, axis=-1, keepdims=True)
+    flips = np.where((unit[1:] * unit[:-1]).sum(-1) < 0, -1.0, 1.0)
+    signs = np.concatenate((np.ones_like(unit[:1, ..., 0]), np.cumprod(flips, axis=0)))
+    return np.asarray(unit * signs[..., None])

@@ -12,10 +12,9 @@ from typing import Any
 import numpy as np
 
 from ..config_memory import MemoryConfig
-from ..data.phrases.decoded import read_phrase
+from ..data.phrases.dataset import read_phrase
 from ..data.phrases.layout import MANIFEST, BadContent, PhraseRecord
-from ..data.phrases.remote import Backoff, Remote, Unreachable
-from ..data.phrases.store import PhraseStore
+from ..data.phrases.store import Backoff, PhraseStore, Remote, Unreachable
 from ..errors import UserError
 from ..files import parse_json
 from ..motion.root_track import LEFT_CONTACT, ROOT_ROW
@@ -135,7 +134,7 @@ class Source:
 
     def _clip(self, phrase: str, start: int, stop: int) -> str:
         """The clip that most frames of a phrase show; "" if the data does not tell."""
-        from ..data.pairing.phrase_body import read_pair
+        from ..data.pairing.phrase_motion import read_pair
 
         if phrase not in self._pairs:
             return ""

@@ -10,16 +10,16 @@ import torch
 
 from src.shared.config_schema import PROVENANCES
 from src.shared.data import prepare as prepare_module
-from src.shared.data.captions import mirror_labels
-from src.shared.data.labels import group_of, load_label_rules
-from src.shared.data.prepare import fill_gaps, prepare
-from src.shared.data.prepared import PreparedData, open_data
-from src.shared.data.sources import MotionFolder, SyntheticSource
-from src.shared.data.splits import assign_splits, orbit
+from src.shared.data.captions.language import mirror_labels
+from src.shared.data.prepare import fill_gaps, open_data, prepare
+from src.shared.data.prepared import PreparedData
+from src.shared.data.sources.folders import MotionFolder, SyntheticSource
+from src.shared.data.sources.labels import load_label_rules
+from src.shared.data.splits import assign_splits, group_of, orbit
 from src.shared.data.synthetic import generate_clip, sample_specs
 from src.shared.data.text_motion import TextMotionDataset
 from src.shared.errors import UsageError, UserError
-from src.shared.formats.bvh_writer import write_bvh
+from src.shared.formats.writers.bvh import write_bvh
 from src.shared.motion.mirror import mirror_features
 from src.shared.motion.root_track import ROOT_ROW, YAW_RATE, encode_features
 from tests.full_disk import full_disk

@@ -14,7 +14,7 @@ from src.shared.data.synthetic import (
     sample_specs,
     spec_for,
 )
-from src.shared.data.synthetic.labels import SPEED_METRES, speed_metres
+from src.shared.data.synthetic.clips import SPEED_METRES, speed_metres
 from src.shared.motion.contacts import detect_contacts
 from src.shared.motion.motion import Motion
 from src.shared.motion.root_track import decode_features, encode_features

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from src.shared.data.synthetic import generate_clip
-from src.shared.data.synthetic.spec import spec_for
+from src.shared.data.synthetic.clips import spec_for
 from src.shared.evaluation.action_judge import ActionJudge, descriptor
 from src.shared.evaluation.clips import frozen
 from src.shared.motion.root_track import decode_features, encode_features

@@ -13,9 +13,9 @@ from src.shared.evaluation.audio_harness import evaluate_audio
 from src.shared.evaluation.grids import Grid
 from src.shared.evaluation.report import grids, markdown, tables
 from src.shared.evaluation.report_folder import save_report
-from src.shared.inference.song_generator import SongGenerator
 from src.shared.model.audio.conditioning import BEAT
 from src.shared.motion.trajectory import PHASE, MotionTrajectory
+from src.shared.pipelines.song import SongGenerator
 from tests.shared.evaluation.tiny_pairs import nod, tiny_model, write_pairs
 
 SETTINGS = AudioSettings(

@@ -10,7 +10,7 @@ import pytest
 from src.shared.data.phrases.layout import parse_manifest, write_body, write_manifest
 from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
-from src.shared.data.sources import SyntheticSource
+from src.shared.data.sources.folders import SyntheticSource
 from src.shared.evaluation.dance_context import DanceContext, DanceSettings
 from src.shared.evaluation.dance_harness import evaluate_performer
 from src.shared.evaluation.editing_context import EditContext, EditSettings
@@ -19,9 +19,9 @@ from src.shared.evaluation.grids import Grid
 from src.shared.evaluation.held_out import HeldOut
 from src.shared.evaluation.report import grids, markdown
 from src.shared.evaluation.report_folder import save_report
-from src.shared.inference.performer import PerformerSettings
-from src.shared.inference.song_generator import SongGenerator
 from src.shared.motion.root_track import encode_features
+from src.shared.pipelines.body import PerformerSettings
+from src.shared.pipelines.song import SongGenerator
 from tests.shared.evaluation.dancers import swinging_arms
 from tests.shared.evaluation.tiny_pairs import tiny_model, write_pairs
 from tests.shared.model.conftest import tiny_generator

@@ -18,9 +18,9 @@ from src.shared.evaluation.dance_seams import (
 from src.shared.evaluation.dance_style import Danced, effect, rank_of
 from src.shared.evaluation.families_performer import BodyRhythm, Feet, OnThePath
 from src.shared.evaluation.metrics_rhythm import strangers
-from src.shared.inference.trajectory_constraint import start_of
 from src.shared.motion.motion import Motion
 from src.shared.motion.trajectory import MotionTrajectory, to_motion
+from src.shared.pipelines.body import start_of
 from tests.shared.evaluation.dancers import FPS, hopping, swinging_arms
 from tests.shared.evaluation.tiny_pairs import nod
 

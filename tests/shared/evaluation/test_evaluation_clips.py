@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import torch
 
-from src.shared.data.prepared import PreparedData, open_data
-from src.shared.data.records import ClipRecord
+from src.shared.data.prepare import open_data
+from src.shared.data.prepared import ClipRecord, PreparedData
 from src.shared.errors import UserError
 from src.shared.evaluation.clips import (
     choose_caption,

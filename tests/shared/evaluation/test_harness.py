@@ -11,10 +11,11 @@ import numpy as np
 import pytest
 import torch
 
-from src.shared.data.captions import CaptionBook
-from src.shared.data.prepared import PreparedData, open_data
+from src.shared.data.captions.book import CaptionBook
+from src.shared.data.prepare import open_data
+from src.shared.data.prepared import PreparedData
 from src.shared.data.synthetic import generate_clip
-from src.shared.data.synthetic.spec import spec_for
+from src.shared.data.synthetic.clips import spec_for
 from src.shared.errors import UserError
 from src.shared.evaluation import control_table as control
 from src.shared.evaluation.clips import Sampler

@@ -25,11 +25,11 @@ from src.shared.evaluation.memory_harness import (
     over_songs,
     word,
 )
-from src.shared.inference.song_sampler import SampleSettings
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
+from src.shared.pipelines.song_sampler import SongSampling
 from tests.shared.evaluation.tiny_pairs import tiny_model, write_pairs
-from tests.shared.inference.tiny_recall import remember, save_memory, save_space
 from tests.shared.memory.tiny_memory import LinearSpace, make_index
+from tests.shared.pipelines.tiny_recall import remember, save_memory, save_space
 
 SMALL = MemorySettings(
     num_phrases=4, splits=("test",), draws=1, num_songs=2, song_seconds=4.0, shares=(0.5,),
@@ -117,7 +117,7 @@ def test_a_silent_memory_changes_no_figure(pairs: Path) -> None:
     """A memory part as it starts: every arm is the same, to the last digit."""
     silent = tiny_model()
     silent.add_memory(remember(tiny_model()).unet.config.memory)
-    setting = Setting(silent.eval(), LinearSpace(), asker(), SampleSettings(steps=2, window=180))
+    setting = Setting(silent.eval(), LinearSpace(), asker(), SongSampling(steps=2, window=180))
     items = held_back(str(pairs), ("test",), 180, 4, 0)
     assert len(items) == 4
     for figures in (Denoising(setting, items, 1), Curves(setting, items)):
@@ -128,7 +128,7 @@ def test_a_silent_memory_changes_no_figure(pairs: Path) -> None:
 
 
 def test_real_motion_has_no_distance_from_itself(pairs: Path, model: AudioMotionModel) -> None:
-    setting = Setting(model, LinearSpace(), asker(), SampleSettings(window=180))
+    setting = Setting(model, LinearSpace(), asker(), SongSampling(window=180))
     curves = Curves(setting, held_back(str(pairs), ("test",), 180, 4, 0))
     assert all((each == 0).all() for each in curves._distances(curves.real).values())
     assert all((each > 0).all() for each in curves.chance().values())

@@ -7,13 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from src.shared.data.captions.requests import Request, load_requests
 from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
-from src.shared.data.requests import Request, load_requests
-from src.shared.data.sources import SyntheticSource
+from src.shared.data.sources.folders import SyntheticSource
 from src.shared.data.synthetic import generate_clip
-from src.shared.data.synthetic.labels import label_combinations
-from src.shared.data.synthetic.spec import spec_for
+from src.shared.data.synthetic.clips import label_combinations, spec_for
 from src.shared.errors import UserError
 from src.shared.evaluation.grids import Grid
 from src.shared.evaluation.requests_harness import evaluate_requests

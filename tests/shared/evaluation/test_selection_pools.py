@@ -7,7 +7,7 @@ import pytest
 import torch
 
 from src.shared.data.synthetic import generate_clip
-from src.shared.data.synthetic.spec import spec_for
+from src.shared.data.synthetic.clips import spec_for
 from src.shared.evaluation.audio_songs import held_out_songs
 from src.shared.evaluation.clips import Clips
 from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig
@@ -15,10 +15,10 @@ from src.shared.evaluation.metrics_retrieval import guo_retrieval
 from src.shared.evaluation.selection_harness import choices, measured, report_of
 from src.shared.evaluation.selection_songs import song_pool
 from src.shared.evaluation.selection_text import FIGURES, _retrieval, prompt_pool
-from src.shared.inference.audio_judge import AudioJudge
-from src.shared.inference.prompt_sampler import PromptSampler
-from src.shared.inference.song_generator import SongGenerator
-from src.shared.inference.song_sampler import SampleSettings
+from src.shared.pipelines.ranking import AudioJudge
+from src.shared.pipelines.song import SongGenerator
+from src.shared.pipelines.song_sampler import SongSampling
+from src.shared.pipelines.text import PromptSampler
 from tests.shared.evaluation.tiny_pairs import nod, tiny_model
 from tests.shared.model.conftest import tiny_generator
 
@@ -85,7 +85,7 @@ def test_retrieval_per_prompt_averages_to_guos(evaluator: Evaluator) -> None:
 def test_a_pool_of_songs_has_distances_where_there_is_real_motion() -> None:
     generator = SongGenerator(tiny_model(), device="cpu")
     pieces = list(held_out_songs(3, 4.0, 0))
-    settings = SampleSettings(2, steps=1)
+    settings = SongSampling(2, steps=1)
     real = [nod(np.arange(122) / 30 * tempo / 240, 0.2) for tempo in (80, 90, 100, 110)]
     pool = song_pool(generator, AudioJudge(), pieces, real, settings=settings)
     assert pool.score.shape == (3, 2)

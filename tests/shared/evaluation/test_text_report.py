@@ -9,7 +9,7 @@ import pytest
 import torch
 
 from src.shared.data.prepare import prepare
-from src.shared.data.sources import SyntheticSource
+from src.shared.data.sources.folders import SyntheticSource
 from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig
 from src.shared.evaluation.harness import evaluate_text
 from src.shared.evaluation.report import grids

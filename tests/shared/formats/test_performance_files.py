@@ -9,9 +9,9 @@ import pytest
 from src.shared.audio.song_spec import SongSpec
 from src.shared.audio.synthetic_songs import render_song
 from src.shared.errors import UserError
-from src.shared.formats.npz import read_npz
-from src.shared.formats.performance_files import export_dance, write_dance_page
-from src.shared.formats.trajectory_beats import SongTrack
+from src.shared.formats.arrays import read_npz
+from src.shared.formats.preview.trajectory import SongTrack
+from src.shared.formats.registry import export_dance, write_dance_page
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import JOINT_INDEX
 from src.shared.motion.trajectory import MotionTrajectory, to_motion

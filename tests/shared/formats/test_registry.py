@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from src.cli.generate_text import ALL_FORMATS
+from src.cli.generate_files import ALL_FORMATS
 from src.shared.errors import UsageError, UserError
 from src.shared.formats.registry import (
     EXPORTERS,

@@ -10,16 +10,23 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from src.shared.errors import UsageError
-from src.shared.formats.bvh import read_bvh
-from src.shared.formats.glb import write_glb_clip
-from src.shared.formats.glb_reader import read_glb
-from src.shared.formats.joint_names import SCHEMES, joint_names
+from src.shared.formats.readers.bvh import read_bvh
+from src.shared.formats.readers.glb import read_glb
 from src.shared.formats.registry import write_clip
-from src.shared.formats.rig import RigClip, canonical_rig, motion_clip, rescaled, turned
+from src.shared.formats.rig import (
+    SCHEMES,
+    RigClip,
+    canonical_rig,
+    joint_names,
+    motion_clip,
+    rescaled,
+    turned,
+)
+from src.shared.formats.writers.glb import write_glb_clip
 from src.shared.motion.skeleton import JOINT_NAMES
 from tests.shared.formats.glb_reader import Glb
 from tests.shared.formats.rigs import differences, random_clip
-from tests.shared.formats.test_bvh_writer import random_motion
+from tests.shared.formats.writers.test_bvh import random_motion
 
 ANY = settings(max_examples=20, deadline=None,
                suppress_health_check=[HealthCheck.function_scoped_fixture])  # fmt: skip

@@ -8,10 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from src.shared.errors import UsageError, UserError
-from src.shared.formats.npz import write_npz
-from src.shared.formats.trajectory_csv import write_trajectory_csv
-from src.shared.formats.trajectory_npz import COLUMNS, write_trajectory_npz
-from src.shared.formats.trajectory_reader import read_trajectory
+from src.shared.formats.arrays import COLUMNS, write_npz, write_trajectory_npz
+from src.shared.formats.csv_files import write_trajectory_csv
+from src.shared.formats.registry import read_trajectory
 from src.shared.motion.trajectory import MotionTrajectory, to_motion
 from tests.shared.motion.trajectories import smooth_trajectory
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from src.shared.errors import UsageError, UserError
-from src.shared.formats.trajectory_beats import SongTrack
-from src.shared.formats.trajectory_registry import (
+from src.shared.formats.preview.trajectory import SongTrack
+from src.shared.formats.registry import (
     TRAJECTORY_EXPORTERS,
     export_trajectory,
     write_trajectory,

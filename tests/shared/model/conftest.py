@@ -11,7 +11,7 @@ from src.shared.model.clip.pretrained import encode_captions
 from src.shared.model.clip.scope import PromptScope
 from src.shared.model.clip.tokenizer import PromptTokenizer
 from src.shared.model.generation.denoiser import MotionDenoiser
-from src.shared.model.generation.motion_generator import MotionGenerator
+from src.shared.model.generation.motion_generator import TextToMotion
 
 CAPTIONS = {
     "a person walks forward": "walk",
@@ -43,7 +43,7 @@ def tiny_network(**generation: object) -> NetworkConfig:
     )
 
 
-def tiny_generator(**generation: object) -> MotionGenerator:
+def tiny_generator(**generation: object) -> TextToMotion:
     """An untrained network that claims to be trained, with an output that is not zero."""
     network = tiny_network(**generation)
     torch.manual_seed(0)
@@ -52,7 +52,7 @@ def tiny_generator(**generation: object) -> MotionGenerator:
     denoiser = MotionDenoiser(network, num_tags=2)
     torch.nn.init.normal_(denoiser.output_proj.weight, std=0.1)
     embeddings = encode_captions(tower, tokenizer, list(CAPTIONS)).numpy()
-    return MotionGenerator(
+    return TextToMotion(
         denoiser,
         tower,
         tokenizer,
@@ -71,7 +71,7 @@ def tiny_generator(**generation: object) -> MotionGenerator:
 
 
 @pytest.fixture(scope="session")
-def generator() -> MotionGenerator:
+def generator() -> TextToMotion:
     return tiny_generator()
 
 

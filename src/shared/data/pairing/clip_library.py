@@ -28,8 +28,7 @@ from ...motion.rotations import (
     rotation_6d_to_quaternion,
 )
 from ...motion.trajectory_math import yaw_quaternion
-from ..prepared import SYNTHETIC, PreparedData
-from ..records import ClipRecord
+from ..prepared import SYNTHETIC, ClipRecord, PreparedData
 from ..splits import assign_alike
 from .motion_beats import MotionBeats, motion_beats
 

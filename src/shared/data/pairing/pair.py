@@ -11,29 +11,14 @@ import numpy as np
 
 from ..prepared import SYNTHETIC
 from .clip_library import FPS, Clip, Kind
-from .motion_beats import (
-    Alignment,
-    alignment,
-    beat_alignment,
-    chance_alignment,
-    motion_beats,
-)
-from .phrase_motion import PhraseMotion, assemble
-from .time_warp import (
-    LIMIT,
-    MATCH_LIMIT,
-    Warp,
-    fit_warp,
-    match_beats,
-    plain_warp,
-    resample,
-)
+from .motion_beats import Alignment, alignment, beat_alignment, chance_alignment, motion_beats
+from .phrase_motion import SPARE, PhraseMotion, assemble
+from .time_warp import LIMIT, MATCH_LIMIT, Warp, fit_warp, match_beats, plain_warp, resample
 
 KINDS, TRIES = 3, 4  # kinds of motion tried, and times each
 GOOD = 0.85  # a score that ends the search
 FAIR = 0.7  # a kind of motion that stays below gives way to another
 MIN_SCORE = 0.5  # a phrase below teaches the wrong thing
-SPARE = 2  # frames beyond the phrase that only help to derive (ruling 6)
 LEAD_BEATS = 1.25  # intervals of motion that may be skipped so that the first beat can meet one
 MAX_LEAD = 1.5  # seconds
 GROUP_SHARE = 0.25  # of phrases with a motion beat on strong beats only

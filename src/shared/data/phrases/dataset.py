@@ -4,7 +4,7 @@ B batch, T frames (30 a second), C = 163 rows of sound, or 167 with beat and bar
 """
 
 import hashlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,13 +15,67 @@ from torch import Tensor
 
 from ...ahead import ahead
 from ...errors import UsageError, UserError
-from .cache import ObjectCache, default_cache
-from .decoded import DecodedPhrase, read_phrase
-from .layout import BadContent, PhraseRecord
-from .prefetch import EpochIterator
-from .quarantine import Quarantine
-from .remote import Backoff, Remote, Unreachable
-from .store import PhraseStore
+from .layout import (
+    BadContent,
+    PhraseRecord,
+    common_length,
+    decode_body,
+    decode_features,
+    decode_trajectory,
+    phase_rows,
+)
+from .store import Backoff, ObjectCache, PhraseStore, Quarantine, Remote, Unreachable, default_cache
+
+_PHASE = 16  # column of a trajectory: bars modulo 1
+
+
+@dataclass(frozen=True, eq=False)
+class DecodedPhrase:
+    """T frames, C = 163 rows of sound, or 167 with beat and bar phase.
+
+    Attributes:
+        trajectory: [T,25] float32.
+        phase: unwrapped bars [T] float64.
+        audio: [C,T] float32.
+        body: features [T,23,6] float16, if asked for.
+    """
+
+    trajectory: np.ndarray
+    phase: np.ndarray
+    audio: np.ndarray
+    body: np.ndarray | None
+
+
+def read_phrase(
+    store: PhraseStore, record: PhraseRecord, *, beat_phase: bool, body: bool
+) -> DecodedPhrase:
+    """Read all of a phrase.
+
+    Args:
+        beat_phase: add the four rows of beat and bar phase where they are known.
+        body: read the body where there is one.
+
+    Raises:
+        BadContent, Unreachable: see `PhraseStore.load`; also where lengths differ.
+    """
+    trajectory = store.load(record.motion, decode_trajectory)
+    sound = store.load(record.features, decode_features)
+    frames = common_length(trajectory, sound)
+    audio = sound.stacked[:, :frames]
+    if beat_phase and sound.phase is not None:
+        audio = np.concatenate([audio, phase_rows(sound.phase[:frames], sound.meter)])
+    phase = np.unwrap(trajectory[:frames, _PHASE].astype(np.float64), period=1.0)
+    shown = _read_body(store, record, frames) if body else None
+    return DecodedPhrase(trajectory[:frames], phase, audio, shown)
+
+
+def _read_body(store: PhraseStore, record: PhraseRecord, frames: int) -> np.ndarray | None:
+    if record.body is None:
+        return None
+    features = store.load(record.body, decode_body)
+    if len(features) < frames:
+        raise BadContent(f"{record.body.path} has {len(features)} frames, the motion {frames}")
+    return features[:frames].astype(np.float16)
 
 
 class EmptySplit(UserError):
@@ -239,7 +293,7 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
             self._order = (epoch, order)
         return order
 
-    def epoch(self, epoch: int = 0, position: int = 0) -> EpochIterator:
+    def epoch(self, epoch: int = 0, position: int = 0) -> "EpochIterator":
         """Every good phrase once; see `EpochIterator`."""
         return EpochIterator(self, epoch, position)
 
@@ -284,3 +338,104 @@ def _encode_window(trajectory: np.ndarray, phase: np.ndarray) -> np.ndarray:
     from ...motion.window import encode_window
 
     return encode_window(trajectory, phase)
+
+
+class EpochIterator:
+    """Every good phrase of one epoch exactly once, in an order given by (seed, epoch).
+
+    Save `state_dict()` together with what became of the items; an iterator with that state loaded
+    goes on behind the last item handed out, in this process or another.
+    """
+
+    def __init__(self, dataset: MotionPhraseDataset, epoch: int, position: int = 0) -> None:
+        self.dataset, self.epoch, self.position = dataset, epoch, position
+        self._items: Iterator[tuple[int, PhraseItem | None]] | None = None
+
+    def __iter__(self) -> "EpochIterator":
+        return self
+
+    def __next__(self) -> PhraseItem:
+        if self._items is None:
+            self._items = self._start()
+        for position, item in self._items:
+            self.position = position + 1
+            if item is not None:
+                return item
+        raise StopIteration
+
+    def _start(self) -> Iterator[tuple[int, PhraseItem | None]]:
+        order = self.dataset.order(self.epoch)
+        positions = range(self.position, len(order))
+
+        def make(position: int) -> tuple[int, PhraseItem | None]:
+            return position, self.dataset.item(int(order[position]), self.epoch)
+
+        threads = self.dataset.threads
+        return ahead(make, positions, threads, depth=2 * threads)
+
+    def state_dict(self) -> dict[str, Any]:
+        """Plain data for JSON: the position counts bad phrases too."""
+        return {
+            "epoch": self.epoch,
+            "position": self.position,
+            "seed": self.dataset.seed,
+            "data": self.dataset.fingerprint,
+        }
+
+    def load_state_dict(self, state: dict[str, Any]) -> None:
+        """Go on where another iterator stopped.
+
+        Raises:
+            UserError: that one ran over other data or with another seed.
+        """
+        for name, now in (("data", self.dataset.fingerprint), ("seed", self.dataset.seed)):
+            if state[name] != now:
+                raise UserError(
+                    f"cannot go on in epoch {state['epoch']}: its {name} was {state[name]}, that of"
+                    f" {self.dataset.root} is {now}; start the epoch again"
+                )
+        self.epoch, self.position, self._items = state["epoch"], state["position"], None
+
+
+MOST = 2000  # windows looked at
+LEAST_STD = 1e-3
+FEATURE_ROWS = 163  # of sound; phases are no features
+
+
+def motion_statistics(
+    dataset: MotionPhraseDataset, most: int = MOST, least_std: float = LEAST_STD
+) -> tuple[Tensor, Tensor]:
+    """Mean and standard deviation [25] of the window rows over real frames of up to `most` items.
+
+    Raises:
+        UserError: no phrase can be used.
+    """
+    return _statistics(dataset, lambda item: item.motion, most, least_std)
+
+
+def sound_statistics(
+    dataset: MotionPhraseDataset, most: int = MOST, least_std: float = LEAST_STD
+) -> tuple[Tensor, Tensor]:
+    """Mean and standard deviation [163] of the features of sound, as `motion_statistics`.
+
+    Raises:
+        UserError: no phrase can be used.
+    """
+    return _statistics(dataset, lambda item: item.audio[:FEATURE_ROWS], most, least_std)
+
+
+def _statistics(
+    dataset: MotionPhraseDataset, rows: Callable[[PhraseItem], Tensor], most: int, least_std: float
+) -> tuple[Tensor, Tensor]:
+    count, total, squares = 0, np.zeros(1), np.zeros(1)
+    for number, item in enumerate(dataset.epoch(0)):
+        if number == most:
+            break
+        values = rows(item)[:, item.mask].numpy().astype(np.float64)
+        count += values.shape[1]
+        total, squares = total + values.sum(1), squares + (values**2).sum(1)
+    if count == 0:
+        raise UserError(f"{dataset.root} has no phrase that can be used; prepare it again")
+    mean = total / count
+    std = np.sqrt(np.maximum(squares / count - mean**2, 0)).clip(least_std)
+    return torch.from_numpy(mean).float(), torch.from_numpy(std).float()

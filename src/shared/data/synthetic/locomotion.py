@@ -9,15 +9,6 @@ import numpy as np
 
 from ...motion.skeleton import REST_PELVIS_HEIGHT
 from .curves import Array, min_jerk, ramp, smooth_noise
-from .gaits import (
-    Gait,
-    backward_gait,
-    crouched_gait,
-    run_gait,
-    sideways_gait,
-    stepping_in_place,
-    walk_gait,
-)
 from .rig import (
     ABDUCT,
     ELBOW,
@@ -26,9 +17,21 @@ from .rig import (
     RIGHT,
     TWIST,
     Body,
+    Scene,
 )
-from .scene import Scene
-from .steps import Path, Stepping, plan_feet, time_grid
+from .steps import (
+    Gait,
+    Path,
+    Stepping,
+    backward_gait,
+    crouched_gait,
+    plan_feet,
+    run_gait,
+    sideways_gait,
+    stepping_in_place,
+    time_grid,
+    walk_gait,
+)
 
 
 def travel(scene: Scene) -> Body:

@@ -9,6 +9,7 @@ Letters: a = sqrt(alpha_bar), s = sqrt(1 - alpha_bar), so x_t = a * x_0 + s * no
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import torch
@@ -24,6 +25,23 @@ if TYPE_CHECKING:
     from .gaussian import GaussianDiffusion
 
 Callback = Callable[[int, int], None]  # callback(steps done, steps in all)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sampling:
+    """How a motion is sampled; None = the model's own setting.
+
+    Attributes:
+        seed: 0 or more; the same seed, the same motion (on the CPU).
+        steps: of denoising.
+        sampler: ddim, ddpm or dpm-solver++.
+        guidance_scale: how strictly the condition is followed; 1 = no guidance.
+    """
+
+    seed: int = 0
+    steps: int | None = None
+    sampler: str | None = None
+    guidance_scale: float | None = None
 
 
 class Sampler(ABC):

@@ -1,4 +1,4 @@
-"""MotionGenerator: prompts in, motions out; everything a trained text branch needs in one object.
+"""TextToMotion: prompts in, motions out; everything a trained text branch needs in one object.
 
 Letters: B batch, T frames, K rows (bones, root track), C channels, D embed dim, L text tokens.
 """
@@ -38,12 +38,13 @@ from .sampling import sample_batch
 
 KIND = "motion-generator"
 MAX_BATCH = 64  # motions sampled at once
+ENCODED = 8  # lists of prompts whose encoding is remembered
 Progress = Callable[[int, int], None]  # motions done, motions in all
 
 log = logging.getLogger(__name__)
 
 
-class MotionGenerator:
+class TextToMotion:
     """Samples motions from prompts.
 
     Args:
@@ -85,6 +86,7 @@ class MotionGenerator:
         self.scope = scope
         self.style_map = style_map
         self.diffusion = GaussianDiffusion(self.network.generation.diffusion()).to(self.device)
+        self._encoded: dict[tuple[str, ...], TextFeatures] = {}
         self._told: set[str] = set()  # prompts whose warning the caller has
 
     # Generating
@@ -225,14 +227,17 @@ class MotionGenerator:
     @idle_threads()
     @torch.inference_mode()
     def encode_prompts(self, prompts: Sequence[str]) -> TextFeatures:
-        """What the text tower makes of the prompts.
+        """What the frozen text tower makes of the prompts; the last few lists are remembered.
 
         Raises:
             UserError: a prompt is empty.
         """
-        ids, mask = self.tokenizer(prompts)
-        features: TextFeatures = self.text(ids.to(self.device), mask.to(self.device))
-        return features
+        key = tuple(prompts)
+        if key not in self._encoded:
+            ids, mask = self.tokenizer(prompts)
+            features: TextFeatures = self.text(ids.to(self.device), mask.to(self.device))
+            self._encoded = dict([*self._encoded.items(), (key, features)][-ENCODED:])
+        return self._encoded[key]
 
     def scope_warnings(self, prompts: Sequence[str], *, again: bool = True) -> list[str | None]:
         """For each prompt that is far from anything trained, a line naming the nearest actions.

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from src.shared.data.pairing.pair import (
-    SPARE,
     MusicBeats,
     kind_weights,
     pair_phrase,
     strong_beats,
     suitable_clips,
 )
+from src.shared.data.pairing.phrase_motion import SPARE
 from src.shared.data.pairing.time_warp import LIMIT
 from tests.shared.data.pairing.walkers import walker
 

@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from torch.utils.data import DataLoader
 
-from src.shared.data.phrases.dataset import MotionPhraseDataset
+from src.shared.data.phrases.dataset import MotionPhraseDataset, motion_statistics, sound_statistics
 from src.shared.data.phrases.layout import (
     BadContent,
     decode_features,
@@ -26,7 +26,6 @@ from src.shared.data.phrases.layout import (
     write_body,
     write_manifest,
 )
-from src.shared.data.phrases.statistics import motion_statistics, sound_statistics
 from src.shared.errors import UsageError, UserError
 from tests.shared.data.phrases.phrase_samples import (
     flip_bit,

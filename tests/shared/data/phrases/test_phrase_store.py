@@ -10,10 +10,9 @@ from typing import Any
 
 import pytest
 
-from src.shared.data.phrases.cache import ObjectCache
 from src.shared.data.phrases.dataset import MotionPhraseDataset
 from src.shared.data.phrases.layout import StoredObject, features_path, trajectory_path
-from src.shared.data.phrases.remote import Backoff, Remote, Unreachable
+from src.shared.data.phrases.store import Backoff, ObjectCache, Remote, Unreachable
 from src.shared.errors import UserError
 from tests.shared.data.phrases.phrase_samples import (
     FlakyFileSystem,

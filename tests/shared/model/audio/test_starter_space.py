@@ -6,12 +6,11 @@ import pytest
 import torch
 from torch import Tensor
 
-from src.shared.data.synthetic.generate import generate_clip
-from src.shared.data.synthetic.spec import spec_for
+from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.model.audio.conditioning import CONDITION_ROWS, FEATURE_ROWS
 from src.shared.model.audio.shared_space import KIND, SharedSpace
 from src.shared.model.checkpoint import WEIGHTS_FILE
-from src.shared.model.generation.motion_generator import MotionGenerator
+from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.model.zoo import PRETRAINED, list_models
 from src.shared.motion.root_track import encode_features
 
@@ -54,7 +53,7 @@ def test_it_is_small_and_says_what_it_is(space: SharedSpace) -> None:
 
 @torch.no_grad()
 def test_it_belongs_to_the_shipped_text_tower(space: SharedSpace) -> None:
-    starter = MotionGenerator.from_pretrained("starter", device="cpu")
+    starter = TextToMotion.from_pretrained("starter", device="cpu")
     prompts = ["a person runs forward", "a person steps to the left side"]
     text = space.embed_text(prompts, starter.text, starter.tokenizer)
     seen = torch.cat([space.embed_motion(motion(**labels)) for labels in (RUN, STEP)])

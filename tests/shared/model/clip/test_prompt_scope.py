@@ -26,7 +26,7 @@ LABELS = [
 
 @pytest.fixture(scope="module")
 def book():
-    from src.shared.data.captions import CaptionBook
+    from src.shared.data.captions.book import CaptionBook
 
     return CaptionBook.load()
 

@@ -9,13 +9,13 @@ from src.shared.config_schema import DiffusionConfig
 from src.shared.errors import UsageError
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
 from src.shared.model.generation.constraint import Constraint, KnownBatch
-from src.shared.model.generation.motion_generator import MotionGenerator
+from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.root_track import FORWARD, ROOT_ROW
 
 PROMPT = ["a person walks forward"]
 
 
-def some(frames: int, generator: MotionGenerator, seed: int = 0) -> Constraint:
+def some(frames: int, generator: TextToMotion, seed: int = 0) -> Constraint:
     """A third of all entries known, at values such as data has."""
     draws = torch.Generator().manual_seed(seed)
     noise = torch.randn(frames, *generator.mean.shape, generator=draws)
@@ -78,7 +78,7 @@ def test_a_motion_led_to_beats_does_not_depend_on_its_company(make_generator):
     assert torch.allclose(both[0], alone[0], atol=2e-4)
 
 
-def test_generate_keeps_the_known_path(generator: MotionGenerator):
+def test_generate_keeps_the_known_path(generator: TextToMotion):
     constraint = Constraint.free(30)
     constraint.known[:, ROOT_ROW, :4] = True
     constraint.values[:, ROOT_ROW, FORWARD] = torch.linspace(0, 2, 30)  # smoothing would bend it
@@ -88,7 +88,7 @@ def test_generate_keeps_the_known_path(generator: MotionGenerator):
     assert abs(motion.root_position[:, 0]).max() < 1e-5
 
 
-def test_a_constraint_of_another_length_is_refused(generator: MotionGenerator):
+def test_a_constraint_of_another_length_is_refused(generator: TextToMotion):
     with pytest.raises(UsageError, match="10 frames for a motion of 30"):
         generator.generate(PROMPT, seconds=1.0, constraints=[Constraint.free(10)])
 

@@ -1,4 +1,4 @@
-"""MotionGenerator: reproducible sampling in any company, guidance, folders, refusals."""
+"""TextToMotion: reproducible sampling in any company, guidance, folders, refusals."""
 
 import json
 import logging
@@ -13,12 +13,12 @@ from src.shared.errors import UsageError, UserError
 from src.shared.files import sha256_file, write_json
 from src.shared.model.checkpoint import CARD_FILE, WEIGHTS_FILE
 from src.shared.model.clip.core import TextTower
-from src.shared.model.generation.motion_generator import MotionGenerator
+from src.shared.model.generation.motion_generator import TextToMotion
 
 PROMPTS = ["a person walks forward", "somebody jumps twice", "人が前に歩く"]
 
 
-def test_motions_come_prompt_major_with_their_text(generator: MotionGenerator):
+def test_motions_come_prompt_major_with_their_text(generator: TextToMotion):
     motions = generator.generate(PROMPTS, seconds=[0.5, 1.0, 1.5], num_samples=2)
     assert [motion.num_frames for motion in motions] == [15, 15, 30, 30, 45, 45]
     assert [motion.text for motion in motions] == [p for p in PROMPTS for _ in range(2)]
@@ -40,7 +40,7 @@ def test_a_motion_does_not_depend_on_its_company(make_generator, sampler: str, c
     assert (together[0] - together[1]).abs().max() > 0.01
 
 
-def test_seeds(generator: MotionGenerator):
+def test_seeds(generator: TextToMotion):
     first, again, other = (
         generator.sample_features(PROMPTS[:1], seconds=0.5, seed=seed)[0] for seed in (1, 1, 2)
     )
@@ -48,7 +48,7 @@ def test_seeds(generator: MotionGenerator):
     assert not torch.allclose(first, other)
 
 
-def test_samples_leave_z_scores(generator: MotionGenerator):
+def test_samples_leave_z_scores(generator: TextToMotion):
     """With an output of zero the predicted clean motion is the mean of the data."""
     weight = generator.denoiser.output_proj.weight
     kept = weight.detach().clone()
@@ -61,7 +61,7 @@ def test_samples_leave_z_scores(generator: MotionGenerator):
     assert torch.allclose(sample, generator.mean.expand_as(sample), atol=1e-5)
 
 
-def test_guidance_pushes_away_from_the_null(generator: MotionGenerator):
+def test_guidance_pushes_away_from_the_null(generator: TextToMotion):
     """One step from the same noise: null + scale * (conditional - null)."""
     options = {"seconds": 0.5, "steps": 1, "sampler": "ddim"}
     null, plain, double = (
@@ -72,7 +72,7 @@ def test_guidance_pushes_away_from_the_null(generator: MotionGenerator):
     assert (plain - null).abs().max() > 1e-4
 
 
-def test_scale_one_runs_the_denoiser_on_single_batches(generator: MotionGenerator):
+def test_scale_one_runs_the_denoiser_on_single_batches(generator: TextToMotion):
     sizes: list[int] = []
     handle = generator.denoiser.register_forward_pre_hook(
         lambda _, args: sizes.append(len(args[0]))
@@ -83,7 +83,7 @@ def test_scale_one_runs_the_denoiser_on_single_batches(generator: MotionGenerato
     assert sizes == [3] * 3 + [6] * 3
 
 
-def test_tags_matter(generator: MotionGenerator):
+def test_tags_matter(generator: TextToMotion):
     torch.nn.init.normal_(generator.denoiser.blocks[0].film.modulation.weight, std=0.5)
     plain, tagged = (
         generator.sample_features(PROMPTS[:1], seconds=0.5, tags=tags)[0]
@@ -92,7 +92,7 @@ def test_tags_matter(generator: MotionGenerator):
     assert not torch.allclose(plain, tagged)
 
 
-def test_unknown_settings_are_user_errors(generator: MotionGenerator):
+def test_unknown_settings_are_user_errors(generator: TextToMotion):
     with pytest.raises(UsageError, match="sampler 'euler' is unknown"):
         generator.generate(PROMPTS, sampler="euler")
     with pytest.raises(UsageError, match="steps 99"):
@@ -101,7 +101,7 @@ def test_unknown_settings_are_user_errors(generator: MotionGenerator):
         generator.generate(["a", ""])
 
 
-def test_an_untrained_model_refuses(generator: MotionGenerator):
+def test_an_untrained_model_refuses(generator: TextToMotion):
     card = generator.card
     generator.card = card.model_copy(update={"trained": False})
     try:
@@ -111,7 +111,7 @@ def test_an_untrained_model_refuses(generator: MotionGenerator):
         generator.card = card
 
 
-def test_warnings_of_length_and_scope(generator: MotionGenerator, caplog):
+def test_warnings_of_length_and_scope(generator: TextToMotion, caplog):
     far = "purple quarterly tax report"
     with caplog.at_level(logging.WARNING):
         generator.generate([*PROMPTS, far], seconds=3.0)
@@ -126,9 +126,9 @@ def test_warnings_of_length_and_scope(generator: MotionGenerator, caplog):
 
 
 @pytest.mark.parametrize("half", [False, True])
-def test_round_trip(generator: MotionGenerator, tmp_path, half: bool):
+def test_round_trip(generator: TextToMotion, tmp_path, half: bool):
     generator.save_pretrained(tmp_path, half=half)
-    loaded = MotionGenerator.from_pretrained(tmp_path, device="cpu")
+    loaded = TextToMotion.from_pretrained(tmp_path, device="cpu")
     assert all(p.dtype == torch.float32 for p in loaded.denoiser.parameters())
     assert loaded.card.tags == generator.card.tags
     assert loaded.scope is not None
@@ -145,7 +145,7 @@ def test_without_root_track_the_character_stays_in_place(make_generator, generat
     from src.shared.model.generation.denoiser import MotionDenoiser
 
     network = generator.network.model_copy(update={"root_track": False})
-    stays = MotionGenerator(
+    stays = TextToMotion(
         MotionDenoiser(network, 2),
         generator.text,
         generator.tokenizer,
@@ -159,7 +159,7 @@ def test_without_root_track_the_character_stays_in_place(make_generator, generat
     assert np.ptp(motion.root_position, axis=0).max() == 0
 
 
-def test_foot_lock_can_be_asked_for(generator: MotionGenerator):
+def test_foot_lock_can_be_asked_for(generator: TextToMotion):
     free, locked = (
         generator.generate(PROMPTS[:1], seconds=0.5, foot_lock=lock)[0] for lock in (False, True)
     )
@@ -170,7 +170,7 @@ def test_foot_lock_can_be_asked_for(generator: MotionGenerator):
 
 
 @pytest.fixture
-def folder(generator: MotionGenerator, tmp_path):
+def folder(generator: TextToMotion, tmp_path):
     generator.save_pretrained(tmp_path)
     return tmp_path
 
@@ -190,7 +190,7 @@ def test_a_truncated_file(folder):
     data = (folder / WEIGHTS_FILE).read_bytes()
     (folder / WEIGHTS_FILE).write_bytes(data[:-100])
     with pytest.raises(UserError, match=r"bytes.*cut off"):
-        MotionGenerator.from_pretrained(folder)
+        TextToMotion.from_pretrained(folder)
 
 
 def test_a_flipped_bit(folder):
@@ -198,31 +198,31 @@ def test_a_flipped_bit(folder):
     data[-1] ^= 1
     (folder / WEIGHTS_FILE).write_bytes(data)
     with pytest.raises(UserError, match="SHA-256"):
-        MotionGenerator.from_pretrained(folder)
+        TextToMotion.from_pretrained(folder)
 
 
 def test_a_missing_an_extra_and_a_misshapen_tensor(folder):
     rewrite(folder, lambda tensors: tensors.update({"denoiser.more": torch.zeros(1)}))
     with pytest.raises(UserError, match=r"denoiser.more, which the configuration has no place"):
-        MotionGenerator.from_pretrained(folder)
+        TextToMotion.from_pretrained(folder)
     rewrite(folder, lambda tensors: tensors.pop("denoiser.more"))
     rewrite(folder, lambda tensors: tensors.update({"denoiser.null_pooled": torch.zeros(3)}))
     with pytest.raises(UserError, match=r"null_pooled has shape \(3,\).*asks for \(32,\)"):
-        MotionGenerator.from_pretrained(folder)
+        TextToMotion.from_pretrained(folder)
     rewrite(folder, lambda tensors: tensors.pop("denoiser.null_pooled"))
     with pytest.raises(UserError, match=r"lack denoiser.null_pooled"):
-        MotionGenerator.from_pretrained(folder)
+        TextToMotion.from_pretrained(folder)
 
 
-def test_a_text_tower_of_another_width(folder, generator: MotionGenerator):
+def test_a_text_tower_of_another_width(folder, generator: TextToMotion):
     def widen(tensors: dict[str, torch.Tensor]) -> None:
         tensors["text.text_proj.weight"] = torch.zeros(48, 32)
 
     rewrite(folder, widen)
     with pytest.raises(UserError, match=r"embed-dim mismatch.*48.*32"):
-        MotionGenerator.from_pretrained(folder)
+        TextToMotion.from_pretrained(folder)
     with pytest.raises(UserError, match=r"embed-dim mismatch.*48.*32"):
-        MotionGenerator(
+        TextToMotion(
             generator.denoiser,
             TextTower(generator.network.clip, 48),
             generator.tokenizer,
@@ -236,17 +236,17 @@ def test_another_kind_of_model(folder):
     card = json.loads((folder / CARD_FILE).read_text())
     write_json(folder / CARD_FILE, {**card, "kind": "motion-clip"})
     with pytest.raises(UserError, match="motion-clip, not a motion-generator"):
-        MotionGenerator.from_pretrained(folder)
+        TextToMotion.from_pretrained(folder)
 
 
 def test_a_broken_card(folder):
     card = json.loads((folder / CARD_FILE).read_text())
     write_json(folder / CARD_FILE, {**card, "surprise": 1})
     with pytest.raises(UserError, match="surprise"):
-        MotionGenerator.from_pretrained(folder)
+        TextToMotion.from_pretrained(folder)
     (folder / CARD_FILE).write_text("{")
     with pytest.raises(UserError, match="cannot be read"):
-        MotionGenerator.from_pretrained(folder)
+        TextToMotion.from_pretrained(folder)
 
 
 def test_sampled_motion_is_asked_to_look_captured(make_generator):

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from src.shared.data.pairing.motion_beats import beat_alignment, motion_beats
 from src.shared.model.generation.constraint import Constraint
-from src.shared.model.generation.motion_generator import MotionGenerator
+from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.model.generation.rhythm import RhythmGuidance, beat_weight, smoothed
 from src.shared.motion.root_track import ROOT_ROW, decode_features, world_joints
 from src.shared.motion.rotations import axis_angle_to_matrix, matrix_to_rotation_6d
@@ -109,7 +109,7 @@ def test_world_joints_are_those_of_the_decoded_motion():
 @pytest.mark.parametrize("constraints", [True, False])
 @pytest.mark.parametrize("prediction", ["sample", "epsilon"])
 def test_a_generator_hears_the_beats(make_generator, constraints: bool, prediction: str):
-    generator: MotionGenerator = make_generator(constraints=constraints, prediction_type=prediction)
+    generator: TextToMotion = make_generator(constraints=constraints, prediction_type=prediction)
     free = Constraint.free(60)
     timed = Constraint(free.values, free.known, BEATS)
     options = {"seconds": 2.0, "constraints": [timed]}

@@ -1,0 +1,190 @@
+"""Captions from labels, in every language that has a caption file, and their mirror image."""
+
+import random
+from collections.abc import Iterable
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from ...config_loader import load_yaml, packaged_config
+from ...errors import UserError
+from .language import CaptionLanguage
+from .schema import Labels, validate_language
+
+HOW_TO_ADD = (
+    "add a caption file with 'language: {code}' and a 'mirror:' table "
+    "(the format is described in src/configs/captions/en.yaml)"
+)
+
+
+class CaptionBook:
+    """Captions in several languages.
+
+    Labels are `{key: value}` with at least an `action`; keys and values that the caption files do
+    not know are worded by their `other` entries or left out.
+    """
+
+    def __init__(self, languages: Iterable[CaptionLanguage]) -> None:
+        self._languages = {language.code: language for language in languages}
+
+    @classmethod
+    def load(cls, path: Path | str | None = None) -> "CaptionBook":
+        """The packaged captions, extended or replaced by a user's file or folder of files.
+
+        A file is one language; its tables are laid over the packaged ones of that language, or
+        stand alone where it says `extends: nothing` (then only such languages are in the book).
+
+        Raises:
+            UserError: the path does not exist, is not YAML, or breaks the format (file and key).
+        """
+        if path is None:
+            return packaged_book()
+        packaged = _packaged_content()
+        merged: dict[str, dict[str, Any]] = {}
+        source: dict[str, str] = {}
+        alone = False
+        for file in _caption_files(Path(path)):
+            content = dict(load_yaml(file))
+            code = str(content.get("language", ""))
+            extends = content.pop("extends", "packaged")
+            if extends not in ("packaged", "nothing"):
+                raise UserError(
+                    f"caption file {file}: extends: {extends!r} is neither 'packaged' nor 'nothing'"
+                    "; write one of them"
+                )
+            alone |= extends == "nothing"
+            base = packaged.get(code, {}) if extends == "packaged" else {}
+            merged[code] = overlay(merged.get(code, base), content)
+            source[code] = str(file)
+        languages = [
+            CaptionLanguage(validate_language(content, source[code]))
+            for code, content in merged.items()
+        ]
+        if not alone:
+            languages += [
+                language
+                for code, language in packaged_book()._languages.items()
+                if code not in merged
+            ]
+        return cls(languages)
+
+    @property
+    def languages(self) -> tuple[str, ...]:
+        """Language codes, sorted."""
+        return tuple(sorted(self._languages))
+
+    def language(self, code: str) -> CaptionLanguage:
+        """One language of the book.
+
+        Raises:
+            UserError: there is no such language here.
+        """
+        if code not in self._languages:
+            raise UserError(
+                f"no captions in language {code!r}; supported: {', '.join(self.languages)}; "
+                + HOW_TO_ADD.format(code=code)
+            )
+        return self._languages[code]
+
+    def captions(
+        self, labels: Labels, *, num: int, seed: int, whole_sentences: bool = True
+    ) -> dict[str, list[str]]:
+        """Training captions: up to `num` different ones per language, the same for one seed.
+
+        Without whole sentences they are those of the grammar alone.
+        """
+        key = "|".join(f"{name}={labels[name]}" for name in sorted(labels))
+        return {
+            code: self._languages[code].captions(
+                labels, num, random.Random(f"{seed}|{code}|{key}"), whole_sentences=whole_sentences
+            )
+            for code in self.languages
+        }
+
+    def canonical(self, labels: Labels) -> dict[str, str]:
+        """One plain caption per language."""
+        return {code: self._languages[code].canonical(labels) for code in self.languages}
+
+    def paraphrases(self, labels: Labels) -> dict[str, list[str]]:
+        """Held-out sentences that ask for (at most) these labels; `captions` never writes them.
+
+        A language without a fitting entry gives an empty list.
+        """
+        return {code: self._languages[code].paraphrases(labels) for code in self.languages}
+
+    def control_tasks(self) -> list[Labels]:
+        """Every label set that has paraphrases, in the order of the caption files."""
+        tasks: list[Labels] = []
+        for code in self.languages:
+            for entry in self._languages[code].control_tasks:
+                if entry.labels not in tasks:
+                    tasks.append(dict(entry.labels))
+        return tasks
+
+    def known_actions(self, lang: str) -> dict[str, str]:
+        """Name of every action in one language, for messages."""
+        actions = self.language(lang).content.actions
+        return {key: action.name for key, action in actions.items() if key != "other"}
+
+    def mirror_text(self, text: str, lang: str) -> str:
+        """Text of the mirrored motion: left and right exchanged in all their forms.
+
+        Raises:
+            UserError: the language has no mirror table.
+        """
+        return self.language(lang).mirror(text)
+
+
+@lru_cache(maxsize=1)
+def _packaged_content() -> dict[str, dict[str, Any]]:
+    contents: dict[str, dict[str, Any]] = {}
+    for file in sorted(packaged_config("captions").glob("*.yaml")):
+        content = load_yaml(file)
+        contents[content["language"]] = content
+    for file in sorted(packaged_config("sentences").glob("*.yaml")):  # apart, as they are long
+        content = load_yaml(file)
+        contents[content["language"]]["sentences"] = content["sentences"]
+    return contents
+
+
+@lru_cache(maxsize=1)
+def packaged_book() -> CaptionBook:
+    """The captions that come with the project."""
+    return CaptionBook(
+        CaptionLanguage(validate_language(content, f"captions/{code}.yaml"))
+        for code, content in _packaged_content().items()
+    )
+
+
+def mirror_text(text: str, lang: str) -> str:
+    """`CaptionBook.mirror_text` of the packaged languages."""
+    return packaged_book().mirror_text(text, lang)
+
+
+def known_actions(lang: str = "en") -> dict[str, str]:
+    """`CaptionBook.known_actions` of the packaged languages."""
+    return packaged_book().known_actions(lang)
+
+
+def overlay(base: dict[str, Any], update: dict[str, Any]) -> dict[str, Any]:
+    """`update` laid over `base`: mappings merge key by key, everything else is replaced."""
+    result = dict(base)
+    for key, value in update.items():
+        old = result.get(key)
+        if isinstance(old, dict) and isinstance(value, dict):
+            value = overlay(old, value)
+        result[key] = value
+    return result
+
+
+def _caption_files(path: Path) -> list[Path]:
+    if path.is_dir():
+        found = sorted([*path.glob("*.yaml"), *path.glob("*.yml")])
+        if not found:
+            raise UserError(
+                f"no caption files (*.yaml) in {path}; name a file or a folder that holds some"
+            )
+        return found
+    if not path.is_file():
+        raise UserError(f"caption file {path} does not exist; check the path")
+    return [path]

@@ -1,0 +1,345 @@
+"""Sources of clips: folders of motion files and the project's own synthetic motions.
+
+A source lists its items cheaply; each item is read later, in a worker process.
+"""
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+
+from ...config_schema import Provenance
+from ...errors import UsageError, UserError
+from ...formats.readers.acclaim import find_skeleton
+from ...formats.readers.bvh import check_head
+from ...motion.motion import Motion
+from ..retarget.mapping import SkeletonMapping, load_mappings, words
+from ..retarget.read_motion import FOLDER_ENDINGS, fit, open_recording
+from ..retarget.to_canonical import on_floor
+from .caption_tables import Piece, Table, match_captions, read_captions, without_ending
+from .labels import LabelRules, load_label_rules
+
+FPS = 30.0
+END_SLACK = 0.2  # seconds that a piece may reach beyond the end of its file
+MIN_FRAMES = 8  # shorter clips teach nothing and cannot be windowed
+
+
+@dataclass(frozen=True, eq=False)
+class RawClip:
+    """One clip of a source, already on the canonical skeleton at 30 fps.
+
+    Attributes:
+        id: unique name within its source.
+        take: recording it belongs to; clips of one take never part between splits.
+        captions: captions of this very clip by language, beside those its labels give.
+        provenance: where the motion comes from; a condition of the denoiser.
+    """
+
+    id: str
+    take: str
+    motion: Motion
+    labels: dict[str, str]
+    captions: dict[str, list[str]]
+    provenance: Provenance = "captured"
+
+
+class Skipped(Exception):
+    """A clip is left out on purpose; the text says why."""
+
+
+class Source(Protocol):
+    """What `prepare` reads from."""
+
+    @property
+    def name(self) -> str:
+        """Prefix of the clips' ids."""
+        ...
+
+    def items(self) -> list[str]:
+        """Names of all clips, in a stable order."""
+        ...
+
+    def fingerprint(self, item: str) -> str:
+        """Changes when the clip behind the item changes."""
+        ...
+
+    def read(self, item: str) -> RawClip:
+        """Read one clip; raises UserError or ValueError (a fault) or Skipped (a decision)."""
+        ...
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What a user states of files that do not say it; the fields are those of `read_motion`."""
+
+    unit: str | None = None
+    up: str | None = None
+    skeleton: Path | None = None
+    source_fps: float | None = None
+
+    def read(self, path: Path, mappings: tuple[SkeletonMapping, ...]) -> Motion:
+        """The motion of a file at the data's rate; raises UserError."""
+        recording = open_recording(path, skeleton=self.skeleton, fps=self.source_fps)
+        return fit(path, recording, mappings, unit=self.unit, up=self.up, fps=FPS)
+
+
+@dataclass(frozen=True)
+class MotionFolder:
+    """Every motion file below a folder (or one file), with captions and label rules.
+
+    Of one name in several formats, the first of `FOLDER_ENDINGS` is taken. A file is one
+    clip, or as many as the table cuts it into; these stay one take.
+
+    Attributes:
+        name: begins the ids of its clips; no other source has it.
+        table: the pieces of each file that has some.
+        from_names: files without words of their own have those of their names as English captions.
+        shared_stems: file names that several folders hold; their takes are told apart by folder.
+        captions_files: where the captions come from.
+        reading: what the files do not say of themselves.
+        caption_rows: clips that the file names, and whether a file was found for each.
+    """
+
+    root: Path
+    name: str
+    table: Table
+    rules: LabelRules
+    mappings: tuple[SkeletonMapping, ...]
+    reading: Reading = Reading()
+    shared_stems: tuple[str, ...] = ()
+    from_names: bool = False
+    captions_files: tuple[Path, ...] = field(default=(), repr=False)
+    caption_rows: Mapping[str, bool] = field(default_factory=dict, repr=False)
+
+    @classmethod
+    def open(cls, root: Path, **tables: Any) -> "MotionFolder":
+        """One folder or file; see `open_all`."""
+        return cls.open_all([root], **tables)[0]
+
+    @classmethod
+    def open_all(
+        cls,
+        roots: Sequence[Path],
+        *,
+        captions: Sequence[Path] = (),
+        labels: Path | None = None,
+        mapping: Path | None = None,
+        reading: Reading | None = None,
+    ) -> list["MotionFolder"]:
+        """Check that the folders hold motion files and read the tables, which they share.
+
+        Raises:
+            UserError: no such folder, no motion in it, one within another, a faulty captions,
+                labels or mapping file, a caption whose clip may be any of several files.
+        """
+        for root in roots:
+            if not root.exists():
+                raise UserError(f"source {root} does not exist; give a folder of motion files")
+        rules, mappings = load_label_rules(labels), load_mappings(mapping)
+        plain = [
+            cls(root, name, {}, rules, mappings, reading or Reading())
+            for root, name in zip(roots, distinct_names(roots), strict=True)
+        ]
+        for folder in plain:
+            if not folder.files():
+                raise UserError(f"source {folder.root} holds no motion file; give a folder of"
+                                f" {', '.join(FOLDER_ENDINGS)} files")  # fmt: skip
+        rows = read_captions(*captions)
+        listed = [(folder._captioned_as, folder.files()) for folder in plain]
+        matched, found = match_captions(rows, listed, captions)
+        return [
+            replace(
+                folder,
+                table=own,
+                from_names=not own,
+                shared_stems=_repeated(Path(item).stem for item in items),
+                captions_files=tuple(captions),
+                caption_rows=found,
+            )
+            for folder, own, (_, items) in zip(plain, matched, listed, strict=True)
+        ]
+
+    @property
+    def _captioned_as(self) -> str:
+        """The folder that a row of the captions may name: a file's is the one it lies in."""
+        if self.root.is_dir():
+            return self.name
+        above = max(1, self.name.count("/"))
+        return "/".join(self.root.resolve().parts[-1 - above : -1])
+
+    def items(self) -> list[str]:
+        return list(self._pieces)
+
+    @cached_property
+    def _pieces(self) -> dict[str, tuple[str, Piece]]:
+        """File and piece behind each item."""
+        found = {}
+        for file in self.files():
+            for piece in self.table.get(file, (Piece(),)):
+                end = "" if piece.end is None else f"{piece.end:g}"
+                item = file if piece.whole else f"{file}@{piece.start:g}-{end}"
+                found[item] = (file, piece)
+        return found
+
+    def files(self) -> list[str]:
+        """The motion files, below the root."""
+        if self.root.is_file():
+            return [self.root.name]
+        best: dict[Path, Path] = {}
+        for path in sorted(self.root.rglob("*"), key=_rank):
+            if path.suffix.lower() in FOLDER_ENDINGS and path.is_file():
+                best.setdefault(path.with_suffix(""), path)
+        return sorted(path.relative_to(self.root).as_posix() for path in best.values())
+
+    def _path(self, item: str) -> Path:
+        return self.root if self.root.is_file() else self.root / item
+
+    def fingerprint(self, item: str) -> str:
+        path = self._path(self._pieces[item][0])
+        parts = [path]
+        if path.suffix.lower() == ".amc":
+            with suppress(UserError):  # none: reading tells
+                parts.append(self.reading.skeleton or find_skeleton(path))
+        found = [part.stat() for part in parts if part.exists()]
+        return ":".join([item, *(f"{status.st_size}:{status.st_mtime_ns}" for status in found)])
+
+    def wordless(self) -> list[str]:
+        """Files that neither a table nor a label rule says anything of."""
+        return [
+            file
+            for file in self.files()
+            if file not in self.table and not any(self.rules.of_file(Path(file).stem))
+        ]
+
+    def read(self, item: str) -> RawClip:
+        file, piece = self._pieces[item]
+        path = self._path(file)
+        labels, skip = self.rules.of_file(path.stem)
+        if skip:
+            raise Skipped(skip)
+        captions = {language: list(texts) for language, texts in piece.captions.items()}
+        if self.from_names and not labels and (named := words(path.stem)):
+            captions = {"en": [" ".join(named)]}
+        labels |= piece.labels
+        for caption in captions.get("en", []):
+            labels = self.rules.of_caption(caption) | labels
+        if not labels and not captions:
+            if path.suffix.lower() == ".bvh":
+                check_head(path)  # a broken file is told as such
+            raise Skipped("no caption and no label; add it to --captions or write a --labels rule")
+        motion = cut(_last_read(self.reading, path, self.mappings), piece)
+        if motion.num_frames < MIN_FRAMES:
+            raise Skipped(f"{motion.num_frames} frames at {FPS:g} fps; {MIN_FRAMES} are needed")
+        take = without_ending(file) if path.stem in self.shared_stems else path.stem
+        return RawClip(item, take, motion, labels, captions, piece.provenance)
+
+
+_LAST: list[tuple[tuple[Reading, Path], Motion]] = []  # the file that was read last
+
+
+def _last_read(reading: Reading, path: Path, mappings: tuple[SkeletonMapping, ...]) -> Motion:
+    """`Reading.read`, once for all pieces of a file."""
+    if not _LAST or _LAST[0][0] != (reading, path):
+        _LAST[:] = [((reading, path), reading.read(path, mappings))]
+    return _LAST[0][1]
+
+
+def cut(motion: Motion, piece: Piece) -> Motion:
+    """A piece of a motion, put on the floor by itself; its repetitions go on where it ended.
+
+    Raises:
+        UserError: the motion ends before the piece does.
+    """
+    if piece == replace(piece, start=0.0, end=None, repeat=1, hold=0.0):
+        return motion
+    end = motion.seconds if piece.end is None else piece.end
+    if end > motion.seconds + END_SLACK or piece.start >= motion.seconds:
+        raise UserError(f"the piece {piece.start:g} to {end:g} s is not within the file's"
+                        f" {motion.seconds:.2f} s")  # fmt: skip
+    frames = slice(round(piece.start * motion.fps), round(end * motion.fps))
+    order = np.arange(motion.num_frames)[frames]
+    root = motion.root_position[order]
+    stride = (2 * root[-1] - root[-2] - root[0]) * (1, 0, 1) if len(root) > 1 else 0 * root[0]
+    root = np.concatenate([root + time * stride for time in range(piece.repeat)])
+    last = round(piece.hold * motion.fps)
+    order = np.concatenate([np.tile(order, piece.repeat), np.full(last, order[-1])])
+    root = np.concatenate([root, np.repeat(root[-1:], last, 0)]).astype(np.float32)
+    quaternions, contacts = motion.quaternions[order], motion.contacts[order]
+    return on_floor(Motion(quaternions, root, contacts, motion.fps))
+
+
+def distinct_names(roots: Sequence[Path]) -> list[str]:
+    """The name of each folder or file, with the folders above it that tell it from the others.
+
+    Raises:
+        UsageError: one is within another, so that its clips would be taken twice.
+    """
+    paths = [root.resolve().with_suffix("") if root.is_file() else root.resolve() for root in roots]
+    for number, path in enumerate(paths):
+        for other in (*paths[:number], *paths[number + 1 :]):
+            if path.is_relative_to(other):
+                raise UsageError(f"source {roots[number]} is named twice, or lies within another"
+                                 " one; name every clip once")  # fmt: skip
+    depth = [1] * len(paths)
+    while True:
+        names = ["/".join(path.parts[-of:]) for path, of in zip(paths, depth, strict=True)]
+        alike = {*_repeated(names), SyntheticSource.name}
+        if alike.isdisjoint(names):
+            return names
+        depth = [of + (name in alike) for of, name in zip(depth, names, strict=True)]
+
+
+def _repeated(names: Iterable[str]) -> tuple[str, ...]:
+    return tuple(sorted(name for name, count in Counter(names).items() if count > 1))
+
+
+def _rank(path: Path) -> tuple[int, Path]:
+    ending = path.suffix.lower()
+    return (FOLDER_ENDINGS.index(ending) if ending in FOLDER_ENDINGS else len(FOLDER_ENDINGS), path)
+
+
+@dataclass(frozen=True)
+class SyntheticSource:
+    """The project's own parametric motions: nothing to download, exact labels."""
+
+    num_clips: int
+    seed: int = 0
+    name: str = "synthetic"
+
+    def items(self) -> list[str]:
+        return [f"synthetic-{index:05d}" for index in range(self.num_clips)]
+
+    def fingerprint(self, item: str) -> str:
+        return f"{item}:{self.num_clips}:{self.seed}"
+
+    def read(self, item: str) -> RawClip:
+        from ..synthetic import generate_clip
+
+        index = int(item.rpartition("-")[2])
+        spec = _specs(self.num_clips, self.seed)[index]
+        motion = generate_clip(spec, seed=self.seed * 1_000_003 + index)
+        return RawClip(item, item, motion, dict(spec.labels), {}, "procedural")
+
+
+_SPECS: dict[tuple[int, int], list[Any]] = {}
+
+
+def _specs(num_clips: int, seed: int) -> list[Any]:
+    """Specifications of a synthetic set, made once a process."""
+    from ..synthetic import sample_specs
+
+    if (num_clips, seed) not in _SPECS:
+        _SPECS[num_clips, seed] = sample_specs(num_clips, seed)
+    return _SPECS[num_clips, seed]
+
+
+def all_items(sources: list[Source]) -> Iterator[tuple[int, str]]:
+    """(index of the source, item) of every clip."""
+    for index, source in enumerate(sources):
+        for item in source.items():
+            yield index, item

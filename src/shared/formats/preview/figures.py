@@ -1,0 +1,317 @@
+"""The mannequin drawn on the CPU: frame strips as PNG, films as GIF and MP4.
+
+Left limbs are orange, right limbs blue, the trunk grey; a foot in contact is green. The arrow on
+the floor is the facing direction, the line the pelvis path. Strips and GIF need Pillow alone; the
+pictures of a GIF stand for whole hundredths of a second, so it runs at the fastest such rate below
+the motion's own and plays in real time. MP4 (H.264, plays anywhere) needs PyAV. T frames."""
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...errors import UserError
+from ...files import atomic_write
+from ...motion.motion import Motion
+from ...motion.resample import resample_motion
+from ...motion.skeleton import FOOT_JOINTS
+from ..mannequin import CONTACT, Mannequin, mannequin, side_colours
+from .drawing import (
+    FLOOR,
+    GRID,
+    INK,
+    OVERSAMPLE,
+    PATH,
+    Camera,
+    FloorMap,
+    draw_mesh,
+    font,
+    new_sheet,
+    save_sheet,
+)
+
+if TYPE_CHECKING:
+    from PIL import Image, ImageDraw
+
+
+AZIMUTH, ELEVATION = np.deg2rad(28.0), np.deg2rad(17.0)
+GRID_METRES = 0.5
+
+
+def render_strip(
+    motions: Sequence[Motion] | Motion,
+    path: str | Path,
+    frames: int = 8,
+    *,
+    panel: tuple[int, int] = (190, 270),
+    azimuth: float = AZIMUTH,
+    titles: Sequence[str] | None = None,
+) -> Path:
+    """Draw `frames` evenly spaced poses of each motion, one motion a row, and save a PNG.
+
+    Args:
+        motions: one motion or several.
+        path: the picture to write.
+        frames: poses a row.
+        panel: width and height of one pose in pixels.
+        azimuth: camera angle in radians; 0 looks at the face of a character that faces +Z.
+        titles: one line a row instead of each motion's text.
+
+    Raises:
+        UserError: no motion, or Pillow is not installed.
+    """
+    rows = [motions] if isinstance(motions, Motion) else list(motions)
+    if not rows or frames < 1:
+        raise UserError("nothing to draw: give at least one motion and one frame")
+    size = (panel[0] * OVERSAMPLE, panel[1] * OVERSAMPLE)
+    header = 26 * OVERSAMPLE
+    width, height = size[0] * frames + size[1], (size[1] + header) * len(rows)
+    sheet, draw = new_sheet(width, height)
+    for row, motion in enumerate(rows):
+        top = row * (size[1] + header)
+        title = titles[row] if titles else motion.text or f"motion {row + 1}"
+        draw.text((8 * OVERSAMPLE, top + 5 * OVERSAMPLE), title, INK, font(14 * OVERSAMPLE, title))
+        picks = np.linspace(0, motion.num_frames - 1, frames).round().astype(int)
+        positions, rotations = motion.positions(), motion.global_rotations()
+        for column, frame in enumerate(picks):
+            pose = draw_pose(motion, positions, rotations, int(frame), size, azimuth)
+            sheet.paste(pose, (column * size[0], top + header))
+        sheet.paste(
+            _draw_map(positions, rotations, picks, size[1]), (frames * size[0], top + header)
+        )
+    return save_sheet(sheet, Path(path))
+
+
+def vertex_colours(body: Mannequin, contacts: np.ndarray) -> np.ndarray:
+    """RGB of each vertex [V,3]: by side, and green where a foot is on the ground."""
+    colours = side_colours(body.side)
+    for contact, joints in zip(contacts, FOOT_JOINTS, strict=True):
+        share = (body.weights * np.isin(body.joints, joints)).sum(-1, keepdims=True)
+        colours += float(contact > 0.5) * share * (np.array(CONTACT) - colours)
+    return np.asarray(colours)
+
+
+def draw_pose(
+    motion: Motion,
+    positions: np.ndarray,
+    rotations: np.ndarray,
+    frame: int,
+    size: tuple[int, int],
+    azimuth: float = AZIMUTH,
+    *,
+    target: np.ndarray | None = None,
+) -> "Image.Image":
+    """One pose, with the floor, the shadow and the path.
+
+    Args:
+        motion: whose pose.
+        positions: `motion.positions()`.
+        rotations: `motion.global_rotations()`.
+        frame: which one.
+        size: width and height in (doubled) pixels.
+        azimuth: camera angle in radians.
+        target: the point of the floor [3] that the camera looks at; under the pelvis by default.
+    """
+    from PIL import Image, ImageDraw, ImageFilter
+
+    under = motion.root_position[frame] * (1.0, 0.0, 1.0)
+    target = under if target is None else target
+    top = max(1.85, float(positions[:, :, 1].max()) + 0.35)
+    camera = Camera(
+        azimuth, ELEVATION, size[1] / (top + 0.55), target, (size[0] / 2, size[1] * 0.84)
+    )
+    image = Image.new("RGB", size, FLOOR)
+    draw = ImageDraw.Draw(image)
+    _draw_grid(draw, camera, target)
+    path = camera.project(motion.root_position * (1.0, 0.0, 1.0))[:, :2]
+    if len(path) > 1:
+        draw.line([tuple(p) for p in path], PATH, 2 * OVERSAMPLE, joint="curve")
+    _draw_arrow(draw, camera, under, rotations[frame, 0, :, 2])
+
+    body = mannequin()
+    vertices, normals = body.pose(positions[frame], rotations[frame])
+    ground = camera.project(vertices * (1.0, 0.0, 1.0))[:, :2]
+    shadow = Image.new("L", size, 0)
+    pen = ImageDraw.Draw(shadow)
+    for triangle in ground[body.triangles[::2]].reshape(-1, 6).astype(np.float32):
+        pen.polygon(triangle, 95)
+    image.paste((70, 76, 90), (0, 0), shadow.filter(ImageFilter.GaussianBlur(3 * OVERSAMPLE)))
+    colours = vertex_colours(body, motion.contacts[frame])
+    draw_mesh(draw, camera, vertices, normals, body.triangles, colours)
+    label = f"{frame / motion.fps:.2f} s"
+    draw.text(
+        (size[0] / 2, size[1] - 4 * OVERSAMPLE), label, INK, font(11 * OVERSAMPLE), anchor="mb"
+    )
+    return image
+
+
+def _draw_grid(draw: "ImageDraw.ImageDraw", camera: Camera, target: np.ndarray) -> None:
+    """Floor lines every half metre, fixed to the world, and the wall behind them."""
+    reach = 4.0
+    lines = np.arange(np.floor(-reach / GRID_METRES), np.ceil(reach / GRID_METRES) + 1)
+    x = (np.round(target[0] / GRID_METRES) + lines) * GRID_METRES
+    z = (np.round(target[2] / GRID_METRES) + lines) * GRID_METRES
+    for value in x:
+        ends = camera.project(np.array([[value, 0, z[0]], [value, 0, z[-1]]]))[:, :2]
+        draw.line([tuple(p) for p in ends], GRID, OVERSAMPLE)
+    for value in z:
+        ends = camera.project(np.array([[x[0], 0, value], [x[-1], 0, value]]))[:, :2]
+        draw.line([tuple(p) for p in ends], GRID, OVERSAMPLE)
+
+
+def _draw_arrow(
+    draw: "ImageDraw.ImageDraw", camera: Camera, origin: np.ndarray, facing: np.ndarray
+) -> None:
+    """A flat arrow on the floor in front of the character."""
+    flat = facing * (1.0, 0.0, 1.0)
+    length = float(np.linalg.norm(flat))
+    if length < 1e-3:
+        return
+    ahead = flat / length
+    side = np.array([ahead[2], 0.0, -ahead[0]])
+    tip, neck = origin + 0.50 * ahead, origin + 0.38 * ahead
+    tail = origin + 0.22 * ahead
+    shape = [tail + 0.015 * side, neck + 0.015 * side, neck + 0.06 * side, tip,
+             neck - 0.06 * side, neck - 0.015 * side, tail - 0.015 * side]  # fmt: skip
+    draw.polygon([tuple(p) for p in camera.project(np.array(shape))[:, :2]], INK)
+
+
+def _draw_map(
+    positions: np.ndarray, rotations: np.ndarray, picks: np.ndarray, size: int
+) -> "Image.Image":
+    """The pelvis path from above (+X right, +Z down, as seen from the front) with facings."""
+    ground = positions[:, 0][:, [0, 2]]
+    image, draw = new_sheet(size, size)
+    floor = FloorMap(ground, size)
+    floor.draw_grid(draw)
+    if len(ground) > 1:
+        draw.line([floor.pixel(p) for p in ground], PATH, 2 * OVERSAMPLE, joint="curve")
+    for number, frame in enumerate(picks):
+        radius = 4 * OVERSAMPLE if number == 0 else 2.5 * OVERSAMPLE
+        floor.draw_facing(draw, ground[frame], rotations[frame, 0, [0, 2], 2], radius)
+    return image
+
+
+SIZE = (480, 480)  # pixels; even numbers, as video wants them
+MAX_FPS = 30.0  # pictures a second; more cost time and show nothing
+FOLLOW = 1.0  # seconds over which the camera's path is smoothed
+GIF_COLOURS = 128  # of a GIF
+GREENS = 32  # rows of the shades of a foot on the ground, for the palette
+MAX_PICTURES = {"gif": 1500, "mp4": 18_000}  # a minute, which Pillow keeps in memory; ten minutes
+
+
+def write_gif(motion: Motion, path: str | Path) -> Path:
+    """Write an animated GIF that repeats for ever.
+
+    Raises:
+        UserError: too long, or the file cannot be written.
+    """
+    from PIL import Image
+
+    motion = resample_motion(motion, gif_rate(min(motion.fps, MAX_FPS)))
+    _check(motion, path, "gif")
+    pictures = frames(motion)
+    first = next(pictures)
+    plain = Image.Dither.NONE
+    palette = _palette(first)
+    rest = (picture.quantize(palette=palette, dither=plain) for picture in pictures)
+    with atomic_write(Path(path)) as temporary:
+        first.quantize(palette=palette, dither=plain).save(
+            temporary,
+            format="GIF",
+            save_all=True,
+            append_images=rest,
+            duration=round(1000 / motion.fps),
+            loop=0,
+            optimize=False,
+        )
+    return Path(path)
+
+
+def _palette(first: "Image.Image") -> "Image.Image":
+    """One palette for all pictures, so that nothing flickers: the first's, and a foot's green."""
+    from PIL import Image
+
+    sheet = Image.new("RGB", (first.width, first.height + GREENS))
+    sheet.paste(first, (0, 0))
+    for row in range(GREENS):
+        green = tuple(round(255 * part * (0.5 + 0.5 * row / GREENS)) for part in CONTACT)
+        sheet.paste(green, (0, first.height + row, first.width, first.height + row + 1))
+    return sheet.quantize(GIF_COLOURS, dither=Image.Dither.NONE)
+
+
+def write_mp4(motion: Motion, path: str | Path) -> Path:
+    """Write an MP4 film at the motion's own rate, at most 30 pictures a second.
+
+    Raises:
+        UserError: PyAV is not installed, too long, or the file cannot be written.
+    """
+    try:
+        import av
+    except ImportError as error:
+        raise UserError(f"cannot write {path}: MP4 needs PyAV; install it with: pip install av, "
+                        "or write a .gif") from error  # fmt: skip
+    motion = motion if motion.fps <= MAX_FPS else resample_motion(motion, MAX_FPS)
+    _check(motion, path, "mp4")
+    with atomic_write(Path(path)) as temporary:
+        try:
+            _film(motion, temporary)
+        except av.FFmpegError as error:
+            if isinstance(error, OSError):  # the disk's fault, not the film's
+                raise
+            raise UserError(f"cannot write {path}: {error}; write a .gif instead") from error
+    return Path(path)
+
+
+def _film(motion: Motion, path: Path) -> None:
+    """Encode every picture; the index goes in front, so that browsers start at once."""
+    import av
+
+    rate = Fraction(motion.fps).limit_denominator(1001)
+    with av.open(str(path), "w", format="mp4", options={"movflags": "faststart"}) as out:
+        stream = out.add_stream("libx264", rate=rate)
+        stream.width, stream.height = SIZE
+        stream.pix_fmt = "yuv420p"
+        stream.options = {"crf": "20", "preset": "veryfast"}
+        for picture in frames(motion):
+            out.mux(stream.encode(av.VideoFrame.from_image(picture)))
+        out.mux(stream.encode())
+
+
+def gif_rate(fps: float) -> float:
+    """The fastest rate not above `fps` whose pictures stand for whole hundredths of a second."""
+    return float(100 / np.ceil(100 / fps - 1e-6))
+
+
+def frames(motion: Motion, size: tuple[int, int] = SIZE) -> Iterator["Image.Image"]:
+    """The pictures of a motion, one a frame; the camera follows the pelvis smoothly."""
+    from PIL import Image, ImageDraw
+
+    positions, rotations = motion.positions(), motion.global_rotations()
+    targets = _smooth(motion.root_position * (1.0, 0.0, 1.0), motion.fps)
+    large = (size[0] * OVERSAMPLE, size[1] * OVERSAMPLE)
+    title = font(14 * OVERSAMPLE, motion.text)
+    for frame in range(motion.num_frames):
+        picture = draw_pose(
+            motion, positions, rotations, frame, large, AZIMUTH, target=targets[frame]
+        )
+        place = (10 * OVERSAMPLE, 8 * OVERSAMPLE)
+        ImageDraw.Draw(picture).text(place, motion.text, INK, title)
+        yield picture.resize(size, Image.Resampling.BOX)
+
+
+def _smooth(path: np.ndarray, fps: float) -> np.ndarray:
+    """A path [T,3] averaged over `FOLLOW` seconds, ends repeated."""
+    width = 2 * round(FOLLOW * fps / 2) + 1
+    padded = np.pad(path, ((width // 2, width // 2), (0, 0)), mode="edge")
+    sums = np.cumsum(np.concatenate((np.zeros((1, 3)), padded.astype(np.float64))), 0)
+    return np.asarray((sums[width:] - sums[:-width]) / width)
+
+
+def _check(motion: Motion, path: str | Path, kind: str) -> None:
+    if motion.num_frames > MAX_PICTURES[kind]:
+        limit = MAX_PICTURES[kind] / motion.fps
+        raise UserError(f"cannot write {path}: {motion.seconds:.0f} s are too long for {kind}, "
+                        f"{limit:.0f} s are the limit; cut the motion or write html")  # fmt: skip

@@ -1,0 +1,280 @@
+"""HTML previews: one page that plays motions or trajectories side by side, offline.
+
+The page is `preview.html` with the viewer's scripts and the data put in: the mannequin's mesh and
+each motion as little-endian arrays in base64. T frames of a body that moves all its joints cost
+190 T bytes before base64. With a song, the song plays and drives the body, its path and a phase
+dial, each trajectory on a proxy body (78 bytes a frame) or on the body that dances it (223). The
+song is in the page: its own bytes where browsers play them, otherwise Ogg Vorbis. A damaged file
+is encoded anew from what could be read of it: a browser would leave gaps open that the analysis
+closed, and sound and motion would run apart."""
+
+import base64
+import html
+import io
+import json
+import re
+from collections.abc import Sequence
+from functools import lru_cache
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...errors import UserError
+from ...files import write_text
+from ...motion.motion import Motion
+from ...motion.skeleton import FOOT_JOINTS, canonical_skeleton
+from ...motion.style import PAIRS, style_values
+from ...motion.trajectory import MotionTrajectory
+from ...sound_files.reader import SoundReader
+from ..mannequin import BODY, COLOURS, CONTACT, JOINT_SIDES, mannequin, whole_shares
+from .drawing import PATH
+from .trajectory import SongTrack, beat_marks, phase_palette, proxy_body
+
+SCRIPTS = (
+    "preview_scene.js",
+    "preview_body.js",
+    "preview_rhythm.js",
+    "preview_clock.js",
+    "preview.js",
+)
+HINT = """A <b style="color:#2f9150">foot</b> on the ground turns green; the red line is the
+    path."""
+MESH_UNIT = 1e-4  # metres; the vertex shader knows it too
+QUATERNION_UNIT = 32767.0
+_SIDES = {"left": 1, "right": -1, "centre": 0}
+
+
+def write_html(motions: Sequence[Motion] | Motion, path: str | Path) -> Path:
+    """Write one self-contained page; prompts are the captions and cannot act as markup.
+
+    Raises:
+        UserError: no motion, or the file cannot be written.
+    """
+    shown = [motions] if isinstance(motions, Motion) else list(motions)
+    if not shown:
+        raise UserError(f"cannot write {path}: there is no motion to show; give one")
+    return write_page({"motions": [motion_data(motion) for motion in shown]}, path)
+
+
+def write_page(
+    data: dict[str, Any], path: str | Path, *, hint: str = HINT, media: str = ""
+) -> Path:
+    """Fill the template; returns the path.
+
+    Args:
+        data: `motions`, a list of what `motion_data` made, and what else the scripts read.
+        path: the page to write.
+        hint: markup that explains the picture, under the controls.
+        media: markup of the element with the id `song`, which then drives the clock.
+
+    Raises:
+        UserError: the file cannot be written.
+    """
+    resources = files(__package__)
+    parts = {
+        "@DATA@": script_safe_json(_body() | data),
+        "@SCRIPT@": "\n".join(resources.joinpath(n).read_text("utf-8") for n in SCRIPTS),
+        "@HINT@": hint,
+        "@SONG@": media,
+    }
+    page = resources.joinpath("preview.html").read_text("utf-8")
+    # In one pass, so that a prompt that holds a mark is not filled in itself.
+    write_text(Path(path), re.sub("|".join(parts), lambda mark: parts[mark[0]], page))
+    return Path(path)
+
+
+def script_safe_json(value: Any) -> str:
+    """JSON that may stand in a `<script>` element: ASCII, and `<`, `>`, `&` only as escapes."""
+    text = json.dumps(value, allow_nan=False, separators=(",", ":"))
+    return re.sub("[<>&]", lambda sign: f"\\u{ord(sign[0]):04x}", text)
+
+
+@lru_cache(maxsize=1)
+def _body() -> dict[str, Any]:
+    """What all motions share: skeleton, mesh, limbs for browsers without WebGL, colours."""
+    body, skeleton = mannequin(), canonical_skeleton()
+    return {
+        "skeleton": {
+            "parents": list(skeleton.parents),
+            "offsets": skeleton.offsets.astype(float).round(6).tolist(),
+            "rest": body.rest.astype(float).round(6).tolist(),
+            "sides": [_SIDES[side] for side in JOINT_SIDES],
+            "feet": FOOT_JOINTS,
+        },
+        "mesh": {
+            "positions": base64_array(body.vertices / MESH_UNIT, "<i2"),
+            "normals": base64_array(body.normals * 127, "i1"),
+            "joints": base64_array(body.joints, "u1"),
+            "weights": base64_array(whole_shares(body.weights, 255), "u1"),
+            "triangles": base64_array(body.triangles, "<u2"),
+        },
+        "cones": [[part.joint, part.start, part.end, *part.radii] for part in BODY],
+        "colours": COLOURS | {"contact": CONTACT},
+    }
+
+
+def motion_data(motion: Motion) -> dict[str, Any]:
+    """What the viewer needs of one motion; joints that never turn are stored once."""
+    norms = np.linalg.norm(motion.quaternions, axis=-1, keepdims=True)
+    quaternions = np.rint(motion.quaternions / norms * QUATERNION_UNIT)
+    turning = np.flatnonzero((quaternions != quaternions[:1]).any((0, 2)))
+    return {
+        "text": motion.text,
+        "fps": float(motion.fps),
+        "frames": motion.num_frames,
+        "turning": turning.tolist(),
+        "quaternions": base64_array(quaternions[:, turning], "<i2"),
+        "still": base64_array(quaternions[0], "<i2"),
+        "root": base64_array(motion.root_position, "<f4"),
+        "contacts": base64_array(np.clip(motion.contacts, 0, 1) * 255, "u1"),
+    }
+
+
+def base64_array(values: np.ndarray, kind: str) -> str:
+    """Values as a little-endian type, rounded where that is an integer, in base64."""
+    rounded = values if kind == "<f4" else np.rint(values)
+    return base64.b64encode(np.ascontiguousarray(rounded.astype(kind)).tobytes()).decode()
+
+
+# Largest file in bytes that goes in as it is; lossless ones are encoded sooner.
+KEEP = {"OGG": 40_000_000, "MP3": 40_000_000, "FLAC": 8_000_000, "WAV": 3_000_000}
+TYPES = {"OGG": "audio/ogg", "MP3": "audio/mpeg", "FLAC": "audio/flac", "WAV": "audio/wav"}
+WAV_KINDS = ("PCM_U8", "PCM_16", "PCM_24", "FLOAT")  # what browsers read of WAV
+VORBIS_RATE = 48_000  # samples a second, at most; ours are 44.1 kHz
+SPARE = 1.0  # seconds that a song may go on after the motion before it is cut
+BLOCK = 65_536  # samples; the encoder of some libsndfile versions overflows on long ones
+
+
+def song_uri(path: str | Path, seconds: float) -> str:
+    """The first `seconds` of a song as a `data:` URI that browsers play.
+
+    Raises:
+        UserError: the file is missing or no sound that can be read.
+    """
+    path = Path(path)
+    try:
+        sound = SoundReader(path)
+        if path.stat().st_size <= KEEP.get(sound.format, 0) and _plays(sound, seconds + SPARE):
+            return _uri(TYPES[sound.format], path.read_bytes())
+    except OSError as error:
+        raise UserError(f"cannot read {path}: {error.strerror}; name a sound file") from error
+    return _uri("audio/ogg", _vorbis(SoundReader(path), seconds + SPARE))
+
+
+def _plays(sound: SoundReader, longest: float) -> bool:
+    """Is it sound to the end, and no longer than so many seconds? Only reading it tells."""
+    if (sound.format == "WAV" and sound.subtype not in WAV_KINDS) or sound.claimed > longest:
+        return False
+    for _ in sound.blocks(BLOCK):
+        if sound.seconds > longest:
+            return False
+    return not list(sound.notes())
+
+
+def _vorbis(song: SoundReader, longest: float) -> bytes:
+    """The beginning of a song as Ogg Vorbis, block by block; more than two channels become one."""
+    import soundfile
+
+    stream = io.BytesIO()
+    step = -(-song.rate // VORBIS_RATE)  # 96 or 192 kHz: every second or fourth sample
+    channels = song.channels if song.channels <= 2 else 1
+    left = round(longest * song.rate)
+    with soundfile.SoundFile(
+        stream, "w", song.rate // step, channels, "VORBIS", format="OGG"
+    ) as out:
+        for block in song.blocks(BLOCK * step):
+            block = block[:left]
+            left -= len(block)
+            if song.channels > 2:
+                block = block.mean(1, keepdims=True)
+            whole = len(block) // step * step
+            out.write(block[:whole].reshape(-1, step, channels).mean(1).clip(-1, 1))
+            if not left:
+                break
+    return stream.getvalue()
+
+
+def _uri(kind: str, data: bytes) -> str:
+    return f"data:{kind};base64,{base64.b64encode(data).decode()}"
+
+
+MUSIC_HINT = """The path has the colours of the bar and a dot at each beat; the dial's hand goes
+    round once a bar and its hub lights up at the beats;"""
+BEATLESS_HINT = """No beat was found in the song: the motion keeps its own time."""
+PATH_HINT = """the bars are the style, the strip is the speed. Only the pelvis is generated: the
+    rest of the body stands in."""
+BODY_HINT = """the bars are the path's style, the strip is the mean speed of all joints. A foot on
+    the ground turns green."""
+TOP_SPEED = 65.0  # m/s; the page stores 16-bit millimetres a second
+
+
+def write_trajectory_html(
+    trajectories: Sequence[MotionTrajectory] | MotionTrajectory,
+    path: str | Path,
+    song: SongTrack | None = None,
+    titles: Sequence[str] = (),
+    bodies: Sequence[Motion] = (),
+) -> Path:
+    """Write one self-contained page; titles are captions and cannot act as markup.
+
+    Args:
+        trajectories: one or several for the same song.
+        path: the page to write.
+        song: its file is put into the page, cut to the longest trajectory.
+        titles: one caption a trajectory; a body's own text where there is none.
+        bodies: one a trajectory, frame by frame on it; none = the proxy body.
+
+    Raises:
+        UserError: no trajectory, a song that cannot be read, or the page cannot be written.
+    """
+    shown = [trajectories] if isinstance(trajectories, MotionTrajectory) else list(trajectories)
+    if not shown:
+        raise UserError(f"cannot write {path}: there is no trajectory to show; give one")
+    song = song or SongTrack()
+    media = ""
+    if song.path is not None:
+        uri = song_uri(song.path, max(trajectory.seconds for trajectory in shown))
+        media = f'<audio id="song" preload="auto" src="{html.escape(uri)}"></audio>'
+    names = [*titles, *[""] * (len(shown) - len(titles))]
+    figures = list(bodies) or [
+        proxy_body(trajectory, name) for trajectory, name in zip(shown, names, strict=True)
+    ]
+    speeds = [_mean_speed(body) for body in bodies] or [
+        np.linalg.norm(trajectory.velocity, axis=-1) for trajectory in shown
+    ]
+    cards = [
+        _card(trajectory, figure, speed, song) | ({"text": name} if name else {})
+        for trajectory, figure, speed, name in zip(shown, figures, speeds, names, strict=True)
+    ]
+    colours = [PATH] if song.beatless else phase_palette()
+    palette = ["#" + bytes(colour).hex() for colour in colours]
+    data = {"motions": cards, "palette": palette, "pairs": PAIRS}
+    hint = BEATLESS_HINT if song.beatless else MUSIC_HINT
+    return write_page(data, path, hint=f"{hint} {BODY_HINT if bodies else PATH_HINT}", media=media)
+
+
+def _card(
+    trajectory: MotionTrajectory, figure: Motion, speed: np.ndarray, song: SongTrack
+) -> dict[str, Any]:
+    """A figure's motion and what the dial, the path and the strip show; speed [T] in m/s."""
+    card = motion_data(figure)
+    marks = beat_marks(trajectory, song)
+    if not len(marks.times) and np.ptp(trajectory.phase) == 0:
+        return card  # no music: no dial
+    return card | {
+        "meter": 0 if song.beatless else marks.meter,  # 0: no dial
+        "beats": base64_array(marks.times, "<f4"),
+        "downbeat": base64_array(marks.downbeat, "u1"),
+        "phase": base64_array(np.floor(trajectory.phase.astype(np.float64) * 65536), "<u2"),
+        "speed": base64_array(np.clip(speed, 0, TOP_SPEED) * 1000, "<u2"),
+        "style": base64_array(style_values(trajectory.style) * 255, "u1"),
+    }
+
+
+def _mean_speed(body: Motion) -> np.ndarray:
+    """Of all joints [T] in m/s, forward differences; what motion beats are found in."""
+    steps = np.diff(body.positions(), axis=0) * body.fps
+    mean = np.linalg.norm(steps, axis=-1).mean(1)
+    return np.pad(mean, (0, 1), mode="edge") if len(mean) else np.zeros(body.num_frames)

@@ -1,0 +1,345 @@
+"""GLB files in: the skeleton of a character and, where there is one, its first animation.
+
+Joints are the nodes of the largest skin, or all nodes of a file without skins; nodes between
+them count as joints too. The default pose of the nodes is the rest pose. Legend: T frames, S keys,
+N joints, M nodes that matter (joints and everything above them)."""
+
+import struct
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...errors import UserError, printable
+from ..glb_file import GlbError, GlbFile
+from ..limits import FRAME_RATES, MAX_FRAMES, MAX_JOINTS, MAX_VALUE, MAX_VALUES
+from ..rig import Rig, RigClip, quaternions_to_matrices
+
+DEFAULT_FPS = 30.0
+EVEN = 1e-3  # of a frame: keys that are no further from even times are taken as frames
+Track = tuple[np.ndarray, np.ndarray, str]
+
+
+def read_tracks(file: GlbFile, wanted: set[int]) -> dict[tuple[int, str], Track]:
+    """Key times [S], values and interpolation of each (node, path) of the first animation."""
+    animations = file.document.get("animations") or [{"channels": []}]
+    tracks: dict[tuple[int, str], Track] = {}
+    for channel in animations[0]["channels"]:
+        target = channel["target"]
+        node, path = target.get("node"), target["path"]
+        if node not in wanted or path not in ("translation", "rotation", "scale"):
+            continue
+        sampler = animations[0]["samplers"][channel["sampler"]]
+        keys, values = file.array(sampler["input"])[:, 0], file.array(sampler["output"])
+        kind = str(sampler.get("interpolation", "LINEAR"))
+        width, each = (4 if path == "rotation" else 3), (3 if kind == "CUBICSPLINE" else 1)
+        if values.shape != (each * len(keys), width) or (np.diff(keys) <= 0).any():
+            raise GlbError(f"animates the {path} of node {node} with keys that do not fit")
+        tracks[node, path] = (keys, values, kind)
+    return tracks
+
+
+def even_times(keys: list[np.ndarray], num_nodes: int) -> tuple[np.ndarray, float]:
+    """Evenly spaced times [T] in seconds over all keys, and their rate."""
+    densest = max(keys, key=len, default=np.zeros(1))
+    if len(densest) < 2:
+        return densest[:1], DEFAULT_FPS
+    start, end = min(k[0] for k in keys), max(k[-1] for k in keys)
+    fps = float(1.0 / np.median(np.diff(densest)))
+    even = np.linspace(start, end, len(densest))
+    exact = bool(np.abs(densest - even).max() < EVEN * (even[1] - even[0]))
+    if exact:  # times are float32: their mean step is the better measure
+        fps = (len(densest) - 1) / float(end - start)
+    fps = round(fps, 2) if abs(fps - round(fps, 2)) < 1e-4 else fps
+    count = round((end - start) * fps) + 1 if FRAME_RATES[0] <= fps <= FRAME_RATES[1] else 0
+    if not 0 < count <= MAX_FRAMES or count * num_nodes > MAX_VALUES // 16:
+        raise GlbError(f"animates {end - start:g} s at {fps:g} frames a second, which is too much")
+    return densest if exact else start + np.arange(count) / fps, fps
+
+
+def moved_matrices(
+    node: dict[str, Any], index: int, tracks: dict[tuple[int, str], Track], times: np.ndarray
+) -> np.ndarray:
+    """Local matrices [T,4,4], or [1,4,4] of a node that stays."""
+    animated = [path for path in ("translation", "rotation", "scale") if (index, path) in tracks]
+    if not animated:
+        return rest_matrix(node)[None]
+    if "matrix" in node:
+        raise GlbError(f"animates node {index}, whose pose is a matrix")
+    rest = {"translation": (0, 0, 0), "rotation": (0, 0, 0, 1), "scale": (1, 1, 1)}
+    values = [
+        _sampled(*tracks[index, path], times, turning=path == "rotation")
+        if path in animated
+        else np.array([node.get(path, rest[path])], dtype=np.float64)
+        for path in rest
+    ]
+    return _compose(*values)
+
+
+def _sampled(
+    keys: np.ndarray, values: np.ndarray, kind: str, times: np.ndarray, *, turning: bool
+) -> np.ndarray:
+    """Values [T,width] between keys (glTF 2.0, appendix C)."""
+    after = np.clip(np.searchsorted(keys, times, "right"), 1, max(1, len(keys) - 1))
+    before = after - 1
+    after = np.minimum(after, len(keys) - 1)
+    width = np.where(after > before, keys[after] - keys[before], 1.0)
+    part = np.clip((times - keys[before]) / width, 0.0, 1.0)[:, None]
+    if kind == "CUBICSPLINE":
+        t, triples = part, values.reshape(len(keys), 3, -1)
+        first, last = triples[before], triples[after]
+        leave, arrive = first[:, 2] * width[:, None], last[:, 0] * width[:, None]
+        return np.asarray(
+            (2 * t**3 - 3 * t**2 + 1) * first[:, 1] + (t**3 - 2 * t**2 + t) * leave
+            + (3 * t**2 - 2 * t**3) * last[:, 1] + (t**3 - t**2) * arrive
+        )  # fmt: skip
+    first, last = values[before], values[after]
+    if kind == "STEP":
+        return np.where(part >= 1.0, last, first)
+    if not turning:
+        return np.asarray(first + part * (last - first))
+    return _slerp(first, last, part)
+
+
+def _slerp(first: np.ndarray, last: np.ndarray, part: np.ndarray) -> np.ndarray:
+    """Between quaternions [T,4] of any component order, on the short way (Shoemake 1985)."""
+    first = first / np.maximum(np.linalg.norm(first, axis=-1, keepdims=True), 1e-12)
+    last = last / np.maximum(np.linalg.norm(last, axis=-1, keepdims=True), 1e-12)
+    cosine = (first * last).sum(-1, keepdims=True)
+    last, cosine = np.where(cosine < 0, -last, last), np.abs(cosine).clip(0.0, 1.0)
+    angle = np.arccos(cosine)
+    sine = np.sin(angle)
+    near = sine < 1e-6
+    safe = np.where(near, 1.0, sine)
+    a = np.where(near, 1 - part, np.sin((1 - part) * angle) / safe)
+    b = np.where(near, part, np.sin(part * angle) / safe)
+    return np.asarray(a * first + b * last)
+
+
+def rest_matrix(node: dict[str, Any]) -> np.ndarray:
+    """The local matrix [4,4] of a node's default pose."""
+    if "matrix" in node:
+        matrix = np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
+    else:
+        matrix = _compose(
+            np.array([node.get("translation", (0, 0, 0))], dtype=np.float64),
+            np.array([node.get("rotation", (0, 0, 0, 1))], dtype=np.float64),
+            np.array([node.get("scale", (1, 1, 1))], dtype=np.float64),
+        )[0]
+    if not np.isfinite(matrix).all():
+        raise GlbError(f"node {node.get('name')!r} is at an impossible place")
+    return matrix
+
+
+def _compose(translation: np.ndarray, rotation: np.ndarray, scale: np.ndarray) -> np.ndarray:
+    """Matrices [T,4,4] of translations [T,3], quaternions x y z w [T,4] and scales [T,3]."""
+    matrices = np.tile(np.eye(4), (max(map(len, (translation, rotation, scale))), 1, 1))
+    if np.linalg.norm(rotation, axis=-1).min() < 1e-6:
+        raise GlbError("holds a quaternion of zeros, which is no rotation")
+    turn = quaternions_to_matrices(rotation[:, [3, 0, 1, 2]])
+    matrices[:, :3, :3] = turn * scale[:, None, :]
+    matrices[:, :3, 3] = translation
+    return matrices
+
+
+UNEVEN = 0.02  # relative difference of a node's three scales that no skeleton needs
+
+
+@dataclass(frozen=True, eq=False)
+class GlbSkeleton:
+    """A character's skeleton and where its joints lie in the file.
+
+    Attributes:
+        rig: the joints, in metres.
+        nodes: node of each joint.
+        base: matrix [4,4] of everything above the root.
+        scales: size in the world of a length in each joint's parent [N].
+    """
+
+    file: GlbFile
+    rig: Rig
+    nodes: list[int]
+    base: np.ndarray
+    scales: np.ndarray
+
+
+def read_glb_skeleton(path: str | Path) -> GlbSkeleton:
+    """The skeleton of a GLB file, at rest.
+
+    Raises:
+        UserError: missing, damaged, without joints, or with joints scaled unevenly.
+    """
+    path = Path(path)
+    file = GlbFile.read(path)
+    with _faults(path):
+        return _skeleton(file)
+
+
+def read_glb(path: str | Path) -> RigClip:
+    """The first animation of a GLB file, at the rate of its densest keys; else the rest pose.
+
+    Raises:
+        UserError: as `read_glb_skeleton`, or an animation of impossible length.
+    """
+    path = Path(path)
+    file = GlbFile.read(path)
+    with _faults(path):
+        skeleton = _skeleton(file)
+        return _clip(skeleton)
+
+
+@contextmanager
+def _faults(path: Path) -> Iterator[None]:
+    """Faults of the file become one sentence that names it."""
+    try:
+        yield
+    except GlbError as error:
+        raise UserError(f"{path}: {error}") from None
+    except (LookupError, TypeError, ValueError, AttributeError, OverflowError, struct.error,
+            np.linalg.LinAlgError) as error:  # fmt: skip
+        # What a document with a missing, wrong or foreign entry leads to.
+        raise UserError(
+            f"{path}: does not hold what glTF 2.0 asks for ({error!r}); export it again"
+        ) from None
+
+
+def _skeleton(file: GlbFile) -> GlbSkeleton:
+    nodes: list[dict[str, Any]] = file.document.get("nodes", [])
+    parents = _parents(nodes)
+    joints = _joints(file.document, nodes, parents)
+    index = {node: joint for joint, node in enumerate(joints)}
+    poses = {node: rest_matrix(nodes[node]) for node in _with_ancestors(joints, parents)}
+    world: dict[int, np.ndarray] = {}
+    for node in _with_ancestors(joints, parents):  # parents first
+        world[node] = (world[parents[node]] if parents[node] >= 0 else np.eye(4)) @ poses[node]
+    places = np.array([world[node] for node in joints])
+    frames, sizes = _split(places[:, :3, :3])
+    above = [index.get(parents[node], -1) for node in joints]
+    offsets = np.array([
+        places[j, :3, 3] - (places[p, :3, 3] if p >= 0 else 0.0) for j, p in enumerate(above)
+    ])  # fmt: skip
+    if not np.abs(offsets).max() < MAX_VALUE:
+        raise GlbError("has joints at impossible places")
+    root = parents[joints[0]]
+    base = world[root] if root >= 0 else np.eye(4)
+    base_size = _split(base[None, :3, :3])[1]
+    names = _names(nodes, joints)
+    leaves = sorted(set(range(len(joints))) - set(above))
+    tips = tuple((j, tuple((0.5 * offsets[j]).tolist())) for j in leaves if above[j] >= 0)
+    rig = Rig(names, tuple(above), offsets, tips, frames, ("ZXY",) * len(joints))
+    scales = np.array([sizes[p] if p >= 0 else base_size[0] for p in above])
+    return GlbSkeleton(file, rig, joints, base, scales)
+
+
+def _parents(nodes: list[dict[str, Any]]) -> list[int]:
+    """Parent of each node, -1 for none."""
+    if len(nodes) > 100 * MAX_JOINTS:
+        raise GlbError(f"has {len(nodes)} nodes; a character has far fewer")
+    parents = [-1] * len(nodes)
+    for node, entry in enumerate(nodes):
+        for child in entry.get("children", []):
+            if not 0 <= child < len(nodes) or parents[child] >= 0:
+                raise GlbError(f"node {child} is missing or has two parents")
+            parents[child] = node
+    return parents
+
+
+def _joints(document: dict[str, Any], nodes: list[dict[str, Any]], parents: list[int]) -> list[int]:
+    """Nodes of the skeleton, parents first, of which the first is the only root."""
+    skins = document.get("skins", [])
+    chosen: list[int] = max((skin["joints"] for skin in skins), key=len, default=[])
+    if not chosen:
+        chosen = [n for n, entry in enumerate(nodes) if not {"mesh", "camera"} & set(entry)]
+    if not chosen:
+        raise GlbError("holds no skeleton; export the armature as well")
+    if len(chosen) > MAX_JOINTS or any(not 0 <= n < len(nodes) for n in chosen):
+        raise GlbError(f"names {len(chosen)} joints, too many or not its own nodes")
+    lines = {node: _line(node, parents) for node in chosen}
+    tops: dict[int, list[int]] = {}
+    for node in chosen:
+        tops.setdefault(lines[node][0], []).append(node)
+    tree = max(tops.values(), key=len)
+    root = next(  # the lowest node above all
+        node for node in reversed(lines[tree[0]]) if all(node in lines[other] for other in tree)
+    )
+    wanted = {node for joint in tree for node in lines[joint][lines[joint].index(root) :]}
+    if len(wanted) > MAX_JOINTS:
+        raise GlbError(f"has more than {MAX_JOINTS} joints")
+    order, stack = [], [root]
+    while stack:
+        order.append(stack.pop())
+        children = nodes[order[-1]].get("children", [])
+        stack += [child for child in reversed(children) if child in wanted]
+    return order
+
+
+def _line(node: int, parents: list[int]) -> list[int]:
+    """From the top of the tree down to a node."""
+    line = [node]
+    while parents[line[-1]] >= 0:
+        line.append(parents[line[-1]])
+        if len(line) > MAX_JOINTS:
+            raise GlbError("has nodes that are their own ancestors or far too many levels")
+    return line[::-1]
+
+
+def _with_ancestors(joints: list[int], parents: list[int]) -> list[int]:
+    """The nodes above the root, then the joints: parents first."""
+    return [*_line(joints[0], parents)[:-1], *joints]
+
+
+def _names(nodes: list[dict[str, Any]], joints: list[int]) -> tuple[str, ...]:
+    """Names on one line, printable; numbered where two joints share one."""
+    names: list[str] = []
+    for node in joints:
+        name = printable(" ".join(str(nodes[node].get("name", "")).split())) or f"node {node}"
+        names.append(name if name not in names else f"{name} {node}")
+    return tuple(names)
+
+
+def _split(matrices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Rotations [...,3,3] and even scales [...] of matrices [...,3,3]."""
+    sizes = np.linalg.norm(matrices, axis=-2)
+    size = sizes.mean(-1)
+    if size.min() < 1e-9 or np.abs(sizes / size[..., None] - 1).max() > UNEVEN:
+        raise GlbError("has joints that are scaled unevenly; apply all scales and export it again")
+    rotations = matrices / sizes[..., None, :]
+    product = rotations @ rotations.swapaxes(-1, -2)
+    if np.abs(product - np.eye(3)).max() > UNEVEN or np.linalg.det(rotations).min() < 0:
+        raise GlbError("has joints that are sheared or mirrored; apply all transforms first")
+    return rotations, size
+
+
+# ---------------------------------------------------------------- animation
+
+
+def _clip(skeleton: GlbSkeleton) -> RigClip:
+    """The first animation, sampled evenly."""
+    document = skeleton.file.document
+    nodes = document["nodes"]
+    above = _parents(nodes)
+    line = _with_ancestors(skeleton.nodes, above)
+    tracks = read_tracks(skeleton.file, set(line))
+    times, fps = even_times([keys for keys, _, _ in tracks.values()], len(line))
+    world: dict[int, np.ndarray] = {}
+    for node in line:
+        local = moved_matrices(nodes[node], node, tracks, times)
+        world[node] = world[above[node]] @ local if above[node] >= 0 else local
+    places = np.stack([np.broadcast_to(world[n], (len(times), 4, 4)) for n in skeleton.nodes], 1)
+    turns = _split(places[..., :3, :3])[0] @ skeleton.rig.frames.swapaxes(-1, -2)
+    positions = places[..., :3, 3]
+    rotations, translations = turns.copy(), positions.copy()
+    for joint, parent in enumerate(skeleton.rig.parents):
+        if parent >= 0:
+            back = turns[:, parent].swapaxes(-1, -2)
+            rotations[:, joint] = back @ turns[:, joint]
+            step = positions[:, joint] - positions[:, parent]
+            translations[:, joint] = (back @ step[..., None])[..., 0]
+    if not np.abs(translations).max() < MAX_VALUE:
+        raise GlbError("moves its joints to impossible places")
+    scene = (document.get("scenes") or [{}])[document.get("scene", 0)]
+    text = str((scene.get("extras") or {}).get("text", ""))
+    return RigClip(skeleton.rig, rotations, translations, fps, text)

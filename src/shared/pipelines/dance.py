@@ -1,0 +1,279 @@
+"""A song and a prompt become dances, the best first.
+
+The audio branch makes the path, `body` puts a body on it. A prompt also sets the path's style
+(ruling 11) where the text model can read one from it. Without a prompt, one is drawn every few bars
+from a fixed list, by a softmax over three terms: how near it is to the sound in the shared space,
+how near its energy is to the loudness, and whether a body that does it could keep to the path. The
+space learned from rendered songs laid on mocap by tempo: it knows a song's tempo, nothing of its
+mood (docs/experiments.md), so the first term says little more than fast or slow.
+
+Letters: N candidates, P prompts, T frames, M beats, D width of the shared space.
+"""
+
+import logging
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from ..errors import UserError
+from ..model.audio.conditioning import ENERGY
+from ..model.audio.shared_space import SharedSpace
+from ..model.clip.pretrained import tower_hash
+from ..model.generation.motion_generator import TextToMotion
+from ..motion.root_track import FORWARD, HEIGHT, LATERAL
+from ..motion.trajectory import FPS, MotionTrajectory, to_root
+from .body import Performance, Performer, Progress
+from .ranking import PerformanceJudge, ScoreTable, unranked
+from .song import SongCondition, finished
+from .stream import Passage
+
+log = logging.getLogger(__name__)
+
+SPACE = "starter-space"
+SECTION = 6.0  # seconds, about; whole bars where a beat is known
+HEARD = 150  # frames that the audio tower hears at once: it learned from five seconds at most
+SHORTEST = 40  # frames of them
+SPEED_WIDTH, HEIGHT_WIDTH, ENERGY_WIDTH = 0.6, 0.12, 0.5  # m/s, m, share: one unit of logit
+
+
+@dataclass(frozen=True)
+class DancePrompt:
+    """What the starter does for a prompt when no path tells it where to go.
+
+    Attributes:
+        text: the prompt.
+        forward, left: mean velocity of the pelvis as it sees it, m/s.
+        height: of the pelvis, m.
+        energy: rank of the mean speed of all joints in the list, 0 to 1.
+    """
+
+    text: str
+    forward: float
+    left: float
+    height: float
+    energy: float
+
+
+PROMPTS = (
+    DancePrompt("a person dances", 0.1, 0.1, 0.87, 0.4),
+    DancePrompt("a proud person dances", 0.0, 0.0, 0.95, 0.1),
+    DancePrompt("a child dances", 0.1, 0.0, 0.96, 0.2),
+    DancePrompt("a tired person dances", 0.5, 0.2, 0.95, 0.4),
+    DancePrompt("an old man dances", 0.5, 0.1, 0.93, 0.5),
+    DancePrompt("a young person dances to the music", 0.4, 0.1, 0.95, 0.6),
+    DancePrompt("a masculine person dances", 1.1, 0.3, 0.92, 0.8),
+    DancePrompt("a feminine person dances", 1.3, 0.1, 0.94, 0.9),
+    DancePrompt("a person dances energetically", 1.5, 0.2, 0.93, 1.0),
+    DancePrompt("a person dances fast", 1.0, 0.2, 0.66, 0.8),
+    DancePrompt("a person spins around", 0.0, 0.0, 0.93, 0.2),
+    DancePrompt("a person side-steps to the left", 0.0, 0.5, 0.91, 0.4),
+    DancePrompt("a person side-steps to the right", 0.0, -0.5, 0.91, 0.4),
+)
+
+
+class DancePrompter:
+    """Finds prompts in music.
+
+    Args:
+        embeddings: of the prompts in the shared space [P,D], unit-norm.
+        space: where sounds are compared with them; None = loudness and path choose alone.
+        prompts: P of them.
+    """
+
+    def __init__(
+        self,
+        embeddings: Tensor,
+        space: SharedSpace | None = None,
+        prompts: Sequence[DancePrompt] = PROMPTS,
+    ) -> None:
+        self.embeddings, self.space, self.prompts = embeddings.float().cpu(), space, tuple(prompts)
+
+    @classmethod
+    def beside(cls, generator: TextToMotion, space: str = SPACE) -> Self:
+        """For a generator's prompts; without the space where its text tower is another one."""
+        embeddings = generator.encode_prompts([prompt.text for prompt in PROMPTS]).pooled
+        try:
+            found = SharedSpace.from_pretrained(space)
+        except UserError as error:
+            log.warning("%s; loudness and path choose the dance alone", error)
+            return cls(embeddings)
+        if found.card.text_tower != tower_hash(generator.text):
+            log.warning(
+                "%s has another text tower than this model; loudness and path choose the dance"
+                " alone",
+                space,
+            )
+            return cls(embeddings)
+        return cls(embeddings, found)
+
+    def passages(
+        self,
+        condition: Tensor,
+        phase: np.ndarray | None,
+        path: MotionTrajectory,
+        *,
+        seed: int = 0,
+    ) -> list[Passage]:
+        """Prompts that follow each other for as long as a path lasts.
+
+        Args:
+            condition: the song [163 or 167, T].
+            phase: bars [T], unwrapped; None = no beat known.
+            path: T frames.
+            seed: of the draws.
+        """
+        rng = np.random.default_rng(seed)
+        root = to_root(path)
+        loudness = condition[ENERGY][0].double().numpy()
+        found: list[Passage] = []
+        for start, stop in sections(path.num_frames, phase):
+            part = slice(start, stop)
+            energy = float((loudness <= loudness[part].mean()).mean())
+            logits = self._near_sound(condition[:, part])
+            logits = logits + self._near_path(root[part])
+            logits -= (np.array([p.energy for p in self.prompts]) - energy) ** 2 / ENERGY_WIDTH**2
+            share = np.exp(logits - logits.max())
+            text = self.prompts[rng.choice(len(share), p=share / share.sum())].text
+            frames = stop - start
+            if found and found[-1].text == text:
+                frames += found.pop().frames
+            found.append(Passage(text, frames))
+        return found
+
+    @torch.inference_mode()
+    def _near_sound(self, condition: Tensor) -> np.ndarray:
+        """Cosine of each prompt and the sound [163 or 167, t], standardised over the list: [P]."""
+        if self.space is None or condition.shape[1] < SHORTEST:
+            return np.zeros(len(self.prompts))
+        parts = max(1, round(condition.shape[1] / HEARD))
+        windows = [part[None, :, :HEARD] for part in condition.float().tensor_split(parts, dim=1)]
+        heard = torch.cat([self.space.embed_audio(window) for window in windows]).mean(0)
+        cosine = (self.embeddings @ heard.cpu()).double().numpy()
+        return np.asarray((cosine - cosine.mean()) / max(float(cosine.std()), 1e-6))
+
+    def _near_path(self, root: Tensor) -> np.ndarray:
+        """0 for prompts that move as the root rows [t,6] do, less for others: [P]."""
+        mean = root.double().mean(0).numpy()
+        own = np.array([(p.forward, p.left, p.height) for p in self.prompts])  # P 3
+        away = (own - mean[[FORWARD, LATERAL, HEIGHT]]) / (SPEED_WIDTH, SPEED_WIDTH, HEIGHT_WIDTH)
+        return np.asarray(-(away**2).sum(1))
+
+
+def sections(frames: int, phase: np.ndarray | None) -> list[tuple[int, int]]:
+    """First and last-plus-one frame of parts of about `SECTION` seconds that cover [0, frames).
+
+    They begin at downbeats where bars [T] are known; a part of less than half the length joins the
+    one before it.
+    """
+    if phase is None or phase[-1] - phase[0] < 1:
+        cuts = np.arange(0, frames, round(SECTION * FPS))
+    else:
+        bar = (frames - 1) / FPS / float(phase[-1] - phase[0])  # seconds
+        bars = max(1, round(SECTION / bar))
+        whole = np.arange(np.ceil(phase[0]), phase[-1], bars)
+        cuts = np.searchsorted(phase, whole)
+    kept = [0]
+    for cut in cuts:
+        if min(cut - kept[-1], frames - cut) >= SECTION * FPS / 2:
+            kept.append(int(cut))
+    return list(zip(kept, [*kept[1:], frames], strict=True))
+
+
+@dataclass(frozen=True, eq=False)
+class Dances:
+    """What was asked for, the dances by rank, and what was found of them in the order sampled."""
+
+    prompt: str | None
+    ranked: list[Performance]
+    table: ScoreTable
+
+
+class SongPerformer:
+    """Puts bodies on the paths of a song.
+
+    Args:
+        performer: of bodies.
+        prompter: finds prompts in music; None = a prompt must be given.
+        judge: of the candidates; None = one without the words.
+    """
+
+    def __init__(
+        self,
+        performer: Performer,
+        *,
+        prompter: DancePrompter | None = None,
+        judge: PerformanceJudge | None = None,
+    ) -> None:
+        self.performer, self.prompter = performer, prompter
+        self.judge = judge or PerformanceJudge()
+
+    def dance(
+        self,
+        raw: Sequence[MotionTrajectory],
+        song: SongCondition,
+        prompt: str | None = None,
+        *,
+        tag: str | None = None,
+        seed: int = 0,
+        progress: Progress | None = None,
+    ) -> Dances:
+        """A body for each path, ranked.
+
+        Args:
+            raw: N ≥ 1 paths of T frames as the audio branch made them.
+            song: that they belong to.
+            prompt: what the body does; None = what the music says.
+            tag: action label beside the prompt.
+            seed: candidate n depends on (seed, song, n), its path and its prompts alone.
+            progress: told the frames done of N · T.
+
+        Raises:
+            UsageError: no prompt and no prompter, or as `Performer.perform`.
+            UserError: as `Performer.perform`.
+        """
+        beats = song.beats if len(song.beats) else None
+        made: list[Performance] = []
+        for number, rough in enumerate(raw):
+            path = finished(rough)
+            own = candidate_seed(seed, song.seed, number)
+            passages = self._passages(path, song, prompt, tag, own)
+            before, total = number * path.num_frames, len(raw) * path.num_frames
+            told = None if progress is None else _from(progress, before, total)
+            made.append(
+                self.performer.perform(path, passages, beats=beats, seed=own, progress=told)
+            )
+        table = unranked()
+        if len(made) > 1:
+            prompts = [self._embedded(dance.passages) for dance in made]
+            table = self.judge.judge(made, raw, prompts, beats)
+        return Dances(prompt, [made[place] for place in table.order], table)
+
+    def _passages(
+        self,
+        path: MotionTrajectory,
+        song: SongCondition,
+        prompt: str | None,
+        tag: str | None,
+        seed: int,
+    ) -> Sequence[Passage]:
+        if prompt is not None:
+            return [Passage(prompt, path.num_frames, tag)]
+        assert self.prompter is not None, "give a prompt, or a prompter that finds one"
+        return self.prompter.passages(song.condition, song.phase, path, seed=seed)
+
+    def _embedded(self, passages: Sequence[Passage]) -> Tensor:
+        return self.performer.generator.encode_prompts([each.text for each in passages]).pooled
+
+
+def candidate_seed(seed: int, song: int, number: int) -> int:
+    """A seed of its own for each candidate of each song."""
+    mixed = np.random.SeedSequence((seed, song, number)).generate_state(1, np.uint64)
+    return int(mixed[0] >> np.uint64(1))
+
+
+def _from(progress: Progress, before: int, total: int) -> Progress:
+    return lambda done, _: progress(before + done, total)

@@ -1,0 +1,380 @@
+"""Editing: what of given clips is kept, as a constraint, and the rest made anew.
+
+The first and last seconds of clips with something new between them; chosen joints, or a span of
+time, of one clip. A span that has an end leads back to where the body stands there: its path is
+bent as far as it misses, and the body is made once more to go that way.
+
+Letters: T frames, R rows (bones, root track), C channels.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from itertools import chain
+from typing import Any
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from ..config_loader import nearest
+from ..errors import UsageError, UserError
+from ..model.generation.constraint import Constraint
+from ..model.generation.motion_generator import TextToMotion
+from ..motion.motion import Motion
+from ..motion.root_track import (
+    FORWARD,
+    LATERAL,
+    LEFT_CONTACT,
+    ROOT_ROW,
+    YAW_RATE,
+    encode_features,
+    integrate_root,
+)
+from ..motion.skeleton import JOINT_INDEX, LIMBS
+from ..motion.trajectory_math import turn_about_y
+from .postprocess import ORIGIN, Place, finish, place_of
+from .stream import OVERLAP, Passage, Sampling, stream_features
+
+KEEP = 1.0  # seconds of a clip that are kept
+GROUND = [FORWARD, LATERAL, YAW_RATE]  # channels of the root row that say where the body goes
+LEGS = LIMBS["left-leg"] + LIMBS["right-leg"]
+GROUPS: dict[str, tuple[str, ...]] = LIMBS | {
+    "arms": LIMBS["left-arm"] + LIMBS["right-arm"],
+    "legs": LEGS,
+    "head": ("neck", "head"),
+    "upper-body": LIMBS["left-arm"] + LIMBS["right-arm"] + LIMBS["trunk"],
+    "lower-body": ("pelvis", *LEGS),
+    "body": tuple(JOINT_INDEX),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Given:
+    """What is known of a motion that is to be made.
+
+    Attributes:
+        constraint: T frames.
+        place: of the first frame.
+        rejoin: frame from which all is known again, and the place there; None = wherever the
+            motion leads.
+    """
+
+    constraint: Constraint
+    place: Place = ORIGIN
+    rejoin: tuple[int, Place] | None = None
+
+
+# ---------------------------------------------------------------- what is kept
+
+
+def chosen_joints(names: Sequence[str]) -> set[str]:
+    """Joints by their names and those of groups.
+
+    Raises:
+        UsageError: a name is unknown; names the nearest one.
+    """
+    known = [*GROUPS, *JOINT_INDEX]
+    for name in names:
+        if name not in known:
+            raise UsageError(
+                f"joint {name!r} is unknown; did you mean {nearest(name, known)!r}? Groups:"
+                f" {', '.join(GROUPS)}; joints: {', '.join(JOINT_INDEX)}"
+            )
+    return set(chain.from_iterable(GROUPS.get(name, (name,)) for name in names))
+
+
+def keep_ends(
+    start: Motion | None, end: Motion | None, kept: int, frames: int, *, rejoin: bool = False
+) -> Given:
+    """A motion that begins as one clip begins, and ends as another one ends.
+
+    It stands where `start` stands.
+
+    Args:
+        start: its first frames are kept; None = a free beginning.
+        end: its last frames are kept; None = an open end.
+        kept: frames of each.
+        frames: of the whole, more than what is kept.
+        rejoin: it ends where `end` stands; else wherever it leads.
+    """
+    given = Constraint.free(frames)
+    for clip, of_clip, of_motion in (
+        (start, slice(0, kept), slice(0, kept)),
+        (end, slice(-kept, None), slice(frames - kept, frames)),
+    ):
+        if clip is not None:
+            given.values[of_motion] = encode_features(clip)[of_clip]
+            given.known[of_motion] = True
+    place = Place() if start is None else place_of(start, 0)
+    if end is None or not rejoin:
+        return Given(given, place)
+    return Given(given, place, (frames - kept, place_of(end, end.num_frames - kept)))
+
+
+def redo(clip: Motion, start: int, stop: int, joints: set[str] | None = None) -> Given:
+    """A clip of which frames [start, stop) are made anew.
+
+    Args:
+        clip: T frames.
+        start, stop: frames.
+        joints: only these, and the clip's path stays; None = the whole body and its path.
+    """
+    known = all_but(encode_features(clip), start, stop, joints)
+    open_end = joints is not None or stop >= clip.num_frames
+    rejoin = None if open_end else (stop, place_of(clip, stop))
+    return Given(known, place_of(clip, 0), rejoin)
+
+
+def edit_clip(
+    clip: Motion, begin: float = 0.0, until: float | None = None, joints: set[str] | None = None
+) -> Given:
+    """A clip of which the seconds from `begin` to `until` are made anew; see `redo`.
+
+    Args:
+        clip: T frames.
+        begin, until: seconds; None = its end.
+        joints: only these; None = the whole body and its path.
+
+    Raises:
+        UserError: the span is not in the clip.
+    """
+    until = clip.seconds if until is None else until
+    start, stop = round(begin * clip.fps), round(until * clip.fps)
+    if begin < 0 or stop > clip.num_frames or start >= stop:
+        raise UserError(
+            f"from {begin:g} to {until:g} s: the clip lasts {clip.seconds:.2f} s; choose a span of"
+            " it"
+        )
+    return redo(clip, start, stop, joints)
+
+
+def continue_clips(
+    start: Motion | None,
+    end: Motion | None = None,
+    *,
+    keep: float = KEEP,
+    seconds: float | None = None,
+    rejoin: bool = False,
+) -> Given:
+    """A motion that begins with the first seconds of a clip, or ends with the last ones; or both.
+
+    Args:
+        start, end: one of them at least.
+        keep: seconds of each that stay.
+        seconds: of the whole; None = what is kept at both ends and 2 s between, or with `rejoin`
+            as long as the clip.
+        rejoin: it ends where `end` stands; both are usually one clip, whose middle is made anew.
+
+    Raises:
+        UserError: a clip is shorter than what is to be kept.
+        UsageError: no clip, or nothing would be left to make.
+    """
+    clips = [clip for clip in (start, end) if clip is not None]
+    if not clips:
+        raise UsageError("no clip is given; give one to begin with, or to end with")
+    for name, clip in (("start", start), ("end", end)):
+        if clip is not None and clip.seconds < keep:
+            raise UserError(
+                f"{name}: the clip lasts {clip.seconds:.2f} s, less than the {keep:g} s to be kept;"
+                " keep less"
+            )
+    if seconds is None:
+        seconds = clips[0].seconds if rejoin else 2 * keep + 2.0
+    frames, kept = round(seconds * clips[0].fps), round(keep * clips[0].fps)
+    if frames - len(clips) * kept < 1 or kept < 1:
+        raise UsageError(
+            f"a length of {seconds:g} s leaves nothing to make: {len(clips)} × {keep:g} s are kept;"
+            " give more seconds or keep less"
+        )
+    return keep_ends(start, end, kept, frames, rejoin=rejoin)
+
+
+def all_but(features: Tensor, start: int, stop: int, joints: set[str] | None) -> Constraint:
+    """Features [T,R,6] are known but for some joints, or everything, in frames [start, stop).
+
+    Of the other joints the network is not told: it would make these as the body has them already,
+    and not as the text says.
+    """
+    known = torch.ones(features.shape, dtype=torch.bool)
+    told = None if joints is None else torch.zeros_like(known)
+    if joints is None:
+        known[start:stop] = False
+    else:
+        known[start:stop, [JOINT_INDEX[name] for name in sorted(joints)]] = False
+        if joints & set(LEGS) and features.shape[1] > ROOT_ROW:
+            known[start:stop, ROOT_ROW, LEFT_CONTACT:] = False
+    return Constraint(features, known, told=told)
+
+
+# ---------------------------------------------------------------- how well it is kept
+
+
+def kept_error(motion: Motion, given: Constraint) -> dict[str, float]:
+    """Largest differences between what was known and what a motion has become.
+
+    Returns:
+        rotation: of entries of the 6D rotations of known joints; root: of the root row's known
+        velocities (m/s, rad/s) and height (m), the last frame's velocities left out, as they are
+        none. 0 where nothing was known.
+    """
+    apart = (encode_features(motion) - given.values).abs()
+    known = given.known.clone()
+    known[-1, ROOT_ROW, GROUND] = False
+    known[:, ROOT_ROW, LEFT_CONTACT:] = False
+    apart[~known] = 0.0
+    return {
+        "rotation": float(apart[:, :ROOT_ROW].max()),
+        "root": float(apart[:, ROOT_ROW].max()),
+    }
+
+
+def kept_positions_error(motion: Motion, clip: Motion, frames: slice, of_clip: slice) -> float:
+    """Metres that a joint in kept frames is at most from where it was, place apart."""
+    made = _seen_from_start(motion, frames)
+    return float(np.abs(made - _seen_from_start(clip, of_clip)).max())
+
+
+def _seen_from_start(motion: Motion, frames: slice) -> np.ndarray:
+    """Joint positions [t,22,3] from where the body is in the first of some frames."""
+    place = place_of(motion, range(motion.num_frames)[frames][0])
+    positions = torch.as_tensor(motion.positions()[frames], dtype=torch.float64)
+    positions = positions - torch.tensor([place.x, 0.0, place.z])
+    return turn_about_y(positions, -place.heading).numpy()
+
+
+NO_TEXT = "a person moves"  # where nothing is said: its weight is nothing, too
+
+
+@dataclass(frozen=True, eq=False)
+class ControlledMotion:
+    """A motion, and how well it keeps to its directions.
+
+    Attributes:
+        motion: post-processed.
+        errors: see the function that made it.
+    """
+
+    motion: Motion
+    errors: dict[str, Any] = field(default_factory=dict)
+
+
+def fill(
+    generator: TextToMotion,
+    text: str,
+    given: Given,
+    sampling: Sampling,
+    *,
+    tag: str | None = None,
+) -> tuple[Tensor, Constraint]:
+    """Raw features [T,R,6] with everything that is not known made anew, and what was known.
+
+    Raises:
+        UserError: as `stream_features`.
+    """
+    constraint = given.constraint
+    features = fill_free(generator, text, constraint, sampling, tag=tag)
+    if given.rejoin is not None:
+        bent = bend_back(features, given, fps=generator.card.fps)
+        features = fill_free(generator, text, bent, sampling, tag=tag)
+        constraint = replace(constraint, values=bent.values, known=bent.known)
+    return features, constraint
+
+
+def fill_free(
+    generator: TextToMotion,
+    text: str,
+    constraint: Constraint,
+    sampling: Sampling,
+    *,
+    tag: str | None = None,
+) -> Tensor:
+    """Raw features [T,R,6]; only the frames around what is not known go through the network."""
+    rows = generator.network.motion_rows
+    free = torch.nonzero(~constraint.known[:, :rows].flatten(1).all(1))[:, 0]
+    if not len(free):
+        return constraint.values[:, :rows]
+    start = max(0, int(free[0]) - OVERLAP)
+    stop = min(len(constraint), int(free[-1]) + 1 + OVERLAP)
+    near = constraint.window(start, stop, fps=generator.card.fps)
+    pieces = stream_features(
+        generator,
+        [Passage(text, stop - start, tag)],
+        constraint=lambda first, last: near.window(first, last, fps=generator.card.fps),
+        sampling=sampling,
+    )
+    features = constraint.values[:, :rows].clone()
+    features[start:stop] = torch.cat(list(pieces))
+    return features
+
+
+def bend_back(features: Tensor, given: Given, *, fps: float) -> Constraint:
+    """What was given, and a path through the free frames that leads to the place at their end.
+
+    Heading and place are led over with a smooth step, so the path leaves and arrives with the
+    velocities that it had.
+    """
+    assert given.rejoin is not None, "only a motion with an end can miss it"
+    stop, target = given.rejoin
+    free = ~given.constraint.known[:stop, ROOT_ROW, FORWARD]
+    start = int(torch.nonzero(free)[0])
+    root = features[: stop + 1, ROOT_ROW].double()
+    place = ((given.place.x, given.place.z), given.place.heading)
+    x = torch.linspace(0, 1, stop - start + 1, dtype=torch.float64)
+    ease = torch.zeros(stop + 1, dtype=torch.float64)
+    ease[start:] = x**3 * (x * (6 * x - 15) + 10)
+
+    _, heading = integrate_root(root, fps, *place)
+    turn = (target.heading - heading[-1] + np.pi) % (2 * np.pi) - np.pi
+    root[:-1, YAW_RATE] += turn * ease.diff() * fps
+    path, heading = integrate_root(root, fps, *place)
+    miss = torch.tensor([target.x, 0.0, target.z], dtype=torch.float64) - path[-1]
+    miss[1] = 0.0
+    velocity = turn_about_y((path + ease[:, None] * miss).diff(dim=0) * fps, -heading[:-1])
+
+    values, known = given.constraint.values.clone(), given.constraint.known.clone()
+    values[start:stop, ROOT_ROW, FORWARD] = velocity[start:, 2].float()
+    values[start:stop, ROOT_ROW, LATERAL] = velocity[start:, 0].float()
+    values[start:stop, ROOT_ROW, YAW_RATE] = root[start:stop, YAW_RATE].float()
+    known[start:stop, ROOT_ROW, GROUND] = True
+    return replace(given.constraint, values=values, known=known)
+
+
+def edited(
+    generator: TextToMotion,
+    text: str | None,
+    given: Given,
+    sampling: Sampling,
+    *,
+    tag: str | None = None,
+    foot_lock: bool | None = None,
+) -> ControlledMotion:
+    """A motion of which much is given.
+
+    Args:
+        generator: trained.
+        text: what the rest shows; None = nothing is said.
+        given: see `editing`.
+        sampling: how.
+        tag: action label beside the text.
+        foot_lock: None = the model's own.
+
+    Returns:
+        errors: rotation and root, see `kept_error`; frames and entries, the share that was kept.
+    """
+    if text is None:
+        sampling = replace(sampling, guidance_scale=0.0)
+    features, constraint = fill(generator, text or NO_TEXT, given, sampling, tag=tag)
+    motion = finish(
+        generator,
+        features,
+        constraint.known,
+        text=text or "",
+        place=given.place,
+        foot_lock=foot_lock,
+    )
+    known = given.constraint.known
+    shares = {
+        "frames_kept": int(known.flatten(1).all(1).sum()),
+        "entries_kept": float(known.float().mean()),
+    }
+    return ControlledMotion(motion, kept_error(motion, given.constraint) | shares)

@@ -1,0 +1,317 @@
+"""MotionGenerator: all that a user can ask for, in one object; `motion-tools generate` asks it too.
+
+    generator = load("starter")
+    generator.generate(["a person waves, then walks three metres"])
+    generator.dance("song.mp3", "a proud old man dances")
+
+Letters: N candidates, T frames.
+"""
+
+from collections.abc import Iterable, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..audio.song import Song, analyse
+from ..model.audio.audio_motion_model import KIND as AUDIO_KIND
+from ..model.checkpoint import read_card
+from ..model.diffusion.samplers import Sampling
+from ..model.generation.motion_generator import Progress, TextToMotion
+from ..model.zoo import resolve_model
+from ..motion.motion import Motion
+from .body import Performer, PerformerSettings
+from .dance import DancePrompter, Dances, SongPerformer
+from .edit import ControlledMotion, Given, edited
+from .path import DrawnPath, along_path
+from .ranking import PerformanceJudge, TextJudge, load_tower, own_tower
+from .song import SongCondition, SongGenerator, SongMotions, Stage, silently, styled
+from .song_memory import SongMemory
+from .song_sampler import SongSampling
+from .stream import DEFAULT_SAMPLING, MotionStream, Passage
+from .text import PromptResult, PromptSampler, SentenceGenerator
+from .timeline import Timeline, by_timeline, in_a_loop
+
+TEXT_MODEL, AUDIO_MODEL = "starter", "starter-audio"
+
+
+class MotionGenerator:
+    """Text and songs in, motions out.
+
+    Models are loaded when something first needs them.
+
+    Args:
+        text: makes bodies: a model, or the name or folder of one.
+        audio: makes the paths of songs, likewise; for the runtime onnx, a folder of `export-onnx`.
+        device: auto, cuda, mps or cpu.
+        runtime: of the audio model: torch or onnx.
+        memory: folder of `memory build`, for an audio model that hears one; None = no memory.
+        judge: folder of `train_clip` that holds candidates against their prompt; None = what
+            belongs to the text model, where it is shipped.
+
+    Raises:
+        UserError: wherever a model is first needed and cannot be used.
+    """
+
+    def __init__(
+        self,
+        text: TextToMotion | str | Path = TEXT_MODEL,
+        audio: SongGenerator | str | Path = AUDIO_MODEL,
+        *,
+        device: str = "auto",
+        runtime: str = "torch",
+        memory: str | Path | None = None,
+        judge: str | Path | None = None,
+    ) -> None:
+        self._text, self._audio = text, audio
+        self._device, self._runtime, self._memory, self._judge = device, runtime, memory, judge
+
+    @classmethod
+    def from_pretrained(cls, name_or_folder: str | Path, **options: Any) -> "MotionGenerator":
+        """With a text model or an audio model, and the shipped one of the other kind.
+
+        Args:
+            name_or_folder: a name that `models` lists, or a folder that training wrote.
+            options: as of the class.
+
+        Raises:
+            UserError: no such model, or damaged.
+        """
+        if read_card(resolve_model(name_or_folder)).kind == AUDIO_KIND:
+            generator = cls(audio=name_or_folder, **options)
+            _ = generator.audio
+        else:
+            generator = cls(name_or_folder, **options)
+            _ = generator.text
+        return generator
+
+    # ------------------------------------------------------------ models
+
+    @cached_property
+    def text(self) -> TextToMotion:
+        """The text model."""
+        if isinstance(self._text, TextToMotion):
+            return self._text
+        return TextToMotion.from_pretrained(self._text, device=self._device)
+
+    @cached_property
+    def audio(self) -> SongGenerator[Any]:
+        """The audio model, with its memory."""
+        if isinstance(self._audio, SongGenerator):
+            return self._audio
+        memory = None if self._memory is None else SongMemory.open(self._memory)
+        return SongGenerator.from_pretrained(
+            self._audio, device=self._device, runtime=self._runtime, memory=memory
+        )
+
+    @cached_property
+    def sentences(self) -> SentenceGenerator:
+        """The text model, reading what a sentence says of order and measure."""
+        return SentenceGenerator(self.text)
+
+    @cached_property
+    def tower(self) -> Any:
+        """Motions into the space of the text model's prompts, for judges; None if there is none."""
+        if self._judge is None:
+            return own_tower(self.text.text)
+        return load_tower(self._judge, self.text.text)
+
+    @cached_property
+    def prompter(self) -> DancePrompter:
+        """Finds prompts in music."""
+        return DancePrompter.beside(self.text)
+
+    # ------------------------------------------------------------ text
+
+    def generate(
+        self,
+        prompts: str | Sequence[str],
+        *,
+        seconds: float | Sequence[float] = 4.0,
+        tags: Sequence[str | None] | None = None,
+        num_samples: int = 1,
+        return_all: bool = False,
+        sampling: Sampling = DEFAULT_SAMPLING,
+        foot_lock: bool | None = None,
+        progress: Progress | None = None,
+    ) -> list[Motion]:
+        """The best motion for each prompt, or all candidates, prompt by prompt, the best first.
+
+        Args:
+            prompts: sentences; what they say of order, number, angle and length is done.
+            seconds: of each clause that names no length of its own; one for all or one a prompt.
+            tags: action labels beside the prompts.
+            num_samples: candidates N a prompt.
+            return_all: the other candidates, too.
+            sampling: seed, steps, sampler and guidance.
+            foot_lock: hold standing feet; None = the model's own setting.
+            progress: told the motions that are done.
+
+        Raises:
+            UserError: the model is untrained, or an argument cannot be worked with.
+        """
+        found = self.candidates(
+            [prompts] if isinstance(prompts, str) else prompts,
+            num_samples,
+            seconds=seconds,
+            tags=tags,
+            return_all=return_all,
+            sampling=sampling,
+            foot_lock=foot_lock,
+            progress=progress,
+        )
+        return [motion for result in found for motion in result.ranked()]
+
+    def candidates(
+        self,
+        prompts: Sequence[str],
+        num_samples: int = 8,
+        *,
+        return_all: bool = True,
+        sampling: Sampling = DEFAULT_SAMPLING,
+        **options: Any,
+    ) -> list[PromptResult]:
+        """As `generate`, with the scores of the candidates."""
+        judge = TextJudge(self.tower) if num_samples > 1 else None
+        sampler = PromptSampler(self.sentences, judge)
+        return sampler.sample(
+            prompts, num_samples, return_all=return_all, **vars(sampling), **options
+        )
+
+    # ------------------------------------------------------------ songs
+
+    def trajectory(
+        self,
+        audio: Song | str | Path,
+        *,
+        meter: int | None = None,
+        seconds: float | None = None,
+        style: str | np.ndarray | None = None,
+        num_samples: int = 1,
+        sampling: Sampling = DEFAULT_SAMPLING,
+        stage: Stage = silently,
+    ) -> SongMotions:
+        """The path of a song, the best of N first.
+
+        Args:
+            audio: analysed, or a file: wav, flac, ogg or mp3.
+            meter: beats a bar of a file; None = as heard.
+            seconds: only the first so many; None = all.
+            style: words, a sentence, or a vector [8]; None = the model's choice.
+            num_samples: candidates N.
+            sampling: seed, steps, sampler and guidance.
+            stage: given "path", a context of what is told the frames that are done.
+
+        Raises:
+            UserError: the file cannot be used.
+        """
+        song = _analysed(audio, meter)
+        style = styled(style) if isinstance(style, str) else style
+        settings = SongSampling(num_samples, **vars(sampling))
+        with stage("path") as progress:
+            return self.audio.trajectories(
+                song, settings, seconds=seconds, style=style, progress=progress
+            )
+
+    def dance(
+        self,
+        audio: Song | str | Path,
+        prompt: str | None = None,
+        *,
+        tag: str | None = None,
+        meter: int | None = None,
+        seconds: float | None = None,
+        style: str | np.ndarray | None = None,
+        num_samples: int = 1,
+        sampling: Sampling = DEFAULT_SAMPLING,
+        foot_lock: bool | None = None,
+        stage: Stage = silently,
+    ) -> Dances:
+        """A body that dances to a song, the best of N first.
+
+        Args:
+            audio, meter, seconds, num_samples: see `trajectory`.
+            prompt: what the body does; None = what the music says.
+            tag: action label beside the prompt.
+            style: of the path, see `trajectory`; None = what the prompt says of it.
+            sampling: the guidance is the body's; the path keeps its model's own.
+            foot_lock: hold standing feet; None = the model's own setting.
+            stage: given "path" and "body", see `trajectory`.
+
+        Raises:
+            UserError: the file cannot be used.
+        """
+        song = SongCondition.of(_analysed(audio, meter), seconds)
+        own = styled(style) if isinstance(style, str) else style
+        if own is None and prompt is not None:
+            own = self.text.style_of(prompt)
+        options = vars(sampling)
+        settings = SongSampling(num_samples, **options | {"guidance_scale": None})
+        with stage("path") as progress:
+            raw = self.audio.sample(song, settings, style=own, progress=progress)
+        judge = PerformanceJudge(self.audio.bands, self.tower) if num_samples > 1 else None
+        performer = Performer(self.text, PerformerSettings(**options, foot_lock=foot_lock))
+        prompter = self.prompter if prompt is None else None
+        dancers = SongPerformer(performer, prompter=prompter, judge=judge)
+        with stage("body") as progress:
+            return dancers.dance(raw, song, prompt, tag=tag, seed=sampling.seed, progress=progress)
+
+    # ------------------------------------------------------------ controlled motion
+
+    def edit(
+        self,
+        given: Given,
+        prompt: str | None = None,
+        *,
+        tag: str | None = None,
+        sampling: Sampling = DEFAULT_SAMPLING,
+        foot_lock: bool | None = None,
+    ) -> ControlledMotion:
+        """What is given stays, the rest is made as the prompt says.
+
+        Args:
+            given: of clips; see `edit.edit_clip` and `edit.continue_clips`.
+            prompt: what the rest shows; None = nothing is said.
+            tag, sampling, foot_lock: see `generate`.
+        """
+        return edited(self.text, prompt, given, sampling, tag=tag, foot_lock=foot_lock)
+
+    def timeline(
+        self,
+        timeline: Timeline,
+        *,
+        path: DrawnPath | None = None,
+        seconds: float | None = None,
+        loop: bool = False,
+        sampling: Sampling = DEFAULT_SAMPLING,
+        foot_lock: bool | None = None,
+    ) -> ControlledMotion:
+        """One motion with one or several texts, on a path or in a loop.
+
+        Args:
+            timeline: see `timeline.read_timeline` and `Timeline.of`.
+            path: where it goes; see `path.read_path`.
+            seconds: how long a path without times takes; None = as its text is wont to go.
+            loop: the last frame leads into the first one.
+            sampling, foot_lock: see `generate`.
+        """
+        if path is not None:
+            return along_path(
+                self.text, timeline, path, sampling, seconds=seconds, foot_lock=foot_lock
+            )
+        make = in_a_loop if loop else by_timeline
+        return make(self.text, timeline, sampling, foot_lock=foot_lock)
+
+    def stream(self, prompts: str | Iterable[str | Passage], **options: Any) -> MotionStream:
+        """Motion without end while prompts change; see `MotionStream`."""
+        return MotionStream(self.text, prompts, **options)
+
+
+def load(name_or_folder: str | Path = TEXT_MODEL, **options: Any) -> MotionGenerator:
+    """See `MotionGenerator.from_pretrained`."""
+    return MotionGenerator.from_pretrained(name_or_folder, **options)
+
+
+def _analysed(audio: Song | str | Path, meter: int | None) -> Song:
+    return audio if isinstance(audio, Song) else analyse(audio, meter=meter)

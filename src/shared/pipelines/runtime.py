@@ -1,0 +1,174 @@
+"""What SongSampler needs of a model, whoever computes it: PyTorch or onnxruntime.
+
+Letters: B samples, T frames.
+"""
+
+from pathlib import Path
+from typing import Any, Protocol, Self
+
+import torch
+from torch import Tensor
+
+from ..config_audio import AudioNetworkConfig
+from ..device import choose_compute
+from ..errors import UserError
+from ..model.audio.audio_motion_model import AudioMotionModel
+from ..model.audio.conditioning import with_phase_rows
+from ..model.audio.decoder import Decoded
+from ..model.audio.memory_conditioning import MemoryCondition
+from ..model.audio.onnx_card import GRAPHS, OnnxCard, read_onnx_card, require_packages
+from ..model.audio.sampling_copy import sampling_copy
+from ..model.diffusion.conditions import ModelFn
+from ..model.diffusion.gaussian import GaussianDiffusion
+from ..model.diffusion.guidance import guided
+
+
+class Runtime(Protocol):
+    """A denoiser and a decoder with their settings; AudioMotionModel is one.
+
+    Letters: B samples, T frames. Tensors live on the device of `mean`.
+    """
+
+    config: AudioNetworkConfig
+    diffusion: GaussianDiffusion
+    mean: Tensor  # [25], ruling 13
+
+    def normalise(self, raw: Tensor) -> Tensor:
+        """Window rows [B, 25, T] in raw units -> z-scores."""
+
+    def model_fn(
+        self,
+        condition: Tensor,
+        guidance_scale: float | None = None,
+        memory: MemoryCondition | None = None,
+    ) -> ModelFn:
+        """A denoiser `f(x_t, t)` for a condition [B, 163 or 167, T] and what is remembered for it.
+
+        A scale of None is the model's own.
+        """
+
+    def decode(self, z: Tensor, start: Tensor | None = None) -> Decoded:
+        """Z-scores [B, 25, T] -> trajectory and phase; `start`: phase of the first frame [B]."""
+
+
+def load_runtime(name: str, model: str | Path, device: str = "auto") -> Runtime:
+    """A trained model under a runtime.
+
+    Args:
+        name: torch or onnx.
+        model: see `load_trained`; for onnx, a folder of `export-onnx`.
+        device: auto, cuda, mps or cpu; onnx computes on the CPU.
+
+    Raises:
+        UserError: no such model, damaged, never trained, or a package is missing.
+    """
+    if name == "torch":
+        return load_trained(model, device)
+    loaded = OnnxRuntime.from_folder(model)
+    _require_training(loaded.card.trained, model)
+    return loaded
+
+
+def load_trained(model: str | Path, device: str = "auto") -> AudioMotionModel:
+    """A trained model for sampling; on a CPU its UNet is the faster copy, which learns no more.
+
+    Args:
+        model: name of shipped weights, or a folder that training wrote.
+        device: auto, cuda, mps or cpu.
+
+    Raises:
+        UserError: no such model, another kind, damaged, or never trained.
+    """
+    compute = choose_compute(device)
+    loaded = AudioMotionModel.from_pretrained(model, device=compute.device)
+    _require_training(loaded.card.trained, model)
+    if compute.device == "cpu":
+        low = torch.bfloat16 if compute.precision == "bf16" else None
+        loaded.unet = sampling_copy(loaded.unet, low)
+    return loaded
+
+
+def _require_training(trained: bool, model: str | Path) -> None:
+    if not trained:
+        raise UserError(f"{model} is untrained: train it with src.train.train_audio")
+
+
+class OnnxRuntime:
+    """The `Runtime` of an export.
+
+    Args:
+        card: of the export.
+        unet, decoder: its sessions; anything with onnxruntime's `run`.
+    """
+
+    def __init__(self, card: OnnxCard, unet: Any, decoder: Any) -> None:
+        self.card = card
+        self.config = card.audio_network
+        self.diffusion = GaussianDiffusion(self.config.diffusion)
+        self.mean, self.std = torch.tensor(card.mean), torch.tensor(card.std)
+        self._null = torch.tensor(card.null_condition)
+        self._unet, self._decoder = unet, decoder
+
+    @classmethod
+    def from_folder(cls, folder: str | Path) -> Self:
+        """An export, on as many threads as torch uses.
+
+        Raises:
+            UserError: the package is missing, or the folder holds no whole export.
+        """
+        require_packages("onnxruntime")
+        import onnxruntime
+
+        folder = Path(folder)
+        card = read_onnx_card(folder)
+        options = onnxruntime.SessionOptions()
+        options.intra_op_num_threads = torch.get_num_threads()
+        options.log_severity_level = 3  # errors
+        try:
+            unet, decoder = (
+                onnxruntime.InferenceSession(
+                    str(folder / name), options, providers=["CPUExecutionProvider"]
+                )
+                for name in GRAPHS
+            )
+        except Exception as error:  # onnxruntime's own types derive from it directly
+            reason = str(error).splitlines()[0]
+            raise UserError(
+                f"onnxruntime cannot load {folder} ({reason}); update it, or export again"
+            ) from error
+        return cls(card, unet, decoder)
+
+    def normalise(self, raw: Tensor) -> Tensor:
+        """See `Runtime`."""
+        return (raw - self.mean[:, None]) / self.std[:, None]
+
+    def model_fn(
+        self,
+        condition: Tensor,
+        guidance_scale: float | None = None,
+        memory: MemoryCondition | None = None,
+    ) -> ModelFn:
+        """See `Runtime`; an export hears no memory."""
+        assert memory is None, "an export hears no memory"
+        scale = self.config.guidance_scale if guidance_scale is None else guidance_scale
+        condition = with_phase_rows(condition)
+        null = self._null[:, None].expand_as(condition)
+        return guided(self._predict, condition, null, scale)
+
+    def decode(self, z: Tensor, start: Tensor | None = None) -> Decoded:
+        """See `Runtime`."""
+        rows = (z * self.std[:, None] + self.mean[:, None]).transpose(1, 2)  # [B, T, 25]
+        if start is None:
+            start = torch.full((len(z),), torch.nan)
+        trajectory, phase = run(self._decoder, rows=rows, start=start)
+        return Decoded(trajectory, phase)
+
+    def _predict(self, x: Tensor, t: Tensor, condition: Tensor) -> Tensor:
+        (prediction,) = run(self._unet, x=x, t=t, condition=condition)
+        return prediction
+
+
+def run(session: Any, **inputs: Tensor) -> list[Tensor]:
+    """All outputs of a session, by the names of its inputs."""
+    arrays = {name: tensor.contiguous().numpy() for name, tensor in inputs.items()}
+    return [torch.from_numpy(array) for array in session.run(None, arrays)]

@@ -1,0 +1,327 @@
+"""A song in, trajectories out: what the network is told of it (TECH 12.1), and sampling (TECH 8.2).
+
+Letters: T frames, M beats.
+"""
+
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, Generic, Self, TypeVar
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from ..audio.song import Song, analyse
+from ..data.phrases.layout import phase_rows
+from ..device import choose_device
+from ..model.audio.audio_motion_model import AudioMotionModel
+from ..model.audio.conditioning import BEAT, CONDITION_ROWS, FEATURE_ROWS
+from ..model.generation.motion_generator import TextToMotion
+from ..model.zoo import resolve_model
+from ..motion.style import named_style, only_style_words
+from ..motion.trajectory import FPS, MotionTrajectory
+from ..motion.trajectory_math import unwrap_phase
+from ..motion.trajectory_postprocess import MotionPostProcessor
+from ..validation.bands import Bands
+from .ranking import AudioJudge, ScoreTable, unranked
+from .runtime import Runtime, load_runtime
+from .song_memory import SongMemory, require_memory
+from .song_sampler import Progress, SongSampler, SongSampling
+
+STYLE_MODEL = "starter"  # reads a style that is a sentence
+ModelT = TypeVar("ModelT", bound=Runtime)
+Stage = Callable[[str], AbstractContextManager[Progress]]
+
+
+def silently(stage: str) -> AbstractContextManager[Progress]:
+    """For a `Stage`: nobody is told how far it is."""
+    return nullcontext(lambda done, total: None)
+
+
+@dataclass(frozen=True, eq=False)
+class SongMotions:
+    """Trajectories of one song, the best first, and the song as it was heard.
+
+    Attributes:
+        trajectories: post-processed.
+        raw: the same as the decoder gave them.
+        table: what was found of them, in the order sampled.
+        song: analysed.
+    """
+
+    trajectories: list[MotionTrajectory]
+    raw: list[MotionTrajectory]
+    table: ScoreTable
+    song: Song
+
+
+@dataclass(frozen=True, eq=False)
+class SongCondition:
+    """A song, or its first seconds, as the networks are told of it.
+
+    Attributes:
+        condition: what the audio branch hears, [167,T].
+        phase: bars [T] of the beat tracker, unwrapped; None = no beat found.
+        beats: seconds [M] of the tracker; none where it found none.
+        seed: a number of the song's own, so that two songs are not danced alike.
+    """
+
+    condition: Tensor
+    phase: np.ndarray | None
+    beats: np.ndarray
+    seed: int = 0
+
+    @classmethod
+    def of(cls, song: Song, seconds: float | None = None) -> "SongCondition":
+        """The first `seconds` of a song; None = all of it."""
+        condition, phase = heard(song, seconds)
+        beats = np.asarray(song.beats.beat_times) if song.beats.tempo > 0 else np.zeros(0)
+        return cls(condition, phase, beats, int(song.sha256 or "0", 16))
+
+
+class SongGenerator(Generic[ModelT]):
+    """A trained audio branch.
+
+    Args:
+        model: trained; a torch model is moved to the device.
+        device: auto, cuda, mps or cpu.
+        bands: of real motions, for the judge of candidates; None = built-in bounds.
+        memory: what its windows are told of like phrases; None = nothing.
+
+    Raises:
+        UserError: a memory for a model that hears none.
+    """
+
+    def __init__(
+        self,
+        model: ModelT,
+        *,
+        device: str | None = None,
+        bands: Bands | None = None,
+        memory: SongMemory | None = None,
+    ) -> None:
+        if memory is not None:
+            require_memory(model.config, "this model")
+        if isinstance(model, AudioMotionModel):
+            model.to(choose_device(device or "auto")[0]).eval()
+        self.model, self.bands, self.memory = model, bands, memory
+        self.device = model.mean.device
+
+    @classmethod
+    def from_pretrained(
+        cls,
+        name_or_folder: str | Path,
+        *,
+        device: str | None = None,
+        runtime: str = "torch",
+        memory: SongMemory | None = None,
+    ) -> "SongGenerator[Any]":
+        """By the name of shipped weights, or a folder that training or `export-onnx` wrote.
+
+        Raises:
+            UserError: no such model, another kind, damaged, or never trained; or it hears no
+                memory and one is given.
+        """
+        model: Any = load_runtime(runtime, name_or_folder, device or "auto")
+        bands = shipped_bands(name_or_folder) if runtime == "torch" else None
+        return cls(model, device=device, bands=bands, memory=memory)
+
+    def sample(
+        self,
+        song: SongCondition,
+        settings: SongSampling | None = None,
+        *,
+        style: np.ndarray | None = None,
+        progress: Progress | None = None,
+    ) -> list[MotionTrajectory]:
+        """Candidates as the decoder gave them, with noise of the song's own."""
+        sampler = SongSampler(self.model, own_noise(settings or SongSampling(), song.seed))
+        recall = None
+        if self.memory is not None:
+            recall = self.memory.recall(sampler, song.condition, song.phase)
+        return sampler.sample(
+            song.condition, phase=song.phase, style=style, progress=progress, recall=recall
+        )
+
+    def trajectories(
+        self,
+        song: Song,
+        settings: SongSampling | None = None,
+        *,
+        seconds: float | None = None,
+        style: np.ndarray | None = None,
+        progress: Progress | None = None,
+    ) -> SongMotions:
+        """Candidates for a song, ranked and post-processed: what `generate --audio` writes.
+
+        Args:
+            song: analysed.
+            settings: how many candidates, and how they are sampled.
+            seconds: only the first so many; None = all.
+            style: [8] unit, see `styled`; None = the model's choice.
+            progress: told the frames that are done.
+        """
+        condition = SongCondition.of(song, seconds)
+        raw = self.sample(condition, settings, style=style, progress=progress)
+        judge = AudioJudge(self.bands)
+        table = judge.judge(raw, condition.beats) if len(raw) > 1 else unranked()
+        ranked = [raw[place] for place in table.order]
+        return SongMotions([finished(path) for path in ranked], ranked, table, song)
+
+    def generate(
+        self,
+        audio_features: np.ndarray | torch.Tensor,
+        *,
+        phase: np.ndarray | None = None,
+        style: np.ndarray | None = None,
+        settings: SongSampling | None = None,
+        progress: Progress | None = None,
+    ) -> list[MotionTrajectory]:
+        """Trajectories from features [163 or 167, T]; see `SongSampler.stream`."""
+        condition = torch.as_tensor(audio_features).float()
+        sampler = SongSampler(self.model, settings)
+        return sampler.sample(condition, phase=phase, style=style, progress=progress)
+
+    def generate_from_audio(
+        self,
+        path: str | Path,
+        *,
+        meter: int | None = None,
+        seconds: float | None = None,
+        style: np.ndarray | None = None,
+        settings: SongSampling | None = None,
+        progress: Progress | None = None,
+    ) -> SongMotions:
+        """Trajectories for a sound file, the best first.
+
+        Args:
+            path: wav, flac, ogg or mp3 of 1 s or more.
+            meter: beats a bar; None = heard (3 or 4).
+            seconds: only the first so many; None = all.
+            style: [8] unit, see `src.shared.motion.style`; None = the model's choice.
+
+        Raises:
+            UserError: the file cannot be used.
+        """
+        song = analyse(path, meter=meter)
+        return self.trajectories(song, settings, seconds=seconds, style=style, progress=progress)
+
+    def stream(
+        self,
+        song: Song,
+        *,
+        style: np.ndarray | None = None,
+        settings: SongSampling | None = None,
+    ) -> Iterator[list[MotionTrajectory]]:
+        """Pieces that follow each other, one a sample, as soon as they are settled."""
+        condition, phase = heard(song, None)
+        sampler = SongSampler(self.model, of_song(settings or SongSampling(), song))
+        yield from sampler.stream(condition, phase=phase, style=style)
+
+
+def finished(raw: MotionTrajectory) -> MotionTrajectory:
+    """A path as it is written to files, and pinned: post-processed."""
+    return MotionTrajectory(MotionPostProcessor().process(raw.data), raw.fps)
+
+
+def shipped_bands(name_or_folder: str | Path) -> Bands | None:
+    """Bands of the training motions beside the weights, where the folder has them."""
+    path = resolve_model(name_or_folder) / "bands.json"
+    return Bands.load(path) if path.is_file() else None
+
+
+def styled(text: str | None) -> np.ndarray | None:
+    """The style [8] that a text names; None without one.
+
+    A list of style words is looked up; any other text is read as a prompt, through the map of
+    styles that the text model has learned (ruling 11).
+    """
+    if text is None:
+        return None
+    if only_style_words(text):
+        return named_style(text)
+    found = TextToMotion.from_pretrained(STYLE_MODEL).style_of(text)
+    return named_style(text) if found is None else found  # the former says what is known
+
+
+def of_song(settings: SongSampling, song: Song) -> SongSampling:
+    """The settings with noise of the song's own, the same whenever it is played.
+
+    The sound sets the beat and little of the path: with one seed for all, every song would walk
+    the same way.
+    """
+    return own_noise(settings, int(song.sha256 or "0", 16))
+
+
+def own_noise(settings: SongSampling, *parts: int) -> SongSampling:
+    """The settings with a seed that depends on theirs and on every part, each 0 or more."""
+    mixed = np.random.SeedSequence((settings.seed, *parts))
+    return replace(settings, seed=int(mixed.generate_state(1)[0]))
+
+
+def heard(song: Song, seconds: float | None) -> tuple[torch.Tensor, np.ndarray | None]:
+    """Condition [167,T] and bars [T] of the first `seconds`; no bars where no beat was found."""
+    frames = song.num_frames if seconds is None else min(song.num_frames, round(seconds * FPS))
+    rows, phase = song.features.stack()[:, :frames], song.phase[:frames]
+    if song.beats.tempo <= 0:
+        return torch.from_numpy(np.pad(rows, ((0, 4), (0, 0)))), None
+    beat = phase_rows(phase, song.beats.meter)
+    return torch.from_numpy(np.concatenate([rows, beat])), phase
+
+
+@dataclass(frozen=True, eq=False)
+class AudioCondition:
+    """Rows [163 or 167, T] at 30 fps: features, and beat and bar phase where they are known.
+
+    Attributes:
+        rows: what the network hears.
+        song: the same with what the beat tracker found, if the rows are an analysed song's.
+
+    Raises:
+        ValueError: another shape.
+    """
+
+    rows: Tensor
+    song: SongCondition | None = None
+
+    def __post_init__(self) -> None:
+        if self.rows.ndim != 2 or len(self.rows) not in (FEATURE_ROWS, CONDITION_ROWS):
+            raise ValueError(f"a condition is [163 or 167, T], not {list(self.rows.shape)}")
+
+    @classmethod
+    def of(cls, sound: Song | np.ndarray | Tensor) -> Self:
+        """Of an analysed song; or of rows, with a batch of one in front or without."""
+        if isinstance(sound, Song):
+            song = SongCondition.of(sound)
+            return cls(song.condition, song)
+        rows = torch.as_tensor(sound).float()
+        return cls(rows[0] if rows.ndim == 3 and len(rows) == 1 else rows)
+
+    @property
+    def num_frames(self) -> int:
+        """T."""
+        return self.rows.shape[1]
+
+    def first(self, num_frames: int) -> Self:
+        """Its first frames."""
+        song = self.song
+        if song is not None:
+            phase = None if song.phase is None else song.phase[:num_frames]
+            song = replace(song, condition=song.condition[:, :num_frames], phase=phase)
+        return type(self)(self.rows[:, :num_frames], song)
+
+    def time(self) -> tuple[np.ndarray, np.ndarray] | None:
+        """Unwrapped bars [T], and times [M] of beats in seconds; None where they are unknown."""
+        if self.song is not None:
+            return None if self.song.phase is None else (self.song.phase, self.song.beats)
+        beat_and_bar = self.rows[BEAT].double().cpu().numpy()
+        if not len(beat_and_bar) or not np.hypot(*beat_and_bar[:2]).min() > 0.5:
+            return None
+        beats, bars = (
+            unwrap_phase(np.arctan2(sine, cosine) / (2 * np.pi) % 1.0)
+            for cosine, sine in (beat_and_bar[:2], beat_and_bar[2:])
+        )
+        numbers = np.arange(np.ceil(beats[0]), np.floor(beats[-1]) + 1)
+        return bars, np.interp(numbers, beats, np.arange(len(beats))) / FPS

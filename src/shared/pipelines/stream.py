@@ -1,0 +1,292 @@
+"""Motion of any length: windows of a few seconds, each beginning with the last frames before it.
+
+A window has one text. Its first frames are known, the last ones of the window before, whatever
+text that had: this is how one action leads into the next. Features say nothing of place or
+heading, so windows are chained as they are. One window is in memory at a time.
+
+Letters: T frames, R rows (bones, root track), C channels, O frames that neighbours share.
+"""
+
+import time
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from ..errors import UsageError
+from ..model.diffusion.samplers import Sampling
+from ..model.generation.constraint import Constraint
+from ..model.generation.motion_generator import TextToMotion
+from ..motion.motion import Motion
+from .postprocess import Place, Settler, smooth_borders
+
+WINDOW, OVERLAP = 150, 30  # frames
+DEFAULT_SAMPLING = Sampling()
+SHORTEST = 48  # frames; a shorter window is made as long as this and cut: training saw few
+
+ConstraintOf = Callable[[int, int], Constraint | None]  # what is known of frames [start, stop)
+
+
+@dataclass(frozen=True)
+class Passage:
+    """A stretch of motion with one text.
+
+    Attributes:
+        text: what it shows.
+        frames: its length; 1 or more.
+        tag: action label beside the text.
+    """
+
+    text: str
+    frames: int
+    tag: str | None = None
+
+    def __post_init__(self) -> None:
+        if self.frames < 1:
+            raise UsageError(f"passage {self.text!r}: {self.frames} frames; 1 or more are needed")
+
+
+def stream_features(
+    generator: TextToMotion,
+    passages: Iterable[Passage],
+    sampling: Sampling = DEFAULT_SAMPLING,
+    *,
+    constraint: ConstraintOf | None = None,
+    window: int = WINDOW,
+    overlap: int = OVERLAP,
+) -> Iterator[Tensor]:
+    """Raw features [t, R, 6] in pieces that follow each other and never change again.
+
+    Each piece depends on the seed, its number, its text, and what came before it.
+
+    Args:
+        generator: trained.
+        passages: taken one by one, each when the motion before it is made.
+        sampling: the seed of all windows, and how each is sampled.
+        constraint: what is known of frames [start, stop), counted from the beginning; None where
+            nothing is.
+        window: frames at most, the shared ones among them.
+        overlap: frames O that a window shares with the one before.
+
+    Raises:
+        UsageError: the overlap does not fit the window, or a constraint is not as long as asked.
+        UserError: as `TextToMotion.sample_features`.
+    """
+    if not 1 <= overlap <= window // 2:
+        raise UsageError(f"overlap {overlap} must lie between 1 and half the window ({window})")
+    before = torch.zeros(0, generator.network.motion_rows, 6)
+    made, number = 0, 0
+    for passage in passages:
+        for length in window_lengths(passage.frames, len(before), window, overlap):
+            start = made - len(before)
+            given = None if constraint is None else constraint(start, made + length)
+            known = carried_on(before, given, len(before) + length)
+            (features,) = generator.sample_features(
+                [passage.text],
+                seconds=max(len(known), SHORTEST) / generator.card.fps,
+                tags=[passage.tag],
+                seed=window_seed(sampling.seed, number),
+                steps=sampling.steps,
+                sampler=sampling.sampler,
+                guidance_scale=sampling.guidance_scale,
+                constraints=[lengthened(known, SHORTEST)],
+            )
+            smooth = smooth_borders(features[: len(known)], known.known)
+            piece = smooth[len(before) :]
+            before = torch.cat((before, piece))[-overlap:]
+            made, number = made + length, number + 1
+            yield piece
+
+
+def window_lengths(frames: int, known: int, window: int, overlap: int) -> list[int]:
+    """New frames of each window of a passage: as few windows as do, nearly alike in length.
+
+    Args:
+        frames: of the passage.
+        known: frames that its first window begins with.
+        window: frames at most, known ones among them.
+        overlap: known frames of the other windows.
+    """
+    number = 1 + max(0, -(-(frames + known - window) // (window - overlap)))
+    total = frames + known + (number - 1) * overlap  # frames of all windows
+    cuts = [total * index // number for index in range(number + 1)]
+    shared = [known] + [overlap] * (number - 1)
+    return [stop - start - own for (start, stop), own in zip(pairwise(cuts), shared, strict=True)]
+
+
+def window_seed(seed: int, number: int) -> int:
+    """The seed of a window: that of the motion for the first one, which is like any other."""
+    if number == 0:
+        return seed
+    return int(np.random.SeedSequence((seed, number)).generate_state(1, np.uint64)[0] >> 1)
+
+
+def carried_on(before: Tensor, given: Constraint | None, frames: int) -> Constraint:
+    """What is known of a window: its first frames, and whatever else is given.
+
+    Raises:
+        UsageError: `given` is not as long as the window.
+    """
+    rows = before.shape[1]
+    known = Constraint.free(frames, rows) if given is None else given
+    if len(known) != frames:
+        raise UsageError(
+            f"a constraint of {len(known)} frames was given where {frames} were asked"
+            "; make it as long"
+        )
+    values, mask = known.values[:, :rows].clone(), known.known[:, :rows].clone()
+    values[: len(before)] = before
+    mask[: len(before)] = True
+    told = None if known.told is None else known.told[:, :rows].clone()
+    if told is not None:
+        told[: len(before)] = True
+    return replace(known, values=values, known=mask, told=told)
+
+
+def lengthened(known: Constraint, frames: int) -> Constraint:
+    """At least `frames` frames, nothing known of those that are added."""
+    spare = frames - len(known)
+    if spare <= 0:
+        return known
+    free = Constraint.free(spare, *known.values.shape[1:])
+    return replace(
+        known,
+        values=torch.cat((known.values, free.values)),
+        known=torch.cat((known.known, free.known)),
+        told=None if known.told is None else torch.cat((known.told, free.known)),
+    )
+
+
+# ---------------------------------------------------------------- settled motion
+
+
+@dataclass(frozen=True)
+class Latency:
+    """How far a stream is behind.
+
+    Attributes:
+        first: seconds of computing until the first piece was there; None before.
+        lookahead: seconds of motion that must be made behind a frame before it settles.
+        reaction: seconds of motion, at most, between what is seen and what a new text changes.
+        load: seconds of computing for a second of motion, since the first piece; below 1 it is
+            faster than real time. None before.
+    """
+
+    first: float | None
+    lookahead: float
+    reaction: float
+    load: float | None
+
+
+class MotionStream:
+    """Motion without end, in pieces that follow each other, while prompts change.
+
+        stream = MotionStream(generator, "a person walks forward")
+        for piece in stream:
+            show(piece)
+            if tired:
+                stream.say("a person sits down")
+
+    Pieces stand where the ones before led to; what has been given out never changes. Joined, they
+    are the same motion however they were cut.
+
+    Args:
+        generator: trained.
+        prompts: one text, that goes on until `say` or `stop`; or any iterable of texts and
+            passages, taken one by one, after which the stream ends.
+        seconds: of a text that comes without a length. The shorter, the sooner a new one is heard.
+        constraint: see `stream_features`.
+        place: of the first frame; None = the origin, facing +Z.
+        window, overlap: see `stream_features`.
+        sampling: see `stream_features`.
+        foot_lock: hold standing feet; None = the model's own setting.
+
+    Raises:
+        UserError: while it runs, as `stream_features`.
+    """
+
+    def __init__(
+        self,
+        generator: TextToMotion,
+        prompts: str | Iterable[str | Passage],
+        *,
+        seconds: float = 2.0,
+        constraint: ConstraintOf | None = None,
+        place: Place | None = None,
+        window: int = WINDOW,
+        overlap: int = OVERLAP,
+        sampling: Sampling = DEFAULT_SAMPLING,
+        foot_lock: bool | None = None,
+    ) -> None:
+        self._fps = generator.card.fps
+        self._frames = round(seconds * self._fps)
+        self._prompts = [] if isinstance(prompts, str) else prompts
+        self._now = Passage(prompts, self._frames) if isinstance(prompts, str) else None
+        self._constraint = constraint
+        self._settler = Settler.of(generator, place=place, foot_lock=foot_lock)
+        self._pieces = stream_features(
+            generator,
+            self._passages(),
+            sampling,
+            constraint=constraint,
+            window=window,
+            overlap=overlap,
+        )
+        self._text, self._made, self._window = "", 0, window - overlap
+        self._first: float | None = None
+        self._spent, self._given = 0.0, 0  # since the first piece: seconds, frames
+
+    def say(self, text: str, *, tag: str | None = None) -> None:
+        """What is shown from the next window on, in place of the text so far.
+
+        Raises:
+            UsageError: no text; the stream goes on as it was.
+        """
+        if not text.strip():
+            raise UsageError(f"say({text!r}) holds no text; give what is done next, or stop()")
+        self._now = Passage(text, self._frames, tag)
+
+    def stop(self) -> None:
+        """End after what is made already."""
+        self._now = None
+
+    def __iter__(self) -> Iterator[Motion]:
+        """Pieces of one frame or more; see the class."""
+        started = time.perf_counter()
+        for features in self._pieces:
+            start, self._made = self._made, self._made + len(features)
+            given = None if self._constraint is None else self._constraint(start, self._made)
+            piece = self._settler.add(features, None if given is None else given.known)
+            if piece is not None:
+                self._count(time.perf_counter() - started, piece.num_frames)
+                yield replace(piece, text=self._text)
+                started = time.perf_counter()
+        piece = self._settler.finish()
+        if piece is not None:
+            yield replace(piece, text=self._text)
+
+    @property
+    def latency(self) -> Latency:
+        """As measured so far."""
+        lookahead = self._settler.lookahead / self._fps
+        window = min(self._window, self._frames) / self._fps
+        load = self._spent * self._fps / self._given if self._given else None
+        return Latency(self._first, lookahead, lookahead + window, load)
+
+    def _passages(self) -> Iterator[Passage]:
+        for prompt in self._prompts:
+            passage = Passage(prompt, self._frames) if isinstance(prompt, str) else prompt
+            self._text = passage.text
+            yield passage
+        while self._now is not None:
+            self._text = self._now.text
+            yield self._now
+
+    def _count(self, seconds: float, frames: int) -> None:
+        if self._first is None:
+            self._first = seconds
+        else:
+            self._spent, self._given = self._spent + seconds, self._given + frames

@@ -1,0 +1,306 @@
+"""Sentences in, motions out: what a sentence says of order and measure is done, too.
+
+A sentence is read as clauses (sentence.py). One plain clause that is no longer than the model's
+training clips is one sample of the network; all else is a stream of passages, one or several for
+each clause, with what the clause measures as a constraint: a path of so many metres, a heading that
+turns by so many degrees. Of several candidates the judge's first choice comes first.
+
+Letters: N candidates, T frames, R rows (bones, root track).
+"""
+
+import logging
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import accumulate
+from typing import Any
+
+import numpy as np
+import torch
+
+from ..device import idle_threads
+from ..errors import UserError
+from ..model.clip.core import TextFeatures
+from ..model.generation.constraint import Constraint
+from ..model.generation.motion_generator import Progress, TextToMotion
+from ..motion.motion import Motion
+from ..motion.root_track import ROOT_ROW, YAW_RATE
+from .path import DrawnPath, natural_gait, time_path
+from .postprocess import settled
+from .ranking import ScoreTable, TextJudge, unranked
+from .sentence import Clause, clauses
+from .stream import OVERLAP, WINDOW, Passage, Sampling, stream_features, window_seed
+
+TURN_SPEED, TURN_REST = 75.0, 0.5  # degrees a second; seconds before and after a turn
+ONCE = (1.6, 2.5)  # seconds of one repetition, from … to
+REPEATED_OVERLAP = 10  # frames: a repetition begins as the one before it ended, at rest
+
+log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True, eq=False)
+class _Stretch:
+    """What one clause becomes: passages and what is known of their frames; nothing if None."""
+
+    passages: list[Passage]
+    constraint: Constraint | None = None
+
+    @property
+    def frames(self) -> int:
+        return sum(passage.frames for passage in self.passages)
+
+
+class SentenceGenerator:
+    """A `TextToMotion` that does what its sentences say of order, number, angle and length.
+
+    Args:
+        generator: trained.
+    """
+
+    def __init__(self, generator: TextToMotion) -> None:
+        self.generator = generator
+        self.card, self.text = generator.card, generator.text
+        self._read: dict[str, list[Clause]] = {}
+
+    def clauses(self, prompt: str) -> list[Clause]:
+        """What a prompt asks for, in order."""
+        if prompt not in self._read:
+            self._read[prompt] = clauses(prompt, self._action)
+        return self._read[prompt]
+
+    def generate(
+        self,
+        prompts: Sequence[str],
+        *,
+        seconds: float | Sequence[float] = 4.0,
+        tags: Sequence[str | None] | None = None,
+        num_samples: int = 1,
+        seed: int = 0,
+        steps: int | None = None,
+        sampler: str | None = None,
+        guidance_scale: float | None = None,
+        foot_lock: bool | None = None,
+        progress: Progress | None = None,
+    ) -> list[Motion]:
+        """Motions for the prompts, prompt-major; as `TextToMotion.generate` but for the length.
+
+        Args:
+            seconds: of each clause that names no length of its own; any length.
+
+        Raises:
+            UserError: as `TextToMotion.generate`.
+        """
+        sampling = Sampling(seed=seed, steps=steps, sampler=sampler, guidance_scale=guidance_scale)
+        lengths = list(seconds) if isinstance(seconds, Sequence) else [seconds] * len(prompts)
+        labels = list(tags) if tags is not None else [None] * len(prompts)
+        whole = [self._is_whole(*each) for each in zip(prompts, lengths, strict=True)]
+        plain = [index for index, one in enumerate(whole) if one]
+        made: dict[int, list[Motion]] = {}
+
+        def told(done: int) -> None:
+            if progress is not None:
+                progress(done, len(prompts) * num_samples)
+
+        if plain:
+            found = self.generator.generate(
+                [prompts[index] for index in plain],
+                seconds=[lengths[index] for index in plain],
+                tags=[labels[index] for index in plain],
+                num_samples=num_samples,
+                seed=seed,
+                steps=steps,
+                sampler=sampler,
+                guidance_scale=guidance_scale,
+                foot_lock=foot_lock,
+                progress=lambda done, total: told(done),
+            )
+            for place, index in enumerate(plain):
+                made[index] = found[place * num_samples : (place + 1) * num_samples]
+        for index, prompt in enumerate(prompts):
+            if not whole[index]:
+                for warning in filter(None, self._warnings(prompt, again=False)):
+                    log.warning("%s", warning)
+                made[index] = []
+                for sample in range(num_samples):
+                    own = replace(sampling, seed=window_seed(seed, 1000 * sample))
+                    made[index].append(
+                        self._one(prompt, lengths[index], labels[index], own, foot_lock)
+                    )
+                    told(sum(map(len, made.values())))
+        return [motion for index in range(len(prompts)) for motion in made[index]]
+
+    def encode_prompts(self, prompts: Sequence[str]) -> TextFeatures:
+        """See `TextToMotion.encode_prompts`."""
+        return self.generator.encode_prompts(prompts)
+
+    def scope_warnings(self, prompts: Sequence[str]) -> list[str | None]:
+        """For each prompt, a line for the first of its clauses that is far from what is known."""
+        return [next(filter(None, self._warnings(prompt)), None) for prompt in prompts]
+
+    def _warnings(self, prompt: str, *, again: bool = True) -> list[str | None]:
+        parts = self.clauses(prompt)
+        texts = [prompt] if len(parts) == 1 else [part.text for part in parts]
+        return self.generator.scope_warnings(texts, again=again)
+
+    # ------------------------------------------------------------ one sentence
+
+    def _action(self, text: str) -> str | None:
+        """The action that a text alone tells of."""
+        if self.generator.scope is None or not text:
+            return None
+        embedding = self.generator.encode_prompts([text]).pooled[0].cpu().numpy()
+        found = self.generator.scope.check(text, embedding)
+        return found.nearest[0] if found.known and found.nearest else None
+
+    def _is_whole(self, prompt: str, seconds: float) -> bool:
+        """Whether one sample of the network is all there is to it, or the prompt is faulty."""
+        fit = isinstance(seconds, int | float) and math.isfinite(seconds) and seconds > 0
+        if not fit or not prompt.strip():
+            return True  # refused there, with a clear line
+        parts = self.clauses(prompt)
+        fits = self.generator.length_warning(seconds) is None
+        return fits and len(parts) == 1 and parts[0].plain
+
+    @idle_threads()
+    def _one(
+        self,
+        prompt: str,
+        seconds: float,
+        tag: str | None,
+        sampling: Sampling,
+        foot_lock: bool | None,
+    ) -> Motion:
+        parts = self.clauses(prompt)
+        stretches = [self._stretch(part, seconds, tag, sampling) for part in parts]
+        starts = [0, *accumulate(stretch.frames for stretch in stretches)]
+        given = Constraint.free(starts[-1])
+        for start, stretch in zip(starts, stretches, strict=False):
+            if stretch.constraint is not None:
+                stop = start + stretch.frames
+                given.values[start:stop] = stretch.constraint.values
+                given.known[start:stop] = stretch.constraint.known
+        led = any(stretch.constraint is not None for stretch in stretches)
+        repeated = any(part.count > 1 for part in parts)
+        fps = self.card.fps
+        pieces = stream_features(
+            self.generator,
+            [passage for stretch in stretches for passage in stretch.passages],
+            constraint=(lambda start, stop: given.window(start, stop, fps=fps)) if led else None,
+            window=self._window(),
+            overlap=REPEATED_OVERLAP if repeated else OVERLAP,
+            sampling=sampling,
+        )
+        motion = settled(self.generator, torch.cat(list(pieces)), foot_lock=foot_lock)
+        return replace(motion, text=prompt)
+
+    def _window(self) -> int:
+        """Frames of a window: no more than the model has seen, where two overlaps fit in that."""
+        longest = self.card.max_seconds or WINDOW / self.card.fps
+        return min(WINDOW, max(2 * OVERLAP, round(longest * self.card.fps)))
+
+    def _stretch(
+        self, clause: Clause, seconds: float, tag: str | None, sampling: Sampling
+    ) -> _Stretch:
+        """Passages and constraint of one clause."""
+        fps, text = self.card.fps, clause.text
+        seconds = clause.seconds or seconds
+        if clause.degrees is not None:
+            given = turned(clause.degrees, fps)
+            return _Stretch([Passage(text, len(given), tag)], given)
+        if clause.metres is not None:
+            given = self._led(Passage(text, round(seconds * fps), tag), clause, sampling)
+            return _Stretch([Passage(text, len(given), tag)], given)
+        if clause.count > 1:
+            once = float(np.clip(seconds / clause.count, *ONCE))
+            return _Stretch([Passage(text, round(once * fps), tag)] * clause.count)
+        return _Stretch([Passage(text, max(1, round(seconds * fps)), tag)])
+
+    def _led(self, passage: Passage, clause: Clause, sampling: Sampling) -> Constraint:
+        """So many metres, at the pace and in the direction that are the clause's own."""
+        speed, facing = natural_gait(self.generator, passage, sampling)
+        ahead = np.array([[0.0, 0.0], [0.0, clause.metres or 0.0]])
+        try:
+            path = time_path(
+                DrawnPath(ahead), fps=self.card.fps, speed=speed, seconds=clause.seconds,
+                facing=facing,
+            )  # fmt: skip
+        except UserError as error:
+            raise UserError(f"{passage.text!r}: {error}") from None
+        return path.constraint()
+
+
+def turned(degrees: float, fps: float) -> Constraint:
+    """A heading that turns by so many degrees, positive to the left, from rest to rest."""
+    moving = round(max(abs(degrees) / TURN_SPEED, 1.0) * fps)
+    rest = round(TURN_REST * fps)
+    way = np.linspace(0, 1, moving + 1)
+    heading = np.radians(degrees) * (3 * way**2 - 2 * way**3)  # [moving + 1]
+    given = Constraint.free(moving + 2 * rest)
+    rate = torch.zeros(len(given))
+    rate[rest : rest + moving] = torch.as_tensor(np.diff(heading) * fps, dtype=torch.float32)
+    given.values[:, ROOT_ROW, YAW_RATE] = rate
+    given.known[:, ROOT_ROW, YAW_RATE] = True
+    return given
+
+
+@dataclass(frozen=True, eq=False)
+class PromptResult:
+    """The best motion for one prompt; all N, as sampled, if asked for; their scores."""
+
+    motion: Motion
+    all_candidates: list[Motion] | None
+    table: ScoreTable
+
+    def ranked(self) -> list[Motion]:
+        """All candidates, best first; only the best where the others were not kept."""
+        if self.all_candidates is None:
+            return [self.motion]
+        return [self.all_candidates[place] for place in self.table.order]
+
+
+class PromptSampler:
+    """Best of N for prompts, the text side's `MotionSampler`.
+
+    Args:
+        generator: trained; a `SentenceGenerator` is used as it is.
+        judge: of the candidates; one with the generator's motion tower sees the prompt, None
+            makes one without.
+    """
+
+    def __init__(
+        self, generator: TextToMotion | SentenceGenerator, judge: TextJudge | None = None
+    ) -> None:
+        if isinstance(generator, TextToMotion):
+            generator = SentenceGenerator(generator)
+        self.generator = generator
+        self.judge = judge or TextJudge()
+
+    def sample(
+        self,
+        prompts: Sequence[str],
+        num_samples: int = 8,
+        *,
+        return_all: bool = False,
+        **options: Any,
+    ) -> list[PromptResult]:
+        """Sample N candidates a prompt and keep the one that the judge puts first.
+
+        Args:
+            prompts: see `SentenceGenerator.generate`.
+            num_samples: N; candidate i depends on (seed, prompt, i) alone.
+            return_all: keep the others too.
+            options: what else `SentenceGenerator.generate` takes.
+
+        Raises:
+            UserError: as `SentenceGenerator.generate`.
+        """
+        motions = self.generator.generate(prompts, num_samples=num_samples, **options)
+        embeddings = None if num_samples == 1 else self.generator.encode_prompts(prompts).pooled
+        results = []
+        for number in range(len(prompts)):
+            made = motions[number * num_samples : (number + 1) * num_samples]
+            table = unranked()
+            if embeddings is not None:
+                table = self.judge.judge(made, embeddings[number])
+            results.append(PromptResult(made[table.best], made if return_all else None, table))
+        return results

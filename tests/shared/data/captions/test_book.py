@@ -1,0 +1,156 @@
+"""A user's own caption files: laid over ours, or alone; faults named by file and key."""
+
+import random
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from src.shared.data.captions.book import CaptionBook
+from src.shared.data.captions.schema import parse, tidy
+from src.shared.errors import UserError
+
+ITALIAN = """
+language: it
+name: italiano
+forms: [plain]
+frames: [{form: plain, text: ["{verb} {rest}"]}]
+slots: {speed: {slow: [piano], fast: [veloce]}, side.mano: {left: ["la mano sinistra"]}}
+actions:
+  walk: {name: camminare, phrases: [{verbs: [cammina], rest: ["{speed}"]}]}
+  raise: {name: alzare, phrases: [{verbs: [alza], rest: ["{side.mano} {speed}"]}]}
+  other: {name: altro, phrases: [{verbs: ["{action}"], rest: ["{speed}"]}]}
+mirror: {pairs: [[sinistra, destra]], keep: ["destra e sinistra"]}
+"""
+
+
+def _book(folder: Path, text: str, name: str = "mine.yaml") -> CaptionBook:
+    (folder / name).write_text(text, encoding="utf-8")
+    return CaptionBook.load(folder / name)
+
+
+def test_a_new_language_joins_the_packaged_ones(tmp_path: Path) -> None:
+    book = _book(tmp_path, ITALIAN)
+    assert book.languages == ("de", "en", "es", "fr", "it", "ja", "zh")
+    assert book.canonical({"action": "walk", "speed": "slow"})["it"] == "cammina piano"
+    assert book.canonical({"action": "raise", "side": "right"})["it"] == "alza la mano destra"
+    assert book.mirror_text("a destra", "it") == "a sinistra"
+
+
+def test_a_file_that_extends_nothing_stands_alone(tmp_path: Path) -> None:
+    book = _book(tmp_path, ITALIAN + "extends: nothing\n")
+    assert book.languages == ("it",)
+    assert CaptionBook.load(tmp_path).languages == ("it",)
+
+
+def test_a_user_adds_an_action_and_a_style_to_english(tmp_path: Path) -> None:
+    book = _book(
+        tmp_path,
+        "language: en\n"
+        "slots: {style: {zombie: [like a zombie]}}\n"
+        "actions: {limp: {name: limp, phrases: [{verbs: ['limp | limps | limping | limp'],"
+        " rest: ['{direction} {style}']}]}}\n",
+    )
+    labels = {"action": "limp", "direction": "forward", "style": "zombie"}
+    assert book.canonical(labels)["en"] == "limp forward like a zombie"
+    assert book.canonical({"action": "walk", "style": "sad"})["en"] == "walk sadly"
+    assert CaptionBook.load().language("en").find_action("limp") == "other"
+
+
+WHO = """
+language: it
+name: italiano
+forms: [plain]
+frames: [{form: plain, text: ["{style.who} {verb} {rest}"]}]
+slots:
+  style: {sad: [tristemente], happy: [allegramente]}
+  style.who: {sad: [un uomo triste]}
+actions:
+  walk:
+    name: camminare
+    phrases:
+      - {verbs: [cammina], rest: ["piano {style}"]}
+      - {verbs: [si trascina], rest: ["{style}"], when: {style: sad}}
+  other: {name: altro, phrases: [{verbs: ["{action}"], rest: ["{style}"]}]}
+mirror: {pairs: [[sinistra, destra]]}
+extends: nothing
+"""
+
+
+def _sentences(book: CaptionBook, style: str) -> set[str]:
+    texts = book.captions({"action": "walk", "style": style}, num=9, seed=0)["it"]
+    return {text.lower().strip(".") for text in texts}
+
+
+def test_what_the_frame_or_the_condition_says_is_left_out_of_the_rest(tmp_path: Path) -> None:
+    assert _sentences(_book(tmp_path, WHO), "sad") == {"un uomo triste cammina piano"}
+    plain = _book(tmp_path, WHO.replace("{style.who} {verb}", "{verb}"))
+    assert _sentences(plain, "sad") == {"cammina piano tristemente", "si trascina"}
+
+
+def test_a_dotted_slot_without_words_for_the_value_gives_way(tmp_path: Path) -> None:
+    both = WHO.replace('{verb} {rest}"', '{verb} {rest}", "{verb} {rest}"')
+    assert _sentences(_book(tmp_path, both), "happy") == {"cammina piano allegramente"}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("{speed}", "{sped}", r"mine\.yaml.*unknown slot \{sped\}.*known:.*speed"),
+        ("{verb} {rest}", "{verb", r"mine\.yaml: frames\.0\.text: stray '\{'"),
+        ("{verb} {rest}", "(a|{verb}", r"mine\.yaml: frames\.0\.text: parenthesis never closed"),
+        ("[cammina]", '["a | b"]', r"actions\.walk\.phrases\.0\.verbs: .*needs 1 forms"),
+        ("form: plain", "form: noun", r"frames\.0\.form: form 'noun' is not one of plain"),
+        ("pairs:", "pears:", r"mine\.yaml: mirror\.(pairs: Field required|pears)"),
+        ("name: italiano", "nome: italiano", r"mine\.yaml: (name: Field required|nome)"),
+        ("keep: [", "keep: ['(', ", r"mine\.yaml: mirror\.keep"),
+        ("  other:", "  others:", r"actions\.other: missing"),
+        ("language: it", "language: it\nextends: all", r"extends: 'all'"),
+    ],
+)
+def test_faults_name_file_and_key(tmp_path: Path, old: str, new: str, message: str) -> None:
+    with pytest.raises(UserError, match=message) as caught:
+        _book(tmp_path, ITALIAN.replace(old, new))
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["absent.yaml", "empty"])
+def test_a_missing_file_is_named(tmp_path: Path, name: str) -> None:
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(UserError, match=name):
+        CaptionBook.load(tmp_path / name)
+
+
+# ---------------------------------------------------------------- the template language
+
+
+@given(st.text(alphabet="ab{}()| ", max_size=12))
+def test_any_template_parses_or_is_refused(template: str) -> None:
+    try:
+        parse(template)
+    except ValueError as error:
+        assert repr(template) in str(error)
+
+
+def test_dropped_slots_leave_nothing_behind() -> None:
+    assert tidy(" a  person , walks ,  ", True) == "a person, walks"
+    assert tidy("人 が、 、 moon walk を", False) == "人が、moon walkを"
+
+
+def test_whole_sentences_are_half_of_the_captions(tmp_path: Path) -> None:
+    (tmp_path / "en.yaml").write_text(
+        "language: en\nsentences:\n  - labels: {action: wave, side: left}\n"
+        "    text: [greet with your left hand, left hand says hello, left palm up and shake]\n",
+        encoding="utf-8",
+    )
+    english = CaptionBook.load(tmp_path).language("en")
+    left = english.captions({"action": "wave", "side": "left"}, 6, random.Random(0))
+    assert len(left) == 6
+    assert sum("greet" in text or "palm" in text or "hello" in text for text in left) == 3
+    right = english.captions({"action": "wave", "side": "right"}, 6, random.Random(0))
+    assert "right palm up and shake" in right
+    both = english.captions({"action": "wave", "side": "both"}, 6, random.Random(0))
+    assert not any("palm" in text for text in both)
+    once = {"action": "wave", "side": "left", "count": "1", "speed": "normal"}
+    assert "left palm up and shake" in english.captions(once, 6, random.Random(0))

@@ -1,0 +1,53 @@
+"""Any motion file in: formats, guesses, exact round trips of our own files."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from src.shared.data.retarget.read_motion import inspect_motion, read_motion
+from src.shared.errors import UserError
+from src.shared.formats.arrays import write_npz
+from src.shared.formats.writers.bvh import write_bvh
+from src.shared.motion.motion import Motion
+from src.shared.motion.skeleton import NUM_JOINTS
+
+
+def a_motion(frames: int = 12, seed: int = 3, spread: float = 0.3) -> Motion:
+    """A body that stands, floats 1.2 m up, and fidgets."""
+    rng = np.random.default_rng(seed)
+    quaternions = np.tile([1.0, 0, 0, 0], (frames, NUM_JOINTS, 1))
+    quaternions[..., 1:] += spread * rng.normal(size=(NUM_JOINTS, 3))
+    quaternions[..., 1:] += 0.02 * rng.normal(size=(frames, NUM_JOINTS, 3)).cumsum(0)
+    quaternions /= np.linalg.norm(quaternions, axis=-1, keepdims=True)
+    root = np.array([0, 1.2, 0]) + 0.02 * rng.normal(size=(frames, 3)).cumsum(0)
+    contacts = np.zeros((frames, 2), np.float32)
+    return Motion(quaternions.astype(np.float32), root.astype(np.float32), contacts)
+
+
+def same(a: Motion, b: Motion, tolerance: float = 1e-4) -> None:
+    assert a.fps == pytest.approx(b.fps)
+    np.testing.assert_allclose(a.global_rotations(), b.global_rotations(), atol=tolerance)
+    np.testing.assert_allclose(a.positions(), b.positions(), atol=tolerance)
+
+
+def test_our_own_files_come_back_as_they_were(tmp_path: Path) -> None:
+    motion = a_motion()
+    same(read_motion(write_npz(motion, tmp_path / "a.npz")), motion)
+    same(read_motion(write_bvh(motion, tmp_path / "a.bvh")), motion)
+
+
+@pytest.mark.parametrize("name", ["none.bvh", "none.npz", "none.amc", "none.npy", "none.xyz"])
+def test_missing_and_unknown_files(tmp_path: Path, name: str) -> None:
+    with pytest.raises(UserError, match=name):
+        read_motion(tmp_path / name)
+    (tmp_path / name).write_bytes(b"nothing of use")
+    with pytest.raises(UserError, match=name):
+        read_motion(tmp_path / name)
+
+
+def test_inspection_of_our_bvh(tmp_path: Path) -> None:
+    found = inspect_motion(write_bvh(a_motion(), tmp_path / "a.bvh"))
+    assert (found.format, found.frames, found.unit, found.up) == ("BVH", 12, "cm", "Y")
+    assert found.mapping == "motion-suite" and not found.warnings
+    assert found.fps == pytest.approx(30) and found.seconds == pytest.approx(0.4)

@@ -1,0 +1,106 @@
+"""DancePrompter: sections at downbeats, prompts that suit sound, loudness and path."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import torch
+from hypothesis import given
+from hypothesis import strategies as st
+
+from src.shared.config_schema import NetworkConfig
+from src.shared.config_space import AudioTowerConfig
+from src.shared.model.audio.shared_space import SharedSpace
+from src.shared.model.checkpoint import ModelCard
+from src.shared.motion.trajectory import MotionTrajectory
+from src.shared.pipelines.dance import PROMPTS, DancePrompt, DancePrompter, sections
+from tests.shared.model.conftest import tiny_generator, tiny_network
+
+
+@given(
+    frames=st.integers(8, 4000),
+    tempo=st.floats(40, 220),
+    meter=st.sampled_from([2, 3, 4]),
+    offset=st.floats(-3, 3),
+)
+def test_sections_cover_everything_and_begin_at_downbeats(
+    frames: int, tempo: float, meter: int, offset: float
+) -> None:
+    phase = offset + np.arange(frames) / 30 * tempo / 60 / meter
+    for known in (phase, None):
+        parts = sections(frames, known)
+        assert parts[0][0] == 0 and parts[-1][1] == frames
+        assert all(a[1] == b[0] for a, b in pairwise(parts))
+        assert len(parts) == 1 or min(stop - start for start, stop in parts) >= 90
+    for start, _ in sections(frames, phase)[1:]:
+        assert phase[start] % 1 < 1 / 30 * tempo / 60 / meter + 1e-9  # the frame after a downbeat
+
+
+def path(speed: float, frames: int = 360, height: float = 0.93) -> MotionTrajectory:
+    """Straight ahead."""
+    position = np.zeros((frames + 2, 3))
+    position[:, 1], position[:, 2] = height, np.arange(frames + 2) / 30 * speed
+    turn = np.tile([1.0, 0.0, 0.0, 0.0], (frames + 2, 1))
+    return MotionTrajectory.from_pose(position, turn, np.arange(frames + 2) / 60, spare=2)
+
+
+SLOW, FAST = (
+    DancePrompt("a person walks forward", 0.0, 0.0, 0.93, 0.0),
+    DancePrompt("somebody jumps twice", 1.5, 0.0, 0.93, 1.0),
+)
+
+
+def prompter(space: SharedSpace | None = None) -> DancePrompter:
+    return DancePrompter(torch.eye(32)[:2], space, (SLOW, FAST))
+
+
+def test_a_fast_path_gets_what_moves_fast() -> None:
+    condition = torch.zeros(167, 360)
+    for speed, expected in ((0.0, SLOW), (1.5, FAST)):
+        (found,) = prompter().passages(condition, None, path(speed))
+        assert (found.text, found.frames) == (expected.text, 360)
+
+
+def test_loud_music_gets_what_is_energetic() -> None:
+    loudness = torch.zeros(167, 360)
+    loudness[160, 180:] = 1.0
+    texts = [
+        passage.text
+        for seed in range(20)
+        for passage in prompter().passages(loudness, None, path(0.75), seed=seed)
+        if passage.frames == 180
+    ]
+    assert {SLOW.text, FAST.text} == set(texts)
+    half = torch.zeros(167, 180)
+    half[160] = torch.linspace(0, 1, 180)
+    assert prompter().passages(loudness, None, path(0.75))[-1].text == FAST.text
+
+
+def space() -> SharedSpace:
+    config = AudioTowerConfig(embed_dim=32, dim=16, num_heads=2, num_layers=1)
+    torch.manual_seed(0)
+    return SharedSpace(tiny_network(), config, ModelCard(kind="shared-space")).eval()
+
+
+def test_the_nearest_prompt_in_the_space_is_likelier() -> None:
+    sound, towers = torch.randn(167, 180, generator=torch.Generator().manual_seed(0)), space()
+    near = towers.embed_audio(sound[None, :, :150]).detach()[0]
+    both = torch.stack((near, -near))
+    same = tuple(DancePrompt(text, 0.0, 0.0, 0.93, 0.5) for text in ("one", "two"))
+    found = [
+        DancePrompter(both, towers, same).passages(sound, None, path(0.0, 180), seed=n)[0].text
+        for n in range(40)
+    ]
+    assert found.count("one") > found.count("two")
+
+
+def test_the_same_seed_says_the_same(caplog: pytest.LogCaptureFixture) -> None:
+    generator = tiny_generator()
+    alone = DancePrompter.beside(generator)
+    assert alone.space is None and "text tower" in caplog.text  # the shipped space is another's
+    condition, way = torch.rand(167, 360), path(0.4)
+    assert alone.passages(condition, None, way, seed=3) == alone.passages(
+        condition, None, way, seed=3
+    )
+    assert len({p.text for p in PROMPTS}) == len(PROMPTS)
+    assert isinstance(generator.network, NetworkConfig)

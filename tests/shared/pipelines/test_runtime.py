@@ -1,0 +1,66 @@
+"""Models are loaded for sampling: trained ones only, and on a CPU in their faster form."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+
+from src.shared.errors import UserError
+from src.shared.model.audio.audio_motion_model import AudioMotionModel
+from src.shared.model.audio.sampling_copy import MatrixConv1d
+from src.shared.model.checkpoint import ModelCard
+from src.shared.pipelines import runtime
+from src.shared.pipelines.runtime import load_runtime, load_trained
+from src.shared.pipelines.song import SongGenerator
+from src.shared.pipelines.song_sampler import SongSampler, SongSampling
+from tests.shared.model.audio.tiny_audio import awake, network_config, unet_config
+
+SETTINGS = SongSampling(steps=2, window=60, overlap=15)
+
+
+def saved(folder: Path, *, trained: bool) -> AudioMotionModel:
+    torch.manual_seed(0)
+    config = network_config(unet=unet_config(channel_mult=(1, 1, 1), attention_resolutions=(4,)))
+    model = AudioMotionModel(config, ModelCard(kind="", trained=trained))
+    awake(model)
+    model.save_pretrained(folder)
+    return model.eval()
+
+
+def is_fast(model: AudioMotionModel) -> bool:
+    return any(isinstance(module, MatrixConv1d) for module in model.unet.modules())
+
+
+@pytest.mark.parametrize("bf16, tolerance", [(False, 1e-4), (True, 0.3)])
+def test_the_faster_copy_makes_the_same_motion(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, bf16: bool, tolerance: float
+) -> None:
+    monkeypatch.delenv("ACCELERATE_MIXED_PRECISION", raising=False)
+    monkeypatch.setattr("src.shared.device._native_bf16", lambda device: (bf16, "said so"))
+    model = saved(tmp_path, trained=True)
+    loaded = load_trained(tmp_path, "cpu")
+    assert is_fast(loaded) and not is_fast(model)
+    assert any(p.dtype == torch.bfloat16 for p in loaded.unet.parameters()) is bf16
+    condition = torch.rand(167, 50)  # one window: a seam of a random network magnifies rounding
+    wanted = SongSampler(model, SETTINGS).sample(condition)[0]
+    found = SongSampler(loaded, SETTINGS).sample(condition)[0]
+    assert np.abs(wanted.position).max() > 5.0  # 0.3 is a few percent of it
+    np.testing.assert_allclose(found.position, wanted.position, atol=tolerance)
+
+
+def test_generator_and_runtime_load_alike(tmp_path: Path) -> None:
+    saved(tmp_path, trained=True)
+    generator = SongGenerator.from_pretrained(tmp_path, device="cpu")
+    assert is_fast(generator.model) and generator.device.type == "cpu"
+    loaded = load_runtime("torch", tmp_path, "cpu")
+    assert isinstance(loaded, AudioMotionModel) and is_fast(loaded)
+
+
+def test_untrained_models_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    model = saved(tmp_path, trained=False)
+    with pytest.raises(UserError, match="untrained"):
+        load_runtime("torch", tmp_path, "cpu")
+    monkeypatch.setattr(runtime.OnnxRuntime, "from_folder", lambda folder: model)
+    with pytest.raises(UserError, match="untrained"):
+        load_runtime("onnx", tmp_path)

@@ -1,0 +1,180 @@
+"""stream_features: windows of any number, each carrying the one before on."""
+
+from collections.abc import Iterator
+from functools import reduce
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import torch
+from hypothesis import given
+from hypothesis import strategies as st
+
+from src.shared.errors import UsageError, UserError
+from src.shared.model.diffusion.samplers import Sampling
+from src.shared.model.generation.constraint import Constraint
+from src.shared.model.generation.motion_generator import TextToMotion
+from src.shared.motion.root_track import FORWARD, ROOT_ROW
+from src.shared.pipelines import stream as motion_stream
+from src.shared.pipelines.postprocess import joined, settled
+from src.shared.pipelines.stream import MotionStream, Passage, stream_features, window_lengths
+from tests.shared.model.conftest import tiny_generator
+
+WALK, WAVE = Passage("a person walks", 70), Passage("a person waves", 33)
+
+
+@pytest.fixture(scope="module")
+def generator() -> TextToMotion:
+    return tiny_generator()
+
+
+def made(generator: TextToMotion, *passages: Passage, **settings: object) -> torch.Tensor:
+    sampling = Sampling(seed=settings.pop("seed", 3))
+    settings = {"window": 40, "overlap": 10} | settings
+    return torch.cat(list(stream_features(generator, passages, sampling, **settings)))
+
+
+@given(st.integers(1, 3000), st.integers(8, 180), st.data())
+def test_windows_are_few_and_alike(frames: int, window: int, data: st.DataObject) -> None:
+    overlap = data.draw(st.integers(1, window // 2))
+    known = data.draw(st.integers(0, overlap))
+    lengths = window_lengths(frames, known, window, overlap)
+    assert sum(lengths) == frames and min(lengths) >= 1
+    shared = [known] + [overlap] * (len(lengths) - 1)
+    whole = [new + own for new, own in zip(lengths, shared, strict=True)]
+    assert max(whole) <= window and max(whole) - min(whole) <= 1
+    assert len(lengths) == 1 or frames + known > window
+    fewer = window + (len(lengths) - 2) * (window - overlap)
+    assert len(lengths) == 1 or frames + known > fewer
+
+
+def test_length_and_seeds(generator: TextToMotion) -> None:
+    first = made(generator, WALK, WAVE)
+    assert first.shape == (103, 23, 6)
+    torch.testing.assert_close(first, made(generator, WALK, WAVE), rtol=0, atol=0)
+    assert not torch.allclose(first, made(generator, WALK, WAVE, seed=4))
+
+
+def test_the_past_does_not_depend_on_the_future(generator: TextToMotion) -> None:
+    whole = made(generator, WALK, WAVE)
+    torch.testing.assert_close(made(generator, WALK), whole[:70], rtol=0, atol=0)
+
+
+def test_one_window_is_what_the_generator_samples(generator: TextToMotion) -> None:
+    (plain,) = generator.sample_features(["a person walks"], seconds=2.0, seed=3)
+    torch.testing.assert_close(made(generator, Passage("a person walks", 60), window=60), plain)
+
+
+def test_passages_are_taken_one_by_one(generator: TextToMotion) -> None:
+    taken = []
+
+    def endless() -> Iterator[Passage]:
+        while True:
+            taken.append(len(taken))
+            yield Passage("a person walks", 12)
+
+    pieces = stream_features(generator, endless(), window=40, overlap=10)
+    assert [len(next(pieces)) for _ in range(3)] == [12, 12, 12]
+    assert len(taken) == 3
+
+
+def test_what_is_given_comes_out(generator: TextToMotion) -> None:
+    """Across windows, a path along the whole motion and a pose at its end."""
+    asked = []
+    values = torch.zeros(103, 23, 6)
+    values[:, ROOT_ROW, FORWARD] = torch.linspace(0, 1, 103)
+    values[-5:] = torch.randn(5, 23, 6, generator=torch.Generator().manual_seed(0))
+    known = torch.zeros(values.shape, dtype=torch.bool)
+    known[:, ROOT_ROW, FORWARD] = True
+    known[-5:] = True
+
+    def given(start: int, stop: int) -> Constraint:
+        asked.append((start, stop))
+        return Constraint(values[start:stop], known[start:stop])
+
+    features = made(generator, WALK, WAVE, constraint=given)
+    torch.testing.assert_close(features[known], values[known])
+    assert asked[0][0] == 0 and asked[-1][1] == 103
+    assert all(later[0] == earlier[1] - 10 for earlier, later in pairwise(asked))
+
+
+def test_each_window_knows_the_one_before(generator: TextToMotion, monkeypatch) -> None:
+    seen = []
+    plain = generator.sample_features
+
+    def watched(prompts: list[str], **settings: object) -> list[torch.Tensor]:
+        seen.append((prompts[0], settings["constraints"][0]))
+        return plain(prompts, **settings)
+
+    monkeypatch.setattr(generator, "sample_features", watched)
+    whole = made(generator, WALK, WAVE)
+    assert [text for text, _ in seen] == ["a person walks"] * 2 + ["a person waves"] * 2
+    start = 0
+    for number, (_, constraint) in enumerate(seen):
+        shared = 10 if number else 0
+        assert constraint.known[:shared].all() and not constraint.known[shared:].any()
+        torch.testing.assert_close(constraint.values[:shared], whole[start - shared : start])
+        start += motion_lengths()[number]
+
+
+def motion_lengths() -> list[int]:
+    return window_lengths(70, 0, 40, 10) + window_lengths(33, 10, 40, 10)
+
+
+def test_short_windows_are_made_longer_and_cut(generator: TextToMotion) -> None:
+    assert made(generator, Passage("a person walks", 1)).shape[0] == 1
+    assert motion_stream.SHORTEST > 1
+
+
+def test_what_cannot_be(generator: TextToMotion) -> None:
+    with pytest.raises(UsageError, match="overlap 30"):
+        made(generator, WALK, overlap=30)
+    with pytest.raises(UsageError, match="0 frames"):
+        Passage("a person walks", 0)
+    with pytest.raises(UsageError, match="5 frames was given where 40 were asked"):
+        made(generator, WALK, constraint=lambda start, stop: Constraint.free(5), window=45)
+    with pytest.raises(UserError, match="empty"):
+        made(generator, Passage(" ", 20))
+
+
+def test_a_stream_is_the_settled_timeline(generator: TextToMotion) -> None:
+    features = made(generator, WALK, WAVE)
+    sampling = Sampling(seed=3)
+    stream = MotionStream(generator, [WALK, WAVE], window=40, overlap=10, sampling=sampling)
+    assert stream.latency.first is None
+    pieces = list(stream)
+    assert {piece.text for piece in pieces} == {WALK.text, WAVE.text}
+    whole = settled(generator, features)
+    motion = reduce(joined, pieces)
+    np.testing.assert_allclose(motion.positions(), whole.positions(), atol=1e-5)
+    latency = stream.latency
+    assert latency.first is not None and latency.load is not None
+    assert 0 < latency.lookahead < latency.reaction < 2
+
+
+def test_prompts_change_while_it_runs(generator: TextToMotion) -> None:
+    stream = MotionStream(generator, "a person walks", seconds=0.5, foot_lock=True)
+    texts = []
+    for number, piece in enumerate(stream):
+        texts.append(piece.text)
+        if number == 2:
+            stream.say("somebody jumps twice")
+        if number == 4:
+            stream.stop()
+    assert texts[:3] == ["a person walks"] * 3 and texts[3:] == ["somebody jumps twice"] * 3
+
+
+def test_a_generator_of_prompts(generator: TextToMotion) -> None:
+    texts = (text for text in ("a person walks", "a person waves"))
+    stream = MotionStream(generator, texts, seconds=0.6)
+    assert sum(piece.num_frames for piece in stream) == 36
+    assert list(MotionStream(generator, [])) == []
+
+
+def test_nothing_to_say_is_refused_and_the_stream_goes_on(generator: TextToMotion) -> None:
+    stream = MotionStream(generator, "a person walks forward", seconds=1.0)
+    pieces = iter(stream)
+    next(pieces)
+    with pytest.raises(UsageError, match="holds no text"):
+        stream.say("  ")
+    assert next(pieces).num_frames > 0

@@ -1,0 +1,113 @@
+"""SentenceGenerator: order, numbers, angles and lengths are done; plain sentences are as before.
+
+PromptSampler keeps the best of N for each prompt.
+"""
+
+import numpy as np
+import pytest
+import torch
+
+from src.shared.errors import UserError
+from src.shared.model.generation.motion_generator import TextToMotion
+from src.shared.motion.motion import Motion
+from src.shared.motion.root_track import ROOT_ROW, YAW_RATE, encode_features
+from src.shared.pipelines.ranking import TextJudge
+from src.shared.pipelines.text import PromptSampler, SentenceGenerator, turned
+from tests.shared.model.conftest import tiny_generator
+
+
+@pytest.fixture(scope="module")
+def generator() -> TextToMotion:
+    return tiny_generator()
+
+
+@pytest.fixture(scope="module")
+def sentences(generator: TextToMotion) -> SentenceGenerator:
+    return SentenceGenerator(generator)
+
+
+def turn_of(motion: Motion) -> float:
+    rate = encode_features(motion)[:-1, ROOT_ROW, YAW_RATE]  # the last frame repeats its neighbour
+    return float(np.degrees(rate.sum() / motion.fps))
+
+
+def test_a_plain_sentence_is_one_sample(generator: TextToMotion, sentences: SentenceGenerator):
+    prompts = ["a person walks", "a person waves"]
+    made = sentences.generate(prompts, seconds=[1.0, 1.5], seed=3, num_samples=2)
+    same = generator.generate(prompts, seconds=[1.0, 1.5], seed=3, num_samples=2)
+    for one, other in zip(made, same, strict=True):
+        np.testing.assert_array_equal(one.quaternions, other.quaternions)
+
+
+def test_clauses_follow_each_other(sentences: SentenceGenerator):
+    (motion,) = sentences.generate(["a person walks, then jumps three times"], seconds=2.0)
+    assert motion.num_frames == 60 + 3 * 48
+    assert motion.text == "a person walks, then jumps three times"
+
+
+def test_an_angle_and_a_length_are_kept():
+    sentences = SentenceGenerator(TextToMotion.from_pretrained("starter", device="cpu"))
+    left, right, metres = sentences.generate(
+        ["turn 90 degrees to the left", "turn 180° right", "walk three metres"], seconds=2.0
+    )
+    assert turn_of(left) == pytest.approx(90, abs=3)
+    assert turn_of(right) == pytest.approx(-180, abs=3)
+    way = metres.root_position[-1, [0, 2]] - metres.root_position[0, [0, 2]]
+    assert np.linalg.norm(way) == pytest.approx(3, abs=0.1)
+
+
+def test_any_length_goes_through_windows(sentences: SentenceGenerator, caplog):
+    (motion,) = sentences.generate(["a person walks"], seconds=12.0)
+    assert motion.num_frames == 360
+    assert "longer than" not in caplog.text
+
+
+def test_samples_differ_and_a_seed_is_a_motion(sentences: SentenceGenerator):
+    first, second = sentences.generate(["walk, then jump"], seconds=1.0, num_samples=2)
+    (again,) = sentences.generate(["walk, then jump"], seconds=1.0)
+    np.testing.assert_array_equal(first.quaternions, again.quaternions)
+    assert not np.allclose(first.quaternions, second.quaternions)
+
+
+def test_faulty_input_is_refused(sentences: SentenceGenerator):
+    for seconds in (float("nan"), float("inf"), -1.0, 0.01):
+        with pytest.raises(UserError, match="seconds"):
+            sentences.generate(["a person walks"], seconds=seconds)
+    with pytest.raises(UserError, match="empty"):
+        sentences.generate(["  "])
+
+
+@pytest.mark.parametrize("degrees", [45.0, -90.0, 360.0])
+def test_a_turn_begins_and_ends_at_rest(degrees: float):
+    given = turned(degrees, 30.0)
+    rate = given.values[:, ROOT_ROW, YAW_RATE]
+    assert float(rate.sum()) / 30 == pytest.approx(np.radians(degrees), rel=1e-4)
+    assert not rate[:10].any() and not rate[-10:].any()
+    assert torch.equal(
+        given.known.nonzero()[:, 1:].unique(dim=0), torch.tensor([[ROOT_ROW, YAW_RATE]])
+    )
+
+
+PROMPTS = ["a person walks forward", "somebody jumps"]
+
+
+def test_candidates_are_the_generators_and_the_best_is_the_judges() -> None:
+    generator = tiny_generator()
+    results = PromptSampler(generator).sample(
+        PROMPTS, 3, seconds=[0.5, 1.0], seed=4, return_all=True
+    )
+    plain = generator.generate(PROMPTS, seconds=[0.5, 1.0], seed=4, num_samples=3)
+    assert len(results) == 2
+    for number, result in enumerate(results):
+        assert result.all_candidates is not None
+        for mine, other in zip(result.all_candidates, plain[3 * number :], strict=False):
+            np.testing.assert_array_equal(mine.quaternions, other.quaternions)
+        prompt = generator.encode_prompts([PROMPTS[number]]).pooled[0]
+        table = TextJudge().judge(result.all_candidates, prompt)
+        assert result.motion is result.all_candidates[table.best]
+        np.testing.assert_array_equal(result.table.order, table.order)
+
+
+def test_the_others_are_left_out_unless_asked_for() -> None:
+    (result,) = PromptSampler(tiny_generator()).sample(PROMPTS[:1], 2, seconds=0.5)
+    assert result.all_candidates is None and len(result.table.order) == 2
