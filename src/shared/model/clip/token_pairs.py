@@ -14,13 +14,17 @@ import torch
 from torch import Tensor, nn
 
 PAIRS = "pairs"  # text-model name of such a tower
-BASE = 1 << 20  # token ids stay below
+BASE = 1 << 15  # token ids stay below, so that keys are int32
 SPECIAL = 3  # ids below are bos, pad and eos
 ENTRY_DROPOUT = 0.3  # of tokens and pairs, in training
 
 
 def keys_of(input_ids: Tensor) -> Tensor:
-    """Key of each token and of each pair that begins there [B, L, 2]; 0 where there is none."""
+    """Key of each token and of each pair that begins there [B, L, 2] int32; 0 where there is none.
+
+    Ids from `BASE` on are unknown.
+    """
+    input_ids = torch.where(input_ids < BASE, input_ids, SPECIAL).int()
     real = input_ids >= SPECIAL
     tokens = torch.where(real, input_ids, 0)
     pairs = (input_ids[:, :-1] + 1) * BASE + input_ids[:, 1:]
@@ -50,7 +54,7 @@ class TokenPairEncoder(nn.Module):
     def __init__(self, num_rows: int, hidden_size: int) -> None:
         super().__init__()
         self.config = SimpleNamespace(hidden_size=hidden_size)
-        self.register_buffer("keys", torch.arange(1, num_rows + 1))
+        self.register_buffer("keys", torch.arange(1, num_rows + 1, dtype=torch.int32))
         self.rows = nn.Embedding(num_rows + 1, hidden_size, padding_idx=num_rows)  # last: unknown
         nn.init.normal_(self.rows.weight[:-1], std=0.1)
 
