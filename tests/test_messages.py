@@ -40,7 +40,6 @@ EXCEPTIONS = {
     "no data: give root": NOTHING,
     "memory: folder is empty": NOTHING,
     "no prompt given": NOTHING,
-    "no clip is given": NOTHING,
     "no real motions to measure": NOTHING,
     "nothing to draw": NOTHING,
     "cannot learn what prompts are known": NOTHING,

@@ -171,7 +171,9 @@ def continue_clips(
     """
     clips = [clip for clip in (start, end) if clip is not None]
     if not clips:
-        raise UsageError("no clip is given; give one to begin with, or to end with")
+        raise UsageError(
+            "no clip is given; give one to begin with (--start), or to end with (--end)"
+        )
     for name, clip in (("start", start), ("end", end)):
         if clip is not None and clip.seconds < keep:
             raise UserError(
