@@ -202,6 +202,7 @@ class TrainConfig(Config):
     min_frames: int = Field(32, ge=8)
     max_frames: int = Field(128, ge=8)
     balance: float = Field(0.5, ge=0, le=1)  # 0 = by clip, 1 = every label group alike
+    captured_share: float = Field(0.5, ge=0, le=1)  # least, of an action's draws, where captured
     languages: tuple[str, ...] = ("en", "es", "fr", "de", "ja", "zh")
 
     @model_validator(mode="after")

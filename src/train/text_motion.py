@@ -69,6 +69,7 @@ def split_set(config: TrainConfig, data: PreparedData, split: str) -> TextMotion
         max_frames=config.max_frames,
         languages=config.languages,
         balance=config.balance,
+        captured_share=config.captured_share,
         seed=mix_seed("data", config.seed),
     )
 

@@ -63,6 +63,7 @@ class TextMotionDataset:
         max_frames: int = 128,
         languages: tuple[str, ...] = ("en", "es", "fr", "de", "ja", "zh"),
         balance: float = 0.5,
+        captured_share: float = 0.0,
         seed: int = 0,
     ) -> None:
         """Select the records of a split.
@@ -72,6 +73,8 @@ class TextMotionDataset:
                 action alike; between: a mixture of exponents (a combination of n clips has
                 weight n^(1-balance), an action of combinations of weight w in all
                 w^(1-balance)).
+            captured_share: of the draws of an action, at least so many go to its captured clips,
+                where there are any: ten thousand procedural ones would drown six.
 
         Raises:
             ValueError: no clip of the split is long enough or has a caption in `languages`.
@@ -97,9 +100,15 @@ class TextMotionDataset:
         weights = np.array(
             [counts[self._group_index[r.group]] ** -balance for r in self.records], np.float64
         )
+        recorded = np.array([record.provenance == "captured" for record in self.records])
         for action in {record.tag for record in self.records}:
             of_action = np.array([record.tag == action for record in self.records])
             weights[of_action] *= weights[of_action].sum() ** -balance
+            captured = of_action & recorded
+            theirs, all_of_it = weights[captured].sum(), weights[of_action].sum()
+            if 0 < theirs < captured_share * all_of_it:
+                weights[captured] *= captured_share * all_of_it / theirs
+                weights[of_action & ~recorded] *= (1 - captured_share) / (1 - theirs / all_of_it)
         self._weights = weights
         self._gestures = {record.id for record in self.records if comes_back(data.features(record))}
         self._least = np.array([self._fewest_frames(record) for record in self.records])

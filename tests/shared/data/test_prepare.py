@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -323,6 +324,29 @@ def test_balance_evens_the_actions(data: PreparedData) -> None:
         return float(torch.bincount(actions, minlength=len(data.tags)).float().std())
 
     assert spread(1.0) < spread(0.0)
+
+
+def test_captured_clips_are_not_drowned_by_procedural_ones(
+    data: PreparedData, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    records = data.records("train")
+    few = {record.id for record in records if record.tag == "walk"} & {r.id for r in records[::9]}
+    marked = [replace(r, provenance="captured") if r.id in few else r for r in records]
+    monkeypatch.setattr(data, "records", lambda split=None: marked)
+
+    def share(wanted: float) -> float:
+        train = dataset(data, captured_share=wanted, min_frames=80)
+        drawn = [record for step in range(40) for record in train.batch(step, 64).records]
+        walks = [record.provenance == "captured" for record in drawn if record.tag == "walk"]
+        others = len(drawn) - len(walks)
+        assert others / len(drawn) == pytest.approx(by_hand, abs=0.03)  # actions are as before
+        return sum(walks) / len(walks)
+
+    plain = dataset(data, min_frames=80)
+    drawn = [record for step in range(40) for record in plain.batch(step, 64).records]
+    by_hand = sum(record.tag != "walk" for record in drawn) / len(drawn)
+    assert 0 < share(0.0) < 0.3
+    assert share(0.7) == pytest.approx(0.7, abs=0.05)
 
 
 def test_an_empty_split_says_so(data: PreparedData) -> None:
