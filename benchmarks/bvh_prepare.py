@@ -28,7 +28,7 @@ def measure_clip(path: Path, mappings: "tuple[SkeletonMapping, ...]") -> dict[st
         UserError: the file is faulty, or its joints are in no mapping.
     """
     from src.shared.data.retarget.read_motion import fit, open_recording
-    from src.shared.motion.root_track import encode_features
+    from src.shared.motion.features import encode_features
 
     start = time.process_time()
     recording = open_recording(path)

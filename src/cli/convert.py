@@ -228,7 +228,7 @@ def one(
 ) -> dict[str, Any]:
     """Read one file and write its targets; what was done."""
     from ..shared.data.retarget.read_motion import read_motion
-    from ..shared.motion.in_place import in_place
+    from ..shared.motion.motion import in_place
 
     motion = read_motion(job.source, **reading)
     motion = in_place(motion) if root == "in-place" else motion

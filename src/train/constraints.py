@@ -11,14 +11,7 @@ import torch
 from torch import Tensor
 
 from ..shared.config_schema import ConstraintShares
-from ..shared.motion.root_track import (
-    FORWARD,
-    HEIGHT,
-    LATERAL,
-    LEFT_CONTACT,
-    ROOT_ROW,
-    YAW_RATE,
-)
+from ..shared.motion.features import FORWARD, HEIGHT, LATERAL, LEFT_CONTACT, ROOT_ROW, YAW_RATE
 from ..shared.motion.skeleton import JOINT_INDEX, LIMBS
 
 LONGEST_END = 45  # frames known at a start or an end

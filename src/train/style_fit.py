@@ -7,7 +7,7 @@ from ..shared.model.clip.core import TextTower
 from ..shared.model.clip.pretrained import encode_captions
 from ..shared.model.clip.style_map import StyleMap
 from ..shared.model.clip.tokenizer import PromptTokenizer
-from ..shared.motion.root_track import decode_features
+from ..shared.motion.features import decode_features
 from ..shared.motion.style import measure_style, style_values
 from ..shared.motion.trajectory import from_motion
 

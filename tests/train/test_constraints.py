@@ -5,7 +5,7 @@ import pytest
 import torch
 
 from src.shared.config_schema import ConstraintShares
-from src.shared.motion.root_track import FORWARD, HEIGHT, LEFT_CONTACT, ROOT_ROW, YAW_RATE
+from src.shared.motion.features import FORWARD, HEIGHT, LEFT_CONTACT, ROOT_ROW, YAW_RATE
 from src.shared.motion.skeleton import NUM_JOINTS
 from src.train.constraints import draw_known
 

@@ -28,8 +28,7 @@ from safetensors.torch import load_file, save_file
 
 from ..errors import UsageError, UserError
 from ..files import atomic_write, load_json, sha256_file, write_json, write_text
-from ..motion.mirror import mirror_features
-from ..motion.root_track import encode_features
+from ..motion.features import encode_features, mirror_features
 from .captions.book import CaptionBook
 from .captions.language import mirror_labels
 from .prepared import (

@@ -16,7 +16,7 @@ from torch import Tensor
 from ..config_schema import Provenance
 from ..errors import UserError, first_fault
 from ..files import inside, load_json, sha256_file
-from ..motion.mirror import mirror_features
+from ..motion.features import mirror_features
 
 SPLITS = ("train", "val", "test_seen", "test_unseen")
 MIRRORED = "~mirrored"  # ends the id of a mirror image

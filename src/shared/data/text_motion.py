@@ -2,7 +2,7 @@
 
 Batches are made on demand, so that a resumed run continues with the very batch it would have
 seen, without any loader state. Gestures that come back to where they began are not cut off but
-shortened. B batch, T frames; features are those of motion/root_track.py.
+shortened. B batch, T frames; features are those of motion/features.py.
 """
 
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ import torch
 from torch import Tensor
 
 from ..config_schema import PROVENANCES
-from ..motion.root_track import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
+from ..motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
 from .prepared import ClipRecord, PreparedData
 
 _TURN_TRIES = 4

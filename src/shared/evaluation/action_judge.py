@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..motion.features import headings
 from ..motion.motion import Motion
-from ..motion.root_track import headings
 from ..motion.rotations import quaternion_to_matrix
 from ..motion.skeleton import JOINT_INDEX
 

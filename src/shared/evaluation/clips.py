@@ -11,8 +11,8 @@ from torch import Tensor
 
 from ..data.prepared import ClipRecord, PreparedData
 from ..errors import UserError
+from ..motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, decode_features
 from ..motion.motion import Motion
-from ..motion.root_track import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, decode_features
 
 # Prompts and their numbers of frames, with a seed, to one motion each, in the same order.
 Sampler = Callable[[Sequence[str], Sequence[int], int], list[Motion]]

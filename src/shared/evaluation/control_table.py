@@ -14,8 +14,8 @@ from itertools import chain
 from typing import Any
 
 from ..data.captions.book import CaptionBook
+from ..motion.features import decode_features, encode_features
 from ..motion.motion import Motion
-from ..motion.root_track import decode_features, encode_features
 from .clips import Clips, Sampler, frozen
 from .controllability import CONTROL_TASKS, ControlTask
 from .intervals import Estimate, success_rate

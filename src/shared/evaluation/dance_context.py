@@ -16,8 +16,8 @@ from ..data.phrases.dataset import MotionPhraseDataset
 from ..errors import UserError
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.carried_feet import hold_carried_feet
+from ..motion.features import decode_features
 from ..motion.motion import Motion
-from ..motion.root_track import decode_features
 from ..motion.trajectory import FPS, MotionTrajectory, to_motion
 from ..pipelines.body import Performer, PerformerSettings
 from ..pipelines.dance import candidate_seed

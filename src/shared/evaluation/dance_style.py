@@ -13,8 +13,8 @@ from functools import cache
 import numpy as np
 from scipy.spatial.distance import cdist, pdist
 
+from ..motion.features import encode_features
 from ..motion.motion import Motion
-from ..motion.root_track import encode_features
 from ..motion.trajectory import to_motion
 from ..pipelines.body import Performer
 from .dance_context import DanceContext, held_still

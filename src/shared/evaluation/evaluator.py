@@ -26,8 +26,8 @@ from ..config_schema import Config
 from ..errors import UserError
 from ..files import atomic_write, load_json, sha256_file, write_json
 from ..model.checkpoint import of_another_version
+from ..motion.features import encode_features
 from ..motion.motion import Motion
-from ..motion.root_track import encode_features
 from .joint_features import NUM_FEATURES, joint_features
 from .text_hashing import NUM_BUCKETS, bag
 

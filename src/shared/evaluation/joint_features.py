@@ -13,8 +13,8 @@ from collections.abc import Sequence
 import torch
 from torch import Tensor
 
+from ..motion.features import FORWARD, HEIGHT, LATERAL, YAW_RATE
 from ..motion.kinematics import forward_kinematics
-from ..motion.root_track import FORWARD, HEIGHT, LATERAL, YAW_RATE
 from ..motion.rotations import rotation_6d_to_matrix
 from ..motion.skeleton import NUM_JOINTS, canonical_skeleton
 

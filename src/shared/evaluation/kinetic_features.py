@@ -15,6 +15,7 @@ Letters: T frames, K joints, F features, W windows.
 import numpy as np
 import torch
 
+from ..motion.kinematics import angular_velocity
 from ..motion.skeleton import (
     JOINT_INDEX,
     JOINT_NAMES,
@@ -22,7 +23,6 @@ from ..motion.skeleton import (
     canonical_skeleton,
 )
 from ..motion.trajectory import MotionTrajectory
-from ..motion.trajectory_math import angular_velocity
 
 WINDOW = 2  # frames on either side of a velocity or an acceleration
 KINDS = ("horizontal", "vertical", "acceleration")  # kinetic features of a joint

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import torch
 
+from ..motion.features import headings
 from ..motion.motion import Motion
-from ..motion.root_track import headings
 from ..motion.rotations import quaternion_to_matrix
 from ..motion.skeleton import JOINT_INDEX, REST_PELVIS_HEIGHT, canonical_skeleton
 

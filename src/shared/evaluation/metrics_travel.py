@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 import torch
 
+from ..motion.features import headings
 from ..motion.motion import Motion
-from ..motion.root_track import headings
 from ..motion.rotations import quaternion_to_matrix
 
 MIN_TRAVEL = 0.5  # metres: below this a direction is noise

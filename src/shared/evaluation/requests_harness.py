@@ -15,8 +15,8 @@ import numpy as np
 
 from ..data.captions.requests import COMPOSITIONS, FREE, OUTSIDE, Request, drawn, load_requests
 from ..data.prepared import PreparedData
+from ..motion.features import decode_features, encode_features
 from ..motion.motion import Motion
-from ..motion.root_track import decode_features, encode_features
 from .action_judge import ActionJudge
 from .clips import frozen, spread_over_groups
 from .families import Column

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from torch import Tensor
 
-from ..motion.root_track import FORWARD, LATERAL, ROOT_ROW
+from ..motion.features import FORWARD, LATERAL, ROOT_ROW
 from .intervals import Estimate
 from .metrics_space import by_song
 from .space_retrieval import Bench

@@ -14,7 +14,7 @@ from ..data.phrases.dataset import MotionPhraseDataset
 from ..data.phrases.layout import PhraseRecord
 from ..memory.phrases import cut_at_bars
 from ..model.audio.conditioning import BEAT, with_phase_rows
-from ..motion.root_track import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
+from ..motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
 
 Embed = Callable[[Tensor, Tensor], Tensor]
 

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..data.prepared import ClipRecord
+from ..motion.features import decode_features, encode_features
 from ..motion.motion import Motion
-from ..motion.root_track import decode_features, encode_features
 from .clips import Clips, Sampler, frozen, real_clips
 from .evaluator import Evaluator
 from .families import MotionSample

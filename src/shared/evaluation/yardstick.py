@@ -13,8 +13,8 @@ import numpy as np
 from ..data.captions.requests import Request
 from ..data.prepared import ClipRecord, PreparedData
 from ..errors import UserError
+from ..motion.features import decode_features
 from ..motion.motion import Motion
-from ..motion.root_track import decode_features
 from ..motion.skeleton import JOINT_INDEX
 from .action_judge import ActionJudge, descriptor
 from .clips import spread_over_groups

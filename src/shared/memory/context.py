@@ -11,8 +11,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from ..motion.trajectory import PHASE
-from ..motion.trajectory_math import unwrap_phase
+from ..motion.trajectory import PHASE, unwrap_phase
 from .index import NOTHING, PHASE_WEIGHT, Excluded, Hits, Key, MemoryIndex
 from .priors import NUM_PRIORS
 

@@ -17,7 +17,7 @@ from ..data.phrases.layout import MANIFEST, BadContent, PhraseRecord
 from ..data.phrases.store import Backoff, PhraseStore, Remote, Unreachable
 from ..errors import UserError
 from ..files import parse_json
-from ..motion.root_track import LEFT_CONTACT, ROOT_ROW
+from ..motion.features import LEFT_CONTACT, ROOT_ROW
 from ..motion.trajectory import FPS
 from ..motion.window import encode_window, place_window
 from .phrases import cut_at_bars

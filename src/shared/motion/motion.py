@@ -7,8 +7,10 @@ import numpy as np
 import torch
 
 from .kinematics import forward_kinematics
-from .rotations import quaternion_to_matrix
+from .rotations import quaternion_continuous, quaternion_slerp, quaternion_to_matrix
 from .skeleton import PARENTS, canonical_skeleton
+
+SAME_RATE = 1e-3  # relative; files say 0.033333 s for 30 fps
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,3 +65,41 @@ class Motion:
     def global_rotations(self) -> np.ndarray:
         """World joint rotations [T,22,3,3] float32."""
         return np.asarray(self._kinematics()[1].numpy())
+
+
+def in_place(motion: Motion) -> Motion:
+    """The motion on the spot, as game engines want loops: the pelvis stays over x = z = 0.
+
+    Height, rotations and contacts are kept: a jump still rises and a turn still turns, but feet
+    that stood now slide backwards under the body.
+    """
+    flat = np.array([0.0, 1.0, 0.0], np.float32)
+    return replace(motion, root_position=motion.root_position * flat)
+
+
+def resample_motion(motion: Motion, fps: float) -> Motion:
+    """The same motion at `fps`: slerp for rotations, linear for positions, nearest for contacts.
+
+    The first frame stays, the last lies within one frame.
+
+    Raises:
+        ValueError: `fps` is not positive.
+    """
+    if fps <= 0:
+        raise ValueError(f"fps {fps} must be positive")
+    if abs(fps / motion.fps - 1) < SAME_RATE or motion.num_frames < 2:
+        return replace(motion, fps=fps)
+    last = motion.num_frames - 1
+    times = np.arange(int(last / motion.fps * fps + 1e-6) + 1) * (motion.fps / fps)
+    before = np.minimum(times.astype(int), last - 1)
+    part = (times - before).astype(np.float32)
+    q = torch.as_tensor(motion.quaternions)
+    q = quaternion_slerp(q[before], q[before + 1], torch.as_tensor(part)[:, None, None])
+    p = motion.root_position
+    return replace(
+        motion,
+        quaternions=quaternion_continuous(q, dim=0).numpy(),
+        root_position=p[before] + part[:, None] * (p[before + 1] - p[before]),
+        contacts=motion.contacts[np.minimum(np.rint(times).astype(int), last)],
+        fps=fps,
+    )

@@ -15,9 +15,9 @@ from torch import Tensor, nn
 from torch.nn import functional as F
 
 from ..config_schema import PostProcessingConfig
+from .features import LEFT_CONTACT, ROOT_ROW, decode_features
 from .foot_lock import kept_legs, lock_feet
 from .motion import Motion
-from .root_track import LEFT_CONTACT, ROOT_ROW, decode_features
 from .rotations import (
     quaternion_conjugate,
     quaternion_continuous,

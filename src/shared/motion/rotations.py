@@ -188,3 +188,22 @@ def heading_angle(matrix: Tensor) -> Tensor:
     """Heading [...] in radians: the twist of [...,3,3] about +Y (SPEC ruling 19)."""
     q = matrix_to_quaternion(matrix)
     return 2 * torch.atan2(q[..., 2], q[..., 0])
+
+
+def heading_of(quaternions: Tensor) -> Tensor:
+    """Heading [...] in radians, in (-2π, 2π]: the twist of [...,4] about +Y (ruling 19)."""
+    return 2 * torch.atan2(quaternions[..., 2], quaternions[..., 0])
+
+
+def yaw_quaternion(angle: Tensor) -> Tensor:
+    """Turns about +Y by [...] radians as quaternions [...,4]; positive turns left."""
+    zero = torch.zeros_like(angle)
+    return torch.stack((torch.cos(angle / 2), zero, torch.sin(angle / 2), zero), -1)
+
+
+def turn_about_y(vectors: Tensor, angle: Tensor | float) -> Tensor:
+    """Vectors [...,3] turned about +Y by `angle` radians, a number or a tensor over [...]."""
+    angle = torch.as_tensor(angle, dtype=vectors.dtype, device=vectors.device)
+    sine, cosine = torch.sin(angle), torch.cos(angle)
+    x, y, z = vectors.unbind(-1)
+    return torch.stack((cosine * x + sine * z, y, cosine * z - sine * x), -1)

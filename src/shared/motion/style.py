@@ -22,9 +22,9 @@ import numpy as np
 import torch
 
 from ..errors import UsageError
+from .kinematics import forward_difference
 from .motion import Motion
 from .trajectory import MotionTrajectory
-from .trajectory_math import forward_difference
 
 PAIRS = ("intensity", "extent", "rhythm", "attitude")
 WINDOW = 2.0  # seconds

@@ -12,40 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 import torch
 
+from .features import FORWARD, HEIGHT, LATERAL, YAW_RATE
+from .kinematics import derive, forward_difference
 from .motion import Motion
-from .root_track import FORWARD, HEIGHT, LATERAL, YAW_RATE
+from .rotations import heading_of, quaternion_continuous, turn_about_y
 from .skeleton import NUM_JOINTS
-from .trajectory_math import (
-    angular_velocity,
-    continuous_sign,
-    derive,
-    forward_difference,
-    heading_of,
-    turn_about_y,
-    unwrap_phase,
-    wrap_phase,
-)
-
-__all__ = [
-    "ACCELERATION",
-    "ANGULAR_VELOCITY",
-    "CHANNELS",
-    "FPS",
-    "NEUTRAL_STYLE",
-    "PHASE",
-    "POSITION",
-    "QUATERNION",
-    "STYLE",
-    "VELOCITY",
-    "MotionTrajectory",
-    "angular_velocity",
-    "derive",
-    "forward_difference",
-    "from_motion",
-    "to_motion",
-    "to_root",
-    "unwrap_phase",
-]
 
 CHANNELS = 25
 FPS = 30.0
@@ -101,7 +72,7 @@ class MotionTrajectory:
                 acceleration from being zero (ruling 6).
         """
         path = torch.as_tensor(position, dtype=torch.float64)
-        signed = continuous_sign(torch.as_tensor(quaternion, dtype=torch.float64))
+        signed = quaternion_continuous(torch.as_tensor(quaternion, dtype=torch.float64), dim=-2)
         velocity, acceleration, turning = derive(path, signed, fps)
         num_frames = len(path)
         pose = torch.cat((path, velocity, acceleration, signed, turning), 1)  # T 16
@@ -213,3 +184,17 @@ def to_motion(trajectory: MotionTrajectory, *, text: str = "") -> Motion:
         fps=trajectory.fps,
         text=text,
     )
+
+
+def unwrap_phase(phase: np.ndarray) -> np.ndarray:
+    """Phase modulo 1 [...,T] → bars that grow on without a jump, float64 [...,T] (ruling 9).
+
+    Right as long as the phase moves by less than half a bar a frame, 900 bars a minute.
+    """
+    return np.unwrap(np.asarray(phase, dtype=np.float64), period=1.0, axis=-1)
+
+
+def wrap_phase(unwrapped: np.ndarray) -> np.ndarray:
+    """Bars [...,T] → phase in [0, 1) as float32; 0 is the downbeat."""
+    wrapped = np.mod(np.asarray(unwrapped, dtype=np.float64), 1.0).astype(np.float32)
+    return np.where(wrapped >= 1, np.float32(0), wrapped)  # 0.99999999 rounds up in float32

@@ -15,6 +15,8 @@ from torch import Tensor
 from torch.nn import functional as F
 
 from ..errors import UsageError
+from .kinematics import forward_difference, smooth
+from .rotations import quaternion_continuous
 from .trajectory import (
     ACCELERATION,
     ANGULAR_VELOCITY,
@@ -25,7 +27,6 @@ from .trajectory import (
     STYLE,
     VELOCITY,
 )
-from .trajectory_math import continuous_sign, forward_difference, smooth
 
 
 @dataclass(frozen=True)
@@ -178,13 +179,15 @@ def _quaternions(quaternions: Tensor, config: PostProcessConfig) -> Tensor:
         identity[..., 0] = 1
         norm = quaternions.norm(dim=-1, keepdim=True)
         unit = quaternions / norm.clamp_min(config.quat_eps)
-        quaternions = continuous_sign(torch.where(norm < config.quat_eps, identity, unit))
+        quaternions = quaternion_continuous(
+            torch.where(norm < config.quat_eps, identity, unit), dim=-2
+        )
     if config.smooth_quaternions:
         size = config.quat_smooth_window
         # signs must agree before quaternions can be averaged
         box = quaternions.new_full((size,), 1 / size)
-        quaternions = F.normalize(smooth(continuous_sign(quaternions), box), dim=-1)
-        quaternions = continuous_sign(quaternions)
+        quaternions = F.normalize(smooth(quaternion_continuous(quaternions, dim=-2), box), dim=-1)
+        quaternions = quaternion_continuous(quaternions, dim=-2)
     return quaternions
 
 

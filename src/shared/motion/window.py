@@ -15,7 +15,14 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from .rotations import quaternion_multiply, quaternion_slerp
+from .rotations import (
+    heading_of,
+    quaternion_continuous,
+    quaternion_multiply,
+    quaternion_slerp,
+    turn_about_y,
+    yaw_quaternion,
+)
 from .trajectory import (
     ACCELERATION,
     ANGULAR_VELOCITY,
@@ -27,13 +34,7 @@ from .trajectory import (
     STYLE,
     VELOCITY,
     MotionTrajectory,
-)
-from .trajectory_math import (
-    continuous_sign,
-    heading_of,
-    turn_about_y,
     wrap_phase,
-    yaw_quaternion,
 )
 
 PHASE_STEP = PHASE  # row 16 of a window: bars a frame
@@ -52,7 +53,7 @@ def encode_window(trajectory: np.ndarray, phase_unwrapped: np.ndarray) -> np.nda
     data = torch.as_tensor(trajectory, dtype=torch.float64)
     heading = float(heading_of(data[0, QUATERNION]))
     local = _move(data, -heading, -turn_about_y(data[0, POSITION], -heading))
-    local[:, QUATERNION] = continuous_sign(local[:, QUATERNION])
+    local[:, QUATERNION] = quaternion_continuous(local[:, QUATERNION], dim=-2)
     phase = np.asarray(phase_unwrapped, dtype=np.float64)
     steps = np.diff(phase, append=phase[-1:])
     if len(steps) > 1:
@@ -81,7 +82,9 @@ def place_window(
         data, heading, torch.tensor((position[0], 0.0, position[1]), dtype=torch.float64)
     ).numpy()
     placed[:, PHASE] = wrap_phase(_integrate(placed[:, PHASE_STEP], phase))
-    placed[:, QUATERNION] = continuous_sign(torch.as_tensor(placed[:, QUATERNION])).numpy()
+    placed[:, QUATERNION] = quaternion_continuous(
+        torch.as_tensor(placed[:, QUATERNION]), dim=-2
+    ).numpy()
     return np.asarray(placed.astype(np.float32))
 
 

@@ -23,15 +23,16 @@ from ..errors import UsageError
 from ..model.diffusion.samplers import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
+from ..motion.features import LEFT_CONTACT, ROOT_ROW
 from ..motion.motion import Motion
-from ..motion.root_track import LEFT_CONTACT, ROOT_ROW
 from ..motion.rotations import (
+    heading_of,
     matrix_to_rotation_6d,
     quaternion_to_matrix,
+    turn_about_y,
     yaw_to_matrix,
 )
 from ..motion.trajectory import MotionTrajectory, to_root
-from ..motion.trajectory_math import heading_of, turn_about_y
 from .postprocess import Place, finish, soften_cuts
 from .song_sampler import Progress
 from .stream import Passage, stream_features

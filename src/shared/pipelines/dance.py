@@ -24,7 +24,7 @@ from ..model.audio.conditioning import ENERGY
 from ..model.audio.shared_space import SharedSpace
 from ..model.clip.pretrained import tower_hash
 from ..model.generation.motion_generator import TextToMotion
-from ..motion.root_track import FORWARD, HEIGHT, LATERAL
+from ..motion.features import FORWARD, HEIGHT, LATERAL
 from ..motion.trajectory import FPS, MotionTrajectory, to_root
 from .body import Performance, Performer, Progress
 from .ranking import PerformanceJudge, ScoreTable, unranked

@@ -20,8 +20,7 @@ from ..config_loader import nearest
 from ..errors import UsageError, UserError
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
-from ..motion.motion import Motion
-from ..motion.root_track import (
+from ..motion.features import (
     FORWARD,
     LATERAL,
     LEFT_CONTACT,
@@ -30,8 +29,9 @@ from ..motion.root_track import (
     encode_features,
     integrate_root,
 )
+from ..motion.motion import Motion
+from ..motion.rotations import turn_about_y
 from ..motion.skeleton import JOINT_INDEX, LIMBS
-from ..motion.trajectory_math import turn_about_y
 from .postprocess import ORIGIN, Place, finish, place_of
 from .stream import OVERLAP, Passage, Sampling, stream_features
 

@@ -24,11 +24,11 @@ from ..errors import UserError
 from ..files import read_text
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
+from ..motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
 from ..motion.motion import Motion
-from ..motion.root_track import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
+from ..motion.rotations import yaw_quaternion
 from ..motion.skeleton import REST_PELVIS_HEIGHT
 from ..motion.trajectory import MotionTrajectory, to_root
-from ..motion.trajectory_math import yaw_quaternion
 from .edit import ControlledMotion
 from .postprocess import Place, finish
 from .stream import Passage, Sampling, stream_features

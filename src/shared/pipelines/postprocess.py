@@ -22,16 +22,10 @@ from torch import Tensor
 from ..config_schema import PostProcessingConfig
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.carried_feet import hold_carried_feet
+from ..motion.features import LEFT_CONTACT, ROOT_ROW, decode_features, headings, integrate_root
 from ..motion.foot_lock import kept_legs, lock_feet
 from ..motion.motion import Motion
 from ..motion.postprocess import MotionPostProcessor, clamp_velocity, smooth_features
-from ..motion.root_track import (
-    LEFT_CONTACT,
-    ROOT_ROW,
-    decode_features,
-    headings,
-    integrate_root,
-)
 from ..motion.rotations import (
     matrix_to_rotation_6d,
     quaternion_conjugate,
@@ -40,10 +34,11 @@ from ..motion.rotations import (
     quaternion_slerp,
     quaternion_to_matrix,
     rotation_6d_to_matrix,
+    turn_about_y,
+    yaw_quaternion,
     yaw_to_matrix,
 )
 from ..motion.skeleton import JOINT_INDEX, LIMBS
-from ..motion.trajectory_math import turn_about_y, yaw_quaternion
 
 FADE = 10  # frames until a correction at a border has faded out
 

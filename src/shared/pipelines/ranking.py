@@ -45,8 +45,8 @@ from ..model.clip import pretrained
 from ..model.clip.core import TextTower
 from ..model.clip.pretrained import ClipBundle, tower_hash
 from ..model.zoo import list_models, resolve_model
+from ..motion.features import encode_features
 from ..motion.motion import Motion
-from ..motion.root_track import encode_features
 from ..motion.trajectory import MotionTrajectory
 from ..validation.bands import Bands
 from ..validation.body_measures import contact_slide, mean_jerk, penetration

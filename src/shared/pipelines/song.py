@@ -21,8 +21,7 @@ from ..model.audio.conditioning import BEAT, CONDITION_ROWS, FEATURE_ROWS
 from ..model.generation.motion_generator import TextToMotion
 from ..model.zoo import resolve_model
 from ..motion.style import named_style, only_style_words
-from ..motion.trajectory import FPS, MotionTrajectory
-from ..motion.trajectory_math import unwrap_phase
+from ..motion.trajectory import FPS, MotionTrajectory, unwrap_phase
 from ..motion.trajectory_postprocess import MotionPostProcessor
 from ..validation.bands import Bands
 from .ranking import AudioJudge, ScoreTable, unranked

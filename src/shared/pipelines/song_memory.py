@@ -28,7 +28,7 @@ from ..memory.service import MPMService
 from ..model.audio.conditioning import BEAT, with_phase_rows
 from ..model.audio.memory_conditioning import MemoryCondition
 from ..model.audio.shared_space import SharedSpace
-from ..motion.trajectory_math import unwrap_phase
+from ..motion.trajectory import unwrap_phase
 from .song_sampler import Recall, SongSampler
 
 

@@ -27,11 +27,11 @@ from ..model.diffusion.noise import sample_generators, standard_normal
 from ..model.diffusion.samplers import Sampling, make_sampler
 from ..motion.rotations import (
     quaternion_conjugate,
+    quaternion_continuous,
     quaternion_multiply,
     quaternion_slerp,
 )
 from ..motion.trajectory import CHANNELS, PHASE, POSITION, QUATERNION, STYLE, MotionTrajectory
-from ..motion.trajectory_math import continuous_sign
 from ..motion.window import WindowJoiner, encode_window
 from .runtime import Runtime
 
@@ -283,7 +283,7 @@ def carry_on(rows: np.ndarray, known: int) -> None:
     rows[POSITION][:, known:] = path
 
     rotation = torch.as_tensor(rows[QUATERNION].T, dtype=torch.float64)  # W 4
-    rotation = continuous_sign(torch.nn.functional.normalize(rotation, dim=-1))
+    rotation = quaternion_continuous(torch.nn.functional.normalize(rotation, dim=-1), dim=-2)
     both = quaternion_multiply(rotation[1:], quaternion_conjugate(rotation[:-1]))  # W-1 4, turns
     turn = quaternion_slerp(both[known - 2], both[known], torch.tensor([0.5]).to(both))
     due = quaternion_multiply(turn, rotation[known - 1])
@@ -292,7 +292,7 @@ def carry_on(rows: np.ndarray, known: int) -> None:
     nothing = torch.tensor([1.0, 0.0, 0.0, 0.0], dtype=torch.float64).expand(rest, 4)
     turns = quaternion_slerp(nothing, miss.expand(rest, 4), share)
     rotation[known:] = quaternion_multiply(turns, rotation[known:])
-    rows[QUATERNION] = continuous_sign(rotation).T.numpy()
+    rows[QUATERNION] = quaternion_continuous(rotation, dim=-2).T.numpy()
 
 
 def _fade(frames: int, length: int) -> np.ndarray:

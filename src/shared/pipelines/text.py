@@ -23,8 +23,8 @@ from ..errors import UserError
 from ..model.clip.core import TextFeatures
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import Progress, TextToMotion
+from ..motion.features import ROOT_ROW, YAW_RATE
 from ..motion.motion import Motion
-from ..motion.root_track import ROOT_ROW, YAW_RATE
 from .path import DrawnPath, natural_gait, time_path
 from .postprocess import settled
 from .ranking import ScoreTable, TextJudge, unranked

@@ -21,8 +21,7 @@ from src.shared.data.synthetic import generate_clip, sample_specs
 from src.shared.data.text_motion import TextMotionDataset
 from src.shared.errors import UsageError, UserError
 from src.shared.formats.writers.bvh import write_bvh
-from src.shared.motion.mirror import mirror_features
-from src.shared.motion.root_track import ROOT_ROW, YAW_RATE, encode_features
+from src.shared.motion.features import ROOT_ROW, YAW_RATE, encode_features, mirror_features
 from tests.full_disk import full_disk
 
 

@@ -5,7 +5,7 @@ import torch
 from torch import Tensor
 
 from src.shared.data.text_motion import comes_back, shorten
-from src.shared.motion.root_track import FORWARD, ROOT_ROW
+from src.shared.motion.features import FORWARD, ROOT_ROW
 
 
 def wave(frames: int, cycles: int, *, travel: float = 0.0) -> Tensor:

@@ -13,7 +13,7 @@ from src.shared.model.checkpoint import ModelCard
 from src.shared.model.clip.core import MotionClip
 from src.shared.model.clip.pretrained import ClipBundle
 from src.shared.model.clip.tokenizer import PromptTokenizer
-from src.shared.motion.root_track import FORWARD, ROOT_ROW
+from src.shared.motion.features import FORWARD, ROOT_ROW
 
 FRAMES = 130
 TAGS = ("walk", "run", "jump")

@@ -7,7 +7,7 @@ from src.shared.data.synthetic import generate_clip
 from src.shared.data.synthetic.clips import spec_for
 from src.shared.evaluation.action_judge import ActionJudge, descriptor
 from src.shared.evaluation.clips import frozen
-from src.shared.motion.root_track import decode_features, encode_features
+from src.shared.motion.features import decode_features, encode_features
 
 LABELS = {
     "walk": {"action": "walk", "direction": "forward", "speed": "normal"},

@@ -16,8 +16,8 @@ from src.shared.evaluation.controllability import (
     speed_class,
 )
 from src.shared.evaluation.measurements import count_peaks, measure, smooth
-from src.shared.motion.mirror import mirror_motion
 from src.shared.motion.motion import Motion
+from tests.shared.motion.mirrored import mirror_motion
 
 COMBINATIONS = label_combinations()
 SWAP = {"left": "right", "right": "left"}

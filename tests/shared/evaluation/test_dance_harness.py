@@ -19,7 +19,7 @@ from src.shared.evaluation.grids import Grid
 from src.shared.evaluation.held_out import HeldOut
 from src.shared.evaluation.report import grids, markdown
 from src.shared.evaluation.report_folder import save_report
-from src.shared.motion.root_track import encode_features
+from src.shared.motion.features import encode_features
 from src.shared.pipelines.body import PerformerSettings
 from src.shared.pipelines.song import SongGenerator
 from tests.shared.evaluation.dancers import swinging_arms

@@ -16,7 +16,7 @@ from src.shared.evaluation.clips import (
     spread_over_groups,
 )
 from src.shared.evaluation.training_set import PairSet
-from src.shared.motion.root_track import ROOT_ROW, decode_features
+from src.shared.motion.features import ROOT_ROW, decode_features
 
 
 @pytest.fixture(scope="module")

@@ -10,8 +10,8 @@ from src.shared.errors import UserError
 from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig, contrastive_loss
 from src.shared.evaluation.joint_features import NUM_FEATURES, joint_features
 from src.shared.evaluation.text_hashing import bag, caption_buckets
+from src.shared.motion.features import encode_features
 from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import encode_features
 
 
 def random_motion(num_frames: int, seed: int = 0) -> Motion:

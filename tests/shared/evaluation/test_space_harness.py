@@ -25,7 +25,7 @@ from src.shared.evaluation.space_neighbours import Neighbours
 from src.shared.evaluation.space_retrieval import Bench
 from src.shared.evaluation.space_windows import Windows, padded, related
 from src.shared.model.audio.audio_tower import rate_rows
-from src.shared.motion.root_track import FORWARD, ROOT_ROW
+from src.shared.motion.features import FORWARD, ROOT_ROW
 from tests.shared.evaluation.space_samples import tiny_bundle, tiny_space, write_space_phrases
 
 CUTS = {"bars": 1, "min_frames": 30, "max_frames": 60}

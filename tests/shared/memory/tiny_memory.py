@@ -11,7 +11,7 @@ from torch.nn.functional import normalize
 
 from src.shared.data.phrases.layout import write_body, write_manifest, write_phrase
 from src.shared.memory.index import MemoryIndex, Phrase
-from src.shared.motion.root_track import encode_features
+from src.shared.motion.features import encode_features
 from src.shared.motion.trajectory import to_motion
 from tests.shared.data.phrases.phrase_samples import make_features
 from tests.shared.evaluation.tiny_pairs import nod

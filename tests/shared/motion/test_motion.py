@@ -8,11 +8,9 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation, Slerp
 
 from src.shared.motion.contacts import detect_contacts
+from src.shared.motion.features import ROOT_ROW, decode_features, encode_features, mirror_features
 from src.shared.motion.kinematics import global_to_local, local_to_global
-from src.shared.motion.mirror import mirror_features, mirror_motion
-from src.shared.motion.motion import Motion
-from src.shared.motion.resample import resample_motion
-from src.shared.motion.root_track import ROOT_ROW, decode_features, encode_features
+from src.shared.motion.motion import Motion, in_place, resample_motion
 from src.shared.motion.skeleton import (
     JOINT_INDEX,
     JOINT_NAMES,
@@ -22,6 +20,7 @@ from src.shared.motion.skeleton import (
     REST_PELVIS_HEIGHT,
     canonical_skeleton,
 )
+from tests.shared.motion.mirrored import mirror_motion
 
 
 def random_motion(seed: int = 0, frames: int = 40, fps: float = 30.0) -> Motion:
@@ -164,3 +163,17 @@ def test_contacts_need_a_low_and_slow_foot() -> None:
     path = motion.root_position + np.float32([0, 0.3, 0])
     moved = Motion(motion.quaternions, path, motion.contacts)
     assert detect_contacts(moved.positions(), 30).max() == 0
+
+
+def test_in_place_takes_the_travel_only() -> None:
+    rng = np.random.default_rng(0)
+    quaternions = rng.normal(size=(7, 22, 4)).astype(np.float32)
+    contacts = rng.uniform(0, 1, (7, 2)).astype(np.float32)
+    motion = Motion(quaternions, rng.normal(size=(7, 3)).astype(np.float32), contacts, 24.0, "a")
+    still = in_place(motion)
+    assert not still.root_position[:, [0, 2]].any()
+    np.testing.assert_array_equal(still.root_position[:, 1], motion.root_position[:, 1])
+    assert still.quaternions is motion.quaternions
+    assert still.contacts is motion.contacts
+    assert (still.fps, still.text) == (24.0, "a")
+    assert still.root_position.dtype == np.float32

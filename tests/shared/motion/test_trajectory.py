@@ -6,7 +6,9 @@ import torch
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from src.shared.motion.root_track import LEFT_CONTACT, decode_features, encode_features
+from src.shared.motion.features import LEFT_CONTACT, decode_features, encode_features
+from src.shared.motion.kinematics import angular_velocity, derive, forward_difference
+from src.shared.motion.rotations import yaw_quaternion
 from src.shared.motion.trajectory import (
     CHANNELS,
     MotionTrajectory,
@@ -14,13 +16,7 @@ from src.shared.motion.trajectory import (
     to_motion,
     to_root,
     unwrap_phase,
-)
-from src.shared.motion.trajectory_math import (
-    angular_velocity,
-    derive,
-    forward_difference,
     wrap_phase,
-    yaw_quaternion,
 )
 from tests.shared.motion.trajectories import smooth_trajectory
 

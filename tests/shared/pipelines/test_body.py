@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from src.shared.errors import UsageError
-from src.shared.motion.root_track import LEFT_CONTACT, ROOT_ROW, decode_features
+from src.shared.motion.features import LEFT_CONTACT, ROOT_ROW, decode_features
 from src.shared.motion.rotations import (
     axis_angle_to_matrix,
     matrix_to_quaternion,

@@ -11,8 +11,8 @@ from src.shared.errors import UsageError
 from src.shared.model.diffusion.samplers import Sampling
 from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import TextToMotion
+from src.shared.motion.features import FORWARD, ROOT_ROW, integrate_root
 from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import FORWARD, ROOT_ROW, integrate_root
 from src.shared.motion.skeleton import JOINT_INDEX, JOINT_NAMES
 from src.shared.pipelines.edit import (
     GROUPS,

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from src.shared.errors import UserError
-from src.shared.motion.root_track import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, decode_features
+from src.shared.motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, decode_features
 from src.shared.pipelines.path import (
     FASTEST,
     FASTEST_TURN,

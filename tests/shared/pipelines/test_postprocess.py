@@ -14,10 +14,10 @@ from hypothesis import strategies as st
 
 from src.shared.config_schema import PostProcessingConfig
 from src.shared.data.synthetic.clips import generate_clip, spec_for
+from src.shared.motion.features import LATERAL, LEFT_CONTACT, ROOT_ROW, YAW_RATE, encode_features
 from src.shared.motion.foot_holds import GIVE
 from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess import MotionPostProcessor
-from src.shared.motion.root_track import LATERAL, LEFT_CONTACT, ROOT_ROW, YAW_RATE, encode_features
 from src.shared.motion.skeleton import FOOT_JOINTS
 from src.shared.pipelines.postprocess import (
     FADE,

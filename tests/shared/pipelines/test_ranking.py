@@ -26,8 +26,8 @@ from src.shared.model.checkpoint import ModelCard
 from src.shared.model.clip.core import MotionClip
 from src.shared.model.clip.pretrained import ClipBundle
 from src.shared.model.clip.tokenizer import PromptTokenizer
+from src.shared.motion.features import encode_features
 from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import encode_features
 from src.shared.motion.skeleton import REST_PELVIS_HEIGHT
 from src.shared.motion.trajectory import MotionTrajectory
 from src.shared.pipelines.ranking import (

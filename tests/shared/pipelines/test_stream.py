@@ -14,7 +14,7 @@ from src.shared.errors import UsageError, UserError
 from src.shared.model.diffusion.samplers import Sampling
 from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import TextToMotion
-from src.shared.motion.root_track import FORWARD, ROOT_ROW
+from src.shared.motion.features import FORWARD, ROOT_ROW
 from src.shared.pipelines import stream as motion_stream
 from src.shared.pipelines.postprocess import joined, settled
 from src.shared.pipelines.stream import MotionStream, Passage, stream_features, window_lengths

@@ -9,8 +9,8 @@ import torch
 
 from src.shared.errors import UserError
 from src.shared.model.generation.motion_generator import TextToMotion
+from src.shared.motion.features import ROOT_ROW, YAW_RATE, encode_features
 from src.shared.motion.motion import Motion
-from src.shared.motion.root_track import ROOT_ROW, YAW_RATE, encode_features
 from src.shared.pipelines.ranking import TextJudge
 from src.shared.pipelines.text import PromptSampler, SentenceGenerator, turned
 from tests.shared.model.conftest import tiny_generator

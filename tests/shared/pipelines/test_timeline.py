@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from src.shared.errors import UserError
 from src.shared.model.diffusion.samplers import Sampling
 from src.shared.model.generation.motion_generator import TextToMotion
-from src.shared.motion.root_track import ROOT_ROW
+from src.shared.motion.features import ROOT_ROW
 from src.shared.motion.skeleton import JOINT_INDEX
 from src.shared.pipelines.edit import chosen_joints
 from src.shared.pipelines.path import DrawnPath, along_path, natural_gait

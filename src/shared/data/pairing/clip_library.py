@@ -12,22 +12,15 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from ...motion.root_track import (
-    FORWARD,
-    HEIGHT,
-    LATERAL,
-    ROOT_ROW,
-    YAW_RATE,
-    integrate_root,
-)
+from ...motion.features import FORWARD, HEIGHT, LATERAL, ROOT_ROW, YAW_RATE, integrate_root
 from ...motion.rotations import (
     quaternion_conjugate,
     quaternion_continuous,
     quaternion_log,
     quaternion_multiply,
     rotation_6d_to_quaternion,
+    yaw_quaternion,
 )
-from ...motion.trajectory_math import yaw_quaternion
 from ..prepared import SYNTHETIC, ClipRecord, PreparedData
 from ..splits import assign_alike
 from .motion_beats import MotionBeats, motion_beats

@@ -19,8 +19,7 @@ import torch
 from torch import Tensor
 
 from ...files import sha256_file, write_json
-from ...motion.motion import Motion
-from ...motion.root_track import (
+from ...motion.features import (
     FORWARD,
     HEIGHT,
     LATERAL,
@@ -30,13 +29,14 @@ from ...motion.root_track import (
     encode_features,
     integrate_root,
 )
+from ...motion.motion import Motion
 from ...motion.rotations import (
     quaternion_continuous,
     quaternion_multiply,
     quaternion_slerp,
     rotation_6d_to_quaternion,
+    yaw_quaternion,
 )
-from ...motion.trajectory_math import yaw_quaternion
 from ..phrases.layout import StoredObject, write_body
 from ..prepared import MIRRORED, PreparedData
 from .clip_library import FPS, MARGIN, Clip, track_of
@@ -245,7 +245,7 @@ def phrase_body(
         features_of: clip id → raw features [N',23,6].
 
     Returns:
-        [T,23,6] float32, see root_track.py.
+        [T,23,6] float32, see motion/features.py.
     """
     times = warp.times(np.arange(num_frames + SPARE) / FPS)
     motion = join(pieces, lambda name: track_of(features_of(name)))

@@ -3,7 +3,7 @@
 T frames at 30 fps. TECH §1.3: `audio_features/{id}/features.npz` beside
 `motion/{id}/trajectory.npy`; `manifest.json` with the size and SHA-256 of each is ours, because a
 flipped bit in an npy file loads without an error. So is `motion/{id}/body.npz`, which folders of
-before lack: `features` [T,23,6] float16 of the whole body (root_track.py).
+before lack: `features` [T,23,6] float16 of the whole body (motion/features.py).
 """
 
 import hashlib

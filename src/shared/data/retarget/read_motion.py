@@ -8,8 +8,7 @@ import numpy as np
 from ...errors import UserError
 from ...formats.limits import array_names, check_size
 from ...formats.rig import SourceClip
-from ...motion.motion import Motion
-from ...motion.resample import resample_motion
+from ...motion.motion import Motion, resample_motion
 from ...motion.skeleton import JOINT_INDEX, JOINT_NAMES, canonical_skeleton
 from .autodetection import (
     axis_vector,

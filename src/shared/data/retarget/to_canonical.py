@@ -13,8 +13,7 @@ import torch
 from ...formats.rig import SourceClip
 from ...motion.contacts import detect_contacts
 from ...motion.kinematics import global_to_local
-from ...motion.motion import Motion
-from ...motion.resample import resample_motion
+from ...motion.motion import Motion, resample_motion
 from ...motion.rotations import (
     matrix_to_quaternion,
     quaternion_continuous,

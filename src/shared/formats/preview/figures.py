@@ -14,8 +14,7 @@ import numpy as np
 
 from ...errors import UserError
 from ...files import atomic_write
-from ...motion.motion import Motion
-from ...motion.resample import resample_motion
+from ...motion.motion import Motion, resample_motion
 from ...motion.skeleton import FOOT_JOINTS
 from ..mannequin import CONTACT, Mannequin, mannequin, side_colours
 from .drawing import (

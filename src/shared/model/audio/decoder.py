@@ -16,6 +16,8 @@ from torch import Tensor, nn
 from torch.nn import functional as F
 
 from ...config_audio import DecoderConfig
+from ...motion.kinematics import derive, forward_difference
+from ...motion.rotations import quaternion_continuous
 from ...motion.trajectory import (
     ACCELERATION,
     ANGULAR_VELOCITY,
@@ -25,7 +27,6 @@ from ...motion.trajectory import (
     STYLE,
     VELOCITY,
 )
-from ...motion.trajectory_math import continuous_sign, derive, forward_difference
 
 # About one over the spread of each column: bars a frame are near 1/60, accelerations near 10.
 INPUT_SCALE = (*(1.0,) * 6, *(0.1,) * 3, *(1.0,) * 4, *(0.5,) * 3, 50.0, *(3.0,) * 8)
@@ -120,7 +121,7 @@ class Decoder(nn.Module):
     def _quaternion(self, x: Tensor, h: Tensor) -> Tensor:
         """Unit, first w >= 0, then one hemisphere (ruling 10)."""
         unit = F.normalize(x[..., QUATERNION] + self.quaternion_head(h), dim=-1)
-        return continuous_sign(unit)
+        return quaternion_continuous(unit, dim=-2)
 
     def _phase(self, x: Tensor, h: Tensor, start: Tensor | None) -> Tensor:
         """Bars [B, T]: a start, then the sum of increments that softplus keeps above 0.

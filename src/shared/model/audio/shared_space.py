@@ -134,7 +134,7 @@ class SharedSpace(nn.Module):
         return embedded
 
     def embed_motion(self, features: Tensor, mask: Tensor | None = None) -> Tensor:
-        """Raw features [B, T, 23, 6] (root_track.py), mask or None -> [B, D] unit-norm."""
+        """Raw features [B, T, 23, 6] (motion/features.py), mask or None -> [B, D] unit-norm."""
         embedded: Tensor = self.motion(features, mask)
         return embedded
 

@@ -14,13 +14,7 @@ from torch import Tensor, nn
 
 from ...config_schema import LossWeights
 from ...errors import UsageError
-from ...motion.root_track import (
-    HEIGHT,
-    LEFT_CONTACT,
-    ROOT_ROW,
-    heading_joints,
-    to_world,
-)
+from ...motion.features import HEIGHT, LEFT_CONTACT, ROOT_ROW, heading_joints, to_world
 from ...motion.rotations import rotation_6d_to_matrix
 from ...motion.skeleton import FOOT_JOINTS, NUM_JOINTS
 from ..diffusion.gaussian import GaussianDiffusion

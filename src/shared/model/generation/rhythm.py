@@ -21,7 +21,7 @@ import torch
 from torch import Tensor
 from torch.nn import functional as F
 
-from ...motion.root_track import world_joints
+from ...motion.features import world_joints
 
 STEP = 0.02  # root mean square of one move, in standard deviations of the data
 MOVES = 3  # a prediction

@@ -16,7 +16,7 @@ from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
 from src.shared.data.sources.folders import SyntheticSource
 from src.shared.files import sha256_file
-from src.shared.motion.root_track import ROOT_ROW, decode_features
+from src.shared.motion.features import ROOT_ROW, decode_features
 
 OPTIONS = PairOptions(min_seconds=3.0, max_seconds=5.0, synthetic_clips=True)
 MUSIC = SyntheticMusic(3, seed=1, seconds=10.0)

@@ -20,6 +20,7 @@ from src.shared.model.audio.decoder import (
     limit_speed,
     wrapped_phase,
 )
+from src.shared.motion.kinematics import derive
 from src.shared.motion.trajectory import (
     ACCELERATION,
     ANGULAR_VELOCITY,
@@ -29,7 +30,6 @@ from src.shared.motion.trajectory import (
     STYLE,
     VELOCITY,
 )
-from src.shared.motion.trajectory_math import derive
 from tests.shared.model.audio.tiny_audio import awake, walk
 
 KINDS = ["residual", "derived"]

@@ -12,7 +12,7 @@ from src.shared.model.audio.shared_space import KIND, SharedSpace
 from src.shared.model.checkpoint import WEIGHTS_FILE
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.model.zoo import PRETRAINED, list_models
-from src.shared.motion.root_track import encode_features
+from src.shared.motion.features import encode_features
 
 FOLDER = PRETRAINED / "starter-space"
 

@@ -10,7 +10,7 @@ from src.shared.errors import UsageError
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
 from src.shared.model.generation.constraint import Constraint, KnownBatch
 from src.shared.model.generation.motion_generator import TextToMotion
-from src.shared.motion.root_track import FORWARD, ROOT_ROW
+from src.shared.motion.features import FORWARD, ROOT_ROW
 
 PROMPT = ["a person walks forward"]
 

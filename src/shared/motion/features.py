@@ -9,7 +9,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from .kinematics import forward_kinematics
+from .kinematics import forward_difference, forward_kinematics
 from .motion import Motion
 from .rotations import (
     heading_angle,
@@ -20,26 +20,18 @@ from .rotations import (
     rotation_6d_to_matrix,
     yaw_to_matrix,
 )
-from .skeleton import (
-    NUM_JOINTS,
-    PARENTS,
-    REST_PELVIS_HEIGHT,
-    canonical_skeleton,
-)
+from .skeleton import MIRROR, NUM_JOINTS, PARENTS, REST_PELVIS_HEIGHT, canonical_skeleton
 
 FORWARD, LATERAL, HEIGHT, YAW_RATE, LEFT_CONTACT, RIGHT_CONTACT = range(6)
 ROOT_ROW = NUM_JOINTS  # index of the root track among the rows
+# What a mirror does to the first two columns of a matrix: M·R·M, M = diag(-1, 1, 1).
+_MIRROR_SIGNS = (1.0, -1.0, -1.0, -1.0, 1.0, 1.0)
 
 
 def headings(matrices: Tensor) -> Tensor:
     """Unwrapped heading [T] in radians of pelvis rotations [T,3,3]."""
     angle = heading_angle(matrices)
     return torch.as_tensor(np.unwrap(angle.numpy()), dtype=matrices.dtype)
-
-
-def _forward_difference(values: Tensor) -> Tensor:
-    steps = values[1:] - values[:-1]
-    return torch.cat((steps, steps[-1:] if len(steps) else torch.zeros_like(values)))
 
 
 def encode_features(motion: Motion) -> Tensor:
@@ -49,14 +41,14 @@ def encode_features(motion: Motion) -> Tensor:
     heading = headings(local[:, 0])  # T
     to_heading = yaw_to_matrix(-heading)  # T 3 3
     local = torch.cat(((to_heading @ local[:, 0])[:, None], local[:, 1:]), 1)
-    velocity = _forward_difference(position) * motion.fps
+    velocity = forward_difference(position, motion.fps)
     velocity = (to_heading @ velocity[..., None]).squeeze(-1)
     root = torch.cat(
         (
             velocity[:, [2]],
             velocity[:, [0]],
             position[:, [1]],
-            _forward_difference(heading)[:, None] * motion.fps,
+            forward_difference(heading[:, None], motion.fps),
             torch.as_tensor(motion.contacts),
         ),
         1,
@@ -147,3 +139,16 @@ def decode_features(
         fps=fps,
         text=text,
     )
+
+
+def mirror_features(features: Tensor) -> Tensor:
+    """Mirror features [...,23,6] or [...,22,6] directly: a permutation and signs."""
+    rotations = features[..., list(MIRROR), :] * features.new_tensor(_MIRROR_SIGNS)
+    if features.shape[-2] == NUM_JOINTS:
+        return rotations
+    order = list(range(6))
+    order[LEFT_CONTACT], order[RIGHT_CONTACT] = RIGHT_CONTACT, LEFT_CONTACT
+    signs = torch.ones_like(features[..., 0, :])
+    signs[..., [LATERAL, YAW_RATE]] = -1
+    root = features[..., NUM_JOINTS, order] * signs
+    return torch.cat((rotations, root[..., None, :]), -2)
