@@ -37,6 +37,7 @@ RANGES = {
     "--synthetic": (0, 1_000_000),
     "--replications": (1, 1000),
     "--control-seeds": (0, 10_000),
+    "--tries": (1, 1000),
 }
 
 

@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from .calibrate import calibrate
 from .compare import compare
 from .convert import convert
 from .evaluate import evaluate
@@ -83,6 +84,7 @@ for command in (
     evaluate_selection,
     evaluate_requests,
     evaluate_space,
+    calibrate,
     report,
     compare,
     models,

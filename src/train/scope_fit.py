@@ -5,6 +5,7 @@ Letters: N prompts, D embed dim.
 
 import numpy as np
 
+from ..shared.data.captions.book import packaged_book
 from ..shared.data.captions.word_dropout import insert_babble
 from ..shared.data.prepared import PreparedData
 from ..shared.model.clip.core import OWN, TextTower
@@ -13,7 +14,8 @@ from ..shared.model.clip.scope import PromptScope, words_of
 from ..shared.model.clip.tokenizer import PromptTokenizer
 
 SCOPE_CAPTIONS = 20_000  # at most so many captions teach PromptScope
-CALIBRATING = 3_000  # of them, each also with words that nobody knows, and without its key words
+CALIBRATING = 3_000  # at most, each also with words that nobody knows, and without its key words
+LEAST_UNSEEN = 200  # sentences, for a calibration on them
 IDEOGRAPHS = (0x4E00, 0x9FFF)
 LETTERS = "abcdefghijklmnopqrstuvwxyz"
 
@@ -24,13 +26,24 @@ def fit_scope(
     tower: TextTower,
     tokenizer: PromptTokenizer,
 ) -> PromptScope:
-    """The scope of a tower that was trained on the captions of `data`, calibrated on them."""
+    """The scope of a tower that was trained on the captions of `data`.
+
+    It is calibrated on the sentences that `CaptionBook.captions` never gives, or on the captions
+    themselves where there are none for these actions.
+    """
+    book = packaged_book()
     action_of: dict[str, str] = {}
+    unseen: dict[str, str] = {}
     for record in {record.group: record for record in data.records("train")}.values():
+        held_back = book.held_back(record.labels) if record.labels else {}
         captions = data.captions(record)
         for language in languages:
+            for text in held_back.get(language, []):
+                unseen.setdefault(text, record.tag)
             for text in captions.get(language, []):
                 action_of.setdefault(text, record.tag)
+    for text in unseen.keys() & action_of.keys():
+        del action_of[text]
     texts = sorted(action_of)
     texts = texts[:: -(-len(texts) // SCOPE_CAPTIONS)]
     embeddings = encode_captions(tower, tokenizer, texts).numpy()
@@ -39,7 +52,9 @@ def fit_scope(
     scope = PromptScope.fit(texts, actions, embeddings, pretrained_tower=pretrained)
     if len(scope.actions) < 2:  # nothing to take one for another
         return scope
-    return _calibrated(scope, texts, actions, tower, tokenizer)
+    if len(unseen) < LEAST_UNSEEN:
+        return _calibrated(scope, texts, actions, tower, tokenizer)
+    return _calibrated(scope, sorted(unseen), [unseen[t] for t in sorted(unseen)], tower, tokenizer)
 
 
 def _calibrated(
@@ -49,7 +64,7 @@ def _calibrated(
     tower: TextTower,
     tokenizer: PromptTokenizer,
 ) -> PromptScope:
-    """Captions as they are, with made-up words in them, and with made-up words for what tells."""
+    """Texts as they are, with made-up words in them, and with made-up words for what tells."""
     rng = np.random.default_rng(0)
     chosen = rng.permutation(len(texts))[:CALIBRATING]
     asked = [texts[row] for row in chosen]

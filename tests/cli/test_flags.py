@@ -70,6 +70,7 @@ FLAGS = {
         " --threads"
     ),
     "report": "--json FOLDER",
+    "calibrate": "--data --json --model --seed --threads --tries",
     "compare": (
         "--control-seeds --data --device --evaluator --json --num-samples --num-songs --other-row"
         " --out --quick --replications --row --seed --steps --threads A B"

@@ -84,8 +84,7 @@ class Yardstick:
         train = [r for r in data.records("train") if r.tag and r.num_frames >= MIN_FRAMES]
         self.captured = {r.tag for r in train if r.provenance == "captured"}
         progress("descriptors of the training clips")
-        fitted = [r for r in train if r.provenance == "captured" or r.tag not in self.captured]
-        fitted = spread_over_groups(fitted, 4 * settings.max_clips, settings.seed)
+        fitted = spread_over_groups(judged_by(train), 4 * settings.max_clips, settings.seed)
         self.known = self.clips(fitted)
         self.known_tags = [record.tag for record in fitted]
         try:
@@ -152,6 +151,12 @@ class Yardstick:
             both = all(len(each) for each in distances)
             answers.append(float(distances[1].min() < distances[0].min()) if both else np.nan)
         return np.array(answers)
+
+
+def judged_by(records: Sequence[ClipRecord]) -> list[ClipRecord]:
+    """The clips that tell a judge what actions look like: captured, where an action has any."""
+    captured = {r.tag for r in records if r.provenance == "captured"}
+    return [r for r in records if r.provenance == "captured" or r.tag not in captured]
 
 
 def same_action(wanted: str, found: str) -> bool:

@@ -2,10 +2,11 @@
 
 What tells is its evidence: how near it lies to an action and how much nearer than to the next one,
 how many of its words training saw, and whether its key words agree with the place it lies at. A
-logistic model of these (`calibrated`) was fitted to prompts whose right action is known: captions,
-captions with words in them that nobody knows, and captions without their key words, which ask for
-nothing. Without one (older folders) a prompt is known when it has a key word of some action, or
-nothing but trained words that are not all fillers.
+logistic model of these (`calibrated`) was fitted to prompts whose right action is known: sentences
+that the tower never saw, with words in them that nobody knows, and without their key words, which
+ask for nothing. Without one (older folders) a prompt is known when it has a key word of some
+action, or nothing but trained words that are not all fillers. And an action that a model seldom
+shows when asked is not known, however well the words are understood (`reliability`).
 
 The key words of an action are a small set of telling words that covers its training captions
 (greedy set cover), so "turn" is one and the "make" of "make a turn" is not. A text tower trained
@@ -20,13 +21,13 @@ import re
 import unicodedata
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Self
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from ...errors import UserError
 from ...files import atomic_write, load_json, write_json
@@ -41,6 +42,7 @@ SAME_STEM = 0.65  # share of the longer word that two forms of one word begin al
 MIN_STEM = 4  # letters
 MIN_SEEN = 0.5  # share of words seen in training that a likeness to a key word needs around it
 NUM_NEAREST = 3
+RELIABLE = 0.5  # share of tries in which an action has to come out to be known
 FALSE_WARNINGS = 0.03  # share of the prompts it calibrates on that are understood, and warned of
 NEWTON_STEPS, RIDGE = 30, 1e-2
 
@@ -53,10 +55,17 @@ KeyWords = dict[str, tuple[int, ...]]  # word -> the actions it tells of
 
 @dataclass(frozen=True)
 class ScopeResult:
-    """Verdict on one prompt; `nearest` names known actions, nearest first."""
+    """Verdict on one prompt.
+
+    Attributes:
+        known: near what was trained, and to an action that comes out.
+        nearest: known actions, nearest first.
+        unreliable: the action that was understood and seldom comes out, if that is why.
+    """
 
     known: bool
     nearest: list[str]
+    unreliable: str | None = None
 
 
 def words_of(text: str) -> list[str]:
@@ -88,6 +97,7 @@ class PromptScope:
         min_cosine: for a pretrained text tower, enough on its own; None otherwise.
         weights: of the evidence, the last one the bias: known where the sum is positive. None =
             the rule of words alone.
+        reliability: share of tries in which each action came out, where that was measured.
     """
 
     actions: tuple[str, ...]
@@ -98,6 +108,7 @@ class PromptScope:
     false_alarms: float = 0.0
     min_cosine: float | None = None
     weights: tuple[float, ...] | None = None
+    reliability: Mapping[str, float] = field(default_factory=dict)
 
     @classmethod
     def fit(
@@ -159,6 +170,8 @@ class PromptScope:
             known = known or float(cosines.max()) >= self.min_cosine
         ranked = [self.actions[index] for index in np.argsort(-cosines, kind="stable")]
         named = [action for action in ranked if action]  # "" is that of clips without a label
+        if known and self.reliability.get(ranked[0], 1.0) < RELIABLE:
+            return ScopeResult(False, named[:NUM_NEAREST], unreliable=ranked[0])
         return ScopeResult(known, named[:NUM_NEAREST])
 
     def familiar(self, prompt: str) -> bool:
@@ -216,6 +229,12 @@ class PromptScope:
         result = self.check(prompt, embedding)
         if result.known:
             return None
+        if result.unreliable is not None:
+            return (
+                f"prompt {prompt!r} asks for {result.unreliable!r}, which this model shows in only"
+                f" {self.reliability[result.unreliable]:.0%} of tries; look at the motion before"
+                " you use it"
+            )
         return (
             f"prompt {prompt!r} is far from anything this model was trained on;"
             f" nearest known actions: {', '.join(result.nearest)}"
@@ -233,6 +252,7 @@ class PromptScope:
             "false-alarms": self.false_alarms,
             "min-cosine": self.min_cosine,
             "weights": self.weights,
+            "reliability": dict(self.reliability),
             "key-words": self.key_words,
             "words": sorted(self.words),
             "fillers": sorted(self.fillers),
@@ -272,6 +292,7 @@ class PromptScope:
                 false_alarms=told.false_alarms,
                 min_cosine=told.min_cosine,
                 weights=told.weights,
+                reliability=told.reliability,
             )
         except ValidationError as error:
             raise of_another_version(folder / META_FILE, error) from error
@@ -301,6 +322,7 @@ class _Meta(BaseModel):
     false_alarms: float
     min_cosine: float | None
     weights: tuple[float, ...] | None = None
+    reliability: dict[str, float] = Field({})
 
 
 def _unit(vectors: np.ndarray) -> np.ndarray:

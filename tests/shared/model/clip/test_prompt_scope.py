@@ -162,3 +162,19 @@ def test_weights_survive_saving(scope: PromptScope, tmp_path):
     loaded = PromptScope.from_pretrained(tmp_path)
     assert loaded is not None
     assert loaded.weights == weighed.weights
+
+
+def test_an_action_that_seldom_comes_out_is_warned_of(scope: PromptScope, tmp_path):
+    measured = replace(scope, reliability={"kick": 1 / 12, "bow": 0.9})
+    place = np.eye(len(scope.actions))
+    kick, bow = place[scope.actions.index("kick")], place[scope.actions.index("bow")]
+    result = measured.check("a person kicks", kick)
+    assert not result.known and result.unreliable == "kick"
+    assert "'kick', which this model shows in only 8% of tries" in (
+        measured.warning("a person kicks", kick) or ""
+    )
+    assert measured.warning("a person bows", bow) is None
+    assert scope.warning("a person kicks", kick) is None  # nobody measured it
+    measured.save_pretrained(tmp_path)
+    loaded = PromptScope.from_pretrained(tmp_path)
+    assert loaded is not None and loaded.reliability == measured.reliability

@@ -1,0 +1,60 @@
+"""Which actions come out: of a puppet that does as it is told, but never jumps."""
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from src.shared.data.prepare import prepare
+from src.shared.data.prepared import PreparedData
+from src.shared.data.sources.folders import SyntheticSource
+from src.shared.data.synthetic import generate_clip
+from src.shared.data.synthetic.clips import spec_for
+from src.shared.evaluation.reliability import action_reliability
+from src.shared.model.clip.scope import RELIABLE
+from src.shared.motion.motion import Motion
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory: pytest.TempPathFactory) -> PreparedData:
+    folder = tmp_path_factory.mktemp("prepared")
+    prepare([SyntheticSource(240)], folder, workers=1)
+    return PreparedData.open(folder)
+
+
+class Puppet:
+    """Does what the caption of a training clip says, and stands where it says to jump."""
+
+    def __init__(self, data: PreparedData) -> None:
+        self.labels = {
+            text: record.labels
+            for record in data.records("train")
+            for texts in data.captions(record).values()
+            for text in texts
+        }
+
+    def generate(self, prompts: Sequence[str], *, seconds: float, seed: int) -> list[Motion]:
+        wanted = [self.labels[prompt] for prompt in prompts]
+        wanted = [{"action": "stand"} if w["action"] == "jump" else w for w in wanted]
+        clips = [generate_clip(spec_for(w, row), seed=row) for row, w in enumerate(wanted)]
+        return [clip.frames(0, min(clip.num_frames, round(seconds * clip.fps))) for clip in clips]
+
+
+def test_what_never_comes_out_is_found(data: PreparedData) -> None:
+    found = action_reliability(Puppet(data), data, tries=6)
+    assert found.keys() == {record.tag for record in data.records("train")}
+    assert found["jump"] == 1 / 8  # none of six
+    assert found["jump"] < RELIABLE < found["walk"] < 1
+    assert json.loads(json.dumps(found)) == found
+    assert action_reliability(Puppet(data), data, tries=6) == found
+
+
+def test_without_actions_to_tell_apart_it_says_so(data: PreparedData, tmp_path: Path) -> None:
+    from src.shared.errors import UserError
+
+    prepare([SyntheticSource(4)], tmp_path, workers=1)
+    few = PreparedData.open(tmp_path)
+    few.__dict__["_all_records"] = few.records()[:1]
+    with pytest.raises(UserError, match="no judge can be fitted"):
+        action_reliability(Puppet(data), few)
