@@ -18,7 +18,7 @@ from ..shared.data.captions.language import spoken_labels
 from ..shared.data.captions.schema import Labels
 from ..shared.data.prepared import PreparedData
 from ..shared.data.splits import group_of
-from .seeding import generator
+from .task import generator
 
 Combination = tuple[tuple[str, str], ...]
 

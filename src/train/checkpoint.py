@@ -2,7 +2,8 @@
 
 `checkpoints/step-00000500/` holds model, ema and optimizer tensors and `state.json`: step,
 configuration, hash of the data, and the SHA-256 of each file. A folder is written beside and
-renamed, so `kill -9` leaves either the old state or the new one.
+renamed, so `kill -9` leaves either the old state or the new one. A run goes on from one only with
+the settings, data and network that it had before.
 """
 
 import json
@@ -18,7 +19,9 @@ from safetensors import SafetensorError
 from safetensors.torch import load_file, save_file
 from torch import Tensor, nn
 
-from ..shared.errors import UserError
+from ..shared.config_loader import dump_config
+from ..shared.config_schema import TrainConfig
+from ..shared.errors import UsageError, UserError
 from ..shared.files import sha256_file, unfinished, why_not_written, write_json
 
 _FILES = ("model", "ema", "optimizer")
@@ -136,3 +139,51 @@ def latest_checkpoint(root: Path) -> Checkpoint | None:
     if folders:
         raise UserError(f"every checkpoint in {root} is damaged; delete the folder and start again")
     return None
+
+
+# Settings a resumed run may change: they say where, how fast and how often, not what is learned.
+# `steps` may grow (the decay of the learning rate then runs to the new end).
+MAY_CHANGE = frozenset(
+    {
+        "output",
+        "steps",
+        "epochs",
+        "patience",
+        "log-every",
+        "validate-every",
+        "validate-first",
+        "validation-batches",
+        "validation-prompts",
+        "save-every",
+        "keep-checkpoints",
+        "device",
+        "threads",
+        "num-workers",
+        "tensorboard",
+    }
+)
+
+
+def run_identity(config: TrainConfig, task: dict[str, Any], processes: int) -> dict[str, Any]:
+    """What a resumed run must have in common with the run it continues, as plain JSON data."""
+    own = {key: value for key, value in dump_config(config).items() if key not in MAY_CHANGE}
+    return dict(json.loads(json.dumps({**own, **task, "processes": processes})))
+
+
+def refuse_to_overwrite(output: Path, *, resume: bool) -> None:
+    """Raises UsageError when a folder holds checkpoints that nobody asked to continue."""
+    if not resume and any((output / "checkpoints").glob("step-*")):
+        raise UsageError(
+            f"{output} holds a run already; add --resume to continue it, or choose another --output"
+        )
+
+
+def require_same_run(checkpoint: Checkpoint, identity: dict[str, Any]) -> None:
+    """Raises UsageError naming the first setting in which the checkpoint differs."""
+    before = checkpoint.state["identity"]
+    for key in sorted({*before, *identity}):
+        if before.get(key) != identity.get(key):
+            raise UsageError(
+                f"cannot resume {checkpoint.folder}: {key} was {before.get(key)!r} and is now"
+                f" {identity.get(key)!r}; give the old value or choose another --output"
+            )

@@ -21,16 +21,24 @@ from ..shared.config_schema import TrainConfig
 from ..shared.device import choose_compute, set_threads
 from ..shared.errors import UsageError, UserError
 from ..shared.files import write_json
-from .batches import to_device
-from .checkpoint import Checkpoint, latest_checkpoint, load_optimizer, save_checkpoint
-from .ema import ExponentialMovingAverage
-from .interrupt import Interrupted, InterruptGuard
-from .learning_rate import learning_rate_factor
-from .resume import refuse_to_overwrite, require_same_run, run_identity
+from .checkpoint import (
+    Checkpoint,
+    latest_checkpoint,
+    load_optimizer,
+    refuse_to_overwrite,
+    require_same_run,
+    run_identity,
+    save_checkpoint,
+)
+from .optimization import (
+    ExponentialMovingAverage,
+    learning_rate_factor,
+    make_accelerator,
+    make_optimizer,
+)
+from .processes import Interrupted, InterruptGuard
 from .run_log import VALIDATION, RunLog, console
-from .seeding import mix_seed
-from .setup import make_accelerator, make_optimizer
-from .task import Part, Task
+from .task import Part, Task, mix_seed, to_device
 
 _STOP_CHECK_EVERY = 10  # steps between agreeing on a stop, with several processes
 

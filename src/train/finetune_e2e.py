@@ -26,9 +26,7 @@ from ..shared.errors import UsageError
 from ..shared.files import write_json, write_text
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
 from .audio_folder import network_of
-from .batches import to_device
 from .e2e_objective import E2eBatch, E2eObjective, E2eWeights
-from .epoch_log import Epoch, best_epoch, read_epochs, results_table
 from .launch import Processes, as_overrides, new_app, run_task, short_errors
 from .phrases import (
     bar_phase_at_start,
@@ -37,8 +35,8 @@ from .phrases import (
     true_trajectory,
     whole_windows,
 )
-from .run_log import as_logged, console
-from .seeding import generator
+from .run_log import Epoch, as_logged, best_epoch, console, read_epochs, results_table
+from .task import generator, to_device
 from .train_audio import AudioTask
 from .train_generation import spread_timesteps
 

@@ -20,8 +20,7 @@ from ..shared.config_schema import Config, TrainConfig
 from ..shared.errors import UserError
 from ..shared.signals import orderly_termination
 from ..shared.sole_writer import sole_writer
-from .interrupt import Interrupted
-from .processes import end_with_parent, is_one_of_several, run_processes
+from .processes import Interrupted, end_with_parent, is_one_of_several, run_processes
 
 if TYPE_CHECKING:
     from .task import Task

@@ -1,7 +1,9 @@
-"""Several processes of one stage on this machine; each runs the command line of this one.
+"""Processes of one stage on this machine, and the signals that stop them politely.
 
-They find each other by the variables that torch.distributed calls `env://`. The first process
-speaks for all; what another one wrote is shown if that one was the first to fail.
+The first Ctrl-C or SIGTERM lets a step finish and be saved. Of several processes each runs the
+command line of this one; they find each other by the variables that torch.distributed calls
+`env://`. The first process speaks for all; what another one wrote is shown if that one was the
+first to fail.
 """
 
 import os
@@ -15,7 +17,49 @@ import threading
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
-from typing import IO
+from types import FrameType, TracebackType
+from typing import IO, Any
+
+from ..shared.errors import UserError
+
+
+class Interrupted(UserError):
+    """Training stopped on a signal after saving; `exit_code` is 128 + the signal's number."""
+
+    def __init__(self, message: str, signal_number: int) -> None:
+        super().__init__(message)
+        self.exit_code = 128 + signal_number
+
+
+class InterruptGuard:
+    """Inside the block the first signal only sets `signal_number`; a second one stops at once."""
+
+    def __init__(self) -> None:
+        self.signal_number: int | None = None
+        self._previous: dict[int, Any] = {}
+
+    def __enter__(self) -> "InterruptGuard":
+        for number in (signal.SIGINT, signal.SIGTERM):
+            try:
+                self._previous[number] = signal.signal(number, self._handle)
+            except ValueError:  # not the main thread: signals stay with whoever runs it
+                break
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        for number, handler in self._previous.items():
+            signal.signal(number, handler)
+
+    def _handle(self, number: int, _frame: FrameType | None) -> None:
+        if self.signal_number is not None:
+            raise KeyboardInterrupt
+        self.signal_number = number
+
 
 PLACE = "RANK"  # set in every process of several, by whatever launched them
 STARTED_HERE = "MOTIONGEN_STARTED_BY"  # set by `run_processes`

@@ -1,11 +1,26 @@
-"""What a training stage must offer: its module, its batches, its loss, its exports."""
+"""What a training stage must offer, and what every stage draws from: seeds that need no state.
 
-from dataclasses import dataclass
+Randomness is a pure function of (seed, step, part): resuming needs no generator states.
+"""
+
+import hashlib
+from dataclasses import dataclass, fields, is_dataclass, replace
 from pathlib import Path
 from typing import Any, Protocol
 
 import torch
 from torch import Tensor, nn
+
+
+def mix_seed(*parts: int | str) -> int:
+    """A 63-bit seed that depends on every part; neighbouring steps give unrelated seeds."""
+    text = "/".join(map(str, parts)).encode()
+    return int.from_bytes(hashlib.blake2b(text, digest_size=8).digest(), "big") >> 1
+
+
+def generator(*parts: int | str) -> torch.Generator:
+    """A CPU generator of its own, seeded by `mix_seed`: equal numbers on every device."""
+    return torch.Generator().manual_seed(mix_seed(*parts))
 
 
 @dataclass(frozen=True)
@@ -54,3 +69,17 @@ class Task(Protocol):
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """Write the finished model with its configuration."""
         ...
+
+
+def to_device(value: Any, device: torch.device) -> Any:
+    """Move every tensor inside dicts, lists, tuples and dataclasses; leave the rest."""
+    if isinstance(value, Tensor):
+        return value.to(device, non_blocking=True)
+    if isinstance(value, dict):
+        return {key: to_device(item, device) for key, item in value.items()}
+    if isinstance(value, list | tuple) and any(isinstance(v, Tensor | dict) for v in value):
+        return type(value)(to_device(item, device) for item in value)
+    if is_dataclass(value) and not isinstance(value, type):
+        moved = {f.name: to_device(getattr(value, f.name), device) for f in fields(value) if f.init}
+        return replace(value, **moved)
+    return value

@@ -13,7 +13,7 @@ from ..shared.errors import UsageError, UserError
 from ..shared.evaluation.metrics_retrieval import BATCH
 from ..shared.motion.skeleton import NUM_JOINTS
 from .run_log import announce
-from .seeding import mix_seed
+from .task import mix_seed
 
 
 def open_training_data(config: TrainConfig, network: NetworkConfig) -> PreparedData:

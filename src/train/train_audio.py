@@ -27,11 +27,9 @@ from ..shared.model.audio.conditioning import ConditionAugmentation, with_phase_
 from ..shared.model.audio.memory_conditioning import MemoryCondition
 from ..shared.model.diffusion.gaussian import GaussianDiffusion, masked_loss
 from ..shared.motion.trajectory import FPS, POSITION, QUATERNION, STYLE
-from .batches import to_device
 from .launch import stage_app
 from .phrases import PhraseConfig, export_song, open_held_back, open_phrases
-from .seeding import generator
-from .task import Part
+from .task import Part, generator, to_device
 from .train_generation import NOISE_LEVELS, spread_timesteps
 
 

@@ -37,8 +37,7 @@ from ..shared.motion.trajectory import FPS
 from .launch import stage_app
 from .phrases import PhraseConfig, open_held_back, open_phrases
 from .run_log import announce
-from .seeding import generator
-from .task import Part
+from .task import Part, generator
 from .text_motion import numpy_generator
 from .train_clip import gather
 

@@ -40,8 +40,7 @@ from .phrases import (
     whole_windows,
 )
 from .run_log import console
-from .seeding import generator
-from .task import Part
+from .task import Part, generator
 
 MODULE = "src.train.train_decoder"
 ERROR_BATCHES = 4  # on which the UNet's error is measured

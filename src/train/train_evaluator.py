@@ -19,8 +19,7 @@ from ..shared.evaluation.evaluator import Evaluator, EvaluatorConfig, contrastiv
 from ..shared.evaluation.metrics_retrieval import BATCH, TOP, guo_retrieval
 from ..shared.evaluation.training_set import PairBatch, PairSet
 from .launch import stage_app
-from .seeding import mix_seed
-from .task import Part
+from .task import Part, mix_seed
 from .text_motion import can_retrieve
 
 

@@ -31,9 +31,8 @@ from ..shared.model.generation.motion_generator import KIND, TextToMotion
 from .constraints import draw_known
 from .launch import stage_app
 from .scope_fit import fit_scope
-from .seeding import generator
 from .style_fit import fit_style_map
-from .task import Part
+from .task import Part, generator
 from .text_motion import (
     motion_rows,
     numpy_generator,

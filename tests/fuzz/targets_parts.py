@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from src.shared.model.zoo import PRETRAINED
-from src.train.epoch_log import Epoch
+from src.train.run_log import Epoch
 from tests.fuzz.target import Target, check_arrays
 
 SHIPPED = (

@@ -32,9 +32,9 @@ from src.shared.model.audio.decoder import (
 from src.train.audio_folder import network_of
 from src.train.e2e_objective import E2eObjective, mean_speed
 from src.train.engine import Trainer
-from src.train.epoch_log import Epoch, best_epoch, read_epochs, results_table
 from src.train.finetune_e2e import FinetuneE2eConfig, FinetuneE2eTask, app, run
 from src.train.phrases import open_phrases
+from src.train.run_log import Epoch, best_epoch, read_epochs, results_table
 from src.train.task import Part
 
 QUIET = [*SETTINGS, *PREFIX, "ddim-steps=2", "warmup-steps=1"]

@@ -14,11 +14,10 @@ from hypothesis import strategies as st
 from torch import Tensor
 
 from src.shared.ahead import ahead
-from src.train.batches import to_device
 from src.train.launch import resume_command
-from src.train.learning_rate import learning_rate_factor
+from src.train.optimization import learning_rate_factor
 from src.train.run_log import RunLog, truncate_log
-from src.train.seeding import generator, mix_seed
+from src.train.task import generator, mix_seed, to_device
 
 
 @given(st.integers(1, 500), st.integers(0, 600), st.sampled_from(["cosine", "linear", "constant"]))

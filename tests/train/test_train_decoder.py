@@ -29,8 +29,7 @@ from src.shared.motion.trajectory import PHASE
 from src.train.audio_folder import network_of
 from src.train.engine import Trainer
 from src.train.phrases import bar_phase_at_start, true_trajectory, whole_windows
-from src.train.seeding import generator
-from src.train.task import Part
+from src.train.task import Part, generator
 from src.train.train_decoder import (
     DecoderTask,
     TrainDecoderConfig,

@@ -14,8 +14,7 @@ from tiny_stage import clip_config, generation_config, tiny_network, train_clip,
 from src.shared.errors import UsageError, UserError
 from src.shared.model.clip.pretrained import ClipBundle, tower_hash
 from src.shared.model.generation.motion_generator import TextToMotion
-from src.train.seeding import generator
-from src.train.task import Part
+from src.train.task import Part, generator
 from src.train.train_generation import GenerationTask, spread_timesteps
 
 

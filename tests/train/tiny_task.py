@@ -15,8 +15,7 @@ from torch import Tensor, nn
 
 from src.shared.config_schema import NetworkConfig, TrainConfig
 from src.train.launch import stage_app
-from src.train.seeding import generator
-from src.train.task import Part
+from src.train.task import Part, generator
 
 WEIGHTS = torch.tensor([1.0, -2.0, 0.5])
 
