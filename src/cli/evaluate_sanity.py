@@ -12,8 +12,8 @@ from .guard import tell
 
 if TYPE_CHECKING:
     from ..shared.evaluation.audio_sanity import SanityEvaluation
+    from ..shared.metrics.bands import Bands
     from ..shared.model.audio.audio_motion_model import AudioMotionModel
-    from ..shared.validation.bands import Bands
 
 MODEL = "starter-audio"
 FULL = {"num_samples": 100, "num_frames": 120, "num_steps": 20}
@@ -143,8 +143,8 @@ def load_model(name: str, decoder: str | None, device: str) -> "AudioMotionModel
 
 def shipped_bands(name: str) -> "Bands | None":
     """Bands of the training motions beside the weights, where the folder has them."""
+    from ..shared.metrics.bands import Bands
     from ..shared.model.zoo import resolve_model
-    from ..shared.validation.bands import Bands
 
     path = resolve_model(name) / "bands.json"
     return Bands.load(path) if path.is_file() else None

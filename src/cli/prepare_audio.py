@@ -111,7 +111,7 @@ def open_motion(motion: str, out: Path) -> "PreparedData":
 def write_bands(out: Path) -> None:
     """What the training phrases measure, in bands.json: the sanity suite compares with it."""
     from ..shared.data.pairing.report import training_trajectories
-    from ..shared.validation.bands import Bands
+    from ..shared.metrics.bands import Bands
 
     Bands.of(training_trajectories(out)).save(out / "bands.json")
 

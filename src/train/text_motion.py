@@ -10,7 +10,7 @@ from ..shared.data.prepare import open_data
 from ..shared.data.prepared import PreparedData
 from ..shared.data.text_motion import TextMotionDataset
 from ..shared.errors import UsageError, UserError
-from ..shared.evaluation.metrics_retrieval import BATCH
+from ..shared.metrics.retrieval import BATCH
 from ..shared.motion.skeleton import NUM_JOINTS
 from .run_log import announce
 from .task import mix_seed

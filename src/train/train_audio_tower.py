@@ -24,9 +24,9 @@ from ..shared.config_schema import NetworkConfig
 from ..shared.config_space import AudioTowerConfig
 from ..shared.data.phrases.dataset import MotionPhraseDataset, sound_statistics
 from ..shared.data.phrases.layout import PhraseRecord
-from ..shared.evaluation.metrics_retrieval import BATCH
 from ..shared.evaluation.space_retrieval import Bench
 from ..shared.evaluation.space_windows import Windows
+from ..shared.metrics.retrieval import BATCH
 from ..shared.model.audio.audio_tower import AudioTower
 from ..shared.model.audio.conditioning import ConditionAugmentation
 from ..shared.model.audio.shared_space import SharedSpace

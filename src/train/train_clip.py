@@ -21,7 +21,7 @@ from ..shared.config_schema import NetworkConfig, TrainClipConfig
 from ..shared.data.captions.word_dropout import drop_words
 from ..shared.data.text_motion import TextMotionBatch
 from ..shared.errors import UsageError
-from ..shared.evaluation.metrics_retrieval import BATCH, TOP, guo_retrieval
+from ..shared.metrics.retrieval import BATCH, TOP, guo_retrieval
 from ..shared.model.checkpoint import ModelCard
 from ..shared.model.clip.core import OWN, MotionClip
 from ..shared.model.clip.losses import clip_loss

@@ -31,10 +31,10 @@ def _write(folder: Path) -> None:
 
 def _read(path: Path) -> None:
     from src.shared.evaluation.plots import read_losses
+    from src.shared.metrics.bands import Bands
     from src.shared.model.clip.scope import PromptScope
     from src.shared.model.clip.style_map import StyleMap
     from src.shared.model.clip.tokenizer import PromptTokenizer
-    from src.shared.validation.bands import Bands
 
     match path.name.partition(".")[0]:
         case "scope":

@@ -14,14 +14,14 @@ from zlib import crc32
 import numpy as np
 
 from ..audio.synthetic_songs import render_song
-from ..data.pairing.motion_beats import MotionBeats, motion_beats
 from ..data.phrases.dataset import MotionPhraseDataset
 from ..errors import UserError
 from ..files import atomic_write
+from ..metrics.rhythm import MotionBeats, motion_beats, strangers
+from ..metrics.sanity import frozen
 from ..motion.trajectory import FPS, MotionTrajectory
 from ..pipelines.song import SongGenerator, own_noise
 from ..pipelines.song_sampler import SongSampling
-from ..validation.report import frozen
 from .audio_sanity import untrained
 from .audio_songs import (
     Piece,
@@ -32,7 +32,6 @@ from .audio_songs import (
     tracks,
 )
 from .families import Dance, DanceSample
-from .metrics_rhythm import strangers
 
 Progress = Callable[[str], None]
 Made = list[tuple[Piece, MotionTrajectory]]

@@ -8,9 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ..metrics.bands import MEASURES, UNITS, Bands
 from ..motion.trajectory import FPS, MotionTrajectory
-from ..validation.bands import Bands
-from ..validation.measures import MEASURES, UNITS
 from .audio_context import Picture
 from .plots import new_figure, save_figure
 

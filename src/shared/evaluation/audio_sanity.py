@@ -18,15 +18,14 @@ from torch import Tensor
 from torch.nn import functional as F
 
 from ..errors import UserError
+from ..metrics.bands import Bands
+from ..metrics.sanity import SEVEN, SanityChecker, frozen, sanity_row
 from ..model.audio.audio_motion_model import AudioMotionModel
 from ..model.audio.conditioning import BEAT, CONDITION_ROWS
 from ..model.diffusion.noise import sample_generators, standard_normal
 from ..model.diffusion.samplers import make_sampler
 from ..motion.trajectory import MotionTrajectory
 from ..pipelines.song_sampler import SPARE
-from ..validation.bands import Bands
-from ..validation.report import frozen, sanity_row
-from ..validation.sanity import SEVEN, SanityChecker
 from .audio_songs import (
     TEMPI,
     conditions_of_songs,

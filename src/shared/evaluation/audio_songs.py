@@ -27,11 +27,11 @@ from ..audio.synthetic_songs import (
 )
 from ..data.phrases.dataset import MotionPhraseDataset
 from ..errors import UserError
+from ..metrics.rhythm import beats_of_phase
 from ..model.audio.conditioning import BEAT, CONDITION_ROWS
 from ..motion.trajectory import FPS, MotionTrajectory
 from ..motion.window import place_window
 from ..pipelines.song import heard
-from .metrics_rhythm import beats_of_phase
 
 FRESH_SEED = 90210  # of songs made only to test: no training draws from the held-out tempi
 MARGIN = 2.0  # seconds of beats beyond a song's end that count as neighbours

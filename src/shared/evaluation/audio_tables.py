@@ -1,12 +1,16 @@
 """Tables of the audio branch with rows of their own: phase, alignment, seams, sound files."""
 
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
+from ..metrics.rhythm import phase_error
+from ..metrics.seams import REACH, Seamed, seam_report
 from ..motion.trajectory import MotionTrajectory
 from ..pipelines.song import SongGenerator
+from ..pipelines.song_sampler import SPARE, spans
 from .audio_alignment import Danced, alignment_rows, song_scores
 from .audio_context import AudioContext
 from .audio_phase import phase_row, right_tempo
@@ -14,8 +18,6 @@ from .audio_songs import Piece
 from .families import Column, DanceSample
 from .families_audio import beats_of
 from .grids import Grid, GridRow, plain
-from .metrics_rhythm import phase_error
-from .metrics_seams import Seamed, seam_frames, seam_report
 
 PHASE = (
     Column("beat", "beat |error|"), Column("beat_seconds", "in seconds"),
@@ -146,6 +148,15 @@ def seam_tables(context: AudioContext) -> list[Grid]:
         found = seam_report(songs, context.settings.seed)
         tables += _seams(found, name) if "quantities" in found else []
     return tables
+
+
+def seam_frames(num_frames: int, window: int, overlap: int) -> np.ndarray:
+    """True [T] where two windows of a song share a frame, and just around."""
+    near = np.zeros(num_frames, dtype=bool)
+    found = spans(num_frames, window - SPARE, overlap)
+    for (_, end), (start, _) in pairwise(found):
+        near[max(0, start - REACH) : end + REACH] = True
+    return near
 
 
 def _seamed(trajectory: MotionTrajectory, context: AudioContext) -> Seamed:

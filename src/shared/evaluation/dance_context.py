@@ -14,6 +14,8 @@ import numpy as np
 
 from ..data.phrases.dataset import MotionPhraseDataset
 from ..errors import UserError
+from ..metrics.rhythm import beats_of_phase, strangers
+from ..metrics.seams import REACH
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.carried_feet import hold_carried_feet
 from ..motion.features import decode_features
@@ -27,8 +29,6 @@ from ..pipelines.stream import OVERLAP, WINDOW, window_lengths
 from .audio_songs import Piece, clock, held_out_songs, tracks
 from .dance_sample import BodyDance, BodySample
 from .evaluator import Evaluator
-from .metrics_rhythm import beats_of_phase, strangers
-from .metrics_seams import REACH
 from .text_context import untrained
 
 Progress = Callable[[str], None]

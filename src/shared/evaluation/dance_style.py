@@ -13,17 +13,16 @@ from functools import cache
 import numpy as np
 from scipy.spatial.distance import cdist, pdist
 
+from ..metrics.rhythm import body_beats, limb_beats, rhythm
 from ..motion.features import encode_features
 from ..motion.motion import Motion
 from ..motion.trajectory import to_motion
 from ..pipelines.body import Performer
 from .dance_context import DanceContext, held_still
-from .dance_rhythm import body_beats, limb_beats
 from .evaluator import Evaluator
 from .families import Column
 from .grids import Grid, GridRow
 from .intervals import bootstrap_mean
-from .metrics_rhythm import rhythm
 
 ASKED = (
     "a person dances", "a proud person dances", "an old man dances", "a tired person dances",

@@ -4,11 +4,11 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ..metrics.rhythm import body_beats, limb_beats
 from ..motion.motion import Motion
 from .audio_alignment import Danced, alignment_rows
 from .audio_tables import alignment_grids
 from .dance_context import DanceContext
-from .dance_rhythm import body_beats, limb_beats
 from .dance_sample import BodyDance
 from .dance_seams import hard_cuts, seam_grid
 from .grids import Grid

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..metrics.rhythm import seen_from_pelvis
 from ..motion.motion import Motion
 from ..pipelines.edit import Given, kept_error
 from ..pipelines.postprocess import joined, moved_to, place_of
-from .dance_rhythm import seen_from_pelvis
 from .dance_seams import ACCELERATION, body_quantities
 
 NEAR = 6  # frames on either side of a border

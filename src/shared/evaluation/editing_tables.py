@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from ..metrics.physical import jerk_per_speed, support_slide
+from ..metrics.rhythm import seen_from_pelvis
 from ..model.diffusion.samplers import Sampling
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.motion import Motion
@@ -15,7 +17,6 @@ from ..pipelines.postprocess import frames_of
 from ..pipelines.stream import Passage
 from ..pipelines.timeline import Timeline, by_timeline
 from .dance_context import held_still
-from .dance_rhythm import seen_from_pelvis
 from .dance_style import embed, rank_of
 from .editing_context import ACTIONS, EditContext, drawn_paths, seeds
 from .editing_figures import (
@@ -29,8 +30,6 @@ from .evaluator import Evaluator
 from .families import Column
 from .grids import Grid, GridRow, plain
 from .intervals import bootstrap_mean
-from .metrics_contact import jerk_per_speed
-from .metrics_physical import support_slide
 
 TOP = 99  # percentile of real accelerations
 HALF = 75  # frames of each action of a transition

@@ -25,11 +25,11 @@ from torch import Tensor, nn
 from ..config_schema import Config
 from ..errors import UserError
 from ..files import atomic_write, load_json, sha256_file, write_json
+from ..metrics.retrieval import NUM_BUCKETS, caption_buckets
 from ..model.checkpoint import of_another_version
 from ..motion.features import encode_features
 from ..motion.motion import Motion
 from .joint_features import NUM_FEATURES, joint_features
-from .text_hashing import NUM_BUCKETS, bag
 
 PRETRAINED = Path(__file__).resolve().parents[1] / "pretrained"
 WEIGHTS = "model.safetensors"
@@ -94,6 +94,14 @@ class MotionEncoder(nn.Module):
         )
         steps, _ = self.gru(packed)
         return nn.utils.rnn.pad_packed_sequence(steps, batch_first=True, total_length=x.shape[1])[0]
+
+
+def bag(captions: Sequence[str], num_buckets: int = NUM_BUCKETS) -> tuple[Tensor, Tensor]:
+    """Indices [sum of lengths] and offsets [B], as `torch.nn.EmbeddingBag` takes them."""
+    rows = [caption_buckets(caption, num_buckets) for caption in captions]
+    lengths = torch.tensor([len(row) for row in rows])
+    indices = torch.tensor([bucket for row in rows for bucket in row], dtype=torch.long)
+    return indices, lengths.cumsum(0) - lengths
 
 
 class TextEncoder(nn.Module):

@@ -4,17 +4,17 @@ Letters: N motions, T frames.
 """
 
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from ..data.pairing.motion_beats import motion_beats
+from ..metrics.bands import MEASURES, UNITS
+from ..metrics.kinetic import Features, kinetic_columns, root_features, stacked
+from ..metrics.rhythm import against_chance, motion_beats, song_phase
+from ..metrics.sanity import SEVEN, SanityChecker
 from ..motion.trajectory import MotionTrajectory
-from ..validation.measures import MEASURES, UNITS
-from ..validation.sanity import SEVEN, SanityChecker
-from .audio_phase import song_phase
 from .families import Column, Dance, DanceSample, Value
-from .metrics_rhythm import against_chance
+from .families_motion import KINETIC_WARNING
 
 
 def beats_of(trajectory: MotionTrajectory) -> np.ndarray:
@@ -136,3 +136,43 @@ class TrajectorySanity:
         for column in self.columns[2:]:
             found[column.key] = np.array(sample.each(column.key, MEASURES[column.key]))
         return found
+
+
+def root_sample(sample: DanceSample) -> Features:
+    """`root_features` of each trajectory, computed once a trajectory, one after the other."""
+    return stacked(
+        [piece for each in sample.each("root features", root_features) for piece in each]
+    )
+
+
+@dataclass(frozen=True)
+class RootKinetics:
+    """The reduced variant for trajectories, under keys of its own."""
+
+    name: str = "kinetic and geometric features of the root"
+    distance: bool = True
+    columns: tuple[Column, ...] = (
+        Column("fid_k_root", "FID_k, root, 5-d", 2, "low"),
+        Column("fid_g_root", "FID_g, root, 12-d", 2, "low"),
+        Column("div_k_root", "Div_k, root", 2),
+        Column("div_g_root", "Div_g, root", 2),
+        Column("amount_root", "motion amount, m/s", 3),
+    )
+    definition: str = (
+        "A reduced variant of our own of FID_k and FID_g, for a pelvis without limbs. *k*: its "
+        "mean squared horizontal and vertical speed, mean acceleration, mean squared turning and "
+        "tilting. *g*: the share of frames in which it is low, high, rising, sinking, fast, moving "
+        "to each side, turning left or right, leaning. Each 4 s of a motion count as one, since "
+        "a mean over a longer motion varies less. " + KINETIC_WARNING
+    )
+
+    def compute(
+        self, sample: DanceSample, reference: DanceSample, *, seed: int
+    ) -> dict[str, float]:
+        """Nothing for fewer than two motions on either side; no random choice."""
+        if min(len(sample), len(reference)) < 2:
+            return {}
+        whole = root_sample(reference.whole or reference)
+        real = root_sample(reference)
+        found = kinetic_columns(root_sample(sample), real, kinds=5, units_of=whole)
+        return {f"{name}_root": value for name, value in found.items()}

@@ -7,13 +7,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from ..metrics.physical import contact, jerk_per_speed, physics
+from ..metrics.rhythm import against_chance, body_beats, landings, limb_beats, seen_from_pelvis
 from ..pipelines.body import root_error
-from .dance_rhythm import body_beats, landings, limb_beats, seen_from_pelvis
 from .dance_sample import BodyDance, BodySample
 from .families import Column, Value
-from .metrics_contact import contact, jerk_per_speed
-from .metrics_physical import physics
-from .metrics_rhythm import against_chance
 
 MOMENTS = {
     "": lambda dance: body_beats(dance.motion),

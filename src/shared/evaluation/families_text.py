@@ -8,14 +8,13 @@ from dataclasses import asdict, fields
 
 import numpy as np
 
+from ..metrics.frechet import JointFrechet, diversity, frechet_distance, group_frechet
+from ..metrics.physical import Physics, physics
+from ..metrics.retrieval import BATCH, Retrieval, guo_retrieval
+from ..metrics.travel import travel, travel_error
 from .controllability import check
 from .families import Column, MotionSample, Value
 from .measurements import measure
-from .metrics_frechet import JointFrechet, frechet_distance, group_frechet
-from .metrics_physical import Physics, physics
-from .metrics_retrieval import BATCH, Retrieval, guo_retrieval
-from .metrics_spread import diversity
-from .metrics_travel import travel, travel_error
 
 JOINT_AXES = 16
 MIN_SAMPLE = 2  # motions that have a covariance

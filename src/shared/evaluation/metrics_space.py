@@ -9,8 +9,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from ..metrics.retrieval import Ranks, best_ranks
 from .intervals import Estimate
-from .metrics_retrieval import Ranks, best_ranks
 
 TOP = (1, 5, 10)
 RESAMPLES = 500

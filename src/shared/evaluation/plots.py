@@ -12,8 +12,8 @@ import numpy as np
 
 from ..errors import UserError
 from ..files import atomic_write, parse_json
+from ..metrics.sanity import SanityThresholds
 from ..motion.trajectory import MotionTrajectory
-from ..validation.sanity import SanityThresholds
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -20,7 +20,9 @@ from .dance_tables import alignment_tables as dance_alignment
 from .dance_tables import seam_tables as dance_seams
 from .engine import RowKind
 from .families import DanceSample, MetricFamily, MotionSample
-from .families_audio import BarPhase, BeatAlignment, TrajectorySanity
+from .families_audio import BarPhase, BeatAlignment, RootKinetics, TrajectorySanity
+from .families_motion import FAMILIES as TMR
+from .families_motion import BodyKinetics, ContactFamily, Multimodality
 from .families_performer import FAMILIES as PERFORMER
 from .families_text import (
     Frechet,
@@ -30,10 +32,6 @@ from .families_text import (
     TravelErrors,
 )
 from .grids import Grid
-from .metrics_contact import ContactFamily
-from .metrics_kinetic import BodyKinetics, RootKinetics
-from .metrics_spread import Multimodality
-from .metrics_tmr import FAMILIES as TMR
 from .text_context import Split, TextContext
 from .text_tables import controllability, languages
 

@@ -15,6 +15,8 @@ import numpy as np
 
 from ..data.captions.requests import COMPOSITIONS, FREE, OUTSIDE, Request, drawn, load_requests
 from ..data.prepared import PreparedData
+from ..metrics.frechet import frechet_distance
+from ..metrics.kinetic import FeatureSpace
 from ..motion.features import decode_features, encode_features
 from ..motion.motion import Motion
 from .action_judge import ActionJudge
@@ -22,8 +24,6 @@ from .clips import frozen, spread_over_groups
 from .families import Column
 from .grids import Cell, Grid, GridRow, report_data
 from .intervals import bootstrap_mean, success_rate
-from .metrics_frechet import frechet_distance
-from .metrics_kinetic import FeatureSpace
 from .text_context import errors_only
 from .yardstick import (
     MIN_FRAMES,

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
-from ..validation.sanity import SEVEN
+from ..metrics.sanity import SEVEN
 from .report import Table, number
 
 NOTES = {

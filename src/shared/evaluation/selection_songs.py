@@ -14,17 +14,20 @@ from typing import Any
 
 import numpy as np
 
-from ..data.pairing.motion_beats import motion_beats
 from ..errors import UserError
+from ..metrics.bands import Bands
+from ..metrics.kinetic import (
+    Features,
+    kinetic_columns,
+    root_geometric_features,
+    root_kinetic_features,
+)
+from ..metrics.rhythm import against_chance, motion_beats, rhythm
 from ..motion.trajectory import FPS, MotionTrajectory
 from ..pipelines.ranking import AudioJudge
 from ..pipelines.song import AudioCondition, SongGenerator
 from ..pipelines.song_sampler import SongSampling
-from ..validation.bands import Bands
 from .audio_songs import Piece, held_out_songs, open_split, phrases
-from .kinetic_features import root_geometric_features, root_kinetic_features
-from .metrics_kinetic import Features, kinetic_columns
-from .metrics_rhythm import against_chance, rhythm
 from .selection_harness import Figure, Pool, report_of
 
 KINDS = 5  # kinetic features of a pelvis, each of a unit of its own

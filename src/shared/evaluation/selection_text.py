@@ -16,6 +16,9 @@ from typing import Any
 import numpy as np
 
 from ..errors import UserError
+from ..metrics.physical import physics
+from ..metrics.retrieval import BATCH, TOP, best_ranks, pair_distances
+from ..metrics.travel import travel, travel_error
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.motion import Motion
 from ..pipelines.ranking import TextJudge, load_tower, own_tower
@@ -24,9 +27,6 @@ from .clips import Clips, real_clips
 from .controllability import check
 from .evaluator import Evaluator
 from .held_out import open_held_out
-from .metrics_physical import physics
-from .metrics_retrieval import BATCH, TOP, best_ranks, pair_distances
-from .metrics_travel import travel, travel_error
 from .selection_harness import Chosen, Figure, Pool, report_of
 
 BATCHINGS = 20  # random batches of 32 that each prompt's R-precision is the mean of

@@ -13,13 +13,13 @@ import torch
 from torch import Tensor
 
 from ..data.phrases.dataset import MotionPhraseDataset
+from ..metrics.retrieval import BATCH
 from ..model.audio.audio_tower import AudioTower
 from ..model.audio.shared_space import MotionTower, SharedSpace
 from ..model.clip.core import TextTower
 from ..model.clip.tokenizer import PromptTokenizer
 from .families import Column
 from .grids import Grid, GridRow, report_data
-from .metrics_retrieval import BATCH
 from .metrics_space import TOP
 from .space_neighbours import Neighbours
 from .space_retrieval import Bench

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from torch import Tensor
 
+from ..metrics.retrieval import BATCH
 from .intervals import Estimate
-from .metrics_retrieval import BATCH
 from .metrics_space import ranks, retrieval_figures
 from .space_windows import Windows, related
 

@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 
+from ..metrics.retrieval import normalised_score
 from .families import Column
 from .grids import Grid, GridRow, plain
-from .metrics_retrieval import normalised_score
 
 RATIOS = ("contact_slide", "support_slide", "jerk", "hand_jerk", "speed", "diversity")
 

@@ -7,13 +7,13 @@ import numpy as np
 
 from ..data.captions.book import CaptionBook
 from ..errors import UserError
+from ..metrics.retrieval import BATCH, normalised_score
 from .clips import Sampler
 from .control_table import FLOORS, control_table
 from .families import Column
 from .families_text import r_precision
 from .grids import Cell, Grid, GridRow, plain
 from .intervals import bootstrap_mean
-from .metrics_retrieval import BATCH, normalised_score
 from .parts import Part
 from .text_context import UNTRAINED, TextContext
 

@@ -13,6 +13,8 @@ import numpy as np
 from ..data.captions.requests import Request
 from ..data.prepared import ClipRecord, PreparedData
 from ..errors import UserError
+from ..metrics.kinetic import FeatureSpace, kinetic_features
+from ..metrics.physical import support_slide
 from ..motion.features import decode_features
 from ..motion.motion import Motion
 from ..motion.skeleton import JOINT_INDEX
@@ -20,9 +22,6 @@ from .action_judge import ActionJudge, descriptor
 from .clips import spread_over_groups
 from .controllability import check
 from .intervals import Estimate, bootstrap_mean
-from .kinetic_features import kinetic_features
-from .metrics_kinetic import FeatureSpace
-from .metrics_physical import support_slide
 from .text_context import LANGUAGES
 
 Progress = Callable[[str], None]

@@ -71,7 +71,7 @@ def _average(values: np.ndarray, seconds: float) -> np.ndarray:
 
 
 def _beats(position: np.ndarray) -> np.ndarray:
-    from ..data.pairing.motion_beats import motion_beats
+    from ..metrics.rhythm import motion_beats
 
     return motion_beats(position, FPS).times * FPS
 

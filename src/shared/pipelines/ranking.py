@@ -10,7 +10,7 @@ more (greedy maximal marginal relevance, Carbonell and Goldstein 1998). The term
   the motion tower that the generator's text tower was trained with; without one it is left out.
 - feet: mean of two margins, of the feet's slide in contact and of their depth below the floor.
 - smoothness: margin of the mean jerk of all joints.
-- sanity: mean margin of the suite's checks of a path (`src.shared.validation.margins`).
+- sanity: mean margin of the suite's checks of a path (`src.shared.metrics.sanity`).
 - beats: mean of both directions of beat alignment; left out where the song has no known beat.
 
 A margin is 1 for whatever real motion does (up to the 95th percentile of 300 mocap and synthetic
@@ -31,13 +31,11 @@ from pydantic import Field
 from torch import Tensor
 
 from ..config_schema import Config
-from ..data.pairing.motion_beats import (
-    Alignment,
-    alignment,
-    chance_alignment,
-    motion_beats,
-)
 from ..errors import UserError
+from ..metrics.bands import Bands
+from ..metrics.physical import contact_slide, mean_jerk, penetration
+from ..metrics.rhythm import Alignment, alignment, chance_alignment, motion_beats
+from ..metrics.sanity import SanityChecker, mean_margin, share
 from ..model.audio import shared_space
 from ..model.audio.shared_space import MotionTower, SharedSpace
 from ..model.checkpoint import read_card
@@ -48,10 +46,6 @@ from ..model.zoo import list_models, resolve_model
 from ..motion.features import encode_features
 from ..motion.motion import Motion
 from ..motion.trajectory import MotionTrajectory
-from ..validation.bands import Bands
-from ..validation.body_measures import contact_slide, mean_jerk, penetration
-from ..validation.margins import mean_margin, share
-from ..validation.sanity import SanityChecker
 from .body import Performance
 
 FAILURE = 2.0  # what each failed check costs

@@ -16,6 +16,7 @@ from torch import Tensor
 from ..audio.song import Song, analyse
 from ..data.phrases.layout import phase_rows
 from ..device import choose_device
+from ..metrics.bands import Bands
 from ..model.audio.audio_motion_model import AudioMotionModel
 from ..model.audio.conditioning import BEAT, CONDITION_ROWS, FEATURE_ROWS
 from ..model.generation.motion_generator import TextToMotion
@@ -23,7 +24,6 @@ from ..model.zoo import resolve_model
 from ..motion.style import named_style, only_style_words
 from ..motion.trajectory import FPS, MotionTrajectory, unwrap_phase
 from ..motion.trajectory_postprocess import MotionPostProcessor
-from ..validation.bands import Bands
 from .ranking import AudioJudge, ScoreTable, unranked
 from .runtime import Runtime, load_runtime
 from .song_memory import SongMemory, require_memory

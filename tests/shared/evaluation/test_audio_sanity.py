@@ -20,9 +20,8 @@ from src.shared.evaluation.audio_sanity import (
 from src.shared.evaluation.audio_songs import open_split
 from src.shared.evaluation.report import as_markdown, heading
 from src.shared.evaluation.sanity_report import sanity_tables
-from src.shared.validation.bands import Band, Bands
-from src.shared.validation.report import sanity_row
-from src.shared.validation.sanity import SanityChecker
+from src.shared.metrics.bands import Band, Bands
+from src.shared.metrics.sanity import SanityChecker, sanity_row
 from tests.shared.evaluation.tiny_pairs import nod, tiny_model, write_pairs
 
 SETTINGS = SanitySettings(num_samples=6, num_frames=64, num_steps=2)

@@ -15,7 +15,7 @@ from src.shared.evaluation.audio_songs import (
     phrases,
     tracks,
 )
-from src.shared.evaluation.metrics_rhythm import phase_error
+from src.shared.metrics.rhythm import phase_error
 from src.shared.motion.trajectory import PHASE
 from tests.shared.evaluation.tiny_pairs import write_pairs
 

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from src.shared.evaluation.dance_context import held_still, near_seams
-from src.shared.evaluation.dance_rhythm import body_beats, landings, limb_beats, seen_from_pelvis
 from src.shared.evaluation.dance_sample import BodyDance, BodySample
 from src.shared.evaluation.dance_seams import (
     ACCELERATION,
@@ -17,7 +16,7 @@ from src.shared.evaluation.dance_seams import (
 )
 from src.shared.evaluation.dance_style import Danced, effect, rank_of
 from src.shared.evaluation.families_performer import BodyRhythm, Feet, OnThePath
-from src.shared.evaluation.metrics_rhythm import strangers
+from src.shared.metrics.rhythm import body_beats, landings, limb_beats, seen_from_pelvis, strangers
 from src.shared.motion.motion import Motion
 from src.shared.motion.trajectory import MotionTrajectory, to_motion
 from src.shared.pipelines.body import start_of

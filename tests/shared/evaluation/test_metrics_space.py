@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.evaluation.metrics_retrieval import Ranks
 from src.shared.evaluation.metrics_space import by_song, ranks, retrieval_figures
+from src.shared.metrics.retrieval import Ranks
 
 
 def unit(rng: np.random.Generator, *shape: int) -> np.ndarray:

@@ -11,10 +11,10 @@ from src.shared.data.synthetic.clips import spec_for
 from src.shared.evaluation.audio_songs import held_out_songs
 from src.shared.evaluation.clips import Clips
 from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig
-from src.shared.evaluation.metrics_retrieval import guo_retrieval
 from src.shared.evaluation.selection_harness import choices, measured, report_of
 from src.shared.evaluation.selection_songs import song_pool
 from src.shared.evaluation.selection_text import FIGURES, _retrieval, prompt_pool
+from src.shared.metrics.retrieval import guo_retrieval
 from src.shared.pipelines.ranking import AudioJudge
 from src.shared.pipelines.song import SongGenerator
 from src.shared.pipelines.song_sampler import SongSampling

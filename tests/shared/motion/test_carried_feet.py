@@ -3,7 +3,7 @@
 import numpy as np
 
 from src.shared.evaluation.dance_seams import ACCELERATION, JERK, body_quantities
-from src.shared.evaluation.metrics_contact import support_speed
+from src.shared.metrics.physical import support_speed
 from src.shared.motion.carried_feet import hold_carried_feet
 from src.shared.motion.foot_lock import lock_feet
 from src.shared.motion.motion import Motion

@@ -12,6 +12,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from ...metrics.rhythm import MotionBeats, motion_beats
 from ...motion.features import FORWARD, HEIGHT, LATERAL, ROOT_ROW, YAW_RATE, integrate_root
 from ...motion.rotations import (
     quaternion_conjugate,
@@ -23,7 +24,6 @@ from ...motion.rotations import (
 )
 from ..prepared import SYNTHETIC, ClipRecord, PreparedData
 from ..splits import assign_alike
-from .motion_beats import MotionBeats, motion_beats
 
 FPS = 30.0
 MARGIN = 6  # frames that stay free around a cut, half a seam

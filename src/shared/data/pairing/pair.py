@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...metrics.rhythm import Alignment, alignment, beat_alignment, chance_alignment, motion_beats
 from ..prepared import SYNTHETIC
 from .clip_library import FPS, Clip, Kind
-from .motion_beats import Alignment, alignment, beat_alignment, chance_alignment, motion_beats
 from .phrase_motion import SPARE, PhraseMotion, assemble
 from .time_warp import LIMIT, MATCH_LIMIT, Warp, fit_warp, match_beats, plain_warp, resample
 

@@ -9,10 +9,10 @@ import numpy as np
 
 from ...array_files import load_array, load_arrays
 from ...files import inside, load_json, write_json
+from ...metrics.rhythm import motion_beats
 from ...motion.trajectory import MotionTrajectory
 from ...motion.window import encode_window
 from .clip_library import FPS, MARGIN, ClipLibrary
-from .motion_beats import motion_beats
 
 WINDOW_FRAMES = 120  # TECH §6.1's target length
 STD_FLOOR = 1e-4  # a row that does not vary is not blown up

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from src.shared.data.pairing.motion_beats import motion_beats
 from src.shared.data.pairing.phrase_motion import SEAM_FRAMES, Piece, assemble, join
+from src.shared.metrics.rhythm import motion_beats
 from tests.shared.data.pairing.walkers import walker
 
 

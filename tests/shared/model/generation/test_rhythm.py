@@ -6,7 +6,7 @@ import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.data.pairing.motion_beats import beat_alignment, motion_beats
+from src.shared.metrics.rhythm import beat_alignment, motion_beats
 from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.model.generation.rhythm import RhythmGuidance, beat_weight, smoothed

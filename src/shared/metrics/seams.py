@@ -10,13 +10,11 @@ Letters: T frames.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from ..motion.trajectory import MotionTrajectory
-from ..pipelines.song_sampler import SPARE, spans
 
 REACH = 3  # frames around a seam: differences look ahead, and known frames end with it
 POINTS = (50, 95)  # percentiles
@@ -30,15 +28,6 @@ class Seamed:
 
     trajectory: MotionTrajectory
     seam: np.ndarray
-
-
-def seam_frames(num_frames: int, window: int, overlap: int) -> np.ndarray:
-    """True [T] where two windows of a song share a frame, and just around."""
-    near = np.zeros(num_frames, dtype=bool)
-    found = spans(num_frames, window - SPARE, overlap)
-    for (_, end), (start, _) in pairwise(found):
-        near[max(0, start - REACH) : end + REACH] = True
-    return near
 
 
 def quantities(trajectory: MotionTrajectory) -> dict[str, np.ndarray]:

@@ -5,10 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from src.shared.metrics.bands import Band, Bands
+from src.shared.metrics.sanity import CheckResult, SanityChecker, margin, mean_margin, share
 from src.shared.motion.trajectory import MotionTrajectory
-from src.shared.validation.bands import Band, Bands
-from src.shared.validation.margins import margin, mean_margin, share
-from src.shared.validation.sanity import CheckResult, SanityChecker
 
 
 def band_check(value: float) -> CheckResult:

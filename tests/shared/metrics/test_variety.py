@@ -7,7 +7,8 @@ import pytest
 
 from src.shared.evaluation.clips import Clips
 from src.shared.evaluation.families import MotionSample
-from src.shared.evaluation.metrics_spread import Multimodality, multimodality, within_prompts
+from src.shared.evaluation.families_motion import Multimodality
+from src.shared.metrics.frechet import multimodality, within_prompts
 from src.shared.motion.motion import Motion
 
 STANDING = Motion(np.eye(4)[np.zeros((2, 22), int)], np.zeros((2, 3)), np.zeros((2, 2)))

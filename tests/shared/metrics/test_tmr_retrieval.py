@@ -12,10 +12,10 @@ from torchmetrics.functional.retrieval import retrieval_reciprocal_rank as recip
 
 from src.shared.evaluation.clips import Clips
 from src.shared.evaluation.families import MotionSample
-from src.shared.evaluation.metrics_retrieval import best_ranks
-from src.shared.evaluation.metrics_tmr import (
-    FAMILIES,
-    TOP,
+from src.shared.evaluation.families_motion import FAMILIES
+from src.shared.metrics.retrieval import (
+    RECALL_AT,
+    best_ranks,
     cosines,
     dissimilar_subset,
     recall_in_pools,
@@ -47,7 +47,9 @@ def test_recall_is_torchmetrics_hit_rate_both_ways() -> None:
     )
     for ours, table in ((found.text_to_motion, similarity), (found.motion_to_text, similarity.T)):
         rows = list(zip(table, torch.as_tensor(relevant), strict=True))
-        hits = [np.mean([float(retrieval_hit_rate(s, r, top_k=k)) for s, r in rows]) for k in TOP]
+        hits = [
+            np.mean([float(retrieval_hit_rate(s, r, top_k=k)) for s, r in rows]) for k in RECALL_AT
+        ]
         assert ours.recall == pytest.approx(hits)
         ranks = [1 / float(reciprocal(s, r)) for s, r in rows]
         assert ours.median_rank == pytest.approx(np.median(ranks))
@@ -59,7 +61,7 @@ def test_perfect_embeddings_find_everything_and_one_point_scores_what_guessing_d
     assert perfect.text_to_motion.recall == perfect.motion_to_text.recall == (1.0,) * 5
     assert perfect.text_to_motion.median_rank == 1 and perfect.num_pairs == 60
     point = recall_of_all(np.ones((60, 4)), np.full((60, 4), 0.3))
-    assert point.text_to_motion.recall == pytest.approx([k / 60 for k in TOP])
+    assert point.text_to_motion.recall == pytest.approx([k / 60 for k in RECALL_AT])
     assert point.motion_to_text.median_rank == pytest.approx(30.5)
 
 

@@ -1,23 +1,184 @@
-"""Retrieval as TMR measures it: four protocols, both directions, R@1 to 10 and the median rank.
+"""Retrieval between texts and motions: R-precision as Guo measures it, recall as TMR does.
 
-Petrovich et al. 2023, "TMR", §4.1: (a) all pairs; (b) all pairs, where a text that says nearly the
-same also counts; (c) a subset of texts far from each other; (d) batches of 32. Similarity is the
-cosine. Equal similarities are averaged over all their orders, exactly: embeddings that all fall on
-one point score what guessing does, not 0 and not 1.
+Guo et al. 2022: R-precision and matching distance in batches of 32, by Euclidean distance.
+Petrovich et al. 2023, "TMR", §4.1, both directions, by cosine: (a) all pairs; (b) all pairs, where
+a text that says nearly the same also counts; (c) a subset of texts far from each other; (d) batches
+of 32. Equal distances are averaged over all their orders, exactly: embeddings that all fall on one
+point score what guessing does, not 0 and not 1.
 
-Letters: N pairs, D embedding channels, E channels of the text similarity.
+Letters: N pairs, D embedding channels, M pairs in one batch, Q queries.
 """
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+import re
+import unicodedata
+import zlib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
+from scipy.special import gammaln
 
-from .families import Column, MotionSample
-from .metrics_retrieval import BATCH, best_ranks
-from .text_hashing import caption_buckets
+BATCH = 32
+TOP = (1, 2, 3)
 
-TOP = (1, 2, 3, 5, 10)
+
+@dataclass(frozen=True)
+class Retrieval:
+    """R-precision at 1, 2, 3 (fractions) and the mean distance of matching pairs.
+
+    Attributes:
+        hits: chance of a right answer at 1, 2, 3 [3, Q], text by text in any order.
+    """
+
+    r_precision: tuple[float, float, float]
+    matching_distance: float
+    num_batches: int
+    hits: np.ndarray = field(compare=False, repr=False)
+
+
+@dataclass(frozen=True, eq=False)
+class Ranks:
+    """Where the best right answer of each of Q queries stands, equal distances in any order.
+
+    Attributes:
+        better: candidates nearer than it [Q].
+        right: right answers at exactly its distance, itself included [Q]; 0 = there is none at all.
+        wrong: wrong answers at exactly its distance [Q].
+    """
+
+    better: np.ndarray
+    right: np.ndarray
+    wrong: np.ndarray
+
+    def hits(self, k: int) -> np.ndarray:
+        """Chance [Q] of a right answer among the k nearest: hypergeometric over the ties."""
+        places = k - self.better
+        misses = np.clip(places, 0, self.wrong)  # places that wrong answers may fill
+        log_miss = (
+            gammaln(self.wrong + 1)
+            - gammaln(self.wrong - misses + 1)
+            - gammaln(self.wrong + self.right + 1)
+            + gammaln(self.wrong + self.right - misses + 1)
+        )
+        none = (places <= 0) | (self.right == 0)
+        return np.where(none, 0.0, np.where(places > self.wrong, 1.0, -np.expm1(log_miss)))
+
+    def mean(self) -> np.ndarray:
+        """Mean rank [Q] of the best right answer over all orders of the ties; 1 is the first."""
+        return self.better + 1 + self.wrong / (self.right + 1)
+
+
+def best_ranks(distances: np.ndarray, relevant: np.ndarray) -> Ranks:
+    """Rank the best right answer of each query.
+
+    Args:
+        distances: [Q, M] of each query to each candidate; infinity takes one out of the list.
+        relevant: [Q, M] bool, the candidates that count as right; a query without any never hits.
+    """
+    best = np.where(relevant, distances, np.inf).min(1, keepdims=True)
+    tied = distances == best
+    return Ranks((distances < best).sum(1), (tied & relevant).sum(1), (tied & ~relevant).sum(1))
+
+
+def hit_probability(distances: np.ndarray, relevant: np.ndarray, k: int) -> float:
+    """Chance that one of the relevant items [M] is among the k nearest of distances [M]."""
+    return float(best_ranks(distances[None], relevant[None]).hits(k)[0])
+
+
+def pair_distances(text: np.ndarray, motion: np.ndarray) -> np.ndarray:
+    """Euclidean distances [M, M] of texts [M, D] (rows) to motions [M, D] (columns)."""
+    difference = text[:, None].astype(np.float64) - motion[None].astype(np.float64)
+    return np.sqrt((difference**2).sum(-1))
+
+
+def guo_retrieval(
+    text: np.ndarray,
+    motion: np.ndarray,
+    equal_by: Sequence[Sequence[object]],
+    *,
+    batch: int = BATCH,
+    seed: int = 0,
+) -> Retrieval:
+    """R-precision in random batches of 32: each text ranks the motions of its batch.
+
+    A motion also counts as right when it shares the text's value in one of the columns of
+    `equal_by` (label group, caption), because that caption fits it just as well. Several right
+    answers in a batch make guessing easier; the chance row is computed by the same rule. The last,
+    incomplete batch is left out, as in the protocol.
+
+    Args:
+        text, motion: [N, D], row i belongs together.
+        equal_by: columns of N values each; none: only row i is right for text i.
+
+    Raises:
+        ValueError: fewer pairs than one batch, shapes that differ, or values that are not finite.
+    """
+    if text.shape != motion.shape or any(len(column) != len(text) for column in equal_by):
+        sizes = [len(column) for column in equal_by]
+        raise ValueError(
+            f"texts {text.shape}, motions {motion.shape} and labels {sizes} must be aligned"
+        )
+    if len(text) < batch:
+        raise ValueError(f"{len(text)} pairs are fewer than one batch of {batch}: add samples")
+    if not (np.isfinite(text).all() and np.isfinite(motion).all()):
+        raise ValueError("embeddings hold NaN or infinity: look at the motions they came from")
+    columns = [np.unique([str(v) for v in c], return_inverse=True)[1] for c in equal_by]
+    columns.append(np.arange(len(text)))
+    order = np.random.default_rng(seed).permutation(len(text))
+    num_batches = len(text) // batch
+    hits: list[list[np.ndarray]] = []
+    matching = 0.0
+    for rows in order[: num_batches * batch].reshape(num_batches, batch):
+        distances = pair_distances(text[rows], motion[rows])
+        relevant = np.any([ids[rows][:, None] == ids[rows][None] for ids in columns], axis=0)
+        ranks = best_ranks(distances, relevant)
+        hits.append([ranks.hits(k) for k in TOP])
+        matching += float(np.diag(distances).sum())
+    found = np.concatenate(hits, axis=1)
+    at_1, at_2, at_3 = found.mean(1).tolist()
+    return Retrieval((at_1, at_2, at_3), matching / found.shape[1], num_batches, found)
+
+
+def normalised_score(generated: float, chance: float, real: float) -> float:
+    """(generated - chance) / (real - chance): 0 at chance, 1 at real motion; NaN without a gap."""
+    gap = real - chance
+    return (generated - chance) / gap if gap > 1e-9 else float("nan")
+
+
+# ---------------------------------------------------------------- texts as bags of n-grams
+
+
+NUM_BUCKETS = 8192
+STEM = 4  # characters of a word beginning
+_WORD = re.compile(r"[^\W_]+")
+_CJK = re.compile(r"[\u3040-\u30ff\u3400-\u9fff\uf900-\ufaff]+")
+
+
+def _n_grams(text: str) -> Iterator[str]:
+    plain = unicodedata.normalize("NFKC", text).lower()
+    for run in _CJK.findall(plain):
+        for size in (1, 2, 3):
+            yield from (f"c{run[i : i + size]}" for i in range(len(run) - size + 1))
+    words = _WORD.findall(_CJK.sub(" ", plain))
+    yield from (f"w{word}" for word in words)
+    yield from (f"s{word[:STEM]}" for word in words if len(word) > STEM)
+    yield from (f"p{a} {b}" for a, b in pairwise(words))
+
+
+def caption_buckets(text: str, num_buckets: int = NUM_BUCKETS) -> list[int]:
+    """Buckets of a caption's n-grams, the same on every machine; bucket 0 when it has none.
+
+    Words and word pairs for languages with spaces, runs of one to three characters for Japanese and
+    Chinese, and word beginnings, which join the inflected forms of one stem.
+    """
+    return [zlib.crc32(piece.encode()) % num_buckets for piece in _n_grams(text)] or [0]
+
+
+# ---------------------------------------------------------------- TMR's protocols
+
+
+RECALL_AT = (1, 2, 3, 5, 10)
 THRESHOLD = 0.95  # of (1 + cosine) / 2 of two texts, as in TMR
 POOL = 256  # candidates of protocols (a) and (b) in the tables, whose rows differ in N
 SUBSET = 100  # pairs of the dissimilar subset
@@ -146,7 +307,9 @@ def recalls(similarity: np.ndarray, relevant: np.ndarray | None = None) -> BothW
 
 def _recall(distances: np.ndarray, relevant: np.ndarray) -> Recall:
     ranks = best_ranks(distances, relevant)
-    return Recall(tuple(float(ranks.hits(k).mean()) for k in TOP), float(np.median(ranks.mean())))
+    return Recall(
+        tuple(float(ranks.hits(k).mean()) for k in RECALL_AT), float(np.median(ranks.mean()))
+    )
 
 
 def recall_of_all(text: np.ndarray, motion: np.ndarray) -> BothWays:
@@ -215,79 +378,3 @@ def recall_in_pools(
 def _mean(found: Sequence[Recall]) -> Recall:
     table = np.array([one.recall for one in found]).mean(0)
     return Recall(tuple(table.tolist()), float(np.mean([one.median_rank for one in found])))
-
-
-# ---------------------------------------------------------------- in the tables
-
-_SAYS = {
-    "all": f"protocol (a): only the own pair is right. In random pools of {POOL} instead of the "
-    "whole sample, because recall falls with the number of candidates and rows differ in it. "
-    "Captions that repeat cap it below 1, for real motion too",
-    "threshold": f"protocol (b): texts with (1 + cosine) / 2 > {THRESHOLD} of their word n-grams, "
-    "or of one label group, count as right. Pools as in (a); chance is higher here",
-    "dissimilar": f"protocol (c): among {SUBSET} texts far from each other, only the own pair; "
-    "fewer where the captions say fewer things (*candidates*). Which of equals it takes is drawn "
-    "anew in each replication",
-    "batches": f"protocol (d): random batches of {BATCH}, only the own pair is right",
-}
-
-
-@dataclass(frozen=True)
-class TmrFamily:
-    """One of the four protocols as a table."""
-
-    protocol: str
-    distance: bool = False
-
-    @property
-    def name(self) -> str:
-        return f"retrieval: {self.protocol}"
-
-    @property
-    def columns(self) -> tuple[Column, ...]:
-        found = []
-        for way, arrow in (("t2m", "text→motion"), ("m2t", "motion→text")):
-            key = f"tmr_{self.protocol}_{way}"
-            found += [Column(f"{key}_r{k}", f"{arrow} R@{k}", 3, "high") for k in TOP]
-            found.append(Column(f"{key}_medr", f"{arrow} MedR", 1, "low"))
-        found.append(Column(f"tmr_{self.protocol}_pairs", "candidates", 0))
-        return tuple(found)
-
-    @property
-    def definition(self) -> str:
-        return (
-            f"TMR (Petrovich et al. 2023), {_SAYS[self.protocol]}. Cosine similarity; R@k is the "
-            "share of queries with a right answer among the first k, MedR the median rank from 1; "
-            "ties are averaged over all orders. The judge is ours, so no published figure may "
-            "stand beside it. It says whether a motion fits its text better than other texts, not "
-            "whether it looks right."
-        )
-
-    def compute(
-        self, sample: MotionSample, reference: MotionSample, *, seed: int
-    ) -> dict[str, float]:
-        """R@k and MedR of the sample; nothing where it is smaller than a batch of protocol (d)."""
-        if self.protocol == "batches" and len(sample) < BATCH:
-            return {}
-
-        def alike() -> np.ndarray:
-            clips = sample.clips
-            return sample.memo.once(
-                "text similarity", lambda: text_similarity(clips.captions, clips.groups)
-            )
-
-        text, motion, pool = sample.text, sample.motion, min(POOL, len(sample))
-        protocols: dict[str, Callable[[], BothWays]] = {
-            "all": lambda: recall_in_pools(text, motion, pool, seed=seed),
-            "threshold": lambda: recall_in_pools(text, motion, pool, alike(), seed=seed),
-            "dissimilar": lambda: recall_of_dissimilar(text, motion, alike(), seed=seed),
-            "batches": lambda: recall_in_pools(text, motion, seed=seed),
-        }
-        found = protocols[self.protocol]()
-        ways = (found.text_to_motion, found.motion_to_text)
-        values = [value for way in ways for value in (*way.recall, way.median_rank)]
-        keys = [column.key for column in self.columns]
-        return dict(zip(keys, [*values, float(found.num_pairs)], strict=True))
-
-
-FAMILIES = tuple(TmrFamily(protocol) for protocol in PROTOCOLS)

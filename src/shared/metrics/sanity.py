@@ -12,16 +12,17 @@ one arm raised); roughness 2.2 to 19.5 1/s. White noise of 1 cm has a jerk of 2,
 roughness of 52 1/s. Two of the clips fail: a marker glitch turns the pelvis 67° in one frame.
 """
 
+import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from ..motion.trajectory import MotionTrajectory
-from . import checks
-from .bands import Bands
-from .measures import MEASURES, UNITS, mean_speed, roughness
+from .bands import CHECKS, MEASURES, UNITS, Bands, mean_speed, phase_range, roughness
 
-SEVEN = tuple(checks.CHECKS)  # names of the documents' checks; the others have names of their own
+SEVEN = tuple(CHECKS)  # names of the documents' checks; the others have names of their own
 
 
 @dataclass(frozen=True)
@@ -107,8 +108,8 @@ class SanityChecker:
 
     def _seven(self, trajectory: MotionTrajectory) -> list[CheckResult]:
         t = self.thresholds
-        values = {name: check(trajectory) for name, check in checks.CHECKS.items()}
-        low, high = checks.phase_range(trajectory)
+        values = {name: check(trajectory) for name, check in CHECKS.items()}
+        low, high = phase_range(trajectory)
         norm, step = values["quaternion"], values["phase_monotonic"]
         norms = (t.quaternion_norm_min, t.quaternion_norm_max)
         continuity = values["quaternion_continuity"]
@@ -200,3 +201,121 @@ def _text(value: float | tuple[float, float]) -> str:
     if isinstance(value, tuple):
         return f"{value[0]:.4g} to {value[1]:.4g}"
     return f"{value:.4g}"
+
+
+# ---------------------------------------------------------------- how far within its bounds
+
+
+# The margin of a failed check is 0. Of a passed one:
+# - a figure with a band of real motions: 1 inside the band (5th to 95th percentile), falling with
+#   the logarithm to 0 at the limits (the band with its slack);
+# - jerk and roughness: 1 up to the 95th percentile of real motions, falling likewise to 0 at the
+#   bound. They must not go on rising below, or the tamest motion is the best;
+# - a figure below a bound of which no band is known, or that is 0 by right: 1 - value / bound;
+# - anything else: 1.
+LIVELY = ("jerk", "roughness")
+BELOW = (*LIVELY, "velocity_coherence", "accel_coherence")
+
+
+def margin(result: CheckResult) -> float:
+    """How far within its bounds a check stays, in [0, 1]: rules above."""
+    if not result.passed:
+        return 0.0
+    value, bound = result.value, result.threshold
+    if result.name in BELOW:
+        assert not isinstance(value, tuple) and not isinstance(bound, tuple)
+        if result.band and result.name in LIVELY:
+            return share(value, bound, result.band[1])
+        return 1.0 - value / bound
+    if result.name.startswith("band_"):
+        assert not isinstance(value, tuple) and isinstance(bound, tuple) and result.band
+        side = 0 if value < result.band[0] else 1
+        return share(value, bound[side], result.band[side])
+    return 1.0
+
+
+def mean_margin(results: Iterable[CheckResult]) -> float:
+    """Mean margin of one motion's checks, at least one."""
+    margins = [margin(result) for result in results]
+    return sum(margins) / len(margins)
+
+
+def share(value: float, limit: float, edge: float) -> float:
+    """1 at the edge of what real motion has and on its far side, 0 at the limit and beyond.
+
+    Between them it falls with the logarithm. Limit and edge are above 0; any value will do.
+    """
+    if (value - edge) * (limit - edge) <= 0:
+        return 1.0
+    if (value - limit) * (limit - edge) >= 0:
+        return 0.0
+    return math.log(value / limit) / math.log(edge / limit)
+
+
+# ---------------------------------------------------------------- many motions
+
+
+def frozen(trajectory: MotionTrajectory) -> MotionTrajectory:
+    """The first pose held while the music goes on: a row that must fail."""
+    still = trajectory.data[:1]
+    columns = MotionTrajectory(still, trajectory.fps)
+    length = (trajectory.num_frames, 1)
+    return MotionTrajectory.from_pose(
+        np.tile(columns.position, length),
+        np.tile(columns.quaternion, length),
+        trajectory.phase_unwrapped,
+        trajectory.style,
+        fps=trajectory.fps,
+    )
+
+
+def sanity_row(
+    name: str, trajectories: Iterable[MotionTrajectory], checker: SanityChecker
+) -> dict[str, Any]:
+    """One group of motions through the suite, as plain values for JSON.
+
+    Returns:
+        name, motions, passed (whole suite), passed_seven, rate; checks: for each check its number
+        passed and the mean of its value, None where that is not finite; inside: for each of
+        `MEASURES` the share of motions between the 5th and 95th percentile of real ones, with
+        bands only; failures: for each failed motion its index and the names of what failed.
+    """
+    motions = list(trajectories)
+    outcomes = [checker.check_all(motion) for motion in motions]
+    checks = {
+        key: {
+            "passed": sum(results[key].passed for _, results in outcomes),
+            "mean": _finite_mean([results[key].value for _, results in outcomes]),
+        }
+        for key in (outcomes[0][1] if outcomes else {})
+    }
+    seven = sum(all(results[key].passed for key in SEVEN) for _, results in outcomes)
+    passed = sum(good for good, _ in outcomes)
+    return {
+        "name": name,
+        "motions": len(motions),
+        "passed": passed,
+        "passed_seven": seven,
+        "rate": passed / len(motions) if motions else None,
+        "checks": checks,
+        "inside": _inside(motions, checker),
+        "failures": [
+            {"index": index, "failed": [r.name for r in results.values() if not r.passed]}
+            for index, (good, results) in enumerate(outcomes)
+            if not good
+        ],
+    }
+
+
+def _finite_mean(values: Sequence[float | tuple[float, float]]) -> float | None:
+    mean = float(np.mean(values))
+    return mean if np.isfinite(mean) else None
+
+
+def _inside(motions: Sequence[MotionTrajectory], checker: SanityChecker) -> dict[str, float]:
+    if checker.bands is None or not motions:
+        return {}
+    rows = [checker.bands.inside(motion) for motion in motions]
+    return {
+        name: float(np.mean([row[name] for row in rows])) for name in MEASURES if name in rows[0]
+    }

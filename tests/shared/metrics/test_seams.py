@@ -4,14 +4,8 @@ import numpy as np
 import pytest
 from scipy.stats import ks_2samp
 
-from src.shared.evaluation.metrics_seams import (
-    Pooled,
-    Seamed,
-    compare,
-    jumps,
-    seam_frames,
-    seam_report,
-)
+from src.shared.evaluation.audio_tables import seam_frames
+from src.shared.metrics.seams import Pooled, Seamed, compare, jumps, seam_report
 from src.shared.motion.trajectory import PHASE, QUATERNION, MotionTrajectory
 
 T, WINDOW, OVERLAP = 480, 240, 30

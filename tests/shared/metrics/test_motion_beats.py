@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from src.shared.data.pairing.motion_beats import (
+from src.shared.metrics.rhythm import (
     alignment,
     beat_alignment,
     chance_alignment,

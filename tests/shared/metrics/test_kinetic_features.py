@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from src.shared.evaluation.kinetic_features import (
+from src.shared.metrics.kinetic import (
     HIPS,
     ROOT_RELATIONS,
     SHOULDERS,

@@ -9,17 +9,17 @@ from hypothesis import strategies as st
 
 from src.shared.evaluation.clips import Clips
 from src.shared.evaluation.families import MotionSample
-from src.shared.evaluation.metrics_contact import (
+from src.shared.evaluation.families_motion import ContactFamily
+from src.shared.metrics.physical import (
     Contact,
-    ContactFamily,
     contact,
     jerk_per_speed,
     pfc,
     slide_per_metre,
+    support_slide,
     support_speed,
     unsupported,
 )
-from src.shared.evaluation.metrics_physical import support_slide
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import REST_PELVIS_HEIGHT
 

@@ -6,8 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.data.pairing.motion_beats import motion_beats
-from src.shared.evaluation.metrics_rhythm import (
+from src.shared.metrics.rhythm import (
     COLUMNS,
     Rhythm,
     against_chance,
@@ -16,6 +15,7 @@ from src.shared.evaluation.metrics_rhythm import (
     half_beat_later,
     hit_f_measure,
     mean_rhythm,
+    motion_beats,
     phase_error,
     rhythm,
     turned_round,

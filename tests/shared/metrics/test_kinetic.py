@@ -10,13 +10,13 @@ from torchmetrics.image.fid import FrechetInceptionDistance
 
 from src.shared.evaluation.clips import Clips
 from src.shared.evaluation.families import Dance, DanceSample, MotionSample
-from src.shared.evaluation.metrics_frechet import Projection, frechet_distance
-from src.shared.evaluation.metrics_kinetic import (
+from src.shared.evaluation.families_audio import RootKinetics
+from src.shared.evaluation.families_motion import BodyKinetics
+from src.shared.metrics.frechet import Projection, frechet_distance
+from src.shared.metrics.kinetic import (
     AXES,
-    BodyKinetics,
     Features,
     FeatureSpace,
-    RootKinetics,
     amount,
     kinetic_columns,
     mean_pairwise,

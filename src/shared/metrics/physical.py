@@ -1,20 +1,92 @@
-"""Feet and floor: sliding under claimed contacts, skating, sinking, floating; roughness; PFC.
+"""Physical plausibility of one body's motion: sliding feet, the floor, jerk, EDGE's score.
 
-`metrics_physical.py` has the speeds; here are the shares of frames, what a slide is against the way
-travelled, and figures over which a frozen pose has no say (NaN instead of a perfect score).
+Needs no learned model. Each is the same computation for real and generated motion and means little
+without the real row; figures over which a frozen pose has no say are NaN instead of perfect.
 
 Letters: T frames, K joints.
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
+from ..motion.contacts import detect_contacts
 from ..motion.motion import Motion
-from ..motion.skeleton import FOOT_JOINTS, REST_FOOT_HEIGHT
-from ..validation.body_measures import BALLS, ground_speed, mean_jerk
-from .families import Column, MotionSample
-from .metrics_physical import SUPPORT_HEIGHT
+from ..motion.skeleton import FOOT_JOINTS, JOINT_INDEX, REST_FOOT_HEIGHT
+
+BALLS = [ball for _, ball in FOOT_JOINTS]
+
+
+def ground_speed(positions: np.ndarray, fps: float) -> np.ndarray:
+    """Horizontal speed [T - 1, ...] in m/s of positions [T, ..., 3]."""
+    return np.linalg.norm(np.diff(positions[..., [0, 2]], axis=0), axis=-1) * fps
+
+
+def contact_slide(positions: np.ndarray, fps: float) -> float:
+    """Mean horizontal speed in cm/s of the balls of the feet over frames in contact.
+
+    Contacts come from `detect_contacts`, which itself asks for a slow foot, so a foot that glides
+    fast is not counted here: read it together with `support_slide`; NaN
+    without contact.
+    """
+    contact = detect_contacts(positions, fps)[:-1] > 0.5  # [T - 1, 2]
+    speed = ground_speed(positions[:, BALLS], fps)
+    return 100 * _mean(speed[contact])
+
+
+def penetration(positions: np.ndarray) -> float:
+    """Mean depth in cm of the lowest ball of a foot below its rest height."""
+    lowest = positions[:, BALLS, 1].min(1)
+    return float(100 * (REST_FOOT_HEIGHT - lowest).clip(min=0).mean())
+
+
+def mean_jerk(positions: np.ndarray, fps: float) -> float:
+    """Mean norm of the third difference in m/s^3 of positions [T, K, 3]; NaN below 4 frames."""
+    if len(positions) < 4:
+        return float("nan")
+    return float(np.linalg.norm(np.diff(positions, n=3, axis=0), axis=-1).mean() * fps**3)
+
+
+HANDS = [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]]
+SUPPORT_HEIGHT = 0.06  # metres above the rest height: higher than this, no foot carries the body
+
+
+@dataclass(frozen=True)
+class Physics:
+    """Physical figures of one motion; a slide is NaN when no foot touches the ground."""
+
+    contact_slide: float  # cm/s of a ball of the foot while the contact detector sees it on ground
+    support_slide: float  # cm/s of the lower ball of the foot, no condition on its speed
+    penetration: float  # cm, mean depth of the lowest ball of the foot below its rest height
+    jerk: float  # m/s^3, mean over all joints
+    hand_jerk: float  # m/s^3, mean over both wrists
+    speed: float  # m/s, pelvis over the ground
+
+
+def support_slide(positions: np.ndarray, fps: float) -> float:
+    """Mean horizontal speed in cm/s of the lower foot, over frames where it is near the floor.
+
+    Some foot carries the body unless it is in the air, so this needs no guess about contacts and
+    gliding cannot escape it.
+    """
+    return 100 * _mean(support_speed(positions, fps))
+
+
+def physics(motion: Motion) -> Physics:
+    """All figures of one motion of at least two frames."""
+    positions = motion.positions().astype(np.float64)
+    return Physics(
+        contact_slide=contact_slide(positions, motion.fps),
+        support_slide=support_slide(positions, motion.fps),
+        penetration=penetration(positions),
+        jerk=mean_jerk(positions, motion.fps),
+        hand_jerk=mean_jerk(positions[:, HANDS], motion.fps),
+        speed=float(ground_speed(positions[:, 0], motion.fps).mean()),
+    )
+
+
+# ---------------------------------------------------------------- feet and floor
+
 
 GRAVITY = 9.81  # m/s²
 SKATING = 0.1  # m/s of a foot that carries the body
@@ -164,52 +236,3 @@ def pfc(positions: np.ndarray, fps: float) -> float:
     speed = ground_speed(positions[1:, np.array(FOOT_JOINTS)], fps) / PFC_FPS  # T-2 foot joint
     stiller = speed.min(-1)
     return float(1e4 * (stiller.prod(-1) * strength / strength.max()).mean())
-
-
-# ---------------------------------------------------------------- in the tables
-
-
-@dataclass(frozen=True)
-class ContactFamily:
-    """Feet, floor and roughness as a table, one value a motion."""
-
-    name: str = "feet and floor"
-    distance: bool = False
-    columns: tuple[Column, ...] = (
-        Column("claimed_slide", "slide, claimed contact cm/s", 2, "low"),
-        Column("claimed_frames", "contact claimed %", 1),
-        Column("skating_frames", "skating %", 1, "low"),
-        Column("slide_per_metre", "slide cm/m", 2, "low"),
-        Column("sunk_depth", "sunk, any joint cm", 2, "low"),
-        Column("sunk_frames", "sunk %", 1, "low"),
-        Column("float_height", "floating cm", 2, "low"),
-        Column("floating_frames", "floating %", 1, "low"),
-        Column("flying_frames", "flying %", 1),
-        Column("jerk_per_speed", "jerk / speed 1/s²", 0),
-        Column("pfc", "PFC", 3),
-    )
-    definition: str = (
-        "*slide, claimed contact*: speed of a foot while the motion's own contact channel says "
-        "that it stands; who never claims one escapes, hence *contact claimed*. *skating*: of the "
-        "frames with the lower foot within 6 cm of its standing height, the share in which it "
-        "moves faster than 10 cm/s. *slide cm/m*: what it slides for each metre that the pelvis "
-        "travels; a gliding statue has 100, a motion that travels less than half a metre none. "
-        "*sunk*: the lowest joint below the standing height of a foot, and the frames deeper than "
-        "1 cm. *floating*: no joint within 2 cm of that height, and the body does not fall at half "
-        "of g or more, else it is *flying*; a body on its back floats a little. *jerk / speed*: "
-        "roughness for the motion there is; the frozen pose has none. *PFC* (EDGE, Tseng et al. "
-        "2023) is not a number for a still body nor for a steady glide, depends on the length of "
-        "the clip, and improves with one rough frame: it is here because it is asked for. A frozen "
-        "pose is perfect in *skating*, *sunk* and *floating*: read them beside *slide cm/m* and "
-        "the motion amount. None may stand beside a published figure."
-    )
-
-    def compute(
-        self, sample: MotionSample, reference: MotionSample, *, seed: int
-    ) -> dict[str, np.ndarray]:
-        """Each figure of each motion [N]; no random choice."""
-        found = sample.each("contact", contact)
-        return {
-            field.name: np.array([getattr(one, field.name) for one in found])
-            for field in fields(Contact)
-        }

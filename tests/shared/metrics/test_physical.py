@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
-from src.shared.evaluation.metrics_physical import physics, support_slide
+from src.shared.metrics.physical import BALLS, contact_slide, mean_jerk, physics, support_slide
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import REST_FOOT_HEIGHT, REST_PELVIS_HEIGHT
-from src.shared.validation.body_measures import BALLS, contact_slide, mean_jerk
 
 
 def rest_motion(num_frames: int = 40, *, velocity: float = 0.0, lift: float = 0.0) -> Motion:

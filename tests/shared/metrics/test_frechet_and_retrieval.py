@@ -10,20 +10,21 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from src.shared.evaluation.intervals import bootstrap_mean, replicated, success_rate
-from src.shared.evaluation.metrics_frechet import (
+from src.shared.metrics.frechet import (
     JointFrechet,
     Projection,
+    diversity,
     frechet_distance,
     gaussian_frechet,
     group_frechet,
+    multimodality,
 )
-from src.shared.evaluation.metrics_retrieval import (
+from src.shared.metrics.retrieval import (
     guo_retrieval,
     hit_probability,
     normalised_score,
     pair_distances,
 )
-from src.shared.evaluation.metrics_spread import diversity, multimodality
 
 
 def random_gaussian(seed: int, size: int) -> tuple[np.ndarray, np.ndarray]:

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from src.shared.errors import UserError
+from src.shared.metrics.bands import Band, Bands
+from src.shared.metrics.sanity import SEVEN, SanityChecker, SanityThresholds, frozen, sanity_row
 from src.shared.motion.trajectory import PHASE, MotionTrajectory
-from src.shared.validation.bands import Band, Bands
-from src.shared.validation.report import frozen, sanity_row
-from src.shared.validation.sanity import SEVEN, SanityChecker, SanityThresholds
 from tests.shared.motion.trajectories import smooth_trajectory
 
 

@@ -1,0 +1,385 @@
+"""Does a motion keep a song's time? Motion beats, phase errors on the circle, beats on beats.
+
+A motion beat is a prominent minimum of the smoothed speed, the kinematic beat of Li et al. 2021
+("AI Choreographer", §5.2). Alignment uses σ in seconds and both directions, each with the level
+that the same beats reach by chance. A path that slows down on every beat lends its beats to
+whatever it carries, a statue too: so limbs are also looked at from the pelvis, where a carried
+statue rests.
+
+Times in seconds, phases in bars or beats, unwrapped or not: only the part after the point counts.
+
+Letters: T frames, K joints, N motion beats, M music beats.
+"""
+
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d
+from scipy.signal import find_peaks
+
+from ..motion.motion import Motion
+from ..motion.skeleton import REST_FOOT_HEIGHT
+from .physical import BALLS
+
+SMOOTHING = 0.05  # seconds, standard deviation of the Gaussian
+PROMINENCE = 0.15  # of the 5-95% spread of the speed around its trend
+TREND = 0.5  # seconds, standard deviation; walking and running in one phrase are no beat
+MIN_PROMINENCE = 0.04  # m/s; a slow drift has no beats
+MIN_INTERVAL = 0.2  # seconds between two beats
+SIGMA = 0.05  # seconds, of the alignment
+
+
+@dataclass(frozen=True, eq=False)
+class MotionBeats:
+    """Beats of one motion.
+
+    Attributes:
+        times: seconds [N], increasing.
+        speed: smoothed speed [T-1] in m/s they were found in; value t lies at (t + ½) / fps.
+    """
+
+    times: np.ndarray
+    speed: np.ndarray
+
+    @property
+    def period(self) -> float:
+        """Median interval in seconds; infinite below three beats."""
+        return float(np.median(np.diff(self.times))) if len(self.times) > 2 else float("inf")
+
+    @property
+    def irregularity(self) -> float:
+        """Spread of the intervals over their mean; infinite below three beats."""
+        if len(self.times) < 3:
+            return float("inf")
+        intervals = np.diff(self.times)
+        return float(intervals.std() / intervals.mean())
+
+
+def smoothed_speed(points: np.ndarray, fps: float) -> np.ndarray:
+    """Speed [T-1] in m/s of one point [T,3], or the mean over many [T,J,3]."""
+    step = np.linalg.norm(np.diff(points.astype(np.float64), axis=0), axis=-1) * fps
+    speed = step if step.ndim == 1 else step.mean(1)
+    return np.asarray(gaussian_filter1d(speed, SMOOTHING * fps)) if len(speed) else speed
+
+
+def motion_beats(points: np.ndarray, fps: float = 30.0) -> MotionBeats:
+    """Beats of a pelvis path [T,3], or of a whole body's joints [T,J,3], in metres.
+
+    The minimum is placed between frames by a parabola through its three samples.
+    """
+    speed = smoothed_speed(points, fps)
+    if len(speed) < 3:
+        return MotionBeats(np.zeros(0), speed)
+    low, high = np.percentile(speed - gaussian_filter1d(speed, TREND * fps), (5, 95))
+    found, _ = find_peaks(
+        -speed,
+        prominence=max(PROMINENCE * (high - low), MIN_PROMINENCE),
+        distance=max(1, round(MIN_INTERVAL * fps)),
+    )
+    before, at, after = speed[found - 1], speed[found], speed[found + 1]
+    curvature = before - 2 * at + after
+    shift = np.where(curvature > 0, 0.5 * (before - after) / np.maximum(curvature, 1e-12), 0.0)
+    return MotionBeats((found + 0.5 + np.clip(shift, -0.5, 0.5)) / fps, speed)
+
+
+def distances(beats: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Seconds [N] from each of `beats` [N] to the nearest of `others` [M], sorted, M ≥ 1."""
+    right = np.clip(np.searchsorted(others, beats), 1, max(1, len(others) - 1))
+    left = others[right - 1]
+    return np.minimum(
+        np.abs(beats - left), np.abs(others[np.minimum(right, len(others) - 1)] - beats)
+    )
+
+
+def beat_alignment(beats: np.ndarray, others: np.ndarray, sigma: float = SIGMA) -> float:
+    """Mean over `beats` of exp(-d²/2σ²), d the distance to the nearest of `others`.
+
+    NaN without `beats`, 0 without `others`.
+    """
+    if not len(beats):
+        return float("nan")
+    if not len(others):
+        return 0.0
+    return float(np.exp(-(distances(beats, others) ** 2) / (2 * sigma**2)).mean())
+
+
+@dataclass(frozen=True)
+class Alignment:
+    """Both directions of beat alignment, in [0, 1]."""
+
+    motion_to_music: float
+    music_to_motion: float
+
+
+def alignment(motion: np.ndarray, music: np.ndarray, seconds: float) -> Alignment:
+    """How the motion's beats and the music's fall on each other within [0, seconds].
+
+    Beats beyond the ends count as neighbours, never as beats of their own.
+    """
+    inside = motion[(motion >= 0) & (motion < seconds)]
+    heard = music[(music >= 0) & (music < seconds)]
+    return Alignment(beat_alignment(inside, music), beat_alignment(heard, motion))
+
+
+def chance_alignment(
+    motion: np.ndarray, music: np.ndarray, seconds: float, rng: np.random.Generator, *, n: int = 16
+) -> Alignment:
+    """What the same motion reaches when its beats are moved by a random time, mean of `n`.
+
+    The motion is turned round within the phrase, so that number and spacing of beats stay.
+    """
+    draws = [
+        alignment(np.sort((motion + shift) % seconds), music, seconds)
+        for shift in (np.arange(n) + rng.random(n)) * (seconds / n)
+    ]
+    return Alignment(
+        float(np.mean([draw.motion_to_music for draw in draws])),
+        float(np.mean([draw.music_to_motion for draw in draws])),
+    )
+
+
+HIT = 0.07  # seconds, the window of the F-measure in beat tracking (Davies et al. 2009)
+
+
+# ---------------------------------------------------------------- phase
+
+
+def circular_error(phase: np.ndarray, truth: np.ndarray) -> np.ndarray:
+    """How far each phase [T] is ahead of the truth [T], the shorter way round: [-0.5, 0.5)."""
+    difference = np.asarray(phase, np.float64) - np.asarray(truth, np.float64)
+    return (difference + 0.5) % 1.0 - 0.5
+
+
+@dataclass(frozen=True)
+class PhaseError:
+    """Errors of one song, in cycles.
+
+    Attributes:
+        absolute: mean |error|; guessing scores 0.25, always half a cycle off 0.5.
+        offset: circular mean of the error, ahead of the truth is positive.
+        concentration: length of the mean vector [0, 1]; 1 = the same offset all the time.
+    """
+
+    absolute: float
+    offset: float
+    concentration: float
+
+
+def phase_error(phase: np.ndarray, truth: np.ndarray) -> PhaseError:
+    """Compare phases [T] of at least one frame, both in the same cycles.
+
+    Circular statistics after Fisher 1993, §2.3. The offset of errors that cancel out is noise:
+    look at the concentration first.
+    """
+    error = circular_error(phase, truth)
+    mean = np.exp(2j * np.pi * error).mean()
+    return PhaseError(
+        float(np.abs(error).mean()), float(np.angle(mean) / (2 * np.pi)), float(np.abs(mean))
+    )
+
+
+def song_phase(
+    beats: np.ndarray,
+    bars: np.ndarray,
+    true_bars: np.ndarray,
+    meter: int,
+    times: np.ndarray,
+    fps: float = 30.0,
+) -> dict[str, float]:
+    """Errors of one song, counted from its first true beat to its last.
+
+    Args:
+        beats, bars: what the motion counts, unwrapped [T].
+        true_bars: [T]; at least two beats lie inside.
+        meter: beats a true bar.
+        times: of the true beats, seconds.
+
+    Returns:
+        beat and bar: mean |error| in cycles; beat_seconds: in seconds; beat_offset: signed, in
+        cycles of a beat; steady: concentration of the beat's error.
+    """
+    at = np.arange(min(len(bars), len(true_bars))) / fps
+    inside = np.flatnonzero((at >= times[0]) & (at <= times[-1]))
+    true_beats = true_bars[inside] * meter
+    beat = phase_error(beats[inside], true_beats)
+    period = (at[inside][-1] - at[inside][0]) / (true_beats[-1] - true_beats[0])
+    return {
+        "beat": beat.absolute,
+        "bar": phase_error(bars[inside], true_bars[inside]).absolute,
+        "beat_seconds": float(beat.absolute * period),
+        "beat_offset": beat.offset,
+        "steady": beat.concentration,
+    }
+
+
+def beats_of_phase(beats: np.ndarray, fps: float = 30.0) -> np.ndarray:
+    """Times [M] at which an unwrapped, rising phase [T] in beats passes whole numbers."""
+    numbers = np.arange(np.ceil(beats[0]), np.floor(beats[-1]) + 1)
+    return np.interp(numbers, beats, np.arange(len(beats))) / fps
+
+
+# ---------------------------------------------------------------- beats on beats
+
+
+@dataclass(frozen=True)
+class Rhythm:
+    """How a motion's beats and a song's fall on each other; all but `distance` in [0, 1].
+
+    Attributes:
+        motion_to_music: mean over motion beats of exp(-d²/2σ²), σ = 0.05 s; 0 without any.
+        music_to_motion: mean over music beats; a dance on every second beat gets half.
+        f: harmonic mean of the two.
+        hits: F-measure of matches one to one within 70 ms.
+        distance: median seconds from a motion beat to the nearest music beat, NaN without any.
+    """
+
+    motion_to_music: float
+    music_to_motion: float
+    f: float
+    hits: float
+    distance: float
+
+    def as_dict(self) -> dict[str, float]:
+        return asdict(self)
+
+
+OFFSETS = 16  # random times a motion, for the floor
+COLUMNS = ("motion_to_music", "music_to_motion", "f", "hits", "distance")
+
+
+def rhythm(
+    motion: np.ndarray, music: np.ndarray, seconds: float, *, sigma: float = SIGMA
+) -> Rhythm:
+    """Score motion beats [N] against music beats [M] within [0, seconds), both ascending.
+
+    Beats outside count as neighbours, never as beats of their own. A motion that never slows down
+    has no beats and scores 0: it must not win by leaving.
+
+    Raises:
+        ValueError: a time is NaN or infinite.
+    """
+    if not (np.isfinite(motion).all() and np.isfinite(music).all()):
+        raise ValueError("beat times hold NaN or infinity")
+    made = motion[(motion >= 0) & (motion < seconds)]
+    heard = music[(music >= 0) & (music < seconds)]
+    forth = beat_alignment(made, music, sigma) if len(made) else 0.0
+    back = beat_alignment(heard, motion, sigma) if len(heard) else 0.0
+    near = len(made) and len(music)
+    return Rhythm(
+        motion_to_music=forth,
+        music_to_motion=back,
+        f=2 * forth * back / (forth + back) if forth + back else 0.0,
+        hits=hit_f_measure(heard, made),
+        distance=float(np.median(distances(made, music))) if near else float("nan"),
+    )
+
+
+def hit_f_measure(reference: np.ndarray, estimate: np.ndarray, window: float = HIT) -> float:
+    """F-measure of beats matched one to one within `window` seconds, both ascending.
+
+    Times on a line: taking the earliest pair that fits gives a largest matching.
+    """
+    if not len(reference) or not len(estimate):
+        return 0.0
+    matched = i = k = 0
+    while i < len(reference) and k < len(estimate):
+        apart = estimate[k] - reference[i]
+        if abs(apart) <= window:
+            matched, i, k = matched + 1, i + 1, k + 1
+        elif apart < 0:
+            k += 1
+        else:
+            i += 1
+    return 2 * matched / (len(reference) + len(estimate))
+
+
+# ---------------------------------------------------------------- what it is held against
+
+
+def half_beat_later(beats: np.ndarray) -> np.ndarray:
+    """The off-beats [M+1] around beats [M]: middles, and one beyond each end; none below 2."""
+    if len(beats) < 2:
+        return np.zeros(0)
+    middles = (beats[1:] + beats[:-1]) / 2
+    first = beats[0] - (beats[1] - beats[0]) / 2
+    last = beats[-1] + (beats[-1] - beats[-2]) / 2
+    return np.concatenate(([first], middles, [last]))
+
+
+def turned_round(
+    motion: np.ndarray, seconds: float, rng: np.random.Generator, n: int
+) -> Iterator[np.ndarray]:
+    """The motion's beats moved by a random time, `n` times: chance.
+
+    Turned round within the song, so that number and spacing of the beats stay.
+    """
+    inside = motion[(motion >= 0) & (motion < seconds)]
+    for shift in (np.arange(n) + rng.random(n)) * (seconds / n):
+        yield np.sort((inside + shift) % seconds)
+
+
+def against_chance(
+    motion: np.ndarray, music: np.ndarray, seconds: float, rng: np.random.Generator
+) -> tuple[Rhythm, Rhythm, Rhythm]:
+    """A motion's beats on the music's, by chance, and on the off-beats; see `rhythm`.
+
+    Chance is the mean over `OFFSETS` random times that the motion is turned round by.
+    """
+    turned = [rhythm(each, music, seconds) for each in turned_round(motion, seconds, rng, OFFSETS)]
+    own, off = rhythm(motion, music, seconds), rhythm(motion, half_beat_later(music), seconds)
+    return own, mean_rhythm(turned), off
+
+
+def strangers(number: int, rng: np.random.Generator) -> list[int]:
+    """For each of `number` motions another one: a single cycle, so nobody keeps its own song."""
+    order, other = rng.permutation(number), np.zeros(number, dtype=int)
+    other[order] = np.roll(order, 1)
+    return other.tolist()
+
+
+def mean_rhythm(scores: list[Rhythm]) -> Rhythm:
+    """The mean of each column over at least one score; distances that are NaN are left out."""
+    table = np.array([[getattr(score, name) for name in COLUMNS] for score in scores])
+    known = ~np.isnan(table)
+    sums = np.where(known, table, 0.0).sum(0)
+    means = np.divide(sums, known.sum(0), out=np.full(len(COLUMNS), np.nan), where=known.any(0))
+    return Rhythm(*(float(value) for value in means))
+
+
+# ---------------------------------------------------------------- when a whole body dances
+
+
+DOWN, UP = 0.02, 0.04  # metres of a ball of the foot above its standing height
+
+
+def body_beats(motion: Motion) -> np.ndarray:
+    """Seconds [N] of the beats of all joints' mean speed."""
+    return motion_beats(motion.positions(), motion.fps).times
+
+
+def limb_beats(motion: Motion) -> np.ndarray:
+    """Seconds [N] of the beats of the joints as seen from the pelvis."""
+    return motion_beats(seen_from_pelvis(motion), motion.fps).times
+
+
+def seen_from_pelvis(motion: Motion) -> np.ndarray:
+    """Joint positions [T,21,3] in metres in the frame of the pelvis, place and rotation."""
+    positions = motion.positions().astype(np.float64)
+    pelvis = motion.global_rotations()[:, 0].astype(np.float64)  # T 3 3
+    return np.einsum("tji,tkj->tki", pelvis, positions[:, 1:] - positions[:, :1])
+
+
+def landings(motion: Motion) -> np.ndarray:
+    """Seconds [N] at which a foot comes down: it is within 2 cm of the floor after having been
+    4 cm above it. Sliding feet never land."""
+    heights = motion.positions()[:, BALLS, 1] - REST_FOOT_HEIGHT  # T 2
+    found: list[float] = []
+    for height in heights.T:
+        away = False
+        for frame, value in enumerate(height):
+            if away and value < DOWN:
+                found.append(frame / motion.fps)
+                away = False
+            away = away or value > UP
+    return np.array(sorted(found))
