@@ -12,7 +12,7 @@ import numpy as np
 from ..data.prepared import ClipRecord, PreparedData
 from ..errors import UserError
 from ..motion.motion import Motion
-from ..motion.root_track import decode_features
+from ..motion.features import decode_features
 from .action_judge import ActionJudge, descriptor
 from .clips import choose_caption, spread_over_groups
 from .yardstick import MIN_FRAMES, Progress, judged_by, same_action, shown
