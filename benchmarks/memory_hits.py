@@ -18,8 +18,7 @@ from typing import Any
 import numpy as np
 import torch
 
-from src.shared.evaluation.bootstrap import paired_bootstrap
-from src.shared.evaluation.intervals import bootstrap_mean
+from src.shared.evaluation.stats import bootstrap_mean, paired_bootstrap
 from src.shared.memory.index import MemoryIndex
 from src.shared.memory.priors import ENERGY
 

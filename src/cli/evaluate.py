@@ -151,7 +151,7 @@ def run(model: str, request: Request, out: Path | None) -> dict[str, Any]:
     with sole_writer(folder):
         report = (run_audio if audio else run_text)(model, request, folder)
 
-        from ..shared.evaluation.report_folder import save_report
+        from ..shared.evaluation.report.folder import save_report
 
         save_report(report, folder)
     tell(f"evaluate: {folder / 'report.html'}")
@@ -162,8 +162,8 @@ def run_text(model: str, request: Request, folder: Path) -> dict[str, Any]:
     """The text branch's report."""
     check_data(request.data or "synthetic")
 
-    from ..shared.evaluation import harness
-    from ..shared.evaluation.text_context import TextSettings
+    from ..shared.evaluation.suites import text as harness
+    from ..shared.evaluation.suites.text import TextSettings
 
     return harness.evaluate_text(
         model,
@@ -282,7 +282,7 @@ def show(report: dict[str, Any], *, json: bool) -> None:
     """JSON, or tables: drawn in a terminal, Markdown in a pipe, where drawn ones would be cut."""
     import sys
 
-    from ..shared.evaluation.report import markdown, print_report
+    from ..shared.evaluation.report.tables import markdown, print_report
 
     if json:
         print_json(report)

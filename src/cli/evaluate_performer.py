@@ -121,7 +121,7 @@ def run(
     from ..shared.evaluation.editing_context import EditContext, EditSettings
     from ..shared.evaluation.evaluator import Evaluator
     from ..shared.evaluation.held_out import open_held_out
-    from ..shared.evaluation.report_folder import save_report
+    from ..shared.evaluation.report.folder import save_report
     from ..shared.model.generation.motion_generator import TextToMotion
     from ..shared.pipelines.body import PerformerSettings
     from ..shared.pipelines.song import SongGenerator

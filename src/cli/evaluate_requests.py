@@ -36,7 +36,7 @@ def evaluate_requests(
     Example:
       motion-tools evaluate-requests --model starter --data data/prepared
     """
-    from ..shared.evaluation.text_context import LANGUAGES
+    from ..shared.evaluation.suites.text import LANGUAGES
 
     check_limits({"wordings": wordings, "seconds": seconds}, LIMITS)
     options.check_ranges(seed=seed, threads=threads)
@@ -47,9 +47,9 @@ def evaluate_requests(
 
     from ..shared.data.prepared import PreparedData
     from ..shared.device import set_threads
-    from ..shared.evaluation.report import as_markdown, heading, tables
+    from ..shared.evaluation.floors import untrained
+    from ..shared.evaluation.report.tables import as_markdown, heading, tables
     from ..shared.evaluation.requests_harness import evaluate_requests
-    from ..shared.evaluation.text_context import untrained
     from ..shared.evaluation.yardstick import RequestSettings
     from ..shared.files import write_json, write_text
     from ..shared.model.generation.motion_generator import TextToMotion

@@ -153,8 +153,8 @@ def shipped_bands(name: str) -> "Bands | None":
 def write_results(result: "SanityEvaluation", folder: Path) -> None:
     """sanity.json, sanity.md, bands.png and the first motion as trajectory.png."""
     from ..shared.evaluation.audio_plots import plot_bands
-    from ..shared.evaluation.plots import plot_trajectory
-    from ..shared.evaluation.report import as_markdown, heading
+    from ..shared.evaluation.report.plots import plot_trajectory
+    from ..shared.evaluation.report.tables import as_markdown, heading
     from ..shared.evaluation.sanity_report import sanity_tables
     from ..shared.files import write_json, write_text
 
@@ -171,7 +171,7 @@ def show(title: str, report: dict[str, Any], tables: list[Any], *, json: bool) -
     """JSON, or tables: drawn in a terminal, Markdown in a pipe."""
     import sys
 
-    from ..shared.evaluation.report import as_markdown, draw, heading
+    from ..shared.evaluation.report.tables import as_markdown, draw, heading
 
     if json:
         from .evaluate import print_json

@@ -116,7 +116,7 @@ def show(report: dict[str, Any], out: Path | None, *, json: bool) -> None:
     """The report in a file if there is one to be, and on stdout as tables or JSON."""
     import json as encoder
 
-    from ..shared.evaluation.report import as_markdown
+    from ..shared.evaluation.report.tables import as_markdown
     from ..shared.evaluation.selection_harness import selection_tables
     from ..shared.files import write_json, write_text
 

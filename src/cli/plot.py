@@ -37,11 +37,11 @@ def plot(
     options.check_folder("--out", picture.parent)
 
     if file.suffix.lower() in (".json", ".jsonl"):
-        from ..shared.evaluation.plots import plot_losses, read_losses
+        from ..shared.evaluation.report.plots import plot_losses, read_losses
 
         plot_losses(read_losses(file), picture, title=str(file))
     else:
-        from ..shared.evaluation.plots import plot_trajectory
+        from ..shared.evaluation.report.plots import plot_trajectory
         from ..shared.formats.registry import read_trajectory
 
         plot_trajectory(read_trajectory(file), picture, title=str(file))

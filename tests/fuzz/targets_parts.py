@@ -30,7 +30,7 @@ def _write(folder: Path) -> None:
 
 
 def _read(path: Path) -> None:
-    from src.shared.evaluation.plots import read_losses
+    from src.shared.evaluation.report.plots import read_losses
     from src.shared.metrics.bands import Bands
     from src.shared.model.clip.scope import PromptScope
     from src.shared.model.clip.style_map import StyleMap

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..metrics.rhythm import COLUMNS, Rhythm, against_chance, mean_rhythm, rhythm
-from .intervals import FEW, bootstrap_mean
+from .stats import FEW, bootstrap_mean
 
 HELD_AGAINST = ("chance", "another song", "half a beat later")
 OTHERS = 8  # other songs that each motion is held against

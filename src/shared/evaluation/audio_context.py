@@ -31,7 +31,7 @@ from .audio_songs import (
     phrases,
     tracks,
 )
-from .families import Dance, DanceSample
+from .samples import Dance, DanceSample
 
 Progress = Callable[[str], None]
 Made = list[tuple[Piece, MotionTrajectory]]

@@ -1,7 +1,7 @@
 """The audio branch's evaluation: does the music matter, and does the motion hold together?
 
 Motions are made for held-out synthetic songs whose beats are known exactly. Every family of
-`registry.py` is measured on them, on the same motions under another song, on frozen and untrained
+`FAMILIES` is measured on them, on the same motions under another song, on frozen and untrained
 ones, and on real paired motion, replication by replication.
 """
 
@@ -11,20 +11,25 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ..files import sha256_file
-from ..model.zoo import resolve_model
+from ..formats.arrays import write_trajectory_npz
 from ..pipelines.song import SongGenerator
-from . import manifest
 from .audio_context import AudioContext, AudioSettings, Picture
 from .audio_phase import right_tempo
 from .audio_plots import plot_phase
 from .audio_songs import TEMPI
-from .engine import Bench, Progress, part_name, run_bench
-from .families import DanceSample
-from .grids import Grid, report_data
-from .parts import Part, Parts
-from .registry import AUDIO_EXTRAS, AUDIO_FAMILIES, AUDIO_ROWS
-from .worst import Keeper, write_dance
+from .audio_tables import alignment_tables, phase_table, seam_tables, track_table
+from .engine import Bench, MetricFamily, Progress, Row, Suite, run_suite
+from .families_audio import BarPhase, BeatAlignment, RootKinetics, TrajectorySanity
+from .manifest import Part, Parts, Sources, model_hashes, song_hashes
+from .report.tables import Grid
+from .samples import DanceSample
+
+FAMILIES: tuple[MetricFamily[DanceSample], ...] = (
+    BeatAlignment(),
+    BarPhase(),
+    TrajectorySanity(),
+    RootKinetics(),
+)
 
 
 def evaluate_audio(
@@ -56,57 +61,62 @@ def evaluate_audio(
     context = AudioContext(
         generator, settings, data=data, songs=songs, sampling=sampling, progress=progress
     )
-    if folder is not None:
-        manifest.claim(folder, _manifest(context, sampling or {}, about))
-    parts = Parts(folder)
-    bench = song_bench(context, folder)
-    tables = run_bench(bench, parts, settings.replications, settings.seed, progress)
-    for name, extra in AUDIO_EXTRAS.items():
-        part = parts.once(name, partial(_as_part, extra, context))
-        tables += [Grid.from_dict(grid) for grid in part["grids"]]
-    pictures = parts.once("pictures", partial(_draw, context, folder))["pictures"]
-    facts = parts.once("facts", partial(_facts, context))
-    samples = parts.once(part_name(bench.name, bench.main, 0), dict).get("samples", [])
-    facts = {**about, **_about_model(context), **facts}
-    return report_data("audio", facts, asdict(settings), tables, samples, pictures)
+    tables: dict[str, Callable[[AudioContext], list[Grid]]] = {
+        "phase": phase_table,
+        "alignment": alignment_tables,
+        "seams": seam_tables,
+        "tracks": track_table,
+    }
+    suite = Suite(
+        "audio",
+        asdict(settings),
+        [song_bench(context)],
+        {name: partial(make, context) for name, make in tables.items()},
+        {**about, **_about_model(context)},
+        facts=partial(_facts, context),
+        pictures=partial(_draw, context),
+        sources=partial(_sources, context, sampling or {}, about),
+    )
+    return run_suite(suite, Parts(folder), progress)
 
 
-def song_bench(context: AudioContext, folder: Path | None) -> Bench[DanceSample]:
-    """The rows of the registry over the songs."""
+def song_bench(context: AudioContext) -> Bench[DanceSample]:
+    """The songs: real motion where there is data, chance, a frozen pose, generated, untrained."""
     return Bench(
         "songs",
         "held-out songs",
         lambda: context.reference,
-        [kind.bind(context) for kind in AUDIO_ROWS if kind.when(context)],
-        AUDIO_FAMILIES,
-        keep=Keeper(
-            folder, "songs", context.settings.worst, AUDIO_FAMILIES, partial(_write, context)
-        ),
+        [
+            Row("real", context.real, None if context.data is not None else 0, True, True),
+            Row("chance", context.chance),
+            Row("frozen pose", context.frozen_pose, limit=1, fixed=True),
+            Row("generated", context.generated),
+            Row("untrained", context.untrained, limit=context.settings.untrained),
+        ],
+        FAMILIES,
+        write=partial(_write, context),
+        worst=context.settings.worst,
     )
 
 
 def _write(context: AudioContext, sample: DanceSample, row: int, path: Path) -> dict[str, Any]:
-    """A motion of the main row and, beside it, its song."""
-    sound = path.with_suffix(".flac")
+    """A motion of the main row under its song's name and, beside it, the song."""
+    dance, sound = sample.dances[row], path.with_suffix(".flac")
     context.write_song(row, sound)
-    return {**write_dance(sample, row, path), "sound": f"{path.parent.name}/{sound.name}"}
+    write_trajectory_npz(dance.trajectory, path)
+    beside = f"{path.parent.name}/{sound.name}"
+    return {"title": dance.song, "meter": dance.counted, "sound": beside}
 
 
-def _as_part(extra: Callable[[AudioContext], list[Grid]], context: AudioContext) -> Part:
-    return {"grids": [grid.as_dict() for grid in extra(context)]}
-
-
-def _draw(context: AudioContext, folder: Path | None) -> Part:
+def _draw(context: AudioContext, folder: Path) -> list[dict[str, Any]]:
     """Phases against beats of the first songs and of each sound file, as pictures."""
-    if folder is None:
-        return {"pictures": []}
     shown = [*context.made(0)[: context.settings.pictures], *context.played]
     pictures = []
     for number, pair in enumerate(shown, start=1):
         name = f"phase-{number:02d}.png"
         plot_phase(Picture.of(*pair), folder / name)
         pictures.append({"file": name, "title": f"phase and beats: {pair[0].name}"})
-    return {"pictures": pictures}
+    return pictures
 
 
 # ---------------------------------------------------------------- what was measured with what
@@ -139,26 +149,13 @@ def _facts(context: AudioContext) -> Part:
     return facts
 
 
-def _manifest(
-    context: AudioContext, sampling: dict[str, Any], about: dict[str, Any]
-) -> dict[str, Any]:
-    folders = {name: about[name] for name in ("model", "decoder") if name in about}
-    model = {
-        f"{name}/{file}": digest
-        for name, folder in folders.items()
-        for file, digest in manifest.folder_hashes(resolve_model(folder)).items()
-    }
-    files = sorted(context.songs.rglob("*")) if context.songs is not None else []
-    tracks = {path.name: sha256_file(path) for path in files if path.is_file()}
+def _sources(context: AudioContext, sampling: dict[str, Any], about: dict[str, Any]) -> Sources:
+    folders: dict[str, str] = {name: about[name] for name in ("model", "decoder") if name in about}
     network = context.generator.model
-    return manifest.build(
-        "audio",
-        model=model,
-        evaluator={},
-        data={"pairs": context.fingerprint, "songs": tracks},
+    return Sources(
+        model=model_hashes(folders),
+        data={"pairs": context.fingerprint, "songs": song_hashes(context.songs)},
         statistics=(network.mean, network.std),
-        settings=asdict(context.settings),
         sampling=sampling,
-        families=AUDIO_FAMILIES,
         device=str(context.generator.device),
     )

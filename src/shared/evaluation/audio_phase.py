@@ -10,7 +10,7 @@ import numpy as np
 
 from ..metrics.rhythm import song_phase
 from .audio_songs import Piece
-from .intervals import bootstrap_mean
+from .stats import bootstrap_mean
 
 TEMPO_TOLERANCE = 0.04  # the usual one
 

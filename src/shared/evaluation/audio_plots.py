@@ -11,7 +11,7 @@ import numpy as np
 from ..metrics.bands import MEASURES, UNITS, Bands
 from ..motion.trajectory import FPS, MotionTrajectory
 from .audio_context import Picture
-from .plots import new_figure, save_figure
+from .report.plots import new_figure, save_figure
 
 LINES = {"truth": ("black", "-"), "beat tracker": ("tab:blue", ":"), "generated": ("tab:red", "--")}
 COLOURS = {"generated": "tab:red", "real": "tab:green", "untrained": "grey", "frozen": "tab:blue"}

@@ -32,7 +32,7 @@ from .audio_songs import (
     open_split,
     phrases,
 )
-from .intervals import success_rate
+from .stats import success_rate
 
 Progress = Callable[[str], None]
 BATCH = 10

@@ -15,9 +15,9 @@ from .audio_alignment import Danced, alignment_rows, song_scores
 from .audio_context import AudioContext
 from .audio_phase import phase_row, right_tempo
 from .audio_songs import Piece
-from .families import Column, DanceSample
 from .families_audio import beats_of
-from .grids import Grid, GridRow, plain
+from .report.tables import Column, Grid, GridRow, plain
+from .samples import DanceSample
 
 PHASE = (
     Column("beat", "beat |error|"), Column("beat_seconds", "in seconds"),

@@ -12,13 +12,10 @@ import numpy as np
 
 from ..errors import UserError
 from . import manifest
-from .bootstrap import MIN_PAIRS, Difference, paired_bootstrap
 from .engine import motion_values, part_name
-from .families import Column
-from .grids import Grid, GridRow, plain, report_data
-from .intervals import FEW
-from .parts import Part, Parts, read_json
-from .report import grids
+from .manifest import Part, Parts, read_json
+from .report.tables import Cell, Column, Grid, GridRow, grids, report_data
+from .stats import FEW, MIN_PAIRS, Difference, paired_bootstrap
 
 FREE = ("model", "sampling", "statistics", "environment")  # what a comparison may be about
 NOTE = (
@@ -107,7 +104,7 @@ def _difference(grid: Grid, a: Side, b: Side, seed: int) -> Grid | None:
         if pair is None:
             continue
         found = paired_bootstrap(*pair, seed=seed)
-        cells = {
+        cells: dict[str, Cell] = {
             "a": float(np.nanmean(pair[0])),
             "b": float(np.nanmean(pair[1])),
             "difference": {k: v for k, v in found.as_dict().items() if k != "p"},
@@ -115,7 +112,7 @@ def _difference(grid: Grid, a: Side, b: Side, seed: int) -> Grid | None:
             "better": verdict(column, found),
             "pairs": found.count,
         }
-        rows[column.heading] = GridRow(plain(cells))
+        rows[column.heading] = GridRow(cells)
     columns = (
         Column("a", "a"), Column("b", "b"), Column("difference", "b - a", 4), Column("p", "p", 4),
         Column("better", "better"), Column("pairs", "pairs", 0),

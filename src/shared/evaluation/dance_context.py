@@ -29,7 +29,7 @@ from ..pipelines.stream import OVERLAP, WINDOW, window_lengths
 from .audio_songs import Piece, clock, held_out_songs, tracks
 from .dance_sample import BodyDance, BodySample
 from .evaluator import Evaluator
-from .text_context import untrained
+from .floors import untrained
 
 Progress = Callable[[str], None]
 PROMPTS = (

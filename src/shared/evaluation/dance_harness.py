@@ -1,6 +1,6 @@
 """The performer's evaluation: does the whole body hear the music, obey the words, keep its feet?
 
-Rows and families are those of `registry.py`; tables with rows of their own follow. Editing by the
+Rows against families; tables with rows of their own follow. Editing by the
 same mechanism is measured on clips that no training saw.
 """
 
@@ -10,19 +10,17 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ..files import sha256_file
 from ..formats.arrays import write_npz
-from ..model.zoo import resolve_model
-from . import manifest
 from .dance_context import DanceContext
 from .dance_sample import BodySample
+from .dance_style import prompt_effect
+from .dance_tables import alignment_tables, seam_tables
 from .editing_context import EditContext
 from .editing_tables import kept_table, path_table, transition_table
-from .engine import Bench, Progress, part_name, run_bench
-from .grids import Grid, report_data
-from .parts import Part, Parts
-from .registry import DANCE_EXTRAS, DANCE_FAMILIES, DANCE_ROWS
-from .worst import Keeper
+from .engine import Bench, Progress, Row, Suite, run_suite
+from .families_performer import FAMILIES
+from .manifest import Parts, Sources, model_hashes, song_hashes
+from .report.tables import Grid
 
 
 def evaluate_performer(
@@ -46,46 +44,58 @@ def evaluate_performer(
         UserError: the data or a song cannot be used, or the folder holds another report.
     """
     settings, about = context.settings, about or {}
-    if folder is not None:
-        manifest.claim(folder, _manifest(context, edits, about))
-    parts = Parts(folder)
-    bench = dance_bench(context, folder)
-    tables = run_bench(bench, parts, settings.replications, settings.seed, progress)
-    extras: dict[str, Callable[[], list[Grid]]] = {
-        name: partial(extra, context) for name, extra in DANCE_EXTRAS.items()
+    tables: dict[str, Callable[[], list[Grid]]] = {
+        "alignment": partial(alignment_tables, context),
+        "seams": partial(seam_tables, context),
+        "prompts": partial(prompt_effect, context),
     }
     if edits is not None:
-        extras |= {
+        tables |= {
             "edits": lambda: [kept_table(edits)],
             "paths": lambda: [path_table(edits)],
             "transitions": lambda: [transition_table(edits, context.judge)],
         }
-    for name, extra in extras.items():
-        part = parts.once(name, partial(_as_part, extra))
-        tables += [Grid.from_dict(grid) for grid in part["grids"]]
-    samples = parts.once(part_name(bench.name, bench.main, 0), dict).get("samples", [])
     facts = {
         **about,
         "evaluator_hash": context.judge.content_hash,
         "data": context.data or "none",
         "clips": "none" if edits is None else edits.held_out.source,
     }
-    return report_data("performer", facts, asdict(settings), tables, samples)
+    sources = partial(_sources, context, edits, about)
+    benches = [dance_bench(context)]
+    suite = Suite("performer", asdict(settings), benches, tables, facts, sources=sources)
+    return run_suite(suite, Parts(folder), progress)
 
 
-def _as_part(extra: Callable[[], list[Grid]]) -> Part:
-    return {"grids": [grid.as_dict() for grid in extra()]}
-
-
-def dance_bench(context: DanceContext, folder: Path | None) -> Bench[BodySample]:
-    """The rows of the registry over the songs."""
+def dance_bench(context: DanceContext) -> Bench[BodySample]:
+    """The songs, danced by the model, by its floors, and by real dancers where there is data."""
+    few = context.settings.untrained
+    hinted = context.generator.network.generation.constraints
     return Bench(
         "dances",
         "dances",
         lambda: context.reference,
-        [kind.bind(context) for kind in DANCE_ROWS if kind.when(context)],
-        DANCE_FAMILIES,
-        keep=Keeper(folder, "dances", context.settings.worst, DANCE_FAMILIES, write_body),
+        [
+            Row("real", context.real, None if context.data is not None else 0, True, True),
+            Row("generated", partial(context.danced, "generated")),
+            Row("another song", context.another_song),
+            Row("frozen pose", context.frozen_pose, limit=1, fixed=True),
+            Row("path alone", context.path_alone, limit=1, fixed=True),
+            Row(
+                "beats not told",
+                partial(context.danced, "beats not told"),
+                limit=few if hinted else 0,
+            ),
+            Row(
+                "other model",
+                partial(context.danced, "other"),
+                limit=0 if context.other is None else few,
+            ),
+            Row("untrained", partial(context.danced, "untrained"), limit=few),
+        ],
+        FAMILIES,
+        write=write_body,
+        worst=context.settings.worst,
     )
 
 
@@ -96,29 +106,18 @@ def write_body(sample: BodySample, row: int, path: Path) -> dict[str, Any]:
     return {"title": f"{dance.song}: {dance.motion.text}"}
 
 
-def _manifest(
-    context: DanceContext, edits: EditContext | None, about: dict[str, Any]
-) -> dict[str, Any]:
+def _sources(context: DanceContext, edits: EditContext | None, about: dict[str, Any]) -> Sources:
     named = {name: about[name] for name in ("model", "audio_model", "other") if about.get(name)}
-    model = {
-        f"{name}/{file}": digest
-        for name, folder in named.items()
-        for file, digest in manifest.folder_hashes(resolve_model(folder)).items()
-    }
-    files = [] if context.songs is None else sorted(context.songs.rglob("*"))
     generator, singer = context.generator, context.singer.model
-    return manifest.build(
-        "performer",
-        model=model,
+    return Sources(
+        model=model_hashes(named),
         evaluator={"hash": context.judge.content_hash},
         data={
             "pairs": context.data or "",
-            "songs": {path.name: sha256_file(path) for path in files if path.is_file()},
+            "songs": song_hashes(context.songs),
             "clips": "" if edits is None else edits.held_out.data.manifest_hash,
         },
         statistics=(generator.mean, generator.std, singer.mean, singer.std),
-        settings=asdict(context.settings),
         sampling=asdict(context.sampling),
-        families=DANCE_FAMILIES,
         device=str(generator.device),
     )

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..motion.motion import Motion
 from ..motion.trajectory import MotionTrajectory
-from .families import Memo
+from .samples import Memo
 
 Found = TypeVar("Found")
 

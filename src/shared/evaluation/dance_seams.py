@@ -15,8 +15,7 @@ import numpy as np
 from ..metrics.seams import compare
 from ..motion.motion import Motion
 from .dance_sample import BodyDance
-from .families import Column
-from .grids import Grid, GridRow, plain
+from .report.tables import Column, Grid, GridRow, plain
 
 TOP = 99  # percentile of real motion that nothing at a seam is to pass
 ACCELERATION, JERK = "acceleration, m/s²", "jerk, m/s³"

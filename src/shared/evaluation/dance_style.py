@@ -20,9 +20,8 @@ from ..motion.trajectory import to_motion
 from ..pipelines.body import Performer
 from .dance_context import DanceContext, held_still
 from .evaluator import Evaluator
-from .families import Column
-from .grids import Grid, GridRow
-from .intervals import bootstrap_mean
+from .report.tables import Column, Grid, GridRow
+from .stats import bootstrap_mean
 
 ASKED = (
     "a person dances", "a proud person dances", "an old man dances", "a tired person dances",

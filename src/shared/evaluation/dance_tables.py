@@ -11,7 +11,7 @@ from .audio_tables import alignment_grids
 from .dance_context import DanceContext
 from .dance_sample import BodyDance
 from .dance_seams import hard_cuts, seam_grid
-from .grids import Grid
+from .report.tables import Grid
 
 Find = Callable[[Motion], np.ndarray]
 

@@ -12,9 +12,9 @@ import numpy as np
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.motion import Motion
 from ..pipelines.path import DrawnPath
-from .clips import Clips, real_clips
-from .held_out import HeldOut
-from .text_context import untrained
+from .floors import untrained
+from .held_out import HeldOut, real_clips
+from .samples import Clips
 
 Progress = Callable[[str], None]
 MIN_FRAMES, MAX_FRAMES = 90, 150  # of a clip that is edited

@@ -27,9 +27,8 @@ from .editing_figures import (
     near,
 )
 from .evaluator import Evaluator
-from .families import Column
-from .grids import Grid, GridRow, plain
-from .intervals import bootstrap_mean
+from .report.tables import Column, Grid, GridRow
+from .stats import bootstrap_mean
 
 TOP = 99  # percentile of real accelerations
 HALF = 75  # frames of each action of a transition
@@ -130,9 +129,9 @@ def _kept_row(made: Sequence[tuple[Motion, Motion, Given]], limit: float) -> Gri
         for key in ("rotation", "root", "position")
         if not all(np.isnan(each[key]) for each in figures)
     }
-    cells["changed"] = bootstrap_mean([each["changed"] for each in figures]).as_dict()
+    cells["changed"] = bootstrap_mean([each["changed"] for each in figures])
     cells |= _against(borders, limit, "border")
-    return GridRow(plain(cells), len(made), 1)
+    return GridRow(cells, len(made), 1)
 
 
 def _with_poses(clip: Motion, other: Motion, given: Given) -> Motion:
@@ -200,9 +199,9 @@ def _path_row(made: Sequence[Followed]) -> GridRow:
         columns["limb_speed"].append(float(speed))
         columns["support"].append(support_slide(motion.positions().astype(np.float64), fps))
         columns["rough"].append(jerk_per_speed(motion.positions().astype(np.float64), fps))
-    cells = {key: bootstrap_mean(values).as_dict() for key, values in columns.items()}
+    cells = {key: bootstrap_mean(values) for key, values in columns.items()}
     cells["max"] = float(np.max(columns["max"]))  # type: ignore[assignment]
-    return GridRow(plain(cells), len(made), 1)
+    return GridRow(cells, len(made), 1)
 
 
 # ---------------------------------------------------------------- transitions
@@ -253,8 +252,8 @@ def _transition_row(
             _first(judge, frames_of(motion, *part), text, ACTIONS.index(pair[which]))
             for motion, pair in zip(motions, pairs, strict=True)
         ]
-        cells[key] = bootstrap_mean(hits).as_dict()
-    return GridRow(plain(cells), len(motions), 1)
+        cells[key] = bootstrap_mean(hits)
+    return GridRow(cells, len(motions), 1)
 
 
 def _first(judge: Evaluator, motion: Motion, text: np.ndarray, asked: int) -> float:

@@ -1,27 +1,85 @@
-"""Rows against families: measures each row in each replication, and makes tables of it.
+"""Rows against metrics: measures each row in each replication, and makes tables of it.
 
 A bench is a set of rows (real, chance, untrained, generated, ...) under one reference. Every row
-meets every family of metrics, so that no figure stands without its floor and its ceiling.
+meets every family of metrics, so that no figure stands without its floor and its ceiling. A suite
+is benches, tables with rows of their own, and what they were measured with.
 
 Letters: N motions, R replications.
 """
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import partial
-from typing import Any, Generic, TypeVar
+from pathlib import Path
+from typing import Any, Generic, Protocol, Self, TypeVar
 
 import numpy as np
 
-from .families import Column, MetricFamily, Sample, Value
-from .grids import Grid, GridRow, plain
-from .intervals import Estimate, bootstrap_mean, replicated, success_rate
-from .manifest import hash_names
-from .parts import Part, Parts
+from ..errors import UserError
+from . import manifest
+from .manifest import Part, Parts, Sources
+from .report.tables import Column, Grid, GridRow, Report, plain, report_data
+from .stats import Estimate, bootstrap_mean, replicated, share_of
 
 Progress = Callable[[str], None]
-Context = TypeVar("Context")
+Value = float | np.ndarray
 DIGITS = 9  # kept of a figure: what more there is differs between machines
+SAMPLES = "samples"  # folder of the motions to be looked at
+
+
+class AnySample(Protocol):
+    """What the engine asks of a set of N motions; the families of a kind know more of theirs."""
+
+    def __len__(self) -> int: ...
+    @property
+    def asked(self) -> list[str]: ...
+    def rows(self, index: Sequence[int]) -> Self: ...
+
+
+Sample = TypeVar("Sample", bound=AnySample)
+Judged = TypeVar("Judged", bound=AnySample, contravariant=True)
+
+
+class MetricFamily(Protocol[Judged]):
+    """The plug-in point: figures that belong together and share a definition.
+
+    To add one: write a class with these attributes, and name it among the families of a suite.
+    Tables, intervals, comparison, the reports and their legend follow by themselves.
+
+    Attributes:
+        name: of the family's table.
+        columns: what `compute` may return, in the order shown.
+        definition: Markdown for the legend: what each figure is, its source, and what it cannot
+            tell.
+        distance: the figures are distances from the reference. The real row is then measured
+            between two disjoint halves of the real motions, since a sample is at 0 from itself.
+    """
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def columns(self) -> tuple[Column, ...]: ...
+    @property
+    def definition(self) -> str: ...
+    @property
+    def distance(self) -> bool: ...
+
+    def compute(self, sample: Judged, reference: Judged, *, seed: int) -> Mapping[str, Value]:
+        """The figures of one sample in one replication.
+
+        Args:
+            sample: motions to judge: real, chance, frozen, untrained or generated ones.
+            reference: the real motions. Row `sample.source[i]` is the one that motion i was asked
+                to resemble. What is fitted on it belongs in `reference.memo`.
+            seed: of every random choice (batches, pairs).
+
+        Returns:
+            By column key a float for the sample as a whole (its interval comes from
+            replications), or an array [N], one value a motion, NaN where the column does not apply
+            (mean and interval come from a bootstrap over motions; comparisons pair them by
+            prompt). A column that cannot be computed is left out.
+        """
+        ...
 
 
 @dataclass(frozen=True)
@@ -30,7 +88,7 @@ class Row(Generic[Sample]):
 
     Attributes:
         make: the sample of a replication (0, 1, ...).
-        limit: replications at most; None = as many as are asked for.
+        limit: replications at most; None = as many as are asked for, 0 = no such row.
         fixed: the same motions in each replication: one-a-motion figures are kept of the first.
         real: it is the reference itself, so that distances are taken between halves of it.
     """
@@ -43,39 +101,18 @@ class Row(Generic[Sample]):
 
 
 @dataclass(frozen=True)
-class RowKind(Generic[Context, Sample]):
-    """A row before it is known what it is measured on, as `registry.py` names it.
-
-    Attributes:
-        make: the sample of a replication, from a context.
-        limit: replications at most, by the context; None = as many as are asked for.
-        when: whether a context has this row at all.
-        fixed, real: see `Row`.
-    """
-
-    name: str
-    make: Callable[[Context, int], Sample]
-    limit: Callable[[Context], int | None] = lambda context: None
-    when: Callable[[Context], bool] = lambda context: True
-    fixed: bool = False
-    real: bool = False
-
-    def bind(self, context: Context) -> Row[Sample]:
-        """The row of one context."""
-        make = partial(self.make, context)
-        return Row(self.name, make, self.limit(context), self.fixed, self.real)
-
-
-@dataclass(frozen=True)
 class Bench(Generic[Sample]):
     """Rows that are held against one reference by the same families.
 
     Attributes:
         title: for the tables, with what was measured on.
         reference: makes the real sample; asked only when a part is missing.
-        keep: told the main row's first sample, its rows from worst to best and its one-a-motion
-            figures; returns what the report says of the motions it kept.
-        main: name of the row that `keep` is about.
+        main: name of the row whose worst motions are kept as files of the report.
+        write: writes motion i of a sample to a path, and returns what else the report says of it:
+            its title, and files beside it; None = none is kept.
+        worst: motions to keep.
+        summary: a table made of the bench's own.
+        optional: a UserError leaves a table that says why in place of the bench's.
     """
 
     name: str
@@ -84,7 +121,80 @@ class Bench(Generic[Sample]):
     rows: Sequence[Row[Sample]]
     families: Sequence[MetricFamily[Sample]]
     main: str = "generated"
-    keep: Callable[[Sample, list[int], dict[str, np.ndarray]], list[dict[str, Any]]] | None = None
+    write: Callable[[Sample, int, Path], dict[str, Any]] | None = None
+    worst: int = 0
+    summary: Callable[[list[Grid]], Grid] | None = None
+    optional: bool = False
+
+
+@dataclass(frozen=True)
+class Suite:
+    """One evaluation.
+
+    Attributes:
+        branch: text, audio or performer; decides how the report plays motions.
+        settings: amounts and seeds, `replications` and `seed` among them.
+        benches: rows against metrics.
+        tables: further tables by the name of their part, each made once.
+        about: what the report repeats of model and data.
+        facts: more of it that takes long to find out, kept as a part of its own.
+        pictures: draws into the report's folder; returns `file` and `title` of each.
+        sources: of the manifest; asked only where there is a folder.
+    """
+
+    branch: str
+    settings: Mapping[str, Any]
+    benches: Sequence[Bench[Any]]
+    tables: Mapping[str, Callable[[], list[Grid]]] = field(default_factory=dict)
+    about: Mapping[str, Any] = field(default_factory=dict)
+    facts: Callable[[], dict[str, Any]] | None = None
+    pictures: Callable[[Path], list[dict[str, Any]]] | None = None
+    sources: Callable[[], Sources] | None = None
+
+
+def run_suite(suite: Suite, parts: Parts, progress: Progress = lambda text: None) -> Report:
+    """The whole report as plain data; what `parts` holds is not measured again.
+
+    Raises:
+        UserError: data that cannot be used, or the folder of `parts` holds another report.
+    """
+    if parts.folder is not None and suite.sources is not None:
+        families = [family for bench in suite.benches[:1] for family in bench.families]
+        metrics = {family.name: [column.key for column in family.columns] for family in families}
+        sources = suite.sources()
+        manifest.claim(parts.folder, manifest.build(suite.branch, sources, suite.settings, metrics))
+    replications, seed = suite.settings["replications"], suite.settings["seed"]
+    tables: list[Grid] = []
+    samples: list[dict[str, Any]] = []
+    for bench in suite.benches:
+        try:
+            grids = run_bench(bench, parts, replications, seed, progress)
+        except UserError as error:
+            if not bench.optional:
+                raise
+            row = GridRow({"why": str(error)})
+            title = f"{bench.name}: not measured"
+            tables.append(Grid(bench.name, title, (Column("why", "why"),), {bench.name: row}))
+            continue
+        tables += [*grids, *([bench.summary(grids)] if bench.summary is not None else [])]
+        samples += parts.once(part_name(bench.name, bench.main, 0), dict).get("samples", [])
+    for name, make in suite.tables.items():
+        tables += kept_tables(parts, name, make)
+    pictures: list[dict[str, Any]] = []
+    if suite.pictures is not None:
+        draw, folder = suite.pictures, parts.folder
+        pictures = parts.once(
+            "pictures", lambda: {"pictures": draw(folder) if folder is not None else []}
+        )["pictures"]
+    facts = {} if suite.facts is None else parts.once("facts", suite.facts)
+    about = {**suite.about, **facts}
+    return report_data(suite.branch, about, suite.settings, tables, samples, pictures)
+
+
+def kept_tables(parts: Parts, name: str, make: Callable[[], list[Grid]]) -> list[Grid]:
+    """Tables that are one part of a report."""
+    part = parts.once(name, lambda: {"grids": [grid.as_dict() for grid in make()]})
+    return [Grid.from_dict(grid) for grid in part["grids"]]
 
 
 # ---------------------------------------------------------------- measuring
@@ -103,50 +213,45 @@ def run_bench(
     The rows come replication by replication, so that whoever stops early has a whole report of
     fewer replications.
     """
-    measured: dict[str, list[Part]] = {row.name: [] for row in bench.rows}
+    rows = [row for row in bench.rows if row.limit != 0]
+    measured: dict[str, list[Part]] = {row.name: [] for row in rows}
     for replication in range(replications):
-        for row in bench.rows:
+        for row in rows:
             if row.limit is not None and replication >= row.limit:
                 continue
             name = part_name(bench.name, row.name, replication)
             if not parts.done(name):
                 progress(f"{bench.name}: {row.name}, {replication + 1} of {replications}")
-            compute = partial(_measure, bench, row, replication, seed)
+            compute = partial(_measure, bench, row, replication, seed, parts.folder)
             measured[row.name].append(parts.once(name, compute))
     return [family_grid(bench, family, measured) for family in bench.families]
 
 
-def _measure(bench: Bench[Sample], row: Row[Sample], replication: int, seed: int) -> Part:
+def _measure(
+    bench: Bench[Sample], row: Row[Sample], replication: int, seed: int, folder: Path | None
+) -> Part:
     sample, reference = row.make(replication), bench.reference()
     draw = seed + replication
     figures: dict[str, float] = {}
     values: dict[str, np.ndarray] = {}
     for family in bench.families:
-        own, other = (
-            halves(reference, draw) if row.real and family.distance else (sample, reference)
-        )
-        for key, value in _computed(family, own, other, draw).items():
+        apart = row.real and family.distance
+        own, other = halves(reference, draw) if apart else (sample, reference)
+        found = family.compute(own, other, seed=draw)
+        unknown = found.keys() - {column.key for column in family.columns}
+        assert not unknown, f"{family.name} returns {unknown}, no column of it"
+        for key, value in found.items():
             if isinstance(value, np.ndarray):
                 values[key] = value
             else:
                 figures[key] = float(value)
-    part: Part = {"num": len(sample), "asked": hash_names(sample.asked)}
+    part: Part = {"num": len(sample), "asked": manifest.hash_names(sample.asked)}
     part["figures"] = _short(figures)
     if not (row.fixed and replication):
         part["values"] = {key: _short(list(map(float, each))) for key, each in values.items()}
-    if row.name == bench.main and not replication and bench.keep is not None:
-        order = worst_first(bench.families, values, len(sample))
-        part["samples"] = bench.keep(sample, order, values)
+    if row.name == bench.main and not replication and bench.write is not None:
+        part["samples"] = [] if folder is None else _keep_worst(bench, sample, values, folder)
     return part
-
-
-def _computed(
-    family: MetricFamily[Sample], sample: Sample, reference: Sample, seed: int
-) -> dict[str, Value]:
-    known = {column.key for column in family.columns}
-    found = dict(family.compute(sample, reference, seed=seed))
-    assert found.keys() <= known, f"{family.name} returns {found.keys() - known}, no column of it"
-    return found
 
 
 def halves(sample: Sample, seed: int) -> tuple[Sample, Sample]:
@@ -165,8 +270,25 @@ def _short(value: Any) -> Any:
     return {key: _short(item) for key, item in value.items()}
 
 
+def _keep_worst(
+    bench: Bench[Sample], sample: Sample, values: Mapping[str, np.ndarray], folder: Path
+) -> list[dict[str, Any]]:
+    """What the report says of each motion kept: file, figures, title, rank, of."""
+    assert bench.write is not None
+    order = worst_first(bench.families, values, len(sample))
+    columns = [c.key for family in bench.families for c in family.columns if c.better != "real"]
+    kept = []
+    for rank, row in enumerate(order[: bench.worst], start=1):
+        name = f"{SAMPLES}/{bench.name}-{rank:02d}.npz"
+        told = bench.write(sample, row, folder / name)
+        figures = {k: plain(float(f"{values[k][row]:.6g}")) for k in columns if k in values}
+        place = {"rank": rank, "of": len(order), "bench": bench.name}
+        kept.append({"file": name, "figures": figures, **told, **place})
+    return kept
+
+
 def worst_first(
-    families: Iterable[MetricFamily[Sample]], values: dict[str, np.ndarray], num: int
+    families: Iterable[MetricFamily[Sample]], values: Mapping[str, np.ndarray], num: int
 ) -> list[int]:
     """Rows [N] from worst to best.
 
@@ -201,18 +323,15 @@ def _badness(values: np.ndarray, high_is_good: bool) -> np.ndarray:
 
 
 def family_grid(
-    bench: Bench[Sample], family: MetricFamily[Sample], measured: dict[str, list[Part]]
+    bench: Bench[Sample], family: MetricFamily[Sample], measured: Mapping[str, list[Part]]
 ) -> Grid:
     """A family's table: figures of whole samples with intervals over replications, figures of
     single motions with intervals over motions. Columns that no row has are left out."""
     rows = {}
     for name, found in measured.items():
         cells = {column.key: estimate(found, column) for column in family.columns}
-        rows[name] = GridRow(
-            {key: plain(cell) for key, cell in cells.items() if cell is not None},
-            found[0]["num"],
-            len(found),
-        )
+        known = {key: cell for key, cell in cells.items() if cell is not None}
+        rows[name] = GridRow(known, found[0]["num"], len(found))
     columns = tuple(c for c in family.columns if any(c.key in row.cells for row in rows.values()))
     title = f"{bench.title}: {family.name}"
     return Grid(f"{bench.name}/{family.name}", title, columns, rows, family.definition, plot=True)
@@ -227,10 +346,9 @@ def estimate(parts: Sequence[Part], column: Column) -> Estimate | None:
     values = motion_values(parts, key)
     if values is None:
         return None
-    known = values[~np.isnan(values)]
-    if column.share and np.isin(known, (0.0, 1.0)).all():  # a bootstrap has no width at 0 of N
-        return success_rate(int(known.sum()), len(known))
-    return bootstrap_mean(known)
+    if column.share and np.isin(values[~np.isnan(values)], (0.0, 1.0)).all():
+        return share_of(values)  # a bootstrap has no width at 0 of N
+    return bootstrap_mean(values)
 
 
 def motion_values(parts: Sequence[Part], key: str) -> np.ndarray | None:

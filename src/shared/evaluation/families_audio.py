@@ -13,8 +13,10 @@ from ..metrics.kinetic import Features, kinetic_columns, root_features, stacked
 from ..metrics.rhythm import against_chance, motion_beats, song_phase
 from ..metrics.sanity import SEVEN, SanityChecker
 from ..motion.trajectory import MotionTrajectory
-from .families import Column, Dance, DanceSample, Value
+from .engine import Value
 from .families_motion import KINETIC_WARNING
+from .report.tables import Column
+from .samples import Dance, DanceSample
 
 
 def beats_of(trajectory: MotionTrajectory) -> np.ndarray:

@@ -21,7 +21,8 @@ from ..metrics.retrieval import (
     recall_of_dissimilar,
     text_similarity,
 )
-from .families import Column, MotionSample
+from .report.tables import Column
+from .samples import MotionSample
 
 KINETIC_WARNING = (
     "Never beside published figures: other joints, frame rate and data, mended formulas, and "

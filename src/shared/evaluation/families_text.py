@@ -13,8 +13,10 @@ from ..metrics.physical import Physics, physics
 from ..metrics.retrieval import BATCH, Retrieval, guo_retrieval
 from ..metrics.travel import travel, travel_error
 from .controllability import check
-from .families import Column, MotionSample, Value
+from .engine import Value
 from .measurements import measure
+from .report.tables import Column
+from .samples import MotionSample
 
 JOINT_AXES = 16
 MIN_SAMPLE = 2  # motions that have a covariance

@@ -1,11 +1,17 @@
-"""manifest.json of a report: hashes and settings of everything that decides the figures.
+"""What a report folder knows of itself, so that a second start takes it up where it stopped.
 
-Two reports may be compared, and a stopped one continued, if their manifests agree.
+manifest.json: hashes and settings of everything that decides the figures. Two reports may be
+compared, and a stopped one continued, if their manifests agree. parts/: what has been finished, a
+JSON file each, written whole. How long a part took is kept apart in timing.json, so that nothing
+else depends on the clock.
 """
 
 import hashlib
 import platform
-from collections.abc import Iterable, Mapping, Sequence
+import re
+import time
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
@@ -13,62 +19,60 @@ from typing import Any
 import numpy as np
 import torch
 
-from ..errors import UsageError
-from ..files import sha256_file, write_json
-from .families import MetricFamily
-from .parts import read_json
+from ..errors import UsageError, UserError
+from ..files import inside, load_json, sha256_file, write_json
 
-MANIFEST = "manifest.json"
+MANIFEST, TIMING = "manifest.json", "timing.json"
 FORMAT_VERSION = 1
 PACKAGES = ("motionsuite", "torch", "numpy", "scipy", "librosa", "transformers", "safetensors")
 FREE = ("replications",)  # settings that may differ: more replications go on from fewer
+Part = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Sources:
+    """What decides the figures of a report beside its settings.
+
+    Attributes:
+        model, evaluator: hashes of their files, see `folder_hashes`.
+        data: what was measured on: manifest hash, ids of the splits.
+        statistics: mean and deviation tensors in use.
+        sampling: what differs from the model's own settings.
+    """
+
+    model: Mapping[str, Any]
+    data: Mapping[str, Any]
+    statistics: Iterable[torch.Tensor]
+    device: str
+    evaluator: Mapping[str, Any] = field(default_factory=dict)
+    sampling: Mapping[str, Any] = field(default_factory=dict)
 
 
 def build(
     branch: str,
-    *,
-    model: Mapping[str, Any],
-    evaluator: Mapping[str, Any],
-    data: Mapping[str, Any],
-    statistics: Iterable[torch.Tensor],
+    sources: Sources,
     settings: Mapping[str, Any],
-    sampling: Mapping[str, Any],
-    families: Sequence[MetricFamily[Any]],
-    device: str,
+    metrics: Mapping[str, Sequence[str]],
 ) -> dict[str, Any]:
-    """Everything by name.
-
-    Args:
-        branch: text or audio.
-        model, evaluator: hashes of their files, see `folder_hashes`.
-        data: what was measured on: manifest hash, ids of the splits.
-        statistics: mean and deviation tensors in use.
-        settings: amounts and seeds.
-        sampling: what differs from the model's own settings.
-        families: whose columns the tables hold.
-    """
+    """Everything by name; `metrics`: the columns of each family."""
     return {
         "format-version": FORMAT_VERSION,
         "branch": branch,
-        "model": dict(model),
-        "evaluator": dict(evaluator),
-        "data": dict(data),
-        "statistics": hash_arrays(tensor.detach().cpu().numpy() for tensor in statistics),
-        "settings": {key: _listed(value) for key, value in settings.items()},
-        "sampling": {key: value for key, value in sampling.items() if value is not None},
-        "metrics": {family.name: [column.key for column in family.columns] for family in families},
+        "model": dict(sources.model),
+        "evaluator": dict(sources.evaluator),
+        "data": dict(sources.data),
+        "statistics": hash_arrays(each.detach().cpu().numpy() for each in sources.statistics),
+        "settings": {k: list(v) if isinstance(v, tuple) else v for k, v in settings.items()},
+        "sampling": {key: value for key, value in sources.sampling.items() if value is not None},
+        "metrics": {name: list(columns) for name, columns in metrics.items()},
         "environment": {
             "python": platform.python_version(),
             "machine": platform.machine(),
-            "device": device,
+            "device": sources.device,
             "threads": torch.get_num_threads(),
             "packages": {name: _version(name) for name in PACKAGES},
         },
     }
-
-
-def _listed(value: Any) -> Any:
-    return list(value) if isinstance(value, tuple) else value
 
 
 def _version(name: str) -> str:
@@ -82,6 +86,23 @@ def folder_hashes(folder: Path) -> dict[str, str]:
     """SHA-256 of a model folder's cards, weights and statistics by file name."""
     files = sorted([*folder.glob("*.json"), *folder.glob("*.safetensors")])
     return {path.name: sha256_file(path) for path in files}
+
+
+def model_hashes(models: Mapping[str, str | Path]) -> dict[str, str]:
+    """`folder_hashes` of several model folders, each file as `name/file`."""
+    from ..model.zoo import resolve_model
+
+    return {
+        f"{name}/{file}": digest
+        for name, folder in models.items()
+        for file, digest in folder_hashes(resolve_model(str(folder))).items()
+    }
+
+
+def song_hashes(folder: Path | None) -> dict[str, str]:
+    """SHA-256 of every file below a folder by its name; none without a folder."""
+    files = sorted(folder.rglob("*")) if folder is not None else []
+    return {path.name: sha256_file(path) for path in files if path.is_file()}
 
 
 def hash_arrays(arrays: Iterable[np.ndarray]) -> str:
@@ -125,3 +146,70 @@ def differences(a: Mapping[str, Any], b: Mapping[str, Any]) -> list[str]:
         elif left != right:
             found.append(key)
     return found
+
+
+class Parts:
+    """Finished parts by name.
+
+    Args:
+        folder: of the report; None = they are kept in memory alone.
+    """
+
+    def __init__(self, folder: Path | None = None) -> None:
+        self.folder = folder
+        self.known: dict[str, Part] = {}
+        self.seconds: dict[str, float] = {}
+        if folder is not None and (folder / TIMING).is_file():
+            self.seconds = dict(read_json(folder / TIMING).get("seconds", {}))
+
+    def once(self, name: str, compute: Callable[[], Part]) -> Part:
+        """The part of this name, computed and written unless it is there."""
+        if name not in self.known:
+            self.known[name] = self._read(name) or self._compute(name, compute)
+        return self.known[name]
+
+    def done(self, name: str) -> bool:
+        """Whether `once` would compute nothing."""
+        path = self._path(name)
+        return name in self.known or (path is not None and path.is_file())
+
+    def _path(self, name: str) -> Path | None:
+        if self.folder is None:
+            return None
+        return self.folder / "parts" / (re.sub(r"[^\w.-]+", "-", name) + ".json")
+
+    def _read(self, name: str) -> Part | None:
+        """A finished part whose files are still there."""
+        path = self._path(name)
+        if self.folder is None or path is None or not path.is_file():
+            return None
+        part = read_json(path)
+        kept = [*part.get("samples", ()), *part.get("pictures", ())]
+        files = [item[key] for item in kept for key in ("file", "sound") if key in item]
+        return part if all(inside(self.folder, file).is_file() for file in files) else None
+
+    def _compute(self, name: str, compute: Callable[[], Part]) -> Part:
+        started = time.perf_counter()
+        part = compute()
+        self.seconds[name] = round(time.perf_counter() - started, 3)
+        path = self._path(name)
+        if path is not None and self.folder is not None:
+            write_json(path, part)
+            total = round(sum(self.seconds.values()), 1)
+            write_json(self.folder / TIMING, {"seconds": self.seconds, "total": total})
+        return part
+
+
+def read_json(path: Path) -> dict[str, Any]:
+    """An object of a report folder.
+
+    Raises:
+        UserError: missing, or not whole.
+    """
+    try:
+        return dict(load_json(path))
+    except (OSError, ValueError, TypeError) as error:
+        raise UserError(
+            f"{path} cannot be read ({error}); delete it and run `evaluate` again with the same"
+            " --out: only what is missing is measured"
+        ) from error

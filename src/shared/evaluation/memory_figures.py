@@ -22,9 +22,10 @@ from ..motion.window import place_window
 from ..pipelines.song_memory import bars_of_sound, bars_of_window
 from ..pipelines.song_sampler import SPARE, Recall, SongSampler, SongSampling
 from .audio_songs import Piece, open_split
-from .families import Column, Dance, DanceSample
 from .families_audio import BeatAlignment, TrajectorySanity
 from .memory_arms import Arm, Asker
+from .report.tables import Column
+from .samples import Dance, DanceSample
 
 Values = dict[str, np.ndarray]  # column -> one figure for each phrase or song [N]
 BATCH = 16

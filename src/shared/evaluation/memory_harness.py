@@ -20,10 +20,6 @@ from ..memory.index import MemoryIndex
 from ..model.audio.audio_motion_model import AudioMotionModel
 from ..pipelines.song_sampler import SongSampling
 from .audio_songs import held_out_songs
-from .bootstrap import MIN_PAIRS, paired_bootstrap
-from .families import Column
-from .grids import Grid, GridRow, plain
-from .intervals import bootstrap_mean
 from .memory_arms import RANDOM, WITH, WITHOUT, Arm, Asker, arms, variations
 from .memory_figures import (
     Curves,
@@ -34,6 +30,8 @@ from .memory_figures import (
     Values,
     held_back,
 )
+from .report.tables import Column, Grid, GridRow, plain
+from .stats import MIN_PAIRS, bootstrap_mean, paired_bootstrap
 
 Progress = Callable[[str], None]
 CHANCE = "real, of another song"

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from ..metrics.retrieval import Ranks, best_ranks
-from .intervals import Estimate
+from .stats import Estimate
 
 TOP = (1, 5, 10)
 RESAMPLES = 500

@@ -11,10 +11,10 @@ import numpy as np
 
 from ..data.prepared import ClipRecord, PreparedData
 from ..errors import UserError
-from ..motion.motion import Motion
 from ..motion.features import decode_features
+from ..motion.motion import Motion
 from .action_judge import ActionJudge, descriptor
-from .clips import choose_caption, spread_over_groups
+from .held_out import choose_caption, spread_over_groups
 from .yardstick import MIN_FRAMES, Progress, judged_by, same_action, shown
 
 JUDGING_CLIPS = 2_400

@@ -17,14 +17,13 @@ from ..data.captions.requests import COMPOSITIONS, FREE, OUTSIDE, Request, drawn
 from ..data.prepared import PreparedData
 from ..metrics.frechet import frechet_distance
 from ..metrics.kinetic import FeatureSpace
-from ..motion.features import decode_features, encode_features
 from ..motion.motion import Motion
 from .action_judge import ActionJudge
-from .clips import frozen, spread_over_groups
-from .families import Column
-from .grids import Cell, Grid, GridRow, report_data
-from .intervals import bootstrap_mean, success_rate
-from .text_context import errors_only
+from .floors import frozen_pose
+from .held_out import spread_over_groups
+from .report.tables import Cell, Column, Grid, GridRow, report_data
+from .stats import bootstrap_mean, share_of
+from .suites.text import errors_only
 from .yardstick import (
     MIN_FRAMES,
     PIECE,
@@ -101,7 +100,10 @@ def _tables(
     made = make([r.text for r in plain])
     few = plain[::FLOOR_SHARE]
     asked = {"generated": plain, "frozen pose": plain} | dict.fromkeys(floors, few)
-    rows = {"generated": made, "frozen pose": Seen.of([_still(motion) for motion in made.motions])}
+    rows = {
+        "generated": made,
+        "frozen pose": Seen.of([frozen_pose(motion) for motion in made.motions]),
+    }
     for name, floor in floors.items():
         progress(f"{len(few)} of them by {name}")
         rows[name] = _make(floor, settings, [r.text for r in few])
@@ -119,17 +121,7 @@ def _make(model: Model, settings: RequestSettings, texts: Sequence[str]) -> Seen
     return Seen.of(model.generate(texts, seconds=settings.seconds, seed=settings.seed))
 
 
-def _still(motion: Motion) -> Motion:
-    return decode_features(frozen(encode_features(motion)))
-
-
 # ---------------------------------------------------------------- tables
-
-
-def _share(values: Sequence[bool] | np.ndarray) -> Cell:
-    known = np.asarray(values, float)
-    known = known[~np.isnan(known)]
-    return success_rate(int(known.sum()), len(known)).as_dict()
 
 
 def _obedience(
@@ -138,17 +130,17 @@ def _obedience(
     languages = yardstick.settings.languages
     labels = [record.labels for record in yardstick.records]
     real = yardstick.obeyed(labels, yardstick.real)
-    found = {"captured, held out": GridRow({"all": _share(real)}, len(real))}
+    found = {"captured, held out": GridRow({"all": share_of(real)}, len(real))}
     if yardstick.procedural is not None:
         tags = [{"action": tag} for tag in yardstick.procedural_tags]
-        share = _share(yardstick.obeyed(tags, yardstick.procedural))
+        share = share_of(yardstick.obeyed(tags, yardstick.procedural))
         found["procedural"] = GridRow({"all": share}, len(tags))
     for name, seen in rows.items():
         done = yardstick.obeyed([request.labels for request in asked[name]], seen)
-        cells: dict[str, Cell] = {"all": _share(done)}
+        cells: dict[str, Cell] = {"all": share_of(done)}
         for code in languages:
             own = [row for row, request in enumerate(asked[name]) if request.language == code]
-            cells[code] = _share(done[own])
+            cells[code] = share_of(done[own])
         found[name] = GridRow(cells, len(seen))
     columns = [Column(key, key, 2, "high", share=True) for key in ("all", *languages)]
     note = (
@@ -169,8 +161,8 @@ def _by_action(yardstick: Yardstick, plain: Sequence[Request], made: Seen) -> Gr
         theirs = [row for row, record in enumerate(yardstick.records) if record.tag == action]
         others = [instead[row] for row in own if not same_action(action, instead[row])]
         cells: dict[str, Cell] = {
-            "obeyed": _share(done[own]),
-            "real": _share(real[theirs]),
+            "obeyed": share_of(done[own]),
+            "real": share_of(real[theirs]),
             "source": "captured" if action in yardstick.captured else "not captured",
             "instead": max(set(others), key=others.count) if others else "",
         }
@@ -196,7 +188,7 @@ def _realism(
 
     def figures(seen: Seen, wanted: Sequence[str], reference: np.ndarray) -> dict[str, Cell]:
         gait = gaits(seen, wanted, yardstick.top_run)
-        return distances(seen, wanted, reference) | {k: v.as_dict() for k, v in gait.items()}
+        return distances(seen, wanted, reference) | gait
 
     def distances(seen: Seen, wanted: Sequence[str], reference: np.ndarray) -> dict[str, Cell]:
         """Against as many captured clips of the same actions."""
@@ -211,13 +203,13 @@ def _realism(
         return {
             "learned": frechet_distance(judge.embed(a.features), judge.embed(b.features)),
             "kinematic": space.distance(kinetic(a), kinetic(b)),
-            "procedural": _share(nearer),
+            "procedural": share_of(nearer),
         }
 
     half = real.rows(halves[0].tolist())
     own, everything = [tags[i] for i in halves[0]], np.arange(len(tags))
     gait = gaits(real, tags, yardstick.top_run)
-    apart = distances(half, own, halves[1]) | {k: v.as_dict() for k, v in gait.items()}
+    apart = distances(half, own, halves[1]) | gait
     found = {"captured, held out": GridRow(apart, len(half))}
     if yardstick.procedural is not None:
         seen, wanted = yardstick.procedural, yardstick.procedural_tags
@@ -264,7 +256,7 @@ def _exactness(
         if wanted:
             motions = make([r.text for r in wanted]).motions
             done = [does(r, motion) for r, motion in zip(wanted, motions, strict=True)]
-            rows[name] = GridRow({"share": _share(done)}, len(done))
+            rows[name] = GridRow({"share": share_of(done)}, len(done))
 
     def obeys(request: Request, motion: Motion) -> bool:
         return bool(yardstick.obeyed([request.labels], Seen.of([motion]))[0])
@@ -286,7 +278,7 @@ def _exactness(
         name, longest = "gestures from rest to rest", yardstick.longest
         pairs = zip(yardstick.records, yardstick.real.motions, strict=True)
         whole = [at_rest(m) for r, m in pairs if r.tag in GESTURES and r.num_frames <= longest]
-        rows[name] = GridRow({**rows[name].cells, "real": _share(whole)}, rows[name].num)
+        rows[name] = GridRow({**rows[name].cells, "real": share_of(whole)}, rows[name].num)
     rows["spread of a gesture, cm"] = _spread_row(yardstick, model, gestures)
     for seconds in LONG_WALKS:
         walk = model.generate([WALK], seconds=seconds, seed=yardstick.settings.seed)[0]
@@ -316,7 +308,7 @@ def _spread_row(yardstick: Yardstick, model: Model, gestures: Sequence[Request])
         if record.tag in GESTURES and motion.num_frames >= PIECE:
             groups.setdefault(record.group, []).append(motion)
     real = [spread(motions) for motions in groups.values() if len(motions) > 3]
-    cells = {"share": bootstrap_mean(made).as_dict(), "real": bootstrap_mean(real).as_dict()}
+    cells = {"share": bootstrap_mean(made), "real": bootstrap_mean(real)}
     return GridRow(cells, len(made) * settings.variety_seeds)
 
 
@@ -343,9 +335,9 @@ def _styles(
     walks = [action == "walk" for action in yardstick.shows(made)]
     return {
         "styled walks: style heard": GridRow(
-            {"share": _share(heard), "real": _share(right)}, len(made)
+            {"share": share_of(heard), "real": share_of(right)}, len(made)
         ),
-        "styled walks: still a walk": GridRow({"share": _share(walks)}, len(made)),
+        "styled walks: still a walk": GridRow({"share": share_of(walks)}, len(made)),
     }
 
 
@@ -377,7 +369,7 @@ def _warnings(
         "free prompts, wrong but warned of": ~right & told,
         "free prompts, wrong without a word": ~right & ~told,
     }
-    rows = {name: GridRow({"share": _share(each)}, len(each)) for name, each in shares.items()}
+    rows = {name: GridRow({"share": share_of(each)}, len(each)) for name, each in shares.items()}
     note = (
         "The first three rows: share that is warned of. Then the free prompts, half of which are"
         " outside: every one is right, or wrong with or without a warning."

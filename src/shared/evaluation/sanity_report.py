@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from ..metrics.sanity import SEVEN
-from .report import Table, number
+from .report.tables import Table, number
 
 NOTES = {
     "sanity": "What the decoder gave, not clamped, not made coherent. seven: TECH's five checks and"

@@ -18,8 +18,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from .intervals import Estimate, bootstrap_mean, replicated
-from .report import Table, interval
+from .report.tables import Table, interval
+from .stats import Estimate, bootstrap_mean, replicated
 
 Role = Literal["outside", "akin", "judge"]
 ROLES: dict[Role, str] = {

@@ -23,10 +23,10 @@ from ..model.generation.motion_generator import TextToMotion
 from ..motion.motion import Motion
 from ..pipelines.ranking import TextJudge, load_tower, own_tower
 from ..pipelines.text import PromptSampler
-from .clips import Clips, real_clips
 from .controllability import check
 from .evaluator import Evaluator
-from .held_out import open_held_out
+from .held_out import open_held_out, real_clips
+from .samples import Clips
 from .selection_harness import Chosen, Figure, Pool, report_of
 
 BATCHINGS = 20  # random batches of 32 that each prompt's R-precision is the mean of

@@ -18,9 +18,8 @@ from ..model.audio.audio_tower import AudioTower
 from ..model.audio.shared_space import MotionTower, SharedSpace
 from ..model.clip.core import TextTower
 from ..model.clip.tokenizer import PromptTokenizer
-from .families import Column
-from .grids import Grid, GridRow, report_data
 from .metrics_space import TOP
+from .report.tables import Column, Grid, GridRow, report_data
 from .space_neighbours import Neighbours
 from .space_retrieval import Bench
 from .space_windows import Windows

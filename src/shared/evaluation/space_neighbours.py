@@ -9,10 +9,10 @@ import numpy as np
 from torch import Tensor
 
 from ..motion.features import FORWARD, LATERAL, ROOT_ROW
-from .intervals import Estimate
 from .metrics_space import by_song
 from .space_retrieval import Bench
 from .space_windows import Windows
+from .stats import Estimate
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,9 @@ import numpy as np
 from torch import Tensor
 
 from ..metrics.retrieval import BATCH
-from .intervals import Estimate
 from .metrics_space import ranks, retrieval_figures
 from .space_windows import Windows, related
+from .stats import Estimate
 
 Figures = dict[str, Estimate]
 

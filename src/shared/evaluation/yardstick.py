@@ -19,10 +19,10 @@ from ..motion.features import decode_features
 from ..motion.motion import Motion
 from ..motion.skeleton import JOINT_INDEX
 from .action_judge import ActionJudge, descriptor
-from .clips import spread_over_groups
 from .controllability import check
-from .intervals import Estimate, bootstrap_mean
-from .text_context import LANGUAGES
+from .held_out import spread_over_groups
+from .stats import Estimate, bootstrap_mean
+from .suites.text import LANGUAGES
 
 Progress = Callable[[str], None]
 TWINS = ({"wave", "bye"},)  # one gesture under two names

@@ -10,9 +10,8 @@ import pytest
 from src.shared.audio.synthetic_songs import SongSpec, render_song
 from src.shared.evaluation.audio_context import AudioSettings
 from src.shared.evaluation.audio_harness import evaluate_audio
-from src.shared.evaluation.grids import Grid
-from src.shared.evaluation.report import grids, markdown, tables
-from src.shared.evaluation.report_folder import save_report
+from src.shared.evaluation.report.folder import save_report
+from src.shared.evaluation.report.tables import Grid, grids, markdown, tables
 from src.shared.model.audio.conditioning import BEAT
 from src.shared.motion.trajectory import PHASE, MotionTrajectory
 from src.shared.pipelines.song import SongGenerator

@@ -18,7 +18,7 @@ from src.shared.evaluation.audio_sanity import (
     verdict,
 )
 from src.shared.evaluation.audio_songs import open_split
-from src.shared.evaluation.report import as_markdown, heading
+from src.shared.evaluation.report.tables import as_markdown, heading
 from src.shared.evaluation.sanity_report import sanity_tables
 from src.shared.metrics.bands import Band, Bands
 from src.shared.metrics.sanity import SanityChecker, sanity_row

@@ -15,10 +15,9 @@ from src.shared.evaluation.dance_context import DanceContext, DanceSettings
 from src.shared.evaluation.dance_harness import evaluate_performer
 from src.shared.evaluation.editing_context import EditContext, EditSettings
 from src.shared.evaluation.evaluator import Evaluator
-from src.shared.evaluation.grids import Grid
 from src.shared.evaluation.held_out import HeldOut
-from src.shared.evaluation.report import grids, markdown
-from src.shared.evaluation.report_folder import save_report
+from src.shared.evaluation.report.folder import save_report
+from src.shared.evaluation.report.tables import Grid, grids, markdown
 from src.shared.motion.features import encode_features
 from src.shared.pipelines.body import PerformerSettings
 from src.shared.pipelines.song import SongGenerator

@@ -9,14 +9,13 @@ import pytest
 
 from src.shared.errors import UserError
 from src.shared.evaluation.engine import Bench, Row, estimate, motion_values, run_bench, worst_first
-from src.shared.evaluation.families import Column
-from src.shared.evaluation.grids import Grid
-from src.shared.evaluation.parts import Parts
+from src.shared.evaluation.manifest import Parts
+from src.shared.evaluation.report.tables import Column, Grid
 from tests.shared.evaluation.toy_bench import NUM, Heights, toy_bench
 
 
 def run(folder: Path | None, replications: int = 3) -> dict[str, Grid]:
-    bench = toy_bench(folder)
+    bench = toy_bench()
     parts = Parts(folder)
     grids = run_bench(bench, parts, replications, 0, lambda text: None)
     return {grid.name: grid for grid in grids}
@@ -84,7 +83,7 @@ def test_another_kind_of_motion_needs_nothing_of_the_harness() -> None:
 
 def test_a_finished_part_is_not_measured_again(tmp_path: Path) -> None:
     first = run(tmp_path, replications=1)
-    bench, parts = toy_bench(tmp_path), Parts(tmp_path)
+    bench, parts = toy_bench(), Parts(tmp_path)
     again = run_bench(bench, parts, 1, 0, lambda text: pytest.fail(text))
     heights = bench.families[0]
     assert isinstance(heights, Heights) and heights.calls == 0
@@ -95,7 +94,7 @@ def test_a_finished_part_is_not_measured_again(tmp_path: Path) -> None:
 
 
 def test_whoever_stops_it_loses_only_the_part_in_hand(tmp_path: Path) -> None:
-    bench = toy_bench(tmp_path)
+    bench = toy_bench()
 
     def stop(text: str) -> None:
         if text == "toy: generated, 2 of 3":

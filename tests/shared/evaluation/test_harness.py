@@ -17,15 +17,19 @@ from src.shared.data.prepared import PreparedData
 from src.shared.data.synthetic import generate_clip
 from src.shared.data.synthetic.clips import spec_for
 from src.shared.errors import UserError
-from src.shared.evaluation import control_table as control
-from src.shared.evaluation.clips import Sampler
 from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig, contrastive_loss
-from src.shared.evaluation.harness import evaluate_samplers
 from src.shared.evaluation.held_out import HeldOut
-from src.shared.evaluation.report import grids, markdown, print_report, printed, tables
-from src.shared.evaluation.text_context import TextSettings
-from src.shared.evaluation.text_scores import scores
-from src.shared.evaluation.text_tables import control_grid
+from src.shared.evaluation.report.tables import (
+    grids,
+    markdown,
+    print_report,
+    printed,
+    tables,
+)
+from src.shared.evaluation.samples import Sampler
+from src.shared.evaluation.suites import control as control
+from src.shared.evaluation.suites.control import control_grid
+from src.shared.evaluation.suites.text import TextSettings, evaluate_samplers, scores
 from src.shared.evaluation.training_set import PairSet
 from src.shared.motion.motion import Motion
 
@@ -71,7 +75,7 @@ def judge(data: PreparedData) -> Evaluator:
 
 def copying_sampler(held_out: HeldOut, *, deaf: bool) -> Sampler:
     """Returns real clips: those of the caption asked for, or any."""
-    from src.shared.evaluation.clips import real_clips
+    from src.shared.evaluation.held_out import real_clips
 
     clips = real_clips(held_out.data, held_out.records["seen"], num=999, max_frames=64)
     by_caption: dict[str, list[Motion]] = {}

@@ -14,7 +14,6 @@ from src.cli.tools import app
 from src.shared.config_memory import MemoryConfig
 from src.shared.data.phrases.layout import parse_manifest
 from src.shared.errors import UsageError, UserError
-from src.shared.evaluation.families import Column
 from src.shared.evaluation.memory_arms import RANDOM, WITH, WITHOUT, Arm, Asker, arms
 from src.shared.evaluation.memory_figures import Curves, Denoising, Setting, held_back
 from src.shared.evaluation.memory_harness import (
@@ -25,6 +24,7 @@ from src.shared.evaluation.memory_harness import (
     over_songs,
     word,
 )
+from src.shared.evaluation.report.tables import Column
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.pipelines.song_sampler import SongSampling
 from tests.shared.evaluation.tiny_pairs import tiny_model, write_pairs

@@ -14,7 +14,7 @@ from src.shared.data.sources.folders import SyntheticSource
 from src.shared.data.synthetic import generate_clip
 from src.shared.data.synthetic.clips import label_combinations, spec_for
 from src.shared.errors import UserError
-from src.shared.evaluation.grids import Grid
+from src.shared.evaluation.report.tables import Grid
 from src.shared.evaluation.requests_harness import evaluate_requests
 from src.shared.evaluation.yardstick import RequestSettings, at_rest
 from src.shared.motion.motion import Motion

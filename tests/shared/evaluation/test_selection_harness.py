@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from src.shared.evaluation.intervals import replicated
 from src.shared.evaluation.selection_harness import (
     Figure,
     Pool,
@@ -14,6 +13,7 @@ from src.shared.evaluation.selection_harness import (
     selection_tables,
     sizes,
 )
+from src.shared.evaluation.stats import replicated
 
 P, C, N = 400, 32, 8
 OUTSIDE = Figure("quality", "quality", 3, True, "outside")

@@ -9,8 +9,8 @@ import torch
 from src.shared.data.synthetic import generate_clip
 from src.shared.data.synthetic.clips import spec_for
 from src.shared.evaluation.audio_songs import held_out_songs
-from src.shared.evaluation.clips import Clips
 from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig
+from src.shared.evaluation.samples import Clips
 from src.shared.evaluation.selection_harness import choices, measured, report_of
 from src.shared.evaluation.selection_songs import song_pool
 from src.shared.evaluation.selection_text import FIGURES, _retrieval, prompt_pool

@@ -8,8 +8,7 @@ import pytest
 import torch
 
 from src.shared.data.phrases.dataset import MotionPhraseDataset
-from src.shared.evaluation.grids import Grid
-from src.shared.evaluation.report import as_markdown, heading, tables
+from src.shared.evaluation.report.tables import Grid, as_markdown, heading, tables
 from src.shared.evaluation.space_harness import (
     CHANCE,
     SPACE,

@@ -11,10 +11,9 @@ import torch
 from src.shared.data.prepare import prepare
 from src.shared.data.sources.folders import SyntheticSource
 from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig
-from src.shared.evaluation.harness import evaluate_text
-from src.shared.evaluation.report import grids
-from src.shared.evaluation.report_folder import save_report
-from src.shared.evaluation.text_context import TextSettings
+from src.shared.evaluation.report.folder import save_report
+from src.shared.evaluation.report.tables import grids
+from src.shared.evaluation.suites.text import TextSettings, evaluate_text
 from tests.shared.model.conftest import tiny_generator
 
 SETTINGS = TextSettings(

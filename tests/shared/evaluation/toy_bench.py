@@ -1,15 +1,13 @@
 """A bench whose figures are known: motions are single numbers in the caption's place."""
 
 from collections.abc import Mapping
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from src.shared.evaluation.clips import Clips
-from src.shared.evaluation.engine import Bench, Row
-from src.shared.evaluation.families import Column, MotionSample, Value
-from src.shared.evaluation.worst import Keeper, write_motion
+from src.shared.evaluation.engine import Bench, Row, Value
+from src.shared.evaluation.report.tables import Column
+from src.shared.evaluation.samples import Clips, MotionSample
+from src.shared.evaluation.suites.text import write_motion
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import NUM_JOINTS
 
@@ -78,7 +76,7 @@ class Apart:
         return {"apart": float(abs(own - real))}
 
 
-def toy_bench(folder: Path | None = None, *, lift: float = 0.5) -> Bench[MotionSample]:
+def toy_bench(*, lift: float = 0.5) -> Bench[MotionSample]:
     """Real heights 0 to 1.1; generated ones are `lift` higher, a tenth more each replication."""
     real = toy_sample(np.arange(NUM) / 10)
     real = real.rows(range(NUM - 1, -1, -1))  # in another order than what is generated
@@ -87,10 +85,9 @@ def toy_bench(folder: Path | None = None, *, lift: float = 0.5) -> Bench[MotionS
         return toy_sample(np.arange(NUM) / 10 + lift + replication / 10)
 
     families = (Heights(), Apart())
-    keep: Any = Keeper(folder, "toy", 3, families, write_motion)
     rows = [
         Row("real", lambda replication: real, fixed=True, real=True),
         Row("generated", generated),
         Row("untrained", lambda replication: toy_sample(np.zeros(NUM)), limit=1),
     ]
-    return Bench("toy", "toy clips", lambda: real, rows, families, keep=keep)
+    return Bench("toy", "toy clips", lambda: real, rows, families, write=write_motion, worst=3)

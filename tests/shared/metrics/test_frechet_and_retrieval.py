@@ -9,7 +9,7 @@ import scipy.linalg
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from src.shared.evaluation.intervals import bootstrap_mean, replicated, success_rate
+from src.shared.evaluation.stats import bootstrap_mean, replicated, success_rate
 from src.shared.metrics.frechet import (
     JointFrechet,
     Projection,

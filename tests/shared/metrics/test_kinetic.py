@@ -8,10 +8,9 @@ import scipy.linalg
 import torch
 from torchmetrics.image.fid import FrechetInceptionDistance
 
-from src.shared.evaluation.clips import Clips
-from src.shared.evaluation.families import Dance, DanceSample, MotionSample
 from src.shared.evaluation.families_audio import RootKinetics
 from src.shared.evaluation.families_motion import BodyKinetics
+from src.shared.evaluation.samples import Clips, Dance, DanceSample, MotionSample
 from src.shared.metrics.frechet import Projection, frechet_distance
 from src.shared.metrics.kinetic import (
     AXES,

@@ -10,9 +10,8 @@ from hypothesis import strategies as st
 from torchmetrics.functional.retrieval import retrieval_hit_rate
 from torchmetrics.functional.retrieval import retrieval_reciprocal_rank as reciprocal
 
-from src.shared.evaluation.clips import Clips
-from src.shared.evaluation.families import MotionSample
 from src.shared.evaluation.families_motion import FAMILIES
+from src.shared.evaluation.samples import Clips, MotionSample
 from src.shared.metrics.retrieval import (
     RECALL_AT,
     best_ranks,

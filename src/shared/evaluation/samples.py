@@ -1,44 +1,21 @@
-"""The plug-in point of the harness: a family of metrics brings columns and what they mean.
+"""What is measured: N motions and what each was asked for, of the text branch and of the audio one.
 
-To add one: write a class with the attributes of `MetricFamily` in a file of its own and name it in
-`registry.py`. Tables, intervals, comparison, the reports and their legend follow by themselves.
-
-Letters: N motions of a sample, D embedding channels.
+Letters: N motions of a sample, D embedding channels, T frames.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import Literal, Protocol, Self, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
 from ..motion.motion import Motion
 from ..motion.trajectory import MotionTrajectory
-from .clips import Clips
 
-Better = Literal["high", "low", "real"]  # real: the nearer to the real row, the better
-Value = float | np.ndarray
 Found = TypeVar("Found")
-
-
-@dataclass(frozen=True)
-class Column:
-    """One figure of a table.
-
-    Attributes:
-        key: in report.json; unique among the families of a branch.
-        heading: above the column, with its unit.
-        decimals: shown.
-        better: which way is good; `worst first` goes by the columns that are not `real`.
-        share: yes or no a motion (1 or 0): its interval is Wilson's, which has a width at 0 of N.
-    """
-
-    key: str
-    heading: str
-    decimals: int = 3
-    better: Better = "real"
-    share: bool = False
+# Prompts and their numbers of frames, with a seed, to one motion each, in the same order.
+Sampler = Callable[[Sequence[str], Sequence[int], int], list[Motion]]
 
 
 class Memo:
@@ -52,6 +29,34 @@ class Memo:
         if name not in self.known:
             self.known[name] = compute()
         return self.known[name]  # type: ignore[return-value]
+
+
+@dataclass(frozen=True)
+class Clips:
+    """N motions with what they are about; row i of each field belongs together."""
+
+    motions: list[Motion]
+    captions: list[str]
+    groups: list[str]
+    tags: list[str]
+    labels: list[dict[str, str]]
+
+    def __len__(self) -> int:
+        return len(self.motions)
+
+    @property
+    def num_frames(self) -> list[int]:
+        """Length of each motion in frames."""
+        return [motion.num_frames for motion in self.motions]
+
+    def rows(self, index: Sequence[int]) -> "Clips":
+        """The clips at these rows, in this order."""
+        columns = (self.motions, self.captions, self.groups, self.tags, self.labels)
+        return Clips(*([column[i] for i in index] for column in columns))  # type: ignore[arg-type]
+
+    def with_motions(self, motions: list[Motion]) -> "Clips":
+        """The same captions and labels over other motions."""
+        return replace(self, motions=motions)
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,54 +178,3 @@ class DanceSample:
                 replace(dance, trajectory=other.trajectory, counted=other.counted, memo=other.memo)
             )
         return DanceSample(moved, self.source)
-
-
-class AnySample(Protocol):
-    """What the engine asks of a set of N motions; the families of a kind know more of theirs."""
-
-    def __len__(self) -> int: ...
-    @property
-    def asked(self) -> list[str]: ...
-    def rows(self, index: Sequence[int]) -> Self: ...
-
-
-Sample = TypeVar("Sample", bound=AnySample, contravariant=True)
-
-
-class MetricFamily(Protocol[Sample]):
-    """Figures that belong together and share a definition.
-
-    Attributes:
-        name: of the family's table.
-        columns: what `compute` may return, in the order shown.
-        definition: Markdown for the legend: what each figure is, its source, and what it cannot
-            tell.
-        distance: the figures are distances from the reference. The real row is then measured
-            between two disjoint halves of the real motions, since a sample is at 0 from itself.
-    """
-
-    @property
-    def name(self) -> str: ...
-    @property
-    def columns(self) -> tuple[Column, ...]: ...
-    @property
-    def definition(self) -> str: ...
-    @property
-    def distance(self) -> bool: ...
-
-    def compute(self, sample: Sample, reference: Sample, *, seed: int) -> Mapping[str, Value]:
-        """The figures of one sample in one replication.
-
-        Args:
-            sample: motions to judge: real, chance, frozen, untrained or generated ones.
-            reference: the real motions. Row `sample.source[i]` is the one that motion i was asked
-                to resemble. What is fitted on it belongs in `reference.memo`.
-            seed: of every random choice (batches, pairs).
-
-        Returns:
-            By column key a float for the sample as a whole (its interval comes from
-            replications), or an array [N], one value a motion, NaN where the column does not apply
-            (mean and interval come from a bootstrap over motions; comparisons pair them by
-            prompt). A column that cannot be computed is left out.
-        """
-        ...

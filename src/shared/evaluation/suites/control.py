@@ -7,26 +7,32 @@ made for other tasks (chance), on a pose held still, and on what an untrained ne
 Letters: N motions of one cell.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
-from functools import partial
 from itertools import chain
 from typing import Any
 
-from ..data.captions.book import CaptionBook
-from ..motion.features import decode_features, encode_features
-from ..motion.motion import Motion
-from .clips import Clips, Sampler, frozen
-from .controllability import CONTROL_TASKS, ControlTask
-from .intervals import Estimate, success_rate
-from .measurements import Measurements, measure
-from .parts import Part
+from ...data.captions.book import CaptionBook
+from ..controllability import CONTROL_TASKS, ControlTask
+from ..floors import frozen_pose
+from ..manifest import Part
+from ..measurements import Measurements, measure
+from ..report.tables import Cell as TableCell
+from ..report.tables import Column, Grid, GridRow
+from ..samples import Clips, Sampler
+from ..stats import Estimate, share_of, success_rate
 
 Labels = dict[str, str]
 Once = Callable[[str, Callable[[], Part]], Part]
-WORDINGS = ("templates", "paraphrases")
+WORDINGS = {"templates": "tmpl", "paraphrases": "para"}  # with their headings
 FLOORS = ("real", "chance", "still", "untrained")
 NUM_TEMPLATES = 12  # captions of one label set and language that the seeds go round
+NOTE = (
+    "Success by forward kinematics: prompts of the training templates (tmpl) and paraphrases that"
+    " no training caption repeats (para). real: test clips with these labels; chance: motions made"
+    " for the other tasks; still: the first pose held; untrained: the same network with fresh"
+    " weights, asked the first language's templates. ± is Wilson's 95%."
+)
 
 
 @dataclass
@@ -76,53 +82,29 @@ def plan_cells(
     return cells
 
 
-def fill_cells(
-    cells: Sequence[Cell], sampler: Sampler, *, num_frames: int, seed: int
-) -> list[Motion]:
-    """Generate all cells of one language in one call; returns the motions of the first one.
+def _measured(cells: Sequence[Cell], sampler: Sampler, num_frames: int, seed: int) -> Part:
+    """What all motions of these cells do, made in one call, and the first cell's held still.
 
     Equal prompts in several places get different noise from the sampler.
     """
     wanted = [prompt for cell in cells for prompt in (*cell.prompts, *cell.versus)]
     motions = sampler(wanted, [num_frames] * len(wanted), seed)
     rest = iter(motions)
+    found: Part = {"made": [], "others": []}
     for cell in cells:
-        cell.made = [measure(next(rest)) for _ in cell.prompts]
-        cell.others = [measure(next(rest)) for _ in cell.versus]
-    return motions[: len(cells[0].prompts)]
+        found["made"].append([asdict(measure(next(rest))) for _ in cell.prompts])
+        found["others"].append([asdict(measure(next(rest))) for _ in cell.versus])
+    first = motions[: len(cells[0].prompts)]
+    return found | {"still": [asdict(measure(frozen_pose(motion))) for motion in first]}
 
 
-def _filled(
-    cells: Sequence[Cell],
-    sampler: Sampler,
-    num_frames: int,
-    seed: int,
-    name: str,
-    progress: Callable[[str], None],
-) -> Part:
-    """`fill_cells` as plain data: what was measured, and the first cell's motions held still."""
-    progress(f"controllability: {name}, {len(cells)} cells of {len(cells[0].prompts)} motions")
-    first = fill_cells(cells, sampler, num_frames=num_frames, seed=seed)
-    return {
-        "made": [[asdict(one) for one in cell.made] for cell in cells],
-        "others": [[asdict(one) for one in cell.others] for cell in cells],
-        "still": [asdict(one) for one in _stand_still(first)],
-    }
-
-
-def _take(cells: Sequence[Cell], found: Part) -> None:
-    """Fill the cells with what `_filled` found."""
-    for cell, made, others in zip(cells, found["made"], found["others"], strict=True):
-        cell.made, cell.others = _measured(made), _measured(others)
-
-
-def _measured(rows: Sequence[dict[str, Any]]) -> list[Measurements]:
-    """Measurements again; JSON has no tuples."""
-
-    def whole(row: dict[str, Any]) -> dict[str, Any]:
-        return {key: tuple(v) if isinstance(v, list) else v for key, v in row.items()}
-
-    return [Measurements(**whole(row)) for row in rows]
+def _again(rows: Sequence[Mapping[str, Any]]) -> list[Measurements]:
+    """Measurements from JSON, which has no tuples."""
+    whole: list[dict[str, Any]] = [
+        {key: tuple(value) if isinstance(value, list) else value for key, value in row.items()}
+        for row in rows
+    ]
+    return [Measurements(**row) for row in whole]
 
 
 def rate(
@@ -130,22 +112,8 @@ def rate(
 ) -> Estimate:
     """Share of motions that do what the task asks, against `others` row by row if it compares."""
     if task.compare is None:
-        return success_rate(sum(map(task.check, motions)), len(motions))
-    pairs = list(zip(motions, others, strict=False))
-    return success_rate(sum(task.compare(a, b) for a, b in pairs), len(pairs))
-
-
-def _matching(clips: Clips, labels: Sequence[Labels]) -> list[Measurements]:
-    """Measurements of real clips that carry every label of one of these sets."""
-    return [
-        measure(motion)
-        for motion, own in zip(clips.motions, clips.labels, strict=True)
-        if any(wanted.items() <= own.items() for wanted in labels)
-    ]
-
-
-def _stand_still(motions: Sequence[Motion]) -> list[Measurements]:
-    return [measure(decode_features(frozen(encode_features(motion)))) for motion in motions]
+        return share_of([task.check(motion) for motion in motions])
+    return share_of([task.compare(a, b) for a, b in zip(motions, others, strict=False)])
 
 
 def control_table(
@@ -174,28 +142,46 @@ def control_table(
     """
     languages = [language for language in languages if language in book.languages]
     cells = plan_cells(book, languages, num_seeds, seed)
+
+    def fill(own: Sequence[Cell], sampler: Sampler, name: str) -> list[Measurements]:
+        def compute() -> Part:
+            number = len(own[0].prompts)
+            progress(f"controllability: {name}, {len(own)} cells of {number} motions")
+            return _measured(own, sampler, num_frames, seed)
+
+        found = once(f"controllability.{name}", compute)
+        for cell, made, others in zip(own, found["made"], found["others"], strict=True):
+            cell.made, cell.others = _again(made), _again(others)
+        return _again(found["still"])
+
     still: list[Measurements] = []
     for language in languages:
         own = [cell for cell in cells if cell.language == language]
         if own:
-            compute = partial(_filled, own, sampler, num_frames, seed, language, progress)
-            found = once(f"controllability.{language}", compute)
-            _take(own, found)
-            still = still or _measured(found["still"])
-    floor = [] if untrained is None else _templates_of(cells, languages[:1])
-    if untrained is not None and floor:
-        compute = partial(_filled, floor, untrained, num_frames, seed, "untrained", progress)
-        _take(floor, once("controllability.untrained", compute))
-    tasks = {
-        task.name: {
-            "generated": _rates([cell for cell in cells if cell.task is task]),
+            first = fill(own, sampler, language)
+            still = still or first
+    floor: list[Cell] = []
+    if untrained is not None:
+        floor = [replace(c, made=[], others=[]) for c in cells
+                 if c.language in languages[:1] and c.wording == "templates"]  # fmt: skip
+        if floor:
+            fill(floor, untrained, "untrained")
+    tasks: dict[str, dict[str, Any]] = {}
+    for task in CONTROL_TASKS:
+        made: dict[str, dict[str, Any]] = {}
+        for cell in cells:
+            if cell.task is task:
+                value = rate(task, cell.made, cell.others).as_dict()
+                made.setdefault(cell.language, {})[cell.wording] = value
+        own = [cell for cell in floor if cell.task is task]
+        fresh = rate(task, own[0].made, own[0].others) if own else success_rate(0, 0)
+        tasks[task.name] = {
+            "generated": made,
             "real": _real_rate(task, real).as_dict(),
             "chance": _chance_rate(task, cells).as_dict(),
             "still": rate(task, still, still[1:] + still[:1]).as_dict(),
-            "untrained": _own_rate(task, floor).as_dict(),
+            "untrained": fresh.as_dict(),
         }
-        for task in CONTROL_TASKS
-    }
     return {
         "tasks": tasks,
         "means": _means(tasks, languages),
@@ -205,38 +191,20 @@ def control_table(
     }
 
 
-def _rates(cells: Sequence[Cell]) -> dict[str, dict[str, dict[str, float | int]]]:
-    result: dict[str, dict[str, dict[str, float | int]]] = {}
-    for cell in cells:
-        value = rate(cell.task, cell.made, cell.others).as_dict()
-        result.setdefault(cell.language, {})[cell.wording] = value
-    return result
-
-
 def _real_rate(task: ControlTask, real: Clips | None) -> Estimate:
-    if real is None:
-        return success_rate(0, 0)
-    motions = _matching(real, task.labels)
+    """The check on real clips that carry every label of one of the task's sets."""
+
+    def matching(labels: Sequence[Labels]) -> list[Measurements]:
+        pairs = [] if real is None else list(zip(real.motions, real.labels, strict=True))
+        fits = [m for m, own in pairs if any(wanted.items() <= own.items() for wanted in labels)]
+        return [measure(motion) for motion in fits]
+
+    motions = matching(task.labels)
     if task.versus is None:
         return rate(task, motions, [])
-    others = _matching(real, [task.versus])
+    others = matching([task.versus])
     pairs = [(a, b) for a in motions for b in others]
     return rate(task, [a for a, _ in pairs], [b for _, b in pairs])
-
-
-def _templates_of(cells: Sequence[Cell], languages: Sequence[str]) -> list[Cell]:
-    """The same questions with nothing made for them yet."""
-    return [
-        replace(cell, made=[], others=[])
-        for cell in cells
-        if cell.language in languages and cell.wording == "templates"
-    ]
-
-
-def _own_rate(task: ControlTask, cells: Sequence[Cell]) -> Estimate:
-    """The check on the motions of the one cell that asks for it; of none, if there is none."""
-    own = [cell for cell in cells if cell.task is task]
-    return rate(task, own[0].made, own[0].others) if own else success_rate(0, 0)
 
 
 def _chance_rate(task: ControlTask, cells: Sequence[Cell]) -> Estimate:
@@ -248,23 +216,38 @@ def _chance_rate(task: ControlTask, cells: Sequence[Cell]) -> Estimate:
     return rate(task, motions, motions[1:] + motions[:1])
 
 
-def _means(tasks: dict[str, Any], languages: Sequence[str]) -> dict[str, Any]:
+def _means(tasks: Mapping[str, Any], languages: Sequence[str]) -> dict[str, Any]:
     """Rates pooled over tasks, every motion alike."""
 
-    def pooled(found: Sequence[dict[str, float]]) -> dict[str, float | int]:
+    def pooled(found: Sequence[Mapping[str, float]]) -> dict[str, float | int]:
         known = [cell for cell in found if cell and cell["count"]]
-        trials = sum(int(cell["count"]) for cell in known)
-        return success_rate(
-            round(sum(cell["value"] * cell["count"] for cell in known)), trials
-        ).as_dict()
+        successes = round(sum(cell["value"] * cell["count"] for cell in known))
+        return success_rate(successes, sum(int(cell["count"]) for cell in known)).as_dict()
 
+    made = [task["generated"] for task in tasks.values()]
     means: dict[str, Any] = {
         language: {
-            wording: pooled(
-                [t["generated"].get(language, {}).get(wording, {}) for t in tasks.values()]
-            )
+            wording: pooled([rates.get(language, {}).get(wording, {}) for rates in made])
             for wording in WORDINGS
         }
         for language in languages
     }
-    return means | {row: pooled([t[row] for t in tasks.values()]) for row in FLOORS}
+    return means | {floor: pooled([task[floor] for task in tasks.values()]) for floor in FLOORS}
+
+
+def control_grid(found: Mapping[str, Any]) -> Grid:
+    """What `control_table` found, as a table."""
+    kinds = [(language, wording) for language in found["languages"] for wording in WORDINGS]
+    columns = [Column(f"{k} {word}", f"{k} {WORDINGS[word]}", 2, "high") for k, word in kinds]
+    columns += [Column(floor, floor, 2) for floor in FLOORS]
+
+    def row(rates: Mapping[str, Any], floors: Mapping[str, Any]) -> GridRow:
+        cells: dict[str, TableCell] = {
+            f"{k} {word}": rates.get(k, {}).get(word) for k, word in kinds
+        }
+        return GridRow(cells | {floor: floors[floor] for floor in FLOORS})
+
+    rows = {name: row(task["generated"], task) for name, task in found["tasks"].items()}
+    rows["mean"] = row(found["means"], found["means"])
+    title = f"controllability ({found['num_seeds']} motions a cell)"
+    return Grid("controllability", title, tuple(columns), rows, NOTE, "task")

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
-from src.shared.evaluation.bootstrap import paired_bootstrap
+from src.shared.evaluation.stats import paired_bootstrap
 
 
 def test_interval_agrees_with_scipy() -> None:

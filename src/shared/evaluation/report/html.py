@@ -5,27 +5,20 @@ markup.
 """
 
 import base64
+import math
 import re
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from html import escape
 from pathlib import Path
 from typing import Any
 
-from ..files import inside
-from ..formats.arrays import read_npz, read_trajectory_npz
-from ..formats.preview.html import write_html, write_trajectory_html
-from ..formats.preview.trajectory import SongTrack
-from .grids import Grid
-from .report import (
-    grids,
-    heading,
-    intervals_note,
-    number,
-    printed,
-)
-from .svg_plots import grid_plots
+from ...files import inside
+from ...formats.arrays import read_npz, read_trajectory_npz
+from ...formats.preview.html import write_html, write_trajectory_html
+from ...formats.preview.trajectory import SongTrack
+from .tables import Cell, Column, Grid, grids, heading, intervals_note, number, printed
 
 POLICY = (
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:;"
@@ -59,6 +52,12 @@ iframe { width: 100%; height: 600px; border: 1px solid var(--line); border-radiu
 img { max-width: 100%; display: block; margin: 8px 0; }
 summary { cursor: pointer; color: var(--faint); font-size: 13px; margin-top: 12px; }
 """
+WIDTH, LABEL, LINE, TOP, BOTTOM = 284, 92, 18, 22, 20
+COLOURS = {
+    "real": "#2f9150", "chance": "#8a92a0", "frozen pose": "#8a92a0", "untrained": "#c8692a",
+    "generated": "#2f6fd0",
+}  # fmt: skip
+OTHER_COLOUR = "#7a4fbf"
 
 
 def html_page(report: dict[str, Any], folder: Path) -> str:
@@ -182,3 +181,72 @@ def _pictures(pictures: Sequence[dict[str, Any]], folder: Path) -> str:
         title = escape(picture["title"])
         shown += f'<h2>{title}</h2><img alt="{title}" src="data:image/png;base64,{data}">'
     return f'<section id="pictures">{shown}</section>'
+
+
+# ---------------------------------------------------------------- plots of a table
+# One a column, a dot and its interval a row; text only, so that equal tables give equal bytes.
+
+
+def grid_plots(grid: Grid) -> str:
+    """A plot for each column with numbers in two rows or more."""
+    return "".join(column_plot(grid, column) for column in grid.columns)
+
+
+def column_plot(grid: Grid, column: Column) -> str:
+    """One column; empty where there is nothing to compare."""
+    spans = {
+        name: found
+        for name, row in grid.rows.items()
+        if (found := span(row.cells.get(column.key))) is not None
+    }
+    if len(spans) < 2:
+        return ""
+    low, high = _ends(spans)
+    height = TOP + LINE * len(spans) + BOTTOM
+
+    def at(value: float) -> str:
+        return f"{LABEL + (WIDTH - LABEL - 10) * (value - low) / (high - low):.1f}"
+
+    title = escape(column.heading)
+    parts = [
+        f'<svg class="plot" width="{WIDTH}" height="{height}" viewBox="0 0 {WIDTH} {height}"'
+        f' role="img" aria-label="{title}"><text x="0" y="13" class="name">{title}</text>'
+    ]
+    for index, (name, (value, left, right)) in enumerate(spans.items()):
+        y = TOP + LINE * index + LINE / 2
+        colour = COLOURS.get(name, OTHER_COLOUR)
+        parts.append(
+            f'<text x="{LABEL - 8}" y="{y + 4:g}" text-anchor="end">{escape(name)}</text>'
+            f'<line x1="{at(left)}" x2="{at(right)}" y1="{y:g}" y2="{y:g}" stroke="{colour}"'
+            f' stroke-width="3" opacity=".45"/><circle cx="{at(value)}" cy="{y:g}" r="4"'
+            f' fill="{colour}"/>'
+        )
+    foot = height - BOTTOM + 4
+    for value, anchor in ((low, "start"), (high, "end")):
+        text = number(value, column.decimals)
+        parts.append(
+            f'<text x="{at(value)}" y="{foot + 12}" text-anchor="{anchor}" class="tick">'
+            f"{text}</text>"
+        )
+    line = f'<line x1="{at(low)}" x2="{at(high)}" y1="{foot}" y2="{foot}" stroke="#d9dde4"/>'
+    return "".join([*parts, line, "</svg>"])
+
+
+def span(cell: Cell) -> tuple[float, float, float] | None:
+    """Value and interval of a cell; None where it holds no number."""
+    if isinstance(cell, Mapping):
+        value, low, high = cell.get("value"), cell.get("low"), cell.get("high")
+        if value is None or low is None or high is None:
+            return None
+        return float(value), float(low), float(high)
+    if isinstance(cell, (int, float)) and math.isfinite(cell):
+        return float(cell), float(cell), float(cell)
+    return None
+
+
+def _ends(spans: dict[str, tuple[float, float, float]]) -> tuple[float, float]:
+    """Ends of the axis: 0 is on it where that costs less than half of its length."""
+    low, high = min(s[1] for s in spans.values()), max(s[2] for s in spans.values())
+    if 0 < low < (high - low):
+        low = 0.0
+    return (low, high) if high > low else (low - 0.5, low + 0.5)

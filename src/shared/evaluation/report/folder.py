@@ -3,11 +3,11 @@
 from pathlib import Path
 from typing import Any
 
-from ..errors import UserError
-from ..files import write_json, write_text
-from .html_report import html_page
-from .parts import read_json
-from .report import markdown
+from ...errors import UserError
+from ...files import write_json, write_text
+from ..manifest import read_json
+from .html import html_page
+from .tables import markdown
 
 REPORT = "report.json"
 

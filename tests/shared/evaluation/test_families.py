@@ -2,10 +2,12 @@
 
 import pytest
 
-from src.shared.evaluation.registry import AUDIO_FAMILIES, TEXT_FAMILIES
+from src.shared.evaluation.audio_harness import FAMILIES as AUDIO_FAMILIES
+from src.shared.evaluation.dance_harness import FAMILIES as DANCE_FAMILIES
+from src.shared.evaluation.suites.text import FAMILIES as TEXT_FAMILIES
 
 
-@pytest.mark.parametrize("families", [TEXT_FAMILIES, AUDIO_FAMILIES])
+@pytest.mark.parametrize("families", [TEXT_FAMILIES, AUDIO_FAMILIES, DANCE_FAMILIES])
 def test_columns_are_unique_and_defined(families: tuple) -> None:  # type: ignore[type-arg]
     keys = [column.key for family in families for column in family.columns]
     assert len(keys) == len(set(keys))

@@ -10,14 +10,19 @@ import pytest
 
 from src.shared.errors import UsageError, UserError
 from src.shared.evaluation import manifest
-from src.shared.evaluation.bootstrap import Difference
 from src.shared.evaluation.compare import Side, compare, verdict
 from src.shared.evaluation.engine import run_bench
-from src.shared.evaluation.families import Column
-from src.shared.evaluation.grids import Grid, report_data
-from src.shared.evaluation.parts import Parts, read_json
-from src.shared.evaluation.report import Table, as_markdown, markdown
-from src.shared.evaluation.report_folder import render, save_report
+from src.shared.evaluation.manifest import Parts, read_json
+from src.shared.evaluation.report.folder import render, save_report
+from src.shared.evaluation.report.tables import (
+    Column,
+    Grid,
+    Table,
+    as_markdown,
+    markdown,
+    report_data,
+)
+from src.shared.evaluation.stats import Difference
 from tests.shared.evaluation.toy_bench import toy_bench
 from tests.shared.formats.chromium_pipe import chromium
 
@@ -29,7 +34,7 @@ def write(folder: Path, *, lift: float = 0.5, replications: int = 3) -> Path:
     manifest.claim(folder, {**MANIFEST, "model": {"w": str(lift)}})
     parts = Parts(folder)
     grids = run_bench(
-        toy_bench(folder, lift=lift),
+        toy_bench(lift=lift),
         parts,
         replications,
         0,
@@ -106,9 +111,9 @@ def test_a_known_difference_is_found_and_paired(tmp_path: Path) -> None:
 
 def test_a_verdict_needs_pairs_and_an_interval_off_zero() -> None:
     high, low, real = (Column("x", "x", better=kind) for kind in ("high", "low", "real"))
-    above = Difference(1.0, 0.5, 1.5, 0.01, 20)
+    above = Difference(1.0, 0.5, 1.5, 20, 0.01)
     assert [verdict(column, above) for column in (high, low, real)] == ["b", "a", "differ"]
-    assert verdict(high, Difference(1.0, -0.5, 1.5, 0.2, 20)) == "–"
+    assert verdict(high, Difference(1.0, -0.5, 1.5, 20, 0.2)) == "–"
     assert verdict(high, replace(above, count=7)) == "too few"
 
 

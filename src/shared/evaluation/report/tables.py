@@ -1,0 +1,285 @@
+"""The one table of all reports: rows of cells under described columns, as data and as text.
+
+report.json holds it; Markdown, terminal, HTML, plots and comparison read it and know nothing of
+the metrics behind it.
+"""
+
+import math
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+from ..stats import Estimate
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+FORMAT_VERSION = 1
+Better = Literal["high", "low", "real"]  # real: the nearer to the real row, the better
+Cell = Estimate | Mapping[str, Any] | float | str | None  # a mapping: an `Estimate` of report.json
+Report = dict[str, Any]  # what report.json holds, see `report_data`
+
+
+@dataclass(frozen=True)
+class Column:
+    """One figure of a table.
+
+    Attributes:
+        key: in report.json; unique among the metrics of a branch.
+        heading: above the column, with its unit.
+        decimals: shown.
+        better: which way is good; `worst first` goes by the columns that are not `real`.
+        share: yes or no a motion (1 or 0): its interval is Wilson's, which has a width at 0 of N.
+    """
+
+    key: str
+    heading: str
+    decimals: int = 3
+    better: Better = "real"
+    share: bool = False
+
+
+@dataclass(frozen=True)
+class GridRow:
+    """One row: its cells by column key, over how many motions, how often, with which seeds."""
+
+    cells: Mapping[str, Cell]
+    num: int | None = None
+    replications: int | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "cells", plain(self.cells))
+
+
+@dataclass(frozen=True)
+class Grid:
+    """One table.
+
+    Attributes:
+        name: unique in its report.
+        rows: by name, in reading order.
+        note: under the table, Markdown.
+        head: over the names of the rows.
+        plot: whether the columns are drawn in the HTML report.
+    """
+
+    name: str
+    title: str
+    columns: tuple[Column, ...]
+    rows: Mapping[str, GridRow]
+    note: str = ""
+    head: str = "row"
+    plot: bool = False
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data for report.json; rows keep their order."""
+        rows = [{"name": name, **asdict(row)} for name, row in self.rows.items()]
+        columns = [asdict(column) for column in self.columns]
+        return {**asdict(self), "columns": columns, "rows": rows}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> "Grid":
+        """Back from report.json."""
+        rows = {row["name"]: GridRow(row["cells"], row["num"], row["replications"])
+                for row in data["rows"]}  # fmt: skip
+        columns = tuple(Column(**column) for column in data["columns"])
+        return cls(**{**data, "columns": columns, "rows": rows})
+
+    def value(self, row: str, column: str) -> float:
+        """The figure in a cell, NaN where there is none."""
+        cell = self.rows[row].cells.get(column) if row in self.rows else None
+        if isinstance(cell, Mapping):
+            cell = cell["value"]
+        return float(cell) if isinstance(cell, (int, float)) else math.nan
+
+
+def plain(value: Any) -> Any:
+    """JSON has no NaN: the same value with None in its place, and tuples as lists."""
+    if isinstance(value, Estimate):
+        return plain(value.as_dict())
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(item) for item in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value
+
+
+def report_data(
+    branch: str,
+    about: Mapping[str, Any],
+    settings: Mapping[str, Any],
+    tables: Sequence[Grid],
+    samples: Sequence[Mapping[str, Any]] = (),
+    pictures: Sequence[Mapping[str, Any]] = (),
+    *,
+    title: str = "",
+) -> Report:
+    """A whole report as plain data: what report.json holds.
+
+    Args:
+        branch: text or audio.
+        about: what was measured with what.
+        settings: amounts and seeds.
+        samples: motions to be looked at, see `Keeper`.
+        pictures: `file` in the report's folder and `title` of each.
+        title: over the pages; the model's name.
+    """
+    return {
+        "format-version": FORMAT_VERSION,
+        "branch": branch,
+        "title": title or f"Evaluation of {about.get('model', 'motions')}",
+        "about": plain(about),
+        "settings": plain(settings),
+        "tables": [grid.as_dict() for grid in tables],
+        "samples": plain(samples),
+        "pictures": plain(pictures),
+    }
+
+
+# ---------------------------------------------------------------- as text
+
+
+@dataclass(frozen=True)
+class Table:
+    """Plain cells, ready to be printed."""
+
+    title: str
+    header: list[str]
+    rows: list[list[str]]
+    note: str = ""
+
+
+def number(value: float | None, decimals: int) -> str:
+    """A figure, or a dash where there is none."""
+    return "–" if value is None or math.isnan(value) else f"{value:.{decimals}f}"
+
+
+def interval(cell: Mapping[str, Any] | None, decimals: int) -> str:
+    """`value ± half width`; no width where there is one observation."""
+    if cell is None or cell["value"] is None or math.isnan(cell["value"]):
+        return "–"
+    half = (cell["high"] - cell["low"]) / 2
+    text = number(cell["value"], decimals)
+    return f"{text} ±{number(half, decimals)}" if half > 0 else text
+
+
+def cell_text(cell: Cell, column: Column) -> str:
+    """Any cell as words; an estimate that is `apart` has a star."""
+    if cell is None or isinstance(cell, str):
+        return cell or "–"
+    if isinstance(cell, Mapping):
+        return interval(cell, column.decimals) + (" *" if cell.get("apart") else "")
+    assert isinstance(cell, (int, float))
+    return number(cell, column.decimals)
+
+
+def grids(report: Report) -> list[Grid]:
+    """The tables of a report as data."""
+    return [Grid.from_dict(table) for table in report["tables"]]
+
+
+def tables(report: Report) -> Iterator[Table]:
+    """Every table of a report as text, in reading order."""
+    return map(printed, grids(report))
+
+
+def printed(grid: Grid) -> Table:
+    """A table as text; where rows differ in number, a column says how many motions and runs."""
+    counted = any(row.num is not None for row in grid.rows.values())
+    header = [grid.head, *(column.heading for column in grid.columns)]
+    rows = [
+        [name, *(cell_text(row.cells.get(column.key), column) for column in grid.columns)]
+        + ([counts(row)] if counted else [])
+        for name, row in grid.rows.items()
+    ]
+    return Table(grid.title, [*header, "N × runs"] if counted else header, rows, grid.note)
+
+
+def counts(row: GridRow) -> str:
+    """Motions times replications."""
+    if row.num is None:
+        return "–"
+    return str(row.num) if row.replications is None else f"{row.num} × {row.replications}"
+
+
+def heading(report: Report) -> list[str]:
+    """What was measured with what, line by line."""
+    facts = {**report["about"], **report["settings"]}
+    return [f"{key.replace('_', '-')}: {_fact(value)}" for key, value in facts.items()]
+
+
+def _fact(value: Any) -> str:
+    return ", ".join(map(str, value)) if isinstance(value, list) else str(value)
+
+
+def intervals_note(report: Report) -> str:
+    """How the ± of a report came about, and with which seeds."""
+    settings = report["settings"]
+    if "replications" not in settings:
+        return ""
+    first, runs = settings["seed"], settings["replications"]
+    seeds = f"seed {first}" if runs == 1 else f"seeds {first}, {first + 1000}, … ({runs} runs)"
+    return (
+        f"{seeds}. ± is half a 95% interval: over replications (1.96 σ/√runs) for figures of a"
+        " whole sample, over motions (percentile bootstrap; Wilson where all are yes or no) for"
+        " figures of single motions. N × runs: motions a replication, and replications."
+    )
+
+
+def markdown(report: Report) -> str:
+    """The report as a Markdown text, with the motions that were kept, worst first."""
+    lines = filter(None, [*heading(report), intervals_note(report)])
+    text = as_markdown(report["title"], lines, tables(report))
+    samples = report.get("samples", [])
+    if not samples:
+        return text
+    rows = [[f"{s['rank']} of {s['of']}, {s['bench']}", s["title"], s["file"]] for s in samples]
+    worst = Table("worst first", ["place", "asked for", "file"], rows)
+    return text + "\n".join(_table_lines(worst)) + "\n"
+
+
+def as_markdown(title: str, lines: Iterable[str], parts: Iterable[Table]) -> str:
+    """Any report as a Markdown text: a title, facts line by line, tables."""
+    text = [f"# {_inert(title)}", "", *(f"- {_inert(line)}" for line in lines), ""]
+    for table in parts:
+        text += _table_lines(table)
+    return "\n".join(text)
+
+
+def _table_lines(table: Table) -> list[str]:
+    lines = [f"## {_inert(table.title)}", "", _line(table.header), "|" + "---|" * len(table.header)]
+    lines += [_line(row) for row in table.rows]
+    return [*lines, "", table.note, ""] if table.note else [*lines, ""]
+
+
+def _line(cells: Sequence[str]) -> str:
+    """A row in Markdown."""
+    return "| " + " | ".join(map(_inert, cells)) + " |"
+
+
+def _inert(text: str) -> str:
+    """Text that is no HTML, link or border in Markdown, whatever prompt or file it quotes."""
+    return re.sub(r"[\\<\[|]", r"\\\g<0>", text)
+
+
+def print_report(report: Report, console: "Console") -> None:
+    """The report as tables on a terminal."""
+    draw([*heading(report), intervals_note(report)], tables(report), console)
+
+
+def draw(lines: Iterable[str], parts: Iterable[Table], console: "Console") -> None:
+    """Any report on a terminal: facts line by line, tables."""
+    from rich.table import Table as RichTable
+
+    for line in filter(None, lines):
+        console.print(line, highlight=False)
+    for table in parts:
+        drawn = RichTable(title=table.title, caption=table.note, title_justify="left")
+        for index, name in enumerate(table.header):
+            drawn.add_column(name, justify="right" if index else "left")
+        for row in table.rows:
+            drawn.add_row(*row)
+        console.print(drawn)

@@ -1,0 +1,484 @@
+"""The text suite: from a generator and prepared data to honest tables.
+
+Every family is measured on real, shuffled, frozen, untrained and generated motions, seen and unseen
+label combinations apart. Then retrieval by language, and whether what is asked for is done.
+
+Letters: N clips.
+"""
+
+import logging
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass, field
+from functools import cached_property, partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...data.captions.book import CaptionBook
+from ...data.prepared import ClipRecord
+from ...errors import UserError
+from ...formats.arrays import write_npz
+from ...metrics.retrieval import BATCH, normalised_score
+from ...motion.motion import Motion
+from .. import manifest
+from ..engine import Bench, MetricFamily, Progress, Row, Suite, run_suite
+from ..evaluator import Evaluator
+from ..families_motion import FAMILIES as TMR
+from ..families_motion import BodyKinetics, ContactFamily, Multimodality
+from ..families_text import (
+    Frechet,
+    GuoRetrieval,
+    Obedience,
+    Plausibility,
+    TravelErrors,
+    r_precision,
+)
+from ..floors import frozen_pose, untrained
+from ..held_out import HeldOut, open_held_out, real_clips
+from ..manifest import Part, Parts, Sources
+from ..report.tables import Column, Grid, GridRow, Report, plain
+from ..samples import Clips, MotionSample, Sampler
+from ..stats import bootstrap_mean
+from .control import control_grid, control_table
+
+if TYPE_CHECKING:
+    from ...model.generation.motion_generator import TextToMotion
+
+LANGUAGES = ("en", "es", "fr", "de", "ja", "zh")
+UNTRAINED = "untrained"  # name of the row whose replications `TextSettings.untrained` limits
+FAMILIES: tuple[MetricFamily[MotionSample], ...] = (
+    GuoRetrieval(),
+    *TMR,
+    Multimodality(),
+    Frechet(),
+    BodyKinetics(),
+    Plausibility(),
+    ContactFamily(),
+    TravelErrors(),
+    Obedience(),
+)
+RATIOS = ("contact_slide", "support_slide", "jerk", "hand_jerk", "speed", "diversity")
+
+
+@dataclass(frozen=True)
+class TextSettings:
+    """How much is measured; the report repeats it."""
+
+    num_samples: int = 256  # generated motions a split and replication; 1000 for a quoted FD
+    replications: int = 20
+    untrained: int = 3  # replications of the untrained row, at most
+    max_real: int = 4096  # real clips a split, at most
+    max_frames: int = 128
+    language_samples: int = 128  # motions a language, at most num_samples; 0 = no such table
+    control_seeds: int = 10  # motions a task, language and kind of wording; 0 = no table
+    languages: tuple[str, ...] = LANGUAGES
+    language: str = "en"  # of the captions in the split tables
+    seed: int = 0
+    worst: int = 8  # motions a split to be looked at
+
+
+@dataclass(frozen=True, eq=False)
+class TextContext:
+    """Everything a table of the text branch may draw on.
+
+    Attributes:
+        samplers: by the name of their row; the first is the model that the other tables are about.
+        parts: where a table that takes long keeps what it has finished.
+    """
+
+    held_out: HeldOut
+    judge: Evaluator
+    samplers: dict[str, Sampler]
+    settings: TextSettings
+    progress: Progress
+    parts: Parts = field(default_factory=Parts)
+
+    @property
+    def sampler(self) -> Sampler:
+        """The model's."""
+        return next(iter(self.samplers.values()))
+
+    @property
+    def untrained(self) -> Sampler | None:
+        """That of the same network with fresh weights; None if no such row is wanted."""
+        return self.samplers.get(UNTRAINED)
+
+    def clips(self, records: Sequence[ClipRecord], language: str) -> Clips:
+        """Real clips with a caption in this language, spread over label groups.
+
+        Raises:
+            UserError: there is none.
+        """
+        return real_clips(
+            self.held_out.data,
+            records,
+            num=self.settings.max_real,
+            max_frames=self.settings.max_frames,
+            language=language,
+            seed=self.settings.seed,
+        )
+
+    def real(self, records: Sequence[ClipRecord], language: str) -> MotionSample:
+        """The same as a sample; `source` is each clip itself."""
+        clips = self.clips(records, language)
+        text = self.judge.embed_text(clips.captions).numpy()
+        motion = self.judge.embed_motion(clips.motions).numpy()
+        return MotionSample.of(clips, text, motion, np.arange(len(clips)))
+
+    def with_motions(self, asked: MotionSample, motions: list[Motion]) -> MotionSample:
+        """Other motions under the captions of a sample."""
+        motion = self.judge.embed_motion(motions).numpy()
+        return MotionSample.of(asked.clips.with_motions(motions), asked.text, motion, asked.source)
+
+    def made(self, asked: MotionSample, sampler: Sampler, seed: int) -> MotionSample:
+        """What a sampler makes of the captions of a sample, at its lengths."""
+        return self.with_motions(asked, sampler(asked.clips.captions, asked.clips.num_frames, seed))
+
+
+class Split:
+    """The samples of one split: real clips once, the rest replication by replication."""
+
+    def __init__(self, context: TextContext, records: Sequence[ClipRecord]) -> None:
+        self.context, self.records = context, records
+        self.seed = context.settings.seed
+
+    @cached_property
+    def reference(self) -> MotionSample:
+        """The real clips.
+
+        Raises:
+            UserError: the split holds no captioned clip.
+        """
+        return self.context.real(self.records, self.context.settings.language)
+
+    @cached_property
+    def siblings(self) -> MotionSample:
+        """The real clips, each to be compared with another of its label group."""
+        real, rng = self.reference, np.random.default_rng(self.seed)
+        source = np.full(len(real), -1)
+        groups: dict[str, list[int]] = {}
+        for row, group in enumerate(real.clips.groups):
+            groups.setdefault(group, []).append(row)
+        for rows in groups.values():
+            if len(rows) > 1:
+                order = rng.permutation(rows)
+                source[order] = np.roll(order, 1)
+        return MotionSample(real.clips, real.text, real.motion, source, real.memos, real.memo)
+
+    def chance(self, replication: int) -> MotionSample:
+        """The real motions under shuffled captions."""
+        order = np.random.default_rng(self.seed + replication).permutation(len(self.reference))
+        return self.reference.reordered(order.tolist())
+
+    def frozen(self, replication: int) -> MotionSample:
+        """The first pose of each clip held still."""
+        still = [frozen_pose(motion) for motion in self.reference.clips.motions]
+        return self.context.with_motions(self.reference, still)
+
+    def generated(self, sampler: Sampler, replication: int) -> MotionSample:
+        """Motions for the split's captions at the clips' lengths.
+
+        The prompts are a random sample of the clips: the first ones hold more of the rare groups
+        than the reference does, which alone is a distance (0.010 of 0.108 once). With fewer clips
+        than samples the captions come round again, with other noise.
+        """
+        order = np.random.default_rng(self.seed).permutation(len(self.reference)).tolist()
+        wanted = range(self.context.settings.num_samples)
+        asked = self.reference.rows([order[row % len(order)] for row in wanted])
+        return self.context.made(asked, sampler, self.seed + 1000 * replication)
+
+    def bench(self, name: str) -> Bench[MotionSample]:
+        """Real, chance, a frozen pose, and a row a sampler."""
+        samplers, settings = self.context.samplers, self.context.settings
+        rows = [
+            Row("real", lambda replication: self.siblings, fixed=True, real=True),
+            Row("chance", self.chance, fixed=True),
+            Row("frozen pose", self.frozen, limit=1, fixed=True),
+        ]
+        for label, sampler in samplers.items():
+            limit = settings.untrained if label == UNTRAINED else None
+            rows.append(Row(label, partial(self.generated, sampler), limit=limit))
+        return Bench(
+            name,
+            f"{name} label combinations",
+            lambda: self.reference,
+            rows,
+            FAMILIES,
+            main=next(iter(samplers)),
+            write=write_motion,
+            worst=settings.worst,
+            summary=lambda grids: score_grid(name, grids, [*samplers, "frozen pose"]),
+            optional=True,
+        )
+
+
+def write_motion(sample: MotionSample, row: int, path: Path) -> dict[str, Any]:
+    """A motion as a file; its title is the caption."""
+    write_npz(sample.clips.motions[row], path)
+    return {"title": sample.clips.captions[row]}
+
+
+def evaluate_samplers(
+    samplers: dict[str, Sampler],
+    held_out: HeldOut,
+    judge: Evaluator,
+    *,
+    settings: TextSettings | None = None,
+    about: Mapping[str, Any] | None = None,
+    sources: Callable[[], Sources] | None = None,
+    folder: Path | None = None,
+    progress: Progress = lambda text: None,
+) -> Report:
+    """The whole report as plain data, see `report_data`.
+
+    Args:
+        samplers: name to sampler; the first one is the model that the extra tables are about, the
+            others (an untrained or older model) only add rows.
+        held_out: held-back clips.
+        about: what to repeat in the report: model, its hash, steps, guidance scale.
+        sources: for the manifest of the folder; None = no manifest.
+        folder: of the report: finished parts are kept there and not measured again.
+        progress: told what begins.
+    """
+    settings, parts = settings or TextSettings(), Parts(folder)
+    context = TextContext(held_out, judge, samplers, settings, progress, parts)
+    facts = {
+        **(about or {}),
+        "evaluator_hash": judge.content_hash,
+        "data": held_out.source,
+        "data_hash": held_out.data.manifest_hash[:12],
+    }
+    suite = Suite(
+        "text",
+        asdict(settings),
+        [Split(context, records).bench(name) for name, records in held_out.records.items()],
+        {"languages": partial(languages, context), "controllability": partial(control, context)},
+        facts,
+        sources=sources,
+    )
+    return run_suite(suite, parts, progress)
+
+
+# ---------------------------------------------------------------- by names
+
+
+def evaluate_text(
+    model: str,
+    data: str = "synthetic",
+    *,
+    evaluator: str = "evaluator",
+    cache: Path = Path("runs"),
+    settings: TextSettings | None = None,
+    device: str | None = None,
+    folder: Path | None = None,
+    progress: Progress = lambda text: None,
+    **sampling: Any,
+) -> Report:
+    """Everything `evaluate` does for a text model, by names.
+
+    Args:
+        model: a shipped name or a folder.
+        data: prepared folder (its test splits), or "synthetic" (fresh clips).
+        evaluator: a shipped name or a folder.
+        cache: where synthetic clips are kept.
+        device: of the generator.
+        folder: of the report: finished parts are kept there and not measured again.
+        sampling: steps, sampler, guidance_scale, foot_lock; left out = the model's own.
+
+    Raises:
+        UserError: no such model, evaluator or data, the model is untrained, or the folder holds
+            another report.
+    """
+    from ...model.generation.motion_generator import TextToMotion
+
+    settings = settings or TextSettings()
+    judge = Evaluator.from_pretrained(evaluator)
+    generator = TextToMotion.from_pretrained(model, device=device)
+    held_out = open_held_out(data, cache, judge.trained_groups)
+    network, card = generator.network.generation, generator.card
+    own = {
+        "sampler": network.sampler,
+        "steps": network.sampling_steps,
+        "guidance_scale": network.guidance_scale,
+        "foot_lock": network.post_processing.foot_lock,
+    }
+    given = {key: value for key, value in sampling.items() if value is not None}
+    about = {
+        "model": model,
+        "model_hash": card.weights.sha256[:12] if card.weights else "",
+        **(own | {key: given[key] for key in own if key in given}),
+        "evaluator": evaluator,
+        "held_out": _told_apart(held_out, card.data, judge),
+    }
+
+    def sources() -> Sources:
+        from ...model.zoo import PRETRAINED, resolve_model
+
+        folder = Path(evaluator) if Path(evaluator).is_dir() else PRETRAINED / evaluator
+        splits = {
+            name: manifest.hash_names(record.id for record in records)
+            for name, records in held_out.records.items()
+        }
+        return Sources(
+            model=manifest.folder_hashes(resolve_model(model)),
+            evaluator=manifest.folder_hashes(folder),
+            data={"manifest": held_out.data.manifest_hash, **splits},
+            statistics=(generator.mean, generator.std, judge.motion.mean, judge.motion.std),
+            sampling=sampling,
+            device=str(generator.device),
+        )
+
+    samplers = {"generated": model_sampler(generator, **sampling)}
+    if settings.untrained:
+        samplers[UNTRAINED] = model_sampler(untrained(generator, settings.seed), **sampling)
+    with errors_only():
+        return evaluate_samplers(
+            samplers,
+            held_out,
+            judge,
+            settings=settings,
+            about=about,
+            sources=sources,
+            folder=folder,
+            progress=progress,
+        )
+
+
+def _told_apart(held_out: HeldOut, model_data: str, judge: Evaluator) -> str:
+    """Whether the test clips were kept from both models, as far as the hashes tell."""
+    if held_out.source.startswith("fresh"):
+        return "yes: clips made for this test only"
+    trained_on = {"model": model_data, "evaluator": judge.notes.get("data-hash")}
+    strangers = [name for name, data in trained_on.items() if data != held_out.data.manifest_hash]
+    if strangers:
+        return f"unknown: the {' and the '.join(strangers)} saw other data than this folder's"
+    return "yes: test splits of the data both models were trained on"
+
+
+@contextmanager
+def errors_only() -> Iterator[None]:
+    """Thousands of prompts would each say how near they are to what was trained."""
+    from ...model.generation.motion_generator import log as logger
+
+    level = logger.level
+    logger.setLevel(logging.ERROR)
+    try:
+        yield
+    finally:
+        logger.setLevel(level)
+
+
+def model_sampler(generator: "TextToMotion", **sampling: Any) -> Sampler:
+    """A sampler over a generator: steps, sampler, guidance_scale, foot_lock; None = its own."""
+
+    def sample(prompts: Sequence[str], num_frames: Sequence[int], seed: int) -> list[Motion]:
+        seconds = [frames / generator.card.fps for frames in num_frames]
+        return generator.generate(prompts, seconds=seconds, seed=seed, **sampling)
+
+    return sample
+
+
+# ---------------------------------------------------------------- tables
+
+
+def score_grid(split: str, grids: Sequence[Grid], names: Sequence[str]) -> Grid:
+    """What a reader asks first: each row against real and chance."""
+    rows = {name: GridRow(scores(grids, name)) for name in names}
+    columns = tuple(Column(key, key.replace("_", " ")) for key in rows[names[0]].cells)
+    note = (
+        "normalised: (row - chance) / (real - chance). joint ratio: joint FD over that of real"
+        " motions under shuffled labels; tag ratio: FD by tag over FD by wrong tag; the others:"
+        " row over real. Real motion is 1 (near 0 in joint and tag ratio); chance is 0 where"
+        " normalised, 1 in the joint ratio. Of the tables above, where the intervals are."
+    )
+    return Grid(f"{split}/scores", f"{split}: against real and chance", columns, rows, note)
+
+
+def scores(grids: Sequence[Grid], name: str) -> dict[str, float]:
+    """Row `name` against real and chance; NaN where a column is missing."""
+
+    def value(row: str, column: str) -> float:
+        known = [grid.value(row, column) for grid in grids]
+        return next((each for each in known if each == each), float("nan"))
+
+    def over(numerator: float, denominator: float) -> float:
+        return numerator / denominator if denominator > 1e-9 else float("nan")
+
+    result = {
+        f"normalised_{key}": normalised_score(
+            *(value(row, key) for row in (name, "chance", "real"))
+        )
+        for key in ("r_at_1", "r_at_2", "r_at_3")
+    }
+    joint, wrong_tag = value("chance", "frechet_joint"), value(name, "frechet_by_wrong_tag")
+    result["frechet_joint_ratio"] = over(value(name, "frechet_joint"), joint)
+    result["frechet_tag_ratio"] = over(value(name, "frechet_by_tag"), wrong_tag)
+    for column in RATIOS:
+        result[f"{column}_ratio"] = over(value(name, column), value("real", column))
+    return result
+
+
+def languages(context: TextContext) -> list[Grid]:
+    """R-precision at 3 by language on seen combinations: real, chance, generated, untrained."""
+    settings = context.settings
+    if not settings.language_samples:
+        return []
+    rows = {}
+    for language in settings.languages:
+        found = context.parts.once(f"languages.{language}", partial(_language, context, language))
+        if found["cells"]:
+            rows[language] = GridRow(found["cells"], found["num"], 1)
+    made_by = ["generated", *([UNTRAINED] if context.untrained else [])]
+    columns = tuple(Column(key, key) for key in ("real", "chance", *made_by, "normalised"))
+    note = (
+        "One replication; ± is 95% over prompts. normalised: (generated - chance) / (real -"
+        f" chance). Seed {settings.seed}; real and chance over all real clips."
+    )
+    title = "R@3 by language (seen combinations)"
+    return [Grid("languages", title, columns, rows, note, "language")] if rows else []
+
+
+def _language(context: TextContext, language: str) -> Part:
+    """The cells of one language; none where the data has too few captions in it."""
+    settings = context.settings
+    num = min(settings.language_samples, settings.num_samples)
+    try:
+        real = context.real(context.held_out.records["seen"], language)
+    except UserError:
+        return {"cells": None}  # the data has no captions in this language
+    if min(len(real), num) < BATCH:
+        return {"cells": None}
+    context.progress(f"languages: {num} motions in {language}")
+    asked = real.rows([row % len(real) for row in range(num)])
+    order = np.random.default_rng(settings.seed).permutation(len(real)).tolist()
+    samples = {"real": real, "chance": real.reordered(order)}
+    for name, sampler in (("generated", context.sampler), (UNTRAINED, context.untrained)):
+        if sampler is not None:
+            samples[name] = context.made(asked, sampler, settings.seed)
+    at_3 = {
+        name: bootstrap_mean(r_precision(sample, settings.seed).hits[2])
+        for name, sample in samples.items()
+    }
+    score = normalised_score(*(at_3[k].value for k in ("generated", "chance", "real")))
+    return {"cells": plain({**at_3, "normalised": score}), "num": num}
+
+
+def control(context: TextContext) -> list[Grid]:
+    """Success rates task by task and language by language."""
+    settings = context.settings
+    if not settings.control_seeds:
+        return []
+    found = control_table(
+        context.sampler,
+        CaptionBook.load(None),
+        context.clips(context.held_out.everything, settings.language),
+        languages=settings.languages,
+        num_seeds=settings.control_seeds,
+        seed=settings.seed,
+        untrained=context.untrained,
+        progress=context.progress,
+        once=context.parts.once,
+    )
+    return [control_grid(found)]
