@@ -37,7 +37,7 @@ from src.shared.model.audio.sampling_copy import sampling_copy
 from src.shared.model.audio.unet import UNet1D
 from src.shared.model.diffusion.conditions import ModelFn
 from src.shared.model.diffusion.samplers import DDIMSampler
-from src.shared.motion.trajectory_postprocess import MotionPostProcessor
+from src.shared.motion.postprocess.trajectory import MotionPostProcessor
 
 FRAMES, SECONDS = 120, 4.0
 STEPS = 20

@@ -117,14 +117,11 @@ def compare(generator: "TextToMotion", repeats: int) -> dict[str, Any]:
 
 def parts(generator: "TextToMotion", repeats: int) -> dict[str, float]:
     """Median seconds of the parts of `generate`: text, denoising, finishing."""
-    from src.shared.motion.postprocess import MotionPostProcessor
-
-    finish = MotionPostProcessor(generator.network.generation.post_processing)
     sample = generator.sample_features([PROMPT], seconds=SECONDS)[0]
     calls: dict[str, Callable[[], object]] = {
         "text": lambda: generator.encode_prompts([PROMPT]),
         "text and denoising": lambda: generator.sample_features([PROMPT], seconds=SECONDS),
-        "post-processing": lambda: finish(sample, fps=30.0, text=PROMPT),
+        "post-processing": lambda: generator.post_processor(sample, text=PROMPT),
     }
     found = {
         name: statistics.median(timed(call) for _ in range(repeats)) for name, call in calls.items()

@@ -142,7 +142,7 @@ def write_trajectories(
     Several share one page, so that the song is in it once; its path is the second value.
     """
     from ..shared.formats.registry import export_trajectory, write_trajectory_preview
-    from ..shared.motion.trajectory_postprocess import MotionPostProcessor
+    from ..shared.motion.postprocess.trajectory import MotionPostProcessor
 
     first, track = song_stem(audio), _track(audio, made.song)
     names = [first, *(f"{first}-{number + 1}" for number in range(1, kept))]

@@ -15,7 +15,7 @@ from torch import Tensor, nn
 from ..shared.config_schema import ClipConfig, NetworkConfig
 from ..shared.model.clip.core import MotionClip, TextFeatures
 from ..shared.model.generation.denoiser import MotionDenoiser
-from ..shared.motion.postprocess import clamp_velocity, smooth_features
+from ..shared.motion.postprocess.whole import clamp_velocity, smooth_features
 from ..shared.motion.rotations import matrix_to_quaternion, rotation_6d_to_matrix
 
 BATCH, FRAMES, TOKENS, NUM_TAGS, FPS = 2, 40, 12, 5, 30.0

@@ -17,9 +17,9 @@ from ..errors import UserError
 from ..metrics.rhythm import beats_of_phase, strangers
 from ..metrics.seams import REACH
 from ..model.generation.motion_generator import TextToMotion
-from ..motion.carried_feet import hold_carried_feet
 from ..motion.features import decode_features
 from ..motion.motion import Motion
+from ..motion.postprocess.footskate import lock_carried_feet
 from ..motion.trajectory import FPS, MotionTrajectory, to_motion
 from ..pipelines.body import Performer, PerformerSettings
 from ..pipelines.dance import candidate_seed
@@ -130,7 +130,7 @@ class DanceContext:
         raw = performer.perform(path, prompt, beats=heard_beats(piece), seed=own).motion
         return BodyDance(
             song=piece.name,
-            motion=hold_carried_feet(raw),
+            motion=lock_carried_feet(raw),
             beats=piece.beats,
             raw=raw,
             path=path,

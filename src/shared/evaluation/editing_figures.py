@@ -9,8 +9,8 @@ import numpy as np
 
 from ..metrics.rhythm import seen_from_pelvis
 from ..motion.motion import Motion
+from ..motion.postprocess.stitching import joined, moved_to, place_of
 from ..pipelines.edit import Given, kept_error
-from ..pipelines.postprocess import joined, moved_to, place_of
 from .dance_seams import ACCELERATION, body_quantities
 
 NEAR = 6  # frames on either side of a border

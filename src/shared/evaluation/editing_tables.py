@@ -13,7 +13,6 @@ from ..model.generation.motion_generator import TextToMotion
 from ..motion.motion import Motion
 from ..pipelines.edit import GROUPS, Given, edited, keep_ends, redo
 from ..pipelines.path import DrawnPath, along_path, distances_to_line, natural_gait, time_path
-from ..pipelines.postprocess import frames_of
 from ..pipelines.stream import Passage
 from ..pipelines.timeline import Timeline, by_timeline
 from .dance_context import held_still
@@ -249,7 +248,7 @@ def _transition_row(
     cells["elsewhere"] = float(np.percentile(np.concatenate(rest), TOP))
     for key, part, which in (("before", (0, HALF), 0), ("after", (HALF, 2 * HALF), 1)):
         hits = [
-            _first(judge, frames_of(motion, *part), text, ACTIONS.index(pair[which]))
+            _first(judge, motion.frames(*part), text, ACTIONS.index(pair[which]))
             for motion, pair in zip(motions, pairs, strict=True)
         ]
         cells[key] = bootstrap_mean(hits)

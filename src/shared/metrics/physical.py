@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..motion.contacts import detect_contacts
 from ..motion.motion import Motion
+from ..motion.postprocess.contacts import detect_contacts
 from ..motion.skeleton import FOOT_JOINTS, JOINT_INDEX, REST_FOOT_HEIGHT
 
 BALLS = [ball for _, ball in FOOT_JOINTS]

@@ -25,6 +25,7 @@ from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.features import LEFT_CONTACT, ROOT_ROW
 from ..motion.motion import Motion
+from ..motion.postprocess.stitching import Place, blend_cuts
 from ..motion.rotations import (
     heading_of,
     matrix_to_rotation_6d,
@@ -33,7 +34,6 @@ from ..motion.rotations import (
     yaw_to_matrix,
 )
 from ..motion.trajectory import MotionTrajectory, to_root
-from .postprocess import Place, finish, soften_cuts
 from .song_sampler import Progress
 from .stream import Passage, stream_features
 
@@ -267,9 +267,8 @@ class Performer:
                 progress(sum(map(len, pieces)), num_frames)
         cuts = list(accumulate(map(len, pieces)))[:-1]
         x, _, z = trajectory.position[0].tolist()
-        motion = finish(
-            self.generator,
-            known.keep(soften_cuts(torch.cat(pieces), cuts)),
+        motion = self.generator.post_processor(
+            known.keep(blend_cuts(torch.cat(pieces), cuts)),
             known.known,
             text=_title(passages),
             place=Place(x, z, float(trajectory.heading[0])),

@@ -30,9 +30,9 @@ from ..motion.features import (
     integrate_root,
 )
 from ..motion.motion import Motion
+from ..motion.postprocess.stitching import ORIGIN, Place, place_of
 from ..motion.rotations import turn_about_y
 from ..motion.skeleton import JOINT_INDEX, LIMBS
-from .postprocess import ORIGIN, Place, finish, place_of
 from .stream import OVERLAP, Passage, Sampling, stream_features
 
 KEEP = 1.0  # seconds of a clip that are kept
@@ -366,8 +366,7 @@ def edited(
     if text is None:
         sampling = replace(sampling, guidance_scale=0.0)
     features, constraint = fill(generator, text or NO_TEXT, given, sampling, tag=tag)
-    motion = finish(
-        generator,
+    motion = generator.post_processor(
         features,
         constraint.known,
         text=text or "",

@@ -26,11 +26,11 @@ from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
 from ..motion.motion import Motion
+from ..motion.postprocess.stitching import Place
 from ..motion.rotations import yaw_quaternion
 from ..motion.skeleton import REST_PELVIS_HEIGHT
 from ..motion.trajectory import MotionTrajectory, to_root
 from .edit import ControlledMotion
-from .postprocess import Place, finish
 from .stream import Passage, Sampling, stream_features
 from .timeline import Timeline, make_timeline
 
@@ -443,8 +443,7 @@ def along_path(
         constraint=lambda start, stop: given.window(start, stop, fps=fps),
     )
     x, z = path.points[0].tolist()
-    motion = finish(
-        generator,
+    motion = generator.post_processor(
         features,
         given.known,
         text=timeline.text,

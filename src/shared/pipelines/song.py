@@ -21,9 +21,9 @@ from ..model.audio.audio_motion_model import AudioMotionModel
 from ..model.audio.conditioning import BEAT, CONDITION_ROWS, FEATURE_ROWS
 from ..model.generation.motion_generator import TextToMotion
 from ..model.zoo import resolve_model
+from ..motion.postprocess.trajectory import MotionPostProcessor
 from ..motion.style import named_style, only_style_words
 from ..motion.trajectory import FPS, MotionTrajectory, unwrap_phase
-from ..motion.trajectory_postprocess import MotionPostProcessor
 from .ranking import AudioJudge, ScoreTable, unranked
 from .runtime import Runtime, load_runtime
 from .song_memory import SongMemory, require_memory

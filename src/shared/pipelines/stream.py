@@ -21,7 +21,8 @@ from ..model.diffusion.samplers import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.motion import Motion
-from .postprocess import Place, Settler, smooth_borders
+from ..motion.postprocess.stitching import Place, blend_boundaries
+from ..motion.postprocess.streaming import StreamingPostProcessor
 
 WINDOW, OVERLAP = 150, 30  # frames
 DEFAULT_SAMPLING = Sampling()
@@ -94,7 +95,7 @@ def stream_features(
                 guidance_scale=sampling.guidance_scale,
                 constraints=[lengthened(known, SHORTEST)],
             )
-            smooth = smooth_borders(features[: len(known)], known.known)
+            smooth = blend_boundaries(features[: len(known)], known.known)
             piece = smooth[len(before) :]
             before = torch.cat((before, piece))[-overlap:]
             made, number = made + length, number + 1
@@ -226,7 +227,9 @@ class MotionStream:
         self._prompts = [] if isinstance(prompts, str) else prompts
         self._now = Passage(prompts, self._frames) if isinstance(prompts, str) else None
         self._constraint = constraint
-        self._settler = Settler.of(generator, place=place, foot_lock=foot_lock)
+        self._post_processor = StreamingPostProcessor(
+            generator.post_processor, place=place or Place(), foot_lock=foot_lock
+        )
         self._pieces = stream_features(
             generator,
             self._passages(),
@@ -259,19 +262,19 @@ class MotionStream:
         for features in self._pieces:
             start, self._made = self._made, self._made + len(features)
             given = None if self._constraint is None else self._constraint(start, self._made)
-            piece = self._settler.add(features, None if given is None else given.known)
+            piece = self._post_processor.add(features, None if given is None else given.known)
             if piece is not None:
                 self._count(time.perf_counter() - started, piece.num_frames)
                 yield replace(piece, text=self._text)
                 started = time.perf_counter()
-        piece = self._settler.finish()
+        piece = self._post_processor.finish()
         if piece is not None:
             yield replace(piece, text=self._text)
 
     @property
     def latency(self) -> Latency:
         """As measured so far."""
-        lookahead = self._settler.lookahead / self._fps
+        lookahead = self._post_processor.lookahead / self._fps
         window = min(self._window, self._frames) / self._fps
         load = self._spent * self._fps / self._given if self._given else None
         return Latency(self._first, lookahead, lookahead + window, load)

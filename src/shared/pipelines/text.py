@@ -25,8 +25,8 @@ from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import Progress, TextToMotion
 from ..motion.features import ROOT_ROW, YAW_RATE
 from ..motion.motion import Motion
+from ..motion.postprocess.streaming import streamed
 from .path import DrawnPath, natural_gait, time_path
-from .postprocess import settled
 from .ranking import ScoreTable, TextJudge, unranked
 from .sentence import Clause, clauses
 from .stream import OVERLAP, WINDOW, Passage, Sampling, stream_features, window_seed
@@ -190,7 +190,9 @@ class SentenceGenerator:
             overlap=REPEATED_OVERLAP if repeated else OVERLAP,
             sampling=sampling,
         )
-        motion = settled(self.generator, torch.cat(list(pieces)), foot_lock=foot_lock)
+        motion = streamed(
+            self.generator.post_processor, torch.cat(list(pieces)), foot_lock=foot_lock
+        )
         return replace(motion, text=prompt)
 
     def _window(self) -> int:

@@ -23,8 +23,9 @@ from ..files import read_text
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.motion import Motion
+from ..motion.postprocess.stitching import Place, moved_to, place_of
+from ..motion.postprocess.streaming import streamed
 from .edit import ControlledMotion, all_but, chosen_joints, fill_free
-from .postprocess import Place, finish, frames_of, moved_to, place_of, settled
 from .stream import OVERLAP, WINDOW, ConstraintOf, Passage, Sampling, stream_features
 
 KEYS = ("text", "start", "end", "parts", "tag")
@@ -273,7 +274,7 @@ def by_timeline(
         errors: none, as nothing is given.
     """
     features = make_timeline(generator, timeline, sampling)
-    motion = settled(generator, features, foot_lock=foot_lock)
+    motion = streamed(generator.post_processor, features, foot_lock=foot_lock)
     return ControlledMotion(replace(motion, text=timeline.text))
 
 
@@ -294,15 +295,15 @@ def in_a_loop(
     features = make_loop(generator, timeline.passages, sampling)
     features = add_parts(generator, features, timeline.parts, sampling)
     frames = len(features)
-    rounds = finish(
-        generator, torch.cat([features] * 3), None, text=timeline.text, foot_lock=foot_lock
+    rounds = generator.post_processor(
+        torch.cat([features] * 3), None, text=timeline.text, foot_lock=foot_lock
     )
     before, after = place_of(rounds, frames), place_of(rounds, 2 * frames)
     errors = join_error(rounds, frames) | {
         "travel": float(np.hypot(after.x - before.x, after.z - before.z)),
         "turn": float(np.degrees(after.heading - before.heading)),
     }
-    once = frames_of(rounds, frames, 2 * frames)
+    once = rounds.frames(frames, 2 * frames)
     return ControlledMotion(moved_to(once, Place()), errors)
 
 

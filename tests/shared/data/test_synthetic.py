@@ -15,9 +15,9 @@ from src.shared.data.synthetic import (
     spec_for,
 )
 from src.shared.data.synthetic.clips import SPEED_METRES, speed_metres
-from src.shared.motion.contacts import detect_contacts
 from src.shared.motion.features import decode_features, encode_features
 from src.shared.motion.motion import Motion
+from src.shared.motion.postprocess.contacts import detect_contacts
 from src.shared.motion.skeleton import JOINT_INDEX, REST_FOOT_HEIGHT
 
 COMBINATIONS = label_combinations()

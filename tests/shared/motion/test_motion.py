@@ -7,10 +7,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation, Slerp
 
-from src.shared.motion.contacts import detect_contacts
 from src.shared.motion.features import ROOT_ROW, decode_features, encode_features, mirror_features
 from src.shared.motion.kinematics import global_to_local, local_to_global
 from src.shared.motion.motion import Motion, in_place, resample_motion
+from src.shared.motion.postprocess.contacts import detect_contacts
 from src.shared.motion.skeleton import (
     JOINT_INDEX,
     JOINT_NAMES,

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 from src.shared.errors import UsageError
 from src.shared.motion.features import LEFT_CONTACT, ROOT_ROW, decode_features
+from src.shared.motion.postprocess.whole import without_heading
 from src.shared.motion.rotations import (
     axis_angle_to_matrix,
     matrix_to_quaternion,
@@ -32,7 +33,6 @@ from src.shared.pipelines.body import (
     step_plan,
 )
 from src.shared.pipelines.dance import SongPerformer, candidate_seed
-from src.shared.pipelines.postprocess import untwisted
 from src.shared.pipelines.ranking import PerformanceJudge, beat_report
 from src.shared.pipelines.song import SongCondition, finished
 from src.shared.pipelines.stream import Passage
@@ -159,7 +159,7 @@ def test_a_heading_in_the_pelvis_row_is_taken_out() -> None:
     features[:, 0] = matrix_to_rotation_6d(twist)
     features[:, 1:ROOT_ROW, 0] = features[:, 1:ROOT_ROW, 4] = 1.0
     assert root_error(decode_features(features, **start_of(path)), path).max_degrees > 10
-    level = untwisted(features)
+    level = without_heading(features)
     assert root_error(decode_features(level, **start_of(path)), path).max_degrees < 0.02
     torch.testing.assert_close(level[:, 1:], features[:, 1:])
 

@@ -13,6 +13,8 @@ from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.features import FORWARD, ROOT_ROW, integrate_root
 from src.shared.motion.motion import Motion
+from src.shared.motion.postprocess.footskate import ease_from_kept
+from src.shared.motion.postprocess.stitching import Place, moved_to, place_of
 from src.shared.motion.skeleton import JOINT_INDEX, JOINT_NAMES
 from src.shared.pipelines.edit import (
     GROUPS,
@@ -26,7 +28,6 @@ from src.shared.pipelines.edit import (
     kept_positions_error,
     redo,
 )
-from src.shared.pipelines.postprocess import Place, eased, moved_to, place_of
 from tests.shared.model.conftest import tiny_generator
 
 WALK = "a person walks"
@@ -152,11 +153,11 @@ def test_feet_are_held_little_by_little(clip: Motion) -> None:
     locked = replace(clip, quaternions=turned)
     kept = np.zeros((clip.num_frames, 2), dtype=bool)
     kept[:20, 0] = True
-    apart = angles(eased(clip, locked, kept), clip)[:, 4]
+    apart = angles(ease_from_kept(clip, locked, kept), clip)[:, 4]
     whole = angles(locked, clip)[:, 4]
     assert apart[:20].max() < 1e-3 and apart[20] < 0.1 * whole[20]
-    assert angles(eased(clip, locked, kept), locked)[30:].max() < 1e-3
-    assert angles(eased(clip, locked, np.zeros_like(kept)), locked).max() < 1e-3
+    assert angles(ease_from_kept(clip, locked, kept), locked)[30:].max() < 1e-3
+    assert angles(ease_from_kept(clip, locked, np.zeros_like(kept)), locked).max() < 1e-3
 
 
 def test_names_of_joints() -> None:

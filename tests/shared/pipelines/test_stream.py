@@ -15,8 +15,9 @@ from src.shared.model.diffusion.samplers import Sampling
 from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.features import FORWARD, ROOT_ROW
+from src.shared.motion.postprocess.stitching import joined
+from src.shared.motion.postprocess.streaming import streamed
 from src.shared.pipelines import stream as motion_stream
-from src.shared.pipelines.postprocess import joined, settled
 from src.shared.pipelines.stream import MotionStream, Passage, stream_features, window_lengths
 from tests.shared.model.conftest import tiny_generator
 
@@ -137,14 +138,14 @@ def test_what_cannot_be(generator: TextToMotion) -> None:
         made(generator, Passage(" ", 20))
 
 
-def test_a_stream_is_the_settled_timeline(generator: TextToMotion) -> None:
+def test_a_stream_is_the_streamed_timeline(generator: TextToMotion) -> None:
     features = made(generator, WALK, WAVE)
     sampling = Sampling(seed=3)
     stream = MotionStream(generator, [WALK, WAVE], window=40, overlap=10, sampling=sampling)
     assert stream.latency.first is None
     pieces = list(stream)
     assert {piece.text for piece in pieces} == {WALK.text, WAVE.text}
-    whole = settled(generator, features)
+    whole = streamed(generator.post_processor, features)
     motion = reduce(joined, pieces)
     np.testing.assert_allclose(motion.positions(), whole.positions(), atol=1e-5)
     latency = stream.latency

@@ -11,9 +11,9 @@ import numpy as np
 import torch
 
 from ...formats.rig import SourceClip
-from ...motion.contacts import detect_contacts
 from ...motion.kinematics import global_to_local
 from ...motion.motion import Motion, resample_motion
+from ...motion.postprocess.contacts import detect_contacts
 from ...motion.rotations import (
     matrix_to_quaternion,
     quaternion_continuous,

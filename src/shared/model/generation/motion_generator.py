@@ -15,7 +15,7 @@ from torch import Tensor
 from ...device import choose_device, idle_threads
 from ...errors import UserError
 from ...motion.motion import Motion
-from ...motion.postprocess import MotionPostProcessor
+from ...motion.postprocess.whole import MotionPostProcessor
 from ..checkpoint import (
     ModelCard,
     load_state,
@@ -89,6 +89,11 @@ class TextToMotion:
         self._encoded: dict[tuple[str, ...], TextFeatures] = {}
         self._told: set[str] = set()  # prompts whose warning the caller has
 
+    @property
+    def post_processor(self) -> MotionPostProcessor:
+        """From raw features to motions, as this model is configured."""
+        return MotionPostProcessor(self.network.generation.post_processing, self.card.fps)
+
     # Generating
 
     @idle_threads()
@@ -143,14 +148,10 @@ class TextToMotion:
         for warning in self.scope_warnings(prompts, again=False):
             if warning is not None:
                 log.warning("%s", warning)
-        settings = self.network.generation.post_processing
-        if foot_lock is not None:
-            settings = settings.model_copy(update={"foot_lock": foot_lock})
-        finish = MotionPostProcessor(settings)
         texts = [prompt for prompt in prompts for _ in range(num_samples)]
         given = [each for each in constraints or [None] * len(prompts) for _ in range(num_samples)]
         return [
-            finish(sample, known=each and each.known, fps=self.card.fps, text=text)
+            self.post_processor(sample, each and each.known, text=text, foot_lock=foot_lock)
             for sample, text, each in zip(features, texts, given, strict=True)
         ]
 

@@ -7,6 +7,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from src.shared.errors import UsageError
+from src.shared.motion.postprocess.trajectory import (
+    MotionPostProcessor,
+    MotionPostProcessorTorch,
+    PostProcessConfig,
+)
 from src.shared.motion.trajectory import (
     ACCELERATION,
     ANGULAR_VELOCITY,
@@ -15,11 +20,6 @@ from src.shared.motion.trajectory import (
     QUATERNION,
     STYLE,
     VELOCITY,
-)
-from src.shared.motion.trajectory_postprocess import (
-    MotionPostProcessor,
-    MotionPostProcessorTorch,
-    PostProcessConfig,
 )
 from tests.shared.motion.trajectories import smooth_trajectory
 

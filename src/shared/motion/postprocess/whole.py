@@ -1,30 +1,33 @@
 """From sampled features to a motion: smoothing, Gram–Schmidt, quaternions, clamp, foot lock.
 
 TEXT, inference only. Order: depthwise smoothing → Gram–Schmidt → quaternion → optional velocity
-clamp → optional foot lock.
+clamp → optional footskate clean-up. `streaming.py` does the same piece by piece.
 
 Letters: B batch, T frames, R = K bones and, with a root track, one row more; C channels.
 """
 
 import math
 from dataclasses import replace
-from typing import Any
 
 import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
 
-from ..config_schema import PostProcessingConfig
-from .features import LEFT_CONTACT, ROOT_ROW, decode_features
-from .foot_lock import kept_legs, lock_feet
-from .motion import Motion
-from .rotations import (
+from ...config_schema import PostProcessingConfig
+from ..features import LEFT_CONTACT, ROOT_ROW, decode_features, headings
+from ..motion import Motion
+from ..rotations import (
+    matrix_to_rotation_6d,
     quaternion_conjugate,
     quaternion_continuous,
     quaternion_exp,
     quaternion_log,
     quaternion_multiply,
+    rotation_6d_to_matrix,
+    yaw_to_matrix,
 )
+from .footskate import ease_from_kept, kept_legs, lock_carried_feet, lock_feet
+from .stitching import ORIGIN, Place
 
 
 def smooth_features(features: Tensor, kernel_size: int) -> Tensor:
@@ -79,33 +82,69 @@ def clamp_velocity(quaternions: Tensor, max_velocity: float | None, fps: float) 
 
 
 class MotionPostProcessor(nn.Module):
-    """All of it, as configured."""
+    """All of it, as configured, for features of a whole motion.
 
-    def __init__(self, config: PostProcessingConfig) -> None:
+    Args:
+        config: what is done.
+        fps: frames a second.
+    """
+
+    def __init__(self, config: PostProcessingConfig, fps: float = 30.0) -> None:
         super().__init__()
-        self.config = config
+        self.config, self.fps = config, fps
 
-    def smooth(self, features: Tensor) -> Tensor:
-        """Features [...,T,R,C] smoothed over time."""
-        return smooth_features(features, self.config.smoothing_kernel)
-
-    def forward(self, features: Tensor, *, known: Tensor | None = None, **options: Any) -> Motion:
+    def forward(
+        self,
+        features: Tensor,
+        known: Tensor | None = None,
+        *,
+        text: str = "",
+        place: Place = ORIGIN,
+        foot_lock: bool | None = None,
+        carried: bool = False,
+    ) -> Motion:
         """One sample's features [T,K+1,6] or [T,K,6], not z-scored → Motion.
 
         Args:
             features: as sampled.
             known: bool, at least as many rows as `features`: entries to be left as they are. A
                 leg of which a joint is known is not moved by the foot lock.
-            options: for `decode_features`: fps, start_position, start_heading, text.
+            text: the caption.
+            place: of the first frame.
+            foot_lock: hold standing feet; None = as configured.
+            carried: a path that is not the body's own is known.
         """
-        smooth = self.smooth(features)
+        smooth = smooth_features(features, self.config.smoothing_kernel)
         if known is not None:
-            smooth = torch.where(known[:, : features.shape[1]], features, smooth)
-        motion = decode_features(smooth, **options)
+            known = known[:, : features.shape[1]]
+            # Neither what was made of the pelvis nor an average has a heading of its own to add.
+            smooth = without_heading(torch.where(known, features, smooth))
+            smooth = torch.where(known, features, smooth)
+        motion = decode_features(
+            smooth,
+            fps=self.fps,
+            start_position=(place.x, place.z),
+            start_heading=place.heading,
+            text=text,
+        )
         if self.config.max_velocity is not None:
             quaternions = torch.as_tensor(motion.quaternions)
-            clamped = clamp_velocity(quaternions, self.config.max_velocity, motion.fps)
+            clamped = clamp_velocity(quaternions, self.config.max_velocity, self.fps)
             motion = replace(motion, quaternions=clamped.numpy())
-        if not self.config.foot_lock:
+        if not (self.config.foot_lock if foot_lock is None else foot_lock):
             return motion
-        return lock_feet(motion, kept=None if known is None else kept_legs(known))
+        lock = lock_carried_feet if carried else lock_feet
+        kept = None if known is None else kept_legs(known)
+        if kept is None or not kept.any():
+            return lock(motion)
+        return ease_from_kept(motion, lock(motion, kept=kept), kept)
+
+
+PELVIS = 0  # its row
+
+
+def without_heading(features: Tensor) -> Tensor:
+    """Features [T,R,6] whose pelvis row has no heading left: that is the path's alone."""
+    pelvis = rotation_6d_to_matrix(features[:, PELVIS])
+    level = yaw_to_matrix(-headings(pelvis)) @ pelvis
+    return torch.cat((matrix_to_rotation_6d(level)[:, None], features[:, 1:]), 1)

@@ -7,8 +7,8 @@ import torch
 from torch import Tensor
 from torch.nn import functional as F
 
-from .rotations import quaternion_exp, quaternion_to_matrix
-from .skeleton import LEG_LENGTH
+from ..rotations import quaternion_exp, quaternion_to_matrix
+from ..skeleton import LEG_LENGTH
 
 MAX_STRETCH = 0.995  # of the leg's length; beyond it a leg is only as long as it already was
 RISE_AT = 0.97  # of the leg's length, from which on the heel rises instead

@@ -8,10 +8,12 @@ import torch
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from src.shared.motion.foot_holds import GIVE
-from src.shared.motion.foot_lock import lock_feet
-from src.shared.motion.leg_ik import MAX_STRETCH, two_bone_ik
+from src.shared.evaluation.dance_seams import ACCELERATION, JERK, body_quantities
+from src.shared.metrics.physical import support_speed
 from src.shared.motion.motion import Motion
+from src.shared.motion.postprocess.footskate import lock_carried_feet, lock_feet
+from src.shared.motion.postprocess.leg_ik import MAX_STRETCH, two_bone_ik
+from src.shared.motion.postprocess.plants import GIVE
 from src.shared.motion.rotations import euler_to_matrix, matrix_to_quaternion
 from src.shared.motion.skeleton import (
     JOINT_INDEX,
@@ -220,3 +222,48 @@ def test_kept_legs_stay() -> None:
     left = [JOINT_INDEX[f"l_{name}"] for name in ("hip", "knee", "ankle", "foot")]
     np.testing.assert_array_equal(locked.quaternions[:, left], motion.quaternions[:, left])
     assert (locked.quaternions[20:] != motion.quaternions[20:]).any()
+
+
+# ---------------------------------------------------------------- carried bodies
+
+WHOLE_LEGS = [
+    JOINT_INDEX[f"{side}_{name}"] for side in "lr" for name in ("hip", "knee", "ankle", "foot")
+]
+OTHERS = [joint for joint in JOINT_INDEX.values() if joint not in WHOLE_LEGS]
+
+
+def slide(motion: Motion) -> float:
+    """Mean speed of the lower foot, m/s."""
+    return float(support_speed(motion.positions().astype(np.float64), motion.fps).mean())
+
+
+def test_feet_slide_as_little_and_legs_move_more_smoothly_than_after_one_lock() -> None:
+    motion = sliding_walk(150, slide=0.9)
+    once, carried = lock_feet(motion), lock_carried_feet(motion)
+    assert slide(motion) > 0.5
+    assert slide(carried) < 0.25 * slide(motion) and slide(carried) < 1.2 * slide(once)
+    for quantity in (ACCELERATION, JERK):
+        rough, smooth = (np.percentile(body_quantities(m)[quantity], 99) for m in (once, carried))
+        assert smooth < 0.9 * rough
+
+
+def test_nothing_but_the_legs_is_touched() -> None:
+    motion = sliding_walk(90, slide=0.9)
+    carried = lock_carried_feet(motion)
+    np.testing.assert_array_equal(carried.root_position, motion.root_position)
+    np.testing.assert_array_equal(carried.quaternions[:, OTHERS], motion.quaternions[:, OTHERS])
+    norms = np.linalg.norm(carried.quaternions, axis=-1)
+    np.testing.assert_allclose(norms, 1, atol=1e-5)
+    assert ((carried.quaternions[1:] * carried.quaternions[:-1]).sum(-1) > 0).all()
+
+
+def test_kept_legs_of_carried_bodies_stay() -> None:
+    motion = sliding_walk(90, slide=0.9)
+    kept = np.zeros((90, 2), dtype=bool)
+    kept[:40, 0] = True
+    carried = lock_carried_feet(motion, kept=kept)
+    np.testing.assert_array_equal(
+        carried.quaternions[:40, WHOLE_LEGS[:4]], motion.quaternions[:40, WHOLE_LEGS[:4]]
+    )
+    np.testing.assert_array_equal(carried.contacts[:40, 0], motion.contacts[:40, 0])
+    assert not np.array_equal(carried.quaternions[40:], motion.quaternions[40:])

@@ -7,16 +7,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import CubicHermiteSpline
 
-from src.shared.motion.foot_holds import (
+from src.shared.motion.postprocess.contacts import contact_runs, grounding, standing
+from src.shared.motion.postprocess.leg_ik import MAX_RISE, heel_rise
+from src.shared.motion.postprocess.plants import (
     GIVE,
     MAX_REACH,
     corrections,
-    foot_holds,
     foot_shifts,
     hermite,
+    plant_spans,
 )
-from src.shared.motion.foot_stance import contact_runs, grounding, standing
-from src.shared.motion.leg_ik import MAX_RISE, heel_rise
 from src.shared.motion.skeleton import REST_FOOT_HEIGHT
 
 FPS = 30.0
@@ -63,7 +63,7 @@ def test_who_falls_stands_on_nothing() -> None:
 def test_a_dragged_foot_takes_steps_in_turn_with_the_other() -> None:
     path = on_floor(120, speed=0.5)  # two metres
     balls, kept = np.stack((path, path), 1), np.zeros((120, 2), dtype=bool)
-    left, right = foot_holds(balls, hips_over(balls), ~kept, FPS, kept)
+    left, right = plant_spans(balls, hips_over(balls), ~kept, FPS, kept)
     assert len(left) >= 3 and len(right) >= 3
     held = np.zeros((120, 2), dtype=bool)
     for side, holds in enumerate((left, right)):
@@ -90,7 +90,7 @@ def test_a_body_too_fast_for_its_steps_takes_more_of_them() -> None:
     stands = np.stack((turn == 0, turn == 1), 1)
     kept = np.zeros((120, 2), dtype=bool)
     hips = hips_over(balls)
-    found = foot_holds(balls, hips, stands, FPS, kept)
+    found = plant_spans(balls, hips, stands, FPS, kept)
     held = np.zeros((120, 2), dtype=bool)
     for side, holds in enumerate(found):
         assert len(holds) >= 4

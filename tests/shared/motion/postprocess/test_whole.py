@@ -10,7 +10,7 @@ from scipy.ndimage import convolve1d
 from src.shared.config_schema import PostProcessingConfig
 from src.shared.motion.features import decode_features, encode_features
 from src.shared.motion.motion import Motion
-from src.shared.motion.postprocess import MotionPostProcessor, clamp_velocity, smooth_features
+from src.shared.motion.postprocess.whole import MotionPostProcessor, clamp_velocity, smooth_features
 from src.shared.motion.rotations import (
     quaternion_conjugate,
     quaternion_exp,
@@ -123,7 +123,7 @@ def test_the_whole_chain_gives_a_motion(rows: int) -> None:
     config = PostProcessingConfig(smoothing_kernel=3, max_velocity=6.0, foot_lock=True)
     features = encode_features(some_motion())[:, :rows]
     noisy = features + 0.1 * torch.randn(features.shape, generator=torch.Generator().manual_seed(0))
-    motion = MotionPostProcessor(config)(noisy, fps=30.0)
+    motion = MotionPostProcessor(config)(noisy)
     assert motion.quaternions.shape == (40, 22, 4)
     assert motion.quaternions.dtype == motion.root_position.dtype == np.float32
     assert np.isfinite(motion.positions()).all()

@@ -1,4 +1,4 @@
-"""When feet stand: on the floor that they share, as they claim, or because somebody has to.
+"""Contact detection: which feet stand, from joint positions and from what a motion claims.
 
 Letters: T frames.
 """
@@ -6,14 +6,34 @@ Letters: T frames.
 import numpy as np
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d, minimum_filter1d
 
-from .skeleton import REST_FOOT_HEIGHT
+from ..skeleton import FOOT_JOINTS, REST_FOOT_HEIGHT
 
+MAX_HEIGHT = 0.06  # metres of the ball of the foot above its rest height
+MAX_SPEED = 0.35  # m/s of the ball of the foot
 THRESHOLD = 0.5  # contact above it = on the ground
 MAX_CLAIM = 0.12  # metres above the standing height; a higher foot stands on nothing
 AROUND_SECONDS, FLAT = 0.4, 0.01  # in which a foot comes down; metres that are flat enough
 MAX_SUPPORT = 0.08  # metres; a lower foot carries the body if none other does,
 MAX_VERTICAL = 0.5  # m/s, unless it rises or falls faster than this
 FALL = -3.0  # m/s² of the hips, below which the body flies
+
+
+def detect_contacts(positions: np.ndarray, fps: float) -> np.ndarray:
+    """Contacts [T,2] float32 (left, right) of joint positions [T,22,3] on a floor at y = 0.
+
+    A foot is in contact while its ball is low and slow; single frames are voted down by their
+    neighbours.
+    """
+    balls = positions[:, [ball for _, ball in FOOT_JOINTS]]  # T 2 3
+    steps = np.diff(balls, axis=0, append=balls[-1:]) * fps
+    if len(steps) > 1:
+        steps[-1] = steps[-2]
+    low = balls[..., 1] < REST_FOOT_HEIGHT + MAX_HEIGHT
+    slow = np.linalg.norm(steps, axis=-1) < MAX_SPEED
+    contact = (low & slow).astype(np.float32)
+    padded = np.pad(contact, ((1, 1), (0, 0)), mode="edge")
+    votes = padded[:-2] + padded[1:-1] + padded[2:]
+    return (votes >= 2).astype(np.float32)
 
 
 def grounding(balls: np.ndarray, kept: np.ndarray, fps: float) -> np.ndarray:

@@ -14,10 +14,10 @@ import torch
 from torch import Tensor
 from torch.nn import functional as F
 
-from ..errors import UsageError
-from .kinematics import forward_difference, smooth
-from .rotations import quaternion_continuous
-from .trajectory import (
+from ...errors import UsageError
+from ..kinematics import forward_difference, smooth
+from ..rotations import quaternion_continuous
+from ..trajectory import (
     ACCELERATION,
     ANGULAR_VELOCITY,
     FPS,

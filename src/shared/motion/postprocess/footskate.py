@@ -1,27 +1,36 @@
-"""Foot lock: feet that touch the ground stay where they are, by two-bone inverse kinematics.
+"""Footskate clean-up: feet that touch the ground stay where they are, by inverse kinematics.
 
 While a foot stands its ball is held over one point of the floor, and not below it; the leg above
-follows (`foot_holds.py`: when, where and how far; `leg_ik.py`: the leg). The foot keeps its world
+follows (`plants.py`: when, where and how far; `leg_ik.py`: the leg). The foot keeps its world
 rotation, and the knee its direction. Where a leg is too short for a hold the heel rises about the
 ball, with the toes flat, before the foot gives way. Runs on the CPU in float64.
 
-Letters: T frames.
+Letters: T frames, J joints.
 """
 
 from dataclasses import replace
 
 import numpy as np
 import torch
+from scipy.ndimage import distance_transform_edt, gaussian_filter1d
 from torch import Tensor
 
-from .foot_holds import foot_shifts
-from .kinematics import forward_kinematics
+from ..kinematics import forward_kinematics
+from ..motion import Motion
+from ..rotations import (
+    matrix_to_quaternion,
+    quaternion_continuous,
+    quaternion_slerp,
+    quaternion_to_matrix,
+)
+from ..skeleton import FOOT_JOINTS, JOINT_INDEX, LIMBS, PARENTS, canonical_skeleton
 from .leg_ik import heel_rise, longest_reach, two_bone_ik
-from .motion import Motion
-from .rotations import matrix_to_quaternion, quaternion_to_matrix
-from .skeleton import FOOT_JOINTS, PARENTS, canonical_skeleton
+from .plants import foot_shifts
 
 MIN_CORRECTION = 1e-4  # metres; frames that need less stay exactly as they are
+FIRST, LAST = 1.5 / 30, 0.5 / 30  # seconds, standard deviations of the two smoothings of legs
+LEGS = [[JOINT_INDEX[joint] for joint in LIMBS[leg]] for leg in ("left-leg", "right-leg")]
+EASE = 10  # frames until a leg is held as if nothing of it had been kept
 
 
 def kept_legs(known: Tensor) -> np.ndarray:
@@ -97,3 +106,44 @@ def _move_leg(
             (hip, knee, ankle, ball), chain[:-1], chain[1:], strict=True
         )
     }
+
+
+def lock_carried_feet(motion: Motion, *, kept: np.ndarray | None = None) -> Motion:
+    """`lock_feet` for a body that a path carries: locked twice, the legs smoothed after each time.
+
+    A dancer who is pinned to the path of a song slides as fast as the path goes. The foot lock puts
+    steps there, which begin and end with corners, on top of whatever the legs did. Smoothed, that
+    is a body that steps by itself, and the second time there is little left to correct: standing
+    feet slide less than after one lock, and accelerations stay as real ones (docs/experiments.md).
+
+    Args:
+        motion: of any length, its pelvis on a path that is not its own.
+        kept: legs [T,2] bool that must stay as they are.
+    """
+    stepping = _smooth_legs(lock_feet(motion, kept=kept), FIRST, kept)
+    return _smooth_legs(lock_feet(stepping, kept=kept), LAST, kept)
+
+
+def _smooth_legs(motion: Motion, seconds: float, kept: np.ndarray | None) -> Motion:
+    """Rotations of the legs averaged over time, by a Gaussian of this standard deviation."""
+    smooth = motion.quaternions.copy()
+    for side, joints in enumerate(LEGS):
+        legs = torch.as_tensor(motion.quaternions[:, joints], dtype=torch.float64)
+        rows = quaternion_continuous(legs, dim=0).numpy()  # T J 4
+        mean = gaussian_filter1d(rows, seconds * motion.fps, axis=0, mode="nearest")
+        mean /= np.linalg.norm(mean, axis=-1, keepdims=True)
+        free = np.ones(len(rows), dtype=bool) if kept is None else ~kept[:, side]
+        smooth[np.ix_(free, np.array(joints))] = mean[free]
+    return replace(motion, quaternions=smooth)
+
+
+def ease_from_kept(loose: Motion, locked: Motion, kept: np.ndarray) -> Motion:
+    """Legs held little by little from where they are kept [T,2] bool: no foot jumps to its hold."""
+    quaternions = torch.as_tensor(locked.quaternions).clone()
+    before = torch.as_tensor(loose.quaternions)
+    for side, joints in enumerate(LEGS):
+        away = distance_transform_edt(~kept[:, side]) if kept[:, side].any() else np.inf
+        x = torch.as_tensor(np.minimum(away / EASE, 1.0), dtype=torch.float32)
+        share = (x**2 * (3 - 2 * x)).expand(len(before))[:, None, None]
+        quaternions[:, joints] = quaternion_slerp(before[:, joints], quaternions[:, joints], share)
+    return replace(locked, quaternions=quaternion_continuous(quaternions, dim=0).numpy())

@@ -13,8 +13,8 @@ from itertools import pairwise
 import numpy as np
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
-from .foot_stance import contact_runs, grounding, standing
-from .skeleton import REST_FOOT_HEIGHT
+from ..skeleton import REST_FOOT_HEIGHT
+from .contacts import contact_runs, grounding, standing
 
 MAX_GAP_SECONDS = 2 / 30  # a contact that breaks off for no longer than this goes on
 MIN_HOLD_SECONDS = 3 / 30  # a shorter contact is none
@@ -33,7 +33,7 @@ MAX_REACH = 0.9  # metres from the hip to the ball of a held foot, its heel up
 
 
 @dataclass(frozen=True, eq=False)
-class Hold:
+class Plant:
     """A foot that stands on `point` [3] in frames [start, stop)."""
 
     start: int
@@ -63,7 +63,7 @@ def foot_shifts(
     balls = balls + shifts
     stands = standing(balls, hips, contacts, fps)
     held = np.zeros(stands.shape, dtype=bool)
-    for side, holds in enumerate(foot_holds(balls, hips, stands, fps, kept)):
+    for side, holds in enumerate(plant_spans(balls, hips, stands, fps, kept)):
         shifts[:, side] += corrections(balls[:, side], holds, kept[:, side], fps)
         for hold in holds:
             held[hold.start : hold.stop, side] = True
@@ -73,9 +73,9 @@ def foot_shifts(
 # ---------------------------------------------------------------- where
 
 
-def foot_holds(
+def plant_spans(
     balls: np.ndarray, hips: np.ndarray, stands: np.ndarray, fps: float, kept: np.ndarray
-) -> tuple[list[Hold], list[Hold]]:
+) -> tuple[list[Plant], list[Plant]]:
     """The holds of the left and of the right foot, in order; where one foot must leave before the
     other was to land, the other one lands sooner, or steps are put between.
 
@@ -103,7 +103,7 @@ class _Planner:
         self.balls, self.hips, self.free, self.kept = balls, hips, free, kept
         self.shortest = min(round(MIN_HOLD_SECONDS * fps), len(balls))
         self.swing, self.sooner = round(MIN_SWING_SECONDS * fps), round(SOONER_SECONDS * fps)
-        self.found: tuple[list[Hold], list[Hold]] = ([], [])
+        self.found: tuple[list[Plant], list[Plant]] = ([], [])
         self.until, self.last = 0, 0  # some foot stands up to here; the foot that stood last
 
     def plant(self, start: int, stop: int, side: int) -> None:
@@ -132,7 +132,7 @@ class _Planner:
         return max(self.until, before)
 
     def _hold(self, start: int, stop: int, side: int) -> None:
-        """Hold a foot as long as its leg reaches."""
+        """Plant a foot as long as its leg reaches."""
         ball, hip = self.balls[:, side], self.hips[:, side]
         fixed = np.flatnonzero(self.kept[start:stop, side])
         if len(fixed):
@@ -143,7 +143,7 @@ class _Planner:
         else:
             point, first, last = _in_reach(ball, hip, start, stop, self.shortest)
         if last - first >= self.shortest:
-            self.found[side].append(Hold(first, last, point))
+            self.found[side].append(Plant(first, last, point))
             if last > self.until:
                 self.until, self.last = last, side
 
@@ -223,7 +223,7 @@ def _reached(point: np.ndarray, hip: np.ndarray, start: int, stop: int) -> tuple
 # ---------------------------------------------------------------- how far
 
 
-def corrections(ball: np.ndarray, holds: list[Hold], kept: np.ndarray, fps: float) -> np.ndarray:
+def corrections(ball: np.ndarray, holds: list[Plant], kept: np.ndarray, fps: float) -> np.ndarray:
     """Where the ball of a foot [T,3] has to move, [T,3] in metres; zero = nothing to do."""
     shift, known = np.zeros_like(ball), kept.copy()
     lift = np.zeros(len(ball))

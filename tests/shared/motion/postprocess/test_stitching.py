@@ -1,0 +1,87 @@
+"""No jump where known frames end, and nothing known moves; cuts are softened."""
+
+import torch
+from hypothesis import given
+from hypothesis import strategies as st
+
+from src.shared.motion.features import LEFT_CONTACT, ROOT_ROW
+from src.shared.motion.postprocess.stitching import FADE, blend_boundaries, blend_cuts
+
+SHAPE = (23, 6)
+
+
+def ramp(frames: int, jump: float = 0.0, at: int = 0) -> torch.Tensor:
+    """A steady motion of 0.01 a frame that jumps once."""
+    values = 0.01 * torch.arange(frames)[:, None, None].expand(-1, *SHAPE).clone()
+    values[at:] += jump
+    return values
+
+
+def prefix(frames: int, known: int) -> torch.Tensor:
+    mask = torch.zeros(frames, *SHAPE, dtype=torch.bool)
+    mask[:known] = True
+    return mask
+
+
+@given(jump=st.floats(-0.5, 0.5), known=st.integers(2, 20), frames=st.integers(31, 60))
+def test_a_jump_is_taken_up(jump: float, known: int, frames: int) -> None:
+    """The step across the border is that of its neighbours; the fade is spread over `FADE`."""
+    features = ramp(frames, jump, at=known)
+    smooth = blend_boundaries(features, prefix(frames, known))
+    motion = torch.ones(SHAPE, dtype=torch.bool)
+    motion[ROOT_ROW, LEFT_CONTACT:] = False
+    torch.testing.assert_close(smooth[:known], features[:known])
+    torch.testing.assert_close(smooth[:, ~motion], features[:, ~motion])
+    end = known + FADE
+    torch.testing.assert_close(smooth[end:], features[end:])
+    moving = smooth[:, motion]
+    step = (moving[known] - moving[known - 1]).max()
+    assert abs(float(step) - 0.01) < 1e-4
+    assert float((moving.diff(dim=0) - 0.01).abs().max()) <= abs(jump) * 2.2 / FADE + 1e-5
+
+
+def test_both_ends_of_a_gap_meet() -> None:
+    features = ramp(60)
+    features[20:40] += 0.3
+    mask = torch.ones(60, *SHAPE, dtype=torch.bool)
+    mask[20:40] = False
+    smooth = blend_boundaries(features, mask)
+    steps = smooth[:, 3, 2].diff()
+    assert float(steps[[19, 39]].sub(0.01).abs().max()) < 1e-4
+    assert float((smooth - ramp(60))[:20].abs().max()) < 1e-6
+    torch.testing.assert_close(smooth[29:31], features[29:31], rtol=0, atol=0.01)
+
+
+@given(
+    st.lists(st.booleans(), min_size=1, max_size=30),
+    st.integers(0, 2**32),
+)
+def test_known_entries_stay_and_all_is_finite(mask: list[bool], seed: int) -> None:
+    """Any pattern, single frames and single free frames among them."""
+    features = torch.randn(len(mask), *SHAPE, generator=torch.Generator().manual_seed(seed))
+    known = torch.tensor(mask)[:, None, None].expand(-1, *SHAPE).clone()
+    known[:, 5, 2] = False
+    smooth = blend_boundaries(features, known)
+    assert torch.isfinite(smooth).all()
+    torch.testing.assert_close(smooth[known], features[known])
+    torch.testing.assert_close(smooth[:, 5, 2], features[:, 5, 2])
+
+
+def test_nothing_known_changes_nothing() -> None:
+    features = torch.randn(20, *SHAPE)
+    torch.testing.assert_close(blend_boundaries(features, prefix(20, 0)), features)
+    torch.testing.assert_close(blend_boundaries(features, prefix(20, 20)), features)
+
+
+def test_cuts_are_softened_and_the_rest_is_left_alone() -> None:
+    """A corner at frame 40 becomes a curve; contacts and far frames stay to the bit."""
+    line = torch.arange(80.0)
+    corner = torch.where(line < 40, line, 80 - line) / 30
+    features = corner[:, None, None].repeat(1, ROOT_ROW + 1, 6)
+    soft = blend_cuts(features, [40])
+    change = (soft[2:] - 2 * soft[1:-1] + soft[:-2]).abs()
+    before = (features[2:] - 2 * features[1:-1] + features[:-2]).abs()
+    assert change[:, :ROOT_ROW].max() < 0.4 * before.max()
+    assert torch.equal(soft[:, ROOT_ROW, LEFT_CONTACT:], features[:, ROOT_ROW, LEFT_CONTACT:])
+    assert torch.equal(soft[:24], features[:24]) and torch.equal(soft[56:], features[56:])
+    assert blend_cuts(features, []) is features
