@@ -179,21 +179,18 @@ def run_text(model: str, request: Request, folder: Path) -> dict[str, Any]:
 
 def run_audio(model: str, request: Request, folder: Path) -> dict[str, Any]:
     """The audio branch's report."""
-    from .evaluate_sanity import check_pairs, load_model
+    from .evaluate_sanity import check_pairs, load_generator
 
     check_pairs(request.data)
 
     from ..shared.evaluation import audio_harness
     from ..shared.evaluation.audio_context import AudioSettings
-    from ..shared.pipelines.song import SongGenerator
 
     amount = request.amount("num_songs", "song_seconds", "track_seconds", "tell_meter")
     if request.quick:
         amount = {"num_songs": QUICK_SONGS, **amount}
-    device = request.device
-    generator = SongGenerator(load_model(model, request.decoder, device), device=device)
     return audio_harness.evaluate_audio(
-        generator,
+        load_generator(model, request.decoder, request.device),
         data=request.data,
         songs=request.songs,
         settings=AudioSettings(**amount),

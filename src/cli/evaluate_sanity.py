@@ -11,9 +11,9 @@ from . import environment, options
 from .guard import tell
 
 if TYPE_CHECKING:
-    from ..shared.evaluation.audio_sanity import SanityEvaluation
-    from ..shared.metrics.bands import Bands
+    from ..shared.evaluation.suites.sanity import SanityEvaluation
     from ..shared.model.audio.audio_motion_model import AudioMotionModel
+    from ..shared.pipelines.song import SongGenerator
 
 MODEL = "starter-audio"
 FULL = {"num_samples": 100, "num_frames": 120, "num_steps": 20}
@@ -66,7 +66,7 @@ def evaluate_sanity(
 ) -> None:
     """Check motions made for sound that training never saw: seven checks, and the real bands.
 
-    Nothing is clamped or made coherent first. Real motion, a frozen one and an untrained model
+    They are sampled as `generate` samples them. Real motion, a frozen one and an untrained model
     stand beside them; the last two must fail. Without --data the sound is synthetic songs with
     tempi that no training song has, and real motion is missing.
 
@@ -89,23 +89,18 @@ def evaluate_sanity(
     options.check_folder("--output-dir", output_dir)
 
     from ..shared.device import set_threads
-    from ..shared.evaluation.audio_sanity import SanitySettings
-    from ..shared.evaluation.audio_sanity import evaluate_sanity as evaluate
+    from ..shared.evaluation.suites import sanity
 
     set_threads(threads)
-    loaded = load_model(model, decoder_checkpoint, device)
-    result = evaluate(
-        loaded,
+    result = sanity.evaluate_sanity(
+        load_generator(model, decoder_checkpoint, device),
         data=data,
-        bands=shipped_bands(model) if data is None else None,
-        settings=SanitySettings(seed=seed, **amount),
+        settings=sanity.SanitySettings(seed=seed, **amount),
         about={"model": model, "decoder": decoder_checkpoint or model},
         progress=lambda text: tell(f"evaluate-sanity: {text}"),
     )
     write_results(result, output_dir)
-    from ..shared.evaluation.sanity_report import sanity_tables
-
-    show("Sanity", result.report, list(sanity_tables(result.report)), json=json)
+    show("Sanity", result.report, list(sanity.sanity_tables(result.report)), json=json)
 
 
 # ---------------------------------------------------------------- arguments
@@ -129,33 +124,25 @@ def check_pairs(data: str | None) -> None:
 # ---------------------------------------------------------------- model and results
 
 
-def load_model(name: str, decoder: str | None, device: str) -> "AudioMotionModel":
+def load_generator(
+    name: str, decoder: str | None, device: str
+) -> "SongGenerator[AudioMotionModel]":
     """A trained audio branch on a device, with another folder's decoder if one is named."""
     from ..shared.pipelines.song import SongGenerator
 
-    model = SongGenerator.from_pretrained(name, device=device).model
+    generator = SongGenerator.from_pretrained(name, device=device)
     if decoder is not None:
         from ..shared.model.audio.audio_motion_model import load_decoder
 
-        model.decoder = load_decoder(decoder).to(model.mean.device).eval()
-    return model
-
-
-def shipped_bands(name: str) -> "Bands | None":
-    """Bands of the training motions beside the weights, where the folder has them."""
-    from ..shared.metrics.bands import Bands
-    from ..shared.model.zoo import resolve_model
-
-    path = resolve_model(name) / "bands.json"
-    return Bands.load(path) if path.is_file() else None
+        generator.model.decoder = load_decoder(decoder).to(generator.device).eval()
+    return generator
 
 
 def write_results(result: "SanityEvaluation", folder: Path) -> None:
     """sanity.json, sanity.md, bands.png and the first motion as trajectory.png."""
-    from ..shared.evaluation.audio_plots import plot_bands
     from ..shared.evaluation.report.plots import plot_trajectory
     from ..shared.evaluation.report.tables import as_markdown, heading
-    from ..shared.evaluation.sanity_report import sanity_tables
+    from ..shared.evaluation.suites.sanity import plot_bands, sanity_tables
     from ..shared.files import write_json, write_text
 
     report = result.report

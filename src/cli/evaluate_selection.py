@@ -8,7 +8,7 @@ import typer
 from ..shared.errors import UsageError
 from . import options
 from .evaluate import check_data
-from .evaluate_sanity import check_limits, check_pairs, shipped_bands
+from .evaluate_sanity import check_limits, check_pairs
 from .guard import tell
 
 SYNTHETIC = "synthetic"
@@ -95,6 +95,7 @@ def evaluate_selection(
         if data != SYNTHETIC:
             check_pairs(data)
         from ..shared.evaluation.selection_songs import SongSettings, evaluate_songs
+        from ..shared.pipelines.song import shipped_bands
 
         songs = SongSettings(
             num_songs=num_subjects or SongSettings.num_songs,

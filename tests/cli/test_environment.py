@@ -8,7 +8,7 @@ from typer.testing import CliRunner
 
 from src.cli import environment, evaluate_audio, evaluate_sanity
 from src.cli.tools import app
-from src.shared.evaluation import audio_sanity
+from src.shared.evaluation.suites import sanity
 
 
 @pytest.fixture
@@ -23,9 +23,8 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> list[dict[str, Any]]:
         found[-1].update(options)
         raise KeyboardInterrupt  # enough
 
-    monkeypatch.setattr(evaluate_sanity, "load_model", load)
-    monkeypatch.setattr(evaluate_sanity, "shipped_bands", lambda name: None)
-    monkeypatch.setattr(audio_sanity, "evaluate_sanity", evaluate)
+    monkeypatch.setattr(evaluate_sanity, "load_generator", load)
+    monkeypatch.setattr(sanity, "evaluate_sanity", evaluate)
     return found
 
 

@@ -22,7 +22,6 @@ from ..metrics.sanity import frozen
 from ..motion.trajectory import FPS, MotionTrajectory
 from ..pipelines.song import SongGenerator, own_noise
 from ..pipelines.song_sampler import SongSampling
-from .audio_sanity import untrained
 from .audio_songs import (
     Piece,
     held_out_songs,
@@ -32,6 +31,7 @@ from .audio_songs import (
     tracks,
 )
 from .samples import Dance, DanceSample
+from .suites.sanity import untrained
 
 Progress = Callable[[str], None]
 Made = list[tuple[Piece, MotionTrajectory]]
@@ -233,7 +233,7 @@ class AudioContext:
     @cached_property
     def fresh(self) -> SongGenerator:
         """The same network with fresh weights, the last layer included."""
-        fresh = untrained(self.generator.model, self.settings.seed, still=False)
+        fresh = untrained(self.generator.model, self.settings.seed)
         return SongGenerator(fresh, device=str(self.generator.device))
 
 

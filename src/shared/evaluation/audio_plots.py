@@ -1,20 +1,17 @@
-"""Plots of the audio evaluations: phase against beats, and motions against real bands.
+"""A plot of the audio evaluation: phase against beats.
 
 matplotlib is imported when a plot is drawn; no window is opened.
 """
 
-from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
-from ..metrics.bands import MEASURES, UNITS, Bands
-from ..motion.trajectory import FPS, MotionTrajectory
+from ..motion.trajectory import FPS
 from .audio_context import Picture
 from .report.plots import new_figure, save_figure
 
 LINES = {"truth": ("black", "-"), "beat tracker": ("tab:blue", ":"), "generated": ("tab:red", "--")}
-COLOURS = {"generated": "tab:red", "real": "tab:green", "untrained": "grey", "frozen": "tab:blue"}
 
 
 def plot_phase(picture: Picture, path: str | Path) -> Path:
@@ -41,33 +38,6 @@ def plot_phase(picture: Picture, path: str | Path) -> Path:
     lower.set_xlabel("seconds; grey: beats of the song")
     lower.legend(loc="upper right", fontsize="small")
     figure.suptitle(picture.name)
-    return save_figure(figure, Path(path))
-
-
-def plot_bands(
-    motions: Mapping[str, Sequence[MotionTrajectory]], bands: Bands | None, path: str | Path
-) -> Path:
-    """Every motion as a dot for each measure, over the band of training motions.
-
-    Raises:
-        UserError: matplotlib is missing, or the file cannot be written.
-    """
-    figure = new_figure(14, 7)
-    for axes, (name, measure) in zip(figure.subplots(2, 3).flat, MEASURES.items(), strict=True):
-        band = bands.bands.get(name) if bands else None
-        if band is not None:
-            axes.axhspan(band.low, band.high, color="tab:green", alpha=0.15)
-        top = band.high if band else 0.0
-        for place, (row, group) in enumerate(motions.items()):
-            values = np.array([measure(motion) for motion in group])
-            spread = np.linspace(-0.3, 0.3, len(values))
-            top = max(top, float(values.max()))
-            axes.plot(place + spread, values, ".", color=COLOURS.get(row, "black"), ms=4)
-        axes.set_xticks(range(len(motions)), list(motions))
-        axes.set_title(f"{name.replace('_', ' ')}, {UNITS[name]}")
-        axes.set_yscale("symlog", linthresh=0.1)
-        axes.set_ylim(-0.01, 2 * max(top, 0.1))
-    figure.suptitle("dots: motions; green: 5th to 95th percentile of training motions")
     return save_figure(figure, Path(path))
 
 

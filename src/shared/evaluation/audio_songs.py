@@ -31,7 +31,7 @@ from ..metrics.rhythm import beats_of_phase
 from ..model.audio.conditioning import BEAT, CONDITION_ROWS
 from ..motion.trajectory import FPS, MotionTrajectory
 from ..motion.window import place_window
-from ..pipelines.song import heard
+from ..pipelines.song import SongCondition, heard
 
 FRESH_SEED = 90210  # of songs made only to test: no training draws from the held-out tempi
 MARGIN = 2.0  # seconds of beats beyond a song's end that count as neighbours
@@ -160,12 +160,14 @@ class RealPhrase:
         audio: [C,T].
         motion: T frames.
         beats: seconds, those that the rows of beat phase tell; none without.
+        bars: unwrapped [T], as those rows tell; None without.
     """
 
     song: str
     audio: Tensor
     motion: MotionTrajectory
     beats: np.ndarray
+    bars: np.ndarray | None
 
     @property
     def seconds(self) -> float:
@@ -204,7 +206,7 @@ def phrases(
         window = item.motion[:, item.mask].numpy()
         placed = place_window(window, phase=0.0 if bars is None else float(bars[0]))
         song = item.record.song or item.record.id
-        found.append(RealPhrase(song, audio, MotionTrajectory(placed), beats))
+        found.append(RealPhrase(song, audio, MotionTrajectory(placed), beats, bars))
     return found
 
 
@@ -217,11 +219,15 @@ def clock(audio: Tensor) -> tuple[np.ndarray | None, np.ndarray]:
     return bar, beats_of_phase(beat, FPS)
 
 
-def conditions_of_songs(number: int, frames: int, seed: int) -> list[Tensor]:
-    """Windows [C,T] of held-out synthetic songs, several of each."""
+def conditions_of_songs(number: int, frames: int, seed: int) -> list[SongCondition]:
+    """Windows of held-out synthetic songs, several of each."""
     seconds, each = 30.0, max(1, int(30.0 * FPS) // frames)
     seconds = max(seconds, frames / FPS)
-    found: list[Tensor] = []
+    found: list[SongCondition] = []
     for piece in held_out_songs(-(-number // each), seconds, seed):
-        found += [piece.condition[:, k * frames : (k + 1) * frames] for k in range(each)]
-    return [torch.as_tensor(window).float() for window in found[:number]]
+        for part in (slice(k * frames, (k + 1) * frames) for k in range(each)):
+            bars = None if piece.phase is None else piece.phase[part]
+            beats = np.zeros(0) if bars is None else beats_of_phase(bars * piece.meter, FPS)
+            condition = torch.as_tensor(piece.condition[:, part]).float()
+            found.append(SongCondition(condition, bars, beats, len(found)))
+    return found[:number]

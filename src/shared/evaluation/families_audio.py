@@ -121,7 +121,7 @@ class TrajectorySanity:
     definition = (
         "Share of motions that pass the five checks of the specification, quaternion continuity"
         " and phase monotonicity (seven), and liveliness and roughness besides (suite). Motions as"
-        " `generate` writes them; `evaluate-sanity` looks at what the decoder gave, and at the"
+        " the sampler gives them; `evaluate-sanity` looks at post-processed ones too, and at the"
         " bands of training motions. Stillness passes the seven. The other figures are best near"
         " the real row."
     )

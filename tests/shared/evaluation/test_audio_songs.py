@@ -35,11 +35,14 @@ def test_held_out_songs_know_their_beats() -> None:
 
 
 def test_conditions_are_windows_of_the_length_asked_for() -> None:
-    windows = conditions_of_songs(5, 120, seed=0)
+    songs = conditions_of_songs(5, 120, seed=0)
+    windows = [song.condition for song in songs]
     assert [tuple(window.shape) for window in windows] == [(167, 120)] * 5
+    assert all(song.phase is not None and len(song.phase) == 120 for song in songs)
+    assert len({song.seed for song in songs}) == 5, "each has noise of its own"
     assert not np.allclose(windows[0], windows[1])
     again = conditions_of_songs(5, 120, seed=0)
-    assert all(bool((a == b).all()) for a, b in zip(windows, again, strict=True))
+    assert all(bool((a == b.condition).all()) for a, b in zip(windows, again, strict=True))
 
 
 def test_phrases_keep_motion_beats_and_song(tmp_path: Path) -> None:

@@ -1,0 +1,284 @@
+"""The sanity suite: do motions for unheard sound hold together, and move as people do? (TECH §10.2)
+
+They are sampled as `generate --audio` samples them, and looked at before and after post-processing.
+Real motion, a frozen one and an untrained network stand beside them; the last two must fail.
+
+Letters: T frames, C rows of sound.
+"""
+
+import math
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+
+from ...errors import UserError
+from ...metrics.bands import MEASURES, UNITS, Bands
+from ...metrics.sanity import SEVEN, SanityChecker, frozen, sanity_row
+from ...model.audio.audio_motion_model import AudioMotionModel
+from ...motion.trajectory import MotionTrajectory
+from ...pipelines.song import SongCondition, SongGenerator, finished
+from ...pipelines.song_sampler import SongSampling
+from ..audio_songs import TEMPI, conditions_of_songs, open_split, phrases
+from ..report.plots import new_figure, save_figure
+from ..report.tables import Table, number
+from ..stats import success_rate
+
+Progress = Callable[[str], None]
+PASS_SHARE = 0.95  # of samples, all seven checks and the whole suite
+FREE = ("mean_speed", "path_rate", "turning")  # the figures that the verdict holds against bands
+COLUMNS = (*SEVEN, "liveliness", "roughness")
+COLOURS = {
+    "generated": "tab:red", "written": "tab:orange", "real": "tab:green", "untrained": "grey",
+    "frozen": "tab:blue",
+}  # fmt: skip
+NOTES = {
+    "sanity": "generated: as the sampler of `generate` joins its windows, not post-processed;"
+    " written: post-processed, as the files hold it. seven: TECH's five checks and ruling 18's two;"
+    " suite: with liveliness, roughness and bands. No chance row: no check asks which song a motion"
+    " belongs to.",
+    "inside": "Share of motions between the 5th and 95th percentile of training motions; real"
+    " motion itself reaches about 0.9.",
+}
+
+
+@dataclass(frozen=True)
+class SanitySettings:
+    """How much is measured; the report repeats it."""
+
+    num_samples: int = 100
+    num_frames: int = 120
+    num_steps: int = 20
+    max_training: int = 1000  # windows behind the bands
+    seed: int = 0
+
+
+@dataclass(eq=False)
+class SanityEvaluation:
+    """The report as plain data, the motions by row, and the bands of training motions."""
+
+    report: dict[str, Any]
+    motions: dict[str, list[MotionTrajectory]]
+    bands: Bands | None
+
+
+def evaluate_sanity(
+    generator: SongGenerator[AudioMotionModel],
+    *,
+    data: str | None = None,
+    settings: SanitySettings | None = None,
+    about: Mapping[str, Any] | None = None,
+    progress: Progress = lambda text: None,
+) -> SanityEvaluation:
+    """Sample, check, compare.
+
+    Args:
+        generator: trained; its own bands count where there is no data.
+        data: folder or bucket of pairs: its test split's sound is what is danced to, its training
+            split gives the bands, at the same number of frames. None = held-out synthetic songs.
+        settings: see `SanitySettings`.
+        about: what to repeat in the report.
+        progress: told what begins.
+
+    Raises:
+        UserError: the data cannot be used.
+    """
+    settings, started = settings or SanitySettings(), time.perf_counter()
+    model, bands = generator.model, generator.bands
+    real: list[MotionTrajectory] = []
+    progress("sound that training never saw")
+    if data is None:
+        songs = conditions_of_songs(settings.num_samples, settings.num_frames, settings.seed)
+        facts: dict[str, Any] = {"sound": f"held-out synthetic songs, tempi {TEMPI} BPM"}
+    else:
+        songs, real, bands, facts = _from_data(data, model, settings)
+    few = songs[: max(1, len(songs) // 5)]
+    blind = SongGenerator(untrained(model, settings.seed), device=str(generator.device))
+    generated = sampled(generator, songs, settings, progress)
+    motions = {
+        "generated": generated,
+        "written": [finished(motion) for motion in generated],
+        "untrained": sampled(blind, few, settings, progress),
+        "frozen": [frozen(motion) for motion in real or generated],
+    } | ({"real": real} if real else {})
+    checker = SanityChecker(bands=bands)
+    rows = {name: sanity_row(name, group, checker) for name, group in motions.items()}
+    weights = model.card.weights
+    report = {
+        "about": {**(about or {}), "model_hash": weights.sha256[:12] if weights else "", **facts},
+        "settings": asdict(settings),
+        "rows": rows,
+        "bands": None if bands is None else {k: asdict(b) for k, b in bands.bands.items()},
+        "verdict": verdict(rows, bands),
+        "seconds": round(time.perf_counter() - started, 1),
+    }
+    return SanityEvaluation(report, motions, bands)
+
+
+def _from_data(
+    data: str, model: AudioMotionModel, settings: SanitySettings
+) -> tuple[list[SongCondition], list[MotionTrajectory], Bands, dict[str, Any]]:
+    """Sound and motion of test phrases, bands of training phrases, and what the hashes tell."""
+    test = open_split(data, "test", settings.num_frames, settings.seed)
+    train = open_split(data, "train", settings.num_frames, settings.seed)
+    held_back = phrases(test, settings.num_samples, whole=True)
+    if not held_back:
+        raise UserError(
+            f"{data}: no test phrase has {settings.num_frames} frames; ask for --num-frames fewer"
+        )
+    learned = phrases(train, settings.max_training, whole=True)
+    bands = Bands.of(phrase.motion for phrase in learned)
+    same = model.card.data == train.fingerprint
+    facts = {
+        "sound": f"test split of {data}",
+        "held_out": "yes: the model was trained on this data's train split"
+        if same
+        else "unknown: the model was trained on other data than this train split",
+        "test_phrases": len(held_back),
+        "training_windows": len(learned),
+        "data_hash": test.fingerprint[:12],
+    }
+    heard = list(held_back)
+    for draw in range(1, math.ceil(settings.num_samples / len(held_back))):
+        heard += phrases(test, len(held_back), whole=True, draw=draw)  # other windows of the same
+    songs = [
+        SongCondition(phrase.audio, phrase.bars, phrase.beats, number)
+        for number, phrase in enumerate(heard[: settings.num_samples])
+    ]
+    return songs, [phrase.motion for phrase in held_back], bands, facts
+
+
+def sampled(
+    generator: SongGenerator[AudioMotionModel],
+    songs: Sequence[SongCondition],
+    settings: SanitySettings,
+    progress: Progress = lambda text: None,
+) -> list[MotionTrajectory]:
+    """A motion for each song, each with noise of its own, as `generate` samples it."""
+    sampling = SongSampling(seed=settings.seed, steps=settings.num_steps)
+    made = []
+    for index, song in enumerate(songs, start=1):
+        progress(f"sample {index} of {len(songs)}")
+        made += generator.sample(song, sampling)
+    return made
+
+
+def untrained(model: AudioMotionModel, seed: int) -> AudioMotionModel:
+    """The same network with fresh weights but the trained one's row statistics: a floor.
+
+    As training begins the last layer is zero, and every motion stands still: here it is random too.
+    """
+    with torch.random.fork_rng(devices=[]):
+        torch.manual_seed(seed)
+        fresh = AudioMotionModel(model.config)
+        torch.nn.init.xavier_uniform_(fresh.unet.output_conv.get_parameter("weight"))
+    fresh.set_statistics(model.mean.cpu(), model.std.cpu())
+    return fresh.to(model.mean.device).eval()
+
+
+# ---------------------------------------------------------------- verdict
+
+
+def verdict(rows: Mapping[str, dict[str, Any]], bands: Bands | None) -> dict[str, Any]:
+    """What must hold, by name: value and whether it does.
+
+    Args:
+        rows: of `sanity_row`, by name.
+        bands: of training motions, if known.
+
+    Returns:
+        seven_checks: share of generated motions that pass all of the documents' checks, Wilson
+        interval; whole_suite likewise; frozen_fails, untrained_fails: no such motion passes the
+        suite; inside: for each of `FREE` the share of generated motions between p5 and p95, their
+        mean, and whether that lies there.
+    """
+    generated = rows["generated"]
+    result: dict[str, Any] = {"checks": list(SEVEN)}
+    for name, key in (("seven_checks", "passed_seven"), ("whole_suite", "passed")):
+        share = success_rate(generated[key], generated["motions"]).as_dict()
+        result[name] = share | {"holds": share["value"] >= PASS_SHARE}
+    for name in ("frozen", "untrained"):
+        result[f"{name}_fails"] = rows[name]["passed"] == 0
+    means = {} if bands is None else {k: generated["checks"][f"band_{k}"]["mean"] for k in FREE}
+    result["inside"] = {
+        name: {
+            "share": generated["inside"][name],
+            "mean": mean,
+            "holds": bands is not None and mean is not None and bands.bands[name].holds(mean),
+        }
+        for name, mean in means.items()
+    }
+    return result
+
+
+# ---------------------------------------------------------------- tables and a picture
+
+
+def sanity_tables(report: Mapping[str, Any]) -> Iterator[Table]:
+    """Every table of the report, in reading order."""
+    rows, bands = report["rows"], report["bands"]
+    cells = [
+        [name, str(row["motions"]), str(row["passed_seven"]), str(row["passed"])]
+        + [str(row["checks"][key]["passed"]) if key in row["checks"] else "–" for key in COLUMNS]
+        for name, row in rows.items()
+    ]
+    header = ["row", "N", "seven", "suite", *(key.replace("_", " ") for key in COLUMNS)]
+    yield Table("motions that pass", header, cells, NOTES["sanity"])
+    if bands:
+        names = list(rows["generated"]["inside"])
+        limits = [f"{bands[name]['low']:.3g} – {bands[name]['high']:.3g}" for name in names]
+        shares = [
+            [name, *(number(row["inside"].get(key), 2) for key in names)]
+            for name, row in rows.items()
+        ]
+        header = ["row", *(name.replace("_", " ") for name in names)]
+        title = "motions inside the training motions' band"
+        yield Table(title, header, [["p5 to p95", *limits], *shares], NOTES["inside"])
+    said = [[what, value, "yes" if holds else "NO"] for what, value, holds in _said(report)]
+    yield Table("verdict", ["what must hold", "value", "holds"], said)
+
+
+def _said(report: Mapping[str, Any]) -> Iterator[tuple[str, str, bool]]:
+    """The lines of the verdict."""
+    found = report["verdict"]
+    for key, what in (("seven_checks", "all seven checks"), ("whole_suite", "the whole suite")):
+        share = found[key]
+        value = f"{share['value']:.2f} [{share['low']:.2f}, {share['high']:.2f}]"
+        yield f"{what}, share of generated (≥ {PASS_SHARE})", value, share["holds"]
+    for name in ("frozen", "untrained"):
+        yield f"{name} fails", "", found[f"{name}_fails"]
+    for name, inside in found["inside"].items():
+        what = f"{name.replace('_', ' ')}: mean of generated inside p5–p95"
+        value = f"{number(inside['mean'], 3)}; {inside['share']:.2f} of motions inside"
+        yield what, value, inside["holds"]
+
+
+def plot_bands(
+    motions: Mapping[str, Sequence[MotionTrajectory]], bands: Bands | None, path: str | Path
+) -> Path:
+    """Every motion as a dot for each measure, over the band of training motions.
+
+    Raises:
+        UserError: matplotlib is missing, or the file cannot be written.
+    """
+    figure = new_figure(14, 7)
+    for axes, (name, measure) in zip(figure.subplots(2, 3).flat, MEASURES.items(), strict=True):
+        band = bands.bands.get(name) if bands else None
+        if band is not None:
+            axes.axhspan(band.low, band.high, color="tab:green", alpha=0.15)
+        top = band.high if band else 0.0
+        for place, (row, group) in enumerate(motions.items()):
+            values = np.array([measure(motion) for motion in group])
+            spread = np.linspace(-0.3, 0.3, len(values))
+            top = max(top, float(values.max()))
+            axes.plot(place + spread, values, ".", color=COLOURS.get(row, "black"), ms=4)
+        axes.set_xticks(range(len(motions)), list(motions))
+        axes.set_title(f"{name.replace('_', ' ')}, {UNITS[name]}")
+        axes.set_yscale("symlog", linthresh=0.1)
+        axes.set_ylim(-0.01, 2 * max(top, 0.1))
+    figure.suptitle("dots: motions; green: 5th to 95th percentile of training motions")
+    return save_figure(figure, Path(path))
