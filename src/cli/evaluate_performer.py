@@ -118,10 +118,10 @@ def run(
     set_threads(threads)
     from ..shared.evaluation.dance_context import DanceContext, DanceSettings
     from ..shared.evaluation.dance_harness import evaluate_performer as evaluate
-    from ..shared.evaluation.editing_context import EditContext, EditSettings
-    from ..shared.evaluation.evaluator import Evaluator
     from ..shared.evaluation.held_out import open_held_out
+    from ..shared.evaluation.judge.evaluator import Evaluator
     from ..shared.evaluation.report.folder import save_report
+    from ..shared.evaluation.suites.editing import EditContext, EditSettings
     from ..shared.model.generation.motion_generator import TextToMotion
     from ..shared.pipelines.body import PerformerSettings
     from ..shared.pipelines.song import SongGenerator

@@ -77,7 +77,7 @@ def evaluate_selection(
     report: dict[str, Any]
     if branch == "text":
         check_data(data)
-        from ..shared.evaluation.selection_text import PromptSettings, evaluate_prompts
+        from ..shared.evaluation.suites.selection import PromptSettings, evaluate_prompts
 
         prompts = PromptSettings(
             num_prompts=num_subjects or PromptSettings.num_prompts,
@@ -94,7 +94,7 @@ def evaluate_selection(
             raise UsageError("--judge and --unseen go with --branch text; leave them out")
         if data != SYNTHETIC:
             check_pairs(data)
-        from ..shared.evaluation.selection_songs import SongSettings, evaluate_songs
+        from ..shared.evaluation.suites.selection import SongSettings, evaluate_songs
         from ..shared.pipelines.song import shipped_bands
 
         songs = SongSettings(
@@ -118,7 +118,7 @@ def show(report: dict[str, Any], out: Path | None, *, json: bool) -> None:
     import json as encoder
 
     from ..shared.evaluation.report.tables import as_markdown
-    from ..shared.evaluation.selection_harness import selection_tables
+    from ..shared.evaluation.suites.selection import selection_tables
     from ..shared.files import write_json, write_text
 
     facts = {**report["about"], **report["settings"]}

@@ -15,8 +15,8 @@ from torch import Tensor, nn
 from ..shared.config_schema import NetworkConfig, TrainConfig
 from ..shared.data.captions.word_dropout import drop_words
 from ..shared.data.prepare import open_data
-from ..shared.evaluation.evaluator import Evaluator, EvaluatorConfig, contrastive_loss
-from ..shared.evaluation.training_set import PairBatch, PairSet
+from ..shared.evaluation.judge.evaluator import Evaluator, EvaluatorConfig, contrastive_loss
+from ..shared.evaluation.judge.training_set import PairBatch, PairSet
 from ..shared.metrics.retrieval import BATCH, TOP, guo_retrieval
 from .launch import stage_app
 from .task import Part, mix_seed

@@ -28,8 +28,8 @@ from ..pipelines.song_sampler import SongSampling
 from ..pipelines.stream import OVERLAP, WINDOW, window_lengths
 from .audio_songs import Piece, clock, held_out_songs, tracks
 from .dance_sample import BodyDance, BodySample
-from .evaluator import Evaluator
 from .floors import untrained
+from .judge.evaluator import Evaluator
 
 Progress = Callable[[str], None]
 PROMPTS = (

@@ -15,12 +15,11 @@ from .dance_context import DanceContext
 from .dance_sample import BodySample
 from .dance_style import prompt_effect
 from .dance_tables import alignment_tables, seam_tables
-from .editing_context import EditContext
-from .editing_tables import kept_table, path_table, transition_table
 from .engine import Bench, Progress, Row, Suite, run_suite
 from .families_performer import FAMILIES
 from .manifest import Parts, Sources, model_hashes, song_hashes
 from .report.tables import Grid
+from .suites.editing import EditContext, editing_tables
 
 
 def evaluate_performer(
@@ -50,11 +49,7 @@ def evaluate_performer(
         "prompts": partial(prompt_effect, context),
     }
     if edits is not None:
-        tables |= {
-            "edits": lambda: [kept_table(edits)],
-            "paths": lambda: [path_table(edits)],
-            "transitions": lambda: [transition_table(edits, context.judge)],
-        }
+        tables |= editing_tables(edits, context.judge)
     facts = {
         **about,
         "evaluator_hash": context.judge.content_hash,

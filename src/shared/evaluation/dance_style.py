@@ -19,7 +19,7 @@ from ..motion.motion import Motion
 from ..motion.trajectory import to_motion
 from ..pipelines.body import Performer
 from .dance_context import DanceContext, held_still
-from .evaluator import Evaluator
+from .judge.evaluator import Evaluator
 from .report.tables import Column, Grid, GridRow
 from .stats import bootstrap_mean
 

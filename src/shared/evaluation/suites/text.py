@@ -24,7 +24,6 @@ from ...metrics.retrieval import BATCH, normalised_score
 from ...motion.motion import Motion
 from .. import manifest
 from ..engine import Bench, MetricFamily, Progress, Row, Suite, run_suite
-from ..evaluator import Evaluator
 from ..families_motion import FAMILIES as TMR
 from ..families_motion import BodyKinetics, ContactFamily, Multimodality
 from ..families_text import (
@@ -37,6 +36,7 @@ from ..families_text import (
 )
 from ..floors import frozen_pose, untrained
 from ..held_out import HeldOut, open_held_out, real_clips
+from ..judge.evaluator import Evaluator, evaluator_folder
 from ..manifest import Part, Parts, Sources
 from ..report.tables import Column, Grid, GridRow, Report, plain
 from ..samples import Clips, MotionSample, Sampler
@@ -314,16 +314,15 @@ def evaluate_text(
     }
 
     def sources() -> Sources:
-        from ...model.zoo import PRETRAINED, resolve_model
+        from ...model.zoo import resolve_model
 
-        folder = Path(evaluator) if Path(evaluator).is_dir() else PRETRAINED / evaluator
         splits = {
             name: manifest.hash_names(record.id for record in records)
             for name, records in held_out.records.items()
         }
         return Sources(
             model=manifest.folder_hashes(resolve_model(model)),
-            evaluator=manifest.folder_hashes(folder),
+            evaluator=manifest.folder_hashes(evaluator_folder(evaluator)),
             data={"manifest": held_out.data.manifest_hash, **splits},
             statistics=(generator.mean, generator.std, judge.motion.mean, judge.motion.std),
             sampling=sampling,

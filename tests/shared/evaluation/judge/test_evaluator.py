@@ -7,8 +7,14 @@ import pytest
 import torch
 
 from src.shared.errors import UserError
-from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig, bag, contrastive_loss
-from src.shared.evaluation.joint_features import NUM_FEATURES, joint_features
+from src.shared.evaluation.judge.evaluator import (
+    NUM_FEATURES,
+    Evaluator,
+    EvaluatorConfig,
+    bag,
+    contrastive_loss,
+    joint_features,
+)
 from src.shared.metrics.retrieval import caption_buckets
 from src.shared.motion.features import encode_features
 from src.shared.motion.motion import Motion

@@ -15,8 +15,7 @@ from src.shared.data.synthetic import generate_clip
 from src.shared.data.synthetic.clips import label_combinations, spec_for
 from src.shared.errors import UserError
 from src.shared.evaluation.report.tables import Grid
-from src.shared.evaluation.requests_harness import evaluate_requests
-from src.shared.evaluation.yardstick import RequestSettings, at_rest
+from src.shared.evaluation.suites.requests import RequestSettings, at_rest, evaluate_requests
 from src.shared.motion.motion import Motion
 
 SETTINGS = RequestSettings(wordings=1, languages=("en",), seconds=3.0, max_clips=60)

@@ -7,7 +7,9 @@ Design choices:
 - own mean and standard deviation, own training run, train split only;
 - 32 dimensions, so that Fréchet distances need no projection and about a thousand samples.
 
-Letters: B batch, T frames, S = ceil(T / 4) steps, F features, H hidden, D = 32 embedding channels.
+Letters: B batch, T frames, K bones, S = ceil(T / 4) steps, H hidden, D = 32 embedding channels,
+F = 130 features: pelvis height, 21 joint positions relative to the pelvis in the heading frame (m),
+21 joint velocities in that frame (m/s), forward and lateral velocity (m/s), yaw rate (rad/s).
 """
 
 import math
@@ -22,16 +24,20 @@ from safetensors import SafetensorError
 from safetensors.torch import load_file, save_file
 from torch import Tensor, nn
 
-from ..config_schema import Config
-from ..errors import UserError
-from ..files import atomic_write, load_json, sha256_file, write_json
-from ..metrics.retrieval import NUM_BUCKETS, caption_buckets
-from ..model.checkpoint import of_another_version
-from ..motion.features import encode_features
-from ..motion.motion import Motion
-from .joint_features import NUM_FEATURES, joint_features
+from ...config_schema import Config
+from ...errors import UserError
+from ...files import atomic_write, load_json, sha256_file, write_json
+from ...metrics.retrieval import NUM_BUCKETS, caption_buckets
+from ...model.checkpoint import of_another_version
+from ...model.zoo import PRETRAINED
+from ...motion.features import FORWARD, HEIGHT, LATERAL, YAW_RATE, encode_features
+from ...motion.kinematics import forward_kinematics
+from ...motion.motion import Motion
+from ...motion.rotations import rotation_6d_to_matrix
+from ...motion.skeleton import NUM_JOINTS, canonical_skeleton
 
-PRETRAINED = Path(__file__).resolve().parents[1] / "pretrained"
+FPS = 30.0
+NUM_FEATURES = 1 + 2 * 3 * (NUM_JOINTS - 1) + 3
 WEIGHTS = "model.safetensors"
 MAX_SCALE = 50.0
 
@@ -210,7 +216,7 @@ class Evaluator(nn.Module):
         Raises:
             UserError: no such folder, another kind of model, or weights that do not fit.
         """
-        folder = Path(name) if Path(name).is_dir() else PRETRAINED / str(name)
+        folder = evaluator_folder(name)
         if not (folder / "config.json").is_file():
             known = sorted(
                 path.parent.name
@@ -251,6 +257,11 @@ class Evaluator(nn.Module):
         return model.to(device).eval()
 
 
+def evaluator_folder(name: Path | str) -> Path:
+    """That of a shipped evaluator, or the one named."""
+    return Path(name) if Path(name).is_dir() else PRETRAINED / str(name)
+
+
 def contrastive_loss(text: Tensor, motion: Tensor, same: Tensor, scale: Tensor | float) -> Tensor:
     """Symmetric InfoNCE with several positives a row (SupCon, Khosla et al. 2020, eq. 2).
 
@@ -264,3 +275,49 @@ def contrastive_loss(text: Tensor, motion: Tensor, same: Tensor, scale: Tensor |
     rows = -(logits.log_softmax(1) * target / target.sum(1, keepdim=True)).sum(1)
     columns = -(logits.log_softmax(0) * target / target.sum(0, keepdim=True)).sum(0)
     return (rows.mean() + columns.mean()) / 2
+
+
+# ---------------------------------------------------------------- what it sees of a motion
+
+
+def heading_positions(features: Tensor) -> Tensor:
+    """Joint positions [T, K, 3] in metres, relative to the pelvis, in the heading frame.
+
+    Args:
+        features: [T, K + 1, 6] raw motion features; row 0 holds no heading (ruling 19).
+    """
+    skeleton = canonical_skeleton()
+    local = rotation_6d_to_matrix(features[..., :NUM_JOINTS, :])
+    offsets = torch.as_tensor(skeleton.offsets, dtype=features.dtype, device=features.device)
+    origin = features.new_zeros(*features.shape[:-2], 3)
+    return forward_kinematics(local, origin, offsets, skeleton.parents)[0]
+
+
+def joint_features(clips: Sequence[Tensor]) -> list[Tensor]:
+    """Raw motion features [T, K + 1, 6] of each clip to [T, F] of what the evaluator reads.
+
+    The kinematics of all clips run at once. Velocities are forward differences; the last frame
+    repeats (ruling 6).
+
+    Raises:
+        ValueError: the root track is missing, or a shape is another.
+    """
+    for clip in clips:
+        if clip.ndim != 3 or clip.shape[1:] != (NUM_JOINTS + 1, 6):
+            raise ValueError(
+                f"the evaluator reads [T, {NUM_JOINTS + 1}, 6] with a root track,"
+                f" not {tuple(clip.shape)}"
+            )
+    positions = heading_positions(torch.cat(list(clips))).split([len(clip) for clip in clips])
+    return [_assemble(clip, joints) for clip, joints in zip(clips, positions, strict=True)]
+
+
+def _assemble(features: Tensor, positions: Tensor) -> Tensor:
+    joints = positions[:, 1:].flatten(1)  # [T, 63]
+    velocities = torch.zeros_like(joints)
+    if len(joints) > 1:
+        velocities[:-1] = (joints[1:] - joints[:-1]) * FPS
+        velocities[-1] = velocities[-2]
+    root = features[:, NUM_JOINTS]
+    track = root[:, [FORWARD, LATERAL, YAW_RATE]]
+    return torch.cat([root[:, HEIGHT : HEIGHT + 1], joints, velocities, track], dim=-1)

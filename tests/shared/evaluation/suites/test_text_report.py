@@ -10,7 +10,7 @@ import torch
 
 from src.shared.data.prepare import prepare
 from src.shared.data.sources.folders import SyntheticSource
-from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig
+from src.shared.evaluation.judge.evaluator import Evaluator, EvaluatorConfig
 from src.shared.evaluation.report.folder import save_report
 from src.shared.evaluation.report.tables import grids
 from src.shared.evaluation.suites.text import TextSettings, evaluate_text

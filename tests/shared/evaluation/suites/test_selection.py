@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from src.shared.evaluation.selection_harness import (
+from src.shared.evaluation.stats import replicated
+from src.shared.evaluation.suites.selection import (
     Figure,
     Pool,
     choices,
@@ -13,7 +14,6 @@ from src.shared.evaluation.selection_harness import (
     selection_tables,
     sizes,
 )
-from src.shared.evaluation.stats import replicated
 
 P, C, N = 400, 32, 8
 OUTSIDE = Figure("quality", "quality", 3, True, "outside")

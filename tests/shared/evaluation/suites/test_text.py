@@ -17,8 +17,9 @@ from src.shared.data.prepared import PreparedData
 from src.shared.data.synthetic import generate_clip
 from src.shared.data.synthetic.clips import spec_for
 from src.shared.errors import UserError
-from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig, contrastive_loss
 from src.shared.evaluation.held_out import HeldOut
+from src.shared.evaluation.judge.evaluator import Evaluator, EvaluatorConfig, contrastive_loss
+from src.shared.evaluation.judge.training_set import PairSet
 from src.shared.evaluation.report.tables import (
     grids,
     markdown,
@@ -30,7 +31,6 @@ from src.shared.evaluation.samples import Sampler
 from src.shared.evaluation.suites import control as control
 from src.shared.evaluation.suites.control import control_grid
 from src.shared.evaluation.suites.text import TextSettings, evaluate_samplers, scores
-from src.shared.evaluation.training_set import PairSet
 from src.shared.motion.motion import Motion
 
 SETTINGS = TextSettings(

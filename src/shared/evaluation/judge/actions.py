@@ -8,21 +8,40 @@ every figure it gives.
 Letters: N motions, T frames, K joints, F features, C classes.
 """
 
+from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
-from ..motion.features import headings
-from ..motion.motion import Motion
-from ..motion.rotations import quaternion_to_matrix
-from ..motion.skeleton import JOINT_INDEX
+from ...data.prepared import ClipRecord, PreparedData
+from ...errors import UserError
+from ...motion.features import decode_features, headings
+from ...motion.motion import Motion
+from ...motion.rotations import quaternion_to_matrix
+from ...motion.skeleton import JOINT_INDEX
+from ..controllability import check
+from ..engine import Progress
+from ..held_out import choose_caption, spread_over_groups
 
 PARTS = 3  # beginning, middle, end: a wave is not a raise that stays up
 BANDS = ((0.3, 1.0), (1.0, 2.0), (2.0, 4.0), (4.0, 8.0))  # Hz
 TIPS = [JOINT_INDEX[name] for name in ("l_wrist", "r_wrist", "l_ankle", "r_ankle", "head")]
 SHRINKAGE = 0.1  # of the covariance towards its diagonal (Friedman 1989)
 FLOOR = 0.02  # least deviation of a feature, in its own unit
+JUDGING_CLIPS = 2_400
+SECONDS = 4.0
+SENTENCES = 32  # at once
+TWINS = ({"wave", "bye"},)  # one gesture under two names
+MIN_FRAMES = 24
+SHOWN = frozenset(
+    (
+        *("forward", "backward", "left", "right", "turn-left", "turn-right"),
+        *("left-hand", "right-hand", "both-hands"),
+        *("kick-left", "kick-right", "punch-left", "punch-right", "count", "angle"),
+    )
+)  # checks of which way, which side and how much; which action it is the judge says
 
 
 def descriptor(motion: Motion) -> np.ndarray:
@@ -141,3 +160,93 @@ class ActionJudge:
     def embed(self, features: np.ndarray) -> np.ndarray:
         """Coordinates [N, C - 1] in which classes lie apart, in deviations within a class."""
         return np.asarray((features - self.mean) / self.scale @ self.axes)
+
+
+# ---------------------------------------------------------------- what counts as done
+
+
+def judged_by(records: Sequence[ClipRecord]) -> list[ClipRecord]:
+    """The clips that tell a judge what actions look like: captured, where an action has any."""
+    captured = {r.tag for r in records if r.provenance == "captured"}
+    return [r for r in records if r.provenance == "captured" or r.tag not in captured]
+
+
+def same_action(wanted: str, found: str) -> bool:
+    """Whether two names stand for one action."""
+    return wanted == found or {wanted, found} in TWINS
+
+
+def shown(labels: dict[str, str], motion: Motion) -> bool:
+    """Whether direction, turn, side, count and angle are those of the labels, as far as asked."""
+    answers = check({key: value for key, value in labels.items() if key != "speed"}, motion)
+    return all(value for name, value in answers.items() if name in SHOWN)
+
+
+# ---------------------------------------------------------------- how reliably actions come out
+
+
+class Model(Protocol):
+    """What is asked of a model; `SentenceGenerator` is one."""
+
+    def generate(self, prompts: list[str], *, seconds: float, seed: int) -> list[Motion]: ...
+
+
+def action_reliability(
+    model: Model,
+    data: PreparedData,
+    *,
+    tries: int = 12,
+    seed: int = 0,
+    progress: Progress = lambda text: None,
+) -> dict[str, float]:
+    """Share of `tries` in which each action of the training clips was shown.
+
+    (successes + 1) / (tries + 2), the mean of the posterior under a uniform prior (Laplace): one
+    try tells little.
+
+    Raises:
+        UserError: fewer than two actions to tell apart.
+    """
+    train = [r for r in data.records("train") if r.tag and r.num_frames >= MIN_FRAMES]
+    clips = spread_over_groups(judged_by(train), JUDGING_CLIPS, seed)
+    progress(f"a judge of {len(clips)} clips")
+    seen = [decode_features(data.features(r)[: round(SECONDS * 30)]) for r in clips]
+    try:
+        judge = ActionJudge.fit(np.stack([*map(descriptor, seen)]), [r.tag for r in clips])
+    except ValueError as error:
+        raise UserError(
+            f"{data.folder}: no judge can be fitted ({error}); prepare clips of labelled actions"
+        ) from error
+    asked = [
+        (record, _caption(data, record, seed + row))
+        for tag, own in sorted(_by_tag(train).items())
+        for row, record in enumerate(_several(spread_over_groups(own, tries, seed), tries))
+    ]
+    shares: dict[str, list[bool]] = defaultdict(list)
+    for at in range(0, len(asked), SENTENCES):
+        progress(f"{at} of {len(asked)} sentences")
+        part = asked[at : at + SENTENCES]
+        motions = model.generate([text for _, text in part], seconds=SECONDS, seed=seed + at)
+        found = judge(np.stack([*map(descriptor, motions)]))
+        for (record, _), motion, action in zip(part, motions, found, strict=True):
+            right = same_action(record.tag, action) and shown(record.labels, motion)
+            shares[record.tag].append(right)
+    return {tag: (sum(done) + 1) / (len(done) + 2) for tag, done in shares.items()}
+
+
+def _by_tag(records: list[ClipRecord]) -> dict[str, list[ClipRecord]]:
+    found: dict[str, list[ClipRecord]] = defaultdict(list)
+    for record in records:
+        found[record.tag].append(record)
+    return found
+
+
+def _several(records: list[ClipRecord], num: int) -> list[ClipRecord]:
+    return [records[row % len(records)] for row in range(num)]
+
+
+def _caption(data: PreparedData, record: ClipRecord, seed: int) -> str:
+    """One of the captions of a clip, in a language that goes round with the seed."""
+    captions = {code: texts for code, texts in data.captions(record).items() if texts}
+    code = sorted(captions)[seed % len(captions)]
+    return choose_caption(captions[code], f"{record.id}{seed}", seed)

@@ -9,11 +9,17 @@ import torch
 from src.shared.data.synthetic import generate_clip
 from src.shared.data.synthetic.clips import spec_for
 from src.shared.evaluation.audio_songs import held_out_songs
-from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig
+from src.shared.evaluation.judge.evaluator import Evaluator, EvaluatorConfig
 from src.shared.evaluation.samples import Clips
-from src.shared.evaluation.selection_harness import choices, measured, report_of
-from src.shared.evaluation.selection_songs import song_pool
-from src.shared.evaluation.selection_text import FIGURES, _retrieval, prompt_pool
+from src.shared.evaluation.suites.selection import (
+    FIGURES,
+    _retrieval,
+    choices,
+    measured,
+    prompt_pool,
+    report_of,
+    song_pool,
+)
 from src.shared.metrics.retrieval import guo_retrieval
 from src.shared.pipelines.ranking import AudioJudge
 from src.shared.pipelines.song import SongGenerator

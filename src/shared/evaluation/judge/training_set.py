@@ -10,9 +10,9 @@ import torch
 from torch import Tensor
 from torch.nn.utils.rnn import pad_sequence
 
-from ..data.prepared import PreparedData
-from ..errors import UserError
-from .joint_features import joint_features
+from ...data.prepared import PreparedData
+from ...errors import UserError
+from .evaluator import joint_features
 
 CHUNK = 256  # clips
 

@@ -5,8 +5,8 @@ import pytest
 
 from src.shared.data.synthetic import generate_clip
 from src.shared.data.synthetic.clips import spec_for
-from src.shared.evaluation.action_judge import ActionJudge, descriptor
 from src.shared.evaluation.floors import frozen
+from src.shared.evaluation.judge.actions import ActionJudge, descriptor
 from src.shared.motion.features import decode_features, encode_features
 
 LABELS = {

@@ -11,7 +11,7 @@ from src.shared.data.prepared import PreparedData
 from src.shared.data.sources.folders import SyntheticSource
 from src.shared.data.synthetic import generate_clip
 from src.shared.data.synthetic.clips import spec_for
-from src.shared.evaluation.reliability import action_reliability
+from src.shared.evaluation.judge.actions import action_reliability
 from src.shared.model.clip.scope import RELIABLE
 from src.shared.motion.motion import Motion
 

@@ -1,0 +1,392 @@
+"""Editing: what is kept, how drawn paths are followed, how one action leads into the next.
+
+Letters: T frames, K joints, N points.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from ...metrics.physical import jerk_per_speed, support_slide
+from ...metrics.rhythm import seen_from_pelvis
+from ...model.diffusion.samplers import Sampling
+from ...model.generation.motion_generator import TextToMotion
+from ...motion.motion import Motion
+from ...motion.postprocess.stitching import joined, moved_to, place_of
+from ...pipelines.edit import GROUPS, Given, edited, keep_ends, kept_error, redo
+from ...pipelines.path import DrawnPath, along_path, distances_to_line, natural_gait, time_path
+from ...pipelines.stream import Passage
+from ...pipelines.timeline import Timeline, by_timeline
+from ..dance_context import held_still
+from ..dance_seams import ACCELERATION, body_quantities
+from ..dance_style import embed, rank_of
+from ..engine import Progress
+from ..floors import untrained
+from ..held_out import HeldOut, real_clips
+from ..judge.evaluator import Evaluator
+from ..report.tables import Cell, Column, Grid, GridRow
+from ..samples import Clips
+from ..stats import bootstrap_mean
+
+MIN_FRAMES, MAX_FRAMES = 90, 150  # of a clip that is edited
+RADIUS = 1.5  # metres of the curved paths
+NEAR = 6  # frames on either side of a border
+TOP = 99  # percentile of real accelerations
+HALF = 75  # frames of each action of a transition
+AROUND = 15  # frames on either side of the change of text
+ACTIONS = (
+    "a person walks forward", "a person waves with the right hand", "a person dances",
+    "a person walks backward", "a person squats", "a person runs", "a person bows",
+    "a person claps",
+)  # fmt: skip
+KEPT = (
+    Column("rotation", "kept rotations, max", 6, "low"),
+    Column("root", "kept root, max", 6, "low"),
+    Column("position", "kept joints, max mm", 3, "low"),
+    Column("changed", "changed cm"),
+    Column("border", "p99 at borders m/s²", 0), Column("real", "real p99", 0),
+    Column("beyond", "beyond it %", 2, "low"),
+)  # fmt: skip
+PATH = (
+    Column("mean", "from the path, mean cm", 2, "low"), Column("max", "max cm", 2, "low"),
+    Column("line", "from the line, mean cm", 2, "low"), Column("limb_speed", "limb speed m/s", 2),
+    Column("support", "slide, support cm/s", 1, "low"), Column("rough", "jerk / speed 1/s²", 0),
+)  # fmt: skip
+TRANSITION = (
+    Column("near", "p99 at the change m/s²", 0), Column("elsewhere", "p99 elsewhere", 0),
+    Column("real", "real p99", 0), Column("beyond", "beyond it at the change %", 2, "low"),
+    Column("before", "R@1 before", better="high"), Column("after", "R@1 after", better="high"),
+)  # fmt: skip
+NOTES = {
+    "kept": "Real clips with a part made anew. *kept*: the largest difference over all clips of"
+    " what was to stay (6D entries; m/s, rad/s and m; mm seen from the pelvis in frames kept"
+    " whole). *changed*: mean distance of a joint from the clip in edited frames; who hands the"
+    " clip back has 0. *borders*: the largest acceleration of a joint within 6 frames of what is"
+    " kept; *real p99* of whole real clips. *another clip's poses*: cut in.",
+    "path": "Where the pelvis is to be in each frame, and the nearest point of the line as drawn."
+    " The path is pinned, so whatever is carried keeps to it, an untrained body too: *limb speed*,"
+    " *slide* and *jerk / speed* tell them apart. *words alone*: the prompt without the path, from"
+    " its beginning.",
+    "transitions": f"Two actions of {HALF} frames, one text after the other. *at the change*: the"
+    f" largest acceleration of a joint within {AROUND} frames of it. *R@1*: the separate evaluator"
+    f" finds the action asked for among {len(ACTIONS)}, in the frames of each. *hard cut*: the same"
+    " two actions made apart and put one after the other.",
+}
+REDONE = {"left arm": ("left-arm",), "upper body": ("upper-body",), "a second": None}
+
+
+@dataclass(frozen=True)
+class EditSettings:
+    """How much is measured; the report repeats it."""
+
+    num: int = 24  # clips, and pairs of actions
+    repeats: int = 3  # motions along each path
+    max_real: int = 200  # clips that the real band is taken from
+    untrained: int = 1  # 0 = no such rows
+    seed: int = 0
+
+
+class EditContext:
+    """Everything the tables of editing draw on: real clips, models, pairs of actions.
+
+    Args:
+        generator: the text branch.
+        held_out: clips that no training saw.
+        settings: how much.
+        progress: told what begins.
+    """
+
+    def __init__(
+        self,
+        generator: TextToMotion,
+        held_out: HeldOut,
+        settings: EditSettings,
+        progress: Progress = lambda text: None,
+    ) -> None:
+        self.generator, self.held_out = generator, held_out
+        self.settings, self.progress = settings, progress
+
+    @cached_property
+    def clips(self) -> Clips:
+        """Real clips to edit, of at least three seconds, spread over label groups.
+
+        Raises:
+            UserError: there is none.
+        """
+        return self._real(self.settings.num, MIN_FRAMES)
+
+    @cached_property
+    def limit(self) -> float:
+        """The 99th percentile of real frames' largest accelerations, m/s²."""
+        real = self._real(self.settings.max_real, 16).motions
+        return float(np.percentile(np.concatenate([accelerations(m) for m in real]), TOP))
+
+    def _real(self, number: int, min_frames: int) -> Clips:
+        return real_clips(
+            self.held_out.data,
+            self.held_out.everything,
+            num=number,
+            min_frames=min_frames,
+            max_frames=MAX_FRAMES,
+            seed=self.settings.seed,
+        )
+
+    @cached_property
+    def generators(self) -> dict[str, TextToMotion]:
+        """By the name of their row."""
+        found = {"generated": self.generator}
+        if self.settings.untrained:
+            found["untrained"] = untrained(self.generator, self.settings.seed)
+        return found
+
+    @property
+    def pairs(self) -> list[tuple[str, str]]:
+        """Actions that follow each other: a walk round a table of all ordered pairs."""
+        number, pairs = len(ACTIONS), []
+        for index in range(self.settings.num):
+            first, step = index % number, 1 + (index // number) % (number - 1)
+            pairs.append((ACTIONS[first], ACTIONS[(first + step) % number]))
+        return pairs
+
+    def against(self, sizes: np.ndarray, name: str) -> dict[str, Cell]:
+        """p99 of accelerations, the real one, and the share beyond it in percent."""
+        if not len(sizes):
+            return {"real": self.limit}
+        return {
+            name: float(np.percentile(sizes, TOP)),
+            "real": self.limit,
+            "beyond": 100 * float((sizes > self.limit).mean()),
+        }
+
+
+def editing_tables(context: EditContext, judge: Evaluator) -> dict[str, Callable[[], list[Grid]]]:
+    """The tables by the name of their part."""
+    return {
+        "edits": lambda: [kept_table(context)],
+        "paths": lambda: [path_table(context)],
+        "transitions": lambda: [transition_table(context, judge)],
+    }
+
+
+def accelerations(motion: Motion) -> np.ndarray:
+    """Of each frame [T] the largest acceleration of a joint in m/s²; 0 at the ends."""
+    return body_quantities(motion)[ACCELERATION]
+
+
+# ---------------------------------------------------------------- what is kept
+
+Edit = tuple[Motion, Motion, Given]  # what was made of a clip, the clip, and what was to stay
+
+
+def kept_table(context: EditContext) -> Grid:
+    """A row a kind of edit, and floors."""
+    rows = {}
+    for who, generator in context.generators.items():
+        for kind in ("between ends", *REDONE):
+            context.progress(f"edits: {kind}, {who}")
+            made = []
+            for clip, given, text, seed in _tasks(context, kind):
+                motion = edited(generator, text, given, Sampling(seed=seed)).motion
+                made.append((motion, clip, given))
+            rows[f"{kind}: {who}"] = _kept_row(context, made)
+    tasks = [(clip, given) for clip, given, _, _ in _tasks(context, "a second")]
+    back = [(clip, clip, given) for clip, given in tasks]
+    others = [(_with_poses(c, tasks[k - 1][0], g), c, g) for k, (c, g) in enumerate(tasks)]
+    rows["a second: clip handed back"] = _kept_row(context, back)
+    rows["a second: another clip's poses"] = _kept_row(context, others)
+    return Grid("edits", f"edits of {len(tasks)} real clips", KEPT, rows, NOTES["kept"], "edit")
+
+
+def _tasks(context: EditContext, kind: str) -> Iterator[tuple[Motion, Given, str, int]]:
+    """Clip, what is kept of it, the text for the rest and a seed."""
+    clips = context.clips
+    for index, clip in enumerate(clips.motions):
+        frames = clip.num_frames
+        joints = REDONE.get(kind)
+        if kind == "between ends":
+            given = keep_ends(clip, clip, 30, frames, rejoin=True)
+        else:
+            chosen = None if joints is None else {name for key in joints for name in GROUPS[key]}
+            given = redo(clip, frames // 2 - 15, frames // 2 + 15, chosen)
+        yield clip, given, clips.captions[index], context.settings.seed + index
+
+
+def _kept_row(context: EditContext, made: Sequence[Edit]) -> GridRow:
+    figures = [kept_figures(*each) for each in made]
+    borders = [accelerations(m)[near(m.num_frames, borders_of(given))] for m, _, given in made]
+    cells: dict[str, Cell] = {}
+    for key in ("rotation", "root", "position"):
+        values = np.array([each[key] for each in figures])
+        if not np.isnan(values).all():
+            cells[key] = float(np.nanmax(values))
+    cells["changed"] = bootstrap_mean([each["changed"] for each in figures])
+    return GridRow(cells | context.against(np.concatenate(borders), "border"), len(made), 1)
+
+
+def kept_figures(motion: Motion, clip: Motion, given: Given) -> dict[str, float]:
+    """How an edit compares with the clip that it was made of; both of T frames.
+
+    Returns:
+        rotation: largest difference of a kept entry of the 6D rotations.
+        root: the same of the root row's velocities (m/s, rad/s) and height (m).
+        position: largest distance in mm of a joint in frames that are kept whole, place apart in
+            what comes after the edit; NaN without such frames.
+        changed: mean distance in cm of a joint from where the clip has it, in edited frames; 0 for
+            who hands the clip back.
+    """
+    errors = kept_error(motion, given.constraint)
+    whole = given.constraint.known.flatten(1).all(1).numpy()  # T
+    apart = np.linalg.norm(from_pelvis(motion) - from_pelvis(clip), axis=-1)  # T K
+    return {
+        "rotation": errors["rotation"],
+        "root": errors["root"],
+        "position": 1000 * float(apart[whole].max()) if whole.any() else float("nan"),
+        "changed": 100 * float(apart[~whole].mean()) if (~whole).any() else float("nan"),
+    }
+
+
+def from_pelvis(motion: Motion) -> np.ndarray:
+    """Joint positions [T,21,3] in the pelvis's frame, and its height as one joint more."""
+    height = np.zeros((motion.num_frames, 1, 3))
+    height[:, 0, 1] = motion.root_position[:, 1]
+    return np.concatenate((seen_from_pelvis(motion), height), axis=1)
+
+
+def near(frames: int, borders: list[int]) -> np.ndarray:
+    """True [T] around the first frames of what follows a border."""
+    mask = np.zeros(frames, dtype=bool)
+    for border in borders:
+        mask[max(0, border - NEAR) : border + NEAR] = True
+    return mask
+
+
+def borders_of(given: Given) -> list[int]:
+    """Frames at which something stops or begins to be known."""
+    known = given.constraint.known[:, :-1].flatten(1).numpy()
+    return (1 + np.flatnonzero((known[1:] != known[:-1]).any(1))).tolist()
+
+
+def _with_poses(clip: Motion, other: Motion, given: Given) -> Motion:
+    """A clip with another one's poses in the frames that are to be made anew."""
+    where = np.flatnonzero(~given.constraint.known.flatten(1).all(1).numpy())
+    pose = clip.quaternions.copy()
+    pose[where, 1:] = other.quaternions[where % other.num_frames, 1:]
+    return replace(clip, quaternions=pose)
+
+
+# ---------------------------------------------------------------- paths
+
+Followed = tuple[Motion, np.ndarray, DrawnPath]  # with where the pelvis was to be [T,2]
+
+
+def path_table(context: EditContext) -> Grid:
+    """A row a shape and a maker."""
+    rows = {}
+    number = context.settings.repeats
+    seeds = np.random.SeedSequence(context.settings.seed).generate_state(number).tolist()
+    for shape, drawn in drawn_paths().items():
+        for who, generator in context.generators.items():
+            context.progress(f"paths: {shape}, {who}")
+            made = [_follow(generator, drawn, seed) for seed in seeds]
+            rows[f"{shape}: {who}"] = _path_row(made)
+        still, free = [], []
+        for seed, (motion, points, _) in enumerate(made):
+            still.append((held_still(motion), points, drawn))
+            words = ["a person walks"]
+            (alone,) = context.generator.generate(words, seconds=motion.seconds, seed=seed)
+            free.append((alone, points, drawn))
+        rows[f"{shape}: frozen pose"] = _path_row(still)
+        rows[f"{shape}: words alone"] = _path_row(free)
+    return Grid("paths", f"drawn paths ({number} motions each)", PATH, rows, NOTES["path"], "path")
+
+
+def drawn_paths() -> dict[str, DrawnPath]:
+    """A straight line, a curve, and a figure of eight, in metres."""
+    arc = np.pi * np.linspace(0, 1, 61)
+    eight = np.stack((np.sin(4 * arc) / 2, np.sin(2 * arc)), axis=1)
+    return {
+        "line": DrawnPath(np.array([[0.0, 0.0], [0.0, 4.0]])),
+        "curve": DrawnPath(RADIUS * np.stack((1 - np.cos(arc), np.sin(arc)), axis=1)),
+        "figure of eight": DrawnPath(RADIUS * eight),
+    }
+
+
+def _follow(generator: TextToMotion, drawn: DrawnPath, seed: int) -> Followed:
+    settings = Sampling(seed=seed % 2**31)
+    passage = Passage("a person walks", 1)
+    motion = along_path(generator, Timeline((passage,)), drawn, settings).motion
+    speed, facing = natural_gait(generator, passage, settings)
+    path = time_path(drawn, fps=generator.card.fps, speed=speed, facing=facing)
+    return motion, path.points, drawn
+
+
+def _path_row(made: Sequence[Followed]) -> GridRow:
+    columns: dict[str, list[float]] = {column.key: [] for column in PATH}
+    for motion, points, drawn in made:
+        ground = motion.root_position[:, [0, 2]].astype(np.float64)
+        frames = min(len(ground), len(points))
+        apart = np.linalg.norm(ground[:frames] - points[:frames], axis=1)
+        steps = np.linalg.norm(np.diff(seen_from_pelvis(motion), axis=0), axis=-1)
+        joints, fps = motion.positions().astype(np.float64), motion.fps
+        for key, value in {
+            "mean": 100 * float(apart.mean()),
+            "max": 100 * float(apart.max()),
+            "line": 100 * float(distances_to_line(ground, drawn.points).mean()),
+            "limb_speed": float(steps.mean() * fps),
+            "support": support_slide(joints, fps),
+            "rough": jerk_per_speed(joints, fps),
+        }.items():
+            columns[key].append(value)
+    cells: dict[str, Cell] = {key: bootstrap_mean(values) for key, values in columns.items()}
+    return GridRow(cells | {"max": float(np.max(columns["max"]))}, len(made), 1)
+
+
+# ---------------------------------------------------------------- transitions
+
+
+def transition_table(context: EditContext, judge: Evaluator) -> Grid:
+    """One action after the other."""
+    seed, pairs, made = context.settings.seed, context.pairs, dict[str, list[Motion]]()
+    for who, generator in context.generators.items():
+        context.progress(f"transitions: {who}")
+        made[who] = []
+        for k, pair in enumerate(pairs):
+            timeline = Timeline(tuple(Passage(text, HALF) for text in pair))
+            made[who].append(by_timeline(generator, timeline, Sampling(seed=seed + k)).motion)
+    context.progress("transitions: hard cut")
+    made["hard cut"] = [
+        hard_cut(*context.generator.generate(pair, seconds=HALF / 30, seed=seed + k))
+        for k, pair in enumerate(pairs)
+    ]
+    made["frozen pose"] = [held_still(motion) for motion in made["generated"]]
+    rows = {who: _transition_row(context, motions, judge) for who, motions in made.items()}
+    title = f"transitions ({len(pairs)} pairs of actions)"
+    return Grid("transitions", title, TRANSITION, rows, NOTES["transitions"])
+
+
+def hard_cut(first: Motion, second: Motion) -> Motion:
+    """Two motions one after the other: the second goes on from the place of the first's end.
+
+    What a transition looks like that nobody made.
+    """
+    return joined(first, moved_to(second, place_of(first, first.num_frames - 1)))
+
+
+def _transition_row(context: EditContext, motions: Sequence[Motion], judge: Evaluator) -> GridRow:
+    text = judge.embed_text(ACTIONS).numpy()
+    sizes = [accelerations(motion) for motion in motions]
+    change = np.concatenate([values[HALF - AROUND : HALF + AROUND] for values in sizes])
+    rest = [np.delete(each, slice(HALF - AROUND, HALF + AROUND)) for each in sizes]
+    cells = context.against(change, "near")
+    cells["elsewhere"] = float(np.percentile(np.concatenate(rest), TOP))
+    for which, key in enumerate(("before", "after")):
+        hits = []
+        for motion, pair in zip(motions, context.pairs, strict=True):
+            seen = embed(judge, motion.frames(which * HALF, (which + 1) * HALF))
+            distances = np.linalg.norm(seen[:, None] - text[None], axis=-1)  # W P
+            nearest = rank_of(distances, ACTIONS.index(pair[which])) < 1
+            hits.append(float(nearest.mean()))
+        cells[key] = bootstrap_mean(hits)
+    return GridRow(cells, len(motions), 1)

@@ -1,0 +1,550 @@
+"""Does a text model do what people ask for in their own words, as captured motion would show it?
+
+Prompts are hand-written (`captions/requests.py`), real rows and references are captured clips
+alone. The judge (`judge/actions.py`) has seen no procedural clip of an action that a capture
+covers.
+
+Letters: N motions, T frames, K joints, F features.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from functools import partial
+from typing import Any, Protocol
+
+import numpy as np
+
+from ...data.captions.requests import (
+    COMPOSITIONS,
+    FREE,
+    OUTSIDE,
+    Request,
+    drawn,
+    load_requests,
+)
+from ...data.prepared import ClipRecord, PreparedData
+from ...errors import UserError
+from ...metrics.frechet import frechet_distance
+from ...metrics.kinetic import FeatureSpace, kinetic_features
+from ...metrics.physical import support_slide
+from ...motion.features import decode_features
+from ...motion.motion import Motion
+from ...motion.skeleton import JOINT_INDEX
+from ..engine import Progress
+from ..floors import frozen_pose
+from ..held_out import spread_over_groups
+from ..judge.actions import (
+    MIN_FRAMES,
+    ActionJudge,
+    descriptor,
+    judged_by,
+    same_action,
+    shown,
+)
+from ..report.tables import Cell, Column, Grid, GridRow, Report, report_data
+from ..stats import Estimate, bootstrap_mean, share_of
+from .text import LANGUAGES, errors_only
+
+GESTURES = ("wave", "raise", "bow", "bye", "call", "respond", "guide", "clap")
+WALK = "a person walks forward"
+LONG_WALKS = (2.0, 10.0, 30.0, 60.0)  # seconds
+FLOOR_SHARE = 4  # every so many-th plain request is put to the floors
+HAND_DOWN = 0.15  # metres above the pelvis, at most, of a hand at rest
+AT_REST = 3  # frames at either end
+PIECE, HOP = 60, 15  # frames: windows in which the parts of a composition are looked for
+REAL = "captured, held out"  # name of the row
+
+
+class Model(Protocol):
+    """What is asked of a model; `SentenceGenerator` is one."""
+
+    def generate(self, prompts: Sequence[str], *, seconds: float, seed: int) -> list[Motion]: ...
+    def scope_warnings(self, prompts: Sequence[str]) -> list[str | None]: ...
+
+
+@dataclass(frozen=True)
+class RequestSettings:
+    """How much is measured; the report repeats it."""
+
+    wordings: int = 3  # of each set of labels and language
+    languages: tuple[str, ...] = LANGUAGES
+    seconds: float = 4.0
+    variety_seeds: int = 8  # of the spread of gestures
+    max_clips: int = 600  # captured clips of the reference
+    seed: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """N motions with what is measured of each: descriptors [N,F]."""
+
+    motions: list[Motion]
+    features: np.ndarray
+
+    @classmethod
+    def of(cls, motions: Sequence[Motion]) -> "Seen":
+        """Of motions not measured yet."""
+        return cls(list(motions), np.stack([descriptor(motion) for motion in motions]))
+
+    def __len__(self) -> int:
+        return len(self.motions)
+
+    def rows(self, index: Sequence[int]) -> "Seen":
+        """The motions at these rows, in this order."""
+        return Seen([self.motions[i] for i in index], self.features[list(index)])
+
+
+@dataclass(frozen=True, eq=False)
+class Asked:
+    """A row of the first tables: motions and what each was asked for."""
+
+    labels: list[dict[str, str]]
+    languages: list[str]
+    seen: Seen
+
+    @classmethod
+    def of(cls, requests: Sequence[Request], seen: Seen) -> "Asked":
+        """Motions made for requests."""
+        return cls([r.labels for r in requests], [r.language for r in requests], seen)
+
+    @property
+    def actions(self) -> list[str]:
+        """The action that each was asked for."""
+        return [labels.get("action", "") for labels in self.labels]
+
+
+class Yardstick:
+    """Captured clips, the judge that learned from them, and the clips nobody recorded."""
+
+    def __init__(self, data: PreparedData, settings: RequestSettings, progress: Progress) -> None:
+        """Read the clips and fit the judge.
+
+        Raises:
+            UserError: too few captured clips are held back.
+        """
+        self.data, self.settings = data, settings
+        self.longest = round(settings.seconds * 30)
+        train = [r for r in data.records("train") if r.tag and r.num_frames >= MIN_FRAMES]
+        self.captured = {r.tag for r in train if r.provenance == "captured"}
+        progress("descriptors of the training clips")
+        fitted = spread_over_groups(judged_by(train), 4 * settings.max_clips, settings.seed)
+        self.known = self.clips(fitted)
+        self.known_tags = [record.tag for record in fitted]
+        try:
+            self.judge = ActionJudge.fit(self.known.features, self.known_tags)
+        except ValueError as error:
+            raise UserError(
+                f"{data.folder}: no judge can be fitted ({error}); prepare captured clips"
+            ) from error
+        self.space = FeatureSpace.fit(self.known.features, np.zeros(self.known.features.shape[1]))
+        held = [
+            r
+            for split in ("test_seen", "test_unseen", "val")
+            for r in data.records(split)
+            if r.provenance == "captured" and r.tag in self.captured and r.num_frames >= MIN_FRAMES
+        ]
+        if len(held) < 2:
+            raise UserError(
+                f"{data.folder} holds no captured clip back from training; prepare more of them"
+            )
+        progress("descriptors of the held-out clips")
+        self.records = spread_over_groups(held, settings.max_clips, settings.seed)
+        self.real = self.clips(self.records)
+        self.tags = [record.tag for record in self.records]
+        made = [r for r in train if r.provenance == "procedural" and r.tag in self.captured]
+        made = spread_over_groups(made, settings.max_clips, settings.seed)
+        self.procedural = self.clips(made) if made else None
+        self.procedural_tags = [record.tag for record in made]
+        pairs = zip(self.real.motions, self.tags, strict=True)
+        runs = [worst_acceleration(motion) for motion, tag in pairs if tag == "run"]
+        self.top_run = float(np.percentile(np.concatenate(runs), 99.9)) if runs else 0.0
+
+    def clips(self, records: Sequence[ClipRecord]) -> Seen:
+        """The first seconds of these clips."""
+        return Seen.of([decode_features(self.data.features(r)[: self.longest]) for r in records])
+
+    def shows(self, seen: Seen) -> list[str]:
+        """The action that the judge sees in each."""
+        return self.judge(seen.features)
+
+    def obeyed(self, labels: Sequence[dict[str, str]], seen: Seen) -> np.ndarray:
+        """Whether each motion does what its labels say: the action, and which way or side [N]."""
+        rows = zip(labels, self.shows(seen), seen.motions, strict=True)
+        return np.array(
+            [same_action(w.get("action", ""), found) and shown(w, m) for w, found, m in rows]
+        )
+
+    @property
+    def real_obeyed(self) -> np.ndarray:
+        """The same of the held-out clips under their own labels."""
+        return self.obeyed([record.labels for record in self.records], self.real)
+
+    def nearer_to_procedural(self, tags: Sequence[str], seen: Seen) -> np.ndarray:
+        """Whether the nearest clip of the action is one that nobody recorded; NaN without any."""
+        if self.procedural is None:
+            return np.full(len(seen), np.nan)
+        sources = (self.known, self.known_tags), (self.procedural, self.procedural_tags)
+        points = [(self.space(clips.features), np.array(names)) for clips, names in sources]
+        answers = []
+        for tag, point in zip(tags, self.space(seen.features), strict=True):
+            captured, made = (
+                np.linalg.norm(there[names == tag] - point, axis=1) for there, names in points
+            )
+            both = len(captured) and len(made)
+            answers.append(float(made.min() < captured.min()) if both else np.nan)
+        return np.array(answers)
+
+
+def evaluate_requests(
+    model: Model,
+    data: PreparedData,
+    *,
+    floors: dict[str, Model] | None = None,
+    settings: RequestSettings | None = None,
+    about: dict[str, Any] | None = None,
+    progress: Progress = lambda text: None,
+) -> Report:
+    """The whole report as plain data, see `report_data`.
+
+    Args:
+        model: whose every table is.
+        data: a prepared folder with captured clips; its train split fits the judge, what is held
+            back is the reference.
+        floors: models of which the first tables have a row too, by its name.
+
+    Raises:
+        UserError: the data holds too few captured clips, or the model is untrained.
+    """
+    settings = settings or RequestSettings()
+    yardstick = Yardstick(data, settings, progress)
+    requests = load_requests(settings.languages)
+    plain = drawn([r for r in requests if r.section == "plain"], settings.wordings, settings.seed)
+    plain = [r for r in plain if r.action in yardstick.judge.classes]
+
+    def make(texts: Sequence[str], by: Model = model) -> Seen:
+        return Seen.of(by.generate(texts, seconds=settings.seconds, seed=settings.seed))
+
+    with errors_only():
+        progress(f"{len(plain)} plain requests")
+        made, few = make([r.text for r in plain]), plain[::FLOOR_SHARE]
+        still = Seen.of([frozen_pose(motion) for motion in made.motions])
+        rows = {"generated": Asked.of(plain, made), "frozen pose": Asked.of(plain, still)}
+        for name, floor in (floors or {}).items():
+            progress(f"{len(few)} of them by {name}")
+            rows[name] = Asked.of(few, make([r.text for r in few], floor))
+        progress("numbers, sides, styles and compositions")
+        tables = [
+            _obedience(yardstick, rows),
+            _by_action(yardstick, rows["generated"]),
+            _realism(yardstick, rows),
+            _exactness(yardstick, model, requests, make),
+            _warnings(yardstick, model, requests, plain, made, make),
+        ]
+    facts = {**(about or {}), "data_hash": data.manifest_hash[:12], "judge": "captured clips"}
+    return report_data("text", facts, asdict(settings), tables)
+
+
+# ---------------------------------------------------------------- tables
+
+Make = Callable[[Sequence[str]], Seen]
+
+
+def _obedience(yardstick: Yardstick, rows: dict[str, Asked]) -> Grid:
+    languages = yardstick.settings.languages
+    found = {REAL: GridRow({"all": share_of(yardstick.real_obeyed)}, len(yardstick.real))}
+    if yardstick.procedural is not None:
+        tags = [{"action": tag} for tag in yardstick.procedural_tags]
+        done = yardstick.obeyed(tags, yardstick.procedural)
+        found["procedural"] = GridRow({"all": share_of(done)}, len(tags))
+    for name, asked in rows.items():
+        done, spoken = yardstick.obeyed(asked.labels, asked.seen), np.array(asked.languages)
+        cells: dict[str, Cell] = {"all": share_of(done)}
+        cells |= {code: share_of(done[spoken == code]) for code in languages}
+        found[name] = GridRow(cells, len(asked.seen))
+    columns = tuple(Column(key, key, 2, "high", share=True) for key in ("all", *languages))
+    note = (
+        "Share of motions that do what a hand-written, plain sentence asks: the action by a"
+        " discriminant fitted on captured clips, side, direction and turn by kinematics."
+        " *captured*: held-out clips under their own labels; *procedural*: the action alone."
+    )
+    return Grid("obeyed", "Plain requests obeyed", columns, found, note)
+
+
+def _by_action(yardstick: Yardstick, asked: Asked) -> Grid:
+    done, real = yardstick.obeyed(asked.labels, asked.seen), yardstick.real_obeyed
+    wanted, theirs = np.array(asked.actions), np.array(yardstick.tags)
+    instead = np.array(yardstick.shows(asked.seen))
+    rows = {}
+    for action in sorted(set(asked.actions)):
+        own = wanted == action
+        others = [each for each in instead[own].tolist() if not same_action(action, each)]
+        cells: dict[str, Cell] = {
+            "obeyed": share_of(done[own]),
+            "real": share_of(real[theirs == action]),
+            "source": "captured" if action in yardstick.captured else "not captured",
+            "instead": max(set(others), key=others.count) if others else "",
+        }
+        rows[action] = GridRow(cells, int(own.sum()))
+    columns = (
+        Column("obeyed", "obeyed", 2, "high", share=True),
+        Column("real", "captured clips", 2, "high", share=True),
+        Column("source", "the judge knows it from"),
+        Column("instead", "most often shown instead"),
+    )
+    return Grid("actions", "Plain requests by action", columns, rows, head="action")
+
+
+def _realism(yardstick: Yardstick, rows: dict[str, Asked]) -> Grid:
+    """Distances from captured clips of the same actions, and what a body shows of itself."""
+    tags, real, judge = yardstick.tags, yardstick.real, yardstick.judge
+    rng = np.random.default_rng(yardstick.settings.seed)
+    halves = np.array_split(rng.permutation(len(tags)), 2)
+    features = kinetic(real)
+    space = FeatureSpace.fit(features, np.arange(features.shape[1]) % 3)
+
+    def distances(seen: Seen, wanted: Sequence[str], reference: np.ndarray) -> dict[str, Cell]:
+        """Against as many captured clips of the same actions."""
+        pool = [[i for i in reference if tags[i] == tag] for tag in wanted]
+        own = [row for row, same in enumerate(pool) if same]
+        if len(own) < 2:
+            return {}
+        there = [int(rng.choice(pool[row])) for row in own]
+        a, b = seen.rows(own), real.rows(there)
+        nearer = yardstick.nearer_to_procedural([wanted[row] for row in own], a)
+        return {
+            "learned": frechet_distance(judge.embed(a.features), judge.embed(b.features)),
+            "kinematic": space.distance(kinetic(a), kinetic(b)),
+            "procedural": share_of(nearer),
+        }
+
+    half, everything = halves[0].tolist(), np.arange(len(tags))
+    gait = gaits(real, tags, yardstick.top_run)
+    apart = distances(real.rows(half), [tags[i] for i in half], halves[1])
+    found = {REAL: GridRow(apart | gait, len(half))}
+    pairs = {name: (asked.seen, asked.actions) for name, asked in rows.items()}
+    if yardstick.procedural is not None:
+        pairs = {"procedural": (yardstick.procedural, yardstick.procedural_tags)} | pairs
+    for name, (seen, wanted) in pairs.items():
+        gait = gaits(seen, wanted, yardstick.top_run)
+        found[name] = GridRow(distances(seen, wanted, everything) | gait, len(seen))
+    columns = (
+        Column("learned", "FD, judge's axes", 1, "low"),
+        Column("kinematic", "FID_k", 1, "low"),
+        Column("procedural", "nearer to procedural", 2, "low", share=True),
+        Column("peak", "walks: peak acceleration m/s²", 0),
+        Column("teleports", "runs: frames beyond captured %", 2, "low"),
+        Column("slide", "walks: carrying foot cm/s", 1),
+    )
+    note = (
+        "FD: Fréchet distance in the axes along which the judge tells captured actions apart, in"
+        " deviations within an action; FID_k: of 66 kinetic features. Each motion stands against"
+        " one captured clip of its action; the first row is one half of the held-out clips against"
+        " the other. *nearer to procedural*: the nearest clip of the same action is one that nobody"
+        " recorded. *frames beyond captured*: worst joint's acceleration above the 99.9th"
+        " percentile of captured runs. A frozen pose is smooth and does not slide: read the"
+        " distances first."
+    )
+    return Grid("realism", "Like captured motion", columns, found, note)
+
+
+def _exactness(yardstick: Yardstick, model: Model, requests: Sequence[Request], make: Make) -> Grid:
+    """Counts, angles, lengths, sides, styles, sequences: what a sentence says exactly."""
+    settings, rows = yardstick.settings, dict[str, GridRow]()
+
+    def of(section: str, *, simultaneous: bool = False) -> list[Request]:
+        found = [r for r in requests if r.section == section and r.simultaneous == simultaneous]
+        known = yardstick.judge.classes
+        found = [r for r in found if all(part.get("action") in known for part in r.parts)]
+        return drawn(found, settings.wordings, settings.seed)
+
+    def row(name: str, wanted: Sequence[Request], does: Callable[[Request, Motion], bool]) -> None:
+        if wanted:
+            motions = make([r.text for r in wanted]).motions
+            done = [does(r, motion) for r, motion in zip(wanted, motions, strict=True)]
+            rows[name] = GridRow({"share": share_of(done)}, len(done))
+
+    def obeys(request: Request, motion: Motion) -> bool:
+        return bool(yardstick.obeyed([request.labels], Seen.of([motion]))[0])
+
+    for section in ("counts", "angles", "sides"):
+        row(section, of(section), obeys)
+    row("lengths, ±20%", [r for r in of("lengths") if "metres" in r.labels], covers)
+    row(
+        "two sides at once",
+        of("sides", simultaneous=True),
+        lambda r, motion: all(shown(part, motion) for part in r.parts),
+    )
+    row("one-sentence sequences", of(COMPOSITIONS), partial(in_order, yardstick))
+    rows |= _styles(yardstick, of("styled"), make)
+    gestures = drawn([r for r in of("plain") if r.action in GESTURES], 1, settings.seed)
+    row("gestures from rest to rest", gestures, lambda r, motion: at_rest(motion))
+    if gestures:
+        name, longest = "gestures from rest to rest", yardstick.longest
+        pairs = zip(yardstick.records, yardstick.real.motions, strict=True)
+        whole = [at_rest(m) for r, m in pairs if r.tag in GESTURES and r.num_frames <= longest]
+        rows[name] = GridRow({**rows[name].cells, "real": share_of(whole)}, rows[name].num)
+    rows["spread of a gesture, cm"] = _spread_row(yardstick, model, gestures)
+    for seconds in LONG_WALKS:
+        walk = model.generate([WALK], seconds=seconds, seed=settings.seed)[0]
+        rows[f"a walk of {seconds:g} s, m/s"] = GridRow({"share": mean_speed(walk)}, 1)
+    columns = (
+        Column("share", "generated", 2, "high"),
+        Column("real", "captured clips", 2),
+    )
+    note = (
+        "Shares of hand-written sentences of all languages whose number, angle within 30°, length,"
+        " side or order is shown, beside the action itself."
+    )
+    return Grid("exactness", "What is said exactly", columns, rows, note, head="asked for")
+
+
+def _spread_row(yardstick: Yardstick, model: Model, gestures: Sequence[Request]) -> GridRow:
+    """How far apart motions for one sentence are, over seeds; and captured clips of one label."""
+    settings = yardstick.settings
+    prompts = [r.text for r in gestures if r.language == settings.languages[0]]
+    by_seed = [
+        model.generate(prompts, seconds=settings.seconds, seed=seed)
+        for seed in range(settings.variety_seeds)
+    ]
+    made = [spread(list(motions)) for motions in zip(*by_seed, strict=True)]
+    groups: dict[str, list[Motion]] = {}
+    for record, motion in zip(yardstick.records, yardstick.real.motions, strict=True):
+        if record.tag in GESTURES and motion.num_frames >= PIECE:
+            groups.setdefault(record.group, []).append(motion)
+    real = [spread(motions) for motions in groups.values() if len(motions) > 3]
+    cells = {"share": bootstrap_mean(made), "real": bootstrap_mean(real)}
+    return GridRow(cells, len(made) * settings.variety_seeds)
+
+
+def _styles(yardstick: Yardstick, wanted: Sequence[Request], make: Make) -> dict[str, GridRow]:
+    """Style heard, by a discriminant of captured walks in styles, and whether it still walks."""
+
+    def style(record: ClipRecord) -> str:
+        return record.labels.get("style", "normal")
+
+    train = [r for r in yardstick.data.records("train") if r.provenance == "captured"
+             and r.tag == "walk" and r.num_frames >= MIN_FRAMES]  # fmt: skip
+    styles = {style(record) for record in train}
+    wanted = [r for r in wanted if r.labels.get("style") in styles]
+    if len(styles) < 2 or not wanted:
+        return {}
+    train = spread_over_groups(train, 2 * yardstick.settings.max_clips, yardstick.settings.seed)
+    judge = ActionJudge.fit(yardstick.clips(train).features, [style(r) for r in train])
+    held = [i for i, tag in enumerate(yardstick.tags) if tag == "walk"]
+    told = np.array([style(yardstick.records[i]) for i in held])
+    right = np.array(judge(yardstick.real.features[held])) == told
+    made = make([r.text for r in wanted])
+    heard = np.array(judge(made.features)) == np.array([r.labels["style"] for r in wanted])
+    walks = [action == "walk" for action in yardstick.shows(made)]
+    heard_cells = {"share": share_of(heard), "real": share_of(right)}
+    return {
+        "styled walks: style heard": GridRow(heard_cells, len(made)),
+        "styled walks: still a walk": GridRow({"share": share_of(walks)}, len(made)),
+    }
+
+
+def _warnings(
+    yardstick: Yardstick,
+    model: Model,
+    requests: Sequence[Request],
+    plain: Sequence[Request],
+    made: Seen,
+    make: Make,
+) -> Grid:
+    """Does it know what it does not know?"""
+
+    def warned_of(asked: Sequence[Request]) -> np.ndarray:
+        return np.array([w is not None for w in model.scope_warnings([r.text for r in asked])])
+
+    done = yardstick.obeyed([request.labels for request in plain], made)
+    warned = warned_of(plain)
+    foreign = warned_of([r for r in requests if r.section == OUTSIDE])
+    free = [r for r in requests if r.section == FREE and len(r.parts) < 2]
+    told = warned_of(free)
+    inside = [i for i, r in enumerate(free) if r.parts and r.action in yardstick.judge.classes]
+    right = np.zeros(len(free), bool)
+    if inside:
+        seen = make([free[i].text for i in inside])
+        right[inside] = yardstick.obeyed([free[i].labels for i in inside], seen)
+    shares = {
+        "plain, missed": warned[~done],
+        "plain, obeyed": warned[done],
+        "outside the vocabulary": foreign,
+        "free prompts, right": right,
+        "free prompts, wrong but warned of": ~right & told,
+        "free prompts, wrong without a word": ~right & ~told,
+    }
+    rows = {name: GridRow({"share": share_of(each)}, len(each)) for name, each in shares.items()}
+    note = (
+        "The first three rows: share that is warned of. Then the free prompts, half of which are"
+        " outside: every one is right, or wrong with or without a warning."
+    )
+    title = "Knowing what it does not know"
+    return Grid("warnings", title, (Column("share", "share", 2),), rows, note, head="requests")
+
+
+# ---------------------------------------------------------------- figures of motions
+
+
+def spread(motions: Sequence[Motion]) -> float:
+    """Deviation of the joints, seen from the pelvis, over motions of two seconds or more; cm."""
+    joints = np.stack([motion.positions()[:PIECE] for motion in motions])
+    deviation: np.ndarray = (joints - joints[:, :, :1]).std(0)  # T K 3
+    return float(100 * np.linalg.norm(deviation, axis=-1).mean())
+
+
+def gaits(seen: Seen, tags: Sequence[str], top_run: float) -> dict[str, Estimate]:
+    """How walks and runs move: peak acceleration m/s², frames beyond `top_run` %, slide cm/s."""
+    pairs = list(zip(seen.motions, tags, strict=True))
+    walks = [motion for motion, tag in pairs if tag == "walk"]
+    runs = [motion for motion, tag in pairs if tag == "run"]
+    slides = [support_slide(m.positions().astype(np.float64), m.fps) for m in walks]
+    return {
+        "peak": bootstrap_mean([float(np.percentile(worst_acceleration(m), 99)) for m in walks]),
+        "teleports": bootstrap_mean([100 * (worst_acceleration(m) > top_run).mean() for m in runs]),
+        "slide": bootstrap_mean(slides),
+    }
+
+
+def kinetic(seen: Seen) -> np.ndarray:
+    """Kinetic features [N, 66]."""
+    return np.stack([kinetic_features(m.positions(), m.fps).reshape(-1) for m in seen.motions])
+
+
+def worst_acceleration(motion: Motion) -> np.ndarray:
+    """m/s² of the worst joint [T - 2]."""
+    second = np.diff(motion.positions().astype(np.float64), n=2, axis=0) * motion.fps**2
+    return np.asarray(np.linalg.norm(second, axis=-1).max(1))
+
+
+def covers(request: Request, motion: Motion) -> bool:
+    """Whether a motion ends so many metres from where it began as were asked for, ±20%."""
+    way = np.linalg.norm(motion.root_position[-1, [0, 2]] - motion.root_position[0, [0, 2]])
+    return bool(abs(way / float(request.labels["metres"]) - 1) <= 0.2)
+
+
+def mean_speed(motion: Motion) -> float:
+    """Of the pelvis over the ground, m/s."""
+    way = np.linalg.norm(np.diff(motion.root_position[:, [0, 2]], axis=0), axis=-1).sum()
+    return float(way / motion.seconds)
+
+
+def at_rest(motion: Motion) -> bool:
+    """Whether both hands hang at the beginning and at the end."""
+    joints = motion.positions()
+    hands = joints[:, [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]], 1] - joints[:, :1, 1]
+    ends = np.concatenate((hands[:AT_REST], hands[-AT_REST:]))
+    return bool((ends < HAND_DOWN).all())
+
+
+def in_order(yardstick: Yardstick, request: Request, motion: Motion) -> bool:
+    """Whether the parts are seen one after the other, each in some window of two seconds."""
+    starts = range(0, max(motion.num_frames - PIECE, 0) + 1, HOP)
+    found = yardstick.shows(Seen.of([motion.frames(at, at + PIECE) for at in starts]))
+    at = 0
+    for part in request.parts:
+        while at < len(found) and not same_action(part["action"], found[at]):
+            at += 1
+        if at == len(found):
+            return False
+    return True

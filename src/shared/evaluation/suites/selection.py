@@ -1,0 +1,564 @@
+"""Best of N: does what the judge chose look better to those the judge does not listen to?
+
+Every candidate is measured once; rows then differ only in which candidates they take. The best of
+n is the judge's choice among n candidates that follow each other, so of 32 there are 32 choices of
+one and four of eight. Each choice for all subjects (prompts or songs) is a replication: intervals
+of rows say what other noise would give for the same subjects. What the largest size gains over
+single candidates is resampled over subjects: it says what other subjects would give.
+
+A figure is *outside* (nothing of it enters the judge), *akin* (another measure of something that
+the judge does look at) or the judge's own. Only outside figures count for the verdict.
+
+Letters: P subjects, C candidates of each, N the largest number to choose from, G choices, D
+embedding channels.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+
+from ...errors import UserError
+from ...metrics.bands import Bands
+from ...metrics.kinetic import (
+    Features,
+    kinetic_columns,
+    root_geometric_features,
+    root_kinetic_features,
+)
+from ...metrics.physical import physics
+from ...metrics.retrieval import BATCH, TOP, best_ranks, pair_distances
+from ...metrics.rhythm import against_chance, motion_beats, rhythm
+from ...metrics.travel import travel, travel_error
+from ...model.generation.motion_generator import TextToMotion
+from ...motion.motion import Motion
+from ...motion.trajectory import FPS, MotionTrajectory
+from ...pipelines.ranking import AudioJudge, TextJudge, load_tower, own_tower
+from ...pipelines.song import AudioCondition, SongGenerator
+from ...pipelines.song_sampler import SongSampling
+from ...pipelines.text import PromptSampler
+from ..audio_songs import Piece, held_out_songs, open_split, phrases
+from ..controllability import check
+from ..engine import Progress
+from ..held_out import open_held_out, real_clips
+from ..judge.evaluator import Evaluator
+from ..report.tables import Column, Grid, GridRow, Report, Table, printed
+from ..samples import Clips
+from ..stats import Estimate, bootstrap_mean, replicated
+
+Role = Literal["outside", "akin", "judge"]
+ROLES: dict[Role, str] = {
+    "outside": "figures outside the judge",
+    "akin": "figures akin to the judge's",
+    "judge": "the judge's own terms",
+}
+Chosen = np.ndarray  # [P], which candidate of each subject
+NOTE = (
+    "Rows: ± is 95% over replications, other noise for the same subjects (floors: over subjects)."
+    " Difference: paired, ± is 95% by bootstrap over subjects. * better, and the intervals of both"
+    " rows are apart. An untrained judge chooses at random: its row is best of 1."
+)
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One column; `higher`: more is better."""
+
+    key: str
+    heading: str
+    decimals: int
+    higher: bool
+    role: Role
+
+
+@dataclass(frozen=True, eq=False)
+class Pool:
+    """Everything measured of P x C candidates.
+
+    Attributes:
+        figures: the columns.
+        score: the judge's, [P,C].
+        values: figures of single candidates [P,C]; NaN where nothing is asked.
+        together: figures [P] of each subject that depend on what was chosen for the others.
+        of_set: figures of a whole choice.
+        floors: rows to stand beside, by name: figures [P'] by key.
+        set_floors: figures of such rows that belong to whole sets.
+    """
+
+    figures: Sequence[Figure]
+    score: np.ndarray
+    values: Mapping[str, np.ndarray]
+    together: Callable[[Chosen], Mapping[str, np.ndarray]] = lambda chosen: {}
+    of_set: Callable[[Chosen], Mapping[str, float]] = lambda chosen: {}
+    floors: Mapping[str, Mapping[str, np.ndarray]] = field(default_factory=dict)
+    set_floors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+
+    def single(self, chosen: Chosen) -> dict[str, np.ndarray]:
+        """Figures [P] of each subject under one choice."""
+        rows = np.arange(len(self.score))
+        found = {key: values[rows, chosen] for key, values in self.values.items()}
+        return found | dict(self.together(chosen))
+
+
+def sizes(largest: int) -> list[int]:
+    """1, 2, 4, ... and the largest."""
+    return [*(2**k for k in range((largest - 1).bit_length())), largest]
+
+
+def choices(score: np.ndarray, size: int) -> list[Chosen]:
+    """The highest of each run of `size` candidates of score [P,N]; what is left over is unused."""
+    number = score.shape[1] // size
+    runs = score[:, : number * size].reshape(len(score), number, size)
+    return list((runs.argmax(2) + np.arange(number) * size).T)
+
+
+def measured(
+    pool: Pool, chosen: Sequence[Chosen]
+) -> tuple[dict[str, np.ndarray], dict[str, Estimate]]:
+    """Figures [P] of each subject, the mean over the choices, and of each choice as a whole."""
+    found = [pool.single(choice) for choice in chosen]
+    stacked = {key: np.stack([one[key] for one in found]) for key in found[0]}  # G P
+    whole = {key: [_mean(row) for row in values] for key, values in stacked.items()}
+    sets = [pool.of_set(choice) for choice in chosen]
+    whole |= {key: [one[key] for one in sets] for key in sets[0]}
+    subjects = {key: np.array([_mean(c) for c in values.T]) for key, values in stacked.items()}
+    return subjects, {key: replicated(values) for key, values in whole.items()}
+
+
+def _mean(values: np.ndarray) -> float:
+    """Mean of what is known; NaN if nothing is."""
+    known = values[~np.isnan(values)]
+    return float(known.mean()) if len(known) else float("nan")
+
+
+def selection_report(pool: Pool, largest: int) -> Report:
+    """Rows of figures, and what the best of `largest` N gains over a single candidate.
+
+    Returns:
+        rows: name to figures, each an `Estimate` as a dict: floors, `best of n`, `worst of N`;
+        gains: figure to its `role`, whether best of N is `better` than best of 1 and their
+        intervals `apart` (never with one replication), and, but for whole sets, the paired
+        `difference`;
+        outside_apart: keys of outside figures that are better with intervals apart.
+    """
+    rows: dict[str, dict[str, Any]] = {}
+    for name, floor in pool.floors.items():
+        rows[name] = {key: bootstrap_mean(values).as_dict() for key, values in floor.items()}
+        for key, value in pool.set_floors.get(name, {}).items():
+            rows[name][key] = Estimate(value, value, value, 1).as_dict()
+    taken = {f"best of {size}": choices(pool.score, size) for size in sizes(largest)}
+    taken[f"worst of {largest}"] = choices(-pool.score, largest)
+    found = {name: measured(pool, chosen) for name, chosen in taken.items()}
+    for name, (_, whole) in found.items():
+        rows[name] = {key: estimate.as_dict() for key, estimate in whole.items()}
+    (one, _), (many, _) = found["best of 1"], found[f"best of {largest}"]
+    gains: dict[str, dict[str, Any]] = {}
+    for figure in pool.figures:
+        key, higher = figure.key, figure.higher
+        cells = rows["best of 1"][key], rows[f"best of {largest}"][key]
+        low, high = cells if higher else cells[::-1]
+        known = min(cell["count"] for cell in cells) > 2
+        gains[key] = {
+            "role": figure.role,
+            "better": bool(low["value"] < high["value"]),
+            "apart": bool(known and low["high"] < high["low"]),
+        }
+        if key in many:
+            gain = bootstrap_mean(many[key] - one[key]).as_dict()
+            gains[key]["difference"] = gain
+            # Replications share their prompts: alone they say nothing of other prompts.
+            gains[key]["apart"] &= gain["low"] > 0 if higher else gain["high"] < 0
+    outside = [key for key, gain in gains.items() if gain["role"] == "outside" and gain["apart"]]
+    return {"rows": rows, "gains": gains, "outside_apart": outside}
+
+
+def report_of(
+    pool: Pool, largest: int, subjects: str, about: dict[str, Any], settings: dict[str, Any]
+) -> Report:
+    """`selection_report` with what it was measured on, as plain data for JSON.
+
+    Args:
+        subjects: words for the titles.
+    """
+    figures = [asdict(figure) for figure in pool.figures]
+    facts = {"about": about, "settings": settings, "subjects": subjects, "figures": figures}
+    return facts | selection_report(pool, largest)
+
+
+def selection_tables(report: Report) -> Iterator[Table]:
+    """One table a role: rows as in the report, and the gain below."""
+    last = [name for name in report["rows"] if name.startswith("best of ")][-1]
+    figures = [Figure(**figure) for figure in report["figures"]]
+    gains = {
+        key: {"value": None, **gain.get("difference", {}), "apart": gain["apart"]}
+        for key, gain in report["gains"].items()
+    }
+    rows = {name: GridRow(cells) for name, cells in report["rows"].items()}
+    rows[f"{last} less best of 1"] = GridRow(gains)
+    for role, title in ROLES.items():
+        columns = [
+            Column(f.key, f"{f.heading} {'↑' if f.higher else '↓'}", f.decimals)
+            for f in figures
+            if f.role == role
+        ]
+        if columns:
+            yield printed(Grid(role, f"{title} ({report['subjects']})", tuple(columns), rows, NOTE))
+
+
+# ---------------------------------------------------------------- prompts
+
+BATCHINGS = 20  # random batches of 32 that each prompt's R-precision is the mean of
+PROMPTS_AT_ONCE = 8
+# Outside the judge is everything of the separate evaluator, whether the labels are obeyed, travel
+# against a real clip. The judge slides and shakes by other measures than these, which are akin.
+FIGURES = (
+    Figure("r_at_1", "R@1", 3, True, "outside"),
+    Figure("r_at_3", "R@3", 3, True, "outside"),
+    Figure("matching_distance", "MM-Dist", 3, False, "outside"),
+    Figure("obeys", "labels obeyed", 3, True, "outside"),
+    Figure("speed_error", "speed error m/s", 3, False, "outside"),
+    Figure("turn_error", "turn error °", 1, False, "outside"),
+    Figure("support_slide", "slide, support cm/s", 2, False, "akin"),
+    Figure("hand_jerk", "hand jerk m/s³", 0, False, "akin"),
+)
+
+
+@dataclass(frozen=True)
+class PromptSettings:
+    """How much is measured; the report repeats it."""
+
+    num_prompts: int = 64
+    num_candidates: int = 8  # the largest number to choose from
+    replications: int = 4
+    split: str = "seen"  # label combinations: seen or unseen in training
+    max_frames: int = 64
+    language: str = "en"
+    seed: int = 0
+
+
+def prompt_pool(
+    best_of: PromptSampler,
+    evaluator: Evaluator,
+    clips: Clips,
+    *,
+    num_candidates: int,
+    seed: int,
+    progress: Progress = lambda text: None,
+    **sampling: Any,
+) -> Pool:
+    """C candidates for each of P ≥ 32 captions at their clips' lengths, measured.
+
+    Args:
+        best_of: generator and judge.
+        evaluator: trained apart from both.
+        clips: held-back ones.
+        sampling: steps, sampler, guidance_scale; left out = the model's own.
+    """
+    made: list[list[Motion]] = []
+    tables = []
+    seconds = [frames / best_of.generator.card.fps for frames in clips.num_frames]
+    for start in range(0, len(clips), PROMPTS_AT_ONCE):
+        progress(f"candidates for prompt {start + 1} of {len(clips)}")
+        part = slice(start, start + PROMPTS_AT_ONCE)
+        for result in best_of.sample(
+            clips.captions[part],
+            num_candidates,
+            seconds=seconds[part],
+            return_all=True,
+            seed=seed,
+            **sampling,
+        ):
+            assert result.all_candidates is not None
+            made.append(result.all_candidates)
+            tables.append(result.table)
+    progress("measuring")
+    terms = {name: np.stack([table.terms[name] for table in tables]) for name in tables[0].terms}
+    embedded = evaluator.embed_motion([motion for row in made for motion in row]).numpy()
+    embedded = embedded.reshape(len(clips), num_candidates, -1)
+    text = evaluator.embed_text(clips.captions).numpy()
+    order, rows = np.random.default_rng(seed).permutation(len(clips)), np.arange(len(clips))
+    floors: dict[str, dict[str, np.ndarray]] = {}
+    for name, own, motions in (
+        ("real", evaluator.embed_motion(clips.motions).numpy(), [[m] for m in clips.motions]),
+        ("chance", embedded[order, 0], [[made[p][0]] for p in order]),
+    ):
+        single = _singles(motions, clips, text, own[:, None])
+        floors[name] = {key: values[:, 0] for key, values in single.items()}
+        floors[name] |= _retrieval(text, own, clips, seed)
+    for key in ("speed_error", "turn_error"):
+        del floors["real"][key]  # a clip has no travel error against itself
+    return Pool(
+        figures=[*FIGURES, *(Figure(name, name, 3, True, "judge") for name in terms)],
+        score=np.stack([table.score for table in tables]),
+        values=_singles(made, clips, text, embedded) | terms,
+        together=lambda chosen: _retrieval(text, embedded[rows, chosen], clips, seed),
+        floors=floors,
+    )
+
+
+def _singles(
+    made: Sequence[Sequence[Motion]], clips: Clips, text: np.ndarray, embedded: np.ndarray
+) -> dict[str, np.ndarray]:
+    """Figures [P,C] of each candidate by itself."""
+    found: dict[str, list[np.ndarray]] = {}
+    for motions, labels, real in zip(made, clips.labels, clips.motions, strict=True):
+        bodies, answers = [physics(m) for m in motions], [check(labels, m) for m in motions]
+        errors = travel_error([travel(m) for m in motions], [travel(real)] * len(motions))
+        obeys = [all(each.values()) if each else float("nan") for each in answers]
+        for key, values in {
+            "obeys": obeys,
+            "speed_error": errors.speed,
+            "turn_error": errors.turn,
+            "support_slide": [body.support_slide for body in bodies],
+            "hand_jerk": [body.hand_jerk for body in bodies],
+        }.items():
+            found.setdefault(key, []).append(np.array(values, dtype=np.float64))
+    apart = np.linalg.norm(embedded.astype(np.float64) - text[:, None], axis=-1)
+    return {key: np.stack(rows) for key, rows in found.items()} | {"matching_distance": apart}
+
+
+def _retrieval(
+    text: np.ndarray, motion: np.ndarray, clips: Clips, seed: int
+) -> Mapping[str, np.ndarray]:
+    """Each prompt's R-precision [P] at 1 and 3, the mean over random batches of 32.
+
+    Motions of the same label group or caption are hits, as in `guo_retrieval`.
+    """
+    columns = [
+        np.unique(column, return_inverse=True)[1] for column in (clips.groups, clips.captions)
+    ]
+    hits, seen = np.zeros((len(TOP), len(text))), np.zeros(len(text))
+    for batching in range(BATCHINGS):
+        order = np.random.default_rng([seed, batching]).permutation(len(text))
+        for rows in order[: len(text) // BATCH * BATCH].reshape(-1, BATCH):
+            relevant = np.any([ids[rows][:, None] == ids[rows] for ids in columns], axis=0)
+            ranks = best_ranks(pair_distances(text[rows], motion[rows]), relevant)
+            hits[:, rows] += [ranks.hits(k) for k in TOP]
+            seen[rows] += 1
+    rates = np.divide(hits, seen, out=np.full_like(hits, np.nan), where=seen > 0)
+    return {"r_at_1": rates[0], "r_at_3": rates[2]}
+
+
+def evaluate_prompts(
+    model: str,
+    data: str = "synthetic",
+    *,
+    judge: str | None = None,
+    evaluator: str = "evaluator",
+    cache: Path = Path("runs"),
+    settings: PromptSettings | None = None,
+    device: str | None = None,
+    progress: Progress = lambda text: None,
+    **sampling: Any,
+) -> Report:
+    """Best of N for the captions of held-back clips, by names; see `selection_report`.
+
+    Args:
+        model: a shipped name or a folder.
+        data: prepared folder (its test splits), or "synthetic" (fresh clips).
+        judge: folder of `train_clip`; None = the model's own where one is shipped.
+        evaluator: a shipped name or a folder.
+        cache: where synthetic clips are kept.
+        sampling: steps, sampler, guidance_scale; left out = the model's own.
+
+    Raises:
+        UserError: no such model, tower, evaluator or data, or too few clips.
+    """
+    settings = settings or PromptSettings()
+    outside = Evaluator.from_pretrained(evaluator)
+    generator = TextToMotion.from_pretrained(model, device=device)
+    tower = own_tower(generator.text) if judge is None else load_tower(judge, generator.text)
+    held_out = open_held_out(data, cache, outside.trained_groups)
+    clips = real_clips(
+        held_out.data,
+        held_out.records[settings.split],
+        num=settings.num_prompts,
+        max_frames=settings.max_frames,
+        language=settings.language,
+        seed=settings.seed,
+    )
+    if len(clips) < BATCH:
+        raise UserError(
+            f"{data}: {len(clips)} clips of {settings.split} are fewer than {BATCH}"
+            "; prepare more clips"
+        )
+    best_of = PromptSampler(generator, TextJudge(tower))
+    number = settings.num_candidates * settings.replications
+    pool = prompt_pool(
+        best_of, outside, clips,
+        num_candidates=number, seed=settings.seed, progress=progress, **sampling,
+    )  # fmt: skip
+    about = {
+        "model": model,
+        "model_hash": generator.card.weights.sha256[:12] if generator.card.weights else "",
+        "judge": judge or ("shipped" if tower else "none: feet and smoothness only"),
+        "weights": best_of.judge.config.model_dump(),
+        "evaluator": evaluator,
+        "evaluator_hash": outside.content_hash,
+        "data": held_out.source,
+        "data_hash": held_out.data.manifest_hash[:12],
+        "sampling": {name: value for name, value in sampling.items() if value is not None},
+    }
+    subjects = f"{len(clips)} prompts, {settings.split} label combinations"
+    return report_of(pool, settings.num_candidates, subjects, about, asdict(settings))
+
+
+# ---------------------------------------------------------------- songs
+
+KINDS = 5  # kinetic features of a pelvis, each of a unit of its own
+# The judge looks at the sanity suite, whose bands hold mean speeds, turning and accelerations, and
+# at how the motion's beats fall on those that the tracker heard: true beats and kinetic distance
+# are akin to that. Outside is the geometric distance (the share of frames in which a pelvis is
+# low, sinks, goes backward, turns left, ...).
+HITS = Figure("hits", "hits F, true beats", 3, True, "akin")
+DISTANCES = (
+    Figure("fid_g", "FID_g, pelvis", 3, False, "outside"),
+    Figure("fid_k", "FID_k, pelvis", 3, False, "akin"),
+)
+
+
+@dataclass(frozen=True)
+class SongSettings:
+    """How much is measured; the report repeats it."""
+
+    num_songs: int = 24
+    num_candidates: int = 8  # the largest number to choose from
+    replications: int = 2
+    song_seconds: float = 8.0
+    max_real: int = 400  # test phrases
+    seed: int = 0
+
+
+def song_pool(
+    generator: SongGenerator,
+    judge: AudioJudge,
+    pieces: Sequence[Piece],
+    real: Sequence[MotionTrajectory],
+    *,
+    settings: SongSampling,
+    progress: Progress = lambda text: None,
+) -> Pool:
+    """C candidates for each of P songs, measured.
+
+    Args:
+        judge: hears the beats that the tracker hears.
+        real: motions that distances are taken from; none = no distances.
+        settings: C, seed, sampler.
+    """
+    made: list[list[MotionTrajectory]] = []
+    tables = []
+    for number, piece in enumerate(pieces, start=1):
+        progress(f"candidates for song {number} of {len(pieces)}")
+        # Noise of each song's own: one noise for all would make a replication one draw, not P.
+        noise = int(np.random.SeedSequence((settings.seed, number)).generate_state(1)[0])
+        own = replace(settings, seed=noise)
+        made.append(generator.generate(piece.condition, phase=piece.phase, settings=own))
+        heard = AudioCondition(piece.condition).time()
+        tables.append(judge.judge(made[-1], None if heard is None else heard[1]))
+    names = dict.fromkeys(name for table in tables for name in table.terms)
+    nothing = np.full(settings.num_samples, np.nan)
+    terms = {n: np.stack([table.terms.get(n, nothing) for table in tables]) for n in names}
+    beats = [[motion_beats(m.position, m.fps).times for m in row] for row in made]
+    hits = [
+        [rhythm(times, piece.beats, piece.seconds).hits for times in row]
+        for row, piece in zip(beats, pieces, strict=True)
+    ]
+    chance = []  # of the first candidate of each song, moved by random times
+    for index, (row, piece) in enumerate(zip(beats, pieces, strict=True)):
+        rng = np.random.default_rng([settings.seed, index])
+        chance.append(against_chance(row[0], piece.beats, piece.seconds, rng)[1].hits)
+    figures = [HITS, *(Figure(name, name, 3, True, "judge") for name in terms)]
+    pool = Pool(
+        figures,
+        np.stack([table.score for table in tables]),
+        {"hits": np.array(hits)} | terms,
+        floors={"chance": {"hits": np.array(chance)}},
+    )
+    if not real:
+        return pool
+    ours, theirs = [_features(row) for row in made], _features(real)
+    order = np.random.default_rng(settings.seed).permutation(len(real))
+    size = min(len(pieces), len(real) // 2)  # as many real motions as songs, from the others
+    between = _distances(_rows(theirs, order[:size]), _rows(theirs, order[size:]))
+
+    def of_set(chosen: Chosen) -> dict[str, float]:
+        """Of one candidate of each song, side by side."""
+        each = [_rows(song, [place]) for song, place in zip(ours, chosen, strict=True)]
+        names = ("kinetic", "geometric", "amount")
+        columns = (np.concatenate([getattr(part, name) for part in each]) for name in names)
+        return _distances(Features(*columns), theirs)
+
+    return replace(
+        pool,
+        figures=[*DISTANCES, *figures],
+        of_set=of_set,
+        floors={"real": {}, **pool.floors},
+        set_floors={"real": between},
+    )
+
+
+def _features(motions: Sequence[MotionTrajectory]) -> Features:
+    kinetic = np.stack([root_kinetic_features(motion) for motion in motions])
+    geometric = np.stack([root_geometric_features(motion) for motion in motions])
+    return Features(kinetic, geometric, np.zeros(len(motions)))
+
+
+def _rows(features: Features, index: Sequence[int] | np.ndarray) -> Features:
+    at = list(index)
+    return Features(features.kinetic[at], features.geometric[at], features.amount[at])
+
+
+def _distances(ours: Features, theirs: Features) -> dict[str, float]:
+    found = kinetic_columns(ours, theirs, kinds=KINDS)
+    return {key: float(found[key]) for key in ("fid_g", "fid_k")}
+
+
+def evaluate_songs(
+    model: str,
+    data: str | None = None,
+    *,
+    bands: Bands | None = None,
+    settings: SongSettings | None = None,
+    device: str | None = None,
+    progress: Progress = lambda text: None,
+    **sampling: Any,
+) -> Report:
+    """Best of N for held-out synthetic songs, by names; see `selection_report`.
+
+    Args:
+        model: a shipped name or a folder.
+        data: folder or bucket of pairs, whose test split is the real motion; None = none.
+        bands: of real motions, for the judge.
+        sampling: steps, sampler, guidance_scale; left out = the model's own.
+
+    Raises:
+        UserError: no such model, or the data cannot be used.
+    """
+    settings = settings or SongSettings()
+    real: list[MotionTrajectory] = []
+    facts: dict[str, Any] = {"model": model, "data": data or "none"}
+    if data is not None:
+        dataset = open_split(data, "test", round(settings.song_seconds * FPS), settings.seed)
+        real = [phrase.motion for phrase in phrases(dataset, settings.max_real)]
+        if len(real) < 4:
+            raise UserError(
+                f"{data}: {len(real)} test phrases are too few to compare with; prepare more songs"
+            )
+        facts |= {"data_hash": dataset.fingerprint[:12], "real_motions": len(real)}
+    generator, judge = SongGenerator.from_pretrained(model, device=device), AudioJudge(bands)
+    progress("songs")
+    pieces = list(held_out_songs(settings.num_songs, settings.song_seconds, settings.seed))
+    number = settings.num_candidates * settings.replications
+    sampled = SongSampling(number, seed=settings.seed, **sampling)
+    pool = song_pool(generator, judge, pieces, real, settings=sampled, progress=progress)
+    card = generator.model.card
+    facts |= {
+        "model_hash": card.weights.sha256[:12] if card.weights else "",
+        "weights": judge.config.model_dump(),
+        "bands": f"of {bands.motions} motions" if bands else "none",
+        "sampling": {k: v for k, v in sampling.items() if v is not None},
+    }
+    subjects = f"{len(pieces)} held-out synthetic songs of {settings.song_seconds:g} s"
+    return report_of(pool, settings.num_candidates, subjects, facts, asdict(settings))
