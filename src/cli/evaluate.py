@@ -78,6 +78,13 @@ class Request:
 
 
 def evaluate(
+    suite: Annotated[
+        str | None,
+        typer.Option(
+            help="text, audio, performer, requests, selection, memory, space or sanity, with the"
+            " flags of evaluate-NAME; the model's own."
+        ),
+    ] = None,
     quick: Quick = False,
     model: options.Model = "starter",
     data: Data = None,
@@ -106,6 +113,7 @@ def evaluate(
     Example:
       motion-tools evaluate --quick --model starter --data data/mine --out reports/mine
       motion-tools evaluate --quick --model starter-audio --data data/pairs
+      motion-tools evaluate --suite requests --data data/mine
     """
     request = Request(
         quick=quick,
@@ -124,14 +132,14 @@ def evaluate(
         device=device,
         threads=threads,
     )
-    show(run(model, request, out), json=json)
+    show(run(model, request, out, suite), json=json)
 
 
 # ---------------------------------------------------------------- running
 
 
-def run(model: str, request: Request, out: Path | None) -> dict[str, Any]:
-    """Evaluate a model of either branch and write its report.
+def run(model: str, request: Request, out: Path | None, suite: str | None = None) -> dict[str, Any]:
+    """Evaluate a model of either branch and write its report; `suite`: text, or the model's own.
 
     Raises:
         UserError: no such model, wrong flags, or data that cannot be used.
@@ -142,6 +150,8 @@ def run(model: str, request: Request, out: Path | None) -> dict[str, Any]:
     folder = out or Path("outputs/evaluation") / Path(model).name
     check(request, folder)
     audio = read_card(resolve_model(model)).kind == AUDIO_KIND
+    if audio and suite is not None:
+        raise UsageError(f"--suite {suite} is not for {model}, which makes motion from music")
     refuse(model, audio, request)
 
     from ..shared.device import set_threads

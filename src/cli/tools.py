@@ -24,7 +24,7 @@ from .export_onnx import export_onnx
 from .features import features
 from .generate import generate
 from .guard import guarded, results_on_stdout, with_quiet
-from .help_page import Command
+from .help_page import Command, SuiteCommand
 from .inspect import inspect
 from .memory import memory
 from .models import models
@@ -91,7 +91,8 @@ for command in (
     plot,
     export_onnx,
 ):
-    app.command(cls=Command)(with_quiet(guarded(command)))
+    kind = SuiteCommand if command is evaluate else Command
+    app.command(cls=kind)(with_quiet(guarded(command)))
 app.add_typer(memory, name="memory")
 app.add_typer(train, name="train")
 

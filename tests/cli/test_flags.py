@@ -37,7 +37,7 @@ FLAGS = {
     "evaluate": (
         "--control-seeds --data --device --evaluator --guidance-scale --json --model --num-samples"
         " --num-songs --out --quick --replications --sampler --seed --song-seconds --songs --steps"
-        " --threads"
+        " --suite --threads"
     ),
     "evaluate-audio": (
         "--data --decoder-checkpoint --device --diffusion-checkpoint --guidance-scale --hear-meter"

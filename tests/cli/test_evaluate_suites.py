@@ -1,0 +1,43 @@
+"""`evaluate --suite NAME` is the suite's own command under one name."""
+
+import pytest
+from typer.main import get_command
+from typer.testing import CliRunner
+
+from src.cli.tools import app
+
+SUITES = ("audio", "memory", "performer", "requests", "sanity", "selection", "space")
+runner = CliRunner()
+
+
+def test_every_suite_is_reached_by_name() -> None:
+    commands = get_command(app).commands  # type: ignore[attr-defined]
+    assert {name for name in commands if name.startswith("evaluate-")} == {
+        f"evaluate-{suite}" for suite in SUITES
+    }
+
+
+@pytest.mark.parametrize("suite", SUITES)
+def test_a_suite_has_the_flags_of_its_command(suite: str) -> None:
+    own = runner.invoke(app, [f"evaluate-{suite}", "--help"])
+    named = runner.invoke(app, ["evaluate", f"--suite={suite}", "--help"])
+    assert named.exit_code == own.exit_code == 0
+    assert named.output.splitlines()[2:] == own.output.splitlines()[2:]
+
+
+def test_a_suite_refuses_what_its_command_refuses() -> None:
+    wrong = ["--num-candidates", "1"]
+    own = runner.invoke(app, ["evaluate-selection", *wrong])
+    named = runner.invoke(app, ["evaluate", *wrong, "--suite", "selection"])
+    assert named.exit_code == own.exit_code == 2 and named.stderr == own.stderr
+
+
+def test_a_suite_that_is_not_there_is_named() -> None:
+    result = runner.invoke(app, ["evaluate", "--suite", "video"])
+    assert result.exit_code == 2
+    assert "--suite video is unknown" in result.stderr and "requests" in result.stderr
+
+
+def test_the_suite_of_text_is_not_for_a_model_of_music() -> None:
+    result = runner.invoke(app, ["evaluate", "--suite", "text", "--model", "starter-audio"])
+    assert result.exit_code == 2 and "--suite text is not for starter-audio" in result.stderr
