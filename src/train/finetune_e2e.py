@@ -11,23 +11,20 @@ import copy
 import math
 import os
 from pathlib import Path
-from typing import Annotated, Any, Self
+from typing import Any, Self
 
 import torch
-import typer
 from pydantic import Field, model_validator
 from torch import Tensor, nn
 
 from ..shared.config_audio import AudioNetworkConfig
-from ..shared.config_loader import load_train, split_network_overrides
 from ..shared.data.phrases.dataset import PhraseBatch
 from ..shared.device import autocast
-from ..shared.errors import UsageError
 from ..shared.files import write_json, write_text
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
 from .audio_folder import network_of
 from .e2e_objective import E2eBatch, E2eObjective, E2eWeights
-from .launch import Processes, as_overrides, new_app, run_task, short_errors
+from .launch import Stage
 from .phrases import (
     bar_phase_at_start,
     export_song,
@@ -40,7 +37,6 @@ from .task import generator, to_device
 from .train_audio import AudioTask
 from .train_generation import spread_timesteps
 
-MODULE = "src.train.finetune_e2e"
 BEST = "best"  # folder in the output, of the best weights so far
 FROM_EPOCHS = ("steps", "log_every", "validate_every", "save_every", "learning_rate")
 
@@ -63,8 +59,9 @@ class FinetuneE2eConfig(E2eWeights):
                 raise ValueError(f"{name.replace('_', '-')} has no place here; give {instead}")
         return self
 
-    def in_steps(self, num_phrases: int) -> Self:
+    def in_steps(self) -> Self:
         """The same with what follows from the number of phrases of an epoch."""
+        num_phrases = len(open_phrases(self, "train", self.num_phrases))
         parts = self.gradient_accumulation * int(os.environ.get("WORLD_SIZE", "1"))
         steps = math.ceil(num_phrases / (self.batch_size * parts))
         update = {name: steps for name in FROM_EPOCHS[1:4]}
@@ -187,64 +184,32 @@ class FinetuneE2eTask(AudioTask):
         return self.model
 
 
-app = new_app()
-
-
-@app.command()
-def finetune(
-    overrides: Annotated[
-        list[str] | None, typer.Argument(metavar="KEY=VALUE", help="settings to change")
-    ] = None,
-    config: Annotated[Path | None, typer.Option(help="YAML file of settings")] = None,
-    data: Annotated[str | None, typer.Option(help="folder or bucket of prepare-audio")] = None,
-    output: Annotated[str | None, typer.Option(help="folder of this run")] = None,
-    checkpoint: Annotated[str | None, typer.Option(help="folder with the UNet")] = None,
-    decoder_checkpoint: Annotated[
-        str | None, typer.Option(help="folder with the decoder; default: the checkpoint")
-    ] = None,
-    epochs: Annotated[int | None, typer.Option(help="passes over the phrases")] = None,
-    num_phrases: Annotated[int | None, typer.Option(help="take the first so many")] = None,
-    batch_size: Annotated[int | None, typer.Option(help="phrases a step and process")] = None,
-    lr_diffusion: Annotated[float | None, typer.Option(help="of the UNet")] = None,
-    lr_decoder: Annotated[float | None, typer.Option(help="of the decoder")] = None,
-    diffusion_weight: Annotated[float | None, typer.Option(help="of the diffusion loss")] = None,
-    decoder_weight: Annotated[float | None, typer.Option(help="of the reconstruction")] = None,
-    temporal_weight: Annotated[float | None, typer.Option(help="of the coherence terms")] = None,
-    patience: Annotated[
-        int | None, typer.Option(help="epochs without a better total before stopping")
-    ] = None,
-    processes: Processes = None,
-    resume: Annotated[bool, typer.Option("--resume", help="continue the run in output")] = False,
-) -> None:
-    """Fine-tune UNet, sampler and decoder as one.
-
-    Example: motion-tools train finetune-e2e --checkpoint runs/decoder --data pairs
-    """
-    named = {key: value for key, value in locals().items() if key not in NOT_SETTINGS}
-    flags = as_overrides({key.replace("_", "-"): value for key, value in named.items()})
-    with short_errors():
-        run([*(overrides or []), *flags], config, resume=resume)
-
-
-NOT_SETTINGS = ("overrides", "config", "resume")
-
-
-def run(overrides: list[str], config: Path | None = None, *, resume: bool = False) -> None:
-    """Fine-tune with these settings.
-
-    Raises:
-        UserError, Interrupted: see `Trainer`.
-    """
-    own, network_overrides = split_network_overrides(overrides)
-    if network_overrides:
-        raise UsageError(
-            f"{network_overrides[0]}: the network is that of --checkpoint and --decoder-checkpoint"
-            "; leave it out"
-        )
-    settings = load_train(config, FinetuneE2eConfig, own)
-    network = network_of(settings.checkpoint)
-    settings = settings.in_steps(len(open_phrases(settings, "train", settings.num_phrases)))
-    run_task(settings, lambda c: FinetuneE2eTask(c, network), module=MODULE, resume=resume)
+stage = Stage(
+    FinetuneE2eConfig,
+    FinetuneE2eTask,
+    "finetune_e2e",
+    "Fine-tune UNet, sampler and decoder as one.",
+    audio=True,
+    network=lambda settings, given: network_of(
+        settings.checkpoint, given, of="--checkpoint and --decoder-checkpoint"
+    ),
+    flags={
+        "checkpoint": "folder with the UNet",
+        "decoder-checkpoint": "folder with the decoder; default: the checkpoint",
+        "epochs": "passes over the phrases",
+        "num-phrases": "take the first so many",
+        "batch-size": "phrases a step and process",
+        "lr-diffusion": "of the UNet",
+        "lr-decoder": "of the decoder",
+        "diffusion-weight": "of the diffusion loss",
+        "decoder-weight": "of the reconstruction",
+        "temporal-weight": "of the coherence terms",
+        "patience": "epochs without a better total before stopping",
+    },
+    example="--checkpoint runs/decoder --data pairs",
+    complete=FinetuneE2eConfig.in_steps,
+)
+app = stage.app()
 
 
 if __name__ == "__main__":

@@ -1,12 +1,14 @@
-"""The command line that every training stage shares: parse, check, train, report."""
+"""A training stage as a command: its flags and settings, and how a run of it starts."""
 
+import inspect
 import os
 import shlex
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, Generic, TypeVar, get_args
 
 import typer
 
@@ -26,12 +28,145 @@ if TYPE_CHECKING:
     from .task import Task
 
 ConfigT = TypeVar("ConfigT", bound=TrainConfig)
-Builder = Callable[[ConfigT, Any], "Task"]  # settings and network
-NetworkLoader = Callable[..., Config]  # profile, file, overrides
-Processes = Annotated[
-    int | None,
-    typer.Option("--num-processes", help="processes on this machine, such as one a GPU"),
-]
+DATA = "prepared folder, or: synthetic"
+PAIRS = "folder or bucket of prepare-audio, or: synthetic"
+
+
+def _as_it_is(settings: ConfigT) -> ConfigT:
+    return settings
+
+
+@dataclass(frozen=True)
+class Stage(Generic[ConfigT]):
+    """One training stage.
+
+    Attributes:
+        config: its settings.
+        task: makes what is learned, of settings and network.
+        module: what `accelerate launch -m` calls it, without the package.
+        about: help text.
+        audio: it learns from pairs, and profiles are those of audio_network.yaml.
+        network: for a stage that goes on from a trained model: its network, of settings and
+            overrides; None where the user chooses a profile.
+        flags: settings with a flag of their own, `key: help text`, or `key: (flag, help text)`.
+        example: arguments of the example in the help text.
+        complete: settings with what follows from the data.
+    """
+
+    config: type[ConfigT]
+    task: Callable[[ConfigT, Any], "Task"]
+    module: str
+    about: str
+    audio: bool = False
+    network: Callable[[ConfigT, Sequence[str]], Config] | None = None
+    flags: Mapping[str, str | tuple[str, str]] = field(default_factory=dict)
+    example: str = "--network-profile lightweight steps=500"
+    complete: Callable[[ConfigT], ConfigT] = _as_it_is
+
+    def run(
+        self,
+        overrides: Sequence[str],
+        file: Path | None = None,
+        network_file: Path | None = None,
+        *,
+        resume: bool = False,
+    ) -> None:
+        """Train in this process, or in as many as the settings ask for and nobody has launched yet.
+
+        Args:
+            overrides: `key=value`, those of the network as `network.key=value`.
+            file: YAML of settings; None = what ships.
+            network_file: another network.yaml or audio_network.yaml.
+            resume: continue the run in the output folder.
+
+        Raises:
+            UserError, Interrupted: see `Trainer`.
+            typer.Exit: one of several processes failed, and has said why.
+        """
+        own, network_overrides = split_network_overrides(overrides)
+        settings = load_train(file, self.config, own)
+        if self.network is not None:
+            network = self.network(settings, network_overrides)
+        else:
+            load: Callable[..., Config] = load_audio_network if self.audio else load_network
+            network = load(settings.profile, network_file, network_overrides)
+        settings = self.complete(settings)
+        if (settings.processes or 1) > 1 and not is_one_of_several():
+            raise typer.Exit(run_processes(settings.processes or 1))
+        end_with_parent()
+        main = os.environ.get("RANK", "0") == "0"  # of the processes of one run
+        with sole_writer(settings.output) if main else nullcontext():
+            from .engine import Trainer  # every check that needs no torch comes before this
+
+            module = self.module if "." in self.module else f"{__package__}.{self.module}"
+            command = resume_command(module, sys.argv[1:])
+            trainer = Trainer(
+                settings, lambda c: self.task(c, network), command=command, resume=resume
+            )
+            trainer.train()
+
+    def app(self) -> typer.Typer:
+        """The stage's command: KEY=VALUE, its flags, and those of every stage."""
+        networks = "audio_network.yaml" if self.audio else "network.yaml"
+        flags: dict[str, str | tuple[str, str]] = {
+            "data": PAIRS if self.audio else DATA,
+            "output": "folder of this run",
+            **self.flags,
+        }
+        if self.network is None:
+            flags["profile"] = ("--network-profile", f"profile of {networks}")
+        flags["processes"] = ("--num-processes", "processes on this machine, such as one a GPU")
+        keys = {key.replace("-", "_").replace(".", "__"): key for key in flags}
+
+        def train(**given: Any) -> None:
+            settings = as_overrides({key: given[name] for name, key in keys.items()})
+            files = given["config"], given.get("network_file")
+            with short_errors():
+                self.run([*(given["overrides"] or []), *settings], *files, resume=given["resume"])
+
+        settings = typer.Argument(metavar="KEY=VALUE", help="settings to change")
+        parameters = [
+            _parameter("overrides", list[str] | None, settings),
+            _parameter("config", Path | None, typer.Option(help="YAML file of settings")),
+        ]
+        for name, key in keys.items():
+            named = flags[key]
+            flag, about = (f"--{key}", named) if isinstance(named, str) else named
+            kind = _kind(self.config, key)
+            parameters.append(_parameter(name, kind, typer.Option(flag, help=about)))
+        if self.network is None:
+            file = typer.Option(help=f"another {networks}")
+            parameters.append(_parameter("network_file", Path | None, file))
+        resume = typer.Option("--resume", help="continue the run in output")
+        parameters.append(_parameter("resume", bool, resume, default=False))
+        train.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+        app = typer.Typer(
+            add_completion=False,
+            rich_markup_mode=None,
+            pretty_exceptions_enable=False,
+            context_settings={"help_option_names": ["-h", "--help"]},
+        )
+        stage = self.module.rpartition(".")[2].removeprefix("train_").replace("_", "-")
+        example = f"Example: motion-tools train {stage} {self.example}"
+        app.command(help=f"{self.about}\n\n{example}")(train)
+        return app
+
+
+def _parameter(name: str, kind: Any, about: Any, default: Any = None) -> inspect.Parameter:
+    annotation = Annotated[kind, about]
+    return inspect.Parameter(
+        name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation
+    )
+
+
+def _kind(model_class: type[Config], key: str) -> Any:
+    """Type of the flag of a setting: str, int or float, or None."""
+    first, _, rest = key.replace("-", "_").partition(".")
+    kind = model_class.model_fields[first].annotation
+    if rest:
+        assert isinstance(kind, type) and issubclass(kind, Config)
+        return _kind(kind, rest)
+    return next(one for one in (*get_args(kind), kind) if one is not type(None)) | None
 
 
 def resume_command(module: str, arguments: list[str]) -> str:
@@ -40,87 +175,6 @@ def resume_command(module: str, arguments: list[str]) -> str:
     by_command = kept[:1] == ["train"]  # `motion-tools train STAGE`
     launcher = ["motion-tools"] if by_command else ["accelerate", "launch", "-m", module]
     return shlex.join([*launcher, *kept, "--resume"])
-
-
-def run_task(
-    settings: ConfigT, build: Callable[[ConfigT], "Task"], *, module: str, resume: bool
-) -> None:
-    """Train in this process, or in as many as the settings ask for and nobody has launched yet.
-
-    Raises:
-        UserError, Interrupted: see `Trainer`.
-        typer.Exit: one of several processes failed, and has said why.
-    """
-    if (settings.processes or 1) > 1 and not is_one_of_several():
-        raise typer.Exit(run_processes(settings.processes or 1))
-    end_with_parent()
-    main = os.environ.get("RANK", "0") == "0"  # of the processes of one run
-    with sole_writer(settings.output) if main else nullcontext():
-        from .engine import Trainer  # every check that needs no torch comes before this
-
-        command = resume_command(module, sys.argv[1:])
-        Trainer(settings, build, command=command, resume=resume).train()
-
-
-def new_app() -> typer.Typer:
-    """An application for the one command of a stage."""
-    return typer.Typer(
-        add_completion=False,
-        rich_markup_mode=None,
-        pretty_exceptions_enable=False,
-        context_settings={"help_option_names": ["-h", "--help"]},
-    )
-
-
-def stage_app(
-    model_class: type[ConfigT],
-    build: Builder[ConfigT],
-    module: str,
-    about: str,
-    *,
-    audio: bool = False,
-) -> typer.Typer:
-    """A typer application with the flags of a training stage.
-
-    Args:
-        model_class: configuration of the stage.
-        build: makes its task.
-        module: of the stage.
-        about: help text.
-        audio: profiles are those of audio_network.yaml.
-    """
-    load: NetworkLoader = load_audio_network if audio else load_network
-    networks = "audio_network.yaml" if audio else "network.yaml"
-    app = new_app()
-    name = module.removeprefix("src.train.train_").replace("_", "-")
-    example = f"Example: motion-tools train {name} --network-profile lightweight steps=500"
-
-    @app.command(help=f"{about}\n\n{example}")
-    def train(
-        overrides: Annotated[
-            list[str] | None, typer.Argument(metavar="KEY=VALUE", help="settings to change")
-        ] = None,
-        config: Annotated[Path | None, typer.Option(help="YAML file of settings")] = None,
-        data: Annotated[str | None, typer.Option(help="prepared folder, or: synthetic")] = None,
-        output: Annotated[str | None, typer.Option(help="folder of this run")] = None,
-        network_profile: Annotated[str | None, typer.Option(help=f"profile of {networks}")] = None,
-        network_file: Annotated[Path | None, typer.Option(help=f"another {networks}")] = None,
-        processes: Processes = None,
-        resume: Annotated[
-            bool, typer.Option("--resume", help="continue the run in output")
-        ] = False,
-    ) -> None:
-        flags = {
-            "data": data, "output": output, "profile": network_profile, "processes": processes
-        }  # fmt: skip
-        with short_errors():
-            given = [*(overrides or []), *as_overrides(flags)]
-            own, network_overrides = split_network_overrides(given)
-            settings = load_train(config, model_class, own)
-            network = load(settings.profile, network_file, network_overrides)
-            run_task(settings, lambda c: build(c, network), module=module, resume=resume)
-
-    return app
 
 
 @contextmanager

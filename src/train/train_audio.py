@@ -27,7 +27,7 @@ from ..shared.model.audio.conditioning import ConditionAugmentation, with_phase_
 from ..shared.model.audio.memory_conditioning import MemoryCondition
 from ..shared.model.diffusion.gaussian import GaussianDiffusion, masked_loss
 from ..shared.motion.trajectory import FPS, POSITION, QUATERNION, STYLE
-from .launch import stage_app
+from .launch import Stage
 from .phrases import PhraseConfig, export_song, open_held_back, open_phrases
 from .task import Part, generator, to_device
 from .train_generation import NOISE_LEVELS, spread_timesteps
@@ -260,13 +260,13 @@ def _trained_shape(network: AudioNetworkConfig) -> dict[str, Any]:
     return network.model_dump(include={"unet", "condition", "decoder"})
 
 
-app = stage_app(
+app = Stage(
     TrainAudioConfig,
     AudioTask,
-    "src.train.train_audio",
+    "train_audio",
     "Train the trajectory UNet on pairs of sound and motion.",
     audio=True,
-)
+).app()
 
 if __name__ == "__main__":
     app()

@@ -34,7 +34,7 @@ from ..shared.model.clip.core import MAX_LOGIT_SCALE
 from ..shared.model.clip.losses import clip_loss
 from ..shared.model.clip.pretrained import ClipBundle
 from ..shared.motion.trajectory import FPS
-from .launch import stage_app
+from .launch import Stage
 from .phrases import PhraseConfig, open_held_back, open_phrases
 from .run_log import announce
 from .task import Part, generator
@@ -229,12 +229,12 @@ def _numbered(records: Sequence[PhraseRecord]) -> tuple[Tensor, Tensor]:
     return torch.tensor([songs[record.song or record.id] for record in records]), table
 
 
-app = stage_app(
+app = Stage(
     TrainAudioTowerConfig,
     AudioTowerTask,
-    "src.train.train_audio_tower",
+    "train_audio_tower",
     "Train the tower that puts sound into the space of texts and motions.",
-)
+).app()
 
 if __name__ == "__main__":
     app()

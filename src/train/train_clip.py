@@ -29,7 +29,7 @@ from ..shared.model.clip.pretrained import KIND, ClipBundle, load_text_tower, to
 from ..shared.model.clip.token_pairs import PAIRS
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from .frozen_encoder import encoder_rates
-from .launch import stage_app
+from .launch import Stage
 from .task import Part
 from .text_motion import (
     can_retrieve,
@@ -207,12 +207,12 @@ def _recalls(text: Tensor, motion: Tensor, columns: list[Any]) -> tuple[float, .
     return guo_retrieval(text.numpy(), motion.numpy(), columns).r_precision
 
 
-app = stage_app(
+app = Stage(
     TrainClipConfig,
     ClipTask,
-    "src.train.train_clip",
+    "train_clip",
     "Train the text tower and the motion tower that share one space.",
-)
+).app()
 
 if __name__ == "__main__":
     app()

@@ -13,15 +13,13 @@ Letters: B batch, T frames.
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Self
+from typing import Any, Self
 
 import torch
-import typer
 from pydantic import Field, model_validator
 from torch import Tensor, nn
 
 from ..shared.config_audio import AudioNetworkConfig, DecoderLossConfig
-from ..shared.config_loader import load_train, split_network_overrides
 from ..shared.data.phrases.dataset import PhraseBatch
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
 from ..shared.model.audio.decoder import Decoder, create_motion_decoder, wrapped_phase
@@ -29,7 +27,7 @@ from ..shared.model.audio.losses import DecoderLoss, total
 from ..shared.motion.trajectory import PHASE
 from ..shared.pipelines.song_sampler import SPARE
 from .audio_folder import network_of
-from .launch import Processes, as_overrides, new_app, run_task, short_errors
+from .launch import Stage
 from .phrases import (
     PhraseConfig,
     bar_phase_at_start,
@@ -42,7 +40,6 @@ from .phrases import (
 from .run_log import console
 from .task import Part, generator
 
-MODULE = "src.train.train_decoder"
 ERROR_BATCHES = 4  # on which the UNet's error is measured
 ERROR_LEVEL = 0.25  # up to this share of the diffusion steps: what sampling ends with
 
@@ -271,31 +268,16 @@ class DecoderTask:
         return self.model.eval()
 
 
-app = new_app()
-
-
-@app.command()
-def train(
-    overrides: Annotated[
-        list[str] | None, typer.Argument(metavar="KEY=VALUE", help="settings to change")
-    ] = None,
-    config: Annotated[Path | None, typer.Option(help="YAML file of settings")] = None,
-    audio: Annotated[str | None, typer.Option(help="folder of a train_audio run")] = None,
-    data: Annotated[str | None, typer.Option(help="folder or bucket of prepare-audio")] = None,
-    output: Annotated[str | None, typer.Option(help="folder of this run")] = None,
-    processes: Processes = None,
-    resume: Annotated[bool, typer.Option("--resume", help="continue the run in output")] = False,
-) -> None:
-    """Train the decoder behind a train_audio run.
-
-    Example: motion-tools train decoder --audio runs/audio --data pairs
-    """
-    flags = as_overrides({"audio": audio, "data": data, "output": output, "processes": processes})
-    with short_errors():
-        own, network_overrides = split_network_overrides([*(overrides or []), *flags])
-        settings = load_train(config, TrainDecoderConfig, own)
-        network = network_of(settings.audio, network_overrides)
-        run_task(settings, lambda c: DecoderTask(c, network), module=MODULE, resume=resume)
+app = Stage(
+    TrainDecoderConfig,
+    DecoderTask,
+    "train_decoder",
+    "Train the decoder behind a train_audio run.",
+    audio=True,
+    network=lambda settings, given: network_of(settings.audio, given),
+    flags={"audio": "folder of a train_audio run"},
+    example="--audio runs/audio --data pairs",
+).app()
 
 
 if __name__ == "__main__":

@@ -12,13 +12,13 @@ import torch
 from pydantic import Field
 from torch import Tensor, nn
 
-from ..shared.config_schema import NetworkConfig, TrainConfig
+from ..shared.config_schema import TrainConfig
 from ..shared.data.captions.word_dropout import drop_words
 from ..shared.data.prepare import open_data
 from ..shared.evaluation.judge.evaluator import Evaluator, EvaluatorConfig, contrastive_loss
 from ..shared.evaluation.judge.training_set import PairBatch, PairSet
 from ..shared.metrics.retrieval import BATCH, TOP, guo_retrieval
-from .launch import stage_app
+from .launch import Stage
 from .task import Part, mix_seed
 from .text_motion import can_retrieve
 
@@ -121,17 +121,12 @@ class EvaluatorTask:
         module.save_pretrained(folder, notes=notes)
 
 
-def build(config: TrainEvaluatorConfig, network: NetworkConfig) -> EvaluatorTask:
-    """The task of this stage; the network profile concerns only the models it will judge."""
-    return EvaluatorTask(config)
-
-
-app = stage_app(
+app = Stage(
     TrainEvaluatorConfig,
-    build,
-    "src.train.train_evaluator",
+    lambda config, _network: EvaluatorTask(config),  # the profile is of models it will judge
+    "train_evaluator",
     "Train the evaluator: an independent text-motion model that scores generated motions.",
-)
+).app()
 
 if __name__ == "__main__":
     app()

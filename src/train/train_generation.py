@@ -29,7 +29,7 @@ from ..shared.model.generation.denoiser import MotionDenoiser
 from ..shared.model.generation.losses import GenerationLoss
 from ..shared.model.generation.motion_generator import KIND, TextToMotion
 from .constraints import draw_known
-from .launch import stage_app
+from .launch import Stage
 from .scope_fit import fit_scope
 from .style_fit import fit_style_map
 from .task import Part, generator
@@ -340,12 +340,12 @@ def _trained_shape(network: NetworkConfig) -> dict[str, Any]:
     return network.model_dump(exclude={"clip": True, "generation": free | learned_later})
 
 
-app = stage_app(
+app = Stage(
     TrainGenerationConfig,
     GenerationTask,
-    "src.train.train_generation",
+    "train_generation",
     "Train the motion denoiser behind the frozen text tower of a train_clip run.",
-)
+).app()
 
 if __name__ == "__main__":
     app()

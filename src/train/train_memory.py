@@ -13,15 +13,13 @@ Letters: B batch, T frames.
 from collections import defaultdict
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import torch
-import typer
 from pydantic import Field
 from torch import Tensor, nn
 
 from ..shared.config_audio import AudioNetworkConfig, MemoryConditionConfig
-from ..shared.config_loader import load_train, split_network_overrides
 from ..shared.config_memory import MemoryConfig
 from ..shared.data.phrases.dataset import PhraseBatch
 from ..shared.data.phrases.layout import PhraseRecord
@@ -35,10 +33,8 @@ from ..shared.pipelines.song import AudioCondition
 from ..shared.pipelines.song_memory import as_condition, bars_of_sound, open_memory, remembering
 from ..shared.pipelines.song_sampler import SongSampler
 from .audio_folder import network_of
-from .launch import Processes, as_overrides, new_app, run_task, short_errors
+from .launch import Stage
 from .train_audio import AudioBatch, AudioTask, TrainAudioConfig
-
-MODULE = "src.train.train_memory"
 
 
 class TrainMemoryConfig(TrainAudioConfig):
@@ -177,41 +173,20 @@ class MemoryTask(AudioTask):
         model.save_pretrained(folder)
 
 
-app = new_app()
-
-
-@app.command()
-def train(
-    overrides: Annotated[
-        list[str] | None, typer.Argument(metavar="KEY=VALUE", help="settings to change")
-    ] = None,
-    config: Annotated[Path | None, typer.Option(help="YAML file of settings")] = None,
-    audio: Annotated[str | None, typer.Option(help="audio model that learns")] = None,
-    memory: Annotated[str | None, typer.Option(help="folder of `tools memory build`")] = None,
-    space: Annotated[str | None, typer.Option(help="shared space of the memory's keys")] = None,
-    data: Annotated[str | None, typer.Option(help="folder or bucket of prepare-audio")] = None,
-    output: Annotated[str | None, typer.Option(help="folder of this run")] = None,
-    processes: Processes = None,
-    resume: Annotated[bool, typer.Option("--resume", help="continue the run in output")] = False,
-) -> None:
-    """Teach a trained audio model to hear a memory.
-
-    Example: motion-tools train memory --memory runs/memory --data pairs
-    """
-    flags = {
-        "audio": audio, "memory.folder": memory, "space": space, "data": data, "output": output,
-        "processes": processes,
-    }  # fmt: skip
-    with short_errors():
-        given = [*(overrides or []), *as_overrides(flags)]
-        own, network_overrides = split_network_overrides(given)
-        if network_overrides:
-            raise UsageError(
-                f"{network_overrides[0]}: the network is that of --audio; see part.*; leave it out"
-            )
-        settings = load_train(config, TrainMemoryConfig, own)
-        network = network_of(settings.audio)
-        run_task(settings, lambda c: MemoryTask(c, network), module=MODULE, resume=resume)
+app = Stage(
+    TrainMemoryConfig,
+    MemoryTask,
+    "train_memory",
+    "Teach a trained audio model to hear a memory.",
+    audio=True,
+    network=lambda settings, given: network_of(settings.audio, given, of="--audio; see part.*"),
+    flags={
+        "audio": "audio model that learns",
+        "memory.folder": ("--memory", "folder of `tools memory build`"),
+        "space": "shared space of the memory's keys",
+    },
+    example="--memory runs/memory --data pairs",
+).app()
 
 
 if __name__ == "__main__":

@@ -45,7 +45,7 @@ from ..shared.model.generation.motion_generator import TextToMotion
 from ..shared.model.zoo import resolve_model
 from .captured_places import apart, nearest_styles, with_unstyled
 from .frozen_encoder import MEANS_FILE, ZScores, caption_means, encoder_rates
-from .launch import stage_app
+from .launch import Stage
 from .scope_fit import fit_scope
 from .style_fit import fit_style_map
 from .task import Part
@@ -407,12 +407,12 @@ def _noted(card: Any, hardened: dict[str, Any]) -> Any:
     return card.model_copy(update={"training": {**card.training, "text-hardening": hardened}})
 
 
-app = stage_app(
+app = Stage(
     TrainTextConfig,
     TextTask,
-    "src.train.train_text",
+    "train_text",
     "Harden a trained text tower against wordings it never saw; its space stays as it is.",
-)
+).app()
 
 if __name__ == "__main__":
     app()

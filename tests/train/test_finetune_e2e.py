@@ -32,8 +32,7 @@ from src.shared.model.audio.decoder import (
 from src.train.audio_folder import network_of
 from src.train.e2e_objective import E2eObjective, mean_speed
 from src.train.engine import Trainer
-from src.train.finetune_e2e import FinetuneE2eConfig, FinetuneE2eTask, app, run
-from src.train.phrases import open_phrases
+from src.train.finetune_e2e import FinetuneE2eConfig, FinetuneE2eTask, app, stage
 from src.train.run_log import Epoch, best_epoch, read_epochs, results_table
 from src.train.task import Part
 
@@ -68,7 +67,7 @@ def settings(circles: Path, checkpoint: Path, tmp_path: Path) -> Settings:
         places = [f"data='{circles}'", f"checkpoint='{checkpoint}'"]
         places += [f"output='{tmp_path / output}'"]
         config = load_train(None, FinetuneE2eConfig, [*QUIET, *places, *overrides])
-        return config.in_steps(len(open_phrases(config, "train", config.num_phrases)))
+        return config.in_steps()
 
     return make
 
@@ -255,7 +254,7 @@ def test_what_follows_from_the_epochs_cannot_be_set(settings: Settings, key: str
 
 def test_the_network_is_that_of_the_checkpoint(checkpoint: Path, circles: Path) -> None:
     with pytest.raises(UsageError, match=r"network\.unet.* is that of --checkpoint"):
-        run([NETWORK[0], f"checkpoint='{checkpoint}'", f"data='{circles}'"])
+        stage.run([NETWORK[0], f"checkpoint='{checkpoint}'", f"data='{circles}'"])
 
 
 # ------------------------------------------------------------ epochs

@@ -42,7 +42,7 @@ def test_every_stage_runs_without_held_back_phrases(
     Trainer(settings, lambda c: build(c, network), command="again").train()
 
     places = [f"data='{few}'", f"checkpoint='{tmp_path}/decoder'", f"output='{tmp_path}/e2e'"]
-    finetune_e2e.run([*SETTINGS, *places, "epochs=1"])
+    finetune_e2e.stage.run([*SETTINGS, *places, "epochs=1"])
     assert (tmp_path / "e2e" / "finished.json").exists()
 
 

@@ -14,7 +14,7 @@ import torch
 from torch import Tensor, nn
 
 from src.shared.config_schema import NetworkConfig, TrainConfig
-from src.train.launch import stage_app
+from src.train.launch import Stage
 from src.train.task import Part, generator
 
 WEIGHTS = torch.tensor([1.0, -2.0, 0.5])
@@ -61,4 +61,4 @@ class TinyTask:
 
 
 if __name__ == "__main__":
-    stage_app(TrainConfig, TinyTask, "tests.train.tiny_task", "Train the tiny task.")()
+    Stage(TrainConfig, TinyTask, "tests.train.tiny_task", "Train the tiny task.").app()()
