@@ -1,7 +1,7 @@
-"""What end-to-end fine-tuning minimises (TECH 7.1, 7.2; rulings 13, 23, 24).
+"""What end-to-end fine-tuning minimises, and the sampler with gradients (TECH 7.1 to 7.3).
 
-Three losses: the diffusion's own; the reconstruction of noised ground truth by sampler and
-decoder; the temporal coherence of what sampler and decoder make of pure noise.
+Three losses (rulings 13, 23, 24): the diffusion's own; the reconstruction of noised ground truth
+by sampler and decoder; the temporal coherence of what sampler and decoder make of pure noise.
 
 Letters: B batch, T frames.
 """
@@ -11,15 +11,62 @@ from dataclasses import dataclass
 import torch
 from pydantic import Field
 from torch import Tensor, nn
+from torch.utils.checkpoint import checkpoint
 
 from ..shared.config_audio import DecoderLossConfig, TemporalLossConfig
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
 from ..shared.model.audio.losses import DecoderLoss, TemporalCoherenceLoss, total
-from ..shared.model.diffusion.conditions import with_condition
+from ..shared.model.diffusion.conditions import ModelFn, with_condition
+from ..shared.model.diffusion.gaussian import GaussianDiffusion
+from ..shared.model.diffusion.samplers import DDIMSampler
 from ..shared.motion.trajectory import FPS, POSITION, QUATERNION
 from ..shared.pipelines.song_sampler import SPARE, holding
-from .differentiable_sampling import DifferentiableSampler
 from .train_audio import AudioBatch, TrainAudioConfig, audio_losses
+
+
+class DifferentiableSampler:
+    """A short deterministic DDIM through which gradients flow (TECH 7.3).
+
+    The activations of one denoiser call are in memory at a time. A predicted x_0 is limited as in
+    sampling (ruling 13). A path starts from pure noise, or from noised data, which is the only
+    start that can be compared with that data (ruling 24).
+
+    Args:
+        diffusion: the process.
+        num_steps: of a whole path.
+        data_noise: share of the diffusion's steps up to which data is noised at most.
+    """
+
+    def __init__(
+        self, diffusion: GaussianDiffusion, num_steps: int = 5, data_noise: float = 0.5
+    ) -> None:
+        self.ddim = DDIMSampler(diffusion, num_steps, eta=0.0)
+        most, last = data_noise * diffusion.config.timesteps, num_steps - 1
+        places = [place for place, t in enumerate(self.ddim.timesteps) if t <= most]
+        self.data_starts: list[int] = places or [last]  # places of a path where data may enter
+
+    def from_noise(self, model_fn: ModelFn, noise: Tensor) -> Tensor:
+        """The whole path from noise [B,25,T] to x_0."""
+        return self.ddim.run(recomputed(model_fn), noise)
+
+    def from_data(self, model_fn: ModelFn, x_0: Tensor, noise: Tensor, start: int) -> Tensor:
+        """Data [B,25,T], noised to place `start` of the path and denoised along the rest."""
+        step = torch.full((len(x_0),), self.ddim.timesteps[start], device=x_0.device)
+        noisy = self.ddim.diffusion.q_sample(x_0, step, noise)
+        return self.ddim.run(recomputed(model_fn), noisy, start=start)
+
+
+def recomputed(model_fn: ModelFn) -> ModelFn:
+    """The same denoiser, which keeps its input only and computes anew for the backward pass."""
+
+    def call(x_t: Tensor, t: Tensor) -> Tensor:
+        if not torch.is_grad_enabled():
+            return model_fn(x_t, t)
+        output: Tensor = checkpoint(model_fn, x_t, t, use_reentrant=False)
+        return output
+
+    return call
+
 
 CONTINUOUS = 0.95  # smallest dot of neighbouring quaternions that passes (ruling 18)
 

@@ -22,16 +22,16 @@ from ..shared.data.phrases.dataset import PhraseBatch
 from ..shared.device import autocast
 from ..shared.files import write_json, write_text
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
-from .audio_folder import network_of
-from .e2e_objective import E2eBatch, E2eObjective, E2eWeights
-from .launch import Stage
-from .phrases import (
+from .audio_stages import (
     bar_phase_at_start,
     export_song,
+    network_of,
     open_phrases,
     true_trajectory,
     whole_windows,
 )
+from .e2e_objective import E2eBatch, E2eObjective, E2eWeights
+from .launch import Stage
 from .run_log import Epoch, as_logged, best_epoch, console, read_epochs, results_table
 from .task import generator, to_device
 from .train_audio import AudioTask

@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields, is_dataclass, replace
 from pathlib import Path
 from typing import Any, Protocol
 
+import numpy as np
 import torch
 from torch import Tensor, nn
 
@@ -21,6 +22,11 @@ def mix_seed(*parts: int | str) -> int:
 def generator(*parts: int | str) -> torch.Generator:
     """A CPU generator of its own, seeded by `mix_seed`: equal numbers on every device."""
     return torch.Generator().manual_seed(mix_seed(*parts))
+
+
+def numpy_generator(*parts: int | str) -> np.random.Generator:
+    """A NumPy generator that depends on every part."""
+    return np.random.default_rng(mix_seed(*parts))
 
 
 @dataclass(frozen=True)

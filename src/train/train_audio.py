@@ -27,8 +27,8 @@ from ..shared.model.audio.conditioning import ConditionAugmentation, with_phase_
 from ..shared.model.audio.memory_conditioning import MemoryCondition
 from ..shared.model.diffusion.gaussian import GaussianDiffusion, masked_loss
 from ..shared.motion.trajectory import FPS, POSITION, QUATERNION, STYLE
+from .audio_stages import PhraseConfig, export_song, open_held_back, open_phrases
 from .launch import Stage
-from .phrases import PhraseConfig, export_song, open_held_back, open_phrases
 from .task import Part, generator, to_device
 from .train_generation import NOISE_LEVELS, spread_timesteps
 

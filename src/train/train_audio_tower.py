@@ -34,11 +34,10 @@ from ..shared.model.clip.core import MAX_LOGIT_SCALE
 from ..shared.model.clip.losses import clip_loss
 from ..shared.model.clip.pretrained import ClipBundle
 from ..shared.motion.trajectory import FPS
+from .audio_stages import PhraseConfig, open_held_back, open_phrases
 from .launch import Stage
-from .phrases import PhraseConfig, open_held_back, open_phrases
 from .run_log import announce
-from .task import Part, generator
-from .text_motion import numpy_generator
+from .task import Part, generator, numpy_generator
 from .train_clip import gather
 
 

@@ -30,11 +30,10 @@ from ..shared.model.clip.token_pairs import PAIRS
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from .frozen_encoder import encoder_rates
 from .launch import Stage
-from .task import Part
-from .text_motion import (
+from .task import Part, numpy_generator
+from .text_stages import (
     can_retrieve,
     motion_rows,
-    numpy_generator,
     open_training_data,
     training_set,
     validation_set,

@@ -26,17 +26,17 @@ from ..shared.model.audio.decoder import Decoder, create_motion_decoder, wrapped
 from ..shared.model.audio.losses import DecoderLoss, total
 from ..shared.motion.trajectory import PHASE
 from ..shared.pipelines.song_sampler import SPARE
-from .audio_folder import network_of
-from .launch import Stage
-from .phrases import (
+from .audio_stages import (
     PhraseConfig,
     bar_phase_at_start,
     export_song,
+    network_of,
     open_held_back,
     open_phrases,
     true_trajectory,
     whole_windows,
 )
+from .launch import Stage
 from .run_log import console
 from .task import Part, generator
 

@@ -20,7 +20,7 @@ from ..shared.evaluation.judge.training_set import PairBatch, PairSet
 from ..shared.metrics.retrieval import BATCH, TOP, guo_retrieval
 from .launch import Stage
 from .task import Part, mix_seed
-from .text_motion import can_retrieve
+from .text_stages import can_retrieve
 
 
 class TrainEvaluatorConfig(TrainConfig):

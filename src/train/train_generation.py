@@ -30,12 +30,11 @@ from ..shared.model.generation.losses import GenerationLoss
 from ..shared.model.generation.motion_generator import KIND, TextToMotion
 from .constraints import draw_known
 from .launch import Stage
-from .scope_fit import fit_scope
-from .style_fit import fit_style_map
-from .task import Part, generator
-from .text_motion import (
+from .task import Part, generator, numpy_generator
+from .text_stages import (
+    fit_scope,
+    fit_style_map,
     motion_rows,
-    numpy_generator,
     open_training_data,
     training_set,
     validation_set,

@@ -32,7 +32,7 @@ from ..shared.model.audio.memory_conditioning import MemoryCondition, known_fram
 from ..shared.pipelines.song import AudioCondition
 from ..shared.pipelines.song_memory import as_condition, bars_of_sound, open_memory, remembering
 from ..shared.pipelines.song_sampler import SongSampler
-from .audio_folder import network_of
+from .audio_stages import network_of
 from .launch import Stage
 from .train_audio import AudioBatch, AudioTask, TrainAudioConfig
 

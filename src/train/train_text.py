@@ -46,10 +46,8 @@ from ..shared.model.zoo import resolve_model
 from .captured_places import apart, nearest_styles, with_unstyled
 from .frozen_encoder import MEANS_FILE, ZScores, caption_means, encoder_rates
 from .launch import Stage
-from .scope_fit import fit_scope
-from .style_fit import fit_style_map
-from .task import Part
-from .text_motion import motion_rows, numpy_generator, open_training_data
+from .task import Part, numpy_generator
+from .text_stages import fit_scope, fit_style_map, motion_rows, open_training_data
 
 OLD_CAPTIONS = 8  # of each combination and language, whose mean is its place
 PAIR_WIDTH = 64  # of the hidden states of a tower of token pairs

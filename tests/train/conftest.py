@@ -12,7 +12,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 def held_back(monkeypatch: pytest.MonkeyPatch) -> None:
     """So little data has an empty val split: look at the training clips again instead."""
     from src.train import train_clip, train_generation
-    from src.train.text_motion import split_set
+    from src.train.text_stages import split_set
 
     for stage in (train_clip, train_generation):
         monkeypatch.setattr(stage, "validation_set", lambda c, d: split_set(c, d, "train"))

@@ -29,7 +29,7 @@ from src.shared.model.audio.decoder import (
     MotionDecoder,
     create_motion_decoder,
 )
-from src.train.audio_folder import network_of
+from src.train.audio_stages import network_of
 from src.train.e2e_objective import E2eObjective, mean_speed
 from src.train.engine import Trainer
 from src.train.finetune_e2e import FinetuneE2eConfig, FinetuneE2eTask, app, stage

@@ -18,7 +18,7 @@ from src.shared.errors import UsageError, UserError
 from src.shared.model.clip.losses import clip_loss
 from src.shared.model.clip.pretrained import ClipBundle
 from src.train import train_clip as train_clip_stage
-from src.train.text_motion import split_set
+from src.train.text_stages import split_set
 from src.train.train_clip import ClipTask, gather
 
 

@@ -26,9 +26,8 @@ from src.shared.errors import UsageError, UserError
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.audio.decoder import DerivedMotionDecoder, MotionDecoder
 from src.shared.motion.trajectory import PHASE
-from src.train.audio_folder import network_of
+from src.train.audio_stages import bar_phase_at_start, network_of, true_trajectory, whole_windows
 from src.train.engine import Trainer
-from src.train.phrases import bar_phase_at_start, true_trajectory, whole_windows
 from src.train.task import Part, generator
 from src.train.train_decoder import (
     DecoderTask,

@@ -16,7 +16,7 @@ from src.shared.memory.index import MemoryIndex
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.motion.trajectory import PHASE
 from src.shared.pipelines.song_memory import bars_of_sound
-from src.train.audio_folder import network_of
+from src.train.audio_stages import network_of
 from src.train.engine import Trainer
 from src.train.task import Part
 from src.train.train_memory import MemoryTask, TrainMemoryConfig

@@ -1,9 +1,10 @@
-"""The phrases of an audio stage: opened, cut into whole windows, with what decoders must find.
+"""What audio stages share: phrases in whole windows, what decoders find, the network gone on from.
 
 Letters: B batch, T frames, C rows of sound.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,14 +13,19 @@ from pydantic import Field
 from torch import Tensor
 from torch.nn import functional as F
 
+from ..shared.config_audio import AudioNetworkConfig
+from ..shared.config_loader import NETWORK_PREFIX, dump_config, load_config
 from ..shared.config_schema import TrainConfig
 from ..shared.data.phrases.dataset import EmptySplit, MotionPhraseDataset, PhraseBatch
 from ..shared.data.prepare import open_data
 from ..shared.data.prepared import SYNTHETIC
-from ..shared.model.audio.audio_motion_model import AudioMotionModel
+from ..shared.errors import UsageError
+from ..shared.model.audio.audio_motion_model import KIND, AudioMotionModel
 from ..shared.model.audio.conditioning import BEAT, CONDITION_ROWS
 from ..shared.model.audio.decoder import wrapped_phase
 from ..shared.model.audio.unet import MIN_FRAMES
+from ..shared.model.checkpoint import read_card
+from ..shared.model.zoo import resolve_model, wrong_kind
 from ..shared.motion.trajectory import PHASE
 from .run_log import announce, console
 
@@ -125,3 +131,36 @@ def export_song(model: AudioMotionModel, phrases: MotionPhraseDataset, folder: P
     folder.mkdir(parents=True, exist_ok=True)
     made = SongSampler(model).sample(item.audio)[0]
     write_trajectory(made, folder / "held-back.png")
+
+
+DECODER_PREFIX = NETWORK_PREFIX + "decoder."
+
+
+def network_of(
+    name_or_folder: str | Path, overrides: Sequence[str] = (), *, of: str | None = None
+) -> AudioNetworkConfig:
+    """The network of a trained model.
+
+    Args:
+        name_or_folder: as `AudioMotionModel.from_pretrained` takes it.
+        overrides: `network.decoder.…=…`; what is trained already cannot change.
+        of: the flags that name it, where its decoder is trained, too.
+
+    Raises:
+        UserError: no audio model there.
+        UsageError: an override of a trained part, an unknown key or a wrong value.
+    """
+    folder = resolve_model(name_or_folder)
+    card = read_card(folder)
+    if card.kind != KIND or card.audio_network is None:
+        raise wrong_kind(folder, card.kind, KIND)
+    for override in overrides:
+        if of is not None:
+            raise UsageError(f"{override}: the network is that of {of}; leave it out")
+        if not override.startswith(DECODER_PREFIX):
+            raise UsageError(
+                f"{override}: the network is that of {folder}; only {DECODER_PREFIX}* can change"
+                "; leave the rest out"
+            )
+    values = dump_config(card.audio_network)
+    return load_config(AudioNetworkConfig, values, str(folder), overrides, prefix=NETWORK_PREFIX)

@@ -14,9 +14,8 @@ from tiny_audio_stage import (
 from src.shared.config_loader import load_train
 from src.shared.errors import UserError
 from src.train import finetune_e2e, train_decoder
-from src.train.audio_folder import network_of
+from src.train.audio_stages import network_of, open_held_back, open_phrases
 from src.train.engine import Trainer
-from src.train.phrases import open_held_back, open_phrases
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,203 @@
+"""What text stages share: the data, its rows, and what is fitted to a finished text tower.
+
+That is the scope, which prompts the training captions are near (`PromptScope`), and the style that
+the motions of a caption have (`StyleMap`, ruling 11).
+
+Letters: N prompts, D embed dim.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import torch
+
+from ..shared.config_schema import NetworkConfig, TrainConfig
+from ..shared.data.captions.book import packaged_book
+from ..shared.data.captions.word_dropout import insert_babble
+from ..shared.data.prepare import open_data
+from ..shared.data.prepared import PreparedData
+from ..shared.data.text_motion import TextMotionDataset
+from ..shared.errors import UsageError, UserError
+from ..shared.metrics.retrieval import BATCH
+from ..shared.model.clip.core import OWN, TextTower
+from ..shared.model.clip.pretrained import encode_captions
+from ..shared.model.clip.scope import PromptScope, words_of
+from ..shared.model.clip.style_map import StyleMap
+from ..shared.model.clip.tokenizer import PromptTokenizer
+from ..shared.motion.features import decode_features
+from ..shared.motion.skeleton import NUM_JOINTS
+from ..shared.motion.style import measure_style, style_values
+from ..shared.motion.trajectory import from_motion
+from .run_log import announce
+from .task import mix_seed
+
+
+def open_training_data(config: TrainConfig, network: NetworkConfig) -> PreparedData:
+    """The data of a stage; synthetic data is made once beside the run's folder.
+
+    Raises:
+        UsageError: the network has another number of bones than the data.
+        UserError: no prepared data there.
+    """
+    if network.generation.num_bones != NUM_JOINTS:
+        raise UsageError(
+            f"generation.num-bones {network.generation.num_bones} does not fit the data, which"
+            f" has {NUM_JOINTS}; set it to {NUM_JOINTS}"
+        )
+    return open_data(config.data, Path(config.output).parent)
+
+
+def training_set(config: TrainConfig, data: PreparedData) -> TextMotionDataset:
+    """The train split; raises UserError when no clip of it can be used."""
+    try:
+        return split_set(config, data, "train")
+    except ValueError as error:
+        raise UserError(f"{error}; lower min-frames or prepare more data") from error
+
+
+def validation_set(config: TrainConfig, data: PreparedData) -> TextMotionDataset | None:
+    """The val split; None, with a word on stderr, where little data left nothing in it."""
+    try:
+        return split_set(config, data, "val")
+    except ValueError:
+        announce("no validation: the data is too little to hold clips back")
+        return None
+
+
+def can_retrieve(number: int) -> bool:
+    """Whether R@k, which goes by batches of 32, can be told of so many held-back clips.
+
+    Of two clips anyone finds the right one; where there are too few a word on stderr says so.
+    """
+    if number < BATCH:
+        announce(
+            f"{number} clips are held back and R@k needs {BATCH}: validation is the loss alone"
+        )
+    return number >= BATCH
+
+
+def split_set(config: TrainConfig, data: PreparedData, split: str) -> TextMotionDataset:
+    """One split as the configuration wants it; raises ValueError when nothing in it fits."""
+    return TextMotionDataset(
+        data,
+        split,
+        min_frames=config.min_frames,
+        max_frames=config.max_frames,
+        languages=config.languages,
+        balance=config.balance,
+        captured_share=config.captured_share,
+        seed=mix_seed("data", config.seed),
+    )
+
+
+def motion_rows(motion: torch.Tensor, network: NetworkConfig) -> torch.Tensor:
+    """Features [..., 23, 6] without the root track where the profile has none."""
+    return motion[..., : network.motion_rows, :]
+
+
+SCOPE_CAPTIONS = 20_000  # at most so many captions teach PromptScope
+CALIBRATING = 3_000  # at most, each also with words that nobody knows, and without its key words
+LEAST_UNSEEN = 200  # sentences, for a calibration on them
+IDEOGRAPHS = (0x4E00, 0x9FFF)
+LETTERS = "abcdefghijklmnopqrstuvwxyz"
+
+
+def fit_scope(
+    data: PreparedData,
+    languages: tuple[str, ...],
+    tower: TextTower,
+    tokenizer: PromptTokenizer,
+) -> PromptScope:
+    """The scope of a tower that was trained on the captions of `data`.
+
+    It is calibrated on the sentences that `CaptionBook.captions` never gives, or on the captions
+    themselves where there are none for these actions.
+    """
+    book = packaged_book()
+    action_of: dict[str, str] = {}
+    unseen: dict[str, str] = {}
+    for record in {record.group: record for record in data.records("train")}.values():
+        held_back = book.held_back(record.labels) if record.labels else {}
+        captions = data.captions(record)
+        for language in languages:
+            for text in held_back.get(language, []):
+                unseen.setdefault(text, record.tag)
+            for text in captions.get(language, []):
+                action_of.setdefault(text, record.tag)
+    for text in unseen.keys() & action_of.keys():
+        del action_of[text]
+    texts = sorted(action_of)
+    texts = texts[:: -(-len(texts) // SCOPE_CAPTIONS)]
+    embeddings = encode_captions(tower, tokenizer, texts).numpy()
+    actions = [action_of[text] for text in texts]
+    pretrained = tower.config.text_model not in OWN
+    scope = PromptScope.fit(texts, actions, embeddings, pretrained_tower=pretrained)
+    if len(scope.actions) < 2:  # nothing to take one for another
+        return scope
+    if len(unseen) < LEAST_UNSEEN:
+        return _calibrated(scope, texts, actions, tower, tokenizer)
+    return _calibrated(scope, sorted(unseen), [unseen[t] for t in sorted(unseen)], tower, tokenizer)
+
+
+def _calibrated(
+    scope: PromptScope,
+    texts: list[str],
+    actions: list[str],
+    tower: TextTower,
+    tokenizer: PromptTokenizer,
+) -> PromptScope:
+    """Texts as they are, with made-up words in them, and with made-up words for what tells."""
+    rng = np.random.default_rng(0)
+    chosen = rng.permutation(len(texts))[:CALIBRATING]
+    asked = [texts[row] for row in chosen]
+    strange = [insert_babble(text, text, rng) for text in asked]
+    empty = [_without_key_words(text, scope, rng) for text in asked]
+    prompts = [*asked, *strange, *empty]
+    embeddings = encode_captions(tower, tokenizer, prompts).numpy()
+    nearest = [scope.actions[row] for row in (embeddings @ scope.means.T).argmax(1)]
+    wanted = [actions[row] for row in chosen] * 2
+    right = [is_near == wish for is_near, wish in zip(nearest, wanted, strict=False)]
+    return scope.calibrated(prompts, embeddings, right + [False] * len(empty))
+
+
+def _without_key_words(text: str, scope: PromptScope, rng: np.random.Generator) -> str:
+    """The text with made-up words for all that tell of an action."""
+    found = text.casefold()
+    for word in sorted(set(words_of(text)) & scope.key_words.keys(), key=len, reverse=True):
+        if ord(word[0]) >= 0x3000:
+            other = "".join(map(chr, rng.integers(*IDEOGRAPHS, size=len(word))))
+        else:
+            other = "".join(rng.choice(list(LETTERS), size=max(3, len(word))))
+        found = found.replace(word, other)
+    return found
+
+
+MAX_CLIPS = 1500  # of the style map
+MIN_FRAMES = 40  # shorter paths say little about energy or rhythm
+
+
+def fit_style_map(
+    data: PreparedData,
+    languages: tuple[str, ...],
+    tower: TextTower,
+    tokenizer: PromptTokenizer,
+) -> StyleMap | None:
+    """The map of this tower; None where the data is too little for one.
+
+    Styles are those of the pelvis path, which is what the audio branch moves.
+    """
+    records = [clip for clip in data.records("train") if clip.num_frames >= MIN_FRAMES]
+    order = np.random.default_rng(0).permutation(len(records))
+    texts: list[str] = []
+    values: list[np.ndarray] = []
+    for number in order[:MAX_CLIPS]:
+        captions = data.captions(records[number])
+        spoken = [captions[language][0] for language in languages if captions.get(language)]
+        motion = decode_features(data.features(records[number]))
+        measured = style_values(measure_style(from_motion(motion))).mean(axis=0)
+        texts += spoken
+        values += [measured] * len(spoken)
+    try:
+        return StyleMap.fit(encode_captions(tower, tokenizer, texts).numpy(), np.array(values))
+    except ValueError:
+        return None
