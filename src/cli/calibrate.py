@@ -8,7 +8,7 @@ import typer
 
 from ..shared.errors import UserError
 from . import options
-from .guard import tell
+from .console import tell
 
 
 def calibrate(

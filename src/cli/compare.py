@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from . import options
+from .console import tell
 from .evaluate import (
     ControlSeeds,
     Data,
@@ -19,7 +20,6 @@ from .evaluate import (
     run,
     show,
 )
-from .guard import tell
 
 HELP = "A folder that `evaluate` wrote, or a model."
 

@@ -10,8 +10,7 @@ import typer
 from ..shared.errors import UsageError, UserError
 from ..shared.files import same_place
 from . import options
-from .guard import complain, tell
-from .wording import counted, note_replaced
+from .console import complain, counted, note_replaced, tell
 
 if TYPE_CHECKING:
     from ..shared.motion.motion import Motion

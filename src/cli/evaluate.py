@@ -8,7 +8,7 @@ import typer
 
 from ..shared.errors import UsageError
 from . import options
-from .guard import tell
+from .console import tell
 
 QUICK_REPLICATIONS, QUICK_SONGS = 3, 10
 AUDIO_KIND = "audio-motion"

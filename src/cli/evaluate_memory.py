@@ -7,8 +7,8 @@ import typer
 
 from ..shared.errors import UsageError
 from . import options
+from .console import tell
 from .evaluate_sanity import check_limits, check_pairs
-from .guard import tell
 
 Number = TypeVar("Number", int, float)
 LIMITS = {"num_phrases": (2, 10_000), "num_songs": (2, 10_000), "song_seconds": (4.0, 600.0)}

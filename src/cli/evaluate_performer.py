@@ -7,9 +7,9 @@ import typer
 
 from ..shared.errors import UsageError
 from . import options
+from .console import tell
 from .evaluate import Judge, Quick, Replications, Seed, Songs, check_data, show
 from .evaluate_sanity import Pairs, check_limits, check_pairs
-from .guard import tell
 
 QUICK = {"num_songs": 4, "replications": 1, "style_songs": 2, "edits": 6}
 LIMITS = {

@@ -7,8 +7,8 @@ import typer
 
 from ..shared.errors import UsageError
 from . import options
+from .console import tell
 from .evaluate_sanity import check_limits, show
-from .guard import tell
 
 LIMITS = {"wordings": (1, 100), "seconds": (1, 20)}
 

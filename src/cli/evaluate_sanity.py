@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ..shared import environment
 from ..shared.errors import UsageError
-from . import environment, options
-from .guard import tell
+from . import options
+from .console import tell
 
 if TYPE_CHECKING:
     from ..shared.evaluation.suites.sanity import SanityEvaluation

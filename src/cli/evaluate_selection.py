@@ -7,9 +7,9 @@ import typer
 
 from ..shared.errors import UsageError
 from . import options
+from .console import tell
 from .evaluate import check_data
 from .evaluate_sanity import check_limits, check_pairs
-from .guard import tell
 
 SYNTHETIC = "synthetic"
 MODELS = {"text": "starter", "audio": "starter-audio"}

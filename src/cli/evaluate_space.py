@@ -7,8 +7,8 @@ import typer
 
 from ..shared.errors import UsageError
 from . import options
+from .console import tell
 from .evaluate_sanity import check_limits, check_pairs, show
-from .guard import tell
 
 MODEL, TEXT, NO_TEXT = "starter-space", "starter", "none"
 SPLITS = ("test", "val")

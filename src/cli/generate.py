@@ -7,10 +7,9 @@ import typer
 
 from ..shared.errors import UsageError
 from . import options
+from .console import counted, tell
 from .generate_files import show_scores
 from .generate_request import Directions, Request, only_song, produce
-from .guard import tell
-from .wording import counted
 
 
 def generate(

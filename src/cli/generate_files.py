@@ -7,9 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..shared.errors import UsageError
-from .guard import is_quiet
-from .progress import progress_bar
-from .wording import note_replaced
+from .console import is_quiet, note_replaced, progress_bar
 
 if TYPE_CHECKING:
     from ..shared.audio.song import Song

@@ -8,9 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..shared.errors import UsageError
 from . import generate_files as files
-from .guard import complain, tell
-from .progress import progress_bar
-from .stopwatch import Stopwatch
+from .console import Stopwatch, complain, progress_bar, tell
 
 if TYPE_CHECKING:
     from ..shared.audio.song import Song

@@ -7,7 +7,7 @@ import typer
 from typer.core import TyperCommand
 
 from ..shared.errors import UsageError
-from .guard import complain
+from .console import complain
 
 OWN_SUITE = "text"  # of `evaluate` itself
 LIST = re.compile(r"<list\[(\w+)\]>")  # as typer tells of what may be repeated

@@ -7,7 +7,7 @@ import typer
 
 from ..shared.errors import UsageError
 from . import options
-from .guard import tell
+from .console import tell
 
 if TYPE_CHECKING:
     from ..shared.data.retarget.read_motion import Inspection

@@ -9,7 +9,7 @@ import typer
 
 from ..shared.errors import UsageError, printable
 from . import options
-from .guard import complain, guarded, tell, with_quiet
+from .console import complain, guarded, tell, with_quiet
 from .help_page import Command
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ def build(
     from ..shared.memory.build import build_memory
     from ..shared.model.audio.shared_space import SharedSpace
     from ..shared.sole_writer import sole_writer
-    from .progress import progress_bar
+    from .console import progress_bar
 
     set_threads(threads)
     loaded = SharedSpace.from_pretrained(space)

@@ -8,8 +8,7 @@ import typer
 from ..shared.errors import UsageError
 from ..shared.files import same_place
 from . import options
-from .guard import complain, tell
-from .progress import progress_bar
+from .console import complain, progress_bar, tell
 
 
 def prepare(

@@ -7,9 +7,8 @@ import typer
 
 from ..shared.errors import UsageError
 from . import options
-from .guard import tell
+from .console import progress_bar, tell
 from .prepare import print_json
-from .progress import progress_bar
 
 if TYPE_CHECKING:
     from ..shared.data.prepared import PreparedData

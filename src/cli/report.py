@@ -23,8 +23,8 @@ def report(
         raise UsageError(f"{folder} holds no report.json; name a folder that `evaluate` wrote")
 
     from ..shared.evaluation.report.folder import render
+    from .console import tell
     from .evaluate import show
-    from .guard import tell
 
     show(render(folder), json=json)
     tell(f"report: {folder / 'report.html'}")

@@ -11,6 +11,7 @@ import typer
 
 from .calibrate import calibrate
 from .compare import compare
+from .console import guarded, results_on_stdout, with_quiet
 from .convert import convert
 from .evaluate import evaluate
 from .evaluate_audio import evaluate_audio
@@ -20,14 +21,12 @@ from .evaluate_requests import evaluate_requests
 from .evaluate_sanity import evaluate_sanity
 from .evaluate_selection import evaluate_selection
 from .evaluate_space import evaluate_space
-from .export_onnx import export_onnx
 from .features import features
 from .generate import generate
-from .guard import guarded, results_on_stdout, with_quiet
 from .help_page import Command, SuiteCommand
 from .inspect import inspect
 from .memory import memory
-from .models import models
+from .models import export_onnx, models
 from .plot import plot
 from .prepare import prepare
 from .prepare_audio import prepare_audio

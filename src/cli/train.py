@@ -5,7 +5,7 @@ from importlib import import_module
 
 import typer
 
-from .guard import guarded
+from .console import guarded
 
 STAGES = {
     "clip": ("train_clip", "The text tower and the motion tower that share one space."),

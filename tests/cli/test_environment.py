@@ -6,8 +6,9 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from src.cli import environment, evaluate_audio, evaluate_sanity
+from src.cli import evaluate_audio, evaluate_sanity
 from src.cli.tools import app
+from src.shared import environment
 from src.shared.evaluation.suites import sanity
 
 

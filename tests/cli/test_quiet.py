@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from src.cli import guard, progress
-from src.cli.guard import is_quiet, tell
+from src.cli import console
+from src.cli.console import is_quiet, tell
 from src.cli.tools import app
 from tests.shared.model.conftest import tiny_generator
 
@@ -46,16 +46,16 @@ def test_h_is_help_everywhere() -> None:
 def test_without_a_screen_progress_is_a_line_now_and_then(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(guard, "_quiet", False)
-    monkeypatch.setattr(progress, "LINE_SECONDS", 0.0)
-    with progress.progress_bar("motions") as done:
+    monkeypatch.setattr(console, "_quiet", False)
+    monkeypatch.setattr(console, "LINE_SECONDS", 0.0)
+    with console.progress_bar("motions") as done:
         done(64, 300)
         done(300, 300)
     told = capsys.readouterr().err.splitlines()
     assert len(told) == 1, "nothing is left to wait for after the last one"
     assert told[0].startswith("64 of 300 motions, about ") and told[0].endswith(" s left")
-    monkeypatch.setattr(guard, "_quiet", True)
-    with progress.progress_bar("motions") as done:
+    monkeypatch.setattr(console, "_quiet", True)
+    with console.progress_bar("motions") as done:
         done(64, 300)
     tell("finished")
     assert capsys.readouterr().err == ""

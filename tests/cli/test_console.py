@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from src.cli.guard import complain
+from src.cli.console import complain
 from src.cli.tools import app
 from src.shared.formats.writers.bvh import write_bvh
 from tests.shared.formats.writers.test_bvh import random_motion

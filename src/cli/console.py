@@ -1,4 +1,7 @@
-"""Exit codes: 0 done, 1 failed, 2 wrong usage, 130 Ctrl-C, 143 ended; and --quiet."""
+"""What every command says and how it ends: lines on stderr, progress, --quiet, exit codes.
+
+0 is done, 1 failed, 2 wrong usage, 130 Ctrl-C, 143 ended.
+"""
 
 import errno
 import functools
@@ -6,9 +9,11 @@ import inspect
 import logging
 import os
 import sys
-from collections.abc import Callable, Iterator, Mapping
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from io import TextIOWrapper
+from pathlib import Path
 from typing import Annotated, Any, ParamSpec
 
 import typer
@@ -130,3 +135,74 @@ def results_on_stdout() -> Iterator[None]:
             complain("error: stdout cannot be written: no space left; send it elsewhere")
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left in the buffer
         sys.exit(1)
+
+
+LINE_SECONDS = 10.0  # between lines where there is no screen
+
+
+@contextmanager
+def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
+    """Its value is told (done, in all): a bar on a screen, else a line now and then.
+
+    Args:
+        what: is counted, in the plural.
+    """
+    if is_quiet():
+        yield lambda done, total: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
+
+    screen = Console(stderr=True)
+    if not screen.is_terminal:
+        yield lines(what)
+        return
+    columns = (what, BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=screen, transient=True) as bar:
+        task = bar.add_task(what, total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)
+
+
+def lines(what: str) -> Callable[[int, int], None]:
+    """Told (done, in all), it says so every `LINE_SECONDS`, with the seconds that are left."""
+    began = last = time.monotonic()
+
+    def told(done: int, total: int) -> None:
+        nonlocal last
+        now = time.monotonic()
+        if 0 < done < total and now - last >= LINE_SECONDS:
+            left = (now - began) / done * (total - done)
+            tell(f"{done} of {total} {what}, about {left:.0f} s left")
+            last = now
+
+    return told
+
+
+def counted(number: int, noun: str) -> str:
+    """`1 motion`, `2 motions`."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def note_replaced(paths: Iterable[Path], folder: Path) -> None:
+    """Before writing: say how many of these files an earlier run has left in the folder."""
+    if found := sum(path.exists() for path in paths):
+        verb = "is" if found == 1 else "are"
+        tell(f"note: {counted(found, 'file')} of an earlier run in {folder} {verb} replaced")
+
+
+class Stopwatch:
+    """Seconds by part, and in all."""
+
+    def __init__(self) -> None:
+        self.started = self.last = time.perf_counter()
+        self.laps: dict[str, float] = {}
+
+    def lap(self, name: str) -> None:
+        """End the part that began with the last lap; parts of one name add up."""
+        now = time.perf_counter()
+        self.laps[name], self.last = self.laps.get(name, 0.0) + now - self.last, now
+
+    def seconds(self) -> dict[str, float]:
+        """Every part and the total, to the millisecond."""
+        parts = self.laps | {"total": self.last - self.started}
+        return {name: round(value, 3) for name, value in parts.items()}

@@ -1,7 +1,7 @@
 """MOTIONGEN_* variables (TECH §11.2). What counts: the flag, else the variable, else the default.
 
-typer looks them up: an option names its variable with `envvar`, and `--help` shows it. A variable
-that is set but empty counts as not set.
+An option of a command names its variable with `envvar`, and `--help` shows it. A variable that is
+set but empty counts as not set.
 """
 
 DEVICE = "MOTIONGEN_DEVICE"  # auto, cuda, mps or cpu
