@@ -51,7 +51,7 @@ def test_every_printed_import_is_in_the_map() -> None:
 def test_readme_counts_parameters_right(profile: str) -> None:
     import torch
 
-    from src.cli.shape_stages import NUM_TAGS, count, without_download
+    from src.cli.shape_tables import NUM_TAGS, count, without_download
     from src.shared.config_loader import load_network
     from src.shared.model.clip.core import TextTower
     from src.shared.model.generation.denoiser import MotionDenoiser
@@ -70,7 +70,7 @@ def test_readme_counts_parameters_right(profile: str) -> None:
 def test_readme_counts_audio_parameters_right(profile: str) -> None:
     import torch
 
-    from src.cli.shape_stages import count
+    from src.cli.shape_tables import count
     from src.shared.config_loader import load_audio_network
     from src.shared.model.audio.decoder import DerivedMotionDecoder, MotionDecoder
     from src.shared.model.audio.unet import UNet1D

@@ -10,7 +10,7 @@ import logging
 import os
 import sys
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from io import TextIOWrapper
 from pathlib import Path
@@ -181,6 +181,27 @@ def lines(what: str) -> Callable[[int, int], None]:
 def counted(number: int, noun: str) -> str:
     """`1 motion`, `2 motions`."""
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def print_columns(
+    head: Sequence[str], rows: Sequence[Sequence[str]], *, right: str = "", ruled: bool = False
+) -> None:
+    """Plain aligned columns on stdout, so that nothing is cut off in a pipe.
+
+    Args:
+        head: their names.
+        rows: their cells.
+        right: the column that is aligned to the right.
+        ruled: hyphens below the names.
+    """
+    widths = [max(len(row[column]) for row in [head, *rows]) for column in range(len(head))]
+    rules = [["-" * width for width in widths]] if ruled else []
+    for row in [head, *rules, *rows]:
+        cells = [
+            cell.rjust(width) if name == right else cell.ljust(width)
+            for cell, width, name in zip(row, widths, head, strict=True)
+        ]
+        print("  ".join(cells).rstrip())
 
 
 def note_replaced(paths: Iterable[Path], folder: Path) -> None:

@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from . import options
+from .console import print_columns
 from .generate_request import AUDIO_MODEL
 
 COLUMNS = ("name", "kind", "trained", "licence", "size", "languages", "description")
@@ -29,10 +30,7 @@ def models(json: options.Json = False) -> None:
     if not rows:
         print("no models: none are shipped, and runs/ holds none; train one (see README.md)")
         return
-    table = [COLUMNS, *(tuple(str(row[column]) for column in COLUMNS) for row in rows)]
-    widths = [max(len(line[column]) for line in table) for column in range(len(COLUMNS))]
-    for line in table:
-        print("  ".join(cell.ljust(w) for cell, w in zip(line, widths, strict=True)).rstrip())
+    print_columns(COLUMNS, [[str(row[column]) for column in COLUMNS] for row in rows])
 
 
 def export_onnx(

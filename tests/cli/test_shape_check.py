@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from src.cli import shape_stages
+from src.cli import shape_tables
 from src.cli.tools import app
 
 runner = CliRunner()
@@ -68,10 +68,10 @@ def test_hub_sizes_count_what_the_hub_models_count() -> None:
     from src.shared.config_loader import load_network
     from src.shared.model.clip.core import TextTower
 
-    clip = shape_stages.without_download(load_network("default").clip)
+    clip = shape_tables.without_download(load_network("default").clip)
     with torch.device("meta"):
         tower = TextTower(clip, 128)
-    assert shape_stages.count(tower.encoder) == 278_043_648 - 768 * 769
+    assert shape_tables.count(tower.encoder) == 278_043_648 - 768 * 769
 
 
 def test_other_channels_skip_the_renormalisation() -> None:
@@ -86,8 +86,8 @@ def test_token_conditioning_shows_its_cross_attention() -> None:
 
 
 def test_a_wrong_shape_is_named_and_fails(monkeypatch: pytest.MonkeyPatch) -> None:
-    wrong = [shape_stages.Row("output_norm", "LayerNorm", "B x T x D", "B x T x C")]
-    monkeypatch.setattr(shape_stages, "denoiser_rows", lambda *_: wrong)
+    wrong = [shape_tables.Row("output_norm", "LayerNorm", "B x T x D", "B x T x C")]
+    monkeypatch.setattr(shape_tables, "denoiser_rows", lambda *_: wrong)
     result = runner.invoke(app, ["shape-check"])
     assert result.exit_code == 1
     assert "MISMATCH: 2 x 40 x 128 -> 2 x 40 x 6" in result.stdout
