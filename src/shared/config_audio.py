@@ -1,10 +1,10 @@
 """Configurations of the audio branch's networks: UNet1D, AudioConditioner, decoders."""
 
-from typing import Literal, Self
+from typing import ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
-from .config_schema import Config, DiffusionConfig
+from .config_schema import Config, DiffusionConfig, Printed, only
 
 NORM_GROUPS = 32  # of every GroupNorm in UNet1D (TECH 3.1.3)
 
@@ -32,6 +32,7 @@ class MemoryConditionConfig(Config):
 class UNetConfig(Config):
     """UNet1D (TECH 3.1.1, REF); attention-resolutions are downsampling factors (ruling 4)."""
 
+    printed: ClassVar = {"audio-cond-dim": only(163, "beats and bars add four rows")}
     in_channels: int = Field(25, ge=1)
     out_channels: int = Field(25, ge=1)
     model_channels: int = Field(192, ge=NORM_GROUPS)
@@ -105,6 +106,17 @@ class AudioConditionConfig(Config):
 class DecoderConfig(Config):
     """Motion decoder (TECH 3.3.1, REF; rulings 5 to 10)."""
 
+    printed: ClassVar = {
+        "input-dim": only(25, "the rows of a trajectory"),
+        "output-dim": only(25, "the rows of a trajectory"),
+        "use-layer-norm": only(True, "batches of windows of one song are no sample to norm by"),
+        "activation": only("gelu", "no other was compared; leave it out"),
+        "output-activations": Printed(
+            "", (), "output-activations: bounds are position-scale and the other scales; set those"
+        ),
+        "derive-velocity": only(True, "decoder: residual is the one that predicts it"),
+        "derive-acceleration": only(True, "decoder: residual is the one that predicts it"),
+    }
     decoder: Literal["residual", "derived"] = "derived"
     hidden_dim: int = Field(256, ge=1)
     num_layers: int = Field(3, ge=1)

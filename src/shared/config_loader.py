@@ -211,6 +211,16 @@ def _apply(values: dict[str, Any], dotted: str, value: Any) -> None:
         values[last] = value
 
 
+def _as_ours(model_class: type[Config], values: dict[str, Any]) -> dict[str, Any]:
+    """Values as the documents print them -> ours, on every level; the later name counts."""
+    found = model_class.as_ours(values)
+    for name, each in model_class.model_fields.items():
+        section, inner = _section_class(each.annotation), found.get(_kebab(name))
+        if section is not None and isinstance(inner, dict):
+            found[_kebab(name)] = _as_ours(section, inner)
+    return found
+
+
 # ---------------------------------------------------------------- errors
 
 
@@ -298,6 +308,11 @@ def load_config(
     flat = {key.removeprefix(prefix): value for key, value in flat.items()}
     for key, value in flat.items():
         _apply(merged, key, value)
+    try:
+        merged = _as_ours(model_class, merged)
+    except ValueError as error:
+        told = any(_kebab(key).rpartition(".")[2] in str(error) for key in flat)
+        raise UsageError(f"{COMMAND_LINE if told else source}: {error}") from None
     try:
         # strict, so that `true` is no number; through JSON, so that a list may be a tuple
         return model_class.model_validate_json(json.dumps(merged, default=str), strict=True)

@@ -1,8 +1,9 @@
 """Typed, frozen configurations: one line a field; YAML spells the keys in kebab-case."""
 
-from typing import Literal, Self, get_args
+from collections.abc import Mapping
+from typing import Any, ClassVar, Literal, NamedTuple, Self, get_args
 
-from pydantic import AliasChoices, BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 Precision = Literal["auto", "no", "bf16", "fp16"]
 Provenance = Literal["captured", "procedural", "hand-made"]  # where a clip's motion comes from
@@ -13,8 +14,33 @@ def _kebab(name: str) -> str:
     return name.replace("_", "-")
 
 
+class Printed(NamedTuple):
+    """How a setting that the documents print is read here (docs/rulings.md, 119).
+
+    Attributes:
+        key: ours for it; empty = it is no setting here.
+        values: pairs of a printed value and ours; None = any value, as it is.
+        why: no other value is taken, and what to do.
+    """
+
+    key: str = ""
+    values: tuple[tuple[Any, Any], ...] | None = None
+    why: str = ""
+
+
+def only(value: Any, why: str) -> Printed:
+    """No setting here: the printed value is what there is."""
+    return Printed("", ((value, None),), why)
+
+
 class Config(BaseModel):
-    """Base of every configuration: frozen, strict about keys, kebab-case in YAML."""
+    """Base of every configuration: frozen, strict about keys, kebab-case in YAML.
+
+    Attributes:
+        printed: keys of the documents that are not ours, in kebab-case.
+    """
+
+    printed: ClassVar[Mapping[str, Printed]] = {}
 
     model_config = ConfigDict(
         frozen=True,
@@ -24,13 +50,43 @@ class Config(BaseModel):
         allow_inf_nan=False,
     )
 
+    @classmethod
+    def as_ours(cls, values: dict[str, Any]) -> dict[str, Any]:
+        """The values with each key and value of the documents as ours.
+
+        Raises:
+            ValueError: a value that cannot be chosen here.
+        """
+        found = {}
+        for key, value in values.items():
+            name = _kebab(key)
+            rule: Printed = cls.printed.get(name, Printed(key))
+            if rule.values is not None:
+                meant = [own for printed, own in rule.values if printed == value]
+                if not meant:
+                    taken = " or ".join(str(printed).lower() for printed, _ in rule.values)
+                    raise ValueError(
+                        f"{name} can only be {taken} here: {rule.why}" if taken else rule.why
+                    )
+                value = meant[0]
+            if rule.key:
+                found[rule.key] = value
+        return found
+
 
 class DiffusionConfig(Config):
     """Forward process, prediction target and sampler (SPEC rulings 12 to 15)."""
 
-    timesteps: int = Field(
-        1000, ge=2, validation_alias=AliasChoices("timesteps", "num-timesteps", "num_timesteps")
-    )
+    printed: ClassVar = {
+        "num-timesteps": Printed("timesteps"),
+        "predict-epsilon": Printed("prediction-type", ((True, "epsilon"), (False, "sample"))),
+        "use-ddim": Printed("sampler", ((True, "ddim"), (False, "ddpm"))),
+        "ddim-eta": Printed("eta"),
+        "clip-denoised": Printed("clip-sigma", ((True, 6.0), (False, None))),
+        "clip-range": Printed("", (), "clip-range: x0 is limited in z-scores; give clip-sigma"),
+        "rescale-timesteps": only(False, "steps are whole numbers"),
+    }
+    timesteps: int = Field(1000, ge=2)
     beta_schedule: Literal["linear", "cosine", "sqrt"] = "cosine"
     beta_start: float = Field(1e-4, gt=0, lt=1)
     beta_end: float = Field(0.02, gt=0, lt=1)
@@ -44,18 +100,11 @@ class DiffusionConfig(Config):
 
     @model_validator(mode="before")
     @classmethod
-    def _accept_predict_epsilon(cls, data: object) -> object:
-        """REF spells the prediction type as a flag, TECH says `x0` for `sample`."""
-        if isinstance(data, dict):
-            data = dict(data)
-            for key in ("predict-epsilon", "predict_epsilon"):
-                if key in data:
-                    flag = data.pop(key)
-                    data.setdefault("prediction-type", "epsilon" if flag else "sample")
-            for key in ("prediction-type", "prediction_type"):
-                if data.get(key) == "x0":
-                    data[key] = "sample"
-        return data
+    def _read_printed(cls, data: object) -> object:
+        """As the documents write it; TECH says `x0` for `sample`."""
+        if not isinstance(data, dict):
+            return data
+        return {k: "sample" if v == "x0" else v for k, v in cls.as_ours(data).items()}
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -173,6 +222,16 @@ class NetworkConfig(Config):
 class TrainConfig(Config):
     """What every training stage shares."""
 
+    printed: ClassVar = {
+        "betas": Printed("adam-betas"),
+        "data-dir": Printed("data"),
+        "output-dir": Printed("output"),
+        "mixed-precision": Printed("precision", ((True, "auto"), (False, "no"))),
+        "num-epochs": Printed("", (), "num-epochs: this stage counts steps; give steps"),
+        "eps": only(1e-8, "it is AdamW's own"),
+        "ema-update-every": only(1, "the average follows every step; leave it out"),
+        "checkpoint-dir": only("checkpoints", "they lie in the output folder; give output"),
+    }
     data: str = "synthetic"  # prepared folder, or "synthetic": made on the spot
     output: str = "runs/run"
     profile: str = "lightweight"

@@ -11,13 +11,14 @@ import copy
 import math
 import os
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import torch
 from pydantic import Field, model_validator
 from torch import Tensor, nn
 
 from ..shared.config_audio import AudioNetworkConfig
+from ..shared.config_schema import Printed
 from ..shared.data.phrases.dataset import PhraseBatch
 from ..shared.device import autocast
 from ..shared.files import write_json, write_text
@@ -44,6 +45,7 @@ FROM_EPOCHS = ("steps", "log_every", "validate_every", "save_every", "learning_r
 class FinetuneE2eConfig(E2eWeights):
     """finetune_e2e.yaml."""
 
+    printed: ClassVar = E2eWeights.printed | {"num-epochs": Printed("epochs")}
     checkpoint: str = "runs/decoder"  # folder of train_decoder or train_audio: the UNet
     decoder_checkpoint: str | None = None  # folder whose decoder is taken; None = the same
     epochs: int = Field(50, ge=1)  # passes over the phrases

@@ -3,11 +3,13 @@
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from src.shared.config_audio import DecoderConfig, UNetConfig
 from src.shared.config_loader import (
     config_keys,
     dump_config,
@@ -150,6 +152,53 @@ def test_both_spellings_of_the_documents() -> None:
     assert load_config(DiffusionConfig, {"timesteps": 50}, "test").timesteps == 50
     named = load_config(DiffusionConfig, {"prediction_type": "x0"}, "test")
     assert named.prediction_type == "sample"
+
+
+@pytest.mark.parametrize(
+    ("model_class", "printed", "ours"),
+    [
+        (DiffusionConfig, {"use_ddim": False, "ddim_eta": 0.5}, {"sampler": "ddpm", "eta": 0.5}),
+        (
+            DiffusionConfig,
+            {"clip_denoised": False, "rescale_timesteps": False},
+            {"clip_sigma": None},
+        ),
+        (UNetConfig, {"audio_cond_dim": 163, "time_embed_dim": 64}, {"time_embed_dim": 64}),
+        (
+            DecoderConfig,
+            {"input_dim": 25, "activation": "gelu", "num_layers": 2},
+            {"num_layers": 2},
+        ),
+        (TrainClipConfig, {"betas": [0.9, 0.999], "mixed_precision": False}, {"precision": "no"}),
+        (TrainClipConfig, {"output_dir": "there", "eps": 1e-8}, {"output": "there"}),
+    ],
+)
+def test_settings_as_the_documents_print_them(
+    model_class: type[Config], printed: dict[str, Any], ours: dict[str, Any]
+) -> None:
+    found = load_config(model_class, printed, "test")
+    assert {name: getattr(found, name) for name in ours} == ours
+
+
+@pytest.mark.parametrize(
+    ("model_class", "override", "message"),
+    [
+        (DiffusionConfig, "clip_range=1.0", "give clip-sigma"),
+        (DecoderConfig, "activation=relu", "activation can only be gelu here"),
+        (UNetConfig, "audio_cond_dim=80", "can only be 163 here"),
+        (TrainClipConfig, "num_epochs=100", "give steps"),
+        (TrainClipConfig, "ema-update-every=10", "can only be 1 here"),
+    ],
+)
+def test_printed_settings_that_cannot_be_chosen_say_what_can(
+    model_class: type[Config], override: str, message: str
+) -> None:
+    with pytest.raises(UsageError, match=f"command line: .*{message}"):
+        load_config(model_class, {}, "test", [override])
+
+
+def test_the_later_of_two_names_of_one_setting_counts() -> None:
+    assert load_train(None, TrainClipConfig, ["output-dir=mine"]).output == "mine"
 
 
 def test_scalars_are_yaml_1_2() -> None:
