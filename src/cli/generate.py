@@ -5,6 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
+from ..shared import environment
 from ..shared.errors import UsageError
 from . import options
 from .console import counted, tell
@@ -106,7 +107,9 @@ def generate(
             " npz, csv, glb, html, png for the path of a song."
         ),
     ] = None,
-    out: Annotated[Path, typer.Option(help="Folder for the files.")] = Path("outputs"),
+    out: Annotated[
+        Path, typer.Option(envvar=environment.OUTPUT_DIR, help="Folder for the files.")
+    ] = Path("outputs"),
     model: Annotated[
         str | None, typer.Option(help="A name that `models` lists, or a folder from training.")
     ] = None,

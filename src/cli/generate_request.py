@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..shared.errors import UsageError
+from ..shared.model.zoo import TEXT_MODEL, default_audio_model
 from . import generate_files as files
 from .console import Stopwatch, complain, progress_bar, tell
 
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
     from ..shared.pipelines.path import DrawnPath
     from ..shared.pipelines.timeline import Timeline
 
-TEXT_MODEL, AUDIO_MODEL = "starter", "starter-audio"
 RUNTIMES = ("torch", "onnx")
 FLAGS = {"begin": "--from", "until": "--to"}  # the others are called as their attributes
 STAGES = {"path": "frames of the path", "body": "frames of the body"}
@@ -185,7 +185,7 @@ class Request:
     @property
     def audio_model(self) -> str:
         """What makes the paths of songs."""
-        return AUDIO_MODEL if self.model is None else self.model
+        return default_audio_model() if self.model is None else self.model
 
     def generator(self) -> "MotionGenerator":
         """With these models; none is loaded yet."""

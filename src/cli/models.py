@@ -5,9 +5,9 @@ from typing import Annotated
 
 import typer
 
+from ..shared import environment
 from . import options
 from .console import print_columns
-from .generate_request import AUDIO_MODEL
 
 COLUMNS = ("name", "kind", "trained", "licence", "size", "languages", "description")
 
@@ -35,7 +35,13 @@ def models(json: options.Json = False) -> None:
 
 def export_onnx(
     out: Annotated[Path, typer.Option(help="Folder for unet.onnx, decoder.onnx, onnx.json.")],
-    model: options.Model = AUDIO_MODEL,
+    model: Annotated[
+        str,
+        typer.Option(
+            envvar=environment.DIFFUSION_CHECKPOINT,
+            help="A name that `models` lists, or a folder from training.",
+        ),
+    ] = "starter-audio",
     json: options.Json = False,
 ) -> None:
     """Write UNet and decoder of an audio model for onnxruntime; any length, any batch.

@@ -17,6 +17,7 @@ from pydantic_core import ErrorDetails
 
 from .config_audio import AudioNetworkConfig
 from .config_schema import Config, NetworkConfig, TrainConfig
+from .environment import run_folder, variable
 from .errors import UsageError
 
 COMMAND_LINE = "command line"
@@ -395,13 +396,22 @@ def load_train(
 ) -> TrainConfigT:
     """A training configuration; path None is the file that ships for this class.
 
+    What neither the user's file nor an override says, a MOTIONGEN_* variable may.
+
     Raises:
         UsageError: as `load_config`.
     """
+    given: dict[str, Any] = {} if path is None else _normalise(load_yaml(path), str(path))
     if path is None:
         stem = _kebab(model_class.__name__.removesuffix("Config")).replace("-", "_")
         path = packaged_config(f"{stem}.yaml")
-    return load_config(model_class, load_yaml(path), str(path), overrides)
+    values = given or load_yaml(path)
+    for key, name in model_class.variables.items():
+        if key not in given and (value := variable(name)):
+            values[key] = value
+    if "output" in values and "output" not in given:
+        values["output"] = str(run_folder(values["output"]))
+    return load_config(model_class, values, str(path), overrides)
 
 
 def dump_config(config: Config) -> dict[str, Any]:

@@ -220,8 +220,13 @@ class NetworkConfig(Config):
 
 
 class TrainConfig(Config):
-    """What every training stage shares."""
+    """What every training stage shares.
 
+    Attributes:
+        variables: settings that a MOTIONGEN_* variable stands in for, in kebab-case.
+    """
+
+    variables: ClassVar[Mapping[str, str]] = {}
     printed: ClassVar = {
         "betas": Printed("adam-betas"),
         "data-dir": Printed("data"),

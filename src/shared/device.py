@@ -12,6 +12,7 @@ from typing import Literal
 
 import torch
 
+from .environment import DEVICE, variable
 from .errors import UsageError
 
 DeviceName = Literal["cuda", "mps", "cpu"]
@@ -36,11 +37,14 @@ def choose_device(requested: str = "auto") -> tuple[DeviceName, str]:
     """The device to use and why.
 
     Args:
-        requested: auto, cuda, mps or cpu.
+        requested: auto, cuda, mps or cpu; auto is what MOTIONGEN_DEVICE names, else the best.
 
     Raises:
         UsageError: the requested device does not exist here.
     """
+    reason = "as requested"
+    if requested == "auto" and (named := variable(DEVICE)):
+        requested, reason = named, f"as {DEVICE} says"
     available = {
         "cuda": torch.cuda.is_available(),
         "mps": torch.backends.mps.is_available(),
@@ -55,7 +59,7 @@ def choose_device(requested: str = "auto") -> tuple[DeviceName, str]:
     if not available[requested]:
         here = ", ".join(name for name, there in available.items() if there)
         raise UsageError(f"device {requested!r} is not available here; use auto or one of: {here}")
-    return requested, "as requested"  # type: ignore[return-value]
+    return requested, reason  # type: ignore[return-value]
 
 
 def _native_bf16(device: DeviceName) -> tuple[bool, str]:

@@ -1,11 +1,31 @@
-"""MOTIONGEN_* variables (TECH §11.2). What counts: the flag, else the variable, else the default.
+"""MOTIONGEN_* variables (TECH 11.2): the same for commands, library and training.
 
-An option of a command names its variable with `envvar`, and `--help` shows it. A variable that is
-set but empty counts as not set.
+What counts is the flag, the argument or the key that is given, else the variable, else the default.
+A variable that is set but empty counts as not set. An option of a command names its variable with
+`envvar`, and `--help` shows it.
 """
 
+import os
+from pathlib import Path
+
 DEVICE = "MOTIONGEN_DEVICE"  # auto, cuda, mps or cpu
-OUTPUT_DIR = "MOTIONGEN_OUTPUT_DIR"  # folder for reports
+OUTPUT_DIR = "MOTIONGEN_OUTPUT_DIR"  # folder for reports and motions; training runs lie in it
 DATA_DIR = "MOTIONGEN_DATA_DIR"  # folder or bucket of pairs
 DIFFUSION_CHECKPOINT = "MOTIONGEN_DIFFUSION_CHECKPOINT"  # a model folder
 DECODER_CHECKPOINT = "MOTIONGEN_DECODER_CHECKPOINT"  # a model folder, for its decoder alone
+
+
+def variable(name: str) -> str | None:
+    """What a variable is set to; None = nothing."""
+    return os.environ.get(name) or None
+
+
+def run_folder(folder: str | Path) -> Path:
+    """Where a run of training lies: `runs/audio` is `audio` in MOTIONGEN_OUTPUT_DIR, if it is set.
+
+    Any other folder is itself.
+    """
+    path, runs = Path(folder), variable(OUTPUT_DIR)
+    if runs is None or path.parts[:1] != ("runs",):
+        return path
+    return Path(runs, *path.parts[1:])

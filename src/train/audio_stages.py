@@ -7,6 +7,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import ClassVar
 
 import torch
 from pydantic import Field
@@ -19,6 +20,7 @@ from ..shared.config_schema import TrainConfig
 from ..shared.data.phrases.dataset import EmptySplit, MotionPhraseDataset, PhraseBatch
 from ..shared.data.prepare import open_data
 from ..shared.data.prepared import SYNTHETIC
+from ..shared.environment import DATA_DIR
 from ..shared.errors import UsageError
 from ..shared.model.audio.audio_motion_model import KIND, AudioMotionModel
 from ..shared.model.audio.conditioning import BEAT, CONDITION_ROWS
@@ -35,6 +37,7 @@ SYNTHETIC_SONGS = 40
 class PhraseConfig(TrainConfig):
     """What every audio stage shares."""
 
+    variables: ClassVar = {"data": DATA_DIR}
     target_frames: int = Field(180, ge=16)  # of a window; sampling makes windows of this length
     num_phrases: int | None = Field(None, ge=1)  # take only the first so many
 

@@ -21,6 +21,7 @@ from ..shared.config_audio import AudioNetworkConfig
 from ..shared.config_schema import Printed
 from ..shared.data.phrases.dataset import PhraseBatch
 from ..shared.device import autocast
+from ..shared.environment import DECODER_CHECKPOINT, DIFFUSION_CHECKPOINT
 from ..shared.files import write_json, write_text
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
 from .audio_stages import (
@@ -45,6 +46,9 @@ FROM_EPOCHS = ("steps", "log_every", "validate_every", "save_every", "learning_r
 class FinetuneE2eConfig(E2eWeights):
     """finetune_e2e.yaml."""
 
+    variables: ClassVar = E2eWeights.variables | {
+        "checkpoint": DIFFUSION_CHECKPOINT, "decoder-checkpoint": DECODER_CHECKPOINT
+    }  # fmt: skip
     printed: ClassVar = E2eWeights.printed | {"num-epochs": Printed("epochs")}
     checkpoint: str = "runs/decoder"  # folder of train_decoder or train_audio: the UNet
     decoder_checkpoint: str | None = None  # folder whose decoder is taken; None = the same

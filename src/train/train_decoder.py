@@ -13,7 +13,7 @@ Letters: B batch, T frames.
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import torch
 from pydantic import Field, model_validator
@@ -21,6 +21,7 @@ from torch import Tensor, nn
 
 from ..shared.config_audio import AudioNetworkConfig, DecoderLossConfig
 from ..shared.data.phrases.dataset import PhraseBatch
+from ..shared.environment import DIFFUSION_CHECKPOINT
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
 from ..shared.model.audio.decoder import Decoder, create_motion_decoder, wrapped_phase
 from ..shared.model.audio.losses import DecoderLoss, total
@@ -47,6 +48,7 @@ ERROR_LEVEL = 0.25  # up to this share of the diffusion steps: what sampling end
 class TrainDecoderConfig(PhraseConfig):
     """train_decoder.yaml."""
 
+    variables: ClassVar = PhraseConfig.variables | {"audio": DIFFUSION_CHECKPOINT}
     audio: str = "runs/audio"  # folder written by train_audio
     noise: tuple[float, float] = (0.03, 1.0)  # least and most, times the UNet's error
     correlation: tuple[float, float] = (1.0, 30.0)  # frames, least and most, of correlated noise

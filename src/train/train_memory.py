@@ -13,7 +13,7 @@ Letters: B batch, T frames.
 from collections import defaultdict
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import torch
 from pydantic import Field
@@ -23,6 +23,7 @@ from ..shared.config_audio import AudioNetworkConfig, MemoryConditionConfig
 from ..shared.config_memory import MemoryConfig
 from ..shared.data.phrases.dataset import PhraseBatch
 from ..shared.data.phrases.layout import PhraseRecord
+from ..shared.environment import DIFFUSION_CHECKPOINT
 from ..shared.errors import UsageError
 from ..shared.formats.registry import write_trajectory
 from ..shared.memory.context import retrieve
@@ -40,6 +41,7 @@ from .train_audio import AudioBatch, AudioTask, TrainAudioConfig
 class TrainMemoryConfig(TrainAudioConfig):
     """train_memory.yaml."""
 
+    variables: ClassVar = TrainAudioConfig.variables | {"audio": DIFFUSION_CHECKPOINT}
     audio: str = "starter-audio"  # the model that learns
     space: str = ""  # where the memory's shared space is now; "" = where it was built with
     memory: MemoryConfig = MemoryConfig()

@@ -7,11 +7,18 @@ from pathlib import Path
 from typing import Any
 
 from ..config_loader import nearest, profile_names
+from ..environment import DIFFUSION_CHECKPOINT, run_folder, variable
 from ..errors import UserError
 from .checkpoint import CARD_FILE, ModelCard, read_card
 
 PRETRAINED = Path(__file__).resolve().parents[1] / "pretrained"
 RUNS = Path("runs")
+TEXT_MODEL, AUDIO_MODEL = "starter", "starter-audio"  # where none is named
+
+
+def default_audio_model() -> str:
+    """What makes the paths of songs where none is named."""
+    return variable(DIFFUSION_CHECKPOINT) or AUDIO_MODEL
 
 
 def list_models(*, runs: bool = True) -> list[dict[str, Any]]:
@@ -25,7 +32,8 @@ def list_models(*, runs: bool = True) -> list[dict[str, Any]]:
     shipped = [
         (path.parent.name, path.parent) for path in sorted(PRETRAINED.glob(f"*/{CARD_FILE}"))
     ]
-    found = [*RUNS.glob(f"*/{CARD_FILE}"), *RUNS.glob(f"*/*/{CARD_FILE}")] if runs else []
+    place = run_folder(RUNS)
+    found = [*place.glob(f"*/{CARD_FILE}"), *place.glob(f"*/*/{CARD_FILE}")] if runs else []
     own = [(str(path.parent), path.parent) for path in sorted(found)]
     rows = []
     for name, folder in [*shipped, *own]:
@@ -69,8 +77,9 @@ def resolve_model(name_or_folder: str | Path) -> Path:
         UserError: neither; an untrained profile says how to train it.
     """
     folder = Path(name_or_folder)
-    if (folder / CARD_FILE).is_file():
-        return folder
+    for place in (folder, run_folder(folder)):
+        if (place / CARD_FILE).is_file():
+            return place
     name = str(name_or_folder)
     if folder.name == name and (PRETRAINED / name / CARD_FILE).is_file():
         return PRETRAINED / name

@@ -19,7 +19,7 @@ from ..model.audio.audio_motion_model import KIND as AUDIO_KIND
 from ..model.checkpoint import read_card
 from ..model.diffusion.samplers import Sampling
 from ..model.generation.motion_generator import Progress, TextToMotion
-from ..model.zoo import resolve_model
+from ..model.zoo import TEXT_MODEL, default_audio_model, resolve_model
 from ..motion.motion import Motion
 from .body import Performer, PerformerSettings
 from .dance import DancePrompter, Dances, SongPerformer
@@ -33,8 +33,6 @@ from .stream import DEFAULT_SAMPLING, MotionStream, Passage
 from .text import PromptResult, PromptSampler, SentenceGenerator
 from .timeline import Timeline, by_timeline, in_a_loop
 
-TEXT_MODEL, AUDIO_MODEL = "starter", "starter-audio"
-
 
 class MotionGenerator:
     """Text and songs in, motions out.
@@ -43,7 +41,8 @@ class MotionGenerator:
 
     Args:
         text: makes bodies: a model, or the name or folder of one.
-        audio: makes the paths of songs, likewise; for the runtime onnx, a folder of `export-onnx`.
+        audio: makes the paths of songs, likewise; for the runtime onnx, a folder of `export-onnx`;
+            None = what MOTIONGEN_DIFFUSION_CHECKPOINT names, else what is shipped.
         device: auto, cuda, mps or cpu.
         runtime: of the audio model: torch or onnx.
         memory: folder of `memory build`, for an audio model that hears one; None = no memory.
@@ -57,14 +56,15 @@ class MotionGenerator:
     def __init__(
         self,
         text: TextToMotion | str | Path = TEXT_MODEL,
-        audio: SongGenerator | str | Path = AUDIO_MODEL,
+        audio: SongGenerator | str | Path | None = None,
         *,
         device: str = "auto",
         runtime: str = "torch",
         memory: str | Path | None = None,
         judge: str | Path | None = None,
     ) -> None:
-        self._text, self._audio = text, audio
+        self._text = text
+        self._audio = default_audio_model() if audio is None else audio
         self._device, self._runtime, self._memory, self._judge = device, runtime, memory, judge
 
     @classmethod

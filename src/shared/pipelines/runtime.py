@@ -11,8 +11,9 @@ from torch import Tensor
 
 from ..config_audio import AudioNetworkConfig
 from ..device import choose_compute
+from ..environment import DECODER_CHECKPOINT, variable
 from ..errors import UserError
-from ..model.audio.audio_motion_model import AudioMotionModel
+from ..model.audio.audio_motion_model import AudioMotionModel, load_decoder
 from ..model.audio.conditioning import with_phase_rows
 from ..model.audio.decoder import Decoded
 from ..model.audio.memory_conditioning import MemoryCondition
@@ -72,6 +73,8 @@ def load_runtime(name: str, model: str | Path, device: str = "auto") -> Runtime:
 def load_trained(model: str | Path, device: str = "auto") -> AudioMotionModel:
     """A trained model for sampling; on a CPU its UNet is the faster copy, which learns no more.
 
+    MOTIONGEN_DECODER_CHECKPOINT names a folder whose decoder takes the place of its own.
+
     Args:
         model: name of shipped weights, or a folder that training wrote.
         device: auto, cuda, mps or cpu.
@@ -85,6 +88,8 @@ def load_trained(model: str | Path, device: str = "auto") -> AudioMotionModel:
     if compute.device == "cpu":
         low = torch.bfloat16 if compute.precision == "bf16" else None
         loaded.unet = sampling_copy(loaded.unet, low)
+    if decoder := variable(DECODER_CHECKPOINT):
+        loaded.decoder = load_decoder(decoder).to(compute.device).eval()
     return loaded
 
 
