@@ -100,6 +100,13 @@ def generate(
         bool | None,
         typer.Option("--foot-lock/--no-foot-lock", help="Hold feet still while they stand."),
     ] = None,
+    post_processing: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="KEY=VALUE",
+            help="Of the body, or of the path of a song alone: apply-smoothing=true, …; repeat.",
+        ),
+    ] = None,
     format: Annotated[
         str | None,
         typer.Option(
@@ -155,7 +162,8 @@ def generate(
             prompt or [], only_song(audio), directions, body=body, style=style, meter=meter,
             memory=memory, tag=tag, seconds=seconds, num_samples=num_samples,
             return_all=return_all, judge=judge, seed=seed, steps=steps, sampler=sampler,
-            guidance_scale=guidance_scale, foot_lock=foot_lock, format=format, out=out,
+            guidance_scale=guidance_scale, foot_lock=foot_lock,
+            post_processing=post_processing or [], format=format, out=out,
             model=model, body_model=body_model, runtime=runtime, device=device, threads=threads,
         )
     )  # fmt: skip

@@ -11,6 +11,7 @@ from .console import is_quiet, note_replaced, progress_bar
 
 if TYPE_CHECKING:
     from ..shared.audio.song import Song
+    from ..shared.config_audio import PostProcessConfig
     from ..shared.formats.preview.trajectory import SongTrack
     from ..shared.motion.motion import Motion
     from ..shared.pipelines.body import Performance
@@ -133,7 +134,12 @@ def write_index(motions: "Sequence[Motion]", out: Path) -> str:
 
 
 def write_trajectories(
-    made: "SongMotions", kept: int, audio: Path, formats: list[str], out: Path
+    made: "SongMotions",
+    kept: int,
+    audio: Path,
+    formats: list[str],
+    out: Path,
+    settings: "PostProcessConfig",
 ) -> tuple[list[dict[str, Any]], str | None]:
     """Write the first `kept` trajectories: a row of facts and paths for each.
 
@@ -157,7 +163,7 @@ def write_trajectories(
             {
                 "frames": path.num_frames,
                 "fps": path.fps,
-                "clamped": MotionPostProcessor().count_clamped(raw.data),
+                "clamped": MotionPostProcessor(settings).count_clamped(raw.data),
                 "files": {name: str(path) for name, path in paths.items()},
                 "sample": int(made.table.order[rank]),
                 "rank": rank + 1,

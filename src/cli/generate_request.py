@@ -151,6 +151,7 @@ class Request:
     sampler: str | None
     guidance_scale: float | None
     foot_lock: bool | None
+    post_processing: list[str]
     format: str | None
     out: Path
     model: str | None
@@ -187,6 +188,11 @@ class Request:
         """What makes the paths of songs."""
         return default_audio_model() if self.model is None else self.model
 
+    @property
+    def path_alone(self) -> bool:
+        """Whether a song is asked for, and no body."""
+        return self.audio is not None and not (self.prompt or self.body)
+
     def generator(self) -> "MotionGenerator":
         """With these models; none is loaded yet."""
         from ..shared.device import set_threads
@@ -200,6 +206,8 @@ class Request:
             runtime=self.runtime or "torch",
             memory=self.memory,
             judge=self.judge,
+            post_processing=[] if self.path_alone else self.post_processing,
+            path_post_processing=self.post_processing if self.path_alone else [],
         )
 
     def body_formats(self) -> list[str]:
@@ -217,7 +225,7 @@ def produce(request: Request) -> dict[str, Any]:
     """
     if request.audio is not None:
         request.directions.refuse("--audio")
-        made = dance if request.prompt or request.body else song_path
+        made = song_path if request.path_alone else dance
         result = made(request, request.audio)
         if result["tempo"] == 0:
             tell(f"note: no beat was found in {result['audio']}; the motion keeps its own time")
@@ -339,7 +347,10 @@ def song_path(request: Request, audio: Path) -> dict[str, Any]:
             sampling=request.sampling,
             stage=staged(clock, {"path": "sample"}),
         )
-        rows, index = files.write_trajectories(made, request.kept, audio, formats, request.out)
+        settings = generator.audio.post_processing
+        rows, index = files.write_trajectories(
+            made, request.kept, audio, formats, request.out, settings
+        )
         clock.lap("write")
         selection = [(str(audio), made.table)] if request.num_samples > 1 else []
         return told_of_song(request, generator, song, rows, index, selection, clock)
@@ -432,7 +443,7 @@ def told_of_song(
 ) -> dict[str, Any]:
     """What was heard, what it was made with, and the results."""
     paths, memory = generator.audio, generator.audio.memory
-    dancing = bool(request.prompt or request.body)
+    dancing = not request.path_alone
     remembered = None
     if memory is not None:
         counts = dict(memory.service.counts)

@@ -129,6 +129,42 @@ class DecoderConfig(Config):
     fps: float = Field(30.0, gt=0)
 
 
+class PostProcessConfig(Config):
+    """What happens to a path before it is written, TECH §9.1's names and defaults.
+
+    The phase is wrapped into its range (ruling 118); signs of quaternions are continuous.
+    """
+
+    normalize_quaternions: bool = True
+    quat_eps: float = Field(1e-8, gt=0)  # below this norm there is no rotation: the identity
+    smooth_quaternions: bool = False  # moving average, normalised again
+    quat_smooth_window: int = Field(5, ge=1)  # frames, odd
+    clamp_phase: bool = True  # wrap it into [phase-min, phase-max)
+    phase_min: float = 0.0
+    phase_max: float = 1.0
+    enforce_phase_monotonic: bool = False  # hold the unwrapped phase where it would step back
+    clamp_values: bool = True  # limit each component to ± the four maxima
+    max_position: float = Field(100.0, gt=0)  # m
+    max_velocity: float = Field(50.0, gt=0)  # m/s
+    max_acceleration: float = Field(100.0, gt=0)  # m/s^2
+    max_angular_velocity: float = Field(10.0, gt=0)  # rad/s
+    enforce_velocity_coherence: bool = False  # blend the velocity with the position's difference
+    enforce_accel_coherence: bool = False  # blend the acceleration with the velocity's difference
+    coherence_blend: float = Field(0.5, ge=0, le=1)  # how far; TECH blends halves
+    apply_smoothing: bool = False  # binomial average of all columns but the quaternion
+    smoothing_kernel_size: int = Field(3, ge=1)  # frames, odd
+    fps: float = Field(30.0, gt=0)
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for name in ("quat_smooth_window", "smoothing_kernel_size"):
+            if getattr(self, name) % 2 == 0:
+                raise ValueError(f"{name.replace('_', '-')} {getattr(self, name)} must be odd")
+        if not self.phase_min < self.phase_max:
+            raise ValueError(f"phase-max {self.phase_max} must be above phase-min {self.phase_min}")
+        return self
+
+
 class AudioNetworkConfig(Config):
     """One profile of audio_network.yaml."""
 
@@ -138,6 +174,7 @@ class AudioNetworkConfig(Config):
     diffusion: DiffusionConfig = DiffusionConfig()
     window: int = Field(180, ge=16)  # frames of a window, as training saw and sampling makes them
     guidance_scale: float = Field(1.0, ge=0)  # 1 = none, and no second forward (ruling 14)
+    post_processing: PostProcessConfig = PostProcessConfig()
 
 
 class DecoderLossConfig(Config):

@@ -13,8 +13,9 @@ FLAGS = {
     "generate": (
         "--audio --body --body-model --device --edit --end --foot-lock --format --from"
         " --guidance-scale --joints --json --judge --keep --loop --memory --meter --model"
-        " --no-foot-lock --num-samples --out --path --prompt --return-all --runtime --sampler"
-        " --seconds --seed --start --steps --style --tag --then --threads --timeline --to"
+        " --no-foot-lock --num-samples --out --path --post-processing --prompt --return-all"
+        " --runtime --sampler --seconds --seed --start --steps --style --tag --then --threads"
+        " --timeline --to"
     ),
     "convert": (
         "--asf --format --fps --json --mapping --names --resume --root --skeleton --source-fps"

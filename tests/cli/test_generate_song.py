@@ -15,6 +15,7 @@ from src.cli.tools import app
 from src.shared.audio.song_spec import SongSpec
 from src.shared.audio.synthetic_songs import render_song
 from src.shared.formats.arrays import read_trajectory_npz
+from src.shared.motion.trajectory import VELOCITY
 from tests.shared.evaluation.tiny_pairs import tiny_model
 from tests.shared.formats.pages import Page
 
@@ -47,6 +48,15 @@ def test_one_motion_and_nothing_but_words_on_stderr(folder: Path, tmp_path: Path
     both = generate(folder, folder / "song.wav", *many).stderr
     assert "1 file of an earlier run" in both and "2 motions in" in both
     assert "3 files of an earlier run" in generate(folder, folder / "song.wav", *many).stderr
+
+
+def test_the_path_is_post_processed_as_it_is_told(folder: Path, tmp_path: Path) -> None:
+    arguments = ("--format", "npz", "--out", tmp_path, "--post-processing")
+    generate(folder, folder / "song.wav", *arguments, "max-velocity=0.001")
+    made = read_trajectory_npz(tmp_path / "song.npz").data
+    assert np.abs(made[:, VELOCITY]).max() == pytest.approx(0.001)
+    wrong = generate(folder, folder / "song.wav", *arguments, "max_velocty=1", code=2)
+    assert "the nearest valid key is max-velocity" in wrong.output
 
 
 @pytest.mark.parametrize("name", ["cut.flac", "cut.mp3"])

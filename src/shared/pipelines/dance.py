@@ -19,6 +19,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from ..config_audio import PostProcessConfig
 from ..errors import UserError
 from ..model.audio.conditioning import ENERGY
 from ..model.audio.shared_space import SharedSpace
@@ -199,6 +200,7 @@ class SongPerformer:
         performer: of bodies.
         prompter: finds prompts in music; None = a prompt must be given.
         judge: of the candidates; None = one without the words.
+        paths: their post-processing; None = as TECH has it.
     """
 
     def __init__(
@@ -207,8 +209,9 @@ class SongPerformer:
         *,
         prompter: DancePrompter | None = None,
         judge: PerformanceJudge | None = None,
+        paths: PostProcessConfig | None = None,
     ) -> None:
-        self.performer, self.prompter = performer, prompter
+        self.performer, self.prompter, self.paths = performer, prompter, paths
         self.judge = judge or PerformanceJudge()
 
     def dance(
@@ -238,7 +241,7 @@ class SongPerformer:
         beats = song.beats if len(song.beats) else None
         made: list[Performance] = []
         for number, rough in enumerate(raw):
-            path = finished(rough)
+            path = finished(rough, self.paths)
             own = candidate_seed(seed, song.seed, number)
             passages = self._passages(path, song, prompt, tag, own)
             before, total = number * path.num_frames, len(raw) * path.num_frames

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from ..audio.song import Song, analyse
+from ..config_loader import ConfigT, dump_config, load_config
 from ..model.audio.audio_motion_model import KIND as AUDIO_KIND
 from ..model.checkpoint import read_card
 from ..model.diffusion.samplers import Sampling
@@ -48,6 +49,8 @@ class MotionGenerator:
         memory: folder of `memory build`, for an audio model that hears one; None = no memory.
         judge: folder of `train_clip` that holds candidates against their prompt; None = what
             belongs to the text model, where it is shipped.
+        post_processing: of bodies, `key=value` of `PostProcessingConfig` over the model's own.
+        path_post_processing: of paths, `key=value` of `PostProcessConfig` over the model's own.
 
     Raises:
         UserError: wherever a model is first needed and cannot be used.
@@ -62,8 +65,10 @@ class MotionGenerator:
         runtime: str = "torch",
         memory: str | Path | None = None,
         judge: str | Path | None = None,
+        post_processing: Sequence[str] = (),
+        path_post_processing: Sequence[str] = (),
     ) -> None:
-        self._text = text
+        self._text, self._body, self._path = text, post_processing, path_post_processing
         self._audio = default_audio_model() if audio is None else audio
         self._device, self._runtime, self._memory, self._judge = device, runtime, memory, judge
 
@@ -91,19 +96,28 @@ class MotionGenerator:
     @cached_property
     def text(self) -> TextToMotion:
         """The text model."""
-        if isinstance(self._text, TextToMotion):
-            return self._text
-        return TextToMotion.from_pretrained(self._text, device=self._device)
+        model = self._text
+        if not isinstance(model, TextToMotion):
+            model = TextToMotion.from_pretrained(model, device=self._device)
+        if self._body:
+            settings = _changed(model.network.generation.post_processing, self._body)
+            update = {"post_processing": settings}
+            generation = model.network.generation.model_copy(update=update)
+            model.network = model.network.model_copy(update={"generation": generation})
+        return model
 
     @cached_property
     def audio(self) -> SongGenerator[Any]:
         """The audio model, with its memory."""
-        if isinstance(self._audio, SongGenerator):
-            return self._audio
-        memory = None if self._memory is None else SongMemory.open(self._memory)
-        return SongGenerator.from_pretrained(
-            self._audio, device=self._device, runtime=self._runtime, memory=memory
-        )
+        model: SongGenerator[Any] | str | Path = self._audio
+        if not isinstance(model, SongGenerator):
+            memory = None if self._memory is None else SongMemory.open(self._memory)
+            model = SongGenerator.from_pretrained(
+                model, device=self._device, runtime=self._runtime, memory=memory
+            )
+        if self._path:
+            model.post_processing = _changed(model.post_processing, self._path)
+        return model
 
     @cached_property
     def sentences(self) -> SentenceGenerator:
@@ -253,7 +267,8 @@ class MotionGenerator:
         judge = PerformanceJudge(self.audio.bands, self.tower) if num_samples > 1 else None
         performer = Performer(self.text, PerformerSettings(**options, foot_lock=foot_lock))
         prompter = self.prompter if prompt is None else None
-        dancers = SongPerformer(performer, prompter=prompter, judge=judge)
+        paths = self.audio.post_processing
+        dancers = SongPerformer(performer, prompter=prompter, judge=judge, paths=paths)
         with stage("body") as progress:
             return dancers.dance(raw, song, prompt, tag=tag, seed=sampling.seed, progress=progress)
 
@@ -315,3 +330,8 @@ def load(name_or_folder: str | Path = TEXT_MODEL, **options: Any) -> MotionGener
 
 def _analysed(audio: Song | str | Path, meter: int | None) -> Song:
     return audio if isinstance(audio, Song) else analyse(audio, meter=meter)
+
+
+def _changed(config: ConfigT, overrides: Sequence[str]) -> ConfigT:
+    """A configuration with `key=value` over it."""
+    return load_config(type(config), dump_config(config), "post-processing", overrides)

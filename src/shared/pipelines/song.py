@@ -14,6 +14,7 @@ import torch
 from torch import Tensor
 
 from ..audio.song import Song, analyse
+from ..config_audio import PostProcessConfig
 from ..data.phrases.layout import phase_rows
 from ..device import choose_device
 from ..metrics.bands import Bands
@@ -106,6 +107,7 @@ class SongGenerator(Generic[ModelT]):
         if isinstance(model, AudioMotionModel):
             model.to(choose_device(device or "auto")[0]).eval()
         self.model, self.bands, self.memory = model, bands, memory
+        self.post_processing: PostProcessConfig = model.config.post_processing
         self.device = model.mean.device
 
     @classmethod
@@ -167,7 +169,9 @@ class SongGenerator(Generic[ModelT]):
         judge = AudioJudge(self.bands)
         table = judge.judge(raw, condition.beats) if len(raw) > 1 else unranked()
         ranked = [raw[place] for place in table.order]
-        return SongMotions([finished(path) for path in ranked], ranked, table, song)
+        return SongMotions(
+            [finished(path, self.post_processing) for path in ranked], ranked, table, song
+        )
 
     def generate(
         self,
@@ -220,9 +224,9 @@ class SongGenerator(Generic[ModelT]):
         yield from sampler.stream(condition, phase=phase, style=style)
 
 
-def finished(raw: MotionTrajectory) -> MotionTrajectory:
+def finished(raw: MotionTrajectory, config: PostProcessConfig | None = None) -> MotionTrajectory:
     """A path as it is written to files, and pinned: post-processed."""
-    return MotionTrajectory(MotionPostProcessor().process(raw.data), raw.fps)
+    return MotionTrajectory(MotionPostProcessor(config).process(raw.data), raw.fps)
 
 
 def shipped_bands(name_or_folder: str | Path) -> Bands | None:

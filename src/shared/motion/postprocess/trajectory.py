@@ -7,20 +7,18 @@ Letters: B batch, T frames, 25 columns.
 """
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 import torch
 from torch import Tensor
 from torch.nn import functional as F
 
-from ...errors import UsageError
+from ...config_audio import PostProcessConfig
 from ..kinematics import forward_difference, smooth
 from ..rotations import quaternion_continuous
 from ..trajectory import (
     ACCELERATION,
     ANGULAR_VELOCITY,
-    FPS,
     PHASE,
     POSITION,
     QUATERNION,
@@ -29,77 +27,14 @@ from ..trajectory import (
 )
 
 
-@dataclass(frozen=True)
-class PostProcessConfig:
-    """TECH §9.1, its names and defaults.
-
-    Attributes:
-        normalize_quaternions: unit norm, then continuous signs.
-        quat_eps: below this norm there is no rotation: the identity.
-        smooth_quaternions: moving average over `quat_smooth_window` frames, normalised again.
-        quat_smooth_window: frames, odd.
-        clamp_phase: wrap the phase into [phase_min, phase_max).
-        phase_min: of the bar.
-        phase_max: of the bar.
-        enforce_phase_monotonic: hold the unwrapped phase where it would step back.
-        clamp_values: limit each component to ± the four maxima.
-        max_position: metres.
-        max_velocity: m/s.
-        max_acceleration: m/s².
-        max_angular_velocity: rad/s.
-        enforce_velocity_coherence: blend the velocity with the position's difference.
-        enforce_accel_coherence: blend the acceleration with the velocity's difference.
-        coherence_blend: how far, 0 to 1; TECH blends halves.
-        apply_smoothing: binomial average over time of all columns but the quaternion.
-        smoothing_kernel_size: frames, odd.
-        fps: frames per second.
-
-    Raises:
-        UsageError: a window is even or a limit not positive.
-    """
-
-    normalize_quaternions: bool = True
-    quat_eps: float = 1e-8
-    smooth_quaternions: bool = False
-    quat_smooth_window: int = 5
-    clamp_phase: bool = True
-    phase_min: float = 0.0
-    phase_max: float = 1.0
-    enforce_phase_monotonic: bool = False
-    clamp_values: bool = True
-    max_position: float = 100.0
-    max_velocity: float = 50.0
-    max_acceleration: float = 100.0
-    max_angular_velocity: float = 10.0
-    enforce_velocity_coherence: bool = False
-    enforce_accel_coherence: bool = False
-    coherence_blend: float = 0.5
-    apply_smoothing: bool = False
-    smoothing_kernel_size: int = 3
-    fps: float = FPS
-
-    def __post_init__(self) -> None:
-        for name in ("quat_smooth_window", "smoothing_kernel_size"):
-            size = getattr(self, name)
-            if size < 1 or size % 2 == 0:
-                raise UsageError(f"{name} {size} must be odd and positive")
-        for name in ("max_position", "max_velocity", "max_acceleration", "max_angular_velocity",
-                     "quat_eps", "fps"):  # fmt: skip
-            if not getattr(self, name) > 0:
-                raise UsageError(f"{name} {getattr(self, name)} must be positive")
-        if not self.phase_min < self.phase_max:
-            raise UsageError(f"phase_max {self.phase_max} must be above phase_min {self.phase_min}")
-        if not 0 <= self.coherence_blend <= 1:
-            raise UsageError(f"coherence_blend {self.coherence_blend} must lie in 0 to 1")
-
-    def limits(self) -> dict[str, tuple[slice, float]]:
-        """Clamped columns by name, each with its bound."""
-        return {
-            "position": (POSITION, self.max_position),
-            "velocity": (VELOCITY, self.max_velocity),
-            "acceleration": (ACCELERATION, self.max_acceleration),
-            "angular_velocity": (ANGULAR_VELOCITY, self.max_angular_velocity),
-        }
+def limits(config: PostProcessConfig) -> dict[str, tuple[slice, float]]:
+    """Clamped columns by name, each with its bound."""
+    return {
+        "position": (POSITION, config.max_position),
+        "velocity": (VELOCITY, config.max_velocity),
+        "acceleration": (ACCELERATION, config.max_acceleration),
+        "angular_velocity": (ANGULAR_VELOCITY, config.max_angular_velocity),
+    }
 
 
 class _Processor:
@@ -140,9 +75,9 @@ def count_clamped(motion: Tensor, config: PostProcessConfig) -> dict[str, int]:
     """
     phase = motion[..., PHASE]
     outside = (phase < config.phase_min) | (phase > config.phase_max)
-    counts = dict.fromkeys((*config.limits(), "phase"), 0)
+    counts = dict.fromkeys((*limits(config), "phase"), 0)
     if config.clamp_values:
-        for name, (columns, bound) in config.limits().items():
+        for name, (columns, bound) in limits(config).items():
             counts[name] = int((motion[..., columns].abs() > bound).sum())
     if config.clamp_phase:
         counts["phase"] = int(outside.sum())
@@ -157,7 +92,7 @@ def _process(motion: Tensor, config: PostProcessConfig) -> Tensor:
     """[...,T,25] in TECH §9.2's order."""
     position, velocity, acceleration, turning = (
         motion[..., columns].clamp(-bound, bound) if config.clamp_values else motion[..., columns]
-        for columns, bound in config.limits().values()
+        for columns, bound in limits(config).values()
     )
     quaternions = _quaternions(motion[..., QUATERNION], config)
     phase = _phase(motion[..., PHASE], config)[..., None]

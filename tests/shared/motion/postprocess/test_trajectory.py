@@ -5,12 +5,14 @@ import pytest
 import torch
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from pydantic import ValidationError
 
+from src.shared.config_audio import AudioNetworkConfig, PostProcessConfig
+from src.shared.config_loader import load_config
 from src.shared.errors import UsageError
 from src.shared.motion.postprocess.trajectory import (
     MotionPostProcessor,
     MotionPostProcessorTorch,
-    PostProcessConfig,
 )
 from src.shared.motion.trajectory import (
     ACCELERATION,
@@ -192,5 +194,9 @@ def test_gradients_pass() -> None:
     ],
 )
 def test_wrong_settings_are_named(wrong: dict[str, float]) -> None:
-    with pytest.raises(UsageError, match=next(iter(wrong))):
+    key = next(iter(wrong)).replace("_", "[-_]")
+    with pytest.raises(ValidationError, match=key):
         PostProcessConfig(**wrong)  # type: ignore[arg-type]
+    with pytest.raises(UsageError, match=f"command line: .*{key}"):
+        overrides = [f"post-processing.{name}={value}" for name, value in wrong.items()]
+        load_config(AudioNetworkConfig, {}, "test", overrides)
