@@ -13,14 +13,14 @@ import numpy as np
 import pytest
 import torch
 
-from src.shared.array_files import BadArray, load_array, load_arrays
 from src.shared.config_loader import parse_yaml
 from src.shared.data.phrases.layout import StoredObject
 from src.shared.data.prepared import VERSION, PreparedData
 from src.shared.data.retarget.read_motion import read_motion
 from src.shared.errors import UsageError, UserError
 from src.shared.evaluation.report.html import _pictures
-from src.shared.files import inside, load_json
+from src.shared.io.arrays import BadArray, load_array, load_arrays
+from src.shared.io.files import inside, load_json
 from src.shared.model.checkpoint import ModelCard, read_card, read_tensors, write_checkpoint
 
 SOURCE = Path(__file__).parents[1] / "src"
@@ -40,10 +40,10 @@ BANNED_METHODS = {"extract", "extractall"}
 # Only here, where the limits are.
 ONLY_IN: dict[str, tuple[str, ...]] = {
     "yaml.load": ("shared/config_loader.py",),
-    "zipfile.ZipFile": ("shared/array_files.py",),
+    "zipfile.ZipFile": ("shared/io/arrays.py",),
     "json.load": (),
     # a GLB's chunk is bounded before; what a training wrote for itself is its own
-    "json.loads": ("shared/files.py", "shared/formats/glb_file.py", "train/"),
+    "json.loads": ("shared/io/files.py", "shared/formats/glb_file.py", "train/"),
     "faiss.read_index": ("shared/memory/search.py",),  # after its checksum
 }
 
@@ -145,7 +145,7 @@ def test_pickles_are_refused_wherever_they_hide(tmp_path: Path) -> None:
     weights = tmp_path / "model/model.safetensors"
     torch.save({"a": Bomb(mark)}, weights)
     content = json.loads((tmp_path / "model/config.json").read_text())
-    from src.shared.files import sha256_file
+    from src.shared.io.files import sha256_file
 
     content["weights"] |= {"sha256": sha256_file(weights), "bytes": weights.stat().st_size}
     (tmp_path / "model/config.json").write_text(json.dumps(content))

@@ -19,7 +19,7 @@ from typing import Annotated, Any, ParamSpec
 import typer
 
 from ..shared.errors import UsageError, UserError, printable
-from ..shared.signals import orderly_termination
+from ..shared.io.concurrency import orderly_termination
 
 Parameters = ParamSpec("Parameters")
 INTERRUPTED = 130

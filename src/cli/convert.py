@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ..shared.errors import UsageError, UserError
-from ..shared.files import same_place
+from ..shared.io.files import same_place
 from . import options
 from .console import complain, counted, note_replaced, tell
 

@@ -155,7 +155,7 @@ def run(model: str, request: Request, out: Path | None, suite: str | None = None
     refuse(model, audio, request)
 
     from ..shared.device import set_threads
-    from ..shared.sole_writer import sole_writer
+    from ..shared.io.files import sole_writer
 
     set_threads(request.threads)
     with sole_writer(folder):

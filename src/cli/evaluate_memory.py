@@ -110,7 +110,7 @@ def show(report: dict[str, Any], out: Path | None, *, json: bool) -> None:
     import json as encoder
 
     from ..shared.evaluation.report.tables import as_markdown, heading, tables
-    from ..shared.files import write_json, write_text
+    from ..shared.io.files import write_json, write_text
 
     said = [
         f"{name}: against no memory {words['without']}, against a random one {words['random']}"

@@ -88,7 +88,7 @@ def evaluate_performer(
     options.check_folder("--out", out)
     sampling = {"steps": steps, "sampler": sampler, "guidance_scale": guidance_scale}
     models = {"model": model, "audio_model": audio_model, "other": other, "evaluator": evaluator}
-    from ..shared.sole_writer import sole_writer
+    from ..shared.io.files import sole_writer
 
     with sole_writer(out):
         report = run(

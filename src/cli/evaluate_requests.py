@@ -50,7 +50,7 @@ def evaluate_requests(
     from ..shared.evaluation.floors import untrained
     from ..shared.evaluation.report.tables import as_markdown, heading, tables
     from ..shared.evaluation.suites.requests import RequestSettings, evaluate_requests
-    from ..shared.files import write_json, write_text
+    from ..shared.io.files import write_json, write_text
     from ..shared.model.generation.motion_generator import TextToMotion
     from ..shared.pipelines.text import SentenceGenerator
 

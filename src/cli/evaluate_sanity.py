@@ -144,7 +144,7 @@ def write_results(result: "SanityEvaluation", folder: Path) -> None:
     from ..shared.evaluation.report.plots import plot_trajectory
     from ..shared.evaluation.report.tables import as_markdown, heading
     from ..shared.evaluation.suites.sanity import plot_bands, sanity_tables
-    from ..shared.files import write_json, write_text
+    from ..shared.io.files import write_json, write_text
 
     report = result.report
     write_json(folder / "sanity.json", report)

@@ -119,7 +119,7 @@ def show(report: dict[str, Any], out: Path | None, *, json: bool) -> None:
 
     from ..shared.evaluation.report.tables import as_markdown
     from ..shared.evaluation.suites.selection import selection_tables
-    from ..shared.files import write_json, write_text
+    from ..shared.io.files import write_json, write_text
 
     facts = {**report["about"], **report["settings"]}
     lines = [f"{key.replace('_', '-')}: {value}" for key, value in facts.items()]

@@ -75,7 +75,7 @@ def check_new_mapping(path: Path | None) -> None:
 def begin_mapping(found: "Inspection", mapping: Path | None, out: Path) -> None:
     """Write a profile of what was found, with a ? for each joint that was not."""
     from ..shared.data.retarget.mapping import closest_joints, load_mappings, profile_text
-    from ..shared.files import write_text
+    from ..shared.io.files import write_text
 
     names = tuple(name for name, _ in found.joints)
     joints = found.matched or closest_joints(names, load_mappings(mapping))

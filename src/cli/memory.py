@@ -13,9 +13,8 @@ from .console import complain, guarded, tell, with_quiet
 from .help_page import Command
 
 if TYPE_CHECKING:
-    from ..shared.config_memory import MemoryConfig
     from ..shared.memory.ask import Answer, Found
-    from ..shared.memory.index import MemoryIndex
+    from ..shared.memory.index import MemoryConfig, MemoryIndex
     from ..shared.model.audio.shared_space import SharedSpace
 
 SPACE = "starter-space"
@@ -54,9 +53,9 @@ def build(
     config = load_settings(bars=bars)
 
     from ..shared.device import set_threads
+    from ..shared.io.files import sole_writer
     from ..shared.memory.build import build_memory
     from ..shared.model.audio.shared_space import SharedSpace
-    from ..shared.sole_writer import sole_writer
     from .console import progress_bar
 
     set_threads(threads)
@@ -153,7 +152,7 @@ def load_settings(**given: Any) -> "MemoryConfig":
         UsageError: a value out of range.
     """
     from ..shared.config_loader import load_config, load_yaml, packaged_config
-    from ..shared.config_memory import MemoryConfig
+    from ..shared.memory.index import MemoryConfig
 
     path = packaged_config("memory.yaml")
     overrides = [f"{name}={value}" for name, value in given.items() if value is not None]

@@ -8,7 +8,7 @@ import typer
 
 from ..shared import environment
 from ..shared.errors import UsageError
-from ..shared.files import made_folder
+from ..shared.io.files import made_folder
 
 Model = Annotated[str, typer.Option(help="A name that `models` lists, or a folder from training.")]
 Device = Annotated[str, typer.Option(envvar=environment.DEVICE, help="auto, cpu, cuda or mps.")]

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 import typer
 
 from ..shared.errors import UsageError
-from ..shared.files import same_place
+from ..shared.io.files import same_place
 from . import options
 from .console import complain, progress_bar, tell
 
@@ -82,7 +82,7 @@ def prepare(
     from ..shared.data.retarget.autodetection import axis_vector, unit_metres
     from ..shared.data.retarget.mapping import words
     from ..shared.data.sources.folders import MotionFolder, Reading, Source, SyntheticSource
-    from ..shared.sole_writer import sole_writer
+    from ..shared.io.files import sole_writer
 
     for check, value in ((unit_metres, unit), (axis_vector, up)):
         if value is not None:

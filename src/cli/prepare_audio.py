@@ -68,7 +68,7 @@ def prepare_audio(
     from ..shared.data.pairing.music import open_music
     from ..shared.data.pairing.prepare_audio import PairOptions
     from ..shared.data.pairing.prepare_audio import prepare_audio as pair_all
-    from ..shared.sole_writer import sole_writer
+    from ..shared.io.files import sole_writer
 
     sources = open_music(music, seed=seed, meter=meter)
     synthetic = synthetic_clips or motion == "synthetic"

@@ -204,3 +204,20 @@ class TemporalLossConfig(Config):
     target_quat_delta: float = Field(0.95, gt=0, le=1)  # dot of neighbours
     max_step: float = Field(0.5, gt=0)  # m a frame and axis, free of charge
     fps: float = Field(30.0, gt=0)
+
+
+class AudioTowerConfig(Config):
+    """AudioTower's sizes; `embed-dim` is that of the motion tower it learns from."""
+
+    embed_dim: int = Field(192, ge=8)
+    dim: int = Field(160, ge=8)  # channels inside
+    num_heads: int = Field(4, ge=1)
+    num_layers: int = Field(2, ge=1)
+    dropout: float = Field(0.1, ge=0, lt=1)
+    augmentation: AugmentationConfig = AugmentationConfig()  # what training does to the sound
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.dim % self.num_heads:
+            raise ValueError(f"num-heads {self.num_heads} must divide dim {self.dim}")
+        return self

@@ -83,7 +83,7 @@ def synthetic_pairs(folder: Path) -> Path:
     """Parametric motions paired with rendered songs, all the project's own."""
     from ..shared.data.pairing.music import open_music
     from ..shared.data.pairing.prepare_audio import PairOptions, prepare_audio
-    from ..shared.sole_writer import sole_writer
+    from ..shared.io.files import sole_writer
 
     console.print(f"pairing synthetic motions with synthetic songs in {folder}", markup=False)
     with sole_writer(folder, wait=True):

@@ -22,7 +22,7 @@ from torch import Tensor, nn
 from ..shared.config_loader import dump_config
 from ..shared.config_schema import TrainConfig
 from ..shared.errors import UsageError, UserError
-from ..shared.files import sha256_file, unfinished, why_not_written, write_json
+from ..shared.io.files import sha256_file, unfinished, why_not_written, write_json
 
 _FILES = ("model", "ema", "optimizer")
 

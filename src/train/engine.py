@@ -16,11 +16,11 @@ from typing import Any, Generic, TypeVar
 import torch
 from torch import Tensor
 
-from ..shared.ahead import ahead
 from ..shared.config_schema import TrainConfig
 from ..shared.device import choose_compute, set_threads
 from ..shared.errors import UsageError, UserError
-from ..shared.files import write_json
+from ..shared.io.concurrency import prefetch
+from ..shared.io.files import write_json
 from .checkpoint import (
     Checkpoint,
     latest_checkpoint,
@@ -117,7 +117,7 @@ class Trainer(Generic[ConfigT]):
         ):
             # that of `start` again: a kill may have come between its checkpoint and its samples
             step, enough = start, self._look(start, log)
-            batches = ahead(self.task.batch, self._parts(start), config.num_workers)
+            batches = prefetch(self.task.batch, self._parts(start), config.num_workers)
             since, since_step = time.perf_counter(), start
             while step < config.steps and not enough:
                 step += 1

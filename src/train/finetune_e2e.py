@@ -22,7 +22,7 @@ from ..shared.config_schema import Printed
 from ..shared.data.phrases.dataset import PhraseBatch
 from ..shared.device import autocast
 from ..shared.environment import DECODER_CHECKPOINT, DIFFUSION_CHECKPOINT
-from ..shared.files import write_json, write_text
+from ..shared.io.files import write_json, write_text
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
 from .audio_stages import (
     bar_phase_at_start,

@@ -15,7 +15,7 @@ from safetensors import safe_open
 from safetensors.torch import save_file
 from torch import Tensor
 
-from ..shared.files import atomic_write
+from ..shared.io.files import atomic_write
 from ..shared.model.clip.core import OWN, TextTower
 from ..shared.model.clip.pretrained import tower_hash
 from ..shared.model.clip.tokenizer import PromptTokenizer

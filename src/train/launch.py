@@ -20,8 +20,8 @@ from ..shared.config_loader import (
 )
 from ..shared.config_schema import Config, TrainConfig
 from ..shared.errors import UserError
-from ..shared.signals import orderly_termination
-from ..shared.sole_writer import sole_writer
+from ..shared.io.concurrency import orderly_termination
+from ..shared.io.files import sole_writer
 from .processes import Interrupted, end_with_parent, is_one_of_several, run_processes
 
 if TYPE_CHECKING:

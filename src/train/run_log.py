@@ -21,7 +21,7 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
-from ..shared.files import atomic_write
+from ..shared.io.files import atomic_write
 
 VALIDATION = "validation/"  # begins the names of figures that are not of training
 

@@ -20,8 +20,8 @@ import torch
 from pydantic import Field
 from torch import Tensor, nn
 
+from ..shared.config_audio import AudioTowerConfig
 from ..shared.config_schema import NetworkConfig
-from ..shared.config_space import AudioTowerConfig
 from ..shared.data.phrases.dataset import MotionPhraseDataset, sound_statistics
 from ..shared.data.phrases.layout import PhraseRecord
 from ..shared.evaluation.space_retrieval import Bench

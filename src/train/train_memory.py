@@ -20,13 +20,13 @@ from pydantic import Field
 from torch import Tensor, nn
 
 from ..shared.config_audio import AudioNetworkConfig, MemoryConditionConfig
-from ..shared.config_memory import MemoryConfig
 from ..shared.data.phrases.dataset import PhraseBatch
 from ..shared.data.phrases.layout import PhraseRecord
 from ..shared.environment import DIFFUSION_CHECKPOINT
 from ..shared.errors import UsageError
 from ..shared.formats.registry import write_trajectory
 from ..shared.memory.context import retrieve
+from ..shared.memory.index import MemoryConfig
 from ..shared.memory.service import MPMService
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
 from ..shared.model.audio.memory_conditioning import MemoryCondition, known_frames

@@ -34,7 +34,7 @@ from ..shared.data.captions.book import packaged_book
 from ..shared.data.captions.schema import Labels
 from ..shared.data.captions.word_dropout import drop_words, insert_babble
 from ..shared.errors import UserError
-from ..shared.files import sha256_file
+from ..shared.io.files import sha256_file
 from ..shared.model.checkpoint import WEIGHTS_FILE, ModelCard, read_card
 from ..shared.model.clip.core import OWN, MotionClip, TextTower
 from ..shared.model.clip.pretrained import KIND, ClipBundle, encode_captions, load_text_tower

@@ -8,8 +8,8 @@ import pytest
 from typer.testing import CliRunner
 
 from src.cli.tools import app
-from src.shared.files import write_json
 from src.shared.formats.arrays import read_npz
+from src.shared.io.files import write_json
 from tests.shared.model.conftest import tiny_generator
 
 PROMPTS = ("--prompt", "a person walks forward", "--prompt", "人が前に歩く")

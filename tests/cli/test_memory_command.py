@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 from src.cli.tools import app
 from src.shared.audio.synthetic_songs import SongSpec, render_song
-from src.shared.config_space import AudioTowerConfig
+from src.shared.config_audio import AudioTowerConfig
 from src.shared.memory.index import MemoryIndex
 from src.shared.model.audio.shared_space import SharedSpace
 from src.shared.model.checkpoint import ModelCard

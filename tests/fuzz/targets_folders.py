@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from src.shared.errors import UserError
-from src.shared.files import sha256_file
+from src.shared.io.files import sha256_file
 from tests.fuzz.target import FRAMES, Target, check_arrays, some_motion
 
 SOUND_ROWS: dict[str, tuple[int, ...]] = {

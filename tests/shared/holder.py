@@ -8,7 +8,7 @@ from pathlib import Path
 
 PROGRAM = """
 import sys, time
-from src.shared.sole_writer import sole_writer
+from src.shared.io.files import sole_writer
 with sole_writer(sys.argv[1]):
     print("held", flush=True)
     time.sleep(600)

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from torch import Tensor
 
-from src.shared.ahead import ahead
+from src.shared.io.concurrency import prefetch
 from src.train.launch import resume_command
 from src.train.optimization import learning_rate_factor
 from src.train.run_log import RunLog, truncate_log
@@ -54,7 +54,7 @@ def test_seeds_differ_with_every_part() -> None:
 
 @pytest.mark.parametrize("workers", [0, 1, 3])
 def test_ahead_keeps_the_order(workers: int) -> None:
-    made = ahead(lambda key: (key, threading.get_ident()), iter(range(20)), workers)
+    made = prefetch(lambda key: (key, threading.get_ident()), iter(range(20)), workers)
     results = list(made)
     assert [key for key, _ in results] == list(range(20))
     main = threading.get_ident()
@@ -66,7 +66,7 @@ def test_ahead_hands_errors_on() -> None:
         return 1 / (2 - key)
 
     with pytest.raises(ZeroDivisionError):
-        list(ahead(make, iter(range(5)), 2))
+        list(prefetch(make, iter(range(5)), 2))
 
 
 @dataclass(frozen=True)

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ..array_files import BadArray, load_arrays
 from ..errors import UserError
-from ..files import atomic_write
+from ..io.arrays import BadArray, load_arrays
+from ..io.files import atomic_write
 
 MAX_VALUES = 1 << 25  # numbers: the 128 rows of two hours at 30 frames a second, and some
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import UserError
-from ..files import sha256_file
+from ..io.files import sha256_file
 from .arrays import write_arrays
 from .beats import Beats, bar_phase, track_beats
 from .feature_cache import FeatureCache, cache_folder

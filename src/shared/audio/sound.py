@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import UserError
-from ..files import sha256_file
+from ..io.files import sha256_file
 from ..sound_files.reader import MAX_SECONDS, Mender, SoundReader, too_long
 
 SAMPLE_RATE = 44_100

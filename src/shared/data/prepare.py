@@ -27,7 +27,7 @@ import torch
 from safetensors.torch import load_file, save_file
 
 from ..errors import UsageError, UserError
-from ..files import atomic_write, load_json, sha256_file, write_json, write_text
+from ..io.files import atomic_write, load_json, sha256_file, write_json, write_text
 from ..motion.features import encode_features, mirror_features
 from .captions.book import CaptionBook
 from .captions.language import mirror_labels
@@ -149,7 +149,7 @@ def open_data(data: str, cache: Path, *, synthetic_clips: int = SYNTHETIC_CLIPS)
     """Open a prepared folder; "synthetic" is prepared on the spot into `cache`, once."""
     if data != SYNTHETIC:
         return PreparedData.open(data)
-    from ..sole_writer import sole_writer
+    from ..io.files import sole_writer
 
     folder = cache / f"synthetic-{synthetic_clips}"
     with sole_writer(folder, wait=True):

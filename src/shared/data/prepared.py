@@ -15,7 +15,7 @@ from torch import Tensor
 
 from ..config_schema import Provenance
 from ..errors import UserError, first_fault
-from ..files import inside, load_json, sha256_file
+from ..io.files import inside, load_json, sha256_file
 from ..motion.features import mirror_features
 
 SPLITS = ("train", "val", "test_seen", "test_unseen")

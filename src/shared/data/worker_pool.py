@@ -17,7 +17,7 @@ from typing import TypeVar
 import torch
 
 from ..errors import UserError
-from ..signals import answered
+from ..io.concurrency import answered
 
 Job = TypeVar("Job")
 Result = TypeVar("Result")

@@ -16,7 +16,7 @@ import numpy as np
 from ..audio.synthetic_songs import render_song
 from ..data.phrases.dataset import MotionPhraseDataset
 from ..errors import UserError
-from ..files import atomic_write
+from ..io.files import atomic_write
 from ..metrics.rhythm import MotionBeats, motion_beats, strangers
 from ..metrics.sanity import frozen
 from ..motion.trajectory import FPS, MotionTrajectory

@@ -57,7 +57,7 @@ def open_held_out(data: str, cache: Path, trained_groups: frozenset[str]) -> Hel
         return HeldOut(prepared, splits, f"test splits of {data}")
     from ..data.prepare import prepare
     from ..data.sources.folders import SyntheticSource
-    from ..sole_writer import sole_writer
+    from ..io.files import sole_writer
 
     folder = cache / f"synthetic-test-{FRESH_CLIPS}"
     with sole_writer(folder, wait=True):

@@ -20,7 +20,7 @@ import numpy as np
 import torch
 
 from ..errors import UsageError, UserError
-from ..files import inside, load_json, sha256_file, write_json
+from ..io.files import inside, load_json, sha256_file, write_json
 
 MANIFEST, TIMING = "manifest.json", "timing.json"
 FORMAT_VERSION = 1

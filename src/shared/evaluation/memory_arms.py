@@ -11,9 +11,8 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from ..config_memory import MemoryConfig
 from ..memory.context import Memory, retrieve
-from ..memory.index import MemoryIndex
+from ..memory.index import MemoryConfig, MemoryIndex
 from ..model.audio.memory_conditioning import MemoryCondition
 from ..pipelines.song_memory import as_condition
 

@@ -13,10 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from ..config_memory import MemoryConfig
 from ..errors import UserError
 from ..memory.build import Space
-from ..memory.index import MemoryIndex
+from ..memory.index import MemoryConfig, MemoryIndex
 from ..model.audio.audio_motion_model import AudioMotionModel
 from ..pipelines.song_sampler import SongSampling
 from .audio_songs import held_out_songs

@@ -20,7 +20,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ..errors import UserError
-from ..files import atomic_write
+from ..io.files import atomic_write
 from ..motion.motion import Motion
 from ..motion.skeleton import NUM_JOINTS, canonical_skeleton
 from .limits import FRAME_RATES, read_arrays

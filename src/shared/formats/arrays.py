@@ -23,7 +23,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import UserError
-from ..files import atomic_write
+from ..io.files import atomic_write
 from ..motion.motion import Motion
 from ..motion.skeleton import JOINT_NAMES, NUM_JOINTS, canonical_skeleton
 from ..motion.trajectory import CHANNELS, FPS, QUATERNION, MotionTrajectory

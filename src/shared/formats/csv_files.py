@@ -14,7 +14,7 @@ import numpy as np
 import torch
 
 from ..errors import UserError
-from ..files import atomic_write
+from ..io.files import atomic_write
 from ..motion.kinematics import global_to_local
 from ..motion.motion import Motion
 from ..motion.rotations import matrix_to_quaternion, quaternion_continuous, quaternion_to_matrix

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import UserError
-from ..files import atomic_write
+from ..io.files import atomic_write
 from .limits import read_bytes
 
 MAX_JSON = 32 << 20

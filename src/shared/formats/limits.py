@@ -11,10 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ..array_files import MAX_VALUES as MAX_VALUES
-from ..array_files import BadArray, load_array, load_arrays
-from ..array_files import array_names as names_of
 from ..errors import UserError
+from ..io.arrays import BadArray, load_array, load_arrays
+from ..io.arrays import array_names as names_of
 
 MAX_BYTES = 256 << 20  # of one file
 MAX_LINE = 1 << 20  # bytes; hundreds of joints with long numbers

@@ -10,11 +10,10 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from ..config_memory import MemoryConfig
 from ..motion.trajectory import FPS, VELOCITY
 from .build import BATCH, Space
 from .context import retrieve
-from .index import NOTHING, Hits, MemoryIndex
+from .index import NOTHING, Hits, MemoryConfig, MemoryIndex
 from .phrases import cut_at_bars
 
 BEATLESS = 2.0  # seconds of a "bar" of a song without beats

@@ -16,11 +16,10 @@ from typing import Any, Protocol
 import torch
 from torch import Tensor
 
-from ..config_memory import MemoryConfig
 from ..data.phrases.layout import PhraseRecord
 from ..errors import UserError
 from .folder import MANIFEST
-from .index import MemoryIndex, Phrase
+from .index import MemoryConfig, MemoryIndex, Phrase
 from .search import add_library, has_tables, library_installed, open_index
 from .source import Piece, Progress, Source
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import UserError
-from ..files import atomic_write, inside, load_json, sha256_file, write_json
+from ..io.files import atomic_write, inside, load_json, sha256_file, write_json
 
 if TYPE_CHECKING:
     from .index import MemoryIndex

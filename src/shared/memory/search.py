@@ -17,7 +17,7 @@ import torch
 from torch import Tensor
 
 from ..errors import UserError
-from ..files import atomic_write, sha256_file, write_json
+from ..io.files import atomic_write, sha256_file, write_json
 from .folder import MANIFEST, read_manifest
 from .index import (
     NOTHING,

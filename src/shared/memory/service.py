@@ -18,10 +18,9 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from ..config_memory import MemoryConfig
 from ..errors import UsageError
 from .context import Memory, null_memory, query_bars, retrieve
-from .index import MemoryIndex
+from .index import MemoryConfig, MemoryIndex
 from .search import open_index
 
 log = logging.getLogger(__name__)

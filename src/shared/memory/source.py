@@ -11,15 +11,15 @@ from typing import Any
 
 import numpy as np
 
-from ..config_memory import MemoryConfig
 from ..data.phrases.dataset import read_phrase
 from ..data.phrases.layout import MANIFEST, BadContent, PhraseRecord
 from ..data.phrases.store import Backoff, PhraseStore, Remote, Unreachable
 from ..errors import UserError
-from ..files import parse_json
+from ..io.files import parse_json
 from ..motion.features import LEFT_CONTACT, ROOT_ROW
 from ..motion.trajectory import FPS
 from ..motion.window import encode_window, place_window
+from .index import MemoryConfig
 from .phrases import cut_at_bars
 from .priors import prior_curves
 

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import UserError
-from ..files import load_json, write_json
+from ..io.files import load_json, write_json
 from ..motion.trajectory import (
     ACCELERATION,
     PHASE,

@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from pydantic import Field, ValidationError
 
-from ..config_audio import AudioNetworkConfig
+from ..config_audio import AudioNetworkConfig, AudioTowerConfig
 from ..config_schema import Config, NetworkConfig
-from ..config_space import AudioTowerConfig
 from ..errors import UserError, first_fault
-from ..files import atomic_write, load_json, sha256_file, write_json
+from ..io.files import atomic_write, load_json, sha256_file, write_json
 
 if TYPE_CHECKING:
     from torch import Tensor, nn

@@ -21,7 +21,7 @@ from scipy.ndimage import gaussian_filter1d
 
 from ..config_loader import parse_yaml
 from ..errors import UserError
-from ..files import read_text
+from ..io.files import read_text
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE

@@ -19,11 +19,10 @@ from torch import Tensor
 
 from ..config_audio import AudioNetworkConfig
 from ..config_loader import load_config, load_yaml, packaged_config
-from ..config_memory import MemoryConfig
 from ..errors import UserError
 from ..memory.build import Space
 from ..memory.context import Memory
-from ..memory.index import MemoryIndex
+from ..memory.index import MemoryConfig, MemoryIndex
 from ..memory.service import MPMService
 from ..model.audio.conditioning import BEAT, with_phase_rows
 from ..model.audio.memory_conditioning import MemoryCondition

@@ -19,7 +19,7 @@ from torch import Tensor
 
 from ..config_loader import nearest, parse_yaml
 from ..errors import UsageError, UserError
-from ..files import read_text
+from ..io.files import read_text
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.motion import Motion

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from src.shared.data.worker_pool import run_jobs
 from src.shared.errors import UserError
-from src.shared.signals import orderly_termination
+from src.shared.io.concurrency import orderly_termination
 
 
 def linger(folder: Path) -> None:

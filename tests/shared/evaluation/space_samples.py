@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import torch
 
+from src.shared.config_audio import AudioTowerConfig
 from src.shared.config_schema import ClipConfig, GenerationConfig, NetworkConfig
-from src.shared.config_space import AudioTowerConfig
 from src.shared.data.phrases.layout import write_body, write_manifest, write_phrase
 from src.shared.model.audio.shared_space import SharedSpace
 from src.shared.model.checkpoint import ModelCard

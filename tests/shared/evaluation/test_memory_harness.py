@@ -11,7 +11,6 @@ from typer.testing import CliRunner
 
 from src.cli.evaluate_memory import numbers
 from src.cli.tools import app
-from src.shared.config_memory import MemoryConfig
 from src.shared.data.phrases.layout import parse_manifest
 from src.shared.errors import UsageError, UserError
 from src.shared.evaluation.memory_arms import RANDOM, WITH, WITHOUT, Arm, Asker, arms
@@ -25,6 +24,7 @@ from src.shared.evaluation.memory_harness import (
     word,
 )
 from src.shared.evaluation.report.tables import Column
+from src.shared.memory.index import MemoryConfig
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.pipelines.song_sampler import SongSampling
 from tests.shared.evaluation.tiny_pairs import tiny_model, write_pairs

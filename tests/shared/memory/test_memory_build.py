@@ -12,12 +12,11 @@ import pytest
 import torch
 from torch import Tensor
 
-from src.shared.config_memory import MemoryConfig
 from src.shared.data.phrases.layout import MANIFEST, body_path
 from src.shared.errors import UserError
 from src.shared.memory import build
 from src.shared.memory.build import build_memory
-from src.shared.memory.index import MemoryIndex
+from src.shared.memory.index import MemoryConfig, MemoryIndex
 from tests.shared.memory.tiny_memory import LinearSpace, write_dancers
 
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from safetensors.torch import load_file, save_file
 
 from src.shared.errors import UserError
-from src.shared.files import sha256_file
+from src.shared.io.files import sha256_file
 from src.shared.memory import index as index_module
 from src.shared.memory.index import MemoryIndex, phase_cost
 from tests.shared.memory.tiny_memory import make_index, make_phrase, random_index

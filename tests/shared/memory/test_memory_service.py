@@ -11,10 +11,9 @@ import numpy as np
 import pytest
 import torch
 
-from src.shared.config_memory import MemoryConfig
 from src.shared.errors import UsageError, UserError
 from src.shared.memory.context import Memory, retrieve
-from src.shared.memory.index import Hits, MemoryIndex
+from src.shared.memory.index import Hits, MemoryConfig, MemoryIndex
 from src.shared.memory.service import MPMService
 from tests.shared.memory.tiny_memory import make_index
 

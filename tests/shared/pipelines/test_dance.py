@@ -8,8 +8,8 @@ import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
+from src.shared.config_audio import AudioTowerConfig
 from src.shared.config_schema import NetworkConfig
-from src.shared.config_space import AudioTowerConfig
 from src.shared.model.audio.shared_space import SharedSpace
 from src.shared.model.checkpoint import ModelCard
 from src.shared.motion.trajectory import MotionTrajectory

@@ -17,9 +17,9 @@ from hypothesis.extra.numpy import arrays
 from pydantic import ValidationError
 from torch import Tensor
 
-from src.shared.config_space import AudioTowerConfig
+from src.shared.config_audio import AudioTowerConfig
 from src.shared.errors import UserError
-from src.shared.files import write_json
+from src.shared.io.files import write_json
 from src.shared.model import zoo
 from src.shared.model.audio.shared_space import SharedSpace
 from src.shared.model.checkpoint import ModelCard

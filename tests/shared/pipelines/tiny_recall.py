@@ -4,7 +4,7 @@ from pathlib import Path
 
 import torch
 
-from src.shared.config_space import AudioTowerConfig
+from src.shared.config_audio import AudioTowerConfig
 from src.shared.memory.index import MemoryIndex
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.audio.shared_space import SharedSpace

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from ...errors import UsageError, UserError
-from ...files import sha256_file
+from ...io.files import sha256_file
 from ..splits import assign_alike
 from .pair import MusicBeats, strong_beats
 

@@ -18,7 +18,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from ...files import sha256_file, write_json
+from ...io.files import sha256_file, write_json
 from ...motion.features import (
     FORWARD,
     HEIGHT,

@@ -30,7 +30,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import UserError
-from ...files import load_json, sha256_file, write_json
+from ...io.files import load_json, sha256_file, write_json
 from ...motion.style import measure_style
 from ...motion.trajectory import STYLE, MotionTrajectory
 from ..phrases.layout import PhraseRecord, features_path, trajectory_path, write_phrase

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ...array_files import load_array, load_arrays
-from ...files import inside, load_json, write_json
+from ...io.arrays import load_array, load_arrays
+from ...io.files import inside, load_json, write_json
 from ...metrics.rhythm import motion_beats
 from ...motion.trajectory import MotionTrajectory
 from ...motion.window import encode_window

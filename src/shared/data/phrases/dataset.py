@@ -13,8 +13,8 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from ...ahead import ahead
 from ...errors import UsageError, UserError
+from ...io.concurrency import prefetch
 from .layout import (
     BadContent,
     PhraseRecord,
@@ -304,7 +304,7 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
         leaves the part smaller; a part of bad ones only takes the next good phrase.
         """
         first = ((step - 1) * count + index) * size
-        items = list(ahead(self._at, range(first, first + size), min(self.threads, size)))
+        items = list(prefetch(self._at, range(first, first + size), min(self.threads, size)))
         good = [item for item in items if item is not None]
         while not good:  # ends: the quarantine fails first if all are bad
             first += size
@@ -371,7 +371,7 @@ class EpochIterator:
             return position, self.dataset.item(int(order[position]), self.epoch)
 
         threads = self.dataset.threads
-        return ahead(make, positions, threads, depth=2 * threads)
+        return prefetch(make, positions, threads, depth=2 * threads)
 
     def state_dict(self) -> dict[str, Any]:
         """Plain data for JSON: the position counts bad phrases too."""

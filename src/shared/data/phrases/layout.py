@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel, ValidationError, field_validator
 
-from ...array_files import BadArray, load_array, load_arrays
 from ...audio.features import AudioFeatures
 from ...errors import UserError, first_fault
-from ...files import atomic_write, sha256_file, write_text
+from ...io.arrays import BadArray, load_array, load_arrays
+from ...io.files import atomic_write, sha256_file, write_text
 
 MANIFEST = "manifest.json"
 MIN_FRAMES = 8  # what the UNet takes at least (ruling 4)

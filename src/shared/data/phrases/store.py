@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from ...errors import UsageError, UserError
-from ...files import atomic_write, load_json, write_json
+from ...io.files import atomic_write, load_json, write_json
 from .layout import (
     MANIFEST,
     BadContent,

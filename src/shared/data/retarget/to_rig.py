@@ -11,12 +11,12 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import UsageError, UserError
-from ...files import same_place
 from ...formats.readers.bvh import BvhClip, read_bvh
 from ...formats.readers.glb import GlbSkeleton, read_glb_skeleton
 from ...formats.registry import check_motion, write_clip
 from ...formats.rig import Rig, RigClip, canonical_rig, motion_clip, turned
 from ...formats.writers.glb import write_glb_character
+from ...io.files import same_place
 from ...motion.motion import Motion
 from ...motion.skeleton import JOINT_INDEX, LEG_LENGTH, NUM_JOINTS, REST_FOOT_HEIGHT
 from .autodetection import UNITS, detect_unit, detect_up, joint_indices, rest_frame, upright

@@ -11,7 +11,7 @@ from typing import Any, Literal, NamedTuple, get_args
 
 from ...config_schema import Provenance
 from ...errors import UserError
-from ...files import parse_json, read_text
+from ...io.files import parse_json, read_text
 from ..retarget.read_motion import FOLDER_ENDINGS
 
 _CLIP_KEYS = ("clip", "file", "id", "name")

@@ -26,7 +26,7 @@ from torch import Tensor, nn
 
 from ...config_schema import Config
 from ...errors import UserError
-from ...files import atomic_write, load_json, sha256_file, write_json
+from ...io.files import atomic_write, load_json, sha256_file, write_json
 from ...metrics.retrieval import NUM_BUCKETS, caption_buckets
 from ...model.checkpoint import of_another_version
 from ...model.zoo import PRETRAINED

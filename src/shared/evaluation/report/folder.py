@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import UserError
-from ...files import write_json, write_text
+from ...io.files import write_json, write_text
 from ..manifest import read_json
 from .html import html_page
 from .tables import markdown

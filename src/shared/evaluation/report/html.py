@@ -14,10 +14,10 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from ...files import inside
 from ...formats.arrays import read_npz, read_trajectory_npz
 from ...formats.preview.html import write_html, write_trajectory_html
 from ...formats.preview.trajectory import SongTrack
+from ...io.files import inside
 from .tables import Cell, Column, Grid, grids, heading, intervals_note, number, printed
 
 POLICY = (

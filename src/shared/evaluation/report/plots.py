@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...errors import UserError
-from ...files import atomic_write, parse_json
+from ...io.files import atomic_write, parse_json
 from ...metrics.sanity import SanityThresholds
 from ...motion.trajectory import MotionTrajectory
 

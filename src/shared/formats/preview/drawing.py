@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...errors import UserError
-from ...files import atomic_write
+from ...io.files import atomic_write
 
 if TYPE_CHECKING:
     from PIL import Image, ImageDraw

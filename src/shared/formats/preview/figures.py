@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...errors import UserError
-from ...files import atomic_write
+from ...io.files import atomic_write
 from ...motion.motion import Motion, resample_motion
 from ...motion.skeleton import FOOT_JOINTS
 from ..mannequin import CONTACT, Mannequin, mannequin, side_colours

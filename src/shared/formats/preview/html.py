@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import UserError
-from ...files import write_text
+from ...io.files import write_text
 from ...motion.motion import Motion
 from ...motion.skeleton import FOOT_JOINTS, canonical_skeleton
 from ...motion.style import PAIRS, style_values

@@ -14,13 +14,13 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import UserError, printable
+from ...io.arrays import MAX_VALUES
 from ..limits import (
     FRAME_RATES,
     MAX_FRAMES,
     MAX_JOINTS,
     MAX_LINE,
     MAX_VALUE,
-    MAX_VALUES,
     Deadline,
     check_size,
     read_bytes,

@@ -15,6 +15,7 @@ from typing import IO, TypeVar
 import numpy as np
 
 from ...errors import UserError, printable
+from ...io.arrays import MAX_VALUES
 from ..limits import (
     FRAME_RATES,
     MAX_BYTES,
@@ -22,7 +23,6 @@ from ..limits import (
     MAX_JOINTS,
     MAX_LINE,
     MAX_VALUE,
-    MAX_VALUES,
     Deadline,
     check_size,
     remedied,

@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 
 from ...errors import UserError, printable
+from ...io.arrays import MAX_VALUES
 from ..glb_file import GlbError, GlbFile
-from ..limits import FRAME_RATES, MAX_FRAMES, MAX_JOINTS, MAX_VALUE, MAX_VALUES
+from ..limits import FRAME_RATES, MAX_FRAMES, MAX_JOINTS, MAX_VALUE
 from ..rig import Rig, RigClip, quaternions_to_matrices
 
 DEFAULT_FPS = 30.0

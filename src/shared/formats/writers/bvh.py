@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...files import write_text
+from ...io.files import write_text
 from ...motion.motion import Motion
 from ..rig import Rig, RigClip, motion_clip, rescaled
 

@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from ...errors import UserError, printable
-from ...files import atomic_write, write_text
+from ...io.files import atomic_write, write_text
 from ...motion.motion import Motion
 from ..mannequin import Mannequin, mannequin, side_colours
 from ..rig import (

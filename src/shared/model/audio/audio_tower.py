@@ -10,7 +10,7 @@ import torch
 from torch import Tensor, nn
 from torch.nn.functional import normalize, pad
 
-from ...config_space import AudioTowerConfig
+from ...config_audio import AudioTowerConfig
 from ..layers.temporal_unet import TemporalUNet
 from .conditioning import (
     BEAT,

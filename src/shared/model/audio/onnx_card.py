@@ -13,7 +13,7 @@ from pydantic import ValidationError
 from ...config_audio import AudioNetworkConfig
 from ...config_schema import Config
 from ...errors import UserError, first_fault
-from ...files import load_json, sha256_file
+from ...io.files import load_json, sha256_file
 from ..checkpoint import read_card
 from ..zoo import resolve_model
 

@@ -21,7 +21,7 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
 
-from ...files import atomic_write, write_json
+from ...io.files import atomic_write, write_json
 from ...motion.trajectory import CHANNELS, PHASE
 from .audio_motion_model import AudioMotionModel
 from .blocks import Downsample, FrameRotary

@@ -15,8 +15,8 @@ import torch
 from torch import Tensor, nn
 from torch.nn.functional import normalize
 
+from ...config_audio import AudioTowerConfig
 from ...config_schema import NetworkConfig
-from ...config_space import AudioTowerConfig
 from ...errors import UserError
 from ..checkpoint import (
     ModelCard,

@@ -30,7 +30,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from ...errors import UserError
-from ...files import atomic_write, load_json, write_json
+from ...io.files import atomic_write, load_json, write_json
 from ..checkpoint import of_another_version
 
 TABLE_FILE, META_FILE = "scope.safetensors", "scope.json"

@@ -14,7 +14,7 @@ from typing import Self
 import numpy as np
 
 from ...errors import UserError
-from ...files import atomic_write
+from ...io.files import atomic_write
 from ...motion.style import PAIRS, style_vector
 
 STYLE_FILE = "style.safetensors"

@@ -15,7 +15,7 @@ from src.shared.data.phrases.layout import decode_body, parse_manifest
 from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
 from src.shared.data.sources.folders import SyntheticSource
-from src.shared.files import sha256_file
+from src.shared.io.files import sha256_file
 from src.shared.motion.features import ROOT_ROW, decode_features
 
 OPTIONS = PairOptions(min_seconds=3.0, max_seconds=5.0, synthetic_clips=True)

@@ -19,7 +19,7 @@ from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
 from src.shared.data.sources.folders import RawClip
 from src.shared.errors import UsageError, UserError
-from src.shared.files import sha256_file
+from src.shared.io.files import sha256_file
 from src.shared.motion.motion import Motion
 
 OPTIONS = PairOptions(min_seconds=4.0, max_seconds=7.0)

@@ -10,7 +10,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parents[4]))
 
 from src.shared.data.phrases.dataset import MotionPhraseDataset
-from src.shared.files import write_json
+from src.shared.io.files import write_json
 from tests.shared.data.phrases.gcs_proxy import BUCKET, options
 from tests.shared.data.phrases.phrase_samples import plain_encode
 

@@ -8,7 +8,7 @@ import torch
 from safetensors.torch import load_file
 from torch.nn.functional import cosine_similarity
 
-from src.shared.config_space import AudioTowerConfig
+from src.shared.config_audio import AudioTowerConfig
 from src.shared.errors import UserError
 from src.shared.model.audio.audio_tower import AudioTower, rate_rows
 from src.shared.model.audio.shared_space import SharedSpace

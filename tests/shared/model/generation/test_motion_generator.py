@@ -10,7 +10,7 @@ from safetensors.torch import load_file, save_file
 
 from src.shared.config_schema import PROVENANCES
 from src.shared.errors import UsageError, UserError
-from src.shared.files import sha256_file, write_json
+from src.shared.io.files import sha256_file, write_json
 from src.shared.model.checkpoint import CARD_FILE, WEIGHTS_FILE
 from src.shared.model.clip.core import TextTower
 from src.shared.model.generation.motion_generator import TextToMotion

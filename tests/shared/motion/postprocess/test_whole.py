@@ -10,7 +10,11 @@ from scipy.ndimage import convolve1d
 from src.shared.config_schema import PostProcessingConfig
 from src.shared.motion.features import decode_features, encode_features
 from src.shared.motion.motion import Motion
-from src.shared.motion.postprocess.whole import MotionPostProcessor, clamp_velocity, smooth_features
+from src.shared.motion.postprocess.whole import (
+    MotionPostProcessor,
+    clamp_velocity,
+    smooth_features,
+)
 from src.shared.motion.rotations import (
     quaternion_conjugate,
     quaternion_exp,

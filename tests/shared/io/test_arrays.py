@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import torch
 
-from src.shared.array_files import load_array, load_arrays
+from src.shared.io.arrays import load_array, load_arrays
 
 
 @pytest.mark.filterwarnings("error")

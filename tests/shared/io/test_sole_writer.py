@@ -6,7 +6,7 @@ from threading import Timer
 import pytest
 
 from src.shared.errors import UserError
-from src.shared.sole_writer import sole_writer
+from src.shared.io.files import sole_writer
 from tests.shared.holder import held
 
 

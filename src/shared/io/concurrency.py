@@ -1,15 +1,20 @@
-"""`map` in threads, some items ahead of who asks for them."""
+"""Threads that work ahead, and signals answered for the length of a block."""
 
+import signal
+import sys
+import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
-from typing import TypeVar
+from contextlib import AbstractContextManager, contextmanager
+from types import FrameType
+from typing import Any, TypeVar
 
 Key = TypeVar("Key")
 Value = TypeVar("Value")
 
 
-def ahead(
+def prefetch(
     function: Callable[[Key], Value], keys: Iterable[Key], threads: int, depth: int = 0
 ) -> Iterator[Value]:
     """`map(function, keys)` in order, computed in threads up to `depth` keys ahead.
@@ -23,7 +28,7 @@ def ahead(
     if threads == 0:
         yield from map(function, keys)
         return
-    with ThreadPoolExecutor(threads, thread_name_prefix="ahead") as pool:
+    with ThreadPoolExecutor(threads, thread_name_prefix="prefetch") as pool:
         queue: deque[Future[Value]] = deque()
         try:
             for key in keys:
@@ -35,3 +40,25 @@ def ahead(
         finally:
             for future in queue:
                 future.cancel()
+
+
+@contextmanager
+def answered(number: int, answer: Any) -> Iterator[None]:
+    """Answer a signal with `answer` inside; processes that start there inherit an ignored one."""
+    if threading.current_thread() is not threading.main_thread():
+        yield  # signals stay with whoever runs it
+        return
+    before = signal.signal(number, answer)
+    try:
+        yield
+    finally:
+        signal.signal(number, before)
+
+
+def orderly_termination() -> AbstractContextManager[None]:
+    """Let SIGTERM end the program as an error would: workers end, half-written files go."""
+    return answered(signal.SIGTERM, _leave)
+
+
+def _leave(number: int, _frame: FrameType | None) -> None:
+    sys.exit(128 + number)

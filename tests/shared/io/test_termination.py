@@ -9,7 +9,7 @@ import pytest
 
 PROGRAM = """
 import time
-from src.shared.signals import orderly_termination
+from src.shared.io.concurrency import orderly_termination
 with orderly_termination():
     try:
         print("started", flush=True)
@@ -23,7 +23,7 @@ with orderly_termination():
 def test_sigterm_leaves_in_order() -> None:
     process = subprocess.Popen(
         [sys.executable, "-c", PROGRAM],
-        cwd=Path(__file__).parents[2],
+        cwd=Path(__file__).parents[3],
         stdout=subprocess.PIPE,
         text=True,
     )

@@ -10,7 +10,7 @@ import torch
 from safetensors.torch import save_file
 
 from src.shared.errors import UserError
-from src.shared.files import atomic_write, inside, same_place, write_json
+from src.shared.io.files import atomic_write, inside, same_place, write_json
 from tests.full_disk import full_disk
 
 
