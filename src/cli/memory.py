@@ -13,8 +13,8 @@ from .console import complain, guarded, tell, with_quiet
 from .help_page import Command
 
 if TYPE_CHECKING:
-    from ..shared.memory.ask import Answer, Found
     from ..shared.memory.index import MemoryConfig, MemoryIndex
+    from ..shared.memory.query import Hit, QueryResult
     from ..shared.model.audio.shared_space import SharedSpace
 
 SPACE = "starter-space"
@@ -123,22 +123,22 @@ def query(
     index, loaded = open_memory(memory, space or "")
     config = load_settings(top_k=top_k, bars=index.about["bars"])
     if is_song:
-        answers = query_song(Path(ask), index, loaded, config, meter)
+        results = results_of_song(Path(ask), index, loaded, config, meter)
     else:
-        answers = [query_text(ask, index, loaded, config, model)]
+        results = [result_of_text(ask, index, loaded, config, model)]
     if json:
         told = {
             "query": ask,
             "kind": "song" if is_song else "text",
             "memory": str(memory),
-            "answers": [answer.to_json() for answer in answers],
+            "answers": [result.to_json() for result in results],
         }
         print(json_format.dumps(told, indent=1, ensure_ascii=False))
     elif is_song:
-        print_song(answers)
+        print_song(results)
     else:
-        print(f"confidence {answers[0].confidence:.2f}")
-        print_hits(answers[0].hits)
+        print(f"confidence {results[0].confidence:.2f}")
+        print_hits(results[0].hits)
 
 
 for command in (build, query):
@@ -159,50 +159,50 @@ def load_settings(**given: Any) -> "MemoryConfig":
     return load_config(MemoryConfig, load_yaml(path), str(path), overrides)
 
 
-def query_song(
+def results_of_song(
     path: Path,
     index: "MemoryIndex",
     space: "SharedSpace",
     config: "MemoryConfig",
     meter: int | None,
-) -> list["Answer"]:
-    """Listen, then ask for each bar."""
+) -> list["QueryResult"]:
+    """The phrases for each bar of a song."""
     from ..shared.audio.song import analyse
-    from ..shared.memory.ask import ask_song
+    from ..shared.memory.query import query_song
     from ..shared.pipelines.song import heard
 
     condition, phase = heard(analyse(path, meter=meter), None)
     if phase is None:
         tell(f"{path.name}: no beat was heard; asking every 2 s")
-    return ask_song(index, space, condition, phase, config=config)
+    return query_song(index, space, condition, phase, config=config)
 
 
-def query_text(
+def result_of_text(
     text: str, index: "MemoryIndex", space: "SharedSpace", config: "MemoryConfig", model: str
-) -> "Answer":
-    """Read the words with the text model's tower, then ask."""
-    from ..shared.memory.ask import ask_text
+) -> "QueryResult":
+    """Read the words with the text model's tower, then search."""
+    from ..shared.memory.query import query_text
     from ..shared.model.generation.motion_generator import TextToMotion
 
     generator = TextToMotion.from_pretrained(model, device="cpu")
     for warning in filter(None, generator.scope_warnings([text])):
         complain(f"warning: {warning}")
     embedding = space.embed_text([text], generator.text, generator.tokenizer)
-    return ask_text(index, embedding, config=config)
+    return query_text(index, embedding, config=config)
 
 
-def print_song(answers: list["Answer"]) -> None:
+def print_song(results: list["QueryResult"]) -> None:
     """A line a bar with its best phrase."""
     print("  bar   seconds      conf  score   BPM   m/s  phrase")
-    for answer in answers:
-        best = answer.hits[0]
+    for result in results:
+        best = result.hits[0]
         print(
-            f"{answer.bar:>5}  {answer.start:>5.1f}-{answer.stop:<5.1f}  {answer.confidence:>5.2f}"
+            f"{result.bar:>5}  {result.start:>5.1f}-{result.stop:<5.1f}  {result.confidence:>5.2f}"
             f"  {best.score:>5.2f}  {best.tempo:>4.0f}  {best.speed:>4.2f}  {name_of(best)}"
         )
 
 
-def print_hits(hits: list["Found"]) -> None:
+def print_hits(hits: list["Hit"]) -> None:
     """A line a phrase."""
     print("rank  score   BPM   m/s  energy  density  tension  stability  phrase")
     for hit in hits:
@@ -213,7 +213,7 @@ def print_hits(hits: list["Found"]) -> None:
         )
 
 
-def name_of(hit: "Found") -> str:
+def name_of(hit: "Hit") -> str:
     """What a phrase shows: its caption, else its clip; and its id."""
     shown = printable(hit.caption or Path(hit.clip).name)  # "~mirrored" may follow its suffix
     return f"{shown[:NAME_WIDTH]} [{hit.phrase}]" if shown else hit.phrase

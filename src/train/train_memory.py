@@ -25,8 +25,8 @@ from ..shared.data.phrases.layout import PhraseRecord
 from ..shared.environment import DIFFUSION_CHECKPOINT
 from ..shared.errors import UsageError
 from ..shared.formats.registry import write_trajectory
-from ..shared.memory.context import retrieve
 from ..shared.memory.index import MemoryConfig
+from ..shared.memory.query import retrieve
 from ..shared.memory.service import MPMService
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
 from ..shared.model.audio.memory_conditioning import MemoryCondition, known_frames

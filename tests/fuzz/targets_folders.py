@@ -86,8 +86,7 @@ def _read_model(path: Path) -> None:
 def _write_memory(folder: Path) -> None:
     import torch
 
-    from src.shared.memory.folder import save_index
-    from src.shared.memory.index import MemoryIndex
+    from src.shared.memory.index import MemoryIndex, save_index
 
     torch.manual_seed(0)
     keys = torch.nn.functional.normalize(torch.randn(4, 8), dim=-1)

@@ -11,8 +11,8 @@ from tiny_audio_stage import PREFIX, SETTINGS, STEPS, assert_equal_runs, audio_c
 from src.shared.config_loader import load_train
 from src.shared.data.phrases.dataset import MotionPhraseDataset
 from src.shared.errors import UsageError, UserError
-from src.shared.memory.context import retrieve
 from src.shared.memory.index import MemoryIndex
+from src.shared.memory.query import retrieve
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.motion.trajectory import PHASE
 from src.shared.pipelines.song_memory import bars_of_sound

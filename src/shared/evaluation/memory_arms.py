@@ -11,8 +11,8 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from ..memory.context import Memory, retrieve
 from ..memory.index import MemoryConfig, MemoryIndex
+from ..memory.query import Memory, retrieve
 from ..model.audio.memory_conditioning import MemoryCondition
 from ..pipelines.song_memory import as_condition
 

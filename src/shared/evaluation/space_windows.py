@@ -12,7 +12,7 @@ from torch import Tensor
 
 from ..data.phrases.dataset import MotionPhraseDataset
 from ..data.phrases.layout import PhraseRecord
-from ..memory.phrases import cut_at_bars
+from ..memory.build import cut_at_bars
 from ..model.audio.conditioning import BEAT, with_phase_rows
 from ..motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
 

@@ -18,14 +18,15 @@ from torch import Tensor
 
 from ..errors import UserError
 from ..io.files import atomic_write, sha256_file, write_json
-from .folder import MANIFEST, read_manifest
 from .index import (
+    MANIFEST,
     NOTHING,
     PHASE_WEIGHT,
     Excluded,
     Hits,
     Key,
     MemoryIndex,
+    read_manifest,
 )
 
 SIDES: tuple[Key, ...] = ("audio", "motion")

@@ -19,8 +19,8 @@ import torch
 from torch import Tensor
 
 from ..errors import UsageError
-from .context import Memory, null_memory, query_bars, retrieve
 from .index import MemoryConfig, MemoryIndex
+from .query import Memory, null_memory, query_bars, retrieve
 from .search import open_index
 
 log = logging.getLogger(__name__)

@@ -14,7 +14,7 @@ from torch import Tensor
 from ..device import choose_device
 from ..errors import UsageError
 from ..memory.build import Space
-from ..memory.context import Memory
+from ..memory.query import Memory
 from ..memory.service import MPMService
 from ..model.audio.audio_motion_model import AudioMotionModel
 from .ranking import AudioJudge, ScoreTable

@@ -21,8 +21,8 @@ from ..config_audio import AudioNetworkConfig
 from ..config_loader import load_config, load_yaml, packaged_config
 from ..errors import UserError
 from ..memory.build import Space
-from ..memory.context import Memory
 from ..memory.index import MemoryConfig, MemoryIndex
+from ..memory.query import Memory
 from ..memory.service import MPMService
 from ..model.audio.conditioning import BEAT, with_phase_rows
 from ..model.audio.memory_conditioning import MemoryCondition

@@ -84,7 +84,7 @@ def test_smaller_memories_lack_more_and_never_fewer() -> None:
 
 def test_one_hit_is_that_phrase() -> None:
     """Asked with its own key, and only once, the answer is its motion key."""
-    from src.shared.memory.context import projection
+    from src.shared.memory.query import projection
 
     index = make_index()
     found = asker().answer(Arm("top 1", top_k=1), index.audio_keys[4:5], None, 20, [""])

@@ -47,7 +47,7 @@ def test_phrases_of_the_training_split(pairs: Path, tmp_path: Path) -> None:
 
 def test_keys_are_those_of_the_space(pairs: Path, tmp_path: Path) -> None:
     """Each key is what the space makes of the piece alone: padding in a batch does not show."""
-    from src.shared.memory.source import Source
+    from src.shared.memory.build import Source
 
     space = LinearSpace()
     index = build_memory(pairs, space, tmp_path)

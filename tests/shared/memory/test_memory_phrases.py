@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.memory.phrases import cut_at_bars
+from src.shared.memory.build import cut_at_bars
 
 
 def test_phrases_of_two_bars_start_on_downbeats() -> None:

@@ -7,8 +7,8 @@ import torch
 from torch.nn.functional import normalize
 
 from src.shared.errors import UserError
-from src.shared.memory.context import retrieve
 from src.shared.memory.index import MemoryIndex
+from src.shared.memory.query import retrieve
 from src.shared.memory.search import LibraryIndex, add_library, make_table, open_index
 from tests.shared.memory.tiny_memory import make_index, random_index
 

@@ -1,18 +1,20 @@
-"""What a network is told of the phrases that were found: context, prior curves, confidence.
+"""From a song or words to the phrases found, and what a network is told of them.
 
-Letters: B queries, D width of the shared space, k hits, T frames asked for.
+Letters: B queries, C rows of sound, D width of the shared space, k hits, T frames asked for.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 import torch
 from torch import Tensor
 
-from ..motion.trajectory import PHASE, unwrap_phase
-from .index import NOTHING, PHASE_WEIGHT, Excluded, Hits, Key, MemoryIndex
+from ..motion.trajectory import FPS, PHASE, VELOCITY, unwrap_phase
+from .build import BATCH, Space, cut_at_bars
+from .index import NOTHING, PHASE_WEIGHT, Excluded, Hits, Key, MemoryConfig, MemoryIndex
 from .priors import NUM_PRIORS
 
 CONTEXT_DIM = 256  # ruling 26
@@ -28,7 +30,7 @@ class Memory:
 
     Attributes:
         context: [B,256] float32; its length says how much the hits agree, at most 1.
-        priors: [B,4,T] float32 in [0,1]; see priors.py.
+        priors: [B,4,T] float32 in [0,1]; see `prior_curves`.
         confidence: [B] float32 in [0,1]; 0 = nothing is known, context and priors are zeros.
         hits: the phrases it comes from; None in a null memory.
     """
@@ -189,3 +191,146 @@ def lay(curves: np.ndarray, own: np.ndarray, bars: np.ndarray, num_frames: int) 
     period = np.floor((len(own) + 1) * step)  # cut at frames, two bars may be a frame short
     since = np.maximum(since, 0) % period if period else since
     return np.stack([np.interp(own[0] + since, own, curve) for curve in curves]).astype(np.float32)
+
+
+# ---------------------------------------------------------------- songs and words
+
+BEATLESS = 2.0  # seconds of a "bar" of a song without beats
+
+
+@dataclass(frozen=True)
+class Hit:
+    """One phrase found, described for a person.
+
+    Attributes:
+        score: cosine, less the loss for a foreign bar phase.
+        tempo: beats a minute of the song it was danced to; 0 if unknown.
+        speed: mean speed of the pelvis, m/s.
+        energy, density, tension, stability: means of the prior curves, 0 to 1.
+    """
+
+    rank: int
+    score: float
+    phrase: str
+    song: str
+    clip: str
+    caption: str
+    seconds: float
+    tempo: float
+    speed: float
+    energy: float
+    density: float
+    tension: float
+    stability: float
+
+
+@dataclass(frozen=True)
+class QueryResult:
+    """What one query found; `start` and `stop` are seconds of the song, `bar` its number."""
+
+    confidence: float
+    hits: list[Hit]
+    bar: int | None = None
+    start: float | None = None
+    stop: float | None = None
+
+    def to_json(self) -> dict[str, Any]:
+        """Without what is not known."""
+        return {name: value for name, value in asdict(self).items() if value is not None}
+
+
+@torch.no_grad()
+def query_song(
+    index: MemoryIndex,
+    space: Space,
+    condition: Tensor,
+    phase: np.ndarray | None,
+    *,
+    config: MemoryConfig,
+) -> list[QueryResult]:
+    """For each bar of a song, the phrases that sound like the bars from there on.
+
+    Args:
+        index: a memory made with `space`.
+        condition: rows [C,T] of the whole song.
+        phase: unwrapped bars [T]; None = no beat was heard, "bars" of 2 s.
+        config: `bars`, `min_frames`, `top_k`, `phase_weight`, ...
+    """
+    bars = np.arange(condition.shape[1]) / (BEATLESS * FPS) if phase is None else phase
+    cuts = cut_at_bars(bars, bars=config.bars, step=1, min_frames=config.min_frames)
+    results: list[QueryResult] = []
+    for first in range(0, len(cuts), BATCH):
+        part = cuts[first : first + BATCH]
+        longest = max(stop - start for start, stop in part)
+        windows = torch.zeros(len(part), len(condition), longest)
+        mask = torch.zeros(len(part), longest, dtype=torch.bool)
+        for row, (start, stop) in enumerate(part):
+            windows[row, :, : stop - start] = condition[:, start:stop]
+            mask[row, : stop - start] = True
+        starts = torch.tensor([float(bars[start]) for start, _ in part])
+        memory = retrieve(
+            index,
+            space.embed_audio(windows, mask).cpu(),
+            num_frames=1,
+            phase=None if phase is None else starts,
+            top_k=config.top_k,
+            temperature=config.temperature,
+            key="audio",
+            phase_weight=config.phase_weight,
+        )
+        assert memory.hits is not None
+        for row, (start, stop) in enumerate(part):
+            results.append(
+                QueryResult(
+                    confidence=float(memory.confidence[row]),
+                    hits=describe(index, memory.hits, row),
+                    bar=int(np.rint(bars[start])),
+                    start=start / FPS,
+                    stop=stop / FPS,
+                )
+            )
+    return results
+
+
+def query_text(index: MemoryIndex, embedding: Tensor, *, config: MemoryConfig) -> QueryResult:
+    """The phrases whose motion is nearest to a text's embedding [1,D]."""
+    memory = retrieve(
+        index,
+        embedding,
+        num_frames=1,
+        top_k=config.top_k,
+        temperature=config.temperature,
+        key="motion",
+    )
+    assert memory.hits is not None
+    return QueryResult(float(memory.confidence[0]), describe(index, memory.hits, 0))
+
+
+def describe(index: MemoryIndex, hits: Hits, row: int) -> list[Hit]:
+    """The hits of one query in words and figures."""
+    pairs = zip(hits.index[row].tolist(), hits.score[row].tolist(), strict=True)
+    return [
+        _hit(index, phrase, score, rank)
+        for rank, (phrase, score) in enumerate(pairs, 1)
+        if phrase != NOTHING
+    ]
+
+
+def _hit(index: MemoryIndex, phrase: int, score: float, rank: int) -> Hit:
+    trajectory = index.trajectory(phrase)
+    energy, density, tension, stability = index.prior(phrase).mean(1).tolist()
+    return Hit(
+        rank=rank,
+        score=score,
+        phrase=index.ids[phrase],
+        song=index.song_of(phrase),
+        clip=index.clips[phrase],
+        caption=index.captions[phrase],
+        seconds=len(trajectory) / FPS,
+        tempo=float(index.tempo[phrase]),
+        speed=float(np.linalg.norm(trajectory[:, VELOCITY], axis=1).mean()),
+        energy=energy,
+        density=density,
+        tension=tension,
+        stability=stability,
+    )

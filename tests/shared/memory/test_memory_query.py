@@ -6,8 +6,8 @@ import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.memory.context import lay, null_memory, projection, retrieve
 from src.shared.memory.index import MemoryIndex
+from src.shared.memory.query import lay, null_memory, projection, retrieve
 from tests.shared.memory.tiny_memory import make_index, make_phrase
 
 
