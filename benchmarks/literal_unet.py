@@ -26,7 +26,7 @@ from src.shared.model.audio.blocks import AttentionBlock, Downsample, ResBlock, 
 from src.shared.model.audio.conditioning import FEATURE_ROWS
 from src.shared.model.audio.unet import UNet1D
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
-from src.shared.model.layers.positions import sinusoidal
+from src.shared.model.layers.attention import sinusoidal
 
 
 class LiteralResBlock(nn.Module):

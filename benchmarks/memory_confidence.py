@@ -28,7 +28,7 @@ from src.shared.memory.index import MemoryConfig, MemoryIndex
 from src.shared.memory.query import BEATLESS, retrieve
 from src.shared.model.audio.shared_space import SharedSpace
 from src.shared.motion.trajectory import FPS
-from src.shared.pipelines.song import heard
+from src.shared.pipelines.song import song_condition
 from src.shared.pipelines.song_memory import open_memory
 
 RATE, SECONDS = 44100, 10
@@ -60,7 +60,7 @@ def foreign_sounds(seed: int) -> Iterator[tuple[str, np.ndarray]]:
 @torch.no_grad()
 def embedded(space: SharedSpace, samples: np.ndarray) -> Tensor:
     """Keys [M,D] of a sound, cut as `memory query` cuts it."""
-    condition, phase = heard(analyse_sound(sound_from_samples(samples, RATE)), None)
+    condition, phase = song_condition(analyse_sound(sound_from_samples(samples, RATE)), None)
     bars = np.arange(condition.shape[1]) / (BEATLESS * FPS) if phase is None else phase
     cuts = cut_at_bars(bars, step=1)
     return torch.cat([space.embed_audio(condition[None, :, a:b]) for a, b in cuts])

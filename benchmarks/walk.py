@@ -90,7 +90,7 @@ def main() -> None:
 
 def asked(place: str) -> dict[str, list[str]]:
     """The two requests of the issue."""
-    from src.shared.audio.song_spec import SongSpec
+    from src.shared.audio.synthetic_score import SongSpec
     from src.shared.audio.synthetic_songs import render_song
 
     song = Path(place) / "song.wav"

@@ -27,7 +27,7 @@ MADE = "made/wave/01-a-person-waves-with-the-left-hand"
 INPUTS = """
 import sys
 from pathlib import Path
-from src.shared.audio.song_spec import SongSpec
+from src.shared.audio.synthetic_score import SongSpec
 from src.shared.audio.synthetic_songs import render_song
 render_song(SongSpec(seconds=6.0, seed=1)).write_wav(Path("song.wav"))
 Path("path.csv").write_text("x,z\\n0,0\\n0,2\\n1,3\\n")

@@ -34,7 +34,7 @@ def calibrate(
     from ..shared.data.prepared import PreparedData
     from ..shared.device import set_threads
     from ..shared.evaluation.judge.actions import action_reliability
-    from ..shared.model.clip.scope import RELIABLE
+    from ..shared.model.clip.out_of_domain import RELIABLE
     from ..shared.model.generation.motion_generator import TextToMotion
     from ..shared.pipelines.text import SentenceGenerator
 

@@ -169,9 +169,9 @@ def results_of_song(
     """The phrases for each bar of a song."""
     from ..shared.audio.song import analyse
     from ..shared.memory.query import query_song
-    from ..shared.pipelines.song import heard
+    from ..shared.pipelines.song import song_condition
 
-    condition, phase = heard(analyse(path, meter=meter), None)
+    condition, phase = song_condition(analyse(path, meter=meter), None)
     if phase is None:
         tell(f"{path.name}: no beat was heard; asking every 2 s")
     return query_song(index, space, condition, phase, config=config)

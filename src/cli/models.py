@@ -54,8 +54,8 @@ def export_onnx(
     options.check_folder("--out", out)
 
     from ..shared.model.audio.audio_motion_model import AudioMotionModel
-    from ..shared.model.audio.onnx_card import CARD_FILE, require_packages
-    from ..shared.model.audio.onnx_export import export_onnx as export
+    from ..shared.model.audio.onnx import CARD_FILE, require_packages
+    from ..shared.model.audio.onnx import export_onnx as export
 
     require_packages("onnx", "onnxscript")
     card = export(AudioMotionModel.from_pretrained(model), out)

@@ -16,8 +16,8 @@ from torch.utils.checkpoint import checkpoint
 from ..shared.config_audio import DecoderLossConfig, TemporalLossConfig
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
 from ..shared.model.audio.losses import DecoderLoss, TemporalCoherenceLoss, total
-from ..shared.model.diffusion.conditions import ModelFn, with_condition
 from ..shared.model.diffusion.gaussian import GaussianDiffusion
+from ..shared.model.diffusion.guidance import ModelFn, with_condition
 from ..shared.model.diffusion.samplers import DDIMSampler
 from ..shared.motion.trajectory import FPS, POSITION, QUATERNION
 from ..shared.pipelines.song_sampler import SPARE, holding

@@ -19,7 +19,7 @@ from ..shared.io.files import atomic_write
 from ..shared.model.clip.core import OWN, TextTower
 from ..shared.model.clip.pretrained import tower_hash
 from ..shared.model.clip.tokenizer import PromptTokenizer
-from ..shared.model.layers.masking import masked_mean
+from ..shared.model.layers.attention import masked_mean
 from .run_log import announce
 
 MEANS_FILE = "caption-means.safetensors"  # in the output folder: a resumed run reads it

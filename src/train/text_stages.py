@@ -1,7 +1,7 @@
 """What text stages share: the data, its rows, and what is fitted to a finished text tower.
 
-That is the scope, which prompts the training captions are near (`PromptScope`), and the style that
-the motions of a caption have (`StyleMap`, ruling 11).
+That is the scope, which prompts the training captions are near (`OutOfDomainDetector`), and the
+style that the motions of a caption have (`StyleMap`, ruling 11).
 
 Letters: N prompts, D embed dim.
 """
@@ -20,8 +20,8 @@ from ..shared.data.text_motion import TextMotionDataset
 from ..shared.errors import UsageError, UserError
 from ..shared.metrics.retrieval import BATCH
 from ..shared.model.clip.core import OWN, TextTower
+from ..shared.model.clip.out_of_domain import OutOfDomainDetector, words_of
 from ..shared.model.clip.pretrained import encode_captions
-from ..shared.model.clip.scope import PromptScope, words_of
 from ..shared.model.clip.style_map import StyleMap
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.motion.features import decode_features
@@ -95,7 +95,7 @@ def motion_rows(motion: torch.Tensor, network: NetworkConfig) -> torch.Tensor:
     return motion[..., : network.motion_rows, :]
 
 
-SCOPE_CAPTIONS = 20_000  # at most so many captions teach PromptScope
+SCOPE_CAPTIONS = 20_000  # at most so many captions teach OutOfDomainDetector
 CALIBRATING = 3_000  # at most, each also with words that nobody knows, and without its key words
 LEAST_UNSEEN = 200  # sentences, for a calibration on them
 IDEOGRAPHS = (0x4E00, 0x9FFF)
@@ -107,7 +107,7 @@ def fit_scope(
     languages: tuple[str, ...],
     tower: TextTower,
     tokenizer: PromptTokenizer,
-) -> PromptScope:
+) -> OutOfDomainDetector:
     """The scope of a tower that was trained on the captions of `data`.
 
     It is calibrated on the sentences that `CaptionBook.captions` never gives, or on the captions
@@ -131,7 +131,7 @@ def fit_scope(
     embeddings = encode_captions(tower, tokenizer, texts).numpy()
     actions = [action_of[text] for text in texts]
     pretrained = tower.config.text_model not in OWN
-    scope = PromptScope.fit(texts, actions, embeddings, pretrained_tower=pretrained)
+    scope = OutOfDomainDetector.fit(texts, actions, embeddings, pretrained_tower=pretrained)
     if len(scope.actions) < 2:  # nothing to take one for another
         return scope
     if len(unseen) < LEAST_UNSEEN:
@@ -140,12 +140,12 @@ def fit_scope(
 
 
 def _calibrated(
-    scope: PromptScope,
+    scope: OutOfDomainDetector,
     texts: list[str],
     actions: list[str],
     tower: TextTower,
     tokenizer: PromptTokenizer,
-) -> PromptScope:
+) -> OutOfDomainDetector:
     """Texts as they are, with made-up words in them, and with made-up words for what tells."""
     rng = np.random.default_rng(0)
     chosen = rng.permutation(len(texts))[:CALIBRATING]
@@ -160,7 +160,7 @@ def _calibrated(
     return scope.calibrated(prompts, embeddings, right + [False] * len(empty))
 
 
-def _without_key_words(text: str, scope: PromptScope, rng: np.random.Generator) -> str:
+def _without_key_words(text: str, scope: OutOfDomainDetector, rng: np.random.Generator) -> str:
     """The text with made-up words for all that tell of an action."""
     found = text.casefold()
     for word in sorted(set(words_of(text)) & scope.key_words.keys(), key=len, reverse=True):

@@ -23,8 +23,11 @@ from ..shared.data.phrases.dataset import MotionPhraseDataset, PhraseBatch, moti
 from ..shared.device import autocast, choose_compute
 from ..shared.errors import UsageError
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
-from ..shared.model.audio.conditioning import ConditionAugmentation, with_phase_rows
-from ..shared.model.audio.memory_conditioning import MemoryCondition
+from ..shared.model.audio.conditioning import (
+    ConditionAugmentation,
+    MemoryCondition,
+    with_phase_rows,
+)
 from ..shared.model.diffusion.gaussian import GaussianDiffusion, masked_loss
 from ..shared.motion.trajectory import FPS, POSITION, QUATERNION, STYLE
 from .audio_stages import PhraseConfig, export_song, open_held_back, open_phrases

@@ -27,11 +27,9 @@ from ..shared.data.phrases.layout import PhraseRecord
 from ..shared.evaluation.space_retrieval import Bench
 from ..shared.evaluation.space_windows import Windows
 from ..shared.metrics.retrieval import BATCH
-from ..shared.model.audio.audio_tower import AudioTower
 from ..shared.model.audio.conditioning import ConditionAugmentation
-from ..shared.model.audio.shared_space import SharedSpace
-from ..shared.model.clip.core import MAX_LOGIT_SCALE
-from ..shared.model.clip.losses import clip_loss
+from ..shared.model.audio.shared_space import AudioTower, SharedSpace
+from ..shared.model.clip.core import MAX_LOGIT_SCALE, clip_loss
 from ..shared.model.clip.pretrained import ClipBundle
 from ..shared.motion.trajectory import FPS
 from .audio_stages import PhraseConfig, open_held_back, open_phrases

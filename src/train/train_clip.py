@@ -23,10 +23,8 @@ from ..shared.data.text_motion import TextMotionBatch
 from ..shared.errors import UsageError
 from ..shared.metrics.retrieval import BATCH, TOP, guo_retrieval
 from ..shared.model.checkpoint import ModelCard
-from ..shared.model.clip.core import OWN, MotionClip
-from ..shared.model.clip.losses import clip_loss
+from ..shared.model.clip.core import OWN, PAIRS, MotionClip, clip_loss
 from ..shared.model.clip.pretrained import KIND, ClipBundle, load_text_tower, tower_hash
-from ..shared.model.clip.token_pairs import PAIRS
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from .frozen_encoder import encoder_rates
 from .launch import Stage

@@ -29,7 +29,7 @@ from ..shared.memory.index import MemoryConfig
 from ..shared.memory.query import retrieve
 from ..shared.memory.service import MPMService
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
-from ..shared.model.audio.memory_conditioning import MemoryCondition, known_frames
+from ..shared.model.audio.conditioning import MemoryCondition, known_frames
 from ..shared.pipelines.song import AudioCondition
 from ..shared.pipelines.song_memory import as_condition, bars_of_sound, open_memory, remembering
 from ..shared.pipelines.song_sampler import SongSampler

@@ -36,9 +36,15 @@ from ..shared.data.captions.word_dropout import drop_words, insert_babble
 from ..shared.errors import UserError
 from ..shared.io.files import sha256_file
 from ..shared.model.checkpoint import WEIGHTS_FILE, ModelCard, read_card
-from ..shared.model.clip.core import OWN, MotionClip, TextTower
+from ..shared.model.clip.core import (
+    OWN,
+    PAIRS,
+    MotionClip,
+    TextTower,
+    TokenPairEncoder,
+    shared_keys,
+)
 from ..shared.model.clip.pretrained import KIND, ClipBundle, encode_captions, load_text_tower
-from ..shared.model.clip.token_pairs import PAIRS, TokenPairEncoder, shared_keys
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.generation.motion_generator import KIND as GENERATOR
 from ..shared.model.generation.motion_generator import TextToMotion

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from src.shared.audio.song_spec import SongSpec
+from src.shared.audio.synthetic_score import SongSpec
 from src.shared.audio.synthetic_songs import render_song
 from src.shared.data.synthetic import generate_clip, spec_for
 from src.shared.formats.arrays import read_npz, read_trajectory_npz

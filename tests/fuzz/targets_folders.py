@@ -165,7 +165,7 @@ def _write_sounds(folder: Path) -> None:
 
 
 def _read_sound(path: Path) -> None:
-    from src.shared.sound_files.reader import SoundReader
+    from src.shared.io.sound_files import SoundReader
 
     reader = SoundReader(path)
     for block in reader.blocks(1 << 16):

@@ -32,13 +32,13 @@ def _write(folder: Path) -> None:
 def _read(path: Path) -> None:
     from src.shared.evaluation.report.plots import read_losses
     from src.shared.metrics.bands import Bands
-    from src.shared.model.clip.scope import PromptScope
+    from src.shared.model.clip.out_of_domain import OutOfDomainDetector
     from src.shared.model.clip.style_map import StyleMap
     from src.shared.model.clip.tokenizer import PromptTokenizer
 
     match path.name.partition(".")[0]:
         case "scope":
-            scope = PromptScope.from_pretrained(path.parent)
+            scope = OutOfDomainDetector.from_pretrained(path.parent)
             assert scope is not None
             scope.warning("a person juggles", np.ones(scope.means.shape[1], np.float32))
         case "style":

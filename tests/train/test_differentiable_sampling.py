@@ -6,8 +6,8 @@ from tiny_audio_stage import tiny_audio_network
 from torch import Tensor, nn
 
 from src.shared.config_schema import DiffusionConfig
-from src.shared.model.diffusion.conditions import ModelFn
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
+from src.shared.model.diffusion.guidance import ModelFn
 from src.shared.model.diffusion.samplers import DDIMSampler
 from src.train.e2e_objective import DifferentiableSampler, recomputed
 

@@ -15,7 +15,7 @@ from src.shared.config_schema import TrainClipConfig
 from src.shared.data.prepared import PreparedData
 from src.shared.data.text_motion import TextMotionDataset
 from src.shared.errors import UsageError, UserError
-from src.shared.model.clip.losses import clip_loss
+from src.shared.model.clip.core import clip_loss
 from src.shared.model.clip.pretrained import ClipBundle
 from src.train import train_clip as train_clip_stage
 from src.train.text_stages import split_set

@@ -1,8 +1,7 @@
 """The 163 features of a song at 30 frames a second (TECH section 4), all from one STFT.
 
 Values are those of the document's librosa calls, but for chroma, which by default is a faster
-transform (see chroma.py). Memory is bounded: spectra live for 512 frames.
-
+transform (see spectrum.py). Memory is bounded: spectra live for 512 frames.
 Letters: S samples, T frames.
 """
 
@@ -13,10 +12,48 @@ from typing import Literal
 import numpy as np
 
 from ..errors import UserError
-from .arrays import read_arrays, write_arrays
-from .chroma import TuningEstimator, exact_chroma, fast_chroma
+from ..io.arrays import BadArray, load_arrays
+from ..io.files import atomic_write
 from .sound import HOP, SAMPLE_RATE, Sound, load_sound
-from .spectrum import N_FFT, decibels, mel_matrix, spectra
+from .spectrum import (
+    N_FFT,
+    TuningEstimator,
+    decibels,
+    exact_chroma,
+    fast_chroma,
+    mel_matrix,
+    spectra,
+)
+
+MAX_VALUES = 1 << 25  # numbers: the 128 rows of two hours at 30 frames a second, and some
+
+
+def write_arrays(arrays: dict[str, np.ndarray], path: str | Path) -> Path:
+    """Write an npz whole or not at all.
+
+    Raises:
+        UserError: the file cannot be written.
+    """
+    with atomic_write(Path(path)) as temporary, temporary.open("wb") as stream:
+        np.savez(stream, **arrays)  # type: ignore[arg-type]
+    return Path(path)
+
+
+def read_arrays(path: str | Path) -> dict[str, np.ndarray]:
+    """Read every array of an npz; checksums are verified.
+
+    Raises:
+        UserError: missing, no npz, or damaged.
+    """
+    try:
+        return load_arrays(path, max_values=MAX_VALUES)
+    except FileNotFoundError:
+        raise UserError(f"{path} does not exist; name a features file (.npz)") from None
+    except (OSError, BadArray) as error:
+        raise UserError(
+            f"{path} is no features file, or is damaged ({error}); make it again"
+        ) from error
+
 
 Chroma = Literal["fast", "cqt"]
 MELS, MFCCS = 128, 20

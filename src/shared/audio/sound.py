@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import UserError
 from ..io.files import sha256_file
-from ..sound_files.reader import MAX_SECONDS, Mender, SoundReader, too_long
+from ..io.sound_files import MAX_SECONDS, Mender, SoundReader, too_long
 
 SAMPLE_RATE = 44_100
 FPS = 30

@@ -31,7 +31,7 @@ from ..metrics.rhythm import beats_of_phase
 from ..model.audio.conditioning import BEAT, CONDITION_ROWS
 from ..motion.trajectory import FPS, MotionTrajectory
 from ..motion.window import place_window
-from ..pipelines.song import SongCondition, heard
+from ..pipelines.song import SongCondition, song_condition
 
 FRESH_SEED = 90210  # of songs made only to test: no training draws from the held-out tempi
 MARGIN = 2.0  # seconds of beats beyond a song's end that count as neighbours
@@ -89,7 +89,7 @@ def held_out_songs(
         made = render_song(spec)
         sound = sound_from_samples(made.samples, made.sample_rate)
         song = analyse_sound(sound, meter=spec.meter if tell_meter else None)
-        condition, phase = heard(song, None)
+        condition, phase = song_condition(song, None)
         bars = made.phase(song.num_frames)
         yield Piece(
             name=f"synthetic-{FRESH_SEED + seed}-{index:03d}",
@@ -126,7 +126,7 @@ def tracks(folder: Path, seconds: float) -> Iterator[Piece]:
         raise UserError(f"{folder} holds no sound file ({', '.join(SOUND_FILES)}); name another")
     for path in found:
         song = analyse(path)
-        condition, phase = heard(song, seconds)
+        condition, phase = song_condition(song, seconds)
         yield Piece(
             name=path.stem,
             condition=condition,

@@ -13,7 +13,7 @@ from torch import Tensor
 
 from ..memory.index import MemoryConfig, MemoryIndex
 from ..memory.query import Memory, retrieve
-from ..model.audio.memory_conditioning import MemoryCondition
+from ..model.audio.conditioning import MemoryCondition
 from ..pipelines.song_memory import as_condition
 
 WITHOUT, WITH, RANDOM = "without", "with", "random"

@@ -15,8 +15,8 @@ from ..data.phrases.dataset import PhraseBatch, PhraseItem, collate
 from ..memory.build import Space
 from ..memory.priors import prior_curves
 from ..model.audio.audio_motion_model import AudioMotionModel
-from ..model.audio.memory_conditioning import MemoryCondition
-from ..model.diffusion.noise import standard_normal
+from ..model.audio.conditioning import MemoryCondition
+from ..model.diffusion.samplers import standard_normal
 from ..motion.trajectory import MotionTrajectory
 from ..motion.window import place_window
 from ..pipelines.song_memory import bars_of_sound, bars_of_window

@@ -14,8 +14,7 @@ from torch import Tensor
 
 from ..data.phrases.dataset import MotionPhraseDataset
 from ..metrics.retrieval import BATCH
-from ..model.audio.audio_tower import AudioTower
-from ..model.audio.shared_space import MotionTower, SharedSpace
+from ..model.audio.shared_space import AudioTower, MotionTower, SharedSpace
 from ..model.clip.core import TextTower
 from ..model.clip.tokenizer import PromptTokenizer
 from .metrics_space import TOP

@@ -49,8 +49,8 @@ def prior_curves(
     energy = _level(_average(speed, FAST), HALF[ENERGY])
     density = _level(_rate(_beats(data[:, POSITION]), len(data)), HALF[DENSITY])
     if onsets is not None:
-        heard = _level(_rate(_peaks(onsets), len(data)), HALF[DENSITY])
-        density = (density + heard) / 2
+        of_song = _level(_rate(_peaks(onsets), len(data)), HALF[DENSITY])
+        density = (density + of_song) / 2
     tension = _level(_average(jerk, FAST), HALF[TENSION])
     stability = 1 - _level(np.sqrt(_average(sway, SLOW)), HALF[STABILITY])
     if contacts is not None:

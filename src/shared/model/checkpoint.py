@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 CARD_FILE = "config.json"
 WEIGHTS_FILE = "model.safetensors"
+INT8_SCALE = ".int8_scale"
+SMALLEST = 4096  # numbers; smaller tensors, biases and norms among them, stay as they are
 
 
 class WeightsInfo(Config):
@@ -98,15 +100,13 @@ def write_checkpoint(
         card: its `weights` are filled in here.
         tensors: name -> tensor, any device.
         half: store floating-point tensors as float16.
-        int8: store large ones as int8 with a scale a row, see quantise.py.
+        int8: store large ones as int8 with a scale a row, see `quantise`.
 
     Raises:
         UserError: the folder cannot be written.
     """
     import torch
     from safetensors.torch import save_file
-
-    from .quantise import quantise
 
     folder = Path(folder)
     tensors = quantise(tensors) if int8 else tensors
@@ -138,8 +138,6 @@ def read_tensors(folder: Path, card: ModelCard) -> dict[str, "Tensor"]:
     """
     from safetensors import SafetensorError
     from safetensors.torch import load_file
-
-    from .quantise import dequantise
 
     path = Path(folder) / WEIGHTS_FILE
     if card.weights is None or not path.is_file():
@@ -206,3 +204,36 @@ def load_state(
 def with_prefix(prefix: str, tensors: Mapping[str, "Tensor"]) -> dict[str, "Tensor"]:
     """The same tensors, named `prefix.name`."""
     return {f"{prefix}.{name}": tensor for name, tensor in tensors.items()}
+
+
+def quantise(tensors: Mapping[str, "Tensor"]) -> dict[str, "Tensor"]:
+    """Large floating-point tensors [R, ...] as int8, with their scales [R] beside them.
+
+    Symmetric, one scale for each row: half the size of float16, and a rounded weight is off by at
+    most 1/254 of the largest one of its row. Computed with in float32.
+    """
+    import torch
+
+    stored: dict[str, Tensor] = {}
+    for name, tensor in tensors.items():
+        if not tensor.is_floating_point() or tensor.ndim < 2 or tensor.numel() < SMALLEST:
+            stored[name] = tensor
+            continue
+        rows = tensor.detach().float().flatten(1)  # [R, ...]
+        scale = rows.abs().amax(dim=1).clamp_min(1e-12) / 127
+        stored[name] = (rows / scale[:, None]).round().to(torch.int8).view(tensor.shape)
+        stored[name + INT8_SCALE] = scale
+    return stored
+
+
+def dequantise(stored: Mapping[str, "Tensor"]) -> dict[str, "Tensor"]:
+    """The inverse of `quantise`, up to rounding; other tensors pass unchanged."""
+    tensors: dict[str, Tensor] = {}
+    for name, tensor in stored.items():
+        if name.endswith(INT8_SCALE):
+            continue
+        scale = stored.get(name + INT8_SCALE)
+        if scale is not None:
+            tensor = tensor.float() * scale.view(-1, *(1,) * (tensor.ndim - 1))
+        tensors[name] = tensor
+    return tensors

@@ -13,15 +13,12 @@ from ..config_audio import AudioNetworkConfig
 from ..device import choose_compute
 from ..environment import DECODER_CHECKPOINT, variable
 from ..errors import UserError
-from ..model.audio.audio_motion_model import AudioMotionModel, load_decoder
-from ..model.audio.conditioning import with_phase_rows
+from ..model.audio.audio_motion_model import AudioMotionModel, load_decoder, sampling_copy
+from ..model.audio.conditioning import MemoryCondition, with_phase_rows
 from ..model.audio.decoder import Decoded
-from ..model.audio.memory_conditioning import MemoryCondition
-from ..model.audio.onnx_card import GRAPHS, OnnxCard, read_onnx_card, require_packages
-from ..model.audio.sampling_copy import sampling_copy
-from ..model.diffusion.conditions import ModelFn
+from ..model.audio.onnx import GRAPHS, OnnxCard, read_onnx_card, require_packages
 from ..model.diffusion.gaussian import GaussianDiffusion
-from ..model.diffusion.guidance import guided
+from ..model.diffusion.guidance import ModelFn, guided
 
 
 class Runtime(Protocol):

@@ -76,7 +76,7 @@ class SongCondition:
     @classmethod
     def of(cls, song: Song, seconds: float | None = None) -> "SongCondition":
         """The first `seconds` of a song; None = all of it."""
-        condition, phase = heard(song, seconds)
+        condition, phase = song_condition(song, seconds)
         beats = np.asarray(song.beats.beat_times) if song.beats.tempo > 0 else np.zeros(0)
         return cls(condition, phase, beats, int(song.sha256 or "0", 16))
 
@@ -219,7 +219,7 @@ class SongGenerator(Generic[ModelT]):
         settings: SongSampling | None = None,
     ) -> Iterator[list[MotionTrajectory]]:
         """Pieces that follow each other, one a sample, as soon as they are settled."""
-        condition, phase = heard(song, None)
+        condition, phase = song_condition(song, None)
         sampler = SongSampler(self.model, of_song(settings or SongSampling(), song))
         yield from sampler.stream(condition, phase=phase, style=style)
 
@@ -264,7 +264,7 @@ def own_noise(settings: SongSampling, *parts: int) -> SongSampling:
     return replace(settings, seed=int(mixed.generate_state(1)[0]))
 
 
-def heard(song: Song, seconds: float | None) -> tuple[torch.Tensor, np.ndarray | None]:
+def song_condition(song: Song, seconds: float | None) -> tuple[torch.Tensor, np.ndarray | None]:
     """Condition [167,T] and bars [T] of the first `seconds`; no bars where no beat was found."""
     frames = song.num_frames if seconds is None else min(song.num_frames, round(seconds * FPS))
     rows, phase = song.features.stack()[:, :frames], song.phase[:frames]

@@ -24,8 +24,7 @@ from ..memory.build import Space
 from ..memory.index import MemoryConfig, MemoryIndex
 from ..memory.query import Memory
 from ..memory.service import MPMService
-from ..model.audio.conditioning import BEAT, with_phase_rows
-from ..model.audio.memory_conditioning import MemoryCondition
+from ..model.audio.conditioning import BEAT, MemoryCondition, with_phase_rows
 from ..model.audio.shared_space import SharedSpace
 from ..motion.trajectory import unwrap_phase
 from .song_sampler import Recall, SongSampler

@@ -20,11 +20,10 @@ from torch.nn import functional as F
 from ..config_audio import AudioNetworkConfig
 from ..device import idle_threads
 from ..errors import UsageError
-from ..model.audio.memory_conditioning import MemoryCondition, known_frames
+from ..model.audio.conditioning import MemoryCondition, known_frames
 from ..model.audio.unet import MIN_FRAMES
-from ..model.diffusion.conditions import ModelFn
-from ..model.diffusion.noise import sample_generators, standard_normal
-from ..model.diffusion.samplers import Sampling, make_sampler
+from ..model.diffusion.guidance import ModelFn
+from ..model.diffusion.samplers import Sampling, make_sampler, sample_generators, standard_normal
 from ..motion.rotations import (
     quaternion_conjugate,
     quaternion_continuous,

@@ -9,7 +9,8 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from src.shared.audio import downbeats, tempo
+from src.shared.audio import beats as downbeats
+from src.shared.audio import tempo
 from src.shared.audio.beats import _novelty
 from src.shared.audio.onsets import Onsets, detect_onsets
 from src.shared.audio.synthetic_songs import SyntheticSong, render_song, sample_song_specs

@@ -5,8 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from src.shared.audio.beats import DEFAULT_TEMPO, Beats, bar_phase, track_beats
-from src.shared.audio.downbeats import _numbers
+from src.shared.audio.beats import DEFAULT_TEMPO, Beats, _numbers, bar_phase, track_beats
 from src.shared.audio.onsets import detect_onsets, mel_filters
 from src.shared.audio.synthetic_songs import (
     SAMPLE_RATE,

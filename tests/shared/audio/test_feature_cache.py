@@ -7,10 +7,16 @@ import numpy as np
 import pytest
 import soundfile
 
-from src.shared.audio import feature_cache, song
-from src.shared.audio.feature_cache import FOLDER_VARIABLE, FeatureCache, cache_folder
+from src.shared.audio import song
 from src.shared.audio.features import AudioFeatures
-from src.shared.audio.song import Song, analyse, analyse_sound
+from src.shared.audio.song import (
+    FOLDER_VARIABLE,
+    FeatureCache,
+    Song,
+    analyse,
+    analyse_sound,
+    cache_folder,
+)
 from src.shared.audio.sound import SAMPLE_RATE, load_sound
 from src.shared.audio.synthetic_songs import SongSpec, render_song
 from src.shared.errors import UserError
@@ -67,7 +73,7 @@ def test_newer_code_does_not_trust_older_entries(
     tune: Path, tmp_path: Path, analyses: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     analyse(tune, cache=tmp_path)
-    monkeypatch.setattr(feature_cache, "code_version", lambda: "another")
+    monkeypatch.setattr(song, "code_version", lambda: "another")
     analyse(tune, cache=tmp_path)
     assert len(analyses) == 2
 

@@ -164,7 +164,7 @@ def test_length_limits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         load_sound(write(tmp_path / "short.wav", tone(0.5, SAMPLE_RATE)))
     with pytest.raises(UserError, match=r"lasts 0\.00 s"):
         load_sound(write(tmp_path / "none.wav", np.zeros(0, np.float32)))
-    monkeypatch.setattr("src.shared.sound_files.reader.MAX_SECONDS", 2.0)
+    monkeypatch.setattr("src.shared.io.sound_files.MAX_SECONDS", 2.0)
     with pytest.raises(UserError, match="at most"):
         load_sound(write(tmp_path / "long.wav", tone(3.0, SAMPLE_RATE)))
 

@@ -9,17 +9,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from src.shared.audio import synth_voices
-from src.shared.audio.song_spec import TempoMap
+from src.shared.audio.synthetic_score import TempoMap
 from src.shared.audio.synthetic_songs import (
     HELD_OUT_TEMPI,
     SAMPLE_RATE,
+    TIMBRES,
     TRAIN_TEMPI,
     SongSpec,
     render_song,
     sample_song_specs,
     song_beats,
     song_phase,
+    tone,
 )
 
 RAMP = ((0.0, 80.0), (10.0, 120.0), (15.0, 120.0), (15.0, 90.0))
@@ -134,8 +135,8 @@ def test_wav_round_trip(tmp_path: Path) -> None:
 
 
 def test_tones_have_their_pitch() -> None:
-    for timbre in synth_voices.TIMBRES:
-        note = synth_voices.tone(69, timbre, 1.0)
+    for timbre in TIMBRES:
+        note = tone(69, timbre, 1.0)
         spectrum = np.abs(np.fft.rfft(note * np.hanning(note.size)))
         assert abs(int(spectrum.argmax()) * SAMPLE_RATE / note.size - 440) < 2
 

@@ -23,7 +23,7 @@ from src.shared.evaluation.space_harness import (
 from src.shared.evaluation.space_neighbours import Neighbours
 from src.shared.evaluation.space_retrieval import Bench
 from src.shared.evaluation.space_windows import Windows, padded, related
-from src.shared.model.audio.audio_tower import rate_rows
+from src.shared.model.audio.shared_space import rate_rows
 from src.shared.motion.features import FORWARD, ROOT_ROW
 from tests.shared.evaluation.space_samples import tiny_bundle, tiny_space, write_space_phrases
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from src.shared.audio.song_spec import SongSpec
+from src.shared.audio.synthetic_score import SongSpec
 from src.shared.audio.synthetic_songs import render_song
 from src.shared.errors import UserError
 from src.shared.formats.arrays import read_npz

@@ -7,8 +7,8 @@ import torch
 from src.shared.config_schema import ClipConfig, GenerationConfig, NetworkConfig
 from src.shared.model.checkpoint import ModelCard
 from src.shared.model.clip.core import TextTower
+from src.shared.model.clip.out_of_domain import OutOfDomainDetector
 from src.shared.model.clip.pretrained import encode_captions
-from src.shared.model.clip.scope import PromptScope
 from src.shared.model.clip.tokenizer import PromptTokenizer
 from src.shared.model.generation.denoiser import MotionDenoiser
 from src.shared.model.generation.motion_generator import TextToMotion
@@ -65,7 +65,9 @@ def tiny_generator(**generation: object) -> TextToMotion:
             tags=("walk", "jump"),
             max_seconds=2.0,
         ),
-        scope=PromptScope.fit(list(CAPTIONS), list(CAPTIONS.values()), np.array(embeddings)),
+        scope=OutOfDomainDetector.fit(
+            list(CAPTIONS), list(CAPTIONS.values()), np.array(embeddings)
+        ),
         device="cpu",
     )
 

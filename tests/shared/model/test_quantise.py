@@ -6,8 +6,14 @@ import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.model.checkpoint import ModelCard, read_tensors, write_checkpoint
-from src.shared.model.quantise import SUFFIX, dequantise, quantise
+from src.shared.model.checkpoint import (
+    INT8_SCALE,
+    ModelCard,
+    dequantise,
+    quantise,
+    read_tensors,
+    write_checkpoint,
+)
 
 
 @given(seed=st.integers(0, 1000), size=st.floats(1e-6, 1e4))
@@ -37,5 +43,5 @@ def test_a_folder_holds_a_quarter_of_the_bytes(tmp_path: Path) -> None:
     assert card.weights is not None and card.weights.dtype == "int8"
     assert card.weights.bytes < 256 * 256 * 1.1
     tensors = read_tensors(tmp_path, card)
-    assert tensors.keys() == {"w"} and not any(SUFFIX in name for name in tensors)
+    assert tensors.keys() == {"w"} and not any(INT8_SCALE in name for name in tensors)
     torch.testing.assert_close(tensors["w"], weight, rtol=0, atol=0.02)

@@ -1,13 +1,12 @@
-"""The zoo: names, listing without torch, fresh networks by profile."""
+"""The zoo: names, listing without torch."""
 
 import subprocess
 import sys
 
 import pytest
 
-from src.shared.config_loader import profile_names
-from src.shared.errors import UsageError, UserError
-from src.shared.model import networks, zoo
+from src.shared.errors import UserError
+from src.shared.model import zoo
 from src.shared.model.checkpoint import CARD_FILE
 
 
@@ -68,20 +67,6 @@ def test_another_kind_is_named_with_its_article_and_what_is_shipped(shipped):
 def test_a_folder_without_a_card(shipped, tmp_path):
     with pytest.raises(UserError, match=r"has no config.json"):
         zoo.resolve_model(tmp_path)
-
-
-@pytest.mark.parametrize("kind", networks.KINDS)
-def test_fresh_networks_by_profile(kind: str):
-    assert "lightweight" in profile_names()
-    model = networks.create_model(kind, "lightweight", num_tags=3)
-    assert sum(parameter.numel() for parameter in model.parameters()) > 100_000
-
-
-def test_unknown_kinds_and_profiles():
-    with pytest.raises(UsageError, match="no model kind 'gan'"):
-        networks.create_model("gan", "lightweight")
-    with pytest.raises(UsageError, match="lightweigt"):
-        networks.create_model("motion-clip", "lightweigt")
 
 
 def test_listing_imports_no_torch():

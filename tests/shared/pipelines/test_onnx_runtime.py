@@ -14,9 +14,9 @@ from typer.testing import CliRunner
 from src.cli.tools import app
 from src.shared.audio.synthetic_songs import SongSpec, render_song
 from src.shared.errors import UserError
-from src.shared.model.audio import onnx_card
+from src.shared.model.audio import onnx as export
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.model.audio.onnx_card import CARD_FILE, GRAPHS, read_onnx_card
+from src.shared.model.audio.onnx import CARD_FILE, GRAPHS, read_onnx_card
 from src.shared.model.checkpoint import ModelCard
 from src.shared.pipelines.runtime import OnnxRuntime, run
 from src.shared.pipelines.song_sampler import SongSampler, SongSampling
@@ -215,7 +215,7 @@ def test_an_export_that_is_stopped_leaves_nothing(
 
 
 def test_missing_package_names_the_extra(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(onnx_card, "find_spec", lambda name: None)
+    monkeypatch.setattr(export, "find_spec", lambda name: None)
     with pytest.raises(UserError, match=r"onnxruntime.*pip install onnx"):
         OnnxRuntime.from_folder(home)
 

@@ -23,11 +23,11 @@ import numpy as np
 
 from ...errors import UserError
 from ...io.files import write_text
+from ...io.sound_files import SoundReader
 from ...motion.motion import Motion
 from ...motion.skeleton import FOOT_JOINTS, canonical_skeleton
 from ...motion.style import PAIRS, style_values
 from ...motion.trajectory import MotionTrajectory
-from ...sound_files.reader import SoundReader
 from ..mannequin import BODY, COLOURS, CONTACT, JOINT_SIDES, mannequin, whole_shares
 from .drawing import PATH
 from .trajectory import SongTrack, beat_marks, phase_palette, proxy_body

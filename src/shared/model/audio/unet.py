@@ -18,15 +18,17 @@ from ...config_audio import (
     MemoryConditionConfig,
     UNetConfig,
 )
-from ..layers.positions import sinusoidal
-from .blocks import Downsample, Upsample, zeroed
+from ..layers.attention import sinusoidal
+from .blocks import Downsample, Stage, StageCondition, Upsample
 from .conditioning import (
     CONDITION_ROWS,
     AudioConditioner,
+    MemoryCondition,
+    MemoryJoin,
+    Remembered,
     with_phase_rows,
+    zeroed,
 )
-from .memory_conditioning import MemoryCondition, MemoryJoin, Remembered
-from .stage import Stage, StageCondition
 
 MIN_FRAMES = 8  # ruling 4
 
@@ -136,21 +138,21 @@ class UNet1D(nn.Module):
             null = self.null[:, None].to(condition.dtype)
             condition = torch.where(drop.to(condition.device)[:, None, None], null, condition)
             memory = None if memory is None else memory.without(drop)
-        heard = self._remember(condition, memory)
+        remembered = self._remember(condition, memory)
         audio: dict[int, Tensor] = {}
         if self.conditioner is not None:
             audio[1] = self.conditioner(self._pad(condition))  # [B, E, T']
-            if heard.film is not None:
-                audio[1] = audio[1] + self._pad(heard.film)
+            if remembered.film is not None:
+                audio[1] = audio[1] + self._pad(remembered.film)
             for factor in sorted(set(self.config.factors))[1:]:
                 audio[factor] = halved(audio[factor // 2])  # [B, E, T'/2^i]
         context = None
         if self.context_proj is not None:
             context = self.context_proj(condition.transpose(1, 2))  # [B, T, E]
-            if heard.context is not None:
-                context = context + heard.context
+            if remembered.context is not None:
+                context = context + remembered.context
         stages = tuple(stage.prepare(audio.get(stage.factor), context) for stage in self.stages())
-        return Prepared(stages, heard.time)
+        return Prepared(stages, remembered.time)
 
     def _remember(self, condition: Tensor, memory: MemoryCondition | None) -> Remembered:
         """What the memory adds; a network that has one always gives a sum, so that all join."""
@@ -213,15 +215,15 @@ class UNet1D(nn.Module):
         h = self.input_conv(self._pad(x))  # [B, C, T']
         self._check_frames(h.shape[-1], condition)
         skips = []
-        for stage, halve, heard in zip(self.down, self.downsample, down, strict=True):
-            h = self._run(stage, h, time_emb, heard)  # [B, C_i, T/2^i]
+        for stage, halve, own in zip(self.down, self.downsample, down, strict=True):
+            h = self._run(stage, h, time_emb, own)  # [B, C_i, T/2^i]
             skips.append(h)
             h = halve(h)
         h = self._run(self.middle, h, time_emb, middle)
-        for level, heard in zip(reversed(range(len(self.up))), up, strict=True):
+        for level, own in zip(reversed(range(len(self.up))), up, strict=True):
             h = self.upsample[level](h)
             h = torch.cat((h, skips[level]), dim=1)  # [B, 2 C_i, T/2^i]
-            h = self._run(self.up[level], h, time_emb, heard)
+            h = self._run(self.up[level], h, time_emb, own)
         h = F.silu(self.output_norm(h))  # [B, C, T']
         return self.output_conv(h)[..., :frames]  # [B, 25, T]
 
@@ -238,7 +240,7 @@ class UNet1D(nn.Module):
                 f"the condition has {film.shape[-1]} frames (padded), the motion {frames}"
             )
 
-    def _run(self, stage: nn.Module, h: Tensor, time: Tensor, heard: StageCondition) -> Tensor:
+    def _run(self, stage: nn.Module, h: Tensor, time: Tensor, condition: StageCondition) -> Tensor:
         if self.config.use_checkpoint and torch.is_grad_enabled():
-            return checkpoint(stage, h, time, heard, use_reentrant=False)
-        return stage(h, time, heard)
+            return checkpoint(stage, h, time, condition, use_reentrant=False)
+        return stage(h, time, condition)

@@ -1,23 +1,88 @@
-"""MotionClip: a text tower (XLM-R) and a motion tower (TemporalUNet) in one space (TEXT).
+"""MotionClip: a text tower and a motion tower (TemporalUNet) in one space, and their loss (TEXT).
 
-Letters: B batch, L tokens, T frames, K rows (bones, root track), C channels, D embed dim.
+The text tower is XLM-R's, or a `TokenPairEncoder`: bags of words and of pairs are hard to beat
+where sentences are short and few (Joulin et al. 2017, Bag of Tricks for Efficient Text
+Classification, section 2.2).
+
+Letters: B batch, L tokens, T frames, K rows (bones, root track), C channels, D embed dim; of token
+pairs N rows, H width.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import torch
 from torch import Tensor, nn
-from torch.nn.functional import normalize
+from torch.nn.functional import normalize, softplus
 
 from ...config_schema import ClipConfig, NetworkConfig
 from ...errors import UserError
-from ..layers.masking import masked_mean
+from ..layers.attention import masked_mean
 from ..layers.temporal_unet import TemporalUNet
-from .token_pairs import PAIRS, TokenPairEncoder
+
+PAIRS = "pairs"  # text-model name of such a tower
+BASE = 1 << 15  # token ids stay below, so that keys are int32
+SPECIAL = 3  # ids below are bos, pad and eos
+ENTRY_DROPOUT = 0.3  # of tokens and pairs, in training
+
+
+def keys_of(input_ids: Tensor) -> Tensor:
+    """Key of each token and of each pair that begins there [B, L, 2] int32; 0 where there is none.
+
+    Ids from `BASE` on are unknown.
+    """
+    input_ids = torch.where(input_ids < BASE, input_ids, SPECIAL).int()
+    real = input_ids >= SPECIAL
+    tokens = torch.where(real, input_ids, 0)
+    pairs = (input_ids[:, :-1] + 1) * BASE + input_ids[:, 1:]
+    # a pair with bos or eos tells what begins or ends a sentence
+    pairs = torch.where((real[:, :-1] | real[:, 1:]), pairs, 0)
+    pairs = torch.cat((pairs, torch.zeros_like(pairs[:, :1])), 1)
+    return torch.stack((tokens, pairs), -1)
+
+
+def shared_keys(batches: Iterable[Tensor], least: int) -> Tensor:
+    """The keys [N], ascending, that stand in at least so many of the texts."""
+    found = [torch.cat([keys_of(row[None]).unique() for row in batch]) for batch in batches]
+    keys, counts = torch.cat(found).unique(return_counts=True)
+    return keys[(counts >= least) & (keys > 0)]
+
+
+class TokenPairEncoder(nn.Module):
+    """Stands where XLM-R stands: ids in, hidden states out.
+
+    Args:
+        num_rows: N.
+        hidden_size: H.
+    """
+
+    keys: Tensor  # [N] ascending
+
+    def __init__(self, num_rows: int, hidden_size: int) -> None:
+        super().__init__()
+        self.config = SimpleNamespace(hidden_size=hidden_size)
+        self.register_buffer("keys", torch.arange(1, num_rows + 1, dtype=torch.int32))
+        self.rows = nn.Embedding(num_rows + 1, hidden_size, padding_idx=num_rows)  # last: unknown
+        nn.init.normal_(self.rows.weight[:-1], std=0.1)
+
+    def forward(self, input_ids: Tensor, attention_mask: Tensor) -> SimpleNamespace:
+        """[B, L] ids and mask -> `last_hidden_state` [B, L, H]: a token with the pair it begins."""
+        keys = keys_of(input_ids)  # [B, L, 2]
+        unknown = len(self.keys)
+        index = torch.searchsorted(self.keys, keys).clamp(max=unknown - 1)
+        index = torch.where(self.keys[index] == keys, index, unknown)
+        if self.training:
+            dropped = torch.rand(index.shape, device=index.device) < ENTRY_DROPOUT
+            index = index.masked_fill(dropped, unknown)
+        hidden = self.rows(index).sum(2)  # [B, L, H]
+        return SimpleNamespace(last_hidden_state=hidden * attention_mask.unsqueeze(-1))
+
+
+# ---------------------------------------------------------------- towers
 
 if TYPE_CHECKING:
     from transformers import PreTrainedModel, XLMRobertaConfig
@@ -64,8 +129,8 @@ class TextTower(nn.Module):
 
     Args:
         config: `text_model` "small" is a random-init XLM-R of the `text-*` sizes, "pairs" a
-            table of tokens and pairs of them (token_pairs.py); any other value is a folder or hub
-            name whose weights transformers reads.
+            table of tokens and pairs of them (`TokenPairEncoder`); any other value is a folder or
+            hub name whose weights transformers reads.
         embed_dim: D.
         encoder_config: transformers' own configuration from a model folder; builds that
             architecture without reading weights, for a state dict that follows.
@@ -213,3 +278,68 @@ def _build_encoder(
             f" ({str(error).splitlines()[0]}); download it once, name a local folder,"
             " or set clip.text-model to small"
         ) from error
+
+
+# ---------------------------------------------------------------- losses
+
+
+def multi_positive_info_nce(
+    text: Tensor,
+    motion: Tensor,
+    groups: Tensor,
+    scale: Tensor,
+    left_out: Tensor | None = None,
+) -> Tensor:
+    """Symmetric InfoNCE where every pair of one label group is positive and never negative.
+
+    For a row i with positives P and negatives N, averaged over p in P:
+    -log exp(s_ip) / (exp(s_ip) + sum over n in N of exp(s_in))
+    (van den Oord et al. 2018, equation 4; positives kept out of the denominator, ruling 20).
+
+    Args:
+        text: [B, D] unit-norm.
+        motion: [B, D] unit-norm; row i belongs to text row i.
+        groups: [B] long; equal numbers mean equal labels.
+        scale: [] inverse temperature.
+        left_out: [B, B] bool, symmetric, pairs of different groups that are no negatives either.
+
+    Returns:
+        Scalar loss; 0 when the batch holds one group only.
+    """
+    with torch.autocast(text.device.type, enabled=False):
+        similarity = scale * (text.float() @ motion.float().T)  # [B, B]
+    positive = groups[:, None] == groups[None, :]  # [B, B]
+    related = positive if left_out is None else positive | left_out
+    one_way = _one_way(similarity, positive, related)
+    return 0.5 * (one_way + _one_way(similarity.T, positive, related.T))
+
+
+def _one_way(similarity: Tensor, positive: Tensor, related: Tensor) -> Tensor:
+    floor = torch.finfo(similarity.dtype).min / 2  # finite: an empty row keeps finite gradients
+    negatives = similarity.masked_fill(related, floor).logsumexp(dim=1, keepdim=True)  # [B, 1]
+    losses = softplus(negatives - similarity) * positive  # [B, B]
+    return (losses.sum(dim=1) / positive.sum(dim=1)).mean()
+
+
+def cosine_alignment(text: Tensor, motion: Tensor) -> Tensor:
+    """Mean of 1 - cos over the matching rows: text and motion [B, D] unit-norm -> scalar."""
+    return 1 - (text.float() * motion.float()).sum(dim=-1).mean()
+
+
+def clip_loss(
+    text: Tensor,
+    motion: Tensor,
+    groups: Tensor,
+    scale: Tensor,
+    *,
+    cosine_weight: float,
+    left_out: Tensor | None = None,
+) -> dict[str, Tensor]:
+    """Total loss and its two terms: `loss`, `contrastive`, `cosine` (ruling 20)."""
+    contrastive = multi_positive_info_nce(text, motion, groups, scale, left_out)
+    cosine = cosine_alignment(text, motion)
+    return {
+        "loss": contrastive + cosine_weight * cosine,
+        "contrastive": contrastive,
+        "cosine": cosine,
+    }

@@ -15,9 +15,8 @@ from torch import Tensor, nn
 from torch.nn import functional as F
 
 from ...config_schema import DiffusionConfig
-from .conditions import Model, with_condition
-from .noise import Generators, standard_normal
-from .samplers import Callback, make_sampler
+from .guidance import Model, with_condition
+from .samplers import Callback, Generators, make_sampler, standard_normal
 from .schedule import NoiseSchedule
 
 ERRORS: dict[str, Callable[..., Tensor]] = {

@@ -1,10 +1,4 @@
-"""From noise to data: DDPM, DDIM and DPM-Solver++(2M) behind one loop.
-
-Used in the diffusers habit: `set_timesteps`, then one `step` per timestep; `run` is that loop.
-Coefficients are Python floats (float64) times float32 tensors: no float64 tensor exists.
-
-Letters: a = sqrt(alpha_bar), s = sqrt(1 - alpha_bar), so x_t = a * x_0 + s * noise.
-"""
+"""Reproducible noise: drawn on the CPU, one generator a sample, alike on every device."""
 
 import math
 from abc import ABC, abstractmethod
@@ -12,14 +6,48 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import torch
 from torch import Tensor
 
 from ...device import idle_threads
 from ...errors import UsageError
-from .conditions import Model, ModelFn, with_condition
-from .noise import Generators, standard_normal
+from .guidance import Model, ModelFn, with_condition
 from .schedule import sampling_timesteps
+
+Generators = torch.Generator | Sequence[torch.Generator] | None
+
+
+def sample_generators(seed: int, num_samples: int, start: int = 0) -> list[torch.Generator]:
+    """One CPU generator for each of the samples start ... start + num_samples - 1.
+
+    Sample i depends on (seed, i) alone: not on the batch size, its neighbours, or the device.
+    """
+    generators = []
+    for index in range(start, start + num_samples):
+        state = np.random.SeedSequence((seed, index)).generate_state(1, np.uint64)
+        generators.append(torch.Generator("cpu").manual_seed(int(state[0] >> np.uint64(1))))
+    return generators
+
+
+def standard_normal(
+    shape: Sequence[int],
+    generator: Generators = None,
+    *,
+    device: torch.device | str = "cpu",
+) -> Tensor:
+    """Float32 noise of the given shape.
+
+    Drawn on the CPU and moved, so that a seed means the same on CPU, CUDA and MPS. A sequence of
+    generators gives each batch element its own stream.
+    """
+    shape = tuple(shape)
+    if generator is None or isinstance(generator, torch.Generator):
+        return torch.randn(shape, generator=generator, dtype=torch.float32).to(device)
+    assert len(generator) == shape[0], f"{len(generator)} generators for a batch of {shape[0]}"
+    rows = [torch.randn(shape[1:], generator=own, dtype=torch.float32) for own in generator]
+    return torch.stack(rows).to(device)
+
 
 if TYPE_CHECKING:
     from .gaussian import GaussianDiffusion

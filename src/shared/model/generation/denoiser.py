@@ -10,14 +10,9 @@ from torch.nn.functional import pad, silu
 
 from ...config_schema import PROVENANCES, NetworkConfig
 from ..clip.core import TextFeatures
-from ..layers.adaln import AdaLN
-from ..layers.attention import CrossAttention, KeyValue, MultiHeadAttention
-from ..layers.dropout import ChannelDropout
-from ..layers.film import FiLM
-from ..layers.masking import without_full_mask
-from ..layers.temporal_layer import TemporalLayer
-from ..layers.timestep import TagEmbedding, TimestepEmbedding
-from ..layers.transform_layer import TransformLayer
+from ..layers.attention import CrossAttention, KeyValue, MultiHeadAttention, without_full_mask
+from ..layers.modulation import AdaLN, FiLM, TagEmbedding, TimestepEmbedding
+from ..layers.transformer import ChannelDropout, TemporalLayer, TransformLayer
 
 
 class DenoiserBlock(nn.Module):
@@ -52,8 +47,8 @@ class DenoiserBlock(nn.Module):
         h = h + self.dropout(self.attention(self.norm(h), mask))  # [B, T, D]
         if self.cross_attention is not None and self.cross_norm is not None:
             assert text is not None, "a block with cross-attention needs the text tokens"
-            heard = self.cross_attention(self.cross_norm(h), text, text_mask)  # [B, T, D]
-            h = h + self.dropout(heard)
+            attended = self.cross_attention(self.cross_norm(h), text, text_mask)  # [B, T, D]
+            h = h + self.dropout(attended)
         h = self.adaln(h, condition)  # [B, T, D]
         return self.transform(h)  # [B, T, D]
 

@@ -25,16 +25,15 @@ from ..checkpoint import (
     write_checkpoint,
 )
 from ..clip.core import TextFeatures, TextTower
+from ..clip.out_of_domain import OutOfDomainDetector
 from ..clip.pretrained import TOKENIZER_FOLDER, check_embed_dims
-from ..clip.scope import PromptScope
 from ..clip.style_map import StyleMap
 from ..clip.tokenizer import PromptTokenizer
 from ..diffusion.gaussian import GaussianDiffusion
 from ..zoo import resolve_model, wrong_kind
 from .constraint import Constraint, KnownBatch, check_lengths
 from .denoiser import MotionDenoiser
-from .requests import batches, make_requests
-from .sampling import sample_batch
+from .sampling import batches, make_requests, sample_batch
 
 KIND = "motion-generator"
 MAX_BATCH = 64  # motions sampled at once
@@ -71,7 +70,7 @@ class TextToMotion:
         mean: Tensor,
         std: Tensor,
         card: ModelCard,
-        scope: PromptScope | None = None,
+        scope: OutOfDomainDetector | None = None,
         style_map: StyleMap | None = None,
         device: str | None = None,
     ) -> None:
@@ -334,7 +333,7 @@ class TextToMotion:
             card.network.clip, card.network.embed_dim, encoder_config=card.text_encoder
         )
         load_state(text, tensors, "text", folder)
-        scope = PromptScope.from_pretrained(folder)
+        scope = OutOfDomainDetector.from_pretrained(folder)
         if scope is None:
             log.warning("%s has no scope.json: far-off prompts get no warning", folder)
         return cls(

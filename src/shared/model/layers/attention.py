@@ -1,15 +1,80 @@
-"""Multi-head attention over time (Vaswani et al. 2017), on the fastest kernel there is.
+"""Attention over time, its positions and masks, on the fastest kernel there is.
 
-Letters: B batch, T frames, L context tokens, D embed dim, H heads, d = D/H.
+Multi-head attention (Vaswani et al. 2017), rotary positions (Su et al. 2021, RoFormer, equation
+34), sinusoidal codes for any number of positions. Masks are bool, True = real.
+
+Letters: B batch, T frames or positions, L context tokens, D embed dim, H heads, d = D/H.
 Attention weights are not dropped out: the fused CPU kernel has no such path, and dropping
 the residual branch regularises as well at this size.
 """
+
+import math
 
 import torch
 from torch import Tensor, nn
 from torch.nn.functional import scaled_dot_product_attention
 
-from .rope import RotaryEmbedding
+
+def sinusoidal(positions: Tensor, dim: int, *, max_period: float = 10_000.0) -> Tensor:
+    """Codes [..., dim] float32 of positions [...]: cosines in the first half, then sines.
+
+    An odd `dim` ends with one zero.
+    """
+    half = dim // 2
+    steps = torch.arange(half, dtype=torch.float32, device=positions.device)
+    frequencies = torch.exp(steps * (-math.log(max_period) / max(half, 1)))
+    angles = positions.float()[..., None] * frequencies  # [..., dim/2]
+    codes = torch.cat([angles.cos(), angles.sin()], dim=-1)
+    return torch.nn.functional.pad(codes, (0, dim - 2 * half))
+
+
+def masked_mean(values: Tensor, mask: Tensor | None) -> Tensor:
+    """Mean over the real rows: values [B, T, D], mask [B, T] or None -> [B, D]."""
+    if mask is None:
+        return values.mean(dim=1)
+    weights = mask.to(values.dtype)[..., None]  # [B, T, 1]
+    return (values * weights).sum(dim=1) / weights.sum(dim=1).clamp_min(1.0)
+
+
+def without_full_mask(mask: Tensor | None) -> Tensor | None:
+    """None when nothing is padded, so that attention takes its faster path.
+
+    Only looked at on the CPU: elsewhere the look itself would stall the device.
+    """
+    if mask is not None and mask.device.type == "cpu" and bool(mask.all()):
+        return None
+    return mask
+
+
+class RotaryEmbedding(nn.Module):
+    """Turns channel pairs (i, i + d/2) of a head by an angle that grows with the position."""
+
+    def __init__(self, head_dim: int, *, base: float = 10_000.0) -> None:
+        super().__init__()
+        assert head_dim % 2 == 0, f"head dim {head_dim} must be even"
+        exponents = torch.arange(0, head_dim, 2, dtype=torch.float32) / head_dim
+        self.frequencies: Tensor
+        self.register_buffer("frequencies", base**-exponents, persistent=False)  # [d/2]
+        self._cos: Tensor | None = None
+        self._sin: Tensor | None = None
+
+    def forward(self, heads: Tensor) -> Tensor:
+        """[..., T, H, d] -> the same, rotated, in its own dtype; angles are float32 always."""
+        tables = self._tables(heads.shape[-3], heads.device)  # [T, 1, d/2] each
+        cos, sin = (table.to(heads.dtype) for table in tables)
+        first, second = heads.chunk(2, dim=-1)
+        return torch.cat([first * cos - second * sin, second * cos + first * sin], dim=-1)
+
+    def _tables(self, length: int, device: torch.device) -> tuple[Tensor, Tensor]:
+        if self._cos is None or len(self._cos) < length or self._cos.device != device:
+            # Made outside inference mode: training may reuse a table that sampling made first.
+            with torch.inference_mode(False), torch.no_grad():
+                positions = torch.arange(max(length, 256), dtype=torch.float32, device=device)
+                angles = positions[:, None, None] * self.frequencies.to(device).clone()
+                self._cos, self._sin = angles.cos(), angles.sin()
+        assert self._cos is not None and self._sin is not None
+        return self._cos[:length], self._sin[:length]
+
 
 KeyValue = tuple[Tensor, Tensor]  # each [B, H, L, d]
 

@@ -8,9 +8,8 @@ import torch
 from torch import Tensor, nn
 from torch.nn.functional import gelu
 
-from .masking import masked_mean, without_full_mask
-from .positions import sinusoidal
-from .temporal_layer import TemporalLayer
+from .attention import masked_mean, sinusoidal, without_full_mask
+from .transformer import TemporalLayer
 
 
 class TemporalUNet(nn.Module):

@@ -12,7 +12,7 @@ from src.shared.data.sources.folders import SyntheticSource
 from src.shared.data.synthetic import generate_clip
 from src.shared.data.synthetic.clips import spec_for
 from src.shared.evaluation.judge.actions import action_reliability
-from src.shared.model.clip.scope import RELIABLE
+from src.shared.model.clip.out_of_domain import RELIABLE
 from src.shared.motion.motion import Motion
 
 

@@ -10,7 +10,7 @@ import pytest
 from src.shared.errors import UserError
 from src.shared.formats.preview import html as song_media
 from src.shared.formats.preview.html import song_uri
-from src.shared.sound_files.reader import SoundReader
+from src.shared.io.sound_files import SoundReader
 
 soundfile = pytest.importorskip("soundfile")
 

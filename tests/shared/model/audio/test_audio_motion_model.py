@@ -12,10 +12,9 @@ from src.shared.model.audio.audio_motion_model import (
     load_decoder,
     load_diffusion,
 )
-from src.shared.model.audio.decoder import DerivedMotionDecoder, MotionDecoder
+from src.shared.model.audio.decoder import MotionDecoder
 from src.shared.model.checkpoint import ModelCard, write_checkpoint
 from src.shared.model.diffusion.samplers import DDIMSampler, make_sampler
-from src.shared.model.networks import create_model
 from tests.shared.model.audio.tiny_audio import awake, network_config, unet_config
 
 
@@ -96,13 +95,6 @@ def test_the_documents_quick_start(tmp_path: Path) -> None:
         raw = sampler.sample((1, 25, 120), torch.randn(1, 163, 120))
         decoded = decoder(raw.permute(0, 2, 1))
     assert decoded.shape == (1, 120, 25) and decoded.isfinite().all()
-
-
-def test_the_zoo_makes_the_audio_kinds() -> None:
-    with torch.device("meta"):
-        assert type(create_model("audio-unet", "lightweight")).__name__ == "UNet1D"
-        assert isinstance(create_model("audio-decoder", "lightweight"), DerivedMotionDecoder)
-        assert isinstance(create_model("audio-motion", "lightweight"), AudioMotionModel)
 
 
 def test_one_batch_is_learnt_and_sampled_back() -> None:

@@ -12,14 +12,9 @@ from pydantic import ValidationError
 from torch import Tensor
 
 from src.shared.config_audio import MemoryConditionConfig
-from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.model.audio.memory_conditioning import (
-    ContextTransformer,
-    MemoryCondition,
-    MPMSConditioner,
-)
-from src.shared.model.audio.onnx_export import symbolic
-from src.shared.model.audio.sampling_copy import sampling_copy
+from src.shared.model.audio.audio_motion_model import AudioMotionModel, sampling_copy
+from src.shared.model.audio.conditioning import ContextTransformer, MemoryCondition, MPMSConditioner
+from src.shared.model.audio.onnx import symbolic
 from src.shared.model.audio.unet import UNet1D
 from tests.shared.model.audio.tiny_audio import awake, network_config, unet, unet_config
 

@@ -10,8 +10,7 @@ from torch.nn.functional import cosine_similarity
 
 from src.shared.config_audio import AudioTowerConfig
 from src.shared.errors import UserError
-from src.shared.model.audio.audio_tower import AudioTower, rate_rows
-from src.shared.model.audio.shared_space import SharedSpace
+from src.shared.model.audio.shared_space import AudioTower, SharedSpace, rate_rows
 from src.shared.model.checkpoint import ModelCard
 from src.shared.model.clip.core import MotionClip, TextTower
 from src.shared.model.clip.pretrained import ClipBundle, encode_captions, tower_hash

@@ -12,7 +12,7 @@ from src.shared.config_loader import load_audio_network
 from src.shared.errors import UsageError
 from src.shared.model.audio.blocks import AttentionBlock
 from src.shared.model.audio.unet import UNet1D
-from src.shared.model.diffusion.conditions import join_conditions
+from src.shared.model.diffusion.guidance import join_conditions
 from tests.shared.model.audio.tiny_audio import CONDITION, unet, unet_config
 
 CONDITIONINGS = ["cross-attention", "film", "both"]

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from torch.nn.functional import cross_entropy, normalize
 
-from src.shared.model.clip.losses import clip_loss, cosine_alignment, multi_positive_info_nce
+from src.shared.model.clip.core import clip_loss, cosine_alignment, multi_positive_info_nce
 
 
 def embeddings(seed: int, size: int) -> tuple[torch.Tensor, torch.Tensor]:

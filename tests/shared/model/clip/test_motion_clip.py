@@ -6,8 +6,7 @@ import torch
 from src.shared.config_schema import ClipConfig
 from src.shared.errors import UserError
 from src.shared.model.checkpoint import ModelCard
-from src.shared.model.clip.core import MotionClip, TextTower, cat_text, small_text_config
-from src.shared.model.clip.losses import clip_loss
+from src.shared.model.clip.core import MotionClip, TextTower, cat_text, clip_loss, small_text_config
 from src.shared.model.clip.pretrained import ClipBundle, encode_captions, load_text_tower
 from src.shared.model.clip.tokenizer import PromptTokenizer
 

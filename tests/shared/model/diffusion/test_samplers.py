@@ -11,12 +11,13 @@ from torch import Tensor
 from src.shared.config_schema import DiffusionConfig
 from src.shared.errors import UsageError
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
-from src.shared.model.diffusion.noise import sample_generators, standard_normal
 from src.shared.model.diffusion.samplers import (
     DDIMSampler,
     DDPMSampler,
     DPMSolverPP2MSampler,
     make_sampler,
+    sample_generators,
+    standard_normal,
 )
 
 SHAPES = ((2, 25, 16), (2, 8, 23, 6))

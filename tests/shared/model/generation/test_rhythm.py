@@ -7,9 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from src.shared.metrics.rhythm import beat_alignment, motion_beats
-from src.shared.model.generation.constraint import Constraint
+from src.shared.model.generation.constraint import Constraint, RhythmGuidance, beat_weight, smoothed
 from src.shared.model.generation.motion_generator import TextToMotion
-from src.shared.model.generation.rhythm import RhythmGuidance, beat_weight, smoothed
 from src.shared.motion.features import ROOT_ROW, decode_features, world_joints
 from src.shared.motion.rotations import axis_angle_to_matrix, matrix_to_rotation_6d
 

@@ -3,8 +3,12 @@
 import pytest
 import torch
 
-from src.shared.model.layers.attention import CrossAttention, MultiHeadAttention, attend
-from src.shared.model.layers.rope import RotaryEmbedding
+from src.shared.model.layers.attention import (
+    CrossAttention,
+    MultiHeadAttention,
+    RotaryEmbedding,
+    attend,
+)
 
 B, T, D, H = 3, 7, 16, 4
 

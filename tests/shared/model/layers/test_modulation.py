@@ -6,14 +6,9 @@ import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.model.layers.adaln import AdaLN
-from src.shared.model.layers.dropout import ChannelDropout
-from src.shared.model.layers.film import FiLM
-from src.shared.model.layers.masking import masked_mean, without_full_mask
-from src.shared.model.layers.positions import sinusoidal
-from src.shared.model.layers.temporal_layer import TemporalLayer
-from src.shared.model.layers.timestep import TagEmbedding, TimestepEmbedding
-from src.shared.model.layers.transform_layer import TransformLayer
+from src.shared.model.layers.attention import masked_mean, sinusoidal, without_full_mask
+from src.shared.model.layers.modulation import AdaLN, FiLM, TagEmbedding, TimestepEmbedding
+from src.shared.model.layers.transformer import ChannelDropout, TemporalLayer, TransformLayer
 
 B, T, D = 2, 5, 8
 

@@ -1,4 +1,4 @@
-"""PromptScope: nonsense is flagged, paraphrases are not, and it survives saving."""
+"""OutOfDomainDetector: nonsense is flagged, paraphrases are not, and it survives saving."""
 
 import json
 from dataclasses import replace
@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from src.shared.errors import UserError
-from src.shared.model.clip.scope import META_FILE, PromptScope, words_of
+from src.shared.model.clip.out_of_domain import META_FILE, OutOfDomainDetector, words_of
 
 LABELS = [
     {"action": "walk", "direction": "forward", "speed": "slow"},
@@ -32,7 +32,7 @@ def book():
 
 
 @pytest.fixture(scope="module")
-def scope(book) -> PromptScope:
+def scope(book) -> OutOfDomainDetector:
     captions, actions = [], []
     for labels in LABELS:
         for texts in book.captions(labels, num=60, seed=0).values():
@@ -40,7 +40,7 @@ def scope(book) -> PromptScope:
             actions += [labels["action"]] * len(texts)
     names = sorted(set(actions))
     one_hot = np.eye(len(names))[[names.index(action) for action in actions]]
-    return PromptScope.fit(captions, actions, one_hot)
+    return OutOfDomainDetector.fit(captions, actions, one_hot)
 
 
 @pytest.mark.parametrize(
@@ -57,7 +57,7 @@ def scope(book) -> PromptScope:
         "?!",
     ],
 )
-def test_far_prompts_are_flagged(scope: PromptScope, prompt: str):
+def test_far_prompts_are_flagged(scope: OutOfDomainDetector, prompt: str):
     embedding = np.eye(len(scope.actions))[scope.actions.index("bow")]
     result = scope.check(prompt, embedding)
     assert not result.known
@@ -65,13 +65,13 @@ def test_far_prompts_are_flagged(scope: PromptScope, prompt: str):
     assert len(result.nearest) == 3
 
 
-def test_clips_without_an_action_are_not_named(scope: PromptScope):
+def test_clips_without_an_action_are_not_named(scope: OutOfDomainDetector):
     unlabelled = replace(scope, actions=("", *scope.actions[1:]))
     result = unlabelled.check("make me a sandwich", np.eye(len(scope.actions))[0])
     assert len(result.nearest) == 3 and all(result.nearest)
 
 
-def test_paraphrases_are_known_in_every_language(scope: PromptScope, book):
+def test_paraphrases_are_known_in_every_language(scope: OutOfDomainDetector, book):
     sentences = [
         text for labels in LABELS for texts in book.paraphrases(labels).values() for text in texts
     ]
@@ -80,19 +80,19 @@ def test_paraphrases_are_known_in_every_language(scope: PromptScope, book):
     assert len(flagged) <= 0.05 * len(sentences), flagged
 
 
-def test_held_out_captions_calibrate_it(scope: PromptScope):
+def test_held_out_captions_calibrate_it(scope: OutOfDomainDetector):
     assert scope.false_alarms <= 0.05  # sentences written by hand share few words
 
 
-def test_other_forms_of_a_word_count_among_known_words(scope: PromptScope):
+def test_other_forms_of_a_word_count_among_known_words(scope: OutOfDomainDetector):
     assert scope.check("a person walked", np.ones(9)).known
 
 
-def test_a_pretrained_tower_knows_synonyms(scope: PromptScope):
+def test_a_pretrained_tower_knows_synonyms(scope: OutOfDomainDetector):
     captions, actions = ["walks", "runs"] * 10, ["walk", "run"] * 10
     embeddings = np.tile(np.eye(2), (10, 1))
-    with_tower = PromptScope.fit(captions, actions, embeddings, pretrained_tower=True)
-    without = PromptScope.fit(captions, actions, embeddings)
+    with_tower = OutOfDomainDetector.fit(captions, actions, embeddings, pretrained_tower=True)
+    without = OutOfDomainDetector.fit(captions, actions, embeddings)
     assert with_tower.check("ambles", np.array([0.0, 1.0])).known
     assert not with_tower.check("ambles", np.array([0.5, -0.5])).known
     assert not without.check("ambles", np.array([0.0, 1.0])).known
@@ -104,26 +104,26 @@ def test_words_of_six_scripts():
     assert words_of("") == []
 
 
-def test_saving_keeps_the_verdicts(scope: PromptScope, tmp_path):
+def test_saving_keeps_the_verdicts(scope: OutOfDomainDetector, tmp_path):
     scope.save_pretrained(tmp_path)
-    loaded = PromptScope.from_pretrained(tmp_path)
+    loaded = OutOfDomainDetector.from_pretrained(tmp_path)
     assert loaded is not None
     assert (loaded.key_words, loaded.words) == (scope.key_words, scope.words)
     assert np.allclose(loaded.means, scope.means, atol=1e-3)
     (tmp_path / META_FILE).write_text("{}")
     with pytest.raises(UserError, match=r"actions: Field required; .*another version") as error:
-        PromptScope.from_pretrained(tmp_path)
+        OutOfDomainDetector.from_pretrained(tmp_path)
     assert "pydantic" not in str(error.value)
-    assert PromptScope.from_pretrained(tmp_path / "nowhere") is None
+    assert OutOfDomainDetector.from_pretrained(tmp_path / "nowhere") is None
 
 
-def test_an_older_folder_judges_as_it_did(scope: PromptScope, tmp_path):
+def test_an_older_folder_judges_as_it_did(scope: OutOfDomainDetector, tmp_path):
     """Before there were fillers only key words told, not trained words alone."""
     scope.save_pretrained(tmp_path)
     meta = json.loads((tmp_path / META_FILE).read_text())
     del meta["fillers"]
     (tmp_path / META_FILE).write_text(json.dumps(meta))
-    loaded = PromptScope.from_pretrained(tmp_path)
+    loaded = OutOfDomainDetector.from_pretrained(tmp_path)
     assert loaded is not None and loaded.fillers == loaded.words
     assert loaded.check("a person bows", np.ones(9)).known
     assert not loaded.check("a person", np.ones(9)).known
@@ -131,7 +131,7 @@ def test_an_older_folder_judges_as_it_did(scope: PromptScope, tmp_path):
 
 def test_no_captions_is_an_error():
     with pytest.raises(UserError, match="no captions"):
-        PromptScope.fit([], [], np.zeros((0, 4)))
+        OutOfDomainDetector.fit([], [], np.zeros((0, 4)))
 
 
 def test_evidence_is_weighed_where_right_answers_are_known():
@@ -143,7 +143,7 @@ def test_evidence_is_weighed_where_right_answers_are_known():
             captions.append(f"a person {words[number % 2]} by tree{number}")
             actions.append(action)
             embeddings.append(np.eye(3)[place] + 0.1 * rng.normal(size=3))
-    scope = PromptScope.fit(captions, actions, np.array(embeddings))
+    scope = OutOfDomainDetector.fit(captions, actions, np.array(embeddings))
     empty = ["a person qzx by house"] * 60
     between = np.abs(rng.normal(size=(60, 3))) * 0.1 + 0.5
     weighed = scope.calibrated(
@@ -156,15 +156,15 @@ def test_evidence_is_weighed_where_right_answers_are_known():
     assert not weighed.check("a person jumps", np.array([0.55, 0.5, 0.5])).known
 
 
-def test_weights_survive_saving(scope: PromptScope, tmp_path):
+def test_weights_survive_saving(scope: OutOfDomainDetector, tmp_path):
     weighed = scope.calibrated(["walks", "flies"], np.eye(len(scope.means))[:2], [True, False])
     weighed.save_pretrained(tmp_path)
-    loaded = PromptScope.from_pretrained(tmp_path)
+    loaded = OutOfDomainDetector.from_pretrained(tmp_path)
     assert loaded is not None
     assert loaded.weights == weighed.weights
 
 
-def test_an_action_that_seldom_comes_out_is_warned_of(scope: PromptScope, tmp_path):
+def test_an_action_that_seldom_comes_out_is_warned_of(scope: OutOfDomainDetector, tmp_path):
     measured = replace(scope, reliability={"kick": 1 / 12, "bow": 0.9})
     place = np.eye(len(scope.actions))
     kick, bow = place[scope.actions.index("kick")], place[scope.actions.index("bow")]
@@ -176,5 +176,5 @@ def test_an_action_that_seldom_comes_out_is_warned_of(scope: PromptScope, tmp_pa
     assert measured.warning("a person bows", bow) is None
     assert scope.warning("a person kicks", kick) is None  # nobody measured it
     measured.save_pretrained(tmp_path)
-    loaded = PromptScope.from_pretrained(tmp_path)
+    loaded = OutOfDomainDetector.from_pretrained(tmp_path)
     assert loaded is not None and loaded.reliability == measured.reliability

@@ -4,7 +4,7 @@ import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.model.clip.token_pairs import TokenPairEncoder, keys_of, shared_keys
+from src.shared.model.clip.core import TokenPairEncoder, keys_of, shared_keys
 
 BOS, PAD, EOS = 0, 1, 2
 ids = st.lists(st.integers(3, 500), min_size=1, max_size=9)

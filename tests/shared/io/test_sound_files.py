@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from src.shared.audio.sound import load_sound
-from src.shared.sound_files.mp3 import count_frames, parse_header, with_length
+from src.shared.io.sound_files import count_frames, parse_header, with_length
 
 
 def write_mp3(path: Path, rate: int, channels: int = 2, seconds: float = 5.0) -> Path:

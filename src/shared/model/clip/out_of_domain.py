@@ -1,4 +1,4 @@
-"""PromptScope: is a prompt near anything the model was trained on, and to which actions?
+"""OutOfDomainDetector: is a prompt near anything the model was trained on, and to which actions?
 
 What tells is its evidence: how near it lies to an action and how much nearer than to the next one,
 how many of its words training saw, and whether its key words agree with the place it lies at. A
@@ -84,7 +84,7 @@ def words_of(text: str) -> list[str]:
 
 
 @dataclass(frozen=True, eq=False)
-class PromptScope:
+class OutOfDomainDetector:
     """What the training captions were about.
 
     Attributes:
