@@ -77,17 +77,6 @@ def check_sound(path: str | Path) -> None:
         load_sound(path)
 
 
-def sound_chunks(path: str | Path, seconds: float = CHUNK_SECONDS) -> Iterator[np.ndarray]:
-    """Yield mono 44.1-kHz samples [S] float32, about `seconds` at a time, in bounded memory.
-
-    Joined, the chunks are the samples of `load_sound`.
-
-    Raises:
-        UserError: missing, no sound file, longer than 2 h.
-    """
-    yield from _chunks(SoundReader(Path(path)), seconds)
-
-
 def sound_from_samples(
     samples: np.ndarray, sample_rate: int = SAMPLE_RATE, *, name: str = "samples"
 ) -> Sound:

@@ -90,16 +90,6 @@ def load_array(source: str | Path | bytes, *, max_values: int = MAX_VALUES) -> n
             raise BadArray(f"is not a whole NPY file ({error})") from error
 
 
-def is_archive(path: str | Path) -> bool:
-    """Whether a file starts as an NPZ does, whatever its name.
-
-    Raises:
-        OSError: the file is missing or cannot be read.
-    """
-    with Path(path).open("rb") as stream:
-        return stream.read(4) == _ZIP
-
-
 def _opened(source: str | Path | bytes) -> IO[bytes]:
     return io.BytesIO(source) if isinstance(source, bytes) else Path(source).open("rb")
 

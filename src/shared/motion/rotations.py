@@ -157,33 +157,6 @@ def yaw_to_matrix(angle: Tensor) -> Tensor:
     return axis_angle_to_matrix(1, angle)
 
 
-def euler_to_matrix(angles: Tensor, order: str) -> Tensor:
-    """Intrinsic Euler angles [...,3] in radians, e.g. order "ZXY": R = Rz·Rx·Ry."""
-    a, b, c = (
-        axis_angle_to_matrix("XYZ".index(axis), angles[..., index])
-        for index, axis in enumerate(order)
-    )
-    return a @ b @ c
-
-
-def matrix_to_euler(matrix: Tensor, order: str) -> Tensor:
-    """[...,3,3] → intrinsic Euler angles [...,3] in radians for three different axes.
-
-    At gimbal lock the third angle is zero.
-    """
-    i, j, k = ("XYZ".index(axis) for axis in order)
-    sign = 1.0 if (i, j, k) in ((0, 1, 2), (1, 2, 0), (2, 0, 1)) else -1.0
-    middle = torch.asin((sign * matrix[..., i, k]).clamp(-1, 1))
-    locked = matrix[..., i, k].abs() > 1 - 1e-6
-    first = torch.where(
-        locked,
-        torch.atan2(sign * matrix[..., k, j], matrix[..., j, j]),
-        torch.atan2(-sign * matrix[..., j, k], matrix[..., k, k]),
-    )
-    third = torch.where(locked, 0.0, torch.atan2(-sign * matrix[..., i, j], matrix[..., i, i]))
-    return torch.stack((first, middle, third), -1)
-
-
 def heading_angle(matrix: Tensor) -> Tensor:
     """Heading [...] in radians: the twist of [...,3,3] about +Y (SPEC ruling 19)."""
     q = matrix_to_quaternion(matrix)

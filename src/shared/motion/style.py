@@ -5,14 +5,14 @@ Each pair is a point on a quarter circle, so that the eight numbers have length 
 | columns | pair      | first number  | second  | measured from                      |
 |---------|-----------|---------------|---------|------------------------------------|
 | 0, 1    | intensity | energetic     | calm    | root mean square speed             |
-| 2, 3    | extent    | wide          | narrow  | path covered; of a body, its reach |
+| 2, 3    | extent    | wide          | narrow  | path covered                       |
 | 4, 5    | rhythm    | staccato      | legato  | how much the speed comes and goes  |
 | 6, 7    | attitude  | tense         | relaxed | acceleration by speed              |
 
 A pair's value lies in 0 to 1; 0.5 is the median of real walking, running and dancing. Measures
 are averaged over two seconds around each frame, so the style changes slowly.
 
-Letters: T frames, K points.
+Letters: T frames.
 """
 
 import difflib
@@ -23,15 +23,13 @@ import torch
 
 from ..errors import UsageError
 from .kinematics import forward_difference
-from .motion import Motion
 from .trajectory import MotionTrajectory
 
 PAIRS = ("intensity", "extent", "rhythm", "attitude")
 WINDOW = 2.0  # seconds
-# 5th, 50th and 95th percentile over 300 walks and runs of Bandai-Namco and all CMU clips:
-# m/s, m, 1, 1/s.
+# 5th, 50th and 95th percentile of the pelvis over 300 walks and runs of Bandai-Namco and all CMU
+# clips: m/s, m, 1, 1/s.
 PELVIS = ((0.147, 1.047, 2.734), (0.029, 0.326, 0.920), (0.079, 0.203, 0.733), (2.67, 3.78, 17.3))
-BODY = ((0.342, 1.268, 2.986), (0.136, 0.156, 0.248), (0.036, 0.087, 0.580), (4.23, 5.72, 17.7))
 _FLOOR = 1e-6  # of a measure whose logarithm is taken
 _STEEPNESS = float(np.log(19))  # a percentile of 5 becomes 0.05
 
@@ -122,24 +120,23 @@ def named_style(words: str) -> np.ndarray:
 
 def measure_style(trajectory: MotionTrajectory) -> np.ndarray:
     """Style [T,8] of a path, from the pelvis alone."""
-    points = torch.as_tensor(trajectory.position)[None]  # 1 T 3
-    speed, acceleration = _sizes(points, trajectory.fps)
+    velocity = forward_difference(torch.as_tensor(trajectory.position), trajectory.fps)  # T 3
+    acceleration = forward_difference(velocity, trajectory.fps)
+    if trajectory.num_frames > 2:  # the last two are zero because the last velocity repeats
+        acceleration[-2:] = acceleration[-3]
+    speed = velocity.norm(dim=-1).numpy().astype(np.float64)
     position = trajectory.position.astype(np.float64)
     average = _Average(trajectory.num_frames, trajectory.fps)
     spread = average(position**2) - average(position) ** 2
+    slow = average(speed)
+    variance = average(speed**2) - slow**2
+    energy = np.sqrt(average(speed**2))
     extent = np.sqrt(np.maximum(spread.sum(1), 0))
-    return _style(speed, acceleration, extent, average, PELVIS)
-
-
-def measure_body_style(motion: Motion) -> np.ndarray:
-    """Style [T,8] of a whole body, from all its joints."""
-    positions = motion.positions()  # T K 3
-    points = torch.as_tensor(positions).transpose(0, 1)  # K T 3
-    speed, acceleration = _sizes(points, motion.fps)
-    average = _Average(motion.num_frames, motion.fps)
-    reach = np.linalg.norm((positions - positions[:, :1])[..., [0, 2]], axis=-1).mean(1)
-    extent = average(reach.astype(np.float64))
-    return _style(speed, acceleration, extent, average, BODY)
+    rhythm = np.sqrt(np.maximum(variance, 0)) / np.maximum(slow, _FLOOR)
+    tension = average(acceleration.norm(dim=-1).numpy().astype(np.float64))
+    tension /= np.maximum(slow, _FLOOR)
+    measures = np.stack((energy, extent, rhythm, tension), 1)  # T 4
+    return style_vector(_percentile(measures, np.array(PELVIS)))
 
 
 class _Average:
@@ -159,34 +156,6 @@ class _Average:
         columns = values.reshape(len(values), -1).T
         means = np.stack([self._sum(column) / self._total for column in columns], 1)
         return means.reshape(values.shape)
-
-
-def _sizes(points: torch.Tensor, fps: float) -> tuple[np.ndarray, np.ndarray]:
-    """Speeds and accelerations [T,K] of points [K,T,3]."""
-    velocity = forward_difference(points, fps)
-    acceleration = forward_difference(velocity, fps)
-    if points.shape[1] > 2:  # the last two are zero because the last velocity repeats
-        acceleration[:, -2:] = acceleration[:, -3:-2]
-    speed, size = velocity.norm(dim=-1).T.numpy(), acceleration.norm(dim=-1).T.numpy()
-    return speed.astype(np.float64), size.astype(np.float64)
-
-
-def _style(
-    speed: np.ndarray,
-    acceleration: np.ndarray,
-    extent: np.ndarray,
-    average: _Average,
-    reference: tuple[tuple[float, float, float], ...],
-) -> np.ndarray:
-    """Style [T,8] of speeds and accelerations [T,K] and an extent [T]."""
-    mean_speed = speed.mean(1)
-    slow = average(mean_speed)
-    variance = average(mean_speed**2) - slow**2
-    energy = np.sqrt(average((speed**2).mean(1)))
-    rhythm = np.sqrt(np.maximum(variance, 0)) / np.maximum(slow, _FLOOR)
-    tension = average(acceleration.mean(1)) / np.maximum(slow, _FLOOR)
-    measures = np.stack((energy, extent, rhythm, tension), 1)  # T 4
-    return style_vector(_percentile(measures, np.array(reference)))
 
 
 def _percentile(measures: np.ndarray, reference: np.ndarray) -> np.ndarray:

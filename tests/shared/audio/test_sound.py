@@ -12,7 +12,6 @@ from src.shared.audio.sound import (
     SAMPLE_RATE,
     check_sound,
     load_sound,
-    sound_chunks,
     sound_from_samples,
 )
 from src.shared.errors import UserError
@@ -54,13 +53,6 @@ def test_unusual_rates(tmp_path: Path, rate: int) -> None:
     assert sound.num_frames == 30
     middle = sound.samples[5000:-5000]
     np.testing.assert_allclose(middle, tone(1.0, SAMPLE_RATE)[5000:-5000, 0], atol=2e-3)
-
-
-def test_chunks_join_to_the_whole(tmp_path: Path) -> None:
-    path = write(tmp_path / "song.flac", tone(3.3, 32000, 2), 32000)
-    chunks = list(sound_chunks(path, 0.5))
-    assert len(chunks) >= 6 and max(map(len, chunks)) < 1.1 * SAMPLE_RATE
-    np.testing.assert_allclose(np.concatenate(chunks), load_sound(path).samples, atol=1e-7)
 
 
 def test_samples_in_memory_and_from_a_file_are_one(tmp_path: Path) -> None:

@@ -9,14 +9,13 @@ from src.shared.errors import UsageError
 from src.shared.motion.style import (
     PAIRS,
     WORDS,
-    measure_body_style,
     measure_style,
     named_style,
     only_style_words,
     style_values,
     style_vector,
 )
-from src.shared.motion.trajectory import NEUTRAL_STYLE, MotionTrajectory, to_motion
+from src.shared.motion.trajectory import NEUTRAL_STYLE, MotionTrajectory
 from tests.shared.motion.trajectories import smooth_trajectory
 
 values = st.lists(st.floats(0, 1), min_size=4, max_size=4)
@@ -58,11 +57,11 @@ def test_each_pair_follows_what_it_is_named_for() -> None:
 @given(st.integers(0, 1000), st.integers(1, 200))
 def test_measured_styles_are_unit_and_slow(seed: int, num_frames: int) -> None:
     whole = smooth_trajectory(seed, num_frames)
-    for style in (measure_style(whole), measure_body_style(to_motion(whole))):
-        assert style.shape == (num_frames, 8) and style.dtype == np.float32
-        assert np.linalg.norm(style, axis=1) == pytest.approx(1, abs=1e-5)
-        if num_frames > 1:
-            assert np.linalg.norm(np.diff(style, axis=0), axis=1).max() < 0.1
+    style = measure_style(whole)
+    assert style.shape == (num_frames, 8) and style.dtype == np.float32
+    assert np.linalg.norm(style, axis=1) == pytest.approx(1, abs=1e-5)
+    if num_frames > 1:
+        assert np.linalg.norm(np.diff(style, axis=0), axis=1).max() < 0.1
 
 
 def test_a_still_body_is_calm_and_finite() -> None:

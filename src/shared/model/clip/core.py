@@ -115,15 +115,6 @@ class TextFeatures:
         return TextFeatures(*moved)
 
 
-def cat_text(first: TextFeatures, second: TextFeatures) -> TextFeatures:
-    """Two batches of equal token length, one after the other."""
-    return TextFeatures(
-        torch.cat([first.pooled, second.pooled]),
-        torch.cat([first.tokens, second.tokens]),
-        torch.cat([first.mask, second.mask]),
-    )
-
-
 class TextTower(nn.Module):
     """XLM-R, masked mean, `text_proj` to D.
 

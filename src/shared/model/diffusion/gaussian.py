@@ -108,15 +108,6 @@ class GaussianDiffusion(nn.Module):
         limit = self.config.clip_sigma
         return x_0.clamp(-limit, limit) if clip and limit is not None else x_0
 
-    def predict_eps(self, model_output: Tensor, x_t: Tensor, t: Tensor | int) -> Tensor:
-        """The noise that a model output stands for."""
-        signal_scale, noise_scale = self._scales(t, x_t)
-        if self.config.prediction_type == "epsilon":
-            return model_output
-        if self.config.prediction_type == "sample":
-            return (x_t - signal_scale * model_output) / noise_scale
-        return signal_scale * model_output + noise_scale * x_t
-
     def output_for(self, x_0: Tensor, x_t: Tensor, t: Tensor) -> Tensor:
         """The model output at x_t [B, ...] that stands for this x_0: the inverse of predict_x0."""
         signal_scale, noise_scale = self._scales(t, x_t)

@@ -7,6 +7,7 @@ import pytest
 import torch
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 from src.shared.evaluation.dance_seams import ACCELERATION, JERK, body_quantities
 from src.shared.metrics.physical import support_speed
@@ -14,7 +15,7 @@ from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess.footskate import lock_carried_feet, lock_feet
 from src.shared.motion.postprocess.leg_ik import MAX_STRETCH, two_bone_ik
 from src.shared.motion.postprocess.plants import GIVE
-from src.shared.motion.rotations import euler_to_matrix, matrix_to_quaternion
+from src.shared.motion.rotations import axis_angle_to_matrix, matrix_to_quaternion
 from src.shared.motion.skeleton import (
     JOINT_INDEX,
     LEG_LENGTH,
@@ -168,8 +169,8 @@ def test_ik_reaches_what_it_can(
 ) -> None:
     offsets = torch.as_tensor(canonical_skeleton().offsets, dtype=torch.float64)
     upper, lower = offsets[JOINT_INDEX["l_knee"]], offsets[JOINT_INDEX["l_ankle"]]
-    thigh = euler_to_matrix(torch.tensor(angles, dtype=torch.float64), "YXZ")[None]
-    shin = thigh @ euler_to_matrix(torch.tensor([knee, 0.0, 0.0], dtype=torch.float64), "XYZ")
+    thigh = torch.from_numpy(Rotation.from_euler("YXZ", angles).as_matrix())[None]
+    shin = thigh @ axis_angle_to_matrix(0, torch.tensor(knee, dtype=torch.float64))
     hip = torch.tensor([[0.1, 0.9, 0.0]], dtype=torch.float64)
     target = hip + torch.tensor([goal], dtype=torch.float64)
     new_thigh, new_shin = two_bone_ik(hip, thigh, shin, upper, lower, target)
