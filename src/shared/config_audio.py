@@ -10,7 +10,7 @@ NORM_GROUPS = 32  # of every GroupNorm in UNet1D (TECH 3.1.3)
 
 
 class MemoryConditionConfig(Config):
-    """What UNet1D needs to hear a memory: ContextTransformer, MPMSConditioner (REF, ruling 26)."""
+    """What UNet1D needs to take a memory: ContextTransformer, MPMSConditioner (REF, ruling 26)."""
 
     context_dim: int = Field(256, ge=1)  # of retrieved contexts
     prior_dim: int = Field(64, ge=1)  # channels of the encoded prior curves
@@ -49,7 +49,7 @@ class UNetConfig(Config):
     rotary: bool = True  # relative positions in frames inside both attentions
     dropout: float = Field(0.1, ge=0, lt=1)
     use_checkpoint: bool = False  # recompute activations in the backward pass, to save memory
-    memory: MemoryConditionConfig | None = None  # None: hears no memory; train_memory adds it
+    memory: MemoryConditionConfig | None = None  # None: takes no memory; train_memory adds it
 
     @property
     def channels(self) -> tuple[int, ...]:
@@ -121,7 +121,7 @@ class DecoderConfig(Config):
     hidden_dim: int = Field(256, ge=1)
     num_layers: int = Field(3, ge=1)
     dropout: float = Field(0.1, ge=0, lt=1)  # of the residual decoder's blocks
-    sees_gaps: bool = False  # residual: a frame is told how its derivatives miss its neighbours
+    sees_gaps: bool = False  # residual: a frame sees how its derivatives miss its neighbours
     position_scale: float = Field(50.0, gt=0)  # m
     velocity_scale: float = Field(50.0, gt=0)  # m/s
     acceleration_scale: float = Field(100.0, gt=0)  # m/s^2

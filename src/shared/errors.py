@@ -47,5 +47,5 @@ def first_fault(error: "ValidationError") -> str:
     """The first thing that a model found wrong with a file: `key: what`, without web addresses."""
     first = error.errors()[0]
     place = ".".join(map(str, first["loc"]))
-    told = first["msg"].removeprefix("Value error, ")
-    return f"{place}: {told}" if place else told
+    what = first["msg"].removeprefix("Value error, ")
+    return f"{place}: {what}" if place else what

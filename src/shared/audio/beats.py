@@ -277,8 +277,8 @@ def _sounding(onsets: Onsets, chain: np.ndarray) -> slice:
     """The part of the chain between the first and the last beat at which something sounds."""
     reach = round(0.07 * onsets.fps)
     loudest = onsets.loudness
-    heard = [loudest[max(frame - reach, 0) : frame + reach + 1].max() > 10.0 for frame in chain]
-    alive = np.flatnonzero(heard)
+    audible = [loudest[max(frame - reach, 0) : frame + reach + 1].max() > 10.0 for frame in chain]
+    alive = np.flatnonzero(audible)
     return slice(alive[0], alive[-1] + 1) if alive.size else slice(0, 0)
 
 

@@ -1,4 +1,4 @@
-"""What the beat tracker hears: onset strength at 100 frames a second and pitch levels at 20.
+"""The input of the beat tracker: onset strength at 100 frames a second and pitch levels at 20.
 
 One pass over mono chunks, two short-time spectra: 46 ms windows for the moment of an onset, 186 ms
 windows for pitch. Memory is bounded by the levels that are kept (20 kB a second), not the sound.

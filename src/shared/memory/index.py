@@ -31,7 +31,7 @@ NOTHING = -1  # in Hits.index where there are fewer phrases than hits were asked
 
 
 class MemoryConfig(Config):
-    """What `MPMService` and `memory build` are told (memory.yaml)."""
+    """Settings of `MPMService` and `memory build` (memory.yaml)."""
 
     folder: str = ""  # that `memory build` wrote
     bars: int = Field(2, ge=1)  # length of a phrase
@@ -433,12 +433,12 @@ def _check_fields(folder: Path, fields: dict[str, Any]) -> None:
         )
 
 
-def _check(path: Path, told: dict[str, Any], *, verify: bool) -> None:
+def _check(path: Path, entry: dict[str, Any], *, verify: bool) -> None:
     size = path.stat().st_size if path.is_file() else None
-    if size != told["bytes"]:
-        found = "is missing" if size is None else f"has {size} bytes, not {told['bytes']}"
+    if size != entry["bytes"]:
+        found = "is missing" if size is None else f"has {size} bytes, not {entry['bytes']}"
         raise UserError(f"{path} {found}; copy the memory's folder again or build it anew")
-    if verify and sha256_file(path) != told["sha256"]:
+    if verify and sha256_file(path) != entry["sha256"]:
         raise UserError(
             f"{path} does not match the SHA-256 in {MANIFEST}; copy the memory's folder again or"
             " build it anew"

@@ -1,4 +1,4 @@
-"""From a song or words to the phrases found, and what a network is told of them.
+"""From a song or words to the phrases found, and what of them conditions a network.
 
 Letters: B queries, C rows of sound, D width of the shared space, k hits, T frames asked for.
 """

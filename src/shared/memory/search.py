@@ -70,12 +70,12 @@ class LibraryIndex(MemoryIndex):
         banned = self.banned(exclude_songs, len(query))
         weight = 0.0 if phase is None else phase_weight
         bars = torch.zeros(len(query)) if phase is None else phase.float()
-        asked = torch.cat((query.float(), weight / 2 * _circle(bars)), 1).numpy()
+        points = torch.cat((query.float(), weight / 2 * _circle(bars)), 1).numpy()
         if banned is None:
-            score, index = self._ask(key, asked, top_k)
+            score, index = self._search_table(key, points, top_k)
         else:
-            rows = zip(asked, (~banned).numpy(), strict=True)
-            parts = [self._ask(key, row[None], top_k, songs) for row, songs in rows]
+            rows = zip(points, (~banned).numpy(), strict=True)
+            parts = [self._search_table(key, row[None], top_k, songs) for row, songs in rows]
             score, index = (torch.cat(part) for part in zip(*parts, strict=True))
         index, order = index.sort(
             dim=1, stable=True
@@ -84,7 +84,7 @@ class LibraryIndex(MemoryIndex):
         score, order = score.sort(dim=1, descending=True, stable=True)
         return Hits(index.gather(1, order), score)
 
-    def _ask(
+    def _search_table(
         self, key: Key, queries: np.ndarray, top_k: int, songs: np.ndarray | None = None
     ) -> tuple[Tensor, Tensor]:
         """Scalar products and phrases [B,k] of queries [B,D+2] that may find the same songs [S].
@@ -138,8 +138,8 @@ def add_library(index: MemoryIndex, folder: Path) -> LibraryIndex:
         path = folder / _file(key)
         with atomic_write(path) as temporary:
             faiss.write_index(table, str(temporary))
-        told = {"sha256": sha256_file(path), "bytes": path.stat().st_size}
-        manifest["files"][path.name] = told
+        entry = {"sha256": sha256_file(path), "bytes": path.stat().st_size}
+        manifest["files"][path.name] = entry
     write_json(folder / MANIFEST, manifest)
     return LibraryIndex.of(index, tables)
 

@@ -194,18 +194,18 @@ def continue_clips(
 def all_but(features: Tensor, start: int, stop: int, joints: set[str] | None) -> Constraint:
     """Features [T,R,6] are known but for some joints, or everything, in frames [start, stop).
 
-    Of the other joints the network is not told: it would make these as the body has them already,
+    The other joints are not shown to the network: it would make these as the body has them already,
     and not as the text says.
     """
     known = torch.ones(features.shape, dtype=torch.bool)
-    told = None if joints is None else torch.zeros_like(known)
+    shown = None if joints is None else torch.zeros_like(known)
     if joints is None:
         known[start:stop] = False
     else:
         known[start:stop, [JOINT_INDEX[name] for name in sorted(joints)]] = False
         if joints & set(LEGS) and features.shape[1] > ROOT_ROW:
             known[start:stop, ROOT_ROW, LEFT_CONTACT:] = False
-    return Constraint(features, known, told=told)
+    return Constraint(features, known, shown=shown)
 
 
 # ---------------------------------------------------------------- how well it is kept

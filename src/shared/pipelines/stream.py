@@ -141,10 +141,10 @@ def carried_on(before: Tensor, given: Constraint | None, frames: int) -> Constra
     values, mask = known.values[:, :rows].clone(), known.known[:, :rows].clone()
     values[: len(before)] = before
     mask[: len(before)] = True
-    told = None if known.told is None else known.told[:, :rows].clone()
-    if told is not None:
-        told[: len(before)] = True
-    return replace(known, values=values, known=mask, told=told)
+    shown = None if known.shown is None else known.shown[:, :rows].clone()
+    if shown is not None:
+        shown[: len(before)] = True
+    return replace(known, values=values, known=mask, shown=shown)
 
 
 def lengthened(known: Constraint, frames: int) -> Constraint:
@@ -157,7 +157,7 @@ def lengthened(known: Constraint, frames: int) -> Constraint:
         known,
         values=torch.cat((known.values, free.values)),
         known=torch.cat((known.known, free.known)),
-        told=None if known.told is None else torch.cat((known.told, free.known)),
+        shown=None if known.shown is None else torch.cat((known.shown, free.known)),
     )
 
 

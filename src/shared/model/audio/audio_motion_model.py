@@ -69,7 +69,7 @@ class AudioMotionModel(nn.Module):
         self._reconfigure(decoder=decoder.config)
 
     def add_memory(self, memory: MemoryConditionConfig) -> None:
-        """Let the UNet hear a memory too, untrained and without effect yet."""
+        """Let the UNet take a memory too, untrained and without effect yet."""
         self.unet.add_memory(memory)
         self._reconfigure(unet=self.unet.config)
 

@@ -184,7 +184,7 @@ class Upsample(nn.Module):
 
 @dataclass(frozen=True)
 class StageCondition:
-    """What one stage hears of the audio; None where it does not listen that way."""
+    """The audio condition of one stage; None where it has no such layers."""
 
     film: tuple[Tensor | None, ...]  # for each ResBlock [B, 2C, T]
     keys_values: KeyValue | None  # of the cross-attention, [B, H, L, d] each

@@ -1,4 +1,4 @@
-"""What UNet1D is told: sound features as conditions, and phrases of a memory (REF, rulings 2, 26).
+"""What UNet1D is conditioned on: sound features, and phrases of a memory (REF, rulings 2, 26).
 
 Rows of a condition [B, 163, T]: mel 0:128, chroma 128:140, mfcc 140:160, rms, spectral centroid,
 onset strength. Four more make [B, 167, T]: cosine and sine of the beat phase, then of the bar
@@ -267,7 +267,7 @@ class MPMSConditioner(nn.Module):
 
 
 class MemoryJoin(nn.Module):
-    """Both of them, and the zero layers through which a network hears them.
+    """Both of them, and the zero layers that join them to a network.
 
     Args:
         config: sizes.

@@ -82,7 +82,7 @@ class UNet1D(nn.Module):
             self.add_memory(config.memory)
 
     def add_memory(self, memory: MemoryConditionConfig) -> None:
-        """Learn to hear a memory too, starting with no effect."""
+        """Learn to take a memory too, starting with no effect."""
         conditioner, proj = self.conditioner, self.context_proj
         self.config = self.config.model_copy(update={"memory": memory})
         self.memory = MemoryJoin(
@@ -157,7 +157,7 @@ class UNet1D(nn.Module):
     def _remember(self, condition: Tensor, memory: MemoryCondition | None) -> Remembered:
         """What the memory adds; a network that has one always gives a sum, so that all join."""
         if self.memory is None:
-            assert memory is None, "this network hears no memory; train one with train_memory"
+            assert memory is None, "this network takes no memory; train one with train_memory"
             return Remembered(None, None, None)
         if memory is None:
             nothing = condition.new_zeros(len(condition), self.config.time_embed_dim)

@@ -190,13 +190,13 @@ class OutOfDomainDetector:
         """What speaks for a prompt [6], its cosines with the A actions given; the last is 1."""
         words = frozenset(words_of(prompt))
         first, second = np.argsort(-cosines, kind="stable")[[0, min(1, len(cosines) - 1)]]
-        told = {action for word in words for action in self.key_words.get(word, ())}
+        named = {action for word in words for action in self.key_words.get(word, ())}
         for word in words - self.key_words.keys():
             for key in self._by_stem.get(word[:MIN_STEM], ()):
                 if _same_stem(word, key):
-                    told.update(self.key_words[key])
+                    named.update(self.key_words[key])
         seen = len(words & self.words) / max(len(words), 1)
-        agreement = 0.0 if not told else 1.0 if int(first) in told else -1.0
+        agreement = 0.0 if not named else 1.0 if int(first) in named else -1.0
         only_fillers = float(words <= self.fillers)
         margin = float(cosines[first] - cosines[second])
         return np.array([float(cosines[first]), margin, seen, agreement, only_fillers, 1.0])
@@ -275,24 +275,24 @@ class OutOfDomainDetector:
         try:
             meta = load_json(folder / META_FILE)
             means = load_file(folder / TABLE_FILE)["means"].astype(np.float32)
-            told = _Meta.model_validate(meta)
+            stored = _Meta.model_validate(meta)
             # folders of before had none: a prompt of trained words alone told nothing
-            fillers = told.words if told.fillers is None else told.fillers
-            rows = {row for found in told.key_words.values() for row in found}
-            if means.ndim != 2 or len(means) != len(told.actions) or not np.isfinite(means).all():
-                raise ValueError(f"{len(told.actions)} actions and means {list(means.shape)}")
-            if rows and not 0 <= min(rows) <= max(rows) < len(told.actions):
+            fillers = stored.words if stored.fillers is None else stored.fillers
+            rows = {row for found in stored.key_words.values() for row in found}
+            if means.ndim != 2 or len(means) != len(stored.actions) or not np.isfinite(means).all():
+                raise ValueError(f"{len(stored.actions)} actions and means {list(means.shape)}")
+            if rows and not 0 <= min(rows) <= max(rows) < len(stored.actions):
                 raise ValueError("a key word tells of an action that is not there")
             return cls(
-                actions=told.actions,
-                key_words=told.key_words,
-                words=told.words,
+                actions=stored.actions,
+                key_words=stored.key_words,
+                words=stored.words,
                 fillers=fillers,
                 means=means,
-                false_alarms=told.false_alarms,
-                min_cosine=told.min_cosine,
-                weights=told.weights,
-                reliability=told.reliability,
+                false_alarms=stored.false_alarms,
+                min_cosine=stored.min_cosine,
+                weights=stored.weights,
+                reliability=stored.reliability,
             )
         except ValidationError as error:
             raise of_another_version(folder / META_FILE, error) from error

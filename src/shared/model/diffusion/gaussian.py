@@ -155,7 +155,7 @@ class GaussianDiffusion(nn.Module):
         Args:
             model: called as `model(x_t, t, condition)`, see `with_condition`.
             x_0: clean data [B, ...].
-            condition: what the model is told.
+            condition: of the model.
             t: steps [B]; uniform when absent.
             noise: as x_0; standard normal when absent.
             mask: frames that count, see `masked_loss`.

@@ -134,7 +134,7 @@ class Sampler(ABC):
             model: the denoiser; by default the one inside the diffusion.
             generator: one generator, or one for each batch element.
             x_T: starting noise; drawn when absent.
-            callback: told (steps done, steps in all) after each step.
+            callback: called with (steps done, steps in all) after each step.
         """
         model_fn = with_condition(self.diffusion.denoiser(model), condition)
         if x_T is None:

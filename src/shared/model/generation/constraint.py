@@ -34,7 +34,7 @@ STEP = 0.02  # root mean square of one move, in standard deviations of the data
 MOVES = 3  # a prediction
 SMOOTHING = 2.5  # frames, standard deviation of the kernel over the gradient
 SLOW = 0.05  # m/s, v0: below it speed hardly counts, a standing body is not shaken
-BEYOND = 1.5  # beats; further than this from the first and the last one nothing is asked for
+BEYOND = 1.5  # beats; further than this from the first and the last one there is no beat to meet
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +42,7 @@ class RhythmGuidance:
     """Leads a batch of z-scored motions to their beats.
 
     Attributes:
-        weight: w [B, T - 1], 0 where nothing is asked for.
+        weight: w [B, T - 1], 0 where there is no beat to meet.
         mean, std: [K, C] of the z-scores.
         fps: frames per second.
     """
@@ -95,8 +95,8 @@ def beat_weight(beats: Tensor | None, frames: int, fps: float) -> Tensor:
     known = np.concatenate((times[:1] - 2 * before, times, times[-1:] + 2 * after))
     count = np.concatenate(([-2.0], np.arange(len(times)), [len(times) + 1.0]))
     phase = np.interp((np.arange(frames - 1) + 0.5) / fps, known, count)
-    asked = (phase > -BEYOND) & (phase < len(times) - 1 + BEYOND)
-    return torch.from_numpy(np.where(asked, np.cos(2 * np.pi * phase), 0.0)).float()
+    near = (phase > -BEYOND) & (phase < len(times) - 1 + BEYOND)
+    return torch.from_numpy(np.where(near, np.cos(2 * np.pi * phase), 0.0)).float()
 
 
 def smoothed(series: Tensor, deviation: float) -> Tensor:
@@ -123,15 +123,15 @@ class Constraint:
         known: [T, K, C] bool.
         beats: seconds [M] from the first frame at which the body is to have a beat, a minimum of
             its joints' mean speed; None = it keeps its own time.
-        told: [T, K, C] bool, which of the known entries the network is shown clean, if it is one
-            that can be; it gets the others noised, as any network does. A network that is told
+        shown: [T, K, C] bool, which of the known entries the network is shown clean, if it is one
+            that can be; it gets the others noised, as any network does. A network that sees
             most of a body makes the rest fit it, whatever the text says. None = all of them.
     """
 
     values: Tensor
     known: Tensor
     beats: Tensor | None = None
-    told: Tensor | None = None
+    shown: Tensor | None = None
 
     @classmethod
     def free(cls, frames: int, rows: int = 23, channels: int = 6) -> Self:
@@ -145,8 +145,8 @@ class Constraint:
     def window(self, start: int, stop: int, *, fps: float = 30.0) -> "Constraint":
         """Frames [start, stop); the beats count from its first frame."""
         beats = None if self.beats is None else self.beats - start / fps
-        told = None if self.told is None else self.told[start:stop]
-        return Constraint(self.values[start:stop], self.known[start:stop], beats, told)
+        shown = None if self.shown is None else self.shown[start:stop]
+        return Constraint(self.values[start:stop], self.known[start:stop], beats, shown)
 
     def keep(self, features: Tensor) -> Tensor:
         """Raw features [T, K, C] with the known entries as they were given."""
@@ -160,13 +160,13 @@ class KnownBatch:
 
     Attributes:
         values: [B, T, K, C] z-scored, used where `known` [B, T, K, C] bool.
-        told: [B, T, K, C] bool, the known entries that the network is shown clean.
+        shown: [B, T, K, C] bool, the known entries that the network is shown clean.
         rhythm: what leads the bodies to their beats; None where nobody has any.
     """
 
     values: Tensor
     known: Tensor
-    told: Tensor
+    shown: Tensor
     rhythm: RhythmGuidance | None
 
     @classmethod
@@ -184,20 +184,20 @@ class KnownBatch:
             return None
         rows, channels = mean.shape
         values = torch.zeros(len(constraints), frames, rows, channels)
-        known, told = (torch.zeros(values.shape, dtype=torch.bool) for _ in range(2))
+        known, shown = (torch.zeros(values.shape, dtype=torch.bool) for _ in range(2))
         beats: list[Tensor | None] = [None] * len(constraints)
         for row, constraint in enumerate(constraints):
             if constraint is not None:
                 length = len(constraint)
                 values[row, :length] = constraint.values[:, :rows]
                 known[row, :length] = constraint.known[:, :rows]
-                shown = constraint.known if constraint.told is None else constraint.told
-                told[row, :length] = (constraint.known & shown)[:, :rows]
+                seen = constraint.known if constraint.shown is None else constraint.shown
+                shown[row, :length] = (constraint.known & seen)[:, :rows]
                 beats[row] = constraint.beats
-        known, told = known.to(mean.device), told.to(mean.device)
+        known, shown = known.to(mean.device), shown.to(mean.device)
         z_scored = torch.where(known, (values.to(mean.device) - mean) / std, 0.0)
         rhythm = RhythmGuidance.of(beats, frames, mean, std, fps=fps)
-        return cls(z_scored, known, told, rhythm)
+        return cls(z_scored, known, shown, rhythm)
 
     def hold(
         self, model_fn: ModelFn, diffusion: GaussianDiffusion, noise: Tensor, *, clean: bool
@@ -208,14 +208,14 @@ class KnownBatch:
             model_fn: with its condition inside.
             diffusion: its process.
             noise: [B, T, K, C] that sampling starts from; the known entries are noised with it.
-            clean: hand over what is told without noise, as the network learned it.
+            clean: hand over what is shown without noise, as the network learned it.
         """
-        known, told = self.known, self.told & clean
+        known, shown = self.known, self.shown & clean
 
         def held(x_t: Tensor, t: Tensor) -> Tensor:
             noised = diffusion.q_sample(self.values, t, noise)
-            shown = torch.where(known & ~told, noised, x_t)
-            output = model_fn(torch.where(told, self.values, shown), t).to(x_t.dtype)
+            mixed = torch.where(known & ~shown, noised, x_t)
+            output = model_fn(torch.where(shown, self.values, mixed), t).to(x_t.dtype)
             if self.rhythm is not None:
                 x_0 = torch.where(known, self.values, diffusion.predict_x0(output, x_t, t))
                 output = diffusion.output_for(self.rhythm(x_0, free=~known), x_t, t)

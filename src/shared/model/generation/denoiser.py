@@ -162,8 +162,8 @@ class MotionDenoiser(nn.Module):
         h = motion_h + text_h  # [B, T, D]
         if known is not None:
             assert self.known_proj is not None, "this network was not made for constraints"
-            told = known.flatten(2).to(noisy.dtype)  # [B, frames, K*C]
-            h = h + self.known_proj(self._tokens(told))  # [B, T, D]
+            flags = known.flatten(2).to(noisy.dtype)  # [B, frames, K*C]
+            h = h + self.known_proj(self._tokens(flags))  # [B, T, D]
         label_h = self.tag_embed(tag)  # [B, D]
         if provenance is not None:
             assert self.provenance_embed is not None, "this network was not made for provenance"
@@ -173,8 +173,8 @@ class MotionDenoiser(nn.Module):
         if keys_values is None:
             keys_values = self.text_keys_values(text)
         for index, block in enumerate(self.blocks):
-            heard = keys_values[index] if keys_values else None
-            h = block(h, condition, mask, heard, text.mask)  # [B, T, D]
+            own = keys_values[index] if keys_values else None
+            h = block(h, condition, mask, own, text.mask)  # [B, T, D]
         out = self.output_proj(self.output_norm(h))  # [B, T, stride*K*C]
         out = out.unflatten(-1, (self.stride, -1)).flatten(1, 2)[:, :frames]  # [B, frames, K*C]
         if self.refiner is not None:

@@ -127,7 +127,7 @@ class TextToMotion:
             guidance_scale: 1 = no guidance.
             foot_lock: hold standing feet in place.
             constraints: what is given of each prompt's motions, as long as they are.
-            progress: told after each batch.
+            progress: called after each batch.
 
         Raises:
             UserError: the model is untrained, or an argument cannot be worked with.
@@ -259,7 +259,7 @@ class TextToMotion:
         """The 8-d unit style that a sentence speaks of (ruling 11).
 
         None where its words are far from anything trained, or the model has no map of styles. A
-        style is heard in a sentence whose action the model may miss.
+        style is read off a sentence whose action the model may miss.
         """
         if self.style_map is None or self.scope is None or not self.scope.familiar(prompt):
             return None

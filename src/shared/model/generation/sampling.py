@@ -79,14 +79,14 @@ def make_requests(
         raise UserError(f"seed {seed} must be 0 or more")
     lengths = _each(seconds, len(prompts), "seconds")
     labels = _each(tags, len(prompts), "tags")
-    asked: Counter[str] = Counter()
+    count: Counter[str] = Counter()
     requests = []
     for prompt, length, label in zip(prompts, lengths, labels, strict=True):
         frames, tag = _frames(length, fps), _tag_index(label, known_tags)
         text = zlib.crc32(prompt.encode())
         for _ in range(num_samples):
-            requests.append(SampleRequest(prompt, frames, tag, (seed, text, asked[prompt])))
-            asked[prompt] += 1
+            requests.append(SampleRequest(prompt, frames, tag, (seed, text, count[prompt])))
+            count[prompt] += 1
     return requests
 
 
@@ -182,7 +182,7 @@ def sample_batch(
     learned = denoiser.known_proj is not None
     shared = {
         "mask": mask,
-        "known": known.told if known is not None and learned else None,
+        "known": known.shown if known is not None and learned else None,
         "provenance": _captured(denoiser, tag),
     }
     model_fn = guided(

@@ -109,7 +109,7 @@ def blend_cuts(features: Tensor, cuts: Sequence[int]) -> Tensor:
 
 
 def _meet(values: np.ndarray, fixed: np.ndarray, fade: int) -> None:
-    """Mend the borders behind fixed entries [T,N] in place."""
+    """Blend the boundaries behind fixed entries [T,N] in place."""
     starts = fixed[:-1] & ~fixed[1:]  # T-1 N, the next frame is the first free one
     for last in np.flatnonzero(starts.any(1)):
         columns = np.flatnonzero(starts[last])

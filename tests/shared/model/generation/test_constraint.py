@@ -104,13 +104,13 @@ def test_windows_shift_the_beats():
 def test_what_the_network_is_not_told_comes_out_all_the_same(make_generator):
     """Untold entries are known, but change what is made: the network gets them with noise."""
     generator = make_generator(constraints=True)
-    told = some(20, generator)
-    untold = Constraint(told.values, told.known, told=torch.zeros_like(told.known))
+    shown = some(20, generator)
+    hidden = Constraint(shown.values, shown.known, shown=torch.zeros_like(shown.known))
     makes = [
         generator.sample_features(["somebody jumps"], seconds=20 / 30, constraints=[each])[0]
-        for each in (told, untold)
+        for each in (shown, hidden)
     ]
     for made in makes:
-        assert torch.equal(made[told.known], told.values[told.known])
+        assert torch.equal(made[shown.known], shown.values[shown.known])
     assert not torch.allclose(*makes, atol=1e-4)
-    assert untold.window(3, 9).told is not None and len(untold.window(3, 9).told) == 6
+    assert hidden.window(3, 9).shown is not None and len(hidden.window(3, 9).shown) == 6
