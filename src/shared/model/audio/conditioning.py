@@ -17,6 +17,7 @@ import math
 from dataclasses import dataclass, replace
 
 import torch
+from einops import rearrange
 from torch import Tensor, nn
 from torch.nn import functional as F
 
@@ -241,7 +242,7 @@ class ContextTransformer(nn.Module):
     def _patches(self, rows: Tensor, *, mode: str = "replicate") -> Tensor:
         """[B, C, T] -> [B, P, C * patch]."""
         rows = F.pad(rows, (0, -rows.shape[-1] % self.patch), mode=mode)
-        return rows.unflatten(-1, (-1, self.patch)).transpose(1, 2).flatten(2)
+        return rearrange(rows, "b c (p n) -> b p (c n)", n=self.patch)
 
 
 class MPMSConditioner(nn.Module):

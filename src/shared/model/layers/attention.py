@@ -11,6 +11,7 @@ the residual branch regularises as well at this size.
 import math
 
 import torch
+from einops import rearrange
 from torch import Tensor, nn
 from torch.nn.functional import scaled_dot_product_attention
 
@@ -114,16 +115,13 @@ class MultiHeadAttention(nn.Module):
 
     def forward(self, x: Tensor, mask: Tensor | None = None) -> Tensor:
         """x [B, T, D], mask [B, T] bool (True = real) or None -> [B, T, D]."""
-        qkv = self.qkv(x).unflatten(-1, (3 * self.num_heads, -1))  # [B, T, 3H, d]
-        if self.rotary is None:
-            query, key, value = qkv.chunk(3, dim=2)  # [B, T, H, d] each
-        else:
-            positioned, value = qkv.split([2 * self.num_heads, self.num_heads], dim=2)
-            query, key = self.rotary(positioned).chunk(2, dim=2)  # [B, T, H, d] each
-        mixed = attend(
-            query.transpose(1, 2), key.transpose(1, 2), value.transpose(1, 2), mask
-        )  # [B, H, T, d]
-        return self.out(mixed.transpose(1, 2).flatten(2))
+        heads = rearrange(self.qkv(x), "b t (n d) -> b t n d", n=3 * self.num_heads)
+        if self.rotary is not None:
+            positioned, value = heads.split([2 * self.num_heads, self.num_heads], dim=2)
+            heads = torch.cat([self.rotary(positioned), value], dim=2)
+        query, key, value = heads.transpose(1, 2).chunk(3, dim=1)  # [B, H, T, d] each
+        mixed = attend(query, key, value, mask)  # [B, H, T, d]
+        return self.out(rearrange(mixed, "b h t d -> b t (h d)"))
 
 
 class CrossAttention(nn.Module):
@@ -139,12 +137,13 @@ class CrossAttention(nn.Module):
 
     def keys_values(self, context: Tensor) -> KeyValue:
         """Context [B, L, D] -> keys and values, which need computing once a sample only."""
-        heads = self.key_value(context).unflatten(-1, (2 * self.num_heads, -1))  # [B, L, 2H, d]
-        key, value = heads.transpose(1, 2).chunk(2, dim=1)  # [B, H, L, d] each
+        key, value = rearrange(
+            self.key_value(context), "b l (n h d) -> n b h l d", n=2, h=self.num_heads
+        )
         return key, value
 
     def forward(self, x: Tensor, keys_values: KeyValue, mask: Tensor | None = None) -> Tensor:
         """x [B, T, D], keys and values of the context, its mask [B, L] -> [B, T, D]."""
-        query = self.query(x).unflatten(-1, (self.num_heads, -1)).transpose(1, 2)  # [B, H, T, d]
+        query = rearrange(self.query(x), "b t (h d) -> b h t d", h=self.num_heads)
         mixed = attend(query, *keys_values, mask)  # [B, H, T, d]
-        return self.out(mixed.transpose(1, 2).flatten(2))
+        return self.out(rearrange(mixed, "b h t d -> b t (h d)"))
