@@ -12,6 +12,7 @@ STAGES = {
     "generation": ("train_generation", "Motion from text, behind the text tower of `clip`."),
     "evaluator": ("train_evaluator", "The independent judge that `evaluate` asks."),
     "text": ("train_text", "A text tower that bears wordings it never saw."),
+    "action": ("train_action", "A new action for a trained text model, from a few clips."),
     "audio": ("train_audio", "Paths from music."),
     "decoder": ("train_decoder", "The decoder behind `audio`."),
     "finetune-e2e": ("finetune_e2e", "`audio` and `decoder` through the sampler, as one."),

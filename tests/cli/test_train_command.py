@@ -14,6 +14,7 @@ ROOT = Path(__file__).parents[2]
 COMMON = {"--config", "--data", "--output", "--num-processes", "--resume"}
 NETWORK = {"--network-profile", "--network-file"}
 OWN = {
+    "action": {"--init"},
     "decoder": {"--audio"},
     "memory": {"--audio", "--memory", "--space"},
     "finetune-e2e": {

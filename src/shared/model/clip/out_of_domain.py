@@ -43,7 +43,7 @@ MIN_STEM = 4  # letters
 MIN_SEEN = 0.5  # share of words seen in training that a likeness to a key word needs around it
 NUM_NEAREST = 3
 RELIABLE = 0.5  # share of tries in which an action has to come out to be known
-FALSE_WARNINGS = 0.03  # share of the prompts it calibrates on that are understood, and warned of
+FALSE_WARNINGS = 0.05  # share of the prompts it calibrates on that are understood, and warned of
 NEWTON_STEPS, RIDGE = 30, 1e-2
 
 _CJK = re.compile(r"[\u3040-\u30ff\u3400-\u9fff]")
@@ -157,6 +157,22 @@ class OutOfDomainDetector:
             means=means.astype(np.float32),
             false_alarms=false_alarms,
             min_cosine=float(np.quantile(cosines, 0.01)) if pretrained_tower else None,
+        )
+
+    def with_action(self, action: str, captions: Sequence[str], embeddings: np.ndarray) -> Self:
+        """The same scope, with an action more: its N captions and their embeddings [N, D].
+
+        Its key words are those that no action had before.
+        """
+        words = frozenset[str]().union(*(words_of(caption) for caption in captions))
+        place = _unit(embeddings.mean(axis=0))[None].astype(np.float32)
+        own = {word: (len(self.actions),) for word in sorted(words - self.words)}
+        return replace(
+            self,
+            actions=(*self.actions, action),
+            key_words={**self.key_words, **own},
+            words=self.words | words,
+            means=np.concatenate((self.means, place)),
         )
 
     def check(self, prompt: str, embedding: np.ndarray) -> ScopeResult:

@@ -1,0 +1,516 @@
+"""A new action for a trained text model, from a few clips of it, while the old ones stay.
+
+motion-tools train action --data FOLDER init=starter [key=value ...]
+
+A text tower of token pairs sends each sentence to one of its places. A new action gets a place of
+its own, and the tower learns to send the clips' captions there and all other sentences where it
+sent them before. Then the denoiser learns what is at the new place, and half of each batch is
+rehearsal: motions that it made itself at its old places before, of which it has to say what it said
+then (learning without forgetting, Li and Hoiem 2016; generative replay, Shin et al. 2017). No clip
+that it was trained on is needed.
+
+Letters: B batch, T frames, R rows of a frame, P places, D shared dimensions.
+"""
+
+import copy
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import torch
+from pydantic import Field
+from torch import Tensor, nn
+from torch.nn.functional import cross_entropy, kl_div, normalize, pad
+
+from ..shared.config_schema import PROVENANCES, NetworkConfig, TrainGenerationConfig
+from ..shared.data.captions.book import packaged_book
+from ..shared.data.captions.word_dropout import insert_babble
+from ..shared.data.prepared import ClipRecord
+from ..shared.device import autocast, choose_compute
+from ..shared.errors import UsageError, UserError
+from ..shared.model.checkpoint import read_card
+from ..shared.model.clip.core import PLACE_SCALE, TextFeatures, TextTower
+from ..shared.model.clip.pretrained import encode_captions, tower_hash
+from ..shared.model.clip.token_pairs import PAIRS, TokenPairEncoder, shared_keys
+from ..shared.model.clip.tokenizer import PromptTokenizer
+from ..shared.model.diffusion.gaussian import GaussianDiffusion
+from ..shared.model.generation.denoiser import MotionDenoiser
+from ..shared.model.generation.losses import GenerationLoss
+from ..shared.model.generation.motion_generator import KIND, TextToMotion
+from ..shared.model.generation.requests import SampleRequest
+from ..shared.model.generation.sampling import sample_batch
+from ..shared.model.zoo import resolve_model
+from .captured_places import apart
+from .constraints import draw_known
+from .launch import Stage
+from .run_log import announce
+from .task import Part, generator, numpy_generator
+from .text_stages import motion_rows, open_training_data, training_set
+from .train_generation import TAG_WEIGHT, GuidedDenoiser, spread_timesteps
+
+REHEARSED_FRAMES = 90
+REHEARSED_STEPS = 5  # of sampling
+OLD_CAPTIONS = 12  # of each known action and language
+TOWER_BATCH = 256  # sentences, half of them new
+TOWER_RATE = 5e-3
+BABBLE = 0.3  # share of new captions with made-up words in them
+LEAST_CLIPS = 2
+
+
+class TrainActionConfig(TrainGenerationConfig):
+    """train_action.yaml."""
+
+    init: str = "starter"
+    rehearsed: int = Field(128, ge=1)  # motions of its own that the model goes on making
+    tower_steps: int = Field(300, ge=1)  # of the text tower, before the motion
+
+
+@dataclass(frozen=True)
+class ActionBatch:
+    """New clips and rehearsal, in this order.
+
+    Attributes:
+        clean, noise: [B,T,R,6] z-scored; mask [B,T] bool; known [B,T,R,6] bool.
+        timesteps, tag, provenance: [B] long; drop [B] bool, rows that see no text.
+        place: [B,D] what the text tower gives.
+        new: [B] bool.
+    """
+
+    clean: Tensor
+    noise: Tensor
+    mask: Tensor
+    known: Tensor
+    timesteps: Tensor
+    tag: Tensor
+    provenance: Tensor
+    drop: Tensor
+    place: Tensor
+    new: Tensor
+
+
+class ActionTask:
+    """What the trainer needs to know (task.py)."""
+
+    def __init__(self, config: TrainActionConfig, network: NetworkConfig) -> None:
+        self.config, self.network = config, network
+        self.before = TextToMotion.from_pretrained(config.init, device="cpu")
+        self.data = open_training_data(config, network)
+        self.train = training_set(config, self.data)
+        known = set(self.before.card.tags)
+        self.actions = tuple(sorted({r.tag for r in self.train.records if r.tag} - known))
+        self._check()
+        self.tags = (*self.before.card.tags, *self.actions)
+        self.tower, place_of = self._taught_tower()
+        self.places = torch.stack([place_of[record.group] for record in self.train.records])
+        self.row_of = {record.id: row for row, record in enumerate(self.train.records)}
+        self.module: nn.Module = GuidedDenoiser(self._denoiser())
+        self.teacher = GuidedDenoiser(self.before.denoiser).eval().requires_grad_(False)
+        self.diffusion = GaussianDiffusion(network.generation.diffusion())
+        self.loss = GenerationLoss(
+            config.losses, self.diffusion, self.before.mean.cpu(), self.before.std.cpu()
+        )
+        self.rehearsal, self.rehearsed_places = self._rehearsal()
+        self.compute = choose_compute(config.device, config.precision)
+        self.figures: dict[str, float] = {}
+
+    def _check(self) -> None:
+        if not self.actions:
+            there = ", ".join(sorted({r.tag for r in self.train.records if r.tag})) or "none"
+            raise UserError(
+                f"{self.config.data} has no action that {self.config.init} does not know (it has:"
+                f" {there}); label the clips with a new one, see `action` in docs/quickstart.md"
+            )
+        for action in self.actions:
+            if (number := sum(r.tag == action for r in self.train.records)) < LEAST_CLIPS:
+                raise UserError(
+                    f"{self.config.data} has {number} clip of {action!r} to train on; prepare at"
+                    f" least {LEAST_CLIPS}, better 20"
+                )
+
+    # ------------------------------------------------------------ the text tower
+
+    def _taught_tower(self) -> tuple[TextTower, dict[str, Tensor]]:
+        """The tower with a place for each new combination; and the place [D] of every group."""
+        groups: dict[str, ClipRecord] = {r.group: r for r in self.train.records if r.tag}
+        captions = {group: self._captions(record) for group, record in groups.items()}
+        before = self.before.text
+        means = torch.stack(
+            [
+                normalize(encode_captions(before, self.before.tokenizer, texts).mean(0), dim=-1)
+                for texts in captions.values()
+            ]
+        )
+        labels = [record.labels for record in groups.values()]
+        places = apart(means, labels, self.before.card.tags)
+        new = [row for row, record in enumerate(groups.values()) if record.tag in self.actions]
+        sentences = [list(captions.values())[row] for row in new]
+        announce(f"teaching the text tower {', '.join(self.actions)}")
+        tower = with_new_places(
+            before,
+            self.before.tokenizer,
+            places[new],
+            sentences,
+            old_captions(self.before.card.tags, self.config.languages),
+            steps=self.config.tower_steps,
+            seed=self.config.seed,
+        )
+        return tower, dict(zip(groups, places, strict=True))
+
+    def _captions(self, record: ClipRecord) -> list[str]:
+        """Of every clip of its group, in every language, and what the caption book can add."""
+        texts = {
+            text
+            for other in self.train.records
+            if other.group == record.group
+            for some in self.data.captions(other).values()
+            for text in some
+        }
+        return sorted(texts)
+
+    # ------------------------------------------------------------ the denoiser
+
+    def _denoiser(self) -> MotionDenoiser:
+        """A copy of the old one, with tags for the new actions."""
+        denoiser = MotionDenoiser(self.network, len(self.tags))
+        state = dict(self.before.denoiser.state_dict())
+        tags = denoiser.tag_embed.embedding.weight.detach().clone()  # [num_tags + 1, D]
+        old = state[TAG_WEIGHT]
+        tags[: len(old) - 1], tags[-1] = old[:-1], old[-1]
+        denoiser.load_state_dict({**state, TAG_WEIGHT: tags})
+        return denoiser
+
+    def _rehearsal(self) -> tuple[Tensor, Tensor]:
+        """Motions [N,T,R,6] that the old model makes at its own places, z-scored; these [N,D]."""
+        places = self.before.text.get_buffer("places").float()  # [P,D]
+        draws = generator("rehearsal", self.config.seed)
+        chosen = places[torch.randperm(len(places), generator=draws)]
+        chosen = chosen.repeat(-(-self.config.rehearsed // len(chosen)), 1)[: self.config.rehearsed]
+        no_tag = len(self.before.card.tags)
+        announce(f"{len(chosen)} motions of {self.config.init} to rehearse")
+        made = []
+        for at in range(0, len(chosen), 32):
+            part = chosen[at : at + 32]
+            requests = [
+                SampleRequest("", REHEARSED_FRAMES, no_tag, (self.config.seed, 0, at + row))
+                for row in range(len(part))
+            ]
+            with torch.inference_mode():
+                motions = sample_batch(
+                    self.before.denoiser,
+                    self.before.diffusion,
+                    requests,
+                    as_features(part),
+                    guidance_scale=self.network.generation.guidance_scale,
+                    sampler="ddim",
+                    steps=REHEARSED_STEPS,
+                )
+            made.append(motions.clone())
+        return torch.cat(made), chosen
+
+    def identity(self) -> dict[str, Any]:
+        """A resumed run must go on from the same model with the same clips."""
+        return {
+            "network": self.network.model_dump(mode="json", by_alias=True),
+            "data-hash": self.data.manifest_hash,
+            "tower-hash": tower_hash(self.before.text),
+        }
+
+    def to(self, device: torch.device) -> None:
+        """Frozen parts follow the module."""
+        self.teacher.to(device)
+        self.loss.to(device)
+
+    # ------------------------------------------------------------ batches
+
+    def batch(self, part: Part) -> ActionBatch:
+        """Half new clips, half rehearsal; everything random is drawn here, on the CPU."""
+        config = self.config
+        num_old = config.batch_size // 2
+        clips = self.train.batch(part.step, config.batch_size - num_old, rank=part.index)
+        raw = motion_rows(clips.motion * self.data.std + self.data.mean, self.network)
+        new = (raw - self.before.mean.cpu()) / self.before.std.cpu()
+        draws = generator("noise", config.seed, part.step, part.index)
+        rows = torch.randint(len(self.rehearsal), (num_old,), generator=draws)
+        old = self.rehearsal[rows]
+        frames = max(new.shape[1], old.shape[1])
+        clean = torch.cat([_padded(each, frames) for each in (new, old)])
+        mask = torch.zeros(len(clean), frames, dtype=torch.bool)
+        mask[: len(new), : new.shape[1]] = clips.mask
+        mask[len(new) :, : old.shape[1]] = True
+        size = len(clean)
+        places = torch.cat(
+            [self.places[[self.row_of[r.id] for r in clips.records]], self.rehearsed_places[rows]]
+        )
+        known = torch.zeros(clean.shape, dtype=torch.bool)
+        if self.network.generation.constraints:
+            rng = numpy_generator("known", config.seed, part.step, part.index)
+            known = draw_known(mask, clean.shape[2], config.constraints, rng)
+        drop = torch.rand(size, generator=draws) < config.condition_dropout
+        untagged = drop | (torch.rand(size, generator=draws) < config.tag_dropout)
+        own = [self.tags.index(r.tag) if r.tag in self.tags else -1 for r in clips.records]
+        tag = torch.tensor([*own, *[-1] * num_old])
+        tag = torch.where(untagged | (tag < 0), len(self.tags), tag)
+        captured = torch.full((num_old,), PROVENANCES.index("captured"))
+        return ActionBatch(
+            clean=clean,
+            noise=torch.randn(clean.shape, generator=draws),
+            mask=mask,
+            known=known,
+            timesteps=spread_timesteps(size, self.diffusion.config.timesteps, draws),
+            tag=tag,
+            provenance=torch.cat([clips.provenance, captured]),
+            drop=drop,
+            place=places,
+            new=torch.arange(size) < len(new),
+        )
+
+    # ------------------------------------------------------------ learning
+
+    def training_step(self, module: nn.Module, batch: ActionBatch) -> dict[str, Tensor]:
+        """The losses of the new clips, and how far rehearsal is from what the old model says."""
+        noisy = self.diffusion.q_sample(batch.clean, batch.timesteps, batch.noise)
+        seen = torch.where(batch.known, batch.clean, noisy)
+        told = (batch.mask, batch.drop, batch.known, batch.provenance)
+        text = as_features(batch.place)
+        output = module(seen, batch.timesteps, text, batch.tag, *told).float()
+        new, old = batch.new, ~batch.new
+        with torch.no_grad(), autocast(self.compute):
+            no_tag = torch.full_like(batch.tag[old], len(self.before.card.tags))
+            wanted = self.teacher(
+                seen[old],
+                batch.timesteps[old],
+                text[old],
+                no_tag,
+                *(each[old] for each in told),
+            ).float()
+        target = self.diffusion.target(batch.clean, batch.noise, batch.timesteps)
+        output = torch.where(batch.known, target, output)
+        wanted = torch.where(batch.known[old], target[old], wanted)
+        losses: dict[str, Tensor] = self.loss(
+            output[new],
+            batch.clean[new],
+            noisy[new],
+            batch.noise[new],
+            batch.timesteps[new],
+            batch.mask[new],
+        )
+        rehearsal = self.diffusion.loss(output[old], wanted, mask=batch.mask[old])
+        return {**losses, "loss": losses["loss"] + rehearsal, "rehearsal": rehearsal}
+
+    def validation(self, module: nn.Module) -> dict[str, float]:
+        """`evaluate-requests` and `calibrate` tell more than a loss on a few clips would."""
+        return self.figures
+
+    # ------------------------------------------------------------ results
+
+    def _generator(self, module: nn.Module) -> TextToMotion:
+        assert isinstance(module, GuidedDenoiser)
+        before = self.before
+        clip = self.tower.config
+        network = self.network.model_copy(update={"clip": clip})
+        module.denoiser.config = network
+        learned = {"from": before.card.name, "actions": list(self.actions),
+                   "steps": self.config.steps, "data": self.data.manifest_hash}  # fmt: skip
+        update = {
+            "name": Path(self.config.output).name,
+            "network": network,
+            "tags": self.tags,
+            "description": f"{before.card.description}; and {', '.join(self.actions)}",
+            "training": {**before.card.training, "actions": learned},
+        }
+        scope = before.scope
+        if scope is not None:
+            for action in self.actions:
+                texts = [
+                    text
+                    for record in self.train.records
+                    if record.tag == action
+                    for some in self.data.captions(record).values()
+                    for text in some
+                ]
+                embeddings = encode_captions(self.tower, before.tokenizer, texts).numpy()
+                scope = scope.with_action(action, texts, embeddings)
+        return TextToMotion(
+            module.denoiser,
+            self.tower,
+            before.tokenizer,
+            mean=before.mean,
+            std=before.std,
+            card=before.card.model_copy(update=update),
+            scope=scope,
+            style_map=before.style_map,
+            device=next(module.parameters()).device.type,
+        )
+
+    def export_samples(self, module: nn.Module, folder: Path) -> None:
+        """One motion of each new action, as BVH and HTML."""
+        from ..shared.formats.registry import write_motion, write_preview
+
+        maker = self._generator(module)
+        prompts = [
+            self._captions(next(r for r in self.train.records if r.tag == action))[0]
+            for action in self.actions
+        ]
+        folder.mkdir(parents=True, exist_ok=True)
+        motions = maker.generate(prompts, seconds=3.0)
+        for action, motion in zip(self.actions, motions, strict=True):
+            write_motion(motion, folder / f"{action}.bvh")
+        write_preview(motions, folder / "index.html")
+
+    def save_pretrained(self, module: nn.Module, folder: Path) -> None:
+        """A folder that `generate --model` reads."""
+        self._generator(module).save_pretrained(folder)
+
+
+def as_features(places: Tensor) -> TextFeatures:
+    """What a tower would give for texts that lie at these places [B,D]."""
+    mask = torch.ones(len(places), 1, dtype=torch.bool, device=places.device)
+    return TextFeatures(places, torch.zeros_like(places)[:, None], mask)
+
+
+def old_captions(actions: Sequence[str], languages: Sequence[str]) -> list[str]:
+    """Sentences that a tower is to send where it sent them before, whatever it makes of them."""
+    book = packaged_book()
+    combinations = [{"action": action} for action in actions]
+    combinations += [task for task in book.control_tasks() if task.get("action") in actions]
+    return sorted(
+        {
+            text
+            for labels in combinations
+            for code, texts in book.captions(labels, num=OLD_CAPTIONS, seed=0).items()
+            if code in languages
+            for text in texts
+        }
+    )
+
+
+def with_new_places(
+    tower: TextTower,
+    tokenizer: PromptTokenizer,
+    places: Tensor,
+    captions: Sequence[Sequence[str]],
+    old: Sequence[str],
+    *,
+    steps: int,
+    seed: int,
+) -> TextTower:
+    """A tower of token pairs that sends `captions[i]` to `places[i]`, and `old` as before.
+
+    Args:
+        tower: the old one; not changed.
+        places: unit [N,D].
+        captions: N lists.
+        old: sentences whose shares of the old places it keeps (distillation, Hinton et al. 2015).
+        steps: of TOWER_BATCH sentences.
+    """
+    own = [text for texts in captions for text in texts]
+    row = torch.tensor([i for i, texts in enumerate(captions) for _ in texts])
+    old = [text for text in old if text not in set(own)]
+    every = torch.cat([tower.get_buffer("places").float(), places])  # [P + N, D]
+    student = _extended(tower, shared_keys([tokenizer(own)[0]], 1)).train()
+    with torch.no_grad():
+        shares = torch.cat(
+            [
+                (PLACE_SCALE * _pooled(tower, tokenizer, old[at : at + 512]) @ every.T)[
+                    :, : len(every) - len(places)
+                ].softmax(-1)
+                for at in range(0, len(old), 512)
+            ]
+        )  # [M, P]
+    shares = pad(shares, (0, len(places)))
+    learner = torch.optim.Adam(student.parameters(), lr=TOWER_RATE)
+    rng = numpy_generator("tower", seed)
+    draws = generator("tower", seed)
+    half = TOWER_BATCH // 2
+    with torch.random.fork_rng():
+        torch.manual_seed(seed)
+        for _ in range(steps):
+            news = torch.randint(len(own), (half,), generator=draws)
+            olds = torch.randint(len(old), (half,), generator=draws)
+            texts = [own[i] for i in news]
+            texts = [insert_babble(t, t, rng) if rng.random() < BABBLE else t for t in texts]
+            pooled = _pooled(student, tokenizer, [*texts, *(old[i] for i in olds)])
+            scores = PLACE_SCALE * pooled @ every.T  # [TOWER_BATCH, P + N]
+            wanted = row[news] + len(every) - len(places)
+            loss = cross_entropy(scores[:half], wanted)
+            loss = loss + kl_div(scores[half:].log_softmax(-1), shares[olds], reduction="batchmean")
+            learner.zero_grad()
+            loss.backward()
+            learner.step()
+    config = student.config.model_copy(update={"text_places": len(every)})
+    taught = TextTower(config, tower.embed_dim)
+    assert isinstance(taught.encoder, TokenPairEncoder)
+    taught.load_state_dict({**student.state_dict(), "places": every})
+    return taught.freeze()
+
+
+def _pooled(tower: TextTower, tokenizer: PromptTokenizer, texts: Sequence[str]) -> Tensor:
+    """Unit embeddings [B,D] before they are sent to places."""
+    ids, mask = tokenizer(list(texts))
+    hidden = tower.encoder(input_ids=ids, attention_mask=mask).last_hidden_state  # [B,L,H]
+    real = mask[..., None].to(hidden.dtype)
+    mean = (hidden * real).sum(1) / real.sum(1)
+    return normalize(tower.text_proj(mean), dim=-1)
+
+
+def _extended(tower: TextTower, keys: Tensor) -> TextTower:
+    """A copy of the tower with a row for each of these keys that it does not know yet."""
+    assert isinstance(tower.encoder, TokenPairEncoder)
+    before = tower.encoder
+    fresh = keys[~torch.isin(keys, before.keys)]
+    every, order = torch.cat([before.keys, fresh]).sort()
+    config = tower.config.model_copy(update={"text_pairs": len(every)})
+    wider = TextTower(config, tower.embed_dim)
+    state = copy.copy(tower.state_dict())
+    old = state["encoder.rows.weight"]  # [N + 1, H], the last one unknown
+    rows = torch.cat([old[:-1], torch.zeros(len(fresh), old.shape[1])])[order]
+    state |= {"encoder.keys": every, "encoder.rows.weight": torch.cat([rows, old[-1:]])}
+    wider.load_state_dict(state)
+    return wider
+
+
+def _padded(motion: Tensor, frames: int) -> Tensor:
+    """[B,T,R,6] with zeros up to `frames`."""
+    return pad(motion, (0, 0, 0, 0, 0, frames - motion.shape[1]))
+
+
+def network_of(init: str) -> NetworkConfig:
+    """The network of a model that a new action can be added to.
+
+    Raises:
+        UserError: no such model, or of another kind.
+        UsageError: its text tower has no places.
+    """
+    card = read_card(resolve_model(init))
+    if card.kind != KIND:
+        raise UserError(
+            f"init {init} is a {card.kind}; name a text model, see `motion-tools models`"
+        )
+    clip = card.network.clip
+    if clip.text_model != PAIRS or not clip.text_places:
+        raise UsageError(
+            f"init {init} has a text tower without places; give it one with"
+            " `motion-tools train text clip=... tower=pairs`, or name another model"
+        )
+    return card.network
+
+
+def _network(config: TrainActionConfig, overrides: Sequence[str]) -> NetworkConfig:
+    if overrides:
+        raise UsageError(f"{overrides[0]}: the network is that of init; leave it out")
+    return network_of(config.init)
+
+
+app = Stage(
+    TrainActionConfig,
+    ActionTask,
+    "train_action",
+    "Teach a trained text model a new action from a few clips; the old ones stay.",
+    network=_network,
+    flags={"init": "the model that learns"},
+    example="--data data/mine --init starter --output runs/mine",
+).app()
+
+if __name__ == "__main__":
+    app()

@@ -1,0 +1,109 @@
+"""A new action from a few clips: its sentences find a place of their own, the others stay."""
+
+from pathlib import Path
+
+import pytest
+import torch
+from tiny_stage import (
+    SETTINGS,
+    clip_config,
+    generation_config,
+    tiny_network,
+    train_clip,
+    train_generation,
+)
+
+from src.shared.config_loader import load_train
+from src.shared.data.prepare import prepare
+from src.shared.data.sources.folders import MotionFolder
+from src.shared.data.synthetic import generate_clip
+from src.shared.data.synthetic.clips import spec_for
+from src.shared.errors import UsageError, UserError
+from src.shared.formats.writers.bvh import write_bvh
+from src.shared.model.generation.motion_generator import TextToMotion
+from src.train.engine import Trainer
+from src.train.task import Part
+from src.train.train_action import ActionTask, TrainActionConfig, network_of
+from src.train.train_text import TextTask, TrainTextConfig
+
+OLD = ["a person walks forward", "someone waves with the left hand", "she jumps"]
+NEW = ["a person flops", "flopping about", "someone flops down"]
+
+
+@pytest.fixture(scope="module")
+def model(prepared: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A tiny generator behind a tower of token pairs."""
+    folder = tmp_path_factory.mktemp("model")
+    clip, made, paired = folder / "clip", folder / "made", folder / "paired"
+    train_clip(clip_config(prepared, clip, "steps=20"))
+    train_generation(generation_config(prepared, clip, made, "steps=2"))
+    settings = ("tower=pairs", "choice-weight=2", "least-captions=2", "captions-per-group=24")
+    given = [*SETTINGS, f"data='{prepared}'", f"clip='{made}'", f"output='{paired}'", *settings]
+    given += ["steps=80", "batch-size=64", "learning-rate=0.03"]
+    config = load_train(None, TrainTextConfig, given)
+    Trainer(config, lambda c: TextTask(c, tiny_network()), command="again").train()
+    return paired
+
+
+@pytest.fixture(scope="module")
+def flops(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A prepared folder of six clips that no caption book knows."""
+    folder = tmp_path_factory.mktemp("flops")
+    lines = ["clip,action,caption"]
+    for number in range(6):
+        clip = generate_clip(spec_for({"action": "bow", "count": "1"}, number), seed=number)
+        write_bvh(clip, folder / "clips" / f"take{number}.bvh")
+        lines.append(f"take{number},flop,{' | '.join(NEW)}")
+    (folder / "captions.csv").write_text("\n".join(lines))
+    source = MotionFolder.open(folder / "clips", captions=[folder / "captions.csv"])
+    prepare([source], folder / "data", workers=1)
+    return folder / "data"
+
+
+def action_config(data: Path, init: Path | str, output: Path, *more: str) -> TrainActionConfig:
+    given = [*SETTINGS, f"data='{data}'", f"init='{init}'", f"output='{output}'", *more]
+    return load_train(None, TrainActionConfig, [*given, "rehearsed=4", "tower-steps=60"])
+
+
+def test_a_new_action_has_a_place_and_the_old_ones_keep_theirs(
+    model: Path, flops: Path, tmp_path: Path
+) -> None:
+    config = action_config(flops, model, tmp_path / "taught", "steps=3", "batch-size=4")
+    network = network_of(str(model))
+    trainer = Trainer(config, lambda c: ActionTask(c, network), command="again")
+    trainer.train()
+    old, new = (TextToMotion.from_pretrained(each, device="cpu") for each in (model, config.output))
+    assert set(new.card.tags) == {*old.card.tags, "flop"}
+    before, after = (each.text.get_buffer("places") for each in (old, new))
+    assert torch.equal(after[:-1], before) and len(after) == len(before) + 1
+    near = new.encode_prompts(NEW).pooled @ torch.nn.functional.normalize(after[-1], dim=-1)
+    assert (near > 0.9).all()
+    kept = (old.encode_prompts(OLD).pooled * new.encode_prompts(OLD).pooled).sum(-1)
+    assert (kept > 0.9).all()
+    assert new.scope is not None and old.scope is not None
+    assert new.scope.actions == (*old.scope.actions, "flop")
+    assert "flopping" in new.scope.key_words
+    assert new.generate(["a person flops"], seconds=1.0, steps=2, tags=["flop"])[0].num_frames == 30
+    # and once more, on top of that: nothing is new any longer
+    with pytest.raises(UserError, match=r"no action that .* does not know"):
+        ActionTask(action_config(flops, config.output, tmp_path / "again"), network)
+
+
+def test_rehearsal_starts_at_no_distance(model: Path, flops: Path, tmp_path: Path) -> None:
+    """Before any step the new denoiser says what the old one says."""
+    config = action_config(flops, model, tmp_path / "x", "batch-size=8", "condition-dropout=0")
+    task = ActionTask(config, network_of(str(model)))
+    batch = task.batch(Part(0, 0, 1))
+    assert batch.new.sum() == 4 and torch.equal(batch.noise, task.batch(Part(0, 0, 1)).noise)
+    losses = task.training_step(task.module, batch)
+    assert losses["rehearsal"] < 1e-5 < losses["reconstruction"]
+    losses["loss"].backward()
+
+
+def test_models_that_cannot_learn_say_why(prepared: Path, model: Path, tmp_path: Path) -> None:
+    with pytest.raises(UserError, match="starter-audio is a"):
+        network_of("starter-audio")
+    with pytest.raises(UsageError, match="text tower without places"):
+        network_of("starter-free")
+    with pytest.raises(UserError, match=r"no action that .* does not know"):
+        ActionTask(action_config(prepared, model, tmp_path / "x"), network_of(str(model)))
