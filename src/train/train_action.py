@@ -30,16 +30,21 @@ from ..shared.data.prepared import ClipRecord
 from ..shared.device import autocast, choose_compute
 from ..shared.errors import UsageError, UserError
 from ..shared.model.checkpoint import read_card
-from ..shared.model.clip.core import PLACE_SCALE, TextFeatures, TextTower
+from ..shared.model.clip.core import (
+    PAIRS,
+    PLACE_SCALE,
+    TextFeatures,
+    TextTower,
+    TokenPairEncoder,
+    shared_keys,
+)
 from ..shared.model.clip.pretrained import encode_captions, tower_hash
-from ..shared.model.clip.token_pairs import PAIRS, TokenPairEncoder, shared_keys
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.diffusion.gaussian import GaussianDiffusion
 from ..shared.model.generation.denoiser import MotionDenoiser
 from ..shared.model.generation.losses import GenerationLoss
 from ..shared.model.generation.motion_generator import KIND, TextToMotion
-from ..shared.model.generation.requests import SampleRequest
-from ..shared.model.generation.sampling import sample_batch
+from ..shared.model.generation.sampling import SampleRequest, sample_batch
 from ..shared.model.zoo import resolve_model
 from .captured_places import apart
 from .constraints import draw_known
