@@ -9,12 +9,12 @@ from dataclasses import asdict, fields
 import numpy as np
 
 from ..metrics.frechet import JointFrechet, diversity, frechet_distance, group_frechet
+from ..metrics.measurements import measure
 from ..metrics.physical import Physics, physics
 from ..metrics.retrieval import BATCH, Retrieval, guo_retrieval
 from ..metrics.travel import travel, travel_error
-from .controllability import check
 from .engine import Value
-from .measurements import measure
+from .judge.instructions import check
 from .report.tables import Column
 from .samples import MotionSample
 

@@ -17,13 +17,14 @@ import numpy as np
 
 from ...data.prepared import ClipRecord, PreparedData
 from ...errors import UserError
+from ...metrics.measurements import heading_frame
 from ...motion.features import decode_features, headings
 from ...motion.motion import Motion
 from ...motion.rotations import quaternion_to_matrix
 from ...motion.skeleton import JOINT_INDEX
-from ..controllability import check
 from ..engine import Progress
 from ..held_out import choose_caption, spread_over_groups
+from .instructions import check
 
 PARTS = 3  # beginning, middle, end: a wave is not a raise that stays up
 BANDS = ((0.3, 1.0), (1.0, 2.0), (2.0, 4.0), (4.0, 8.0))  # Hz
@@ -55,15 +56,7 @@ def descriptor(motion: Motion) -> np.ndarray:
     pelvis = quaternion_to_matrix(torch.as_tensor(motion.quaternions[:, 0]))
     heading = np.unwrap(headings(pelvis).numpy().astype(np.float64))
     sine, cosine = np.sin(heading), np.cos(heading)
-    seen = joints - joints[:, :1]
-    body = np.stack(
-        (
-            seen[..., 0] * cosine[:, None] - seen[..., 2] * sine[:, None],
-            seen[..., 1],
-            seen[..., 0] * sine[:, None] + seen[..., 2] * cosine[:, None],
-        ),
-        -1,
-    )
+    body = heading_frame(joints, heading)
     velocity = np.diff(body, axis=0) * motion.fps  # T-1 K 3
     speed = np.linalg.norm(velocity, axis=-1)
     step = np.diff(joints[:, 0], axis=0) * motion.fps

@@ -13,10 +13,10 @@ from itertools import chain
 from typing import Any
 
 from ...data.captions.book import CaptionBook
-from ..controllability import CONTROL_TASKS, ControlTask
+from ...metrics.measurements import Measurements, measure
 from ..floors import frozen_pose
+from ..judge.instructions import CONTROL_TASKS, ControlTask
 from ..manifest import Part
-from ..measurements import Measurements, measure
 from ..report.tables import Cell as TableCell
 from ..report.tables import Column, Grid, GridRow
 from ..samples import Clips, Sampler
@@ -112,8 +112,8 @@ def rate(
 ) -> Estimate:
     """Share of motions that do what the task asks, against `others` row by row if it compares."""
     if task.compare is None:
-        return share_of([task.check(motion) for motion in motions])
-    return share_of([task.compare(a, b) for a, b in zip(motions, others, strict=False)])
+        return share_of([task.passes(motion) for motion in motions])
+    return share_of([task.passes(a, b) for a, b in zip(motions, others, strict=False)])
 
 
 def control_table(

@@ -40,10 +40,10 @@ from ...pipelines.song import AudioCondition, SongGenerator
 from ...pipelines.song_sampler import SongSampling
 from ...pipelines.text import PromptSampler
 from ..audio_songs import Piece, held_out_songs, open_split, phrases
-from ..controllability import check
 from ..engine import Progress
 from ..held_out import open_held_out, real_clips
 from ..judge.evaluator import Evaluator
+from ..judge.instructions import check
 from ..report.tables import Column, Grid, GridRow, Report, Table, printed
 from ..samples import Clips
 from ..stats import Estimate, bootstrap_mean, replicated

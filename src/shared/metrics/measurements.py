@@ -27,59 +27,34 @@ ARM_LENGTH = float(
 
 @dataclass(frozen=True)
 class Measurements:
-    """Figures of one motion; metres, seconds, radians.
+    """Figures of one motion; metres, seconds, radians."""
 
-    Attributes:
-        seconds: length of the motion.
-        angular_speed: mean over joints and frames of how fast local rotations change, rad/s.
-        upright: share of frames with the pelvis at a bodily height and its up axis upwards.
-        forward, lateral: distance travelled in the momentary heading frame (+ = forward, left).
-        forward_net, lateral_net: net displacement in the frame of the first heading.
-        forward_speed, lateral_speed: the two distances over the time spent moving.
-        speed: mean ground speed while moving. cruise: the speed it settles at (70th percentile).
-        stride: half the range of the distance between the ankles along the direction of travel.
-        yaw: heading gained, + = left.
-        hand_high: seconds each wrist spends above its shoulder.
-        hand_peak: how far each wrist gets above its shoulder, in arm lengths (95th percentile).
-        hand_travel: metres each wrist travels relative to the chest.
-        hand_swings: times each raised wrist changes its direction of travel.
-        foot_peak: greatest height of each ankle above the other one.
-        kicks: times each foot is kicked up in front.
-        punches: times each fist shoots forward to a stretched arm.
-        claps: times the hands meet in front of the body.
-        bows: times the chest bends forward and comes up again.
-        squats: times the pelvis goes deep and comes up again with the feet on the ground.
-        jumps: times both feet leave the ground together with the pelvis above standing height.
-        pelvis_low: lowest pelvis height over standing height, by median.
-        flight: seconds with both feet clear of the ground.
-    """
-
-    seconds: float
-    angular_speed: float
-    upright: float
-    forward: float
-    lateral: float
-    forward_net: float
+    seconds: float  # length of the motion
+    angular_speed: float  # rad/s: how fast local rotations change, mean over joints and frames
+    upright: float  # share of frames with the pelvis at a bodily height and its up axis upwards
+    forward: float  # distance travelled in the momentary heading frame
+    lateral: float  # the same, + = left
+    forward_net: float  # net displacement in the frame of the first heading
     lateral_net: float
-    forward_speed: float
+    forward_speed: float  # the two distances over the time spent moving
     lateral_speed: float
-    speed: float
-    cruise: float
-    stride: float
-    yaw: float
-    hand_high: Pair
-    hand_peak: Pair
-    hand_travel: Pair
-    hand_swings: tuple[int, int]
-    foot_peak: Pair
-    kicks: tuple[int, int]
-    punches: tuple[int, int]
-    claps: int
-    bows: int
-    squats: int
-    jumps: int
-    pelvis_low: float
-    flight: float
+    speed: float  # mean ground speed while moving
+    cruise: float  # the speed it settles at (70th percentile)
+    stride: float  # half the range of the distance between the ankles along the way of travel
+    yaw: float  # heading gained, + = left
+    hand_high: Pair  # seconds each wrist spends above its shoulder
+    hand_peak: Pair  # how far each wrist gets above its shoulder, arm lengths (95th percentile)
+    hand_travel: Pair  # metres each wrist travels relative to the chest
+    hand_swings: tuple[int, int]  # times each raised wrist changes its direction of travel
+    foot_peak: Pair  # greatest height of each ankle above the other one
+    kicks: tuple[int, int]  # times each foot is kicked up in front
+    punches: tuple[int, int]  # times each fist shoots forward to a stretched arm
+    claps: int  # times the hands meet in front of the body
+    bows: int  # times the chest bends forward and comes up again
+    squats: int  # times the pelvis goes deep and comes up again with the feet on the ground
+    jumps: int  # times both feet leave the ground together, the pelvis above standing height
+    pelvis_low: float  # lowest pelvis height over standing height
+    flight: float  # seconds with both feet clear of the ground
 
 
 @dataclass(frozen=True)
@@ -126,17 +101,16 @@ def _tracks(motion: Motion) -> _Tracks:
     pelvis = quaternion_to_matrix(torch.as_tensor(motion.quaternions[:, 0]))
     heading = smooth(headings(pelvis).numpy().astype(np.float64), round(0.5 * motion.fps))
     joints = smooth(joints, window)
+    chest = rotations[:, JOINT_INDEX["spine3"]]
+    return _Tracks(motion.fps, joints, heading, chest, heading_frame(joints, heading))
+
+
+def heading_frame(joints: Array, heading: Array) -> Array:
+    """Joints [T,K,3] seen from the pelvis, turned so that the heading [T] is +Z."""
     seen = joints - joints[:, :1]
     sine, cosine = np.sin(heading)[:, None], np.cos(heading)[:, None]
-    body = np.stack(
-        (
-            seen[..., 0] * cosine - seen[..., 2] * sine,
-            seen[..., 1],
-            seen[..., 0] * sine + seen[..., 2] * cosine,
-        ),
-        -1,
-    )
-    return _Tracks(motion.fps, joints, heading, rotations[:, JOINT_INDEX["spine3"]], body)
+    x, y, z = seen[..., 0], seen[..., 1], seen[..., 2]
+    return np.stack((x * cosine - z * sine, y, x * sine + z * cosine), -1)
 
 
 def measure(motion: Motion) -> Measurements:
@@ -196,21 +170,19 @@ def _travel(tracks: _Tracks) -> Figures:
 
 
 def _hands(tracks: _Tracks) -> Figures:
-    high, peak, travel, swings = [], [], [], []
+    found: dict[str, list[float]] = {}
     for letter in "lr":
         wrist, shoulder = tracks.joint(f"{letter}_wrist"), tracks.joint(f"{letter}_shoulder")
         above = (wrist - shoulder)[:, 1] / ARM_LENGTH
         seen = tracks.seen(f"{letter}_wrist") - tracks.seen("spine3")
-        high.append(float((above > 0.0).sum() / tracks.fps))
-        peak.append(float(np.percentile(above, 95)))
-        travel.append(float(np.linalg.norm(np.diff(seen, axis=0), axis=-1).sum()))
-        swings.append(_swings(seen[above > -0.1]))
-    return {
-        "hand_high": tuple(high),
-        "hand_peak": tuple(peak),
-        "hand_travel": tuple(travel),
-        "hand_swings": tuple(swings),
-    }
+        for key, value in {
+            "hand_high": float((above > 0.0).sum() / tracks.fps),
+            "hand_peak": float(np.percentile(above, 95)),
+            "hand_travel": float(np.linalg.norm(np.diff(seen, axis=0), axis=-1).sum()),
+            "hand_swings": _swings(seen[above > -0.1]),
+        }.items():
+            found.setdefault(key, []).append(value)
+    return {key: tuple(pair) for key, pair in found.items()}
 
 
 def _swings(points: Array) -> int:

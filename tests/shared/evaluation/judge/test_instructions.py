@@ -7,7 +7,7 @@ import pytest
 import torch
 
 from src.shared.data.synthetic import generate_clip, label_combinations, sample_specs, spec_for
-from src.shared.evaluation.controllability import (
+from src.shared.evaluation.judge.instructions import (
     CHECKS,
     CONTROL_TASKS,
     check,
@@ -15,7 +15,7 @@ from src.shared.evaluation.controllability import (
     faster,
     speed_class,
 )
-from src.shared.evaluation.measurements import count_peaks, measure, smooth
+from src.shared.metrics.measurements import count_peaks, measure, smooth
 from src.shared.motion.motion import Motion
 from tests.shared.motion.mirrored import mirror_motion
 
@@ -109,7 +109,7 @@ def test_random_motion_fails_every_check(seed: int, smoothing: int) -> None:
     assert not any(ask(m) for ask in CHECKS.values())
     for labels in COMBINATIONS:
         assert not any(check(labels, m).values())
-    assert not any(task.passes(motion, motion) for task in CONTROL_TASKS)
+    assert not any(task.passes(m, m) for task in CONTROL_TASKS)
 
 
 def test_faster_compares_pairs() -> None:
@@ -130,15 +130,15 @@ def test_tasks_ask_for_known_labels() -> None:
         for labels in (*task.labels, *([task.versus] if task.versus else [])):
             assert any(labels.items() <= full.items() for full in COMBINATIONS), labels
             full = next(c for c in COMBINATIONS if labels.items() <= c.items())
-            other = _clip(3, **task.versus, speed="normal") if task.versus else None
+            other = measure(_clip(3, **task.versus, speed="normal")) if task.versus else None
             if labels is not task.versus:
-                assert task.passes(_clip(3, **full), other), (task.name, labels)
+                assert task.passes(measure(_clip(3, **full)), other), (task.name, labels)
 
 
 def test_comparing_task_needs_the_other_motion() -> None:
     task = next(task for task in CONTROL_TASKS if task.versus)
     with pytest.raises(ValueError, match="compares two motions"):
-        task.passes(_clip(action="stand"))
+        task.passes(measure(_clip(action="stand")))
 
 
 def test_count_peaks_needs_a_valley_between() -> None:

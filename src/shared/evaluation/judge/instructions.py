@@ -8,9 +8,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
-from ..data.synthetic.clips import SPEED_METRES, SPEEDS
-from ..motion.motion import Motion
-from .measurements import Measurements, measure
+from ...data.synthetic.clips import SPEED_METRES, SPEEDS
+from ...metrics.measurements import Measurements, measure
+from ...motion.motion import Motion
 
 Check = Callable[[Measurements], bool]
 
@@ -107,17 +107,18 @@ _RAW: dict[str, Check] = {
     "punch-right": lambda m: _punches(m, 1),
     "clap": lambda m: m.claps >= 1,
     "bow": lambda m: m.bows >= 1,
+    "forward-jump": lambda m: m.forward > 0.25,
     "crouched": lambda m: m.pelvis_low < 0.82,
     "in-place": _stays,
     "stand": _stands,
 }
 
 
-def _guarded(check: Check) -> Check:
+def _of_a_body(check: Check) -> Check:
     return lambda m: credible(m) and check(m)
 
 
-CHECKS: dict[str, Check] = {name: _guarded(check) for name, check in _RAW.items()}
+CHECKS: dict[str, Check] = {name: _of_a_body(check) for name, check in _RAW.items()}
 """Named yes-or-no questions to a measured motion; each also demands a credible body."""
 
 
@@ -149,15 +150,8 @@ def _names(labels: dict[str, str]) -> list[str]:
 def _count(labels: dict[str, str], m: Measurements) -> int | None:
     """Repetitions seen of the action that the labels name, None where none are counted."""
     side = 0 if labels.get("side") == "left" else 1
-    counts = {
-        "squat": m.squats,
-        "jump": m.jumps,
-        "kick": m.kicks[side],
-        "punch": m.punches[side],
-        "clap": m.claps,
-        "bow": m.bows,
-    }
-    return counts.get(labels["action"])
+    one = {"squat": m.squats, "jump": m.jumps, "clap": m.claps, "bow": m.bows}
+    return (one | {"kick": m.kicks[side], "punch": m.punches[side]}).get(labels["action"])
 
 
 def speed_class(labels: dict[str, str], m: Measurements) -> str | None:
@@ -172,17 +166,12 @@ def speed_class(labels: dict[str, str], m: Measurements) -> str | None:
 def check(labels: dict[str, str], motion: Motion | Measurements) -> dict[str, bool]:
     """What the labels ask for → whether the motion does it.
 
-    Besides the names in `CHECKS` the answer may hold "forward-jump", "count" (the named number
-    of repetitions, exactly), "speed" (the named speed class) and "angle" (within 30°).
+    Besides the names in `CHECKS` the answer may hold "count" (the named number of repetitions,
+    exactly), "speed" (the named speed class) and "angle" (within 30°).
     Labels that cannot be measured (style, unknown actions) ask for nothing.
     """
     m = motion if isinstance(motion, Measurements) else measure(motion)
-    answers = {}
-    for name in _names(labels):
-        if name == "forward-jump":
-            answers[name] = credible(m) and m.forward > 0.25
-        else:
-            answers[name] = CHECKS[name](m)
+    answers = {name: CHECKS[name](m) for name in _names(labels)}
     if "count" in labels and (count := _count(labels, m)) is not None:
         answers["count"] = credible(m) and count == int(labels["count"])
     if "speed" in labels and (speed := speed_class(labels, m)) is not None:
@@ -210,17 +199,17 @@ class ControlTask:
     versus: dict[str, str] | None = None
     compare: Callable[[Measurements, Measurements], bool] | None = None
 
-    def passes(self, motion: Motion, other: Motion | None = None) -> bool:
+    def passes(self, motion: Measurements, other: Measurements | None = None) -> bool:
         """Whether the motion (against `other` where the task compares two) does it.
 
         Raises:
             ValueError: the task compares two motions and `other` is missing.
         """
         if self.compare is None:
-            return self.check(measure(motion))
+            return self.check(motion)
         if other is None:
             raise ValueError(f"task {self.name!r} compares two motions: give the one of `versus`")
-        return self.compare(measure(motion), measure(other))
+        return self.compare(motion, other)
 
 
 def _hand(side: str) -> tuple[dict[str, str], ...]:
