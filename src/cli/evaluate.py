@@ -1,6 +1,7 @@
 """`evaluate`: honest figures of a model, each beside real, chance and untrained rows."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -63,11 +64,16 @@ class Request:
     device: str = "auto"
     threads: int | None = None
 
+    @classmethod
+    def of(cls, arguments: Mapping[str, Any]) -> "Request":
+        """Those of a command's arguments that say how to evaluate."""
+        known = {each.name for each in fields(cls)}
+        return cls(**{name: value for name, value in arguments.items() if name in known})
+
     def amount(self, *names: str) -> dict[str, Any]:
         """Settings that were asked for, by name, and how often."""
         runs = self.replications or (QUICK_REPLICATIONS if self.quick else None)
-        wanted = {"replications": runs, "seed": self.seed}
-        wanted |= {name: getattr(self, name) for name in names}
+        wanted = {name: getattr(self, name) for name in ("seed", *names)} | {"replications": runs}
         return {name: value for name, value in wanted.items() if value is not None}
 
     @property
@@ -115,23 +121,7 @@ def evaluate(
       motion-tools evaluate --quick --model starter-audio --data data/pairs
       motion-tools evaluate --suite requests --data data/mine
     """
-    request = Request(
-        quick=quick,
-        data=data,
-        evaluator=evaluator,
-        num_samples=num_samples,
-        replications=replications,
-        control_seeds=control_seeds,
-        songs=songs,
-        num_songs=num_songs,
-        song_seconds=song_seconds,
-        steps=steps,
-        sampler=sampler,
-        guidance_scale=guidance_scale,
-        seed=seed,
-        device=device,
-        threads=threads,
-    )
+    request = Request.of(locals())
     show(run(model, request, out, suite), json=json)
 
 
