@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import torch
 from pydantic import Field
@@ -121,6 +121,12 @@ def true_trajectory(motion: Tensor, start: Tensor) -> Tensor:
     bars = F.pad(trajectory[:, :-1, PHASE].cumsum(dim=1), (1, 0))  # increment t leads to t + 1
     trajectory[..., PHASE] = wrapped_phase(start[:, None] + bars)
     return trajectory
+
+
+def save_noted(model: AudioMotionModel, folder: Path, **noted: Any) -> None:
+    """Write a model with these entries of its card, named after its folder."""
+    model.card = model.card.model_copy(update={"name": folder.name, **noted})
+    model.save_pretrained(folder)
 
 
 def export_song(model: AudioMotionModel, phrases: MotionPhraseDataset, folder: Path) -> None:

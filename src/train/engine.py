@@ -84,7 +84,7 @@ class Trainer(Generic[ConfigT]):
         self.module = self.task.module.to(self.accelerator.device)
         self.task.to(self.accelerator.device)
         self.ema = ExponentialMovingAverage(self.module, config.ema_decay)
-        rates: dict[str, float] = getattr(self.task, "learning_rates", {})
+        rates = self.task.learning_rates
         optimizer = make_optimizer(self.module, config, self.accelerator.device.type, rates)
         self.wrapped, self.optimizer = self.accelerator.prepare(self.module, optimizer)
         self._sums: dict[str, Tensor] = {}
@@ -313,8 +313,7 @@ class Trainer(Generic[ConfigT]):
 
     def _has_converged(self) -> bool:
         """Whether the task wants no more steps; the main process decides, as it validates."""
-        wants: Callable[[], bool] = getattr(self.task, "has_converged", lambda: False)
-        stop = self.accelerator.is_main_process and wants()
+        stop = self.accelerator.is_main_process and self.task.has_converged()
         flag = torch.tensor(float(stop), device=self.accelerator.device)
         return bool(self.accelerator.reduce(flag, "sum").item())
 

@@ -29,6 +29,7 @@ from .audio_stages import (
     export_song,
     network_of,
     open_phrases,
+    save_noted,
     true_trajectory,
     whole_windows,
 )
@@ -178,11 +179,8 @@ class FinetuneE2eTask(AudioTask):
         console.print(f"\n{table}", markup=False)
         model = AudioMotionModel.from_pretrained(folder / BEST)
         tuned = {"epochs": epochs[-1].number, "kept": best.number, "validation": best.validation}
-        summary = {**self.sources[0].training, "e2e": tuned}
-        model.card = model.card.model_copy(
-            update={"name": folder.name, "trained": True, "training": summary}
-        )
-        model.save_pretrained(folder)
+        training = {**self.sources[0].training, "e2e": tuned}
+        save_noted(model, folder, trained=True, training=training)
 
     def _finished(self, module: nn.Module) -> AudioMotionModel:
         assert isinstance(module, E2eObjective)

@@ -4,9 +4,12 @@ Randomness is a pure function of (seed, step, part): resuming needs no generator
 """
 
 import hashlib
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, is_dataclass, replace
 from pathlib import Path
-from typing import Any, Protocol
+from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 import torch
@@ -38,43 +41,50 @@ class Part:
     count: int
 
 
-class Task(Protocol):
-    """What one stage learns. `module` holds everything that is trained.
+class Task(ABC):
+    """What one stage learns.
 
-    A task may also have `learning_rates`, a mapping from the beginning of weights' names to the
-    rate of that part of the module, and `has_converged()`, asked on the main process after each
-    validation: True ends the training early.
+    Attributes:
+        module: everything that is trained.
+        learning_rates: from the beginning of weights' names to the rate of that part.
+        figures: of the last validation.
     """
 
     module: nn.Module
+    learning_rates: Mapping[str, float] = MappingProxyType({})
+    figures: dict[str, float]
 
+    @abstractmethod
     def identity(self) -> dict[str, Any]:
         """Plain data that must be equal when a run is resumed (network, data hash, ...)."""
-        ...
 
     def to(self, device: torch.device) -> None:
         """Move what belongs to the task but is not trained (frozen towers, statistics)."""
-        ...
+        return
 
+    @abstractmethod
     def batch(self, part: Part) -> Any:
         """Part of a step's batch, on the CPU: a pure function of its argument and the seed."""
-        ...
 
+    @abstractmethod
     def training_step(self, module: nn.Module, batch: Any) -> dict[str, Tensor]:
         """Scalars of one part, among them `loss`; call `module` itself, never an attribute."""
-        ...
 
+    @abstractmethod
     def validation(self, module: nn.Module) -> dict[str, float]:
         """Figures of held-back data, with fixed noise; `module` carries the averaged weights."""
-        ...
+
+    def has_converged(self) -> bool:
+        """Whether training may end early; asked on the main process after each validation."""
+        return False
 
     def export_samples(self, module: nn.Module, folder: Path) -> None:
-        """Write what the module makes into `folder`, for a person to look at."""
-        ...
+        """Write what the module makes into `folder`, for a person to look at, if it makes any."""
+        return
 
+    @abstractmethod
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """Write the finished model with its configuration."""
-        ...
 
 
 def to_device(value: Any, device: torch.device) -> Any:

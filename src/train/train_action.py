@@ -50,7 +50,7 @@ from .captured_places import apart
 from .constraints import draw_known
 from .launch import Stage
 from .run_log import announce
-from .task import Part, generator, numpy_generator
+from .task import Part, Task, generator, numpy_generator
 from .text_stages import motion_rows, open_training_data, training_set
 from .train_generation import TAG_WEIGHT, GuidedDenoiser, spread_timesteps
 
@@ -94,7 +94,7 @@ class ActionBatch:
     new: Tensor
 
 
-class ActionTask:
+class ActionTask(Task):
     """What the trainer needs to know (task.py)."""
 
     def __init__(self, config: TrainActionConfig, network: NetworkConfig) -> None:

@@ -30,9 +30,9 @@ from ..shared.model.audio.conditioning import (
 )
 from ..shared.model.diffusion.gaussian import GaussianDiffusion, masked_loss
 from ..shared.motion.trajectory import FPS, POSITION, QUATERNION, STYLE
-from .audio_stages import PhraseConfig, export_song, open_held_back, open_phrases
+from .audio_stages import PhraseConfig, export_song, open_held_back, open_phrases, save_noted
 from .launch import Stage
-from .task import Part, generator, to_device
+from .task import Part, Task, generator, to_device
 from .train_generation import NOISE_LEVELS, spread_timesteps
 
 
@@ -111,7 +111,7 @@ def _velocity_error(x_0: Tensor, batch: AudioBatch, std: Tensor) -> Tensor:
     return masked_loss(speed, torch.zeros_like(speed), "mse", mask=mask, time_dim=2)
 
 
-class AudioTask:
+class AudioTask(Task):
     """What the trainer needs to know (src/train/task.py)."""
 
     def __init__(self, config: TrainAudioConfig, network: AudioNetworkConfig) -> None:
@@ -122,11 +122,11 @@ class AudioTask:
         self.model = self._start()
         self.mean, self.std = self.model.mean.clone(), self.model.std.clone()
         # a copy: samples are made by the task's own model, with averaged weights, on the CPU
-        self.module: nn.Module = copy.deepcopy(self.model.unet)
+        self.module = copy.deepcopy(self.model.unet)
         self.augment = ConditionAugmentation(network.condition.augmentation)
         self.diffusion = GaussianDiffusion(network.diffusion)
         self.compute = choose_compute(config.device, config.precision)
-        self.figures: dict[str, float] = {}
+        self.figures = {}
 
     def _start(self) -> AudioMotionModel:
         """The model before training: nothing learned, or all of `init` with its z-scores."""
@@ -242,16 +242,9 @@ class AudioTask:
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """A folder that train_decoder, finetune_e2e and `generate --audio` read."""
-        model = self._finished(module)
-        model.card = model.card.model_copy(
-            update={
-                "name": folder.name,
-                "trained": True,
-                "data": self.train.fingerprint,
-                "training": {"steps": self.config.steps, "validation": self.figures},
-            }
-        )
-        model.save_pretrained(folder)
+        training = {"steps": self.config.steps, "validation": self.figures}
+        data = self.train.fingerprint
+        save_noted(self._finished(module), folder, trained=True, data=data, training=training)
 
     def _finished(self, module: nn.Module) -> AudioMotionModel:
         self.model.unet.load_state_dict(module.state_dict())

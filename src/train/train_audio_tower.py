@@ -35,7 +35,7 @@ from ..shared.motion.trajectory import FPS
 from .audio_stages import PhraseConfig, open_held_back, open_phrases
 from .launch import Stage
 from .run_log import announce
-from .task import Part, generator, numpy_generator
+from .task import Part, Task, generator, numpy_generator
 from .train_clip import gather
 
 
@@ -86,7 +86,7 @@ def kin(song: Tensor, clips: Tensor) -> Tensor:
     return (song[:, None] == song[None]) | shared.flatten(2).any(dim=2)
 
 
-class AudioTowerTask:
+class AudioTowerTask(Task):
     """What the trainer needs to know (src/train/task.py)."""
 
     def __init__(self, config: TrainAudioTowerConfig, network: NetworkConfig) -> None:
@@ -110,8 +110,8 @@ class AudioTowerTask:
         self.augment = ConditionAugmentation(config.tower.augmentation)
         # a copy: the space of the task gets the averaged weights
         tower = copy.deepcopy(self.space.audio)
-        self.module: nn.Module = AudioTowerObjective(tower, config.temperature)
-        self.figures: dict[str, float] = {}
+        self.module = AudioTowerObjective(tower, config.temperature)
+        self.figures = {}
 
     def identity(self) -> dict[str, Any]:
         """A resumed run must have the same towers and see the same phrases."""
@@ -120,9 +120,6 @@ class AudioTowerTask:
             "text-tower": self.space.card.text_tower,
             "data-hash": self.fingerprint,
         }
-
-    def to(self, device: torch.device) -> None:
-        """Bodies are embedded already; nothing but the module has weights."""
 
     def batch(self, part: Part) -> SpaceBatch:
         """Windows of phrases drawn at random, `windows` of each."""
@@ -174,9 +171,6 @@ class AudioTowerTask:
             f"chance-{name.replace('_', '-')}": figure.value for name, figure in chance.items()
         }
         return self.figures
-
-    def export_samples(self, module: nn.Module, folder: Path) -> None:
-        """A tower makes nothing to look at."""
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """Both towers: the folder that `memory build` reads."""

@@ -28,7 +28,7 @@ from ..shared.model.clip.pretrained import KIND, ClipBundle, load_text_tower, to
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from .frozen_encoder import encoder_rates
 from .launch import Stage
-from .task import Part, numpy_generator
+from .task import Part, Task, numpy_generator
 from .text_stages import (
     can_retrieve,
     motion_rows,
@@ -89,7 +89,7 @@ def gather(values: Tensor) -> Tensor:
     return cast(Tensor, _Gather.apply(values.contiguous()))
 
 
-class ClipTask:
+class ClipTask(Task):
     """What the trainer needs to know (src/train/task.py)."""
 
     def __init__(self, config: TrainClipConfig, network: NetworkConfig) -> None:
@@ -111,8 +111,8 @@ class ClipTask:
         nn.init.constant_(clip.logit_scale, -math.log(config.temperature))
         self.text = clip.text
         self.learning_rates = encoder_rates(clip.text, "clip.text.", config.encoder_learning_rate)
-        self.module: nn.Module = ClipObjective(clip)
-        self.figures: dict[str, float] = {}
+        self.module = ClipObjective(clip)
+        self.figures = {}
 
     def _tokenizer(self) -> PromptTokenizer:
         clip = self.network.clip
@@ -127,9 +127,6 @@ class ClipTask:
         network = self.network.model_dump(mode="json", by_alias=True)
         kept = {} if self.config.text is None else {"tower-hash": tower_hash(self.text)}
         return {"network": network, "data-hash": self.data.manifest_hash} | kept
-
-    def to(self, device: torch.device) -> None:
-        """Nothing but the module has weights."""
 
     def batch(self, part: Part) -> ClipBatch:
         """Clips with shortened captions."""
@@ -177,9 +174,6 @@ class ClipTask:
             for k, value, chance in zip(TOP, found, guessed, strict=True):
                 self.figures |= {f"r-at-{k}": value, f"chance-at-{k}": chance}
         return self.figures
-
-    def export_samples(self, module: nn.Module, folder: Path) -> None:
-        """Two towers make nothing to look at."""
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """Both towers, tokenizer and statistics: the folder that train_generation reads."""

@@ -34,12 +34,13 @@ from .audio_stages import (
     network_of,
     open_held_back,
     open_phrases,
+    save_noted,
     true_trajectory,
     whole_windows,
 )
 from .launch import Stage
 from .run_log import console
-from .task import Part, generator
+from .task import Part, Task, generator
 
 ERROR_BATCHES = 4  # on which the UNet's error is measured
 ERROR_LEVEL = 0.25  # up to this share of the diffusion steps: what sampling ends with
@@ -158,7 +159,7 @@ def denoiser_error(model: AudioMotionModel, batches: list[PhraseBatch], *seed: i
     return squares.sqrt()
 
 
-class DecoderTask:
+class DecoderTask(Task):
     """What the trainer needs to know (src/train/task.py)."""
 
     def __init__(self, config: TrainDecoderConfig, network: AudioNetworkConfig) -> None:
@@ -168,14 +169,14 @@ class DecoderTask:
         self.train = open_phrases(config, "train", config.num_phrases)
         self.held_back = open_held_back(config)
         self.model.replace_decoder(create_motion_decoder(network.decoder))
-        self.module: nn.Module = DecoderObjective(self.model.decoder.train(), config)
+        self.module = DecoderObjective(self.model.decoder.train(), config)
         self.untrained = DecoderObjective(create_motion_decoder(network.decoder), config).eval()
         batches = [
             whole_windows(self.train.batch(index + 1, min(config.batch_size, 16)))
             for index in range(ERROR_BATCHES)
         ]
         self.error = denoiser_error(self.model, batches, config.seed)
-        self.figures: dict[str, float] = {}
+        self.figures = {}
 
     def identity(self) -> dict[str, Any]:
         """A resumed run must have the same UNet and decoder and see the same phrases."""
@@ -258,9 +259,7 @@ class DecoderTask:
             console.print("no better than the untrained decoder, which is kept: train longer")
             model.replace_decoder(self.untrained.decoder)
         trained = {"steps": self.config.steps, "validation": self.figures}
-        summary = {**self.source.training, "decoder": trained}
-        model.card = model.card.model_copy(update={"name": folder.name, "training": summary})
-        model.save_pretrained(folder)
+        save_noted(model, folder, training={**self.source.training, "decoder": trained})
 
     def _finished(self, module: nn.Module) -> AudioMotionModel:
         assert isinstance(module, DecoderObjective)

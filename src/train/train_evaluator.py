@@ -19,7 +19,7 @@ from ..shared.evaluation.judge.evaluator import Evaluator, EvaluatorConfig, cont
 from ..shared.evaluation.judge.training_set import PairBatch, PairSet
 from ..shared.metrics.retrieval import BATCH, TOP, guo_retrieval
 from .launch import Stage
-from .task import Part, mix_seed
+from .task import Part, Task, mix_seed
 from .text_stages import can_retrieve
 
 
@@ -32,7 +32,7 @@ class TrainEvaluatorConfig(TrainConfig):
     embed_dim: int = Field(32, ge=4)
 
 
-class EvaluatorTask:
+class EvaluatorTask(Task):
     """What the trainer needs to know (src/train/task.py)."""
 
     def __init__(self, config: TrainEvaluatorConfig) -> None:
@@ -42,12 +42,12 @@ class EvaluatorTask:
         # A folder of few takes keeps none for validation; training goes on without figures.
         self.held_back = self._pairs("val", 1.0) if self.data.records("val") else None
         self.retrieves = self.held_back is not None and can_retrieve(len(self.held_back.records))
-        self.module: nn.Module = Evaluator(
+        self.module = Evaluator(
             EvaluatorConfig(hidden_size=config.hidden_size, embed_dim=config.embed_dim)
         )
         assert isinstance(self.module, Evaluator)
         self.module.fit_statistics(self.train.frames())
-        self.figures: dict[str, float] = {}
+        self.figures = {}
 
     def _pairs(self, split: str, balance: float) -> PairSet:
         config = self.config
@@ -63,9 +63,6 @@ class EvaluatorTask:
     def identity(self) -> dict[str, Any]:
         """A resumed run must see the same clips."""
         return {"data-hash": self.data.manifest_hash}
-
-    def to(self, device: torch.device) -> None:
-        """Nothing but the module has weights."""
 
     def batch(self, part: Part) -> PairBatch:
         """A share of the step's batch; every part draws its own clips."""
@@ -104,9 +101,6 @@ class EvaluatorTask:
             mean = np.mean(hits, axis=0)
             self.figures = {f"r-at-{k}": float(mean[k - 1]) for k in TOP}
         return {"loss": float(np.mean(losses)), **self.figures}
-
-    def export_samples(self, module: nn.Module, folder: Path) -> None:
-        """A judge makes nothing."""
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """Write the evaluator with what it was trained on."""

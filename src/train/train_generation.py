@@ -30,7 +30,7 @@ from ..shared.model.generation.losses import GenerationLoss
 from ..shared.model.generation.motion_generator import KIND, TextToMotion
 from .constraints import draw_known
 from .launch import Stage
-from .task import Part, generator, numpy_generator
+from .task import Part, Task, generator, numpy_generator
 from .text_stages import (
     fit_scope,
     fit_style_map,
@@ -111,7 +111,7 @@ def spread_timesteps(num: int, steps: int, draws: torch.Generator) -> Tensor:
     return (places / num * steps).long().clamp(max=steps - 1)
 
 
-class GenerationTask:
+class GenerationTask(Task):
     """What the trainer needs to know (src/train/task.py)."""
 
     def __init__(self, config: TrainGenerationConfig, network: NetworkConfig) -> None:

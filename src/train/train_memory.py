@@ -33,7 +33,7 @@ from ..shared.model.audio.conditioning import MemoryCondition, known_frames
 from ..shared.pipelines.song import AudioCondition
 from ..shared.pipelines.song_memory import as_condition, bars_of_sound, open_memory, remembering
 from ..shared.pipelines.song_sampler import SongSampler
-from .audio_stages import network_of
+from .audio_stages import network_of, save_noted
 from .launch import Stage
 from .train_audio import AudioBatch, AudioTask, TrainAudioConfig
 
@@ -167,12 +167,9 @@ class MemoryTask(AudioTask):
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """A folder like the one that was read, which hears a memory too."""
-        model = self._finished(module)
         trained = {"steps": self.config.steps, "validation": self.figures}
-        summary = {**self.source.training, "memory": trained}
-        update = {"name": folder.name, "training": summary}
-        model.card = model.card.model_copy(update=update)
-        model.save_pretrained(folder)
+        training = {**self.source.training, "memory": trained}
+        save_noted(self._finished(module), folder, training=training)
 
 
 app = Stage(

@@ -52,7 +52,7 @@ from ..shared.model.zoo import resolve_model
 from .captured_places import apart, nearest_styles, with_unstyled
 from .frozen_encoder import MEANS_FILE, ZScores, caption_means, encoder_rates
 from .launch import Stage
-from .task import Part, numpy_generator
+from .task import Part, Task, numpy_generator
 from .text_stages import fit_scope, fit_style_map, motion_rows, open_training_data
 
 OLD_CAPTIONS = 8  # of each combination and language, whose mean is its place
@@ -118,7 +118,7 @@ class TextBatch:
     mean: Tensor | None = None
 
 
-class TextTask:
+class TextTask(Task):
     """What the trainer needs to know (src/train/task.py)."""
 
     def __init__(self, config: TrainTextConfig, network: NetworkConfig) -> None:

@@ -15,12 +15,12 @@ from torch import Tensor, nn
 
 from src.shared.config_schema import NetworkConfig, TrainConfig
 from src.train.launch import Stage
-from src.train.task import Part, generator
+from src.train.task import Part, Task, generator
 
 WEIGHTS = torch.tensor([1.0, -2.0, 0.5])
 
 
-class TinyTask:
+class TinyTask(Task):
     def __init__(self, config: TrainConfig, network: NetworkConfig | None = None) -> None:
         self.config = config
         dropout = float(os.environ.get("TINY_DROPOUT", "0.5"))
