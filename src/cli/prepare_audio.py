@@ -109,7 +109,7 @@ def open_motion(motion: str, out: Path) -> "PreparedData":
 
 def write_bands(out: Path) -> None:
     """What the training phrases measure, in bands.json: the sanity suite compares with it."""
-    from ..shared.data.pairing.report import training_trajectories
+    from ..shared.data.pairing.prepare_audio import training_trajectories
     from ..shared.metrics.bands import Bands
 
     Bands.of(training_trajectories(out)).save(out / "bands.json")

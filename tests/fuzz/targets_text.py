@@ -17,7 +17,7 @@ def _write_tables(folder: Path) -> None:
 def _read_table(path: Path) -> None:
     from src.shared.config_loader import load_network
     from src.shared.data.retarget.mapping import load_mappings
-    from src.shared.data.sources.labels import load_label_rules
+    from src.shared.data.sources.folders import load_label_rules
 
     match path.stem:
         case "skeletons":

@@ -12,8 +12,18 @@ import numpy as np
 from ...metrics.rhythm import Alignment, alignment, beat_alignment, chance_alignment, motion_beats
 from ..prepared import SYNTHETIC
 from .clip_library import FPS, Clip, Kind
-from .phrase_motion import SPARE, PhraseMotion, assemble
-from .time_warp import LIMIT, MATCH_LIMIT, Warp, fit_warp, match_beats, plain_warp, resample
+from .phrase_motion import (
+    LIMIT,
+    MATCH_LIMIT,
+    SPARE,
+    PhraseMotion,
+    Warp,
+    assemble,
+    fit_warp,
+    match_beats,
+    plain_warp,
+    resample,
+)
 
 KINDS, TRIES = 3, 4  # kinds of motion tried, and times each
 GOOD = 0.85  # a score that ends the search

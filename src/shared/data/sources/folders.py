@@ -1,8 +1,10 @@
 """Sources of clips: folders of motion files and the project's own synthetic motions.
 
-A source lists its items cheaply; each item is read later, in a worker process.
+A source lists its items cheaply; each item is read later, in a worker process. Labels come from
+file names and from the words of captions, by YAML rules.
 """
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -12,17 +14,77 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
+from pydantic import BaseModel, ConfigDict, field_validator
 
 from ...config_schema import Provenance
 from ...errors import UsageError, UserError
 from ...formats.readers.acclaim import find_skeleton
 from ...formats.readers.bvh import check_head
 from ...motion.motion import Motion
-from ..retarget.mapping import SkeletonMapping, load_mappings, words
+from ..captions.schema import Labels
+from ..retarget.mapping import SkeletonMapping, load_mappings, load_table, words
 from ..retarget.read_motion import FOLDER_ENDINGS, fit, open_recording
 from ..retarget.to_canonical import on_floor
 from .caption_tables import Piece, Table, match_captions, read_captions, without_ending
-from .labels import LabelRules, load_label_rules
+
+
+class _Rule(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    pattern: str
+    labels: Labels = {}
+
+    @field_validator("pattern")
+    @classmethod
+    def _compiles(cls, pattern: str) -> str:
+        try:
+            re.compile(pattern)
+        except re.error as error:
+            raise ValueError(f"{pattern!r} is not a regular expression: {error}") from None
+        return pattern
+
+
+class FileRule(_Rule):
+    """One entry of `files` in labels.yaml."""
+
+    groups: dict[str, dict[str, Labels]] = {}
+    skip: str | None = None
+
+
+class LabelRules(BaseModel):
+    """labels.yaml."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    files: tuple[FileRule, ...] = ()
+    captions: tuple[_Rule, ...] = ()
+
+    def of_file(self, stem: str) -> tuple[Labels, str | None]:
+        """Labels of a file name without its ending, and why to skip it, if so."""
+        for rule in self.files:
+            if match := re.search(rule.pattern, stem):
+                labels = dict(rule.labels)
+                for group, value in match.groupdict().items():
+                    labels |= rule.groups.get(group, {}).get(value, {group: value})
+                return labels, rule.skip
+        return {}, None
+
+    def of_caption(self, caption: str) -> Labels:
+        """Labels that an English caption implies; empty when no rule fits."""
+        for rule in self.captions:
+            if re.search(rule.pattern, caption, re.IGNORECASE):
+                return dict(rule.labels)
+        return {}
+
+
+def load_label_rules(extra: Path | None = None) -> LabelRules:
+    """The user's rules first, then ours."""
+    ours = load_table("labels.yaml", LabelRules)
+    if extra is None:
+        return ours
+    theirs = load_table(extra, LabelRules)
+    return LabelRules(files=theirs.files + ours.files, captions=theirs.captions + ours.captions)
+
 
 FPS = 30.0
 END_SLACK = 0.2  # seconds that a piece may reach beyond the end of its file

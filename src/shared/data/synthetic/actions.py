@@ -6,7 +6,6 @@ T frames; key poses in degrees, lengths in metres.
 import numpy as np
 
 from ...motion.skeleton import REST_FOOT_HEIGHT
-from .curves import Array, bump, hermite, keyframes, min_jerk, ramp, smooth_noise
 from .rig import (
     ABDUCT,
     DEVIATE,
@@ -17,9 +16,16 @@ from .rig import (
     RIGHT,
     TWIST,
     WRIST,
+    Array,
     Body,
     Scene,
+    bump,
+    hermite,
+    keyframes,
+    min_jerk,
+    ramp,
     rotation,
+    smooth_noise,
 )
 
 _PACE = {"slow": 0.62, "normal": 1.0, "fast": 1.6}

@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 
 from ...motion.skeleton import REST_PELVIS_HEIGHT
-from .curves import Array, min_jerk, ramp, smooth_noise
 from .rig import (
     ABDUCT,
     ELBOW,
@@ -16,8 +15,12 @@ from .rig import (
     LEFT,
     RIGHT,
     TWIST,
+    Array,
     Body,
     Scene,
+    min_jerk,
+    ramp,
+    smooth_noise,
 )
 from .steps import (
     Gait,

@@ -11,8 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...motion.skeleton import REST_FOOT_HEIGHT
-from .curves import Array, bump, min_jerk, smooth_step
-from .rig import BALL_LEAD, LEFT, RIGHT, Body
+from .rig import BALL_LEAD, LEFT, RIGHT, Array, Body, bump, min_jerk, smooth_step
 
 _GRID_FPS = 120.0
 _BALL_TO_HEEL = 0.17  # metres; raises the ball when the heel strikes first

@@ -12,8 +12,7 @@ from src.shared.data.pairing.pair import (
     strong_beats,
     suitable_clips,
 )
-from src.shared.data.pairing.phrase_motion import SPARE
-from src.shared.data.pairing.time_warp import LIMIT
+from src.shared.data.pairing.phrase_motion import LIMIT, SPARE
 from tests.shared.data.pairing.walkers import walker
 
 

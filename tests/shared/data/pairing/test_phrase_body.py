@@ -8,9 +8,14 @@ import pytest
 import torch
 
 from src.shared.data.pairing.music import SyntheticMusic
-from src.shared.data.pairing.phrase_motion import SEAM_FRAMES, Piece, phrase_body, read_pair
+from src.shared.data.pairing.phrase_motion import (
+    SEAM_FRAMES,
+    Piece,
+    phrase_body,
+    plain_warp,
+    read_pair,
+)
 from src.shared.data.pairing.prepare_audio import PairOptions, prepare_audio
-from src.shared.data.pairing.time_warp import plain_warp
 from src.shared.data.phrases.layout import decode_body, parse_manifest
 from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData

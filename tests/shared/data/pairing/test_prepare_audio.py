@@ -10,10 +10,13 @@ import pytest
 
 from src.shared.data.pairing.clip_library import open_library, speed_threshold
 from src.shared.data.pairing.music import FolderMusic, SyntheticMusic, open_music
-from src.shared.data.pairing.phrase_motion import Piece, join
-from src.shared.data.pairing.prepare_audio import PairOptions, prepare_audio
-from src.shared.data.pairing.report import WINDOW_FRAMES, training_trajectories
-from src.shared.data.pairing.time_warp import Warp, resample
+from src.shared.data.pairing.phrase_motion import Piece, Warp, join, resample
+from src.shared.data.pairing.prepare_audio import (
+    WINDOW_FRAMES,
+    PairOptions,
+    prepare_audio,
+    training_trajectories,
+)
 from src.shared.data.phrases.layout import decode_features, decode_trajectory, parse_manifest
 from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData

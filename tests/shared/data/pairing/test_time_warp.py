@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from src.shared.data.pairing.time_warp import (
+from src.shared.data.pairing.phrase_motion import (
     KNOT_SECONDS,
     LIMIT,
     Warp,
