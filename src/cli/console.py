@@ -183,6 +183,13 @@ def counted(number: int, noun: str) -> str:
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
+def print_json(result: Any) -> None:
+    """One JSON value on stdout: results of a command with --json."""
+    import json
+
+    print(json.dumps(result, indent=1, ensure_ascii=False))
+
+
 def print_columns(
     head: Sequence[str], rows: Sequence[Sequence[str]], *, right: str = "", ruled: bool = False
 ) -> None:

@@ -54,12 +54,10 @@ def convert(
     mapping: Annotated[
         Path | None, typer.Option(help="YAML: which joints of IN and --skeleton are which of ours.")
     ] = None,
-    unit: Annotated[str | None, typer.Option(help="Unit of length of IN; else guessed.")] = None,
-    up: Annotated[str | None, typer.Option(help="Up axis of IN; else guessed.")] = None,
+    unit: options.Unit = None,
+    up: options.Up = None,
     asf: Annotated[Path | None, typer.Option(help="Skeleton of an .amc; else beside it.")] = None,
-    source_fps: Annotated[
-        float | None, typer.Option(help="Frames a second of IN, where it does not say.")
-    ] = None,
+    source_fps: options.SourceFps = None,
     resume: Annotated[
         bool, typer.Option("--resume", help="Into a folder: skip files newer than their IN.")
     ] = False,

@@ -7,6 +7,7 @@ import typer
 
 from ..shared.errors import UsageError
 from . import options
+from .console import print_json
 
 if TYPE_CHECKING:
     from ..shared.audio.song import Song
@@ -58,7 +59,7 @@ def features(
 
         plot_features(analysed.arrays(), plot, title=describe(song, analysed))
     if json:
-        print_json(song, out, plot, analysed)
+        print_json(facts(song, out, plot, analysed))
     else:
         print(describe(song, analysed))
         for path in filter(None, (out, plot)):
@@ -84,12 +85,10 @@ def describe(path: Path, song: "Song") -> str:
     return f"{path.name}: {song.seconds:.2f} s, {song.num_frames} frames, {rhythm}"
 
 
-def print_json(path: Path, out: Path, plot: Path | None, song: "Song") -> None:
-    """The result alone on stdout."""
-    import json
-
+def facts(path: Path, out: Path, plot: Path | None, song: "Song") -> dict[str, Any]:
+    """The result for programs."""
     beats = song.beats
-    result: dict[str, Any] = {
+    return {
         "song": str(path),
         "sha256": song.sha256,
         "seconds": song.seconds,
@@ -103,4 +102,3 @@ def print_json(path: Path, out: Path, plot: Path | None, song: "Song") -> None:
         "out": str(out),
         "plot": str(plot) if plot else None,
     }
-    print(json.dumps(result, indent=1, ensure_ascii=False))

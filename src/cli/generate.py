@@ -8,7 +8,7 @@ import typer
 from ..shared import environment
 from ..shared.errors import UsageError
 from . import options
-from .console import counted, tell
+from .console import counted, print_json, tell
 from .generate_files import show_scores
 from .generate_request import Directions, Request, only_song, produce
 
@@ -187,10 +187,3 @@ def print_files(result: dict[str, Any]) -> None:
     parts = ", ".join(f"{name} {times[name]:.1f}" for name in times if name != "total")
     number = counted(len(result["motions"]), "motion")
     tell(f"{number} in {times['total']:.1f} s ({parts}) on {result['device']}")
-
-
-def print_json(result: dict[str, Any]) -> None:
-    """The result as one object on stdout."""
-    import json
-
-    print(json.dumps(result, indent=1, ensure_ascii=False))

@@ -1,5 +1,6 @@
 """`inspect`: what a motion file holds, and how it would be read."""
 
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -7,7 +8,7 @@ import typer
 
 from ..shared.errors import UsageError
 from . import options
-from .console import tell
+from .console import print_json, tell
 
 if TYPE_CHECKING:
     from ..shared.data.retarget.read_motion import Inspection
@@ -17,19 +18,11 @@ MAX_INDENT = 24  # levels; deeper joints are shown there
 
 def inspect(
     file: Annotated[Path, typer.Argument(help="A motion file: bvh, amc, glb, npz or npy.")],
-    mapping: Annotated[
-        Path | None, typer.Option(help="YAML with skeleton profiles of your own.")
-    ] = None,
-    unit: Annotated[
-        str | None, typer.Option(help="Unit of length: m, cm, mm, in, ft, cmu; else guessed.")
-    ] = None,
-    up: Annotated[str | None, typer.Option(help="Up axis: Y, Z, -X, …; else guessed.")] = None,
-    skeleton: Annotated[
-        Path | None, typer.Option(help="ASF skeleton of an AMC motion; the one beside it.")
-    ] = None,
-    source_fps: Annotated[
-        float | None, typer.Option(help="Frames a second, for files that do not say.")
-    ] = None,
+    mapping: options.Mapping = None,
+    unit: options.Unit = None,
+    up: options.Up = None,
+    skeleton: options.Skeleton = None,
+    source_fps: options.SourceFps = None,
     write_mapping: Annotated[
         Path | None, typer.Option(help="Begin a skeleton profile for this file, to be filled in.")
     ] = None,
@@ -56,7 +49,8 @@ def inspect(
     if write_mapping is not None:
         begin_mapping(found, mapping, write_mapping)
     if json:
-        print_json(found)
+        joints = [{"name": name, "parent": parent} for name, parent in found.joints]
+        print_json(asdict(found) | {"joints": joints})
     else:
         print(file)
         print("\n".join(lines(found)))
@@ -112,12 +106,3 @@ def tree(joints: tuple[tuple[str, int], ...]) -> list[tuple[int, str]]:
         result.append((level, joints[joint][0]))
         todo += [(level + 1, child) for child in reversed(children.get(joint, []))]
     return result
-
-
-def print_json(found: "Inspection") -> None:
-    """The report for programs."""
-    import json
-    from dataclasses import asdict
-
-    joints = [{"name": name, "parent": parent} for name, parent in found.joints]
-    print(json.dumps(asdict(found) | {"joints": joints}, indent=1, ensure_ascii=False))

@@ -1,6 +1,5 @@
 """`memory build` and `memory query`: phrases of real motion, found by song or by text."""
 
-import json as json_format
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -9,7 +8,7 @@ import typer
 
 from ..shared.errors import UsageError, printable
 from . import options
-from .console import complain, guarded, tell, with_quiet
+from .console import complain, guarded, print_json, tell, with_quiet
 from .help_page import Command
 
 if TYPE_CHECKING:
@@ -79,7 +78,7 @@ def build(
         "left_out": index.about["left_out"],
     }
     if json:
-        print(json_format.dumps(report, indent=1, ensure_ascii=False))
+        print_json(report)
         return
     for name, reason in index.about["left_out"].items():
         tell(f"left out {name}: {reason}")
@@ -133,7 +132,7 @@ def query(
             "memory": str(memory),
             "answers": [result.to_json() for result in results],
         }
-        print(json_format.dumps(told, indent=1, ensure_ascii=False))
+        print_json(told)
     elif is_song:
         print_song(results)
     else:

@@ -7,7 +7,7 @@ import typer
 
 from ..shared import environment
 from . import options
-from .console import print_columns
+from .console import print_columns, print_json
 
 COLUMNS = ("name", "kind", "trained", "licence", "size", "languages", "description")
 
@@ -19,13 +19,11 @@ def models(json: options.Json = False) -> None:
     Example:
       motion-tools models
     """
-    import json as json_format
-
     from ..shared.model.zoo import list_models
 
     rows = list_models()
     if json:
-        print(json_format.dumps(rows, indent=1, ensure_ascii=False))
+        print_json(rows)
         return
     if not rows:
         print("no models: none are shipped, and runs/ holds none; train one (see README.md)")
@@ -61,10 +59,8 @@ def export_onnx(
     card = export(AudioMotionModel.from_pretrained(model), out)
     files = [out / name for name in (*card.graphs, CARD_FILE)]
     if json:
-        import json as json_format
-
         graphs = {name: graph.model_dump() for name, graph in card.graphs.items()}
         result = {"model": model, "opset": card.opset, "graphs": graphs}
-        print(json_format.dumps(result | {"files": [str(file) for file in files]}, indent=1))
+        print_json(result | {"files": [str(file) for file in files]})
     else:
         print(*files, sep="\n")

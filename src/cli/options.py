@@ -12,6 +12,17 @@ from ..shared.io.files import made_folder
 
 Model = Annotated[str, typer.Option(help="A name that `models` lists, or a folder from training.")]
 Device = Annotated[str, typer.Option(envvar=environment.DEVICE, help="auto, cpu, cuda or mps.")]
+Mapping = Annotated[Path | None, typer.Option(help="YAML that names your skeleton's joints.")]
+Unit = Annotated[
+    str | None, typer.Option(help="Unit of length read: m, cm, mm, in, ft, cmu; else guessed.")
+]
+Up = Annotated[str | None, typer.Option(help="Up axis of what is read: Y, Z, -X, …; else guessed.")]
+SourceFps = Annotated[
+    float | None, typer.Option(help="Frames a second of what is read, where it does not say.")
+]
+Skeleton = Annotated[
+    Path | None, typer.Option(help="ASF skeleton of AMC files; the one beside each.")
+]
 Threads = Annotated[int | None, typer.Option(help="CPU threads to use.")]
 Json = Annotated[bool, typer.Option("--json", help="The result as JSON on stdout.")]
 Steps = Annotated[int | None, typer.Option(help="Sampling steps; the model's own.")]

@@ -1,14 +1,17 @@
-"""`prepare`: folders of motion capture become a training set."""
+"""`prepare` and `prepare-audio`: motion capture, and music beside it, become training sets."""
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ..shared.errors import UsageError
 from ..shared.io.files import same_place
 from . import options
-from .console import complain, progress_bar, tell
+from .console import complain, print_json, progress_bar, tell
+
+if TYPE_CHECKING:
+    from ..shared.data.prepared import PreparedData
 
 
 def prepare(
@@ -24,17 +27,11 @@ def prepare(
         list[Path] | None,
         typer.Option(help="CSV, TSV or JSON: clip, caption; times, labels. May be repeated."),
     ] = None,
-    mapping: Annotated[
-        Path | None, typer.Option(help="YAML that names your skeleton's joints.")
-    ] = None,
-    unit: Annotated[str | None, typer.Option(help="Unit of length in the files.")] = None,
-    up: Annotated[str | None, typer.Option(help="Up axis of the files: Y, Z, -X, …")] = None,
-    skeleton: Annotated[
-        Path | None, typer.Option(help="ASF skeleton of AMC files; the one beside each.")
-    ] = None,
-    source_fps: Annotated[
-        float | None, typer.Option(help="Frames a second of files that do not say.")
-    ] = None,
+    mapping: options.Mapping = None,
+    unit: options.Unit = None,
+    up: options.Up = None,
+    skeleton: options.Skeleton = None,
+    source_fps: options.SourceFps = None,
     labels: Annotated[
         Path | None, typer.Option(help="YAML rules that read labels from file names.")
     ] = None,
@@ -137,8 +134,119 @@ def print_summary(report: dict[str, Any], out: Path) -> None:
     print(f"next: motion-tools train clip --data {out} --output runs/clip")
 
 
-def print_json(report: dict[str, Any]) -> None:
-    """The report alone on stdout."""
-    import json
+def prepare_audio(
+    motion: Annotated[
+        str, typer.Option(help="Folder from `prepare`, a folder of BVH files, or synthetic.")
+    ],
+    music: Annotated[
+        list[str], typer.Option(help="Folder of sound files, or synthetic:N; several if you like.")
+    ],
+    out: Annotated[Path, typer.Option(help="Folder for the pairs.")],
+    meter: Annotated[
+        int | None, typer.Option(help="Beats a bar of the recordings; else 3 or 4 is heard.")
+    ] = None,
+    min_seconds: Annotated[float, typer.Option(help="Shortest phrase.")] = 8.0,
+    max_seconds: Annotated[float, typer.Option(help="Longest phrase.")] = 20.0,
+    passes: Annotated[
+        int, typer.Option(help="Go through each song so often, with other motion each time.")
+    ] = 1,
+    synthetic_clips: Annotated[
+        bool,
+        typer.Option(
+            "--synthetic-clips/--no-synthetic-clips",
+            help="Use the prepared folder's parametric motions too.",
+        ),
+    ] = False,
+    seed: Annotated[int, typer.Option(help="Of every choice.")] = 0,
+    workers: Annotated[int, typer.Option(help="Processes.")] = 1,
+    json: options.Json = False,
+) -> None:
+    """Pair motions with music so that motion beats fall on music beats.
 
-    print(json.dumps(report, indent=1, ensure_ascii=False))
+    Clips that travel or step are joined to phrases and warped in time by at most 15%. Run again,
+    it does only what is missing.
+
+    \b
+    Examples:
+      motion-tools prepare-audio --motion data/mine --music my-songs --out data/pairs
+      motion-tools prepare-audio --motion synthetic --music synthetic:100 --out data/pairs
+    """
+    options.check_ranges(workers=workers, seed=seed)
+    if not 2.0 <= min_seconds <= max_seconds <= 120.0:
+        raise UsageError(
+            f"--min-seconds {min_seconds:g} and --max-seconds {max_seconds:g}: choose"
+            " 2 <= min <= max <= 120"
+        )
+    if meter is not None and not 2 <= meter <= 12:
+        raise UsageError(f"--meter {meter} is out of range; choose from 2 to 12")
+    if not 1 <= passes <= 100:
+        raise UsageError(f"--passes {passes} is out of range; choose from 1 to 100")
+    if motion != "synthetic" and not Path(motion).is_dir():
+        raise UsageError(f"--motion {motion} is no folder; name one, or synthetic")
+    options.check_folder("--out", out)
+
+    from ..shared.data.pairing.music import open_music
+    from ..shared.data.pairing.prepare_audio import PairOptions
+    from ..shared.data.pairing.prepare_audio import prepare_audio as pair_all
+    from ..shared.io.files import sole_writer
+
+    sources = open_music(music, seed=seed, meter=meter)
+    synthetic = synthetic_clips or motion == "synthetic"
+    with sole_writer(out):
+        data = open_motion(motion, out)
+        with progress_bar("songs") as progress:
+            report = pair_all(
+                data,
+                sources,
+                out,
+                options=PairOptions(min_seconds, max_seconds, passes, synthetic, seed),
+                workers=workers,
+                progress=progress,
+            )
+        write_bands(out)
+    if json:
+        print_json(report)
+    else:
+        print_pairs(report, out)
+
+
+def open_motion(motion: str, out: Path) -> "PreparedData":
+    """A prepared folder; BVH files and synthetic motions are prepared beside the pairs, once."""
+    from ..shared.data.prepare import open_data
+    from ..shared.data.prepared import PreparedData
+
+    if motion == "synthetic":
+        return open_data(motion, out / ".motion")
+    folder = Path(motion)
+    if (folder / "manifest.json").exists():
+        return PreparedData.open(folder)
+
+    from ..shared.data.pairing.prepare_audio import prepare_unlabelled
+
+    tell(f"preparing the motion files of {folder} ...")
+    return prepare_unlabelled(folder, out / ".motion" / "bvh")
+
+
+def write_bands(out: Path) -> None:
+    """What the training phrases measure, in bands.json: the sanity suite compares with it."""
+    from ..shared.data.pairing.prepare_audio import training_trajectories
+    from ..shared.metrics.bands import Bands
+
+    Bands.of(training_trajectories(out)).save(out / "bands.json")
+
+
+def print_pairs(report: dict[str, Any], out: Path) -> None:
+    """What was made, how well the beats meet, and what to do next."""
+    print(f"{report['phrases']} phrases, {report['hours']:.2f} h, {report['songs']} songs: {out}")
+    print("  by split: ", ", ".join(f"{k} {v}" for k, v in report["by_split"].items()))
+    print("  beats meet (1 = always)   motion on music   music on motion")
+    for when, name in (("before", "as recorded"), ("after", "paired"), ("chance", "by chance")):
+        row = report["alignment"]["all"][when]
+        print(f"    {name:<22} {row['motion_to_music']:>15.2f} {row['music_to_motion']:>17.2f}")
+    rate = report["warp"]["rate_percentiles"]
+    print(f"  playback rate: {rate['p5']:.2f} to {rate['p95']:.2f} (p5 to p95)")
+    for reason, number in report["clips"]["left_out"].items():
+        print(f"  {number} clips left out: {reason}")
+    if left_out := report["left_out"]:
+        tell(f"{len(left_out)} phrases or songs were left out; {out / 'report.json'} says why")
+    print(f"next: motion-tools train audio --data {out} --output runs/audio")

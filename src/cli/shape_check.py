@@ -7,7 +7,7 @@ import typer
 
 from ..shared.errors import UsageError
 from . import options
-from .console import print_columns
+from .console import print_columns, print_json
 
 if TYPE_CHECKING:
     from .shape_tables import Table
@@ -55,7 +55,10 @@ def shape_check(
             raise UsageError(f"{flag} belongs to the text branch; leave it out with --model audio")
     made = check_audio if model == "audio" else check_text
     letters, table = made(network_profile, network_file, settings, device, full)
-    (print_json if json else print_table)(network_profile, letters, table, full)
+    if json:
+        print_json(facts(network_profile, letters, table, full))
+    else:
+        print_table(network_profile, letters, table)
     if not all(stage.agrees for stage in table.stages):
         raise typer.Exit(1)
 
@@ -112,7 +115,7 @@ def show(shapes: tuple[tuple[int, ...], ...]) -> str:
     return " -> ".join(" x ".join(map(str, shape)) for shape in shapes)
 
 
-def print_table(profile: str, letters: dict[str, int], table: "Table", full: bool) -> None:
+def print_table(profile: str, letters: dict[str, int], table: "Table") -> None:
     """Plain aligned columns, so that nothing is cut off in a pipe."""
     print(f"profile {profile}:", " ".join(f"{key}={value}" for key, value in letters.items()))
     rows = [
@@ -132,10 +135,8 @@ def print_table(profile: str, letters: dict[str, int], table: "Table", full: boo
     print(f"{wrong} of {number} stages differ" if wrong else f"all {number} stages agree")
 
 
-def print_json(profile: str, letters: dict[str, int], table: "Table", full: bool) -> None:
-    """The same as one JSON object on stdout."""
-    import json
-
+def facts(profile: str, letters: dict[str, int], table: "Table", full: bool) -> dict[str, Any]:
+    """The same for programs."""
     rows: list[dict[str, Any]] = [
         {
             "network": stage.network,
@@ -150,5 +151,6 @@ def print_json(profile: str, letters: dict[str, int], table: "Table", full: bool
         for stage in table.stages
     ]
     agree = all(stage.agrees for stage in table.stages)
-    result = {"profile": profile, "full": full, "letters": letters, "agree": agree, "stages": rows}
-    print(json.dumps(result, indent=1, ensure_ascii=False))
+    return {
+        "profile": profile, "full": full, "letters": letters, "agree": agree, "stages": rows
+    }  # fmt: skip

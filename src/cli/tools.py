@@ -28,8 +28,7 @@ from .inspect import inspect
 from .memory import memory
 from .models import export_onnx, models
 from .plot import plot
-from .prepare import prepare
-from .prepare_audio import prepare_audio
+from .prepare import prepare, prepare_audio
 from .report import report
 from .shape_check import shape_check
 from .train import train
