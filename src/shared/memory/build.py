@@ -11,7 +11,7 @@ import json
 import shutil
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
 from typing import Any, Protocol
@@ -43,6 +43,7 @@ AGAIN = "run prepare-audio again into the same folder: it adds what is missing"
 
 Progress = Callable[[int, int], None]  # (phrases done, phrases in all)
 MIN_FRAMES = 24  # 0.8 s
+NO_KEY = np.zeros(0, np.float32)
 
 
 def cut_at_bars(
@@ -81,21 +82,14 @@ def cut_at_bars(
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """A phrase of the memory before it has keys.
+    """A phrase whose keys are still empty, and what they are made of.
 
     Attributes:
-        id, song, caption, clip, tempo, trajectory, priors: as in `Phrase`.
         audio: condition [C,T].
         body: raw features [T,23,6].
     """
 
-    id: str
-    song: str
-    caption: str
-    clip: str
-    tempo: float
-    trajectory: np.ndarray
-    priors: np.ndarray
+    phrase: Phrase
     audio: np.ndarray
     body: np.ndarray
 
@@ -169,17 +163,18 @@ class Source:
             part = slice(start, stop)
             window = encode_window(trajectory[part], phase[part])
             clip = self._clip(record.id, start, stop)
-            yield Piece(
+            cut = Phrase(
                 id=f"{record.id}/{start:04d}",
                 song=record.song or record.id,
                 caption=self._captions.get(clip, "") if clip else record.caption,
                 clip=clip,
                 tempo=record.tempo,
+                audio_key=NO_KEY,
+                motion_key=NO_KEY,
                 trajectory=place_window(window, phase=phase[start]),
                 priors=priors[:, part],
-                audio=audio[:, part],
-                body=body[part],
             )
+            yield Piece(cut, audio[:, part], body[part])
 
     def _clip(self, phrase: str, start: int, stop: int) -> str:
         """The clip that most frames of a phrase show; "" if the data does not tell."""
@@ -395,16 +390,6 @@ def _embed(pieces: Sequence[Piece], space: Space) -> list[Phrase]:
     audio_keys = space.embed_audio(audio, mask).float().cpu().numpy()
     motion_keys = space.embed_motion(body, mask).float().cpu().numpy()
     return [
-        Phrase(
-            id=piece.id,
-            song=piece.song,
-            caption=piece.caption,
-            clip=piece.clip,
-            tempo=piece.tempo,
-            audio_key=audio_keys[number],
-            motion_key=motion_keys[number],
-            trajectory=piece.trajectory,
-            priors=piece.priors,
-        )
-        for number, piece in enumerate(pieces)
+        replace(piece.phrase, audio_key=audio_key, motion_key=motion_key)
+        for piece, audio_key, motion_key in zip(pieces, audio_keys, motion_keys, strict=True)
     ]

@@ -8,7 +8,6 @@ in and out, computed on the CPU in float64.
 Letters: N windows, 25 rows as the trajectory's columns, T frames, S shared frames.
 """
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,7 +26,6 @@ from .trajectory import (
     ACCELERATION,
     ANGULAR_VELOCITY,
     CHANNELS,
-    FPS,
     PHASE,
     POSITION,
     QUATERNION,
@@ -88,29 +86,6 @@ def place_window(
     return np.asarray(placed.astype(np.float32))
 
 
-def join_windows(
-    windows: Iterable[np.ndarray],
-    overlap: int,
-    *,
-    position: tuple[float, float] = (0.0, 0.0),
-    heading: float = 0.0,
-    phase: float = 0.0,
-    fps: float = FPS,
-) -> MotionTrajectory:
-    """Windows [25,T] that share `overlap` frames → one trajectory, derived anew.
-
-    Args:
-        windows: at least one; each longer than `overlap`.
-        overlap: S ≥ 1 frames that neighbours share.
-        position, heading, phase: of the first frame, see `place_window`.
-        fps: frames per second.
-    """
-    joiner = WindowJoiner(overlap, position=position, heading=heading, phase=phase, fps=fps)
-    pieces = [joiner.add(window).data for window in windows]
-    pieces.append(joiner.finish().data)
-    return MotionTrajectory(np.concatenate(pieces), fps)
-
-
 @dataclass
 class _Pose:
     """What a path is made of: position [T,3], quaternion [T,4], phase steps [T], style [T,8]."""
@@ -155,22 +130,17 @@ class _Pose:
 class WindowJoiner:
     """Joins windows as they come; what was returned is final, memory is one window.
 
-    The concatenated results of every `add` and of `finish` are `join_windows`' trajectory.
+    The concatenated results of every `add` and of `finish` are one trajectory, derived anew, that
+    starts at x = z = 0 and faces +Z.
+
+    Args:
+        overlap: S ≥ 1 frames that neighbours share; each window is longer.
+        phase: of the first frame, bars.
     """
 
-    def __init__(
-        self,
-        overlap: int,
-        *,
-        position: tuple[float, float] = (0.0, 0.0),
-        heading: float = 0.0,
-        phase: float = 0.0,
-        fps: float = FPS,
-    ) -> None:
-        """See `join_windows`."""
+    def __init__(self, overlap: int, *, phase: float = 0.0) -> None:
         assert overlap >= 1
-        self.overlap, self.fps = overlap, fps
-        self._start = (heading, torch.tensor((position[0], 0.0, position[1]), dtype=torch.float64))
+        self.overlap = overlap
         self._phase = phase  # bars at the first pending frame
         self._last_sign: Tensor | None = None  # quaternion of the last frame returned
         self._pending: _Pose | None = None
@@ -180,7 +150,7 @@ class WindowJoiner:
         pose = _Pose.of(window)
         assert len(pose) > self.overlap
         if self._pending is None:
-            self._pending = pose.moved(*self._start)
+            self._pending = pose.moved(0.0, torch.zeros(3, dtype=torch.float64))
         else:
             before, shared = self._pending[: -self.overlap], self._pending[-self.overlap :]
             pose = pose.moved(*_fit(pose[: self.overlap], shared))
@@ -201,7 +171,7 @@ class WindowJoiner:
         """The first pending frames, derived with the help of `spare` frames that stay."""
         assert self._pending is not None
         if num_frames <= 0:
-            return MotionTrajectory(np.empty((0, CHANNELS), dtype=np.float32), self.fps)
+            return MotionTrajectory(np.empty((0, CHANNELS), dtype=np.float32))
         piece = self._pending[: num_frames + spare]
         phase = _integrate(piece.steps.numpy(), self._phase)
         trajectory = MotionTrajectory.from_pose(
@@ -209,7 +179,6 @@ class WindowJoiner:
             piece.quaternion.numpy(),
             phase,
             piece.style.numpy(),
-            fps=self.fps,
             spare=spare,
         )
         self._carry_sign(trajectory)

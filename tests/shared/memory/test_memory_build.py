@@ -52,7 +52,7 @@ def test_keys_are_those_of_the_space(pairs: Path, tmp_path: Path) -> None:
     space = LinearSpace()
     index = build_memory(pairs, space, tmp_path)
     pieces = list(Source(str(pairs), "train").pieces(MemoryConfig(), lambda done, total: None))
-    assert [piece.id for piece in pieces] == list(index.ids)
+    assert [piece.phrase.id for piece in pieces] == list(index.ids)
     for number, piece in enumerate(pieces):
         audio = space.embed_audio(torch.from_numpy(piece.audio)[None])[0]
         motion = space.embed_motion(torch.from_numpy(piece.body)[None])[0]

@@ -12,7 +12,7 @@ from src.shared.motion.trajectory import (
     MotionTrajectory,
     unwrap_phase,
 )
-from src.shared.motion.window import WindowJoiner, encode_window, join_windows, place_window
+from src.shared.motion.window import WindowJoiner, encode_window, place_window
 from tests.shared.motion.trajectories import smooth_trajectory
 
 seeds = st.integers(0, 10_000)
@@ -26,6 +26,12 @@ def cut(whole: MotionTrajectory, length: int, overlap: int) -> list[np.ndarray]:
         for s in starts
         if len(whole.data[s : s + length]) > overlap
     ]
+
+
+def join_windows(windows: list[np.ndarray], overlap: int, phase: float = 0.0) -> MotionTrajectory:
+    joiner = WindowJoiner(overlap, phase=phase)
+    pieces = [joiner.add(window).data for window in windows]
+    return MotionTrajectory(np.concatenate([*pieces, joiner.finish().data]))
 
 
 def start(whole: MotionTrajectory) -> dict[str, object]:
@@ -61,20 +67,19 @@ def test_placing_undoes_encoding(seed: int) -> None:
 @given(seeds, st.integers(20, 50), st.integers(1, 12))
 def test_joining_overlapping_windows_gives_the_whole(seed: int, length: int, overlap: int) -> None:
     whole = smooth_trajectory(seed, 150)
-    joined = join_windows(cut(whole, length, overlap), overlap, **start(whole))  # type: ignore[arg-type]
+    phase = float(whole.phase[0])
+    local = place_window(encode_window(whole.data, whole.phase_unwrapped), phase=phase)
+    joined = join_windows(cut(whole, length, overlap), overlap, phase)
     assert joined.num_frames == whole.num_frames
-    assert np.abs(joined.data[:, POSITION] - whole.data[:, POSITION]).max() < 1e-4
-    assert np.abs(joined.data[:, QUATERNION] - whole.data[:, QUATERNION]).max() < 1e-4
-    assert_close(joined.data, whole.data)
+    assert np.abs(joined.data[:, POSITION] - local[:, POSITION]).max() < 1e-4
+    assert np.abs(joined.data[:, QUATERNION] - local[:, QUATERNION]).max() < 1e-4
+    assert_close(joined.data, local)
 
 
-def test_windows_as_they_come_are_final_and_equal() -> None:
+def test_every_window_settles_some_frames() -> None:
     windows = cut(smooth_trajectory(4, 200), 60, 10)
     joiner = WindowJoiner(10)
-    pieces = [joiner.add(window).data for window in windows]
-    assert all(len(piece) for piece in pieces)
-    pieces.append(joiner.finish().data)
-    assert np.array_equal(np.concatenate(pieces), join_windows(windows, 10).data)
+    assert all(joiner.add(window).num_frames for window in windows)
 
 
 def test_windows_that_disagree_are_blended_without_a_jump() -> None:

@@ -113,6 +113,13 @@ class Decoder(nn.Module):
         return self.decode(x, start).trajectory
 
     def _decode(self, x: Tensor, start: Tensor | None) -> Decoded:
+        h, motion = self._motion(x)
+        phase = self._phase(x, h, start)
+        columns = (*motion, wrapped_phase(phase)[..., None], self._style(x, h))
+        return Decoded(torch.cat(columns, dim=-1), phase)
+
+    def _motion(self, x: Tensor) -> tuple[Tensor, tuple[Tensor, ...]]:
+        """Hidden states [B, T, D]; position, velocity, acceleration, quaternion and turning."""
         raise NotImplementedError
 
     def _position(self, x: Tensor, h: Tensor) -> Tensor:
@@ -139,20 +146,6 @@ class Decoder(nn.Module):
     def _style(self, x: Tensor, h: Tensor) -> Tensor:
         return F.normalize(x[..., STYLE] + self.style_head(h), dim=-1)
 
-    def _assemble(
-        self,
-        position: Tensor,
-        velocity: Tensor,
-        acceleration: Tensor,
-        quaternion: Tensor,
-        turning: Tensor,
-        phase: Tensor,
-        style: Tensor,
-    ) -> Decoded:
-        wrapped = wrapped_phase(phase)[..., None]
-        columns = (position, velocity, acceleration, quaternion, turning, wrapped, style)
-        return Decoded(torch.cat(columns, dim=-1), phase)
-
 
 class MotionDecoder(Decoder):
     """Residual MLP with a head for each component (TECH 3.3.2; rulings 5, 7, 9).
@@ -174,7 +167,7 @@ class MotionDecoder(Decoder):
         self.acceleration_head = self._head(3, extra)
         self.angular_velocity_head = self._head(3)
 
-    def _decode(self, x: Tensor, start: Tensor | None) -> Decoded:
+    def _motion(self, x: Tensor) -> tuple[Tensor, tuple[Tensor, ...]]:
         config = self.config
         missed = gaps(x, config.fps) if config.sees_gaps else x[..., :0]  # [B, T, 9 or 0]
         h = self.input_proj(torch.cat((x * self.input_scale, missed), dim=-1))  # [B, T, D]
@@ -184,14 +177,12 @@ class MotionDecoder(Decoder):
         velocity = x[..., VELOCITY] + self.velocity_head(aware)
         acceleration = x[..., ACCELERATION] + self.acceleration_head(aware)
         turning = x[..., ANGULAR_VELOCITY] + self.angular_velocity_head(h)
-        return self._assemble(
+        return h, (
             self._position(x, h),
             bounded(velocity, config.velocity_scale),
             bounded(acceleration, config.acceleration_scale),
             self._quaternion(x, h),
             bounded(turning, config.angular_velocity_scale),
-            self._phase(x, h, start),
-            self._style(x, h),
         )
 
 
@@ -210,7 +201,7 @@ class DerivedMotionDecoder(Decoder):
             TemporalBlock(before, after) for before, after in pairwise(widths)
         )
 
-    def _decode(self, x: Tensor, start: Tensor | None) -> Decoded:
+    def _motion(self, x: Tensor) -> tuple[Tensor, tuple[Tensor, ...]]:
         config = self.config
         h = x * self.input_scale
         for block in self.encoder:
@@ -218,15 +209,7 @@ class DerivedMotionDecoder(Decoder):
         position = limit_speed(self._position(x, h), config.velocity_scale, config.fps)
         quaternion = self._quaternion(x, h)
         velocity, acceleration, turning = derive(position, quaternion, config.fps)
-        return self._assemble(
-            position,
-            velocity,
-            acceleration,
-            quaternion,
-            turning,
-            self._phase(x, h, start),
-            self._style(x, h),
-        )
+        return h, (position, velocity, acceleration, quaternion, turning)
 
 
 def create_motion_decoder(config: DecoderConfig) -> Decoder:

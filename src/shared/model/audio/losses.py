@@ -46,24 +46,17 @@ class DecoderLoss(nn.Module):
         """Decoded and true trajectory [B, T, 25] -> weighted scalar terms."""
         with torch.autocast(decoded.device.type, enabled=False):
             decoded, target = decoded.float(), target.float()
-            config = self.config
-            return _weighted(
-                {
-                    "position": (config.position_weight, _mse(decoded, target, POSITION)),
-                    "velocity": (config.velocity_weight, _mse(decoded, target, VELOCITY)),
-                    "acceleration": (
-                        config.acceleration_weight,
-                        _mse(decoded, target, ACCELERATION),
-                    ),
-                    "quaternion": (config.quaternion_weight, quaternion_error(decoded, target)),
-                    "angular_velocity": (
-                        config.angular_velocity_weight,
-                        _mse(decoded, target, ANGULAR_VELOCITY),
-                    ),
-                    "phase": (config.phase_weight, phase_error(decoded, target)),
-                    "style": (config.style_weight, _mse(decoded, target, STYLE)),
-                }
-            )
+            errors = {
+                "position": _mse(decoded, target, POSITION),
+                "velocity": _mse(decoded, target, VELOCITY),
+                "acceleration": _mse(decoded, target, ACCELERATION),
+                "quaternion": quaternion_error(decoded, target),
+                "angular_velocity": _mse(decoded, target, ANGULAR_VELOCITY),
+                "phase": phase_error(decoded, target),
+                "style": _mse(decoded, target, STYLE),
+            }
+            weights = {name: getattr(self.config, f"{name}_weight") for name in errors}
+            return _weighted({name: (weights[name], errors[name]) for name in errors})
 
 
 class TemporalCoherenceLoss(nn.Module):

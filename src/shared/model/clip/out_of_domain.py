@@ -263,17 +263,9 @@ class OutOfDomainDetector:
         folder = Path(folder)
         with atomic_write(folder / TABLE_FILE) as temporary:
             save_file({"means": self.means.astype(np.float16)}, temporary)
-        meta = {
-            "actions": self.actions,
-            "false-alarms": self.false_alarms,
-            "min-cosine": self.min_cosine,
-            "weights": self.weights,
-            "reliability": dict(self.reliability),
-            "key-words": self.key_words,
-            "words": sorted(self.words),
-            "fillers": sorted(self.fillers),
-        }
-        write_json(folder / META_FILE, meta)
+        meta = {name.replace("_", "-"): getattr(self, name) for name in _Meta.model_fields}
+        meta |= {"words": sorted(self.words), "fillers": sorted(self.fillers)}
+        write_json(folder / META_FILE, meta | {"reliability": dict(self.reliability)})
 
     @classmethod
     def from_pretrained(cls, folder: str | Path) -> Self | None:
@@ -289,9 +281,8 @@ class OutOfDomainDetector:
         if not (folder / META_FILE).is_file():
             return None
         try:
-            meta = load_json(folder / META_FILE)
             means = load_file(folder / TABLE_FILE)["means"].astype(np.float32)
-            stored = _Meta.model_validate(meta)
+            stored = _Meta.model_validate(load_json(folder / META_FILE))
             # folders of before had none: a prompt of trained words alone told nothing
             fillers = stored.words if stored.fillers is None else stored.fillers
             rows = {row for found in stored.key_words.values() for row in found}
@@ -299,17 +290,7 @@ class OutOfDomainDetector:
                 raise ValueError(f"{len(stored.actions)} actions and means {list(means.shape)}")
             if rows and not 0 <= min(rows) <= max(rows) < len(stored.actions):
                 raise ValueError("a key word tells of an action that is not there")
-            return cls(
-                actions=stored.actions,
-                key_words=stored.key_words,
-                words=stored.words,
-                fillers=fillers,
-                means=means,
-                false_alarms=stored.false_alarms,
-                min_cosine=stored.min_cosine,
-                weights=stored.weights,
-                reliability=stored.reliability,
-            )
+            return cls(means=means, **(dict(stored) | {"fillers": fillers}))
         except ValidationError as error:
             raise of_another_version(folder / META_FILE, error) from error
         except (
