@@ -53,7 +53,7 @@ def find_downbeats(onsets: Onsets, times: np.ndarray, meter: int | None) -> tupl
 
 def downbeat_scores(onsets: Onsets, times: np.ndarray) -> np.ndarray:
     """How much each beat sounds like a downbeat [N], about 1 for downbeats, -0.3 for others."""
-    return np.einsum("fc,fcn->n", WEIGHTS, downbeat_features(onsets, times))
+    return np.asarray(np.einsum("fc,fcn->n", WEIGHTS, downbeat_features(onsets, times)))
 
 
 def downbeat_features(onsets: Onsets, times: np.ndarray) -> np.ndarray:
@@ -62,13 +62,13 @@ def downbeat_features(onsets: Onsets, times: np.ndarray) -> np.ndarray:
     spread = features.std(axis=1, keepdims=True) + 1e-3 * np.abs(features).max(axis=1)[:, None]
     features = (features - features.mean(axis=1, keepdims=True)) / (spread + 1e-6)
     around = np.arange(len(times)) + np.array(CONTEXT)[:, None]
-    return np.take(features, around, axis=1, mode="clip")
+    return np.asarray(np.take(features, around, axis=1, mode="clip"))
 
 
 def _evidence(scores: np.ndarray, meter: int) -> float:
     """Best mean score of every meter-th beat, in standard errors."""
     parts = [scores[offset::meter] for offset in range(min(meter, len(scores)))]
-    return max(float(part.sum()) / np.sqrt(len(part)) for part in parts)
+    return float(max(float(part.sum()) / np.sqrt(len(part)) for part in parts))
 
 
 def _numbers(scores: np.ndarray, meter: int) -> np.ndarray:
@@ -110,7 +110,7 @@ def _pitch_by_beat(onsets: Onsets, times: np.ndarray) -> np.ndarray:
     stop = np.ceil((ends - 0.03) * onsets.pitch_fps).astype(int)
     stop = np.clip(stop, start + 1, count)
     sums = np.pad(np.cumsum(onsets.pitch, axis=1, dtype=np.float64), ((0, 0), (1, 0)))
-    return (sums[:, stop] - sums[:, start]) / (stop - start)
+    return np.asarray((sums[:, stop] - sums[:, start]) / (stop - start))
 
 
 def _change(levels: np.ndarray, span: int) -> np.ndarray:
@@ -120,7 +120,7 @@ def _change(levels: np.ndarray, span: int) -> np.ndarray:
     after = np.take(levels, beats + steps, axis=1, mode="clip").sum(axis=1)
     past = np.take(levels, beats - steps - 1, axis=1, mode="clip").sum(axis=1)
     norms = np.linalg.norm(after, axis=0) * np.linalg.norm(past, axis=0)
-    return 1 - (after * past).sum(axis=0) / (norms + 1e-3)
+    return np.asarray(1 - (after * past).sum(axis=0) / (norms + 1e-3))
 
 
 # ---------------------------------------------------------------- beats
@@ -204,7 +204,7 @@ def _novelty(strength: np.ndarray, fps: float) -> np.ndarray:
     sums = np.cumsum(np.pad(strength, ((0, 0), (reach + 1, reach)), mode="edge"), axis=1)
     mean = (sums[:, 2 * reach + 1 :] - sums[:, : -2 * reach - 1]) / (2 * reach + 1)
     above = np.maximum(strength - mean, 0.0)
-    return above / (above.std(axis=1, keepdims=True) + 1e-6)
+    return np.asarray(above / (above.std(axis=1, keepdims=True) + 1e-6))
 
 
 def _best_chain(
@@ -258,7 +258,7 @@ def _interpolate_rows(rows: np.ndarray, at: np.ndarray, now: np.ndarray) -> np.n
     position = np.interp(now, at, np.arange(len(at)))
     index = np.minimum(position.astype(int), max(len(at) - 2, 0))
     share = (position - index)[:, None]
-    return rows[index] * (1 - share) + rows[np.minimum(index + 1, len(at) - 1)] * share
+    return np.asarray(rows[index] * (1 - share) + rows[np.minimum(index + 1, len(at) - 1)] * share)
 
 
 def _trace_back(value: np.ndarray, before: np.ndarray) -> np.ndarray:
@@ -314,7 +314,7 @@ def bar_phase(beats: Beats, num_frames: int, fps: float = 30.0) -> np.ndarray:
     tail = (bars[-1] - bars[-1 - near]) / (times[-1] - times[-1 - near])
     phase = np.interp(frames, times, bars)
     phase = np.where(frames < times[0], bars[0] + (frames - times[0]) * head, phase)
-    return np.where(frames > times[-1], bars[-1] + (frames - times[-1]) * tail, phase)
+    return np.asarray(np.where(frames > times[-1], bars[-1] + (frames - times[-1]) * tail, phase))
 
 
 def _bars_at_beats(times: np.ndarray, downbeats: np.ndarray, meter: int) -> np.ndarray:

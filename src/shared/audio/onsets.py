@@ -42,7 +42,7 @@ class Onsets:
     @property
     def strength(self) -> np.ndarray:
         """Rise of all bands [T]."""
-        return self.bands.mean(axis=0)
+        return np.asarray(self.bands.mean(axis=0))
 
 
 class _Spectra:
@@ -131,11 +131,13 @@ def pitch_filters(bins: np.ndarray) -> np.ndarray:
     """Triangles [N, bins], a semitone or at least a bin to each side."""
     centres = 440.0 * 2 ** ((LOWEST_PITCH + np.arange(SEMITONES) - 69) / 12)
     width = np.maximum(centres * (2 ** (1 / 12) - 1), bins[1])[:, None]
-    return np.maximum(0.0, 1 - np.abs(bins - centres[:, None]) / width).astype(np.float32)
+    return np.asarray(
+        np.maximum(0.0, 1 - np.abs(bins - centres[:, None]) / width).astype(np.float32)
+    )
 
 
 def _rise(level: np.ndarray) -> np.ndarray:
     """Rise [M, T] in dB over LAG frames, above the loudest neighbour band before (vibrato)."""
     before = np.pad(level, ((1, 1), (LAG, 0)))[:, : level.shape[1]]
     before = np.maximum(np.maximum(before[:-2], before[1:-1]), before[2:])
-    return np.maximum(level - before, 0.0)
+    return np.asarray(np.maximum(level - before, 0.0))

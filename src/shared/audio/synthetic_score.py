@@ -36,7 +36,7 @@ class TempoMap:
         index = np.maximum(np.searchsorted(self._times, seconds, side="right") - 1, 0)
         ahead = seconds - self._times[index]
         slope = np.where(ahead > 0, self._slopes[index], 0.0)
-        return self._beats[index] + ahead * (self._rates[index] + slope * ahead / 2)
+        return np.asarray(self._beats[index] + ahead * (self._rates[index] + slope * ahead / 2))
 
     def seconds(self, beats: np.ndarray) -> np.ndarray:
         """Times [N] in seconds at beats [N]: the inverse of `beats`."""
@@ -45,7 +45,9 @@ class TempoMap:
         ahead = beats - self._beats[index]
         slope = np.where(ahead > 0, self._slopes[index], 0.0)
         rate = self._rates[index]
-        return self._times[index] + 2 * ahead / (rate + np.sqrt(rate**2 + 2 * slope * ahead))
+        return np.asarray(
+            self._times[index] + 2 * ahead / (rate + np.sqrt(rate**2 + 2 * slope * ahead))
+        )
 
 
 @dataclass(frozen=True)

@@ -56,7 +56,7 @@ def drum(name: str, kit: int = 0) -> np.ndarray:
         length = {"hat": 0.025, "crash": 0.5}[name] * lift
         t = _time(6 * length)
         sound = np.diff(_noise(t.size + 1, 20 + kit)) * np.exp(-t / length) * 0.5
-    return (sound / np.abs(sound).max()).astype(np.float32)
+    return np.asarray((sound / np.abs(sound).max()).astype(np.float32))
 
 
 @lru_cache(maxsize=192)
@@ -73,7 +73,7 @@ def _full_tone(pitch: int, timbre: str) -> np.ndarray:
         sound += strength * wave
         before, wave = wave, twice_cos * wave - before  # sin((n+1)x) from sin(nx), sin((n-1)x)
     sound *= np.exp(-t / decay) * np.minimum(1.0, t / attack)
-    return (sound / np.abs(sound).max()).astype(np.float32)
+    return np.asarray((sound / np.abs(sound).max()).astype(np.float32))
 
 
 def tone(pitch: int, timbre: str, seconds: float) -> np.ndarray:

@@ -70,7 +70,7 @@ def tempo_scores(correlations: np.ndarray, fps: float) -> np.ndarray:
     scores = np.einsum("bm,nbmg->ng", WEIGHTS, tempo_features(correlations, fps))
     scores += PRIOR * DISTANCE**2
     top = scores.max(axis=1, keepdims=True)
-    return scores - top - np.log(np.exp(scores - top).sum(axis=1, keepdims=True))
+    return np.asarray(scores - top - np.log(np.exp(scores - top).sum(axis=1, keepdims=True)))
 
 
 def tempo_path(scores: np.ndarray) -> np.ndarray:
@@ -100,7 +100,7 @@ def read_at(correlations: np.ndarray, lags: np.ndarray) -> np.ndarray:
     """Correlations [..., lags] at fractional lags of any shape, linearly interpolated."""
     index = lags.astype(int)
     share = lags - index
-    return correlations[..., index] * (1 - share) + correlations[..., index + 1] * share
+    return np.asarray(correlations[..., index] * (1 - share) + correlations[..., index + 1] * share)
 
 
 def periodicity(correlations: np.ndarray, lengths: np.ndarray) -> float:

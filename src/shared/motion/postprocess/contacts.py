@@ -33,7 +33,7 @@ def detect_contacts(positions: np.ndarray, fps: float) -> np.ndarray:
     contact = (low & slow).astype(np.float32)
     padded = np.pad(contact, ((1, 1), (0, 0)), mode="edge")
     votes = padded[:-2] + padded[1:-1] + padded[2:]
-    return (votes >= 2).astype(np.float32)
+    return np.asarray(votes >= 2, dtype=np.float32)
 
 
 def grounding(balls: np.ndarray, kept: np.ndarray, fps: float) -> np.ndarray:
