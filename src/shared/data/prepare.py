@@ -42,7 +42,7 @@ from .prepared import (
 )
 from .sources.folders import MotionFolder, Skipped, Source, SyntheticSource, all_items
 from .splits import assign_splits, group_of, orbit
-from .worker_pool import run_jobs
+from .worker_pool import finished_record, is_whole, run_jobs
 
 CLIPS_PER_SHARD = 128
 CAPTIONS_PER_GROUP = 24  # and language
@@ -175,18 +175,8 @@ def _jobs(sources: tuple[Source, ...], items: list[tuple[int, str]], out: Path) 
 
 
 def _finished(job: _Job) -> bool:
-    sidecar = job.path.with_suffix(".json")
-    if not sidecar.exists() or not job.path.exists():
-        return False
-    try:
-        content = load_json(sidecar)
-    except (OSError, ValueError):
-        return False
-    return (
-        isinstance(content, dict)
-        and content.get("key") == job.key
-        and content.get("sha256") == sha256_file(job.path)
-    )
+    content = finished_record(job.path.with_suffix(".json"), job.key)
+    return content is not None and is_whole(job.path, str(content.get("sha256")))
 
 
 def _run(jobs: list[_Job], workers: int, progress: Progress, total: int) -> None:

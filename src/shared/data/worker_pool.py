@@ -1,4 +1,4 @@
-"""Jobs spread over worker processes, which end when their parent does, however it ends.
+"""Jobs spread over worker processes, which end when their parent does, and what is done already.
 
 Ctrl-C is the parent's to answer, with one line.
 """
@@ -12,15 +12,31 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from multiprocessing.connection import Connection
-from typing import TypeVar
+from pathlib import Path
+from typing import Any, TypeVar
 
 import torch
 
 from ..errors import UserError
 from ..io.concurrency import answered
+from ..io.files import load_json, sha256_file
 
 Job = TypeVar("Job")
 Result = TypeVar("Result")
+
+
+def finished_record(path: Path, key: str) -> dict[str, Any] | None:
+    """What was written of a finished job; None if nothing is there, damaged, or of another key."""
+    try:
+        content = load_json(path)
+    except (OSError, ValueError):
+        return None
+    return content if isinstance(content, dict) and content.get("key") == key else None
+
+
+def is_whole(path: Path, sha256: str) -> bool:
+    """Whether a file is there with that content."""
+    return path.exists() and sha256_file(path) == sha256
 
 
 def run_jobs(

@@ -32,7 +32,7 @@ import numpy as np
 
 from ...errors import UserError
 from ...io.arrays import load_array, load_arrays
-from ...io.files import inside, load_json, sha256_file, write_json
+from ...io.files import inside, load_json, write_json
 from ...metrics.rhythm import motion_beats
 from ...motion.style import measure_style
 from ...motion.trajectory import STYLE, MotionTrajectory
@@ -42,7 +42,7 @@ from ..prepare import prepare
 from ..prepared import PreparedData
 from ..sources.caption_tables import Piece
 from ..sources.folders import MotionFolder
-from ..worker_pool import run_jobs
+from ..worker_pool import finished_record, is_whole, run_jobs
 from .clip_library import FPS, MARGIN, Clip, ClipLibrary, open_library
 from .music import Music, MusicSource, SongEntry
 from .pair import MIN_SCORE, PhrasePair, pair_phrase
@@ -349,28 +349,16 @@ def _mark(job: SongJob, entry: dict[str, Any]) -> dict[str, Any]:
     return entry
 
 
-def _read(path: Path, key: str) -> dict[str, Any] | None:
-    try:
-        content = load_json(path)
-    except (OSError, ValueError):
-        return None
-    return content if isinstance(content, dict) and content.get("key") == key else None
-
-
 def _read_finished(job: SongJob, name: str) -> dict[str, Any] | None:
     """A phrase's entry, if it was made of the same and its files are whole."""
-    entry = _read(_phrase_path(job.out, name), job.key)
+    entry = finished_record(_phrase_path(job.out, name), job.key)
     if entry is None:
         return None
     for part in ("motion", "features"):
         stored = entry.get("record", {}).get(part)
-        if stored and not _is_whole(job.out / stored["path"], stored["sha256"]):
+        if stored and not is_whole(job.out / stored["path"], stored["sha256"]):
             return None
     return entry
-
-
-def _is_whole(path: Path, digest: str) -> bool:
-    return path.exists() and sha256_file(path) == digest
 
 
 def _finish(job: SongJob, entries: list[dict[str, Any]]) -> list[dict[str, Any]]:
@@ -385,7 +373,7 @@ def _finish(job: SongJob, entries: list[dict[str, Any]]) -> list[dict[str, Any]]
 
 def finished_song(job: SongJob) -> list[dict[str, Any]] | None:
     """The entries of a song that is done; None if anything is missing or of another key."""
-    song = _read(job.out / "songs" / f"{job.entry.id}.json", job.key)
+    song = finished_record(job.out / "songs" / f"{job.entry.id}.json", job.key)
     if song is None:
         return None
     entries = [_read_finished(job, name) for name in song["phrases"]]
