@@ -183,13 +183,12 @@ def run_audio(model: str, request: Request, folder: Path) -> dict[str, Any]:
 
     check_pairs(request.data)
 
-    from ..shared.evaluation import audio_harness
-    from ..shared.evaluation.audio_context import AudioSettings
+    from ..shared.evaluation.suites.audio import AudioSettings, evaluate_audio
 
     amount = request.amount("num_songs", "song_seconds", "track_seconds", "tell_meter")
     if request.quick:
         amount = {"num_songs": QUICK_SONGS, **amount}
-    return audio_harness.evaluate_audio(
+    return evaluate_audio(
         load_generator(model, request.decoder, request.device),
         data=request.data,
         songs=request.songs,

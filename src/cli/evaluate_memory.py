@@ -64,7 +64,7 @@ def evaluate_memory(
         options.check_folder("--out", out.parent)
 
     from ..shared.device import set_threads
-    from ..shared.evaluation import memory_harness
+    from ..shared.evaluation.suites import memory as suite
     from ..shared.pipelines.runtime import load_trained
     from ..shared.pipelines.song_memory import open_memory, require_memory
     from .memory import load_settings
@@ -73,13 +73,13 @@ def evaluate_memory(
     loaded = load_trained(model, device)
     require_memory(loaded.config, model)
     index, found_space = open_memory(memory, space)
-    report = memory_harness.evaluate_memory(
+    report = suite.evaluate_memory(
         loaded,
         index,
         found_space,
         data=data,
         config=load_settings(folder=str(memory)),
-        settings=memory_harness.MemorySettings(
+        settings=suite.MemorySettings(
             splits=tuple(splits.split(",")),
             shares=found_shares,
             top_ks=top_ks,

@@ -116,11 +116,11 @@ def run(
     from ..shared.device import set_threads
 
     set_threads(threads)
-    from ..shared.evaluation.dance_context import DanceContext, DanceSettings
-    from ..shared.evaluation.dance_harness import evaluate_performer as evaluate
     from ..shared.evaluation.held_out import open_held_out
     from ..shared.evaluation.judge.evaluator import Evaluator
     from ..shared.evaluation.report.folder import save_report
+    from ..shared.evaluation.suites.dance import DanceContext, DanceSettings
+    from ..shared.evaluation.suites.dance import evaluate_performer as evaluate
     from ..shared.evaluation.suites.editing import EditContext, EditSettings
     from ..shared.model.generation.motion_generator import TextToMotion
     from ..shared.pipelines.body import PerformerSettings

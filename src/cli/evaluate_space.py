@@ -54,7 +54,7 @@ def evaluate_space(
 
     from ..shared.device import set_threads
     from ..shared.evaluation.report.tables import as_markdown, heading, tables
-    from ..shared.evaluation.space_harness import SpaceSettings, Texts, evaluate_space
+    from ..shared.evaluation.suites.space import SpaceSettings, Texts, evaluate_space
     from ..shared.io.files import write_json, write_text
     from ..shared.model.audio.shared_space import SharedSpace
     from ..shared.model.generation.motion_generator import TextToMotion

@@ -8,8 +8,8 @@ from typer.testing import CliRunner
 
 from src.cli import evaluate_performer
 from src.cli.tools import app
-from src.shared.evaluation.dance_context import DanceSettings
 from src.shared.evaluation.report.tables import report_data
+from src.shared.evaluation.suites.dance import DanceSettings
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,9 @@
 """What everything is held against: a pose held still, and a network that has learned nothing."""
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+import numpy as np
 import torch
 from torch import Tensor
 
@@ -29,6 +31,17 @@ def frozen(features: Tensor) -> Tensor:
 def frozen_pose(motion: Motion) -> Motion:
     """The first pose of a motion held for its whole length."""
     return decode_features(frozen(encode_features(motion)))
+
+
+def held_still(motion: Motion) -> Motion:
+    """The first frame for all frames."""
+    frames = motion.num_frames
+    return replace(
+        motion,
+        quaternions=np.repeat(motion.quaternions[:1], frames, axis=0),
+        root_position=np.repeat(motion.root_position[:1], frames, axis=0),
+        contacts=np.repeat(motion.contacts[:1], frames, axis=0),
+    )
 
 
 def untrained(generator: "TextToMotion", seed: int) -> "TextToMotion":

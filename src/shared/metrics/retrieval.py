@@ -86,6 +86,13 @@ def hit_probability(distances: np.ndarray, relevant: np.ndarray, k: int) -> floa
     return float(best_ranks(distances[None], relevant[None]).hits(k)[0])
 
 
+def rank_of(distances: np.ndarray, column: int) -> np.ndarray:
+    """How many columns [N] of distances [N,P] are nearer than this one; ties count half."""
+    own = distances[:, column : column + 1]
+    nearer = (distances < own).sum(1)
+    return np.asarray(nearer + ((distances == own).sum(1) - 1) / 2)
+
+
 def pair_distances(text: np.ndarray, motion: np.ndarray) -> np.ndarray:
     """Euclidean distances [M, M] of texts [M, D] (rows) to motions [M, D] (columns)."""
     difference = text[:, None].astype(np.float64) - motion[None].astype(np.float64)

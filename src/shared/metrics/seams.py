@@ -14,11 +14,14 @@ from typing import Any
 
 import numpy as np
 
+from ..motion.motion import Motion
 from ..motion.trajectory import MotionTrajectory
 
 REACH = 3  # frames around a seam: differences look ahead, and known frames end with it
 POINTS = (50, 95)  # percentiles
 RESAMPLES = 500
+ACCELERATION, JERK = "acceleration, m/s²", "jerk, m/s³"
+ORDERS = {ACCELERATION: 2, JERK: 3}
 Values = tuple[np.ndarray, np.ndarray]  # quantity [T] and True at seams [T]
 
 
@@ -39,6 +42,20 @@ def quantities(trajectory: MotionTrajectory) -> dict[str, np.ndarray]:
         "jerk": np.linalg.norm(np.diff(acceleration, axis=0), axis=1) * trajectory.fps,
         "angular_acceleration": np.linalg.norm(np.diff(turning, axis=0), axis=1) * trajectory.fps,
     }
+
+
+def body_quantities(motion: Motion) -> dict[str, np.ndarray]:
+    """Of each frame [T] the largest acceleration and jerk of a joint; 0 at the ends."""
+    positions = motion.positions().astype(np.float64)
+    found = {}
+    for name, order in ORDERS.items():
+        sizes = np.zeros(motion.num_frames)
+        if motion.num_frames > order:
+            change = np.diff(positions, n=order, axis=0) * motion.fps**order
+            before = order // 2
+            sizes[before : before + len(change)] = np.linalg.norm(change, axis=-1).max(1)
+        found[name] = sizes
+    return found
 
 
 def seam_report(songs: Sequence[Seamed], seed: int = 0, n: int = RESAMPLES) -> dict[str, Any]:

@@ -2,8 +2,8 @@
 
 import pytest
 
-from src.shared.evaluation.audio_harness import FAMILIES as AUDIO_FAMILIES
-from src.shared.evaluation.dance_harness import FAMILIES as DANCE_FAMILIES
+from src.shared.evaluation.suites.audio import FAMILIES as AUDIO_FAMILIES
+from src.shared.evaluation.suites.dance import FAMILIES as DANCE_FAMILIES
 from src.shared.evaluation.suites.text import FAMILIES as TEXT_FAMILIES
 
 

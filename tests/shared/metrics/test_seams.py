@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import ks_2samp
 
-from src.shared.evaluation.audio_tables import seam_frames
+from src.shared.evaluation.suites.audio import seam_frames
 from src.shared.metrics.seams import Pooled, Seamed, compare, jumps, seam_report
 from src.shared.motion.trajectory import PHASE, QUATERNION, MotionTrajectory
 

@@ -17,6 +17,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Self
 
+import numpy as np
 import torch
 import torch.nn.functional as F
 from pydantic import ValidationError
@@ -39,6 +40,7 @@ from ...motion.skeleton import NUM_JOINTS, canonical_skeleton
 FPS = 30.0
 NUM_FEATURES = 1 + 2 * 3 * (NUM_JOINTS - 1) + 3
 WEIGHTS = "model.safetensors"
+WINDOW = 120  # frames that it sees at once: it learned from clips of so many
 MAX_SCALE = 50.0
 
 
@@ -191,6 +193,16 @@ class Evaluator(nn.Module):
             mask = torch.arange(padded.shape[1], device=self.device)[None] < lengths[:, None]
             result[rows] = self.motion(padded, mask).float().cpu()
         return result
+
+    def embed_windows(self, motion: Motion) -> np.ndarray:
+        """[W, D] of the windows of a motion, each as long as the clips that the judge learned from.
+
+        The last, shorter one is left out unless it is the only one.
+        """
+        features = encode_features(motion)
+        whole = max(1, len(features) // WINDOW)
+        windows = [features[k * WINDOW : (k + 1) * WINDOW] for k in range(whole)]
+        return self.embed_features(windows).numpy()
 
     def embed_motion(self, motions: Sequence[Motion]) -> Tensor:
         """Unit vectors [N, D] on the CPU."""

@@ -10,7 +10,9 @@ from functools import cached_property
 import numpy as np
 
 from ...metrics.physical import jerk_per_speed, support_slide
+from ...metrics.retrieval import rank_of
 from ...metrics.rhythm import seen_from_pelvis
+from ...metrics.seams import ACCELERATION, body_quantities
 from ...model.diffusion.samplers import Sampling
 from ...model.generation.motion_generator import TextToMotion
 from ...motion.motion import Motion
@@ -19,11 +21,8 @@ from ...pipelines.edit import GROUPS, Given, edited, keep_ends, kept_error, redo
 from ...pipelines.path import DrawnPath, along_path, distances_to_line, natural_gait, time_path
 from ...pipelines.stream import Passage
 from ...pipelines.timeline import Timeline, by_timeline
-from ..dance_context import held_still
-from ..dance_seams import ACCELERATION, body_quantities
-from ..dance_style import embed, rank_of
 from ..engine import Progress
-from ..floors import untrained
+from ..floors import held_still, untrained
 from ..held_out import HeldOut, real_clips
 from ..judge.evaluator import Evaluator
 from ..report.tables import Cell, Column, Grid, GridRow
@@ -384,7 +383,7 @@ def _transition_row(context: EditContext, motions: Sequence[Motion], judge: Eval
     for which, key in enumerate(("before", "after")):
         hits = []
         for motion, pair in zip(motions, context.pairs, strict=True):
-            seen = embed(judge, motion.frames(which * HALF, (which + 1) * HALF))
+            seen = judge.embed_windows(motion.frames(which * HALF, (which + 1) * HALF))
             distances = np.linalg.norm(seen[:, None] - text[None], axis=-1)  # W P
             nearest = rank_of(distances, ACTIONS.index(pair[which])) < 1
             hits.append(float(nearest.mean()))

@@ -23,10 +23,10 @@ from ...model.audio.audio_motion_model import AudioMotionModel
 from ...motion.trajectory import MotionTrajectory
 from ...pipelines.song import SongCondition, SongGenerator, finished
 from ...pipelines.song_sampler import SongSampling
-from ..audio_songs import TEMPI, conditions_of_songs, open_split, phrases
 from ..report.plots import new_figure, save_figure
 from ..report.tables import Table, number
 from ..stats import success_rate
+from .songs import TEMPI, conditions_of_songs, open_split, phrases
 
 Progress = Callable[[str], None]
 PASS_SHARE = 0.95  # of samples, all seven checks and the whole suite

@@ -39,7 +39,6 @@ from ...pipelines.ranking import AudioJudge, TextJudge, load_tower, own_tower
 from ...pipelines.song import AudioCondition, SongGenerator
 from ...pipelines.song_sampler import SongSampling
 from ...pipelines.text import PromptSampler
-from ..audio_songs import Piece, held_out_songs, open_split, phrases
 from ..engine import Progress
 from ..held_out import open_held_out, real_clips
 from ..judge.evaluator import Evaluator
@@ -47,6 +46,7 @@ from ..judge.instructions import check
 from ..report.tables import Column, Grid, GridRow, Report, Table, printed
 from ..samples import Clips
 from ..stats import Estimate, bootstrap_mean, replicated
+from .songs import Piece, held_out_songs, open_split, phrases
 
 Role = Literal["outside", "akin", "judge"]
 ROLES: dict[Role, str] = {

@@ -8,7 +8,6 @@ import pytest
 import torch
 
 from src.shared.errors import UserError
-from src.shared.evaluation.audio_songs import conditions_of_songs, open_split
 from src.shared.evaluation.report.tables import as_markdown, heading
 from src.shared.evaluation.suites.sanity import (
     FREE,
@@ -20,6 +19,7 @@ from src.shared.evaluation.suites.sanity import (
     untrained,
     verdict,
 )
+from src.shared.evaluation.suites.songs import conditions_of_songs, open_split
 from src.shared.metrics.bands import Band, Bands
 from src.shared.metrics.sanity import SanityChecker, frozen, sanity_row
 from src.shared.pipelines.song import SongGenerator

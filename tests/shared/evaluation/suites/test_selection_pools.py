@@ -8,7 +8,6 @@ import torch
 
 from src.shared.data.synthetic import generate_clip
 from src.shared.data.synthetic.clips import spec_for
-from src.shared.evaluation.audio_songs import held_out_songs
 from src.shared.evaluation.judge.evaluator import Evaluator, EvaluatorConfig
 from src.shared.evaluation.samples import Clips
 from src.shared.evaluation.suites.selection import (
@@ -20,6 +19,7 @@ from src.shared.evaluation.suites.selection import (
     report_of,
     song_pool,
 )
+from src.shared.evaluation.suites.songs import held_out_songs
 from src.shared.metrics.retrieval import guo_retrieval
 from src.shared.pipelines.ranking import AudioJudge
 from src.shared.pipelines.song import SongGenerator

@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from src.shared.evaluation.dance_seams import ACCELERATION, JERK, body_quantities
 from src.shared.metrics.physical import support_speed
+from src.shared.metrics.seams import ACCELERATION, JERK, body_quantities
 from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess.footskate import lock_carried_feet, lock_feet
 from src.shared.motion.postprocess.leg_ik import MAX_STRETCH, two_bone_ik

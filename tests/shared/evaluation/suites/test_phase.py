@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import torch
 
-from src.shared.evaluation.audio_phase import phase_row, right_tempo
-from src.shared.evaluation.audio_songs import Piece
+from src.shared.evaluation.suites.audio import phase_row, right_tempo
+from src.shared.evaluation.suites.songs import Piece
 
 
 def piece(meter: int = 4) -> Piece:

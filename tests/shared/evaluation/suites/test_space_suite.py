@@ -9,20 +9,20 @@ import torch
 
 from src.shared.data.phrases.dataset import MotionPhraseDataset
 from src.shared.evaluation.report.tables import Grid, as_markdown, heading, tables
-from src.shared.evaluation.space_harness import (
+from src.shared.evaluation.suites.space import (
     CHANCE,
     SPACE,
     TEMPO,
     UNTRAINED,
+    Bench,
+    Neighbours,
     SpaceSettings,
     Texts,
     evaluate_space,
     tempo_alone,
     untrained,
 )
-from src.shared.evaluation.space_neighbours import Neighbours
-from src.shared.evaluation.space_retrieval import Bench
-from src.shared.evaluation.space_windows import Windows, padded, related
+from src.shared.evaluation.suites.space_windows import Windows, padded, related
 from src.shared.model.audio.shared_space import rate_rows
 from src.shared.motion.features import FORWARD, ROOT_ROW
 from tests.shared.evaluation.space_samples import tiny_bundle, tiny_space, write_space_phrases

@@ -11,12 +11,11 @@ from src.shared.data.phrases.layout import parse_manifest, write_body, write_man
 from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
 from src.shared.data.sources.folders import SyntheticSource
-from src.shared.evaluation.dance_context import DanceContext, DanceSettings
-from src.shared.evaluation.dance_harness import evaluate_performer
 from src.shared.evaluation.held_out import HeldOut
 from src.shared.evaluation.judge.evaluator import Evaluator
 from src.shared.evaluation.report.folder import save_report
 from src.shared.evaluation.report.tables import Grid, grids, markdown
+from src.shared.evaluation.suites.dance import DanceContext, DanceSettings, evaluate_performer
 from src.shared.evaluation.suites.editing import EditContext, EditSettings
 from src.shared.motion.features import encode_features
 from src.shared.pipelines.body import PerformerSettings

@@ -12,39 +12,23 @@ from typing import Any
 
 import numpy as np
 
-from ..metrics.seams import compare
-from ..motion.motion import Motion
-from .dance_sample import BodyDance
-from .report.tables import Column, Grid, GridRow, plain
+from ...metrics.seams import ORDERS, body_quantities, compare
+from ...motion.motion import Motion
+from ..report.tables import Column, Grid, GridRow, plain
+from ..samples import BodyDance
 
 TOP = 99  # percentile of real motion that nothing at a seam is to pass
-ACCELERATION, JERK = "acceleration, m/s²", "jerk, m/s³"
-ORDERS = {ACCELERATION: 2, JERK: 3}
-COLUMNS = (
+SEAM_COLUMNS = (
     Column("seam", "p99 at seams", 0), Column("elsewhere", "p99 elsewhere", 0),
     Column("real", "real p99", 0), Column("beyond_seam", "beyond it at seams %", 2),
     Column("beyond_elsewhere", "beyond it elsewhere %", 2), Column("ratio", "ratio of medians"),
 )  # fmt: skip
-NOTE = (
+SEAM_NOTE = (
     "Of each frame the joint that is worst, over all 22. *real p99*: of the frames of the real"
     " dances, or of captioned clips without them; real motion is beyond it in 1%. *ratio of"
     " medians*: at seams over elsewhere, [95% bootstrap over songs] (null: the same marks at random"
     " places). *hard cut*: from each seam on the pose of another dance."
 )
-
-
-def body_quantities(motion: Motion) -> dict[str, np.ndarray]:
-    """Of each frame [T] the largest acceleration and jerk of a joint; 0 at the ends."""
-    positions = motion.positions().astype(np.float64)
-    found = {}
-    for name, order in ORDERS.items():
-        sizes = np.zeros(motion.num_frames)
-        if motion.num_frames > order:
-            change = np.diff(positions, n=order, axis=0) * motion.fps**order
-            before = order // 2
-            sizes[before : before + len(change)] = np.linalg.norm(change, axis=-1).max(1)
-        found[name] = sizes
-    return found
 
 
 def hard_cuts(dances: Sequence[BodyDance]) -> list[BodyDance]:
@@ -109,7 +93,7 @@ def seam_grid(
         return []
     number = sum(len(_edges(dance.seams)) for dance in marked if dance.seams is not None)
     title = f"seams of the body's windows ({number} seams of {len(marked)} dances)"
-    return [Grid("body-seams", title, COLUMNS, found, NOTE, "quantity")]
+    return [Grid("body-seams", title, SEAM_COLUMNS, found, SEAM_NOTE, "quantity")]
 
 
 def _edges(seams: np.ndarray) -> np.ndarray:

@@ -15,9 +15,9 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from ..audio.song import Song, analyse, analyse_sound
-from ..audio.sound import sound_from_samples
-from ..audio.synthetic_songs import (
+from ...audio.song import Song, analyse, analyse_sound
+from ...audio.sound import sound_from_samples
+from ...audio.synthetic_songs import (
     HELD_OUT_TEMPI,
     SongSpec,
     SyntheticSong,
@@ -25,13 +25,13 @@ from ..audio.synthetic_songs import (
     sample_song_specs,
     song_beats,
 )
-from ..data.phrases.dataset import MotionPhraseDataset
-from ..errors import UserError
-from ..metrics.rhythm import beats_of_phase
-from ..model.audio.conditioning import BEAT, CONDITION_ROWS
-from ..motion.trajectory import FPS, MotionTrajectory
-from ..motion.window import place_window
-from ..pipelines.song import SongCondition, song_condition
+from ...data.phrases.dataset import MotionPhraseDataset
+from ...errors import UserError
+from ...metrics.rhythm import beats_of_phase
+from ...model.audio.conditioning import BEAT, CONDITION_ROWS
+from ...motion.trajectory import FPS, MotionTrajectory
+from ...motion.window import place_window
+from ...pipelines.song import SongCondition, song_condition
 
 FRESH_SEED = 90210  # of songs made only to test: no training draws from the held-out tempi
 MARGIN = 2.0  # seconds of beats beyond a song's end that count as neighbours
@@ -119,7 +119,7 @@ def tracks(folder: Path, seconds: float) -> Iterator[Piece]:
     Raises:
         UserError: there is none.
     """
-    from ..data.pairing.music import SOUND_FILES
+    from ...data.pairing.music import SOUND_FILES
 
     found = sorted(p for p in folder.rglob("*") if p.suffix.lower() in SOUND_FILES and p.is_file())
     if not found:

@@ -5,18 +5,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from src.shared.evaluation.dance_context import held_still, near_seams
-from src.shared.evaluation.dance_sample import BodyDance, BodySample
-from src.shared.evaluation.dance_seams import (
-    ACCELERATION,
-    JERK,
-    body_quantities,
+from src.shared.evaluation.families_dance import BodyRhythm, Feet, OnThePath
+from src.shared.evaluation.floors import held_still
+from src.shared.evaluation.samples import BodyDance, BodySample
+from src.shared.evaluation.suites.dance import PromptDances, effect, near_seams
+from src.shared.evaluation.suites.dance_seams import (
     hard_cuts,
     seam_grid,
 )
-from src.shared.evaluation.dance_style import Danced, effect, rank_of
-from src.shared.evaluation.families_performer import BodyRhythm, Feet, OnThePath
+from src.shared.metrics.retrieval import rank_of
 from src.shared.metrics.rhythm import body_beats, landings, limb_beats, seen_from_pelvis, strangers
+from src.shared.metrics.seams import ACCELERATION, JERK, body_quantities
 from src.shared.motion.motion import Motion
 from src.shared.motion.trajectory import MotionTrajectory, to_motion
 from src.shared.pipelines.body import start_of
@@ -167,7 +166,7 @@ def test_only_who_listens_is_found_by_its_prompt(listens: bool) -> None:
         songs += text[None, :, None, None]
     else:
         songs += text[0]
-    found = effect(Danced(songs, np.full((3, 16), 0.5), np.zeros((3, 16))), text)
+    found = effect(PromptDances(songs, np.full((3, 16), 0.5), np.zeros((3, 16))), text)
     if listens:
         assert found["gain"]["low"] > 1 and found["r_at_1"]["value"] == 1
     else:

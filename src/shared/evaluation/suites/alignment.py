@@ -4,19 +4,45 @@ Letters: N motion beats, M music beats.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from ..metrics.rhythm import COLUMNS, Rhythm, against_chance, mean_rhythm, rhythm
-from .stats import FEW, bootstrap_mean
+from ...metrics.rhythm import COLUMNS, Rhythm, against_chance, mean_rhythm, rhythm
+from ..report.tables import Column, Grid, GridRow, plain
+from ..stats import FEW, bootstrap_mean
 
 HELD_AGAINST = ("chance", "another song", "half a beat later")
 OTHERS = 8  # other songs that each motion is held against
+ALIGNMENT = (
+    Column("motion_to_music", "motion→music"), Column("music_to_motion", "music→motion"),
+    Column("f", "F"), Column("hits", "hits F"), Column("distance", "distance s"),
+)  # fmt: skip
+NOTES = {
+    "rows": "The first replication. chance: the motion turned round by random times; another"
+    " song: 8 others. ± is 95% over songs.",
+    "above": "own song minus the row, song by song, ± 95%; * the two rows' intervals do not"
+    " overlap.",
+}
 Cells = dict[str, dict[str, Any]]
 SCORES = ("motion_to_music", "music_to_motion", "f", "hits")
+
+
+def alignment_grids(name: str, part: dict[str, Any]) -> Iterator[Grid]:
+    """What `alignment_rows` found of the motions called `name`: scores, and differences."""
+    size = (
+        f"{part['songs']} songs; beats a second: motion {part['motion_beats']:.2f}, music"
+        f" {part['music_beats']:.2f}; {part['without_beats']} motions without beats"
+    )
+    for key, title, columns in (
+        ("rows", f"{name} motion on music ({size})", ALIGNMENT),
+        ("above", f"{name} motion: its own song above", ALIGNMENT[:-1]),
+    ):
+        note = NOTES[key]
+        rows = {row: GridRow(plain(cells), part["songs"], 1) for row, cells in part[key].items()}
+        yield Grid(f"alignment/{name}/{key}", title, columns, rows, note, "motion against")
 
 
 @dataclass(frozen=True, eq=False)

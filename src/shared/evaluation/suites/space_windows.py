@@ -10,11 +10,11 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from ..data.phrases.dataset import MotionPhraseDataset
-from ..data.phrases.layout import PhraseRecord
-from ..memory.build import cut_at_bars
-from ..model.audio.conditioning import BEAT, with_phase_rows
-from ..motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
+from ...data.phrases.dataset import MotionPhraseDataset
+from ...data.phrases.layout import PhraseRecord
+from ...memory.build import cut_at_bars
+from ...model.audio.conditioning import BEAT, with_phase_rows
+from ...motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
 
 Embed = Callable[[Tensor, Tensor], Tensor]
 

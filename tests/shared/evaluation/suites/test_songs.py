@@ -8,7 +8,7 @@ import soundfile
 
 from src.shared.audio.synthetic_songs import HELD_OUT_TEMPI, SongSpec, render_song
 from src.shared.errors import UserError
-from src.shared.evaluation.audio_songs import (
+from src.shared.evaluation.suites.songs import (
     conditions_of_songs,
     held_out_songs,
     open_split,

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from src.shared.evaluation.audio_alignment import HELD_AGAINST, Danced, alignment_rows
+from src.shared.evaluation.suites.alignment import HELD_AGAINST, Danced, alignment_rows
 
 
 def dances(kind: str, number: int = 30) -> list[Danced]:

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.evaluation.metrics_space import by_song, ranks, retrieval_figures
+from src.shared.evaluation.suites.space import by_song, ranks, retrieval_figures
 from src.shared.metrics.retrieval import Ranks
 
 

@@ -13,17 +13,25 @@ from src.cli.evaluate_memory import numbers
 from src.cli.tools import app
 from src.shared.data.phrases.layout import parse_manifest
 from src.shared.errors import UsageError, UserError
-from src.shared.evaluation.memory_arms import RANDOM, WITH, WITHOUT, Arm, Asker, arms
-from src.shared.evaluation.memory_figures import Curves, Denoising, Setting, held_back
-from src.shared.evaluation.memory_harness import (
+from src.shared.evaluation.report.tables import Column
+from src.shared.evaluation.suites.memory import (
     CHANCE,
+    RANDOM,
+    WITH,
+    WITHOUT,
+    Arm,
+    Asker,
+    Curves,
+    Denoising,
     MemorySettings,
+    Setting,
+    arms,
     difference,
     evaluate_memory,
+    held_back,
     over_songs,
     word,
 )
-from src.shared.evaluation.report.tables import Column
 from src.shared.memory.index import MemoryConfig
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.pipelines.song_sampler import SongSampling

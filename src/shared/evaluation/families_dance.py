@@ -10,9 +10,9 @@ import numpy as np
 from ..metrics.physical import contact, jerk_per_speed, physics
 from ..metrics.rhythm import against_chance, body_beats, landings, limb_beats, seen_from_pelvis
 from ..pipelines.body import root_error
-from .dance_sample import BodyDance, BodySample
 from .engine import Value
 from .report.tables import Column
+from .samples import BodyDance, BodySample
 
 MOMENTS = {
     "": lambda dance: body_beats(dance.motion),

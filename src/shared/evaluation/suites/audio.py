@@ -1,0 +1,635 @@
+"""The audio suite: does the music matter, and does the motion hold together?
+
+Motions are made for held-out synthetic songs whose beats are known exactly. Every family of
+`FAMILIES` is measured on them, on the same motions under another song, on frozen and untrained
+ones, and on real paired motion, replication by replication. Then phase, alignment and seams, and
+sound files.
+
+Letters: T frames, N songs.
+"""
+
+import io
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
+from functools import cache, cached_property, partial
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+from zlib import crc32
+
+import numpy as np
+
+from ...audio.synthetic_songs import render_song
+from ...data.phrases.dataset import MotionPhraseDataset
+from ...errors import UserError
+from ...formats.arrays import write_trajectory_npz
+from ...io.files import atomic_write
+from ...metrics.rhythm import motion_beats, phase_error, song_phase, strangers
+from ...metrics.sanity import frozen
+from ...metrics.seams import REACH, Seamed, seam_report
+from ...motion.trajectory import FPS, MotionTrajectory
+from ...pipelines.song import SongGenerator, own_noise
+from ...pipelines.song_sampler import SPARE, SongSampling, spans
+from ..engine import Bench, MetricFamily, Progress, Row, Suite, run_suite
+from ..families_audio import BarPhase, BeatAlignment, RootKinetics, TrajectorySanity, beats_of
+from ..manifest import Part, Parts, Sources, model_hashes, song_hashes
+from ..report.plots import new_figure, save_figure
+from ..report.tables import Column, Grid, GridRow, plain
+from ..samples import Dance, DanceSample
+from ..stats import bootstrap_mean
+from .alignment import Danced, alignment_grids, alignment_rows, song_scores
+from .sanity import untrained
+from .songs import TEMPI, Piece, held_out_songs, held_out_specs, open_split, phrases, tracks
+
+Made = list[tuple[Piece, MotionTrajectory]]
+
+
+@dataclass(frozen=True)
+class AudioSettings:
+    """How much is measured; the report repeats it."""
+
+    num_songs: int = 50
+    song_seconds: float = 16.0
+    replications: int = 20
+    untrained: int = 3  # replications of the untrained row, at most; 0 = no row
+    own_count: int = 10  # songs made once more, the phase not held to the beat tracker
+    tell_meter: bool = True
+    max_real: int = 200  # test phrases
+    track_seconds: float = 30.0  # of each sound file
+    pictures: int = 4
+    worst: int = 4  # motions to be looked at, each with its song
+    seed: int = 0
+
+
+class AudioContext:
+    """Everything a table of the audio branch may draw on; songs and motions are made once.
+
+    Args:
+        generator: a trained audio branch.
+        settings: how much.
+        data: folder or bucket of pairs, whose test split is the real row; None = no such row.
+        songs: folder of sound files; None = none.
+        sampling: steps, sampler, guidance_scale; None = the model's own.
+        progress: told what begins.
+    """
+
+    def __init__(
+        self,
+        generator: SongGenerator,
+        settings: AudioSettings,
+        *,
+        data: str | None = None,
+        songs: Path | None = None,
+        sampling: dict[str, Any] | None = None,
+        progress: Progress = lambda text: None,
+    ) -> None:
+        self.generator, self.settings, self.progress = generator, settings, progress
+        self.data, self.songs = data, songs
+        given = SongSampling(**(sampling or {}))
+        self.sampled = given.resolved(generator.model.config)
+        self.made = cache(self._made)
+        self.made_untrained = cache(self._made_untrained)
+
+    @cached_property
+    def pieces(self) -> list[Piece]:
+        """Held-out synthetic songs."""
+        settings = self.settings
+        self.progress(f"{settings.num_songs} songs of {settings.song_seconds:g} s")
+        return list(
+            held_out_songs(
+                settings.num_songs,
+                settings.song_seconds,
+                settings.seed,
+                tell_meter=settings.tell_meter,
+            )
+        )
+
+    def write_song(self, index: int, path: Path) -> None:
+        """A held-out song as a FLAC file, for the report."""
+        import soundfile
+
+        settings = self.settings
+        specs = held_out_specs(settings.num_songs, settings.song_seconds, settings.seed)
+        song = render_song(specs[index])
+        sound = io.BytesIO()  # libsndfile does not say what the disk said
+        soundfile.write(sound, song.samples, song.sample_rate, subtype="PCM_16", format="FLAC")
+        with atomic_write(path) as temporary:
+            temporary.write_bytes(sound.getvalue())
+
+    def dance(
+        self,
+        piece: Piece,
+        *,
+        replication: int = 0,
+        held: bool = True,
+        generator: SongGenerator | None = None,
+    ) -> MotionTrajectory:
+        """A motion for a song, with noise of its own; not `held`, it counts the phase for itself.
+
+        With one noise for all, fifty songs would hold fifty times one walk.
+        """
+        settings = replace(self.sampled, seed=self.settings.seed)
+        settings = own_noise(settings, replication, crc32(piece.name.encode()))
+        return (generator or self.generator).generate(
+            piece.condition,
+            phase=piece.phase if held else None,
+            settings=settings,
+        )[0]
+
+    def _made(self, replication: int) -> Made:
+        """A motion for each held-out song."""
+        return [(piece, self.dance(piece, replication=replication)) for piece in self.pieces]
+
+    def _made_untrained(self, replication: int) -> Made:
+        """The same by the same network with fresh weights."""
+        return [
+            (piece, self.dance(piece, replication=replication, generator=self.fresh))
+            for piece in self.pieces
+        ]
+
+    @cached_property
+    def played(self) -> Made:
+        """A motion for each sound file."""
+        if self.songs is None:
+            return []
+        made = []
+        for piece in tracks(self.songs, self.settings.track_seconds):
+            self.progress(piece.name)
+            made.append((piece, self.dance(piece)))
+        return made
+
+    # ---------------------------------------------------------------- samples
+
+    @cached_property
+    def split(self) -> MotionPhraseDataset | None:
+        """The test split, in windows as long as the songs; None without data.
+
+        Raises:
+            UserError: there is none.
+        """
+        if self.data is None:
+            return None
+        frames = round(self.settings.song_seconds * FPS)
+        return open_split(self.data, "test", frames, self.settings.seed)
+
+    @property
+    def fingerprint(self) -> str:
+        """Hash of the data; empty without."""
+        return "" if self.split is None else self.split.fingerprint
+
+    @cached_property
+    def reference(self) -> DanceSample:
+        """Real motion of the test split with its music; empty without data.
+
+        Raises:
+            UserError: no phrase of the split has a beat.
+        """
+        if self.data is None:
+            return DanceSample([], np.zeros(0, dtype=int))
+        self.progress(f"the test split of {self.data}")
+        assert self.split is not None
+        known = [p for p in phrases(self.split, self.settings.max_real) if len(p.beats) > 1]
+        if not known:
+            raise UserError(
+                f"{self.data}: no test phrase has a beat; make the pairs with prepare-audio"
+            )
+        dances = [Dance(phrase.song, phrase.motion, phrase.beats) for phrase in known]
+        return DanceSample(dances, np.arange(len(dances)))
+
+    def real(self, replication: int) -> DanceSample:
+        """The same phrases each time."""
+        return self.reference
+
+    def generated(self, replication: int) -> DanceSample:
+        """The model's motions on their own songs."""
+        return sample_of(self.made(replication))
+
+    def chance(self, replication: int) -> DanceSample:
+        """The same motions, each on another song: what not listening scores."""
+        sample = self.generated(replication)
+        rng = np.random.default_rng([self.settings.seed, 4, replication])
+        return sample.reordered(strangers(len(sample), rng))
+
+    def frozen_pose(self, replication: int) -> DanceSample:
+        """The first pose of each motion held while the music goes on."""
+        return sample_of([(piece, frozen(motion)) for piece, motion in self.made(0)])
+
+    def untrained(self, replication: int) -> DanceSample:
+        """Motions of the same network with fresh weights."""
+        return sample_of(self.made_untrained(replication))
+
+    @cached_property
+    def fresh(self) -> SongGenerator:
+        """The same network with fresh weights, the last layer included."""
+        fresh = untrained(self.generator.model, self.settings.seed)
+        return SongGenerator(fresh, device=str(self.generator.device))
+
+
+def sample_of(made: Sequence[tuple[Piece, MotionTrajectory]]) -> DanceSample:
+    """Motions on songs as a sample; no real motion belongs to a song that was made up."""
+    dances = [
+        Dance(piece.name, motion, piece.beats, piece.bars, piece.true_meter, piece.meter)
+        for piece, motion in made
+    ]
+    return DanceSample(dances, np.full(len(dances), -1))
+
+
+TEMPO_TOLERANCE = 0.04  # the usual one
+
+
+def right_tempo(piece: Piece) -> bool:
+    """Does the tracker's phase run as fast as the true one for most of the song?
+
+    An octave error, twice or half as fast, has no phase to speak of.
+    """
+    if piece.phase is None or piece.bars is None:
+        return False
+    heard, true = np.diff(piece.phase) * piece.meter, np.diff(piece.bars) * piece.true_meter
+    return bool(abs(np.median(heard / true) - 1) <= TEMPO_TOLERANCE)
+
+
+def phase_row(songs: Sequence[tuple[Piece, np.ndarray]]) -> dict[str, dict[str, Any]]:
+    """`song_phase` over songs, each column with its interval.
+
+    Args:
+        songs: what is true, and unwrapped bars [T] in the tracker's meter.
+    """
+    columns: dict[str, list[float]] = {}
+    for piece, bars in songs:
+        assert piece.bars is not None
+        found = song_phase(bars * piece.meter, bars, piece.bars, piece.true_meter, piece.beats)
+        for name, value in found.items():
+            columns.setdefault(name, []).append(value)
+    return {name: bootstrap_mean(values).as_dict() for name, values in columns.items()}
+
+
+# ---------------------------------------------------------------- tables with rows of their own
+
+
+PHASE = (
+    Column("beat", "beat |error|"), Column("beat_seconds", "in seconds"),
+    Column("bar", "bar |error|"), Column("beat_offset", "beat offset"),
+    Column("steady", "steadiness"),
+)  # fmt: skip
+TRACK = (
+    Column("tempo", "BPM", 1), Column("meter", "meter", 0), Column("confidence", "confidence", 2),
+    Column("phase_from_tracker", "phase off tracker"), Column("motion_to_music", "motion→music"),
+    Column("music_to_motion", "music→motion"), Column("f", "F"), Column("chance", "chance F"),
+    Column("half", "half-beat F"),
+)  # fmt: skip
+UNITS = {"acceleration": "m/s²", "jerk": "m/s³", "angular_acceleration": "rad/s²"}
+NOTES = {
+    "phase": "Cycles; guessing scores 0.25. The first replication. generated: where the tracker"
+    " finds beats its phase is taken over, so the rows agree; right tempo: songs whose tempo the"
+    " tracker found within 4%; own count: the same network, not held; chance: the tracker's phase"
+    " moved by a random offset a song. No real row: of real phrases nobody knows more than the"
+    " tracker. ± is 95% over songs.",
+    "seams": "The first replication. Ratio of quantiles at seams and elsewhere, [95% bootstrap"
+    " over songs]; (null: the same marks at random places). KS: largest distance of the"
+    " distributions, p from the null. The null is chance; real motion is not made of windows, so"
+    " it has no seams, and what it would score is 1.",
+    "jumps": "The extremes elsewhere in the same songs stand for real and chance.",
+    "tracks": "Descriptive: nobody knows these songs' beats, the tracker's stand in, and nobody"
+    " danced to them, so there is no real row. chance: the motion turned round by random times."
+    " Untrained: see the held-out songs.",
+}
+
+
+# ---------------------------------------------------------------- phase
+
+
+def phase_table(context: AudioContext) -> list[Grid]:
+    """Rows by name, see `phase_row`; "right tempo" are songs whose tempo the tracker found."""
+    made, settings = context.made(0), context.settings
+    rng = np.random.default_rng([settings.seed, 1])
+    counted = _counted(context, "own count", context.generator)
+    blind = _counted(context, "untrained, own count", context.fresh) if settings.untrained else []
+    own = [(piece, motion.phase_unwrapped) for piece, motion in made]
+    tracked = [(p, np.asarray(p.phase)) for p, _ in made if p.phase is not None]
+    groups = {
+        "generated": own,
+        "beat tracker": tracked,
+        "generated, right tempo": [pair for pair in own if right_tempo(pair[0])],
+        "beat tracker, right tempo": [pair for pair in tracked if right_tempo(pair[0])],
+        "own count": counted,
+        "untrained, own count": blind,
+        "chance": [(piece, bars + rng.random()) for piece, bars in tracked],
+    }
+    rows = {
+        name: GridRow(plain(phase_row(group)), len(group), 1)
+        for name, group in groups.items()
+        if group
+    }
+    return [Grid("phase", "bar and beat phase, held-out songs", PHASE, rows, NOTES["phase"])]
+
+
+def _counted(
+    context: AudioContext, name: str, generator: SongGenerator
+) -> list[tuple[Piece, np.ndarray]]:
+    """Bars [T] that a network counts for itself, of the first songs."""
+    asked = context.pieces[: context.settings.own_count]
+    counted = []
+    for number, piece in enumerate(asked, start=1):
+        context.progress(f"{name}, song {number} of {len(asked)}")
+        counted.append((piece, context.dance(piece, held=False, generator=generator)))
+    return [(piece, motion.phase_unwrapped) for piece, motion in counted]
+
+
+# ---------------------------------------------------------------- beats
+
+
+def alignment_tables(context: AudioContext) -> list[Grid]:
+    """Generated, real and untrained motion on their own songs, and on what must score less."""
+    samples = {"generated": context.generated(0)}
+    if context.settings.untrained:
+        samples["untrained"] = context.untrained(0)
+    if len(context.reference):
+        samples["real"] = context.reference
+    seed = context.settings.seed
+    return [
+        grid
+        for name, sample in samples.items()
+        for grid in alignment_grids(name, alignment_rows(_danced(sample), seed))
+    ]
+
+
+def _danced(sample: DanceSample) -> list[Danced]:
+    pairs = zip(sample.dances, sample.each("beats", beats_of), strict=True)
+    return [Danced(dance.song, beats, dance.beats, dance.seconds) for dance, beats in pairs]
+
+
+# ---------------------------------------------------------------- seams
+
+
+def seam_tables(context: AudioContext) -> list[Grid]:
+    """Accelerations at seams between windows against everywhere else."""
+    made = {"": context.made(0)}
+    if context.settings.untrained:
+        made["untrained"] = context.made_untrained(0)
+    tables: list[Grid] = []
+    for name, motions in made.items():
+        songs = [_seamed(motion, context) for _, motion in motions]
+        found = seam_report(songs, context.settings.seed)
+        tables += _seams(found, name) if "quantities" in found else []
+    return tables
+
+
+def seam_frames(num_frames: int, window: int, overlap: int) -> np.ndarray:
+    """True [T] where two windows of a song share a frame, and just around."""
+    near = np.zeros(num_frames, dtype=bool)
+    found = spans(num_frames, window - SPARE, overlap)
+    for (_, end), (start, _) in pairwise(found):
+        near[max(0, start - REACH) : end + REACH] = True
+    return near
+
+
+def _seamed(trajectory: MotionTrajectory, context: AudioContext) -> Seamed:
+    sampled = context.sampled
+    assert sampled.window is not None  # resolved
+    near = seam_frames(trajectory.num_frames, sampled.window, sampled.overlap)
+    return Seamed(trajectory, near)
+
+
+def _seams(seams: dict[str, Any], row: str) -> Iterator[Grid]:
+    names = [f"{name}/{row}".rstrip("/") for name in ("seams", "jumps")]
+    of = f", {row}" if row else ""
+    rows = {}
+    for name, found in seams["quantities"].items():
+        cells = {
+            key: f"{r['value']:.3f} [{r['low']:.3f}, {r['high']:.3f}]"
+            f" ({r['null_low']:.3f}–{r['null_high']:.3f})"
+            for key, r in (("p50", found["ratio_p50"]), ("p95", found["ratio_p95"]))
+        }
+        cells["medians"] = f"{found['seam_p50']:.3g} / {found['elsewhere_p50']:.3g}"
+        cells["ks"] = f"{found['ks']['value']:.3f} (p {found['ks']['p']:.2f})"
+        rows[f"{name.replace('_', ' ')}, {UNITS[name]}"] = GridRow(cells)
+    columns = (
+        Column("medians", "median at / elsewhere"), Column("p50", "ratio of medians"),
+        Column("p95", "ratio of p95"), Column("ks", "KS"),
+    )  # fmt: skip
+    size = f"{seams['seams']} seams of {seams['songs']} songs, {seams['frames']} frames"
+    yield Grid(names[0], f"seams{of} ({size})", columns, rows, NOTES["seams"], "quantity")
+    jumps = seams["jumps"]
+    rows = {
+        key.replace("_", " "): GridRow({"at": f"{at:.4g}", "elsewhere": f"{other:.4g}"})
+        for key, (at, other) in ((k, v) for k, v in jumps.items() if k != "none")
+    }
+    title = f"jumps at seams{of}: {'none' if jumps['none'] else 'FOUND'}"
+    places = (Column("at", "at seams"), Column("elsewhere", "elsewhere"))
+    yield Grid(names[1], title, places, rows, NOTES["jumps"], "extreme")
+
+
+# ---------------------------------------------------------------- sound files
+
+
+def track_table(context: AudioContext) -> list[Grid]:
+    """Sound files against the beats that the tracker heard: descriptive."""
+    rows = {
+        piece.name[:40]: GridRow(plain(_track(piece, motion, context.settings.seed)))
+        for piece, motion in context.played
+    }
+    return [Grid("tracks", "real tracks", TRACK, rows, NOTES["tracks"], "track")] if rows else []
+
+
+def _track(piece: Piece, trajectory: MotionTrajectory, seed: int) -> dict[str, float]:
+    cells = {key: float(piece.about[key]) for key in ("tempo", "meter", "confidence")}
+    if piece.phase is None:
+        return cells
+    dance = Danced(piece.name, beats_of(trajectory), piece.beats, piece.seconds)
+    scores = song_scores(dance, [dance], np.random.default_rng([seed, 3]))
+    own = scores["own song"].as_dict()
+    error = phase_error(
+        trajectory.phase_unwrapped * piece.meter, np.asarray(piece.phase) * piece.meter
+    )
+    return cells | {
+        "phase_from_tracker": error.absolute,
+        **{key: own[key] for key in ("motion_to_music", "music_to_motion", "f")},
+        "chance": scores["chance"].f,
+        "half": scores["half a beat later"].f,
+    }
+
+
+# ---------------------------------------------------------------- a picture
+
+
+LINES = {"truth": ("black", "-"), "beat tracker": ("tab:blue", ":"), "generated": ("tab:red", "--")}
+
+
+def plot_phase(piece: Piece, trajectory: MotionTrajectory, path: str | Path) -> Path:
+    """Bar phases over the beats, and the pelvis's speed with its beats, over seconds.
+
+    Raises:
+        UserError: matplotlib is missing, or the file cannot be written.
+    """
+    curves = {"truth": piece.bars, "beat tracker": piece.phase}
+    curves["generated"] = trajectory.phase_unwrapped
+    found = motion_beats(trajectory.position, trajectory.fps)
+    beats = piece.beats[piece.beats < piece.seconds]
+    figure = new_figure(14, 6)
+    upper, lower = figure.subplots(2, 1, sharex=True)
+    for axes in (upper, lower):
+        axes.vlines(beats, 0, 1, transform=axes.get_xaxis_transform(), color="0.8", lw=1)
+    for name, bars in curves.items():
+        if bars is None:
+            continue
+        colour, style = LINES[name]
+        upper.plot(np.arange(len(bars)) / FPS, _sawtooth(bars), style, color=colour, label=name)
+    upper.set_ylabel("phase of the bar")
+    upper.set_ylim(0, 1)
+    upper.legend(loc="upper right", ncols=3, fontsize="small")
+    speed, times = found.speed, found.times
+    at = (np.arange(len(speed)) + 0.5) / FPS
+    lower.plot(at, speed, color="tab:red")
+    lower.plot(times, np.interp(times, at, speed), "v", color="black", label="motion beats")
+    lower.set_ylabel("smoothed speed of the pelvis, m/s")
+    lower.set_xlabel("seconds; grey: beats of the song")
+    lower.legend(loc="upper right", fontsize="small")
+    figure.suptitle(piece.name)
+    return save_figure(figure, Path(path))
+
+
+def _sawtooth(bars: np.ndarray) -> np.ndarray:
+    """Bars [T] modulo 1 with a gap where they wrap, so that no line is drawn through."""
+    phase = np.asarray(bars, np.float64) % 1.0
+    phase[1:][np.diff(phase) < -0.5] = np.nan
+    return phase
+
+
+# ---------------------------------------------------------------- the suite
+
+
+FAMILIES: tuple[MetricFamily[DanceSample], ...] = (
+    BeatAlignment(),
+    BarPhase(),
+    TrajectorySanity(),
+    RootKinetics(),
+)
+
+
+def evaluate_audio(
+    generator: SongGenerator,
+    *,
+    data: str | None = None,
+    songs: Path | None = None,
+    settings: AudioSettings | None = None,
+    sampling: dict[str, Any] | None = None,
+    about: dict[str, Any] | None = None,
+    folder: Path | None = None,
+    progress: Progress = lambda text: None,
+) -> dict[str, Any]:
+    """The whole report as plain data.
+
+    Args:
+        generator: a trained audio branch.
+        data: folder or bucket of pairs, whose test split is the real row; None = no such row.
+        songs: folder of sound files to describe; None = none.
+        sampling: steps, sampler, guidance_scale; left out = the model's own.
+        about: what to repeat in the report; `model` and `decoder` are names or folders.
+        folder: of the report: finished parts are kept there and not measured again.
+        progress: told what begins.
+
+    Raises:
+        UserError: the data or a song cannot be used, or the folder holds another report.
+    """
+    settings, about = settings or AudioSettings(), about or {}
+    context = AudioContext(
+        generator, settings, data=data, songs=songs, sampling=sampling, progress=progress
+    )
+    tables: dict[str, Callable[[AudioContext], list[Grid]]] = {
+        "phase": phase_table,
+        "alignment": alignment_tables,
+        "seams": seam_tables,
+        "tracks": track_table,
+    }
+    suite = Suite(
+        "audio",
+        asdict(settings),
+        [song_bench(context)],
+        {name: partial(make, context) for name, make in tables.items()},
+        {**about, **_about_model(context)},
+        facts=partial(_facts, context),
+        pictures=partial(_draw, context),
+        sources=partial(_sources, context, sampling or {}, about),
+    )
+    return run_suite(suite, Parts(folder), progress)
+
+
+def song_bench(context: AudioContext) -> Bench[DanceSample]:
+    """The songs: real motion where there is data, chance, a frozen pose, generated, untrained."""
+    return Bench(
+        "songs",
+        "held-out songs",
+        lambda: context.reference,
+        [
+            Row("real", context.real, None if context.data is not None else 0, True, True),
+            Row("chance", context.chance),
+            Row("frozen pose", context.frozen_pose, limit=1, fixed=True),
+            Row("generated", context.generated),
+            Row("untrained", context.untrained, limit=context.settings.untrained),
+        ],
+        FAMILIES,
+        write=partial(_write, context),
+        worst=context.settings.worst,
+    )
+
+
+def _write(context: AudioContext, sample: DanceSample, row: int, path: Path) -> dict[str, Any]:
+    """A motion of the main row under its song's name and, beside it, the song."""
+    dance, sound = sample.dances[row], path.with_suffix(".flac")
+    context.write_song(row, sound)
+    write_trajectory_npz(dance.trajectory, path)
+    beside = f"{path.parent.name}/{sound.name}"
+    return {"title": dance.song, "meter": dance.counted, "sound": beside}
+
+
+def _draw(context: AudioContext, folder: Path) -> list[dict[str, Any]]:
+    """Phases against beats of the first songs and of each sound file, as pictures."""
+    shown = [*context.made(0)[: context.settings.pictures], *context.played]
+    pictures = []
+    for number, pair in enumerate(shown, start=1):
+        name = f"phase-{number:02d}.png"
+        plot_phase(*pair, folder / name)
+        pictures.append({"file": name, "title": f"phase and beats: {pair[0].name}"})
+    return pictures
+
+
+# ---------------------------------------------------------------- what was measured with what
+
+
+def _about_model(context: AudioContext) -> dict[str, Any]:
+    card, config = context.generator.model.card, context.generator.model.config
+    sampled, scale = context.sampled, config.guidance_scale
+    return {
+        "model_hash": card.weights.sha256[:12] if card.weights else "",
+        "sampler": sampled.sampler or config.diffusion.sampler,
+        "steps": sampled.steps or config.diffusion.sampling_steps,
+        "guidance_scale": scale if sampled.guidance_scale is None else sampled.guidance_scale,
+        "window": sampled.window,
+        "overlap": sampled.overlap,
+        "data": context.data or "none",
+    }
+
+
+def _facts(context: AudioContext) -> Part:
+    """What only the songs themselves tell."""
+    pieces = context.pieces
+    heard = sum(right_tempo(piece) for piece in pieces)
+    facts: Part = {
+        "songs": f"{len(pieces)} synthetic, {context.settings.song_seconds:g} s, tempi {TEMPI} BPM",
+        "tempo_heard_right": f"{heard} of {len(pieces)} songs",
+    }
+    if context.data is not None:
+        facts |= {"data_hash": context.fingerprint[:12], "test_phrases": len(context.reference)}
+    return facts
+
+
+def _sources(context: AudioContext, sampling: dict[str, Any], about: dict[str, Any]) -> Sources:
+    folders: dict[str, str] = {name: about[name] for name in ("model", "decoder") if name in about}
+    network = context.generator.model
+    return Sources(
+        model=model_hashes(folders),
+        data={"pairs": context.fingerprint, "songs": song_hashes(context.songs)},
+        statistics=(network.mean, network.std),
+        sampling=sampling,
+        device=str(context.generator.device),
+    )

@@ -1,0 +1,531 @@
+"""The performer's suite: does the whole body hear the music, obey the words, keep its feet?
+
+Rows against families, then beats, seams, and the same path and song danced to different prompts.
+Editing by the same mechanism is measured on clips that no training saw.
+
+Letters: T frames, N songs, S songs of a table, P prompts, W windows of a dance, D channels of the
+judge.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass, replace
+from functools import cache, cached_property, partial
+from itertools import accumulate
+from pathlib import Path
+from typing import Any
+from zlib import crc32
+
+import numpy as np
+from scipy.spatial.distance import cdist, pdist
+
+from ...data.phrases.dataset import MotionPhraseDataset
+from ...errors import UserError
+from ...formats.arrays import write_npz
+from ...metrics.retrieval import rank_of
+from ...metrics.rhythm import beats_of_phase, body_beats, limb_beats, rhythm, strangers
+from ...metrics.seams import REACH
+from ...model.generation.motion_generator import TextToMotion
+from ...motion.features import decode_features
+from ...motion.motion import Motion
+from ...motion.postprocess.footskate import lock_carried_feet
+from ...motion.trajectory import FPS, MotionTrajectory, to_motion
+from ...pipelines.body import Performer, PerformerSettings
+from ...pipelines.dance import candidate_seed
+from ...pipelines.song import SongGenerator, finished, own_noise
+from ...pipelines.song_sampler import SongSampling
+from ...pipelines.stream import OVERLAP, WINDOW, window_lengths
+from ..engine import Bench, Progress, Row, Suite, run_suite
+from ..families_dance import FAMILIES
+from ..floors import held_still, untrained
+from ..judge.evaluator import Evaluator
+from ..manifest import Parts, Sources, model_hashes, song_hashes
+from ..report.tables import Column, Grid, GridRow
+from ..samples import BodyDance, BodySample
+from ..stats import bootstrap_mean
+from .alignment import Danced, alignment_grids, alignment_rows
+from .dance_seams import hard_cuts, seam_grid
+from .editing import EditContext, editing_tables
+from .songs import Piece, clock, held_out_songs, tracks
+
+PROMPTS = (
+    "a person dances", "a proud person dances", "a young person dances to the music",
+    "an old man dances", "a person dances energetically",
+)  # fmt: skip
+MIN_BEATS = 4  # of a real dance that is held against its music
+
+
+@dataclass(frozen=True)
+class DanceSettings:
+    """How much is measured; the report repeats it."""
+
+    num_songs: int = 20
+    song_seconds: float = 16.0
+    replications: int = 5
+    untrained: int = 1  # replications of the rows that only have to fail, at most
+    max_real: int = 200  # test phrases with bodies
+    track_seconds: float = 16.0  # of each sound file
+    prompts: tuple[str, ...] = PROMPTS  # song after song
+    style_songs: int = 8  # on which the same path is danced to different prompts
+    edits: int = 24  # clips that are edited, and pairs of actions that follow each other
+    worst: int = 4  # dances to be looked at
+    seed: int = 0
+
+
+class DanceContext:
+    """Everything a table of the performer may draw on; songs, paths and dances are made once.
+
+    Args:
+        generator: the text branch.
+        singer: the audio branch, which makes the paths.
+        judge: the separate evaluator.
+        settings: how much.
+        data: pairs with bodies, whose test split is the real row; None = no such row.
+        songs: folder of sound files; None = synthetic songs alone.
+        other: another text model, for a row of its own; None = none.
+        sampling: of the text branch.
+        progress: told what begins.
+    """
+
+    def __init__(
+        self,
+        generator: TextToMotion,
+        singer: SongGenerator,
+        judge: Evaluator,
+        settings: DanceSettings,
+        *,
+        data: str | None = None,
+        songs: Path | None = None,
+        other: TextToMotion | None = None,
+        sampling: PerformerSettings | None = None,
+        progress: Progress = lambda text: None,
+    ) -> None:
+        self.generator, self.singer, self.judge = generator, singer, judge
+        self.settings, self.data, self.songs, self.other = settings, data, songs, other
+        self.sampling, self.progress = sampling or PerformerSettings(), progress
+        self.path, self.danced = cache(self._path), cache(self._danced)
+
+    @cached_property
+    def pieces(self) -> list[Piece]:
+        """The sound files, then held-out synthetic songs."""
+        settings = self.settings
+        self.progress(f"{settings.num_songs} songs of {settings.song_seconds:g} s")
+        found = [] if self.songs is None else list(tracks(self.songs, settings.track_seconds))
+        return found + list(
+            held_out_songs(settings.num_songs, settings.song_seconds, settings.seed)
+        )
+
+    @property
+    def num_tracks(self) -> int:
+        """How many of the pieces are sound files."""
+        return len(self.pieces) - self.settings.num_songs
+
+    def _path(self, number: int, replication: int) -> MotionTrajectory:
+        """The path of a song, post-processed as it is pinned."""
+        piece = self.pieces[number]
+        settings = own_noise(
+            SongSampling(seed=self.settings.seed), replication, crc32(piece.name.encode())
+        )
+        (made,) = self.singer.generate(piece.condition, phase=piece.phase, settings=settings)
+        return finished(made)
+
+    # ---------------------------------------------------------------- bodies
+
+    def perform(
+        self,
+        performer: Performer,
+        number: int,
+        replication: int,
+        prompt: str,
+        seed: int | None = None,
+    ) -> BodyDance:
+        """A body on the path of a song; with the `seed` of its replication unless told."""
+        piece, path = self.pieces[number], self.path(number, replication)
+        again = replication if seed is None else seed
+        own = candidate_seed(self.settings.seed, crc32(piece.name.encode()), again)
+        raw = performer.perform(path, prompt, beats=heard_beats(piece), seed=own).motion
+        return BodyDance(
+            song=piece.name,
+            motion=lock_carried_feet(raw),
+            beats=piece.beats,
+            raw=raw,
+            path=path,
+            seams=near_seams(path.num_frames),
+        )
+
+    def performer(self, generator: TextToMotion, *, on_beats: bool = True) -> Performer:
+        """Puts bodies on paths, their feet not yet held."""
+        settings = replace(self.sampling, foot_lock=False, on_beats=on_beats)
+        return Performer(generator, settings)
+
+    def _danced(self, who: str, replication: int) -> BodySample:
+        """A dance for each song by one of the performers."""
+        performer = self.performers[who]()
+        prompts = self.settings.prompts
+        return BodySample.of(
+            [
+                self.perform(performer, number, replication, prompts[number % len(prompts)])
+                for number in range(len(self.pieces))
+            ]
+        )
+
+    @property
+    def performers(self) -> dict[str, Callable[[], Performer]]:
+        """By the row that they dance in."""
+        return {
+            "generated": lambda: self.performer(self.generator),
+            "beats not told": lambda: self.performer(self.generator, on_beats=False),
+            "untrained": lambda: self.performer(self.fresh),
+            "other": lambda: self.performer(self.other or self.generator),
+        }
+
+    @cached_property
+    def fresh(self) -> TextToMotion:
+        """The same denoiser without its training."""
+        return untrained(self.generator, self.settings.seed)
+
+    # ---------------------------------------------------------------- samples
+
+    @cached_property
+    def reference(self) -> BodySample:
+        """Real bodies of the test split with their music; empty without data.
+
+        Raises:
+            UserError: the split holds no body with a beat.
+        """
+        if self.data is None:
+            return BodySample.of([])
+        self.progress(f"the test split of {self.data}")
+        settings = self.settings
+        frames = round(settings.song_seconds * FPS)
+        dances = real_dances(self.data, frames, settings.max_real, settings.seed)
+        if not dances:
+            raise UserError(
+                f"{self.data}: no test phrase has a body and beats; make the pairs with"
+                " prepare-audio"
+            )
+        return BodySample(dances, np.arange(len(dances)))
+
+    def real(self, replication: int) -> BodySample:
+        """The same phrases each time."""
+        return self.reference
+
+    def another_song(self, replication: int) -> BodySample:
+        """The generated dances, each on another song: what not listening scores."""
+        sample = self.danced("generated", replication)
+        rng = np.random.default_rng([self.settings.seed, 4, replication])
+        return sample.reordered(strangers(len(sample), rng))
+
+    def frozen_pose(self, replication: int) -> BodySample:
+        """The first pose of each dance held where it is."""
+        still = [held_still(dance.motion) for dance in self.danced("generated", 0).dances]
+        return self._instead(still)
+
+    def path_alone(self, replication: int) -> BodySample:
+        """A statue carried along each path."""
+        return self._instead(
+            [to_motion(self.path(number, replication)) for number in range(len(self.pieces))]
+        )
+
+    def _instead(self, motions: Sequence[Motion]) -> BodySample:
+        """Other motions to the same songs, on the same paths."""
+        dances = self.danced("generated", 0).dances
+        return BodySample.of(
+            [
+                BodyDance(dance.song, motion, dance.beats, path=dance.path)
+                for dance, motion in zip(dances, motions, strict=True)
+            ]
+        )
+
+
+def heard_beats(piece: Piece) -> np.ndarray | None:
+    """Seconds of the beats that the tracker heard, which is what a performer is told."""
+    return None if piece.phase is None else beats_of_phase(piece.phase * piece.meter, FPS)
+
+
+def near_seams(frames: int) -> np.ndarray:
+    """True [T] where a window of the body's stream ends, and just around."""
+    cuts = list(accumulate(window_lengths(frames, 0, WINDOW, OVERLAP)))[:-1]
+    near = np.zeros(frames, dtype=bool)
+    for cut in cuts:
+        near[max(0, cut - REACH) : cut + REACH] = True
+    return near
+
+
+def real_dances(data: str, frames: int, number: int, seed: int) -> list[BodyDance]:
+    """Bodies of up to `number` test phrases that have beats, windows of at most `frames`."""
+    split = MotionPhraseDataset(
+        data, split="test", target_frames=frames, seed=seed, cache_in_memory=False, bodies=True
+    )
+    found: list[BodyDance] = []
+    for index in split.order(0):
+        item = split.item(int(index), 0)
+        if len(found) == number:
+            break
+        if item is None or item.body is None:
+            continue
+        beats = clock(item.audio[:, item.mask])[1]
+        if len(beats) >= MIN_BEATS:
+            song = item.record.song or item.record.id
+            found.append(BodyDance(song, decode_features(item.body[item.mask]), beats))
+    return found
+
+
+# ---------------------------------------------------------------- tables with rows of their own
+
+
+Find = Callable[[Motion], np.ndarray]
+
+
+def alignment_tables(context: DanceContext) -> list[Grid]:
+    """Whole bodies and limbs on their own songs, and on what must score less."""
+    made = context.danced("generated", 0).dances
+    groups: dict[str, tuple[list[BodyDance], Find]] = {
+        "whole-body": (made, body_beats),
+        "limbs alone:": (made, limb_beats),
+    }
+    if context.num_tracks:
+        groups["sound files, whole-body"] = (made[: context.num_tracks], body_beats)
+        groups["synthetic songs, whole-body"] = (made[context.num_tracks :], body_beats)
+    if len(context.reference):
+        groups["real whole-body"] = (context.reference.dances, body_beats)
+    return [
+        grid
+        for name, (dances, find) in groups.items()
+        for grid in alignment_grids(
+            name, alignment_rows(_danced(dances, find), context.settings.seed)
+        )
+    ]
+
+
+def _danced(dances: list[BodyDance], find: Find) -> list[Danced]:
+    return [Danced(each.song, find(each.motion), each.beats, each.seconds) for each in dances]
+
+
+def seam_tables(context: DanceContext) -> list[Grid]:
+    """Accelerations and jerks where windows of the body meet; nothing without real dances."""
+    if not len(context.reference):
+        return []
+    made = context.danced("generated", 0).dances
+    rows = {"generated": made, "hard cut": hard_cuts(made)}
+    if context.settings.untrained:
+        rows["untrained"] = context.danced("untrained", 0).dances
+    real = [dance.motion for dance in context.reference.dances]
+    return seam_grid(rows, real, context.settings.seed)
+
+
+# ---------------------------------------------------------------- does the prompt change the dance?
+
+
+ASKED = (
+    "a person dances", "a proud person dances", "an old man dances", "a tired person dances",
+    "a person walks happily", "a person runs", "a person waves with the right hand",
+    "a person claps",
+)  # fmt: skip
+NOISES = 2  # dances of each prompt
+PROMPT_COLUMNS = (
+    Column("apart", "other prompt", better="high"), Column("same", "other noise"),
+    Column("gain", "difference", better="high"), Column("r_at_1", "R@1", better="high"),
+    Column("r_at_3", "R@3", better="high"), Column("f", "beat F", better="high"),
+    Column("limbs_f", "limbs F", better="high"),
+)  # fmt: skip
+PROMPT_NOTE = (
+    "The path of each song stays the same; only words and noise change. *other prompt*: mean"
+    " distance of the judge's embeddings of dances of two prompts with one noise; *other noise*: of"
+    " one prompt with two noises; *difference*: song by song. *R@k*: the dance's prompt is among"
+    " the k nearest of the prompts used; chance is k over their number. *words alone*: the same"
+    " prompts without a song, which is how far the words go; its beat F is chance. Intervals over"
+    " songs."
+)
+Dancer = Callable[[int, str, int], Motion]  # song, prompt and noise to a dance
+
+
+@dataclass(frozen=True, eq=False)
+class PromptDances:
+    """Embeddings [S,P,NOISES,W,D] of dances and what their beats score [S,P·NOISES]."""
+
+    embeddings: np.ndarray
+    f: np.ndarray
+    limbs_f: np.ndarray
+
+
+def prompt_effect(context: DanceContext) -> list[Grid]:
+    """The table; nothing without songs to measure on."""
+    songs = list(range(context.num_tracks, len(context.pieces)))[: context.settings.style_songs]
+    if not songs:
+        return []
+    text = context.judge.embed_text(ASKED).numpy()
+    rows = {}
+    for name, dancer in dancers(context).items():
+        context.progress(f"prompts: {name}")
+        danced = dance_all(context, dancer, songs)
+        rows[name] = GridRow(effect(danced, text), danced.f.size, 1)
+    title = f"what the prompt changes ({len(songs)} songs, {len(ASKED)} prompts, {NOISES} noises)"
+    prompts = "; ".join(ASKED)
+    return [Grid("prompts", title, PROMPT_COLUMNS, rows, f"{PROMPT_NOTE} Prompts: {prompts}.")]
+
+
+def dancers(context: DanceContext) -> dict[str, Dancer]:
+    """Who dances, by the name of the row."""
+
+    def by(performer: Performer) -> Dancer:
+        return lambda song, prompt, noise: (
+            context.perform(performer, song, 0, prompt, seed=noise).motion
+        )
+
+    def alone(song: int, prompt: str, noise: int) -> Motion:
+        seconds = context.path(song, 0).seconds
+        (motion,) = context.generator.generate([prompt], seconds=seconds, seed=noise)
+        return motion
+
+    own = cache(by(context.performer(context.generator)))
+    found: dict[str, Dancer] = {
+        "generated": own,
+        "words alone": alone,
+        "path alone": lambda song, prompt, noise: to_motion(context.path(song, 0)),
+        "frozen pose": lambda song, prompt, noise: held_still(own(song, ASKED[0], noise)),
+    }
+    if context.settings.untrained:
+        found["untrained"] = by(context.performer(context.fresh))
+    return found
+
+
+def dance_all(context: DanceContext, dancer: Dancer, songs: Sequence[int]) -> PromptDances:
+    """Every song to every prompt with every noise."""
+    embeddings, scores, limbs = [], [], []
+    for song in songs:
+        beats = context.pieces[song].beats
+        for prompt in ASKED:
+            for noise in range(NOISES):
+                motion = dancer(song, prompt, noise)
+                embeddings.append(context.judge.embed_windows(motion))
+                scores.append(rhythm(body_beats(motion), beats, motion.seconds).f)
+                limbs.append(rhythm(limb_beats(motion), beats, motion.seconds).f)
+    shape = (len(songs), len(ASKED), NOISES)
+    stacked = np.stack(embeddings).reshape(*shape, *embeddings[0].shape)
+    flat = (len(songs), -1)
+    return PromptDances(stacked, np.reshape(scores, flat), np.reshape(limbs, flat))
+
+
+def effect(danced: PromptDances, text: np.ndarray) -> dict[str, dict[str, float | int]]:
+    """The cells of a row: means over songs with their intervals.
+
+    Args:
+        danced: see there.
+        text: the judge's embeddings of the prompts [P,D].
+    """
+    apart, same, first, third = [], [], [], []
+    for song in danced.embeddings.astype(np.float64):  # P NOISES W D
+        prompts, noises, windows, _ = song.shape
+        apart.append(np.mean([pdist(song[:, n, w]) for n in range(noises) for w in range(windows)]))
+        same.append(np.mean([pdist(song[p, :, w]) for p in range(prompts) for w in range(windows)]))
+        ranks = [
+            rank_of(cdist(song[p].reshape(noises * windows, -1), text), p) for p in range(prompts)
+        ]
+        places = np.concatenate(ranks)
+        first.append((places < 1).mean())
+        third.append((places < 3).mean())
+    gain = [a - s for a, s in zip(apart, same, strict=True)]
+    columns = {
+        "apart": apart, "same": same, "gain": gain, "r_at_1": first, "r_at_3": third,
+        "f": danced.f.mean(1), "limbs_f": danced.limbs_f.mean(1),
+    }  # fmt: skip
+    return {key: bootstrap_mean(list(values)).as_dict() for key, values in columns.items()}
+
+
+# ---------------------------------------------------------------- the suite
+
+
+def evaluate_performer(
+    context: DanceContext,
+    edits: EditContext | None = None,
+    *,
+    about: dict[str, Any] | None = None,
+    folder: Path | None = None,
+    progress: Progress = lambda text: None,
+) -> dict[str, Any]:
+    """The whole report as plain data.
+
+    Args:
+        context: models, songs and amounts.
+        edits: of editing; None = not measured.
+        about: what to repeat in the report; `model` and `audio_model` are names or folders.
+        folder: of the report: finished parts are kept there and not measured again.
+        progress: told what begins.
+
+    Raises:
+        UserError: the data or a song cannot be used, or the folder holds another report.
+    """
+    settings, about = context.settings, about or {}
+    tables: dict[str, Callable[[], list[Grid]]] = {
+        "alignment": partial(alignment_tables, context),
+        "seams": partial(seam_tables, context),
+        "prompts": partial(prompt_effect, context),
+    }
+    if edits is not None:
+        tables |= editing_tables(edits, context.judge)
+    facts = {
+        **about,
+        "evaluator_hash": context.judge.content_hash,
+        "data": context.data or "none",
+        "clips": "none" if edits is None else edits.held_out.source,
+    }
+    sources = partial(_sources, context, edits, about)
+    benches = [dance_bench(context)]
+    suite = Suite("performer", asdict(settings), benches, tables, facts, sources=sources)
+    return run_suite(suite, Parts(folder), progress)
+
+
+def dance_bench(context: DanceContext) -> Bench[BodySample]:
+    """The songs, danced by the model, by its floors, and by real dancers where there is data."""
+    few = context.settings.untrained
+    hinted = context.generator.network.generation.constraints
+    return Bench(
+        "dances",
+        "dances",
+        lambda: context.reference,
+        [
+            Row("real", context.real, None if context.data is not None else 0, True, True),
+            Row("generated", partial(context.danced, "generated")),
+            Row("another song", context.another_song),
+            Row("frozen pose", context.frozen_pose, limit=1, fixed=True),
+            Row("path alone", context.path_alone, limit=1, fixed=True),
+            Row(
+                "beats not told",
+                partial(context.danced, "beats not told"),
+                limit=few if hinted else 0,
+            ),
+            Row(
+                "other model",
+                partial(context.danced, "other"),
+                limit=0 if context.other is None else few,
+            ),
+            Row("untrained", partial(context.danced, "untrained"), limit=few),
+        ],
+        FAMILIES,
+        write=write_body,
+        worst=context.settings.worst,
+    )
+
+
+def write_body(sample: BodySample, row: int, path: Path) -> dict[str, Any]:
+    """A dance; its title is the song and what was asked for."""
+    dance = sample.dances[row]
+    write_npz(dance.motion, path)
+    return {"title": f"{dance.song}: {dance.motion.text}"}
+
+
+def _sources(context: DanceContext, edits: EditContext | None, about: dict[str, Any]) -> Sources:
+    named = {name: about[name] for name in ("model", "audio_model", "other") if about.get(name)}
+    generator, singer = context.generator, context.singer.model
+    return Sources(
+        model=model_hashes(named),
+        evaluator={"hash": context.judge.content_hash},
+        data={
+            "pairs": context.data or "",
+            "songs": song_hashes(context.songs),
+            "clips": "" if edits is None else edits.held_out.data.manifest_hash,
+        },
+        statistics=(generator.mean, generator.std, singer.mean, singer.std),
+        sampling=asdict(context.sampling),
+        device=str(generator.device),
+    )

@@ -1,0 +1,532 @@
+"""The memory suite: does it help? With, without and with randomly retrieved memory (RAG++).
+
+Every arm is measured on the same phrases and songs, which no training saw, with the same noise:
+how well real motion is denoised, what is made of held-out songs. What an arm gains over "without"
+is resampled over songs, pair by pair. Sizes of the memory and numbers of hits are told apart by the
+denoising error alone, the finest and cheapest of the figures.
+
+Letters: N phrases or songs, S songs, B of a batch or questions, D width of the space, T frames.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from functools import cached_property
+from typing import Any, Protocol
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from ...data.phrases.dataset import PhraseBatch, PhraseItem, collate
+from ...errors import UserError
+from ...memory.build import Space
+from ...memory.index import MemoryConfig, MemoryIndex
+from ...memory.priors import prior_curves
+from ...memory.query import Memory, retrieve
+from ...model.audio.audio_motion_model import AudioMotionModel
+from ...model.audio.conditioning import MemoryCondition
+from ...model.diffusion.samplers import standard_normal
+from ...motion.trajectory import MotionTrajectory
+from ...motion.window import place_window
+from ...pipelines.song_memory import as_condition, bars_of_sound, bars_of_window
+from ...pipelines.song_sampler import SPARE, Recall, SongSampler, SongSampling
+from ..families_audio import BeatAlignment, TrajectorySanity
+from ..report.tables import Column, Grid, GridRow, plain
+from ..samples import Dance, DanceSample
+from ..stats import MIN_PAIRS, bootstrap_mean, paired_bootstrap
+from .songs import Piece, held_out_songs, open_split
+
+WITHOUT, WITH, RANDOM = "without", "with", "random"
+
+
+@dataclass(frozen=True)
+class Arm:
+    """One way to ask.
+
+    Attributes:
+        asks: False = the model is given no memory at all.
+        stray: somebody else's question, yet as sure of the answer as of the right one: if this
+            does as well as the right answers, what is remembered does not matter.
+        top_k: hits; None = as configured.
+        share: of the memory's songs that may be found.
+    """
+
+    name: str
+    asks: bool = True
+    stray: bool = False
+    top_k: int | None = None
+    share: float = 1.0
+
+
+def arms() -> list[Arm]:
+    """Without, with, random."""
+    return [Arm(WITHOUT, asks=False), Arm(WITH), Arm(RANDOM, stray=True)]
+
+
+def variations(shares: Sequence[float], top_ks: Sequence[int]) -> list[Arm]:
+    """Smaller memories, and other numbers of hits."""
+    return [
+        *(Arm(f"{share:.0%} of the songs", share=share) for share in shares),
+        *(Arm(f"top {top_k}", top_k=top_k) for top_k in top_ks),
+    ]
+
+
+@dataclass(frozen=True)
+class Asker:
+    """A memory asked directly, without a deadline: the same answers on any machine.
+
+    Attributes:
+        index: the memory.
+        config: how it is asked.
+        seed: of what is hidden from small memories, and of stray questions.
+    """
+
+    index: MemoryIndex
+    config: MemoryConfig
+    seed: int
+
+    def answer(
+        self,
+        arm: Arm,
+        query: Tensor,
+        bars: np.ndarray | Tensor | None,
+        num_frames: int,
+        songs: Sequence[str],
+        *,
+        draw: int = 0,
+    ) -> MemoryCondition | None:
+        """What an arm is told of B windows; None for one that does not ask.
+
+        Args:
+            query: [B,D].
+            bars: unwrapped [B,T]; None = unknown.
+            num_frames: T.
+            songs: [B], never found.
+            draw: another number, other stray questions.
+        """
+        if not arm.asks:
+            return None
+        memory = self._retrieve(arm, query, bars, num_frames, songs)
+        if arm.stray:
+            rng = np.random.default_rng([self.seed, 5, draw])
+            rows = torch.from_numpy(rng.integers(len(self.index), size=len(query)))
+            other = self._retrieve(arm, self.index.audio_keys[rows], bars, num_frames, songs)
+            memory = replace(other, confidence=memory.confidence)
+        return as_condition(memory)
+
+    def _retrieve(
+        self,
+        arm: Arm,
+        query: Tensor,
+        bars: np.ndarray | Tensor | None,
+        num_frames: int,
+        songs: Sequence[str],
+    ) -> Memory:
+        config, hidden = self.config, self.hidden(arm.share)
+        return retrieve(
+            self.index,
+            query,
+            num_frames=num_frames,
+            phase=None if bars is None else torch.as_tensor(bars).reshape(len(query), -1),
+            top_k=arm.top_k or config.top_k,
+            temperature=config.temperature,
+            key=config.key,
+            phase_weight=config.phase_weight,
+            exclude_songs=[hidden | {song} for song in songs],
+        )
+
+    def hidden(self, share: float) -> frozenset[str]:
+        """The songs that a memory of this share lacks; a smaller one lacks those and more."""
+        keep = max(1, round(share * len(self.index.songs)))
+        return frozenset(self._order[keep:])
+
+    @cached_property
+    def _order(self) -> list[str]:
+        rng = np.random.default_rng([self.seed, 6])
+        return [self.index.songs[n] for n in rng.permutation(len(self.index.songs))]
+
+
+# ---------------------------------------------------------------- what an arm is measured by
+
+
+Values = dict[str, np.ndarray]  # column -> one figure for each phrase or song [N]
+BATCH = 16
+LEVELS = ("low", "middle", "high")  # thirds of the diffusion's steps
+DENOISING = tuple(
+    Column(level, f"{level} noise" if level != "all" else level, 4, better="low")
+    for level in (*LEVELS, "all")
+)
+CURVES = tuple(
+    Column(name, name, 4, better="low") for name in ("energy", "density", "tension", "stability")
+)
+SONG_FAMILIES = (BeatAlignment(), TrajectorySanity())
+RHYTHM = ("motion_to_music", "music_to_motion", "f", "f_above_turned")
+SONGS = tuple(
+    column
+    for family in SONG_FAMILIES
+    for column in family.columns
+    if column.key in RHYTHM or isinstance(family, TrajectorySanity)
+)
+
+
+class Figures(Protocol):
+    """A way to measure an arm.
+
+    Attributes:
+        name: of its table.
+        columns: of it.
+        clusters: song of each of the N figures: what is drawn again together.
+    """
+
+    name: str
+    columns: tuple[Column, ...]
+    clusters: list[str]
+
+    def measure(self, arm: Arm) -> Values:
+        """Figures [N] of one arm."""
+
+
+@dataclass(frozen=True)
+class Setting:
+    """The model, its memory and the space; the seed of noise."""
+
+    model: AudioMotionModel
+    space: Space
+    asker: Asker
+    sampled: SongSampling
+
+
+# ---------------------------------------------------------------- held-back phrases
+
+
+def held_back(
+    data: str, splits: Sequence[str], frames: int, most: int, seed: int
+) -> list[PhraseItem]:
+    """Up to `most` windows without padding, a split after the other.
+
+    Raises:
+        UserError: a split is missing.
+    """
+    found: list[PhraseItem] = []
+    for split in splits:
+        dataset = open_split(data, split, frames, seed)
+        items = (dataset.item(int(index), 0) for index in dataset.order(0))
+        found += [item for item in items if item is not None and bool(item.mask.all())]
+    return found[:most]
+
+
+def batches(items: Sequence[PhraseItem]) -> Iterator[PhraseBatch]:
+    """All, a few at a time."""
+    for start in range(0, len(items), BATCH):
+        yield collate(items[start : start + BATCH])
+
+
+def songs_of(phrases: PhraseBatch) -> list[str]:
+    """The song of each."""
+    return [record.song or record.id for record in phrases.records]
+
+
+class Denoising:
+    """Mean squared error of the predicted clean window, in z-scores, at three levels of noise.
+
+    Every arm sees the same noise. The finest of the three tables: it judges the network where it
+    knows what is right, not one of the many dances that fit a song.
+    """
+
+    name = "error of denoising real motion"
+    columns = DENOISING
+
+    def __init__(self, setting: Setting, items: Sequence[PhraseItem], draws: int) -> None:
+        self.setting, self.items, self.draws = setting, items, draws
+        self.clusters = [item.record.song or item.record.id for item in items]
+
+    @torch.no_grad()
+    def measure(self, arm: Arm) -> Values:
+        """Figures [N] of one arm."""
+        found: dict[str, list[Tensor]] = {level: [] for level in LEVELS}
+        for number, phrases in enumerate(batches(self.items)):
+            memory = self._remembered(arm, phrases, number)
+            for third, level in enumerate(LEVELS):
+                errors = [
+                    self._error(phrases, memory, third, (number, third, draw))
+                    for draw in range(self.draws)
+                ]
+                found[level].append(torch.stack(errors).mean(dim=0))
+        values = {level: torch.cat(each).double().numpy() for level, each in found.items()}
+        return values | {"all": np.mean(list(values.values()), axis=0)}
+
+    def _remembered(self, arm: Arm, phrases: PhraseBatch, draw: int) -> MemoryCondition | None:
+        setting, frames = self.setting, phrases.audio.shape[-1]
+        query, bars = setting.space.embed_audio(phrases.audio), bars_of_sound(phrases.audio)
+        return setting.asker.answer(arm, query, bars, frames, songs_of(phrases), draw=draw)
+
+    def _error(
+        self,
+        phrases: PhraseBatch,
+        memory: MemoryCondition | None,
+        third: int,
+        place: tuple[int, ...],
+    ) -> Tensor:
+        """[B] of one draw of noise."""
+        model, seed = self.setting.model, self.setting.sampled.seed
+        device, steps = model.mean.device, model.diffusion.config.timesteps
+        entropy = np.random.SeedSequence([seed, 7, *place]).generate_state(1)[0]
+        draws = torch.Generator().manual_seed(int(entropy))
+        clean = model.normalise(phrases.motion.to(device))
+        low, high = third * steps // len(LEVELS), (third + 1) * steps // len(LEVELS)
+        t = torch.randint(low, max(high, low + 1), (len(clean),), generator=draws).to(device)
+        noise = standard_normal(clean.shape, draws, device=device)
+        noisy = model.diffusion.q_sample(clean, t, noise)
+        heard = None if memory is None else memory.to(device)
+        output = model.denoise(noisy, t, phrases.audio.to(device), memory=heard)
+        x_0 = model.diffusion.predict_x0(output, noisy, t)
+        return (x_0 - clean).square().mean(dim=(1, 2)).cpu()
+
+
+class Curves:
+    """How far the made motion's prior curves are from those of the motion that was danced.
+
+    Mean absolute difference over time, each curve in [0, 1]; one sample a phrase.
+    """
+
+    name = "distance of prior curves from real motion"
+    columns = CURVES
+
+    def __init__(self, setting: Setting, items: Sequence[PhraseItem]) -> None:
+        self.setting, self.items = setting, items
+        self.frames = setting.model.config.window - SPARE  # as many as one window makes
+        self.clusters = [item.record.song or item.record.id for item in items]
+        self.real = [_curves_of(item, self.frames) for item in items]
+
+    def measure(self, arm: Arm) -> Values:
+        """Figures [N] of one arm."""
+        made = []
+        for number, item in enumerate(self.items):
+            audio, song = item.audio[:, : self.frames], self.clusters[number]
+            bars = bars_of_sound(audio[None])[0].numpy()
+            made.append(prior_curves(dance(self.setting, arm, audio, bars, song, number).data))
+        return self._distances(made)
+
+    def chance(self) -> Values:
+        """Real motion of another song instead: what not listening scores."""
+        order = np.roll(np.arange(len(self.items)), len(self.items) // 2)
+        return self._distances([self.real[number] for number in order])
+
+    def _distances(self, made: Sequence[np.ndarray]) -> Values:
+        pairs = zip(made, self.real, strict=True)
+        rows = np.array([np.abs(a - b).mean(axis=1) for a, b in pairs])  # [N,4]
+        return {column.key: rows[:, place] for place, column in enumerate(self.columns)}
+
+
+def _curves_of(item: PhraseItem, frames: int) -> np.ndarray:
+    bars = bars_of_sound(item.audio[None])[0]
+    return prior_curves(place_window(item.motion.numpy(), phase=float(bars[0]))[:frames])
+
+
+# ---------------------------------------------------------------- songs
+
+
+class Songs:
+    """Beat alignment and sanity of motions for held-out synthetic songs, one sample a song."""
+
+    name = "motions for held-out songs"
+    columns = SONGS
+
+    def __init__(self, setting: Setting, pieces: Sequence[Piece]) -> None:
+        self.setting, self.pieces = setting, pieces
+        self.clusters = [piece.name for piece in pieces]
+
+    def measure(self, arm: Arm) -> Values:
+        """Figures [N] of one arm."""
+        dances = []
+        for number, piece in enumerate(self.pieces):
+            made = dance(self.setting, arm, piece.condition, piece.phase, piece.name, number)
+            beats, bars = piece.beats, piece.bars
+            dances.append(Dance(piece.name, made, beats, bars, piece.true_meter, piece.meter))
+        sample = DanceSample(dances, np.full(len(dances), -1))
+        found: Values = {}
+        for family in SONG_FAMILIES:
+            computed = family.compute(sample, sample, seed=self.setting.sampled.seed)
+            found |= {key: np.asarray(value) for key, value in computed.items()}
+        return {column.key: found[column.key] for column in self.columns}
+
+
+@torch.no_grad()
+def dance(
+    setting: Setting, arm: Arm, condition: Tensor, bars: np.ndarray | None, song: str, number: int
+) -> MotionTrajectory:
+    """One motion for a condition [C,T]; noise depends on (seed, number), not on the arm."""
+    sampled = replace(setting.sampled, seed=setting.sampled.seed + 1000 * number)
+    sampler = SongSampler(setting.model, sampled)
+    recall = recalled(setting, arm, condition, bars, song, number) if arm.asks else None
+    return sampler.sample(condition, phase=bars, recall=recall)[0]
+
+
+def recalled(
+    setting: Setting, arm: Arm, condition: Tensor, bars: np.ndarray | None, song: str, number: int
+) -> Recall:
+    """Each window's answer."""
+
+    def recall(start: int, length: int) -> MemoryCondition:
+        query = setting.space.embed_audio(condition[None, :, start : start + length])
+        phase = None if bars is None else bars_of_window(bars, start, length)[None]
+        draw = 1000 * number + start
+        answer = setting.asker.answer(arm, query, phase, length, [song], draw=draw)
+        assert answer is not None
+        return answer
+
+    return recall
+
+
+# ---------------------------------------------------------------- the suite
+
+
+Progress = Callable[[str], None]
+CHANCE = "real, of another song"
+NOTE = (
+    "± is half a 95% interval: rows by bootstrap over songs; differences by paired bootstrap over"
+    " songs (10,000 resamples). * the interval excludes 0. random: the answer to a random"
+    " question, with the confidence of the right one. Every cell is one test: of twenty that"
+    " differ in nothing, one seems to. An untrained memory part changes nothing: its row"
+    " is without."
+)
+
+
+@dataclass(frozen=True)
+class MemorySettings:
+    """How much is measured; the report repeats it."""
+
+    num_phrases: int = 120
+    splits: tuple[str, ...] = ("test", "val")
+    draws: int = 2  # of noise, a phrase and level
+    num_songs: int = 24
+    song_seconds: float = 12.0
+    shares: tuple[float, ...] = (0.1, 0.3)
+    top_ks: tuple[int, ...] = (1, 32)
+    tell_meter: bool = True
+    seed: int = 0
+
+
+def evaluate_memory(
+    model: AudioMotionModel,
+    index: MemoryIndex,
+    space: Space,
+    *,
+    data: str,
+    config: MemoryConfig,
+    settings: MemorySettings,
+    sampling: Mapping[str, Any] | None = None,
+    about: Mapping[str, Any] | None = None,
+    progress: Progress = lambda text: None,
+) -> dict[str, Any]:
+    """The whole report as plain data: about, settings, tables, verdict.
+
+    Args:
+        model: of train_memory.
+        index, space: the memory and the space of its keys.
+        data: folder or bucket of pairs with the splits to measure on.
+        config: how the memory is asked.
+        settings: how much is measured.
+        sampling: what `SongSampling` takes, the seed aside.
+        about: what to repeat in the report.
+        progress: told what begins.
+
+    Raises:
+        UserError: the data cannot be used.
+    """
+    sampled = SongSampling(seed=settings.seed, **(sampling or {})).resolved(model.config)
+    setting = Setting(model, space, Asker(index, config, settings.seed), sampled)
+    items = held_back(
+        data, settings.splits, model.config.window, settings.num_phrases, settings.seed
+    )
+    if len(items) < MIN_PAIRS:
+        raise UserError(
+            f"{data}: {len(items)} held-back phrases of {model.config.window} frames are too few"
+            "; prepare more data"
+        )
+    pieces = held_out_songs(
+        settings.num_songs, settings.song_seconds, settings.seed, tell_meter=settings.tell_meter
+    )
+    main, others = arms(), variations(settings.shares, settings.top_ks)
+    tables: list[Grid] = []
+    verdict: dict[str, Any] = {}
+    for figures, asked in (
+        (Denoising(setting, items, settings.draws), [*main, *others]),
+        (Curves(setting, items), main),
+        (Songs(setting, list(pieces)), main),
+    ):
+        measured = {}
+        for arm in asked:
+            progress(f"{figures.name}: {arm.name}")
+            measured[arm.name] = over_songs(figures.measure(arm), figures.clusters)
+        if isinstance(figures, Curves):
+            measured[CHANCE] = over_songs(figures.chance(), figures.clusters)
+        tables += [rows_table(figures, measured), gains_table(figures, measured, asked)]
+        verdict |= judged(figures, measured)
+    facts = {
+        **(about or {}),
+        "memory": f"{len(index)} phrases of {len(index.songs)} songs",
+        "phrases": f"{len(items)} of {len({item.record.song for item in items})} songs",
+        "asked": plain(config.model_dump()),
+    }
+    return {
+        "about": facts,
+        "settings": plain(asdict(settings)),
+        "tables": [table.as_dict() for table in tables],
+        "verdict": verdict,
+    }
+
+
+def over_songs(values: Values, clusters: Sequence[str]) -> Values:
+    """Figures [N] -> the mean of each song [S]: phrases of a song are not independent."""
+    names = sorted(set(clusters))
+    rows = [[n for n, name in enumerate(clusters) if name == song] for song in names]
+    return {key: np.array([each[row].mean() for row in rows]) for key, each in values.items()}
+
+
+def rows_table(figures: Figures, measured: Mapping[str, Values]) -> Grid:
+    """Every arm's figures."""
+    rows = {
+        name: GridRow({key: bootstrap_mean(each.tolist()).as_dict() for key, each in found.items()})
+        for name, found in measured.items()
+    }
+    return Grid(figures.name, figures.name, figures.columns, rows, NOTE, head="memory")
+
+
+def gains_table(figures: Figures, measured: Mapping[str, Values], asked: Sequence[Arm]) -> Grid:
+    """Every arm less "without", and with less random."""
+    pairs = {f"{arm.name} − {WITHOUT}": (arm.name, WITHOUT) for arm in asked if arm.asks}
+    pairs |= {f"{WITH} − {RANDOM}": (WITH, RANDOM)}
+    rows = {
+        name: GridRow({c.key: difference(measured, *pair, c.key) for c in figures.columns})
+        for name, pair in pairs.items()
+    }
+    title = f"{figures.name}: differences"
+    return Grid(title, title, figures.columns, rows, head="memory")
+
+
+def difference(measured: Mapping[str, Values], arm: str, base: str, key: str) -> dict[str, Any]:
+    """Arm less base over songs; `apart`: its interval excludes 0."""
+    found = paired_bootstrap(measured[base][key], measured[arm][key]).as_dict()
+    return found | {"apart": bool(found["low"] > 0 or found["high"] < 0)}
+
+
+def judged(figures: Figures, measured: Mapping[str, Values]) -> dict[str, Any]:
+    """For each column with a good side: is the memory better than none, and than a random one?"""
+    found: dict[str, Any] = {}
+    for column in figures.columns:
+        if column.better == "real":
+            continue
+        said = {
+            base: word(difference(measured, WITH, base, column.key), column)
+            for base in (WITHOUT, RANDOM)
+        }
+        found[f"{figures.name}: {column.heading}"] = said
+    return found
+
+
+def word(found: Mapping[str, Any], column: Column) -> str:
+    """better, worse, or no difference."""
+    if not found["apart"]:
+        return "no difference"
+    return "better" if (found["value"] > 0) == (column.better == "high") else "worse"

@@ -1,0 +1,408 @@
+"""The suite of a shared space: retrieval on held-out songs, and what neighbours have in common.
+
+Every table has a row of the space, one that knows the tempo alone, one of an untrained tower, and
+one by chance, under the same batches, which hold each phrase once.
+
+Letters: N windows, P phrases, M windows of a batch, Q queries, D embed dim.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from ...data.phrases.dataset import MotionPhraseDataset
+from ...metrics.retrieval import BATCH, Ranks, best_ranks
+from ...model.audio.shared_space import AudioTower, MotionTower, SharedSpace
+from ...model.clip.core import TextTower
+from ...model.clip.tokenizer import PromptTokenizer
+from ...motion.features import FORWARD, LATERAL, ROOT_ROW
+from ..report.tables import Column, Grid, GridRow, report_data
+from ..stats import Estimate
+from .space_windows import Windows, related
+
+TOP = (1, 5, 10)
+RESAMPLES = 500
+
+
+def ranks(query: np.ndarray, items: np.ndarray, kin: np.ndarray) -> Ranks:
+    """Rank of item i for query i, by cosine.
+
+    Args:
+        query, items: [M, D] unit-norm; row i belongs together.
+        kin: [M, M] bool, items that are neither right nor wrong for a query (same song, say) and
+            are taken out of its list; what it says of the diagonal does not matter.
+    """
+    own = np.eye(len(kin), dtype=bool)
+    similarity = query.astype(np.float64) @ items.astype(np.float64).T  # M M
+    return best_ranks(np.where(kin & ~own, np.inf, -similarity), own)
+
+
+def by_song(
+    values: np.ndarray,
+    songs: Sequence[str],
+    statistic: Callable[[np.ndarray], float],
+    *,
+    seed: int = 0,
+) -> Estimate:
+    """A figure of queries with a bootstrap interval over songs.
+
+    Queries of one song are not independent, so whole songs are drawn again (Field and Welsh 2007,
+    cluster bootstrap). `count` is the number of songs.
+
+    Args:
+        values: [Q].
+        songs: of each query.
+        statistic: mean, or median.
+        seed: of the resampling.
+    """
+    names, owner = np.unique(np.asarray(songs), return_inverse=True)
+    groups = [values[owner == number] for number in range(len(names))]
+    rng = np.random.default_rng(seed)
+    drawn = rng.integers(0, len(groups), (RESAMPLES, len(groups)))
+    found = [statistic(np.concatenate([groups[g] for g in row])) for row in drawn]
+    low, high = np.percentile(found, [2.5, 97.5])
+    return Estimate(float(statistic(values)), float(low), float(high), len(groups))
+
+
+def retrieval_figures(
+    found: Sequence[Ranks], songs: Sequence[str], *, seed: int = 0
+) -> dict[str, Estimate]:
+    """`r_at_1`, `r_at_5`, `r_at_10` (fractions) and `median_rank` over all batches.
+
+    Args:
+        found: of each batch.
+        songs: of each query, batch after batch.
+        seed: of the resampling.
+    """
+    figures = {
+        f"r_at_{k}": by_song(
+            np.concatenate([part.hits(k) for part in found]), songs, np.mean, seed=seed
+        )
+        for k in TOP
+    }
+    places = np.concatenate([part.mean() for part in found])
+    return figures | {"median_rank": by_song(places, songs, np.median, seed=seed)}
+
+
+Figures = dict[str, Estimate]
+
+
+@dataclass(frozen=True)
+class Bench:
+    """Batches of windows, drawn once, so that every row of a table answers the same questions.
+
+    Attributes:
+        batches: numbers of the windows [M] of each.
+        phrase: of each window [N].
+        songs: of each query, batch after batch.
+        kin: phrases [P,P] bool of one song or that share a clip.
+        same_action: phrases [P,P] bool whose motion goes by the same tag.
+        seed: of everything random.
+    """
+
+    batches: list[np.ndarray]
+    phrase: np.ndarray
+    songs: list[str]
+    kin: np.ndarray
+    same_action: np.ndarray
+    seed: int
+
+    @classmethod
+    def draw(
+        cls, windows: Windows, *, batch: int = BATCH, replications: int = 20, seed: int = 0
+    ) -> "Bench":
+        """Replications of: all phrases in any order, full batches of them, a window of each.
+
+        With fewer phrases than a batch there is one batch of all.
+        """
+        number = len(windows.records)
+        batch = min(batch, number)
+        rng = np.random.default_rng(seed)
+        batches = []
+        for _ in range(replications):
+            order = rng.permutation(number)[: number // batch * batch].reshape(-1, batch)
+            for phrases in order:
+                shown = [rng.choice(windows.of_phrase[phrase]) for phrase in phrases]
+                batches.append(np.array(shown))
+        phrase = np.array([window.phrase for window in windows.items])
+        drawn = phrase[np.concatenate(batches)]
+        tags = np.array([record.tag for record in windows.records])
+        return cls(
+            batches,
+            phrase,
+            [windows.records[p].song or windows.records[p].id for p in drawn],
+            related(windows.records),
+            (tags[:, None] == tags[None]) & (tags != "")[:, None],
+            seed,
+        )
+
+    def measure(
+        self, query: Tensor, items: Tensor, *, by_action: bool = False, shuffled: bool = False
+    ) -> Figures:
+        """How well queries [N,D] find the items [N,D] of their own windows.
+
+        Args:
+            by_action: phrases of the same tag are neither right nor wrong: a caption fits them all.
+            shuffled: each asks in another's place, which is what knowing nothing gives.
+        """
+        query_rows, item_rows = query.numpy(), items.numpy()
+        kin = self.kin | self.same_action if by_action else self.kin
+        rng = np.random.default_rng(self.seed)
+        found = []
+        for windows in self.batches:
+            asking = rng.permutation(windows) if shuffled else windows
+            phrases = self.phrase[windows]
+            found.append(
+                ranks(query_rows[asking], item_rows[windows], kin[np.ix_(phrases, phrases)])
+            )
+        return retrieval_figures(found, self.songs, seed=self.seed)
+
+
+@dataclass(frozen=True)
+class Neighbours:
+    """Windows with what is known of their motion.
+
+    Attributes:
+        bench: batches within which neighbours are looked for.
+        tempo: of each window's song [N], beats a minute.
+        speed: mean speed over ground [N], m/s.
+        tag: of each window's phrase [N].
+    """
+
+    bench: Bench
+    tempo: np.ndarray
+    speed: np.ndarray
+    tag: np.ndarray
+
+    @classmethod
+    def of(cls, windows: Windows, bench: Bench) -> "Neighbours":
+        """Measure the windows' motions."""
+        root = [window.body[:, ROOT_ROW].astype(np.float32) for window in windows.items]
+        return cls(
+            bench,
+            np.array([windows.records[i.phrase].tempo for i in windows.items]),
+            np.array([np.hypot(r[:, FORWARD], r[:, LATERAL]).mean() for r in root]),
+            np.array([windows.records[i.phrase].tag for i in windows.items]),
+        )
+
+    def measure(
+        self, sound: Tensor, motion: Tensor, *, shuffled: bool = False
+    ) -> dict[str, Estimate]:
+        """`tempo`: octaves between the songs' tempi, half and double tempo being the same;
+        `speed`: m/s between the motions; `action`: share of the same tag.
+
+        Args:
+            sound, motion: keys [N,D].
+            shuffled: another sound asks in each one's place.
+        """
+        rng = np.random.default_rng(self.bench.seed)
+        asked: list[np.ndarray] = []
+        given: list[np.ndarray] = []
+        for windows in self.bench.batches:
+            asking = rng.permutation(windows) if shuffled else windows
+            similarity = sound.numpy()[asking] @ motion.numpy()[windows].T  # M M
+            phrases = self.bench.phrase[windows]
+            similarity[self.bench.kin[np.ix_(phrases, phrases)]] = -np.inf
+            asked.append(windows)
+            given.append(windows[similarity.argmax(1)])
+        own, found = np.concatenate(asked), np.concatenate(given)
+        octaves = np.log2(self.tempo[found] / self.tempo[own])
+        values = {
+            "tempo": np.abs(octaves - np.rint(octaves)),
+            "speed": np.abs(self.speed[found] - self.speed[own]),
+            "action": (self.tag[found] == self.tag[own]).astype(float),
+        }
+        return {
+            name: by_song(value, self.bench.songs, np.mean, seed=self.bench.seed)
+            for name, value in values.items()
+        }
+
+
+# ---------------------------------------------------------------- the suite
+
+
+TEMPO_WIDTH = 0.05  # of the kernel, in log tempo: 5%
+SPACE, TEMPO, UNTRAINED, CHANCE = "shared space", "tempo alone", "untrained tower", "chance"
+COLUMNS = (
+    *(Column(f"r_at_{k}", f"R@{k}", 3, "high") for k in TOP),
+    Column("median_rank", "median rank", 1, "low"),
+)
+NEAREST = (
+    Column("tempo", "tempo off (octaves)", 3, "low"),
+    Column("speed", "speed off (m/s)", 3, "low"),
+    Column("action", "same action", 3, "high"),
+)
+
+
+@dataclass(frozen=True)
+class SpaceSettings:
+    """How much is measured: bars and frames of a window, windows of a batch, replications, seed."""
+
+    bars: int = 2
+    min_frames: int = 40
+    max_frames: int = 150
+    batch: int = BATCH
+    replications: int = 20
+    seed: int = 0
+
+
+@dataclass(frozen=True)
+class Texts:
+    """A text tower with its tokenizer."""
+
+    tower: TextTower
+    tokenizer: PromptTokenizer
+
+
+def evaluate_space(
+    space: SharedSpace,
+    data: str,
+    *,
+    split: str = "test",
+    texts: Texts | None = None,
+    settings: SpaceSettings | None = None,
+    about: dict[str, str] | None = None,
+    progress: Callable[[str], None] = lambda text: None,
+) -> dict[str, object]:
+    """Measure a space on one split of prepared phrases.
+
+    Args:
+        space: on the CPU.
+        data: folder of `prepare-audio`, with bodies.
+        split: whose songs and clips no training saw: test, or val.
+        texts: measure text as well, if every phrase has a caption.
+        settings: amounts and seed.
+        about: what is measured with what.
+        progress: told what comes next.
+
+    Returns:
+        Plain data, see `report_data`.
+
+    Raises:
+        UserError: no such phrases, no bodies, or a text tower of another space.
+    """
+    settings = settings or SpaceSettings()
+    progress(f"reading {data}")
+    held_out, train = (_windows(data, part, settings) for part in (split, "train"))
+    bench = Bench.draw(
+        held_out,
+        batch=settings.batch,
+        replications=settings.replications,
+        seed=settings.seed,
+    )
+    progress(f"embedding {len(held_out.items)} windows of {len(held_out.records)} phrases")
+    motion = held_out.embed_bodies(space.embed_motion)
+    sounds = {
+        SPACE: held_out.embed_sounds(space.embed_audio),
+        TEMPO: tempo_alone(train, train.embed_bodies(space.embed_motion), held_out),
+        UNTRAINED: held_out.embed_sounds(untrained(space, settings.seed)),
+    }
+    tables = [
+        _table(bench, "sound → motion", sounds, {SPACE: motion}),
+        _table(bench, "motion → sound", {SPACE: motion}, sounds),
+    ]
+    captions = [record.caption for record in held_out.records]
+    if texts is not None and not all(captions):
+        progress("phrases without captions: texts are left out")
+    elif texts is not None:
+        spoken = space.embed_text(captions, texts.tower, texts.tokenizer)
+        blind = held_out.embed_bodies(untrained_motion(space, settings.seed))
+        text = {SPACE: spoken[[window.phrase for window in held_out.items]]}
+        tables += [
+            _table(bench, "text → sound", text, sounds, by_action=True),
+            _table(bench, "sound → text", sounds, text, by_action=True),
+            _table(bench, "text → motion", text, {SPACE: motion, UNTRAINED: blind}, by_action=True),
+        ]
+    neighbours = Neighbours.of(held_out, bench)
+    tables.append(_nearest(neighbours, sounds, motion))
+    songs = len({record.song for record in held_out.records})
+    facts = {"split": split, "phrases": len(held_out.records), "songs": songs}
+    facts |= {"windows": len(held_out.items), "fingerprint": space.fingerprint}
+    return report_data("space", {**(about or {}), **facts}, asdict(settings), tables, [])
+
+
+def _windows(data: str, split: str, settings: SpaceSettings) -> Windows:
+    return Windows.cut(
+        MotionPhraseDataset(data, split=split, bodies=True, cache_in_memory=False),
+        bars=settings.bars,
+        min_frames=settings.min_frames,
+        max_frames=settings.max_frames,
+    )
+
+
+def untrained(space: SharedSpace, seed: int) -> AudioTower:
+    """The audio tower as its training began, but for the seed; the statistics are the same."""
+    with torch.random.fork_rng(devices=[]):
+        torch.manual_seed(seed)
+        tower = AudioTower(space.config)
+    tower.set_statistics(space.audio.mean, space.audio.std)
+    return tower.eval()
+
+
+def untrained_motion(space: SharedSpace, seed: int) -> MotionTower:
+    """The motion tower with random weights and the statistics of the trained one."""
+    with torch.random.fork_rng(devices=[]):
+        torch.manual_seed(seed)
+        tower = MotionTower(space.card.network)
+    tower.mean.copy_(space.motion.mean)
+    tower.std.copy_(space.motion.std)
+    return tower
+
+
+def tempo_alone(train: Windows, motion: Tensor, held_out: Windows) -> Tensor:
+    """What motion to expect at a tempo [N,D]: Nadaraya-Watson regression on the training windows.
+
+    Args:
+        train: windows with tempi.
+        motion: their keys [N',D].
+        held_out: windows with tempi that are asked about.
+    """
+    known, asked = (
+        torch.tensor([w.records[i.phrase].tempo for i in w.items]).clamp_min(1.0).log()
+        for w in (train, held_out)
+    )
+    distance = (asked[:, None] - known[None]) / TEMPO_WIDTH
+    weights = (-(distance**2) / 2).softmax(dim=1)
+    return torch.nn.functional.normalize(weights @ motion - motion.mean(0), dim=1)
+
+
+def _table(
+    bench: Bench,
+    title: str,
+    query: dict[str, Tensor],
+    items: dict[str, Tensor],
+    *,
+    by_action: bool = False,
+) -> Grid:
+    """One direction; the side with several rows names them."""
+    rows = {}
+    count, runs = len(bench.songs), len(bench.batches)
+    for name in query if len(query) > 1 else items:
+        asking, found = query.get(name, query[SPACE]), items.get(name, items[SPACE])
+        figures = bench.measure(asking, found, by_action=by_action)
+        rows[name] = GridRow({k: v.as_dict() for k, v in figures.items()}, count // runs, runs)
+    chance = bench.measure(query[SPACE], items[SPACE], by_action=by_action, shuffled=True)
+    rows[CHANCE] = GridRow({k: v.as_dict() for k, v in chance.items()}, count // runs, runs)
+    note = "Of the same song or clip: neither right nor wrong. A real row would be 1 throughout."
+    if by_action:
+        note += " Nor are phrases of the same action: a caption fits them all."
+    return Grid(title, title, COLUMNS, rows, note, head="keys")
+
+
+def _nearest(neighbours: Neighbours, sounds: dict[str, Tensor], motion: Tensor) -> Grid:
+    rows = {
+        name: GridRow({k: v.as_dict() for k, v in neighbours.measure(keys, motion).items()})
+        for name, keys in sounds.items()
+    }
+    blind = neighbours.measure(sounds[SPACE], motion, shuffled=True)
+    rows[CHANCE] = GridRow({k: v.as_dict() for k, v in blind.items()})
+    own = (
+        "The nearest motion of another song and other clips, held against the sound's own motion,"
+        " which would be the real row: 0, 0 and 1."
+    )
+    return Grid(
+        "nearest", "what the nearest motion has in common", NEAREST, rows, own, "keys of sound"
+    )
