@@ -14,7 +14,7 @@ from ..metrics.rhythm import against_chance, motion_beats, song_phase
 from ..metrics.sanity import SEVEN, SanityChecker
 from ..motion.trajectory import MotionTrajectory
 from .engine import Value
-from .families_motion import KINETIC_WARNING
+from .families_text import KINETIC_WARNING
 from .report.tables import Column
 from .samples import Dance, DanceSample
 

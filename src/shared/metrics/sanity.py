@@ -13,7 +13,7 @@ roughness of 52 1/s. Two of the clips fail: a marker glitch turns the pelvis 67�
 """
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -23,6 +23,20 @@ from ..motion.trajectory import MotionTrajectory
 from .bands import CHECKS, MEASURES, UNITS, Bands, mean_speed, phase_range, roughness
 
 SEVEN = tuple(CHECKS)  # names of the documents' checks; the others have names of their own
+
+
+Figure = float | tuple[float, float]
+WHAT = {
+    "quaternion": "mean norm",
+    "phase": "phase range",
+    "jerk": "mean jerk, m/s³",
+    "velocity_coherence": "velocity against position, m/s",
+    "accel_coherence": "acceleration against velocity, m/s²",
+    "quaternion_continuity": "smallest dot product of neighbours",
+    "phase_monotonic": "smallest phase step, bars",
+    "liveliness": "mean speed, m/s",
+    "roughness": "acceleration by speed, 1/s",
+}
 
 
 @dataclass(frozen=True)
@@ -72,8 +86,8 @@ class CheckResult:
 
     name: str
     passed: bool
-    value: float | tuple[float, float]
-    threshold: float | tuple[float, float]
+    value: Figure
+    threshold: Figure
     message: str
     band: tuple[float, float] | None = None
 
@@ -101,103 +115,48 @@ class SanityChecker:
         if not trajectory.num_frames:
             raise ValueError("a trajectory without frames cannot be checked")
         with np.errstate(invalid="ignore", over="ignore"):  # NaN and infinity fail below
-            results = [*self._seven(trajectory), *self._path(trajectory)]
-            if self.bands is not None:
-                results += self._against_bands(trajectory, self.bands)
+            results = [*self._checks(trajectory), *self._against_bands(trajectory)]
         return all(result.passed for result in results), {r.name: r for r in results}
 
-    def _seven(self, trajectory: MotionTrajectory) -> list[CheckResult]:
+    def _checks(self, trajectory: MotionTrajectory) -> Iterator[CheckResult]:
         t = self.thresholds
-        values = {name: check(trajectory) for name, check in CHECKS.items()}
-        low, high = phase_range(trajectory)
-        norm, step = values["quaternion"], values["phase_monotonic"]
-        norms = (t.quaternion_norm_min, t.quaternion_norm_max)
-        continuity = values["quaternion_continuity"]
-        return [
-            self._result("quaternion", norms[0] <= norm <= norms[1], norm, norms, "mean norm"),
-            self._result(
-                "phase",
-                t.phase_min <= low and high <= t.phase_max,
-                (low, high),
-                (t.phase_min, t.phase_max),
-                "phase range",
-            ),
-            self._below("jerk", values["jerk"], t.max_jerk, "mean jerk, m/s³"),
-            self._below(
-                "velocity_coherence",
-                values["velocity_coherence"],
-                t.max_velocity_error,
-                "velocity against position, m/s",
-            ),
-            self._below(
-                "accel_coherence",
-                values["accel_coherence"],
-                t.max_acceleration_error,
-                "acceleration against velocity, m/s²",
-            ),
-            self._result(
-                "quaternion_continuity",
-                continuity > t.min_quaternion_continuity,
-                continuity,
-                t.min_quaternion_continuity,
-                "smallest dot product of neighbours",
-            ),
-            self._result(
-                "phase_monotonic",
-                step >= -t.max_phase_backstep,
-                step,
-                -t.max_phase_backstep,
-                "smallest phase step, bars",
-            ),
-        ]
-
-    def _path(self, trajectory: MotionTrajectory) -> list[CheckResult]:
-        t = self.thresholds
+        value = {name: check(trajectory) for name, check in CHECKS.items()}
+        norm, continuity = value["quaternion"], value["quaternion_continuity"]
+        norms, range_ = (t.quaternion_norm_min, t.quaternion_norm_max), phase_range(trajectory)
+        step, backstep = value["phase_monotonic"], -t.max_phase_backstep
+        inside = t.phase_min <= range_[0] and range_[1] <= t.phase_max
+        yield self._result("quaternion", norms[0] <= norm <= norms[1], norm, norms)
+        yield self._result("phase", inside, range_, (t.phase_min, t.phase_max))
+        for name, bound in (
+            ("jerk", t.max_jerk),
+            ("velocity_coherence", t.max_velocity_error),
+            ("accel_coherence", t.max_acceleration_error),
+        ):
+            yield self._result(name, value[name] < bound, value[name], bound)
+        least = t.min_quaternion_continuity
+        yield self._result("quaternion_continuity", continuity > least, continuity, least)
+        yield self._result("phase_monotonic", step >= backstep, step, backstep)
         speed, rough = mean_speed(trajectory), roughness(trajectory)
-        return [
-            self._result(
-                "liveliness", speed >= t.min_mean_speed, speed, t.min_mean_speed, "mean speed, m/s"
-            ),
-            self._below("roughness", rough, t.max_roughness, "acceleration by speed, 1/s"),
-        ]
+        yield self._result("liveliness", speed >= t.min_mean_speed, speed, t.min_mean_speed)
+        yield self._result("roughness", rough < t.max_roughness, rough, t.max_roughness)
 
-    def _against_bands(self, trajectory: MotionTrajectory, bands: Bands) -> list[CheckResult]:
-        results = []
-        for name, measure in MEASURES.items():
-            if (band := bands.bands.get(name)) is None:
-                continue
-            value = measure(trajectory)
-            results.append(
-                CheckResult(
-                    f"band_{name}",
-                    band.tolerates(value),
-                    value,
-                    band.limits,
-                    f"{name.replace('_', ' ')}: {value:.4g} {UNITS[name]} "
-                    f"(real {band.low:.4g} to {band.high:.4g})",
-                    (band.low, band.high),
-                )
-            )
-        return results
+    def _against_bands(self, trajectory: MotionTrajectory) -> Iterator[CheckResult]:
+        known = {} if self.bands is None else self.bands.bands
+        for name in (name for name in MEASURES if name in known):
+            band, value, what = known[name], MEASURES[name](trajectory), name.replace("_", " ")
+            real = f"(real {band.low:.4g} to {band.high:.4g})"
+            message = f"{what}: {value:.4g} {UNITS[name]} {real}"
+            limits, edges = band.limits, (band.low, band.high)
+            yield CheckResult(f"band_{name}", band.tolerates(value), value, limits, message, edges)
 
-    def _below(self, name: str, value: float, bound: float, what: str) -> CheckResult:
-        return self._result(name, value < bound, value, bound, what)
-
-    def _result(
-        self,
-        name: str,
-        passed: bool,
-        value: float | tuple[float, float],
-        threshold: float | tuple[float, float],
-        what: str,
-    ) -> CheckResult:
+    def _result(self, name: str, passed: bool, value: Figure, threshold: Figure) -> CheckResult:
         band = self.bands.bands.get(name) if self.bands else None
-        message = f"{what}: {_text(value)} (threshold {_text(threshold)})"
+        message = f"{WHAT[name]}: {_text(value)} (threshold {_text(threshold)})"
         limits = (band.low, band.high) if band else None
         return CheckResult(name, bool(passed), value, threshold, message, limits)
 
 
-def _text(value: float | tuple[float, float]) -> str:
+def _text(value: Figure) -> str:
     if isinstance(value, tuple):
         return f"{value[0]:.4g} to {value[1]:.4g}"
     return f"{value:.4g}"
@@ -280,15 +239,14 @@ def sanity_row(
         `MEASURES` the share of motions between the 5th and 95th percentile of real ones, with
         bands only; failures: for each failed motion its index and the names of what failed.
     """
-    motions = list(trajectories)
+    motions, bands = list(trajectories), checker.bands
     outcomes = [checker.check_all(motion) for motion in motions]
-    checks = {
-        key: {
-            "passed": sum(results[key].passed for _, results in outcomes),
-            "mean": _finite_mean([results[key].value for _, results in outcomes]),
-        }
-        for key in (outcomes[0][1] if outcomes else {})
-    }
+    checks: dict[str, dict[str, float | None]] = {}
+    for key in outcomes[0][1] if outcomes else ():
+        mean = float(np.mean([results[key].value for _, results in outcomes]))
+        count = sum(results[key].passed for _, results in outcomes)
+        checks[key] = {"passed": count, "mean": mean if np.isfinite(mean) else None}
+    known = [] if bands is None else [bands.inside(motion) for motion in motions]
     seven = sum(all(results[key].passed for key in SEVEN) for _, results in outcomes)
     passed = sum(good for good, _ in outcomes)
     return {
@@ -298,24 +256,10 @@ def sanity_row(
         "passed_seven": seven,
         "rate": passed / len(motions) if motions else None,
         "checks": checks,
-        "inside": _inside(motions, checker),
+        "inside": {k: float(np.mean([r[k] for r in known])) for k in (known[0] if known else ())},
         "failures": [
             {"index": index, "failed": [r.name for r in results.values() if not r.passed]}
             for index, (good, results) in enumerate(outcomes)
             if not good
         ],
-    }
-
-
-def _finite_mean(values: Sequence[float | tuple[float, float]]) -> float | None:
-    mean = float(np.mean(values))
-    return mean if np.isfinite(mean) else None
-
-
-def _inside(motions: Sequence[MotionTrajectory], checker: SanityChecker) -> dict[str, float]:
-    if checker.bands is None or not motions:
-        return {}
-    rows = [checker.bands.inside(motion) for motion in motions]
-    return {
-        name: float(np.mean([row[name] for row in rows])) for name in MEASURES if name in rows[0]
     }

@@ -9,7 +9,7 @@ import torch
 from torchmetrics.image.fid import FrechetInceptionDistance
 
 from src.shared.evaluation.families_audio import RootKinetics
-from src.shared.evaluation.families_motion import BodyKinetics
+from src.shared.evaluation.families_text import BodyKinetics
 from src.shared.evaluation.samples import Clips, Dance, DanceSample, MotionSample
 from src.shared.metrics.frechet import Projection, frechet_distance
 from src.shared.metrics.kinetic import (

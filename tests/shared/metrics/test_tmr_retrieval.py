@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from torchmetrics.functional.retrieval import retrieval_hit_rate
 from torchmetrics.functional.retrieval import retrieval_reciprocal_rank as reciprocal
 
-from src.shared.evaluation.families_motion import FAMILIES
+from src.shared.evaluation.families_text import TMR
 from src.shared.evaluation.samples import Clips, MotionSample
 from src.shared.metrics.retrieval import (
     RECALL_AT,
@@ -198,15 +198,15 @@ def sample(num: int) -> MotionSample:
 
 def test_the_families_fill_their_columns() -> None:
     pairs, few = sample(120), sample(20)
-    keys = [column.key for family in FAMILIES for column in family.columns]
+    keys = [column.key for family in TMR for column in family.columns]
     assert len(set(keys)) == len(keys) == 52
-    for family in FAMILIES:
+    for family in TMR:
         found = family.compute(pairs, pairs, seed=0)
         assert list(found) == [column.key for column in family.columns]
         assert all(np.isfinite(value) for value in found.values())
         assert family.protocol in family.name and "published" in family.definition
-    assert FAMILIES[3].compute(few, few, seed=0) == {}
-    assert FAMILIES[0].compute(sample(700), pairs, seed=0)["tmr_all_pairs"] == 256
-    strict = FAMILIES[0].compute(pairs, pairs, seed=0)["tmr_all_t2m_r1"]
-    loose = FAMILIES[1].compute(pairs, pairs, seed=0)["tmr_threshold_t2m_r1"]
+    assert TMR[3].compute(few, few, seed=0) == {}
+    assert TMR[0].compute(sample(700), pairs, seed=0)["tmr_all_pairs"] == 256
+    strict = TMR[0].compute(pairs, pairs, seed=0)["tmr_all_t2m_r1"]
+    loose = TMR[1].compute(pairs, pairs, seed=0)["tmr_threshold_t2m_r1"]
     assert strict <= loose

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from src.shared.evaluation.families_motion import Multimodality
+from src.shared.evaluation.families_text import Multimodality
 from src.shared.evaluation.samples import Clips, MotionSample
 from src.shared.metrics.frechet import multimodality, within_prompts
 from src.shared.motion.motion import Motion

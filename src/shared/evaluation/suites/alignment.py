@@ -1,4 +1,4 @@
-"""A set of motions on their own music, and on what must score less.
+"""Motions on their own music, and on what must score less; their phase against the song's.
 
 Letters: N motion beats, M music beats.
 """
@@ -6,13 +6,25 @@ Letters: N motion beats, M music beats.
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ...metrics.rhythm import COLUMNS, Rhythm, against_chance, mean_rhythm, rhythm
+from ...metrics.rhythm import (
+    COLUMNS,
+    Rhythm,
+    against_chance,
+    mean_rhythm,
+    motion_beats,
+    rhythm,
+    song_phase,
+)
+from ...motion.trajectory import FPS, MotionTrajectory
+from ..report.plots import new_figure, save_figure
 from ..report.tables import Column, Grid, GridRow, plain
 from ..stats import FEW, bootstrap_mean
+from .songs import Piece
 
 HELD_AGAINST = ("chance", "another song", "half a beat later")
 OTHERS = 8  # other songs that each motion is held against
@@ -129,3 +141,78 @@ def _per_second(beats: Sequence[np.ndarray], dances: Sequence[Danced]) -> float:
     inside = zip(beats, dances, strict=True)
     count = sum(int(((b >= 0) & (b < dance.seconds)).sum()) for b, dance in inside)
     return count / seconds if seconds else math.nan
+
+
+# ---------------------------------------------------------------- the phase of a song
+
+
+TEMPO_TOLERANCE = 0.04  # the usual one
+
+
+def right_tempo(piece: Piece) -> bool:
+    """Does the tracker's phase run as fast as the true one for most of the song?
+
+    An octave error, twice or half as fast, has no phase to speak of.
+    """
+    if piece.phase is None or piece.bars is None:
+        return False
+    heard, true = np.diff(piece.phase) * piece.meter, np.diff(piece.bars) * piece.true_meter
+    return bool(abs(np.median(heard / true) - 1) <= TEMPO_TOLERANCE)
+
+
+def phase_row(songs: Sequence[tuple[Piece, np.ndarray]]) -> dict[str, dict[str, Any]]:
+    """`song_phase` over songs, each column with its interval.
+
+    Args:
+        songs: what is true, and unwrapped bars [T] in the tracker's meter.
+    """
+    columns: dict[str, list[float]] = {}
+    for piece, bars in songs:
+        assert piece.bars is not None
+        found = song_phase(bars * piece.meter, bars, piece.bars, piece.true_meter, piece.beats)
+        for name, value in found.items():
+            columns.setdefault(name, []).append(value)
+    return {name: bootstrap_mean(values).as_dict() for name, values in columns.items()}
+
+
+LINES = {"truth": ("black", "-"), "beat tracker": ("tab:blue", ":"), "generated": ("tab:red", "--")}
+
+
+def plot_phase(piece: Piece, trajectory: MotionTrajectory, path: str | Path) -> Path:
+    """Bar phases over the beats, and the pelvis's speed with its beats, over seconds.
+
+    Raises:
+        UserError: matplotlib is missing, or the file cannot be written.
+    """
+    curves = {"truth": piece.bars, "beat tracker": piece.phase}
+    curves["generated"] = trajectory.phase_unwrapped
+    found = motion_beats(trajectory.position, trajectory.fps)
+    beats = piece.beats[piece.beats < piece.seconds]
+    figure = new_figure(14, 6)
+    upper, lower = figure.subplots(2, 1, sharex=True)
+    for axes in (upper, lower):
+        axes.vlines(beats, 0, 1, transform=axes.get_xaxis_transform(), color="0.8", lw=1)
+    for name, bars in curves.items():
+        if bars is None:
+            continue
+        colour, style = LINES[name]
+        upper.plot(np.arange(len(bars)) / FPS, _sawtooth(bars), style, color=colour, label=name)
+    upper.set_ylabel("phase of the bar")
+    upper.set_ylim(0, 1)
+    upper.legend(loc="upper right", ncols=3, fontsize="small")
+    speed, times = found.speed, found.times
+    at = (np.arange(len(speed)) + 0.5) / FPS
+    lower.plot(at, speed, color="tab:red")
+    lower.plot(times, np.interp(times, at, speed), "v", color="black", label="motion beats")
+    lower.set_ylabel("smoothed speed of the pelvis, m/s")
+    lower.set_xlabel("seconds; grey: beats of the song")
+    lower.legend(loc="upper right", fontsize="small")
+    figure.suptitle(piece.name)
+    return save_figure(figure, Path(path))
+
+
+def _sawtooth(bars: np.ndarray) -> np.ndarray:
+    """Bars [T] modulo 1 with a gap where they wrap, so that no line is drawn through."""
+    phase = np.asarray(bars, np.float64) % 1.0
+    phase[1:][np.diff(phase) < -0.5] = np.nan
+    return phase

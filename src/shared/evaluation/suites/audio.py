@@ -24,7 +24,7 @@ from ...data.phrases.dataset import MotionPhraseDataset
 from ...errors import UserError
 from ...formats.arrays import write_trajectory_npz
 from ...io.files import atomic_write
-from ...metrics.rhythm import motion_beats, phase_error, song_phase, strangers
+from ...metrics.rhythm import phase_error, strangers
 from ...metrics.sanity import frozen
 from ...metrics.seams import REACH, Seamed, seam_report
 from ...motion.trajectory import FPS, MotionTrajectory
@@ -33,11 +33,17 @@ from ...pipelines.song_sampler import SPARE, SongSampling, spans
 from ..engine import Bench, MetricFamily, Progress, Row, Suite, run_suite
 from ..families_audio import BarPhase, BeatAlignment, RootKinetics, TrajectorySanity, beats_of
 from ..manifest import Part, Parts, Sources, model_hashes, song_hashes
-from ..report.plots import new_figure, save_figure
 from ..report.tables import Column, Grid, GridRow, plain
 from ..samples import Dance, DanceSample
-from ..stats import bootstrap_mean
-from .alignment import Danced, alignment_grids, alignment_rows, song_scores
+from .alignment import (
+    Danced,
+    alignment_grids,
+    alignment_rows,
+    phase_row,
+    plot_phase,
+    right_tempo,
+    song_scores,
+)
 from .sanity import untrained
 from .songs import TEMPI, Piece, held_out_songs, held_out_specs, open_split, phrases, tracks
 
@@ -234,35 +240,6 @@ def sample_of(made: Sequence[tuple[Piece, MotionTrajectory]]) -> DanceSample:
     return DanceSample(dances, np.full(len(dances), -1))
 
 
-TEMPO_TOLERANCE = 0.04  # the usual one
-
-
-def right_tempo(piece: Piece) -> bool:
-    """Does the tracker's phase run as fast as the true one for most of the song?
-
-    An octave error, twice or half as fast, has no phase to speak of.
-    """
-    if piece.phase is None or piece.bars is None:
-        return False
-    heard, true = np.diff(piece.phase) * piece.meter, np.diff(piece.bars) * piece.true_meter
-    return bool(abs(np.median(heard / true) - 1) <= TEMPO_TOLERANCE)
-
-
-def phase_row(songs: Sequence[tuple[Piece, np.ndarray]]) -> dict[str, dict[str, Any]]:
-    """`song_phase` over songs, each column with its interval.
-
-    Args:
-        songs: what is true, and unwrapped bars [T] in the tracker's meter.
-    """
-    columns: dict[str, list[float]] = {}
-    for piece, bars in songs:
-        assert piece.bars is not None
-        found = song_phase(bars * piece.meter, bars, piece.bars, piece.true_meter, piece.beats)
-        for name, value in found.items():
-            columns.setdefault(name, []).append(value)
-    return {name: bootstrap_mean(values).as_dict() for name, values in columns.items()}
-
-
 # ---------------------------------------------------------------- tables with rows of their own
 
 
@@ -447,52 +424,6 @@ def _track(piece: Piece, trajectory: MotionTrajectory, seed: int) -> dict[str, f
         "chance": scores["chance"].f,
         "half": scores["half a beat later"].f,
     }
-
-
-# ---------------------------------------------------------------- a picture
-
-
-LINES = {"truth": ("black", "-"), "beat tracker": ("tab:blue", ":"), "generated": ("tab:red", "--")}
-
-
-def plot_phase(piece: Piece, trajectory: MotionTrajectory, path: str | Path) -> Path:
-    """Bar phases over the beats, and the pelvis's speed with its beats, over seconds.
-
-    Raises:
-        UserError: matplotlib is missing, or the file cannot be written.
-    """
-    curves = {"truth": piece.bars, "beat tracker": piece.phase}
-    curves["generated"] = trajectory.phase_unwrapped
-    found = motion_beats(trajectory.position, trajectory.fps)
-    beats = piece.beats[piece.beats < piece.seconds]
-    figure = new_figure(14, 6)
-    upper, lower = figure.subplots(2, 1, sharex=True)
-    for axes in (upper, lower):
-        axes.vlines(beats, 0, 1, transform=axes.get_xaxis_transform(), color="0.8", lw=1)
-    for name, bars in curves.items():
-        if bars is None:
-            continue
-        colour, style = LINES[name]
-        upper.plot(np.arange(len(bars)) / FPS, _sawtooth(bars), style, color=colour, label=name)
-    upper.set_ylabel("phase of the bar")
-    upper.set_ylim(0, 1)
-    upper.legend(loc="upper right", ncols=3, fontsize="small")
-    speed, times = found.speed, found.times
-    at = (np.arange(len(speed)) + 0.5) / FPS
-    lower.plot(at, speed, color="tab:red")
-    lower.plot(times, np.interp(times, at, speed), "v", color="black", label="motion beats")
-    lower.set_ylabel("smoothed speed of the pelvis, m/s")
-    lower.set_xlabel("seconds; grey: beats of the song")
-    lower.legend(loc="upper right", fontsize="small")
-    figure.suptitle(piece.name)
-    return save_figure(figure, Path(path))
-
-
-def _sawtooth(bars: np.ndarray) -> np.ndarray:
-    """Bars [T] modulo 1 with a gap where they wrap, so that no line is drawn through."""
-    phase = np.asarray(bars, np.float64) % 1.0
-    phase[1:][np.diff(phase) < -0.5] = np.nan
-    return phase
 
 
 # ---------------------------------------------------------------- the suite

@@ -24,11 +24,13 @@ from ...metrics.retrieval import BATCH, normalised_score
 from ...motion.motion import Motion
 from .. import manifest
 from ..engine import Bench, MetricFamily, Progress, Row, Suite, run_suite
-from ..families_motion import FAMILIES as TMR
-from ..families_motion import BodyKinetics, ContactFamily, Multimodality
 from ..families_text import (
+    TMR,
+    BodyKinetics,
+    ContactFamily,
     Frechet,
     GuoRetrieval,
+    Multimodality,
     Obedience,
     Plausibility,
     TravelErrors,
