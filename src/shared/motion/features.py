@@ -5,6 +5,8 @@ positive to the character's left), pelvis height (m), yaw rate (rad/s, positive 
 left and right contact. Differences are forward (ruling 6); the last frame repeats its neighbour.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 import torch
 from torch import Tensor
@@ -26,6 +28,18 @@ FORWARD, LATERAL, HEIGHT, YAW_RATE, LEFT_CONTACT, RIGHT_CONTACT = range(6)
 ROOT_ROW = NUM_JOINTS  # index of the root track among the rows
 # What a mirror does to the first two columns of a matrix: M·R·M, M = diag(-1, 1, 1).
 _MIRROR_SIGNS = (1.0, -1.0, -1.0, -1.0, 1.0, 1.0)
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a pelvis is on the ground and where it faces: metres and radians about +Y."""
+
+    x: float = 0.0
+    z: float = 0.0
+    heading: float = 0.0
+
+
+ORIGIN = Place()
 
 
 def headings(matrices: Tensor) -> Tensor:
@@ -56,23 +70,24 @@ def encode_features(motion: Motion) -> Tensor:
     return torch.cat((matrix_to_rotation_6d(local), root[:, None]), 1).float()
 
 
-def integrate_root(
-    root: Tensor,
-    fps: float,
-    start_position: tuple[float, float] = (0.0, 0.0),
-    start_heading: float = 0.0,
-) -> tuple[Tensor, Tensor]:
-    """Root rows [...,T,6] → pelvis path [...,T,3] in metres and heading [...,T] in radians."""
+def integrate_root(root: Tensor, fps: float, place: Place = ORIGIN) -> tuple[Tensor, Tensor]:
+    """Root rows [...,T,6] → pelvis path [...,T,3] in metres and heading [...,T] in radians.
+
+    Args:
+        root: rows as in this module's head.
+        fps: frames per second.
+        place: of the first frame.
+    """
 
     def accumulate(rate: Tensor) -> Tensor:
         total = torch.cumsum(rate / fps, -1)
         return torch.cat((torch.zeros_like(total[..., :1]), total[..., :-1]), -1)
 
-    heading = start_heading + accumulate(root[..., YAW_RATE])
+    heading = place.heading + accumulate(root[..., YAW_RATE])
     sine, cosine = torch.sin(heading), torch.cos(heading)
     forward, lateral = root[..., FORWARD], root[..., LATERAL]
-    x = start_position[0] + accumulate(forward * sine + lateral * cosine)
-    z = start_position[1] + accumulate(forward * cosine - lateral * sine)
+    x = place.x + accumulate(forward * sine + lateral * cosine)
+    z = place.z + accumulate(forward * cosine - lateral * sine)
     return torch.stack((x, root[..., HEIGHT], z), -1), heading
 
 
@@ -112,15 +127,16 @@ def decode_features(
     features: Tensor,
     *,
     fps: float = 30.0,
-    start_position: tuple[float, float] = (0.0, 0.0),
-    start_heading: float = 0.0,
+    place: Place = ORIGIN,
     text: str = "",
 ) -> Motion:
     """Features [T,23,6], or [T,22,6] without a root track (stands in place) → Motion.
 
     Args:
-        start_position: x and z of the pelvis in the first frame, metres.
-        start_heading: radians about +Y.
+        features: raw.
+        fps: frames per second.
+        place: of the first frame.
+        text: the caption.
     """
     features = features.detach().float().cpu()
     if features.shape[1] == NUM_JOINTS:
@@ -128,7 +144,7 @@ def decode_features(
         root[:, HEIGHT] = REST_PELVIS_HEIGHT
     else:
         root = features[:, ROOT_ROW]
-    position, heading = integrate_root(root, fps, start_position, start_heading)
+    position, heading = integrate_root(root, fps, place)
     local = rotation_6d_to_matrix(features[:, :NUM_JOINTS])
     local = torch.cat(((yaw_to_matrix(heading) @ local[:, 0])[:, None], local[:, 1:]), 1)
     quaternions = quaternion_continuous(matrix_to_quaternion(local), dim=0)

@@ -12,7 +12,6 @@ Letters: T frames, R rows (bones, root track), M beats, S steps.
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import accumulate
-from typing import Any
 
 import numpy as np
 import torch
@@ -23,9 +22,9 @@ from ..errors import UsageError
 from ..model.diffusion.samplers import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
-from ..motion.features import LEFT_CONTACT, ROOT_ROW
+from ..motion.features import LEFT_CONTACT, ROOT_ROW, Place
 from ..motion.motion import Motion
-from ..motion.postprocess.stitching import Place, blend_cuts
+from ..motion.postprocess.stitching import blend_cuts
 from ..motion.rotations import (
     heading_of,
     matrix_to_rotation_6d,
@@ -140,10 +139,10 @@ def pin(
     return Constraint(values, known, times)
 
 
-def start_of(trajectory: MotionTrajectory) -> dict[str, Any]:
-    """Where a body on this path begins, as `decode_features` takes it."""
+def start_of(trajectory: MotionTrajectory) -> Place:
+    """Where a body on this path begins."""
     x, _, z = trajectory.position[0].tolist()
-    return {"start_position": (x, z), "start_heading": float(trajectory.heading[0])}
+    return Place(x, z, float(trajectory.heading[0]))
 
 
 @dataclass(frozen=True)
@@ -266,12 +265,11 @@ class Performer:
             if progress is not None:
                 progress(sum(map(len, pieces)), num_frames)
         cuts = list(accumulate(map(len, pieces)))[:-1]
-        x, _, z = trajectory.position[0].tolist()
         motion = self.generator.post_processor(
             known.keep(blend_cuts(torch.cat(pieces), cuts)),
             known.known,
             text=_title(passages),
-            place=Place(x, z, float(trajectory.heading[0])),
+            place=start_of(trajectory),
             foot_lock=own.foot_lock,
             carried=True,
         )

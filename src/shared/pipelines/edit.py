@@ -24,13 +24,15 @@ from ..motion.features import (
     FORWARD,
     LATERAL,
     LEFT_CONTACT,
+    ORIGIN,
     ROOT_ROW,
     YAW_RATE,
+    Place,
     encode_features,
     integrate_root,
 )
 from ..motion.motion import Motion
-from ..motion.postprocess.stitching import ORIGIN, Place, place_of
+from ..motion.postprocess.stitching import place_of
 from ..motion.rotations import turn_about_y
 from ..motion.skeleton import JOINT_INDEX, LIMBS
 from .stream import OVERLAP, Passage, Sampling, stream_features
@@ -320,15 +322,14 @@ def bend_back(features: Tensor, given: Given, *, fps: float) -> Constraint:
     free = ~given.constraint.known[:stop, ROOT_ROW, FORWARD]
     start = int(torch.nonzero(free)[0])
     root = features[: stop + 1, ROOT_ROW].double()
-    place = ((given.place.x, given.place.z), given.place.heading)
     x = torch.linspace(0, 1, stop - start + 1, dtype=torch.float64)
     ease = torch.zeros(stop + 1, dtype=torch.float64)
     ease[start:] = x**3 * (x * (6 * x - 15) + 10)
 
-    _, heading = integrate_root(root, fps, *place)
+    _, heading = integrate_root(root, fps, given.place)
     turn = (target.heading - heading[-1] + np.pi) % (2 * np.pi) - np.pi
     root[:-1, YAW_RATE] += turn * ease.diff() * fps
-    path, heading = integrate_root(root, fps, *place)
+    path, heading = integrate_root(root, fps, given.place)
     miss = torch.tensor([target.x, 0.0, target.z], dtype=torch.float64) - path[-1]
     miss[1] = 0.0
     velocity = turn_about_y((path + ease[:, None] * miss).diff(dim=0) * fps, -heading[:-1])

@@ -24,9 +24,8 @@ from ..errors import UserError
 from ..io.files import read_text
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
-from ..motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
+from ..motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, Place
 from ..motion.motion import Motion
-from ..motion.postprocess.stitching import Place
 from ..motion.rotations import yaw_quaternion
 from ..motion.skeleton import REST_PELVIS_HEIGHT
 from ..motion.trajectory import MotionTrajectory, to_root

@@ -20,8 +20,9 @@ from ..errors import UsageError
 from ..model.diffusion.samplers import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
+from ..motion.features import Place
 from ..motion.motion import Motion
-from ..motion.postprocess.stitching import Place, blend_boundaries
+from ..motion.postprocess.stitching import blend_boundaries
 from ..motion.postprocess.streaming import StreamingPostProcessor
 
 WINDOW, OVERLAP = 150, 30  # frames

@@ -22,8 +22,9 @@ from ..errors import UsageError, UserError
 from ..io.files import read_text
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
+from ..motion.features import Place
 from ..motion.motion import Motion
-from ..motion.postprocess.stitching import Place, moved_to, place_of
+from ..motion.postprocess.stitching import moved_to, place_of
 from ..motion.postprocess.streaming import streamed
 from .edit import ControlledMotion, all_but, chosen_joints, fill_free
 from .stream import OVERLAP, WINDOW, ConstraintOf, Passage, Sampling, stream_features

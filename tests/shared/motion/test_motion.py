@@ -7,7 +7,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation, Slerp
 
-from src.shared.motion.features import ROOT_ROW, decode_features, encode_features, mirror_features
+from src.shared.motion.features import (
+    ROOT_ROW,
+    Place,
+    decode_features,
+    encode_features,
+    mirror_features,
+)
 from src.shared.motion.kinematics import global_to_local, local_to_global
 from src.shared.motion.motion import Motion, in_place, resample_motion
 from src.shared.motion.postprocess.contacts import detect_contacts
@@ -95,8 +101,7 @@ def test_features_give_the_motion_back(seed: int) -> None:
 
     again = decode_features(
         features,
-        start_position=(motion.root_position[0, 0], motion.root_position[0, 2]),
-        start_heading=float(heading_angle(first)),
+        place=Place(*motion.root_position[0, [0, 2]].tolist(), float(heading_angle(first))),
     )
     np.testing.assert_allclose(again.root_position, motion.root_position, atol=1e-4)
     np.testing.assert_allclose(again.positions(), motion.positions(), atol=2e-4)
@@ -105,7 +110,7 @@ def test_features_give_the_motion_back(seed: int) -> None:
 
 def test_features_forget_where_the_motion_starts_and_faces() -> None:
     motion = random_motion(4)
-    turned = decode_features(encode_features(motion), start_position=(3, -2), start_heading=2.0)
+    turned = decode_features(encode_features(motion), place=Place(3, -2, 2.0))
     torch.testing.assert_close(encode_features(turned), encode_features(motion), atol=2e-4, rtol=0)
 
 

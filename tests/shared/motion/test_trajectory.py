@@ -6,7 +6,7 @@ import torch
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from src.shared.motion.features import LEFT_CONTACT, decode_features, encode_features
+from src.shared.motion.features import LEFT_CONTACT, Place, decode_features, encode_features
 from src.shared.motion.kinematics import angular_velocity, derive, forward_difference
 from src.shared.motion.rotations import yaw_quaternion
 from src.shared.motion.trajectory import (
@@ -109,9 +109,7 @@ def test_the_pelvis_of_a_body_and_back_to_its_root_rows() -> None:
     features = encode_features(body)
     features[:, -1] = root
     x, _, z = whole.position[0]
-    path = decode_features(
-        features, start_position=(float(x), float(z)), start_heading=float(whole.heading[0])
-    )
+    path = decode_features(features, place=Place(float(x), float(z), float(whole.heading[0])))
     assert np.abs(path.root_position - whole.position).max() < 1e-3
 
 

@@ -119,7 +119,7 @@ def wild_path(seed: int, frames: int) -> MotionTrajectory:
 @given(seed=st.integers(0, 10_000), frames=st.integers(2, 90))
 def test_a_body_that_keeps_to_the_pins_stands_on_the_path(seed: int, frames: int) -> None:
     path = wild_path(seed, frames)
-    motion = decode_features(pin(path, tilt=True).values, **start_of(path))
+    motion = decode_features(pin(path, tilt=True).values, place=start_of(path))
     error = root_error(motion, path)
     assert error.max_metres < 1e-4 and error.max_degrees < 0.02
     assert error.mean_metres <= error.max_metres and error.mean_degrees <= error.max_degrees
@@ -148,7 +148,7 @@ def test_steps_are_known_where_the_path_walks() -> None:
 
 def test_ten_minutes_do_not_drift() -> None:
     path = wild_path(2, 18_000)
-    error = root_error(decode_features(pin(path, tilt=True).values, **start_of(path)), path)
+    error = root_error(decode_features(pin(path, tilt=True).values, place=start_of(path)), path)
     assert error.max_metres < 0.005 and error.max_degrees < 0.1
 
 
@@ -158,15 +158,15 @@ def test_a_heading_in_the_pelvis_row_is_taken_out() -> None:
     twist = axis_angle_to_matrix(1, torch.full((30,), 0.3))
     features[:, 0] = matrix_to_rotation_6d(twist)
     features[:, 1:ROOT_ROW, 0] = features[:, 1:ROOT_ROW, 4] = 1.0
-    assert root_error(decode_features(features, **start_of(path)), path).max_degrees > 10
+    assert root_error(decode_features(features, place=start_of(path)), path).max_degrees > 10
     level = without_heading(features)
-    assert root_error(decode_features(level, **start_of(path)), path).max_degrees < 0.02
+    assert root_error(decode_features(level, place=start_of(path)), path).max_degrees < 0.02
     torch.testing.assert_close(level[:, 1:], features[:, 1:])
 
 
 def test_errors_are_measured() -> None:
     path = wild_path(4, 30)
-    motion = decode_features(pin(path, tilt=True).values, **start_of(path))
+    motion = decode_features(pin(path, tilt=True).values, place=start_of(path))
     motion.root_position[:, 0] += 0.1
     error = root_error(motion, path)
     np.testing.assert_allclose([error.mean_metres, error.max_metres], 0.1, atol=1e-4)

@@ -11,10 +11,10 @@ from src.shared.errors import UsageError
 from src.shared.model.diffusion.samplers import Sampling
 from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import TextToMotion
-from src.shared.motion.features import FORWARD, ROOT_ROW, integrate_root
+from src.shared.motion.features import FORWARD, ROOT_ROW, Place, integrate_root
 from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess.footskate import ease_from_kept
-from src.shared.motion.postprocess.stitching import Place, moved_to, place_of
+from src.shared.motion.postprocess.stitching import moved_to, place_of
 from src.shared.motion.skeleton import JOINT_INDEX, JOINT_NAMES
 from src.shared.pipelines.edit import (
     GROUPS,
@@ -139,8 +139,7 @@ def test_a_path_is_bent_without_a_jump(generator: TextToMotion, clip: Motion) ->
     assert bent.known[30:70, ROOT_ROW, FORWARD].all()
     features, _ = fill(generator, WALK, given, SETTINGS)
     torch.testing.assert_close(features[bent.known], bent.values[bent.known])
-    place = (given.place.x, given.place.z), given.place.heading
-    path, _ = integrate_root(features[:, ROOT_ROW].double(), 30.0, *place)
+    path, _ = integrate_root(features[:, ROOT_ROW].double(), 30.0, given.place)
     np.testing.assert_allclose(path[70:].numpy(), clip.root_position[70:], atol=1e-4)
     change = bent.values[30:70, ROOT_ROW, :2] - free[30:70, ROOT_ROW, :2]
     assert float(change[[0, -1]].abs().max()) < 0.25 * float(change.abs().max()) + 1e-3

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from src.shared.errors import UserError
-from src.shared.motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, decode_features
+from src.shared.motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, Place, decode_features
 from src.shared.pipelines.path import (
     FASTEST,
     FASTEST_TURN,
@@ -141,9 +141,7 @@ def walked(path: TimedPath) -> np.ndarray:
     features = path.constraint().values
     features[:, :ROOT_ROW, 0] = 1.0
     features[:, :ROOT_ROW, 4] = 1.0
-    motion = decode_features(
-        features, fps=path.fps, start_position=(x, z), start_heading=float(path.headings[0])
-    )
+    motion = decode_features(features, fps=path.fps, place=Place(x, z, float(path.headings[0])))
     error = path_error(motion, path)
     assert error.max < 1e-4 and error.line_max < 1e-4
     return motion.root_position[:, [0, 2]]
@@ -227,7 +225,7 @@ def test_errors_are_distances() -> None:
     path = time_path(LINE, fps=30.0)
     beside = TimedPath(path.points + [0.03, 0.0], path.headings, 30.0)
     motion = decode_features(
-        beside.constraint().values + 0.0, start_position=tuple(beside.points[0])
+        beside.constraint().values + 0.0, place=Place(*beside.points[0].tolist())
     )
     error = path_error(motion, path, LINE)
     assert error.mean == pytest.approx(0.03, abs=1e-3)

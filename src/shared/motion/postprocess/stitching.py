@@ -6,14 +6,14 @@ Letters: T frames, R rows (bones, root track), C channels, N columns (one channe
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import torch
 from scipy.ndimage import gaussian_filter1d
 from torch import Tensor
 
-from ..features import LEFT_CONTACT, ROOT_ROW, headings
+from ..features import LEFT_CONTACT, ROOT_ROW, Place, headings
 from ..motion import Motion
 from ..rotations import (
     quaternion_continuous,
@@ -24,18 +24,6 @@ from ..rotations import (
 )
 
 FADE = 10  # frames until a correction at a border has faded out
-
-
-@dataclass(frozen=True)
-class Place:
-    """Where a pelvis is on the ground and where it faces: metres and radians about +Y."""
-
-    x: float = 0.0
-    z: float = 0.0
-    heading: float = 0.0
-
-
-ORIGIN = Place()
 
 
 def place_of(motion: Motion, frame: int) -> Place:

@@ -9,13 +9,12 @@ Letters: T frames, R rows (bones, root track), C channels.
 
 from dataclasses import replace
 from functools import reduce
-from typing import Any
 
 import numpy as np
 import torch
 from torch import Tensor
 
-from ..features import ROOT_ROW, decode_features, integrate_root
+from ..features import ORIGIN, ROOT_ROW, Place, decode_features, integrate_root
 from ..motion import Motion
 from ..rotations import (
     quaternion_conjugate,
@@ -24,7 +23,7 @@ from ..rotations import (
     quaternion_slerp,
 )
 from .footskate import kept_legs, lock_feet
-from .stitching import FADE, ORIGIN, Place, joined
+from .stitching import FADE, joined
 from .whole import MotionPostProcessor, clamp_velocity, smooth_features
 
 BLOCK, AHEAD, BEHIND = 15, 12, 24  # frames: locked at once, waited for, remembered
@@ -75,14 +74,10 @@ class Decoder:
 
     def add(self, features: Tensor) -> Motion:
         """The next frames [t,R,6], t ≥ 1."""
-        place: dict[str, Any] = {
-            "start_position": (self.place.x, self.place.z),
-            "start_heading": self.place.heading,
-        }
-        motion = decode_features(features, fps=self.fps, **place)
+        motion = decode_features(features, fps=self.fps, place=self.place)
         if features.shape[1] > ROOT_ROW:
             root = features[:, ROOT_ROW].double()
-            path, heading = integrate_root(torch.cat((root, root[-1:])), self.fps, **place)
+            path, heading = integrate_root(torch.cat((root, root[-1:])), self.fps, self.place)
             x, _, z = path[-1].tolist()
             self.place = Place(x, z, float(heading[-1]))
         quaternions = torch.as_tensor(motion.quaternions)

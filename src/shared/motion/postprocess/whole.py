@@ -14,7 +14,7 @@ from torch import Tensor, nn
 from torch.nn import functional as F
 
 from ...config_schema import PostProcessingConfig
-from ..features import LEFT_CONTACT, ROOT_ROW, decode_features, headings
+from ..features import LEFT_CONTACT, ORIGIN, ROOT_ROW, Place, decode_features, headings
 from ..motion import Motion
 from ..rotations import (
     matrix_to_rotation_6d,
@@ -27,7 +27,6 @@ from ..rotations import (
     yaw_to_matrix,
 )
 from .footskate import ease_from_kept, kept_legs, lock_carried_feet, lock_feet
-from .stitching import ORIGIN, Place
 
 
 def smooth_features(features: Tensor, kernel_size: int) -> Tensor:
@@ -120,13 +119,7 @@ class MotionPostProcessor(nn.Module):
             # Neither what was made of the pelvis nor an average has a heading of its own to add.
             smooth = without_heading(torch.where(known, features, smooth))
             smooth = torch.where(known, features, smooth)
-        motion = decode_features(
-            smooth,
-            fps=self.fps,
-            start_position=(place.x, place.z),
-            start_heading=place.heading,
-            text=text,
-        )
+        motion = decode_features(smooth, fps=self.fps, place=place, text=text)
         if self.config.max_velocity is not None:
             quaternions = torch.as_tensor(motion.quaternions)
             clamped = clamp_velocity(quaternions, self.config.max_velocity, self.fps)

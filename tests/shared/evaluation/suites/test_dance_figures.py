@@ -91,7 +91,7 @@ def test_the_distance_from_the_path_is_told_in_centimetres_and_degrees() -> None
     np.testing.assert_allclose(root[:2], [0, 5], atol=1e-3)
     assert turn[0] < 0.05 and np.isnan(root[2])
     assert np.asarray(found["limb_speed"])[0] < 1e-3 < np.asarray(found["joint_speed"])[0]
-    assert start_of(path)["start_heading"] == pytest.approx(path.heading[0])
+    assert start_of(path).heading == pytest.approx(path.heading[0])
 
 
 def test_feet_are_measured_before_and_after() -> None:

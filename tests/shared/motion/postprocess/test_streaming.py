@@ -11,13 +11,10 @@ from hypothesis import strategies as st
 
 from src.shared.config_schema import PostProcessingConfig
 from src.shared.data.synthetic.clips import generate_clip, spec_for
-from src.shared.motion.features import LATERAL, ROOT_ROW, YAW_RATE, encode_features
+from src.shared.motion.features import LATERAL, ROOT_ROW, YAW_RATE, Place, encode_features
 from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess.plants import GIVE
-from src.shared.motion.postprocess.stitching import (
-    Place,
-    joined,
-)
+from src.shared.motion.postprocess.stitching import joined
 from src.shared.motion.postprocess.streaming import StreamingPostProcessor, streamed
 from src.shared.motion.postprocess.whole import MotionPostProcessor
 from src.shared.motion.skeleton import FOOT_JOINTS
