@@ -56,9 +56,10 @@ from .train_generation import TAG_WEIGHT, GuidedDenoiser, spread_timesteps
 
 REHEARSED_FRAMES = 90
 REHEARSED_STEPS = 5  # of sampling
-OLD_CAPTIONS = 12  # of each known action and language
+OLD_CAPTIONS = 16  # of each known action and language
 TOWER_BATCH = 256  # sentences, half of them new
-TOWER_RATE = 5e-3
+TOWER_RATE = 2e-2  # of rows that are new
+OLD_ROW_RATE = 0.1  # times that, of the others
 BABBLE = 0.3  # share of new captions with made-up words in them
 LEAST_CLIPS = 2
 
@@ -67,7 +68,8 @@ class TrainActionConfig(TrainGenerationConfig):
     """train_action.yaml."""
 
     init: str = "starter"
-    rehearsed: int = Field(128, ge=1)  # motions of its own that the model goes on making
+    rehearsed: int = Field(256, ge=1)  # motions of its own that the model goes on making
+    rehearsal_weight: float = Field(3.0, ge=0)
     tower_steps: int = Field(300, ge=1)  # of the text tower, before the motion
 
 
@@ -301,7 +303,11 @@ class ActionTask(Task):
             batch.mask[new],
         )
         rehearsal = self.diffusion.loss(output[old], wanted, mask=batch.mask[old])
-        return {**losses, "loss": losses["loss"] + rehearsal, "rehearsal": rehearsal}
+        return {
+            **losses,
+            "loss": losses["loss"] + self.config.rehearsal_weight * rehearsal,
+            "rehearsal": rehearsal,
+        }
 
     def validation(self, module: nn.Module) -> dict[str, float]:
         """`evaluate-requests` and `calibrate` tell more than a loss on a few clips would."""
@@ -378,7 +384,8 @@ def old_captions(actions: Sequence[str], languages: Sequence[str]) -> list[str]:
     """Sentences that a tower is to send where it sent them before, whatever it makes of them."""
     book = packaged_book()
     combinations = [{"action": action} for action in actions]
-    combinations += [task for task in book.control_tasks() if task.get("action") in actions]
+    known = [*book.control_tasks(), *book.combinations()]
+    combinations += [labels for labels in known if labels.get("action") in actions]
     return sorted(
         {
             text
@@ -402,6 +409,8 @@ def with_new_places(
 ) -> TextTower:
     """A tower of token pairs that sends `captions[i]` to `places[i]`, and `old` as before.
 
+    The projection stays, and rows of tokens and pairs that it knew learn slowly.
+
     Args:
         tower: the old one; not changed.
         places: unit [N,D].
@@ -413,7 +422,11 @@ def with_new_places(
     row = torch.tensor([i for i, texts in enumerate(captions) for _ in texts])
     old = [text for text in old if text not in set(own)]
     every = torch.cat([tower.get_buffer("places").float(), places])  # [P + N, D]
-    student = _extended(tower, shared_keys([tokenizer(own)[0]], 1)).train()
+    student, fresh = _extended(tower, shared_keys([tokenizer(own)[0]], 1))
+    student.requires_grad_(False).train()
+    assert isinstance(student.encoder, TokenPairEncoder)
+    rows = student.encoder.rows.weight.requires_grad_(True)
+    rate = torch.where(fresh, 1.0, OLD_ROW_RATE)[:, None]
     with torch.no_grad():
         shares = torch.cat(
             [
@@ -424,7 +437,7 @@ def with_new_places(
             ]
         )  # [M, P]
     shares = pad(shares, (0, len(places)))
-    learner = torch.optim.Adam(student.parameters(), lr=TOWER_RATE)
+    learner = torch.optim.Adam([rows], lr=TOWER_RATE)
     rng = numpy_generator("tower", seed)
     draws = generator("tower", seed)
     half = TOWER_BATCH // 2
@@ -442,7 +455,10 @@ def with_new_places(
             loss = loss + kl_div(scores[half:].log_softmax(-1), shares[olds], reduction="batchmean")
             learner.zero_grad()
             loss.backward()
+            before = rows.detach().clone()
             learner.step()
+            with torch.no_grad():
+                rows.copy_(before + rate * (rows - before))
     config = student.config.model_copy(update={"text_places": len(every)})
     taught = TextTower(config, tower.embed_dim)
     assert isinstance(taught.encoder, TokenPairEncoder)
@@ -459,8 +475,9 @@ def _pooled(tower: TextTower, tokenizer: PromptTokenizer, texts: Sequence[str]) 
     return normalize(tower.text_proj(mean), dim=-1)
 
 
-def _extended(tower: TextTower, keys: Tensor) -> TextTower:
-    """A copy of the tower with a row for each of these keys that it does not know yet."""
+def _extended(tower: TextTower, keys: Tensor) -> tuple[TextTower, Tensor]:
+    """A copy of the tower with a row for each of these keys that it does not know yet; which rows
+    these are [rows] bool."""
     assert isinstance(tower.encoder, TokenPairEncoder)
     before = tower.encoder
     fresh = keys[~torch.isin(keys, before.keys)]
@@ -472,7 +489,7 @@ def _extended(tower: TextTower, keys: Tensor) -> TextTower:
     rows = torch.cat([old[:-1], torch.zeros(len(fresh), old.shape[1])])[order]
     state |= {"encoder.keys": every, "encoder.rows.weight": torch.cat([rows, old[-1:]])}
     wider.load_state_dict(state)
-    return wider
+    return wider, pad(order >= len(before.keys), (0, 1))
 
 
 def _padded(motion: Tensor, frames: int) -> Tensor:

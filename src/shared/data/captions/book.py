@@ -125,6 +125,11 @@ class CaptionBook:
                     tasks.append(dict(entry.labels))
         return tasks
 
+    def combinations(self) -> list[Labels]:
+        """Every label set that has whole sentences in some language, sorted."""
+        keys = {key for language in self._languages.values() for key in language.sentence_keys()}
+        return [dict(key) for key in sorted(keys)]
+
     def known_actions(self, lang: str) -> dict[str, str]:
         """Name of every action in one language, for messages."""
         actions = self.language(lang).content.actions

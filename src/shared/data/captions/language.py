@@ -131,6 +131,10 @@ class CaptionLanguage:
         """Whole sentences for these labels that `captions` never gives."""
         return list(self._held_back.get(self._key(spoken_labels(labels)), []))
 
+    def sentence_keys(self) -> list[tuple[tuple[str, str], ...]]:
+        """Label sets that have whole sentences, as sorted pairs."""
+        return list(self._sentences)
+
     def canonical(self, labels: Labels) -> str:
         """The plainest caption: first frame, first verb, first words."""
         return self._write(labels, self._plan(self._key(labels)), None)
