@@ -318,14 +318,10 @@ class ActionTask(Task):
     def _generator(self, module: nn.Module) -> TextToMotion:
         assert isinstance(module, GuidedDenoiser)
         before = self.before
-        clip = self.tower.config
-        network = self.network.model_copy(update={"clip": clip})
-        module.denoiser.config = network
         learned = {"from": before.card.name, "actions": list(self.actions),
                    "steps": self.config.steps, "data": self.data.manifest_hash}  # fmt: skip
         update = {
             "name": Path(self.config.output).name,
-            "network": network,
             "tags": self.tags,
             "description": f"{before.card.description}; and {', '.join(self.actions)}",
             "training": {**before.card.training, "actions": learned},

@@ -81,6 +81,13 @@ def test_a_generator_gets_a_tower_of_token_pairs(prepared: Path, tmp_path: Path)
     for key, value in old.denoiser.state_dict().items():
         assert torch.equal(value, new.denoiser.state_dict()[key])
     assert new.generate(["a person walks"], seconds=1.5, steps=2)[0].num_frames == 45
+    # and a denoiser that is trained behind it is read with it
+    given = ("steps=1", f"init='{made}'", "other-tower=true")
+    train_generation(generation_config(prepared, hard, tmp_path / "behind", *given))
+    behind = TextToMotion.from_pretrained(tmp_path / "behind")
+    assert behind.network.clip == new.network.clip
+    texts = ["a person walks", "she waves"]
+    assert torch.equal(behind.encode_prompts(texts).pooled, new.encode_prompts(texts).pooled)
 
 
 def test_a_tower_of_token_pairs_from_nothing(prepared: Path, tmp_path: Path) -> None:

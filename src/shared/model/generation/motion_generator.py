@@ -76,7 +76,7 @@ class TextToMotion:
     ) -> None:
         check_embed_dims(text.embed_dim, denoiser.config.embed_dim, "the text tower")
         self.device = torch.device(choose_device(device or "auto")[0])
-        self.network = denoiser.config
+        self.network = denoiser.config.model_copy(update={"clip": text.config})
         self.denoiser = denoiser.to(self.device).eval()
         self.text = text.to(self.device).eval()
         self.tokenizer = tokenizer
@@ -286,12 +286,15 @@ class TextToMotion:
 
     # Folders
 
-    def save_pretrained(self, folder: str | Path, *, half: bool = False) -> None:
+    def save_pretrained(
+        self, folder: str | Path, *, half: bool = False, int8: bool = False
+    ) -> None:
         """Write weights, card, tokenizer, scope and map of styles into a folder.
 
         Args:
             folder: made when absent.
             half: store float16; computing stays float32.
+            int8: store large tensors as int8 with a scale a row.
 
         Raises:
             UserError: the folder cannot be written.
@@ -312,7 +315,7 @@ class TextToMotion:
         tensors = with_prefix("denoiser", self.denoiser.state_dict())
         tensors |= with_prefix("text", self.text.state_dict())
         tensors |= {"statistics.mean": self.mean, "statistics.std": self.std}
-        self.card = write_checkpoint(folder, card, tensors, half=half)
+        self.card = write_checkpoint(folder, card, tensors, half=half, int8=int8)
 
     @classmethod
     def from_pretrained(cls, name_or_folder: str | Path, *, device: str | None = None) -> Self:
