@@ -40,6 +40,7 @@ class DifferentiableSampler:
     def __init__(
         self, diffusion: GaussianDiffusion, num_steps: int = 5, data_noise: float = 0.5
     ) -> None:
+        self.diffusion = diffusion
         self.ddim = DDIMSampler(diffusion, num_steps, eta=0.0)
         most, last = data_noise * diffusion.config.timesteps, num_steps - 1
         places = [place for place, t in enumerate(self.ddim.timesteps) if t <= most]
@@ -52,7 +53,7 @@ class DifferentiableSampler:
     def from_data(self, model_fn: ModelFn, x_0: Tensor, noise: Tensor, start: int) -> Tensor:
         """Data [B,25,T], noised to place `start` of the path and denoised along the rest."""
         step = torch.full((len(x_0),), self.ddim.timesteps[start], device=x_0.device)
-        noisy = self.ddim.diffusion.q_sample(x_0, step, noise)
+        noisy = self.diffusion.q_sample(x_0, step, noise)
         return self.ddim.run(recomputed(model_fn), noisy, start=start)
 
 

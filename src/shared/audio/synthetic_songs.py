@@ -1,7 +1,11 @@
-"""Drum strokes and plucked, bowed and blown tones for synthetic songs, as mono float32 at 44.1 kHz.
+"""Synthetic songs whose beats, downbeats and bar phase are known exactly, and their sounds.
 
-Every sound starts at its first sample, so the place where it is mixed in is its exact onset.
-Sounds are cached and shared: callers scale copies and never write into them.
+They are the oracle of the beat tracker, the held-out songs of the evaluation and the music that
+is always at hand for training. One seed gives one song, sample by sample, on every run.
+The tempo map is piecewise linear in time, so beat times and phases have closed forms.
+
+Every drum stroke and tone starts at its first sample, so the place where it is mixed in is its
+exact onset. They are cached and shared: callers scale copies and never write into them.
 """
 
 from dataclasses import dataclass, field

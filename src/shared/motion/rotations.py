@@ -1,4 +1,4 @@
-"""Rotations as 6D, matrices, quaternions and Euler angles; pure tensor functions.
+"""Rotations as 6D, matrices and quaternions; pure tensor functions.
 
 All functions work on the last dimension(s) and broadcast over the rest. Quaternions are
 Hamilton, w x y z. 6D is the first two columns of the matrix, column by column

@@ -55,6 +55,9 @@ def shared_keys(batches: Iterable[Tensor], least: int) -> Tensor:
 class TokenPairEncoder(nn.Module):
     """Stands where XLM-R stands: ids in, hidden states out.
 
+    Rows are kept for the tokens and pairs that training captions share; others add nothing, so a
+    word that nobody knows cannot mislead.
+
     Args:
         num_rows: N.
         hidden_size: H.

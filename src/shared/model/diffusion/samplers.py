@@ -1,19 +1,27 @@
-"""Reproducible noise: drawn on the CPU, one generator a sample, alike on every device."""
+"""From noise to data: DDPM, DDIM and DPM-Solver++(2M) behind one loop, and reproducible noise.
+
+Used in the diffusers habit: `set_timesteps`, then one `step` per timestep; `run` is that loop.
+Coefficients are Python floats (float64) times float32 tensors: no float64 tensor exists. Noise is
+drawn on the CPU, one generator a sample, alike on every device.
+
+Letters: a = sqrt(alpha_bar), s = sqrt(1 - alpha_bar), so x_t = a * x_0 + s * noise.
+"""
 
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import numpy as np
 import torch
 from torch import Tensor
 
+from ...config_schema import DiffusionConfig
 from ...device import idle_threads
 from ...errors import UsageError
 from .guidance import Model, ModelFn, with_condition
-from .schedule import sampling_timesteps
+from .schedule import NoiseSchedule, sampling_timesteps
 
 Generators = torch.Generator | Sequence[torch.Generator] | None
 
@@ -49,9 +57,6 @@ def standard_normal(
     return torch.stack(rows).to(device)
 
 
-if TYPE_CHECKING:
-    from .gaussian import GaussianDiffusion
-
 Callback = Callable[[int, int], None]  # callback(steps done, steps in all)
 
 
@@ -72,10 +77,26 @@ class Sampling:
     guidance_scale: float | None = None
 
 
+class Process(Protocol):
+    """What a sampler needs of a diffusion process; `GaussianDiffusion` is one."""
+
+    config: DiffusionConfig
+    schedule: NoiseSchedule
+    betas: Tensor
+
+    def denoiser(self, model: Model | None = None) -> Model:
+        """The model given, else the one this process was built with."""
+
+    def predict_x0(
+        self, model_output: Tensor, x_t: Tensor, t: Tensor | int, *, clip: bool = True
+    ) -> Tensor:
+        """The clean data that a model output stands for."""
+
+
 class Sampler(ABC):
     """A way through the timesteps of one diffusion process."""
 
-    def __init__(self, diffusion: "GaussianDiffusion", num_steps: int | None = None) -> None:
+    def __init__(self, diffusion: Process, num_steps: int | None = None) -> None:
         self.diffusion = diffusion
         self.timesteps: tuple[int, ...] = ()
         self.set_timesteps(num_steps or diffusion.config.sampling_steps)
@@ -175,7 +196,7 @@ class DDIMSampler(Sampler):
 
     def __init__(
         self,
-        diffusion: "GaussianDiffusion",
+        diffusion: Process,
         num_steps: int | None = None,
         eta: float | None = None,
     ) -> None:
@@ -237,7 +258,7 @@ def _add_noise(mean: Tensor, deviation: float, generator: Generators) -> Tensor:
 
 
 def make_sampler(
-    diffusion: "GaussianDiffusion",
+    diffusion: Process,
     name: str | None = None,
     num_steps: int | None = None,
     eta: float | None = None,

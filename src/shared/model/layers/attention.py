@@ -19,7 +19,7 @@ from torch.nn.functional import scaled_dot_product_attention
 def sinusoidal(positions: Tensor, dim: int, *, max_period: float = 10_000.0) -> Tensor:
     """Codes [..., dim] float32 of positions [...]: cosines in the first half, then sines.
 
-    An odd `dim` ends with one zero.
+    Vaswani et al. 2017, section 3.5. An odd `dim` ends with one zero.
     """
     half = dim // 2
     steps = torch.arange(half, dtype=torch.float32, device=positions.device)

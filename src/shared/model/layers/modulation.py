@@ -9,7 +9,10 @@ from .attention import sinusoidal
 
 
 class FiLM(nn.Module):
-    """x * (1 + scale) + shift, both read off the condition; starts as the identity."""
+    """x * (1 + scale) + shift, both read off the condition; starts as the identity.
+
+    Perez et al. 2018, FiLM, equation 1.
+    """
 
     def __init__(self, dim: int, condition_dim: int) -> None:
         super().__init__()
@@ -24,7 +27,10 @@ class FiLM(nn.Module):
 
 
 class AdaLN(nn.Module):
-    """Layer norm whose scale and shift come from the condition; starts as a plain layer norm."""
+    """Layer norm whose scale and shift come from the condition; starts as a plain layer norm.
+
+    Peebles and Xie 2023, DiT, section 3.2.
+    """
 
     def __init__(self, dim: int, condition_dim: int) -> None:
         super().__init__()
