@@ -1,6 +1,6 @@
 """What `generate` was asked, and which of its four kinds that is: each checks, makes and writes."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,9 +14,11 @@ from .console import Stopwatch, complain, progress_bar, tell
 if TYPE_CHECKING:
     from ..shared.audio.song import Song
     from ..shared.model.diffusion.samplers import Sampling
+    from ..shared.model.generation.motion_generator import Progress
     from ..shared.pipelines.edit import Given
-    from ..shared.pipelines.motion_generator import MotionGenerator, Progress
+    from ..shared.pipelines.motion_generator import MotionGenerator
     from ..shared.pipelines.path import DrawnPath
+    from ..shared.pipelines.ranking import ScoreTable
     from ..shared.pipelines.timeline import Timeline
 
 RUNTIMES = ("torch", "onnx")
@@ -273,16 +275,8 @@ def prompted(request: Request) -> dict[str, Any]:
     paged = "html" in formats and len(motions) > 1
     index = files.write_index(motions, request.out) if paged else None
     clock.lap("write")
-    judged = zip(prompts, found, strict=True) if several else ()
-    return {
-        "model": request.text_model,
-        "device": str(generator.text.device),
-        "seed": request.seed,
-        "motions": rows,
-        "selection": [files.scored(prompt, result.table) for prompt, result in judged],
-        "index": index,
-        "timings": clock.seconds(),
-    }
+    judged = zip(prompts, (result.table for result in found), strict=True) if several else ()
+    return told_of_text(request, generator) | results(rows, clock, judged, index)
 
 
 def controlled(request: Request) -> dict[str, Any]:
@@ -320,15 +314,7 @@ def controlled(request: Request) -> dict[str, Any]:
     rows[0] |= {"seed": request.seed, "directions": directions.given(), "errors": made.errors}
     rows[0] |= {"warning": next(filter(None, warnings), None)}
     clock.lap("write")
-    return {
-        "model": request.text_model,
-        "device": str(generator.text.device),
-        "seed": request.seed,
-        "motions": rows,
-        "selection": [],
-        "index": None,
-        "timings": clock.seconds(),
-    }
+    return told_of_text(request, generator) | results(rows, clock)
 
 
 def song_path(request: Request, audio: Path) -> dict[str, Any]:
@@ -338,22 +324,22 @@ def song_path(request: Request, audio: Path) -> dict[str, Any]:
     files.check_path_formats(request.format or "")
     check_runtime(request)
     formats = files.checked_formats(request.format or "npz,glb,html", files.PATH_FORMATS)
-    with listening(request, audio, bodies=False) as (generator, song, clock, style):
-        made = generator.trajectory(
-            song,
-            seconds=request.seconds,
-            style=style,
-            num_samples=request.num_samples,
-            sampling=request.sampling,
-            stage=staged(clock, {"path": "sample"}),
-        )
-        settings = generator.audio.post_processing
-        rows, index = files.write_trajectories(
-            made, request.kept, audio, formats, request.out, settings
-        )
-        clock.lap("write")
-        selection = [(str(audio), made.table)] if request.num_samples > 1 else []
-        return told_of_song(request, generator, song, rows, index, selection, clock)
+    generator, song, clock, style = listen(request, audio, bodies=False)
+    made = generator.trajectory(
+        song,
+        seconds=request.seconds,
+        style=style,
+        num_samples=request.num_samples,
+        sampling=request.sampling,
+        stage=staged(clock, {"path": "sample"}),
+    )
+    settings = generator.audio.post_processing
+    rows, index = files.write_trajectories(
+        made, request.kept, audio, formats, request.out, settings
+    )
+    clock.lap("write")
+    selection = [(str(audio), made.table)] if request.num_samples > 1 else []
+    return told_of_song(request, generator, song, rows, index, selection, clock)
 
 
 def dance(request: Request, audio: Path) -> dict[str, Any]:
@@ -367,38 +353,37 @@ def dance(request: Request, audio: Path) -> dict[str, Any]:
     prompts: list[str | None] = [*said] or [None]
     tags = checked_tags(request.tag, len(said)) or [None] * len(prompts)
     formats = request.body_formats()
-    with listening(request, audio, bodies=True) as (generator, song, clock, style):
-        warnings = warn(generator.text.scope_warnings(said)) if said else [None]
-        found = [
-            generator.dance(
-                song,
-                prompt,
-                tag=tag,
-                seconds=request.seconds,
-                style=style,
-                num_samples=request.num_samples,
-                sampling=request.sampling,
-                foot_lock=request.foot_lock,
-                stage=staged(clock),
-            )
-            for prompt, tag in zip(prompts, tags, strict=True)
-        ]
-        rows, index = files.write_dances(found, request.kept, audio, song, formats, request.out)
-        for place, row in enumerate(rows):
-            row |= {"seed": request.seed, "warning": warnings[place // request.kept]}
-        clock.lap("write")
-        several = found if request.num_samples > 1 else []
-        selection = [(each.prompt or str(audio), each.table) for each in several]
-        return told_of_song(request, generator, song, rows, index, selection, clock)
+    generator, song, clock, style = listen(request, audio, bodies=True)
+    warnings = warn(generator.text.scope_warnings(said)) if said else [None]
+    found = [
+        generator.dance(
+            song,
+            prompt,
+            tag=tag,
+            seconds=request.seconds,
+            style=style,
+            num_samples=request.num_samples,
+            sampling=request.sampling,
+            foot_lock=request.foot_lock,
+            stage=staged(clock),
+        )
+        for prompt, tag in zip(prompts, tags, strict=True)
+    ]
+    rows, index = files.write_dances(found, request.kept, audio, song, formats, request.out)
+    for place, row in enumerate(rows):
+        row |= {"seed": request.seed, "warning": warnings[place // request.kept]}
+    clock.lap("write")
+    several = found if request.num_samples > 1 else []
+    selection = [(each.prompt or str(audio), each.table) for each in several]
+    return told_of_song(request, generator, song, rows, index, selection, clock)
 
 
 # ---------------------------------------------------------------- songs
 
 
-@contextmanager
-def listening(
+def listen(
     request: Request, audio: Path, *, bodies: bool
-) -> "Iterator[tuple[MotionGenerator, Song, Stopwatch, Any]]":
+) -> "tuple[MotionGenerator, Song, Stopwatch, Any]":
     """Models loaded, and the song analysed: generator, song, clock, and what `--style` says."""
     clock = Stopwatch()
     from ..shared.audio.sound import check_sound
@@ -417,7 +402,7 @@ def listening(
     clock.lap("load")
     song = analyse(audio, meter=request.meter)
     clock.lap("listen")
-    yield generator, song, clock, style
+    return generator, song, clock, style
 
 
 def staged(clock: Stopwatch, names: dict[str, str] | None = None) -> Any:
@@ -430,6 +415,27 @@ def staged(clock: Stopwatch, names: dict[str, str] | None = None) -> Any:
         clock.lap((names or {}).get(name, name))
 
     return stage
+
+
+def told_of_text(request: Request, generator: "MotionGenerator") -> dict[str, Any]:
+    """What motions of a prompt were made with."""
+    device = str(generator.text.device)
+    return {"model": request.text_model, "device": device, "seed": request.seed}
+
+
+def results(
+    rows: list[dict[str, Any]],
+    clock: Stopwatch,
+    judged: "Iterable[tuple[str, ScoreTable]]" = (),
+    index: str | None = None,
+) -> dict[str, Any]:
+    """The motions, how several were judged, the page that shows all, what took how long."""
+    return {
+        "motions": rows,
+        "selection": [files.scored(about, table) for about, table in judged],
+        "index": index,
+        "timings": clock.seconds(),
+    }
 
 
 def told_of_song(
@@ -460,10 +466,7 @@ def told_of_song(
         "device": str(generator.text.device if dancing else paths.device),
         "seed": request.seed,
         "memory": remembered,
-        "motions": rows,
-        "selection": [files.scored(about, table) for about, table in selection],
-        "index": index,
-        "timings": clock.seconds(),
+        **results(rows, clock, selection, index),
     }
 
 
