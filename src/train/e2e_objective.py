@@ -170,4 +170,5 @@ def _liveliness(made: Tensor, real: Tensor) -> dict[str, Tensor]:
 def mean_speed(trajectory: Tensor) -> Tensor:
     """Of the path itself [B,T,25], not of the velocity columns; a scalar, m/s."""
     steps = (trajectory[:, 1:] - trajectory[:, :-1])[..., POSITION]
-    return steps.norm(dim=-1).mean() * FPS
+    speed: Tensor = steps.norm(dim=-1).mean() * FPS
+    return speed

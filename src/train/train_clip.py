@@ -9,9 +9,10 @@ embeddings of all of them.
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import torch
 import torch.distributed
@@ -86,7 +87,8 @@ def gather(values: Tensor) -> Tensor:
     """
     if not (torch.distributed.is_available() and torch.distributed.is_initialized()):
         return values
-    return cast(Tensor, _Gather.apply(values.contiguous()))
+    gathered: Callable[[Tensor], Tensor] = _Gather.apply
+    return gathered(values.contiguous())
 
 
 class ClipTask(Task):

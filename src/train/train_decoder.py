@@ -130,7 +130,8 @@ def time_noise(
     power = (gain.square() * twice).sum(dim=1) / size[2]
     smooth = smooth / power.sqrt()[:, None, None]
     part = share[:, None, None]
-    return (1 - part).sqrt() * white + part.sqrt() * smooth
+    noise: Tensor = (1 - part).sqrt() * white + part.sqrt() * smooth
+    return noise
 
 
 def log_uniform(limits: tuple[float, float], num: int, draws: torch.Generator) -> Tensor:

@@ -256,7 +256,7 @@ class _Cones:
                 whole = _smooth_min(whole, limb, BLEND)
             sides[side] = whole
         left, right = (_smooth_min(sides[s], sides["centre"], BLEND) for s in ("left", "right"))
-        return np.minimum(left, right)
+        return np.asarray(np.minimum(left, right))
 
     def field_and_normals(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Signed distance [P] and unit outward normals [P,3], by differences over 0.5 mm."""

@@ -19,7 +19,7 @@ from .pair import MusicBeats, strong_beats
 
 if TYPE_CHECKING:
     from ...audio.features import AudioFeatures
-    from ...audio.synthetic_songs import SongSpec
+    from ...audio.synthetic_score import SongSpec
 
 FPS = 30.0
 SYNTHETIC_SECONDS = 60.0

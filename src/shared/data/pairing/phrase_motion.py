@@ -112,7 +112,7 @@ class Warp:
 
     def times(self, at: np.ndarray) -> np.ndarray:
         """Seconds of motion [T] at phrase seconds `at` [T] ≥ 0."""
-        return self.start + _integral(at, len(self.rates)) @ np.asarray(self.rates)
+        return np.asarray(self.start + _integral(at, len(self.rates)) @ np.asarray(self.rates))
 
     def rate(self, at: np.ndarray) -> np.ndarray:
         """Playback rate [T] at phrase seconds `at` [T]."""

@@ -286,7 +286,7 @@ def common_length(trajectory: np.ndarray, sound: SoundContent) -> int:
     Raises:
         BadContent: fewer than 8, or the two differ by more than a second.
     """
-    motion, music = len(trajectory), sound.stacked.shape[1]
+    motion, music = len(trajectory), int(sound.stacked.shape[1])
     if abs(motion - music) > _LENGTH_TOLERANCE:
         raise BadContent(f"motion has {motion} frames, the sound {music}")
     if min(motion, music) < MIN_FRAMES:

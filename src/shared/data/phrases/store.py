@@ -149,8 +149,10 @@ class Remote:
 
         def attempt() -> bytes:
             if fs.async_impl:
-                return sync(fs.loop, fs._cat_file, full, timeout=self.backoff.timeout)
-            return fs.cat_file(full)
+                found = sync(fs.loop, fs._cat_file, full, timeout=self.backoff.timeout)
+            else:
+                found = fs.cat_file(full)
+            return bytes(found)
 
         return self.backoff.run(attempt, path)
 

@@ -58,7 +58,7 @@ def axis_vector(axis: str) -> np.ndarray:
     name = name[1:] if name[:1] == "+" and "-" not in name else name
     if name not in AXES:
         raise UsageError(f"--up {axis!r} is not an axis; choose from {', '.join(AXES)}")
-    return np.eye(3)["XYZ".index(name[-1])] * (-1.0 if name[0] == "-" else 1.0)
+    return np.asarray(np.eye(3)["XYZ".index(name[-1])] * (-1.0 if name[0] == "-" else 1.0))
 
 
 def upright(axis: str) -> np.ndarray:

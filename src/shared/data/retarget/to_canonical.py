@@ -54,7 +54,7 @@ def _align(start: np.ndarray, end: np.ndarray) -> np.ndarray:
     if c < -0.999999:  # opposite: half a turn about any axis across
         axis = np.cross(a, np.eye(3)[np.argmin(np.abs(a))])
         axis /= np.linalg.norm(axis)
-        return 2 * np.outer(axis, axis) - np.eye(3)
+        return np.asarray(2 * np.outer(axis, axis) - np.eye(3))
     k = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
     return np.eye(3) + k + k @ k / (1 + c)
 

@@ -85,17 +85,17 @@ def _start_and_stop(scene: Scene, half: float, action: str) -> tuple[float, floa
 def _arc(scene: Scene, grid: Array, start: float, envelope: Array) -> Array:
     """Yaw rate along the path: a steady arc, or a nearly straight line."""
     if "turn" not in scene.labels:
-        return 0.02 * np.sin(grid * 1.3 + 6 * scene.params["variant"]) * envelope
+        return np.asarray(0.02 * np.sin(grid * 1.3 + 6 * scene.params["variant"]) * envelope)
     sign = 1.0 if scene.labels["turn"] == "left" else -1.0
     seconds = scene.t[-1] - max(start, 0.0)
     total = np.radians(75.0 + 60.0 * scene.params["length"])  # seen within the clip
     if scene.params["variant"] < 0.5:  # all the way round an arc
-        return sign * total / seconds * envelope
+        return np.asarray(sign * total / seconds * envelope)
     # straight, a bend, straight again
     begin, duration = max(start, 0.0) + 0.2 * seconds, 0.6 * seconds
     progress = (grid - begin) / duration
     step = grid[1] - grid[0]
-    return sign * total * np.gradient(min_jerk(progress), step)
+    return np.asarray(sign * total * np.gradient(min_jerk(progress), step))
 
 
 def _stride(

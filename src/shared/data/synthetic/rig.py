@@ -28,13 +28,13 @@ Array = np.ndarray
 def min_jerk(progress: Array) -> Array:
     """0 → 1 with zero speed and acceleration at both ends (Flash & Hogan 1985)."""
     x = np.clip(progress, 0.0, 1.0)
-    return x**3 * (10.0 + x * (6.0 * x - 15.0))
+    return np.asarray(x**3 * (10.0 + x * (6.0 * x - 15.0)))
 
 
 def smooth_step(progress: Array) -> Array:
     """0 → 1 with zero speed at both ends; brisker than `min_jerk`."""
     x = np.clip(progress, 0.0, 1.0)
-    return x * x * (3.0 - 2.0 * x)
+    return np.asarray(x * x * (3.0 - 2.0 * x))
 
 
 def ramp(t: Array, start: float, duration: float) -> Array:
@@ -57,7 +57,7 @@ def keyframes(t: Array, keys: Sequence[tuple[float, float]]) -> Array:
     index = np.clip(np.searchsorted(times, t, side="right") - 1, 0, len(keys) - 2)
     span = np.maximum(times[index + 1] - times[index], 1e-6)
     blend = min_jerk((t - times[index]) / span)
-    return values[index] + (values[index + 1] - values[index]) * blend
+    return np.asarray(values[index] + (values[index + 1] - values[index]) * blend)
 
 
 def hermite(t: Array, keys: Sequence[tuple[float, float, float]]) -> Array:
@@ -66,7 +66,7 @@ def hermite(t: Array, keys: Sequence[tuple[float, float, float]]) -> Array:
     index = np.clip(np.searchsorted(times, t, side="right") - 1, 0, len(keys) - 2)
     span = times[index + 1] - times[index]
     x = np.clip((t - times[index]) / span, 0.0, 1.0)
-    return (
+    return np.asarray(
         (1 + 2 * x) * (1 - x) ** 2 * values[index]
         + x * (1 - x) ** 2 * span * speeds[index]
         + x * x * (3 - 2 * x) * values[index + 1]
@@ -79,7 +79,7 @@ def smooth_noise(rng: np.random.Generator, t: Array, amplitude: float, period: f
     rates = 2 * np.pi / (period * rng.uniform((0.7, 1.2, 2.0), (1.0, 1.7, 2.8)))
     phases = rng.uniform(0, 2 * np.pi, 3)
     weights = np.array([0.5, 0.3, 0.2])
-    return amplitude * (weights * np.sin(t[:, None] * rates + phases)).sum(1)
+    return np.asarray(amplitude * (weights * np.sin(t[:, None] * rates + phases)).sum(1))
 
 
 def gaussian_smooth(values: Array, sigma: float) -> Array:
@@ -272,7 +272,7 @@ def _frame(hinge: Array, bone: Array) -> Array:
 
 
 def _unit(vector: Array) -> Array:
-    return vector / np.maximum(np.linalg.norm(vector, axis=-1, keepdims=True), 1e-9)
+    return np.asarray(vector / np.maximum(np.linalg.norm(vector, axis=-1, keepdims=True), 1e-9))
 
 
 def _pose_leg(

@@ -88,7 +88,7 @@ def phase_palette(steps: int = 60) -> np.ndarray:
     blue = -0.0041960863 * long - 0.7034186147 * medium + 1.7076147010 * short
     linear = np.clip(np.stack((red, green, blue), -1), 0, 1)
     encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
-    return np.rint(255 * encoded).astype(np.uint8)
+    return np.asarray(np.rint(255 * encoded), np.uint8)
 
 
 ANKLE_HEIGHT = 0.08  # metres, in the rest pose
