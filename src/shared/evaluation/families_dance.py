@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from ..metrics.kinetic import amount
 from ..metrics.physical import contact, jerk_per_speed, physics
 from ..metrics.rhythm import against_chance, body_beats, landings, limb_beats, seen_from_pelvis
 from ..pipelines.body import root_error
@@ -113,8 +114,8 @@ class OnThePath:
 
 def _path_figures(dance: BodyDance) -> dict[str, float]:
     figures = {
-        "joint_speed": _speed(dance.motion.positions(), dance.motion.fps),
-        "limb_speed": _speed(seen_from_pelvis(dance.motion), dance.motion.fps),
+        "joint_speed": amount(dance.motion.positions(), dance.motion.fps),
+        "limb_speed": amount(seen_from_pelvis(dance.motion), dance.motion.fps),
     }
     if dance.path is None:
         return figures
@@ -125,11 +126,6 @@ def _path_figures(dance: BodyDance) -> dict[str, float]:
         "turn_mean": error.mean_degrees,
         "turn_max": error.max_degrees,
     }
-
-
-def _speed(points: np.ndarray, fps: float) -> float:
-    """Mean speed in m/s of points [T,K,3]."""
-    return float(np.linalg.norm(np.diff(points.astype(np.float64), axis=0), axis=-1).mean() * fps)
 
 
 FEET = {

@@ -1,6 +1,6 @@
 """Samples of embeddings: Fréchet distances, also with text and per label, and their variety.
 
-Letters: N samples, D channels, P prompts, R repetitions. All in float64 NumPy: this never runs on a
+Letters: N samples, D channels. All in float64 NumPy: this never runs on a
 model's device. Keep D at 32 or less and N at 1000 or more: at N = 270 two samples of one
 distribution are already 18 apart in 128 dimensions, so each figure stands beside a real-against-
 real one.
@@ -159,27 +159,6 @@ def diversity(embeddings: np.ndarray, *, num_pairs: int = 300, seed: int = 0) ->
     rows = np.random.default_rng(seed).permutation(len(embeddings))[: 2 * pairs]
     difference = embeddings[rows[:pairs]] - embeddings[rows[pairs:]]
     return float(np.linalg.norm(difference.astype(np.float64), axis=-1).mean())
-
-
-def multimodality(embeddings: np.ndarray, *, num_pairs: int = 10, seed: int = 0) -> float:
-    """Mean distance of random pairs made for one prompt, over prompts; embeddings [P, R, D].
-
-    0 means the model answers a prompt with one motion only.
-
-    Raises:
-        ValueError: fewer than two repetitions.
-    """
-    num_prompts, repetitions, _ = embeddings.shape
-    if repetitions < 2:
-        raise ValueError(f"multimodality needs 2 or more samples a prompt, got {repetitions}")
-    pairs = min(num_pairs, repetitions // 2)
-    rng = np.random.default_rng(seed)
-    total = 0.0
-    for prompt in range(num_prompts):
-        rows = rng.permutation(repetitions)[: 2 * pairs]
-        difference = embeddings[prompt, rows[:pairs]] - embeddings[prompt, rows[pairs:]]
-        total += float(np.linalg.norm(difference.astype(np.float64), axis=-1).mean())
-    return total / num_prompts
 
 
 @dataclass(frozen=True)

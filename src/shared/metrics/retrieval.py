@@ -81,11 +81,6 @@ def best_ranks(distances: np.ndarray, relevant: np.ndarray) -> Ranks:
     return Ranks((distances < best).sum(1), (tied & relevant).sum(1), (tied & ~relevant).sum(1))
 
 
-def hit_probability(distances: np.ndarray, relevant: np.ndarray, k: int) -> float:
-    """Chance that one of the relevant items [M] is among the k nearest of distances [M]."""
-    return float(best_ranks(distances[None], relevant[None]).hits(k)[0])
-
-
 def rank_of(distances: np.ndarray, column: int) -> np.ndarray:
     """How many columns [N] of distances [N,P] are nearer than this one; ties count half."""
     own = distances[:, column : column + 1]

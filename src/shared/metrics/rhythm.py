@@ -47,14 +47,6 @@ class MotionBeats:
         """Median interval in seconds; infinite below three beats."""
         return float(np.median(np.diff(self.times))) if len(self.times) > 2 else float("inf")
 
-    @property
-    def irregularity(self) -> float:
-        """Spread of the intervals over their mean; infinite below three beats."""
-        if len(self.times) < 3:
-            return float("inf")
-        intervals = np.diff(self.times)
-        return float(intervals.std() / intervals.mean())
-
 
 def smoothed_speed(points: np.ndarray, fps: float) -> np.ndarray:
     """Speed [T-1] in m/s of one point [T,3], or the mean over many [T,J,3]."""

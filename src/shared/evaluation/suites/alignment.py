@@ -22,7 +22,7 @@ from ...metrics.rhythm import (
 )
 from ...motion.trajectory import FPS, MotionTrajectory
 from ..report.plots import new_figure, save_figure
-from ..report.tables import Column, Grid, GridRow, plain
+from ..report.tables import Column, Grid, GridRow
 from ..stats import FEW, bootstrap_mean
 from .songs import Piece
 
@@ -53,7 +53,7 @@ def alignment_grids(name: str, part: dict[str, Any]) -> Iterator[Grid]:
         ("above", f"{name} motion: its own song above", ALIGNMENT[:-1]),
     ):
         note = NOTES[key]
-        rows = {row: GridRow(plain(cells), part["songs"], 1) for row, cells in part[key].items()}
+        rows = {row: GridRow(cells, part["songs"], 1) for row, cells in part[key].items()}
         yield Grid(f"alignment/{name}/{key}", title, columns, rows, note, "motion against")
 
 

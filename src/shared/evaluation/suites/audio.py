@@ -33,7 +33,7 @@ from ...pipelines.song_sampler import SPARE, SongSampling, spans
 from ..engine import Bench, MetricFamily, Progress, Row, Suite, run_suite
 from ..families_audio import BarPhase, BeatAlignment, RootKinetics, TrajectorySanity, beats_of
 from ..manifest import Part, Parts, Sources, model_hashes, song_hashes
-from ..report.tables import Column, Grid, GridRow, plain
+from ..report.tables import Column, Grid, GridRow
 from ..samples import Dance, DanceSample
 from .alignment import (
     Danced,
@@ -202,10 +202,6 @@ class AudioContext:
         dances = [Dance(phrase.song, phrase.motion, phrase.beats) for phrase in known]
         return DanceSample(dances, np.arange(len(dances)))
 
-    def real(self, replication: int) -> DanceSample:
-        """The same phrases each time."""
-        return self.reference
-
     def generated(self, replication: int) -> DanceSample:
         """The model's motions on their own songs."""
         return sample_of(self.made(replication))
@@ -293,9 +289,7 @@ def phase_table(context: AudioContext) -> list[Grid]:
         "chance": [(piece, bars + rng.random()) for piece, bars in tracked],
     }
     rows = {
-        name: GridRow(plain(phase_row(group)), len(group), 1)
-        for name, group in groups.items()
-        if group
+        name: GridRow(phase_row(group), len(group), 1) for name, group in groups.items() if group
     }
     return [Grid("phase", "bar and beat phase, held-out songs", PHASE, rows, NOTES["phase"])]
 
@@ -402,7 +396,7 @@ def _seams(seams: dict[str, Any], row: str) -> Iterator[Grid]:
 def track_table(context: AudioContext) -> list[Grid]:
     """Sound files against the beats that the tracker heard: descriptive."""
     rows = {
-        piece.name[:40]: GridRow(plain(_track(piece, motion, context.settings.seed)))
+        piece.name[:40]: GridRow(_track(piece, motion, context.settings.seed))
         for piece, motion in context.played
     }
     return [Grid("tracks", "real tracks", TRACK, rows, NOTES["tracks"], "track")] if rows else []
@@ -487,12 +481,16 @@ def evaluate_audio(
 
 def song_bench(context: AudioContext) -> Bench[DanceSample]:
     """The songs: real motion where there is data, chance, a frozen pose, generated, untrained."""
+
+    def real(replication: int = 0) -> DanceSample:
+        return context.reference
+
     return Bench(
         "songs",
         "held-out songs",
-        lambda: context.reference,
+        real,
         [
-            Row("real", context.real, None if context.data is not None else 0, True, True),
+            Row("real", real, None if context.data is not None else 0, fixed=True, real=True),
             Row("chance", context.chance),
             Row("frozen pose", context.frozen_pose, limit=1, fixed=True),
             Row("generated", context.generated),

@@ -205,10 +205,6 @@ class DanceContext:
             )
         return BodySample(dances, np.arange(len(dances)))
 
-    def real(self, replication: int) -> BodySample:
-        """The same phrases each time."""
-        return self.reference
-
     def another_song(self, replication: int) -> BodySample:
         """The generated dances, each on another song: what not listening scores."""
         sample = self.danced("generated", replication)
@@ -479,12 +475,16 @@ def dance_bench(context: DanceContext) -> Bench[BodySample]:
     """The songs, danced by the model, by its floors, and by real dancers where there is data."""
     few = context.settings.untrained
     hinted = context.generator.network.generation.constraints
+
+    def real(replication: int = 0) -> BodySample:
+        return context.reference
+
     return Bench(
         "dances",
         "dances",
-        lambda: context.reference,
+        real,
         [
-            Row("real", context.real, None if context.data is not None else 0, True, True),
+            Row("real", real, None if context.data is not None else 0, fixed=True, real=True),
             Row("generated", partial(context.danced, "generated")),
             Row("another song", context.another_song),
             Row("frozen pose", context.frozen_pose, limit=1, fixed=True),

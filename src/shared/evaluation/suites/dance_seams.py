@@ -14,7 +14,7 @@ import numpy as np
 
 from ...metrics.seams import ORDERS, body_quantities, compare
 from ...motion.motion import Motion
-from ..report.tables import Column, Grid, GridRow, plain
+from ..report.tables import Column, Grid, GridRow
 from ..samples import BodyDance
 
 TOP = 99  # percentile of real motion that nothing at a seam is to pass
@@ -88,7 +88,7 @@ def seam_grid(
                 for values, dance in zip(sizes[name], marked, strict=True)
                 if dance.seams is not None
             ]
-            found[f"{name}: {who}"] = GridRow(plain(_cells(pairs, limit, seed)), len(marked), 1)
+            found[f"{name}: {who}"] = GridRow(_cells(pairs, limit, seed), len(marked), 1)
     if not found:
         return []
     number = sum(len(_edges(dance.seams)) for dance in marked if dance.seams is not None)

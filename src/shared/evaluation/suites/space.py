@@ -378,14 +378,18 @@ def _table(
     by_action: bool = False,
 ) -> Grid:
     """One direction; the side with several rows names them."""
-    rows = {}
     count, runs = len(bench.songs), len(bench.batches)
-    for name in query if len(query) > 1 else items:
-        asking, found = query.get(name, query[SPACE]), items.get(name, items[SPACE])
-        figures = bench.measure(asking, found, by_action=by_action)
-        rows[name] = GridRow({k: v.as_dict() for k, v in figures.items()}, count // runs, runs)
-    chance = bench.measure(query[SPACE], items[SPACE], by_action=by_action, shuffled=True)
-    rows[CHANCE] = GridRow({k: v.as_dict() for k, v in chance.items()}, count // runs, runs)
+    names = list(query if len(query) > 1 else items)
+    found = {
+        name: bench.measure(
+            query.get(name, query[SPACE]),
+            items.get(name, items[SPACE]),
+            by_action=by_action,
+            shuffled=name == CHANCE,
+        )
+        for name in [*names, CHANCE]
+    }
+    rows = {name: GridRow(cells, count // runs, runs) for name, cells in found.items()}
     note = "Of the same song or clip: neither right nor wrong. A real row would be 1 throughout."
     if by_action:
         note += " Nor are phrases of the same action: a caption fits them all."
@@ -393,16 +397,12 @@ def _table(
 
 
 def _nearest(neighbours: Neighbours, sounds: dict[str, Tensor], motion: Tensor) -> Grid:
-    rows = {
-        name: GridRow({k: v.as_dict() for k, v in neighbours.measure(keys, motion).items()})
-        for name, keys in sounds.items()
-    }
     blind = neighbours.measure(sounds[SPACE], motion, shuffled=True)
-    rows[CHANCE] = GridRow({k: v.as_dict() for k, v in blind.items()})
+    found = {name: neighbours.measure(keys, motion) for name, keys in sounds.items()}
+    rows = {name: GridRow(cells) for name, cells in (found | {CHANCE: blind}).items()}
     own = (
         "The nearest motion of another song and other clips, held against the sound's own motion,"
         " which would be the real row: 0, 0 and 1."
     )
-    return Grid(
-        "nearest", "what the nearest motion has in common", NEAREST, rows, own, "keys of sound"
-    )
+    title = "what the nearest motion has in common"
+    return Grid("nearest", title, NEAREST, rows, own, "keys of sound")
