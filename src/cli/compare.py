@@ -60,7 +60,7 @@ def compare(
 
     from ..shared.evaluation.compare import Side
     from ..shared.evaluation.compare import compare as differences
-    from ..shared.evaluation.report.folder import save_report
+    from ..shared.evaluation.report.pages import save_report
 
     result = differences(Side(folders[0], row), Side(folders[1], other_row or row), seed=seed)
     save_report(result, out)

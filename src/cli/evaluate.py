@@ -151,7 +151,7 @@ def run(model: str, request: Request, out: Path | None, suite: str | None = None
     with sole_writer(folder):
         report = (run_audio if audio else run_text)(model, request, folder)
 
-        from ..shared.evaluation.report.folder import save_report
+        from ..shared.evaluation.report.pages import save_report
 
         save_report(report, folder)
     tell(f"evaluate: {folder / 'report.html'}")

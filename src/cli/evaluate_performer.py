@@ -118,7 +118,7 @@ def run(
     set_threads(threads)
     from ..shared.evaluation.held_out import open_held_out
     from ..shared.evaluation.judge.evaluator import Evaluator
-    from ..shared.evaluation.report.folder import save_report
+    from ..shared.evaluation.report.pages import save_report
     from ..shared.evaluation.suites.dance import DanceContext, DanceSettings
     from ..shared.evaluation.suites.dance import evaluate_performer as evaluate
     from ..shared.evaluation.suites.editing import EditContext, EditSettings

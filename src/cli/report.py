@@ -22,7 +22,7 @@ def report(
     if not (folder / "report.json").is_file():
         raise UsageError(f"{folder} holds no report.json; name a folder that `evaluate` wrote")
 
-    from ..shared.evaluation.report.folder import render
+    from ..shared.evaluation.report.pages import render
     from .console import tell
     from .evaluate import show
 

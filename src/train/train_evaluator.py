@@ -15,8 +15,13 @@ from torch import Tensor, nn
 from ..shared.config_schema import TrainConfig
 from ..shared.data.captions.word_dropout import drop_words
 from ..shared.data.prepare import open_data
-from ..shared.evaluation.judge.evaluator import Evaluator, EvaluatorConfig, contrastive_loss
-from ..shared.evaluation.judge.training_set import PairBatch, PairSet
+from ..shared.evaluation.judge.evaluator import (
+    Evaluator,
+    EvaluatorConfig,
+    PairBatch,
+    PairSet,
+    contrastive_loss,
+)
 from ..shared.metrics.retrieval import BATCH, TOP, guo_retrieval
 from .launch import Stage
 from .task import Part, Task, mix_seed

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from src.shared.audio.synthetic_songs import SongSpec, render_song
-from src.shared.evaluation.report.folder import save_report
+from src.shared.evaluation.report.pages import save_report
 from src.shared.evaluation.report.tables import Grid, grids, markdown, tables
 from src.shared.evaluation.suites.audio import AudioSettings, evaluate_audio
 from src.shared.model.audio.conditioning import BEAT

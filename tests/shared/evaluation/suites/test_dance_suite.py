@@ -13,7 +13,7 @@ from src.shared.data.prepared import PreparedData
 from src.shared.data.sources.folders import SyntheticSource
 from src.shared.evaluation.held_out import HeldOut
 from src.shared.evaluation.judge.evaluator import Evaluator
-from src.shared.evaluation.report.folder import save_report
+from src.shared.evaluation.report.pages import save_report
 from src.shared.evaluation.report.tables import Grid, grids, markdown
 from src.shared.evaluation.suites.dance import DanceContext, DanceSettings, evaluate_performer
 from src.shared.evaluation.suites.editing import EditContext, EditSettings

@@ -18,8 +18,12 @@ from src.shared.data.synthetic import generate_clip
 from src.shared.data.synthetic.clips import spec_for
 from src.shared.errors import UserError
 from src.shared.evaluation.held_out import HeldOut
-from src.shared.evaluation.judge.evaluator import Evaluator, EvaluatorConfig, contrastive_loss
-from src.shared.evaluation.judge.training_set import PairSet
+from src.shared.evaluation.judge.evaluator import (
+    Evaluator,
+    EvaluatorConfig,
+    PairSet,
+    contrastive_loss,
+)
 from src.shared.evaluation.report.tables import (
     grids,
     markdown,

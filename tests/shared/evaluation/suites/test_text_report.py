@@ -11,7 +11,7 @@ import torch
 from src.shared.data.prepare import prepare
 from src.shared.data.sources.folders import SyntheticSource
 from src.shared.evaluation.judge.evaluator import Evaluator, EvaluatorConfig
-from src.shared.evaluation.report.folder import save_report
+from src.shared.evaluation.report.pages import save_report
 from src.shared.evaluation.report.tables import grids
 from src.shared.evaluation.suites.text import TextSettings, evaluate_text
 from tests.shared.model.conftest import tiny_generator

@@ -11,7 +11,7 @@ from src.shared.data.prepared import ClipRecord, PreparedData
 from src.shared.errors import UserError
 from src.shared.evaluation.floors import frozen
 from src.shared.evaluation.held_out import choose_caption, real_clips, spread_over_groups
-from src.shared.evaluation.judge.training_set import PairSet
+from src.shared.evaluation.judge.evaluator import PairSet
 from src.shared.motion.features import ROOT_ROW, decode_features
 
 

@@ -1,7 +1,7 @@
-"""report.html: one page with everything in it, tables, plots and the worst motions to be played.
+"""The pages of a report folder: report.md, and report.html with plots and motions to be played.
 
-It opens offline and loads nothing. Every text of the report is escaped: a prompt cannot act as
-markup.
+The page opens offline and loads nothing. Every text of the report is escaped: a prompt cannot act
+as markup.
 """
 
 import base64
@@ -14,12 +14,15 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
+from ...errors import UserError
 from ...formats.arrays import read_npz, read_trajectory_npz
 from ...formats.preview.html import write_html, write_trajectory_html
 from ...formats.preview.trajectory import SongTrack
-from ...io.files import inside
-from .tables import Cell, Column, Grid, grids, heading, intervals_note, number, printed
+from ...io.files import inside, write_json, write_text
+from ..manifest import read_json
+from .tables import Cell, Column, Grid, grids, heading, intervals_note, markdown, number, printed
 
+REPORT = "report.json"
 POLICY = (
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:;"
     " media-src data:"
@@ -58,6 +61,37 @@ COLOURS = {
     "generated": "#2f6fd0",
 }  # fmt: skip
 OTHER_COLOUR = "#7a4fbf"
+
+
+def save_report(report: dict[str, Any], folder: Path) -> None:
+    """Write all three.
+
+    Raises:
+        UserError: the folder cannot be written.
+    """
+    write_json(folder / REPORT, report)
+    render(folder)
+
+
+def render(folder: Path) -> dict[str, Any]:
+    """Make report.md and report.html again; returns the report.
+
+    Raises:
+        UserError: report.json, a sample or a picture is missing or damaged.
+    """
+    report = read_json(folder / REPORT)
+    try:
+        page = html_page(report, folder)
+        text = markdown(report)
+    except (KeyError, TypeError, AttributeError) as error:
+        raise UserError(
+            f"{folder / REPORT} is no report of this version ({error!r}); run `evaluate` again"
+        ) from error
+    except OSError as error:
+        raise UserError(f"{error.filename}: {error.strerror}; run `evaluate` again") from error
+    write_text(folder / "report.md", text)
+    write_text(folder / "report.html", page)
+    return report
 
 
 def html_page(report: dict[str, Any], folder: Path) -> str:

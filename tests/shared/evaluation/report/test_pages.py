@@ -13,7 +13,7 @@ from src.shared.evaluation import manifest
 from src.shared.evaluation.compare import Side, compare, verdict
 from src.shared.evaluation.engine import run_bench
 from src.shared.evaluation.manifest import Parts, read_json
-from src.shared.evaluation.report.folder import render, save_report
+from src.shared.evaluation.report.pages import render, save_report
 from src.shared.evaluation.report.tables import (
     Column,
     Grid,
