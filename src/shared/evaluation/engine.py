@@ -304,7 +304,7 @@ def worst_first(
         ]
         if ranks:
             totals += np.mean(ranks, axis=0)
-    return np.argsort(-totals, kind="stable").tolist()
+    return [int(row) for row in np.argsort(-totals, kind="stable")]
 
 
 def _badness(values: np.ndarray, high_is_good: bool) -> np.ndarray:

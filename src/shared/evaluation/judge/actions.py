@@ -88,7 +88,7 @@ def _rhythm(velocity: np.ndarray, fps: float) -> np.ndarray:
     frequencies = np.fft.rfftfreq(len(velocity), 1 / fps)
     power = spectrum.sum(-1) / len(velocity) ** 2
     bands = [power[(low <= frequencies) & (frequencies < high)].sum(0) for low, high in BANDS]
-    return np.sqrt(np.stack(bands, -1))
+    return np.asarray(np.sqrt(np.stack(bands, -1)))
 
 
 @dataclass(frozen=True, eq=False)

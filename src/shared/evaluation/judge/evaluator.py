@@ -178,7 +178,8 @@ class Evaluator(nn.Module):
     def embed_text(self, captions: Sequence[str]) -> Tensor:
         """Unit vectors [B, D] on the CPU."""
         self.eval()
-        return self.text(list(captions)).float().cpu()
+        embedded: Tensor = self.text(list(captions))
+        return embedded.float().cpu()
 
     @torch.inference_mode()
     def embed_features(self, clips: Sequence[Tensor], *, batch_size: int = 64) -> Tensor:
@@ -324,7 +325,8 @@ def joint_features(clips: Sequence[Tensor]) -> list[Tensor]:
                 f"the evaluator reads [T, {NUM_JOINTS + 1}, 6] with a root track,"
                 f" not {tuple(clip.shape)}"
             )
-    positions = heading_positions(torch.cat(list(clips))).split([len(clip) for clip in clips])
+    joined = heading_positions(torch.cat(list(clips)))
+    positions = torch.split(joined, [len(clip) for clip in clips])
     return [_assemble(clip, joints) for clip, joints in zip(clips, positions, strict=True)]
 
 

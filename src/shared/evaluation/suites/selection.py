@@ -432,7 +432,7 @@ class SongSettings:
 
 
 def song_pool(
-    generator: SongGenerator,
+    generator: SongGenerator[Any],
     judge: AudioJudge,
     pieces: Sequence[Piece],
     real: Sequence[MotionTrajectory],
