@@ -55,7 +55,19 @@ def compare(
       motion-tools compare starter runs/mine --quick --data data/mine
     """
     options.check_folder("--out", out)
-    request = Request.of(locals())
+    request = Request(
+        quick=quick,
+        data=data,
+        evaluator=evaluator,
+        num_samples=num_samples,
+        replications=replications,
+        control_seeds=control_seeds,
+        num_songs=num_songs,
+        steps=steps,
+        seed=seed,
+        device=device,
+        threads=threads,
+    )
     folders = [report_of(name, side, request, out) for side, name in (("a", a), ("b", b))]
 
     from ..shared.evaluation.compare import Side

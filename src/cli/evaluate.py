@@ -1,7 +1,6 @@
 """`evaluate`: honest figures of a model, each beside real, chance and untrained rows."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -64,12 +63,6 @@ class Request:
     device: str = "auto"
     threads: int | None = None
 
-    @classmethod
-    def of(cls, arguments: Mapping[str, Any]) -> "Request":
-        """Those of a command's arguments that say how to evaluate."""
-        known = {each.name for each in fields(cls)}
-        return cls(**{name: value for name, value in arguments.items() if name in known})
-
     def amount(self, *names: str) -> dict[str, Any]:
         """Settings that were asked for, by name, and how often."""
         runs = self.replications or (QUICK_REPLICATIONS if self.quick else None)
@@ -121,7 +114,23 @@ def evaluate(
       motion-tools evaluate --quick --model starter-audio --data data/pairs
       motion-tools evaluate --suite requests --data data/mine
     """
-    request = Request.of(locals())
+    request = Request(
+        quick=quick,
+        data=data,
+        evaluator=evaluator,
+        num_samples=num_samples,
+        replications=replications,
+        control_seeds=control_seeds,
+        songs=songs,
+        num_songs=num_songs,
+        song_seconds=song_seconds,
+        steps=steps,
+        sampler=sampler,
+        guidance_scale=guidance_scale,
+        seed=seed,
+        device=device,
+        threads=threads,
+    )
     show(run(model, request, out, suite), json=json)
 
 
@@ -141,7 +150,9 @@ def run(model: str, request: Request, out: Path | None, suite: str | None = None
     check(request, folder)
     audio = read_card(resolve_model(model)).kind == AUDIO_KIND
     if audio and suite is not None:
-        raise UsageError(f"--suite {suite} is not for {model}, which makes motion from music")
+        raise UsageError(
+            f"--suite {suite} is not for {model}, which makes motion from music; leave --suite out"
+        )
     refuse(model, audio, request)
 
     from ..shared.device import set_threads

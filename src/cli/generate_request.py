@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..shared.environment import TEXT_MODEL, default_audio_model
 from ..shared.errors import UsageError
-from ..shared.model.zoo import TEXT_MODEL, default_audio_model
 from . import generate_files as files
 from .console import Stopwatch, complain, progress_bar, tell
 

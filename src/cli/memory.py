@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ..shared.environment import TEXT_MODEL
 from ..shared.errors import UsageError, printable
 from . import options
 from .console import complain, guarded, print_json, tell, with_quiet
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
     from ..shared.model.audio.shared_space import SharedSpace
 
 SPACE = "starter-space"
-TEXT_MODEL = "starter"
 SOUND_FILES = (".wav", ".flac", ".ogg", ".mp3")
 NAME_WIDTH = 48
 

@@ -1,4 +1,4 @@
-"""MOTIONGEN_* variables (TECH 11.2): the same for commands, library and training.
+"""Defaults and MOTIONGEN_* variables (TECH 11.2): the same for commands, library and training.
 
 What counts is the flag, the argument or the key that is given, else the variable, else the default.
 A variable that is set but empty counts as not set. An option of a command names its variable with
@@ -14,10 +14,17 @@ DATA_DIR = "MOTIONGEN_DATA_DIR"  # folder or bucket of pairs
 DIFFUSION_CHECKPOINT = "MOTIONGEN_DIFFUSION_CHECKPOINT"  # a model folder
 DECODER_CHECKPOINT = "MOTIONGEN_DECODER_CHECKPOINT"  # a model folder, for its decoder alone
 
+TEXT_MODEL, AUDIO_MODEL = "starter", "starter-audio"  # where none is named
+
 
 def variable(name: str) -> str | None:
     """What a variable is set to; None = nothing."""
     return os.environ.get(name) or None
+
+
+def default_audio_model() -> str:
+    """What makes the paths of songs where none is named."""
+    return variable(DIFFUSION_CHECKPOINT) or AUDIO_MODEL
 
 
 def run_folder(folder: str | Path) -> Path:

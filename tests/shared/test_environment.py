@@ -64,7 +64,7 @@ def test_runs_are_found_where_training_writes_them(
 
 
 def test_the_library_makes_paths_with_the_model_that_is_named() -> None:
-    assert zoo.default_audio_model() == "diffusion_checkpoint"
+    assert environment.default_audio_model() == "diffusion_checkpoint"
     with pytest.raises(Exception, match="no model named 'diffusion_checkpoint'"):
         _ = MotionGenerator().audio
     with pytest.raises(Exception, match="no model named 'mine'"):

@@ -7,18 +7,12 @@ from pathlib import Path
 from typing import Any
 
 from ..config_loader import nearest, profile_names
-from ..environment import DIFFUSION_CHECKPOINT, run_folder, variable
+from ..environment import run_folder
 from ..errors import UserError
 from .checkpoint import CARD_FILE, ModelCard, read_card
 
 PRETRAINED = Path(__file__).resolve().parents[1] / "pretrained"
 RUNS = Path("runs")
-TEXT_MODEL, AUDIO_MODEL = "starter", "starter-audio"  # where none is named
-
-
-def default_audio_model() -> str:
-    """What makes the paths of songs where none is named."""
-    return variable(DIFFUSION_CHECKPOINT) or AUDIO_MODEL
 
 
 def list_models(*, runs: bool = True) -> list[dict[str, Any]]:
