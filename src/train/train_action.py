@@ -126,7 +126,7 @@ class ActionTask(Task):
             there = ", ".join(sorted({r.tag for r in self.train.records if r.tag})) or "none"
             raise UserError(
                 f"{self.config.data} has no action that {self.config.init} does not know (it has:"
-                f" {there}); give the clips a new one in the column `action`, see docs/quickstart.md"
+                f" {there}); give the clips a new one (`action` in docs/quickstart.md)"
             )
         for action in self.actions:
             if (number := sum(r.tag == action for r in self.train.records)) < LEAST_CLIPS:
