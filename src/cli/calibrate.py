@@ -6,9 +6,9 @@ from typing import Annotated
 
 import typer
 
-from ..shared.errors import UserError
+from ..shared.errors import UsageError, UserError
 from . import options
-from .console import tell
+from .console import print_json, tell
 
 
 def calibrate(
@@ -29,7 +29,11 @@ def calibrate(
       motion-tools calibrate --model runs/generation --data data/prepared
     """
     options.check_ranges(seed=seed, threads=threads, tries=tries)
-    options.check_folder("--model", model)
+    if not (model / "config.json").is_file():
+        raise UsageError(
+            f"--model {model} is no model folder of yours, and what ships is not written to; name"
+            " a folder of `train generation`, or copy one"
+        )
 
     from ..shared.data.prepared import PreparedData
     from ..shared.device import set_threads
@@ -51,9 +55,7 @@ def calibrate(
     )
     replace(generator.scope, reliability=found).save_pretrained(model)
     if json:
-        import json as json_format
-
-        print(json_format.dumps({"model": str(model), "reliability": found}, indent=1))
+        print_json({"model": str(model), "reliability": found})
     else:
         for action, share in sorted(found.items(), key=lambda each: each[1]):
             print(f"{share:.2f}  {action}{'  (warned of)' if share < RELIABLE else ''}")

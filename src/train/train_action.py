@@ -23,7 +23,13 @@ from pydantic import Field
 from torch import Tensor, nn
 from torch.nn.functional import cross_entropy, kl_div, normalize, pad
 
-from ..shared.config_schema import PROVENANCES, NetworkConfig, TrainGenerationConfig
+from ..shared.config_schema import (
+    PROVENANCES,
+    ConstraintShares,
+    LossWeights,
+    NetworkConfig,
+    TrainConfig,
+)
 from ..shared.data.captions.book import packaged_book
 from ..shared.data.captions.word_dropout import insert_babble
 from ..shared.data.prepared import ClipRecord
@@ -64,10 +70,14 @@ BABBLE = 0.3  # share of new captions with made-up words in them
 LEAST_CLIPS = 2
 
 
-class TrainActionConfig(TrainGenerationConfig):
+class TrainActionConfig(TrainConfig):
     """train_action.yaml."""
 
     init: str = "starter"
+    condition_dropout: float = Field(0.1, ge=0, lt=1)  # ruling 14
+    tag_dropout: float = Field(0.5, ge=0, le=1)
+    losses: LossWeights = LossWeights()
+    constraints: ConstraintShares = ConstraintShares()  # of networks with generation.constraints
     rehearsed: int = Field(256, ge=1)  # motions of its own that the model goes on making
     rehearsal_weight: float = Field(3.0, ge=0)
     tower_steps: int = Field(300, ge=1)  # of the text tower, before the motion
@@ -139,7 +149,7 @@ class ActionTask(Task):
 
     def _taught_tower(self) -> tuple[TextTower, dict[str, Tensor]]:
         """The tower with a place for each new combination; and the place [D] of every group."""
-        groups: dict[str, ClipRecord] = {r.group: r for r in self.train.records if r.tag}
+        groups: dict[str, ClipRecord] = {r.group: r for r in self.train.records}
         captions = {group: self._captions(record) for group, record in groups.items()}
         before = self.before.text
         means = torch.stack(
@@ -165,7 +175,7 @@ class ActionTask(Task):
         return tower, dict(zip(groups, places, strict=True))
 
     def _captions(self, record: ClipRecord) -> list[str]:
-        """Of every clip of its group, in every language, and what the caption book can add."""
+        """Of every clip of its group, in every language."""
         texts = {
             text
             for other in self.train.records

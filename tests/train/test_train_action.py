@@ -47,13 +47,14 @@ def model(prepared: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def flops(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A prepared folder of six clips that no caption book knows."""
+    """A prepared folder of six clips that no caption book knows, and one without a label."""
     folder = tmp_path_factory.mktemp("flops")
     lines = ["clip,action,caption"]
-    for number in range(6):
+    for number in range(7):
         clip = generate_clip(spec_for({"action": "bow", "count": "1"}, number), seed=number)
         write_bvh(clip, folder / "clips" / f"take{number}.bvh")
-        lines.append(f"take{number},flop,{' | '.join(NEW)}")
+        action = "flop" if number < 6 else ""  # one clip has no label
+        lines.append(f"take{number},{action},{' | '.join(NEW) if action else 'a person stands'}")
     (folder / "captions.csv").write_text("\n".join(lines))
     source = MotionFolder.open(folder / "clips", captions=[folder / "captions.csv"])
     prepare([source], folder / "data", workers=1)

@@ -18,6 +18,17 @@ from .families_text import KINETIC_WARNING
 from .report.tables import Column
 from .samples import Dance, DanceSample
 
+SCORES = (
+    Column("motion_to_music", "motion→music", better="high"),
+    Column("music_to_motion", "music→motion", better="high"),
+    Column("f", "F", better="high"),
+    Column("hits", "hits F", better="high"),
+)
+ABOVE = (
+    Column("f_above_turned", "F above chance", better="high"),
+    Column("f_above_half", "F above half a beat", better="high"),
+)
+
 
 def beats_of(trajectory: MotionTrajectory) -> np.ndarray:
     """Times of the motion's beats, seconds."""
@@ -30,13 +41,9 @@ class BeatAlignment:
     name = "beat alignment"
     distance = False
     columns = (
-        Column("motion_to_music", "motion→music", better="high"),
-        Column("music_to_motion", "music→motion", better="high"),
-        Column("f", "F", better="high"),
-        Column("hits", "hits F", better="high"),
+        *SCORES,
         Column("beat_distance", "distance s", better="low"),
-        Column("f_above_turned", "F above chance", better="high"),
-        Column("f_above_half", "F above half a beat", better="high"),
+        *ABOVE,
     )
     definition = (
         "motion→music: mean over motion beats of exp(-d²/2σ²), d seconds to the nearest beat of"

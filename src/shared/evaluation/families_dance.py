@@ -12,6 +12,7 @@ from ..metrics.physical import contact, jerk_per_speed, physics
 from ..metrics.rhythm import against_chance, body_beats, landings, limb_beats, seen_from_pelvis
 from ..pipelines.body import root_error
 from .engine import Value
+from .families_audio import ABOVE, SCORES
 from .report.tables import Column
 from .samples import BodyDance, BodySample
 
@@ -28,12 +29,8 @@ class BodyRhythm:
     name = "whole-body beats"
     distance = False
     columns = (
-        Column("motion_to_music", "motion→music", better="high"),
-        Column("music_to_motion", "music→motion", better="high"),
-        Column("f", "F", better="high"),
-        Column("hits", "hits F", better="high"),
-        Column("f_above_turned", "F above chance", better="high"),
-        Column("f_above_half", "F above half a beat", better="high"),
+        *SCORES,
+        *ABOVE,
         Column("limbs_f", "limbs F", better="high"),
         Column("limbs_f_above_turned", "limbs above chance", better="high"),
         Column("landing_to_music", "landing→music", better="high"),

@@ -201,6 +201,7 @@ def action_reliability(
         UserError: fewer than two actions to tell apart.
     """
     train = [r for r in data.records("train") if r.tag and r.num_frames >= MIN_FRAMES]
+    train = [r for r in train if any(data.captions(r).values())]
     clips = spread_over_groups(judged_by(train), JUDGING_CLIPS, seed)
     progress(f"a judge of {len(clips)} clips")
     seen = [decode_features(data.features(r)[: round(SECONDS * 30)]) for r in clips]

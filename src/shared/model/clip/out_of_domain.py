@@ -247,7 +247,7 @@ class OutOfDomainDetector:
             return None
         if result.unreliable is not None:
             return (
-                f"prompt {prompt!r} asks for {result.unreliable!r}, which this model shows in only"
+                f"prompt {prompt!r} asks for {result.unreliable!r}, which this model shows in about"
                 f" {self.reliability[result.unreliable]:.0%} of tries; look at the motion before"
                 " you use it"
             )
