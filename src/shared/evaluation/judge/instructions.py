@@ -4,6 +4,7 @@ Thresholds lie between what the synthetic source and real mocap do and what they
 when another action is asked for; a frozen pose and noise fail every check.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
@@ -120,6 +121,44 @@ def _of_a_body(check: Check) -> Check:
 
 CHECKS: dict[str, Check] = {name: _of_a_body(check) for name, check in _RAW.items()}
 """Named yes-or-no questions to a measured motion; each also demands a credible body."""
+
+
+def _travels(m: Measurements, speed: float) -> bool:
+    return math.hypot(m.forward_net, m.lateral_net) > speed * m.seconds
+
+
+def _within(m: Measurements, metres: float) -> bool:
+    return abs(m.forward_net) < metres and abs(m.lateral_net) < metres
+
+
+def _walks(m: Measurements) -> bool:
+    slow = m.cruise < 2.0 and m.flight < 0.05 * m.seconds
+    return slow and _travels(m, 0.25) and m.stride > _MIN_STRIDE and m.pelvis_low > 0.82
+
+
+def _side_steps(m: Measurements) -> bool:
+    return any(_sideways(m, sign) for sign in (1, -1)) and abs(m.lateral_net) > abs(m.forward_net)
+
+
+def _turns_in_place(m: Measurements) -> bool:
+    return abs(m.yaw) > _MIN_TURN and _within(m, 0.6) and max(m.hand_peak) < -0.3
+
+
+_ACTIONS: dict[str, Check] = {
+    "walk": _walks,
+    "run": _runs,
+    "wave": _waves,
+    "crouch-walk": lambda m: m.pelvis_low < 0.85 and _travels(m, 0.2),
+    "side-step": _side_steps,
+    "turn": _turns_in_place,
+    "spin": lambda m: abs(m.yaw) > 4.7 and _within(m, 0.8),
+    "kick": lambda m: max(m.kicks) >= 1,
+    "punch": lambda m: max(m.punches) >= 1 and not _travels(m, 0.25),
+    **{name: _RAW[name] for name in ("squat", "jump", "clap", "bow", "stand")},
+}
+
+ACTIONS: dict[str, Check] = {name: _of_a_body(check) for name, check in _ACTIONS.items()}
+"""Actions that kinematics define, whoever performs them and in whatever style."""
 
 
 def faster(fast: Measurements, slow: Measurements) -> bool:

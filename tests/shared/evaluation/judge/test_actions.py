@@ -3,10 +3,12 @@
 import numpy as np
 import pytest
 
+from src.shared.data.prepared import ClipRecord
 from src.shared.data.synthetic import generate_clip
 from src.shared.data.synthetic.clips import spec_for
 from src.shared.evaluation.floors import frozen
-from src.shared.evaluation.judge.actions import ActionJudge, descriptor
+from src.shared.evaluation.judge.actions import ActionJudge, ActionRecognizer, descriptor
+from src.shared.evaluation.judge.instructions import ACTIONS
 from src.shared.motion.features import decode_features, encode_features
 
 LABELS = {
@@ -69,3 +71,39 @@ def test_classes_lie_apart_in_its_axes_in_deviations_within_a_class(
 def test_one_class_is_refused(clips: dict[str, np.ndarray]) -> None:
     with pytest.raises(ValueError, match="too few"):
         ActionJudge.fit(clips["walk"], ["walk"] * 16)
+
+
+def recognizer(takes: int) -> ActionRecognizer:
+    """Of twelve clips of each action, so many takes an action."""
+    records, motions = [], []
+    for name, labels in LABELS.items():
+        for seed in range(12):
+            take = f"{name}{seed % takes}"
+            records.append(
+                ClipRecord(f"{take}-{seed}", "here", take, name, name, labels, False, "train", 90,
+                           "0", 0, {}, "captured")
+            )  # fmt: skip
+            motions.append(generate_clip(spec_for(labels, seed), seed=seed))
+    return ActionRecognizer.fit(records, motions, np.stack([*map(descriptor, motions)]))
+
+
+def test_what_kinematics_bear_out_is_seen_without_the_discriminant() -> None:
+    found = recognizer(takes=12)
+    assert {"walk", "squat", "punch"} <= found.kinematic
+    squat = generate_clip(spec_for(LABELS["squat"], 50), seed=50)
+    assert found.shows("squat", "walk", squat) and found.shows("walk", "walk", squat)
+    assert not found.shows("walk", "squat", squat) and not found.shows("punch", "squat", squat)
+
+
+def test_an_action_of_one_take_is_known_by_kinematics_alone() -> None:
+    found = recognizer(takes=1)
+    assert all(found.recall[name] == 1.0 for name in found.kinematic)
+    assert all(found.recall[name] < 0.5 for name in LABELS.keys() - found.kinematic)
+
+
+def test_a_frozen_pose_shows_no_action_of_kinematics() -> None:
+    from src.shared.metrics.measurements import measure
+
+    for name in ("walk", "squat", "punch", "wave"):
+        still = frozen(encode_features(generate_clip(spec_for(LABELS[name], 3), seed=3)))
+        assert not any(check(measure(decode_features(still))) for check in ACTIONS.values())

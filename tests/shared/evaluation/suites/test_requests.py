@@ -79,6 +79,7 @@ def test_who_obeys_stands_above_the_deaf_and_the_still(tables: dict[str, Grid]) 
     assert obeyed.value("deaf", "all") < 0.35 < obeyed.value("generated", "all")
     assert obeyed.value("frozen pose", "all") < 0.35
     assert obeyed.value("generated", "en") == obeyed.value("generated", "all")
+    assert obeyed.value("generated, for another action", "all") < 0.2
 
 
 def test_distances_grow_where_nothing_moves(tables: dict[str, Grid]) -> None:
@@ -101,6 +102,9 @@ def test_every_action_the_judge_knows_has_a_row(tables: dict[str, Grid]) -> None
     assert tables["actions"].rows.keys() >= CAPTURED
     assert tables["actions"].rows["walk"].cells["source"] == "captured"
     assert tables["actions"].rows["punch"].cells["source"] == "not captured"
+    assert (
+        tables["actions"].value("walk", "recall") > 0.7 > tables["actions"].value("walk", "false")
+    )
     assert {"counts", "gestures from rest to rest", "a walk of 10 s, m/s"} <= tables[
         "exactness"
     ].rows.keys()
