@@ -3,12 +3,13 @@
     python benchmarks/walk.py                     # a prompt to BVH; a song and a sentence to BVH
     python benchmarks/walk.py -- convert in.bvh out.glb
 
-Every call of a function of src/ is counted, imports and class bodies are not. A change of file is a
-call whose file is another one than that of the call before it.
+Every call of a function of src/ is counted; what runs while a module of src/ is imported is not. A
+change of file is a call whose file is another one than that of the call before it.
 """
 
 import argparse
 import contextlib
+import inspect
 import io
 import sys
 import tempfile
@@ -27,7 +28,7 @@ class Walk:
 
     def __init__(self) -> None:
         self.calls: Counter[tuple[str, str]] = Counter()
-        self.changes = 0
+        self.edges: Counter[tuple[str, str]] = Counter()
         self._last = ""
 
     def __enter__(self) -> "Walk":
@@ -41,22 +42,38 @@ class Walk:
 
     def _event(self, frame: FrameType, event: str, _: Any) -> None:
         code = frame.f_code
-        if event != "call" or not code.co_filename.startswith(SOURCE) or _is_body(frame):
+        if event != "call" or not code.co_filename.startswith(SOURCE) or _is_import(frame):
             return
         self.calls[code.co_filename, code.co_qualname] += 1
         if code.co_filename != self._last:
-            self.changes += bool(self._last)
+            if self._last:
+                self.edges[self._last, code.co_filename] += 1
             self._last = code.co_filename
+
+    @property
+    def changes(self) -> int:
+        """How often a call was of another file than the call before it."""
+        return self.edges.total()
 
     @property
     def files(self) -> list[str]:
         """Those in which a function ran."""
-        return sorted({str(Path(file).relative_to(ROOT)) for file, _ in self.calls})
+        return sorted({_short(file) for file, _ in self.calls})
 
 
-def _is_body(frame: FrameType) -> bool:
-    """Whether a frame executes a module or a class, not a function."""
-    return frame.f_code.co_name == "<module>" or "__module__" in frame.f_locals
+def _short(file: str) -> str:
+    """The path of a file from the root of the repository."""
+    return str(Path(file).relative_to(ROOT))
+
+
+def _is_import(frame: FrameType | None) -> bool:
+    """Whether a frame executes a module or a class, or was called by one that does."""
+    while frame is not None:
+        code = frame.f_code
+        if not code.co_flags & inspect.CO_OPTIMIZED and code.co_filename.startswith(SOURCE):
+            return True
+        frame = frame.f_back
+    return False
 
 
 def walk(arguments: list[str]) -> Walk:
@@ -74,6 +91,8 @@ def main() -> None:
     """Print a line a command."""
     parser = argparse.ArgumentParser(description=str(__doc__).splitlines()[0])
     parser.add_argument("--files", action="store_true", help="name the files")
+    parser.add_argument("--edges", type=int, default=0, help="name the N commonest changes of file")
+    parser.add_argument("--functions", type=int, default=0, help="name the N most called functions")
     parser.add_argument("command", nargs="*", help="of motion-tools, after --")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as place:
@@ -86,6 +105,10 @@ def main() -> None:
             )
             if options.files:
                 print(*(f"  {file}" for file in found.files), sep="\n")
+            for (start, end), count in found.edges.most_common(options.edges):
+                print(f"  {count:5} {_short(start)} -> {_short(end)}")
+            for (file, function), count in found.calls.most_common(options.functions):
+                print(f"  {count:5} {_short(file)}: {function}")
 
 
 def asked(place: str) -> dict[str, list[str]]:
