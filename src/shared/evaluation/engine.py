@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, Generic, Protocol, Self, TypeVar
 
 import numpy as np
+from scipy.stats import rankdata
 
 from ..errors import UserError
 from . import manifest
@@ -37,49 +38,46 @@ class AnySample(Protocol):
 
 
 Sample = TypeVar("Sample", bound=AnySample)
-Judged = TypeVar("Judged", bound=AnySample, contravariant=True)
+Judged = TypeVar("Judged", bound=AnySample)
 
 
-class MetricFamily(Protocol[Judged]):
+@dataclass(frozen=True)
+class MetricFamily(Generic[Judged]):
     """The plug-in point: figures that belong together and share a definition.
 
-    To add one: write a class with these attributes, and name it among the families of a suite.
-    Tables, intervals, comparison, the reports and their legend follow by themselves.
+    To add one: name it among the families of a suite. Tables, intervals, comparison, the reports
+    and their legend follow by themselves.
 
     Attributes:
         name: of the family's table.
-        columns: what `compute` may return, in the order shown.
+        columns: what `figures` may return, in the order shown.
         definition: Markdown for the legend: what each figure is, its source, and what it cannot
             tell.
+        figures: of a sample in one replication, given the sample (real, chance, frozen, untrained
+            or generated motions), the reference (the real motions; row `sample.source[i]` is the
+            one that motion i was asked to resemble, and what is fitted on them belongs in
+            `reference.memo`), and the seed of every random choice (batches, pairs). By column key
+            a float for the sample as a whole (its interval comes from replications), or an array
+            [N], one value a motion, NaN where the column does not apply (mean and interval come
+            from a bootstrap over motions; comparisons pair them by prompt); a column that cannot
+            be computed is left out. Or the figures of each motion, by column key, a mapping each.
         distance: the figures are distances from the reference. The real row is then measured
             between two disjoint halves of the real motions, since a sample is at 0 from itself.
     """
 
-    @property
-    def name(self) -> str: ...
-    @property
-    def columns(self) -> tuple[Column, ...]: ...
-    @property
-    def definition(self) -> str: ...
-    @property
-    def distance(self) -> bool: ...
+    name: str
+    columns: tuple[Column, ...]
+    definition: str
+    figures: Callable[[Judged, Judged, int], Mapping[str, Value] | Sequence[Mapping[str, float]]]
+    distance: bool = False
 
     def compute(self, sample: Judged, reference: Judged, *, seed: int) -> Mapping[str, Value]:
-        """The figures of one sample in one replication.
-
-        Args:
-            sample: motions to judge: real, chance, frozen, untrained or generated ones.
-            reference: the real motions. Row `sample.source[i]` is the one that motion i was asked
-                to resemble. What is fitted on it belongs in `reference.memo`.
-            seed: of every random choice (batches, pairs).
-
-        Returns:
-            By column key a float for the sample as a whole (its interval comes from
-            replications), or an array [N], one value a motion, NaN where the column does not apply
-            (mean and interval come from a bootstrap over motions; comparisons pair them by
-            prompt). A column that cannot be computed is left out.
-        """
-        ...
+        """What `figures` finds, by column key."""
+        found = self.figures(sample, reference, seed)
+        if not isinstance(found, Sequence):
+            return found
+        keys = [column.key for column in self.columns]
+        return {key: np.array([row.get(key, np.nan) for row in found]) for key in keys}
 
 
 @dataclass(frozen=True)
@@ -313,9 +311,7 @@ def _badness(values: np.ndarray, high_is_good: bool) -> np.ndarray:
     known = np.flatnonzero(~np.isnan(values))
     if len(known) > 1:
         signed = -values[known] if high_is_good else values[known]
-        below = (signed[None] < signed[:, None]).sum(1)
-        equal = (signed[None] == signed[:, None]).sum(1)
-        result[known] = (below + (equal - 1) / 2) / (len(known) - 1)
+        result[known] = (rankdata(signed) - 1) / (len(known) - 1)
     return result
 
 

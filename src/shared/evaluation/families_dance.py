@@ -3,15 +3,13 @@
 Letters: N dances.
 """
 
-from collections.abc import Mapping
-
 import numpy as np
 
 from ..metrics.kinetic import amount
 from ..metrics.physical import contact, jerk_per_speed, physics
 from ..metrics.rhythm import against_chance, body_beats, landings, limb_beats, seen_from_pelvis
 from ..pipelines.body import root_error
-from .engine import Value
+from .engine import MetricFamily
 from .families_audio import ABOVE, SCORES
 from .report.tables import Column
 from .samples import BodyDance, BodySample
@@ -21,47 +19,6 @@ MOMENTS = {
     "limbs_": lambda dance: limb_beats(dance.motion),
     "landing_": lambda dance: landings(dance.motion),
 }
-
-
-class BodyRhythm:
-    """Do the body's beats, its limbs' and its landings fall on the music's?"""
-
-    name = "whole-body beats"
-    distance = False
-    columns = (
-        *SCORES,
-        *ABOVE,
-        Column("limbs_f", "limbs F", better="high"),
-        Column("limbs_f_above_turned", "limbs above chance", better="high"),
-        Column("landing_to_music", "landing→music", better="high"),
-        Column("landing_above_turned", "landings above chance", better="high"),
-        Column("landings", "landings/s", 2),
-    )
-    definition = (
-        "Motion beats are minima of the mean speed of all 22 joints (Li et al. 2021), scores as in"
-        " the audio branch (σ = 0.05 s, both ways). A path that slows down on the beat carries"
-        " whatever stands on it, a statue too: the row *path alone* has high F. *limbs F* sees the"
-        " joints from the pelvis, where a carried statue has no beats: read both. *landing→music*:"
-        " feet that come down from 4 cm, one way only, as nobody lands on every beat. *above"
-        " chance*: minus the same beats turned round within the song by 16 random times. Who has"
-        " no beats scores 0."
-    )
-
-    def compute(
-        self, sample: BodySample, reference: BodySample, *, seed: int
-    ) -> Mapping[str, Value]:
-        """See `MetricFamily`."""
-        found: dict[str, list[float]] = {column.key: [] for column in self.columns}
-        moments = {key: sample.each(key + "beats", find) for key, find in MOMENTS.items()}
-        for index, dance in enumerate(sample.dances):
-            rng = np.random.default_rng([seed, 5, index])
-            figures: dict[str, float] = {}
-            for key, times in moments.items():
-                figures |= _scores(key, times[index], dance, rng)
-            figures["landings"] = len(moments["landing_"][index]) / dance.seconds
-            for key, values in found.items():
-                values.append(figures[key])
-        return {key: np.array(values) for key, values in found.items()}
 
 
 def _scores(
@@ -79,34 +36,38 @@ def _scores(
     return {key + name: value for name, value in figures.items()}
 
 
-class OnThePath:
-    """How far the pelvis is from the trajectory that pinned it."""
+def _moments(sample: BodySample, reference: BodySample, seed: int) -> list[dict[str, float]]:
+    moments = {key: sample.each(key + "beats", find) for key, find in MOMENTS.items()}
+    rows = []
+    for index, dance in enumerate(sample.dances):
+        rng = np.random.default_rng([seed, 5, index])
+        figures = {"landings": len(moments["landing_"][index]) / dance.seconds}
+        for key, times in moments.items():
+            figures |= _scores(key, times[index], dance, rng)
+        rows.append(figures)
+    return rows
 
-    name = "root against the trajectory"
-    distance = False
-    columns = (
-        Column("root_mean", "mean cm", 2, "low"),
-        Column("root_max", "max cm", 2, "low"),
-        Column("turn_mean", "mean °", 2, "low"),
-        Column("turn_max", "max °", 2, "low"),
-        Column("joint_speed", "joint speed m/s", 2),
-        Column("limb_speed", "limb speed m/s", 2),
-    )
-    definition = (
-        "Distance of the pelvis and of its heading from the song's trajectory, frame by frame; rows"
-        " without a trajectory have none. A statue that is carried is perfect here: *limb speed*,"
-        " seen from the pelvis, says whether anything else moves."
-    )
 
-    def compute(
-        self, sample: BodySample, reference: BodySample, *, seed: int
-    ) -> Mapping[str, Value]:
-        """See `MetricFamily`."""
-        rows = [_path_figures(dance) for dance in sample.dances]
-        return {
-            column.key: np.array([row.get(column.key, np.nan) for row in rows])
-            for column in self.columns
-        }
+BODY_RHYTHM = MetricFamily(
+    "whole-body beats",
+    (
+        *SCORES,
+        *ABOVE,
+        Column("limbs_f", "limbs F", better="high"),
+        Column("limbs_f_above_turned", "limbs above chance", better="high"),
+        Column("landing_to_music", "landing→music", better="high"),
+        Column("landing_above_turned", "landings above chance", better="high"),
+        Column("landings", "landings/s", 2),
+    ),
+    "Motion beats are minima of the mean speed of all 22 joints (Li et al. 2021), scores as in"
+    " the audio branch (σ = 0.05 s, both ways). A path that slows down on the beat carries"
+    " whatever stands on it, a statue too: the row *path alone* has high F. *limbs F* sees the"
+    " joints from the pelvis, where a carried statue has no beats: read both. *landing→music*:"
+    " feet that come down from 4 cm, one way only, as nobody lands on every beat. *above"
+    " chance*: minus the same beats turned round within the song by 16 random times. Who has"
+    " no beats scores 0.",
+    _moments,
+)
 
 
 def _path_figures(dance: BodyDance) -> dict[str, float]:
@@ -125,7 +86,23 @@ def _path_figures(dance: BodyDance) -> dict[str, float]:
     }
 
 
-FEET = {
+ON_THE_PATH: MetricFamily[BodySample] = MetricFamily(
+    "root against the trajectory",
+    (
+        Column("root_mean", "mean cm", 2, "low"),
+        Column("root_max", "max cm", 2, "low"),
+        Column("turn_mean", "mean °", 2, "low"),
+        Column("turn_max", "max °", 2, "low"),
+        Column("joint_speed", "joint speed m/s", 2),
+        Column("limb_speed", "limb speed m/s", 2),
+    ),
+    "Distance of the pelvis and of its heading from the song's trajectory, frame by frame; rows"
+    " without a trajectory have none. A statue that is carried is perfect here: *limb speed*,"
+    " seen from the pelvis, says whether anything else moves.",
+    lambda sample, *_: [_path_figures(dance) for dance in sample.dances],
+)
+
+GROUND = {
     "contact": "slide, contact cm/s",
     "support": "slide, support cm/s",
     "skating": "skating %",
@@ -135,36 +112,8 @@ FEET = {
 }
 
 
-class Feet:
-    """Feet and floor before and after the feet were held."""
-
-    name = "feet"
-    distance = False
-    columns = tuple(
-        Column(
-            f"{key}{suffix}", f"{heading}, {when}", 0 if key in ("jerk", "skating") else 2, "low"
-        )
-        for key, heading in FEET.items()
-        for suffix, when in (("_before", "before"), ("", "after"))
-    ) + (Column("jerk_per_speed", "jerk / speed 1/s², after", 0),)
-    definition = (
-        "Before and after the clean-up of the feet; rows that have none show the same twice."
-        " *contact*: m/s of the ball of a foot while a detector that asks for a slow foot says that"
-        " it stands. *support*: the lower foot in every frame within 6 cm of its standing height,"
-        " no condition on its speed, so neither a fast glide nor the clean-up's own idea of a"
-        " contact escapes it. A frozen pose is perfect in all but *jerk / speed*, which it has not."
-    )
-
-    def compute(
-        self, sample: BodySample, reference: BodySample, *, seed: int
-    ) -> Mapping[str, Value]:
-        """See `MetricFamily`."""
-        rows = sample.each("feet", foot_figures)
-        return {column.key: np.array([row[column.key] for row in rows]) for column in self.columns}
-
-
 def foot_figures(dance: BodyDance) -> dict[str, float]:
-    """The columns of `Feet` for one dance."""
+    """The columns of `FEET` for one dance."""
     figures: dict[str, float] = {}
     for suffix, motion in (("_before", dance.unheld), ("", dance.motion)):
         speeds, floor = physics(motion), contact(motion)
@@ -180,4 +129,26 @@ def foot_figures(dance: BodyDance) -> dict[str, float]:
     return figures | {"jerk_per_speed": jerk_per_speed(positions, dance.motion.fps)}
 
 
-FAMILIES = (BodyRhythm(), OnThePath(), Feet())
+FEET: MetricFamily[BodySample] = MetricFamily(
+    "feet",
+    (
+        *(
+            Column(
+                f"{key}{suffix}",
+                f"{heading}, {when}",
+                0 if key in ("jerk", "skating") else 2,
+                "low",
+            )
+            for key, heading in GROUND.items()
+            for suffix, when in (("_before", "before"), ("", "after"))
+        ),
+        Column("jerk_per_speed", "jerk / speed 1/s², after", 0),
+    ),
+    "Before and after the clean-up of the feet; rows that have none show the same twice."
+    " *contact*: m/s of the ball of a foot while a detector that asks for a slow foot says that"
+    " it stands. *support*: the lower foot in every frame within 6 cm of its standing height,"
+    " no condition on its speed, so neither a fast glide nor the clean-up's own idea of a"
+    " contact escapes it. A frozen pose is perfect in all but *jerk / speed*, which it has not.",
+    lambda sample, *_: sample.each("feet", foot_figures),
+)
+FAMILIES = (BODY_RHYTHM, ON_THE_PATH, FEET)

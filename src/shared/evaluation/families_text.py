@@ -3,8 +3,7 @@
 Letters: N motions.
 """
 
-from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict
 
 import numpy as np
 from scipy.spatial.distance import pdist
@@ -16,9 +15,9 @@ from ..metrics.frechet import (
     group_frechet,
     within_prompts,
 )
-from ..metrics.kinetic import AXES, Features, body_features, kinetic_columns, stacked
+from ..metrics.kinetic import AXES, body_features, kinetic_columns, stacked
 from ..metrics.measurements import measure
-from ..metrics.physical import Contact, Physics, contact, physics
+from ..metrics.physical import contact, physics
 from ..metrics.retrieval import (
     BATCH,
     POOL,
@@ -26,7 +25,6 @@ from ..metrics.retrieval import (
     RECALL_AT,
     SUBSET,
     THRESHOLD,
-    BothWays,
     Retrieval,
     guo_retrieval,
     recall_in_pools,
@@ -34,7 +32,7 @@ from ..metrics.retrieval import (
     text_similarity,
 )
 from ..metrics.travel import travel, travel_error
-from .engine import Value
+from .engine import MetricFamily, Value
 from .judge.instructions import check
 from .report.tables import Column
 from .samples import MotionSample
@@ -55,184 +53,146 @@ def r_precision(sample: MotionSample, seed: int) -> Retrieval:
     return guo_retrieval(sample.text, sample.motion, equal_by, seed=seed)
 
 
-class GuoRetrieval:
-    """R-precision in batches of 32 and distance to the own caption."""
+def _guo(sample: MotionSample, reference: MotionSample, seed: int) -> dict[str, Value]:
+    """R-precision needs a batch."""
+    found: dict[str, Value] = {}
+    if len(sample) >= BATCH:
+        at = r_precision(sample, seed).r_precision
+        found = {f"r_at_{k}": value for k, value in enumerate(at, start=1)}
+    apart = sample.text.astype(np.float64) - sample.motion.astype(np.float64)
+    found["matching_distance"] = np.linalg.norm(apart, axis=1)
+    if len(sample) >= MIN_SAMPLE:
+        found["diversity"] = diversity(sample.motion, seed=seed)
+    return found
 
-    name = "retrieval"
-    distance = False
-    columns = (
+
+GUO = MetricFamily(
+    "retrieval",
+    (
         Column("r_at_1", "R@1", better="high"),
         Column("r_at_2", "R@2", better="high"),
         Column("r_at_3", "R@3", better="high"),
         Column("matching_distance", "MM-Dist", better="low"),
         Column("diversity", "Diversity"),
+    ),
+    "Guo et al. 2022 (§6): each text ranks the motions of a random batch of 32 by Euclidean"
+    " distance; a motion of the same label group, or with the same caption, is a hit; equal"
+    " distances count in every order (hypergeometric). MM-Dist: mean distance of a text to its"
+    " motion. Diversity: mean distance of 300 random pairs; close to the real row is best."
+    " Chance is above 3/32 where groups repeat: it is measured, not assumed.",
+    _guo,
+)
+
+
+def _frechet(sample: MotionSample, reference: MotionSample, seed: int) -> dict[str, Value]:
+    """Nothing for fewer than two motions on either side."""
+    if min(len(sample), len(reference)) < MIN_SAMPLE:
+        return {}
+    axes = min(JOINT_AXES, reference.motion.shape[1])
+    joint = reference.memo.once(
+        "joint FD", lambda: JointFrechet(reference.text, reference.motion, num_axes=axes)
     )
-    definition = (
-        "Guo et al. 2022 (§6): each text ranks the motions of a random batch of 32 by Euclidean"
-        " distance; a motion of the same label group, or with the same caption, is a hit; equal"
-        " distances count in every order (hypergeometric). MM-Dist: mean distance of a text to its"
-        " motion. Diversity: mean distance of 300 random pairs; close to the real row is best."
-        " Chance is above 3/32 where groups repeat: it is measured, not assumed."
-    )
-
-    def compute(
-        self, sample: MotionSample, reference: MotionSample, *, seed: int
-    ) -> Mapping[str, Value]:
-        """See `MetricFamily`; R-precision needs a batch."""
-        found: dict[str, Value] = {}
-        if len(sample) >= BATCH:
-            retrieval = r_precision(sample, seed)
-            for k, value in enumerate(retrieval.r_precision, start=1):
-                found[f"r_at_{k}"] = value
-        apart = sample.text.astype(np.float64) - sample.motion.astype(np.float64)
-        found["matching_distance"] = np.linalg.norm(apart, axis=1)
-        if len(sample) >= MIN_SAMPLE:
-            found["diversity"] = diversity(sample.motion, seed=seed)
-        return found
+    found: dict[str, Value] = {
+        "frechet": frechet_distance(sample.motion, reference.motion),
+        "frechet_joint": joint(sample.text, sample.motion),
+    }
+    groups = group_frechet(sample.motion, sample.clips.tags, reference.motion, reference.clips.tags)
+    if groups is not None:
+        found["frechet_by_tag"] = groups.matched
+        found["frechet_by_wrong_tag"] = groups.mismatched
+        found["num_tags"] = float(groups.num_groups)
+    return found
 
 
-class Frechet:
-    """Distances of embedded distributions, alone, with their texts, and label by label."""
-
-    name = "Fréchet distances"
-    distance = True
-    columns = (
+FRECHET = MetricFamily(
+    "Fréchet distances",
+    (
         Column("frechet", "FD", better="low"),
         Column("frechet_joint", "joint FD", better="low"),
         Column("frechet_by_tag", "FD by tag", better="low"),
         Column("frechet_by_wrong_tag", "by wrong tag", better="real"),
         Column("num_tags", "tags", 0),
-    )
-    definition = (
-        "Fréchet distance of the judge's motion embeddings to the real ones (32 dimensions,"
-        " float64). It cannot see labels: shuffled ones leave it at 0, so its chance row says"
-        " nothing. joint FD: of (text, motion) pairs, each side in 16 principal axes of the real"
-        " ones; its chance row is the distance under shuffled labels. by tag: mean over actions"
-        " of 24 clips or more, 8 axes. The real row lies between two halves of the real clips"
-        " (half the N, which raises it). All depend on N: quote them from 1,000 motions on, and"
-        " never beside a figure of another judge or another N."
-    )
+    ),
+    "Fréchet distance of the judge's motion embeddings to the real ones (32 dimensions,"
+    " float64). It cannot see labels: shuffled ones leave it at 0, so its chance row says"
+    " nothing. joint FD: of (text, motion) pairs, each side in 16 principal axes of the real"
+    " ones; its chance row is the distance under shuffled labels. by tag: mean over actions"
+    " of 24 clips or more, 8 axes. The real row lies between two halves of the real clips"
+    " (half the N, which raises it). All depend on N: quote them from 1,000 motions on, and"
+    " never beside a figure of another judge or another N.",
+    _frechet,
+    distance=True,
+)
 
-    def compute(
-        self, sample: MotionSample, reference: MotionSample, *, seed: int
-    ) -> Mapping[str, Value]:
-        """See `MetricFamily`."""
-        if min(len(sample), len(reference)) < MIN_SAMPLE:
-            return {}
-        joint = reference.memo.once("joint FD", lambda: _joint(reference))
-        found: dict[str, Value] = {
-            "frechet": frechet_distance(sample.motion, reference.motion),
-            "frechet_joint": joint(sample.text, sample.motion),
-        }
-        groups = group_frechet(
-            sample.motion, sample.clips.tags, reference.motion, reference.clips.tags
-        )
-        if groups is not None:
-            found["frechet_by_tag"] = groups.matched
-            found["frechet_by_wrong_tag"] = groups.mismatched
-            found["num_tags"] = float(groups.num_groups)
-        return found
-
-
-def _joint(reference: MotionSample) -> JointFrechet:
-    axes = min(JOINT_AXES, reference.motion.shape[1])
-    return JointFrechet(reference.text, reference.motion, num_axes=axes)
-
-
-class Plausibility:
-    """Foot slide, floor, jerk and speed."""
-
-    name = "physics"
-    distance = False
-    columns = (
+PHYSICS: MetricFamily[MotionSample] = MetricFamily(
+    "physics",
+    (
         Column("contact_slide", "slide, contact cm/s", 2, better="low"),
         Column("support_slide", "slide, support cm/s", 2, better="low"),
         Column("penetration", "sunk cm", 2, better="low"),
         Column("jerk", "jerk m/s³", 0),
         Column("hand_jerk", "hand jerk m/s³", 0),
         Column("speed", "speed m/s", 2),
-    )
-    definition = (
-        "contact: speed of the ball of a foot over frames that the contact detector accepts, which"
-        " asks for a slow foot itself, so that a fast glide escapes it; support: of the lower foot"
-        " in every frame within 6 cm of its standing height. sunk: lowest foot below its standing"
-        " height. jerk: third differences of joint positions. A frozen pose is best in the first"
-        " four: read them beside speed and the real row."
-    )
-
-    def compute(
-        self, sample: MotionSample, reference: MotionSample, *, seed: int
-    ) -> Mapping[str, Value]:
-        """See `MetricFamily`."""
-        found = sample.each("physics", physics)
-        return {
-            field.name: np.array([getattr(each, field.name) for each in found])
-            for field in fields(Physics)
-        }
+    ),
+    "contact: speed of the ball of a foot over frames that the contact detector accepts, which"
+    " asks for a slow foot itself, so that a fast glide escapes it; support: of the lower foot"
+    " in every frame within 6 cm of its standing height. sunk: lowest foot below its standing"
+    " height. jerk: third differences of joint positions. A frozen pose is best in the first"
+    " four: read them beside speed and the real row.",
+    lambda sample, *_: [asdict(each) for each in sample.each("physics", physics)],
+)
 
 
-class TravelErrors:
-    """Where a motion goes, against a real clip of its caption."""
+def _travel(sample: MotionSample, reference: MotionSample, seed: int) -> dict[str, np.ndarray]:
+    """NaN where a motion has no reference."""
+    own, real = sample.each("travel", travel), reference.each("travel", travel)
+    known = np.flatnonzero(sample.source >= 0)
+    errors = travel_error([own[i] for i in known], [real[sample.source[i]] for i in known])
+    found = {}
+    for name, values in asdict(errors).items():
+        column = found[f"{name}_error"] = np.full(len(sample), np.nan)
+        column[known] = values
+    return found
 
-    name = "travel"
-    distance = False
-    columns = (
+
+TRAVEL = MetricFamily(
+    "travel",
+    (
         Column("speed_error", "speed error m/s", 2, better="low"),
         Column("direction_error", "direction error °", 0, better="low"),
         Column("turn_error", "turn error °", 0, better="low"),
-    )
-    definition = (
-        "Absolute differences to a real clip of the same caption; the real row compares real clips"
-        " of one label group, which is as good as it gets. A motion that stands where its"
-        " reference travels has a direction error of 90°."
-    )
-
-    def compute(
-        self, sample: MotionSample, reference: MotionSample, *, seed: int
-    ) -> Mapping[str, Value]:
-        """See `MetricFamily`; NaN where a motion has no reference."""
-        own, real = sample.each("travel", travel), reference.each("travel", travel)
-        known = np.flatnonzero(sample.source >= 0)
-        errors = travel_error([own[i] for i in known], [real[sample.source[i]] for i in known])
-        found = {}
-        for name, values in asdict(errors).items():
-            column = np.full(len(sample), np.nan)
-            column[known] = values
-            found[f"{name}_error"] = column
-        return found
+    ),
+    "Absolute differences to a real clip of the same caption; the real row compares real clips"
+    " of one label group, which is as good as it gets. A motion that stands where its"
+    " reference travels has a direction error of 90°.",
+    _travel,
+)
 
 
-class Obedience:
-    """Does a motion do what the labels of its caption say? Decided by forward kinematics."""
+def _obeyed(sample: MotionSample, reference: MotionSample, seed: int) -> list[dict[str, float]]:
+    """By kind of check; what the labels do not ask is left out."""
+    measured = sample.each("measure", measure)
+    rows = []
+    for labels, motion in zip(sample.clips.labels, measured, strict=True):
+        answers = check(labels, motion)
+        kinds = {"all": list(answers.values())} if answers else {}
+        for name, passed in answers.items():
+            kinds.setdefault(KINDS.get(name, "action"), []).append(passed)
+        rows.append({f"obeys_{kind}": float(all(passes)) for kind, passes in kinds.items()})
+    return rows
 
-    name = "obedience"
-    distance = False
-    kinds = ("direction", "turn", "hand", "action", "speed", "count", "angle")
-    columns = tuple(
-        Column(f"obeys_{kind}", kind, 2, "high", share=True) for kind in (*kinds, "all")
-    )
-    definition = (
-        "Share of motions that pass the check their labels call for; speed and count are exact"
-        " classes, so real motion does not reach 1 either. Styles ask for nothing: no check"
-        " covers them."
-    )
 
-    def compute(
-        self, sample: MotionSample, reference: MotionSample, *, seed: int
-    ) -> Mapping[str, Value]:
-        """See `MetricFamily`; NaN where the labels do not ask."""
-        found = {column.key: np.full(len(sample), np.nan) for column in self.columns}
-        measured = sample.each("measure", measure)
-        for row, (labels, motion) in enumerate(zip(sample.clips.labels, measured, strict=True)):
-            answers = check(labels, motion)
-            kinds: dict[str, list[bool]] = {"all": list(answers.values())}
-            for name, passed in answers.items():
-                kinds.setdefault(KINDS.get(name, "action"), []).append(passed)
-            for kind, passes in kinds.items():
-                if passes:
-                    found[f"obeys_{kind}"][row] = all(passes)
-        return found
-
+OBEDIENCE = MetricFamily(
+    "obedience",
+    tuple(
+        Column(f"obeys_{kind}", kind, 2, "high", share=True)
+        for kind in ("direction", "turn", "hand", "action", "speed", "count", "angle", "all")
+    ),
+    "Share of motions that pass the check their labels call for; speed and count are exact"
+    " classes, so real motion does not reach 1 either. Styles ask for nothing: no check"
+    " covers them.",
+    _obeyed,
+)
 
 KINETIC_WARNING = (
     "Never beside published figures: other joints, frame rate and data, mended formulas, and "
@@ -244,13 +204,20 @@ KINETIC_WARNING = (
 )
 
 
-@dataclass(frozen=True)
-class BodyKinetics:
-    """FID_k, FID_g, Div_k, Div_g of whole bodies."""
+def _body_kinetics(sample: MotionSample, reference: MotionSample, seed: int) -> dict[str, float]:
+    """Nothing for fewer than two motions on either side; no random choice."""
+    if min(len(sample), len(reference)) < MIN_SAMPLE:
+        return {}
+    own, real, whole = (
+        stacked(each.each("body features", body_features))
+        for each in (sample, reference, reference.whole or reference)
+    )
+    return kinetic_columns(own, real, kinds=3, units_of=whole)
 
-    name: str = "kinetic and geometric features"
-    distance: bool = True
-    columns: tuple[Column, ...] = (
+
+BODY_KINETICS = MetricFamily(
+    "kinetic and geometric features",
+    (
         Column("fid_k", "FID_k, 66-d", 2, "low"),
         Column("fid_g", "FID_g, 32-d", 2, "low"),
         Column("fid_k_axes", f"FID_k, {AXES} axes", 2, "low"),
@@ -258,38 +225,19 @@ class BodyKinetics:
         Column("div_k", "Div_k", 2),
         Column("div_g", "Div_g", 2),
         Column("amount", "motion amount, m/s", 3),
-    )
-    definition: str = (
-        "*k*: mean squared horizontal and vertical speed and mean acceleration of each of 22 "
-        "joints (Onuma et al. 2008); *g*: the share of frames in which each of 32 relations holds "
-        "(Müller et al. 2005); as in AIST++ (Li et al. 2021). FID: Fréchet distance to the real "
-        "motions, also along the 16 directions in which these vary most: the one to read below "
-        "a thousand motions. Div: mean distance over all pairs. " + KINETIC_WARNING
-    )
+    ),
+    "*k*: mean squared horizontal and vertical speed and mean acceleration of each of 22 "
+    "joints (Onuma et al. 2008); *g*: the share of frames in which each of 32 relations holds "
+    "(Müller et al. 2005); as in AIST++ (Li et al. 2021). FID: Fréchet distance to the real "
+    "motions, also along the 16 directions in which these vary most: the one to read below "
+    "a thousand motions. Div: mean distance over all pairs. " + KINETIC_WARNING,
+    _body_kinetics,
+    distance=True,
+)
 
-    def compute(
-        self, sample: MotionSample, reference: MotionSample, *, seed: int
-    ) -> dict[str, float]:
-        """Nothing for fewer than two motions on either side; no random choice."""
-        if min(len(sample), len(reference)) < 2:
-            return {}
-        whole = body_sample(reference.whole or reference)
-        real = body_sample(reference)
-        return kinetic_columns(body_sample(sample), real, kinds=3, units_of=whole)
-
-
-def body_sample(sample: MotionSample) -> Features:
-    """`body_features` of each motion, computed once a motion."""
-    return stacked(sample.each("body features", body_features))
-
-
-@dataclass(frozen=True)
-class ContactFamily:
-    """Feet, floor and roughness as a table, one value a motion."""
-
-    name: str = "feet and floor"
-    distance: bool = False
-    columns: tuple[Column, ...] = (
+CONTACT: MetricFamily[MotionSample] = MetricFamily(
+    "feet and floor",
+    (
         Column("claimed_slide", "slide, claimed contact cm/s", 2, "low"),
         Column("claimed_frames", "contact claimed %", 1),
         Column("skating_frames", "skating %", 1, "low"),
@@ -301,70 +249,54 @@ class ContactFamily:
         Column("flying_frames", "flying %", 1),
         Column("jerk_per_speed", "jerk / speed 1/s²", 0),
         Column("pfc", "PFC", 3),
-    )
-    definition: str = (
-        "*slide, claimed contact*: speed of a foot while the motion's own contact channel says "
-        "that it stands; who never claims one escapes, hence *contact claimed*. *skating*: of the "
-        "frames with the lower foot within 6 cm of its standing height, the share in which it "
-        "moves faster than 10 cm/s. *slide cm/m*: what it slides for each metre that the pelvis "
-        "travels; a gliding statue has 100, a motion that travels less than half a metre none. "
-        "*sunk*: the lowest joint below the standing height of a foot, and the frames deeper than "
-        "1 cm. *floating*: no joint within 2 cm of that height, and the body does not fall at half "
-        "of g or more, else it is *flying*; a body on its back floats a little. *jerk / speed*: "
-        "roughness for the motion there is; the frozen pose has none. *PFC* (EDGE, Tseng et al. "
-        "2023) is not a number for a still body nor for a steady glide, depends on the length of "
-        "the clip, and improves with one rough frame: it is here because it is asked for. A frozen "
-        "pose is perfect in *skating*, *sunk* and *floating*: read them beside *slide cm/m* and "
-        "the motion amount. None may stand beside a published figure."
-    )
-
-    def compute(
-        self, sample: MotionSample, reference: MotionSample, *, seed: int
-    ) -> dict[str, np.ndarray]:
-        """Each figure of each motion [N]; no random choice."""
-        found = sample.each("contact", contact)
-        return {
-            field.name: np.array([getattr(one, field.name) for one in found])
-            for field in fields(Contact)
-        }
+    ),
+    "*slide, claimed contact*: speed of a foot while the motion's own contact channel says "
+    "that it stands; who never claims one escapes, hence *contact claimed*. *skating*: of the "
+    "frames with the lower foot within 6 cm of its standing height, the share in which it "
+    "moves faster than 10 cm/s. *slide cm/m*: what it slides for each metre that the pelvis "
+    "travels; a gliding statue has 100, a motion that travels less than half a metre none. "
+    "*sunk*: the lowest joint below the standing height of a foot, and the frames deeper than "
+    "1 cm. *floating*: no joint within 2 cm of that height, and the body does not fall at half "
+    "of g or more, else it is *flying*; a body on its back floats a little. *jerk / speed*: "
+    "roughness for the motion there is; the frozen pose has none. *PFC* (EDGE, Tseng et al. "
+    "2023) is not a number for a still body nor for a steady glide, depends on the length of "
+    "the clip, and improves with one rough frame: it is here because it is asked for. A frozen "
+    "pose is perfect in *skating*, *sunk* and *floating*: read them beside *slide cm/m* and "
+    "the motion amount. None may stand beside a published figure.",
+    lambda sample, *_: [asdict(each) for each in sample.each("contact", contact)],
+)
 
 
-@dataclass(frozen=True)
-class Multimodality:
-    """Different answers to one prompt, as a table."""
+def _multimodality(sample: MotionSample, reference: MotionSample, seed: int) -> dict[str, float]:
+    """Nothing where no caption comes twice; no random choice."""
+    found = within_prompts(sample.motion, sample.clips.captions)
+    if not found.num_prompts:
+        return {}
+    every = float(pdist(sample.motion.astype(np.float64)).mean())
+    return {
+        "multimodality": found.distance,
+        "multimodality_share": found.distance / every if every else float("nan"),
+        "multimodality_prompts": float(found.num_prompts),
+    }
 
-    name: str = "multimodality"
-    distance: bool = False
-    columns: tuple[Column, ...] = (
+
+MULTIMODALITY = MetricFamily(
+    "multimodality",
+    (
         Column("multimodality", "MultiModality"),
         Column("multimodality_share", "of all pairs"),
         Column("multimodality_prompts", "prompts", 0),
-    )
-    definition: str = (
-        "Guo et al. 2020: mean distance of the judge's embeddings of motions that have one "
-        "caption, over the captions that come twice or more (all their pairs, not ten random "
-        "ones). *of all pairs*: over the mean distance of any two motions; 1 says that the caption "
-        "decides nothing, which is what the chance row has, and 0 that each caption has one "
-        "answer. Best near the real row, where one caption has several clips. Nonsense is varied "
-        "too, and so are frozen poses of different clips: read it beside R@k. Where captions "
-        "seldom repeat it rests on the few *prompts* counted. The judge is ours: no published "
-        "figure stands beside it."
-    )
-
-    def compute(
-        self, sample: MotionSample, reference: MotionSample, *, seed: int
-    ) -> dict[str, float]:
-        """Nothing where no caption comes twice; no random choice."""
-        found = within_prompts(sample.motion, sample.clips.captions)
-        if not found.num_prompts:
-            return {}
-        every = float(pdist(sample.motion.astype(np.float64)).mean())
-        return {
-            "multimodality": found.distance,
-            "multimodality_share": found.distance / every if every else float("nan"),
-            "multimodality_prompts": float(found.num_prompts),
-        }
-
+    ),
+    "Guo et al. 2020: mean distance of the judge's embeddings of motions that have one "
+    "caption, over the captions that come twice or more (all their pairs, not ten random "
+    "ones). *of all pairs*: over the mean distance of any two motions; 1 says that the caption "
+    "decides nothing, which is what the chance row has, and 0 that each caption has one "
+    "answer. Best near the real row, where one caption has several clips. Nonsense is varied "
+    "too, and so are frozen poses of different clips: read it beside R@k. Where captions "
+    "seldom repeat it rests on the few *prompts* counted. The judge is ours: no published "
+    "figure stands beside it.",
+    _multimodality,
+)
 
 _SAYS = {
     "all": f"protocol (a): only the own pair is right. In random pools of {POOL} instead of the "
@@ -379,62 +311,49 @@ _SAYS = {
 }
 
 
-@dataclass(frozen=True)
-class TmrFamily:
+def _tmr(protocol: str) -> MetricFamily[MotionSample]:
     """One of the four protocols as a table."""
+    columns = []
+    for way, arrow in (("t2m", "text→motion"), ("m2t", "motion→text")):
+        key = f"tmr_{protocol}_{way}"
+        columns += [Column(f"{key}_r{k}", f"{arrow} R@{k}", 3, "high") for k in RECALL_AT]
+        columns.append(Column(f"{key}_medr", f"{arrow} MedR", 1, "low"))
+    columns.append(Column(f"tmr_{protocol}_pairs", "candidates", 0))
 
-    protocol: str
-    distance: bool = False
-
-    @property
-    def name(self) -> str:
-        return f"retrieval: {self.protocol}"
-
-    @property
-    def columns(self) -> tuple[Column, ...]:
-        found = []
-        for way, arrow in (("t2m", "text→motion"), ("m2t", "motion→text")):
-            key = f"tmr_{self.protocol}_{way}"
-            found += [Column(f"{key}_r{k}", f"{arrow} R@{k}", 3, "high") for k in RECALL_AT]
-            found.append(Column(f"{key}_medr", f"{arrow} MedR", 1, "low"))
-        found.append(Column(f"tmr_{self.protocol}_pairs", "candidates", 0))
-        return tuple(found)
-
-    @property
-    def definition(self) -> str:
-        return (
-            f"TMR (Petrovich et al. 2023), {_SAYS[self.protocol]}. Cosine similarity; R@k is the "
-            "share of queries with a right answer among the first k, MedR the median rank from 1; "
-            "ties are averaged over all orders. The judge is ours, so no published figure may "
-            "stand beside it. It says whether a motion fits its text better than other texts, not "
-            "whether it looks right."
-        )
-
-    def compute(
-        self, sample: MotionSample, reference: MotionSample, *, seed: int
-    ) -> dict[str, float]:
+    def figures(sample: MotionSample, reference: MotionSample, seed: int) -> dict[str, float]:
         """R@k and MedR of the sample; nothing where it is smaller than a batch of protocol (d)."""
-        if self.protocol == "batches" and len(sample) < BATCH:
-            return {}
-
-        def alike() -> np.ndarray:
+        text, motion, pool = sample.text, sample.motion, min(POOL, len(sample))
+        if protocol == "batches":
+            if len(sample) < BATCH:
+                return {}
+            found = recall_in_pools(text, motion, seed=seed)
+        elif protocol == "all":
+            found = recall_in_pools(text, motion, pool, seed=seed)
+        else:
             clips = sample.clips
-            return sample.memo.once(
+            alike = sample.memo.once(
                 "text similarity", lambda: text_similarity(clips.captions, clips.groups)
             )
-
-        text, motion, pool = sample.text, sample.motion, min(POOL, len(sample))
-        protocols: dict[str, Callable[[], BothWays]] = {
-            "all": lambda: recall_in_pools(text, motion, pool, seed=seed),
-            "threshold": lambda: recall_in_pools(text, motion, pool, alike(), seed=seed),
-            "dissimilar": lambda: recall_of_dissimilar(text, motion, alike(), seed=seed),
-            "batches": lambda: recall_in_pools(text, motion, seed=seed),
-        }
-        found = protocols[self.protocol]()
+            if protocol == "threshold":
+                found = recall_in_pools(text, motion, pool, alike, seed=seed)
+            else:
+                found = recall_of_dissimilar(text, motion, alike, seed=seed)
         ways = (found.text_to_motion, found.motion_to_text)
         values = [value for way in ways for value in (*way.recall, way.median_rank)]
-        keys = [column.key for column in self.columns]
+        keys = [column.key for column in columns]
         return dict(zip(keys, [*values, float(found.num_pairs)], strict=True))
 
+    definition = (
+        f"TMR (Petrovich et al. 2023), {_SAYS[protocol]}. Cosine similarity; R@k is the "
+        "share of queries with a right answer among the first k, MedR the median rank from 1; "
+        "ties are averaged over all orders. The judge is ours, so no published figure may "
+        "stand beside it. It says whether a motion fits its text better than other texts, not "
+        "whether it looks right."
+    )
+    return MetricFamily(f"retrieval: {protocol}", tuple(columns), definition, figures)
 
-TMR = tuple(TmrFamily(protocol) for protocol in PROTOCOLS)
+
+TMR = tuple(_tmr(protocol) for protocol in PROTOCOLS)
+FAMILIES: tuple[MetricFamily[MotionSample], ...] = (
+    GUO, *TMR, MULTIMODALITY, FRECHET, BODY_KINETICS, PHYSICS, CONTACT, TRAVEL, OBEDIENCE,
+)  # fmt: skip

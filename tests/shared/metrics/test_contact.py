@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from src.shared.evaluation.families_text import ContactFamily
+from src.shared.evaluation.families_text import CONTACT
 from src.shared.evaluation.samples import Clips, MotionSample
 from src.shared.metrics.physical import (
     Contact,
@@ -279,7 +279,7 @@ def test_the_family_has_one_value_a_motion() -> None:
         np.ones((3, 4)),
         np.arange(3),
     )
-    family = ContactFamily()
+    family = CONTACT
     found = family.compute(sample, sample, seed=0)
     assert list(found) == [column.key for column in family.columns]
     assert all(values.shape == (3,) for values in found.values())

@@ -8,8 +8,8 @@ import scipy.linalg
 import torch
 from torchmetrics.image.fid import FrechetInceptionDistance
 
-from src.shared.evaluation.families_audio import RootKinetics
-from src.shared.evaluation.families_text import BodyKinetics
+from src.shared.evaluation.families_audio import ROOT_KINETICS
+from src.shared.evaluation.families_text import BODY_KINETICS
 from src.shared.evaluation.samples import Clips, Dance, DanceSample, MotionSample
 from src.shared.metrics.frechet import Projection, frechet_distance
 from src.shared.metrics.kinetic import (
@@ -143,7 +143,7 @@ OTHER = [dancer(seed) for seed in range(100, 124)]
 
 
 def test_real_motion_is_near_itself_and_a_frozen_pose_is_not() -> None:
-    family, real = BodyKinetics(), sample(REAL)
+    family, real = BODY_KINETICS, sample(REAL)
     same = family.compute(real, real, seed=0)
     other = family.compute(sample(OTHER), real, seed=0)
     frozen = family.compute(sample([held(motion) for motion in OTHER]), real, seed=0)
@@ -158,12 +158,12 @@ def test_real_motion_is_near_itself_and_a_frozen_pose_is_not() -> None:
 
 
 def test_the_root_has_keys_of_its_own() -> None:
-    family, real = RootKinetics(), dances([from_motion(motion) for motion in REAL])
+    family, real = ROOT_KINETICS, dances([from_motion(motion) for motion in REAL])
     frozen = dances([from_motion(held(motion)) for motion in OTHER])
     other = dances([from_motion(motion) for motion in OTHER])
     found, still = family.compute(other, real, seed=0), family.compute(frozen, real, seed=0)
     assert set(found) == {column.key for column in family.columns}
-    assert not set(found) & {column.key for column in BodyKinetics().columns}
+    assert not set(found) & {column.key for column in BODY_KINETICS.columns}
     assert still["fid_k_root"] > 2 * found["fid_k_root"]
     assert still["fid_g_root"] > 2 * found["fid_g_root"]
     assert family.compute(real, real, seed=0)["fid_k_root"] == pytest.approx(0, abs=1e-9)
@@ -190,14 +190,14 @@ def test_the_length_of_the_songs_does_not_move_the_figures() -> None:
     short = [
         MotionTrajectory(each.data[at : at + 120]) for each in whole for at in range(0, 480, 120)
     ]
-    found = RootKinetics().compute(dances(whole), dances(short), seed=0)
+    found = ROOT_KINETICS.compute(dances(whole), dances(short), seed=0)
     assert found["fid_k_root"] == pytest.approx(0, abs=1e-6)
     assert found["fid_g_root"] == pytest.approx(0, abs=1e-6)
 
 
 def test_one_motion_has_no_distribution() -> None:
-    assert BodyKinetics().compute(sample(REAL[:1]), sample(REAL), seed=0) == {}
-    assert RootKinetics().compute(dances([from_motion(REAL[0])]), dances([]), seed=0) == {}
+    assert BODY_KINETICS.compute(sample(REAL[:1]), sample(REAL), seed=0) == {}
+    assert ROOT_KINETICS.compute(dances([from_motion(REAL[0])]), dances([]), seed=0) == {}
 
 
 def test_few_features_need_no_axes() -> None:

@@ -204,7 +204,7 @@ def test_the_families_fill_their_columns() -> None:
         found = family.compute(pairs, pairs, seed=0)
         assert list(found) == [column.key for column in family.columns]
         assert all(np.isfinite(value) for value in found.values())
-        assert family.protocol in family.name and "published" in family.definition
+        assert "published" in family.definition
     assert TMR[3].compute(few, few, seed=0) == {}
     assert TMR[0].compute(sample(700), pairs, seed=0)["tmr_all_pairs"] == 256
     strict = TMR[0].compute(pairs, pairs, seed=0)["tmr_all_t2m_r1"]

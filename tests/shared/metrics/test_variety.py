@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from src.shared.evaluation.families_text import Multimodality
+from src.shared.evaluation.families_text import MULTIMODALITY
 from src.shared.evaluation.samples import Clips, MotionSample
 from src.shared.metrics.frechet import within_prompts
 from src.shared.motion.motion import Motion
@@ -64,7 +64,7 @@ def test_the_family_says_what_share_of_all_variety_a_caption_leaves() -> None:
     rng = np.random.default_rng(2)
     captions = [f"caption {i % 20}" for i in range(200)]
     centre = rng.normal(size=(20, 6))[np.arange(200) % 20]
-    family, near = Multimodality(), centre + 0.1 * rng.normal(size=(200, 6))
+    family, near = MULTIMODALITY, centre + 0.1 * rng.normal(size=(200, 6))
     told = family.compute(sample(near, captions), sample(near, captions), seed=0)
     assert list(told) == [column.key for column in family.columns]
     assert told["multimodality_share"] < 0.2 and told["multimodality_prompts"] == 20

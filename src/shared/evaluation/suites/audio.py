@@ -30,8 +30,8 @@ from ...metrics.seams import REACH, Seamed, seam_report
 from ...motion.trajectory import FPS, MotionTrajectory
 from ...pipelines.song import SongGenerator, own_noise
 from ...pipelines.song_sampler import SPARE, SongSampling, spans
-from ..engine import Bench, MetricFamily, Progress, Row, Suite, run_suite
-from ..families_audio import BarPhase, BeatAlignment, RootKinetics, TrajectorySanity, beats_of
+from ..engine import Bench, Progress, Row, Suite, run_suite
+from ..families_audio import FAMILIES, beats_of
 from ..manifest import Part, Parts, Sources, model_hashes, song_hashes
 from ..report.tables import Column, Grid, GridRow
 from ..samples import Dance, DanceSample
@@ -421,14 +421,6 @@ def _track(piece: Piece, trajectory: MotionTrajectory, seed: int) -> dict[str, f
 
 
 # ---------------------------------------------------------------- the suite
-
-
-FAMILIES: tuple[MetricFamily[DanceSample], ...] = (
-    BeatAlignment(),
-    BarPhase(),
-    TrajectorySanity(),
-    RootKinetics(),
-)
 
 
 def evaluate_audio(

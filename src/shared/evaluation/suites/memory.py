@@ -30,7 +30,7 @@ from ...motion.trajectory import MotionTrajectory
 from ...motion.window import place_window
 from ...pipelines.song_memory import as_condition, bars_of_sound, bars_of_window
 from ...pipelines.song_sampler import SPARE, Recall, SongSampler, SongSampling
-from ..families_audio import BeatAlignment, TrajectorySanity
+from ..families_audio import BEAT_ALIGNMENT, TRAJECTORY_SANITY
 from ..report.tables import Column, Grid, GridRow, plain
 from ..samples import Dance, DanceSample
 from ..stats import MIN_PAIRS, bootstrap_mean, paired_bootstrap
@@ -159,13 +159,11 @@ DENOISING = tuple(
 CURVES = tuple(
     Column(name, name, 4, better="low") for name in ("energy", "density", "tension", "stability")
 )
-SONG_FAMILIES = (BeatAlignment(), TrajectorySanity())
+SONG_FAMILIES = (BEAT_ALIGNMENT, TRAJECTORY_SANITY)
 RHYTHM = ("motion_to_music", "music_to_motion", "f", "f_above_turned")
-SONGS = tuple(
-    column
-    for family in SONG_FAMILIES
-    for column in family.columns
-    if column.key in RHYTHM or isinstance(family, TrajectorySanity)
+SONGS = (
+    *(column for column in BEAT_ALIGNMENT.columns if column.key in RHYTHM),
+    *TRAJECTORY_SANITY.columns,
 )
 
 

@@ -23,19 +23,8 @@ from ...formats.arrays import write_npz
 from ...metrics.retrieval import BATCH, normalised_score
 from ...motion.motion import Motion
 from .. import manifest
-from ..engine import Bench, MetricFamily, Progress, Row, Suite, run_suite
-from ..families_text import (
-    TMR,
-    BodyKinetics,
-    ContactFamily,
-    Frechet,
-    GuoRetrieval,
-    Multimodality,
-    Obedience,
-    Plausibility,
-    TravelErrors,
-    r_precision,
-)
+from ..engine import Bench, Progress, Row, Suite, run_suite
+from ..families_text import FAMILIES, r_precision
 from ..floors import frozen_pose, untrained
 from ..held_out import HeldOut, open_held_out, real_clips
 from ..judge.evaluator import Evaluator, evaluator_folder
@@ -50,17 +39,6 @@ if TYPE_CHECKING:
 
 LANGUAGES = ("en", "es", "fr", "de", "ja", "zh")
 UNTRAINED = "untrained"  # name of the row whose replications `TextSettings.untrained` limits
-FAMILIES: tuple[MetricFamily[MotionSample], ...] = (
-    GuoRetrieval(),
-    *TMR,
-    Multimodality(),
-    Frechet(),
-    BodyKinetics(),
-    Plausibility(),
-    ContactFamily(),
-    TravelErrors(),
-    Obedience(),
-)
 RATIOS = ("contact_slide", "support_slide", "jerk", "hand_jerk", "speed", "diversity")
 
 

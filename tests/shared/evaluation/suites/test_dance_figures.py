@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from src.shared.evaluation.families_dance import BodyRhythm, Feet, OnThePath
+from src.shared.evaluation.families_dance import BODY_RHYTHM, FEET, ON_THE_PATH
 from src.shared.evaluation.floors import held_still
 from src.shared.evaluation.samples import BodyDance, BodySample
 from src.shared.evaluation.suites.dance import PromptDances, effect, near_seams
@@ -23,7 +23,6 @@ from tests.shared.evaluation.dancers import FPS, hopping, swinging_arms
 from tests.shared.evaluation.tiny_pairs import nod
 
 BEATS = np.arange(20) * 0.5
-RHYTHM, PATH, FEET = BodyRhythm(), OnThePath(), Feet()
 
 
 def nodding_path(frames: int = 240) -> MotionTrajectory:
@@ -34,7 +33,7 @@ def nodding_path(frames: int = 240) -> MotionTrajectory:
 def rhythm_of(*dances: BodyDance) -> dict[str, np.ndarray]:
     sample = BodySample.of(dances)
     return {key: np.asarray(value) for key, value in
-            RHYTHM.compute(sample, sample, seed=0).items()}  # fmt: skip
+            BODY_RHYTHM.compute(sample, sample, seed=0).items()}  # fmt: skip
 
 
 def test_arms_that_rest_on_the_beat_dance_on_it() -> None:
@@ -86,7 +85,7 @@ def test_the_distance_from_the_path_is_told_in_centimetres_and_degrees() -> None
         [BodyDance("a", body, BEATS, path=path), BodyDance("b", away, BEATS, path=path),
          BodyDance("c", body, BEATS)]
     )  # fmt: skip
-    found = PATH.compute(sample, sample, seed=0)
+    found = ON_THE_PATH.compute(sample, sample, seed=0)
     root, turn = np.asarray(found["root_mean"]), np.asarray(found["turn_max"])
     np.testing.assert_allclose(root[:2], [0, 5], atol=1e-3)
     assert turn[0] < 0.05 and np.isnan(root[2])
