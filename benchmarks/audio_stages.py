@@ -12,7 +12,7 @@ from src.shared.config_audio import AudioNetworkConfig
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.audio.conditioning import CONDITION_ROWS
 from src.shared.motion.trajectory import CHANNELS
-from src.train.e2e_objective import E2eBatch, E2eObjective, E2eWeights
+from src.train.finetune_e2e import E2eBatch, E2eObjective, FinetuneE2eConfig
 from src.train.train_audio import AudioBatch, audio_losses
 
 LEARNING_RATE = 1e-5
@@ -55,7 +55,7 @@ def e2e_step(
 ) -> Callable[[], None]:
     """The same of UNet, sampler and decoder together, through `steps` DDIM steps."""
     objective = E2eObjective(
-        AudioMotionModel(network), E2eWeights(ddim_steps=steps, target_frames=frames)
+        AudioMotionModel(network), FinetuneE2eConfig(ddim_steps=steps, target_frames=frames)
     )
     optimizer = torch.optim.AdamW(objective.parameters(), LEARNING_RATE)
     audio = random_batch(batch, frames)

@@ -27,11 +27,11 @@ from ..shared.model.checkpoint import ModelCard
 from ..shared.model.clip.core import OWN, PAIRS, MotionClip, clip_loss
 from ..shared.model.clip.pretrained import KIND, ClipBundle, load_text_tower, tower_hash
 from ..shared.model.clip.tokenizer import PromptTokenizer
-from .frozen_encoder import encoder_rates
 from .launch import Stage
 from .task import Part, Task, numpy_generator
 from .text_stages import (
     can_retrieve,
+    encoder_rates,
     motion_rows,
     open_training_data,
     training_set,

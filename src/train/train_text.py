@@ -50,10 +50,18 @@ from ..shared.model.generation.motion_generator import KIND as GENERATOR
 from ..shared.model.generation.motion_generator import TextToMotion
 from ..shared.model.zoo import resolve_model
 from .captured_places import apart, nearest_styles, with_unstyled
-from .frozen_encoder import MEANS_FILE, ZScores, caption_means, encoder_rates
 from .launch import Stage
 from .task import Part, Task, numpy_generator
-from .text_stages import fit_scope, fit_style_map, motion_rows, open_training_data
+from .text_stages import (
+    MEANS_FILE,
+    ZScores,
+    caption_means,
+    encoder_rates,
+    fit_scope,
+    fit_style_map,
+    motion_rows,
+    open_training_data,
+)
 
 OLD_CAPTIONS = 8  # of each combination and language, whose mean is its place
 PAIR_WIDTH = 64  # of the hidden states of a tower of token pairs

@@ -9,7 +9,7 @@ from src.shared.config_schema import DiffusionConfig
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
 from src.shared.model.diffusion.guidance import ModelFn
 from src.shared.model.diffusion.samplers import DDIMSampler
-from src.train.e2e_objective import DifferentiableSampler, recomputed
+from src.train.finetune_e2e import DifferentiableSampler, recomputed
 
 
 class Net(nn.Module):

@@ -287,7 +287,7 @@ def test_wrong_number_of_processes_is_refused(tmp_path: Path) -> None:
 
 
 def test_the_average_follows_its_definition() -> None:
-    from src.train.optimization import ExponentialMovingAverage
+    from src.train.engine import ExponentialMovingAverage
 
     module = torch.nn.Linear(1, 1, bias=False)
     ema = ExponentialMovingAverage(module, decay=0.5)

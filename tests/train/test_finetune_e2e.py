@@ -30,9 +30,15 @@ from src.shared.model.audio.decoder import (
     create_motion_decoder,
 )
 from src.train.audio_stages import network_of
-from src.train.e2e_objective import E2eObjective, mean_speed
 from src.train.engine import Trainer
-from src.train.finetune_e2e import FinetuneE2eConfig, FinetuneE2eTask, app, stage
+from src.train.finetune_e2e import (
+    E2eObjective,
+    FinetuneE2eConfig,
+    FinetuneE2eTask,
+    app,
+    mean_speed,
+    stage,
+)
 from src.train.run_log import Epoch, best_epoch, read_epochs, results_table
 from src.train.task import Part
 

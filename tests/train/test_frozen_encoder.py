@@ -11,9 +11,9 @@ from src.shared.config_schema import NetworkConfig
 from src.shared.data.captions.book import packaged_book
 from src.shared.model.clip.core import small_text_config
 from src.shared.model.clip.pretrained import ClipBundle
-from src.train import frozen_encoder
+from src.train import text_stages
 from src.train.engine import Trainer
-from src.train.frozen_encoder import MEANS_FILE
+from src.train.text_stages import MEANS_FILE
 from src.train.train_text import LabelledTower, TextTask, TrainTextConfig
 from tests.shared.data.captions.caption_labels import SYNTHETIC
 
@@ -90,7 +90,7 @@ def test_a_frozen_encoder_reads_each_caption_once_and_the_rest_learns(
     def read_again(*_: object) -> None:
         raise AssertionError("the captions are read a second time")
 
-    monkeypatch.setattr(frozen_encoder, "masked_mean", read_again)
+    monkeypatch.setattr(text_stages, "masked_mean", read_again)
     task.to(torch.device("cpu"))  # as a resumed run does: from the file
     monkeypatch.undo()
     config = generation_config(prepared, tmp_path / "text", tmp_path / "made", "steps=2")

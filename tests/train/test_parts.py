@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from torch import Tensor
 
 from src.shared.io.concurrency import prefetch
+from src.train.engine import learning_rate_factor
 from src.train.launch import resume_command
-from src.train.optimization import learning_rate_factor
 from src.train.run_log import RunLog, truncate_log
 from src.train.task import generator, mix_seed, to_device
 

@@ -25,7 +25,7 @@ from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
 from src.shared.motion.trajectory import STYLE
 from src.shared.pipelines.song_sampler import SongSampler, SongSampling
-from src.train.optimization import learning_rate_factor
+from src.train.engine import learning_rate_factor
 from src.train.task import Part
 from src.train.train_audio import AudioBatch, AudioTask, TrainAudioConfig, audio_losses
 
