@@ -36,6 +36,7 @@ def calibrate(
         )
 
     from ..shared.data.prepared import PreparedData
+    from ..shared.data.text_motion import gestures
     from ..shared.device import set_threads
     from ..shared.evaluation.judge.actions import action_reliability
     from ..shared.model.clip.out_of_domain import RELIABLE
@@ -46,14 +47,16 @@ def calibrate(
     generator = TextToMotion.from_pretrained(model, device="cpu")
     if generator.scope is None:
         raise UserError(f"{model} has no scope.json to write to; train it again with this version")
+    clips = PreparedData.open(data)
     found = action_reliability(
         SentenceGenerator(generator),
-        PreparedData.open(data),
+        clips,
         tries=tries,
         seed=seed,
         progress=lambda what: tell(f"calibrate: {what}"),
     )
-    replace(generator.scope, reliability=found).save_pretrained(model)
+    known = replace(generator.scope, reliability=found, gestures=gestures(clips))
+    known.save_pretrained(model)
     if json:
         print_json({"model": str(model), "reliability": found})
     else:

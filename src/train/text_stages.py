@@ -10,7 +10,7 @@ Letters: N prompts or captions, D embed dim, H width of the encoder.
 import copy
 import hashlib
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Self
 
@@ -25,7 +25,7 @@ from ..shared.data.captions.book import packaged_book
 from ..shared.data.captions.word_dropout import insert_babble
 from ..shared.data.prepare import open_data
 from ..shared.data.prepared import PreparedData
-from ..shared.data.text_motion import TextMotionDataset
+from ..shared.data.text_motion import TextMotionDataset, gestures
 from ..shared.errors import UsageError, UserError
 from ..shared.io.files import atomic_write
 from ..shared.metrics.retrieval import BATCH
@@ -143,6 +143,7 @@ def fit_scope(
     actions = [action_of[text] for text in texts]
     pretrained = tower.config.text_model not in OWN
     scope = OutOfDomainDetector.fit(texts, actions, embeddings, pretrained_tower=pretrained)
+    scope = replace(scope, gestures=gestures(data))
     if len(scope.actions) < 2:  # nothing to take one for another
         return scope
     if len(unseen) < LEAST_UNSEEN:

@@ -12,7 +12,8 @@ import torch
 from torch import Tensor
 
 from ..config_schema import PROVENANCES
-from ..motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
+from ..metrics.measurements import is_gesture
+from ..motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, decode_features
 from .prepared import ClipRecord, PreparedData
 
 _TURN_TRIES = 4
@@ -208,11 +209,26 @@ class TextMotionDataset:
 
 
 SHORTEST_SHARE = 0.4  # of its frames a gesture keeps at least
+_GESTURE_CLIPS = 40  # of an action are looked at
 _IN_PLACE = 0.3  # m/s over the ground, on average
 _SAME_POSE = 1.0  # between [22,6] rotations: hands that hang, twice; half a step is 1.2
 _JOIN = 10  # frames over which the two moments are blended
 _ENDS = 8  # frames at both ends that are never left out
 _PACE = 6.0  # frames of motion that weigh as much as the pose, when moments are compared
+
+
+def gestures(data: PreparedData) -> tuple[str, ...]:
+    """Actions of which half of the training clips or more raise a hand between two rests."""
+    clips: dict[str, list[ClipRecord]] = {}
+    for record in data.records("train"):
+        if record.tag and not record.mirrored and record.num_frames > 2 * _ENDS:
+            clips.setdefault(record.tag, []).append(record)
+    found = []
+    for action, records in sorted(clips.items()):
+        some = records[:: -(-len(records) // _GESTURE_CLIPS)]
+        whole = [is_gesture(decode_features(data.features(record))) for record in some]
+        found += [action] if 2 * sum(whole) >= len(whole) else []
+    return tuple(found)
 
 
 def comes_back(values: Tensor) -> bool:

@@ -25,6 +25,28 @@ ARM_LENGTH = float(
 )
 
 
+HAND_DOWN = 0.15  # metres above the pelvis, at most, of a hand at rest
+AT_REST = 3  # frames at either end
+
+
+def at_rest(motion: Motion) -> bool:
+    """Whether both hands hang at the beginning and at the end."""
+    ends = np.r_[:AT_REST, -AT_REST:0]
+    return bool((_hand_heights(motion)[ends] < HAND_DOWN).all())
+
+
+def is_gesture(motion: Motion) -> bool:
+    """Whether a hand goes up between two ends at which both hang."""
+    return at_rest(motion) and bool((_hand_heights(motion) > HAND_DOWN).any())
+
+
+def _hand_heights(motion: Motion) -> Array:
+    """Of the wrists above the pelvis [T, 2]."""
+    joints = motion.positions()
+    wrists = joints[:, [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]], 1]
+    return np.asarray(wrists - joints[:, :1, 1])
+
+
 @dataclass(frozen=True)
 class Measurements:
     """Figures of one motion; metres, seconds, radians."""

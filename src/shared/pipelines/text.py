@@ -25,6 +25,7 @@ from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import Progress, TextToMotion
 from ..motion.features import ROOT_ROW, YAW_RATE
 from ..motion.motion import Motion
+from ..motion.postprocess.stitching import rest_to_rest
 from ..motion.postprocess.streaming import streamed
 from .path import DrawnPath, natural_gait, time_path
 from .ranking import ScoreTable, TextJudge, unranked
@@ -115,7 +116,8 @@ class SentenceGenerator:
                 progress=lambda done, total: told(done),
             )
             for place, index in enumerate(plain):
-                made[index] = found[place * num_samples : (place + 1) * num_samples]
+                own = found[place * num_samples : (place + 1) * num_samples]
+                made[index] = self._whole_gestures(prompts[index], own)
         for index, prompt in enumerate(prompts):
             if not whole[index]:
                 for warning in filter(None, self._warnings(prompt, again=False)):
@@ -143,6 +145,13 @@ class SentenceGenerator:
         return self.generator.scope_warnings(texts, again=again)
 
     # ------------------------------------------------------------ one sentence
+
+    def _whole_gestures(self, prompt: str, motions: list[Motion]) -> list[Motion]:
+        """Motions for a prompt; a gesture begins and ends with hanging arms."""
+        scope = self.generator.scope
+        if scope is None or not scope.gestures or self._action(prompt) not in scope.gestures:
+            return motions
+        return [rest_to_rest(motion) for motion in motions]
 
     def _action(self, text: str) -> str | None:
         """The action that a text alone tells of."""

@@ -3,11 +3,14 @@
 PromptSampler keeps the best of N for each prompt.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import torch
 
 from src.shared.errors import UserError
+from src.shared.metrics.measurements import at_rest
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.features import ROOT_ROW, YAW_RATE, encode_features
 from src.shared.motion.motion import Motion
@@ -54,6 +57,17 @@ def test_an_angle_and_a_length_are_kept():
     assert turn_of(right) == pytest.approx(-180, abs=3)
     way = metres.root_position[-1, [0, 2]] - metres.root_position[0, [0, 2]]
     assert np.linalg.norm(way) == pytest.approx(3, abs=0.1)
+
+
+def test_a_gesture_begins_and_ends_with_hanging_arms():
+    generator = TextToMotion.from_pretrained("starter", device="cpu")
+    assert generator.scope is not None
+    generator.scope = replace(generator.scope, gestures=("wave",))
+    prompts = ["a person waves with the right hand", "a person walks forward"]
+    wave, walk = SentenceGenerator(generator).generate(prompts, seconds=3.0)
+    _, same = generator.generate(prompts, seconds=3.0)
+    assert at_rest(wave)
+    np.testing.assert_array_equal(walk.quaternions, same.quaternions)
 
 
 def test_any_length_goes_through_windows(sentences: SentenceGenerator, caplog):

@@ -26,10 +26,10 @@ from ...data.prepared import ClipRecord, PreparedData
 from ...errors import UserError
 from ...metrics.frechet import frechet_distance
 from ...metrics.kinetic import FeatureSpace, kinetic_features
+from ...metrics.measurements import at_rest
 from ...metrics.physical import support_slide
 from ...motion.features import decode_features
 from ...motion.motion import Motion
-from ...motion.skeleton import JOINT_INDEX
 from ..engine import Progress
 from ..floors import frozen_pose
 from ..held_out import spread_over_groups
@@ -50,8 +50,6 @@ GESTURES = ("wave", "raise", "bow", "bye", "call", "respond", "guide", "clap")
 WALK = "a person walks forward"
 LONG_WALKS = (2.0, 10.0, 30.0, 60.0)  # seconds
 FLOOR_SHARE = 4  # every so many-th plain request is put to the floors
-HAND_DOWN = 0.15  # metres above the pelvis, at most, of a hand at rest
-AT_REST = 3  # frames at either end
 PIECE, HOP = 60, 15  # frames: windows in which the parts of a composition are looked for
 REAL = "captured, held out"  # name of the row
 
@@ -558,14 +556,6 @@ def mean_speed(motion: Motion) -> float:
     """Of the pelvis over the ground, m/s."""
     way = np.linalg.norm(np.diff(motion.root_position[:, [0, 2]], axis=0), axis=-1).sum()
     return float(way / motion.seconds)
-
-
-def at_rest(motion: Motion) -> bool:
-    """Whether both hands hang at the beginning and at the end."""
-    joints = motion.positions()
-    hands = joints[:, [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]], 1] - joints[:, :1, 1]
-    ends = np.concatenate((hands[:AT_REST], hands[-AT_REST:]))
-    return bool((ends < HAND_DOWN).all())
 
 
 def in_order(yardstick: Yardstick, request: Request, motion: Motion) -> bool:

@@ -98,6 +98,7 @@ class OutOfDomainDetector:
         weights: of the evidence, the last one the bias: known where the sum is positive. None =
             the rule of words alone.
         reliability: share of tries in which each action came out, where that was measured.
+        gestures: actions that raise a hand between two rests.
     """
 
     actions: tuple[str, ...]
@@ -109,6 +110,7 @@ class OutOfDomainDetector:
     min_cosine: float | None = None
     weights: tuple[float, ...] | None = None
     reliability: Mapping[str, float] = field(default_factory=dict)
+    gestures: tuple[str, ...] = ()
 
     @classmethod
     def fit(
@@ -320,6 +322,7 @@ class _Meta(BaseModel):
     min_cosine: float | None
     weights: tuple[float, ...] | None = None
     reliability: dict[str, float] = Field({})
+    gestures: tuple[str, ...] = ()
 
 
 def _unit(vectors: np.ndarray) -> np.ndarray:
