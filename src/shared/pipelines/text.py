@@ -116,8 +116,8 @@ class SentenceGenerator:
                 progress=lambda done, total: told(done),
             )
             for place, index in enumerate(plain):
-                own = found[place * num_samples : (place + 1) * num_samples]
-                made[index] = self._whole_gestures(prompts[index], own)
+                several = found[place * num_samples : (place + 1) * num_samples]
+                made[index] = self._whole_gestures(prompts[index], several)
         for index, prompt in enumerate(prompts):
             if not whole[index]:
                 for warning in filter(None, self._warnings(prompt, again=False)):
