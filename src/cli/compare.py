@@ -7,19 +7,7 @@ import typer
 
 from . import options
 from .console import tell
-from .evaluate import (
-    ControlSeeds,
-    Data,
-    Judge,
-    NumSamples,
-    NumSongs,
-    Quick,
-    Replications,
-    Request,
-    Seed,
-    run,
-    show,
-)
+from .evaluate import Request, run, show_report
 
 HELP = "A folder that `evaluate` wrote, or a model."
 
@@ -29,15 +17,15 @@ def compare(
     b: Annotated[str, typer.Argument(help=HELP)],
     row: Annotated[str, typer.Option(help="Row of A.")] = "generated",
     other_row: Annotated[str | None, typer.Option(help="Row of B; the same.")] = None,
-    quick: Quick = False,
-    data: Data = None,
-    evaluator: Judge = "evaluator",
-    num_samples: NumSamples = None,
-    replications: Replications = None,
-    control_seeds: ControlSeeds = None,
-    num_songs: NumSongs = None,
+    quick: options.Quick = False,
+    data: options.Data = None,
+    evaluator: options.Judge = "evaluator",
+    num_samples: options.NumSamples = None,
+    replications: options.Replications = None,
+    control_seeds: options.ControlSeeds = None,
+    num_songs: options.NumSongs = None,
     steps: options.Steps = None,
-    seed: Seed = 0,
+    seed: options.Seed = 0,
     device: options.Device = "auto",
     threads: options.Threads = None,
     out: Annotated[Path, typer.Option(help="Folder of this and of the models' reports.")] = Path(
@@ -54,20 +42,8 @@ def compare(
       motion-tools compare outputs/evaluation/starter outputs/evaluation/mine
       motion-tools compare starter runs/mine --quick --data data/mine
     """
+    request = Request.of(locals())
     options.check_folder("--out", out)
-    request = Request(
-        quick=quick,
-        data=data,
-        evaluator=evaluator,
-        num_samples=num_samples,
-        replications=replications,
-        control_seeds=control_seeds,
-        num_songs=num_songs,
-        steps=steps,
-        seed=seed,
-        device=device,
-        threads=threads,
-    )
     folders = [report_of(name, side, request, out) for side, name in (("a", a), ("b", b))]
 
     from ..shared.evaluation.compare import Side
@@ -76,7 +52,7 @@ def compare(
 
     result = differences(Side(folders[0], row), Side(folders[1], other_row or row), seed=seed)
     save_report(result, out)
-    show(result, json=json)
+    show_report(result, json=json)
     tell(f"compare: {out / 'report.html'}")
 
 

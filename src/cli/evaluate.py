@@ -1,43 +1,29 @@
 """`evaluate`: honest figures of a model, each beside real, chance and untrained rows."""
 
-from dataclasses import dataclass
+import sys
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ..shared.errors import UsageError
 from . import options
-from .console import tell
+from .console import print_json, tell
+
+if TYPE_CHECKING:
+    from ..shared.evaluation.report.tables import Table
+    from ..shared.model.audio.audio_motion_model import AudioMotionModel
+    from ..shared.pipelines.song import SongGenerator
 
 QUICK_REPLICATIONS, QUICK_SONGS = 3, 10
-AUDIO_KIND = "audio-motion"
+AUDIO_KIND, MODEL = "audio-motion", "starter-audio"
 SONG_LIMITS = {
     "num_songs": (2, 10_000),
     "song_seconds": (4.0, 600.0),
     "track_seconds": (4.0, 7200.0),
 }
-OutFolder = Annotated[
-    Path | None,
-    typer.Option(help="Folder of the report; outputs/evaluation/MODEL. Begun ones go on."),
-]
-Data = Annotated[
-    str | None,
-    typer.Option(help="A prepared folder, or synthetic (text); pairs, for a real row (audio)."),
-]
-Judge = Annotated[
-    str, typer.Option(help="The judge of text: a shipped name, or a folder from train_evaluator.")
-]
-Quick = Annotated[bool, typer.Option("--quick", help="3 replications; 10 songs.")]
-NumSamples = Annotated[
-    int | None, typer.Option(help="Generated motions a split; Fréchet needs 1000.")
-]
-Replications = Annotated[int | None, typer.Option(help="Repeats, for intervals; 20.")]
-ControlSeeds = Annotated[int | None, typer.Option(help="Samples a controlled task; 10.")]
-NumSongs = Annotated[int | None, typer.Option(help="Held-out synthetic songs; 50.")]
-SongSeconds = Annotated[float | None, typer.Option(help="Of each synthetic song; 16.")]
-Songs = Annotated[Path | None, typer.Option(help="Folder of sound files to describe as well.")]
-Seed = Annotated[int, typer.Option(help="Of prompts, songs, noise, shuffles and resampling.")]
 
 
 @dataclass(frozen=True)
@@ -63,6 +49,11 @@ class Request:
     device: str = "auto"
     threads: int | None = None
 
+    @classmethod
+    def of(cls, given: Mapping[str, Any]) -> "Request":
+        """From the arguments of a command, which may have others besides."""
+        return cls(**{each.name: given[each.name] for each in fields(cls) if each.name in given})
+
     def amount(self, *names: str) -> dict[str, Any]:
         """Settings that were asked for, by name, and how often."""
         runs = self.replications or (QUICK_REPLICATIONS if self.quick else None)
@@ -84,23 +75,23 @@ def evaluate(
             " flags of evaluate-NAME; the model's own."
         ),
     ] = None,
-    quick: Quick = False,
+    quick: options.Quick = False,
     model: options.Model = "starter",
-    data: Data = None,
-    evaluator: Judge = "evaluator",
-    num_samples: NumSamples = None,
-    replications: Replications = None,
-    control_seeds: ControlSeeds = None,
-    num_songs: NumSongs = None,
-    song_seconds: SongSeconds = None,
-    songs: Songs = None,
+    data: options.Data = None,
+    evaluator: options.Judge = "evaluator",
+    num_samples: options.NumSamples = None,
+    replications: options.Replications = None,
+    control_seeds: options.ControlSeeds = None,
+    num_songs: options.NumSongs = None,
+    song_seconds: options.SongSeconds = None,
+    songs: options.Songs = None,
     steps: options.Steps = None,
     sampler: options.Sampler = None,
     guidance_scale: options.GuidanceScale = None,
-    seed: Seed = 0,
+    seed: options.Seed = 0,
     device: options.Device = "auto",
     threads: options.Threads = None,
-    out: OutFolder = None,
+    out: options.OutFolder = None,
     json: options.Json = False,
 ) -> None:
     """Score a model on motions or songs that no training saw: tables, plots, worst motions.
@@ -114,24 +105,7 @@ def evaluate(
       motion-tools evaluate --quick --model starter-audio --data data/pairs
       motion-tools evaluate --suite requests --data data/mine
     """
-    request = Request(
-        quick=quick,
-        data=data,
-        evaluator=evaluator,
-        num_samples=num_samples,
-        replications=replications,
-        control_seeds=control_seeds,
-        songs=songs,
-        num_songs=num_songs,
-        song_seconds=song_seconds,
-        steps=steps,
-        sampler=sampler,
-        guidance_scale=guidance_scale,
-        seed=seed,
-        device=device,
-        threads=threads,
-    )
-    show(run(model, request, out, suite), json=json)
+    show_report(run(model, Request.of(locals()), out, suite), json=json)
 
 
 # ---------------------------------------------------------------- running
@@ -171,7 +145,7 @@ def run(model: str, request: Request, out: Path | None, suite: str | None = None
 
 def run_text(model: str, request: Request, folder: Path) -> dict[str, Any]:
     """The text branch's report."""
-    check_data(request.data or "synthetic")
+    options.check_data(request.data or "synthetic")
 
     from ..shared.evaluation.suites import text as harness
     from ..shared.evaluation.suites.text import TextSettings
@@ -183,16 +157,14 @@ def run_text(model: str, request: Request, folder: Path) -> dict[str, Any]:
         settings=TextSettings(**request.amount("num_samples", "control_seeds")),
         device=request.device,
         folder=folder,
-        progress=told,
+        progress=_progress,
         **request.sampling,
     )
 
 
 def run_audio(model: str, request: Request, folder: Path) -> dict[str, Any]:
     """The audio branch's report."""
-    from .evaluate_sanity import check_pairs, load_generator
-
-    check_pairs(request.data)
+    options.check_pairs(request.data)
 
     from ..shared.evaluation.suites.audio import AudioSettings, evaluate_audio
 
@@ -207,12 +179,11 @@ def run_audio(model: str, request: Request, folder: Path) -> dict[str, Any]:
         sampling=request.sampling,
         about={"model": model, "decoder": request.decoder or model},
         folder=folder,
-        progress=told,
+        progress=_progress,
     )
 
 
-def told(text: str) -> None:
-    """Progress, on stderr."""
+def _progress(text: str) -> None:
     tell(f"evaluate: {text}")
 
 
@@ -225,8 +196,6 @@ def check(request: Request, folder: Path) -> None:
     Raises:
         UsageError: naming the flag.
     """
-    from .evaluate_sanity import check_limits
-
     options.check_ranges(
         **{
             name: getattr(request, name)
@@ -236,10 +205,8 @@ def check(request: Request, folder: Path) -> None:
             )
         }
     )  # fmt: skip
-    given = {name: getattr(request, name) for name in SONG_LIMITS}
-    check_limits({k: v for k, v in given.items() if v is not None}, SONG_LIMITS)
-    if request.songs is not None and not request.songs.is_dir():
-        raise UsageError(f"--songs {request.songs} is no folder; name one with sound files")
+    options.check_limits({name: getattr(request, name) for name in SONG_LIMITS}, SONG_LIMITS)
+    options.check_songs(request.songs)
     if folder.suffix in (".json", ".md", ".html"):
         raise UsageError(
             f"--out {folder}: name a folder; report.json, report.md and report.html go into it"
@@ -262,40 +229,68 @@ def refuse(model: str, audio: bool, request: Request) -> None:
             )
 
 
-def check_data(data: str) -> None:
-    """Refuse a --data that is not there, before anything slow starts.
+def load_generator(
+    name: str, decoder: str | None, device: str
+) -> "SongGenerator[AudioMotionModel]":
+    """A trained audio branch on a device, with another folder's decoder if one is named."""
+    from ..shared.pipelines.song import SongGenerator
 
-    Raises:
-        UsageError: neither `synthetic` nor a folder that `prepare` finished.
-    """
-    if data != "synthetic" and not (Path(data) / "manifest.json").is_file():
-        raise UsageError(
-            f"--data {data} is not prepared data (no manifest.json); name a folder that"
-            " `prepare` wrote, or synthetic"
-        )
+    generator = SongGenerator.from_pretrained(name, device=device)
+    if decoder is not None:
+        from ..shared.model.audio.audio_motion_model import load_decoder
 
-
-# ---------------------------------------------------------------- results
+        generator.model.decoder = load_decoder(decoder).to(generator.device).eval()
+    return generator
 
 
-def print_json(report: dict[str, Any]) -> None:
-    """The whole report on stdout."""
-    import json
-
-    print(json.dumps(report, indent=1, ensure_ascii=False, default=str))
-
-
-def show(report: dict[str, Any], *, json: bool) -> None:
-    """JSON, or tables: drawn in a terminal, Markdown in a pipe, where drawn ones would be cut."""
-    import sys
-
-    from ..shared.evaluation.report.tables import markdown, print_report
+def show(
+    report: Mapping[str, Any], text: str, lines: Iterable[str], tables: Iterable["Table"],
+    *, json: bool,
+) -> None:  # fmt: skip
+    """JSON, or tables: drawn in a terminal, `text` in a pipe, where drawn ones would be cut."""
+    from ..shared.evaluation.report.tables import draw
 
     if json:
         print_json(report)
     elif sys.stdout.isatty():
         from rich.console import Console
 
-        print_report(report, Console(markup=False))
+        draw(lines, tables, Console(markup=False))
     else:
-        print(markdown(report))
+        print(text)
+
+
+def show_report(report: dict[str, Any], *, json: bool) -> None:
+    """What a folder of `save_report` holds, on stdout."""
+    from ..shared.evaluation.report.tables import heading, intervals_note, markdown, tables
+
+    lines = [*heading(report), intervals_note(report)]
+    show(report, markdown(report), lines, tables(report), json=json)
+
+
+def save_and_show(
+    report: dict[str, Any], name: str, title: str, tables: Sequence["Table"], folder: Path,
+    *, json: bool,
+) -> None:  # fmt: skip
+    """The report as name.json and name.md in a folder, and on stdout."""
+    from ..shared.evaluation.report.tables import as_markdown, heading
+    from ..shared.io.files import write_json, write_text
+
+    text = as_markdown(title, heading(report), tables)
+    write_json(folder / f"{name}.json", report)
+    write_text(folder / f"{name}.md", text)
+    show(report, text, heading(report), tables, json=json)
+
+
+def print_and_keep(report: dict[str, Any], text: str, out: Path | None, *, json: bool) -> None:
+    """The report in a file if there is one to be, and on stdout as tables or JSON."""
+    from ..shared.io.files import write_json, write_text
+
+    if out is not None and out.suffix == ".md":
+        write_text(out, text)
+    elif out is not None:
+        write_json(out, report)
+    if json:
+        print_json(report)
+    else:
+        print(text)

@@ -6,19 +6,18 @@ from typing import Annotated
 import typer
 
 from . import options
-from .evaluate import NumSongs, Quick, Replications, Request, Seed, Songs, run, show
-from .evaluate_sanity import MODEL, Decoder, Model, OutputDir, Pairs
+from .evaluate import MODEL, Request, run, show_report
 
 
 def evaluate_audio(
-    model: Model = MODEL,
-    decoder_checkpoint: Decoder = None,
-    data: Pairs = None,
-    songs: Songs = None,
-    out: OutputDir = Path("outputs/audio"),
-    quick: Quick = False,
-    replications: Replications = None,
-    num_songs: NumSongs = None,
+    model: options.AudioModel = MODEL,
+    decoder_checkpoint: options.Decoder = None,
+    data: options.Pairs = None,
+    songs: options.Songs = None,
+    out: options.OutputDir = Path("outputs/audio"),
+    quick: options.Quick = False,
+    replications: options.Replications = None,
+    num_songs: options.NumSongs = None,
     song_seconds: Annotated[float, typer.Option(help="Of each synthetic song.")] = 16.0,
     track_seconds: Annotated[float, typer.Option(help="Of each sound file, at most.")] = 30.0,
     tell_meter: Annotated[
@@ -30,7 +29,7 @@ def evaluate_audio(
     steps: options.Steps = None,
     sampler: options.Sampler = None,
     guidance_scale: options.GuidanceScale = None,
-    seed: Seed = 0,
+    seed: options.Seed = 0,
     device: options.Device = "auto",
     threads: options.Threads = None,
     json: options.Json = False,
@@ -44,21 +43,5 @@ def evaluate_audio(
     Example:
       motion-tools evaluate-audio --model starter-audio --data data/pairs --songs music
     """
-    request = Request(
-        quick=quick,
-        data=data,
-        decoder=decoder_checkpoint,
-        replications=replications,
-        songs=songs,
-        num_songs=num_songs,
-        song_seconds=song_seconds,
-        track_seconds=track_seconds,
-        tell_meter=tell_meter,
-        steps=steps,
-        sampler=sampler,
-        guidance_scale=guidance_scale,
-        seed=seed,
-        device=device,
-        threads=threads,
-    )
-    show(run(model, request, out), json=json)
+    given = {**locals(), "decoder": decoder_checkpoint}
+    show_report(run(model, Request.of(given), out), json=json)

@@ -8,7 +8,7 @@ import typer
 from ..shared.errors import UsageError
 from . import options
 from .console import tell
-from .evaluate_sanity import check_limits, check_pairs
+from .evaluate import print_and_keep
 
 Number = TypeVar("Number", int, float)
 LIMITS = {"num_phrases": (2, 10_000), "num_songs": (2, 10_000), "song_seconds": (4.0, 600.0)}
@@ -37,7 +37,7 @@ def evaluate_memory(
     seed: Annotated[int, typer.Option(help="Of songs, noise and what is hidden.")] = 0,
     device: options.Device = "auto",
     threads: options.Threads = None,
-    out: Annotated[Path | None, typer.Option(help="Report file: .json, or .md for tables.")] = None,
+    out: options.ReportFile = None,
     json: options.Json = False,
 ) -> None:
     """Measure a model with its memory, without it, and with randomly retrieved memory.
@@ -52,8 +52,8 @@ def evaluate_memory(
         "num_songs": num_songs,
         "song_seconds": song_seconds,
     }
-    check_limits(amount, LIMITS)
-    check_pairs(data)
+    options.check_limits(amount, LIMITS)
+    options.check_pairs(data)
     found_shares = numbers("--shares", shares, float)
     if not all(0 < share <= 1 for share in found_shares):
         raise UsageError(f"--shares {shares}: each must lie between 0 and 1")
@@ -64,6 +64,7 @@ def evaluate_memory(
         options.check_folder("--out", out.parent)
 
     from ..shared.device import set_threads
+    from ..shared.evaluation.report.tables import as_markdown, heading, tables
     from ..shared.evaluation.suites import memory as suite
     from ..shared.pipelines.runtime import load_trained
     from ..shared.pipelines.song_memory import open_memory, require_memory
@@ -90,7 +91,12 @@ def evaluate_memory(
         about={"model": model, "data": data, "threads": threads},
         progress=lambda text: tell(f"evaluate-memory: {text}"),
     )
-    show(report, out, json=json)
+    said = [
+        f"{name}: against no memory {words['without']}, against a random one {words['random']}"
+        for name, words in report["verdict"].items()
+    ]
+    text = as_markdown("Memory", [*heading(report), *said], tables(report))
+    print_and_keep(report, text, out, json=json)
 
 
 def numbers(flag: str, text: str, kind: type[Number]) -> tuple[Number, ...]:
@@ -103,22 +109,3 @@ def numbers(flag: str, text: str, kind: type[Number]) -> tuple[Number, ...]:
         return tuple(kind(part) for part in text.split(",") if part.strip())
     except ValueError as error:
         raise UsageError(f"{flag} {text}: give numbers with commas between them") from error
-
-
-def show(report: dict[str, Any], out: Path | None, *, json: bool) -> None:
-    """The report in a file if there is one to be, and on stdout as tables or JSON."""
-    import json as encoder
-
-    from ..shared.evaluation.report.tables import as_markdown, heading, tables
-    from ..shared.io.files import write_json, write_text
-
-    said = [
-        f"{name}: against no memory {words['without']}, against a random one {words['random']}"
-        for name, words in report["verdict"].items()
-    ]
-    text = as_markdown("Memory", [*heading(report), *said], tables(report))
-    if out is not None and out.suffix == ".md":
-        write_text(out, text)
-    elif out is not None:
-        write_json(out, report)
-    print(encoder.dumps(report, indent=1, ensure_ascii=False) if json else text)

@@ -5,20 +5,12 @@ from typing import Annotated, Any
 
 import typer
 
-from ..shared.errors import UsageError
 from . import options
 from .console import tell
-from .evaluate import Judge, Quick, Replications, Seed, Songs, check_data, show
-from .evaluate_sanity import Pairs, check_limits, check_pairs
+from .evaluate import SONG_LIMITS, show_report
 
 QUICK = {"num_songs": 4, "replications": 1, "style_songs": 2, "edits": 6}
-LIMITS = {
-    "num_songs": (2, 10_000),
-    "song_seconds": (4.0, 600.0),
-    "track_seconds": (4.0, 7200.0),
-    "style_songs": (0, 10_000),
-    "edits": (0, 10_000),
-}
+LIMITS = {**SONG_LIMITS, "style_songs": (0, 10_000), "edits": (0, 10_000)}
 
 
 def evaluate_performer(
@@ -29,17 +21,17 @@ def evaluate_performer(
     other: Annotated[
         str | None, typer.Option(help="Another text model, for a row of its own.")
     ] = None,
-    data: Pairs = None,
+    data: options.Pairs = None,
     clips: Annotated[
         str, typer.Option(help="What editing is measured on: a prepared folder, or synthetic.")
     ] = "synthetic",
-    songs: Songs = None,
-    evaluator: Judge = "evaluator",
+    songs: options.Songs = None,
+    evaluator: options.Judge = "evaluator",
     out: Annotated[Path, typer.Option(help="Folder of the report. Begun ones go on.")] = Path(
         "outputs/performer"
     ),
-    quick: Quick = False,
-    replications: Replications = None,
+    quick: options.Quick = False,
+    replications: options.Replications = None,
     num_songs: Annotated[int | None, typer.Option(help="Held-out synthetic songs; 20.")] = None,
     song_seconds: Annotated[float, typer.Option(help="Of each synthetic song.")] = 16.0,
     track_seconds: Annotated[float, typer.Option(help="Of each sound file, at most.")] = 16.0,
@@ -52,7 +44,7 @@ def evaluate_performer(
     steps: options.Steps = None,
     sampler: options.Sampler = None,
     guidance_scale: options.GuidanceScale = None,
-    seed: Seed = 0,
+    seed: options.Seed = 0,
     device: options.Device = "auto",
     threads: options.Threads = None,
     json: options.Json = False,
@@ -79,12 +71,11 @@ def evaluate_performer(
         replications=replications,
     )  # fmt: skip
     amount |= {"song_seconds": song_seconds, "track_seconds": track_seconds}
-    check_limits({k: v for k, v in amount.items() if k in LIMITS}, LIMITS)
-    check_pairs(data)
-    if songs is not None and not songs.is_dir():
-        raise UsageError(f"--songs {songs} is no folder; name one with sound files")
+    options.check_limits({k: v for k, v in amount.items() if k in LIMITS}, LIMITS)
+    options.check_pairs(data)
+    options.check_songs(songs)
     if amount.get("edits") != 0:
-        check_data(clips)
+        options.check_data(clips)
     options.check_folder("--out", out)
     sampling = {"steps": steps, "sampler": sampler, "guidance_scale": guidance_scale}
     models = {"model": model, "audio_model": audio_model, "other": other, "evaluator": evaluator}
@@ -94,7 +85,7 @@ def evaluate_performer(
         report = run(
             models, amount | {"seed": seed}, sampling, data, clips, songs, out, device, threads
         )
-    show(report, json=json)
+    show_report(report, json=json)
 
 
 def run(

@@ -8,7 +8,7 @@ import typer
 from ..shared.errors import UsageError
 from . import options
 from .console import tell
-from .evaluate_sanity import check_limits, show
+from .evaluate import save_and_show
 
 LIMITS = {"wordings": (1, 100), "seconds": (1, 20)}
 
@@ -38,7 +38,7 @@ def evaluate_requests(
     """
     from ..shared.evaluation.suites.text import LANGUAGES
 
-    check_limits({"wordings": wordings, "seconds": seconds}, LIMITS)
+    options.check_limits({"wordings": wordings, "seconds": seconds}, LIMITS)
     options.check_ranges(seed=seed, threads=threads)
     codes = tuple(code.strip() for code in languages.split(",") if code.strip())
     if unknown := sorted(set(codes) - set(LANGUAGES)):
@@ -48,9 +48,8 @@ def evaluate_requests(
     from ..shared.data.prepared import PreparedData
     from ..shared.device import set_threads
     from ..shared.evaluation.floors import untrained
-    from ..shared.evaluation.report.tables import as_markdown, heading, tables
+    from ..shared.evaluation.report.tables import tables
     from ..shared.evaluation.suites.requests import RequestSettings, evaluate_requests
-    from ..shared.io.files import write_json, write_text
     from ..shared.model.generation.motion_generator import TextToMotion
     from ..shared.pipelines.text import SentenceGenerator
 
@@ -65,6 +64,4 @@ def evaluate_requests(
         progress=lambda what: tell(f"evaluate-requests: {what}"),
     )
     title = f"What people ask of {model}"
-    write_json(out / "requests.json", report)
-    write_text(out / "requests.md", as_markdown(title, heading(report), tables(report)))
-    show(title, report, list(tables(report)), json=json)
+    save_and_show(report, "requests", title, list(tables(report)), out, json=json)

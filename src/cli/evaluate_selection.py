@@ -1,6 +1,5 @@
 """`evaluate-selection`: is the best of N better to those that the judge does not listen to?"""
 
-from pathlib import Path
 from typing import Annotated, Any
 
 import typer
@@ -8,8 +7,7 @@ import typer
 from ..shared.errors import UsageError
 from . import options
 from .console import tell
-from .evaluate import check_data
-from .evaluate_sanity import check_limits, check_pairs
+from .evaluate import print_and_keep
 
 SYNTHETIC = "synthetic"
 MODELS = {"text": "starter", "audio": "starter-audio"}
@@ -44,7 +42,7 @@ def evaluate_selection(
     seed: Annotated[int, typer.Option(help="Of prompts or songs, noise and resampling.")] = 0,
     device: options.Device = "auto",
     threads: options.Threads = None,
-    out: Annotated[Path | None, typer.Option(help="Report file: .json, or .md for tables.")] = None,
+    out: options.ReportFile = None,
     json: options.Json = False,
 ) -> None:
     """Measure the best of 1, 2, 4, … N candidates by figures that choose nothing themselves.
@@ -63,8 +61,7 @@ def evaluate_selection(
         threads=threads,
         replications=replications,
     )
-    amount = {"num_subjects": num_subjects, "num_candidates": num_candidates}
-    check_limits({name: value for name, value in amount.items() if value is not None}, LIMITS)
+    options.check_limits({"num_subjects": num_subjects, "num_candidates": num_candidates}, LIMITS)
     if out is not None:
         options.check_folder("--out", out.parent)
     wanted: dict[str, Any] = {"steps": steps, "sampler": sampler, "guidance_scale": guidance_scale}
@@ -76,7 +73,7 @@ def evaluate_selection(
     set_threads(threads)
     report: dict[str, Any]
     if branch == "text":
-        check_data(data)
+        options.check_data(data)
         from ..shared.evaluation.suites.selection import PromptSettings, evaluate_prompts
 
         prompts = PromptSettings(
@@ -93,7 +90,7 @@ def evaluate_selection(
         if judge is not None or unseen:
             raise UsageError("--judge and --unseen go with --branch text; leave them out")
         if data != SYNTHETIC:
-            check_pairs(data)
+            options.check_pairs(data)
         from ..shared.evaluation.suites.selection import SongSettings, evaluate_songs
         from ..shared.pipelines.song import shipped_bands
 
@@ -110,24 +107,10 @@ def evaluate_selection(
             settings=songs,
             **wanted,
         )
-    show(report, out, json=json)
-
-
-def show(report: dict[str, Any], out: Path | None, *, json: bool) -> None:
-    """The report in a file if there is one to be, and on stdout as tables or JSON."""
-    import json as encoder
-
-    from ..shared.evaluation.report.tables import as_markdown
+    from ..shared.evaluation.report.tables import as_markdown, heading
     from ..shared.evaluation.suites.selection import selection_tables
-    from ..shared.io.files import write_json, write_text
 
-    facts = {**report["about"], **report["settings"]}
-    lines = [f"{key.replace('_', '-')}: {value}" for key, value in facts.items()]
     apart = ", ".join(report["outside_apart"]) or "none"
-    lines.append(f"outside figures that are better, intervals apart: {apart}")
+    lines = [*heading(report), f"outside figures that are better, intervals apart: {apart}"]
     text = as_markdown("Best of N", lines, selection_tables(report))
-    if out is not None and out.suffix == ".md":
-        write_text(out, text)
-    elif out is not None:
-        write_json(out, report)
-    print(encoder.dumps(report, indent=1, ensure_ascii=False) if json else text)
+    print_and_keep(report, text, out, json=json)

@@ -8,7 +8,7 @@ import typer
 from ..shared.errors import UsageError
 from . import options
 from .console import tell
-from .evaluate_sanity import check_limits, check_pairs, show
+from .evaluate import save_and_show
 
 MODEL, TEXT, NO_TEXT = "starter-space", "starter", "none"
 SPLITS = ("test", "val")
@@ -45,17 +45,16 @@ def evaluate_space(
       motion-tools evaluate-space --model starter-space --data data/pairs
     """
     runs = replications or (QUICK_RUNS if quick else RUNS)
-    check_limits({"bars": bars, "batch": batch, "replications": runs}, LIMITS)
+    options.check_limits({"bars": bars, "batch": batch, "replications": runs}, LIMITS)
     options.check_ranges(seed=seed, threads=threads)
     if split not in SPLITS:
         raise UsageError(f"--split {split} is unknown; choose from {', '.join(SPLITS)}")
-    check_pairs(data)
+    options.check_pairs(data)
     options.check_folder("--out", out)
 
     from ..shared.device import set_threads
-    from ..shared.evaluation.report.tables import as_markdown, heading, tables
+    from ..shared.evaluation.report.tables import tables
     from ..shared.evaluation.suites.space import SpaceSettings, Texts, evaluate_space
-    from ..shared.io.files import write_json, write_text
     from ..shared.model.audio.shared_space import SharedSpace
     from ..shared.model.generation.motion_generator import TextToMotion
 
@@ -75,6 +74,4 @@ def evaluate_space(
         progress=lambda what: tell(f"evaluate-space: {what}"),
     )
     title = f"Shared space of {model}"
-    write_json(out / "space.json", report)
-    write_text(out / "space.md", as_markdown(title, heading(report), tables(report)))
-    show(title, report, list(tables(report)), json=json)
+    save_and_show(report, "space", title, list(tables(report)), out, json=json)

@@ -1,6 +1,7 @@
 """Options that several commands share, and the checks of their values."""
 
 import tempfile
+from collections.abc import Mapping as Map
 from pathlib import Path
 from typing import Annotated
 
@@ -30,6 +31,57 @@ Sampler = Annotated[str | None, typer.Option(help="ddim, ddpm or dpm-solver++; t
 GuidanceScale = Annotated[
     float | None, typer.Option(help="How strictly to follow the prompt; the model's own.")
 ]
+
+# of evaluations
+OutFolder = Annotated[
+    Path | None,
+    typer.Option(help="Folder of the report; outputs/evaluation/MODEL. Begun ones go on."),
+]
+Data = Annotated[
+    str | None,
+    typer.Option(help="A prepared folder, or synthetic (text); pairs, for a real row (audio)."),
+]
+Judge = Annotated[
+    str, typer.Option(help="The judge of text: a shipped name, or a folder from train_evaluator.")
+]
+Quick = Annotated[bool, typer.Option("--quick", help="3 replications; 10 songs.")]
+NumSamples = Annotated[
+    int | None, typer.Option(help="Generated motions a split; Fréchet needs 1000.")
+]
+Replications = Annotated[int | None, typer.Option(help="Repeats, for intervals; 20.")]
+ControlSeeds = Annotated[int | None, typer.Option(help="Samples a controlled task; 10.")]
+NumSongs = Annotated[int | None, typer.Option(help="Held-out synthetic songs; 50.")]
+SongSeconds = Annotated[float | None, typer.Option(help="Of each synthetic song; 16.")]
+Songs = Annotated[Path | None, typer.Option(help="Folder of sound files to describe as well.")]
+Seed = Annotated[int, typer.Option(help="Of prompts, songs, noise, shuffles and resampling.")]
+AudioModel = Annotated[
+    str,
+    typer.Option(
+        "--model",
+        "--diffusion-checkpoint",
+        envvar=environment.DIFFUSION_CHECKPOINT,
+        help="A name that `models` lists, or a folder from training; it holds UNet and decoder.",
+    ),
+]
+OutputDir = Annotated[
+    Path,
+    typer.Option(envvar=environment.OUTPUT_DIR, help="Folder for report, table and plots."),
+]
+Pairs = Annotated[
+    str | None,
+    typer.Option(
+        envvar=environment.DATA_DIR,
+        help="Pairs from `prepare-audio`, a folder or bucket: its test split is used.",
+    ),
+]
+Decoder = Annotated[
+    str | None,
+    typer.Option(
+        envvar=environment.DECODER_CHECKPOINT,
+        help="Another model folder, to take the decoder from.",
+    ),
+]
+ReportFile = Annotated[Path | None, typer.Option(help="Report file: .json, or .md for tables.")]
 
 RANGES = {
     "--seconds": (0.3, 60.0),
@@ -85,3 +137,37 @@ def check_folder(flag: str, folder: Path) -> None:
         raise UsageError(
             f"{flag} {folder}: cannot write there ({reason}); name another folder"
         ) from None
+
+
+def check_limits(values: Map[str, float | None], limits: Map[str, tuple[float, float]]) -> None:
+    """Refuse numbers out of range, naming the flag; None is left to the suite."""
+    for name, value in values.items():
+        low, high = limits[name]
+        if value is not None and not low <= value <= high:
+            flag = "--" + name.replace("_", "-")
+            raise UsageError(f"{flag} {value:g} is out of range; choose from {low:g} to {high:g}")
+
+
+def check_pairs(data: str | None) -> None:
+    """Refuse a local folder that is not there; a bucket is asked when it is opened."""
+    if data is not None and "://" not in data and not Path(data).is_dir():
+        raise UsageError(f"--data {data} is no folder; name one that `prepare-audio` wrote")
+
+
+def check_data(data: str) -> None:
+    """Refuse a --data that is not there, before anything slow starts.
+
+    Raises:
+        UsageError: neither `synthetic` nor a folder that `prepare` finished.
+    """
+    if data != "synthetic" and not (Path(data) / "manifest.json").is_file():
+        raise UsageError(
+            f"--data {data} is not prepared data (no manifest.json); name a folder that"
+            " `prepare` wrote, or synthetic"
+        )
+
+
+def check_songs(folder: Path | None) -> None:
+    """Refuse a --songs that is no folder."""
+    if folder is not None and not folder.is_dir():
+        raise UsageError(f"--songs {folder} is no folder; name one with sound files")

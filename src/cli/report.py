@@ -24,7 +24,7 @@ def report(
 
     from ..shared.evaluation.report.pages import render
     from .console import tell
-    from .evaluate import show
+    from .evaluate import show_report
 
-    show(render(folder), json=json)
+    show_report(render(folder), json=json)
     tell(f"report: {folder / 'report.html'}")

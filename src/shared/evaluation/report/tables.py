@@ -265,11 +265,6 @@ def _inert(text: str) -> str:
     return re.sub(r"[\\<\[|]", r"\\\g<0>", text)
 
 
-def print_report(report: Report, console: "Console") -> None:
-    """The report as tables on a terminal."""
-    draw([*heading(report), intervals_note(report)], tables(report), console)
-
-
 def draw(lines: Iterable[str], parts: Iterable[Table], console: "Console") -> None:
     """Any report on a terminal: facts line by line, tables."""
     from rich.table import Table as RichTable

@@ -24,13 +24,7 @@ from src.shared.evaluation.judge.evaluator import (
     PairSet,
     contrastive_loss,
 )
-from src.shared.evaluation.report.tables import (
-    grids,
-    markdown,
-    print_report,
-    printed,
-    tables,
-)
+from src.shared.evaluation.report.tables import draw, grids, heading, markdown, printed, tables
 from src.shared.evaluation.samples import Sampler
 from src.shared.evaluation.suites import control as control
 from src.shared.evaluation.suites.control import control_grid
@@ -143,7 +137,7 @@ def test_the_report_is_json_markdown_and_tables(held_out: HeldOut, judge: Evalua
     assert {"seen/retrieval", "unseen/obedience", "unseen/scores"} < names
     assert all(len(row) == len(table.header) for table in tables(report) for row in table.rows)
     stream = StringIO()
-    print_report(report, Console(file=stream, width=200))
+    draw(heading(report), tables(report), Console(file=stream, width=200))
     assert "frozen pose" in stream.getvalue()
 
 
