@@ -15,7 +15,7 @@ from ..motion.trajectory import MotionTrajectory
 from .engine import MetricFamily, Value
 from .families_text import KINETIC_WARNING, MIN_SAMPLE
 from .report.tables import Column
-from .samples import DanceSample
+from .samples import Trajectories
 
 SCORES = (
     Column("motion_to_music", "motion→music", better="high"),
@@ -34,7 +34,7 @@ def beats_of(trajectory: MotionTrajectory) -> np.ndarray:
     return motion_beats(trajectory.position, trajectory.fps).times
 
 
-def _on_beats(sample: DanceSample, reference: DanceSample, seed: int) -> list[dict[str, float]]:
+def _on_beats(sample: Trajectories, reference: Trajectories, seed: int) -> list[dict[str, float]]:
     rows = []
     pairs = zip(sample.dances, sample.each("beats", beats_of), strict=True)
     for index, (dance, beats) in enumerate(pairs):
@@ -59,11 +59,11 @@ BEAT_ALIGNMENT = MetricFamily(
 )
 
 
-def _phases(sample: DanceSample, reference: DanceSample, seed: int) -> list[dict[str, float]]:
+def _phases(sample: Trajectories, reference: Trajectories, seed: int) -> list[dict[str, float]]:
     """Nothing where nobody knows the bars."""
     rows = []
     for dance in sample.dances:
-        bars = dance.trajectory.phase_unwrapped
+        bars = dance.motion.phase_unwrapped
         rows.append(
             {}
             if dance.bars is None
@@ -93,7 +93,7 @@ BAR_PHASE = MetricFamily(
 PATH = ("mean_speed", "path_rate", "turning", "path_jerk", "roughness")
 
 
-def _sane(sample: DanceSample, reference: DanceSample, seed: int) -> dict[str, Value]:
+def _sane(sample: Trajectories, reference: Trajectories, seed: int) -> dict[str, Value]:
     checked = sample.each("sanity", SanityChecker().check_all)
     return {
         "seven": np.array([float(all(r[k].passed for k in SEVEN)) for _, r in checked]),
@@ -118,7 +118,7 @@ TRAJECTORY_SANITY = MetricFamily(
 )
 
 
-def _root_kinetics(sample: DanceSample, reference: DanceSample, seed: int) -> dict[str, float]:
+def _root_kinetics(sample: Trajectories, reference: Trajectories, seed: int) -> dict[str, float]:
     """Nothing for fewer than two motions on either side; no random choice."""
     if min(len(sample), len(reference)) < MIN_SAMPLE:
         return {}
@@ -147,6 +147,6 @@ ROOT_KINETICS = MetricFamily(
     _root_kinetics,
     distance=True,
 )
-FAMILIES: tuple[MetricFamily[DanceSample], ...] = (
+FAMILIES: tuple[MetricFamily[Trajectories], ...] = (
     BEAT_ALIGNMENT, BAR_PHASE, TRAJECTORY_SANITY, ROOT_KINETICS,
 )  # fmt: skip

@@ -3,26 +3,25 @@
 Letters: N dances.
 """
 
+from functools import partial
+
 import numpy as np
 
 from ..metrics.kinetic import amount
-from ..metrics.physical import contact, jerk_per_speed, physics
+from ..metrics.physical import contact, physics
 from ..metrics.rhythm import against_chance, body_beats, landings, limb_beats, seen_from_pelvis
+from ..motion.motion import Motion
 from ..pipelines.body import root_error
 from .engine import MetricFamily
 from .families_audio import ABOVE, SCORES
 from .report.tables import Column
-from .samples import BodyDance, BodySample
+from .samples import Bodies, Dance
 
-MOMENTS = {
-    "": lambda dance: body_beats(dance.motion),
-    "limbs_": lambda dance: limb_beats(dance.motion),
-    "landing_": lambda dance: landings(dance.motion),
-}
+MOMENTS = {"": body_beats, "limbs_": limb_beats, "landing_": landings}
 
 
 def _scores(
-    key: str, times: np.ndarray, dance: BodyDance, rng: np.random.Generator
+    key: str, times: np.ndarray, dance: Dance[Motion], rng: np.random.Generator
 ) -> dict[str, float]:
     """What moments of one dance score on its music; `key` begins the names."""
     own, chance, off = against_chance(times, dance.beats, dance.seconds, rng)
@@ -36,7 +35,7 @@ def _scores(
     return {key + name: value for name, value in figures.items()}
 
 
-def _moments(sample: BodySample, reference: BodySample, seed: int) -> list[dict[str, float]]:
+def _moments(sample: Bodies, reference: Bodies, seed: int) -> list[dict[str, float]]:
     moments = {key: sample.each(key + "beats", find) for key, find in MOMENTS.items()}
     rows = []
     for index, dance in enumerate(sample.dances):
@@ -70,7 +69,7 @@ BODY_RHYTHM = MetricFamily(
 )
 
 
-def _path_figures(dance: BodyDance) -> dict[str, float]:
+def _path_figures(dance: Dance[Motion]) -> dict[str, float]:
     figures = {
         "joint_speed": amount(dance.motion.positions(), dance.motion.fps),
         "limb_speed": amount(seen_from_pelvis(dance.motion), dance.motion.fps),
@@ -86,7 +85,7 @@ def _path_figures(dance: BodyDance) -> dict[str, float]:
     }
 
 
-ON_THE_PATH: MetricFamily[BodySample] = MetricFamily(
+ON_THE_PATH: MetricFamily[Bodies] = MetricFamily(
     "root against the trajectory",
     (
         Column("root_mean", "mean cm", 2, "low"),
@@ -112,24 +111,31 @@ GROUND = {
 }
 
 
-def foot_figures(dance: BodyDance) -> dict[str, float]:
-    """The columns of `FEET` for one dance."""
-    figures: dict[str, float] = {}
-    for suffix, motion in (("_before", dance.unheld), ("", dance.motion)):
-        speeds, floor = physics(motion), contact(motion)
-        figures |= {
-            f"contact{suffix}": speeds.contact_slide,
-            f"support{suffix}": speeds.support_slide,
-            f"skating{suffix}": floor.skating_frames,
-            f"sunk{suffix}": floor.sunk_depth,
-            f"floating{suffix}": floor.float_height,
-            f"jerk{suffix}": speeds.jerk,
-        }
-    positions = dance.motion.positions().astype(np.float64)
-    return figures | {"jerk_per_speed": jerk_per_speed(positions, dance.motion.fps)}
+def _ground(motion: Motion) -> dict[str, float]:
+    """The figures of `GROUND`, and the roughness."""
+    speeds, floor = physics(motion), contact(motion)
+    return {
+        "contact": speeds.contact_slide,
+        "support": speeds.support_slide,
+        "skating": floor.skating_frames,
+        "sunk": floor.sunk_depth,
+        "floating": floor.float_height,
+        "jerk": speeds.jerk,
+        "jerk_per_speed": floor.jerk_per_speed,
+    }
 
 
-FEET: MetricFamily[BodySample] = MetricFamily(
+def _feet(sample: Bodies, reference: Bodies, seed: int) -> list[dict[str, float]]:
+    rows = []
+    for dance, after in zip(sample.dances, sample.each("feet", _ground), strict=True):
+        before = after
+        if dance.raw is not None:
+            before = dance.memo.once("feet before", partial(_ground, dance.raw))
+        rows.append(after | {f"{key}_before": before[key] for key in GROUND})
+    return rows
+
+
+FEET = MetricFamily(
     "feet",
     (
         *(
@@ -149,6 +155,6 @@ FEET: MetricFamily[BodySample] = MetricFamily(
     " it stands. *support*: the lower foot in every frame within 6 cm of its standing height,"
     " no condition on its speed, so neither a fast glide nor the clean-up's own idea of a"
     " contact escapes it. A frozen pose is perfect in all but *jerk / speed*, which it has not.",
-    lambda sample, *_: sample.each("feet", foot_figures),
+    _feet,
 )
 FAMILIES = (BODY_RHYTHM, ON_THE_PATH, FEET)

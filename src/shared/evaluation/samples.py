@@ -6,7 +6,7 @@ Letters: N motions of a sample, D embedding channels, T frames.
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import TypeVar
+from typing import Generic, TypeVar
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from ..motion.motion import Motion
 from ..motion.trajectory import MotionTrajectory
 
 Found = TypeVar("Found")
+Moved = TypeVar("Moved", MotionTrajectory, Motion)
 # Prompts and their numbers of frames, with a seed, to one motion each, in the same order.
 Sampler = Callable[[Sequence[str], Sequence[int], int], list[Motion]]
 
@@ -117,86 +118,28 @@ class MotionSample:
 
 
 @dataclass(frozen=True, eq=False)
-class Dance:
-    """A motion of T frames and the music that it is held against.
+class Dance(Generic[Moved]):
+    """A motion of T frames, a pelvis's path or a whole body's, and the music it is held against.
 
     Attributes:
         song: name; dances of one song are neighbours, not strangers.
-        trajectory: [T,25], 30 frames a second.
+        motion: as it is handed over, 30 frames a second.
         beats: of the music, seconds; some may lie beyond the end.
         bars: true bars [T] of the music, unwrapped; None = nobody knows.
         meter: beats a bar of the music.
-        counted: beats a bar that the trajectory's phase counts.
-        memo: of the trajectory; like `counted`, it goes where the trajectory goes.
-    """
-
-    song: str
-    trajectory: MotionTrajectory
-    beats: np.ndarray
-    bars: np.ndarray | None = None
-    meter: int = 4
-    counted: int = 4
-    memo: Memo = field(default_factory=Memo, repr=False)
-
-    @property
-    def seconds(self) -> float:
-        return self.trajectory.seconds
-
-
-@dataclass(frozen=True, eq=False)
-class DanceSample:
-    """N motions of the audio branch, each with its music; the rest as in `MotionSample`."""
-
-    dances: list[Dance]
-    source: np.ndarray
-    memo: Memo = field(default_factory=Memo, repr=False)
-    whole: "DanceSample | None" = field(default=None, repr=False)
-
-    def __len__(self) -> int:
-        return len(self.dances)
-
-    @property
-    def asked(self) -> list[str]:
-        """The song of each motion."""
-        return [dance.song for dance in self.dances]
-
-    def each(self, name: str, measure: Callable[[MotionTrajectory], Found]) -> list[Found]:
-        """What `measure` says of each of the N trajectories, computed once a trajectory."""
-        return [dance.memo.once(name, partial(measure, dance.trajectory)) for dance in self.dances]
-
-    def rows(self, index: Sequence[int]) -> "DanceSample":
-        """The dances at these rows, in this order."""
-        rows = [self.dances[i] for i in index]
-        return DanceSample(rows, self.source[list(index)], whole=self.whole or self)
-
-    def reordered(self, order: Sequence[int]) -> "DanceSample":
-        """The music stays, motions change places: what not listening gives."""
-        moved = []
-        for dance, row in zip(self.dances, order, strict=True):
-            other = self.dances[row]
-            moved.append(
-                replace(dance, trajectory=other.trajectory, counted=other.counted, memo=other.memo)
-            )
-        return DanceSample(moved, self.source)
-
-
-@dataclass(frozen=True, eq=False)
-class BodyDance:
-    """A body's motion of T frames and the music that it is held against.
-
-    Attributes:
-        song: name.
-        motion: as it is handed over.
-        beats: of the music, seconds [M]; some may lie beyond the end.
-        raw: the motion before its feet were held; None = nobody held them.
-        path: that it was to stand on; None = it has its own.
-        seams: True [T] near a seam of two windows; None = one piece.
+        counted: beats a bar that the motion's phase counts.
+        raw: a body before its feet were held; None = nobody held them.
+        path: that a body was to stand on; None = it has its own.
+        seams: True [T] near a seam of two windows of a body; None = one piece.
         memo: of the motion; it goes with the motion wherever that goes.
     """
 
     song: str
-    motion: Motion
+    motion: Moved
     beats: np.ndarray
+    bars: np.ndarray | None = None
+    meter: int = 4
+    counted: int = 4
     raw: Motion | None = None
     path: MotionTrajectory | None = None
     seams: np.ndarray | None = None
@@ -206,22 +149,18 @@ class BodyDance:
     def seconds(self) -> float:
         return self.motion.seconds
 
-    @property
-    def unheld(self) -> Motion:
-        """The motion whose feet nobody held."""
-        return self.motion if self.raw is None else self.raw
-
 
 @dataclass(frozen=True, eq=False)
-class BodySample:
-    """N dances; `source`, `memo` as in `MotionSample`."""
+class DanceSample(Generic[Moved]):
+    """N motions, each with its music; the rest as in `MotionSample`."""
 
-    dances: list[BodyDance]
+    dances: list[Dance[Moved]]
     source: np.ndarray
     memo: Memo = field(default_factory=Memo, repr=False)
+    whole: "DanceSample[Moved] | None" = field(default=None, repr=False)
 
     @classmethod
-    def of(cls, dances: Sequence[BodyDance]) -> "BodySample":
+    def of(cls, dances: Sequence[Dance[Moved]]) -> "DanceSample[Moved]":
         """Dances that answer to no real one."""
         return cls(list(dances), np.full(len(dances), -1))
 
@@ -230,21 +169,28 @@ class BodySample:
 
     @property
     def asked(self) -> list[str]:
-        """The song of each dance."""
+        """The song of each motion."""
         return [dance.song for dance in self.dances]
 
-    def each(self, name: str, measure: Callable[[BodyDance], Found]) -> list[Found]:
-        """What `measure` says of each motion, its music apart, computed once a motion."""
-        return [dance.memo.once(name, partial(measure, dance)) for dance in self.dances]
+    def each(self, name: str, measure: Callable[[Moved], Found]) -> list[Found]:
+        """What `measure` says of each of the N motions, its music apart, computed once a motion."""
+        return [dance.memo.once(name, partial(measure, dance.motion)) for dance in self.dances]
 
-    def rows(self, index: Sequence[int]) -> "BodySample":
+    def rows(self, index: Sequence[int]) -> "DanceSample[Moved]":
         """The dances at these rows, in this order."""
-        return BodySample([self.dances[i] for i in index], self.source[list(index)])
+        rows = [self.dances[i] for i in index]
+        return DanceSample(rows, self.source[list(index)], whole=self.whole or self)
 
-    def reordered(self, order: Sequence[int]) -> "BodySample":
+    def reordered(self, order: Sequence[int]) -> "DanceSample[Moved]":
         """The music stays, motions change places: what not listening gives."""
         moved = [
-            replace(self.dances[row], song=dance.song, beats=dance.beats)
-            for dance, row in zip(self.dances, order, strict=True)
+            replace(
+                self.dances[row], song=own.song, beats=own.beats, bars=own.bars, meter=own.meter
+            )
+            for own, row in zip(self.dances, order, strict=True)
         ]
-        return BodySample(moved, self.source)
+        return DanceSample(moved, self.source)
+
+
+Trajectories = DanceSample[MotionTrajectory]
+Bodies = DanceSample[Motion]

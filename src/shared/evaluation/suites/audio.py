@@ -34,7 +34,7 @@ from ..engine import Bench, Progress, Row, Suite, run_suite
 from ..families_audio import FAMILIES, beats_of
 from ..manifest import Part, Parts, Sources, model_hashes, song_hashes
 from ..report.tables import Column, Grid, GridRow
-from ..samples import Dance, DanceSample
+from ..samples import Dance, DanceSample, Trajectories
 from .alignment import (
     Danced,
     alignment_grids,
@@ -45,7 +45,16 @@ from .alignment import (
     song_scores,
 )
 from .sanity import untrained
-from .songs import TEMPI, Piece, held_out_songs, held_out_specs, open_split, phrases, tracks
+from .songs import (
+    TEMPI,
+    Piece,
+    dance_of,
+    held_out_songs,
+    held_out_specs,
+    open_split,
+    phrases,
+    tracks,
+)
 
 Made = list[tuple[Piece, MotionTrajectory]]
 
@@ -184,14 +193,14 @@ class AudioContext:
         return "" if self.split is None else self.split.fingerprint
 
     @cached_property
-    def reference(self) -> DanceSample:
+    def reference(self) -> Trajectories:
         """Real motion of the test split with its music; empty without data.
 
         Raises:
             UserError: no phrase of the split has a beat.
         """
         if self.data is None:
-            return DanceSample([], np.zeros(0, dtype=int))
+            return DanceSample.of([])
         self.progress(f"the test split of {self.data}")
         assert self.split is not None
         known = [p for p in phrases(self.split, self.settings.max_real) if len(p.beats) > 1]
@@ -202,21 +211,21 @@ class AudioContext:
         dances = [Dance(phrase.song, phrase.motion, phrase.beats) for phrase in known]
         return DanceSample(dances, np.arange(len(dances)))
 
-    def generated(self, replication: int) -> DanceSample:
+    def generated(self, replication: int) -> Trajectories:
         """The model's motions on their own songs."""
         return sample_of(self.made(replication))
 
-    def chance(self, replication: int) -> DanceSample:
+    def chance(self, replication: int) -> Trajectories:
         """The same motions, each on another song: what not listening scores."""
         sample = self.generated(replication)
         rng = np.random.default_rng([self.settings.seed, 4, replication])
         return sample.reordered(strangers(len(sample), rng))
 
-    def frozen_pose(self, replication: int) -> DanceSample:
+    def frozen_pose(self, replication: int) -> Trajectories:
         """The first pose of each motion held while the music goes on."""
         return sample_of([(piece, frozen(motion)) for piece, motion in self.made(0)])
 
-    def untrained(self, replication: int) -> DanceSample:
+    def untrained(self, replication: int) -> Trajectories:
         """Motions of the same network with fresh weights."""
         return sample_of(self.made_untrained(replication))
 
@@ -227,13 +236,9 @@ class AudioContext:
         return SongGenerator(fresh, device=str(self.generator.device))
 
 
-def sample_of(made: Sequence[tuple[Piece, MotionTrajectory]]) -> DanceSample:
+def sample_of(made: Sequence[tuple[Piece, MotionTrajectory]]) -> Trajectories:
     """Motions on songs as a sample; no real motion belongs to a song that was made up."""
-    dances = [
-        Dance(piece.name, motion, piece.beats, piece.bars, piece.true_meter, piece.meter)
-        for piece, motion in made
-    ]
-    return DanceSample(dances, np.full(len(dances), -1))
+    return DanceSample.of([dance_of(piece, motion) for piece, motion in made])
 
 
 # ---------------------------------------------------------------- tables with rows of their own
@@ -324,7 +329,7 @@ def alignment_tables(context: AudioContext) -> list[Grid]:
     ]
 
 
-def _danced(sample: DanceSample) -> list[Danced]:
+def _danced(sample: Trajectories) -> list[Danced]:
     pairs = zip(sample.dances, sample.each("beats", beats_of), strict=True)
     return [Danced(dance.song, beats, dance.beats, dance.seconds) for dance, beats in pairs]
 
@@ -471,10 +476,10 @@ def evaluate_audio(
     return run_suite(suite, Parts(folder), progress)
 
 
-def song_bench(context: AudioContext) -> Bench[DanceSample]:
+def song_bench(context: AudioContext) -> Bench[Trajectories]:
     """The songs: real motion where there is data, chance, a frozen pose, generated, untrained."""
 
-    def real(replication: int = 0) -> DanceSample:
+    def real(replication: int = 0) -> Trajectories:
         return context.reference
 
     return Bench(
@@ -494,11 +499,11 @@ def song_bench(context: AudioContext) -> Bench[DanceSample]:
     )
 
 
-def _write(context: AudioContext, sample: DanceSample, row: int, path: Path) -> dict[str, Any]:
+def _write(context: AudioContext, sample: Trajectories, row: int, path: Path) -> dict[str, Any]:
     """A motion of the main row under its song's name and, beside it, the song."""
     dance, sound = sample.dances[row], path.with_suffix(".flac")
     context.write_song(row, sound)
-    write_trajectory_npz(dance.trajectory, path)
+    write_trajectory_npz(dance.motion, path)
     beside = f"{path.parent.name}/{sound.name}"
     return {"title": dance.song, "meter": dance.counted, "sound": beside}
 

@@ -40,7 +40,7 @@ from ..floors import held_still, untrained
 from ..judge.evaluator import Evaluator
 from ..manifest import Parts, Sources, model_hashes, song_hashes
 from ..report.tables import Column, Grid, GridRow
-from ..samples import BodyDance, BodySample
+from ..samples import Bodies, Dance, DanceSample
 from ..stats import bootstrap_mean
 from .alignment import Danced, alignment_grids, alignment_rows
 from .dance_seams import hard_cuts, seam_grid
@@ -137,13 +137,13 @@ class DanceContext:
         replication: int,
         prompt: str,
         seed: int | None = None,
-    ) -> BodyDance:
+    ) -> Dance[Motion]:
         """A body on the path of a song; with the `seed` of its replication unless told."""
         piece, path = self.pieces[number], self.path(number, replication)
         again = replication if seed is None else seed
         own = candidate_seed(self.settings.seed, crc32(piece.name.encode()), again)
         raw = performer.perform(path, prompt, beats=heard_beats(piece), seed=own).motion
-        return BodyDance(
+        return Dance(
             song=piece.name,
             motion=lock_carried_feet(raw),
             beats=piece.beats,
@@ -157,11 +157,11 @@ class DanceContext:
         settings = replace(self.sampling, foot_lock=False, on_beats=on_beats)
         return Performer(generator, settings)
 
-    def _danced(self, who: str, replication: int) -> BodySample:
+    def _danced(self, who: str, replication: int) -> Bodies:
         """A dance for each song by one of the performers."""
         performer = self.performers[who]()
         prompts = self.settings.prompts
-        return BodySample.of(
+        return DanceSample.of(
             [
                 self.perform(performer, number, replication, prompts[number % len(prompts)])
                 for number in range(len(self.pieces))
@@ -186,14 +186,14 @@ class DanceContext:
     # ---------------------------------------------------------------- samples
 
     @cached_property
-    def reference(self) -> BodySample:
+    def reference(self) -> Bodies:
         """Real bodies of the test split with their music; empty without data.
 
         Raises:
             UserError: the split holds no body with a beat.
         """
         if self.data is None:
-            return BodySample.of([])
+            return DanceSample.of([])
         self.progress(f"the test split of {self.data}")
         settings = self.settings
         frames = round(settings.song_seconds * FPS)
@@ -203,31 +203,31 @@ class DanceContext:
                 f"{self.data}: no test phrase has a body and beats; make the pairs with"
                 " prepare-audio"
             )
-        return BodySample(dances, np.arange(len(dances)))
+        return DanceSample(dances, np.arange(len(dances)))
 
-    def another_song(self, replication: int) -> BodySample:
+    def another_song(self, replication: int) -> Bodies:
         """The generated dances, each on another song: what not listening scores."""
         sample = self.danced("generated", replication)
         rng = np.random.default_rng([self.settings.seed, 4, replication])
         return sample.reordered(strangers(len(sample), rng))
 
-    def frozen_pose(self, replication: int) -> BodySample:
+    def frozen_pose(self, replication: int) -> Bodies:
         """The first pose of each dance held where it is."""
         still = [held_still(dance.motion) for dance in self.danced("generated", 0).dances]
         return self._instead(still)
 
-    def path_alone(self, replication: int) -> BodySample:
+    def path_alone(self, replication: int) -> Bodies:
         """A statue carried along each path."""
         return self._instead(
             [to_motion(self.path(number, replication)) for number in range(len(self.pieces))]
         )
 
-    def _instead(self, motions: Sequence[Motion]) -> BodySample:
+    def _instead(self, motions: Sequence[Motion]) -> Bodies:
         """Other motions to the same songs, on the same paths."""
         dances = self.danced("generated", 0).dances
-        return BodySample.of(
+        return DanceSample.of(
             [
-                BodyDance(dance.song, motion, dance.beats, path=dance.path)
+                Dance(dance.song, motion, dance.beats, path=dance.path)
                 for dance, motion in zip(dances, motions, strict=True)
             ]
         )
@@ -247,12 +247,12 @@ def near_seams(frames: int) -> np.ndarray:
     return near
 
 
-def real_dances(data: str, frames: int, number: int, seed: int) -> list[BodyDance]:
+def real_dances(data: str, frames: int, number: int, seed: int) -> list[Dance[Motion]]:
     """Bodies of up to `number` test phrases that have beats, windows of at most `frames`."""
     split = MotionPhraseDataset(
         data, split="test", target_frames=frames, seed=seed, cache_in_memory=False, bodies=True
     )
-    found: list[BodyDance] = []
+    found: list[Dance[Motion]] = []
     for index in split.order(0):
         item = split.item(int(index), 0)
         if len(found) == number:
@@ -262,7 +262,7 @@ def real_dances(data: str, frames: int, number: int, seed: int) -> list[BodyDanc
         beats = clock(item.audio[:, item.mask])[1]
         if len(beats) >= MIN_BEATS:
             song = item.record.song or item.record.id
-            found.append(BodyDance(song, decode_features(item.body[item.mask]), beats))
+            found.append(Dance(song, decode_features(item.body[item.mask]), beats))
     return found
 
 
@@ -275,7 +275,7 @@ Find = Callable[[Motion], np.ndarray]
 def alignment_tables(context: DanceContext) -> list[Grid]:
     """Whole bodies and limbs on their own songs, and on what must score less."""
     made = context.danced("generated", 0).dances
-    groups: dict[str, tuple[list[BodyDance], Find]] = {
+    groups: dict[str, tuple[list[Dance[Motion]], Find]] = {
         "whole-body": (made, body_beats),
         "limbs alone:": (made, limb_beats),
     }
@@ -293,7 +293,7 @@ def alignment_tables(context: DanceContext) -> list[Grid]:
     ]
 
 
-def _danced(dances: list[BodyDance], find: Find) -> list[Danced]:
+def _danced(dances: list[Dance[Motion]], find: Find) -> list[Danced]:
     return [Danced(each.song, find(each.motion), each.beats, each.seconds) for each in dances]
 
 
@@ -471,12 +471,12 @@ def evaluate_performer(
     return run_suite(suite, Parts(folder), progress)
 
 
-def dance_bench(context: DanceContext) -> Bench[BodySample]:
+def dance_bench(context: DanceContext) -> Bench[Bodies]:
     """The songs, danced by the model, by its floors, and by real dancers where there is data."""
     few = context.settings.untrained
     hinted = context.generator.network.generation.constraints
 
-    def real(replication: int = 0) -> BodySample:
+    def real(replication: int = 0) -> Bodies:
         return context.reference
 
     return Bench(
@@ -507,7 +507,7 @@ def dance_bench(context: DanceContext) -> Bench[BodySample]:
     )
 
 
-def write_body(sample: BodySample, row: int, path: Path) -> dict[str, Any]:
+def write_body(sample: Bodies, row: int, path: Path) -> dict[str, Any]:
     """A dance; its title is the song and what was asked for."""
     dance = sample.dances[row]
     write_npz(dance.motion, path)

@@ -15,7 +15,7 @@ import numpy as np
 from ...metrics.seams import ORDERS, body_quantities, compare
 from ...motion.motion import Motion
 from ..report.tables import Column, Grid, GridRow
-from ..samples import BodyDance
+from ..samples import Dance
 
 TOP = 99  # percentile of real motion that nothing at a seam is to pass
 SEAM_COLUMNS = (
@@ -31,7 +31,7 @@ SEAM_NOTE = (
 )
 
 
-def hard_cuts(dances: Sequence[BodyDance]) -> list[BodyDance]:
+def hard_cuts(dances: Sequence[Dance[Motion]]) -> list[Dance[Motion]]:
     """The dances, each with the poses of the next one from every second seam on."""
     cut = []
     for number, dance in enumerate(dances):
@@ -49,7 +49,7 @@ def hard_cuts(dances: Sequence[BodyDance]) -> list[BodyDance]:
             contacts=dance.motion.contacts[:frames],
         )
         seams = None if dance.seams is None else dance.seams[:frames]
-        cut.append(BodyDance(dance.song, motion, dance.beats, path=dance.path, seams=seams))
+        cut.append(Dance(dance.song, motion, dance.beats, path=dance.path, seams=seams))
     return cut
 
 
@@ -63,7 +63,7 @@ def _windows(seams: np.ndarray) -> np.ndarray:
 
 
 def seam_grid(
-    rows: Mapping[str, Sequence[BodyDance]], real: Sequence[Motion], seed: int
+    rows: Mapping[str, Sequence[Dance[Motion]]], real: Sequence[Motion], seed: int
 ) -> list[Grid]:
     """A row a kind of dance and quantity; nothing where no dance has a seam.
 

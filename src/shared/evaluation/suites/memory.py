@@ -32,9 +32,9 @@ from ...pipelines.song_memory import as_condition, bars_of_sound, bars_of_window
 from ...pipelines.song_sampler import SPARE, Recall, SongSampler, SongSampling
 from ..families_audio import BEAT_ALIGNMENT, TRAJECTORY_SANITY
 from ..report.tables import Column, Grid, GridRow, plain
-from ..samples import Dance, DanceSample
+from ..samples import DanceSample
 from ..stats import MIN_PAIRS, bootstrap_mean, paired_bootstrap
-from .songs import Piece, held_out_songs, open_split
+from .songs import Piece, dance_of, held_out_songs, open_split
 
 WITHOUT, WITH, RANDOM = "without", "with", "random"
 
@@ -339,9 +339,8 @@ class Songs:
         dances = []
         for number, piece in enumerate(self.pieces):
             made = dance(self.setting, arm, piece.condition, piece.phase, piece.name, number)
-            beats, bars = piece.beats, piece.bars
-            dances.append(Dance(piece.name, made, beats, bars, piece.true_meter, piece.meter))
-        sample = DanceSample(dances, np.full(len(dances), -1))
+            dances.append(dance_of(piece, made))
+        sample = DanceSample.of(dances)
         found: Values = {}
         for family in SONG_FAMILIES:
             computed = family.compute(sample, sample, seed=self.setting.sampled.seed)

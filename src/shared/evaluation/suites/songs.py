@@ -32,6 +32,7 @@ from ...model.audio.conditioning import BEAT, CONDITION_ROWS
 from ...motion.trajectory import FPS, MotionTrajectory
 from ...motion.window import place_window
 from ...pipelines.song import SongCondition, song_condition
+from ..samples import Dance
 
 FRESH_SEED = 90210  # of songs made only to test: no training draws from the held-out tempi
 MARGIN = 2.0  # seconds of beats beyond a song's end that count as neighbours
@@ -70,6 +71,11 @@ class Piece:
     @property
     def seconds(self) -> float:
         return self.num_frames / FPS
+
+
+def dance_of(piece: Piece, motion: MotionTrajectory) -> Dance[MotionTrajectory]:
+    """A motion held against the song that it was made for."""
+    return Dance(piece.name, motion, piece.beats, piece.bars, piece.true_meter, piece.meter)
 
 
 def held_out_specs(number: int, seconds: float, seed: int) -> list[SongSpec]:

@@ -7,7 +7,7 @@ import pytest
 
 from src.shared.evaluation.families_dance import BODY_RHYTHM, FEET, ON_THE_PATH
 from src.shared.evaluation.floors import held_still
-from src.shared.evaluation.samples import BodyDance, BodySample
+from src.shared.evaluation.samples import Dance, DanceSample
 from src.shared.evaluation.suites.dance import PromptDances, effect, near_seams
 from src.shared.evaluation.suites.dance_seams import (
     hard_cuts,
@@ -30,8 +30,8 @@ def nodding_path(frames: int = 240) -> MotionTrajectory:
     return nod(np.arange(frames + 2) / FPS * 0.5)
 
 
-def rhythm_of(*dances: BodyDance) -> dict[str, np.ndarray]:
-    sample = BodySample.of(dances)
+def rhythm_of(*dances: Dance) -> dict[str, np.ndarray]:
+    sample = DanceSample.of(dances)
     return {key: np.asarray(value) for key, value in
             BODY_RHYTHM.compute(sample, sample, seed=0).items()}  # fmt: skip
 
@@ -41,9 +41,7 @@ def test_arms_that_rest_on_the_beat_dance_on_it() -> None:
     for find in (body_beats, limb_beats):
         inner = [beat for beat in find(motion) if 0.3 < beat < 7.7]
         np.testing.assert_allclose(inner, BEATS[1 : len(inner) + 1], atol=0.02)
-    found = rhythm_of(
-        BodyDance("on", motion, BEATS), BodyDance("off", swinging_arms(offset=0.25), BEATS)
-    )
+    found = rhythm_of(Dance("on", motion, BEATS), Dance("off", swinging_arms(offset=0.25), BEATS))
     assert found["f"][0] > 0.9 and found["limbs_f"][0] > 0.9
     assert found["f"][1] < 0.1
     assert found["f_above_half"][0] > 0.8 and found["f_above_half"][1] < -0.8
@@ -55,12 +53,12 @@ def test_a_carried_statue_has_the_paths_beats_and_no_limbs() -> None:
     assert len(body_beats(statue)) > 10
     assert len(limb_beats(statue)) == 0
     assert np.ptp(seen_from_pelvis(statue), axis=0).max() < 1e-5
-    found = rhythm_of(BodyDance("statue", statue, BEATS))
+    found = rhythm_of(Dance("statue", statue, BEATS))
     assert found["f"][0] > 0.5 and found["limbs_f"][0] == 0 and found["landings"][0] == 0
 
 
 def test_frozen_poses_score_nothing() -> None:
-    found = rhythm_of(BodyDance("still", held_still(swinging_arms()), BEATS))
+    found = rhythm_of(Dance("still", held_still(swinging_arms()), BEATS))
     for key, values in found.items():
         assert values[0] == 0, key
 
@@ -72,7 +70,7 @@ def test_landings_are_where_feet_come_down() -> None:
     assert len(found) == 2 * 15  # both feet
     low = landings(hopping(height=0.03))
     assert len(low) == 0  # a shuffle is no landing
-    scores = rhythm_of(BodyDance("hop", hopping(), BEATS))
+    scores = rhythm_of(Dance("hop", hopping(), BEATS))
     assert scores["landing_to_music"][0] > 0.7 and scores["landing_above_turned"][0] > 0.3
     assert scores["landings"][0] == pytest.approx(30 / 8)
 
@@ -81,9 +79,9 @@ def test_the_distance_from_the_path_is_told_in_centimetres_and_degrees() -> None
     path = nodding_path()
     body = to_motion(path)
     away = replace(body, root_position=body.root_position + np.float32([0.03, 0, 0.04]))
-    sample = BodySample.of(
-        [BodyDance("a", body, BEATS, path=path), BodyDance("b", away, BEATS, path=path),
-         BodyDance("c", body, BEATS)]
+    sample = DanceSample.of(
+        [Dance("a", body, BEATS, path=path), Dance("b", away, BEATS, path=path),
+         Dance("c", body, BEATS)]
     )  # fmt: skip
     found = ON_THE_PATH.compute(sample, sample, seed=0)
     root, turn = np.asarray(found["root_mean"]), np.asarray(found["turn_max"])
@@ -96,15 +94,15 @@ def test_the_distance_from_the_path_is_told_in_centimetres_and_degrees() -> None
 def test_feet_are_measured_before_and_after() -> None:
     glide = to_motion(nodding_path())
     still = held_still(glide)
-    figures = FEET.compute(BodySample.of([BodyDance("a", still, BEATS, raw=glide)]), None, seed=0)  # type: ignore[arg-type]
+    figures = FEET.compute(DanceSample.of([Dance("a", still, BEATS, raw=glide)]), None, seed=0)  # type: ignore[arg-type]
     assert np.asarray(figures["support_before"])[0] > 50 and figures["support"] == 0
     assert np.isnan(np.asarray(figures["jerk_per_speed"])[0])
 
 
 def test_other_songs_are_never_the_own() -> None:
-    dances = [BodyDance(str(k), swinging_arms(offset=k), np.array([float(k)])) for k in range(5)]
+    dances = [Dance(str(k), swinging_arms(offset=k), np.array([float(k)])) for k in range(5)]
     order = strangers(5, np.random.default_rng(0))
-    moved = BodySample.of(dances).reordered(order)
+    moved = DanceSample.of(dances).reordered(order)
     assert sorted(order) == list(range(5)) and all(a != b for a, b in enumerate(order))
     assert moved.asked == [dance.song for dance in dances]
     assert all(m.motion is dances[k].motion for m, k in zip(moved.dances, order, strict=True))
@@ -130,7 +128,7 @@ def test_accelerations_have_their_closed_form() -> None:
 
 def test_a_hard_cut_is_seen_and_a_smooth_dance_is_not() -> None:
     dances = [
-        BodyDance(str(k), swinging_arms(offset=0.13 * k), BEATS, seams=near_seams(240))
+        Dance(str(k), swinging_arms(offset=0.13 * k), BEATS, seams=near_seams(240))
         for k in range(4)
     ]
     assert dances[0].seams is not None and dances[0].seams.any() and not dances[0].seams.all()
@@ -144,7 +142,7 @@ def test_a_hard_cut_is_seen_and_a_smooth_dance_is_not() -> None:
     assert seam_grid({"own": lone}, [dances[0].motion], 0) == []
 
 
-def replace_seams(dance: BodyDance) -> BodyDance:
+def replace_seams(dance: Dance) -> Dance:
     return replace(dance, seams=None)
 
 
