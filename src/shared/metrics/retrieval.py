@@ -18,6 +18,7 @@ from itertools import pairwise
 
 import numpy as np
 from scipy.special import gammaln
+from scipy.stats import rankdata
 
 BATCH = 32
 TOP = (1, 2, 3)
@@ -83,9 +84,7 @@ def best_ranks(distances: np.ndarray, relevant: np.ndarray) -> Ranks:
 
 def rank_of(distances: np.ndarray, column: int) -> np.ndarray:
     """How many columns [N] of distances [N,P] are nearer than this one; ties count half."""
-    own = distances[:, column : column + 1]
-    nearer = (distances < own).sum(1)
-    return np.asarray(nearer + ((distances == own).sum(1) - 1) / 2)
+    return np.asarray(rankdata(distances, axis=1)[:, column] - 1)
 
 
 def pair_distances(text: np.ndarray, motion: np.ndarray) -> np.ndarray:
@@ -184,6 +183,7 @@ RECALL_AT = (1, 2, 3, 5, 10)
 THRESHOLD = 0.95  # of (1 + cosine) / 2 of two texts, as in TMR
 POOL = 256  # candidates of protocols (a) and (b) in the tables, whose rows differ in N
 SUBSET = 100  # pairs of the dissimilar subset
+WAYS = ("text_to_motion", "motion_to_text")
 PROTOCOLS = ("all", "threshold", "dissimilar", "batches")
 
 
@@ -295,16 +295,25 @@ def _farthest(similarity: np.ndarray, size: int) -> np.ndarray:
 # ---------------------------------------------------------------- protocols
 
 
-def recalls(similarity: np.ndarray, relevant: np.ndarray | None = None) -> BothWays:
-    """Rank all motions for each text and all texts for each motion.
+def recalls(
+    text: np.ndarray,
+    motion: np.ndarray,
+    similarity: np.ndarray | None = None,
+    threshold: float = THRESHOLD,
+) -> BothWays:
+    """Rank all motions for each text and all texts for each motion: protocol (a), or (b).
 
     Args:
-        similarity: [N, N], texts by motions.
-        relevant: symmetric bool [N, N], which answers count beside the own; None = only the own.
+        text, motion: [N, D], row i belongs together.
+        similarity: of the texts [N, N]; pairs above `threshold` count beside the own, the best
+            placed of the right answers decides, and guessing is easier: see the chance row. None =
+            only the own pair counts, though another caption may say the same.
     """
-    own = np.eye(len(similarity), dtype=bool)
-    right = own if relevant is None else relevant | own
-    return BothWays(_recall(-similarity, right), _recall(-similarity.T, right.T), len(similarity))
+    found = cosines(text, motion)
+    right = np.eye(len(text), dtype=bool)
+    if similarity is not None:
+        right |= similarity > threshold
+    return BothWays(_recall(-found, right), _recall(-found.T, right.T), len(text))
 
 
 def _recall(distances: np.ndarray, relevant: np.ndarray) -> Recall:
@@ -312,21 +321,6 @@ def _recall(distances: np.ndarray, relevant: np.ndarray) -> Recall:
     return Recall(
         tuple(float(ranks.hits(k).mean()) for k in RECALL_AT), float(np.median(ranks.mean()))
     )
-
-
-def recall_of_all(text: np.ndarray, motion: np.ndarray) -> BothWays:
-    """Protocol (a): only the own pair counts, though another caption may say the same."""
-    return recalls(cosines(text, motion))
-
-
-def recall_with_threshold(
-    text: np.ndarray, motion: np.ndarray, similarity: np.ndarray, threshold: float = THRESHOLD
-) -> BothWays:
-    """Protocol (b): pairs whose texts are more similar than `threshold` count; similarity [N, N].
-
-    The best placed of the right answers decides. It makes guessing easier: see the chance row.
-    """
-    return recalls(cosines(text, motion), similarity > threshold)
 
 
 def recall_of_dissimilar(
@@ -339,7 +333,7 @@ def recall_of_dissimilar(
 ) -> BothWays:
     """Protocol (c): protocol (a) among `size` texts far from each other; similarity [N, N]."""
     rows = dissimilar_subset(similarity, size, seed=seed)
-    return recalls(cosines(text[rows], motion[rows]))
+    return recalls(text[rows], motion[rows])
 
 
 def recall_in_pools(
@@ -363,18 +357,14 @@ def recall_in_pools(
         raise ValueError(f"{len(text)} pairs are fewer than one pool of {size}: add samples")
     order = np.random.default_rng(seed).permutation(len(text))
     count = len(text) // size
-    found = []
-    for rows in order[: count * size].reshape(count, size):
-        if similarity is None:
-            found.append(recall_of_all(text[rows], motion[rows]))
-        else:
-            alike = similarity[np.ix_(rows, rows)]
-            found.append(recall_with_threshold(text[rows], motion[rows], alike))
-    return BothWays(
-        _mean([one.text_to_motion for one in found]),
-        _mean([one.motion_to_text for one in found]),
-        size,
-    )
+    found = [
+        recalls(
+            text[rows], motion[rows], None if similarity is None else similarity[np.ix_(rows, rows)]
+        )
+        for rows in order[: count * size].reshape(count, size)
+    ]
+    ways = (_mean([getattr(one, way) for one in found]) for way in WAYS)
+    return BothWays(*ways, size)
 
 
 def _mean(found: Sequence[Recall]) -> Recall:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy.stats import ks_2samp
 
 from ..motion.motion import Motion
 from ..motion.trajectory import MotionTrajectory
@@ -96,9 +97,8 @@ def compare(songs: Sequence[Values], seed: int = 0, n: int = RESAMPLES) -> dict[
     seam, other = _split(songs)
     draws = rng.integers(0, len(songs), (n, len(songs)))
     drawn = np.array([_ratios(*_split([songs[i] for i in draw])) for draw in draws])
-    pooled = Pooled.of(songs)
-    null = np.array([pooled.measure(_turned(songs, rng)) for _ in range(n)])
-    observed = pooled.measure([mask for _, mask in songs])
+    null = np.array([measure(_turned(songs, rng)) for _ in range(n)])
+    observed = measure(songs)
     report: dict[str, Any] = {}
     for index, point in enumerate(POINTS):
         report[f"seam_p{point}"] = float(np.percentile(seam, point))
@@ -119,34 +119,10 @@ def compare(songs: Sequence[Values], seed: int = 0, n: int = RESAMPLES) -> dict[
     return report
 
 
-@dataclass(frozen=True, eq=False)
-class Pooled:
-    """All songs' values in order, so that many marks are measured without sorting again.
-
-    Attributes:
-        values: ascending [N].
-        order: where each came from.
-        last: True at the last of equal values.
-    """
-
-    values: np.ndarray
-    order: np.ndarray
-    last: np.ndarray
-
-    @classmethod
-    def of(cls, songs: Sequence[Values]) -> "Pooled":
-        """Sort the values of all songs together."""
-        together = np.concatenate([values for values, _ in songs])
-        order = np.argsort(together, kind="stable")
-        values = together[order]
-        return cls(values, order, np.append(values[1:] > values[:-1], True))
-
-    def measure(self, masks: Sequence[np.ndarray]) -> np.ndarray:
-        """Ratios of the quantiles at `POINTS`, then the Kolmogorov–Smirnov distance, in one."""
-        mask = np.concatenate(masks)[self.order]
-        shares = np.cumsum(mask) / mask.sum() - np.cumsum(~mask) / (~mask).sum()
-        distance = np.abs(shares[self.last]).max()
-        return np.append(_ratios(self.values[mask], self.values[~mask]), distance)
+def measure(songs: Sequence[Values]) -> np.ndarray:
+    """Ratios of the quantiles at `POINTS`, then the Kolmogorov–Smirnov distance, in one."""
+    seam, other = _split(songs)
+    return np.append(_ratios(seam, other), ks_2samp(seam, other, method="asymp").statistic)
 
 
 def jumps(songs: Sequence[Seamed]) -> dict[str, Any]:
@@ -209,9 +185,9 @@ def _ratios(seam: np.ndarray, other: np.ndarray) -> np.ndarray:
     return np.percentile(seam, POINTS) / np.maximum(np.percentile(other, POINTS), 1e-12)
 
 
-def _turned(songs: Sequence[Values], rng: np.random.Generator) -> list[np.ndarray]:
+def _turned(songs: Sequence[Values], rng: np.random.Generator) -> list[Values]:
     """The marks of each song, turned round to a random place."""
-    return [np.roll(mask, int(rng.integers(len(mask)))) for _, mask in songs]
+    return [(values, np.roll(mask, int(rng.integers(len(mask))))) for values, mask in songs]
 
 
 def _limits(null: np.ndarray) -> dict[str, float]:

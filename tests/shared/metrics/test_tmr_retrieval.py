@@ -18,9 +18,7 @@ from src.shared.metrics.retrieval import (
     cosines,
     dissimilar_subset,
     recall_in_pools,
-    recall_of_all,
     recall_of_dissimilar,
-    recall_with_threshold,
     recalls,
     text_similarity,
 )
@@ -40,7 +38,7 @@ def test_recall_is_torchmetrics_hit_rate_both_ways() -> None:
     rng = np.random.default_rng(1)
     labels = rng.integers(0, 25, len(text))
     relevant = labels[:, None] == labels[None]
-    found = recall_with_threshold(text, motion, relevant.astype(float), 0.5)
+    found = recalls(text, motion, relevant.astype(float), 0.5)
     similarity = torch.nn.functional.cosine_similarity(
         torch.as_tensor(text)[:, None], torch.as_tensor(motion)[None], dim=-1
     )
@@ -56,10 +54,10 @@ def test_recall_is_torchmetrics_hit_rate_both_ways() -> None:
 
 def test_perfect_embeddings_find_everything_and_one_point_scores_what_guessing_does() -> None:
     text, _ = noisy_pairs()
-    perfect = recall_of_all(text, 3 * text)
+    perfect = recalls(text, 3 * text)
     assert perfect.text_to_motion.recall == perfect.motion_to_text.recall == (1.0,) * 5
     assert perfect.text_to_motion.median_rank == 1 and perfect.num_pairs == 60
-    point = recall_of_all(np.ones((60, 4)), np.full((60, 4), 0.3))
+    point = recalls(np.ones((60, 4)), np.full((60, 4), 0.3))
     assert point.text_to_motion.recall == pytest.approx([k / 60 for k in RECALL_AT])
     assert point.motion_to_text.median_rank == pytest.approx(30.5)
 
@@ -70,7 +68,7 @@ def test_a_cyclic_shift_has_rank_two() -> None:
     text = np.stack((np.cos(angle), np.sin(angle)), 1)
     shifted = angle - 2 * np.pi / 40 * 0.7
     motion = np.stack((np.cos(shifted), np.sin(shifted)), 1)
-    found = recall_of_all(text, motion)
+    found = recalls(text, motion)
     assert found.text_to_motion.recall == (0.0, 1.0, 1.0, 1.0, 1.0)
     assert found.text_to_motion.median_rank == 2
 
@@ -82,9 +80,9 @@ def test_copies_are_ties_to_the_last_bit() -> None:
     similarity = cosines(text, text)
     assert all(len(np.unique(row)) <= 9 for row in similarity)
     counts = np.bincount(place)[place]
-    assert recall_of_all(text, text).text_to_motion.recall[0] == pytest.approx((1 / counts).mean())
+    assert recalls(text, text).text_to_motion.recall[0] == pytest.approx((1 / counts).mean())
     same = (place[:, None] == place[None]).astype(float)
-    assert recall_with_threshold(text, text, same).text_to_motion.recall[0] == 1.0
+    assert recalls(text, text, same).text_to_motion.recall[0] == 1.0
 
 
 @given(
@@ -111,16 +109,16 @@ def test_ranks_average_over_every_order_of_the_ties(
 def test_recall_does_not_depend_on_the_order_of_the_pairs() -> None:
     text, motion = noisy_pairs()
     order = np.random.default_rng(3).permutation(len(text))
-    before, after = recall_of_all(text, motion), recall_of_all(text[order], motion[order])
+    before, after = recalls(text, motion), recalls(text[order], motion[order])
     assert after == before
-    swapped = recall_of_all(motion, text)
+    swapped = recalls(motion, text)
     assert swapped.text_to_motion == before.motion_to_text
 
 
 def test_shuffled_motions_score_chance() -> None:
     rng = np.random.default_rng(4)
     text, motion = noisy_pairs(1000, 16)
-    found = recall_of_all(text, rng.permutation(motion)).text_to_motion
+    found = recalls(text, rng.permutation(motion)).text_to_motion
     assert found.recall[4] == pytest.approx(10 / 1000, abs=0.007)
     assert found.median_rank == pytest.approx(500, rel=0.08)
 
@@ -129,12 +127,12 @@ def test_batches_are_easier_and_leave_out_the_rest() -> None:
     text, motion = noisy_pairs(200, 8, 1.0)
     found = recall_in_pools(text, motion, seed=1)
     assert found.num_pairs == 32
-    assert found.text_to_motion.recall[0] > recall_of_all(text, motion).text_to_motion.recall[0]
+    assert found.text_to_motion.recall[0] > recalls(text, motion).text_to_motion.recall[0]
     one = recall_in_pools(text[:32], motion[:32])
-    assert one.text_to_motion == recall_of_all(text[:32], motion[:32]).text_to_motion
+    assert one.text_to_motion == recalls(text[:32], motion[:32]).text_to_motion
     alike = text_similarity([f"caption {i % 50}" for i in range(200)])
     assert recall_in_pools(text, motion, 200, alike).motion_to_text == (
-        recall_with_threshold(text, motion, alike).motion_to_text
+        recalls(text, motion, alike).motion_to_text
     )
     with pytest.raises(ValueError, match="fewer than one pool"):
         recall_in_pools(text[:31], motion[:31])
@@ -173,20 +171,20 @@ def test_text_similarity_knows_equal_captions_and_groups() -> None:
     assert 0.5 <= similarity[0, 2] < 0.75 and similarity[0, 3] == pytest.approx(0.5)
     grouped = text_similarity(captions, ["walk", "walk", "wave", "walk", "none"])
     assert grouped[0, 3] == 1 and grouped[0, 2] == similarity[0, 2]
-    with_group = recall_with_threshold(np.eye(5), np.eye(5)[[3, 1, 2, 0, 4]], grouped)
+    with_group = recalls(np.eye(5), np.eye(5)[[3, 1, 2, 0, 4]], grouped)
     assert with_group.text_to_motion.recall[0] == 1.0
-    assert recall_of_all(np.eye(5), np.eye(5)[[3, 1, 2, 0, 4]]).text_to_motion.recall[0] < 1
+    assert recalls(np.eye(5), np.eye(5)[[3, 1, 2, 0, 4]]).text_to_motion.recall[0] < 1
 
 
 def test_bad_embeddings_are_named() -> None:
     good = np.ones((40, 3))
     with pytest.raises(ValueError, match="NaN"):
-        recall_of_all(good, np.full((40, 3), np.nan))
+        recalls(good, np.full((40, 3), np.nan))
     with pytest.raises(ValueError, match="length 0"):
         recall_in_pools(good, np.zeros((40, 3)))
     with pytest.raises(ValueError, match="aligned"):
         recall_of_dissimilar(good, good[:, :2], np.eye(40))
-    assert recalls(np.eye(3)).num_pairs == 3
+    assert recalls(np.eye(3), np.eye(3)).num_pairs == 3
 
 
 def sample(num: int) -> MotionSample:
