@@ -166,21 +166,21 @@ def run_audio(model: str, request: Request, folder: Path) -> dict[str, Any]:
     """The audio branch's report."""
     options.check_pairs(request.data)
 
-    from ..shared.evaluation.suites.audio import AudioSettings, evaluate_audio
+    from ..shared.evaluation.suites.audio import AudioContext, AudioSettings, evaluate_audio
 
     amount = request.amount("num_songs", "song_seconds", "track_seconds", "tell_meter")
     if request.quick:
         amount = {"num_songs": QUICK_SONGS, **amount}
-    return evaluate_audio(
+    context = AudioContext(
         load_generator(model, request.decoder, request.device),
-        data=request.data,
-        songs=request.songs,
-        settings=AudioSettings(**amount),
-        sampling=request.sampling,
-        about={"model": model, "decoder": request.decoder or model},
-        folder=folder,
-        progress=_progress,
+        AudioSettings(**amount),
+        request.data,
+        request.songs,
+        request.sampling,
+        _progress,
     )
+    about = {"model": model, "decoder": request.decoder or model}
+    return evaluate_audio(context, about=about, folder=folder)
 
 
 def _progress(text: str) -> None:

@@ -140,7 +140,7 @@ def run(
             EditSettings(settings.edits, untrained=settings.untrained, seed=settings.seed),
             progress=told,
         )
-    report = evaluate(context, editing, about=models, folder=out, progress=told)
+    report = evaluate(context, editing, about=models, folder=out)
     save_report(report, out)
     tell(str(out / "report.html"))
     return report

@@ -183,7 +183,6 @@ RECALL_AT = (1, 2, 3, 5, 10)
 THRESHOLD = 0.95  # of (1 + cosine) / 2 of two texts, as in TMR
 POOL = 256  # candidates of protocols (a) and (b) in the tables, whose rows differ in N
 SUBSET = 100  # pairs of the dissimilar subset
-WAYS = ("text_to_motion", "motion_to_text")
 PROTOCOLS = ("all", "threshold", "dissimilar", "batches")
 
 
@@ -363,8 +362,8 @@ def recall_in_pools(
         )
         for rows in order[: count * size].reshape(count, size)
     ]
-    ways = (_mean([getattr(one, way) for one in found]) for way in WAYS)
-    return BothWays(*ways, size)
+    text_to_motion = _mean([one.text_to_motion for one in found])
+    return BothWays(text_to_motion, _mean([one.motion_to_text for one in found]), size)
 
 
 def _mean(found: Sequence[Recall]) -> Recall:

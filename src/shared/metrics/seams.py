@@ -8,7 +8,7 @@ song. And the extremes of what must not jump at all, phase and quaternion sign.
 Letters: T frames.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -32,6 +32,19 @@ class Seamed:
 
     trajectory: MotionTrajectory
     seam: np.ndarray
+
+
+def marked(frames: int, places: Iterable[tuple[int, int]], reach: int = REACH) -> np.ndarray:
+    """True [T] in the frames of each place, from its first to before its last, and around them."""
+    near = np.zeros(frames, dtype=bool)
+    for start, stop in places:
+        near[max(0, start - reach) : stop + reach] = True
+    return near
+
+
+def starts(seam: np.ndarray) -> np.ndarray:
+    """The frames at which marks [T] begin."""
+    return np.flatnonzero(np.diff(seam.astype(int), prepend=0) == 1)
 
 
 def quantities(trajectory: MotionTrajectory) -> dict[str, np.ndarray]:
@@ -66,22 +79,22 @@ def seam_report(songs: Sequence[Seamed], seed: int = 0, n: int = RESAMPLES) -> d
         songs, seams (their number), frames; quantities: see `compare`; jumps: see `jumps`.
         Only the first two where no song has a seam.
     """
-    marked = [song for song in songs if song.seam.any()]
-    number = sum(int((np.diff(song.seam.astype(int), prepend=0) == 1).sum()) for song in marked)
-    report: dict[str, Any] = {"songs": len(marked), "seams": number}
-    if not marked:
+    seamed = [song for song in songs if song.seam.any()]
+    number = sum(len(starts(song.seam)) for song in seamed)
+    report: dict[str, Any] = {"songs": len(seamed), "seams": number}
+    if not seamed:
         return report
-    sizes = [quantities(song.trajectory) for song in marked]
-    report["frames"] = sum(int(song.seam.sum()) for song in marked)
+    sizes = [quantities(song.trajectory) for song in seamed]
+    report["frames"] = sum(int(song.seam.sum()) for song in seamed)
     report["quantities"] = {
         name: compare(
-            [(values[name], song.seam[:-1]) for values, song in zip(sizes, marked, strict=True)],
+            [(values[name], song.seam[:-1]) for values, song in zip(sizes, seamed, strict=True)],
             seed,
             n,
         )
         for name in sizes[0]
     }
-    report["jumps"] = jumps(marked)
+    report["jumps"] = jumps(seamed)
     return report
 
 
@@ -142,13 +155,9 @@ def jumps(songs: Sequence[Seamed]) -> dict[str, Any]:
         ("quaternion_dot_min", np.min),
         ("position_step_max", np.max),
     ):
-        found[name] = [
-            float(pick(np.concatenate([row[name.rpartition("_")[0]][mask] for row, mask in part])))
-            for part in (
-                [(row, row["seam"]) for row in rows],
-                [(row, ~row["seam"]) for row in rows],
-            )
-        ]
+        step = name.rpartition("_")[0]
+        split = _split([(row[step], row["seam"]) for row in rows])
+        found[name] = [float(pick(part)) for part in split]
     largest = (found["phase_step_max"], found["position_step_max"])
     found["none"] = (
         found["phase_step_min"][0] >= -1e-4

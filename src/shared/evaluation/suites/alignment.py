@@ -4,7 +4,7 @@ Letters: N motion beats, M music beats.
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,6 +23,7 @@ from ...metrics.rhythm import (
 from ...motion.trajectory import FPS, MotionTrajectory
 from ..report.plots import new_figure, save_figure
 from ..report.tables import Column, Grid, GridRow
+from ..samples import DanceSample, Moved
 from ..stats import FEW, bootstrap_mean
 from .songs import Piece
 
@@ -65,6 +66,14 @@ class Danced:
     motion: np.ndarray
     music: np.ndarray
     seconds: float
+
+
+def danced(
+    sample: DanceSample[Moved], name: str, find: Callable[[Moved], np.ndarray]
+) -> list[Danced]:
+    """The beats that `find` tells of each motion, with its music; kept under `name`."""
+    pairs = zip(sample.dances, sample.each(name, find), strict=True)
+    return [Danced(dance.song, beats, dance.beats, dance.seconds) for dance, beats in pairs]
 
 
 def alignment_rows(dances: Sequence[Danced], seed: int) -> dict[str, Any]:

@@ -9,8 +9,8 @@ Letters: T frames, N songs.
 """
 
 import io
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, replace
 from functools import cache, cached_property, partial
 from itertools import pairwise
 from pathlib import Path
@@ -26,7 +26,7 @@ from ...formats.arrays import write_trajectory_npz
 from ...io.files import atomic_write
 from ...metrics.rhythm import phase_error, strangers
 from ...metrics.sanity import frozen
-from ...metrics.seams import REACH, Seamed, seam_report
+from ...metrics.seams import Seamed, marked, seam_report
 from ...motion.trajectory import FPS, MotionTrajectory
 from ...pipelines.song import SongGenerator, own_noise
 from ...pipelines.song_sampler import SPARE, SongSampling, spans
@@ -39,6 +39,7 @@ from .alignment import (
     Danced,
     alignment_grids,
     alignment_rows,
+    danced,
     phase_row,
     plot_phase,
     right_tempo,
@@ -76,56 +77,46 @@ class AudioSettings:
     seed: int = 0
 
 
+@dataclass(frozen=True, eq=False)
 class AudioContext:
     """Everything a table of the audio branch may draw on; songs and motions are made once.
 
-    Args:
+    Attributes:
         generator: a trained audio branch.
         settings: how much.
         data: folder or bucket of pairs, whose test split is the real row; None = no such row.
-        songs: folder of sound files; None = none.
-        sampling: steps, sampler, guidance_scale; None = the model's own.
+        songs: folder of sound files to describe; None = none.
+        sampling: steps, sampler, guidance_scale; left out or None = the model's own.
         progress: told what begins.
     """
 
-    def __init__(
-        self,
-        generator: SongGenerator,
-        settings: AudioSettings,
-        *,
-        data: str | None = None,
-        songs: Path | None = None,
-        sampling: dict[str, Any] | None = None,
-        progress: Progress = lambda text: None,
-    ) -> None:
-        self.generator, self.settings, self.progress = generator, settings, progress
-        self.data, self.songs = data, songs
-        given = SongSampling(**(sampling or {}))
-        self.sampled = given.resolved(generator.model.config)
-        self.made = cache(self._made)
-        self.made_untrained = cache(self._made_untrained)
+    generator: SongGenerator
+    settings: AudioSettings = field(default_factory=AudioSettings)
+    data: str | None = None
+    songs: Path | None = None
+    sampling: Mapping[str, Any] = field(default_factory=dict)
+    progress: Progress = lambda text: None
+
+    @cached_property
+    def sampled(self) -> SongSampling:
+        """How motions are sampled, with nothing left to the model."""
+        return SongSampling(**self.sampling).resolved(self.generator.model.config)
 
     @cached_property
     def pieces(self) -> list[Piece]:
         """Held-out synthetic songs."""
-        settings = self.settings
-        self.progress(f"{settings.num_songs} songs of {settings.song_seconds:g} s")
-        return list(
-            held_out_songs(
-                settings.num_songs,
-                settings.song_seconds,
-                settings.seed,
-                tell_meter=settings.tell_meter,
-            )
-        )
+        self.progress(f"{self.settings.num_songs} songs of {self.settings.song_seconds:g} s")
+        return list(held_out_songs(*self._asked, tell_meter=self.settings.tell_meter))
+
+    @property
+    def _asked(self) -> tuple[int, float, int]:
+        return self.settings.num_songs, self.settings.song_seconds, self.settings.seed
 
     def write_song(self, index: int, path: Path) -> None:
         """A held-out song as a FLAC file, for the report."""
         import soundfile
 
-        settings = self.settings
-        specs = held_out_specs(settings.num_songs, settings.song_seconds, settings.seed)
-        song = render_song(specs[index])
+        song = render_song(held_out_specs(*self._asked)[index])
         sound = io.BytesIO()  # libsndfile does not say what the disk said
         soundfile.write(sound, song.samples, song.sample_rate, subtype="PCM_16", format="FLAC")
         with atomic_write(path) as temporary:
@@ -151,14 +142,19 @@ class AudioContext:
             settings=settings,
         )[0]
 
-    def _made(self, replication: int) -> Made:
-        """A motion for each held-out song."""
-        return [(piece, self.dance(piece, replication=replication)) for piece in self.pieces]
+    @cached_property
+    def made(self) -> Callable[[int], Made]:
+        """A motion for each held-out song in a replication."""
+        return cache(partial(self._made, self.generator))
 
-    def _made_untrained(self, replication: int) -> Made:
-        """The same by the same network with fresh weights."""
+    @cached_property
+    def made_untrained(self) -> Callable[[int], Made]:
+        """The same by the same network with fresh weights, the last layer included."""
+        return cache(lambda replication: self._made(self.fresh, replication))
+
+    def _made(self, generator: SongGenerator, replication: int) -> Made:
         return [
-            (piece, self.dance(piece, replication=replication, generator=self.fresh))
+            (piece, self.dance(piece, replication=replication, generator=generator))
             for piece in self.pieces
         ]
 
@@ -325,13 +321,8 @@ def alignment_tables(context: AudioContext) -> list[Grid]:
     return [
         grid
         for name, sample in samples.items()
-        for grid in alignment_grids(name, alignment_rows(_danced(sample), seed))
+        for grid in alignment_grids(name, alignment_rows(danced(sample, "beats", beats_of), seed))
     ]
-
-
-def _danced(sample: Trajectories) -> list[Danced]:
-    pairs = zip(sample.dances, sample.each("beats", beats_of), strict=True)
-    return [Danced(dance.song, beats, dance.beats, dance.seconds) for dance, beats in pairs]
 
 
 # ---------------------------------------------------------------- seams
@@ -343,8 +334,10 @@ def seam_tables(context: AudioContext) -> list[Grid]:
     if context.settings.untrained:
         made["untrained"] = context.made_untrained(0)
     tables: list[Grid] = []
+    window, overlap = context.sampled.window, context.sampled.overlap
+    assert window is not None  # resolved
     for name, motions in made.items():
-        songs = [_seamed(motion, context) for _, motion in motions]
+        songs = [Seamed(m, seam_frames(m.num_frames, window, overlap)) for _, m in motions]
         found = seam_report(songs, context.settings.seed)
         tables += _seams(found, name) if "quantities" in found else []
     return tables
@@ -352,18 +345,8 @@ def seam_tables(context: AudioContext) -> list[Grid]:
 
 def seam_frames(num_frames: int, window: int, overlap: int) -> np.ndarray:
     """True [T] where two windows of a song share a frame, and just around."""
-    near = np.zeros(num_frames, dtype=bool)
     found = spans(num_frames, window - SPARE, overlap)
-    for (_, end), (start, _) in pairwise(found):
-        near[max(0, start - REACH) : end + REACH] = True
-    return near
-
-
-def _seamed(trajectory: MotionTrajectory, context: AudioContext) -> Seamed:
-    sampled = context.sampled
-    assert sampled.window is not None  # resolved
-    near = seam_frames(trajectory.num_frames, sampled.window, sampled.overlap)
-    return Seamed(trajectory, near)
+    return marked(num_frames, ((start, end) for (_, end), (start, _) in pairwise(found)))
 
 
 def _seams(seams: dict[str, Any], row: str) -> Iterator[Grid]:
@@ -429,34 +412,22 @@ def _track(piece: Piece, trajectory: MotionTrajectory, seed: int) -> dict[str, f
 
 
 def evaluate_audio(
-    generator: SongGenerator,
+    context: AudioContext,
     *,
-    data: str | None = None,
-    songs: Path | None = None,
-    settings: AudioSettings | None = None,
-    sampling: dict[str, Any] | None = None,
-    about: dict[str, Any] | None = None,
+    about: Mapping[str, Any] | None = None,
     folder: Path | None = None,
-    progress: Progress = lambda text: None,
 ) -> dict[str, Any]:
     """The whole report as plain data.
 
     Args:
-        generator: a trained audio branch.
-        data: folder or bucket of pairs, whose test split is the real row; None = no such row.
-        songs: folder of sound files to describe; None = none.
-        sampling: steps, sampler, guidance_scale; left out = the model's own.
+        context: the model, songs and amounts.
         about: what to repeat in the report; `model` and `decoder` are names or folders.
         folder: of the report: finished parts are kept there and not measured again.
-        progress: told what begins.
 
     Raises:
         UserError: the data or a song cannot be used, or the folder holds another report.
     """
-    settings, about = settings or AudioSettings(), about or {}
-    context = AudioContext(
-        generator, settings, data=data, songs=songs, sampling=sampling, progress=progress
-    )
+    about = about or {}
     tables: dict[str, Callable[[AudioContext], list[Grid]]] = {
         "phase": phase_table,
         "alignment": alignment_tables,
@@ -465,15 +436,15 @@ def evaluate_audio(
     }
     suite = Suite(
         "audio",
-        asdict(settings),
+        asdict(context.settings),
         [song_bench(context)],
         {name: partial(make, context) for name, make in tables.items()},
         {**about, **_about_model(context)},
         facts=partial(_facts, context),
         pictures=partial(_draw, context),
-        sources=partial(_sources, context, sampling or {}, about),
+        sources=partial(_sources, context, about),
     )
-    return run_suite(suite, Parts(folder), progress)
+    return run_suite(suite, Parts(folder), context.progress)
 
 
 def song_bench(context: AudioContext) -> Bench[Trajectories]:
@@ -549,13 +520,13 @@ def _facts(context: AudioContext) -> Part:
     return facts
 
 
-def _sources(context: AudioContext, sampling: dict[str, Any], about: dict[str, Any]) -> Sources:
-    folders: dict[str, str] = {name: about[name] for name in ("model", "decoder") if name in about}
+def _sources(context: AudioContext, about: Mapping[str, Any]) -> Sources:
+    folders = {name: about[name] for name in ("model", "decoder") if name in about}
     network = context.generator.model
     return Sources(
         model=model_hashes(folders),
         data={"pairs": context.fingerprint, "songs": song_hashes(context.songs)},
         statistics=(network.mean, network.std),
-        sampling=sampling,
+        sampling=context.sampling,
         device=str(context.generator.device),
     )

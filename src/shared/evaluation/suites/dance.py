@@ -8,7 +8,7 @@ judge.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import cache, cached_property, partial
 from itertools import accumulate
 from pathlib import Path
@@ -23,7 +23,7 @@ from ...errors import UserError
 from ...formats.arrays import write_npz
 from ...metrics.retrieval import rank_of
 from ...metrics.rhythm import beats_of_phase, body_beats, limb_beats, rhythm, strangers
-from ...metrics.seams import REACH
+from ...metrics.seams import marked
 from ...model.generation.motion_generator import TextToMotion
 from ...motion.features import decode_features
 from ...motion.motion import Motion
@@ -35,14 +35,14 @@ from ...pipelines.song import SongGenerator, finished, own_noise
 from ...pipelines.song_sampler import SongSampling
 from ...pipelines.stream import OVERLAP, WINDOW, window_lengths
 from ..engine import Bench, Progress, Row, Suite, run_suite
-from ..families_dance import FAMILIES
+from ..families_dance import FAMILIES, MOMENTS
 from ..floors import held_still, untrained
 from ..judge.evaluator import Evaluator
 from ..manifest import Parts, Sources, model_hashes, song_hashes
 from ..report.tables import Column, Grid, GridRow
 from ..samples import Bodies, Dance, DanceSample
 from ..stats import bootstrap_mean
-from .alignment import Danced, alignment_grids, alignment_rows
+from .alignment import alignment_grids, alignment_rows, danced
 from .dance_seams import hard_cuts, seam_grid
 from .editing import EditContext, editing_tables
 from .songs import Piece, clock, held_out_songs, tracks
@@ -71,10 +71,11 @@ class DanceSettings:
     seed: int = 0
 
 
+@dataclass(frozen=True, eq=False)
 class DanceContext:
     """Everything a table of the performer may draw on; songs, paths and dances are made once.
 
-    Args:
+    Attributes:
         generator: the text branch.
         singer: the audio branch, which makes the paths.
         judge: the separate evaluator.
@@ -86,23 +87,25 @@ class DanceContext:
         progress: told what begins.
     """
 
-    def __init__(
-        self,
-        generator: TextToMotion,
-        singer: SongGenerator,
-        judge: Evaluator,
-        settings: DanceSettings,
-        *,
-        data: str | None = None,
-        songs: Path | None = None,
-        other: TextToMotion | None = None,
-        sampling: PerformerSettings | None = None,
-        progress: Progress = lambda text: None,
-    ) -> None:
-        self.generator, self.singer, self.judge = generator, singer, judge
-        self.settings, self.data, self.songs, self.other = settings, data, songs, other
-        self.sampling, self.progress = sampling or PerformerSettings(), progress
-        self.path, self.danced = cache(self._path), cache(self._danced)
+    generator: TextToMotion
+    singer: SongGenerator
+    judge: Evaluator
+    settings: DanceSettings
+    data: str | None = None
+    songs: Path | None = None
+    other: TextToMotion | None = None
+    sampling: PerformerSettings = field(default_factory=PerformerSettings)
+    progress: Progress = lambda text: None
+
+    @cached_property
+    def path(self) -> Callable[[int, int], MotionTrajectory]:
+        """The path of a song in a replication, post-processed as it is pinned."""
+        return cache(self._path)
+
+    @cached_property
+    def danced(self) -> Callable[[str, int], Bodies]:
+        """A dance for each song by one of the performers in a replication."""
+        return cache(self._danced)
 
     @cached_property
     def pieces(self) -> list[Piece]:
@@ -120,7 +123,6 @@ class DanceContext:
         return len(self.pieces) - self.settings.num_songs
 
     def _path(self, number: int, replication: int) -> MotionTrajectory:
-        """The path of a song, post-processed as it is pinned."""
         piece = self.pieces[number]
         settings = own_noise(
             SongSampling(seed=self.settings.seed), replication, crc32(piece.name.encode())
@@ -158,7 +160,6 @@ class DanceContext:
         return Performer(generator, settings)
 
     def _danced(self, who: str, replication: int) -> Bodies:
-        """A dance for each song by one of the performers."""
         performer = self.performers[who]()
         prompts = self.settings.prompts
         return DanceSample.of(
@@ -218,9 +219,8 @@ class DanceContext:
 
     def path_alone(self, replication: int) -> Bodies:
         """A statue carried along each path."""
-        return self._instead(
-            [to_motion(self.path(number, replication)) for number in range(len(self.pieces))]
-        )
+        numbers = range(len(self.pieces))
+        return self._instead([to_motion(self.path(number, replication)) for number in numbers])
 
     def _instead(self, motions: Sequence[Motion]) -> Bodies:
         """Other motions to the same songs, on the same paths."""
@@ -241,10 +241,7 @@ def heard_beats(piece: Piece) -> np.ndarray | None:
 def near_seams(frames: int) -> np.ndarray:
     """True [T] where a window of the body's stream ends, and just around."""
     cuts = list(accumulate(window_lengths(frames, 0, WINDOW, OVERLAP)))[:-1]
-    near = np.zeros(frames, dtype=bool)
-    for cut in cuts:
-        near[max(0, cut - REACH) : cut + REACH] = True
-    return near
+    return marked(frames, ((cut, cut) for cut in cuts))
 
 
 def real_dances(data: str, frames: int, number: int, seed: int) -> list[Dance[Motion]]:
@@ -269,32 +266,21 @@ def real_dances(data: str, frames: int, number: int, seed: int) -> list[Dance[Mo
 # ---------------------------------------------------------------- tables with rows of their own
 
 
-Find = Callable[[Motion], np.ndarray]
-
-
 def alignment_tables(context: DanceContext) -> list[Grid]:
     """Whole bodies and limbs on their own songs, and on what must score less."""
-    made = context.danced("generated", 0).dances
-    groups: dict[str, tuple[list[Dance[Motion]], Find]] = {
-        "whole-body": (made, body_beats),
-        "limbs alone:": (made, limb_beats),
-    }
-    if context.num_tracks:
-        groups["sound files, whole-body"] = (made[: context.num_tracks], body_beats)
-        groups["synthetic songs, whole-body"] = (made[context.num_tracks :], body_beats)
+    made, number = context.danced("generated", 0), context.num_tracks
+    groups = {"whole-body": made, "limbs alone:": made}
+    if number:
+        groups["sound files, whole-body"] = made.rows(range(number))
+        groups["synthetic songs, whole-body"] = made.rows(range(number, len(made)))
     if len(context.reference):
-        groups["real whole-body"] = (context.reference.dances, body_beats)
-    return [
-        grid
-        for name, (dances, find) in groups.items()
-        for grid in alignment_grids(
-            name, alignment_rows(_danced(dances, find), context.settings.seed)
-        )
-    ]
-
-
-def _danced(dances: list[Dance[Motion]], find: Find) -> list[Danced]:
-    return [Danced(each.song, find(each.motion), each.beats, each.seconds) for each in dances]
+        groups["real whole-body"] = context.reference
+    tables: list[Grid] = []
+    for name, sample in groups.items():
+        key = "limbs_" if name.startswith("limbs") else ""
+        beats = danced(sample, key + "beats", MOMENTS[key])
+        tables += alignment_grids(name, alignment_rows(beats, context.settings.seed))
+    return tables
 
 
 def seam_tables(context: DanceContext) -> list[Grid]:
@@ -437,7 +423,6 @@ def evaluate_performer(
     *,
     about: dict[str, Any] | None = None,
     folder: Path | None = None,
-    progress: Progress = lambda text: None,
 ) -> dict[str, Any]:
     """The whole report as plain data.
 
@@ -446,7 +431,6 @@ def evaluate_performer(
         edits: of editing; None = not measured.
         about: what to repeat in the report; `model` and `audio_model` are names or folders.
         folder: of the report: finished parts are kept there and not measured again.
-        progress: told what begins.
 
     Raises:
         UserError: the data or a song cannot be used, or the folder holds another report.
@@ -468,7 +452,7 @@ def evaluate_performer(
     sources = partial(_sources, context, edits, about)
     benches = [dance_bench(context)]
     suite = Suite("performer", asdict(settings), benches, tables, facts, sources=sources)
-    return run_suite(suite, Parts(folder), progress)
+    return run_suite(suite, Parts(folder), context.progress)
 
 
 def dance_bench(context: DanceContext) -> Bench[Bodies]:

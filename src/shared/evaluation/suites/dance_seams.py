@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ...metrics.seams import ORDERS, body_quantities, compare
+from ...metrics.seams import ORDERS, body_quantities, compare, starts
 from ...motion.motion import Motion
 from ..report.tables import Column, Grid, GridRow
 from ..samples import Dance
@@ -91,13 +91,9 @@ def seam_grid(
             found[f"{name}: {who}"] = GridRow(_cells(pairs, limit, seed), len(marked), 1)
     if not found:
         return []
-    number = sum(len(_edges(dance.seams)) for dance in marked if dance.seams is not None)
+    number = sum(len(starts(dance.seams)) for dance in marked if dance.seams is not None)
     title = f"seams of the body's windows ({number} seams of {len(marked)} dances)"
     return [Grid("body-seams", title, SEAM_COLUMNS, found, SEAM_NOTE, "quantity")]
-
-
-def _edges(seams: np.ndarray) -> np.ndarray:
-    return np.flatnonzero(np.diff(seams.astype(int), prepend=0) == 1)
 
 
 def _stacked(motions: Sequence[Motion]) -> dict[str, list[np.ndarray]]:

@@ -12,7 +12,7 @@ import numpy as np
 from ...metrics.physical import jerk_per_speed, support_slide
 from ...metrics.retrieval import rank_of
 from ...metrics.rhythm import seen_from_pelvis
-from ...metrics.seams import ACCELERATION, body_quantities
+from ...metrics.seams import ACCELERATION, body_quantities, marked
 from ...model.diffusion.samplers import Sampling
 from ...model.generation.motion_generator import TextToMotion
 from ...motion.motion import Motion
@@ -87,25 +87,21 @@ class EditSettings:
     seed: int = 0
 
 
+@dataclass(frozen=True, eq=False)
 class EditContext:
     """Everything the tables of editing draw on: real clips, models, pairs of actions.
 
-    Args:
+    Attributes:
         generator: the text branch.
         held_out: clips that no training saw.
         settings: how much.
         progress: told what begins.
     """
 
-    def __init__(
-        self,
-        generator: TextToMotion,
-        held_out: HeldOut,
-        settings: EditSettings,
-        progress: Progress = lambda text: None,
-    ) -> None:
-        self.generator, self.held_out = generator, held_out
-        self.settings, self.progress = settings, progress
+    generator: TextToMotion
+    held_out: HeldOut
+    settings: EditSettings
+    progress: Progress = lambda text: None
 
     @cached_property
     def clips(self) -> Clips:
@@ -214,7 +210,7 @@ def _tasks(context: EditContext, kind: str) -> Iterator[tuple[Motion, Given, str
 
 def _kept_row(context: EditContext, made: Sequence[Edit]) -> GridRow:
     figures = [kept_figures(*each) for each in made]
-    borders = [accelerations(m)[near(m.num_frames, borders_of(given))] for m, _, given in made]
+    borders = [accelerations(motion)[near_borders(motion, given)] for motion, _, given in made]
     cells: dict[str, Cell] = {}
     for key in ("rotation", "root", "position"):
         values = np.array([each[key] for each in figures])
@@ -253,18 +249,11 @@ def from_pelvis(motion: Motion) -> np.ndarray:
     return np.concatenate((seen_from_pelvis(motion), height), axis=1)
 
 
-def near(frames: int, borders: list[int]) -> np.ndarray:
-    """True [T] around the first frames of what follows a border."""
-    mask = np.zeros(frames, dtype=bool)
-    for border in borders:
-        mask[max(0, border - NEAR) : border + NEAR] = True
-    return mask
-
-
-def borders_of(given: Given) -> list[int]:
-    """Frames at which something stops or begins to be known."""
+def near_borders(motion: Motion, given: Given) -> np.ndarray:
+    """True [T] around the frames at which something stops or begins to be known."""
     known = given.constraint.known[:, :-1].flatten(1).numpy()
-    return (1 + np.flatnonzero((known[1:] != known[:-1]).any(1))).tolist()
+    borders = (1 + np.flatnonzero((known[1:] != known[:-1]).any(1))).tolist()
+    return marked(motion.num_frames, ((each, each) for each in borders), NEAR)
 
 
 def _with_poses(clip: Motion, other: Motion, given: Given) -> Motion:

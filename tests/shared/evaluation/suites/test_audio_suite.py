@@ -10,7 +10,7 @@ import pytest
 from src.shared.audio.synthetic_songs import SongSpec, render_song
 from src.shared.evaluation.report.pages import save_report
 from src.shared.evaluation.report.tables import Grid, grids, markdown, tables
-from src.shared.evaluation.suites.audio import AudioSettings, evaluate_audio
+from src.shared.evaluation.suites.audio import AudioContext, AudioSettings, evaluate_audio
 from src.shared.model.audio.conditioning import BEAT
 from src.shared.motion.trajectory import PHASE, MotionTrajectory
 from src.shared.pipelines.song import SongGenerator
@@ -31,9 +31,8 @@ def sources(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
 
 def run(sources: dict[str, Any], folder: Path) -> dict[str, Any]:
     generator = SongGenerator(tiny_model(), device="cpu")
-    report = evaluate_audio(
-        generator, settings=SETTINGS, sampling={"steps": 2}, folder=folder, **sources
-    )
+    context = AudioContext(generator, SETTINGS, sampling={"steps": 2}, **sources)
+    report = evaluate_audio(context, folder=folder)
     save_report(report, folder)
     return report
 
@@ -131,7 +130,8 @@ def test_who_hears_the_beat_stands_out() -> None:
     settings = AudioSettings(
         num_songs=6, song_seconds=9.0, own_count=2, replications=1, untrained=0
     )
-    found = named(evaluate_audio(Nodder(tiny_model(), device="cpu"), settings=settings))
+    context = AudioContext(Nodder(tiny_model(), device="cpu"), settings)
+    found = named(evaluate_audio(context))
     phase = found["phase"]
     for column in phase.columns:  # its phase is the tracker's
         own, heard = (phase.value(row, column.key) for row in ("generated", "beat tracker"))
