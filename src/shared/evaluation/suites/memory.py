@@ -8,7 +8,7 @@ denoising error alone, the finest and cheapest of the figures.
 Letters: N phrases or songs, S songs, B of a batch or questions, D width of the space, T frames.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from typing import Any, Protocol
@@ -29,7 +29,8 @@ from ...model.diffusion.samplers import standard_normal
 from ...motion.trajectory import MotionTrajectory
 from ...motion.window import place_window
 from ...pipelines.song_memory import as_condition, bars_of_sound, bars_of_window
-from ...pipelines.song_sampler import SPARE, Recall, SongSampler, SongSampling
+from ...pipelines.song_sampler import SPARE, SongSampler, SongSampling
+from ..engine import Progress
 from ..families_audio import BEAT_ALIGNMENT, TRAJECTORY_SANITY
 from ..report.tables import Column, Grid, GridRow, plain
 from ..samples import DanceSample
@@ -106,34 +107,27 @@ class Asker:
         """
         if not arm.asks:
             return None
-        memory = self._retrieve(arm, query, bars, num_frames, songs)
+        hidden, config = self.hidden(arm.share), self.config
+
+        def ask(keys: Tensor) -> Memory:
+            return retrieve(
+                self.index,
+                keys,
+                num_frames=num_frames,
+                phase=None if bars is None else torch.as_tensor(bars).reshape(len(keys), -1),
+                top_k=arm.top_k or config.top_k,
+                temperature=config.temperature,
+                key=config.key,
+                phase_weight=config.phase_weight,
+                exclude_songs=[hidden | {song} for song in songs],
+            )
+
+        memory = ask(query)
         if arm.stray:
             rng = np.random.default_rng([self.seed, 5, draw])
             rows = torch.from_numpy(rng.integers(len(self.index), size=len(query)))
-            other = self._retrieve(arm, self.index.audio_keys[rows], bars, num_frames, songs)
-            memory = replace(other, confidence=memory.confidence)
+            memory = replace(ask(self.index.audio_keys[rows]), confidence=memory.confidence)
         return as_condition(memory)
-
-    def _retrieve(
-        self,
-        arm: Arm,
-        query: Tensor,
-        bars: np.ndarray | Tensor | None,
-        num_frames: int,
-        songs: Sequence[str],
-    ) -> Memory:
-        config, hidden = self.config, self.hidden(arm.share)
-        return retrieve(
-            self.index,
-            query,
-            num_frames=num_frames,
-            phase=None if bars is None else torch.as_tensor(bars).reshape(len(query), -1),
-            top_k=arm.top_k or config.top_k,
-            temperature=config.temperature,
-            key=config.key,
-            phase_weight=config.phase_weight,
-            exclude_songs=[hidden | {song} for song in songs],
-        )
 
     def hidden(self, share: float) -> frozenset[str]:
         """The songs that a memory of this share lacks; a smaller one lacks those and more."""
@@ -213,15 +207,9 @@ def held_back(
     return found[:most]
 
 
-def batches(items: Sequence[PhraseItem]) -> Iterator[PhraseBatch]:
-    """All, a few at a time."""
-    for start in range(0, len(items), BATCH):
-        yield collate(items[start : start + BATCH])
-
-
-def songs_of(phrases: PhraseBatch) -> list[str]:
-    """The song of each."""
-    return [record.song or record.id for record in phrases.records]
+def song_of(item: PhraseItem) -> str:
+    """The song that a phrase is of."""
+    return item.record.song or item.record.id
 
 
 class Denoising:
@@ -236,14 +224,23 @@ class Denoising:
 
     def __init__(self, setting: Setting, items: Sequence[PhraseItem], draws: int) -> None:
         self.setting, self.items, self.draws = setting, items, draws
-        self.clusters = [item.record.song or item.record.id for item in items]
+        self.clusters = [song_of(item) for item in items]
 
     @torch.no_grad()
     def measure(self, arm: Arm) -> Values:
         """Figures [N] of one arm."""
         found: dict[str, list[Tensor]] = {level: [] for level in LEVELS}
-        for number, phrases in enumerate(batches(self.items)):
-            memory = self._remembered(arm, phrases, number)
+        for number, start in enumerate(range(0, len(self.items), BATCH)):
+            part = slice(start, start + BATCH)
+            phrases = collate(self.items[part])
+            memory = self.setting.asker.answer(
+                arm,
+                self.setting.space.embed_audio(phrases.audio),
+                bars_of_sound(phrases.audio),
+                phrases.audio.shape[-1],
+                self.clusters[part],
+                draw=number,
+            )
             for third, level in enumerate(LEVELS):
                 errors = [
                     self._error(phrases, memory, third, (number, third, draw))
@@ -252,11 +249,6 @@ class Denoising:
                 found[level].append(torch.stack(errors).mean(dim=0))
         values = {level: torch.cat(each).double().numpy() for level, each in found.items()}
         return values | {"all": np.mean(list(values.values()), axis=0)}
-
-    def _remembered(self, arm: Arm, phrases: PhraseBatch, draw: int) -> MemoryCondition | None:
-        setting, frames = self.setting, phrases.audio.shape[-1]
-        query, bars = setting.space.embed_audio(phrases.audio), bars_of_sound(phrases.audio)
-        return setting.asker.answer(arm, query, bars, frames, songs_of(phrases), draw=draw)
 
     def _error(
         self,
@@ -293,8 +285,12 @@ class Curves:
     def __init__(self, setting: Setting, items: Sequence[PhraseItem]) -> None:
         self.setting, self.items = setting, items
         self.frames = setting.model.config.window - SPARE  # as many as one window makes
-        self.clusters = [item.record.song or item.record.id for item in items]
-        self.real = [_curves_of(item, self.frames) for item in items]
+        self.clusters = [song_of(item) for item in items]
+        starts = [float(bars_of_sound(item.audio[None])[0][0]) for item in items]
+        self.real = [
+            prior_curves(place_window(item.motion.numpy(), phase=start)[: self.frames])
+            for item, start in zip(items, starts, strict=True)
+        ]
 
     def measure(self, arm: Arm) -> Values:
         """Figures [N] of one arm."""
@@ -314,11 +310,6 @@ class Curves:
         pairs = zip(made, self.real, strict=True)
         rows = np.array([np.abs(a - b).mean(axis=1) for a, b in pairs])  # [N,4]
         return {column.key: rows[:, place] for place, column in enumerate(self.columns)}
-
-
-def _curves_of(item: PhraseItem, frames: int) -> np.ndarray:
-    bars = bars_of_sound(item.audio[None])[0]
-    return prior_curves(place_window(item.motion.numpy(), phase=float(bars[0]))[:frames])
 
 
 # ---------------------------------------------------------------- songs
@@ -354,15 +345,6 @@ def dance(
 ) -> MotionTrajectory:
     """One motion for a condition [C,T]; noise depends on (seed, number), not on the arm."""
     sampled = replace(setting.sampled, seed=setting.sampled.seed + 1000 * number)
-    sampler = SongSampler(setting.model, sampled)
-    recall = recalled(setting, arm, condition, bars, song, number) if arm.asks else None
-    return sampler.sample(condition, phase=bars, recall=recall)[0]
-
-
-def recalled(
-    setting: Setting, arm: Arm, condition: Tensor, bars: np.ndarray | None, song: str, number: int
-) -> Recall:
-    """Each window's answer."""
 
     def recall(start: int, length: int) -> MemoryCondition:
         query = setting.space.embed_audio(condition[None, :, start : start + length])
@@ -372,13 +354,13 @@ def recalled(
         assert answer is not None
         return answer
 
-    return recall
+    sampler = SongSampler(setting.model, sampled)
+    return sampler.sample(condition, phase=bars, recall=recall if arm.asks else None)[0]
 
 
 # ---------------------------------------------------------------- the suite
 
 
-Progress = Callable[[str], None]
 CHANCE = "real, of another song"
 NOTE = (
     "± is half a 95% interval: rows by bootstrap over songs; differences by paired bootstrap over"
@@ -510,16 +492,14 @@ def difference(measured: Mapping[str, Values], arm: str, base: str, key: str) ->
 
 def judged(figures: Figures, measured: Mapping[str, Values]) -> dict[str, Any]:
     """For each column with a good side: is the memory better than none, and than a random one?"""
-    found: dict[str, Any] = {}
-    for column in figures.columns:
-        if column.better == "real":
-            continue
-        said = {
+    return {
+        f"{figures.name}: {column.heading}": {
             base: word(difference(measured, WITH, base, column.key), column)
             for base in (WITHOUT, RANDOM)
         }
-        found[f"{figures.name}: {column.heading}"] = said
-    return found
+        for column in figures.columns
+        if column.better != "real"
+    }
 
 
 def word(found: Mapping[str, Any], column: Column) -> str:
