@@ -23,38 +23,11 @@ from ..manifest import read_json
 from .tables import Cell, Column, Grid, grids, heading, intervals_note, markdown, number, printed
 
 REPORT = "report.json"
+STYLE = Path(__file__).with_name("pages.css")
 POLICY = (
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:;"
     " media-src data:"
 )
-STYLE = """
-:root { color-scheme: light; --ink: #343a44; --faint: #6b7380; --line: #d9dde4; }
-* { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 1280px; padding: 24px; color: var(--ink); background: #f6f7f9;
-  font: 15px/1.45 system-ui, "Segoe UI", "Hiragino Sans", "Noto Sans CJK SC", sans-serif; }
-h1 { margin: 0 0 8px; font-size: 26px; } h2 { font-size: 19px; margin: 0 0 10px; }
-nav { display: flex; flex-wrap: wrap; gap: 4px 14px; margin: 12px 0 20px; font-size: 14px; }
-a { color: #2f6fd0; text-decoration: none; } a:hover { text-decoration: underline; }
-section { background: #fff; border: 1px solid var(--line); border-radius: 10px; padding: 16px;
-  margin: 0 0 18px; }
-.facts { columns: 3 280px; font-size: 13px; color: var(--faint); margin: 0; padding: 0;
-  list-style: none; } .facts b { color: var(--ink); font-weight: 600; }
-.scroll { overflow-x: auto; }
-table { border-collapse: collapse; font-size: 13.5px; font-variant-numeric: tabular-nums; }
-th, td { padding: 4px 10px; border-bottom: 1px solid var(--line); text-align: right;
-  white-space: nowrap; } th:first-child, td:first-child { text-align: left; }
-td.long { white-space: normal; text-align: left; min-width: 220px; }
-thead th { color: var(--faint); font-weight: 600; }
-tr.generated { background: #eef4fd; } tr.real { background: #eef8f1; }
-p.note { color: var(--faint); font-size: 13px; max-width: 100ch; margin: 10px 0 0; }
-.plots { display: flex; flex-wrap: wrap; gap: 10px 18px; margin-top: 14px; }
-svg.plot text { font: 11px system-ui, sans-serif; fill: #343a44; }
-svg.plot text.name { font-weight: 600; font-size: 12px; } svg.plot text.tick { fill: #6b7380; }
-.players { display: grid; gap: 12px; grid-template-columns: repeat(auto-fit, minmax(520px, 1fr)); }
-iframe { width: 100%; height: 600px; border: 1px solid var(--line); border-radius: 10px; }
-img { max-width: 100%; display: block; margin: 8px 0; }
-summary { cursor: pointer; color: var(--faint); font-size: 13px; margin-top: 12px; }
-"""
 WIDTH, LABEL, LINE, TOP, BOTTOM = 284, 92, 18, 22, 20
 COLOURS = {
     "real": "#2f9150", "chance": "#8a92a0", "frozen pose": "#8a92a0", "untrained": "#c8692a",
@@ -113,12 +86,12 @@ def html_page(report: dict[str, Any], folder: Path) -> str:
         f'<a href="#table-{index}">{escape(grid.title.split(" (")[0])}</a>'
         for index, grid in enumerate(tables)
     )
-    title = escape(report["title"])
+    title, style = escape(report["title"]), STYLE.read_text(encoding="utf-8")
     return (
         f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
         f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
-        f'<link rel="icon" href="data:,"><title>{title}</title><style>{STYLE}</style></head>'
+        f'<link rel="icon" href="data:,"><title>{title}</title><style>\n{style}</style></head>'
         f"<body><h1>{title}</h1><nav>{links}</nav>\n" + "\n".join(sections) + "\n</body></html>\n"
     )
 

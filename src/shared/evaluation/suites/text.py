@@ -9,7 +9,7 @@ Letters: N clips.
 import logging
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -64,15 +64,18 @@ class TextContext:
     """Everything a table of the text branch may draw on.
 
     Attributes:
-        samplers: by the name of their row; the first is the model that the other tables are about.
-        parts: where a table that takes long keeps what it has finished.
+        held_out: clips that no training saw.
+        samplers: by the name of their row; the first is the model that the other tables are about,
+            the others (an untrained or older model) only add rows.
+        progress: told what begins.
+        parts: of the report's folder: what is finished is kept there and not measured again.
     """
 
     held_out: HeldOut
     judge: Evaluator
     samplers: dict[str, Sampler]
-    settings: TextSettings
-    progress: Progress
+    settings: TextSettings = field(default_factory=TextSettings)
+    progress: Progress = lambda text: None
     parts: Parts = field(default_factory=Parts)
 
     @property
@@ -91,14 +94,9 @@ class TextContext:
         Raises:
             UserError: there is none.
         """
-        return real_clips(
-            self.held_out.data,
-            records,
-            num=self.settings.max_real,
-            max_frames=self.settings.max_frames,
-            language=language,
-            seed=self.settings.seed,
-        )
+        most = {"num": self.settings.max_real, "max_frames": self.settings.max_frames}
+        data, seed = self.held_out.data, self.settings.seed
+        return real_clips(data, records, **most, language=language, seed=seed)
 
     def real(self, records: Sequence[ClipRecord], language: str) -> MotionSample:
         """The same as a sample; `source` is each clip itself."""
@@ -117,12 +115,16 @@ class TextContext:
         return self.with_motions(asked, sampler(asked.clips.captions, asked.clips.num_frames, seed))
 
 
+@dataclass(frozen=True, eq=False)
 class Split:
     """The samples of one split: real clips once, the rest replication by replication."""
 
-    def __init__(self, context: TextContext, records: Sequence[ClipRecord]) -> None:
-        self.context, self.records = context, records
-        self.seed = context.settings.seed
+    context: TextContext
+    records: Sequence[ClipRecord]
+
+    @property
+    def seed(self) -> int:
+        return self.context.settings.seed
 
     @cached_property
     def reference(self) -> MotionSample:
@@ -145,7 +147,7 @@ class Split:
             if len(rows) > 1:
                 order = rng.permutation(rows)
                 source[order] = np.roll(order, 1)
-        return MotionSample(real.clips, real.text, real.motion, source, real.memos, real.memo)
+        return replace(real, source=source)
 
     def chance(self, replication: int) -> MotionSample:
         """The real motions under shuffled captions."""
@@ -181,17 +183,10 @@ class Split:
             limit = settings.untrained if label == UNTRAINED else None
             rows.append(Row(label, partial(self.generated, sampler), limit=limit))
         return Bench(
-            name,
-            f"{name} label combinations",
-            lambda: self.reference,
-            rows,
-            FAMILIES,
-            main=next(iter(samplers)),
-            write=write_motion,
-            worst=settings.worst,
+            name, f"{name} label combinations", lambda: self.reference, rows, FAMILIES,
+            main=next(iter(samplers)), write=write_motion, worst=settings.worst, optional=True,
             summary=lambda grids: score_grid(name, grids, [*samplers, "frozen pose"]),
-            optional=True,
-        )
+        )  # fmt: skip
 
 
 def write_motion(sample: MotionSample, row: int, path: Path) -> dict[str, Any]:
@@ -201,44 +196,34 @@ def write_motion(sample: MotionSample, row: int, path: Path) -> dict[str, Any]:
 
 
 def evaluate_samplers(
-    samplers: dict[str, Sampler],
-    held_out: HeldOut,
-    judge: Evaluator,
+    context: TextContext,
     *,
-    settings: TextSettings | None = None,
     about: Mapping[str, Any] | None = None,
     sources: Callable[[], Sources] | None = None,
-    folder: Path | None = None,
-    progress: Progress = lambda text: None,
 ) -> Report:
     """The whole report as plain data, see `report_data`.
 
     Args:
-        samplers: name to sampler; the first one is the model that the extra tables are about, the
-            others (an untrained or older model) only add rows.
-        held_out: held-back clips.
+        context: samplers, clips and amounts.
         about: what to repeat in the report: model, its hash, steps, guidance scale.
         sources: for the manifest of the folder; None = no manifest.
-        folder: of the report: finished parts are kept there and not measured again.
-        progress: told what begins.
     """
-    settings, parts = settings or TextSettings(), Parts(folder)
-    context = TextContext(held_out, judge, samplers, settings, progress, parts)
+    held_out = context.held_out
     facts = {
         **(about or {}),
-        "evaluator_hash": judge.content_hash,
+        "evaluator_hash": context.judge.content_hash,
         "data": held_out.source,
         "data_hash": held_out.data.manifest_hash[:12],
     }
     suite = Suite(
         "text",
-        asdict(settings),
+        asdict(context.settings),
         [Split(context, records).bench(name) for name, records in held_out.records.items()],
         {"languages": partial(languages, context), "controllability": partial(control, context)},
         facts,
         sources=sources,
     )
-    return run_suite(suite, parts, progress)
+    return run_suite(suite, context.parts, context.progress)
 
 
 # ---------------------------------------------------------------- by names
@@ -312,17 +297,9 @@ def evaluate_text(
     samplers = {"generated": model_sampler(generator, **sampling)}
     if settings.untrained:
         samplers[UNTRAINED] = model_sampler(untrained(generator, settings.seed), **sampling)
+    context = TextContext(held_out, judge, samplers, settings, progress, Parts(folder))
     with errors_only():
-        return evaluate_samplers(
-            samplers,
-            held_out,
-            judge,
-            settings=settings,
-            about=about,
-            sources=sources,
-            folder=folder,
-            progress=progress,
-        )
+        return evaluate_samplers(context, about=about, sources=sources)
 
 
 def _told_apart(held_out: HeldOut, model_data: str, judge: Evaluator) -> str:

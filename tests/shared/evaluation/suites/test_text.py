@@ -28,7 +28,12 @@ from src.shared.evaluation.report.tables import draw, grids, heading, markdown, 
 from src.shared.evaluation.samples import Sampler
 from src.shared.evaluation.suites import control as control
 from src.shared.evaluation.suites.control import control_grid
-from src.shared.evaluation.suites.text import TextSettings, evaluate_samplers, scores
+from src.shared.evaluation.suites.text import (
+    TextContext,
+    TextSettings,
+    evaluate_samplers,
+    scores,
+)
 from src.shared.motion.motion import Motion
 
 SETTINGS = TextSettings(
@@ -93,7 +98,8 @@ def test_a_perfect_and_a_deaf_sampler_get_one_and_zero(held_out: HeldOut, judge:
         "perfect": copying_sampler(held_out, deaf=False),
         "deaf": copying_sampler(held_out, deaf=True),
     }
-    report = evaluate_samplers(samplers, held_out, judge, settings=SETTINGS, about={"model": "x"})
+    context = TextContext(held_out, judge, samplers, SETTINGS)
+    report = evaluate_samplers(context, about={"model": "x"})
     found = {grid.name: grid for grid in grids(report)}
 
     def value(row: str, column: str) -> float:
@@ -119,12 +125,9 @@ def test_the_report_is_json_markdown_and_tables(held_out: HeldOut, judge: Evalua
     two = {"seen": held_out.records["seen"][:48], "unseen": held_out.records["seen"][48:96]}
     only = replace(held_out, records=two)
     deaf = copying_sampler(held_out, deaf=True)
-    report = evaluate_samplers(
-        {"generated": copying_sampler(held_out, deaf=False), "untrained": deaf},
-        only,
-        judge,
-        settings=replace(settings, languages=("en",)),
-    )
+    samplers = {"generated": copying_sampler(held_out, deaf=False), "untrained": deaf}
+    context = TextContext(only, judge, samplers, replace(settings, languages=("en",)))
+    report = evaluate_samplers(context)
     json.dumps(report)
     text = markdown(report)
     assert "data-hash" in text and "| chance |" in text and "unseen" in text
