@@ -54,6 +54,11 @@ class ModelCard(Config):
     text_encoder: dict[str, Any] | None = None  # transformers' own config, unless "small"
     weights: WeightsInfo | None = None
 
+    @property
+    def content_hash(self) -> str:
+        """SHA-256 of the weights; empty without any."""
+        return self.weights.sha256 if self.weights else ""
+
 
 def of_another_version(path: Path, error: ValidationError) -> UserError:
     """What to tell of a file in a model folder whose content is not what this version writes."""

@@ -40,10 +40,12 @@ def plot_trajectory(trajectory: MotionTrajectory, path: str | Path, *, title: st
     figure = new_figure(12, 10)
     panels = figure.subplots(3, 2, sharex=True).flat
     seconds = np.arange(trajectory.num_frames) / trajectory.fps
+    phase = trajectory.phase.astype(np.float64)
+    phase[1:][np.diff(trajectory.phase) < -0.5] = np.nan  # no line through the bar
     for axes, name, values, labels in zip(
         panels,
         ("Position, m", "Velocity, m/s", "Quaternion", "Phase of the bar"),
-        (trajectory.position, trajectory.velocity, trajectory.quaternion, _gapped(trajectory)),
+        (trajectory.position, trajectory.velocity, trajectory.quaternion, phase),
         ("xyz", "xyz", "wxyz", ""),
         strict=False,
     ):
@@ -52,8 +54,16 @@ def plot_trajectory(trajectory: MotionTrajectory, path: str | Path, *, title: st
         if labels:
             _legend(axes)
     figure.axes[3].set_ylim(-0.05, 1.05)
-    _plot_norm(figure.axes[4], seconds, trajectory)
-    _plot_jerk(figure.axes[5], seconds, trajectory)
+    norm, jerk = figure.axes[4:]
+    norm.plot(seconds, np.linalg.norm(trajectory.quaternion, axis=1))
+    norm.axhline(1.0, color="red", linestyle="--")
+    norm.set_title("Quaternion norm", loc="left")
+    norm.set_ylim(0.8, 1.2)
+    steps = np.diff(trajectory.acceleration, axis=0) * trajectory.fps
+    jerk.plot(seconds[:-1], np.linalg.norm(steps, axis=1))
+    jerk.axhline(SanityThresholds().max_jerk, color="red", linestyle="--")
+    jerk.set_yscale("symlog", linthresh=1)
+    jerk.set_title("Jerk, m/s³ (dashed: bound of its mean)", loc="left")
     for axes in figure.axes[4:]:
         axes.set_xlabel("seconds")
     figure.suptitle(title)
@@ -172,34 +182,12 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, float) or abs(value) < 2**1000  # a float holds it
 
 
-def _gapped(trajectory: MotionTrajectory) -> np.ndarray:
-    """The phase with a gap where it wraps, so that no line is drawn through the bar."""
-    phase = trajectory.phase.astype(np.float64)
-    phase[1:][np.diff(trajectory.phase) < -0.5] = np.nan
-    return phase
-
-
 def _legend(axes: "Axes") -> None:
     """In a line above the panel, right of its title."""
     axes.legend(
         loc="lower right", bbox_to_anchor=(1, 1), ncols=4, fontsize="small", frameon=False,
         borderaxespad=0,
     )  # fmt: skip
-
-
-def _plot_norm(axes: "Axes", seconds: np.ndarray, trajectory: MotionTrajectory) -> None:
-    axes.plot(seconds, np.linalg.norm(trajectory.quaternion, axis=1))
-    axes.axhline(1.0, color="red", linestyle="--")
-    axes.set_title("Quaternion norm", loc="left")
-    axes.set_ylim(0.8, 1.2)
-
-
-def _plot_jerk(axes: "Axes", seconds: np.ndarray, trajectory: MotionTrajectory) -> None:
-    steps = np.diff(trajectory.acceleration, axis=0) * trajectory.fps
-    axes.plot(seconds[:-1], np.linalg.norm(steps, axis=1))
-    axes.axhline(SanityThresholds().max_jerk, color="red", linestyle="--")
-    axes.set_yscale("symlog", linthresh=1)
-    axes.set_title("Jerk, m/s³ (dashed: bound of its mean)", loc="left")
 
 
 def new_figure(width: float, height: float) -> "Figure":

@@ -497,7 +497,7 @@ def _about_model(context: AudioContext) -> dict[str, Any]:
     card, config = context.generator.model.card, context.generator.model.config
     sampled, scale = context.sampled, config.guidance_scale
     return {
-        "model_hash": card.weights.sha256[:12] if card.weights else "",
+        "model_hash": card.content_hash[:12],
         "sampler": sampled.sampler or config.diffusion.sampler,
         "steps": sampled.steps or config.diffusion.sampling_steps,
         "guidance_scale": scale if sampled.guidance_scale is None else sampled.guidance_scale,

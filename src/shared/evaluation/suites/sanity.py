@@ -107,9 +107,8 @@ def evaluate_sanity(
     } | ({"real": real} if real else {})
     checker = SanityChecker(bands=bands)
     rows = {name: sanity_row(name, group, checker) for name, group in motions.items()}
-    weights = model.card.weights
     report = {
-        "about": {**(about or {}), "model_hash": weights.sha256[:12] if weights else "", **facts},
+        "about": {**(about or {}), "model_hash": model.card.content_hash[:12], **facts},
         "settings": asdict(settings),
         "rows": rows,
         "bands": None if bands is None else {k: asdict(b) for k, b in bands.bands.items()},

@@ -27,6 +27,7 @@ from ...metrics.kinetic import (
     kinetic_columns,
     root_geometric_features,
     root_kinetic_features,
+    stacked,
 )
 from ...metrics.physical import physics
 from ...metrics.retrieval import BATCH, TOP, best_ranks, pair_distances
@@ -392,7 +393,7 @@ def evaluate_prompts(
     )  # fmt: skip
     about = {
         "model": model,
-        "model_hash": generator.card.weights.sha256[:12] if generator.card.weights else "",
+        "model_hash": generator.card.content_hash[:12],
         "judge": judge or ("shipped" if tower else "none: feet and smoothness only"),
         "weights": best_of.judge.config.model_dump(),
         "evaluator": evaluator,
@@ -478,17 +479,18 @@ def song_pool(
     )
     if not real:
         return pool
-    ours, theirs = [_features(row) for row in made], _features(real)
+    ours, known = [_features(row) for row in made], _features(real)
+    theirs = stacked(known)
     order = np.random.default_rng(settings.seed).permutation(len(real))
     size = min(len(pieces), len(real) // 2)  # as many real motions as songs, from the others
-    between = _distances(_rows(theirs, order[:size]), _rows(theirs, order[size:]))
+    halves = (stacked([known[at] for at in part]) for part in (order[:size], order[size:]))
+    between = _distances(*halves)
 
     def of_set(chosen: Chosen) -> dict[str, float]:
         """Of one candidate of each song, side by side."""
-        each = [_rows(song, [place]) for song, place in zip(ours, chosen, strict=True)]
-        names = ("kinetic", "geometric", "amount")
-        columns = (np.concatenate([getattr(part, name) for part in each]) for name in names)
-        return _distances(Features(*columns), theirs)
+        return _distances(
+            stacked([song[at] for song, at in zip(ours, chosen, strict=True)]), theirs
+        )
 
     return replace(
         pool,
@@ -499,15 +501,11 @@ def song_pool(
     )
 
 
-def _features(motions: Sequence[MotionTrajectory]) -> Features:
-    kinetic = np.stack([root_kinetic_features(motion) for motion in motions])
-    geometric = np.stack([root_geometric_features(motion) for motion in motions])
-    return Features(kinetic, geometric, np.zeros(len(motions)))
-
-
-def _rows(features: Features, index: Sequence[int] | np.ndarray) -> Features:
-    at = list(index)
-    return Features(features.kinetic[at], features.geometric[at], features.amount[at])
+def _features(
+    motions: Sequence[MotionTrajectory],
+) -> list[tuple[np.ndarray, np.ndarray, float]]:
+    """Of each motion as a whole; how much it moves counts for nothing here."""
+    return [(root_kinetic_features(m), root_geometric_features(m), 0.0) for m in motions]
 
 
 def _distances(ours: Features, theirs: Features) -> dict[str, float]:
@@ -553,9 +551,8 @@ def evaluate_songs(
     number = settings.num_candidates * settings.replications
     sampled = SongSampling(number, seed=settings.seed, **sampling)
     pool = song_pool(generator, judge, pieces, real, settings=sampled, progress=progress)
-    card = generator.model.card
     facts |= {
-        "model_hash": card.weights.sha256[:12] if card.weights else "",
+        "model_hash": generator.model.card.content_hash[:12],
         "weights": judge.config.model_dump(),
         "bands": f"of {bands.motions} motions" if bands else "none",
         "sampling": {k: v for k, v in sampling.items() if v is not None},

@@ -6,7 +6,7 @@ one by chance, under the same batches, which hold each phrase once.
 Letters: N windows, P phrases, M windows of a batch, Q queries, D embed dim.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 
 import numpy as np
@@ -148,17 +148,18 @@ class Bench:
             by_action: phrases of the same tag are neither right nor wrong: a caption fits them all.
             shuffled: each asks in another's place, which is what knowing nothing gives.
         """
-        query_rows, item_rows = query.numpy(), items.numpy()
         kin = self.kin | self.same_action if by_action else self.kin
-        rng = np.random.default_rng(self.seed)
-        found = []
-        for windows in self.batches:
-            asking = rng.permutation(windows) if shuffled else windows
-            phrases = self.phrase[windows]
-            found.append(
-                ranks(query_rows[asking], item_rows[windows], kin[np.ix_(phrases, phrases)])
-            )
+        found = [
+            ranks(query.numpy()[asking], items.numpy()[windows], kin[np.ix_(phrases, phrases)])
+            for asking, windows, phrases in self.questions(shuffled=shuffled)
+        ]
         return retrieval_figures(found, self.songs, seed=self.seed)
+
+    def questions(self, *, shuffled: bool) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """Of each batch: the windows that ask, those they are asked for, and their phrases [M]."""
+        rng = np.random.default_rng(self.seed)
+        for windows in self.batches:
+            yield rng.permutation(windows) if shuffled else windows, windows, self.phrase[windows]
 
 
 @dataclass(frozen=True)
@@ -181,11 +182,12 @@ class Neighbours:
     def of(cls, windows: Windows, bench: Bench) -> "Neighbours":
         """Measure the windows' motions."""
         root = [window.body[:, ROOT_ROW].astype(np.float32) for window in windows.items]
+        records = [windows.records[window.phrase] for window in windows.items]
         return cls(
             bench,
-            np.array([windows.records[i.phrase].tempo for i in windows.items]),
+            np.array([record.tempo for record in records]),
             np.array([np.hypot(r[:, FORWARD], r[:, LATERAL]).mean() for r in root]),
-            np.array([windows.records[i.phrase].tag for i in windows.items]),
+            np.array([record.tag for record in records]),
         )
 
     def measure(
@@ -198,17 +200,12 @@ class Neighbours:
             sound, motion: keys [N,D].
             shuffled: another sound asks in each one's place.
         """
-        rng = np.random.default_rng(self.bench.seed)
-        asked: list[np.ndarray] = []
-        given: list[np.ndarray] = []
-        for windows in self.bench.batches:
-            asking = rng.permutation(windows) if shuffled else windows
+        given = []
+        for asking, windows, phrases in self.bench.questions(shuffled=shuffled):
             similarity = sound.numpy()[asking] @ motion.numpy()[windows].T  # M M
-            phrases = self.bench.phrase[windows]
             similarity[self.bench.kin[np.ix_(phrases, phrases)]] = -np.inf
-            asked.append(windows)
             given.append(windows[similarity.argmax(1)])
-        own, found = np.concatenate(asked), np.concatenate(given)
+        own, found = np.concatenate(self.bench.batches), np.concatenate(given)
         octaves = np.log2(self.tempo[found] / self.tempo[own])
         values = {
             "tempo": np.abs(octaves - np.rint(octaves)),
@@ -287,12 +284,8 @@ def evaluate_space(
     settings = settings or SpaceSettings()
     progress(f"reading {data}")
     held_out, train = (_windows(data, part, settings) for part in (split, "train"))
-    bench = Bench.draw(
-        held_out,
-        batch=settings.batch,
-        replications=settings.replications,
-        seed=settings.seed,
-    )
+    amount = {"batch": settings.batch, "replications": settings.replications}
+    bench = Bench.draw(held_out, **amount, seed=settings.seed)
     progress(f"embedding {len(held_out.items)} windows of {len(held_out.records)} phrases")
     motion = held_out.embed_bodies(space.embed_motion)
     sounds = {
@@ -397,9 +390,9 @@ def _table(
 
 
 def _nearest(neighbours: Neighbours, sounds: dict[str, Tensor], motion: Tensor) -> Grid:
-    blind = neighbours.measure(sounds[SPACE], motion, shuffled=True)
     found = {name: neighbours.measure(keys, motion) for name, keys in sounds.items()}
-    rows = {name: GridRow(cells) for name, cells in (found | {CHANCE: blind}).items()}
+    found[CHANCE] = neighbours.measure(sounds[SPACE], motion, shuffled=True)
+    rows = {name: GridRow(cells) for name, cells in found.items()}
     own = (
         "The nearest motion of another song and other clips, held against the sound's own motion,"
         " which would be the real row: 0, 0 and 1."

@@ -3,7 +3,7 @@
 Letters: B windows, C = 167 rows of sound, T frames, D embed dim.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -120,8 +120,8 @@ class Windows:
     ) -> Tensor:
         order = sorted(range(len(self.items)), key=lambda n: self.items[n].num_frames)
         parts = []
-        for rows in _chunks(order, BATCH):  # of like length, so that little is padding
-            values, mask = read(rows)
+        for start in range(0, len(order), BATCH):  # of like length, so that little is padding
+            values, mask = read(order[start : start + BATCH])
             parts.append(embed(values.to(device), mask.to(device)).float().cpu())
         found = torch.cat(parts)
         return found[torch.tensor(order).argsort()]
@@ -161,11 +161,6 @@ def padded(parts: Sequence[Tensor], *, time_first: bool = True) -> tuple[Tensor,
     values = torch.nn.utils.rnn.pad_sequence(list(parts), batch_first=True)
     mask = torch.arange(values.shape[1]) < lengths[:, None]
     return values if time_first else values.transpose(1, 2), mask
-
-
-def _chunks(rows: Sequence[int], size: int) -> Iterator[Sequence[int]]:
-    for start in range(0, len(rows), size):
-        yield rows[start : start + size]
 
 
 def related(records: Sequence[PhraseRecord]) -> np.ndarray:

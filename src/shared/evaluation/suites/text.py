@@ -272,7 +272,7 @@ def evaluate_text(
     given = {key: value for key, value in sampling.items() if value is not None}
     about = {
         "model": model,
-        "model_hash": card.weights.sha256[:12] if card.weights else "",
+        "model_hash": card.content_hash[:12],
         **(own | {key: given[key] for key in own if key in given}),
         "evaluator": evaluator,
         "held_out": _told_apart(held_out, card.data, judge),

@@ -238,7 +238,7 @@ def export_onnx(model: AudioMotionModel, folder: str | Path) -> OnnxCard:
         description=model.card.description,
         licence=model.card.licence,
         trained=model.card.trained,
-        model=model.card.weights.sha256 if model.card.weights else "",
+        model=model.card.content_hash,
         fps=model.card.fps,
         opset=OPSET,
         audio_network=model.config,

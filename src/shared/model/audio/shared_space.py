@@ -211,7 +211,7 @@ class SharedSpace(nn.Module):
     @property
     def fingerprint(self) -> str:
         """SHA-256 of the weights it was read from or saved as; "" for one that never was."""
-        return self.card.weights.sha256 if self.card.weights else ""
+        return self.card.content_hash
 
     def embed_audio(self, condition: Tensor, mask: Tensor | None = None) -> Tensor:
         """Condition [B, 163 or 167, T], mask [B, T] bool or None -> [B, D] unit-norm."""
