@@ -12,7 +12,7 @@ Letters: T frames, K joints, N motion beats, M music beats.
 """
 
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
@@ -231,9 +231,6 @@ class Rhythm:
     f: float
     hits: float
     distance: float
-
-    def as_dict(self) -> dict[str, float]:
-        return asdict(self)
 
 
 OFFSETS = 16  # random times a motion, for the floor

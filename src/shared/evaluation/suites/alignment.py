@@ -39,7 +39,6 @@ NOTES = {
     "above": "own song minus the row, song by song, ± 95%; * the two rows' intervals do not"
     " overlap.",
 }
-Cells = dict[str, dict[str, Any]]
 SCORES = ("motion_to_music", "music_to_motion", "f", "hits")
 
 
@@ -90,11 +89,18 @@ def alignment_rows(dances: Sequence[Danced], seed: int) -> dict[str, Any]:
         rng = np.random.default_rng([seed, 2, index])
         for name, score in song_scores(dance, dances, rng).items():
             scores[name].append(score)
-    rows = {name: _columns(values) for name, values in scores.items()}
+    values = {
+        name: {column: np.array([getattr(score, column) for score in found]) for column in COLUMNS}
+        for name, found in scores.items()
+    }
+    rows = {
+        name: {column: bootstrap_mean(each).as_dict() for column, each in found.items()}
+        for name, found in values.items()
+    }
     own = rows["own song"]
     above = {
         name: {
-            column: _difference(scores["own song"], scores[name], column)
+            column: bootstrap_mean(values["own song"][column] - values[name][column]).as_dict()
             | {"apart": len(dances) >= FEW and own[column]["low"] > rows[name][column]["high"]}
             for column in SCORES
         }
@@ -111,37 +117,19 @@ def alignment_rows(dances: Sequence[Danced], seed: int) -> dict[str, Any]:
 
 
 def song_scores(
-    dance: Danced,
-    dances: Sequence[Danced],
-    rng: np.random.Generator,
+    dance: Danced, dances: Sequence[Danced], rng: np.random.Generator
 ) -> dict[str, Rhythm]:
     """One motion against its own song and everything else."""
     own, chance, off = against_chance(dance.motion, dance.music, dance.seconds, rng)
     scores = {"own song": own, "chance": chance, "half a beat later": off}
     strangers = [other for other in dances if other.song != dance.song]
+    scores["another song"] = Rhythm(*[math.nan] * len(COLUMNS))
     if strangers:
-        drawn = rng.permutation(len(strangers))[:OTHERS]
+        drawn = [strangers[k] for k in rng.permutation(len(strangers))[:OTHERS]]
         scores["another song"] = mean_rhythm(
-            [
-                rhythm(dance.motion, strangers[k].music, min(dance.seconds, strangers[k].seconds))
-                for k in drawn
-            ]
+            [rhythm(dance.motion, o.music, min(dance.seconds, o.seconds)) for o in drawn]
         )
-    else:
-        scores["another song"] = Rhythm(*[math.nan] * len(COLUMNS))
     return scores
-
-
-def _columns(scores: Sequence[Rhythm]) -> Cells:
-    return {
-        name: bootstrap_mean([getattr(score, name) for score in scores]).as_dict()
-        for name in COLUMNS
-    }
-
-
-def _difference(own: Sequence[Rhythm], other: Sequence[Rhythm], column: str) -> dict[str, Any]:
-    pairs = zip(own, other, strict=True)
-    return bootstrap_mean([getattr(a, column) - getattr(b, column) for a, b in pairs]).as_dict()
 
 
 def _per_second(beats: Sequence[np.ndarray], dances: Sequence[Danced]) -> float:

@@ -396,7 +396,7 @@ def _track(piece: Piece, trajectory: MotionTrajectory, seed: int) -> dict[str, f
         return cells
     dance = Danced(piece.name, beats_of(trajectory), piece.beats, piece.seconds)
     scores = song_scores(dance, [dance], np.random.default_rng([seed, 3]))
-    own = scores["own song"].as_dict()
+    own = asdict(scores["own song"])
     error = phase_error(
         trajectory.phase_unwrapped * piece.meter, np.asarray(piece.phase) * piece.meter
     )
