@@ -2,14 +2,22 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 import torch
 
 from src.shared.config_loader import load_train
 from src.shared.data.prepared import PreparedData
+from src.shared.errors import UserError
 from src.shared.evaluation.judge.evaluator import Evaluator
 from src.train.task import Part
-from src.train.train_evaluator import EvaluatorTask, TrainEvaluatorConfig, app
+from src.train.train_evaluator import (
+    EvaluatorTask,
+    PairSet,
+    TrainEvaluatorConfig,
+    app,
+    contrastive_loss,
+)
 
 SETTINGS = {
     "steps": 24, "batch-size": 32, "hidden-size": 32, "threads": 1, "device": "cpu",
@@ -67,3 +75,35 @@ def test_batches_are_pure_functions_of_their_part(data: Path, tmp_path: Path) ->
     assert len(first.captions) == 16 and first.captions != other.captions
     loss = task.training_step(task.module, first)["loss"]
     assert torch.isfinite(loss)
+
+
+def test_batches_depend_on_nothing_but_their_generator(data: Path) -> None:
+    clips = PreparedData.open(data)
+    pairs = PairSet(clips, "train", min_frames=16, max_frames=48, languages=("en",))
+    first, again = (pairs.batch(8, np.random.default_rng(5)) for _ in range(2))
+    assert first.captions == again.captions and torch.equal(first.joints, again.joints)
+    assert first.joints.shape[:2] == first.mask.shape and first.mask.shape[1] <= 48
+    assert first.same.diagonal().all() and torch.equal(first.same, first.same.T)
+    assert torch.isfinite(pairs.frames()).all()
+    with pytest.raises(UserError, match="captions in xx"):
+        PairSet(clips, "train", min_frames=16, max_frames=48, languages=("xx",))
+
+
+def test_contrastive_loss_of_one_positive_is_cross_entropy() -> None:
+    torch.manual_seed(0)
+    text, motion = torch.randn(2, 6, 8).unbind()
+    logits, target = 3 * text @ motion.T, torch.arange(6)
+    expected = (
+        torch.nn.functional.cross_entropy(logits, target)
+        + torch.nn.functional.cross_entropy(logits.T, target)
+    ) / 2
+    ours = contrastive_loss(text, motion, torch.eye(6, dtype=torch.bool), 3.0)
+    assert torch.allclose(ours, expected)
+
+
+def test_contrastive_loss_does_not_push_equal_labels_apart() -> None:
+    same = torch.ones(4, 4, dtype=torch.bool)
+    collapsed = torch.nn.functional.normalize(torch.ones(4, 8), dim=-1).requires_grad_()
+    contrastive_loss(collapsed, collapsed.detach(), same, 10.0).backward()
+    assert collapsed.grad is not None
+    assert torch.allclose(collapsed.grad, torch.zeros_like(collapsed), atol=1e-6)

@@ -1,17 +1,15 @@
-"""Choosing real clips, cutting them, and batching generated ones by length."""
+"""Choosing real clips and cutting them."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-import torch
 
 from src.shared.data.prepare import open_data
 from src.shared.data.prepared import ClipRecord, PreparedData
 from src.shared.errors import UserError
 from src.shared.evaluation.floors import frozen
 from src.shared.evaluation.held_out import choose_caption, real_clips, spread_over_groups
-from src.shared.evaluation.judge.evaluator import PairSet
 from src.shared.motion.features import ROOT_ROW, decode_features
 
 
@@ -49,14 +47,3 @@ def test_a_frozen_clip_does_not_move(data: PreparedData) -> None:
     positions = decode_features(still).positions()
     assert np.abs(positions - positions[:1]).max() < 1e-4
     assert (still[:, ROOT_ROW, 2] == still[0, ROOT_ROW, 2]).all()
-
-
-def test_batches_depend_on_nothing_but_their_generator(data: PreparedData) -> None:
-    pairs = PairSet(data, "train", min_frames=16, max_frames=48, languages=("en",))
-    first, again = (pairs.batch(8, np.random.default_rng(5)) for _ in range(2))
-    assert first.captions == again.captions and torch.equal(first.joints, again.joints)
-    assert first.joints.shape[:2] == first.mask.shape and first.mask.shape[1] <= 48
-    assert first.same.diagonal().all() and torch.equal(first.same, first.same.T)
-    assert torch.isfinite(pairs.frames()).all()
-    with pytest.raises(UserError, match="captions in xx"):
-        PairSet(data, "train", min_frames=16, max_frames=48, languages=("xx",))

@@ -12,7 +12,6 @@ from src.shared.evaluation.judge.evaluator import (
     Evaluator,
     EvaluatorConfig,
     bag,
-    contrastive_loss,
     joint_features,
 )
 from src.shared.metrics.retrieval import caption_buckets
@@ -114,23 +113,3 @@ def test_hashed_captions_share_stems_and_tell_languages_apart() -> None:
     assert caption_buckets("...") == [0]
     indices, offsets = bag(["a walk", ""], 64)
     assert len(indices) == offsets[1] + 1 and int(indices.max()) < 64
-
-
-def test_contrastive_loss_of_one_positive_is_cross_entropy() -> None:
-    torch.manual_seed(0)
-    text, motion = torch.randn(2, 6, 8).unbind()
-    logits, target = 3 * text @ motion.T, torch.arange(6)
-    expected = (
-        torch.nn.functional.cross_entropy(logits, target)
-        + torch.nn.functional.cross_entropy(logits.T, target)
-    ) / 2
-    ours = contrastive_loss(text, motion, torch.eye(6, dtype=torch.bool), 3.0)
-    assert torch.allclose(ours, expected)
-
-
-def test_contrastive_loss_does_not_push_equal_labels_apart() -> None:
-    same = torch.ones(4, 4, dtype=torch.bool)
-    collapsed = torch.nn.functional.normalize(torch.ones(4, 8), dim=-1).requires_grad_()
-    contrastive_loss(collapsed, collapsed.detach(), same, 10.0).backward()
-    assert collapsed.grad is not None
-    assert torch.allclose(collapsed.grad, torch.zeros_like(collapsed), atol=1e-6)

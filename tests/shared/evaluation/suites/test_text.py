@@ -18,12 +18,7 @@ from src.shared.data.synthetic import generate_clip
 from src.shared.data.synthetic.clips import spec_for
 from src.shared.errors import UserError
 from src.shared.evaluation.held_out import HeldOut
-from src.shared.evaluation.judge.evaluator import (
-    Evaluator,
-    EvaluatorConfig,
-    PairSet,
-    contrastive_loss,
-)
+from src.shared.evaluation.judge.evaluator import Evaluator, EvaluatorConfig
 from src.shared.evaluation.report.tables import draw, grids, heading, markdown, printed, tables
 from src.shared.evaluation.samples import Sampler
 from src.shared.evaluation.suites import control as control
@@ -35,6 +30,7 @@ from src.shared.evaluation.suites.text import (
     scores,
 )
 from src.shared.motion.motion import Motion
+from src.train.train_evaluator import PairSet, contrastive_loss
 
 SETTINGS = TextSettings(
     num_samples=96,
