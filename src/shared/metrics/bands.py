@@ -221,15 +221,14 @@ class Bands:
         Raises:
             UserError: there are none.
         """
-        rows = [_figures(trajectory) for trajectory in trajectories]
+        figures = CHECKS | MEASURES
+        rows = [[figure(motion) for figure in figures.values()] for motion in trajectories]
         if not rows:
             raise UserError("no real motions to measure; give at least one trajectory")
-        table = {name: [row[name] for row in rows] for name in rows[0]}
-        bands = {
-            name: Band(*(float(value) for value in np.percentile(values, (5, 50, 95))))
-            for name, values in table.items()
-        }
-        return cls(bands, len(rows))
+        limits = np.percentile(rows, (5, 50, 95), axis=0).T.tolist()
+        return cls(
+            {name: Band(*each) for name, each in zip(figures, limits, strict=True)}, len(rows)
+        )
 
     def save(self, path: str | Path) -> Path:
         """Write JSON.
@@ -273,12 +272,6 @@ class Bands:
             for name, measure in MEASURES.items()
             if name in self.bands
         }
-
-
-def _figures(trajectory: MotionTrajectory) -> dict[str, float]:
-    """Every figure of one motion by name."""
-    values = {name: check(trajectory) for name, check in CHECKS.items()}
-    return values | {name: measure(trajectory) for name, measure in MEASURES.items()}
 
 
 def _band(cells: dict[str, float]) -> Band:

@@ -22,11 +22,6 @@ def _moments(samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return values.mean(0), np.atleast_2d(np.cov(values, rowvar=False))
 
 
-def _symmetric_root(matrix: np.ndarray) -> np.ndarray:
-    values, vectors = np.linalg.eigh(matrix)
-    return (vectors * np.sqrt(values.clip(min=0))) @ vectors.T
-
-
 def gaussian_frechet(
     mean_a: np.ndarray, cov_a: np.ndarray, mean_b: np.ndarray, cov_b: np.ndarray
 ) -> float:
@@ -35,7 +30,8 @@ def gaussian_frechet(
     Tr (S_a S_b)^1/2 equals Tr (S_a^1/2 S_b S_a^1/2)^1/2, whose argument is symmetric, so two
     eigen-decompositions give it without the complex square root of a singular matrix.
     """
-    root = _symmetric_root(cov_a)
+    values, vectors = np.linalg.eigh(cov_a)
+    root = (vectors * np.sqrt(values.clip(min=0))) @ vectors.T
     cross = np.linalg.eigvalsh(root @ cov_b @ root).clip(min=0)
     distance = ((mean_a - mean_b) ** 2).sum() + np.trace(cov_a) + np.trace(cov_b)
     return float(max(distance - 2 * np.sqrt(cross).sum(), 0.0))

@@ -109,7 +109,7 @@ def _table(index: int, grid: Grid) -> str:
     for row in table.rows:
         texts = "".join(f"<td>{escape(text)}</td>" for text in row)
         body += f'<tr class="{_css(row[0])}">{texts}</tr>'
-    plots = grid_plots(grid) if grid.plot else ""
+    plots = "".join(column_plot(grid, column) for column in grid.columns if grid.plot)
     drawn = f'<details open><summary>plots</summary><div class="plots">{plots}</div></details>'
     return (
         f'<section id="table-{index}"><h2>{escape(grid.title)}</h2><div class="scroll"><table>'
@@ -141,7 +141,9 @@ def _worst(report: dict[str, Any], folder: Path) -> Iterator[str]:
         samples = [sample for sample in report["samples"] if sample["bench"] == bench]
         # A page plays one song, so that each motion to music has a page of its own.
         groups = [samples] if report["branch"] != "audio" else [[sample] for sample in samples]
-        players = "".join(_player(group, folder, report["branch"]) for group in groups)
+        pages = (escape(player(group, folder, report["branch"]), quote=True) for group in groups)
+        frame = '<iframe title="motions" loading="lazy" srcdoc="{}"></iframe>'
+        players = "".join(map(frame.format, pages))
         keys = dict.fromkeys(key for sample in samples for key in sample["figures"])
         head = "".join(f"<th>{escape(key.replace('_', ' '))}</th>" for key in keys)
         rows = "".join(
@@ -158,11 +160,6 @@ def _worst(report: dict[str, Any], folder: Path) -> Iterator[str]:
             f'<div class="scroll"><table><thead><tr><th>place</th><th>asked for</th>{head}</tr>'
             f"</thead><tbody>{rows}</tbody></table></div></details></section>"
         )
-
-
-def _player(samples: Sequence[dict[str, Any]], folder: Path, branch: str) -> str:
-    page = escape(player(samples, folder, branch), quote=True)
-    return f'<iframe title="motions" loading="lazy" srcdoc="{page}"></iframe>'
 
 
 def player(samples: Sequence[dict[str, Any]], folder: Path, branch: str) -> str:
@@ -194,13 +191,8 @@ def _pictures(pictures: Sequence[dict[str, Any]], folder: Path) -> str:
 # One a column, a dot and its interval a row; text only, so that equal tables give equal bytes.
 
 
-def grid_plots(grid: Grid) -> str:
-    """A plot for each column with numbers in two rows or more."""
-    return "".join(column_plot(grid, column) for column in grid.columns)
-
-
 def column_plot(grid: Grid, column: Column) -> str:
-    """One column; empty where there is nothing to compare."""
+    """One column; empty where fewer than two rows have numbers."""
     spans = {
         name: found
         for name, row in grid.rows.items()

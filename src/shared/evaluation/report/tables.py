@@ -208,11 +208,8 @@ def counts(row: GridRow) -> str:
 def heading(report: Report) -> list[str]:
     """What was measured with what, line by line."""
     facts = {**report["about"], **report["settings"]}
-    return [f"{key.replace('_', '-')}: {_fact(value)}" for key, value in facts.items()]
-
-
-def _fact(value: Any) -> str:
-    return ", ".join(map(str, value)) if isinstance(value, list) else str(value)
+    listed = {k: ", ".join(map(str, v)) if isinstance(v, list) else v for k, v in facts.items()}
+    return [f"{key.replace('_', '-')}: {value}" for key, value in listed.items()]
 
 
 def intervals_note(report: Report) -> str:

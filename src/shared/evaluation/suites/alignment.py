@@ -193,7 +193,9 @@ def plot_phase(piece: Piece, trajectory: MotionTrajectory, path: str | Path) -> 
         if bars is None:
             continue
         colour, style = LINES[name]
-        upper.plot(np.arange(len(bars)) / FPS, _sawtooth(bars), style, color=colour, label=name)
+        phase = np.asarray(bars, np.float64) % 1.0
+        phase[1:][np.diff(phase) < -0.5] = np.nan  # no line through the bar
+        upper.plot(np.arange(len(bars)) / FPS, phase, style, color=colour, label=name)
     upper.set_ylabel("phase of the bar")
     upper.set_ylim(0, 1)
     upper.legend(loc="upper right", ncols=3, fontsize="small")
@@ -206,10 +208,3 @@ def plot_phase(piece: Piece, trajectory: MotionTrajectory, path: str | Path) -> 
     lower.legend(loc="upper right", fontsize="small")
     figure.suptitle(piece.name)
     return save_figure(figure, Path(path))
-
-
-def _sawtooth(bars: np.ndarray) -> np.ndarray:
-    """Bars [T] modulo 1 with a gap where they wrap, so that no line is drawn through."""
-    phase = np.asarray(bars, np.float64) % 1.0
-    phase[1:][np.diff(phase) < -0.5] = np.nan
-    return phase

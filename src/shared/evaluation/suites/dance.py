@@ -144,7 +144,9 @@ class DanceContext:
         piece, path = self.pieces[number], self.path(number, replication)
         again = replication if seed is None else seed
         own = candidate_seed(self.settings.seed, crc32(piece.name.encode()), again)
-        raw = performer.perform(path, prompt, beats=heard_beats(piece), seed=own).motion
+        # Told are the beats that the tracker heard.
+        heard = None if piece.phase is None else beats_of_phase(piece.phase * piece.meter, FPS)
+        raw = performer.perform(path, prompt, beats=heard, seed=own).motion
         return Dance(
             song=piece.name,
             motion=lock_carried_feet(raw),
@@ -231,11 +233,6 @@ class DanceContext:
                 for dance, motion in zip(dances, motions, strict=True)
             ]
         )
-
-
-def heard_beats(piece: Piece) -> np.ndarray | None:
-    """Seconds of the beats that the tracker heard, which is what a performer is told."""
-    return None if piece.phase is None else beats_of_phase(piece.phase * piece.meter, FPS)
 
 
 def near_seams(frames: int) -> np.ndarray:

@@ -15,12 +15,11 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from ...audio.song import Song, analyse, analyse_sound
+from ...audio.song import analyse, analyse_sound
 from ...audio.sound import sound_from_samples
 from ...audio.synthetic_songs import (
     HELD_OUT_TEMPI,
     SongSpec,
-    SyntheticSong,
     render_song,
     sample_song_specs,
     song_beats,
@@ -104,19 +103,13 @@ def held_out_songs(
             meter=song.beats.meter,
             bars=bars,
             true_meter=spec.meter,
-            beats=_beats_around(made),
-            about={"tempo": _tempo(made), "meter": spec.meter, "heard": song.beats.tempo},
+            beats=song_beats(replace(spec, seconds=spec.seconds + MARGIN))[0],
+            about={
+                "tempo": 60.0 / float(np.median(np.diff(made.beat_times))),
+                "meter": spec.meter,
+                "heard": song.beats.tempo,
+            },
         )
-
-
-def _tempo(song: SyntheticSong) -> float:
-    return 60.0 / float(np.median(np.diff(song.beat_times)))
-
-
-def _beats_around(song: SyntheticSong) -> np.ndarray:
-    """Beats of the song, and those that would follow."""
-    longer = replace(song.spec, seconds=song.spec.seconds + MARGIN)
-    return song_beats(longer)[0]
 
 
 def tracks(folder: Path, seconds: float) -> Iterator[Piece]:
@@ -141,17 +134,13 @@ def tracks(folder: Path, seconds: float) -> Iterator[Piece]:
             bars=None,
             true_meter=song.beats.meter,
             beats=np.asarray(song.beats.beat_times),
-            about=_about_track(song),
+            about={
+                "tempo": float(song.beats.tempo),
+                "meter": song.beats.meter,
+                "confidence": float(song.beats.confidence),
+                "sha256": song.sha256[:12],
+            },
         )
-
-
-def _about_track(song: Song) -> dict[str, Any]:
-    return {
-        "tempo": float(song.beats.tempo),
-        "meter": song.beats.meter,
-        "confidence": float(song.beats.confidence),
-        "sha256": song.sha256[:12],
-    }
 
 
 # ---------------------------------------------------------------- phrases
