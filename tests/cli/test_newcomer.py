@@ -18,7 +18,7 @@ import pytest
 
 from src.shared.audio.synthetic_score import SongSpec
 from src.shared.audio.synthetic_songs import render_song
-from src.shared.data.synthetic import generate_clip, spec_for
+from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.formats.arrays import read_npz, read_trajectory_npz
 from src.shared.formats.writers.bvh import write_bvh
 

@@ -59,7 +59,7 @@ def check_arrays(arrays: Iterable[Any]) -> None:
 
 def some_motion(index: int = 0) -> "Motion":
     """A short synthetic motion."""
-    from src.shared.data.synthetic import generate_clip, sample_specs
+    from src.shared.data.synthetic.clips import generate_clip, sample_specs
     from src.shared.motion.motion import Motion
 
     motion = generate_clip(sample_specs(8, 0)[index], seed=index)

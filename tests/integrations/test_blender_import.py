@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from src.shared.data.synthetic import generate_clip, sample_specs
+from src.shared.data.synthetic.clips import generate_clip, sample_specs
 from src.shared.formats.registry import export_motion
 from src.shared.motion.skeleton import JOINT_NAMES
 from tests.integrations.blender_run import blender_python, run_in_blender

@@ -6,15 +6,16 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from src.shared.data.synthetic import (
+from src.shared.data.synthetic.clips import (
     LABEL_VALUES,
+    SPEED_METRES,
     SyntheticSpec,
     generate_clip,
     label_combinations,
     sample_specs,
     spec_for,
+    speed_metres,
 )
-from src.shared.data.synthetic.clips import SPEED_METRES, speed_metres
 from src.shared.motion.features import decode_features, encode_features
 from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess.contacts import detect_contacts

@@ -380,7 +380,7 @@ class SyntheticSource:
         return f"{item}:{self.num_clips}:{self.seed}"
 
     def read(self, item: str) -> RawClip:
-        from ..synthetic import generate_clip
+        from ..synthetic.clips import generate_clip
 
         index = int(item.rpartition("-")[2])
         spec = _specs(self.num_clips, self.seed)[index]
@@ -393,7 +393,7 @@ _SPECS: dict[tuple[int, int], list[Any]] = {}
 
 def _specs(num_clips: int, seed: int) -> list[Any]:
     """Specifications of a synthetic set, made once a process."""
-    from ..synthetic import sample_specs
+    from ..synthetic.clips import sample_specs
 
     if (num_clips, seed) not in _SPECS:
         _SPECS[num_clips, seed] = sample_specs(num_clips, seed)

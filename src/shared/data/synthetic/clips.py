@@ -1,4 +1,4 @@
-"""Synthetic clips: what the source can show, what one clip varies, and the motion of a clip."""
+"""Synthetic clips, the project's own motions with labels true by making: what they can show."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

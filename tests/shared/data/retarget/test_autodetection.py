@@ -15,7 +15,7 @@ from src.shared.data.retarget.autodetection import (
 )
 from src.shared.data.retarget.mapping import SkeletonMapping, find_mapping, load_mappings
 from src.shared.data.retarget.to_canonical import _AIM, leg_length, retarget
-from src.shared.data.synthetic import generate_clip, sample_specs
+from src.shared.data.synthetic.clips import generate_clip, sample_specs
 from src.shared.errors import UsageError
 from src.shared.formats.readers.bvh import read_bvh
 from src.shared.formats.rig import JointClip, compose, quaternions_to_matrices

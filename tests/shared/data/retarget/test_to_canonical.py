@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from src.shared.data.retarget.mapping import SkeletonMapping, find_mapping, load_mappings
 from src.shared.data.retarget.to_canonical import rest_corrections, retarget
-from src.shared.data.synthetic import generate_clip, sample_specs
+from src.shared.data.synthetic.clips import generate_clip, sample_specs
 from src.shared.errors import UsageError, UserError
 from src.shared.formats.readers.bvh import BvhClip, read_bvh
 from src.shared.formats.writers.bvh import write_bvh

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from src.shared.data.prepared import ClipRecord
-from src.shared.data.synthetic import generate_clip
-from src.shared.data.synthetic.clips import spec_for
+from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.evaluation.floors import frozen
 from src.shared.evaluation.judge.actions import ActionJudge, ActionRecognizer, descriptor
 from src.shared.evaluation.judge.instructions import ACTIONS

@@ -6,7 +6,12 @@ import numpy as np
 import pytest
 import torch
 
-from src.shared.data.synthetic import generate_clip, label_combinations, sample_specs, spec_for
+from src.shared.data.synthetic.clips import (
+    generate_clip,
+    label_combinations,
+    sample_specs,
+    spec_for,
+)
 from src.shared.evaluation.judge.instructions import (
     CHECKS,
     CONTROL_TASKS,

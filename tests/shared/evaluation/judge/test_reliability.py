@@ -9,8 +9,7 @@ import pytest
 from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
 from src.shared.data.sources.folders import SyntheticSource
-from src.shared.data.synthetic import generate_clip
-from src.shared.data.synthetic.clips import spec_for
+from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.evaluation.judge.actions import action_reliability
 from src.shared.model.clip.out_of_domain import RELIABLE
 from src.shared.motion.motion import Motion

@@ -11,8 +11,7 @@ from src.shared.data.captions.requests import Request, load_requests
 from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
 from src.shared.data.sources.folders import SyntheticSource
-from src.shared.data.synthetic import generate_clip
-from src.shared.data.synthetic.clips import label_combinations, spec_for
+from src.shared.data.synthetic.clips import generate_clip, label_combinations, spec_for
 from src.shared.errors import UserError
 from src.shared.evaluation.report.tables import Grid
 from src.shared.evaluation.suites.requests import RequestSettings, evaluate_requests

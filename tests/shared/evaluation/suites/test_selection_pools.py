@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 import torch
 
-from src.shared.data.synthetic import generate_clip
-from src.shared.data.synthetic.clips import spec_for
+from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.evaluation.judge.evaluator import Evaluator, EvaluatorConfig
 from src.shared.evaluation.samples import Clips
 from src.shared.evaluation.suites.selection import (

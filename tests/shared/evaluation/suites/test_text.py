@@ -14,8 +14,7 @@ import torch
 from src.shared.data.captions.book import CaptionBook
 from src.shared.data.prepare import open_data
 from src.shared.data.prepared import PreparedData
-from src.shared.data.synthetic import generate_clip
-from src.shared.data.synthetic.clips import spec_for
+from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.errors import UserError
 from src.shared.evaluation.held_out import HeldOut
 from src.shared.evaluation.judge.evaluator import Evaluator, EvaluatorConfig

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from src.shared.data.synthetic import generate_clip, sample_specs
+from src.shared.data.synthetic.clips import generate_clip, sample_specs
 from src.shared.errors import UserError
 from src.shared.formats.readers.humanml import read_humanml
 from src.shared.motion.motion import Motion

@@ -5,8 +5,7 @@ import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.data.synthetic import generate_clip
-from src.shared.data.synthetic.clips import spec_for
+from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.metrics.measurements import at_rest, is_gesture
 from src.shared.motion.features import LEFT_CONTACT, ROOT_ROW
 from src.shared.motion.motion import Motion
