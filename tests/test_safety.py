@@ -43,7 +43,7 @@ ONLY_IN: dict[str, tuple[str, ...]] = {
     "zipfile.ZipFile": ("shared/io/arrays.py",),
     "json.load": (),
     # a GLB's chunk is bounded before; what a training wrote for itself is its own
-    "json.loads": ("shared/io/files.py", "shared/formats/glb_file.py", "train/"),
+    "json.loads": ("shared/io/files.py", "shared/formats/readers/glb.py", "train/"),
     "faiss.read_index": ("shared/memory/search.py",),  # after its checksum
 }
 

@@ -16,8 +16,7 @@ from torch.nn.functional import normalize
 
 from ..shared.data.captions.language import spoken_labels
 from ..shared.data.captions.schema import Labels
-from ..shared.data.prepared import PreparedData
-from ..shared.data.splits import group_of
+from ..shared.data.prepared import PreparedData, group_of
 from .task import generator
 
 Combination = tuple[tuple[str, str], ...]

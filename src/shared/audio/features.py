@@ -12,8 +12,7 @@ from typing import Literal
 import numpy as np
 
 from ..errors import UserError
-from ..io.arrays import BadArray, load_arrays
-from ..io.files import atomic_write
+from ..io.arrays import BadArray, load_arrays, write_arrays
 from .sound import HOP, SAMPLE_RATE, Sound, load_sound
 from .spectrum import (
     N_FFT,
@@ -26,17 +25,6 @@ from .spectrum import (
 )
 
 MAX_VALUES = 1 << 25  # numbers: the 128 rows of two hours at 30 frames a second, and some
-
-
-def write_arrays(arrays: dict[str, np.ndarray], path: str | Path) -> Path:
-    """Write an npz whole or not at all.
-
-    Raises:
-        UserError: the file cannot be written.
-    """
-    with atomic_write(Path(path)) as temporary, temporary.open("wb") as stream:
-        np.savez(stream, **arrays)  # type: ignore[arg-type]
-    return Path(path)
 
 
 def read_arrays(path: str | Path) -> dict[str, np.ndarray]:

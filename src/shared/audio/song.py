@@ -19,9 +19,10 @@ from typing import Any
 import numpy as np
 
 from ..errors import UserError
+from ..io.arrays import write_arrays
 from ..io.files import sha256_file
 from .beats import Beats, bar_phase, track_beats
-from .features import AudioFeatures, Chroma, extract_features, read_arrays, write_arrays
+from .features import AudioFeatures, Chroma, extract_features, read_arrays
 from .sound import FPS, Sound, load_sound
 
 FOLDER_VARIABLE = "MOTIONGEN_AUDIO_CACHE"

@@ -16,18 +16,34 @@ after an interruption, does only what is missing.
 
 import hashlib
 import json
+import multiprocessing
 import os
+import signal
+import threading
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import suppress
 from dataclasses import dataclass
+from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import torch
 from safetensors.torch import load_file, save_file
 
 from ..errors import UsageError, UserError
-from ..io.files import atomic_write, load_json, sha256_file, write_json, write_text
+from ..io.concurrency import answered
+from ..io.files import (
+    atomic_write,
+    is_whole,
+    load_json,
+    sha256_file,
+    sole_writer,
+    write_json,
+    write_text,
+)
 from ..motion.features import encode_features, mirror_features
 from .captions.book import CaptionBook
 from .captions.language import mirror_labels
@@ -39,10 +55,11 @@ from .prepared import (
     VERSION,
     ClipRecord,
     PreparedData,
+    assign_splits,
+    group_of,
+    orbit,
 )
-from .sources.folders import MotionFolder, Skipped, Source, SyntheticSource, all_items
-from .splits import assign_splits, group_of, orbit
-from .worker_pool import finished_record, is_whole, run_jobs
+from .sources.folders import MotionFolder, Skipped, Source, SyntheticSource
 
 CLIPS_PER_SHARD = 128
 CAPTIONS_PER_GROUP = 24  # and language
@@ -96,7 +113,7 @@ def prepare(
             )
     if mirror:
         _check_languages(sources, book)
-    items = list(all_items(list(sources)))
+    items = [(index, item) for index, source in enumerate(sources) for item in source.items()]
     jobs = _jobs(sources, items, out)
     _run(jobs, workers or os.cpu_count() or 1, progress, len(items))
 
@@ -149,8 +166,6 @@ def open_data(data: str, cache: Path, *, synthetic_clips: int = SYNTHETIC_CLIPS)
     """Open a prepared folder; "synthetic" is prepared on the spot into `cache`, once."""
     if data != SYNTHETIC:
         return PreparedData.open(data)
-    from ..io.files import sole_writer
-
     folder = cache / f"synthetic-{synthetic_clips}"
     with sole_writer(folder, wait=True):
         prepare([SyntheticSource(synthetic_clips)], folder)
@@ -377,3 +392,65 @@ def _manifest(
             )
         },
     }
+
+
+Job = TypeVar("Job")
+Result = TypeVar("Result")
+
+
+def finished_record(path: Path, key: str) -> dict[str, Any] | None:
+    """What was written of a finished job; None if nothing is there, damaged, or of another key."""
+    try:
+        content = load_json(path)
+    except (OSError, ValueError):
+        return None
+    return content if isinstance(content, dict) and content.get("key") == key else None
+
+
+def run_jobs(
+    function: Callable[[Job], Result], jobs: Sequence[Job], workers: int
+) -> Iterator[tuple[Job, Result]]:
+    """Yield (job, `function(job)`) as they finish; what a job raises is raised here.
+
+    Args:
+        function: of a module, so that processes can be handed it.
+        jobs: each is sent to one process.
+        workers: processes; one works in this process.
+
+    Raises:
+        UserError: a worker was killed.
+    """
+    if workers == 1 or len(jobs) <= 1:
+        for job in jobs:
+            yield job, function(job)
+        return
+    context = multiprocessing.get_context("spawn")  # forking a process with torch threads hangs
+    parent, lifeline = context.Pipe(duplex=False)
+    pool = ProcessPoolExecutor(min(workers, len(jobs)), context, _start_worker, (parent,))
+    with parent, lifeline, pool:
+        with answered(signal.SIGINT, signal.SIG_IGN):
+            pending = {pool.submit(function, job): job for job in jobs}
+        try:
+            for future in as_completed(pending):
+                yield pending[future], future.result()
+        except BaseException as error:
+            pool.shutdown(wait=False, cancel_futures=True)
+            lifeline.close()
+            if isinstance(error, BrokenProcessPool):
+                raise UserError(
+                    "a worker process was killed, most likely because memory ran out; give fewer"
+                    " --workers and run again: what is finished is kept"
+                ) from error
+            raise
+
+
+def _start_worker(parent: Connection) -> None:
+    torch.set_num_threads(1)
+    threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
+
+
+def _end_with(parent: Connection) -> None:
+    """End this process when the other end of the pipe is closed, by the parent or its death."""
+    with suppress(EOFError, OSError):
+        parent.recv_bytes()
+    os._exit(1)

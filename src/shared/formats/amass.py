@@ -20,10 +20,10 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ..errors import UserError
-from ..io.files import atomic_write
+from ..io.arrays import write_arrays
 from ..motion.motion import Motion
 from ..motion.skeleton import NUM_JOINTS, canonical_skeleton
-from .limits import FRAME_RATES, read_arrays
+from .limits import FRAME_RATES, check_numbers, read_arrays
 from .rig import JointClip, quaternions_to_matrices
 
 MAX_VALUE = 1e4  # metres or radians
@@ -55,16 +55,16 @@ def read_amass(path: str | Path, *, fps: float | None = None) -> JointClip:
     if not is_amass(tuple(arrays)):
         raise UserError(f"{path}: needs 'trans' and 'poses', or 'root_orient' and 'pose_body'; "
                         f"it holds {', '.join(arrays) or 'none'}, export it again")  # fmt: skip
-    trans = _numbers(path, arrays, "trans", (3,))
+    trans = _numbers(path, arrays, "trans", 3)
     if "poses" in arrays:
-        poses = _numbers(path, arrays, "poses", None)
+        poses = _numbers(path, arrays, "poses", f"{3 * NUM_JOINTS} or more")
         if poses.shape[1] < 3 * NUM_JOINTS:
             raise UserError(f"{path}: poses has {poses.shape[1]} values a frame; "
                             f"{3 * NUM_JOINTS} or more are needed; export it again")  # fmt: skip
         poses = poses[:, : 3 * NUM_JOINTS]
     else:
-        root = _numbers(path, arrays, "root_orient", (3,))
-        body = _numbers(path, arrays, "pose_body", (63,))
+        root = _numbers(path, arrays, "root_orient", 3)
+        body = _numbers(path, arrays, "pose_body", 63)
         if len(root) != len(body):
             raise UserError(f"{path}: root_orient has {len(root)} frames, pose_body {len(body)}; "
                             "the file is damaged, export it again")  # fmt: skip
@@ -100,19 +100,10 @@ def _rate(path: Path, arrays: dict[str, np.ndarray], fps: float | None) -> float
     return rate
 
 
-def _numbers(
-    path: Path, arrays: dict[str, np.ndarray], name: str, shape: tuple[int, ...] | None
-) -> np.ndarray:
-    """An array [T,…] of plausible numbers as float64."""
-    array = arrays[name]
-    if array.ndim != 2 or array.dtype.kind not in "fiu" or shape not in (None, array.shape[1:]):
-        wanted = f"[T,{shape[0]}]" if shape else "[T,66 or more]"
-        raise UserError(f"{path}: {name} is {array.dtype}{list(array.shape)}, expected numbers "
-                        f"of shape {wanted}; export it again")  # fmt: skip
-    array = array.astype(np.float64)
-    if array.size and not np.abs(array).max() < MAX_VALUE:
-        raise UserError(f"{path}: {name} holds NaN or impossibly large values; export it again")
-    return array
+def _numbers(path: Path, arrays: dict[str, np.ndarray], name: str, width: int | str) -> np.ndarray:
+    """An array [T,width] of plausible numbers as float64."""
+    where = f"{path}: {name}"
+    return check_numbers(where, arrays[name], ("T", width), MAX_VALUE, "export it again")
 
 
 Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])  # of our world
@@ -129,18 +120,16 @@ def write_amass(motion: Motion, path: str | Path) -> Path:
     matrices[:, 0] = Z_UP @ matrices[:, 0]
     poses = np.zeros((motion.num_frames, ALL * 3))
     poses[:, : BODY * 3] = _vectors(matrices).reshape(motion.num_frames, -1)
-    with atomic_write(Path(path)) as temporary, temporary.open("wb") as stream:
-        np.savez_compressed(
-            stream,
-            poses=poses,
-            trans=motion.root_position.astype(np.float64) @ Z_UP.T - SMPL_PELVIS,
-            mocap_framerate=np.float64(motion.fps),
-            gender=np.array("neutral"),
-            betas=np.zeros(16),
-            dmpls=np.zeros((motion.num_frames, 8)),
-            skeleton=np.array(OURS),
-        )
-    return Path(path)
+    arrays = {
+        "poses": poses,
+        "trans": motion.root_position.astype(np.float64) @ Z_UP.T - SMPL_PELVIS,
+        "mocap_framerate": np.float64(motion.fps),
+        "gender": np.array("neutral"),
+        "betas": np.zeros(16),
+        "dmpls": np.zeros((motion.num_frames, 8)),
+        "skeleton": np.array(OURS),
+    }
+    return write_arrays(arrays, path, compressed=True)
 
 
 def _vectors(matrices: np.ndarray) -> np.ndarray:

@@ -23,11 +23,11 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import UserError
-from ..io.files import atomic_write
+from ..io.arrays import write_arrays
 from ..motion.motion import Motion
 from ..motion.skeleton import JOINT_NAMES, NUM_JOINTS, canonical_skeleton
 from ..motion.trajectory import CHANNELS, FPS, QUATERNION, MotionTrajectory
-from .limits import array_names, read_array, read_arrays
+from .limits import array_names, check_numbers, check_plausible, read_array, read_arrays
 
 FORMAT_VERSION = 1
 _SHAPES = {"quaternions": (NUM_JOINTS, 4), "root_position": (3,), "contacts": (2,)}
@@ -43,21 +43,19 @@ def write_npz(motion: Motion, path: str | Path) -> Path:
         UserError: the file cannot be written.
     """
     skeleton = canonical_skeleton()
-    with atomic_write(Path(path)) as temporary, temporary.open("wb") as stream:
-        np.savez_compressed(
-            stream,
-            format_version=np.int32(FORMAT_VERSION),
-            quaternions=motion.quaternions.astype(np.float32),
-            root_position=motion.root_position.astype(np.float32),
-            contacts=motion.contacts.astype(np.float32),
-            positions=motion.positions().astype(np.float32),
-            fps=np.float32(motion.fps),
-            text=np.array(motion.text),
-            joint_names=np.array(skeleton.names),
-            parents=np.array(skeleton.parents, dtype=np.int32),
-            offsets=skeleton.offsets.astype(np.float32),
-        )
-    return Path(path)
+    arrays = {
+        "format_version": np.int32(FORMAT_VERSION),
+        "quaternions": motion.quaternions.astype(np.float32),
+        "root_position": motion.root_position.astype(np.float32),
+        "contacts": motion.contacts.astype(np.float32),
+        "positions": motion.positions().astype(np.float32),
+        "fps": np.float32(motion.fps),
+        "text": np.array(motion.text),
+        "joint_names": np.array(skeleton.names),
+        "parents": np.array(skeleton.parents, dtype=np.int32),
+        "offsets": skeleton.offsets.astype(np.float32),
+    }
+    return write_arrays(arrays, path, compressed=True)
 
 
 def read_npz(path: str | Path) -> Motion:
@@ -80,8 +78,8 @@ def read_npz(path: str | Path) -> Motion:
         )
     num_frames = len(np.atleast_1d(arrays["quaternions"]))
     for name, shape in _SHAPES.items():
-        _check(path, name, arrays[name], (num_frames, *shape))
-    _check(path, "fps", arrays["fps"], ())
+        check_numbers(f"{path}: {name}", arrays[name], (num_frames, *shape), MAX_VALUE)
+    check_numbers(f"{path}: fps", arrays["fps"], (), MAX_VALUE)
     fps = float(arrays["fps"])
     if num_frames < 1 or not MIN_FPS <= fps <= 10_000:
         raise UserError(f"{path}: {num_frames} frames at {fps:g} frames a second is no motion; "
@@ -97,15 +95,6 @@ def read_npz(path: str | Path) -> Motion:
         fps,
         str(arrays["text"]),
     )
-
-
-def _check(path: Path, name: str, array: np.ndarray, shape: tuple[int, ...]) -> None:
-    """Refuse an array of another shape or type, or with values that cannot be."""
-    if array.shape != shape or array.dtype.kind not in "fiu":
-        raise UserError(f"{path}: {name} is {array.dtype}{list(array.shape)}, expected numbers "
-                        f"of shape {list(shape)}; write it again")  # fmt: skip
-    if array.size and not np.abs(array.astype(np.float64)).max() < MAX_VALUE:
-        raise UserError(f"{path}: {name} holds NaN or impossibly large values; write it again")
 
 
 COLUMNS = (
@@ -131,16 +120,14 @@ def write_trajectory_npz(trajectory: MotionTrajectory, path: str | Path) -> Path
     Raises:
         UserError: the file cannot be written.
     """
-    with atomic_write(Path(path)) as temporary, temporary.open("wb") as stream:
-        np.savez_compressed(
-            stream,
-            format_version=np.int32(FORMAT_VERSION),
-            trajectory=trajectory.data.astype(np.float32),
-            phase_bars=trajectory.phase_unwrapped,
-            fps=np.float32(trajectory.fps),
-            columns=np.array(COLUMNS),
-        )
-    return Path(path)
+    arrays = {
+        "format_version": np.int32(FORMAT_VERSION),
+        "trajectory": trajectory.data.astype(np.float32),
+        "phase_bars": trajectory.phase_unwrapped,
+        "fps": np.float32(trajectory.fps),
+        "columns": np.array(COLUMNS),
+    }
+    return write_arrays(arrays, path, compressed=True)
 
 
 def read_trajectory_npz(path: str | Path) -> MotionTrajectory:
@@ -200,8 +187,7 @@ def checked_trajectory(path: Path, data: np.ndarray, fps: float) -> MotionTrajec
                         f"[T, {CHANNELS}], time first, one trajectory")  # fmt: skip
     if not len(data):
         raise UserError(f"{path}: holds no frames; write it again")
-    if not np.abs(data.astype(np.float64)).max() < MAX_VALUE:
-        raise UserError(f"{path}: holds NaN or impossibly large values; write it again")
+    check_plausible(f"{path}:", data, MAX_VALUE)
     if np.linalg.norm(data[:, QUATERNION].astype(np.float64), axis=1).min() < 1e-3:
         raise UserError(
             f"{path}: quaternion columns hold zeros, which are no rotations; write it again"

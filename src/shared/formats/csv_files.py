@@ -21,9 +21,10 @@ from ..motion.rotations import matrix_to_quaternion, quaternion_continuous, quat
 from ..motion.skeleton import JOINT_NAMES, NUM_JOINTS, PARENTS
 from ..motion.trajectory import MotionTrajectory
 from .arrays import COLUMNS, checked_trajectory
-from .limits import FRAME_RATES, MAX_FRAMES, MAX_VALUE, check_size
+from .limits import FRAME_RATES, MAX_FRAMES, MAX_VALUE, check_plausible, check_size, readable
 from .rig import continuous, matrices_to_quaternions
 
+ENCODING = "utf-8-sig"  # spreadsheets add a mark
 DEFAULT_FPS = 30.0  # of a single frame
 
 
@@ -53,7 +54,7 @@ def read_table(path: Path, header: Sequence[str], what: str) -> tuple[np.ndarray
     check_size(path)
     rows = []
     try:
-        with path.open(encoding="utf-8-sig", newline="") as stream:  # spreadsheets add a mark
+        with readable(path), path.open(encoding=ENCODING, newline="") as stream:
             lines = csv.reader(stream)
             if tuple(next(lines, ())) != tuple(header):
                 raise UserError(
@@ -65,10 +66,6 @@ def read_table(path: Path, header: Sequence[str], what: str) -> tuple[np.ndarray
                     rows.append(_numbers(f"{path} line {number}", line, len(header)))
                 if len(rows) > MAX_FRAMES:
                     raise UserError(f"{path}: more than {MAX_FRAMES} frames; split the file")
-    except OSError as error:
-        raise UserError(
-            f"{path}: cannot be read: {error.strerror or error}; name a file that may be read"
-        ) from error
     except (UnicodeDecodeError, csv.Error) as error:
         raise UserError(f"{path}: is not a CSV file in UTF-8 ({error}); save it as such") from error
     table = np.array(rows).reshape(-1, len(header))
@@ -83,9 +80,7 @@ def _numbers(place: str, line: list[str], wanted: int) -> np.ndarray:
         raise UserError(f"{place}: {error}; write a number") from None
     if len(values) != wanted:
         raise UserError(f"{place}: {len(values)} cells, expected {wanted}; write it again")
-    if not np.abs(values).max() < MAX_VALUE:
-        raise UserError(f"{place}: holds NaN or impossibly large values; write it again")
-    return values
+    return check_plausible(f"{place}:", values, MAX_VALUE)
 
 
 def _frame_rate(path: Path, times: np.ndarray, what: str) -> float:

@@ -24,22 +24,21 @@ MAX_SECONDS = 120.0  # of reading one file
 FRAME_RATES = (1.0, 2000.0)  # frames a second that a recording can have
 
 
-def remedied(message: str, remedy: str = "correct it or export the file again") -> str:
+def remedied(message: str) -> str:
     """The message, with what to do about it where it does not say so itself."""
-    return message if ";" in message else f"{message}; {remedy}"
+    return message if ";" in message else f"{message}; correct it or export the file again"
 
 
 class Deadline:
     """Time that reading one file may take."""
 
-    def __init__(self, path: Path, seconds: float = MAX_SECONDS) -> None:
-        self._path, self._seconds = path, seconds
-        self._end = time.monotonic() + seconds
+    def __init__(self, path: Path) -> None:
+        self._path, self._end = path, time.monotonic() + MAX_SECONDS
 
     def check(self) -> None:
         """Raises UserError when the time is over."""
         if time.monotonic() > self._end:
-            raise UserError(f"{self._path}: reading takes more than {self._seconds:g} s; "
+            raise UserError(f"{self._path}: reading takes more than {MAX_SECONDS:g} s; "
                             "split the file")  # fmt: skip
 
 
@@ -73,13 +72,50 @@ def read_bytes(path: Path, max_bytes: int = MAX_BYTES) -> bytes:
         UserError: missing, unreadable, empty or too large.
     """
     check_size(path, max_bytes)
+    with readable(path), path.open("rb") as stream:
+        return stream.read(max_bytes)
+
+
+@contextmanager
+def readable(path: Path, what: str = "file") -> Iterator[None]:
+    """Inside, the system's refusal to read a file is a UserError that names it."""
     try:
-        with path.open("rb") as stream:
-            return stream.read(max_bytes)
+        yield
     except OSError as error:
         raise UserError(
-            f"{path}: cannot be read: {error.strerror or error}; name a file that may be read"
+            f"{path}: cannot be read: {error.strerror or error}; name a {what} that may be read"
         ) from error
+
+
+def check_plausible(
+    where: str, values: np.ndarray, most: float, remedy: str = "write it again"
+) -> np.ndarray:
+    """The values as float64; raises UserError, beginning with `where`, if one is NaN or beyond."""
+    values = values.astype(np.float64)
+    if values.size and not np.abs(values).max() < most:
+        raise UserError(f"{where} holds NaN or impossibly large values; {remedy}")
+    return values
+
+
+def check_numbers(
+    where: str,
+    values: np.ndarray,
+    shape: tuple[int | str, ...],
+    most: float,
+    remedy: str = "write it again",
+) -> np.ndarray:
+    """`check_plausible` of an array of this shape, in which a word, such as "T", is any length.
+
+    Raises:
+        UserError: another shape, no numbers, NaN or impossibly large ones.
+    """
+    sizes = zip(values.shape, shape, strict=False)
+    fits = values.ndim == len(shape) and all(w in (n, str(w)) for n, w in sizes)
+    if not fits or values.dtype.kind not in "fiu":
+        wanted = f"[{', '.join(map(str, shape))}]"
+        raise UserError(f"{where} is {values.dtype}{list(values.shape)}, expected numbers of shape"
+                        f" {wanted}; {remedy}")  # fmt: skip
+    return check_plausible(where, values, most, remedy)
 
 
 def read_arrays(path: Path, wanted: Iterable[str]) -> dict[str, np.ndarray]:
@@ -118,11 +154,8 @@ def read_array(path: Path) -> np.ndarray:
 @contextmanager
 def _told(path: Path) -> Iterator[None]:
     """Name the file in what goes wrong with its arrays."""
-    try:
-        yield
-    except BadArray as error:
-        raise UserError(f"{path}: {error}; write it again") from error
-    except OSError as error:
-        raise UserError(
-            f"{path}: cannot be read: {error.strerror or error}; name a file that may be read"
-        ) from error
+    with readable(path):
+        try:
+            yield
+        except BadArray as error:
+            raise UserError(f"{path}: {error}; write it again") from error

@@ -10,13 +10,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..motion.skeleton import (
-    JOINT_INDEX,
-    JOINT_NAMES,
-    PARENTS,
-    REST_PELVIS_HEIGHT,
-    canonical_skeleton,
-)
+from ..motion.skeleton import JOINT_INDEX, JOINT_NAMES, PARENTS
+from .rig import canonical_rig
 
 Point = tuple[float, float, float]
 
@@ -151,7 +146,7 @@ class Mannequin:
 @lru_cache(maxsize=1)
 def mannequin() -> Mannequin:
     """The one mannequin, built on first use."""
-    rest = _rest_positions()
+    rest = canonical_rig().rest()
     cones = _Cones(rest)
     corners, triangles = _surface_nets(*cones.grid())
     vertices = corners
@@ -185,16 +180,6 @@ def whole_shares(weights: np.ndarray, total: int) -> np.ndarray:
     shares = np.floor(weights.astype(np.float64) * total).astype(np.int64)
     shares[:, 0] += total - shares.sum(-1)
     return shares
-
-
-def _rest_positions() -> np.ndarray:
-    offsets = canonical_skeleton().offsets.astype(np.float64)
-    rest = np.zeros_like(offsets)
-    rest[0] = (0.0, REST_PELVIS_HEIGHT, 0.0)
-    for joint, parent in enumerate(PARENTS):
-        if parent >= 0:
-            rest[joint] = rest[parent] + offsets[joint]
-    return rest
 
 
 class _Cones:

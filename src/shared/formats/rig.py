@@ -4,6 +4,7 @@ Rotations are given from the rest pose with the world's axes, whatever axes the 
 have: a joint at rest has the identity. Files with axes of their own (GLB) keep them in `frames`.
 Legend: T frames, N joints."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol, Self
 
@@ -78,6 +79,15 @@ def compose(
             moved = above @ translations[:, joint, :, None]
             translations[:, joint] = moved[..., 0] + translations[:, parent]
     return translations, rotations
+
+
+def rest_positions(parents: Sequence[int], offsets: np.ndarray) -> np.ndarray:
+    """Places of the joints at rest [N,3] float64, the root at its own offset; offsets [N,3]."""
+    places = offsets.astype(np.float64)
+    for joint, parent in enumerate(parents):
+        if parent >= 0:
+            places[joint] += places[parent]
+    return places
 
 
 # Trunk, then one side; {s} is the side: Left or Right (mixamo, unity), l or r (unreal).
@@ -166,11 +176,7 @@ class Rig:
 
     def rest(self) -> np.ndarray:
         """Position of each joint at rest [N,3]."""
-        positions = self.offsets.astype(np.float64).copy()
-        for joint, parent in enumerate(self.parents):
-            if parent >= 0:
-                positions[joint] += positions[parent]
-        return positions
+        return rest_positions(self.parents, self.offsets)
 
     def children(self, joint: int) -> list[int]:
         """Joints whose parent this one is."""

@@ -7,11 +7,13 @@ before anything is allocated or unpacked; members that nobody asked for are not 
 import io
 import math
 import zipfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import IO
 
 import numpy as np
+
+from .files import atomic_write
 
 MAX_VALUES = 16 << 20  # numbers kept of one array: 128 MB as float64
 _MAX_MEMBERS = 1000  # arrays of one archive
@@ -52,6 +54,20 @@ def load_arrays(
             raise
         except Exception as error:  # a damaged archive fails in zipfile, zlib or numpy, in any way
             raise BadArray(f"is not a whole NPZ file ({error})") from error
+
+
+def write_arrays(
+    arrays: Mapping[str, object], path: str | Path, *, compressed: bool = False
+) -> Path:
+    """Write an NPZ whole or not at all; returns its path.
+
+    Raises:
+        UserError: the file cannot be written.
+    """
+    save = np.savez_compressed if compressed else np.savez
+    with atomic_write(Path(path)) as temporary, temporary.open("wb") as stream:
+        save(stream, **arrays)  # type: ignore[arg-type]
+    return Path(path)
 
 
 def array_names(source: str | Path | bytes) -> tuple[str, ...]:

@@ -180,6 +180,11 @@ def sha256_file(path: Path) -> str:
     return digest.hexdigest()
 
 
+def is_whole(path: Path, sha256: str) -> bool:
+    """Whether a file is there with that content."""
+    return path.exists() and sha256_file(path) == sha256
+
+
 LOCK = ".lock"
 
 

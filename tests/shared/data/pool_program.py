@@ -6,7 +6,7 @@ import sys
 import time
 from pathlib import Path
 
-from src.shared.data.worker_pool import run_jobs
+from src.shared.data.prepare import run_jobs
 from src.shared.errors import UserError
 from src.shared.io.concurrency import orderly_termination
 

@@ -59,7 +59,7 @@ def test_z_up_becomes_y_up(tmp_path: Path) -> None:
     ({"trans": None}, "neither a motion of this project nor AMASS"),
     ({"poses": POSES[:, :60]}, "poses has 60 values"),
     ({"poses": POSES[:5]}, "5 poses and 9 places"),
-    ({"poses": POSES.ravel()}, r"expected numbers of shape \[T,66 or more\]"),
+    ({"poses": POSES.ravel()}, r"expected numbers of shape \[T, 66 or more\]"),
     ({"trans": TRANS * np.nan}, "trans holds NaN"),
     ({"trans": TRANS.astype("U4")}, "trans is"),
     ({"mocap_framerate": None}, "--source-fps"),

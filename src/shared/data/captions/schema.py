@@ -15,7 +15,7 @@ from typing import Any, Self, TypeVar
 from pydantic import ConfigDict, Field, ValidationError, field_validator, model_validator
 
 from ...config_schema import Config
-from ...errors import UserError
+from ...errors import UserError, first_fault
 
 T = TypeVar("T")
 Labels = dict[str, str]
@@ -290,9 +290,7 @@ def validate_language(content: dict[str, Any], source: str) -> LanguageFile:
         return LanguageFile.model_validate(content)
     except ValidationError as error:
         first = error.errors()[0]
-        key = ".".join(str(part) for part in first["loc"])
-        message = first["msg"].removeprefix("Value error, ")
-        where = f"{key}: {message}" if key else message
+        fault = first_fault(error)
         if first["type"] == "extra_forbidden":
-            where = f"{key}: unknown key; check its spelling and its place"
-        raise UserError(f"caption file {source}: {where}") from error
+            fault = fault.replace(first["msg"], "unknown key; check its spelling and its place")
+        raise UserError(f"caption file {source}: {fault}") from error

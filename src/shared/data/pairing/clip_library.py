@@ -22,8 +22,7 @@ from ...motion.rotations import (
     rotation_6d_to_quaternion,
     yaw_quaternion,
 )
-from ..prepared import SYNTHETIC, ClipRecord, PreparedData
-from ..splits import assign_alike
+from ..prepared import SYNTHETIC, ClipRecord, PreparedData, assign_alike
 
 FPS = 30.0
 MARGIN = 6  # frames that stay free around a cut, half a seam

@@ -8,13 +8,13 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...errors import UsageError, UserError
 from ...io.files import sha256_file
-from ..splits import assign_alike
+from ..prepared import assign_alike
 from .pair import MusicBeats, strong_beats
 
 if TYPE_CHECKING:
@@ -76,18 +76,6 @@ class Music:
         return MusicBeats(times - begin, strong_beats(numbers, self.meter))
 
 
-class MusicSource(Protocol):
-    """What pairs take their music from."""
-
-    def entries(self) -> list[SongEntry]:
-        """All songs, in a stable order."""
-        ...
-
-    def read(self, entry: SongEntry) -> Music:
-        """One song; raises UserError where it cannot be used."""
-        ...
-
-
 @dataclass(frozen=True)
 class SyntheticMusic:
     """Rendered songs; the test songs' tempi occur in no other."""
@@ -97,6 +85,7 @@ class SyntheticMusic:
     seconds: float = SYNTHETIC_SECONDS
 
     def entries(self) -> list[SongEntry]:
+        """All songs, in a stable order."""
         return [
             SongEntry(f"synthetic-{self.seed}-{index:05d}", split, repr(spec))
             for index, (split, spec) in enumerate(self.specs())
@@ -114,6 +103,7 @@ class SyntheticMusic:
         return [*zip(splits, seen, strict=True), *(("test", spec) for spec in unseen)]
 
     def read(self, entry: SongEntry) -> Music:
+        """One song."""
         from ...audio.features import extract_features
         from ...audio.sound import sound_from_samples
         from ...audio.synthetic_songs import render_song
@@ -143,6 +133,7 @@ class FolderMusic:
     seed: int = 0
 
     def entries(self) -> list[SongEntry]:
+        """All songs, in a stable order; raises UserError where there is none."""
         found = sorted(
             path
             for path in self.root.rglob("*")
@@ -170,6 +161,7 @@ class FolderMusic:
         return entries
 
     def read(self, entry: SongEntry) -> Music:
+        """One song; raises UserError where it cannot be used."""
         from ...audio.song import analyse
 
         song = analyse(self.root / entry.path, meter=self.meter)
@@ -182,6 +174,9 @@ class FolderMusic:
             float(beats.tempo),
             beats.meter,
         )
+
+
+MusicSource = SyntheticMusic | FolderMusic
 
 
 def _slug(name: str) -> str:

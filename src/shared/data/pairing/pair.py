@@ -121,8 +121,6 @@ def pair_phrase(
     beats: MusicBeats,
     num_frames: int,
     rng: np.random.Generator,
-    *,
-    tries: int = TRIES,
 ) -> PhrasePair | None:
     """Make a motion for a phrase.
 
@@ -134,7 +132,6 @@ def pair_phrase(
         beats: of the music; neighbours beyond the phrase's ends are welcome.
         num_frames: T.
         rng: makes every choice.
-        tries: motions of one kind to choose from.
 
     Returns:
         The best; None where there is no beat or no clip fits its tempo.
@@ -145,7 +142,7 @@ def pair_phrase(
         suitable, grid = choices[int(len(choices) > 1 and rng.random() < GROUP_SHARE)]
         weights = kind_weights(suitable)
         kind = list(weights)[int(rng.choice(len(weights), p=list(weights.values())))]
-        for _ in range(tries):
+        for _ in range(TRIES):
             made = _warped(suitable, kind, grid, beats.times, num_frames, rng)
             if best is None or made.score > best.score:
                 best = made

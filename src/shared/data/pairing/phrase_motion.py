@@ -20,7 +20,7 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import lsq_linear
 from torch import Tensor
 
-from ...io.files import sha256_file, write_json
+from ...io.files import is_whole, write_json
 from ...motion.features import (
     FORWARD,
     HEIGHT,
@@ -140,10 +140,10 @@ def plain_warp(seconds: float, start: float = 0.0) -> Warp:
     return Warp(start, (1.0,) * knots_for(seconds))
 
 
-def fit_warp(
-    motion: np.ndarray, music: np.ndarray, seconds: float, lead: float, *, limit: float = LIMIT
-) -> Warp:
+def fit_warp(motion: np.ndarray, music: np.ndarray, seconds: float, lead: float) -> Warp:
     """The smoothest warp that shows motion second `motion[n]` at phrase second `music[n]`.
+
+    Rates stay within [1 - LIMIT, 1 + LIMIT].
 
     Bounded linear least squares in the knots' rates: hits within 10 ms weigh as much as a
     curvature of the rate of 0.05 per knot.
@@ -152,7 +152,6 @@ def fit_warp(
         motion, music: matched seconds [N] each; none gives the plain warp.
         seconds: length of the phrase.
         lead: largest `start`.
-        limit: rates stay within [1-limit, 1+limit].
     """
     if not len(motion):
         return plain_warp(seconds, lead / 2)
@@ -165,10 +164,10 @@ def fit_warp(
     stay[:, 1:] = np.eye(k)
     matrix = np.concatenate((hits, bend / 0.05, stay / 0.5))
     target = np.concatenate((motion / 0.01, np.zeros(len(bend)), np.full(k, 1 / 0.5)))
-    low = np.array([0.0] + [1 - limit] * k)
-    high = np.array([max(lead, 1e-6)] + [1 + limit] * k)
+    low = np.array([0.0] + [1 - LIMIT] * k)
+    high = np.array([max(lead, 1e-6)] + [1 + LIMIT] * k)
     solution = lsq_linear(matrix, target, (low, high)).x
-    rates = np.clip(np.round(solution[1:], RATE_DIGITS), 1 - limit, 1 + limit)
+    rates = np.clip(np.round(solution[1:], RATE_DIGITS), 1 - LIMIT, 1 + LIMIT)
     return Warp(round(float(solution[0]), RATE_DIGITS), tuple(float(rate) for rate in rates))
 
 
@@ -347,7 +346,7 @@ def add_bodies(out: Path, entries: Sequence[Entry], data: PreparedData) -> None:
     records = {record.id: record for record in data.records()}
     for entry in entries:
         stored = StoredObject(**entry["body"]) if "body" in entry else None
-        if stored is None or not is_whole(out, stored):
+        if stored is None or not is_whole(out / stored.path, stored.sha256):
             pieces, warp = read_pair(entry["pair"])
             frames = entry["pair"]["frames"]
             features = phrase_body(pieces, warp, frames, lambda n: data.features(records[n]))
@@ -365,12 +364,6 @@ def add_bodies(out: Path, entries: Sequence[Entry], data: PreparedData) -> None:
             "caption": _one_of(spoken, entry["id"]),
             "clips": sorted({part["clip"].removesuffix(MIRRORED) for part in parts}),
         }
-
-
-def is_whole(out: Path, stored: StoredObject) -> bool:
-    """Whether a file is there with the content that its record describes."""
-    path = out / stored.path
-    return path.exists() and sha256_file(path) == stored.sha256
 
 
 def _one_of(captions: Sequence[str], name: str) -> str:

@@ -38,11 +38,10 @@ from ...motion.style import measure_style
 from ...motion.trajectory import STYLE, MotionTrajectory
 from ...motion.window import encode_window
 from ..phrases.layout import PhraseRecord, features_path, trajectory_path, write_phrase
-from ..prepare import prepare
+from ..prepare import finished_record, is_whole, prepare, run_jobs
 from ..prepared import PreparedData
 from ..sources.caption_tables import Piece
 from ..sources.folders import MotionFolder
-from ..worker_pool import finished_record, is_whole, run_jobs
 from .clip_library import FPS, MARGIN, Clip, ClipLibrary, open_library
 from .music import Music, MusicSource, SongEntry
 from .pair import MIN_SCORE, PhrasePair, pair_phrase

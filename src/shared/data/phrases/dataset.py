@@ -402,34 +402,30 @@ LEAST_STD = 1e-3
 FEATURE_ROWS = 163  # of sound; phases are no features
 
 
-def motion_statistics(
-    dataset: MotionPhraseDataset, most: int = MOST, least_std: float = LEAST_STD
-) -> tuple[Tensor, Tensor]:
-    """Mean and standard deviation [25] of the window rows over real frames of up to `most` items.
+def motion_statistics(dataset: MotionPhraseDataset) -> tuple[Tensor, Tensor]:
+    """Mean and standard deviation [25] of the window rows over real frames of up to `MOST` items.
 
     Raises:
         UserError: no phrase can be used.
     """
-    return _statistics(dataset, lambda item: item.motion, most, least_std)
+    return _statistics(dataset, lambda item: item.motion)
 
 
-def sound_statistics(
-    dataset: MotionPhraseDataset, most: int = MOST, least_std: float = LEAST_STD
-) -> tuple[Tensor, Tensor]:
+def sound_statistics(dataset: MotionPhraseDataset) -> tuple[Tensor, Tensor]:
     """Mean and standard deviation [163] of the features of sound, as `motion_statistics`.
 
     Raises:
         UserError: no phrase can be used.
     """
-    return _statistics(dataset, lambda item: item.audio[:FEATURE_ROWS], most, least_std)
+    return _statistics(dataset, lambda item: item.audio[:FEATURE_ROWS])
 
 
 def _statistics(
-    dataset: MotionPhraseDataset, rows: Callable[[PhraseItem], Tensor], most: int, least_std: float
+    dataset: MotionPhraseDataset, rows: Callable[[PhraseItem], Tensor]
 ) -> tuple[Tensor, Tensor]:
     count, total, squares = 0, np.zeros(1), np.zeros(1)
     for number, item in enumerate(dataset.epoch(0)):
-        if number == most:
+        if number == MOST:
             break
         values = rows(item)[:, item.mask].numpy().astype(np.float64)
         count += values.shape[1]
@@ -437,5 +433,5 @@ def _statistics(
     if count == 0:
         raise UserError(f"{dataset.root} has no phrase that can be used; prepare it again")
     mean = total / count
-    std = np.sqrt(np.maximum(squares / count - mean**2, 0)).clip(least_std)
+    std = np.sqrt(np.maximum(squares / count - mean**2, 0)).clip(LEAST_STD)
     return torch.from_numpy(mean).float(), torch.from_numpy(std).float()

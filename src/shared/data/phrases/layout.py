@@ -17,7 +17,7 @@ from pydantic import BaseModel, ValidationError, field_validator
 
 from ...audio.features import AudioFeatures
 from ...errors import UserError, first_fault
-from ...io.arrays import BadArray, load_array, load_arrays
+from ...io.arrays import BadArray, load_array, load_arrays, write_arrays
 from ...io.files import atomic_write, sha256_file, write_text
 
 MANIFEST = "manifest.json"
@@ -128,9 +128,8 @@ def body_path(phrase: str) -> str:
 
 def write_body(root: Path, phrase: str, features: np.ndarray) -> StoredObject:
     """Write the body [T,23,6] of a phrase under a folder; returns what the manifest says of it."""
-    path = root / body_path(phrase)
-    with atomic_write(path) as temporary, temporary.open("wb") as stream:
-        np.savez_compressed(stream, features=np.asarray(features, np.float16))
+    arrays = {"features": np.asarray(features, np.float16)}
+    write_arrays(arrays, root / body_path(phrase), compressed=True)
     return _stored(root, body_path(phrase))
 
 
@@ -152,8 +151,7 @@ def write_phrase(
     motion, sound = root / trajectory_path(phrase), root / features_path(phrase)
     with atomic_write(motion) as temporary, temporary.open("wb") as stream:
         np.save(stream, np.asarray(trajectory, np.float32))
-    with atomic_write(sound) as temporary, temporary.open("wb") as stream:
-        np.savez(stream, **features)
+    write_arrays(features, sound)
     (root / body_path(phrase)).unlink(missing_ok=True)  # of another motion
     return record_phrase(root, phrase, **about)
 

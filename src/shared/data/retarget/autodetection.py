@@ -12,7 +12,7 @@ import numpy as np
 
 from ...errors import UsageError
 from ...formats.readers.humanml import BENDS, LEFT, UP
-from ...formats.rig import SourceClip
+from ...formats.rig import SourceClip, rest_positions
 from ...motion.skeleton import JOINT_INDEX, JOINT_NAMES, PARENTS, canonical_skeleton
 from .mapping import SkeletonMapping
 
@@ -107,7 +107,7 @@ def rest_frame(clip: SourceClip, mapping: SkeletonMapping) -> np.ndarray | None:
 
     None when the rest pose is no standing body: bones that all lie along one axis, say.
     """
-    j, rest = joint_indices(clip, mapping), rest_positions(clip)
+    j, rest = joint_indices(clip, mapping), rest_positions(clip.parents, clip.offsets)
     left = rest[j["l_hip"]] - rest[j["r_hip"]] + rest[j["l_shoulder"]] - rest[j["r_shoulder"]]
     body = rest[j["head"]] - rest[j["pelvis"]]
     legs = [(rest[j[f"{s}_{a}"]] - rest[j[f"{s}_{b}"]]) for s in "lr"
@@ -125,15 +125,6 @@ def rest_frame(clip: SourceClip, mapping: SkeletonMapping) -> np.ndarray | None:
     if any(v @ axes[1] < 0.5 * np.linalg.norm(v) for v in for_up) or axes[0] @ axes[1]:
         return None
     return np.stack([axes[0], axes[1], np.cross(axes[0], axes[1])])
-
-
-def rest_positions(clip: SourceClip) -> np.ndarray:
-    """Places of the joints at rest [N,3], the first at its own offset."""
-    places = clip.offsets.astype(np.float64).copy()
-    for joint, parent in enumerate(clip.parents):
-        if parent >= 0:
-            places[joint] += places[parent]
-    return places
 
 
 def joint_indices(clip: SourceClip, mapping: SkeletonMapping) -> dict[str, int]:

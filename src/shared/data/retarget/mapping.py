@@ -22,7 +22,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, ValidationError, field_validator
 
 from ...config_loader import load_yaml, packaged_config
-from ...errors import UsageError, UserError
+from ...errors import UsageError, UserError, first_fault
 from ...formats.rig import SourceClip
 from ...motion.skeleton import JOINT_NAMES
 
@@ -39,12 +39,9 @@ def load_table(path: str | Path, table_class: type[Table]) -> Table:
     try:
         return table_class.model_validate(load_yaml(path))
     except ValidationError as error:
-        first = error.errors()[0]
-        key = ".".join(str(part) for part in first["loc"])
-        message = first["msg"].removeprefix("Value error, ")
-        message = message.replace("Input should be a valid tuple", "should be a list")
-        message = message.replace("Input should be", "should be")
-        raise UsageError(f"{path}: {key}: {message}; mend the file") from None
+        fault = first_fault(error).replace("Input should be a valid tuple", "should be a list")
+        fault = fault.replace("Input should be", "should be")
+        raise UsageError(f"{path}: {fault}; mend the file") from None
 
 
 Axis = Literal["+X", "-X", "+Y", "-Y", "+Z", "-Z"]

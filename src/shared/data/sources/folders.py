@@ -6,12 +6,12 @@ file names and from the words of captions, by YAML rules.
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, field_validator
@@ -26,6 +26,9 @@ from ..retarget.mapping import SkeletonMapping, load_mappings, load_table, words
 from ..retarget.read_motion import FOLDER_ENDINGS, fit, open_recording
 from ..retarget.to_canonical import on_floor
 from .caption_tables import Piece, Table, match_captions, read_captions, without_ending
+
+if TYPE_CHECKING:
+    from ..synthetic.clips import SyntheticSpec
 
 
 class _Rule(BaseModel):
@@ -112,27 +115,6 @@ class RawClip:
 
 class Skipped(Exception):
     """A clip is left out on purpose; the text says why."""
-
-
-class Source(Protocol):
-    """What `prepare` reads from."""
-
-    @property
-    def name(self) -> str:
-        """Prefix of the clips' ids."""
-        ...
-
-    def items(self) -> list[str]:
-        """Names of all clips, in a stable order."""
-        ...
-
-    def fingerprint(self, item: str) -> str:
-        """Changes when the clip behind the item changes."""
-        ...
-
-    def read(self, item: str) -> RawClip:
-        """Read one clip; raises UserError or ValueError (a fault) or Skipped (a decision)."""
-        ...
 
 
 @dataclass(frozen=True)
@@ -235,6 +217,7 @@ class MotionFolder:
         return "/".join(self.root.resolve().parts[-1 - above : -1])
 
     def items(self) -> list[str]:
+        """Names of all clips, in a stable order."""
         return list(self._pieces)
 
     @cached_property
@@ -262,6 +245,7 @@ class MotionFolder:
         return self.root if self.root.is_file() else self.root / item
 
     def fingerprint(self, item: str) -> str:
+        """Changes when the clip behind the item changes."""
         path = self._path(self._pieces[item][0])
         parts = [path]
         if path.suffix.lower() == ".amc":
@@ -279,6 +263,7 @@ class MotionFolder:
         ]
 
     def read(self, item: str) -> RawClip:
+        """Read one clip; raises UserError or ValueError (a fault) or Skipped (a decision)."""
         file, piece = self._pieces[item]
         path = self._path(file)
         labels, skip = self.rules.of_file(path.stem)
@@ -388,20 +373,12 @@ class SyntheticSource:
         return RawClip(item, item, motion, dict(spec.labels), {}, "procedural")
 
 
-_SPECS: dict[tuple[int, int], list[Any]] = {}
-
-
-def _specs(num_clips: int, seed: int) -> list[Any]:
+@cache
+def _specs(num_clips: int, seed: int) -> list["SyntheticSpec"]:
     """Specifications of a synthetic set, made once a process."""
     from ..synthetic.clips import sample_specs
 
-    if (num_clips, seed) not in _SPECS:
-        _SPECS[num_clips, seed] = sample_specs(num_clips, seed)
-    return _SPECS[num_clips, seed]
+    return sample_specs(num_clips, seed)
 
 
-def all_items(sources: list[Source]) -> Iterator[tuple[int, str]]:
-    """(index of the source, item) of every clip."""
-    for index, source in enumerate(sources):
-        for item in source.items():
-            yield index, item
+Source = MotionFolder | SyntheticSource  # what `prepare` reads from

@@ -46,7 +46,6 @@ def render_strip(
     *,
     panel: tuple[int, int] = (190, 270),
     azimuth: float = AZIMUTH,
-    titles: Sequence[str] | None = None,
 ) -> Path:
     """Draw `frames` evenly spaced poses of each motion, one motion a row, and save a PNG.
 
@@ -56,7 +55,6 @@ def render_strip(
         frames: poses a row.
         panel: width and height of one pose in pixels.
         azimuth: camera angle in radians; 0 looks at the face of a character that faces +Z.
-        titles: one line a row instead of each motion's text.
 
     Raises:
         UserError: no motion, or Pillow is not installed.
@@ -70,7 +68,7 @@ def render_strip(
     sheet, draw = new_sheet(width, height)
     for row, motion in enumerate(rows):
         top = row * (size[1] + header)
-        title = titles[row] if titles else motion.text or f"motion {row + 1}"
+        title = motion.text or f"motion {row + 1}"
         draw.text((8 * OVERSAMPLE, top + 5 * OVERSAMPLE), title, INK, font(14 * OVERSAMPLE, title))
         picks = np.linspace(0, motion.num_frames - 1, frames).round().astype(int)
         positions, rotations = motion.positions(), motion.global_rotations()

@@ -24,6 +24,7 @@ from ..limits import (
     Deadline,
     check_size,
     read_bytes,
+    readable,
     remedied,
 )
 from ..rig import ALL, compose
@@ -323,16 +324,13 @@ def read_amc(
     check_size(path)
     asf = read_asf(Path(skeleton) if skeleton else find_skeleton(path))
     reader = _MotionReader(path, asf)
-    try:
+    with readable(path):
         with path.open("rb") as start:
             head = start.read(MAX_LINE)
         newline = "\r" if b"\r" in head and b"\n" not in head else "\n"
         with path.open(encoding="latin-1", newline=newline) as stream:
             while line := stream.readline(MAX_LINE):
                 reader.take(line)
-    except OSError as error:
-        raise UserError(f"{path}: cannot be read: {error.strerror or error}; "
-                        "name a file that may be read") from error  # fmt: skip
     reader.finish_frame()
     if not reader.frames:
         raise UserError(f"{path}: holds no frames: not an AMC motion, or cut off; export it again")

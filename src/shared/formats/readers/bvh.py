@@ -25,6 +25,7 @@ from ..limits import (
     MAX_VALUE,
     Deadline,
     check_size,
+    readable,
     remedied,
 )
 from ..rig import ALL, compose
@@ -464,12 +465,8 @@ def check_head(path: Path) -> None:
 def _opened(path: Path) -> Iterator[IO[bytes]]:
     """The file's bytes; what is wrong with them names file and line."""
     try:
-        with path.open("rb") as stream:
+        with readable(path, "BVH file"), path.open("rb") as stream:
             yield stream
     except BvhError as error:
         place = f", line {error.line}" if error.line else ""
         raise UserError(f"{path}{place}: {remedied(str(error))}") from None
-    except OSError as error:
-        raise UserError(
-            f"{path}: cannot be read: {error.strerror or error}; name a BVH file that may be read"
-        ) from error

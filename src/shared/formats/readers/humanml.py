@@ -21,7 +21,7 @@ import numpy as np
 
 from ...errors import UserError
 from ...motion.skeleton import JOINT_INDEX, NUM_JOINTS, PARENTS, canonical_skeleton
-from ..limits import read_array
+from ..limits import check_plausible, read_array
 from ..rig import JointClip
 
 FPS = 20.0
@@ -43,9 +43,7 @@ def read_humanml(path: str | Path, *, fps: float | None = None) -> JointClip:
         raise UserError(f"{path}: is {array.dtype}{list(array.shape)}, expected joint positions "
                         f"[T,{NUM_JOINTS},3] or HumanML3D vectors [T,{FEATURES}]; "
                         "save one of the two")  # fmt: skip
-    array = array.astype(np.float64)
-    if not np.abs(array).max() < MAX_VALUE:
-        raise UserError(f"{path}: holds NaN or impossibly large values; write it again")
+    array = check_plausible(f"{path}:", array, MAX_VALUE)
     positions = array if array.ndim == 3 else positions_of_features(array)
     bones = np.linalg.norm(positions[:, 1:] - positions[:, list(PARENTS[1:])], axis=-1)
     if (bones.std(0) > SPREAD * bones.mean(0).max()).any() or not bones.mean(0).max() > 0.01:

@@ -16,10 +16,9 @@ import numpy as np
 
 from ...motion.motion import Motion
 from ...motion.trajectory import MotionTrajectory
-from ..glb_file import INDEX_DATA, VERTEX_DATA, GlbFile
 from ..mannequin import Mannequin, mannequin, side_colours, whole_shares
 from ..preview.trajectory import proxy_body
-from ..readers.glb import GlbSkeleton
+from ..readers.glb import INDEX_DATA, VERTEX_DATA, GlbFile, GlbSkeleton
 from ..rig import (
     Rig,
     RigClip,

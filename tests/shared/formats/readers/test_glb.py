@@ -12,8 +12,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation, Slerp
 
 from src.shared.errors import UserError
-from src.shared.formats.glb_file import GlbFile
-from src.shared.formats.readers.glb import read_glb, read_glb_skeleton
+from src.shared.formats.readers.glb import GlbFile, read_glb, read_glb_skeleton
 from src.shared.formats.writers.glb import write_glb, write_glb_clip
 from tests.shared.formats.rigs import random_clip
 from tests.shared.formats.writers.test_bvh import random_motion
