@@ -13,7 +13,6 @@ if TYPE_CHECKING:
     from ..shared.audio.song import Song
 
 CHROMA = ("fast", "cqt")
-METERS = range(2, 13)
 
 
 def features(
@@ -39,10 +38,7 @@ def features(
     """
     if chroma not in CHROMA:
         raise UsageError(f"--chroma {chroma} is unknown; choose from {', '.join(CHROMA)}")
-    if meter is not None and meter not in METERS:
-        raise UsageError(
-            f"--meter {meter} is out of range; choose from {METERS[0]} to {METERS[-1]}"
-        )
+    options.check_ranges(meter=meter)
     check_suffix("--out", out, ".npz")
     if plot is not None:
         check_suffix("--plot", plot, ".png")

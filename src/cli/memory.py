@@ -10,7 +10,7 @@ from ..shared.environment import TEXT_MODEL
 from ..shared.errors import UsageError, printable
 from . import options
 from .console import complain, guarded, print_json, tell, with_quiet
-from .help_page import Command
+from .options import Command
 
 if TYPE_CHECKING:
     from ..shared.memory.index import MemoryConfig, MemoryIndex

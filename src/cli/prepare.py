@@ -171,16 +171,12 @@ def prepare_audio(
       motion-tools prepare-audio --motion data/mine --music my-songs --out data/pairs
       motion-tools prepare-audio --motion synthetic --music synthetic:100 --out data/pairs
     """
-    options.check_ranges(workers=workers, seed=seed)
+    options.check_ranges(workers=workers, seed=seed, meter=meter, passes=passes)
     if not 2.0 <= min_seconds <= max_seconds <= 120.0:
         raise UsageError(
             f"--min-seconds {min_seconds:g} and --max-seconds {max_seconds:g}: choose"
             " 2 <= min <= max <= 120"
         )
-    if meter is not None and not 2 <= meter <= 12:
-        raise UsageError(f"--meter {meter} is out of range; choose from 2 to 12")
-    if not 1 <= passes <= 100:
-        raise UsageError(f"--passes {passes} is out of range; choose from 1 to 100")
     if motion != "synthetic" and not Path(motion).is_dir():
         raise UsageError(f"--motion {motion} is no folder; name one, or synthetic")
     options.check_folder("--out", out)

@@ -9,10 +9,8 @@ from typing import Annotated
 
 import typer
 
-from .calibrate import calibrate
-from .compare import compare
 from .console import guarded, results_on_stdout, with_quiet
-from .convert import convert
+from .convert import convert, inspect
 from .evaluate import evaluate
 from .evaluate_audio import evaluate_audio
 from .evaluate_memory import evaluate_memory
@@ -23,13 +21,11 @@ from .evaluate_selection import evaluate_selection
 from .evaluate_space import evaluate_space
 from .features import features
 from .generate import generate
-from .help_page import Command, SuiteCommand
-from .inspect import inspect
 from .memory import memory
-from .models import export_onnx, models
-from .plot import plot
+from .models import calibrate, export_onnx, models
+from .options import Command, SuiteCommand
 from .prepare import prepare, prepare_audio
-from .report import report
+from .report import compare, plot, report
 from .shape_check import shape_check
 from .train import train
 
