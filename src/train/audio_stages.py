@@ -4,20 +4,21 @@ Letters: B batch, T frames, C rows of sound.
 """
 
 import math
-from collections.abc import Sequence
+from abc import abstractmethod
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, ClassVar
 
 import torch
 from pydantic import Field
-from torch import Tensor
+from torch import Tensor, nn
 from torch.nn import functional as F
 
 from ..shared.config_audio import AudioNetworkConfig
 from ..shared.config_loader import NETWORK_PREFIX, dump_config, load_config
 from ..shared.config_schema import TrainConfig
-from ..shared.data.phrases.dataset import EmptySplit, MotionPhraseDataset, PhraseBatch
+from ..shared.data.phrases.dataset import EmptySplit, MotionPhraseDataset, PhraseBatch, PhraseItem
 from ..shared.data.prepare import open_data
 from ..shared.data.prepared import SYNTHETIC
 from ..shared.environment import DATA_DIR
@@ -28,8 +29,9 @@ from ..shared.model.audio.decoder import wrapped_phase
 from ..shared.model.audio.unet import MIN_FRAMES
 from ..shared.model.checkpoint import read_card
 from ..shared.model.zoo import resolve_model, wrong_kind
-from ..shared.motion.trajectory import PHASE
+from ..shared.motion.trajectory import PHASE, MotionTrajectory
 from .run_log import announce, console
+from .task import Part, Task, generator
 
 SYNTHETIC_SONGS = 40
 
@@ -129,17 +131,53 @@ def save_noted(model: AudioMotionModel, folder: Path, **noted: Any) -> None:
     model.save_pretrained(folder)
 
 
-def export_song(model: AudioMotionModel, phrases: MotionPhraseDataset, folder: Path) -> None:
-    """The first phrase's sound, made into a trajectory: a picture of it in `folder`."""
-    from ..shared.formats.registry import write_trajectory
-    from ..shared.pipelines.song_sampler import SongSampler
+class PhraseTask(Task):
+    """A task that learns trajectories from sound, in windows of phrases.
 
-    item = phrases.item(0, 0)
-    if item is None:
-        return
-    folder.mkdir(parents=True, exist_ok=True)
-    made = SongSampler(model).sample(item.audio)[0]
-    write_trajectory(made, folder / "held-back.png")
+    Attributes:
+        train, held_back: the phrases.
+        model: on the CPU; the module holds what is trained of it.
+    """
+
+    config: PhraseConfig
+    train: MotionPhraseDataset
+    held_back: MotionPhraseDataset
+    model: AudioMotionModel
+
+    def batch(self, part: Part) -> Any:
+        """Windows with what is drawn for them."""
+        size, draws = self.config.batch_size, ("noise", self.config.seed, part.step, part.index)
+        phrases = self.train.batch(part.step, size, index=part.index, count=part.count)
+        return self._drawn(phrases, generator(*draws))
+
+    @abstractmethod
+    def _drawn(self, phrases: PhraseBatch, draws: torch.Generator) -> Any:
+        """A training batch of these phrases."""
+
+    @abstractmethod
+    def _finished(self, module: nn.Module) -> AudioMotionModel:
+        """The model with the weights of a module."""
+
+    def export_samples(self, module: nn.Module, folder: Path) -> None:
+        """A held-back phrase's sound, made into a trajectory: a picture of it."""
+        from ..shared.formats.registry import write_trajectory
+
+        item, model = self.held_back.item(0, 0), self._finished(module)
+        if item is not None:
+            folder.mkdir(parents=True, exist_ok=True)
+            write_trajectory(self._sample(model, item), folder / "held-back.png")
+
+    def _sample(self, model: AudioMotionModel, item: PhraseItem) -> MotionTrajectory:
+        """A trajectory for the sound of a phrase."""
+        from ..shared.pipelines.song_sampler import SongSampler
+
+        return SongSampler(model).sample(item.audio)[0]
+
+
+def add_shares(sums: dict[str, float], figures: Mapping[str, Tensor], count: int) -> None:
+    """Add to means over `count` batches the figures of one of them."""
+    for key, value in figures.items():
+        sums[key] = sums.get(key, 0.0) + value.item() / count
 
 
 DECODER_PREFIX = NETWORK_PREFIX + "decoder."

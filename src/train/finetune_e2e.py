@@ -38,8 +38,8 @@ from ..shared.model.diffusion.samplers import DDIMSampler
 from ..shared.motion.trajectory import FPS, POSITION, QUATERNION
 from ..shared.pipelines.song_sampler import SPARE, holding
 from .audio_stages import (
+    add_shares,
     bar_phase_at_start,
-    export_song,
     network_of,
     open_phrases,
     save_noted,
@@ -300,9 +300,7 @@ class FinetuneE2eTask(AudioTask):
             batch = to_device(self._completed(phrases, audio, draws, index), device)
             with autocast(self.compute):
                 losses = module(batch)
-            for key, value in losses.items():
-                share = value.item() / self.config.validation_batches
-                sums[key] = sums.get(key, 0.0) + share
+            add_shares(sums, losses, self.config.validation_batches)
         self.figures = sums
         before = [epoch.loss for epoch in self.epochs()]
         if not before or as_logged(sums["loss"]) < min(before):
@@ -319,10 +317,6 @@ class FinetuneE2eTask(AudioTask):
         return epochs[-1].number - best_epoch(epochs).number >= self.config.patience
 
     # ------------------------------------------------------------ results
-
-    def export_samples(self, module: nn.Module, folder: Path) -> None:
-        """A held-back phrase's sound, made into a trajectory: a picture of it."""
-        export_song(self._finished(module), self.held_back, folder)
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """The best weights as a folder like the one that was read; training_log.json; a table."""

@@ -9,7 +9,7 @@ Letters: N prompts or captions, D embed dim, H width of the encoder.
 
 import copy
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Self
@@ -20,7 +20,7 @@ from safetensors import safe_open
 from safetensors.torch import save_file
 from torch import Tensor
 
-from ..shared.config_schema import NetworkConfig, TrainConfig
+from ..shared.config_schema import ClipConfig, NetworkConfig, TrainConfig
 from ..shared.data.captions.book import packaged_book
 from ..shared.data.captions.word_dropout import insert_babble
 from ..shared.data.prepare import open_data
@@ -217,6 +217,13 @@ def fit_style_map(
 
 MEANS_FILE = "caption-means.safetensors"  # in the output folder: a resumed run reads it
 CHUNK = 128  # captions of one call
+
+
+def new_tokenizer(clip: ClipConfig, captions: Callable[[], Sequence[str]]) -> PromptTokenizer:
+    """A pretrained encoder's own, or, for an encoder of ours, one trained on `captions`."""
+    if clip.text_model not in OWN:
+        return PromptTokenizer.from_pretrained(clip.text_model, max_tokens=clip.max_tokens)
+    return PromptTokenizer.train(captions(), clip.text_vocab_size, max_tokens=clip.max_tokens)
 
 
 def encoder_rates(tower: TextTower, prefix: str, rate: float) -> dict[str, float]:

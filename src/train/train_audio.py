@@ -19,7 +19,7 @@ from pydantic import Field
 from torch import Tensor, nn
 
 from ..shared.config_audio import AudioNetworkConfig
-from ..shared.data.phrases.dataset import MotionPhraseDataset, PhraseBatch, motion_statistics
+from ..shared.data.phrases.dataset import PhraseBatch, motion_statistics
 from ..shared.device import autocast, choose_compute
 from ..shared.errors import UsageError
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
@@ -30,9 +30,9 @@ from ..shared.model.audio.conditioning import (
 )
 from ..shared.model.diffusion.gaussian import GaussianDiffusion, masked_loss
 from ..shared.motion.trajectory import FPS, POSITION, QUATERNION, STYLE
-from .audio_stages import PhraseConfig, export_song, open_held_back, open_phrases, save_noted
+from .audio_stages import PhraseConfig, PhraseTask, open_held_back, open_phrases, save_noted
 from .launch import Stage
-from .task import Part, Task, generator, to_device
+from .task import generator, to_device
 from .train_generation import NOISE_LEVELS, spread_timesteps
 
 
@@ -111,14 +111,16 @@ def _velocity_error(x_0: Tensor, batch: AudioBatch, std: Tensor) -> Tensor:
     return masked_loss(speed, torch.zeros_like(speed), "mse", mask=mask, time_dim=2)
 
 
-class AudioTask(Task):
+class AudioTask(PhraseTask):
     """What the trainer needs to know (src/train/task.py)."""
+
+    config: TrainAudioConfig
 
     def __init__(self, config: TrainAudioConfig, network: AudioNetworkConfig) -> None:
         self.config = config
         self.network = network.model_copy(update={"window": config.target_frames})
-        self.train: MotionPhraseDataset = open_phrases(config, "train", config.num_phrases)
-        self.held_back: MotionPhraseDataset = open_held_back(config)
+        self.train = open_phrases(config, "train", config.num_phrases)
+        self.held_back = open_held_back(config)
         self.model = self._start()
         self.mean, self.std = self.model.mean.clone(), self.model.std.clone()
         # a copy: samples are made by the task's own model, with averaged weights, on the CPU
@@ -157,18 +159,11 @@ class AudioTask(Task):
 
     # ------------------------------------------------------------ batches
 
-    def batch(self, part: Part) -> Any:
-        """Windows with noise, steps, what is known and what is dropped."""
-        phrases = self.train.batch(
-            part.step, self.config.batch_size, index=part.index, count=part.count
-        )
-        return self._drawn(phrases, generator("noise", self.config.seed, part.step, part.index))
-
     def _drawn(self, phrases: PhraseBatch, draws: torch.Generator) -> Any:
-        """A training batch of these phrases."""
         return self._drawn_audio(phrases, draws)
 
     def _drawn_audio(self, phrases: PhraseBatch, draws: torch.Generator) -> AudioBatch:
+        """Windows with noise, steps, what is known and what is dropped."""
         timesteps = spread_timesteps(len(phrases), self.diffusion.config.timesteps, draws)
         known = self._known(phrases, draws)
         drop = self.augment.draw_drop(len(phrases), draws)
@@ -235,10 +230,6 @@ class AudioTask(Task):
         return self.figures
 
     # ------------------------------------------------------------ results
-
-    def export_samples(self, module: nn.Module, folder: Path) -> None:
-        """A held-back phrase's sound, made into a trajectory: a picture of it."""
-        export_song(self._finished(module), self.held_back, folder)
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """A folder that train_decoder, finetune_e2e and `generate --audio` read."""

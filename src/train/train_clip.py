@@ -24,15 +24,15 @@ from ..shared.data.text_motion import TextMotionBatch
 from ..shared.errors import UsageError
 from ..shared.metrics.retrieval import BATCH, TOP, guo_retrieval
 from ..shared.model.checkpoint import ModelCard
-from ..shared.model.clip.core import OWN, PAIRS, MotionClip, clip_loss
+from ..shared.model.clip.core import PAIRS, MotionClip, clip_loss
 from ..shared.model.clip.pretrained import KIND, ClipBundle, load_text_tower, tower_hash
-from ..shared.model.clip.tokenizer import PromptTokenizer
 from .launch import Stage
 from .task import Part, Task, numpy_generator
 from .text_stages import (
     can_retrieve,
     encoder_rates,
     motion_rows,
+    new_tokenizer,
     open_training_data,
     training_set,
     validation_set,
@@ -107,7 +107,7 @@ class ClipTask(Task):
             )
         clip = MotionClip(network)
         if config.text is None:
-            self.tokenizer = self._tokenizer()
+            self.tokenizer = new_tokenizer(network.clip, self._captions)
         else:
             clip.text, self.tokenizer = load_text_tower(config.text, network.embed_dim)
         nn.init.constant_(clip.logit_scale, -math.log(config.temperature))
@@ -116,13 +116,9 @@ class ClipTask(Task):
         self.module = ClipObjective(clip)
         self.figures = {}
 
-    def _tokenizer(self) -> PromptTokenizer:
-        clip = self.network.clip
-        if clip.text_model not in OWN:
-            return PromptTokenizer.from_pretrained(clip.text_model, max_tokens=clip.max_tokens)
+    def _captions(self) -> list[str]:
         captions = self.data.all_captions("train")
-        used = [text for language in self.config.languages for text in captions.get(language, [])]
-        return PromptTokenizer.train(used, clip.text_vocab_size, max_tokens=clip.max_tokens)
+        return [text for language in self.config.languages for text in captions.get(language, [])]
 
     def identity(self) -> dict[str, Any]:
         """A resumed run must have the same network, see the same clips and keep the same tower."""

@@ -29,8 +29,9 @@ from ..shared.motion.trajectory import PHASE
 from ..shared.pipelines.song_sampler import SPARE
 from .audio_stages import (
     PhraseConfig,
+    PhraseTask,
+    add_shares,
     bar_phase_at_start,
-    export_song,
     network_of,
     open_held_back,
     open_phrases,
@@ -40,7 +41,7 @@ from .audio_stages import (
 )
 from .launch import Stage
 from .run_log import console
-from .task import Part, Task, generator
+from .task import generator, to_device
 
 ERROR_BATCHES = 4  # on which the UNet's error is measured
 ERROR_LEVEL = 0.25  # up to this share of the diffusion steps: what sampling ends with
@@ -160,8 +161,10 @@ def denoiser_error(model: AudioMotionModel, batches: list[PhraseBatch], *seed: i
     return squares.sqrt()
 
 
-class DecoderTask(Task):
+class DecoderTask(PhraseTask):
     """What the trainer needs to know (src/train/task.py)."""
+
+    config: TrainDecoderConfig
 
     def __init__(self, config: TrainDecoderConfig, network: AudioNetworkConfig) -> None:
         self.config = config
@@ -194,17 +197,10 @@ class DecoderTask(Task):
 
     # ------------------------------------------------------------ batches
 
-    def batch(self, part: Part) -> DecoderBatch:
-        """Windows with noise."""
-        phrases = self.train.batch(
-            part.step, self.config.batch_size, index=part.index, count=part.count
-        )
-        draws = generator("noise", self.config.seed, part.step, part.index)
-        return self._noised(phrases, draws)
-
-    def _noised(
+    def _drawn(
         self, phrases: PhraseBatch, draws: torch.Generator, *, clean: bool = False
     ) -> DecoderBatch:
+        """Windows with noise, or `clean` without."""
         phrases, config, num = whole_windows(phrases), self.config, len(phrases)
         scale = log_uniform(config.noise, num, draws)[:, None, None] * self.error[:, None]
         widths, share = (
@@ -232,23 +228,17 @@ class DecoderTask(Task):
         for index in range(self.config.validation_batches):
             phrases = self.held_back.batch(index + 1, self.config.batch_size)
             for clean, prefix in ((False, ""), (True, "clean-")):
-                batch = self._noised(phrases, generator("validation", index), clean=clean)
-                batch = DecoderBatch(*(value.to(device) for value in vars(batch).values()))
+                batch = self._drawn(phrases, generator("validation", index), clean=clean)
+                batch = to_device(batch, device)
                 losses = module(batch)
                 figures = losses if not clean else {"loss": losses["loss"]}
                 figures = {f"{prefix}{key}": value for key, value in figures.items()}
                 figures[f"untrained-{prefix}loss"] = self.untrained(batch)["loss"]
-                for key, value in figures.items():
-                    share = value.item() / self.config.validation_batches
-                    sums[key] = sums.get(key, 0.0) + share
+                add_shares(sums, figures, self.config.validation_batches)
         self.figures = sums
         return sums
 
     # ------------------------------------------------------------ results
-
-    def export_samples(self, module: nn.Module, folder: Path) -> None:
-        """A held-back phrase's sound, made into a trajectory: a picture of it."""
-        export_song(self._finished(module), self.held_back, folder)
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """The audio model with the trained decoder: a folder like the one that was read.

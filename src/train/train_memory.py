@@ -20,16 +20,16 @@ from pydantic import Field
 from torch import Tensor, nn
 
 from ..shared.config_audio import AudioNetworkConfig, MemoryConditionConfig
-from ..shared.data.phrases.dataset import PhraseBatch
+from ..shared.data.phrases.dataset import PhraseBatch, PhraseItem
 from ..shared.data.phrases.layout import PhraseRecord
 from ..shared.environment import DIFFUSION_CHECKPOINT
 from ..shared.errors import UsageError
-from ..shared.formats.registry import write_trajectory
 from ..shared.memory.index import MemoryConfig
 from ..shared.memory.query import retrieve
 from ..shared.memory.service import MPMService
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
 from ..shared.model.audio.conditioning import MemoryCondition, known_frames
+from ..shared.motion.trajectory import MotionTrajectory
 from ..shared.pipelines.song import AudioCondition
 from ..shared.pipelines.song_memory import as_condition, bars_of_sound, open_memory, remembering
 from ..shared.pipelines.song_sampler import SongSampler
@@ -152,18 +152,12 @@ class MemoryTask(AudioTask):
         self.figures = found | {f"without-{key}": value for key, value in without.items()}
         return self.figures
 
-    def export_samples(self, module: nn.Module, folder: Path) -> None:
-        """A held-back phrase's sound, made into a trajectory with memory: a picture of it."""
-        item = self.held_back.item(0, 0)
-        if item is None:
-            return
-        folder.mkdir(parents=True, exist_ok=True)
+    def _sample(self, model: AudioMotionModel, item: PhraseItem) -> MotionTrajectory:
+        """With memory."""
         bars, _ = AudioCondition(item.audio).time() or (None, None)
-        sampler = SongSampler(self._finished(module))
-        service = MPMService(self.config.memory, self.index)
+        sampler, service = SongSampler(model), MPMService(self.config.memory, self.index)
         recall = remembering(service, self.space, sampler, item.audio, bars, {item.record.song})
-        made = sampler.sample(item.audio, phase=bars, recall=recall)[0]
-        write_trajectory(made, folder / "held-back.png")
+        return sampler.sample(item.audio, phase=bars, recall=recall)[0]
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """A folder like the one that was read, which hears a memory too."""

@@ -37,7 +37,6 @@ from ..shared.errors import UserError
 from ..shared.io.files import sha256_file
 from ..shared.model.checkpoint import WEIGHTS_FILE, ModelCard, read_card
 from ..shared.model.clip.core import (
-    OWN,
     PAIRS,
     MotionClip,
     TextTower,
@@ -60,6 +59,7 @@ from .text_stages import (
     fit_scope,
     fit_style_map,
     motion_rows,
+    new_tokenizer,
     open_training_data,
 )
 
@@ -169,14 +169,7 @@ class TextTask(Task):
 
     def _from_nothing(self, network: NetworkConfig) -> ClipBundle:
         """Two towers that know nothing, and a tokenizer of these captions."""
-        if network.clip.text_model not in OWN:
-            tokenizer = PromptTokenizer.from_pretrained(
-                network.clip.text_model, max_tokens=network.clip.max_tokens
-            )
-        else:
-            tokenizer = PromptTokenizer.train(
-                self._texts(), network.clip.text_vocab_size, max_tokens=network.clip.max_tokens
-            )
+        tokenizer = new_tokenizer(network.clip, self._texts)
         keys = torch.zeros(0)
         if network.clip.text_model == PAIRS:
             keys = self._shared_keys(tokenizer)
@@ -360,9 +353,6 @@ class TextTask(Task):
         network = self.bundle.clip.config.model_copy(update={"clip": placed.config})
         self.bundle.clip.config = network
         return placed
-
-    def export_samples(self, module: nn.Module, folder: Path) -> None:
-        """A text tower makes nothing to look at."""
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """The CLIP folder with the new tower; or the generator with it and a new scope."""

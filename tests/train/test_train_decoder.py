@@ -159,11 +159,11 @@ def test_the_noise_is_that_of_the_denoiser(circles: Path, audio: Path, tmp_path:
     torch.testing.assert_close(error, expected)
 
     task = DecoderTask(decoder_config(circles, audio, tmp_path), network_of(audio))
-    noisy = task._noised(phrases, generator(0))
+    noisy = task._drawn(phrases, generator(0))
     offset = (noisy.rows.transpose(1, 2) - phrases.motion) / task.model.std[:, None]
     largest = offset.square().mean(dim=2).sqrt() / task.error
     assert 0.01 < largest.nanmedian() < 1  # rows that are constant have no error
-    clean = task._noised(phrases, generator(0), clean=True)
+    clean = task._drawn(phrases, generator(0), clean=True)
     assert torch.equal(clean.rows.transpose(1, 2), phrases.motion)
 
 
