@@ -5,6 +5,12 @@ import pytest
 
 from src.shared.formats.mannequin import mannequin
 from src.shared.motion.skeleton import JOINT_INDEX
+from tests.shared.formats.mannequin_skin import skin
+
+
+def test_the_skin_is_that_of_the_cones() -> None:
+    for name, values in skin().items():
+        np.testing.assert_allclose(getattr(mannequin(), name), values, atol=1e-5, err_msg=name)
 
 
 def test_surface_is_closed_and_faces_outwards() -> None:
