@@ -15,7 +15,7 @@ Letters: B batch, T frames.
 import copy
 import math
 import os
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, ClassVar, Self
 
@@ -314,7 +314,7 @@ class FinetuneE2eTask(AudioTask):
     def has_converged(self) -> bool:
         """Whether the last `patience` epochs brought no better total."""
         epochs = self.epochs()
-        return epochs[-1].number - best_epoch(epochs).number >= self.config.patience
+        return epochs[-1].epoch - best_epoch(epochs).epoch >= self.config.patience
 
     # ------------------------------------------------------------ results
 
@@ -323,11 +323,11 @@ class FinetuneE2eTask(AudioTask):
         epochs = self.epochs()
         best = best_epoch(epochs)
         table = results_table(epochs, best)
-        write_json(folder / "training_log.json", [epoch.as_json() for epoch in epochs])
+        write_json(folder / "training_log.json", [asdict(epoch) for epoch in epochs])
         write_text(folder / "results.md", table)
         console.print(f"\n{table}", markup=False)
         model = AudioMotionModel.from_pretrained(folder / BEST)
-        tuned = {"epochs": epochs[-1].number, "kept": best.number, "validation": best.validation}
+        tuned = {"epochs": epochs[-1].epoch, "kept": best.epoch, "validation": best.validation}
         training = {**self.sources[0].training, "e2e": tuned}
         save_noted(model, folder, trained=True, training=training)
 

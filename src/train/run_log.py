@@ -170,16 +170,16 @@ ROWS = {  # of the table: figure, name
 
 @dataclass(frozen=True)
 class Epoch:
-    """Means of one epoch; number 0 is what was there before training.
+    """An entry of training_log.json: means of one epoch; 0 is what was there before training.
 
     Attributes:
-        number: whole passes done.
+        epoch: whole passes done.
         step: optimizer steps done.
         train: means over the epoch's batches; empty before training.
         validation: figures of held-back phrases.
     """
 
-    number: int
+    epoch: int
     step: int
     train: dict[str, float]
     validation: dict[str, float]
@@ -189,15 +189,6 @@ class Epoch:
         """The total on held-back phrases; infinite where it was not a number."""
         value = self.validation.get("loss")
         return math.inf if value is None else value
-
-    def as_json(self) -> dict[str, Any]:
-        """One entry of training_log.json."""
-        return {
-            "epoch": self.number,
-            "step": self.step,
-            "train": self.train,
-            "validation": self.validation,
-        }
 
 
 def read_epochs(log: Path, steps_per_epoch: int) -> list[Epoch]:
@@ -227,12 +218,12 @@ def best_epoch(epochs: Sequence[Epoch]) -> Epoch:
 
 def results_table(epochs: Sequence[Epoch], kept: Epoch) -> str:
     """TECH 7.5 in Markdown: before training, the first, the last and the kept epoch."""
-    first = next((epoch for epoch in epochs if epoch.number > 0), epochs[0])
+    first = next((epoch for epoch in epochs if epoch.epoch > 0), epochs[0])
     columns = {
         "before": epochs[0],
-        f"epoch {first.number}": first,
-        f"epoch {epochs[-1].number}": epochs[-1],
-        f"kept: epoch {kept.number}": kept,
+        f"epoch {first.epoch}": first,
+        f"epoch {epochs[-1].epoch}": epochs[-1],
+        f"kept: epoch {kept.epoch}": kept,
     }
     lines = [
         "| held-back phrases | " + " | ".join(columns) + " | before / kept |",

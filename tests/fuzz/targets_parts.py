@@ -1,6 +1,7 @@
 """Readers of what lies beside weights and runs: scopes, style maps, tokenizers, bands, logs."""
 
 import json
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +26,7 @@ def _write(folder: Path) -> None:
         (folder / name).write_bytes((PRETRAINED / name).read_bytes())
     rows = [{"step": step, "loss": 1.0 / (step + 1)} for step in range(5)]
     (folder / "log.jsonl").write_text("".join(json.dumps(row) + "\n" for row in rows))
-    epochs = [Epoch(n, 3 * n, {"loss": 3.0 - n}, {"loss": 2.0}).as_json() for n in range(3)]
+    epochs = [asdict(Epoch(n, 3 * n, {"loss": 3.0 - n}, {"loss": 2.0})) for n in range(3)]
     (folder / "training_log.json").write_text(json.dumps(epochs))
 
 

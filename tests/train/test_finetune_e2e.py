@@ -277,7 +277,7 @@ def test_epochs_are_read_from_the_log(tmp_path: Path) -> None:
     log = tmp_path / "log.jsonl"
     log.write_text("".join(json.dumps(line) + "\n" for line in lines))
     epochs = read_epochs(log, 4)
-    assert [epoch.number for epoch in epochs] == [0, 1, 2]
+    assert [epoch.epoch for epoch in epochs] == [0, 1, 2]
     assert epochs[1].train == {"loss": 2.5}
     assert best_epoch(epochs) is epochs[1]  # not a number is never the best
     table = results_table(epochs, epochs[1])
@@ -288,7 +288,7 @@ def test_epochs_are_read_from_the_log(tmp_path: Path) -> None:
 
 def test_the_first_of_equal_epochs_is_the_best() -> None:
     epochs = [Epoch(number, number, {}, {"loss": 1.0}) for number in range(3)]
-    assert best_epoch(epochs).number == 0
+    assert best_epoch(epochs).epoch == 0
 
 
 def test_mean_speed_is_that_of_the_path() -> None:

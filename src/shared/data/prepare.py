@@ -307,23 +307,16 @@ def _records(
                     language: [book.mirror_text(text, language) for text in texts]
                     for language, texts in captions.items()
                 }
-            records.append(
-                ClipRecord(
-                    id=clip["id"] + (MIRRORED if mirrored else ""),
-                    source=clip["source"],
-                    take=clip["take"],
-                    tag=labels.get("action", ""),
-                    group=group_of(labels, _first_caption(captions)),
-                    labels=labels,
-                    mirrored=mirrored,
-                    split=split[clip["take"]],
-                    num_frames=clip["num_frames"],
-                    shard=clip["shard"],
-                    offset=clip["offset"],
-                    captions=captions,
-                    provenance=clip["provenance"],
-                )
-            )
+            found = {
+                "id": clip["id"] + (MIRRORED if mirrored else ""),
+                "tag": labels.get("action", ""),
+                "group": group_of(labels, _first_caption(captions)),
+                "labels": labels,
+                "mirrored": mirrored,
+                "split": split[clip["take"]],
+                "captions": captions,
+            }
+            records.append(ClipRecord(**(clip | found)))
     return records
 
 

@@ -130,11 +130,6 @@ class CaptionBook:
         keys = {key for language in self._languages.values() for key in language.sentence_keys()}
         return [dict(key) for key in sorted(keys)]
 
-    def known_actions(self, lang: str) -> dict[str, str]:
-        """Name of every action in one language, for messages."""
-        actions = self.language(lang).content.actions
-        return {key: action.name for key, action in actions.items() if key != "other"}
-
     def mirror_text(self, text: str, lang: str) -> str:
         """Text of the mirrored motion: left and right exchanged in all their forms.
 
@@ -163,16 +158,6 @@ def packaged_book() -> CaptionBook:
         CaptionLanguage(validate_language(content, f"captions/{code}.yaml"))
         for code, content in _packaged_content().items()
     )
-
-
-def mirror_text(text: str, lang: str) -> str:
-    """`CaptionBook.mirror_text` of the packaged languages."""
-    return packaged_book().mirror_text(text, lang)
-
-
-def known_actions(lang: str = "en") -> dict[str, str]:
-    """`CaptionBook.known_actions` of the packaged languages."""
-    return packaged_book().known_actions(lang)
 
 
 def overlay(base: dict[str, Any], update: dict[str, Any]) -> dict[str, Any]:

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from src.shared.data.captions.book import CaptionBook, known_actions, packaged_book
+from src.shared.data.captions.book import CaptionBook, packaged_book
 from src.shared.data.captions.schema import normalised
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -167,11 +167,10 @@ def test_aliases_and_spelling_of_actions(book: CaptionBook) -> None:
     assert english.find_action("Side_Step") == english.find_action("strafe") == "side-step"
 
 
-def test_known_actions_are_named() -> None:
-    assert known_actions("de")["walk"] == "gehen"
-    assert "other" not in known_actions("en")
-    expected = set(known_actions("en"))
-    assert all(set(known_actions(lang)) == expected for lang in LANGUAGES)
+def test_every_language_words_the_same_actions(book: CaptionBook) -> None:
+    actions = {lang: book.language(lang).content.actions for lang in LANGUAGES}
+    assert actions["de"]["walk"].name == "gehen"
+    assert all(named.keys() == actions["en"].keys() for named in actions.values())
 
 
 # ---------------------------------------------------------------- held-out paraphrases

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.data.captions.book import CaptionBook, mirror_text, packaged_book
+from src.shared.data.captions.book import CaptionBook, packaged_book
 from src.shared.data.captions.language import mirror_labels
 from src.shared.errors import UserError
 
@@ -17,6 +17,7 @@ from caption_labels import ALL, LANGUAGES, SYNTHETIC
 from caption_matcher import CaptionMatcher
 
 combinations = st.sampled_from(ALL)
+mirror_text = packaged_book().mirror_text
 languages = st.sampled_from(LANGUAGES)
 
 
