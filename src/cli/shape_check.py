@@ -53,61 +53,35 @@ def shape_check(
     for flag, given in (("--full", full), ("--root-track", root_track is not None)):
         if model == "audio" and given:
             raise UsageError(f"{flag} belongs to the text branch; leave it out with --model audio")
-    made = check_audio if model == "audio" else check_text
-    letters, table = made(network_profile, network_file, settings, device, full)
+
+    import torch
+
+    from ..shared.config_loader import load_audio_network, load_network
+    from ..shared.device import choose_device
+    from .shape_tables import audio_table, text_table
+
+    if model == "audio":
+        sound = load_audio_network(network_profile, network_file, settings)
+        table = audio_table(sound, torch.device(choose_device(device)[0]))
+        letters = table.letters
+    else:
+        network = load_network(network_profile, network_file, settings)
+        generation = network.generation
+        if full and generation.motion_channels != 6:
+            raise UsageError(
+                f"--full: generation.motion-channels is {generation.motion_channels}, and"
+                " quaternions need 6D rotations; leave --full out, or set it to 6"
+            )
+        table = text_table(network, torch.device(choose_device(device)[0]), full=full)
+        letters = {letter: table.letters[letter] for letter in "BTKCD"}
+        letters |= {"H": generation.num_heads, "L": generation.num_layers}
+        letters["S"] = generation.diffusion_steps
     if json:
         print_json(facts(network_profile, letters, table, full))
     else:
         print_table(network_profile, letters, table)
     if not all(stage.agrees for stage in table.stages):
         raise typer.Exit(1)
-
-
-def check_text(
-    profile: str, path: Path | None, overrides: list[str], device: str, full: bool
-) -> "tuple[dict[str, int], Table]":
-    """The document's letters with this profile's values, and the stages.
-
-    Raises:
-        UsageError: an unknown profile or key, `--full` with other than 6 channels a bone, or no
-            such device.
-    """
-    import torch
-
-    from ..shared.config_loader import load_network
-    from ..shared.device import choose_device
-    from .shape_tables import text_table
-
-    network = load_network(profile, path, overrides)
-    generation = network.generation
-    if full and generation.motion_channels != 6:
-        raise UsageError(
-            f"--full: generation.motion-channels is {generation.motion_channels}, and quaternions"
-            " need 6D rotations; leave --full out, or set it to 6"
-        )
-    table = text_table(network, torch.device(choose_device(device)[0]), full=full)
-    letters = {letter: table.letters[letter] for letter in "BTKCD"}
-    letters |= {"H": generation.num_heads, "L": generation.num_layers}
-    return letters | {"S": generation.diffusion_steps}, table
-
-
-def check_audio(
-    profile: str, path: Path | None, overrides: list[str], device: str, full: bool
-) -> "tuple[dict[str, int], Table]":
-    """The same of the audio branch.
-
-    Raises:
-        UsageError: an unknown profile or key, or no such device.
-    """
-    import torch
-
-    from ..shared.config_loader import load_audio_network
-    from ..shared.device import choose_device
-    from .shape_tables import audio_table
-
-    network = load_audio_network(profile, path, overrides)
-    table = audio_table(network, torch.device(choose_device(device)[0]))
-    return table.letters, table
 
 
 def show(shapes: tuple[tuple[int, ...], ...]) -> str:

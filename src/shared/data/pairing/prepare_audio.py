@@ -105,16 +105,11 @@ def make_report(
     rates = np.concatenate([entry["pair"]["warp"]["rates"] for entry in entries])
     return {
         "phrases": len(entries),
-        "hours": round(sum(entry["pair"]["frames"] for entry in entries) / FPS / 3600, 3),
+        "hours": _hours(entries),
         "songs": len({entry["record"]["song"] for entry in entries}),
         "by_split": dict(splits),
         "hours_by_split": {
-            split: round(
-                sum(e["pair"]["frames"] for e in entries if e["record"]["split"] == split)
-                / (FPS * 3600),
-                3,
-            )
-            for split in splits
+            split: _hours([e for e in entries if e["record"]["split"] == split]) for split in splits
         },
         "alignment": {"all": _alignment(entries)}
         | {
@@ -136,6 +131,10 @@ def make_report(
         },
         "left_out": list(left_out),
     }
+
+
+def _hours(entries: Sequence[Entry]) -> float:
+    return round(sum(entry["pair"]["frames"] for entry in entries) / FPS / 3600, 3)
 
 
 def _alignment(entries: Sequence[Entry]) -> dict[str, dict[str, float]]:

@@ -220,9 +220,7 @@ def decode_trajectory(data: bytes) -> np.ndarray:
         values = load_array(data)
     except BadArray as error:
         raise BadContent(f"not an npy file ({error})") from error
-    if values.ndim != 2 or values.shape[1] != 25:
-        raise BadContent(f"a trajectory is [T, 25], this is {list(values.shape)}")
-    _require_usable("trajectory", values)
+    _require_usable("trajectory", values, 25)
     lengths = np.linalg.norm(values[:, 9:13], axis=1)
     if (np.abs(lengths - 1) > 0.01).any():
         raise BadContent(f"a quaternion has length {lengths[np.abs(lengths - 1).argmax()]:.3g}")
@@ -239,9 +237,7 @@ def decode_body(data: bytes) -> np.ndarray:
         values = load_arrays(data, ["features"])["features"]
     except (BadArray, KeyError) as error:
         raise BadContent(f"not an npz file with `features` ({error})") from error
-    if values.ndim != 3 or values.shape[1:] != (23, 6):
-        raise BadContent(f"a body is [T, 23, 6], this is {list(values.shape)}")
-    _require_usable("body", values)
+    _require_usable("body", values, 23, 6)
     return values.astype(np.float32)
 
 
@@ -269,7 +265,11 @@ def decode_features(data: bytes) -> SoundContent:
     return SoundContent(features.stack(), phase, meter)
 
 
-def _require_usable(name: str, values: np.ndarray) -> None:
+def _require_usable(name: str, values: np.ndarray, *frame: int) -> None:
+    """Refuse what are no finite numbers, or no rows [T,*frame] where that is given."""
+    if frame and values.shape[1:] != frame:
+        wanted = ", ".join(map(str, frame))
+        raise BadContent(f"a {name} is [T, {wanted}], this is {list(values.shape)}")
     if not np.issubdtype(values.dtype, np.floating):
         raise BadContent(f"{name} holds {values.dtype}, not floating-point numbers")
     if not np.isfinite(values).all():

@@ -159,32 +159,23 @@ class Body:
     @classmethod
     def standing(cls, num_frames: int, width: float = 0.2, toe_out: float = 0.12) -> "Body":
         """Standing at the origin, facing +Z, arms hanging, feet `width` metres apart."""
-        frames = (num_frames,)
-        arms = np.zeros((*frames, 2, 7))
+        arms = np.zeros((num_frames, 2, 7))
         arms[..., :5] = np.radians((4.0, 9.0, -12.0, 16.0, 12.0))
         arms[..., WRIST] = np.radians(6.0)
-        ball = np.zeros((*frames, 2, 3))
+        ball = np.zeros((num_frames, 2, 3))
         ball[:, LEFT, 0], ball[:, RIGHT, 0] = width / 2, -width / 2
         ball[..., 1] = REST_FOOT_HEIGHT
         ball[..., 2] = BALL_LEAD
-        position = np.zeros((*frames, 3))
+        position, spine, head = (np.zeros((num_frames, 3)) for _ in range(3))
         position[:, 1] = REST_PELVIS_HEIGHT - 0.012
-        pair = np.zeros((*frames, 2))
+        yaw, pitch, roll = (np.zeros(num_frames) for _ in range(3))
+        foot_yaw = np.tile((toe_out, -toe_out), (num_frames, 1))
+        foot_pitch, knee_out = (np.zeros((num_frames, 2)) for _ in range(2))
+        toes_flat, contacts = (np.ones((num_frames, 2)) for _ in range(2))
         return cls(
-            position=position,
-            yaw=np.zeros(frames),
-            pitch=np.zeros(frames),
-            roll=np.zeros(frames),
-            spine=np.zeros((*frames, 3)),
-            head=np.zeros((*frames, 3)),
-            arms=arms,
-            ball=ball,
-            foot_yaw=pair + np.array([toe_out, -toe_out]),
-            foot_pitch=pair.copy(),
-            knee_out=pair.copy(),
-            toes_flat=pair + 1.0,
-            contacts=pair + 1.0,
-        )
+            position, yaw, pitch, roll, spine, head, arms, ball, foot_yaw, foot_pitch, knee_out,
+            toes_flat, contacts,
+        )  # fmt: skip
 
     def add_arms(self, joint: int, value: Array | float) -> None:
         """Add the same curve [T] to both arms."""

@@ -16,6 +16,7 @@ import re
 from collections.abc import Sequence
 from functools import lru_cache
 from importlib.resources import files
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -237,16 +238,9 @@ def write_trajectory_html(
     if song.path is not None:
         uri = song_uri(song.path, max(trajectory.seconds for trajectory in shown))
         media = f'<audio id="song" preload="auto" src="{html.escape(uri)}"></audio>'
-    names = [*titles, *[""] * (len(shown) - len(titles))]
-    figures = list(bodies) or [
-        proxy_body(trajectory, name) for trajectory, name in zip(shown, names, strict=True)
-    ]
-    speeds = [_mean_speed(body) for body in bodies] or [
-        np.linalg.norm(trajectory.velocity, axis=-1) for trajectory in shown
-    ]
     cards = [
-        _card(trajectory, figure, speed, song) | ({"text": name} if name else {})
-        for trajectory, figure, speed, name in zip(shown, figures, speeds, names, strict=True)
+        _card(trajectory, body, song, title)
+        for trajectory, body, title in zip_longest(shown, bodies, titles)
     ]
     colours = [PATH] if song.beatless else phase_palette()
     palette = ["#" + bytes(colour).hex() for colour in colours]
@@ -256,13 +250,15 @@ def write_trajectory_html(
 
 
 def _card(
-    trajectory: MotionTrajectory, figure: Motion, speed: np.ndarray, song: SongTrack
+    trajectory: MotionTrajectory, body: Motion | None, song: SongTrack, title: str | None
 ) -> dict[str, Any]:
-    """A figure's motion and what the dial, the path and the strip show; speed [T] in m/s."""
-    card = motion_data(figure)
+    """The motion of a body, or of the proxy body, and what dial, path and strip show."""
+    card = motion_data(body or proxy_body(trajectory, title or ""))
+    card |= {"text": title} if title else {}
     marks = beat_marks(trajectory, song)
     if not len(marks.times) and np.ptp(trajectory.phase) == 0:
         return card  # no music: no dial
+    speed = _mean_speed(body) if body else np.linalg.norm(trajectory.velocity, axis=-1)  # [T] m/s
     return card | {
         "meter": 0 if song.beatless else marks.meter,  # 0: no dial
         "beats": base64_array(marks.times, "<f4"),
