@@ -50,7 +50,6 @@ EXCEPTIONS = {
     "this text model has no root track": "the only model of that command",
     "precision 'fp16' needs a GPU": "the value is the constant itself",
     "plots need matplotlib": "a package is missing, no value is wrong",
-    "pictures need Pillow": "a package is missing, no value is wrong",
     "--num-samples does not go with {}": "says what takes its place: another --seed",
     "--prompt is given {} times beside {}": "says what takes its place: --then",
     "{}: is an analysed song": "says which command draws it",

@@ -62,15 +62,12 @@ def as_logged(value: float) -> float:
     return float(f"{value:.6g}")
 
 
-def _tensorboard_writer(folder: Path, start: int) -> Any | None:
-    """A SummaryWriter that hides points after `start`, or None when TensorBoard is missing."""
+def _tensorboard_writer(folder: Path, start: int) -> Any:
+    """A SummaryWriter that hides points after `start`."""
     # TensorBoard would load TensorFlow where it is installed, for seconds and for nothing
     os.environ.setdefault("TF_CPP_MIN_LOG_LEVEL", "3")
-    try:
-        from torch.utils.tensorboard import SummaryWriter
-    except ImportError:
-        console.print("tensorboard is not installed: only log.jsonl is written")
-        return None
+    from torch.utils.tensorboard import SummaryWriter
+
     return SummaryWriter(log_dir=str(folder), purge_step=start + 1 if start else None)
 
 

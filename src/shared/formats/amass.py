@@ -17,11 +17,13 @@ few centimetres elsewhere. Legend: T frames."""
 from pathlib import Path
 
 import numpy as np
+import torch
 from scipy.spatial.transform import Rotation
 
 from ..errors import UserError
 from ..io.arrays import write_arrays
 from ..motion.motion import Motion
+from ..motion.rotations import matrix_to_quaternion, quaternion_log
 from ..motion.skeleton import NUM_JOINTS, canonical_skeleton
 from .limits import FRAME_RATES, check_numbers, read_arrays
 from .rig import JointClip, quaternions_to_matrices
@@ -119,7 +121,8 @@ def write_amass(motion: Motion, path: str | Path) -> Path:
     matrices = quaternions_to_matrices(motion.quaternions)
     matrices[:, 0] = Z_UP @ matrices[:, 0]
     poses = np.zeros((motion.num_frames, ALL * 3))
-    poses[:, : BODY * 3] = _vectors(matrices).reshape(motion.num_frames, -1)
+    vectors = quaternion_log(matrix_to_quaternion(torch.as_tensor(matrices)))
+    poses[:, : BODY * 3] = vectors.numpy().reshape(motion.num_frames, -1)
     arrays = {
         "poses": poses,
         "trans": motion.root_position.astype(np.float64) @ Z_UP.T - SMPL_PELVIS,
@@ -130,12 +133,3 @@ def write_amass(motion: Motion, path: str | Path) -> Path:
         "skeleton": np.array(OURS),
     }
     return write_arrays(arrays, path, compressed=True)
-
-
-def _vectors(matrices: np.ndarray) -> np.ndarray:
-    """Rotation vectors [...,3] in radians of matrices [...,3,3]."""
-    import torch
-
-    from ..motion.rotations import matrix_to_quaternion, quaternion_log
-
-    return np.asarray(quaternion_log(matrix_to_quaternion(torch.as_tensor(matrices))).numpy())

@@ -9,9 +9,11 @@ from dataclasses import dataclass, replace
 from typing import Protocol, Self
 
 import numpy as np
+import torch
 
 from ..errors import UsageError
 from ..motion.motion import Motion
+from ..motion.rotations import matrix_to_quaternion, quaternion_to_matrix
 from ..motion.skeleton import (
     JOINT_INDEX,
     JOINT_NAMES,
@@ -287,24 +289,11 @@ def turned(clip: RigClip, turn: np.ndarray) -> RigClip:
 
 def quaternions_to_matrices(quaternions: np.ndarray) -> np.ndarray:
     """Rotation matrices [...,3,3] float64 of quaternions [...,4], normalised first."""
-    quaternions = quaternions.astype(np.float64)
-    w, x, y, z = np.moveaxis(
-        quaternions / np.linalg.norm(quaternions, axis=-1, keepdims=True), -1, 0
-    )
-    rows = (
-        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
-        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
-    )
-    return np.stack([np.stack(row, -1) for row in rows], -2)
+    return np.asarray(quaternion_to_matrix(torch.as_tensor(quaternions.astype(np.float64))).numpy())
 
 
 def matrices_to_quaternions(matrices: np.ndarray) -> np.ndarray:
     """Quaternions [...,4] float64, w >= 0, of rotation matrices [...,3,3]."""
-    import torch
-
-    from ..motion.rotations import matrix_to_quaternion
-
     return np.asarray(matrix_to_quaternion(torch.as_tensor(matrices.astype(np.float64))).numpy())
 
 

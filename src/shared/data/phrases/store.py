@@ -19,6 +19,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
+import fsspec
+from filelock import FileLock
+from fsspec.asyn import sync
+
 from ...errors import UsageError, UserError
 from ...io.files import atomic_write, load_json, write_json
 from .layout import (
@@ -116,8 +120,6 @@ class Remote:
 
     def _open(self) -> tuple[Any, str]:
         """File system and base path, anew in a forked process: its connections are not ours."""
-        import fsspec
-
         if self._opened is None or self._opened[0] != os.getpid():
             scheme = self.root.split("://")[0]
             try:
@@ -142,8 +144,6 @@ class Remote:
             FileNotFoundError: it does not exist.
             Unreachable: see `Backoff.run`.
         """
-        from fsspec.asyn import sync
-
         fs, base = self._open()
         full = f"{base}/{path}"
 
@@ -231,8 +231,6 @@ class ObjectCache:
 
     def lock(self, obj: StoredObject) -> AbstractContextManager[object]:
         """Held by the one thread of one process that downloads this object (or a few others)."""
-        from filelock import FileLock
-
         folder = self.folder / "locks"
         folder.mkdir(parents=True, exist_ok=True)
         return FileLock(folder / obj.key[:2])
@@ -430,8 +428,6 @@ class Quarantine:
             return {}  # no list yet, or one that a person broke: it fills again
 
     def _save(self, phrase: PhraseRecord, reason: str) -> None:
-        from filelock import FileLock
-
         self.path.parent.mkdir(parents=True, exist_ok=True)
         with FileLock(self.path.with_suffix(".lock")):
             entries = self._read() | {phrase.id: {"reason": reason, "key": phrase.key}}

@@ -8,9 +8,9 @@ phase over time, from the arrays of features.npz by name."""
 from collections.abc import Mapping
 from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+from PIL import Image, ImageDraw
 
 from ...motion.trajectory import MotionTrajectory
 from .drawing import (
@@ -19,17 +19,12 @@ from .drawing import (
     INK,
     MARGIN,
     OVERSAMPLE,
-    PATH,
     FloorMap,
     font,
     new_sheet,
     save_sheet,
 )
-from .trajectory import BeatMarks, SongTrack, beat_marks, phase_palette
-
-if TYPE_CHECKING:
-    from PIL import Image, ImageDraw
-
+from .trajectory import PATH, BeatMarks, SongTrack, beat_marks, phase_palette
 
 MAP = 430 * OVERSAMPLE
 ROW_WIDTH = 800 * OVERSAMPLE  # of a row of the chart
@@ -45,7 +40,7 @@ def render_trajectory(
     """Draw one trajectory and save a PNG.
 
     Raises:
-        UserError: Pillow is not installed, or the file cannot be written.
+        UserError: the file cannot be written.
     """
     song = song or SongTrack()
     marks = beat_marks(trajectory, song)
@@ -74,9 +69,7 @@ def _phase_colours(phase: np.ndarray) -> np.ndarray:
     return np.asarray(palette[(phase * len(palette)).astype(int) % len(palette)])
 
 
-def _draw_path(
-    trajectory: MotionTrajectory, colours: np.ndarray, marks: BeatMarks
-) -> "Image.Image":
+def _draw_path(trajectory: MotionTrajectory, colours: np.ndarray, marks: BeatMarks) -> Image.Image:
     """The square with the floor: the path, its downbeats, and facings along the way."""
     ground = trajectory.position[:, [0, 2]].astype(np.float64)
     image, draw = new_sheet(MAP, MAP)
@@ -97,7 +90,7 @@ def _draw_path(
     return image
 
 
-def _draw_legend(draw: "ImageDraw.ImageDraw", meter: int) -> None:
+def _draw_legend(draw: ImageDraw.ImageDraw, meter: int) -> None:
     """A small dial: the colours of the bar with the numbers of its beats, 1 at the top."""
     radius, turns = 20 * OVERSAMPLE, np.arange(60) / 60
     x, y = MAP - radius - 2 * MARGIN, radius + 2 * MARGIN
@@ -113,7 +106,7 @@ def _draw_legend(draw: "ImageDraw.ImageDraw", meter: int) -> None:
 
 def _draw_row(
     span: tuple[float, float], speed: np.ndarray, colours: np.ndarray, marks: BeatMarks, fps: float
-) -> "Image.Image":
+) -> Image.Image:
     """Speed between two times; a column of pixels shows the fastest of its frames."""
     image, draw = new_sheet(ROW_WIDTH + MARGIN, ROW_HEIGHT)
     top, floor = 14 * OVERSAMPLE, ROW_HEIGHT - 20 * OVERSAMPLE
@@ -151,7 +144,7 @@ def _across(time: float, span: tuple[float, float]) -> float:
 
 
 def _dot(
-    draw: "ImageDraw.ImageDraw", point: tuple[float, float], radius: float, colour: np.ndarray
+    draw: ImageDraw.ImageDraw, point: tuple[float, float], radius: float, colour: np.ndarray
 ) -> None:
     x, y = point
     draw.ellipse((x - radius, y - radius, x + radius, y + radius), tuple(colour), INK, OVERSAMPLE)
@@ -171,7 +164,7 @@ def plot_features(arrays: Mapping[str, np.ndarray], path: str | Path, *, title: 
     """Draw T frames of features (TECH section 4.2's names) with `beat_times` and `phase`.
 
     Raises:
-        UserError: the file cannot be written, or Pillow is not installed.
+        UserError: the file cannot be written.
     """
     seconds = arrays["mel"].shape[1] / FPS
     width = int(np.clip(seconds * PIXELS_PER_SECOND, *WIDTHS))
@@ -210,10 +203,8 @@ def _curves(
     return [(np.mod(arrays["phase"], 1.0), CURVE)]
 
 
-def _heatmap(values: np.ndarray, width: int, height: int) -> "Image.Image":
+def _heatmap(values: np.ndarray, width: int, height: int) -> Image.Image:
     """Rows [C,T], low ones at the bottom, as a picture."""
-    from PIL import Image
-
     low, high = np.quantile(values, [0.01, 0.99])
     level = np.clip((values - low) / max(float(high - low), 1e-6), 0, 1)[::-1]
     knots = np.linspace(0, 1, len(RAMP))
@@ -224,7 +215,7 @@ def _heatmap(values: np.ndarray, width: int, height: int) -> "Image.Image":
 
 
 def _draw_curve(
-    draw: "ImageDraw.ImageDraw",
+    draw: ImageDraw.ImageDraw,
     box: tuple[int, int, int, int],
     values: np.ndarray,
     colour: tuple[int, int, int],
@@ -236,7 +227,7 @@ def _draw_curve(
 
 
 def _draw_times(
-    draw: "ImageDraw.ImageDraw",
+    draw: ImageDraw.ImageDraw,
     box: tuple[int, int, int, int],
     seconds: float,
     times: np.ndarray,
@@ -248,9 +239,7 @@ def _draw_times(
         draw.line([(x, top), (x, bottom)], colour, OVERSAMPLE)
 
 
-def _draw_clock(
-    draw: "ImageDraw.ImageDraw", box: tuple[int, int, int, int], seconds: float
-) -> None:
+def _draw_clock(draw: ImageDraw.ImageDraw, box: tuple[int, int, int, int], seconds: float) -> None:
     """Seconds along the bottom, at most about twelve of them."""
     left, top, right, _ = box
     steps = (1, 2, 5, 10, 20, 30, 60, 120, 300, 600)

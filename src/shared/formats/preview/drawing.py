@@ -5,48 +5,33 @@ orthographic; triangles are drawn from back to front. Legend: T frames, V vertic
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from PIL import Image, ImageDraw, ImageFont
 
-from ...errors import UserError
 from ...io.files import atomic_write
-
-if TYPE_CHECKING:
-    from PIL import Image, ImageDraw
-
 
 OVERSAMPLE = 2
 BACKGROUND = (246, 247, 249)
 FLOOR = (236, 238, 242)
 GRID = (214, 218, 225)
 INK = (52, 58, 68)
-PATH = (200, 60, 90)
 MARGIN = 8 * OVERSAMPLE
 
 
-def new_sheet(width: int, height: int) -> tuple["Image.Image", "ImageDraw.ImageDraw"]:
-    """An empty picture of this many (doubled) pixels and a pen.
-
-    Raises:
-        UserError: Pillow is not installed.
-    """
-    try:
-        from PIL import Image, ImageDraw
-    except ImportError as error:
-        raise UserError("pictures need Pillow; install it with: pip install pillow") from error
+def new_sheet(width: int, height: int) -> tuple[Image.Image, ImageDraw.ImageDraw]:
+    """An empty picture of this many (doubled) pixels and a pen."""
     sheet = Image.new("RGB", (width, height), BACKGROUND)
     return sheet, ImageDraw.Draw(sheet)
 
 
-def save_sheet(sheet: "Image.Image", path: Path) -> Path:
+def save_sheet(sheet: Image.Image, path: Path) -> Path:
     """Shrink to the wanted size and write a PNG whole or not at all.
 
     Raises:
         UserError: the file cannot be written.
     """
-    from PIL import Image
-
     size = (sheet.width // OVERSAMPLE, sheet.height // OVERSAMPLE)
     small = sheet.resize(size, Image.Resampling.LANCZOS)
     with atomic_write(path) as temporary:
@@ -56,8 +41,6 @@ def save_sheet(sheet: "Image.Image", path: Path) -> Path:
 
 def font(size: int, text: str = "") -> Any:
     """A font that can show the text, as far as the machine has one."""
-    from PIL import ImageFont
-
     names = ["DejaVuSans.ttf", "Arial.ttf", "Helvetica.ttc"]
     if any(ord(letter) >= 0x2E80 for letter in text):  # Chinese, Japanese, Korean
         names = ["NotoSansCJK-Regular.ttc", "YuGothM.ttc", "msyh.ttc", "PingFang.ttc",
@@ -89,7 +72,7 @@ class FloorMap:
         x, y = (point - self.middle) * self.scale + self.size / 2
         return float(x), float(y)
 
-    def draw_grid(self, draw: "ImageDraw.ImageDraw") -> None:
+    def draw_grid(self, draw: ImageDraw.ImageDraw) -> None:
         """Lines at round metres, and a note of their distance."""
         far = 10.0 ** np.floor(np.log10(self.span / 2))
         step = 0.5 if self.span < 6 else 2.0 if self.span < 20 else far
@@ -105,7 +88,7 @@ class FloorMap:
         draw.text(place, note, INK, font(11 * OVERSAMPLE), anchor="lb")
 
     def draw_facing(
-        self, draw: "ImageDraw.ImageDraw", point: np.ndarray, facing: np.ndarray, radius: float
+        self, draw: ImageDraw.ImageDraw, point: np.ndarray, facing: np.ndarray, radius: float
     ) -> None:
         """A dot at a point [2] with a line to where the character looks [2]."""
         x, y = self.pixel(point)
@@ -150,7 +133,7 @@ class Camera:
 
 
 def draw_mesh(
-    draw: "ImageDraw.ImageDraw",
+    draw: ImageDraw.ImageDraw,
     camera: Camera,
     vertices: np.ndarray,
     normals: np.ndarray,

@@ -8,9 +8,9 @@ the motion's own and plays in real time. MP4 (H.264, plays anywhere) needs PyAV.
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+from PIL import Image, ImageDraw, ImageFilter
 
 from ...errors import UserError
 from ...io.files import atomic_write
@@ -22,7 +22,6 @@ from .drawing import (
     GRID,
     INK,
     OVERSAMPLE,
-    PATH,
     Camera,
     FloorMap,
     draw_mesh,
@@ -30,10 +29,7 @@ from .drawing import (
     new_sheet,
     save_sheet,
 )
-
-if TYPE_CHECKING:
-    from PIL import Image, ImageDraw
-
+from .trajectory import PATH
 
 AZIMUTH, ELEVATION = np.deg2rad(28.0), np.deg2rad(17.0)
 GRID_METRES = 0.5
@@ -57,7 +53,7 @@ def render_strip(
         azimuth: camera angle in radians; 0 looks at the face of a character that faces +Z.
 
     Raises:
-        UserError: no motion, or Pillow is not installed.
+        UserError: no motion, or the file cannot be written.
     """
     rows = [motions] if isinstance(motions, Motion) else list(motions)
     if not rows or frames < 1:
@@ -99,7 +95,7 @@ def draw_pose(
     azimuth: float = AZIMUTH,
     *,
     target: np.ndarray | None = None,
-) -> "Image.Image":
+) -> Image.Image:
     """One pose, with the floor, the shadow and the path.
 
     Args:
@@ -111,8 +107,6 @@ def draw_pose(
         azimuth: camera angle in radians.
         target: the point of the floor [3] that the camera looks at; under the pelvis by default.
     """
-    from PIL import Image, ImageDraw, ImageFilter
-
     under = motion.root_position[frame] * (1.0, 0.0, 1.0)
     target = under if target is None else target
     top = max(1.85, float(positions[:, :, 1].max()) + 0.35)
@@ -144,7 +138,7 @@ def draw_pose(
     return image
 
 
-def _draw_grid(draw: "ImageDraw.ImageDraw", camera: Camera, target: np.ndarray) -> None:
+def _draw_grid(draw: ImageDraw.ImageDraw, camera: Camera, target: np.ndarray) -> None:
     """Floor lines every half metre, fixed to the world, and the wall behind them."""
     reach = 4.0
     lines = np.arange(np.floor(-reach / GRID_METRES), np.ceil(reach / GRID_METRES) + 1)
@@ -159,7 +153,7 @@ def _draw_grid(draw: "ImageDraw.ImageDraw", camera: Camera, target: np.ndarray) 
 
 
 def _draw_arrow(
-    draw: "ImageDraw.ImageDraw", camera: Camera, origin: np.ndarray, facing: np.ndarray
+    draw: ImageDraw.ImageDraw, camera: Camera, origin: np.ndarray, facing: np.ndarray
 ) -> None:
     """A flat arrow on the floor in front of the character."""
     flat = facing * (1.0, 0.0, 1.0)
@@ -177,7 +171,7 @@ def _draw_arrow(
 
 def _draw_map(
     positions: np.ndarray, rotations: np.ndarray, picks: np.ndarray, size: int
-) -> "Image.Image":
+) -> Image.Image:
     """The pelvis path from above (+X right, +Z down, as seen from the front) with facings."""
     ground = positions[:, 0][:, [0, 2]]
     image, draw = new_sheet(size, size)
@@ -205,8 +199,6 @@ def write_gif(motion: Motion, path: str | Path) -> Path:
     Raises:
         UserError: too long, or the file cannot be written.
     """
-    from PIL import Image
-
     motion = resample_motion(motion, gif_rate(min(motion.fps, MAX_FPS)))
     _check(motion, path, "gif")
     pictures = frames(motion)
@@ -227,10 +219,8 @@ def write_gif(motion: Motion, path: str | Path) -> Path:
     return Path(path)
 
 
-def _palette(first: "Image.Image") -> "Image.Image":
+def _palette(first: Image.Image) -> Image.Image:
     """One palette for all pictures, so that nothing flickers: the first's, and a foot's green."""
-    from PIL import Image
-
     sheet = Image.new("RGB", (first.width, first.height + GREENS))
     sheet.paste(first, (0, 0))
     for row in range(GREENS):
@@ -282,10 +272,8 @@ def gif_rate(fps: float) -> float:
     return float(100 / np.ceil(100 / fps - 1e-6))
 
 
-def frames(motion: Motion, size: tuple[int, int] = SIZE) -> Iterator["Image.Image"]:
+def frames(motion: Motion, size: tuple[int, int] = SIZE) -> Iterator[Image.Image]:
     """The pictures of a motion, one a frame; the camera follows the pelvis smoothly."""
-    from PIL import Image, ImageDraw
-
     positions, rotations = motion.positions(), motion.global_rotations()
     targets = _smooth(motion.root_position * (1.0, 0.0, 1.0), motion.fps)
     large = (size[0] * OVERSAMPLE, size[1] * OVERSAMPLE)

@@ -30,8 +30,7 @@ from ...motion.skeleton import FOOT_JOINTS, canonical_skeleton
 from ...motion.style import PAIRS, style_values
 from ...motion.trajectory import MotionTrajectory
 from ..mannequin import BODY, COLOURS, CONTACT, JOINT_SIDES, mannequin, whole_shares
-from .drawing import PATH
-from .trajectory import SongTrack, beat_marks, phase_palette, proxy_body
+from .trajectory import PATH, SongTrack, beat_marks, phase_palette, proxy_body
 
 SCRIPTS = (
     "preview_scene.js",

@@ -15,6 +15,8 @@ from ...motion.motion import Motion
 from ...motion.skeleton import JOINT_INDEX, LEG_LENGTH, canonical_skeleton
 from ...motion.trajectory import MotionTrajectory, to_motion
 
+PATH = (200, 60, 90)  # colour of the way over the ground
+
 
 @dataclass(frozen=True, eq=False)
 class SongTrack:

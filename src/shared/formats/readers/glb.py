@@ -167,6 +167,8 @@ def _chunk(kind: bytes, data: bytes, padding: bytes) -> bytes:
 
 DEFAULT_FPS = 30.0
 EVEN = 1e-3  # of a frame: keys that are no further from even times are taken as frames
+# What a channel may animate, and the value where a node says nothing.
+PATHS = {"translation": (0, 0, 0), "rotation": (0, 0, 0, 1), "scale": (1, 1, 1)}
 Track = tuple[np.ndarray, np.ndarray, str]
 
 
@@ -177,7 +179,7 @@ def read_tracks(file: GlbFile, wanted: set[int]) -> dict[tuple[int, str], Track]
     for channel in animations[0]["channels"]:
         target = channel["target"]
         node, path = target.get("node"), target["path"]
-        if node not in wanted or path not in ("translation", "rotation", "scale"):
+        if node not in wanted or path not in PATHS:
             continue
         sampler = animations[0]["samplers"][channel["sampler"]]
         keys, values = file.array(sampler["input"])[:, 0], file.array(sampler["output"])
@@ -211,17 +213,16 @@ def moved_matrices(
     node: dict[str, Any], index: int, tracks: dict[tuple[int, str], Track], times: np.ndarray
 ) -> np.ndarray:
     """Local matrices [T,4,4], or [1,4,4] of a node that stays."""
-    animated = [path for path in ("translation", "rotation", "scale") if (index, path) in tracks]
+    animated = [path for path in PATHS if (index, path) in tracks]
     if not animated:
         return rest_matrix(node)[None]
     if "matrix" in node:
         raise GlbError(f"animates node {index}, whose pose is a matrix")
-    rest = {"translation": (0, 0, 0), "rotation": (0, 0, 0, 1), "scale": (1, 1, 1)}
     values = [
         _sampled(*tracks[index, path], times, turning=path == "rotation")
         if path in animated
-        else np.array([node.get(path, rest[path])], dtype=np.float64)
-        for path in rest
+        else np.array([node.get(path, still)], dtype=np.float64)
+        for path, still in PATHS.items()
     ]
     return _compose(*values)
 
@@ -271,11 +272,8 @@ def rest_matrix(node: dict[str, Any]) -> np.ndarray:
     if "matrix" in node:
         matrix = np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
     else:
-        matrix = _compose(
-            np.array([node.get("translation", (0, 0, 0))], dtype=np.float64),
-            np.array([node.get("rotation", (0, 0, 0, 1))], dtype=np.float64),
-            np.array([node.get("scale", (1, 1, 1))], dtype=np.float64),
-        )[0]
+        values = [np.array([node.get(p, still)], dtype=np.float64) for p, still in PATHS.items()]
+        matrix = _compose(*values)[0]
     if not np.isfinite(matrix).all():
         raise GlbError(f"node {node.get('name')!r} is at an impossible place")
     return matrix

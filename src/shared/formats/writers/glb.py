@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from PIL import Image
 
 from ...motion.motion import Motion
 from ...motion.trajectory import MotionTrajectory
@@ -195,8 +196,6 @@ def animation(
 
 def _palette() -> bytes:
     """A PNG strip from the colour of the right side over the trunk's to the left side's."""
-    from PIL import Image
-
     row = side_colours(np.linspace(-1.0, 1.0, PALETTE_SIZE))
     pixels = np.repeat((row * 255).round().astype(np.uint8)[None], 4, axis=0)
     stream = io.BytesIO()

@@ -7,8 +7,7 @@ import pytest
 from PIL import Image
 
 from src.shared.formats.preview.charts import render_trajectory
-from src.shared.formats.preview.drawing import PATH
-from src.shared.formats.preview.trajectory import SongTrack, phase_palette
+from src.shared.formats.preview.trajectory import PATH, SongTrack, phase_palette
 from src.shared.motion.trajectory import MotionTrajectory, from_motion, to_motion
 from tests.shared.motion.trajectories import smooth_trajectory
 
