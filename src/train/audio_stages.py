@@ -18,11 +18,15 @@ from torch.nn import functional as F
 from ..shared.config_audio import AudioNetworkConfig
 from ..shared.config_loader import NETWORK_PREFIX, dump_config, load_config
 from ..shared.config_schema import TrainConfig
+from ..shared.data.pairing.music import open_music
+from ..shared.data.pairing.prepare_audio import PairOptions, prepare_audio
 from ..shared.data.phrases.dataset import EmptySplit, MotionPhraseDataset, PhraseBatch, PhraseItem
 from ..shared.data.prepare import open_data
 from ..shared.data.prepared import SYNTHETIC
 from ..shared.environment import DATA_DIR
 from ..shared.errors import UsageError
+from ..shared.formats.registry import write_trajectory
+from ..shared.io.files import sole_writer
 from ..shared.model.audio.audio_motion_model import KIND, AudioMotionModel
 from ..shared.model.audio.conditioning import BEAT, CONDITION_ROWS
 from ..shared.model.audio.decoder import wrapped_phase
@@ -30,6 +34,7 @@ from ..shared.model.audio.unet import MIN_FRAMES
 from ..shared.model.checkpoint import read_card
 from ..shared.model.zoo import resolve_model, wrong_kind
 from ..shared.motion.trajectory import PHASE, MotionTrajectory
+from ..shared.pipelines.song_sampler import SongSampler
 from .run_log import announce, console
 from .task import Part, Task, generator
 
@@ -83,10 +88,6 @@ def open_held_back(config: PhraseConfig, *, bodies: bool = False) -> MotionPhras
 
 def synthetic_pairs(folder: Path) -> Path:
     """Parametric motions paired with rendered songs, all the project's own."""
-    from ..shared.data.pairing.music import open_music
-    from ..shared.data.pairing.prepare_audio import PairOptions, prepare_audio
-    from ..shared.io.files import sole_writer
-
     console.print(f"pairing synthetic motions with synthetic songs in {folder}", markup=False)
     with sole_writer(folder, wait=True):
         prepare_audio(
@@ -160,8 +161,6 @@ class PhraseTask(Task):
 
     def export_samples(self, module: nn.Module, folder: Path) -> None:
         """A held-back phrase's sound, made into a trajectory: a picture of it."""
-        from ..shared.formats.registry import write_trajectory
-
         item, model = self.held_back.item(0, 0), self._finished(module)
         if item is not None:
             folder.mkdir(parents=True, exist_ok=True)
@@ -169,8 +168,6 @@ class PhraseTask(Task):
 
     def _sample(self, model: AudioMotionModel, item: PhraseItem) -> MotionTrajectory:
         """A trajectory for the sound of a phrase."""
-        from ..shared.pipelines.song_sampler import SongSampler
-
         return SongSampler(model).sample(item.audio)[0]
 
 

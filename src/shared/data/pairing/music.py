@@ -8,18 +8,18 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...audio.features import AudioFeatures, extract_features
+from ...audio.song import analyse
+from ...audio.sound import sound_from_samples
+from ...audio.synthetic_score import SongSpec
+from ...audio.synthetic_songs import render_song, sample_song_specs
 from ...errors import UsageError, UserError
 from ...io.files import sha256_file
 from ..prepared import assign_alike
 from .pair import MusicBeats, strong_beats
-
-if TYPE_CHECKING:
-    from ...audio.features import AudioFeatures
-    from ...audio.synthetic_score import SongSpec
 
 FPS = 30.0
 SYNTHETIC_SECONDS = 60.0
@@ -91,10 +91,8 @@ class SyntheticMusic:
             for index, (split, spec) in enumerate(self.specs())
         ]
 
-    def specs(self) -> list[tuple[str, "SongSpec"]]:
+    def specs(self) -> list[tuple[str, SongSpec]]:
         """(split, song) of each."""
-        from ...audio.synthetic_songs import sample_song_specs
-
         test = max(round(TEST_SHARE * self.number), self.number >= 3)
         val = max(round(VAL_SHARE * self.number), self.number >= 3)
         seen = sample_song_specs(self.number - test, self.seed, "train", seconds=self.seconds)
@@ -104,10 +102,6 @@ class SyntheticMusic:
 
     def read(self, entry: SongEntry) -> Music:
         """One song."""
-        from ...audio.features import extract_features
-        from ...audio.sound import sound_from_samples
-        from ...audio.synthetic_songs import render_song
-
         _, spec = self.specs()[int(entry.id.rpartition("-")[2])]
         song = render_song(spec)
         features = extract_features(sound_from_samples(song.samples, song.sample_rate))
@@ -162,8 +156,6 @@ class FolderMusic:
 
     def read(self, entry: SongEntry) -> Music:
         """One song; raises UserError where it cannot be used."""
-        from ...audio.song import analyse
-
         song = analyse(self.root / entry.path, meter=self.meter)
         beats = song.beats
         return Music(
@@ -183,7 +175,7 @@ def _slug(name: str) -> str:
     return re.sub(r"[^a-z0-9]+", "-", name.lower()).strip("-")[:40] or "song"
 
 
-def feature_arrays(features: "AudioFeatures") -> dict[str, np.ndarray]:
+def feature_arrays(features: AudioFeatures) -> dict[str, np.ndarray]:
     """Arrays of features.npz as float16: they are normalised, three digits are enough."""
     return {name: values.astype(np.float16) for name, values in features.arrays().items()}
 

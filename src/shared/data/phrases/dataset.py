@@ -15,6 +15,7 @@ from torch import Tensor
 
 from ...errors import UsageError, UserError
 from ...io.concurrency import prefetch
+from ...motion.window import encode_window
 from .layout import (
     BadContent,
     PhraseRecord,
@@ -165,7 +166,7 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
             raise UsageError("no data: give root (a folder or URL) or gcs_bucket")
         self.root = str(root) if root is not None else f"gs://{gcs_bucket}/{gcs_prefix.strip('/')}"
         self.target_frames, self.seed, self.threads = target_frames, seed, threads
-        self._encode = encode or _encode_window
+        self._encode = encode or encode_window
         remote = Remote(self.root, storage_options=storage_options, backoff=backoff or Backoff())
         cache_dir = cache_dir or default_cache()
         cache = None if remote.local else ObjectCache(cache_dir, max_bytes=cache_bytes)
@@ -332,12 +333,6 @@ def collate(items: Sequence[PhraseItem]) -> PhraseBatch:
         records=[item.record for item in items],
         body=torch.stack(bodies) if bodies else None,
     )
-
-
-def _encode_window(trajectory: np.ndarray, phase: np.ndarray) -> np.ndarray:
-    from ...motion.window import encode_window
-
-    return encode_window(trajectory, phase)
 
 
 class EpochIterator:

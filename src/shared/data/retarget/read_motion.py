@@ -6,7 +6,14 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import UserError
+from ...formats.amass import is_amass, read_amass
+from ...formats.arrays import read_npz
+from ...formats.csv_files import read_motion_csv
 from ...formats.limits import array_names, check_size
+from ...formats.readers.acclaim import read_amc
+from ...formats.readers.bvh import read_bvh
+from ...formats.readers.glb import read_glb
+from ...formats.readers.humanml import read_humanml
 from ...formats.rig import SourceClip
 from ...motion.motion import Motion, resample_motion
 from ...motion.skeleton import JOINT_INDEX, JOINT_NAMES, canonical_skeleton
@@ -65,17 +72,11 @@ def open_recording(
     check_size(path)
     ending = path.suffix.lower()
     if ending == ".bvh":
-        from ...formats.readers.bvh import read_bvh
-
         return Recording("BVH", clip=read_bvh(path))
     if ending == ".glb":
-        from ...formats.readers.glb import read_glb
-
         clip = read_glb(path)
         return Recording("GLB", clip=clip, up="Y", metres=1.0, text=clip.text)
     if ending == ".csv":
-        from ...formats.csv_files import read_motion_csv
-
         return Recording("CSV of this project", motion=read_motion_csv(path))
     if ending == ".amc":
         return _amc(path, skeleton, fps)
@@ -88,8 +89,6 @@ def open_recording(
 
 
 def _amc(path: Path, skeleton: Path | None, fps: float | None) -> Recording:
-    from ...formats.readers.acclaim import read_amc
-
     clip = read_amc(path, skeleton, fps=fps)
     warnings = () if clip.rate_is_known else (
         f"AMC files do not say their frame rate; {1 / clip.frame_time:g} is assumed, state it by "
@@ -99,9 +98,6 @@ def _amc(path: Path, skeleton: Path | None, fps: float | None) -> Recording:
 
 
 def _npz(path: Path, fps: float | None) -> Recording:
-    from ...formats.amass import is_amass, read_amass
-    from ...formats.arrays import read_npz
-
     names = array_names(path)
     if "quaternions" in names or "format_version" in names:
         return Recording("NPZ of this project", motion=read_npz(path))
@@ -119,8 +115,6 @@ def _npz(path: Path, fps: float | None) -> Recording:
 
 
 def _npy(path: Path, fps: float | None) -> Recording:
-    from ...formats.readers.humanml import read_humanml
-
     return Recording(
         "HumanML3D joints", clip=read_humanml(path, fps=fps), up="Y", metres=1.0,
         warnings=("positions only: rotations are found by inverse kinematics, so the twist of "

@@ -11,7 +11,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, field_validator
@@ -25,10 +25,8 @@ from ..captions.schema import Labels
 from ..retarget.mapping import SkeletonMapping, load_mappings, load_table, words
 from ..retarget.read_motion import FOLDER_ENDINGS, fit, open_recording
 from ..retarget.to_canonical import on_floor
+from ..synthetic.clips import SyntheticSpec, generate_clip, sample_specs
 from .caption_tables import Piece, Table, match_captions, read_captions, without_ending
-
-if TYPE_CHECKING:
-    from ..synthetic.clips import SyntheticSpec
 
 
 class _Rule(BaseModel):
@@ -365,8 +363,6 @@ class SyntheticSource:
         return f"{item}:{self.num_clips}:{self.seed}"
 
     def read(self, item: str) -> RawClip:
-        from ..synthetic.clips import generate_clip
-
         index = int(item.rpartition("-")[2])
         spec = _specs(self.num_clips, self.seed)[index]
         motion = generate_clip(spec, seed=self.seed * 1_000_003 + index)
@@ -374,10 +370,8 @@ class SyntheticSource:
 
 
 @cache
-def _specs(num_clips: int, seed: int) -> list["SyntheticSpec"]:
+def _specs(num_clips: int, seed: int) -> list[SyntheticSpec]:
     """Specifications of a synthetic set, made once a process."""
-    from ..synthetic.clips import sample_specs
-
     return sample_specs(num_clips, seed)
 
 
