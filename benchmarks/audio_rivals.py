@@ -14,7 +14,7 @@ from typing import Any
 import torch
 from torch import Tensor, nn
 
-from src.shared.model.layers.attention import sinusoidal
+from src.shared.model.layers.transformer import sinusoidal
 
 FEATURES = 25
 MUSIC = 4800  # Jukebox features

@@ -22,11 +22,10 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
 
-from src.shared.model.audio.blocks import AttentionBlock, Downsample, ResBlock, Upsample
 from src.shared.model.audio.conditioning import FEATURE_ROWS
-from src.shared.model.audio.unet import UNet1D
+from src.shared.model.audio.unet import AttentionBlock, Downsample, ResBlock, UNet1D, Upsample
 from src.shared.model.diffusion.gaussian import GaussianDiffusion
-from src.shared.model.layers.attention import sinusoidal
+from src.shared.model.layers.transformer import sinusoidal
 
 
 class LiteralResBlock(nn.Module):

@@ -34,7 +34,7 @@ from ..shared.model.clip.out_of_domain import OutOfDomainDetector, words_of
 from ..shared.model.clip.pretrained import encode_captions, tower_hash
 from ..shared.model.clip.style_map import StyleMap
 from ..shared.model.clip.tokenizer import PromptTokenizer
-from ..shared.model.layers.attention import masked_mean
+from ..shared.model.layers.transformer import masked_mean
 from ..shared.motion.features import decode_features
 from ..shared.motion.skeleton import NUM_JOINTS
 from ..shared.motion.style import measure_style, style_values

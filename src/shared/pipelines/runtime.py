@@ -13,10 +13,11 @@ from ..config_audio import AudioNetworkConfig
 from ..device import choose_compute
 from ..environment import DECODER_CHECKPOINT, variable
 from ..errors import UserError
-from ..model.audio.audio_motion_model import AudioMotionModel, load_decoder, sampling_copy
+from ..model.audio.audio_motion_model import AudioMotionModel, load_decoder
 from ..model.audio.conditioning import MemoryCondition, with_phase_rows
 from ..model.audio.decoder import Decoded
 from ..model.audio.onnx import GRAPHS, OnnxCard, read_onnx_card, require_packages
+from ..model.audio.unet import sampling_copy
 from ..model.diffusion.gaussian import GaussianDiffusion
 from ..model.diffusion.guidance import ModelFn, guided
 

@@ -7,7 +7,8 @@ import pytest
 import torch
 
 from src.shared.errors import UserError
-from src.shared.model.audio.audio_motion_model import AudioMotionModel, MatrixConv1d
+from src.shared.model.audio.audio_motion_model import AudioMotionModel
+from src.shared.model.audio.unet import MatrixConv1d
 from src.shared.model.checkpoint import ModelCard
 from src.shared.pipelines import runtime
 from src.shared.pipelines.runtime import load_runtime, load_trained

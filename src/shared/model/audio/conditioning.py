@@ -86,36 +86,6 @@ class AudioConditioner(nn.Module):
         return self.combine(F.silu(torch.cat(parts, dim=1)))  # [B, E, T]
 
 
-class FiLMLayer(nn.Module):
-    """Per-frame feature-wise modulation (Perez et al. 2018, eq. 1); starts as the identity.
-
-    gamma and beta depend on the condition alone: `gamma_beta` may run once a sample and
-    `modulate` once a step.
-    """
-
-    def __init__(self, channels: int, condition_dim: int) -> None:
-        super().__init__()
-        self.mlp = nn.Sequential(nn.SiLU(), nn.Conv1d(condition_dim, 2 * channels, 1))
-        final = self.mlp[1]
-        assert isinstance(final, nn.Conv1d) and final.bias is not None
-        nn.init.zeros_(final.weight)
-        nn.init.zeros_(final.bias)
-
-    def gamma_beta(self, condition: Tensor) -> Tensor:
-        """Condition [B, E, T] -> both modulations [B, 2C, T]."""
-        return self.mlp(condition)
-
-    @staticmethod
-    def modulate(h: Tensor, gamma_beta: Tensor) -> Tensor:
-        """h [B, C, T], modulations [B, 2C, T] -> [B, C, T]; gamma counts from 1."""
-        gamma, beta = gamma_beta.chunk(2, dim=1)
-        return torch.addcmul(h + beta, h, gamma)
-
-    def forward(self, h: Tensor, condition: Tensor) -> Tensor:
-        """h [B, C, T], condition [B, E, T] -> [B, C, T] (REF's signature)."""
-        return self.modulate(h, self.gamma_beta(condition))
-
-
 class ConditionAugmentation(nn.Module):
     """Noise and feature-group dropout, in training mode only (TECH's roadmap)."""
 

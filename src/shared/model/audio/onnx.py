@@ -32,12 +32,12 @@ from ...errors import UserError, first_fault
 from ...io.files import atomic_write, load_json, sha256_file, write_json
 from ...motion.trajectory import CHANNELS, PHASE
 from ..checkpoint import read_card
+from ..layers.transformer import RotaryEmbedding
 from ..zoo import resolve_model
 from .audio_motion_model import AudioMotionModel
-from .blocks import Downsample, FrameRotary
 from .conditioning import CONDITION_ROWS
 from .decoder import Decoder, wrapped_phase
-from .unet import UNet1D
+from .unet import Downsample, UNet1D
 
 CARD_FILE = "onnx.json"
 GRAPHS = ("unet.onnx", "decoder.onnx")
@@ -141,7 +141,7 @@ class SymbolicUNet(UNet1D):
     """Pads without asking whether it must."""
 
     def _pad(self, x: Tensor) -> Tensor:
-        frames, factor = x.shape[-1], self.config.factors[-1]
+        frames, factor = x.shape[-1], self.factors[-1]
         padded = (frames + factor - 1) // factor * factor
         return x.index_select(-1, torch.arange(padded, device=x.device).clamp(max=frames - 1))
 
@@ -154,7 +154,7 @@ class SymbolicDownsample(Downsample):
         return F.conv1d(F.pad(x, (1, 0)), self.conv.weight, self.conv.bias, stride=2)
 
 
-class SymbolicRotary(FrameRotary):
+class SymbolicRotary(RotaryEmbedding):
     """Computes its table in the graph instead of keeping one."""
 
     def _tables(self, length: int, device: torch.device) -> tuple[Tensor, Tensor]:
@@ -191,7 +191,7 @@ def symbolic(unet: UNet1D) -> UNet1D:
     twins: dict[type, type] = {
         UNet1D: SymbolicUNet,
         Downsample: SymbolicDownsample,
-        FrameRotary: SymbolicRotary,
+        RotaryEmbedding: SymbolicRotary,
     }
     twin = copy.deepcopy(unet).cpu().float().eval()
     twin.memory = None

@@ -21,8 +21,8 @@ from torch.nn.functional import normalize, softplus
 
 from ...config_schema import ClipConfig, NetworkConfig
 from ...errors import UserError
-from ..layers.attention import masked_mean
 from ..layers.temporal_unet import TemporalUNet
+from ..layers.transformer import masked_mean
 
 PAIRS = "pairs"  # text-model name of such a tower
 BASE = 1 << 15  # token ids stay below, so that keys are int32

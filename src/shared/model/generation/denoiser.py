@@ -10,47 +10,14 @@ from torch.nn.functional import pad, silu
 
 from ...config_schema import PROVENANCES, NetworkConfig
 from ..clip.core import TextFeatures
-from ..layers.attention import CrossAttention, KeyValue, MultiHeadAttention, without_full_mask
-from ..layers.modulation import AdaLN, FiLM, TagEmbedding, TimestepEmbedding
-from ..layers.transformer import ChannelDropout, TemporalLayer, TransformLayer
-
-
-class DenoiserBlock(nn.Module):
-    """TemporalLayer, FiLM, LayerNorm, MHA with RoPE, AdaLN, TransformLayer (TEXT's order).
-
-    With `tokens` a cross-attention to the text follows the MHA (ruling 22).
-    """
-
-    def __init__(self, dim: int, num_heads: int, *, dropout: float, tokens: bool) -> None:
-        super().__init__()
-        self.temporal = TemporalLayer(dim, num_heads, dropout=dropout, rotary=True)
-        self.film = FiLM(dim, 2 * dim)
-        self.norm = nn.LayerNorm(dim)
-        self.attention = MultiHeadAttention(dim, num_heads, rotary=True)
-        self.cross_norm = nn.LayerNorm(dim) if tokens else None
-        self.cross_attention = CrossAttention(dim, num_heads) if tokens else None
-        self.adaln = AdaLN(dim, 2 * dim)
-        self.transform = TransformLayer(dim, dropout=dropout)
-        self.dropout = ChannelDropout(dropout)
-
-    def forward(
-        self,
-        h: Tensor,
-        condition: Tensor,
-        mask: Tensor | None = None,
-        text: KeyValue | None = None,
-        text_mask: Tensor | None = None,
-    ) -> Tensor:
-        """h [B, T, D], condition [B, 2D], masks [B, T] and [B, L] -> [B, T, D]."""
-        h = self.temporal(h, mask)  # [B, T, D]
-        h = self.film(h, condition)  # [B, T, D]
-        h = h + self.dropout(self.attention(self.norm(h), mask))  # [B, T, D]
-        if self.cross_attention is not None and self.cross_norm is not None:
-            assert text is not None, "a block with cross-attention needs the text tokens"
-            attended = self.cross_attention(self.cross_norm(h), text, text_mask)  # [B, T, D]
-            h = h + self.dropout(attended)
-        h = self.adaln(h, condition)  # [B, T, D]
-        return self.transform(h)  # [B, T, D]
+from ..layers.transformer import (
+    CrossAttention,
+    DenoiserBlock,
+    KeyValue,
+    TagEmbedding,
+    TimestepEmbedding,
+    without_full_mask,
+)
 
 
 class FrameRefiner(nn.Module):

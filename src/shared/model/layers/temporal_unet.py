@@ -8,8 +8,7 @@ import torch
 from torch import Tensor, nn
 from torch.nn.functional import gelu
 
-from .attention import masked_mean, sinusoidal, without_full_mask
-from .transformer import TemporalLayer
+from .transformer import TemporalLayer, masked_mean, sinusoidal, without_full_mask
 
 
 class TemporalUNet(nn.Module):

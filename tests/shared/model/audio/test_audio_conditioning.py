@@ -10,9 +10,9 @@ from src.shared.model.audio.conditioning import (
     GROUPS,
     AudioConditioner,
     ConditionAugmentation,
-    FiLMLayer,
     with_phase_rows,
 )
+from src.shared.model.audio.unet import FiLMLayer
 from tests.shared.model.audio.tiny_audio import CONDITION, awake
 
 

@@ -12,10 +12,10 @@ from pydantic import ValidationError
 from torch import Tensor
 
 from src.shared.config_audio import MemoryConditionConfig
-from src.shared.model.audio.audio_motion_model import AudioMotionModel, sampling_copy
+from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.audio.conditioning import ContextTransformer, MemoryCondition, MPMSConditioner
 from src.shared.model.audio.onnx import symbolic
-from src.shared.model.audio.unet import UNet1D
+from src.shared.model.audio.unet import UNet1D, sampling_copy
 from tests.shared.model.audio.tiny_audio import awake, network_config, unet, unet_config
 
 CONFIG = MemoryConditionConfig(width=16, num_heads=2, num_layers=1, patch=4, dropout=0.0)

@@ -4,7 +4,7 @@ import pytest
 import torch
 from torch import nn
 
-from src.shared.model.audio.audio_motion_model import MatrixConv1d, sampling_copy
+from src.shared.model.audio.unet import MatrixConv1d, sampling_copy
 from tests.shared.model.audio.tiny_audio import unet
 
 

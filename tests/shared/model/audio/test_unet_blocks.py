@@ -5,13 +5,13 @@ import torch
 from torch import Tensor
 from torch.nn import functional as F
 
-from src.shared.model.audio.blocks import (
+from src.shared.model.audio.unet import (
     AttentionBlock,
     Downsample,
-    FrameRotary,
     ResBlock,
     Upsample,
 )
+from src.shared.model.layers.transformer import RotaryEmbedding
 from tests.shared.model.audio.tiny_audio import awake
 
 
@@ -64,7 +64,7 @@ def test_attention_is_the_printed_one_with_a_context_of_its_own_length() -> None
 def test_rotary_positions_are_frames_on_every_level() -> None:
     """A piece of stride 4 turns as the frame in its middle does."""
     heads = torch.randn(1, 1, 2, 8)
-    full, quarter = FrameRotary(8), FrameRotary(8, stride=4)
+    full, quarter = RotaryEmbedding(8), RotaryEmbedding(8, stride=4)
     everywhere = full(heads.expand(1, 32, 2, 8))
     torch.testing.assert_close(quarter(heads.expand(1, 8, 2, 8)), everywhere[:, 2::4])
 

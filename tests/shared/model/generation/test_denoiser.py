@@ -7,7 +7,8 @@ import torch
 from torch.nn.functional import normalize
 
 from src.shared.model.clip.core import TextFeatures
-from src.shared.model.generation.denoiser import DenoiserBlock, MotionDenoiser
+from src.shared.model.generation.denoiser import MotionDenoiser
+from src.shared.model.layers.transformer import DenoiserBlock
 
 B, T, L, D, TAGS = 3, 12, 5, 32, 4
 PROVENANCE_WEIGHT = "provenance_embed.embedding.weight"

@@ -3,7 +3,7 @@
 import pytest
 import torch
 
-from src.shared.model.layers.attention import (
+from src.shared.model.layers.transformer import (
     CrossAttention,
     MultiHeadAttention,
     RotaryEmbedding,

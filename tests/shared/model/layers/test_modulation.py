@@ -6,9 +6,18 @@ import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.model.layers.attention import masked_mean, sinusoidal, without_full_mask
-from src.shared.model.layers.modulation import AdaLN, FiLM, TagEmbedding, TimestepEmbedding
-from src.shared.model.layers.transformer import ChannelDropout, TemporalLayer, TransformLayer
+from src.shared.model.layers.transformer import (
+    AdaLN,
+    ChannelDropout,
+    FiLM,
+    TagEmbedding,
+    TemporalLayer,
+    TimestepEmbedding,
+    TransformLayer,
+    masked_mean,
+    sinusoidal,
+    without_full_mask,
+)
 
 B, T, D = 2, 5, 8
 
