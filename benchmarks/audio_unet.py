@@ -34,8 +34,7 @@ from src.shared.config_loader import load_audio_network
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.audio.conditioning import CONDITION_ROWS, FEATURE_ROWS
 from src.shared.model.audio.unet import UNet1D, sampling_copy
-from src.shared.model.diffusion.guidance import ModelFn
-from src.shared.model.diffusion.samplers import DDIMSampler
+from src.shared.model.diffusion import DDIMSampler, ModelFn
 from src.shared.motion.postprocess.trajectory import MotionPostProcessor
 
 FRAMES, SECONDS = 120, 4.0

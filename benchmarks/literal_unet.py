@@ -24,7 +24,7 @@ from torch.nn import functional as F
 
 from src.shared.model.audio.conditioning import FEATURE_ROWS
 from src.shared.model.audio.unet import AttentionBlock, Downsample, ResBlock, UNet1D, Upsample
-from src.shared.model.diffusion.gaussian import GaussianDiffusion
+from src.shared.model.diffusion import GaussianDiffusion
 from src.shared.model.layers.transformer import sinusoidal
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from .src.shared.data.prepare import prepare
     from .src.shared.data.retarget.read_motion import read_motion
     from .src.shared.formats.registry import write_motion as save
-    from .src.shared.model.diffusion.samplers import Sampling
+    from .src.shared.model.diffusion import Sampling
     from .src.shared.model.generation.constraint import Constraint
     from .src.shared.model.zoo import list_models as models
     from .src.shared.motion.motion import Motion
@@ -43,7 +43,7 @@ _PLACES = {
     "Constraint": "shared.model.generation.constraint",
     "Motion": "shared.motion.motion",
     "MotionGenerator": "shared.pipelines.motion_generator",
-    "Sampling": "shared.model.diffusion.samplers",
+    "Sampling": "shared.model.diffusion",
     "Song": "shared.audio.song",
     "Trajectory": "shared.motion.trajectory:MotionTrajectory",
     "load": "shared.pipelines.motion_generator",

@@ -13,7 +13,7 @@ from .console import Stopwatch, complain, progress_bar, tell
 
 if TYPE_CHECKING:
     from ..shared.audio.song import Song
-    from ..shared.model.diffusion.samplers import Sampling
+    from ..shared.model.diffusion import Sampling
     from ..shared.model.generation.motion_generator import Progress
     from ..shared.pipelines.edit import Given
     from ..shared.pipelines.motion_generator import MotionGenerator
@@ -165,7 +165,7 @@ class Request:
     @property
     def sampling(self) -> "Sampling":
         """Seed, steps, sampler and guidance."""
-        from ..shared.model.diffusion.samplers import Sampling
+        from ..shared.model.diffusion import Sampling
 
         return Sampling(
             seed=self.seed,

@@ -46,7 +46,7 @@ from ..shared.model.clip.core import (
 )
 from ..shared.model.clip.pretrained import encode_captions, tower_hash
 from ..shared.model.clip.tokenizer import PromptTokenizer
-from ..shared.model.diffusion.gaussian import GaussianDiffusion
+from ..shared.model.diffusion import GaussianDiffusion
 from ..shared.model.generation.denoiser import MotionDenoiser
 from ..shared.model.generation.losses import GenerationLoss
 from ..shared.model.generation.motion_generator import KIND, TextToMotion

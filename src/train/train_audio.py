@@ -28,7 +28,7 @@ from ..shared.model.audio.conditioning import (
     MemoryCondition,
     with_phase_rows,
 )
-from ..shared.model.diffusion.gaussian import GaussianDiffusion, masked_loss
+from ..shared.model.diffusion import GaussianDiffusion, masked_loss
 from ..shared.motion.trajectory import FPS, POSITION, QUATERNION, STYLE
 from .audio_stages import PhraseConfig, PhraseTask, open_held_back, open_phrases, save_noted
 from .launch import Stage

@@ -24,7 +24,7 @@ from ..shared.errors import UsageError
 from ..shared.model.checkpoint import ModelCard
 from ..shared.model.clip.core import TextFeatures
 from ..shared.model.clip.pretrained import load_text_tower, tower_hash
-from ..shared.model.diffusion.gaussian import GaussianDiffusion
+from ..shared.model.diffusion import GaussianDiffusion
 from ..shared.model.generation.denoiser import MotionDenoiser
 from ..shared.model.generation.losses import GenerationLoss
 from ..shared.model.generation.motion_generator import KIND, TextToMotion

@@ -6,9 +6,7 @@ from tiny_audio_stage import tiny_audio_network
 from torch import Tensor, nn
 
 from src.shared.config_schema import DiffusionConfig
-from src.shared.model.diffusion.gaussian import GaussianDiffusion
-from src.shared.model.diffusion.guidance import ModelFn
-from src.shared.model.diffusion.samplers import DDIMSampler
+from src.shared.model.diffusion import DDIMSampler, GaussianDiffusion, ModelFn
 from src.train.finetune_e2e import DifferentiableSampler, recomputed
 
 

@@ -22,7 +22,7 @@ from tiny_audio_stage import (
 
 from src.shared.errors import UsageError, UserError
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.model.diffusion.gaussian import GaussianDiffusion
+from src.shared.model.diffusion import GaussianDiffusion
 from src.shared.motion.trajectory import STYLE
 from src.shared.pipelines.song_sampler import SongSampler, SongSampling
 from src.train.engine import learning_rate_factor

@@ -19,7 +19,7 @@ from scipy.ndimage import gaussian_filter1d
 
 from ..device import idle_threads
 from ..errors import UsageError
-from ..model.diffusion.samplers import Sampling
+from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.features import LEFT_CONTACT, ROOT_ROW, Place

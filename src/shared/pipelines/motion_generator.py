@@ -19,7 +19,7 @@ from ..config_loader import ConfigT, dump_config, load_config
 from ..environment import TEXT_MODEL, default_audio_model
 from ..model.audio.audio_motion_model import KIND as AUDIO_KIND
 from ..model.checkpoint import read_card
-from ..model.diffusion.samplers import Sampling
+from ..model.diffusion import Sampling
 from ..model.generation.motion_generator import Progress, TextToMotion
 from ..model.zoo import resolve_model
 from ..motion.motion import Motion

@@ -18,8 +18,7 @@ from ..model.audio.conditioning import MemoryCondition, with_phase_rows
 from ..model.audio.decoder import Decoded
 from ..model.audio.onnx import GRAPHS, OnnxCard, read_onnx_card, require_packages
 from ..model.audio.unet import sampling_copy
-from ..model.diffusion.gaussian import GaussianDiffusion
-from ..model.diffusion.guidance import ModelFn, guided
+from ..model.diffusion import GaussianDiffusion, ModelFn, guided
 
 
 class Runtime(Protocol):

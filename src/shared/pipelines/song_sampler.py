@@ -22,8 +22,7 @@ from ..device import idle_threads
 from ..errors import UsageError
 from ..model.audio.conditioning import MemoryCondition, known_frames
 from ..model.audio.unet import MIN_FRAMES
-from ..model.diffusion.guidance import ModelFn
-from ..model.diffusion.samplers import Sampling, make_sampler, sample_generators, standard_normal
+from ..model.diffusion import ModelFn, Sampling, make_sampler, sample_generators, standard_normal
 from ..motion.rotations import (
     quaternion_conjugate,
     quaternion_continuous,

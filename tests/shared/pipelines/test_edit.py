@@ -8,7 +8,7 @@ import torch
 
 from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.errors import UsageError
-from src.shared.model.diffusion.samplers import Sampling
+from src.shared.model.diffusion import Sampling
 from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.features import FORWARD, ROOT_ROW, Place, integrate_root

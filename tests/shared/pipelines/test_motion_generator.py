@@ -14,7 +14,7 @@ from src.shared.audio.synthetic_score import SongSpec
 from src.shared.audio.synthetic_songs import render_song
 from src.shared.data.retarget.read_motion import read_motion
 from src.shared.formats.registry import write_motion, write_trajectory
-from src.shared.model.diffusion.samplers import Sampling
+from src.shared.model.diffusion import Sampling
 from src.shared.motion.motion import Motion
 from src.shared.motion.trajectory import MotionTrajectory
 from src.shared.pipelines.edit import chosen_joints, continue_clips, edit_clip

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from src.shared.errors import UsageError, UserError
-from src.shared.model.diffusion.samplers import Sampling
+from src.shared.model.diffusion import Sampling
 from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.features import FORWARD, ROOT_ROW

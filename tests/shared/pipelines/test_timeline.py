@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from src.shared.errors import UserError
-from src.shared.model.diffusion.samplers import Sampling
+from src.shared.model.diffusion import Sampling
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.features import ROOT_ROW
 from src.shared.motion.skeleton import JOINT_INDEX

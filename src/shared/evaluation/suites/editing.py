@@ -13,7 +13,7 @@ from ...metrics.physical import jerk_per_speed, support_slide
 from ...metrics.retrieval import rank_of
 from ...metrics.rhythm import seen_from_pelvis
 from ...metrics.seams import ACCELERATION, body_quantities, marked
-from ...model.diffusion.samplers import Sampling
+from ...model.diffusion import Sampling
 from ...model.generation.motion_generator import TextToMotion
 from ...motion.motion import Motion
 from ...motion.postprocess.stitching import joined, moved_to, place_of

@@ -20,8 +20,7 @@ from ..checkpoint import (
     with_prefix,
     write_checkpoint,
 )
-from ..diffusion.gaussian import GaussianDiffusion
-from ..diffusion.guidance import ModelFn, guided
+from ..diffusion import GaussianDiffusion, ModelFn, guided
 from ..zoo import resolve_model, wrong_kind
 from .conditioning import AudioConditioner, ConditionAugmentation, MemoryCondition
 from .decoder import Decoded, Decoder, create_motion_decoder

@@ -27,8 +27,7 @@ from torch.nn import functional as F
 
 from ...errors import UsageError
 from ...motion.features import world_joints
-from ..diffusion.gaussian import GaussianDiffusion
-from ..diffusion.guidance import ModelFn
+from ..diffusion import GaussianDiffusion, ModelFn
 
 STEP = 0.02  # root mean square of one move, in standard deviations of the data
 MOVES = 3  # a prediction

@@ -17,7 +17,7 @@ from ...errors import UsageError
 from ...motion.features import HEIGHT, LEFT_CONTACT, ROOT_ROW, heading_joints, to_world
 from ...motion.rotations import rotation_6d_to_matrix
 from ...motion.skeleton import FOOT_JOINTS, NUM_JOINTS
-from ..diffusion.gaussian import GaussianDiffusion
+from ..diffusion import GaussianDiffusion
 
 NEED_ROOT_TRACK = ("root", "foot_contact", "foot_slide")
 

@@ -29,7 +29,7 @@ from ..clip.out_of_domain import OutOfDomainDetector
 from ..clip.pretrained import TOKENIZER_FOLDER, check_embed_dims
 from ..clip.style_map import StyleMap
 from ..clip.tokenizer import PromptTokenizer
-from ..diffusion.gaussian import GaussianDiffusion
+from ..diffusion import GaussianDiffusion
 from ..zoo import resolve_model, wrong_kind
 from .constraint import Constraint, KnownBatch, check_lengths
 from .denoiser import MotionDenoiser

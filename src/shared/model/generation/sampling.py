@@ -18,8 +18,7 @@ from ...config_loader import nearest
 from ...config_schema import PROVENANCES
 from ...errors import UserError
 from ..clip.core import TextFeatures
-from ..diffusion.gaussian import GaussianDiffusion
-from ..diffusion.guidance import guided
+from ..diffusion import GaussianDiffusion, guided
 from .constraint import KnownBatch
 from .denoiser import MotionDenoiser
 

@@ -14,7 +14,7 @@ from src.shared.model.audio.audio_motion_model import (
 )
 from src.shared.model.audio.decoder import MotionDecoder
 from src.shared.model.checkpoint import ModelCard, write_checkpoint
-from src.shared.model.diffusion.samplers import DDIMSampler, make_sampler
+from src.shared.model.diffusion import DDIMSampler, make_sampler
 from tests.shared.model.audio.tiny_audio import awake, network_config, unet_config
 
 

@@ -11,7 +11,7 @@ from src.shared.config_audio import UNetConfig
 from src.shared.config_loader import load_audio_network
 from src.shared.errors import UsageError
 from src.shared.model.audio.unet import AttentionBlock, UNet1D
-from src.shared.model.diffusion.guidance import join_conditions
+from src.shared.model.diffusion import join_conditions
 from tests.shared.model.audio.tiny_audio import CONDITION, unet, unet_config
 
 CONDITIONINGS = ["cross-attention", "film", "both"]

@@ -7,7 +7,7 @@ import torch
 
 from src.shared.config_schema import DiffusionConfig
 from src.shared.errors import UsageError
-from src.shared.model.diffusion.gaussian import GaussianDiffusion
+from src.shared.model.diffusion import GaussianDiffusion
 from src.shared.model.generation.constraint import Constraint, KnownBatch
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.features import FORWARD, ROOT_ROW

@@ -5,7 +5,7 @@ import torch
 
 from src.shared.config_schema import DiffusionConfig, LossWeights
 from src.shared.errors import UsageError
-from src.shared.model.diffusion.gaussian import GaussianDiffusion
+from src.shared.model.diffusion import GaussianDiffusion
 from src.shared.model.generation.losses import GenerationLoss
 from src.shared.motion.features import ROOT_ROW, decode_features, encode_features
 from src.shared.motion.rotations import (

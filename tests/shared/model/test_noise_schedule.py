@@ -11,12 +11,8 @@ from hypothesis import strategies as st
 
 from src.shared.config_schema import DiffusionConfig
 from src.shared.errors import UsageError
-from src.shared.model.diffusion.gaussian import GaussianDiffusion
-from src.shared.model.diffusion.schedule import (
-    NoiseSchedule,
-    get_beta_schedule,
-    sampling_timesteps,
-)
+from src.shared.model.diffusion import GaussianDiffusion
+from src.shared.model.noise_schedule import get_beta_schedule, sampling_timesteps
 
 SCHEDULES = ("linear", "cosine", "sqrt")
 SPACINGS = ("leading", "linspace", "trailing")
@@ -55,13 +51,6 @@ def test_cosine_is_the_printed_one() -> None:
 def test_sqrt_stays_within_a_tenth_of_the_printed_one() -> None:
     printed = np.linspace(1e-4**0.5, 0.02**0.5, 1000) ** 2
     np.testing.assert_allclose(get_beta_schedule("sqrt", 1000), printed, rtol=0.1)
-
-
-def test_alpha_bar_before_the_first_step_is_one() -> None:
-    schedule = NoiseSchedule.from_config(DiffusionConfig(timesteps=10, sampling_steps=5))
-    assert schedule.alpha_bar(-1) == 1.0
-    assert schedule.alpha_bar(0) < 1.0
-    assert schedule.num_timesteps == 10
 
 
 def test_buffers_are_float32_and_stay_out_of_checkpoints() -> None:

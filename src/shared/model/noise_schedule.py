@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...config_schema import DiffusionConfig
-from ...errors import UsageError
+from ..config_schema import DiffusionConfig
+from ..errors import UsageError
 
 Array = NDArray[np.float64]
 
@@ -69,15 +69,6 @@ class NoiseSchedule:
             config.beta_schedule, config.timesteps, config.beta_start, config.beta_end
         )
         return cls(betas=betas, alphas_cumprod=np.cumprod(1.0 - betas, dtype=np.float64))
-
-    @property
-    def num_timesteps(self) -> int:
-        """S."""
-        return len(self.betas)
-
-    def alpha_bar(self, t: int) -> float:
-        """Share of signal variance left at step t; exactly 1 before step 0 (SPEC ruling 12)."""
-        return 1.0 if t < 0 else float(self.alphas_cumprod[t])
 
 
 def sampling_timesteps(num_timesteps: int, num_steps: int, spacing: str) -> tuple[int, ...]:

@@ -8,8 +8,7 @@ import torch
 from torch import Tensor
 
 from src.shared.config_schema import DiffusionConfig
-from src.shared.model.diffusion.gaussian import GaussianDiffusion
-from src.shared.model.diffusion.guidance import guided, join_conditions, with_condition
+from src.shared.model.diffusion import GaussianDiffusion, guided, join_conditions, with_condition
 
 
 class Text(NamedTuple):

@@ -10,11 +10,11 @@ from torch import Tensor
 
 from src.shared.config_schema import DiffusionConfig
 from src.shared.errors import UsageError
-from src.shared.model.diffusion.gaussian import GaussianDiffusion
-from src.shared.model.diffusion.samplers import (
+from src.shared.model.diffusion import (
     DDIMSampler,
     DDPMSampler,
     DPMSolverPP2MSampler,
+    GaussianDiffusion,
     make_sampler,
     sample_generators,
     standard_normal,
@@ -35,7 +35,7 @@ def optimal(diffusion: GaussianDiffusion, mean: float, std: float) -> Callable[.
     """The analytic denoiser of data N(mean, std^2), in the prediction type of the diffusion."""
 
     def model(x_t: Tensor, t: Tensor) -> Tensor:
-        alpha_bar = diffusion.schedule.alpha_bar(int(t[0]))
+        alpha_bar = diffusion.alpha_bar(int(t[0]))
         a, s = alpha_bar**0.5, (1 - alpha_bar) ** 0.5
         x_0 = (mean * s**2 + std**2 * a * x_t) / (a**2 * std**2 + s**2)
         # The noise without dividing by a small s or a: E[noise | x_t] of the same Gaussian.

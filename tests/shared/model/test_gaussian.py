@@ -8,7 +8,7 @@ from torch import Tensor, nn
 from torch.utils._python_dispatch import TorchDispatchMode
 
 from src.shared.config_schema import DiffusionConfig
-from src.shared.model.diffusion.gaussian import GaussianDiffusion, masked_loss
+from src.shared.model.diffusion import GaussianDiffusion, masked_loss
 
 SHAPES = ((3, 25, 16), (3, 8, 23, 6), (3, 5))
 PREDICTIONS = ("epsilon", "sample", "v")
@@ -27,7 +27,7 @@ def test_q_sample_has_the_printed_mean_and_variance(shape: tuple[int, ...]) -> N
     x_t = diffusion.q_sample(x_0, t, noise)
     assert x_t.shape == shape
     for row, step in enumerate(t.tolist()):
-        alpha_bar = diffusion.schedule.alpha_bar(step)
+        alpha_bar = diffusion.alpha_bar(step)
         expected = alpha_bar**0.5 * x_0[row] + (1 - alpha_bar) ** 0.5 * noise[row]
         torch.testing.assert_close(x_t[row], expected, rtol=1e-5, atol=1e-6)
 
@@ -69,13 +69,19 @@ def test_the_last_cosine_step_is_limited_for_epsilon() -> None:
     )
 
 
+def test_alpha_bar_before_the_first_step_is_one() -> None:
+    diffusion = make()
+    assert diffusion.alpha_bar(-1) == 1.0
+    assert diffusion.alpha_bar(0) < 1.0
+
+
 def test_the_posterior_is_bayes_rule() -> None:
     """Precision-weighted product of q(x_{t-1} | x_0) and q(x_t | x_{t-1})."""
     diffusion, step = make(), 57
     x_0, x_t, t = torch.randn(1, 6), torch.randn(1, 6), torch.tensor([step])
     mean, variance = diffusion.q_posterior(x_0, x_t, t)
     beta = float(diffusion.schedule.betas[step])
-    before = diffusion.schedule.alpha_bar(step - 1)
+    before = diffusion.alpha_bar(step - 1)
     precision = 1 / (1 - before) + (1 - beta) / beta
     expected = (before**0.5 * x_0 / (1 - before) + (1 - beta) ** 0.5 * x_t / beta) / precision
     torch.testing.assert_close(mean, expected, rtol=1e-4, atol=1e-5)
