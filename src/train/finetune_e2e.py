@@ -32,9 +32,15 @@ from ..shared.environment import DECODER_CHECKPOINT, DIFFUSION_CHECKPOINT
 from ..shared.io.files import write_json, write_text
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
 from ..shared.model.audio.losses import DecoderLoss, TemporalCoherenceLoss, total
-from ..shared.model.diffusion import DDIMSampler, GaussianDiffusion, ModelFn, with_condition
+from ..shared.model.diffusion import (
+    DDIMSampler,
+    GaussianDiffusion,
+    ModelFn,
+    holding,
+    with_condition,
+)
 from ..shared.motion.trajectory import FPS, POSITION, QUATERNION
-from ..shared.pipelines.song_sampler import SPARE, holding
+from ..shared.pipelines.song_sampler import SPARE
 from .audio_stages import (
     add_shares,
     bar_phase_at_start,

@@ -15,9 +15,13 @@ import torch
 
 from ..errors import UserError
 from ..io.files import atomic_write
-from ..motion.kinematics import global_to_local
 from ..motion.motion import Motion
-from ..motion.rotations import matrix_to_quaternion, quaternion_continuous, quaternion_to_matrix
+from ..motion.rotations import (
+    global_to_local,
+    matrix_to_quaternion,
+    quaternion_continuous,
+    quaternion_to_matrix,
+)
 from ..motion.skeleton import JOINT_NAMES, NUM_JOINTS, PARENTS
 from ..motion.trajectory import MotionTrajectory
 from .arrays import COLUMNS, checked_trajectory

@@ -27,8 +27,7 @@ from ..data.phrases.store import Backoff, PhraseStore, Remote, Unreachable
 from ..errors import UserError
 from ..io.files import parse_json
 from ..motion.features import LEFT_CONTACT, ROOT_ROW
-from ..motion.trajectory import FPS
-from ..motion.window import encode_window, place_window
+from ..motion.trajectory import FPS, encode_window, place_window
 from .index import MANIFEST, MemoryConfig, MemoryIndex, Phrase
 from .priors import prior_curves
 from .search import add_library, has_tables, library_installed, open_index

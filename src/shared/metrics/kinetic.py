@@ -21,8 +21,8 @@ import numpy as np
 import torch
 from scipy.spatial.distance import pdist
 
-from ..motion.kinematics import angular_velocity
 from ..motion.motion import Motion
+from ..motion.rotations import angular_velocity
 from ..motion.skeleton import (
     JOINT_INDEX,
     JOINT_NAMES,

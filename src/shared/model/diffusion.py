@@ -128,6 +128,11 @@ def guided(model: Model, condition: Any, null_condition: Any, scale: float) -> M
     return guided_model
 
 
+def holding(model_fn: ModelFn, known: Tensor, values: Tensor) -> ModelFn:
+    """The model, always shown `values` where they are `known`."""
+    return lambda x_t, t: model_fn(torch.where(known, values, x_t), t)
+
+
 # ---------------------------------------------------------------- noise
 
 

@@ -11,9 +11,10 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from .kinematics import forward_difference, forward_kinematics
 from .motion import Motion
 from .rotations import (
+    forward_difference,
+    forward_kinematics,
     heading_angle,
     matrix_to_quaternion,
     matrix_to_rotation_6d,
@@ -114,13 +115,30 @@ def heading_joints(rotations: Tensor, height: Tensor) -> Tensor:
     return positions
 
 
+def world_pose(features: Tensor, fps: float, place: Place = ORIGIN) -> tuple[Tensor, Tensor]:
+    """Local rotations [...,T,K,3,3], the pelvis' in the world, and the pelvis path [...,T,3].
+
+    Args:
+        features: raw [...,T,R,6]; without a root track the body stands in place.
+        fps: frames per second.
+        place: of the first frame.
+    """
+    if features.shape[-2] == NUM_JOINTS:
+        root = torch.zeros_like(features[..., 0, :])
+        root[..., HEIGHT] = REST_PELVIS_HEIGHT
+    else:
+        root = features[..., ROOT_ROW, :]
+    path, heading = integrate_root(root, fps, place)
+    local = rotation_6d_to_matrix(features[..., :NUM_JOINTS, :])
+    pelvis = yaw_to_matrix(heading) @ local[..., 0, :, :]
+    return torch.cat((pelvis[..., None, :, :], local[..., 1:, :, :]), -3), path
+
+
 def world_joints(features: Tensor, fps: float) -> Tensor:
     """World joints [...,T,K,3] in metres of features [...,T,R,6]; differentiable."""
-    rotations = rotation_6d_to_matrix(features[..., :NUM_JOINTS, :])
-    if features.shape[-2] == NUM_JOINTS:
-        return heading_joints(rotations, torch.full_like(features[..., 0, 0], REST_PELVIS_HEIGHT))
-    root = features[..., ROOT_ROW, :]
-    return to_world(heading_joints(rotations, root[..., HEIGHT]), root, fps)
+    local, path = world_pose(features, fps)
+    offsets = torch.as_tensor(canonical_skeleton().offsets, device=features.device)
+    return forward_kinematics(local, path, offsets, PARENTS)[0]
 
 
 def decode_features(
@@ -139,22 +157,12 @@ def decode_features(
         text: the caption.
     """
     features = features.detach().float().cpu()
-    if features.shape[1] == NUM_JOINTS:
-        root = torch.zeros(len(features), 6)
-        root[:, HEIGHT] = REST_PELVIS_HEIGHT
-    else:
-        root = features[:, ROOT_ROW]
-    position, heading = integrate_root(root, fps, place)
-    local = rotation_6d_to_matrix(features[:, :NUM_JOINTS])
-    local = torch.cat(((yaw_to_matrix(heading) @ local[:, 0])[:, None], local[:, 1:]), 1)
+    local, path = world_pose(features, fps, place)
+    contacts = torch.zeros(len(features), 2)
+    if features.shape[1] > ROOT_ROW:
+        contacts = features[:, ROOT_ROW, LEFT_CONTACT:].clamp(0, 1)
     quaternions = quaternion_continuous(matrix_to_quaternion(local), dim=0)
-    return Motion(
-        quaternions=quaternions.numpy(),
-        root_position=position.numpy(),
-        contacts=root[:, LEFT_CONTACT:].clamp(0, 1).numpy(),
-        fps=fps,
-        text=text,
-    )
+    return Motion(quaternions.numpy(), path.numpy(), contacts.numpy(), fps=fps, text=text)
 
 
 def mirror_features(features: Tensor) -> Tensor:

@@ -6,8 +6,12 @@ from typing import Self
 import numpy as np
 import torch
 
-from .kinematics import forward_kinematics
-from .rotations import quaternion_continuous, quaternion_slerp, quaternion_to_matrix
+from .rotations import (
+    forward_kinematics,
+    quaternion_continuous,
+    quaternion_slerp,
+    quaternion_to_matrix,
+)
 from .skeleton import PARENTS, canonical_skeleton
 
 SAME_RATE = 1e-3  # relative; files say 0.033333 s for 30 fps

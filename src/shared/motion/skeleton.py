@@ -1,6 +1,7 @@
 """The 22-joint skeleton every motion lives on: SMPL order, T-pose, metres."""
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -66,6 +67,7 @@ class Skeleton:
     offsets: np.ndarray
 
 
+@cache
 def canonical_skeleton() -> Skeleton:
     """The one rest skeleton of all data (SPEC, Conventions): T-pose, facing +Z, left is +X."""
     offsets = np.zeros((NUM_JOINTS, 3), dtype=np.float32)

@@ -22,7 +22,7 @@ import numpy as np
 import torch
 
 from ..errors import UsageError
-from .kinematics import forward_difference
+from .rotations import forward_difference
 from .trajectory import MotionTrajectory
 
 PAIRS = ("intensity", "extent", "rhythm", "attitude")

@@ -1,21 +1,35 @@
 """The 25-d trajectory: where the pelvis is, how it turns, where in the bar, in which style.
 
 TECH §2.1, with the pelvis in metres (ruling 8), forward differences (ruling 6), quaternion signs
-of ruling 10 and the bar phase modulo 1 (ruling 9). NumPy in and out, derived on the
+of ruling 10 and the bar phase modulo 1 (ruling 9). NumPy in and out, computed on the
 CPU in float64: accelerations multiply a position's rounding by 900.
 
-Letters: T frames, 25 columns, see the slices.
+The audio UNet sees local windows of it. A window starts at x = z = 0 and its first frame faces +Z
+(ruling 8); heights stay. Row 16 holds the phase increment, bars a frame (ruling 9). Windows that
+follow each other share `overlap` frames: the second is turned and moved until the shared frames
+fit, then both are blended.
+
+Letters: N windows, 25 columns, of a window rows, see the slices; T frames, S shared frames.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 import torch
+from torch import Tensor
 
 from .features import FORWARD, HEIGHT, LATERAL, YAW_RATE
-from .kinematics import derive, forward_difference
 from .motion import Motion
-from .rotations import heading_of, quaternion_continuous, turn_about_y
+from .rotations import (
+    derive,
+    forward_difference,
+    heading_of,
+    quaternion_continuous,
+    quaternion_multiply,
+    quaternion_slerp,
+    turn_about_y,
+    yaw_quaternion,
+)
 from .skeleton import NUM_JOINTS
 
 CHANNELS = 25
@@ -198,3 +212,214 @@ def wrap_phase(unwrapped: np.ndarray) -> np.ndarray:
     """Bars [...,T] → phase in [0, 1) as float32; 0 is the downbeat."""
     wrapped = np.mod(np.asarray(unwrapped, dtype=np.float64), 1.0).astype(np.float32)
     return np.where(wrapped >= 1, np.float32(0), wrapped)  # 0.99999999 rounds up in float32
+
+
+# ---------------------------------------------------------------- windows
+
+PHASE_STEP = PHASE  # row 16 of a window: bars a frame
+
+
+def encode_window(trajectory: np.ndarray, phase_unwrapped: np.ndarray) -> np.ndarray:
+    """A piece of a trajectory [T,25] → its window [25,T] float32.
+
+    Velocities, accelerations and turns are taken over as they are, so cut windows out of a whole
+    trajectory rather than deriving each anew.
+
+    Args:
+        trajectory: T frames.
+        phase_unwrapped: bars [T].
+    """
+    data = torch.as_tensor(trajectory, dtype=torch.float64)
+    heading = float(heading_of(data[0, QUATERNION]))
+    local = _move(data, -heading, -turn_about_y(data[0, POSITION], -heading))
+    local[:, QUATERNION] = quaternion_continuous(local[:, QUATERNION], dim=-2)
+    phase = np.asarray(phase_unwrapped, dtype=np.float64)
+    steps = np.diff(phase, append=phase[-1:])
+    if len(steps) > 1:
+        steps[-1] = steps[-2]
+    local[:, PHASE_STEP] = torch.as_tensor(steps)
+    return local.T.numpy().astype(np.float32)
+
+
+def place_window(
+    window: np.ndarray,
+    *,
+    position: tuple[float, float] = (0.0, 0.0),
+    heading: float = 0.0,
+    phase: float = 0.0,
+) -> np.ndarray:
+    """A window [25,T] → its trajectory [T,25] float32; the inverse of `encode_window`.
+
+    Args:
+        window: rows as `encode_window` makes them.
+        position: x and z of the first frame, metres.
+        heading: of the first frame, radians about +Y.
+        phase: of the first frame, bars.
+    """
+    data = torch.as_tensor(window, dtype=torch.float64).T
+    placed = _move(
+        data, heading, torch.tensor((position[0], 0.0, position[1]), dtype=torch.float64)
+    ).numpy()
+    placed[:, PHASE] = wrap_phase(_integrate(placed[:, PHASE_STEP], phase))
+    placed[:, QUATERNION] = quaternion_continuous(
+        torch.as_tensor(placed[:, QUATERNION]), dim=-2
+    ).numpy()
+    return np.asarray(placed.astype(np.float32))
+
+
+@dataclass
+class _Pose:
+    """What a path is made of: position [T,3], quaternion [T,4], phase steps [T], style [T,8]."""
+
+    position: Tensor
+    quaternion: Tensor
+    steps: Tensor
+    style: Tensor
+
+    @classmethod
+    def of(cls, window: np.ndarray) -> "_Pose":
+        data = torch.as_tensor(window, dtype=torch.float64).T
+        return cls(data[:, POSITION], data[:, QUATERNION], data[:, PHASE_STEP], data[:, STYLE])
+
+    def __getitem__(self, frames: slice) -> "_Pose":
+        return _Pose(
+            self.position[frames], self.quaternion[frames], self.steps[frames], self.style[frames]
+        )
+
+    def moved(self, heading: float, offset: Tensor) -> "_Pose":
+        """Turned about +Y, then moved."""
+        turn = yaw_quaternion(torch.tensor(heading, dtype=torch.float64))
+        return _Pose(
+            turn_about_y(self.position, heading) + offset,
+            quaternion_multiply(turn, self.quaternion),
+            self.steps,
+            self.style,
+        )
+
+    def followed_by(self, other: "_Pose") -> "_Pose":
+        return _Pose(
+            torch.cat((self.position, other.position)),
+            torch.cat((self.quaternion, other.quaternion)),
+            torch.cat((self.steps, other.steps)),
+            torch.cat((self.style, other.style)),
+        )
+
+    def __len__(self) -> int:
+        return len(self.position)
+
+
+class WindowJoiner:
+    """Joins windows as they come; what was returned is final, memory is one window.
+
+    The concatenated results of every `add` and of `finish` are one trajectory, derived anew, that
+    starts at x = z = 0 and faces +Z.
+
+    Args:
+        overlap: S ≥ 1 frames that neighbours share; each window is longer.
+        phase: of the first frame, bars.
+    """
+
+    def __init__(self, overlap: int, *, phase: float = 0.0) -> None:
+        assert overlap >= 1
+        self.overlap = overlap
+        self._phase = phase  # bars at the first pending frame
+        self._last_sign: Tensor | None = None  # quaternion of the last frame returned
+        self._pending: _Pose | None = None
+
+    def add(self, window: np.ndarray) -> MotionTrajectory:
+        """Take the next window [25,T]; return the frames that it settled."""
+        pose = _Pose.of(window)
+        assert len(pose) > self.overlap
+        if self._pending is None:
+            self._pending = pose.moved(0.0, torch.zeros(3, dtype=torch.float64))
+        else:
+            before, shared = self._pending[: -self.overlap], self._pending[-self.overlap :]
+            pose = pose.moved(*_fit(pose[: self.overlap], shared))
+            blended = _blend(shared, pose[: self.overlap])
+            self._pending = before.followed_by(blended).followed_by(pose[self.overlap :])
+        return self._release(len(self._pending) - self.overlap - 2, spare=2)
+
+    def finish(self, *, spare: int = 0) -> MotionTrajectory:
+        """Return the frames still held back; call it once, after the last window.
+
+        Args:
+            spare: so many last frames are only what the others are derived from (ruling 6).
+        """
+        assert self._pending is not None, "finish follows at least one window"
+        return self._release(len(self._pending) - spare, spare=spare)
+
+    def _release(self, num_frames: int, *, spare: int) -> MotionTrajectory:
+        """The first pending frames, derived with the help of `spare` frames that stay."""
+        assert self._pending is not None
+        if num_frames <= 0:
+            return MotionTrajectory(np.empty((0, CHANNELS), dtype=np.float32))
+        piece = self._pending[: num_frames + spare]
+        phase = _integrate(piece.steps.numpy(), self._phase)
+        trajectory = MotionTrajectory.from_pose(
+            piece.position.numpy(),
+            piece.quaternion.numpy(),
+            phase,
+            piece.style.numpy(),
+            spare=spare,
+        )
+        self._carry_sign(trajectory)
+        self._phase = phase[num_frames - 1] + float(piece.steps[num_frames - 1])
+        self._pending = self._pending[num_frames:]
+        return trajectory
+
+    def _carry_sign(self, trajectory: MotionTrajectory) -> None:
+        """Continuity wins across the seam (ruling 10)."""
+        first = torch.as_tensor(trajectory.quaternion[0])
+        if self._last_sign is not None and float(first @ self._last_sign) < 0:
+            trajectory.quaternion[:] *= -1
+        self._last_sign = torch.as_tensor(trajectory.quaternion[-1].copy())
+
+
+def _move(data: Tensor, heading: float, offset: Tensor) -> Tensor:
+    """Rows [T,25] turned about +Y, then moved by `offset`; phase and style as they are."""
+    moved = data.clone()
+    for columns in (POSITION, VELOCITY, ACCELERATION, ANGULAR_VELOCITY):
+        moved[:, columns] = turn_about_y(data[:, columns], heading)
+    moved[:, (0, 2)] += offset[[0, 2]]
+    turn = yaw_quaternion(torch.tensor(heading, dtype=data.dtype))
+    moved[:, QUATERNION] = quaternion_multiply(turn, data[:, QUATERNION])
+    return moved
+
+
+def _integrate(steps: np.ndarray, start: float) -> np.ndarray:
+    """Phase [T] whose first frame is `start`; the last step leads out of the window."""
+    phase = np.full(len(steps), start, dtype=np.float64)
+    phase[1:] += np.cumsum(steps[:-1], dtype=np.float64)
+    return phase
+
+
+def _fit(local: _Pose, target: _Pose) -> tuple[float, Tensor]:
+    """Turn and offset that lay the shared frames of a window on those already placed.
+
+    The turn is the circular mean of the heading differences, the offset the mean of what then
+    remains in x and z.
+    """
+    turns = heading_of(target.quaternion) - heading_of(local.quaternion)  # S
+    turn = float(torch.atan2(torch.sin(turns).mean(), torch.cos(turns).mean()))
+    offset = (target.position - turn_about_y(local.position, turn)).mean(0)
+    offset[1] = 0
+    return turn, offset
+
+
+def _blend(first: _Pose, second: _Pose) -> _Pose:
+    """Shared frames, from the first window over to the second with a soft start and end.
+
+    Phase steps are blended rather than phases: their sum stays monotone whatever they are. The
+    first window's last step leads out of it, a repetition, so the second one's is taken.
+    """
+    x = torch.arange(1, len(first) + 1, dtype=torch.float64) / (len(first) + 1)
+    weight = (x**3 * (x * (6 * x - 15) + 10))[:, None]  # two vanishing derivatives at both ends
+    style = torch.lerp(first.style, second.style, weight)
+    steps = torch.lerp(first.steps, second.steps, weight[:, 0])
+    steps[-1] = second.steps[-1]
+    return _Pose(
+        torch.lerp(first.position, second.position, weight),
+        quaternion_slerp(first.quaternion, second.quaternion, weight),
+        steps,
+        torch.nn.functional.normalize(style, dim=-1),
+    )

@@ -22,15 +22,23 @@ from ..device import idle_threads
 from ..errors import UsageError
 from ..model.audio.conditioning import MemoryCondition, known_frames
 from ..model.audio.unet import MIN_FRAMES
-from ..model.diffusion import ModelFn, Sampling, make_sampler, sample_generators, standard_normal
+from ..model.diffusion import Sampling, holding, make_sampler, sample_generators, standard_normal
 from ..motion.rotations import (
     quaternion_conjugate,
     quaternion_continuous,
     quaternion_multiply,
     quaternion_slerp,
 )
-from ..motion.trajectory import CHANNELS, PHASE, POSITION, QUATERNION, STYLE, MotionTrajectory
-from ..motion.window import WindowJoiner, encode_window
+from ..motion.trajectory import (
+    CHANNELS,
+    PHASE,
+    POSITION,
+    QUATERNION,
+    STYLE,
+    MotionTrajectory,
+    WindowJoiner,
+    encode_window,
+)
 from .runtime import Runtime
 
 SPARE = 8  # frames at the end that are made and cut off: no neighbour to learn from (ruling 6)
@@ -232,11 +240,6 @@ class SongSampler:
             rows[PHASE] = np.pad(steps, (0, length - len(steps)), mode="edge")
             windows.append((rows, float(own[0])))
         return windows
-
-
-def holding(model_fn: ModelFn, known: Tensor, values: Tensor) -> ModelFn:
-    """The model, always shown `values` where they are `known`."""
-    return lambda x_t, t: model_fn(torch.where(known, values, x_t), t)
 
 
 def reset_window(window: np.ndarray) -> np.ndarray:

@@ -14,9 +14,9 @@ from src.shared.motion.features import (
     encode_features,
     mirror_features,
 )
-from src.shared.motion.kinematics import global_to_local, local_to_global
 from src.shared.motion.motion import Motion, in_place, resample_motion
 from src.shared.motion.postprocess.contacts import detect_contacts
+from src.shared.motion.rotations import global_to_local, local_to_global
 from src.shared.motion.skeleton import (
     JOINT_INDEX,
     JOINT_NAMES,

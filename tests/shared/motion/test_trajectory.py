@@ -7,8 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from src.shared.motion.features import LEFT_CONTACT, Place, decode_features, encode_features
-from src.shared.motion.kinematics import angular_velocity, derive, forward_difference
-from src.shared.motion.rotations import yaw_quaternion
+from src.shared.motion.rotations import angular_velocity, derive, forward_difference, yaw_quaternion
 from src.shared.motion.trajectory import (
     CHANNELS,
     MotionTrajectory,

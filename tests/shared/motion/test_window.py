@@ -10,9 +10,11 @@ from src.shared.motion.trajectory import (
     POSITION,
     QUATERNION,
     MotionTrajectory,
+    WindowJoiner,
+    encode_window,
+    place_window,
     unwrap_phase,
 )
-from src.shared.motion.window import WindowJoiner, encode_window, place_window
 from tests.shared.motion.trajectories import smooth_trajectory
 
 seeds = st.integers(0, 10_000)

@@ -12,8 +12,7 @@ from hypothesis import strategies as st
 from src.shared.errors import UsageError
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.motion.rotations import heading_of
-from src.shared.motion.trajectory import POSITION, QUATERNION, MotionTrajectory
-from src.shared.motion.window import encode_window
+from src.shared.motion.trajectory import POSITION, QUATERNION, MotionTrajectory, encode_window
 from src.shared.pipelines.song_sampler import (
     POSE_FRAMES,
     SPARE,

@@ -35,8 +35,7 @@ from ...io.arrays import load_array, load_arrays
 from ...io.files import inside, load_json, write_json
 from ...metrics.rhythm import motion_beats
 from ...motion.style import measure_style
-from ...motion.trajectory import STYLE, MotionTrajectory
-from ...motion.window import encode_window
+from ...motion.trajectory import STYLE, MotionTrajectory, encode_window
 from ..phrases.layout import PhraseRecord, features_path, trajectory_path, write_phrase
 from ..prepare import finished_record, is_whole, prepare, run_jobs
 from ..prepared import PreparedData

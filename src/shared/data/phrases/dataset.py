@@ -15,7 +15,7 @@ from torch import Tensor
 
 from ...errors import UsageError, UserError
 from ...io.concurrency import prefetch
-from ...motion.window import encode_window
+from ...motion.trajectory import encode_window
 from .layout import (
     BadContent,
     PhraseRecord,

@@ -11,10 +11,10 @@ import numpy as np
 import torch
 
 from ...formats.rig import SourceClip
-from ...motion.kinematics import global_to_local
 from ...motion.motion import Motion, resample_motion
 from ...motion.postprocess.contacts import detect_contacts
 from ...motion.rotations import (
+    global_to_local,
     matrix_to_quaternion,
     quaternion_continuous,
     quaternion_slerp,

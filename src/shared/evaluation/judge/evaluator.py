@@ -33,9 +33,8 @@ from ...metrics.retrieval import NUM_BUCKETS, caption_buckets
 from ...model.checkpoint import of_another_version
 from ...model.zoo import PRETRAINED
 from ...motion.features import FORWARD, HEIGHT, LATERAL, YAW_RATE, encode_features
-from ...motion.kinematics import forward_kinematics
 from ...motion.motion import Motion
-from ...motion.rotations import rotation_6d_to_matrix
+from ...motion.rotations import forward_kinematics, rotation_6d_to_matrix
 from ...motion.skeleton import NUM_JOINTS, canonical_skeleton
 
 FPS = 30.0

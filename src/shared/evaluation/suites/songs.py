@@ -28,8 +28,7 @@ from ...data.phrases.dataset import MotionPhraseDataset
 from ...errors import UserError
 from ...metrics.rhythm import beats_of_phase
 from ...model.audio.conditioning import BEAT, CONDITION_ROWS
-from ...motion.trajectory import FPS, MotionTrajectory
-from ...motion.window import place_window
+from ...motion.trajectory import FPS, MotionTrajectory, place_window
 from ...pipelines.song import SongCondition, song_condition
 from ..samples import Dance
 

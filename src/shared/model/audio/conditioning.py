@@ -22,7 +22,7 @@ from torch import Tensor, nn
 from torch.nn import functional as F
 
 from ...config_audio import AudioConditionConfig, AugmentationConfig, MemoryConditionConfig
-from ..layers.transformer import TemporalLayer
+from ..layers.transformer import TemporalLayer, zeroed
 
 MEL, CHROMA, MFCC = slice(0, 128), slice(128, 140), slice(140, 160)
 ENERGY, BEAT = slice(160, 163), slice(163, 167)
@@ -47,14 +47,6 @@ def with_phase_rows(condition: Tensor) -> Tensor:
             f"an audio condition has {FEATURE_ROWS} or {CONDITION_ROWS} rows, not {rows}"
         )
     return F.pad(condition, (0, 0, 0, CONDITION_ROWS - rows))
-
-
-def zeroed(layer: nn.Conv1d | nn.Linear) -> nn.Module:
-    """The layer with zero weights: a residual branch that starts silent."""
-    nn.init.zeros_(layer.weight)
-    if layer.bias is not None:
-        nn.init.zeros_(layer.bias)
-    return layer
 
 
 class AudioConditioner(nn.Module):

@@ -16,8 +16,7 @@ from torch import Tensor, nn
 from torch.nn import functional as F
 
 from ...config_audio import DecoderConfig
-from ...motion.kinematics import derive, forward_difference
-from ...motion.rotations import quaternion_continuous
+from ...motion.rotations import derive, forward_difference, quaternion_continuous
 from ...motion.trajectory import (
     ACCELERATION,
     ANGULAR_VELOCITY,

@@ -16,7 +16,7 @@ from torch.nn import functional as F
 from torch.utils.checkpoint import checkpoint
 
 from ...config_audio import NORM_GROUPS, AudioConditionConfig, MemoryConditionConfig, UNetConfig
-from ..layers.transformer import KeyValue, RotaryEmbedding, attend, sinusoidal
+from ..layers.transformer import KeyValue, RotaryEmbedding, attend, sinusoidal, zeroed
 from .conditioning import (
     CONDITION_ROWS,
     AudioConditioner,
@@ -24,7 +24,6 @@ from .conditioning import (
     MemoryJoin,
     Remembered,
     with_phase_rows,
-    zeroed,
 )
 
 MIN_FRAMES = 8  # ruling 4
@@ -39,11 +38,7 @@ class FiLMLayer(nn.Module):
 
     def __init__(self, channels: int, condition_dim: int) -> None:
         super().__init__()
-        self.mlp = nn.Sequential(nn.SiLU(), nn.Conv1d(condition_dim, 2 * channels, 1))
-        final = self.mlp[1]
-        assert isinstance(final, nn.Conv1d) and final.bias is not None
-        nn.init.zeros_(final.weight)
-        nn.init.zeros_(final.bias)
+        self.mlp = nn.Sequential(nn.SiLU(), zeroed(nn.Conv1d(condition_dim, 2 * channels, 1)))
 
     def gamma_beta(self, condition: Tensor) -> Tensor:
         """Condition [B, E, T] -> both modulations [B, 2C, T]."""

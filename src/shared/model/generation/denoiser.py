@@ -17,6 +17,7 @@ from ..layers.transformer import (
     TagEmbedding,
     TimestepEmbedding,
     without_full_mask,
+    zeroed,
 )
 
 
@@ -30,9 +31,7 @@ class FrameRefiner(nn.Module):
     def __init__(self, motion_dim: int, hidden: int, kernel: int = 3) -> None:
         super().__init__()
         self.expand = nn.Conv1d(2 * motion_dim, hidden, kernel, padding=kernel // 2)
-        self.contract = nn.Conv1d(hidden, motion_dim, kernel, padding=kernel // 2)
-        for parameter in self.contract.parameters():
-            nn.init.zeros_(parameter)
+        self.contract = zeroed(nn.Conv1d(hidden, motion_dim, kernel, padding=kernel // 2))
 
     def forward(self, noisy: Tensor, coarse: Tensor, mask: Tensor | None = None) -> Tensor:
         """Both [B, T, K*C], mask [B, T], True = real frame -> [B, T, K*C], to be added."""
@@ -64,8 +63,7 @@ class MotionDenoiser(nn.Module):
         self.motion_proj = nn.Linear(token_dim, dim)
         self.known_proj = None
         if generation.constraints:  # starts at zero: a network without it can be gone on from
-            self.known_proj = nn.Linear(token_dim, dim, bias=False)
-            nn.init.zeros_(self.known_proj.weight)
+            self.known_proj = zeroed(nn.Linear(token_dim, dim, bias=False))
         self.text_scale = nn.Parameter(torch.tensor(float(dim) ** 0.5))  # unit-norm -> unit RMS
         self.text_proj = nn.Linear(dim, dim)
         self.null_pooled = nn.Parameter(torch.randn(dim) * dim**-0.5)  # ruling 14
@@ -84,9 +82,7 @@ class MotionDenoiser(nn.Module):
             for _ in range(generation.num_layers)
         )
         self.output_norm = nn.LayerNorm(dim)
-        self.output_proj = nn.Linear(dim, token_dim)
-        nn.init.zeros_(self.output_proj.weight)
-        nn.init.zeros_(self.output_proj.bias)
+        self.output_proj = zeroed(nn.Linear(dim, token_dim))
         self.refiner = FrameRefiner(motion_dim, dim // 2) if self.stride > 1 else None
 
     def forward(
@@ -117,7 +113,9 @@ class MotionDenoiser(nn.Module):
         Returns:
             [B, T, K, C] in float32 outside autocast.
         """
-        mask = frame_mask = without_full_mask(mask)
+        if mask is not None:
+            mask = without_full_mask(mask)
+        frame_mask = mask
         frames = noisy.shape[1]
         if self.refiner is not None and mask is not None:
             noisy = noisy * mask[:, :, None, None]  # a token may hold frames that are none

@@ -10,11 +10,21 @@ dropping the residual branch regularises as well at this size.
 """
 
 import math
+from typing import TypeVar
 
 import torch
 from einops import rearrange
 from torch import Tensor, nn
 from torch.nn.functional import scaled_dot_product_attention
+
+LayerT = TypeVar("LayerT", nn.Linear, nn.Conv1d)
+
+
+def zeroed(layer: LayerT) -> LayerT:
+    """The layer with zero weights: a residual branch that starts silent."""
+    for parameter in layer.parameters():
+        nn.init.zeros_(parameter)
+    return layer
 
 
 def sinusoidal(positions: Tensor, dim: int, *, max_period: float = 10_000.0) -> Tensor:
@@ -165,9 +175,7 @@ class FiLM(nn.Module):
 
     def __init__(self, dim: int, condition_dim: int) -> None:
         super().__init__()
-        self.modulation = nn.Linear(condition_dim, 2 * dim)
-        nn.init.zeros_(self.modulation.weight)
-        nn.init.zeros_(self.modulation.bias)
+        self.modulation = zeroed(nn.Linear(condition_dim, 2 * dim))
 
     def forward(self, x: Tensor, condition: Tensor) -> Tensor:
         """x [B, T, D], condition [B, E] -> [B, T, D]."""

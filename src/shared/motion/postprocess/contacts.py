@@ -1,7 +1,14 @@
-"""Contact detection: which feet stand, from joint positions and from what a motion claims.
+"""Contacts: which feet stand, where, and how far each frame's foot is from there.
 
-Letters: T frames.
+A body on a path that is not its own (a dancer pinned to a song's trajectory) slides more than a
+held foot can make up for; where a leg ends, feet take steps in turn. Between two holds the
+correction follows a cubic Hermite curve (Kovar et al. 2002, "Footskate cleanup", §4).
+
+Letters: T frames, N frames of a curve.
 """
+
+from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d, minimum_filter1d
@@ -16,6 +23,20 @@ AROUND_SECONDS, FLAT = 0.4, 0.01  # in which a foot comes down; metres that are 
 MAX_SUPPORT = 0.08  # metres; a lower foot carries the body if none other does,
 MAX_VERTICAL = 0.5  # m/s, unless it rises or falls faster than this
 FALL = -3.0  # m/s² of the hips, below which the body flies
+MAX_GAP_SECONDS = 2 / 30  # a contact that breaks off for no longer than this goes on
+MIN_HOLD_SECONDS = 3 / 30  # a shorter contact is none
+MIN_SWING_SECONDS = 8 / 30  # that a foot has to get from one hold to the next
+SOONER_SECONDS = 12 / 30  # a foot lands sooner by so much at most, else there is a step between
+BLEND_SECONDS = 9 / 30  # how long a correction fades in before, and out after, a contact
+STEP_SECONDS = 8 / 30  # of a step that was put in
+LIFT, SLOPE = 0.1, 0.1  # metres that a foot is lifted on its way, at most and for each metre
+SOFT = 0.01  # metres around which that lift sets in
+GIVE = 0.05  # m/s that a standing foot moves over the floor, on average, at most
+ROLL = 0.005  # metres that the ball of a standing foot may be above its standing height
+MAX_DRAG = 0.22  # metres that a held foot may be from where it was; further off it steps
+MAX_SLOPE = 2.5  # m/s at which a correction may start from a hold
+UNDER = (0.0, 0.5, 1.0)  # shares of the way from where a foot was to below its hip
+MAX_REACH = 0.9  # metres from the hip to the ball of a held foot, its heel up
 
 
 def detect_contacts(positions: np.ndarray, fps: float) -> np.ndarray:
@@ -81,3 +102,285 @@ def contact_runs(contact: np.ndarray, max_gap: int) -> list[tuple[int, int]]:
         else:
             runs.append((start, stop))
     return runs
+
+
+@dataclass(frozen=True, eq=False)
+class Plant:
+    """A foot that stands on `point` [3] in frames [start, stop)."""
+
+    start: int
+    stop: int
+    point: np.ndarray
+
+
+def foot_shifts(
+    balls: np.ndarray,
+    hips: np.ndarray,
+    contacts: np.ndarray,
+    fps: float,
+    kept: np.ndarray | None = None,
+) -> tuple[np.ndarray, np.ndarray]:
+    """How far the ball of each foot has to move [T,2,3] in metres, and whether it stands [T,2].
+
+    Args:
+        balls: world positions of the balls of both feet [T,2,3], metres.
+        hips: of the hips above them [T,2,3].
+        contacts: [T,2] in [0, 1], as the motion claims.
+        fps: frames per second.
+        kept: legs [T,2] bool that must stay as they are; a foot that stands on goes on standing
+            where it was kept.
+    """
+    kept = np.zeros((len(balls), 2), dtype=bool) if kept is None else kept
+    shifts = grounding(balls, kept, fps)
+    balls = balls + shifts
+    stands = standing(balls, hips, contacts, fps)
+    held = np.zeros(stands.shape, dtype=bool)
+    for side, holds in enumerate(plant_spans(balls, hips, stands, fps, kept)):
+        shifts[:, side] += corrections(balls[:, side], holds, kept[:, side], fps)
+        for hold in holds:
+            held[hold.start : hold.stop, side] = True
+    return shifts, held
+
+
+# ---------------------------------------------------------------- where
+
+
+def plant_spans(
+    balls: np.ndarray, hips: np.ndarray, stands: np.ndarray, fps: float, kept: np.ndarray
+) -> tuple[list[Plant], list[Plant]]:
+    """The holds of the left and of the right foot, in order; where one foot must leave before the
+    other was to land, the other one lands sooner, or steps are put between.
+
+    Args:
+        balls: [T,2,3].
+        hips: [T,2,3].
+        stands: [T,2] bool.
+        fps: frames per second.
+        kept: [T,2] bool, legs that stay as they are.
+    """
+    free = np.asarray(stands.any(1) & ~kept.any(1))
+    planner = _Planner(balls, hips, free, fps, kept)
+    for start, stop, side in _runs(balls, stands, fps, kept):
+        planner.plant(start, stop, side)
+    planner.step_on(len(balls))
+    return planner.found
+
+
+class _Planner:
+    """Takes the times that feet stand, in order, and finds where and how long they can."""
+
+    def __init__(
+        self, balls: np.ndarray, hips: np.ndarray, free: np.ndarray, fps: float, kept: np.ndarray
+    ) -> None:
+        self.balls, self.hips, self.free, self.kept = balls, hips, free, kept
+        self.shortest = min(round(MIN_HOLD_SECONDS * fps), len(balls))
+        self.swing, self.sooner = round(MIN_SWING_SECONDS * fps), round(SOONER_SECONDS * fps)
+        self.found: tuple[list[Plant], list[Plant]] = ([], [])
+        self.until, self.last = 0, 0  # some foot stands up to here; the foot that stood last
+
+    def plant(self, start: int, stop: int, side: int) -> None:
+        """A foot is to stand in frames [start, stop)."""
+        self.step_on(start, side)
+        if self._gap(start) and start - self.until <= self.sooner:
+            start = max(self._ready(side), min(start, self.until))
+        self._hold(start, stop, side)
+
+    def step_on(self, start: int, side: int | None = None) -> None:
+        """Steps until `start`, when `side` is to land (None = nobody is), where nobody stands."""
+        while self._gap(start) and (start - self.until > self.sooner or side in (None, self.last)):
+            before, between = self.until, 1 - self.last
+            end = start - self.swing if between == side else start
+            self._hold(self._ready(between), end, between)
+            if self.until == before:
+                break
+
+    def _gap(self, start: int) -> bool:
+        """Whether the body is carried, by nobody so far, until `start`."""
+        return self.until < start and bool(self.free[self.until : start].all())
+
+    def _ready(self, side: int) -> int:
+        """When a foot may land that has to get here from where it stood."""
+        before = self.found[side][-1].stop + self.swing if self.found[side] else 0
+        return max(self.until, before)
+
+    def _hold(self, start: int, stop: int, side: int) -> None:
+        """Plant a foot as long as its leg reaches."""
+        ball, hip = self.balls[:, side], self.hips[:, side]
+        fixed = np.flatnonzero(self.kept[start:stop, side])
+        if len(fixed):
+            point = _on_floor(ball[start + _border(fixed)])
+            first, last = _reached(point, hip, start, stop)
+        elif stop - start < self.shortest:
+            return
+        else:
+            point, first, last = _in_reach(ball, hip, start, stop, self.shortest)
+        if last - first >= self.shortest:
+            self.found[side].append(Plant(first, last, point))
+            if last > self.until:
+                self.until, self.last = last, side
+
+
+def _runs(
+    balls: np.ndarray, stands: np.ndarray, fps: float, kept: np.ndarray
+) -> list[tuple[int, int, int]]:
+    """First and past-the-last frame and side of each time that a foot stands, by their start."""
+    runs = []
+    for side in (0, 1):
+        for start, stop in contact_runs(stands[:, side], round(MAX_GAP_SECONDS * fps)):
+            path = balls[start:stop, side]
+            whole = bool(kept[start:stop, side].any())
+            pieces = [(start, stop)] if whole else _steps(path, start, fps, 0.5 * side)
+            runs += [(first, last, side) for first, last in pieces]
+    return sorted(runs)
+
+
+def _border(fixed: np.ndarray) -> int:
+    """The kept frame of a run that the others follow: the last of a beginning, else the first."""
+    return int(fixed[-1]) if fixed[0] == 0 else int(fixed[0])
+
+
+def _steps(path: np.ndarray, start: int, fps: float, phase: float) -> list[tuple[int, int]]:
+    """A run [N,3] as it is, or cut into equally long drags with a step's time between them."""
+    ground = path[:, [0, 2]]
+    if np.linalg.norm(ground - ground.mean(0), axis=1).max() <= MAX_DRAG:
+        return [(start, start + len(path))]
+    smooth = gaussian_filter1d(ground, 0.1 * fps, axis=0, mode="nearest")
+    way = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(smooth, axis=0), axis=1))))
+    step = round(STEP_SECONDS * fps)
+    number = min(int(np.ceil(way[-1] / (2 * MAX_DRAG))), len(path) // (2 * step))
+    if number < 2:
+        return [(start, start + len(path))]
+    marks = (np.arange(1, number + 1) - phase) / number
+    cuts = np.searchsorted(way, marks[marks < 1 - 1e-9] * way[-1])
+    half = step // 2
+    edges = [-half, *cuts.tolist(), len(path) + half]
+    pairs = [(a + half, b - half) for a, b in pairwise(edges)]
+    return [(start + max(a, 0), start + min(b, len(path))) for a, b in pairs if b > a]
+
+
+def _on_floor(point: np.ndarray) -> np.ndarray:
+    return np.array([point[0], REST_FOOT_HEIGHT, point[2]])
+
+
+def _in_reach(
+    ball: np.ndarray, hip: np.ndarray, start: int, stop: int, shortest: int
+) -> tuple[np.ndarray, int, int]:
+    """Where a foot stands, and the first frame and the one past the last in which its leg reaches.
+
+    The middle of its way, or nearer to below the hip; of a way that is too long, the longest
+    beginning: a foot lands when it is to land, and leaves sooner. No frames where no leg reaches.
+    """
+    for first in range(start, stop - shortest + 1):
+        for last in range(stop, first + shortest - 1, -1):
+            foot, under = ball[first:last].mean(0), hip[first:last].mean(0)
+            for share in UNDER:
+                point = _on_floor((1 - share) * foot + share * under)
+                if np.linalg.norm(hip[first:last] - point, axis=1).max() <= MAX_REACH:
+                    return point, first, last
+    return _on_floor(ball[start]), start, start
+
+
+def _reached(point: np.ndarray, hip: np.ndarray, start: int, stop: int) -> tuple[int, int]:
+    """The frames around the nearest one in which a leg gets to the point."""
+    away = np.linalg.norm(hip[start:stop] - point, axis=1)
+    nearest = int(away.argmin())
+    far = np.flatnonzero(away > MAX_REACH)
+    before, after = far[far < nearest], far[far > nearest]
+    if away[nearest] > MAX_REACH:
+        return start, start
+    first = start + (int(before[-1]) + 1 if len(before) else 0)
+    return first, start + (int(after[0]) if len(after) else stop - start)
+
+
+# ---------------------------------------------------------------- how far
+
+
+def corrections(ball: np.ndarray, holds: list[Plant], kept: np.ndarray, fps: float) -> np.ndarray:
+    """Where the ball of a foot [T,3] has to move, [T,3] in metres; zero = nothing to do."""
+    shift, known = np.zeros_like(ball), kept.copy()
+    lift = np.zeros(len(ball))
+    for hold in holds:
+        own = hold.point - ball[hold.start : hold.stop]
+        if not kept[hold.start : hold.stop].any():  # there the foot stands where it was kept
+            own += _give(ball[hold.start : hold.stop], fps)
+        path = ball[hold.start : hold.stop, 1]
+        own[:, 1] = path.clip(REST_FOOT_HEIGHT, REST_FOOT_HEIGHT + ROLL) - path
+        shift[hold.start : hold.stop] = own
+        known[hold.start : hold.stop] = True
+    shift[kept] = 0
+    for before, after in pairwise(holds):
+        rise = np.linspace(0, np.pi, after.start - before.stop + 2)[1:-1]
+        way = np.linalg.norm(after.point - before.point)
+        lift[before.stop : after.start] = min(LIFT, SLOPE * way) * np.sin(rise) ** 2
+    shift = _bridged(shift, known, round(BLEND_SECONDS * fps), fps)
+    missing = lift - (ball[:, 1] + shift[:, 1] - REST_FOOT_HEIGHT)
+    soft = np.clip((missing + SOFT) / (2 * SOFT), 0, 1) ** 2 * SOFT  # sets in without a corner
+    raised = np.where(missing < SOFT, soft, missing)
+    shift[:, 1] += np.where(known | (lift == 0), 0.0, raised * np.minimum(lift / SOFT, 1))
+    shift[:, 1] += _above_floor(ball[:, 1] + shift[:, 1], known, fps)
+    return shift
+
+
+def _give(path: np.ndarray, fps: float) -> np.ndarray:
+    """What a held ball keeps of its own way over the floor [N,3], no faster than GIVE on average.
+
+    A foot that rolls from heel to toe, or turns, moves a little; captured ones do (FIELD, foot
+    slide), and a foot that does not looks nailed down.
+    """
+    own = path - path.mean(0)
+    own[:, 1] = 0.0
+    speed = np.linalg.norm(np.diff(own, axis=0), axis=1).sum() * fps / max(len(path) - 1, 1)
+    return np.asarray(own * min(1.0, GIVE / max(speed, 1e-9)))
+
+
+def _bridged(shift: np.ndarray, known: np.ndarray, blend: int, fps: float) -> np.ndarray:
+    """Corrections [T,3] with the frames that are not known filled in, smoothly."""
+    shift = shift.copy()
+    limit = MAX_SLOPE / fps
+    edges = np.flatnonzero(np.diff(np.concatenate(([1], known.astype(int), [1]))))
+    for start, stop in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
+        ends = []
+        for at, inner in ((start - 1, start - 2), (stop, stop + 1)):
+            here = shift[at] if 0 <= at < len(shift) else np.zeros(3)
+            slope = np.zeros(3)
+            if min(at, inner) >= 0 and max(at, inner) < len(shift) and known[inner]:
+                slope = (shift[at] - shift[inner]) * (at - inner)
+            ends.append((here, slope.clip(-limit, limit)))
+        (left, left_slope), (right, right_slope) = ends
+        frames = stop - start + 1
+        along = np.arange(1, frames)
+        inside = start > 0 and stop < len(shift)
+        if inside and frames <= 2 * blend:
+            shift[start:stop] = hermite(left, right, left_slope, right_slope, frames)[1:-1]
+            continue
+        zero = np.zeros(3)
+        if start > 0:
+            out = hermite(left, zero, left_slope, zero, blend)
+            shift[start:stop] += out[np.minimum(along, blend)]
+        if stop < len(shift):
+            into = hermite(zero, right, zero, right_slope, blend)
+            shift[start:stop] += into[np.maximum(along - frames + blend, 0)]
+    return shift
+
+
+def hermite(
+    left: np.ndarray, right: np.ndarray, left_slope: np.ndarray, right_slope: np.ndarray, num: int
+) -> np.ndarray:
+    """The cubic [num+1,3] between two values with given slopes a frame."""
+    u = (np.arange(num + 1) / num)[:, None]
+    return np.asarray(
+        (2 * u**3 - 3 * u**2 + 1) * left
+        + (u**3 - 2 * u**2 + u) * num * left_slope
+        + (3 * u**2 - 2 * u**3) * right
+        + (u**3 - u**2) * num * right_slope
+    )
+
+
+def _above_floor(height: np.ndarray, known: np.ndarray, fps: float) -> np.ndarray:
+    """What lifts a foot [T] that moves to its standing height, faded in and out."""
+    depth = np.where(known, 0.0, (REST_FOOT_HEIGHT - height).clip(min=0))
+    if not depth.any():
+        return np.zeros_like(height)
+    width = 2 * round(0.1 * fps) + 1
+    smooth = gaussian_filter1d(maximum_filter1d(depth, width), width / 6, mode="nearest")
+    return np.where(known, 0.0, smooth)

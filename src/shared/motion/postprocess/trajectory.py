@@ -14,8 +14,7 @@ from torch import Tensor
 from torch.nn import functional as F
 
 from ...config_audio import PostProcessConfig
-from ..kinematics import forward_difference, smooth
-from ..rotations import quaternion_continuous
+from ..rotations import forward_difference, quaternion_continuous, smooth
 from ..trajectory import (
     ACCELERATION,
     ANGULAR_VELOCITY,

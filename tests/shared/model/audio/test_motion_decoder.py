@@ -20,7 +20,7 @@ from src.shared.model.audio.decoder import (
     limit_speed,
     wrapped_phase,
 )
-from src.shared.motion.kinematics import derive
+from src.shared.motion.rotations import derive
 from src.shared.motion.trajectory import (
     ACCELERATION,
     ANGULAR_VELOCITY,

@@ -7,7 +7,7 @@ from torch import Tensor
 
 from src.shared.config_audio import AudioConditionConfig, AudioNetworkConfig, UNetConfig
 from src.shared.model.audio.unet import UNet1D
-from src.shared.motion.kinematics import derive
+from src.shared.motion.rotations import derive
 
 CONDITION = AudioConditionConfig(dim=32)
 

@@ -12,9 +12,13 @@ from scipy.spatial.transform import Rotation
 from src.shared.metrics.physical import support_speed
 from src.shared.metrics.seams import ACCELERATION, JERK, body_quantities
 from src.shared.motion.motion import Motion
-from src.shared.motion.postprocess.footskate import lock_carried_feet, lock_feet
-from src.shared.motion.postprocess.leg_ik import MAX_STRETCH, two_bone_ik
-from src.shared.motion.postprocess.plants import GIVE
+from src.shared.motion.postprocess.contacts import GIVE
+from src.shared.motion.postprocess.footskate import (
+    MAX_STRETCH,
+    lock_carried_feet,
+    lock_feet,
+    two_bone_ik,
+)
 from src.shared.motion.rotations import axis_angle_to_matrix, matrix_to_quaternion
 from src.shared.motion.skeleton import (
     JOINT_INDEX,

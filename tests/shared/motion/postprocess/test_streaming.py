@@ -13,7 +13,7 @@ from src.shared.config_schema import PostProcessingConfig
 from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.motion.features import LATERAL, ROOT_ROW, YAW_RATE, Place, encode_features
 from src.shared.motion.motion import Motion
-from src.shared.motion.postprocess.plants import GIVE
+from src.shared.motion.postprocess.contacts import GIVE
 from src.shared.motion.postprocess.stitching import joined
 from src.shared.motion.postprocess.streaming import StreamingPostProcessor, streamed
 from src.shared.motion.postprocess.whole import MotionPostProcessor

@@ -7,16 +7,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import CubicHermiteSpline
 
-from src.shared.motion.postprocess.contacts import contact_runs, grounding, standing
-from src.shared.motion.postprocess.leg_ik import MAX_RISE, heel_rise
-from src.shared.motion.postprocess.plants import (
+from src.shared.motion.postprocess.contacts import (
     GIVE,
     MAX_REACH,
+    contact_runs,
     corrections,
     foot_shifts,
+    grounding,
     hermite,
     plant_spans,
+    standing,
 )
+from src.shared.motion.postprocess.footskate import MAX_RISE, heel_rise
 from src.shared.motion.skeleton import REST_FOOT_HEIGHT
 
 FPS = 30.0
