@@ -27,6 +27,7 @@ ARM_LENGTH = float(
 
 HAND_DOWN = 0.15  # metres above the pelvis, at most, of a hand at rest
 AT_REST = 3  # frames at either end
+IN_PLACE = 0.6  # metres that a body may sway and still stay where it is
 
 
 def at_rest(motion: Motion) -> bool:
@@ -36,8 +37,10 @@ def at_rest(motion: Motion) -> bool:
 
 
 def is_gesture(motion: Motion) -> bool:
-    """Whether a hand goes up between two ends at which both hang."""
-    return at_rest(motion) and bool((_hand_heights(motion) > HAND_DOWN).any())
+    """Whether a body that stays on its legs and in its place raises a hand between two rests."""
+    x, height, z = motion.root_position.astype(np.float64).T
+    stays = max(np.ptp(x), np.ptp(z)) < IN_PLACE and height.min() > 0.6 * REST_PELVIS_HEIGHT
+    return bool(stays) and at_rest(motion) and bool((_hand_heights(motion) > HAND_DOWN).any())
 
 
 def _hand_heights(motion: Motion) -> Array:
