@@ -62,7 +62,7 @@ def flops(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def action_config(data: Path, init: Path | str, output: Path, *more: str) -> TrainActionConfig:
     given = [*SETTINGS, f"data='{data}'", f"init='{init}'", f"output='{output}'", *more]
-    return load_train(None, TrainActionConfig, [*given, "rehearsed=4", "tower-steps=60"])
+    return load_train(None, TrainActionConfig, [*given, "rehearsed=4", "tower-steps=120"])
 
 
 def test_a_new_action_has_a_place_and_the_old_ones_keep_theirs(

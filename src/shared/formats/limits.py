@@ -93,7 +93,7 @@ def check_plausible(
     """The values as float64; raises UserError, beginning with `where`, if one is NaN or beyond."""
     values = values.astype(np.float64)
     if values.size and not np.abs(values).max() < most:
-        raise UserError(f"{where} holds NaN or impossibly large values; {remedy}")
+        raise UserError(f"{where} holds NaN or impossibly large values; correct them, or {remedy}")
     return values
 
 

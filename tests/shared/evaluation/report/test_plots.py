@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -49,7 +50,7 @@ def test_the_epochs_of_a_run_draw_both_curves_of_each_loss(tmp_path: Path) -> No
         Epoch(1, 3, {"loss": 3.5, "learning-rate": 1e-3}, {"loss": 3.0, "jerk": 1.0}),
         Epoch(2, 6, {"loss": 2.5, "learning-rate": 1e-4}, {"loss": math.nan, "jerk": 0.5}),
     ]
-    write_json(tmp_path / "training_log.json", [epoch.as_json() for epoch in epochs])
+    write_json(tmp_path / "training_log.json", [asdict(epoch) for epoch in epochs])
     history = read_losses(tmp_path / "training_log.json")
     assert history.pop("step") == [0, 3, 6]
     assert set(history) == {"loss", "learning-rate", "validation/loss", "validation/jerk"}
