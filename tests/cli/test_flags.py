@@ -134,6 +134,6 @@ def test_flags_are_used() -> None:
         function = inspect.unwrap(registered.callback)  # type: ignore[arg-type]
         body = function.__code__.co_names + function.__code__.co_varnames
         source = inspect.getsource(function).partition('"""')[2]
-        passed_on = set(Request.__dataclass_fields__) if "Request.of(locals())" in source else set()
+        passed_on = set(Request.__dataclass_fields__) if {"locals", "Request"} <= {*body} else set()
         for name in inspect.signature(function).parameters.keys() - passed_on:
             assert name in body and name in source, f"{function.__name__}: {name}"
