@@ -21,7 +21,6 @@ from safetensors.torch import save_file
 from torch import Tensor
 
 from ..shared.config_schema import ClipConfig, NetworkConfig, TrainConfig
-from ..shared.data.captions.book import packaged_book
 from ..shared.data.captions.word_dropout import insert_babble
 from ..shared.data.prepare import open_data
 from ..shared.data.prepared import PreparedData
@@ -108,7 +107,6 @@ def motion_rows(motion: torch.Tensor, network: NetworkConfig) -> torch.Tensor:
 
 SCOPE_CAPTIONS = 20_000  # at most so many captions teach OutOfDomainDetector
 CALIBRATING = 3_000  # at most, each also with words that nobody knows, and without its key words
-LEAST_UNSEEN = 200  # sentences, for a calibration on them
 IDEOGRAPHS = (0x4E00, 0x9FFF)
 LETTERS = "abcdefghijklmnopqrstuvwxyz"
 
@@ -119,24 +117,17 @@ def fit_scope(
     tower: TextTower,
     tokenizer: PromptTokenizer,
 ) -> OutOfDomainDetector:
-    """The scope of a tower that was trained on the captions of `data`.
+    """The scope of a tower that was trained on the captions of `data`, calibrated on them too.
 
-    It is calibrated on the sentences that `CaptionBook.captions` never gives, or on the captions
-    themselves where there are none for these actions.
+    Sentences of known actions kept out of training make a worse calibration: the detector then
+    trusts words that nobody knows (docs/experiments.md, section 23).
     """
-    book = packaged_book()
     action_of: dict[str, str] = {}
-    unseen: dict[str, str] = {}
     for record in {record.group: record for record in data.records("train")}.values():
-        held_back = book.held_back(record.labels) if record.labels else {}
         captions = data.captions(record)
         for language in languages:
-            for text in held_back.get(language, []):
-                unseen.setdefault(text, record.tag)
             for text in captions.get(language, []):
                 action_of.setdefault(text, record.tag)
-    for text in unseen.keys() & action_of.keys():
-        del action_of[text]
     texts = sorted(action_of)
     texts = texts[:: -(-len(texts) // SCOPE_CAPTIONS)]
     embeddings = encode_captions(tower, tokenizer, texts).numpy()
@@ -146,9 +137,7 @@ def fit_scope(
     scope = replace(scope, gestures=gestures(data))
     if len(scope.actions) < 2:  # nothing to take one for another
         return scope
-    if len(unseen) < LEAST_UNSEEN:
-        return _calibrated(scope, texts, actions, tower, tokenizer)
-    return _calibrated(scope, sorted(unseen), [unseen[t] for t in sorted(unseen)], tower, tokenizer)
+    return _calibrated(scope, texts, actions, tower, tokenizer)
 
 
 def _calibrated(

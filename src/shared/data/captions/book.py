@@ -101,10 +101,6 @@ class CaptionBook:
             for code in self.languages
         }
 
-    def held_back(self, labels: Labels) -> dict[str, list[str]]:
-        """Whole sentences for these labels that `captions` never gives, by language."""
-        return {code: self._languages[code].held_back(labels) for code in self.languages}
-
     def canonical(self, labels: Labels) -> dict[str, str]:
         """One plain caption per language."""
         return {code: self._languages[code].canonical(labels) for code in self.languages}

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
 from itertools import product
 from typing import Any
-from zlib import crc32
 
 from .requests import requested
 from .schema import (
@@ -77,7 +76,6 @@ def _like(model: str, word: str) -> str:
 
 Pair = tuple[Sequence, Sequence]  # a verb and what follows it
 Sentences = dict[tuple[tuple[str, str], ...], list[str]]  # by their labels
-HELD_BACK = 10  # every so-many-th whole sentence trains nothing
 SENTENCE_RATE = 0.3  # share of captions written as a sentence: capital letter and full stop
 _BRACES = re.compile(r"(\{[^{}]*\})")
 
@@ -103,7 +101,7 @@ class CaptionLanguage:
             for name, action in content.actions.items()
         }
         self._plan = lru_cache(maxsize=4096)(self._make_plan)
-        self._sentences, self._held_back = self._whole_sentences()
+        self._sentences = self._whole_sentences()
 
     # -------------------------------------------------------------- what callers ask for
 
@@ -126,10 +124,6 @@ class CaptionLanguage:
             if normalised(text) not in requested(self.code):
                 found.setdefault(normalised(text), text)
         return list(found.values())
-
-    def held_back(self, labels: Labels) -> list[str]:
-        """Whole sentences for these labels that `captions` never gives."""
-        return list(self._held_back.get(self._key(spoken_labels(labels)), []))
 
     def sentence_keys(self) -> list[tuple[tuple[str, str], ...]]:
         """Label sets that have whole sentences, as sorted pairs."""
@@ -291,21 +285,19 @@ class CaptionLanguage:
             result[name] = full
         return result
 
-    def _whole_sentences(self) -> tuple[Sentences, Sentences]:
-        """The file's sentences by their labels, and their mirror images: to train, held back."""
-        train: Sentences = {}
-        held_back: Sentences = {}
+    def _whole_sentences(self) -> Sentences:
+        """The file's sentences by their labels, and their mirror images."""
+        found: Sentences = {}
         for entry in self.content.sentences:
             mirrored = mirror_labels(entry.labels)
             for line in entry.text:
                 if normalised(line) in requested(self.code):
                     continue
-                found = held_back if crc32(normalised(line).encode()) % HELD_BACK == 0 else train
                 found.setdefault(self._key(entry.labels), []).append(line)
                 # a southpaw has no mirror image
                 if mirrored != entry.labels and (image := self.mirror(line)) != line:
                     found.setdefault(self._key(mirrored), []).append(image)
-        return train, held_back
+        return found
 
     def _mirror_template(self, template: str) -> str:
         parts = _BRACES.split(template)

@@ -154,22 +154,3 @@ def test_whole_sentences_are_half_of_the_captions(tmp_path: Path) -> None:
     assert not any("palm" in text for text in both)
     once = {"action": "wave", "side": "left", "count": "1", "speed": "normal"}
     assert "left palm up and shake" in english.captions(once, 6, random.Random(0))
-
-
-def test_every_tenth_sentence_trains_nothing(tmp_path: Path) -> None:
-    lines = [f"greet number {number} with your left hand" for number in range(60)]
-    (tmp_path / "en.yaml").write_text(
-        "language: en\nsentences:\n  - labels: {action: wave, side: left}\n    text:\n"
-        + "".join(f"      - {line}\n" for line in lines),
-        encoding="utf-8",
-    )
-    book = CaptionBook.load(tmp_path)
-    labels = {"action": "wave", "side": "left", "speed": "normal"}
-    held_back = book.held_back(labels)["en"]
-    assert 1 <= len(held_back) <= 15 and set(held_back) < set(lines)
-    for seed in range(20):
-        trained = book.captions(labels, num=60, seed=seed)["en"]
-        assert not {text.casefold().rstrip(".") for text in trained} & set(held_back)
-    mirrored = book.held_back({"action": "wave", "side": "right"})["en"]
-    assert mirrored == [line.replace("left", "right") for line in held_back]
-    assert book.held_back({"action": "unheard-of"})["de"] == []
