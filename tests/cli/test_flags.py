@@ -1,5 +1,6 @@
 """The public flags are a promise: whoever changes one changes this list, and the changelog."""
 
+import ast
 import inspect
 from typing import Any
 
@@ -137,3 +138,17 @@ def test_flags_are_used() -> None:
         passed_on = set(Request.__dataclass_fields__) if {"locals", "Request"} <= {*body} else set()
         for name in inspect.signature(function).parameters.keys() - passed_on:
             assert name in body and name in source, f"{function.__name__}: {name}"
+
+
+def test_every_field_of_an_evaluation_request_is_read() -> None:
+    """By its own name, or by one in a list of names; that it is declared is not enough."""
+    tree = ast.parse(inspect.getsource(inspect.getmodule(Request)))  # type: ignore[arg-type]
+    flags = next(n for n in tree.body if isinstance(n, ast.FunctionDef) and n.name == "evaluate")
+    read = {
+        node.attr if isinstance(node, ast.Attribute) else node.value
+        for part in tree.body
+        if part is not flags
+        for node in ast.walk(part)
+        if isinstance(node, ast.Attribute | ast.Constant)
+    }
+    assert not set(Request.__dataclass_fields__) - read

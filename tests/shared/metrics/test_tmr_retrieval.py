@@ -13,6 +13,7 @@ from torchmetrics.functional.retrieval import retrieval_reciprocal_rank as recip
 from src.shared.evaluation.families_text import TMR
 from src.shared.evaluation.samples import Clips, MotionSample
 from src.shared.metrics.retrieval import (
+    PROTOCOLS,
     RECALL_AT,
     best_ranks,
     cosines,
@@ -198,11 +199,11 @@ def test_the_families_fill_their_columns() -> None:
     pairs, few = sample(120), sample(20)
     keys = [column.key for family in TMR for column in family.columns]
     assert len(set(keys)) == len(keys) == 52
-    for family in TMR:
+    for protocol, family in zip(PROTOCOLS, TMR, strict=True):
         found = family.compute(pairs, pairs, seed=0)
         assert list(found) == [column.key for column in family.columns]
         assert all(np.isfinite(value) for value in found.values())
-        assert "published" in family.definition
+        assert protocol in family.name and "published" in family.definition
     assert TMR[3].compute(few, few, seed=0) == {}
     assert TMR[0].compute(sample(700), pairs, seed=0)["tmr_all_pairs"] == 256
     strict = TMR[0].compute(pairs, pairs, seed=0)["tmr_all_t2m_r1"]

@@ -406,12 +406,18 @@ def _exactness(yardstick: Yardstick, model: Model, requests: Sequence[Request], 
     row("one-sentence sequences", of(COMPOSITIONS), partial(in_order, yardstick))
     rows |= _styles(yardstick, of("styled"), make)
     gestures = drawn([r for r in of("plain") if r.action in GESTURES], 1, settings.seed)
-    row("gestures from rest to rest", gestures, lambda r, motion: at_rest(motion))
     if gestures:
-        name, longest = "gestures from rest to rest", yardstick.longest
-        pairs = zip(yardstick.records, yardstick.real.motions, strict=True)
-        whole = [at_rest(m) for r, m in pairs if r.tag in GESTURES and r.num_frames <= longest]
-        rows[name] = GridRow({**rows[name].cells, "real": share_of(whole)}, rows[name].num)
+        seen = make([r.text for r in gestures])
+        does = yardstick.obeyed([r.labels for r in gestures], seen)
+        rests = np.array([at_rest(motion) for motion in seen.motions])
+        real = zip(yardstick.records, yardstick.real.motions, yardstick.real_obeyed, strict=True)
+        whole = [(at_rest(motion), done) for record, motion, done in real
+                 if record.tag in GESTURES and record.num_frames <= yardstick.longest]  # fmt: skip
+        for name, made, theirs in (
+            ("gestures from rest to rest", rests, [rest for rest, _ in whole]),
+            ("the same, and obeyed", rests & does, [rest and done for rest, done in whole]),
+        ):
+            rows[name] = GridRow({"share": share_of(made), "real": share_of(theirs)}, len(made))
     rows["spread of a gesture, cm"] = _spread_row(yardstick, model, gestures)
     for seconds in LONG_WALKS:
         walk = model.generate([WALK], seconds=seconds, seed=settings.seed)[0]
@@ -422,7 +428,8 @@ def _exactness(yardstick: Yardstick, model: Model, requests: Sequence[Request], 
     )
     note = (
         "Shares of hand-written sentences of all languages whose number, angle within 30°, length,"
-        " side or order is shown, beside the action itself."
+        " side or order is shown, beside the action itself. A body that never moves is at rest too:"
+        " read the gestures that are obeyed."
     )
     return Grid("exactness", "What is said exactly", columns, rows, note, head="asked for")
 

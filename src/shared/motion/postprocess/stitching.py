@@ -31,6 +31,7 @@ REST_FADE = 0.5  # seconds in which an arm comes down
 _HANGING = {"collar": (0.0, 0.0, 0.0), "shoulder": (0.0, 0.0, -1.37), "elbow": (0.0, -0.38, 0.0),
             "wrist": (0.0, 0.0, 0.0)}  # fmt: skip
 FADE = 10  # frames until a correction at a border has faded out
+BLUR, REACH = 1.5, 4.0  # frames, standard deviations: of the average at a cut, of where it is made
 
 
 def place_of(motion: Motion, frame: int) -> Place:
@@ -63,9 +64,6 @@ def joined(first: Motion, second: Motion) -> Motion:
         root_position=np.concatenate((first.root_position, second.root_position)),
         contacts=np.concatenate((first.contacts, second.contacts)),
     )
-
-
-BLUR, REACH = 1.5, 4.0  # frames, standard deviations: of the average at a cut, of where it is made
 
 
 def rest_to_rest(motion: Motion) -> Motion:
