@@ -79,7 +79,8 @@ def calibrate(
     """Ask a model for each of its actions and let it warn of those that seldom come out.
 
     A judge fitted on the clips of DATA says what came out. `generate` and `evaluate-requests` warn
-    from then on of prompts that ask for an action shown in less than half of the tries.
+    from then on of prompts that ask for an action shown in less than half of the tries, and sample
+    again where kinematics that the clips bear out do not see the action.
 
     \b
     Example:
@@ -95,7 +96,7 @@ def calibrate(
     from ..shared.data.prepared import PreparedData
     from ..shared.data.text_motion import gestures
     from ..shared.device import set_threads
-    from ..shared.evaluation.judge.actions import action_reliability
+    from ..shared.evaluation.judge.actions import action_reliability, recognizer_of
     from ..shared.model.clip.out_of_domain import RELIABLE
     from ..shared.model.generation.motion_generator import TextToMotion
     from ..shared.pipelines.text import SentenceGenerator
@@ -105,15 +106,17 @@ def calibrate(
     if generator.scope is None:
         raise UserError(f"{model} has no scope.json to write to; train it again with this version")
     clips = PreparedData.open(data)
+
+    def progress(what: str) -> None:
+        tell(f"calibrate: {what}")
+
+    judge = recognizer_of(clips, seed, progress)
+    checked = tuple(sorted(judge.kinematic))
+    generator.scope = replace(generator.scope, gestures=gestures(clips), checked=checked)
     found = action_reliability(
-        SentenceGenerator(generator),
-        clips,
-        tries=tries,
-        seed=seed,
-        progress=lambda what: tell(f"calibrate: {what}"),
+        SentenceGenerator(generator), clips, judge, tries=tries, seed=seed, progress=progress
     )
-    known = replace(generator.scope, reliability=found, gestures=gestures(clips))
-    known.save_pretrained(model)
+    replace(generator.scope, reliability=found).save_pretrained(model)
     if json:
         print_json({"model": str(model), "reliability": found})
     else:

@@ -12,7 +12,7 @@ import torch
 from torch import Tensor
 
 from ..config_schema import PROVENANCES
-from ..metrics.measurements import is_gesture
+from ..metrics.measurements import rests_in_place
 from ..motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, decode_features
 from .prepared import ClipRecord, PreparedData
 
@@ -218,7 +218,10 @@ _PACE = 6.0  # frames of motion that weigh as much as the pose, when moments are
 
 
 def gestures(data: PreparedData) -> tuple[str, ...]:
-    """Actions of which half of the training clips or more raise a hand between two rests."""
+    """Actions of which a quarter of the training clips or more begin and end at rest, in place.
+
+    A quarter, because clips are cut out of takes in which a gesture goes on and on.
+    """
     clips: dict[str, list[ClipRecord]] = {}
     for record in data.records("train"):
         if record.tag and not record.mirrored and record.num_frames > 2 * _ENDS:
@@ -226,8 +229,8 @@ def gestures(data: PreparedData) -> tuple[str, ...]:
     found = []
     for action, records in sorted(clips.items()):
         some = records[:: -(-len(records) // _GESTURE_CLIPS)]
-        whole = [is_gesture(decode_features(data.features(record))) for record in some]
-        found += [action] if 2 * sum(whole) >= len(whole) else []
+        whole = [rests_in_place(decode_features(data.features(record))) for record in some]
+        found += [action] if 4 * sum(whole) >= len(whole) else []
     return tuple(found)
 
 

@@ -36,11 +36,11 @@ def at_rest(motion: Motion) -> bool:
     return bool((_hand_heights(motion)[ends] < HAND_DOWN).all())
 
 
-def is_gesture(motion: Motion) -> bool:
-    """Whether a body that stays on its legs and in its place raises a hand between two rests."""
+def rests_in_place(motion: Motion) -> bool:
+    """Whether a body stays on its legs and in its place, from hanging arms to hanging arms."""
     x, height, z = motion.root_position.astype(np.float64).T
     stays = max(np.ptp(x), np.ptp(z)) < IN_PLACE and height.min() > 0.6 * REST_PELVIS_HEIGHT
-    return bool(stays) and at_rest(motion) and bool((_hand_heights(motion) > HAND_DOWN).any())
+    return bool(stays) and at_rest(motion)
 
 
 def _hand_heights(motion: Motion) -> Array:

@@ -29,7 +29,10 @@ WINDOW, OVERLAP = 150, 30  # frames
 DEFAULT_SAMPLING = Sampling()
 SHORTEST = 48  # frames; a shorter window is made as long as this and cut: training saw few
 
+TRIES = 8  # samples of one window at most
+
 ConstraintOf = Callable[[int, int], Constraint | None]  # what is known of frames [start, stop)
+Miss = Callable[[Tensor], float]  # raw features [t, R, 6]: how far from what is wanted, 0 = there
 
 
 @dataclass(frozen=True)
@@ -40,11 +43,16 @@ class Passage:
         text: what it shows.
         frames: its length; 1 or more.
         tag: action label beside the text.
+        window: frames of its windows at most, if fewer than those of others.
+        miss: of its frames so far; a window is sampled again, TRIES times at most, while they are
+            not what is wanted.
     """
 
     text: str
     frames: int
     tag: str | None = None
+    window: int | None = None
+    miss: Miss | None = None
 
     def __post_init__(self) -> None:
         if self.frames < 1:
@@ -81,26 +89,53 @@ def stream_features(
         raise UsageError(f"overlap {overlap} must lie between 1 and half the window ({window})")
     before = torch.zeros(0, generator.network.motion_rows, 6)
     made, number = 0, 0
+
+    def sampled(passage: Passage, known: Constraint, seed: int) -> Tensor:
+        (features,) = generator.sample_features(
+            [passage.text],
+            seconds=max(len(known), SHORTEST) / generator.card.fps,
+            tags=[passage.tag],
+            seed=seed,
+            steps=sampling.steps,
+            sampler=sampling.sampler,
+            guidance_scale=sampling.guidance_scale,
+            constraints=[lengthened(known, SHORTEST)],
+        )
+        return blend_boundaries(features[: len(known)], known.known)
+
     for passage in passages:
-        for length in window_lengths(passage.frames, len(before), window, overlap):
+        own = before[:0]  # what there is of the passage
+        widest = min(window, passage.window or window)
+        for length in window_lengths(passage.frames, len(before), widest, overlap):
             start = made - len(before)
             given = None if constraint is None else constraint(start, made + length)
             known = carried_on(before, given, len(before) + length)
-            (features,) = generator.sample_features(
-                [passage.text],
-                seconds=max(len(known), SHORTEST) / generator.card.fps,
-                tags=[passage.tag],
-                seed=window_seed(sampling.seed, number),
-                steps=sampling.steps,
-                sampler=sampling.sampler,
-                guidance_scale=sampling.guidance_scale,
-                constraints=[lengthened(known, SHORTEST)],
-            )
-            smooth = blend_boundaries(features[: len(known)], known.known)
-            piece = smooth[len(before) :]
+            seeds = retry_seeds(window_seed(sampling.seed, number))
+            tries = (sampled(passage, known, seed)[len(before) :] for seed in seeds)
+            piece = nearest_to_wanted(tries, own, passage.miss)
             before = torch.cat((before, piece))[-overlap:]
+            own = torch.cat((own, piece))
             made, number = made + length, number + 1
             yield piece
+
+
+def nearest_to_wanted(tries: Iterator[Tensor], own: Tensor, miss: Miss | None) -> Tensor:
+    """The first piece [t, R, 6] that, after `own`, is what is wanted, or else the nearest to it."""
+    if miss is None:
+        return next(tries)
+    least, best = float("inf"), own
+    for piece in tries:
+        found = miss(torch.cat((own, piece)))
+        if found < least:
+            least, best = found, piece
+        if least <= 0:
+            break
+    return best
+
+
+def retry_seeds(seed: int) -> Iterator[int]:
+    """The seeds of TRIES samples, the first one `seed` itself."""
+    return (window_seed(seed, number) for number in range(TRIES))
 
 
 def window_lengths(frames: int, known: int, window: int, overlap: int) -> list[int]:

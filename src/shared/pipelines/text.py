@@ -1,9 +1,10 @@
 """Sentences in, motions out: what a sentence says of order and measure is done, too.
 
 A sentence is read as clauses (sentence.py). One plain clause that is no longer than the model's
-training clips is one sample of the network; all else is a stream of passages, one or several for
-each clause, with what the clause measures as a constraint: a path of so many metres, a heading that
-turns by so many degrees. Of several candidates the judge's first choice comes first.
+training clips is one sample of the network; all else is a stream of passages, one for each clause,
+with what the clause measures as a constraint: a path of so many metres, a heading that turns by so
+many degrees. Where kinematics tell whether the action is there, and how often (`metrics.actions`),
+what misses it is sampled again. Of several candidates the judge's first choice comes first.
 
 Letters: N candidates, T frames, R rows (bones, root track).
 """
@@ -12,28 +13,41 @@ import logging
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import accumulate
+from itertools import accumulate, islice
 from typing import Any
 
 import numpy as np
 import torch
+from torch import Tensor
 
 from ..device import idle_threads
 from ..errors import UserError
+from ..metrics.actions import ACTIONS, repetitions
+from ..metrics.measurements import measure
 from ..model.clip.core import TextFeatures
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import Progress, TextToMotion
-from ..motion.features import ROOT_ROW, YAW_RATE
+from ..motion.features import ROOT_ROW, YAW_RATE, decode_features
 from ..motion.motion import Motion
 from ..motion.postprocess.stitching import rest_to_rest
 from ..motion.postprocess.streaming import streamed
 from .path import DrawnPath, natural_gait, time_path
 from .ranking import ScoreTable, TextJudge, unranked
 from .sentence import Clause, clauses
-from .stream import OVERLAP, WINDOW, Passage, Sampling, stream_features, window_seed
+from .stream import (
+    OVERLAP,
+    WINDOW,
+    Miss,
+    Passage,
+    Sampling,
+    retry_seeds,
+    stream_features,
+    window_seed,
+)
 
 TURN_SPEED, TURN_REST = 75.0, 0.5  # degrees a second; seconds before and after a turn
-ONCE = (1.6, 2.5)  # seconds of one repetition, from … to
+ONCE = (2.0, 3.0)  # seconds of one repetition, from … to
+LEAST = 1.0  # seconds in which an action can be seen
 REPEATED_OVERLAP = 10  # frames: a repetition begins as the one before it ended, at rest
 
 log = logging.getLogger(__name__)
@@ -102,22 +116,34 @@ class SentenceGenerator:
             if progress is not None:
                 progress(done, len(prompts) * num_samples)
 
-        if plain:
+        def sampled(rows: list[int], seed: int) -> dict[int, list[Motion]]:
             found = self.generator.generate(
-                [prompts[index] for index in plain],
-                seconds=[lengths[index] for index in plain],
-                tags=[labels[index] for index in plain],
+                [prompts[index] for index in rows],
+                seconds=[lengths[index] for index in rows],
+                tags=[labels[index] for index in rows],
                 num_samples=num_samples,
                 seed=seed,
                 steps=steps,
                 sampler=sampler,
                 guidance_scale=guidance_scale,
                 foot_lock=foot_lock,
-                progress=lambda done, total: told(done),
+                progress=lambda done, total: told(max(done, sum(map(len, made.values())))),
             )
-            for place, index in enumerate(plain):
-                several = found[place * num_samples : (place + 1) * num_samples]
-                made[index] = self._whole_gestures(prompts[index], several)
+            several = [found[at : at + num_samples] for at in range(0, len(found), num_samples)]
+            return {
+                index: self._whole_gestures(prompts[index], own)
+                for index, own in zip(rows, several, strict=True)
+            }
+
+        if plain:
+            made |= sampled(plain, seed)
+            for again in islice(retry_seeds(seed), 1, None):
+                missed = [i for i in plain if not all(self._does(prompts[i], m) for m in made[i])]
+                if not missed:
+                    break
+                for index, others in sampled(missed, again).items():
+                    pairs = zip(made[index], others, strict=True)
+                    made[index] = [self._better(prompts[index], *pair) for pair in pairs]
         for index, prompt in enumerate(prompts):
             if not whole[index]:
                 for warning in filter(None, self._warnings(prompt, again=False)):
@@ -152,6 +178,34 @@ class SentenceGenerator:
         if scope is None or not scope.gestures or self._action(prompt) not in scope.gestures:
             return motions
         return [rest_to_rest(motion) for motion in motions]
+
+    def _checked(self, text: str) -> str | None:
+        """The action that a text alone tells of, where kinematics can see it."""
+        action, scope = self._action(text), self.generator.scope
+        return action if scope is not None and action in scope.checked else None
+
+    def _does(self, prompt: str, motion: Motion) -> bool:
+        """Whether a motion shows the action of its prompt; True where nobody can say."""
+        action = self._checked(prompt)
+        return action is None or motion.seconds < LEAST or ACTIONS[action](measure(motion))
+
+    def _better(self, prompt: str, old: Motion, new: Motion) -> Motion:
+        return new if self._does(prompt, new) and not self._does(prompt, old) else old
+
+    def _miss(self, clause: Clause, frames: int) -> Miss | None:
+        """How far a passage of so many frames is from showing what its clause asks for."""
+        action, fps = self._checked(clause.text), self.card.fps
+        if action is None or frames < LEAST * fps:
+            return None
+
+        def miss(features: Tensor) -> float:
+            seen = measure(decode_features(features, fps=fps))
+            count = repetitions(action, seen)
+            if clause.count > 1 and count is not None:
+                return abs(count - round(clause.count * len(features) / frames))
+            return 0.0 if ACTIONS[action](seen) else 1.0
+
+        return miss
 
     def _action(self, text: str) -> str | None:
         """The action that a text alone tells of."""
@@ -223,8 +277,10 @@ class SentenceGenerator:
             return _Stretch([Passage(text, len(given), tag)], given)
         if clause.count > 1:
             once = float(np.clip(seconds / clause.count, *ONCE))
-            return _Stretch([Passage(text, round(once * fps), tag)] * clause.count)
-        return _Stretch([Passage(text, max(1, round(seconds * fps)), tag)])
+            frames, window = round(once * fps) * clause.count, round(once * fps) + REPEATED_OVERLAP
+            return _Stretch([Passage(text, frames, tag, window, self._miss(clause, frames))])
+        frames = max(1, round(seconds * fps))
+        return _Stretch([Passage(text, frames, tag, miss=self._miss(clause, frames))])
 
     def _led(self, passage: Passage, clause: Clause, sampling: Sampling) -> Constraint:
         """So many metres, at the pace and in the direction that are the clause's own."""

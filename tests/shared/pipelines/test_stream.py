@@ -18,7 +18,15 @@ from src.shared.motion.features import FORWARD, ROOT_ROW
 from src.shared.motion.postprocess.stitching import joined
 from src.shared.motion.postprocess.streaming import streamed
 from src.shared.pipelines import stream as motion_stream
-from src.shared.pipelines.stream import MotionStream, Passage, stream_features, window_lengths
+from src.shared.pipelines.stream import (
+    TRIES,
+    MotionStream,
+    Passage,
+    nearest_to_wanted,
+    retry_seeds,
+    stream_features,
+    window_lengths,
+)
 from tests.shared.model.conftest import tiny_generator
 
 WALK, WAVE = Passage("a person walks", 70), Passage("a person waves", 33)
@@ -179,3 +187,19 @@ def test_nothing_to_say_is_refused_and_the_stream_goes_on(generator: TextToMotio
     with pytest.raises(UsageError, match="holds no text"):
         stream.say("  ")
     assert next(pieces).num_frames > 0
+
+
+def test_a_window_is_sampled_again_until_it_is_what_is_wanted():
+    own = torch.zeros(2, 1, 1)
+    tries = [torch.full((3, 1, 1), value) for value in (4.0, 2.0, 1.0, 0.0)]
+    asked = []
+
+    def miss(features: torch.Tensor) -> float:
+        asked.append(len(features))
+        return float(features[-1].item())
+
+    assert nearest_to_wanted(iter(tries), own, None) is tries[0]
+    assert nearest_to_wanted(iter(tries), own, miss) is tries[3] and asked == [5] * 4
+    assert nearest_to_wanted(iter(tries[:3]), own, miss) is tries[2]
+    seeds = list(retry_seeds(7))
+    assert seeds[0] == 7 and len(set(seeds)) == TRIES

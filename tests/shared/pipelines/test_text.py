@@ -10,7 +10,8 @@ import pytest
 import torch
 
 from src.shared.errors import UserError
-from src.shared.metrics.measurements import at_rest
+from src.shared.metrics.actions import ACTIONS, Check
+from src.shared.metrics.measurements import Measurements, at_rest, measure
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.features import ROOT_ROW, YAW_RATE, encode_features
 from src.shared.motion.motion import Motion
@@ -44,7 +45,7 @@ def test_a_plain_sentence_is_one_sample(generator: TextToMotion, sentences: Sent
 
 def test_clauses_follow_each_other(sentences: SentenceGenerator):
     (motion,) = sentences.generate(["a person walks, then jumps three times"], seconds=2.0)
-    assert motion.num_frames == 60 + 3 * 48
+    assert motion.num_frames == 60 + 3 * 60
     assert motion.text == "a person walks, then jumps three times"
 
 
@@ -68,6 +69,36 @@ def test_a_gesture_begins_and_ends_with_hanging_arms():
     _, same = generator.generate(prompts, seconds=3.0)
     assert at_rest(wave)
     np.testing.assert_array_equal(walk.quaternions, same.quaternions)
+
+
+def test_what_kinematics_miss_is_sampled_again(monkeypatch: pytest.MonkeyPatch):
+    generator = TextToMotion.from_pretrained("starter", device="cpu")
+    assert generator.scope is not None
+    generator.scope = replace(generator.scope, checked=("jump",))
+
+    def made(check: Check) -> list[np.ndarray]:
+        monkeypatch.setitem(ACTIONS, "jump", check)
+        prompts = ["a person jumps", "a person walks forward"]
+        found = SentenceGenerator(generator).generate(prompts, seconds=2.0)
+        refused.append(measure(found[0]))
+        return [motion.quaternions for motion in found]
+
+    refused: list[Measurements] = []
+    first, never = made(lambda m: True), made(lambda m: False)
+    other = made(lambda m: m != refused[0])
+    np.testing.assert_array_equal(never[0], first[0])  # where none will do the first one stays
+    assert not np.array_equal(other[0], first[0])
+    np.testing.assert_array_equal(other[1], first[1])
+
+
+def test_so_many_times_is_so_many_times():
+    generator = TextToMotion.from_pretrained("starter", device="cpu")
+    assert generator.scope is not None
+    generator.scope = replace(generator.scope, checked=("squat",))
+    sentences = SentenceGenerator(generator)
+    prompts = [f"a man squats {number} times" for number in ("two", "three", "four")]
+    made = sentences.generate(prompts, seconds=4.0)
+    assert [measure(motion).squats for motion in made] == [2, 3, 4]
 
 
 def test_any_length_goes_through_windows(sentences: SentenceGenerator, caplog):

@@ -19,6 +19,7 @@ import numpy as np
 
 from ...data.prepared import ClipRecord, PreparedData
 from ...errors import UserError
+from ...metrics.actions import ACTIONS
 from ...metrics.measurements import heading_frame, measure
 from ...motion.features import decode_features, headings
 from ...motion.motion import Motion
@@ -26,7 +27,7 @@ from ...motion.rotations import quaternion_to_matrix
 from ...motion.skeleton import JOINT_INDEX
 from ..engine import Progress
 from ..held_out import choose_caption, spread_over_groups
-from .instructions import ACTIONS, check
+from .instructions import check
 
 PARTS = 3  # beginning, middle, end: a wave is not a raise that stays up
 BANDS = ((0.3, 1.0), (1.0, 2.0), (2.0, 4.0), (4.0, 8.0))  # Hz
@@ -167,7 +168,7 @@ class ActionRecognizer:
 
     Attributes:
         judge: the discriminant, fitted on every clip.
-        kinematic: actions that are shown too where `instructions.ACTIONS` says so: MIN_RECALL of
+        kinematic: actions that are shown too where `metrics.actions.ACTIONS` says so: MIN_RECALL of
             their captured clips pass, and of those of other actions at most MAX_FALSE.
         recall: share of an action's clips that is recognised, the discriminant fitted on other
             takes each time.
@@ -268,9 +269,29 @@ class Model(Protocol):
     def generate(self, prompts: list[str], *, seconds: float, seed: int) -> list[Motion]: ...
 
 
+def recognizer_of(
+    data: PreparedData, seed: int = 0, progress: Progress = lambda text: None
+) -> ActionRecognizer:
+    """A judge fitted on the training clips.
+
+    Raises:
+        UserError: fewer than two actions to tell apart.
+    """
+    clips = spread_over_groups(judged_by(_captioned(data)), JUDGING_CLIPS, seed)
+    progress(f"a judge of {len(clips)} clips")
+    seen = [decode_features(data.features(r)[: round(SECONDS * 30)]) for r in clips]
+    try:
+        return ActionRecognizer.fit(clips, seen, np.stack([*map(descriptor, seen)]))
+    except ValueError as error:
+        raise UserError(
+            f"{data.folder}: no judge can be fitted ({error}); prepare clips of labelled actions"
+        ) from error
+
+
 def action_reliability(
     model: Model,
     data: PreparedData,
+    judge: ActionRecognizer,
     *,
     tries: int = 12,
     seed: int = 0,
@@ -280,21 +301,8 @@ def action_reliability(
 
     (successes + 1) / (tries + 2), the mean of the posterior under a uniform prior (Laplace): one
     try tells little.
-
-    Raises:
-        UserError: fewer than two actions to tell apart.
     """
-    train = [r for r in data.records("train") if r.tag and r.num_frames >= MIN_FRAMES]
-    train = [r for r in train if any(data.captions(r).values())]
-    clips = spread_over_groups(judged_by(train), JUDGING_CLIPS, seed)
-    progress(f"a judge of {len(clips)} clips")
-    seen = [decode_features(data.features(r)[: round(SECONDS * 30)]) for r in clips]
-    try:
-        judge = ActionRecognizer.fit(clips, seen, np.stack([*map(descriptor, seen)]))
-    except ValueError as error:
-        raise UserError(
-            f"{data.folder}: no judge can be fitted ({error}); prepare clips of labelled actions"
-        ) from error
+    train = _captioned(data)
     asked = [
         (record, _caption(data, record, seed + row))
         for tag, own in sorted(_by_tag(train).items())
@@ -311,6 +319,12 @@ def action_reliability(
             right = judge.shows(record.tag, action, motion) and shown(labels, motion)
             shares[record.tag].append(right)
     return {tag: (sum(done) + 1) / (len(done) + 2) for tag, done in shares.items()}
+
+
+def _captioned(data: PreparedData) -> list[ClipRecord]:
+    """Training clips of a labelled action, long enough, with words."""
+    train = [r for r in data.records("train") if r.tag and r.num_frames >= MIN_FRAMES]
+    return [r for r in train if any(data.captions(r).values())]
 
 
 def _by_tag(records: list[ClipRecord]) -> dict[str, list[ClipRecord]]:

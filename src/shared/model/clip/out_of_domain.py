@@ -43,7 +43,8 @@ MIN_STEM = 4  # letters
 MIN_SEEN = 0.5  # share of words seen in training that a likeness to a key word needs around it
 NUM_NEAREST = 3
 RELIABLE = 0.5  # share of tries in which an action has to come out to be known
-FALSE_WARNINGS = 0.05  # share of the prompts it calibrates on that are understood, and warned of
+SCALE, FIT_STEPS = 20.0, 60  # of the cosines in the classifier of actions; of its optimizer
+FALSE_WARNINGS = 0.03  # share of the prompts it calibrates on that are understood, and warned of
 NEWTON_STEPS, RIDGE = 30, 1e-2
 
 _CJK = re.compile(r"[\u3040-\u30ff\u3400-\u9fff]")
@@ -92,13 +93,14 @@ class OutOfDomainDetector:
         key_words: word -> indices of the actions it tells of.
         words: all words of the training captions.
         fillers: words of the captions of more than half of the actions.
-        means: [A, D] float32 unit-norm mean text embeddings.
+        means: [A, D] float32 unit-norm places of the actions among text embeddings.
         false_alarms: share of held-out captions it called unknown.
         min_cosine: for a pretrained text tower, enough on its own; None otherwise.
         weights: of the evidence, the last one the bias: known where the sum is positive. None =
             the rule of words alone.
         reliability: share of tries in which each action came out, where that was measured.
-        gestures: actions that raise a hand between two rests.
+        gestures: actions done in place, from hanging arms to hanging arms.
+        checked: actions that `metrics.actions` tells, as captured clips bear out.
     """
 
     actions: tuple[str, ...]
@@ -111,6 +113,7 @@ class OutOfDomainDetector:
     weights: tuple[float, ...] | None = None
     reliability: Mapping[str, float] = field(default_factory=dict)
     gestures: tuple[str, ...] = ()
+    checked: tuple[str, ...] = ()
 
     @classmethod
     def fit(
@@ -136,7 +139,7 @@ class OutOfDomainDetector:
             )
         names = tuple(sorted(set(actions)))
         labels = np.array([names.index(action) for action in actions])
-        means = _unit(np.stack([embeddings[labels == a].mean(axis=0) for a in range(len(names))]))
+        means = _places(_unit(embeddings), labels)
         cosines = (_unit(embeddings) @ means.T).max(axis=1)
 
         texts = [frozenset(words_of(caption)) for caption in captions]
@@ -323,12 +326,40 @@ class _Meta(BaseModel):
     weights: tuple[float, ...] | None = None
     reliability: dict[str, float] = Field({})
     gestures: tuple[str, ...] = ()
+    checked: tuple[str, ...] = ()
 
 
 def _unit(vectors: np.ndarray) -> np.ndarray:
     norms = np.linalg.norm(vectors, axis=-1, keepdims=True)
     unit: np.ndarray = vectors / np.maximum(norms, 1e-12)
     return unit
+
+
+def _places(embeddings: np.ndarray, labels: np.ndarray) -> np.ndarray:
+    """Unit vectors [A, D] that tell the labels [N] of unit embeddings [N, D] apart.
+
+    From the mean of each label on, the weights of a cosine classifier (softmax of SCALE times the
+    cosines), every label alike: between two means lies much that is said of neither.
+    """
+    import torch
+    from torch.nn.functional import cross_entropy, normalize
+
+    number = np.bincount(labels)
+    means = [embeddings[labels == label].mean(axis=0) for label in range(len(number))]
+    places = torch.tensor(_unit(np.stack(means)), dtype=torch.float32, requires_grad=True)
+    x, y = torch.as_tensor(embeddings, dtype=torch.float32), torch.as_tensor(labels)
+    share = torch.as_tensor(1.0 / number / len(number), dtype=torch.float32)
+    optimizer = torch.optim.LBFGS([places], max_iter=FIT_STEPS, line_search_fn="strong_wolfe")
+
+    def loss() -> torch.Tensor:
+        optimizer.zero_grad()
+        logits = SCALE * x @ normalize(places, dim=-1).T
+        total = cross_entropy(logits, y, weight=share, reduction="sum")
+        total.backward()
+        return total
+
+    optimizer.step(loss)
+    return _unit(places.detach().numpy())
 
 
 def _key_words(

@@ -7,7 +7,7 @@ from src.shared.data.prepared import ClipRecord
 from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.evaluation.floors import frozen
 from src.shared.evaluation.judge.actions import ActionJudge, ActionRecognizer, descriptor
-from src.shared.evaluation.judge.instructions import ACTIONS
+from src.shared.metrics.actions import ACTIONS
 from src.shared.motion.features import decode_features, encode_features
 
 LABELS = {

@@ -10,7 +10,7 @@ from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
 from src.shared.data.sources.folders import SyntheticSource
 from src.shared.data.synthetic.clips import generate_clip, spec_for
-from src.shared.evaluation.judge.actions import action_reliability
+from src.shared.evaluation.judge.actions import action_reliability, recognizer_of
 from src.shared.model.clip.out_of_domain import RELIABLE
 from src.shared.motion.motion import Motion
 
@@ -41,12 +41,13 @@ class Puppet:
 
 
 def test_what_never_comes_out_is_found(data: PreparedData) -> None:
-    found = action_reliability(Puppet(data), data, tries=6)
+    judge = recognizer_of(data)
+    found = action_reliability(Puppet(data), data, judge, tries=6)
     assert found.keys() == {record.tag for record in data.records("train")}
     assert found["jump"] == 1 / 8  # none of six
     assert found["jump"] < RELIABLE < found["walk"] < 1
     assert json.loads(json.dumps(found)) == found
-    assert action_reliability(Puppet(data), data, tries=6) == found
+    assert action_reliability(Puppet(data), data, judge, tries=6) == found
 
 
 def test_without_actions_to_tell_apart_it_says_so(data: PreparedData, tmp_path: Path) -> None:
@@ -56,4 +57,4 @@ def test_without_actions_to_tell_apart_it_says_so(data: PreparedData, tmp_path: 
     few = PreparedData.open(tmp_path)
     few.__dict__["_all_records"] = few.records()[:1]
     with pytest.raises(UserError, match="no judge can be fitted"):
-        action_reliability(Puppet(data), few)
+        recognizer_of(few)

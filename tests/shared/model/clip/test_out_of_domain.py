@@ -47,7 +47,7 @@ def scope(book) -> OutOfDomainDetector:
     "prompt",
     [
         "purple quarterly tax report",
-        "make me a sandwich",
+        "bake a chocolate cake",
         "a person reads a book",
         "the stock market crashed",
         "a person",
@@ -65,9 +65,22 @@ def test_far_prompts_are_flagged(scope: OutOfDomainDetector, prompt: str):
     assert len(result.nearest) == 3
 
 
+def test_places_tell_apart_what_lies_on_one_side_of_its_mean():
+    rng = np.random.default_rng(0)
+    spread = np.array([0.05, 0.6, 0.05])
+    first = np.array([1.0, 0.5, 0.0]) + rng.normal(size=(300, 3)) * spread
+    second = np.array([1.0, -0.2, 0.5]) + rng.normal(size=(300, 3)) * spread
+    points = np.concatenate((first, second))
+    labels = ["first"] * 300 + ["second"] * 300
+    scope = OutOfDomainDetector.fit([f"do the {each} thing" for each in labels], labels, points)
+    unit = points / np.linalg.norm(points, axis=1, keepdims=True)
+    found = [scope.actions[row] for row in (unit @ scope.means.T).argmax(1)]
+    assert np.mean([one == other for one, other in zip(found, labels, strict=True)]) > 0.97
+
+
 def test_clips_without_an_action_are_not_named(scope: OutOfDomainDetector):
     unlabelled = replace(scope, actions=("", *scope.actions[1:]))
-    result = unlabelled.check("make me a sandwich", np.eye(len(scope.actions))[0])
+    result = unlabelled.check("bake a chocolate cake", np.eye(len(scope.actions))[0])
     assert len(result.nearest) == 3 and all(result.nearest)
 
 
