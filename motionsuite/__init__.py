@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from .src.shared.data.prepare import prepare
     from .src.shared.data.retarget.read_motion import read_motion
     from .src.shared.formats.registry import write_motion as save
+    from .src.shared.model.checkpoint import list_models as models
     from .src.shared.model.diffusion import Sampling
     from .src.shared.model.generation.constraint import Constraint
-    from .src.shared.model.zoo import list_models as models
     from .src.shared.motion.motion import Motion
     from .src.shared.motion.trajectory import MotionTrajectory as Trajectory
     from .src.shared.pipelines.motion_generator import MotionGenerator, load

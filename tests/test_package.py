@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from src.shared.model.zoo import PRETRAINED
+from src.shared.model.checkpoint import PRETRAINED
 
 ROOT = Path(__file__).parents[1]
 

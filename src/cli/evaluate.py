@@ -117,8 +117,7 @@ def run(model: str, request: Request, out: Path | None, suite: str | None = None
     Raises:
         UserError: no such model, wrong flags, or data that cannot be used.
     """
-    from ..shared.model.checkpoint import read_card
-    from ..shared.model.zoo import resolve_model
+    from ..shared.model.checkpoint import read_card, resolve_model
 
     folder = out or Path("outputs/evaluation") / Path(model).name
     check(request, folder)

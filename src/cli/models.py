@@ -21,7 +21,7 @@ def models(json: options.Json = False) -> None:
     Example:
       motion-tools models
     """
-    from ..shared.model.zoo import list_models
+    from ..shared.model.checkpoint import list_models
 
     rows = list_models()
     if json:

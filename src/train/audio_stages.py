@@ -31,8 +31,7 @@ from ..shared.model.audio.audio_motion_model import KIND, AudioMotionModel
 from ..shared.model.audio.conditioning import BEAT, CONDITION_ROWS
 from ..shared.model.audio.decoder import wrapped_phase
 from ..shared.model.audio.unet import MIN_FRAMES
-from ..shared.model.checkpoint import read_card
-from ..shared.model.zoo import resolve_model, wrong_kind
+from ..shared.model.checkpoint import read_card, resolve_model, wrong_kind
 from ..shared.motion.trajectory import PHASE, MotionTrajectory
 from ..shared.pipelines.song_sampler import SongSampler
 from .run_log import announce, console

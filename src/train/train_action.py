@@ -35,7 +35,7 @@ from ..shared.data.captions.word_dropout import insert_babble
 from ..shared.data.prepared import ClipRecord
 from ..shared.device import autocast, choose_compute
 from ..shared.errors import UsageError, UserError
-from ..shared.model.checkpoint import read_card
+from ..shared.model.checkpoint import read_card, resolve_model
 from ..shared.model.clip.core import (
     PAIRS,
     PLACE_SCALE,
@@ -49,9 +49,12 @@ from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.diffusion import GaussianDiffusion
 from ..shared.model.generation.denoiser import MotionDenoiser
 from ..shared.model.generation.losses import GenerationLoss
-from ..shared.model.generation.motion_generator import KIND, TextToMotion
-from ..shared.model.generation.sampling import SampleRequest, sample_batch
-from ..shared.model.zoo import resolve_model
+from ..shared.model.generation.motion_generator import (
+    KIND,
+    SampleRequest,
+    TextToMotion,
+    sample_batch,
+)
 from .captured_places import apart
 from .constraints import draw_known
 from .launch import Stage

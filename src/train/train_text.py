@@ -35,7 +35,7 @@ from ..shared.data.captions.schema import Labels
 from ..shared.data.captions.word_dropout import drop_words, insert_babble
 from ..shared.errors import UserError
 from ..shared.io.files import sha256_file
-from ..shared.model.checkpoint import WEIGHTS_FILE, ModelCard, read_card
+from ..shared.model.checkpoint import WEIGHTS_FILE, ModelCard, read_card, resolve_model
 from ..shared.model.clip.core import (
     PAIRS,
     MotionClip,
@@ -47,7 +47,6 @@ from ..shared.model.clip.pretrained import KIND, ClipBundle, encode_captions, lo
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.generation.motion_generator import KIND as GENERATOR
 from ..shared.model.generation.motion_generator import TextToMotion
-from ..shared.model.zoo import resolve_model
 from .captured_places import apart, nearest_styles, with_unstyled
 from .launch import Stage
 from .task import Part, Task, numpy_generator

@@ -10,8 +10,8 @@ from src.cli.tools import app
 from src.shared.data.prepare import prepare
 from src.shared.data.sources.folders import SyntheticSource
 from src.shared.evaluation.judge import actions
+from src.shared.model.checkpoint import resolve_model
 from src.shared.model.clip.out_of_domain import OutOfDomainDetector
-from src.shared.model.zoo import resolve_model
 
 
 @pytest.mark.parametrize("model", ["starter", "nowhere"])

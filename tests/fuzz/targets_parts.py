@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from src.shared.model.zoo import PRETRAINED
+from src.shared.model.checkpoint import PRETRAINED
 from src.train.run_log import Epoch
 from tests.fuzz.target import Target, check_arrays
 

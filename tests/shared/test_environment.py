@@ -8,7 +8,7 @@ from src.shared import environment
 from src.shared.config_loader import load_train
 from src.shared.device import choose_compute, choose_device
 from src.shared.errors import UsageError
-from src.shared.model import zoo
+from src.shared.model import checkpoint
 from src.shared.pipelines.motion_generator import MotionGenerator
 from src.train.audio_stages import PhraseConfig
 from src.train.finetune_e2e import FinetuneE2eConfig
@@ -59,8 +59,8 @@ def test_runs_are_found_where_training_writes_them(
 ) -> None:
     monkeypatch.setenv(environment.OUTPUT_DIR, str(tmp_path))
     (tmp_path / "clip").mkdir()
-    (tmp_path / "clip" / zoo.CARD_FILE).write_text("{}")
-    assert zoo.resolve_model("runs/clip") == tmp_path / "clip"
+    (tmp_path / "clip" / checkpoint.CARD_FILE).write_text("{}")
+    assert checkpoint.resolve_model("runs/clip") == tmp_path / "clip"
 
 
 def test_the_library_makes_paths_with_the_model_that_is_named() -> None:

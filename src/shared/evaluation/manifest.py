@@ -90,7 +90,7 @@ def folder_hashes(folder: Path) -> dict[str, str]:
 
 def model_hashes(models: Mapping[str, str | Path]) -> dict[str, str]:
     """`folder_hashes` of several model folders, each file as `name/file`."""
-    from ..model.zoo import resolve_model
+    from ..model.checkpoint import resolve_model
 
     return {
         f"{name}/{file}": digest

@@ -16,7 +16,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
-import numpy as np
 import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
@@ -24,12 +23,11 @@ from torch.nn import functional as F
 from ..config_schema import DiffusionConfig
 from ..device import idle_threads
 from ..errors import UsageError
-from .noise_schedule import NoiseSchedule, sampling_timesteps
+from .noise import Generators, NoiseSchedule, sampling_timesteps, standard_normal
 
 Model = Callable[..., Tensor]  # model(x_t, t [B], ...) -> model output, shaped like x_t
 ModelFn = Callable[[Tensor, Tensor], Tensor]  # the same with its condition already inside
 Callback = Callable[[int, int], None]  # callback(steps done, steps in all)
-Generators = torch.Generator | Sequence[torch.Generator] | None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -131,37 +129,6 @@ def guided(model: Model, condition: Any, null_condition: Any, scale: float) -> M
 def holding(model_fn: ModelFn, known: Tensor, values: Tensor) -> ModelFn:
     """The model, always shown `values` where they are `known`."""
     return lambda x_t, t: model_fn(torch.where(known, values, x_t), t)
-
-
-# ---------------------------------------------------------------- noise
-
-
-def sample_generators(seed: int, num_samples: int, start: int = 0) -> list[torch.Generator]:
-    """One CPU generator for each of the samples start ... start + num_samples - 1.
-
-    Sample i depends on (seed, i) alone: not on the batch size, its neighbours, or the device.
-    """
-    generators = []
-    for index in range(start, start + num_samples):
-        state = np.random.SeedSequence((seed, index)).generate_state(1, np.uint64)
-        generators.append(torch.Generator("cpu").manual_seed(int(state[0] >> np.uint64(1))))
-    return generators
-
-
-def standard_normal(
-    shape: Sequence[int], generator: Generators = None, *, device: torch.device | str = "cpu"
-) -> Tensor:
-    """Float32 noise of the given shape.
-
-    Drawn on the CPU and moved, so that a seed means the same on CPU, CUDA and MPS. A sequence of
-    generators gives each batch element its own stream.
-    """
-    shape = tuple(shape)
-    if generator is None or isinstance(generator, torch.Generator):
-        return torch.randn(shape, generator=generator, dtype=torch.float32).to(device)
-    assert len(generator) == shape[0], f"{len(generator)} generators for a batch of {shape[0]}"
-    rows = [torch.randn(shape[1:], generator=own, dtype=torch.float32) for own in generator]
-    return torch.stack(rows).to(device)
 
 
 # ---------------------------------------------------------------- the process
@@ -275,6 +242,37 @@ class GaussianDiffusion(nn.Module):
             _per_sample(self.sqrt_alphas_cumprod, t, like),
             _per_sample(self.sqrt_one_minus_alphas_cumprod, t, like),
         )
+
+    def held(
+        self,
+        model_fn: ModelFn,
+        known: Tensor,
+        values: Tensor,
+        noise: Tensor,
+        *,
+        shown: Tensor,
+        guide: Callable[..., Tensor] | None = None,
+    ) -> ModelFn:
+        """The model with the known entries put in before, and put right after, each call.
+
+        Args:
+            model_fn: with its condition inside.
+            known: [B, ...] bool, which entries are.
+            values: [B, ...], used where known.
+            noise: [B, ...] that sampling starts from; the known entries are noised with it.
+            shown: [B, ...] bool, the known entries that are handed over clean, without noise.
+            guide: moves each predicted x_0 [B, ...] where `free` [B, ...] bool.
+        """
+
+        def held(x_t: Tensor, t: Tensor) -> Tensor:
+            mixed = torch.where(known & ~shown, self.q_sample(values, t, noise), x_t)
+            output = model_fn(torch.where(shown, values, mixed), t).to(x_t.dtype)
+            if guide is not None:
+                x_0 = torch.where(known, values, self.predict_x0(output, x_t, t))
+                output = self.output_for(guide(x_0, free=~known), x_t, t)
+            return torch.where(known, self.output_for(values, x_t, t), output)
+
+        return held
 
     # Training
 
@@ -428,6 +426,7 @@ class Sampler(ABC):
         """Choose the timesteps and forget any earlier run. Raises UsageError when out of range."""
         config = self.diffusion.config
         self.timesteps = sampling_timesteps(config.timesteps, num_steps, config.timestep_spacing)
+        self._earlier: tuple[Tensor, float] | None = None  # x_0 and lambda one step ago
 
     @abstractmethod
     def step(
@@ -449,7 +448,7 @@ class Sampler(ABC):
 
         `start` skips that many of them: x_T is then data noised to `timesteps[start]`.
         """
-        self.set_timesteps(len(self.timesteps))
+        self._earlier = None
         x_t = x_T
         for done, t in enumerate(self.timesteps[start:], start=start + 1):
             t_batch = torch.full((len(x_t),), t, dtype=torch.long, device=x_t.device)
@@ -541,11 +540,6 @@ class DPMSolverPP2MSampler(Sampler):
 
     First order on the first step, and on the last one, whose end has no noise (lambda infinite).
     """
-
-    def set_timesteps(self, num_steps: int) -> None:
-        """Choose the timesteps and forget any earlier run. Raises UsageError when out of range."""
-        super().set_timesteps(num_steps)
-        self._earlier: tuple[Tensor, float] | None = None  # x_0 and lambda one step ago
 
     def step(
         self, model_output: Tensor, t: int, x_t: Tensor, *, generator: Generators = None

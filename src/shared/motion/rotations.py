@@ -305,3 +305,15 @@ def smooth(values: Tensor, weights: Tensor) -> Tensor:
     tail = 2 * values[..., -1:, :] - values[..., last - reach, :]
     padded = torch.cat((head, values, tail), -2)
     return padded.unfold(-2, len(weights), 1) @ weights
+
+
+def gaussian_smooth(series: Tensor, deviation: float) -> Tensor:
+    """[B, T, K, C] convolved over time with a Gaussian of that many frames; the ends repeat."""
+    reach = round(3 * deviation)
+    kernel = torch.exp(
+        -0.5 * (torch.arange(-reach, reach + 1, device=series.device) / deviation) ** 2
+    )
+    rows = series.flatten(2).transpose(1, 2)  # B K*C T
+    padded = F.pad(rows, (reach, reach), mode="replicate")
+    smooth = F.conv1d(padded.flatten(0, 1)[:, None], (kernel / kernel.sum())[None, None])
+    return smooth.view(rows.shape).transpose(1, 2).view_as(series)

@@ -18,10 +18,9 @@ from ..audio.song import Song, analyse
 from ..config_loader import ConfigT, dump_config, load_config
 from ..environment import TEXT_MODEL, default_audio_model
 from ..model.audio.audio_motion_model import KIND as AUDIO_KIND
-from ..model.checkpoint import read_card
+from ..model.checkpoint import read_card, resolve_model
 from ..model.diffusion import Sampling
 from ..model.generation.motion_generator import Progress, TextToMotion
-from ..model.zoo import resolve_model
 from ..motion.motion import Motion
 from .body import Performer, PerformerSettings
 from .dance import DancePrompter, Dances, SongPerformer

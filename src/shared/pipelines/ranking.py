@@ -38,11 +38,10 @@ from ..metrics.rhythm import Alignment, alignment, chance_alignment, motion_beat
 from ..metrics.sanity import SanityChecker, mean_margin, share
 from ..model.audio import shared_space
 from ..model.audio.shared_space import MotionTower, SharedSpace
-from ..model.checkpoint import read_card
+from ..model.checkpoint import list_models, read_card, resolve_model
 from ..model.clip import pretrained
 from ..model.clip.core import TextTower
 from ..model.clip.pretrained import ClipBundle, tower_hash
-from ..model.zoo import list_models, resolve_model
 from ..motion.features import encode_features
 from ..motion.motion import Motion
 from ..motion.trajectory import MotionTrajectory

@@ -20,8 +20,8 @@ from ..device import choose_device
 from ..metrics.bands import Bands
 from ..model.audio.audio_motion_model import AudioMotionModel
 from ..model.audio.conditioning import BEAT, CONDITION_ROWS, FEATURE_ROWS
+from ..model.checkpoint import resolve_model
 from ..model.generation.motion_generator import TextToMotion
-from ..model.zoo import resolve_model
 from ..motion.postprocess.trajectory import MotionPostProcessor
 from ..motion.style import named_style, only_style_words
 from ..motion.trajectory import FPS, MotionTrajectory, unwrap_phase

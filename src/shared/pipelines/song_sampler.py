@@ -22,7 +22,8 @@ from ..device import idle_threads
 from ..errors import UsageError
 from ..model.audio.conditioning import MemoryCondition, known_frames
 from ..model.audio.unet import MIN_FRAMES
-from ..model.diffusion import Sampling, holding, make_sampler, sample_generators, standard_normal
+from ..model.diffusion import Sampling, holding, make_sampler
+from ..model.noise import sample_generators, standard_normal
 from ..motion.rotations import (
     quaternion_conjugate,
     quaternion_continuous,

@@ -9,8 +9,7 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from src.shared.audio import beats as downbeats
-from src.shared.audio import tempo
+from src.shared.audio import beats as tracking
 from src.shared.audio.beats import _novelty
 from src.shared.audio.onsets import Onsets, detect_onsets
 from src.shared.audio.synthetic_songs import SyntheticSong, render_song, sample_song_specs
@@ -38,13 +37,15 @@ def test_tempo_weights() -> None:
     features, targets = [], []
     for song, onsets in training_songs():
         novelty = _novelty(onsets.bands, onsets.fps)
-        correlations, centres = tempo.correlate_windows(novelty, onsets.fps)
-        read = tempo.tempo_features(correlations, onsets.fps)
-        prior = np.broadcast_to(tempo.DISTANCE**2, (len(read), 1, tempo.CANDIDATES))
-        features.append(np.concatenate([read.reshape(len(read), -1, tempo.CANDIDATES), prior], 1))
+        correlations, centres = tracking.correlate_windows(novelty, onsets.fps)
+        read = tracking.tempo_features(correlations, onsets.fps)
+        prior = np.broadcast_to(tracking.DISTANCE**2, (len(read), 1, tracking.CANDIDATES))
+        features.append(
+            np.concatenate([read.reshape(len(read), -1, tracking.CANDIDATES), prior], 1)
+        )
         since = np.maximum(centres - song.spec.first_downbeat, 0.0)
         beats = song.spec.tempo_map.beats(since + 0.5) - song.spec.tempo_map.beats(since - 0.5)
-        away = np.log2(tempo.PERIODS * beats[:, None]) / TEMPO_BLUR
+        away = np.log2(tracking.PERIODS * beats[:, None]) / TEMPO_BLUR
         wanted = np.exp(-(away**2) / 2)
         targets.append(wanted / wanted.sum(axis=1, keepdims=True))
     x, y = np.concatenate(features).astype(np.float32), np.concatenate(targets)
@@ -58,11 +59,11 @@ def test_tempo_weights() -> None:
         return value, slope.astype(np.float64) + 2 * TEMPO_RIDGE * weights
 
     fitted = minimise(loss, x.shape[1])
-    table = fitted[:-1].reshape(tempo.WEIGHTS.shape)
+    table = fitted[:-1].reshape(tracking.MULTIPLE_WEIGHTS.shape)
     print(np.round(table, 1).tolist(), round(fitted[-1], 2))
-    shipped = np.append(tempo.WEIGHTS.ravel(), tempo.PRIOR)
+    shipped = np.append(tracking.MULTIPLE_WEIGHTS.ravel(), tracking.PRIOR)
     assert loss(shipped)[0] < loss(fitted)[0] + 0.01
-    assert np.abs(table - tempo.WEIGHTS).max() < 0.3
+    assert np.abs(table - tracking.MULTIPLE_WEIGHTS).max() < 0.3
 
 
 def test_downbeat_weights() -> None:
@@ -71,7 +72,7 @@ def test_downbeat_weights() -> None:
         meter, beats = song.spec.meter, song.beat_times
         if len(beats) < 2 * meter:
             continue
-        features = downbeats.downbeat_features(onsets, beats).reshape(-1, len(beats))
+        features = tracking.downbeat_features(onsets, beats).reshape(-1, len(beats))
         by_offset = [features[:, k::meter].sum(axis=1) for k in range(meter)]
         sums.append(np.stack(by_offset) / np.sqrt(len(beats) / meter))
         wanted.append(int(np.searchsorted(beats, song.downbeat_times[0])) % meter)
@@ -86,7 +87,7 @@ def test_downbeat_weights() -> None:
             slope = slope + (share @ x - x[offset]) / len(sums)
         return value, slope
 
-    fitted = minimise(loss, sums[0].shape[1]).reshape(downbeats.WEIGHTS.shape)
+    fitted = minimise(loss, sums[0].shape[1]).reshape(tracking.WEIGHTS.shape)
     print(np.round(fitted, 2).tolist())
-    assert loss(downbeats.WEIGHTS.ravel())[0] < loss(fitted.ravel())[0] + 0.01
-    assert np.abs(fitted - downbeats.WEIGHTS).max() < 0.05
+    assert loss(tracking.WEIGHTS.ravel())[0] < loss(fitted.ravel())[0] + 0.01
+    assert np.abs(fitted - tracking.WEIGHTS).max() < 0.05

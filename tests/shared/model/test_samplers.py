@@ -16,9 +16,8 @@ from src.shared.model.diffusion import (
     DPMSolverPP2MSampler,
     GaussianDiffusion,
     make_sampler,
-    sample_generators,
-    standard_normal,
 )
+from src.shared.model.noise import sample_generators, standard_normal
 
 SHAPES = ((2, 25, 16), (2, 8, 23, 6))
 PREDICTIONS = ("epsilon", "sample", "v")

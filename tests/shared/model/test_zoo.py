@@ -6,15 +6,15 @@ import sys
 import pytest
 
 from src.shared.errors import UserError
-from src.shared.model import zoo
+from src.shared.model import checkpoint
 from src.shared.model.checkpoint import CARD_FILE
 
 
 @pytest.fixture
 def shipped(generator, tmp_path, monkeypatch):
     """A zoo with one shipped model, `tiny`, and one under runs/."""
-    monkeypatch.setattr(zoo, "PRETRAINED", tmp_path / "pretrained")
-    monkeypatch.setattr(zoo, "RUNS", tmp_path / "runs")
+    monkeypatch.setattr(checkpoint, "PRETRAINED", tmp_path / "pretrained")
+    monkeypatch.setattr(checkpoint, "RUNS", tmp_path / "runs")
     generator.save_pretrained(tmp_path / "pretrained" / "tiny", half=True)
     generator.save_pretrained(tmp_path / "runs" / "mine" / "model")
     broken = tmp_path / "runs" / "broken"
@@ -24,7 +24,7 @@ def shipped(generator, tmp_path, monkeypatch):
 
 
 def test_listing_tells_what_a_user_needs_and_skips_damaged_cards(shipped):
-    rows = zoo.list_models()
+    rows = checkpoint.list_models()
     assert [row["name"] for row in rows] == ["tiny", str(shipped / "runs" / "mine" / "model")]
     assert rows[0]["kind"] == "motion-generator"
     assert rows[0]["trained"] is True
@@ -33,9 +33,9 @@ def test_listing_tells_what_a_user_needs_and_skips_damaged_cards(shipped):
 
 
 def test_names_and_folders_resolve(shipped):
-    assert zoo.resolve_model("tiny") == shipped / "pretrained" / "tiny"
+    assert checkpoint.resolve_model("tiny") == shipped / "pretrained" / "tiny"
     folder = shipped / "runs" / "mine" / "model"
-    assert zoo.resolve_model(folder) == zoo.resolve_model(str(folder)) == folder
+    assert checkpoint.resolve_model(folder) == checkpoint.resolve_model(str(folder)) == folder
 
 
 @pytest.mark.parametrize(
@@ -49,12 +49,12 @@ def test_names_and_folders_resolve(shipped):
 )
 def test_what_is_not_there_says_what_to_do(shipped, name: str, message: str):
     with pytest.raises(UserError, match=message):
-        zoo.resolve_model(name)
+        checkpoint.resolve_model(name)
 
 
 def test_another_kind_is_named_with_its_article_and_what_is_shipped(shipped):
     def said(found: str, wanted: str) -> str:
-        return str(zoo.wrong_kind(shipped, found, wanted)).removeprefix(f"{shipped} ")
+        return str(checkpoint.wrong_kind(shipped, found, wanted)).removeprefix(f"{shipped} ")
 
     other = said("audio-motion", "motion-generator")
     assert other == (
@@ -66,10 +66,10 @@ def test_another_kind_is_named_with_its_article_and_what_is_shipped(shipped):
 
 def test_a_folder_without_a_card(shipped, tmp_path):
     with pytest.raises(UserError, match=r"has no config.json"):
-        zoo.resolve_model(tmp_path)
+        checkpoint.resolve_model(tmp_path)
 
 
 def test_listing_imports_no_torch():
-    code = "import sys; from src.shared.model.zoo import list_models; list_models();"
+    code = "import sys; from src.shared.model.checkpoint import list_models; list_models();"
     code += "sys.exit('torch' in sys.modules or 'transformers' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -20,7 +20,7 @@ from torch import Tensor
 from src.shared.config_audio import AudioTowerConfig
 from src.shared.errors import UserError
 from src.shared.io.files import write_json
-from src.shared.model import zoo
+from src.shared.model import checkpoint
 from src.shared.model.audio.shared_space import SharedSpace
 from src.shared.model.checkpoint import ModelCard
 from src.shared.model.clip.core import MotionClip
@@ -211,7 +211,7 @@ def test_a_model_without_a_motion_tower_is_refused() -> None:
 def test_the_shipped_space_is_found_by_its_text_tower(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(zoo, "PRETRAINED", tmp_path)
+    monkeypatch.setattr(checkpoint, "PRETRAINED", tmp_path)
     write_json(tmp_path / "evaluator" / "config.json", {"kind": "evaluator", "steps": 1})
     made = bundle()
     made.save_pretrained(tmp_path / "clip")

@@ -30,8 +30,7 @@ from ...config_schema import Config
 from ...errors import UserError
 from ...io.files import atomic_write, load_json, sha256_file, write_json
 from ...metrics.retrieval import NUM_BUCKETS, caption_buckets
-from ...model.checkpoint import of_another_version
-from ...model.zoo import PRETRAINED
+from ...model.checkpoint import PRETRAINED, of_another_version
 from ...motion.features import FORWARD, HEIGHT, LATERAL, YAW_RATE, encode_features
 from ...motion.motion import Motion
 from ...motion.rotations import forward_kinematics, rotation_6d_to_matrix

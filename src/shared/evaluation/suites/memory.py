@@ -25,7 +25,7 @@ from ...memory.priors import prior_curves
 from ...memory.query import Memory, retrieve
 from ...model.audio.audio_motion_model import AudioMotionModel
 from ...model.audio.conditioning import MemoryCondition
-from ...model.diffusion import standard_normal
+from ...model.noise import standard_normal
 from ...motion.trajectory import MotionTrajectory, place_window
 from ...pipelines.song_memory import as_condition, bars_of_sound, bars_of_window
 from ...pipelines.song_sampler import SPARE, SongSampler, SongSampling

@@ -279,7 +279,7 @@ def evaluate_text(
     }
 
     def sources() -> Sources:
-        from ...model.zoo import resolve_model
+        from ...model.checkpoint import resolve_model
 
         splits = {
             name: manifest.hash_names(record.id for record in records)

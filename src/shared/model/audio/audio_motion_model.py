@@ -17,11 +17,12 @@ from ..checkpoint import (
     load_state,
     read_card,
     read_tensors,
+    resolve_model,
     with_prefix,
     write_checkpoint,
+    wrong_kind,
 )
 from ..diffusion import GaussianDiffusion, ModelFn, guided
-from ..zoo import resolve_model, wrong_kind
 from .conditioning import AudioConditioner, ConditionAugmentation, MemoryCondition
 from .decoder import Decoded, Decoder, create_motion_decoder
 from .unet import Prepared, UNet1D

@@ -31,9 +31,8 @@ from ...config_schema import Config
 from ...errors import UserError, first_fault
 from ...io.files import atomic_write, load_json, sha256_file, write_json
 from ...motion.trajectory import CHANNELS, PHASE
-from ..checkpoint import read_card
+from ..checkpoint import read_card, resolve_model
 from ..layers.transformer import RotaryEmbedding
-from ..zoo import resolve_model
 from .audio_motion_model import AudioMotionModel
 from .conditioning import CONDITION_ROWS
 from .decoder import Decoder, wrapped_phase

@@ -25,14 +25,15 @@ from ..checkpoint import (
     load_state,
     read_card,
     read_tensors,
+    resolve_model,
     with_prefix,
     write_checkpoint,
+    wrong_kind,
 )
 from ..clip.core import TextTower
 from ..clip.pretrained import ClipBundle, encode_captions, tower_hash
 from ..clip.tokenizer import PromptTokenizer
 from ..layers.temporal_unet import TemporalUNet
-from ..zoo import resolve_model, wrong_kind
 from .conditioning import BEAT, CONDITION_ROWS, FEATURE_ROWS, with_phase_rows
 
 HARMONICS = (1, 2)  # of the octave that a beat's rate lies in

@@ -29,6 +29,16 @@ from .conditioning import (
 MIN_FRAMES = 8  # ruling 4
 
 
+class ZeroConv1d(nn.Conv1d):
+    """A convolution with zero weights: a branch that starts silent."""
+
+    def reset_parameters(self) -> None:
+        """Draw as its parent does, so that the layers after it start alike, then zero."""
+        super().reset_parameters()
+        for parameter in self.parameters():
+            nn.init.zeros_(parameter)
+
+
 class FiLMLayer(nn.Module):
     """Per-frame feature-wise modulation (Perez et al. 2018, eq. 1); starts as the identity.
 
@@ -38,7 +48,7 @@ class FiLMLayer(nn.Module):
 
     def __init__(self, channels: int, condition_dim: int) -> None:
         super().__init__()
-        self.mlp = nn.Sequential(nn.SiLU(), zeroed(nn.Conv1d(condition_dim, 2 * channels, 1)))
+        self.mlp = nn.Sequential(nn.SiLU(), ZeroConv1d(condition_dim, 2 * channels, 1))
 
     def gamma_beta(self, condition: Tensor) -> Tensor:
         """Condition [B, E, T] -> both modulations [B, 2C, T]."""
@@ -85,7 +95,7 @@ class ResBlock(nn.Module):
         self.norm2 = nn.GroupNorm(NORM_GROUPS, out_channels)
         self.film = None if condition_dim is None else FiLMLayer(out_channels, condition_dim)
         self.dropout = nn.Dropout(dropout)
-        self.conv2 = zeroed(nn.Conv1d(out_channels, out_channels, 3, padding=1))
+        self.conv2 = ZeroConv1d(out_channels, out_channels, 3, padding=1)
         same = channels == out_channels
         self.skip_conv = nn.Identity() if same else nn.Conv1d(channels, out_channels, 1)
 
@@ -314,9 +324,7 @@ class UNet1D(nn.Module):
         )
         self._build_stages(condition.dim if uses_film else None)
         self.output_norm = nn.GroupNorm(NORM_GROUPS, config.model_channels)
-        self.output_conv = zeroed(
-            nn.Conv1d(config.model_channels, config.out_channels, 3, padding=1)
-        )
+        self.output_conv = ZeroConv1d(config.model_channels, config.out_channels, 3, padding=1)
         self.memory: MemoryJoin | None = None  # last, so that it takes no random number before
         if config.memory is not None:
             self.add_memory(config.memory)

@@ -14,10 +14,11 @@ from ..checkpoint import (
     load_state,
     read_card,
     read_tensors,
+    resolve_model,
     with_prefix,
     write_checkpoint,
+    wrong_kind,
 )
-from ..zoo import resolve_model, wrong_kind
 from .core import MotionClip, TextTower
 from .tokenizer import PromptTokenizer
 

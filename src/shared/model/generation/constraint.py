@@ -23,11 +23,9 @@ from typing import Self
 import numpy as np
 import torch
 from torch import Tensor
-from torch.nn import functional as F
 
-from ...errors import UsageError
 from ...motion.features import world_joints
-from ..diffusion import GaussianDiffusion, ModelFn
+from ...motion.rotations import gaussian_smooth
 
 STEP = 0.02  # root mean square of one move, in standard deviations of the data
 MOVES = 3  # a prediction
@@ -70,19 +68,16 @@ class RhythmGuidance:
     def __call__(self, x_0: Tensor, *, free: Tensor) -> Tensor:
         """Motions [B, T, K, C] moved where `free` [B, T, K, C] bool."""
         for _ in range(MOVES):
-            gradient = smoothed(self._gradient(x_0), SMOOTHING) * free
+            with torch.inference_mode(False), torch.enable_grad():
+                leaf = x_0.clone().requires_grad_()  # inference tensors have no gradient
+                joints = world_joints(leaf * self.std.clone() + self.mean.clone(), self.fps)
+                speed = (joints[:, 1:] - joints[:, :-1]).norm(dim=-1).mean(-1) * self.fps  # B T-1
+                energy = (self.weight.clone() * torch.log(speed + SLOW)).mean(-1).sum()
+                (gradient,) = torch.autograd.grad(energy, leaf)
+            gradient = gaussian_smooth(gradient.detach(), SMOOTHING) * free
             size = gradient.square().mean((1, 2, 3), keepdim=True).sqrt()
             x_0 = x_0 - STEP * gradient / size.clamp_min(1e-12)
         return x_0
-
-    def _gradient(self, x_0: Tensor) -> Tensor:
-        with torch.inference_mode(False), torch.enable_grad():
-            leaf = x_0.clone().requires_grad_()  # inference tensors have no gradient
-            joints = world_joints(leaf * self.std.clone() + self.mean.clone(), self.fps)
-            speed = (joints[:, 1:] - joints[:, :-1]).norm(dim=-1).mean(-1) * self.fps  # [B, T-1]
-            energy = (self.weight.clone() * torch.log(speed + SLOW)).mean(-1).sum()
-            (gradient,) = torch.autograd.grad(energy, leaf)
-        return gradient.detach()
 
 
 def beat_weight(beats: Tensor | None, frames: int, fps: float) -> Tensor:
@@ -96,18 +91,6 @@ def beat_weight(beats: Tensor | None, frames: int, fps: float) -> Tensor:
     phase = np.interp((np.arange(frames - 1) + 0.5) / fps, known, count)
     near = (phase > -BEYOND) & (phase < len(times) - 1 + BEYOND)
     return torch.from_numpy(np.where(near, np.cos(2 * np.pi * phase), 0.0)).float()
-
-
-def smoothed(series: Tensor, deviation: float) -> Tensor:
-    """[B, T, K, C] convolved over time with a Gaussian of that many frames; the ends repeat."""
-    reach = round(3 * deviation)
-    kernel = torch.exp(
-        -0.5 * (torch.arange(-reach, reach + 1, device=series.device) / deviation) ** 2
-    )
-    rows = series.flatten(2).transpose(1, 2)  # B K*C T
-    padded = F.pad(rows, (reach, reach), mode="replicate")
-    smooth = F.conv1d(padded.flatten(0, 1)[:, None], (kernel / kernel.sum())[None, None])
-    return smooth.view(rows.shape).transpose(1, 2).view_as(series)
 
 
 # ---------------------------------------------------------------- what is known
@@ -197,37 +180,3 @@ class KnownBatch:
         z_scored = torch.where(known, (values.to(mean.device) - mean) / std, 0.0)
         rhythm = RhythmGuidance.of(beats, frames, mean, std, fps=fps)
         return cls(z_scored, known, shown, rhythm)
-
-    def hold(
-        self, model_fn: ModelFn, diffusion: GaussianDiffusion, noise: Tensor, *, clean: bool
-    ) -> ModelFn:
-        """The model with the known entries put in before, and put right after, each call.
-
-        Args:
-            model_fn: with its condition inside.
-            diffusion: its process.
-            noise: [B, T, K, C] that sampling starts from; the known entries are noised with it.
-            clean: hand over what is shown without noise, as the network learned it.
-        """
-        known, shown = self.known, self.shown & clean
-
-        def held(x_t: Tensor, t: Tensor) -> Tensor:
-            noised = diffusion.q_sample(self.values, t, noise)
-            mixed = torch.where(known & ~shown, noised, x_t)
-            output = model_fn(torch.where(shown, self.values, mixed), t).to(x_t.dtype)
-            if self.rhythm is not None:
-                x_0 = torch.where(known, self.values, diffusion.predict_x0(output, x_t, t))
-                output = diffusion.output_for(self.rhythm(x_0, free=~known), x_t, t)
-            return torch.where(known, diffusion.output_for(self.values, x_t, t), output)
-
-        return held
-
-
-def check_lengths(constraints: Sequence[Constraint | None], frames: Sequence[int]) -> None:
-    """Raises UsageError where a constraint is not as long as its motion."""
-    for constraint, length in zip(constraints, frames, strict=True):
-        if constraint is not None and len(constraint) != length:
-            raise UsageError(
-                f"a constraint of {len(constraint)} frames for a motion of {length}; give both the"
-                " same length"
-            )

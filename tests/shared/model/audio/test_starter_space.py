@@ -9,9 +9,8 @@ from torch import Tensor
 from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.model.audio.conditioning import CONDITION_ROWS, FEATURE_ROWS
 from src.shared.model.audio.shared_space import KIND, SharedSpace
-from src.shared.model.checkpoint import WEIGHTS_FILE
+from src.shared.model.checkpoint import PRETRAINED, WEIGHTS_FILE, list_models
 from src.shared.model.generation.motion_generator import TextToMotion
-from src.shared.model.zoo import PRETRAINED, list_models
 from src.shared.motion.features import encode_features
 
 FOLDER = PRETRAINED / "starter-space"

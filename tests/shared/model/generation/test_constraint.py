@@ -39,7 +39,7 @@ def test_known_entries_come_out_exactly(make_generator, sampler, prediction, lea
 
 @pytest.mark.parametrize("prediction", ["sample", "epsilon", "v"])
 def test_the_sampler_is_told_the_known_values(prediction: str):
-    """What `hold` returns stands for the known clean values, at every step."""
+    """What `held` returns stands for the known clean values, at every step."""
     diffusion = GaussianDiffusion(DiffusionConfig(timesteps=50, prediction_type=prediction))
     values, noise = torch.randn(2, 5, 3, 2), torch.randn(2, 5, 3, 2)
     known = torch.rand(values.shape) < 0.5
@@ -51,7 +51,9 @@ def test_the_sampler_is_told_the_known_values(prediction: str):
         fps=30.0,
     )
     assert given is not None
-    held = given.hold(lambda x, t: torch.zeros_like(x), diffusion, noise, clean=True)
+    held = diffusion.held(
+        lambda x, t: torch.zeros_like(x), given.known, given.values, noise, shown=given.shown
+    )
     for step in (0, 7, 49):
         t = torch.full((2,), step)
         x_t = torch.randn_like(values)

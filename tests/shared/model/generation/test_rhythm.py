@@ -7,10 +7,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from src.shared.metrics.rhythm import beat_alignment, motion_beats
-from src.shared.model.generation.constraint import Constraint, RhythmGuidance, beat_weight, smoothed
+from src.shared.model.generation.constraint import Constraint, RhythmGuidance, beat_weight
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.features import ROOT_ROW, decode_features, world_joints
-from src.shared.motion.rotations import axis_angle_to_matrix, matrix_to_rotation_6d
+from src.shared.motion.rotations import axis_angle_to_matrix, gaussian_smooth, matrix_to_rotation_6d
 
 BEATS = 0.4 + 0.5 * torch.arange(9)
 
@@ -92,11 +92,11 @@ def test_too_few_beats_ask_for_nothing():
 
 def test_smoothing_keeps_constants_and_the_sum_of_a_spike():
     constant = torch.full((2, 40, 3, 6), 0.7)
-    assert torch.allclose(smoothed(constant, 2.5), constant, atol=1e-6)
+    assert torch.allclose(gaussian_smooth(constant, 2.5), constant, atol=1e-6)
     spike = torch.zeros(1, 41, 1, 1)
     spike[0, 20] = 1
-    assert smoothed(spike, 2.5).sum() == pytest.approx(1.0, abs=1e-5)
-    assert smoothed(spike, 2.5).argmax() == 20
+    assert gaussian_smooth(spike, 2.5).sum() == pytest.approx(1.0, abs=1e-5)
+    assert gaussian_smooth(spike, 2.5).argmax() == 20
 
 
 def test_world_joints_are_those_of_the_decoded_motion():

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from src.shared.config_schema import DiffusionConfig
 from src.shared.errors import UsageError
 from src.shared.model.diffusion import GaussianDiffusion
-from src.shared.model.noise_schedule import get_beta_schedule, sampling_timesteps
+from src.shared.model.noise import get_beta_schedule, sampling_timesteps
 
 SCHEDULES = ("linear", "cosine", "sqrt")
 SPACINGS = ("leading", "linspace", "trailing")

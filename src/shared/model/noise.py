@@ -1,19 +1,23 @@
-"""Noise schedules: how fast the signal fades, and which steps a sampler visits.
+"""Noise: how fast the signal fades in it, which steps a sampler visits, and where it is drawn.
 
-Everything here is NumPy in float64; the diffusion process rounds to float32 once, at the end.
+Schedules are NumPy in float64; the diffusion process rounds to float32 once, at the end.
 
 Letters: S training steps, N sampling steps. Timestep t runs from 0 (almost clean) to S-1.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import torch
 from numpy.typing import NDArray
+from torch import Tensor
 
 from ..config_schema import DiffusionConfig
 from ..errors import UsageError
 
 Array = NDArray[np.float64]
+Generators = torch.Generator | Sequence[torch.Generator] | None
 
 COSINE_OFFSET = 0.008  # s of Nichol & Dhariwal 2021, eq. 17
 MAX_FINAL_SIGNAL = 0.02  # sqrt(alpha_bar) at the last step stays below this (SPEC ruling 15)
@@ -97,3 +101,34 @@ def sampling_timesteps(num_timesteps: int, num_steps: int, spacing: str) -> tupl
             f"timestep-spacing {spacing!r} is unknown; choose one of leading, linspace, trailing"
         )
     return tuple(int(step) for step in steps)
+
+
+# ---------------------------------------------------------------- drawing
+
+
+def sample_generators(seed: int, num_samples: int, start: int = 0) -> list[torch.Generator]:
+    """One CPU generator for each of the samples start ... start + num_samples - 1.
+
+    Sample i depends on (seed, i) alone: not on the batch size, its neighbours, or the device.
+    """
+    generators = []
+    for index in range(start, start + num_samples):
+        state = np.random.SeedSequence((seed, index)).generate_state(1, np.uint64)
+        generators.append(torch.Generator("cpu").manual_seed(int(state[0] >> np.uint64(1))))
+    return generators
+
+
+def standard_normal(
+    shape: Sequence[int], generator: Generators = None, *, device: torch.device | str = "cpu"
+) -> Tensor:
+    """Float32 noise of the given shape.
+
+    Drawn on the CPU and moved, so that a seed means the same on CPU, CUDA and MPS. A sequence of
+    generators gives each batch element its own stream.
+    """
+    shape = tuple(shape)
+    if generator is None or isinstance(generator, torch.Generator):
+        return torch.randn(shape, generator=generator, dtype=torch.float32).to(device)
+    assert len(generator) == shape[0], f"{len(generator)} generators for a batch of {shape[0]}"
+    rows = [torch.randn(shape[1:], generator=own, dtype=torch.float32) for own in generator]
+    return torch.stack(rows).to(device)
