@@ -118,7 +118,8 @@ def _joined(text: str, known: Known) -> list[str]:
 def _measured(text: str) -> Clause:
     """A clause with its measures taken out."""
     words, clause = _words(), Clause(text)
-    left, right = (bool(pattern.search(text)) for pattern in (words.left, words.right))
+    said = words.angle.sub(" ", text)  # a right angle is on no side
+    left, right = (bool(pattern.search(said)) for pattern in (words.left, words.right))
     for name, pattern in words.units.items():
         match = pattern.search(clause.text)
         if match is None:
@@ -209,8 +210,8 @@ class _Words:
             for name in ("degrees", "metres", "seconds")
         }
         others = rf"(?![\s-]*{_any(all_of('uncounted'))})"
-        times = rf"{number}\s*(?:{_any(all_of('times'))}|[x×](?!\w))"
-        self.times = re.compile(rf"{ready}(?:{times}{others}|[x×]\s*(?P<after>\d+))", re.I)
+        times = rf"{_any(all_of('times'))}|(?:{_any(all_of('pieces'))}|[x×](?!\w)){others}"
+        self.times = re.compile(rf"{ready}(?:{number}\s*(?:{times})|[x×]\s*(?P<after>\d+))", re.I)
         # A bare number counts what follows it; "one" is mostly somebody, "a" nothing at all.
         several = [word for word, value in self.numbers.items() if value > 1]
         self.bare = re.compile(rf"{ready}(?P<number>\d+|{_any(several)}){others}(?=[\s-]+\w)", re.I)

@@ -131,7 +131,7 @@ class SentenceGenerator:
             )
             several = [found[at : at + num_samples] for at in range(0, len(found), num_samples)]
             return {
-                index: self._whole_gestures(prompts[index], own)
+                index: [self._rested(motion, prompts[index]) for motion in own]
                 for index, own in zip(rows, several, strict=True)
             }
 
@@ -172,12 +172,13 @@ class SentenceGenerator:
 
     # ------------------------------------------------------------ one sentence
 
-    def _whole_gestures(self, prompt: str, motions: list[Motion]) -> list[Motion]:
-        """Motions for a prompt; a gesture begins and ends with hanging arms."""
+    def _rested(self, motion: Motion, *texts: str) -> Motion:
+        """The motion from hanging arms to hanging arms, if one of the texts asks for a gesture."""
         scope = self.generator.scope
-        if scope is None or not scope.gestures or self._action(prompt) not in scope.gestures:
-            return motions
-        return [rest_to_rest(motion) for motion in motions]
+        if scope is None or not scope.gestures:
+            return motion
+        asked = any(self._action(text) in scope.gestures for text in texts)
+        return rest_to_rest(motion) if asked else motion
 
     def _checked(self, text: str) -> str | None:
         """The action that a text alone tells of, where kinematics can see it."""
@@ -256,7 +257,7 @@ class SentenceGenerator:
         motion = streamed(
             self.generator.post_processor, torch.cat(list(pieces)), foot_lock=foot_lock
         )
-        return replace(motion, text=prompt)
+        return replace(self._rested(motion, parts[0].text, parts[-1].text), text=prompt)
 
     def _window(self) -> int:
         """Frames of a window: no more than the model has seen, where two overlaps fit in that."""
