@@ -94,7 +94,7 @@ def calibrate(
         )
 
     from ..shared.data.prepared import PreparedData
-    from ..shared.data.text_motion import gestures
+    from ..shared.data.text_motion import arm_actions, gestures
     from ..shared.device import set_threads
     from ..shared.evaluation.judge.actions import action_reliability, recognizer_of
     from ..shared.model.clip.out_of_domain import RELIABLE
@@ -112,7 +112,9 @@ def calibrate(
 
     judge = recognizer_of(clips, seed, progress)
     checked = tuple(sorted(judge.kinematic))
-    generator.scope = replace(generator.scope, gestures=gestures(clips), checked=checked)
+    generator.scope = replace(
+        generator.scope, gestures=gestures(clips), arms=arm_actions(clips), checked=checked
+    )
     found = action_reliability(
         SentenceGenerator(generator), clips, judge, tries=tries, seed=seed, progress=progress
     )

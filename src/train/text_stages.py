@@ -24,7 +24,7 @@ from ..shared.config_schema import ClipConfig, NetworkConfig, TrainConfig
 from ..shared.data.captions.word_dropout import insert_babble
 from ..shared.data.prepare import open_data
 from ..shared.data.prepared import PreparedData
-from ..shared.data.text_motion import TextMotionDataset, gestures
+from ..shared.data.text_motion import TextMotionDataset, arm_actions, gestures
 from ..shared.errors import UsageError, UserError
 from ..shared.io.files import atomic_write
 from ..shared.metrics.retrieval import BATCH
@@ -134,7 +134,7 @@ def fit_scope(
     actions = [action_of[text] for text in texts]
     pretrained = tower.config.text_model not in OWN
     scope = OutOfDomainDetector.fit(texts, actions, embeddings, pretrained_tower=pretrained)
-    scope = replace(scope, gestures=gestures(data))
+    scope = replace(scope, gestures=gestures(data), arms=arm_actions(data))
     if len(scope.actions) < 2:  # nothing to take one for another
         return scope
     return _calibrated(scope, texts, actions, tower, tokenizer)

@@ -5,6 +5,7 @@ seen, without any loader state. Gestures that come back to where they began are 
 shortened. B batch, T frames; features are those of motion/features.py.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,8 +13,9 @@ import torch
 from torch import Tensor
 
 from ..config_schema import PROVENANCES
-from ..metrics.measurements import rests_in_place
+from ..metrics.measurements import arms_alone, rests_in_place
 from ..motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, decode_features
+from ..motion.motion import Motion
 from .prepared import ClipRecord, PreparedData
 
 _TURN_TRIES = 4
@@ -222,6 +224,18 @@ def gestures(data: PreparedData) -> tuple[str, ...]:
 
     A quarter, because clips are cut out of takes in which a gesture goes on and on.
     """
+    return _actions_that(rests_in_place, data, 0.25)
+
+
+def arm_actions(data: PreparedData) -> tuple[str, ...]:
+    """Actions that half of the training clips or more do with the arms alone."""
+    return _actions_that(arms_alone, data, 0.5)
+
+
+def _actions_that(
+    does: Callable[[Motion], bool], data: PreparedData, share: float
+) -> tuple[str, ...]:
+    """Actions that do it in this share of their training clips or more."""
     clips: dict[str, list[ClipRecord]] = {}
     for record in data.records("train"):
         if record.tag and not record.mirrored and record.num_frames > 2 * _ENDS:
@@ -229,8 +243,8 @@ def gestures(data: PreparedData) -> tuple[str, ...]:
     found = []
     for action, records in sorted(clips.items()):
         some = records[:: -(-len(records) // _GESTURE_CLIPS)]
-        whole = [rests_in_place(decode_features(data.features(record))) for record in some]
-        found += [action] if 4 * sum(whole) >= len(whole) else []
+        answers = [does(decode_features(data.features(record))) for record in some]
+        found += [action] if sum(answers) >= share * len(answers) else []
     return tuple(found)
 
 

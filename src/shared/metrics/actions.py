@@ -93,6 +93,8 @@ _RAW: dict[str, Check] = {
     "turn-right": lambda m: _turns(m, -1),
     "left-hand": lambda m: _one_hand(m, 0),
     "right-hand": lambda m: _one_hand(m, 1),
+    "left-hand-too": lambda m: _hand_up(m, 0),
+    "right-hand-too": lambda m: _hand_up(m, 1),
     "both-hands": _both_hands,
     "wave": _waves,
     "run": _runs,

@@ -36,6 +36,14 @@ def at_rest(motion: Motion) -> bool:
     return bool((_hand_heights(motion)[ends] < HAND_DOWN).all())
 
 
+def arms_alone(motion: Motion) -> bool:
+    """Whether the hands go up and down while the feet stand and the head keeps its height."""
+    joints = motion.positions().astype(np.float64)
+    feet = joints[:, [JOINT_INDEX["l_ankle"], JOINT_INDEX["r_ankle"]]]
+    stands = np.ptp(feet, axis=0).max() < 0.2 and np.ptp(joints[:, JOINT_INDEX["head"], 1]) < 0.15
+    return bool(stands) and bool(np.ptp(_hand_heights(motion), axis=0).max() > HAND_DOWN)
+
+
 def rests_in_place(motion: Motion) -> bool:
     """Whether a body stays on its legs and in its place, from hanging arms to hanging arms."""
     x, height, z = motion.root_position.astype(np.float64).T

@@ -22,6 +22,7 @@ _EDGES = " \t,;.!?。、，；！？"
 _DIGITS = r"\d+(?:[.,]\d+)?"
 
 Known = Callable[[str], str | None]  # the action that a clause alone tells of, None if of none
+Arms = Callable[[str], bool]  # whether what a clause asks for is done with the arms alone
 
 
 @dataclass(frozen=True)
@@ -34,6 +35,8 @@ class Clause:
         degrees: to turn, positive to the left; None where nothing is said.
         metres: to go.
         seconds: to go on.
+        meanwhile: the words of what the arms, or `side`'s arm alone, do at the same time.
+        side: left, right or both.
     """
 
     text: str
@@ -41,6 +44,8 @@ class Clause:
     degrees: float | None = None
     metres: float | None = None
     seconds: float | None = None
+    meanwhile: str = ""
+    side: str = "both"
 
     @property
     def plain(self) -> bool:
@@ -48,16 +53,22 @@ class Clause:
         return self == Clause(self.text)
 
 
-def clauses(sentence: str, known: Known = lambda text: None) -> list[Clause]:
+def clauses(
+    sentence: str, known: Known = lambda text: None, arms: Arms = lambda text: False
+) -> list[Clause]:
     """The clauses of a sentence in the order in which they are to be done; at least one.
 
     Where no word tells of an order, a comma or an "and" parts two clauses only if `known` finds an
-    action of its own in each: "walks forward and waves", but not "jumps up and down".
+    action of its own in each: "walks forward and waves", but not "jumps up and down". "Walks while
+    waving" and "raises the left hand and waves with the right one" are one clause, with what the
+    arms do meanwhile.
     """
     text = unicodedata.normalize("NFKC", " ".join(sentence.split()))
-    found = [part for whole in _ordered(text) for part in _joined(whole, known)]
-    measured = [_measured(part) for part in found]
-    return [clause for clause in measured if clause.text] or [Clause(sentence)]
+    found: list[Clause] = []
+    for whole in _ordered(text):
+        both = _together(whole, known, arms)
+        found += [both] if both else map(_measured, _joined(whole, known))
+    return [clause for clause in found if clause.text] or [Clause(sentence)]
 
 
 # ---------------------------------------------------------------- order
@@ -112,6 +123,29 @@ def _joined(text: str, known: Known) -> list[str]:
     return pieces
 
 
+def _together(text: str, known: Known, arms: Arms) -> Clause | None:
+    """A clause and what the arms do meanwhile; None where that is not what a text says."""
+    words = _words()
+    parts = [part for part in map(_trimmed, words.meanwhile.split(text)) if part]
+    at_once = words.meanwhile.search(text) is not None
+    if len(parts) == 1:
+        parts = [part for part in map(_trimmed, words.joint.split(parts[0])) if part]
+    sides = [_side(part) for part in parts]
+    if len(parts) != 2 or not (at_once or set(sides) == {"left", "right"}):
+        return None
+    if not all(map(known, parts)) or not any(map(arms, parts)):
+        return None
+    (body, _), (other, side) = sorted(zip(parts, sides, strict=True), key=lambda p: arms(p[0]))
+    if at_once or all(map(arms, parts)):
+        return replace(_measured(body), meanwhile=other, side=side)
+    return None
+
+
+def _side(text: str) -> str:
+    left, right = (bool(side.search(text)) for side in (_words().left, _words().right))
+    return "both" if left == right else "left" if left else "right"
+
+
 # ---------------------------------------------------------------- measure
 
 
@@ -119,7 +153,7 @@ def _measured(text: str) -> Clause:
     """A clause with its measures taken out."""
     words, clause = _words(), Clause(text)
     said = words.angle.sub(" ", text)  # a right angle is on no side
-    left, right = (bool(pattern.search(said)) for pattern in (words.left, words.right))
+    side = _side(said)
     for name, pattern in words.units.items():
         match = pattern.search(clause.text)
         if match is None:
@@ -132,10 +166,10 @@ def _measured(text: str) -> Clause:
             continue
         found: dict[str, Any] = {"text": _without(clause.text, match), name: value}
         clause = replace(clause, **found)
-    if clause.degrees is None and (match := words.angle.search(clause.text)) and left != right:
+    if clause.degrees is None and (match := words.angle.search(clause.text)) and side != "both":
         clause = replace(clause, degrees=words.angles[match[0].casefold()])
     if clause.degrees is not None:
-        sign = -1.0 if right and not left else 1.0
+        sign = -1.0 if side == "right" else 1.0
         return replace(clause, degrees=sign * clause.degrees)
     if clause.metres is None and clause.seconds is None:
         return _counted(clause)
@@ -196,6 +230,7 @@ class _Words:
         self.then = re.compile(rf"{_COMMAS}?\s*{_any(all_of('then'))}{_COMMAS}?", re.I)
         self.earlier = re.compile(_any(all_of("earlier")) + _COMMAS + "?", re.I)
         self.later = re.compile(_any(all_of("later")) + _COMMAS + "?", re.I)
+        self.meanwhile = re.compile(rf"{_COMMAS}?\s*{_any(all_of('meanwhile'))}\s*", re.I)
         self.before = re.compile(rf"{_COMMAS}?\s*{_any(all_of('before'))}\s*", re.I)
         self.after = re.compile(rf"{_COMMAS}?\s*{_any(all_of('after'))}\s*", re.I)
         self.head_before = re.compile(rf"{_any(all_of('before'))}\s*", re.I)

@@ -25,12 +25,14 @@ from ..errors import UserError
 from ..metrics.actions import ACTIONS, repetitions
 from ..metrics.measurements import measure
 from ..model.clip.core import TextFeatures
+from ..model.clip.out_of_domain import ScopeResult
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import Progress, TextToMotion
 from ..motion.features import ROOT_ROW, YAW_RATE, decode_features
 from ..motion.motion import Motion
 from ..motion.postprocess.stitching import rest_to_rest
 from ..motion.postprocess.streaming import streamed
+from .edit import all_but, chosen_joints, fill_free
 from .path import DrawnPath, natural_gait, time_path
 from .ranking import ScoreTable, TextJudge, unranked
 from .sentence import Clause, clauses
@@ -76,11 +78,12 @@ class SentenceGenerator:
         self.generator = generator
         self.card, self.text = generator.card, generator.text
         self._read: dict[str, list[Clause]] = {}
+        self._scoped: dict[str, ScopeResult] = {}
 
     def clauses(self, prompt: str) -> list[Clause]:
         """What a prompt asks for, in order."""
         if prompt not in self._read:
-            self._read[prompt] = clauses(prompt, self._action)
+            self._read[prompt] = clauses(prompt, self._action, self._arms)
         return self._read[prompt]
 
     def generate(
@@ -167,7 +170,8 @@ class SentenceGenerator:
 
     def _warnings(self, prompt: str, *, again: bool = True) -> list[str | None]:
         parts = self.clauses(prompt)
-        texts = [prompt] if len(parts) == 1 else [part.text for part in parts]
+        texts = [text for part in parts for text in (part.text, part.meanwhile) if text]
+        texts = [prompt] if len(texts) == 1 else texts
         return self.generator.scope_warnings(texts, again=again)
 
     # ------------------------------------------------------------ one sentence
@@ -177,13 +181,18 @@ class SentenceGenerator:
         scope = self.generator.scope
         if scope is None or not scope.gestures:
             return motion
-        asked = any(self._action(text) in scope.gestures for text in texts)
+        asked = any(self._nearest(text) in scope.gestures for text in texts)
         return rest_to_rest(motion) if asked else motion
 
     def _checked(self, text: str) -> str | None:
-        """The action that a text alone tells of, where kinematics can see it."""
-        action, scope = self._action(text), self.generator.scope
+        """The action that is nearest to a text, where kinematics can see it."""
+        action, scope = self._nearest(text), self.generator.scope
         return action if scope is not None and action in scope.checked else None
+
+    def _arms(self, text: str) -> bool:
+        """Whether a text asks for what the arms alone do."""
+        scope = self.generator.scope
+        return scope is not None and self._nearest(text) in scope.arms
 
     def _does(self, prompt: str, motion: Motion) -> bool:
         """Whether a motion shows the action of its prompt; True where nobody can say."""
@@ -210,11 +219,21 @@ class SentenceGenerator:
 
     def _action(self, text: str) -> str | None:
         """The action that a text alone tells of."""
+        found = self._scope_result(text)
+        return found.nearest[0] if found and found.known and found.nearest else None
+
+    def _nearest(self, text: str) -> str | None:
+        """The action that is nearest to a text, whether or not it is what the text tells of."""
+        found = self._scope_result(text)
+        return found.nearest[0] if found and found.nearest else None
+
+    def _scope_result(self, text: str) -> ScopeResult | None:
         if self.generator.scope is None or not text:
             return None
-        embedding = self.generator.encode_prompts([text]).pooled[0].cpu().numpy()
-        found = self.generator.scope.check(text, embedding)
-        return found.nearest[0] if found.known and found.nearest else None
+        if text not in self._scoped:
+            embedding = self.generator.encode_prompts([text]).pooled[0].cpu().numpy()
+            self._scoped[text] = self.generator.scope.check(text, embedding)
+        return self._scoped[text]
 
     def _is_whole(self, prompt: str, seconds: float) -> bool:
         """Whether one sample of the network is all there is to it, or the prompt is faulty."""
@@ -254,9 +273,13 @@ class SentenceGenerator:
             overlap=REPEATED_OVERLAP if repeated else OVERLAP,
             sampling=sampling,
         )
-        motion = streamed(
-            self.generator.post_processor, torch.cat(list(pieces)), foot_lock=foot_lock
-        )
+        features = torch.cat(list(pieces))
+        for start, stop, part in zip(starts, starts[1:], parts, strict=False):
+            if part.meanwhile:
+                joints = chosen_joints(["arms" if part.side == "both" else f"{part.side}-arm"])
+                rest = all_but(features, start, stop, joints)
+                features = fill_free(self.generator, part.meanwhile, rest, sampling)
+        motion = streamed(self.generator.post_processor, features, foot_lock=foot_lock)
         return replace(self._rested(motion, parts[0].text, parts[-1].text), text=prompt)
 
     def _window(self) -> int:

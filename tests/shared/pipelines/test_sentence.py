@@ -144,3 +144,44 @@ def test_any_text_has_a_clause(text: str):
     found = clauses(text)
     assert found
     assert all(clause.text or not text.strip() for clause in found)
+
+
+def actions_of(text: str) -> str | None:
+    names = ("walk", "wav", "rais", "jump", "turn", "走", "挥", "歩", "振", "camina", "salud")
+    return next((name for name in names if name in text), None)
+
+
+def done_with_arms(text: str) -> bool:
+    return actions_of(text) in ("wav", "rais", "挥", "振", "salud")
+
+
+@pytest.mark.parametrize(
+    ("sentence", "clause"),
+    [
+        ("walks while waving", Clause("walks", meanwhile="waving")),
+        (
+            "While walking, he waves with the right hand",
+            Clause("walking", meanwhile="he waves with the right hand", side="right"),
+        ),
+        (
+            "waves with the left hand while walking 3 m",
+            Clause("walking", metres=3, meanwhile="waves with the left hand", side="left"),
+        ),
+        (
+            "raises the left arm and waves with the right",
+            Clause("raises the left arm", meanwhile="waves with the right", side="right"),
+        ),
+        ("camina mientras saluda", Clause("camina", meanwhile="saluda")),
+        ("歩きながら右手を振る", Clause("歩き", meanwhile="右手を振る", side="right")),
+        ("一边走一边挥手", Clause("走", meanwhile="挥手")),
+    ],
+)
+def test_what_the_arms_do_meanwhile(sentence: str, clause: Clause):
+    assert clauses(sentence, actions_of, done_with_arms) == [clause]
+
+
+@pytest.mark.parametrize(
+    "sentence", ["walks for a while", "turns left and walks right", "jumps while turning"]
+)
+def test_what_takes_more_than_arms_is_not_done_meanwhile(sentence: str):
+    assert not any(each.meanwhile for each in clauses(sentence, actions_of, done_with_arms))

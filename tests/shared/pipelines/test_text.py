@@ -101,6 +101,19 @@ def test_so_many_times_is_so_many_times():
     assert [measure(motion).squats for motion in made] == [2, 3, 4]
 
 
+def test_an_arm_waves_while_the_body_walks():
+    generator = TextToMotion.from_pretrained("starter", device="cpu")
+    assert generator.scope is not None
+    generator.scope = replace(generator.scope, arms=("wave", "raise"))
+    sentences = SentenceGenerator(generator)
+    prompts = ["walks forward", "walks forward while waving with the right hand"]
+    walk, both = (sentences.generate([each], seconds=3.0)[0] for each in prompts)
+    seen = measure(both)
+    assert seen.forward == pytest.approx(measure(walk).forward, abs=0.3) and seen.forward > 2
+    assert ACTIONS["walk"](seen) and ACTIONS["wave"](seen)
+    assert seen.hand_peak[1] > 0.2 > -0.3 > seen.hand_peak[0]
+
+
 def test_any_length_goes_through_windows(sentences: SentenceGenerator, caplog):
     (motion,) = sentences.generate(["a person walks"], seconds=12.0)
     assert motion.num_frames == 360

@@ -19,7 +19,7 @@ import numpy as np
 
 from ...data.prepared import ClipRecord, PreparedData
 from ...errors import UserError
-from ...metrics.actions import ACTIONS
+from ...metrics.actions import ACTIONS, CHECKS
 from ...metrics.measurements import heading_frame, measure
 from ...motion.features import decode_features, headings
 from ...motion.motion import Motion
@@ -258,6 +258,20 @@ def shown(labels: dict[str, str], motion: Motion) -> bool:
     """Whether direction, turn, side, count and angle are those of the labels, as far as asked."""
     answers = check({key: value for key, value in labels.items() if key != "speed"}, motion)
     return all(value for name, value in answers.items() if name in SHOWN)
+
+
+def shown_together(parts: Sequence[dict[str, str]], motion: Motion) -> bool:
+    """`shown` of things done at once: a hand that is up need not be higher than the other one."""
+    measured, other = measure(motion), {"left": "right", "right": "left"}
+    for labels in parts:
+        rest = [part.get("side") for part in parts if part is not labels]
+        side = labels.get("side", "")
+        answers = check({key: value for key, value in labels.items() if key != "speed"}, measured)
+        if f"{side}-hand" in answers and {other.get(side), "both"} & {*rest}:
+            answers[f"{side}-hand"] = CHECKS[f"{side}-hand-too"](measured)
+        if not all(value for name, value in answers.items() if name in SHOWN):
+            return False
+    return True
 
 
 # ---------------------------------------------------------------- how reliably actions come out

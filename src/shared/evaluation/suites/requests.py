@@ -41,6 +41,7 @@ from ..judge.actions import (
     judged_by,
     same_action,
     shown,
+    shown_together,
 )
 from ..report.tables import Cell, Column, Grid, GridRow, Report, report_data
 from ..stats import Estimate, bootstrap_mean, share_of
@@ -401,7 +402,7 @@ def _exactness(yardstick: Yardstick, model: Model, requests: Sequence[Request], 
     row(
         "two sides at once",
         of("sides", simultaneous=True),
-        lambda r, motion: all(shown(part, motion) for part in r.parts),
+        lambda r, motion: shown_together(r.parts, motion),
     )
     row("one-sentence sequences", of(COMPOSITIONS), partial(in_order, yardstick))
     rows |= _styles(yardstick, of("styled"), make)

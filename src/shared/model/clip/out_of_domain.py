@@ -100,6 +100,7 @@ class OutOfDomainDetector:
             the rule of words alone.
         reliability: share of tries in which each action came out, where that was measured.
         gestures: actions done in place, from hanging arms to hanging arms.
+        arms: actions done with the arms alone.
         checked: actions that `metrics.actions` tells, as captured clips bear out.
     """
 
@@ -113,6 +114,7 @@ class OutOfDomainDetector:
     weights: tuple[float, ...] | None = None
     reliability: Mapping[str, float] = field(default_factory=dict)
     gestures: tuple[str, ...] = ()
+    arms: tuple[str, ...] = ()
     checked: tuple[str, ...] = ()
 
     @classmethod
@@ -326,6 +328,7 @@ class _Meta(BaseModel):
     weights: tuple[float, ...] | None = None
     reliability: dict[str, float] = Field({})
     gestures: tuple[str, ...] = ()
+    arms: tuple[str, ...] = ()
     checked: tuple[str, ...] = ()
 
 

@@ -5,8 +5,14 @@ import pytest
 
 from src.shared.data.prepared import ClipRecord
 from src.shared.data.synthetic.clips import generate_clip, spec_for
-from src.shared.evaluation.floors import frozen
-from src.shared.evaluation.judge.actions import ActionJudge, ActionRecognizer, descriptor
+from src.shared.evaluation.floors import frozen, frozen_pose
+from src.shared.evaluation.judge.actions import (
+    ActionJudge,
+    ActionRecognizer,
+    descriptor,
+    shown,
+    shown_together,
+)
 from src.shared.metrics.actions import ACTIONS
 from src.shared.motion.features import decode_features, encode_features
 
@@ -106,3 +112,16 @@ def test_a_frozen_pose_shows_no_action_of_kinematics() -> None:
     for name in ("walk", "squat", "punch", "wave"):
         still = frozen(encode_features(generate_clip(spec_for(LABELS[name], 3), seed=3)))
         assert not any(check(measure(decode_features(still))) for check in ACTIONS.values())
+
+
+def test_both_hands_may_be_up_when_each_has_something_to_do() -> None:
+    both = generate_clip(
+        spec_for({"action": "raise", "side": "both", "speed": "normal"}, 0), seed=0
+    )
+    left = generate_clip(
+        spec_for({"action": "raise", "side": "left", "speed": "normal"}, 0), seed=0
+    )
+    parts = [{"action": "raise", "side": "left"}, {"action": "wave", "side": "right"}]
+    assert shown_together(parts, both) and not shown(parts[0], both)
+    assert not shown_together(parts, left)
+    assert not shown_together(parts, frozen_pose(both))
