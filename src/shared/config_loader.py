@@ -34,7 +34,7 @@ TrainConfigT = TypeVar("TrainConfigT", bound=TrainConfig)
 _Base: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
-class _Loader(_Base):
+class _Loader(_Base):  # type: ignore[misc]  # one of two classes
     """YAML 1.2 scalars: `no` stays a word, `1e-3` is a number; a repeated key is an error."""
 
     # a copy per class: the resolvers of yaml.SafeLoader stay as they are

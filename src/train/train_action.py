@@ -463,7 +463,7 @@ def with_new_places(
             loss = cross_entropy(scores[:half], wanted)
             loss = loss + kl_div(scores[half:].log_softmax(-1), shares[olds], reduction="batchmean")
             learner.zero_grad()
-            loss.backward()
+            loss.backward()  # type: ignore[no-untyped-call]
             before = rows.detach().clone()
             learner.step()
             with torch.no_grad():

@@ -212,7 +212,7 @@ class TextTask(Task):
         actions = [self.labels[group].get("action") for group in self.groups]
         number = Counter(actions)
         weights = np.array([number[action] ** -0.5 for action in actions])
-        return weights / weights.sum()
+        return np.asarray(weights / weights.sum())
 
     def _captions(self, seed: int, num: int, *, whole: bool = True) -> list[dict[str, list[str]]]:
         """For each combination and language; without `whole`, of the grammar alone."""

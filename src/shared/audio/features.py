@@ -75,7 +75,7 @@ class AudioFeatures:
     @property
     def num_frames(self) -> int:
         """T."""
-        return self.mel.shape[1]
+        return int(self.mel.shape[1])
 
     def arrays(self) -> dict[str, np.ndarray]:
         """Name to array, in the order of `stack`."""
@@ -172,19 +172,19 @@ def _mfcc(full_db: np.ndarray) -> np.ndarray:
     )
     spread = cepstra.std(axis=0)
     spread[spread < STILL_DB] = np.inf
-    return ((cepstra - cepstra.mean(axis=0)) / (spread + TINY)).astype(np.float32)
+    return np.asarray(((cepstra - cepstra.mean(axis=0)) / (spread + TINY)).astype(np.float32))
 
 
 def _onset_strength(full_db: np.ndarray) -> np.ndarray:
     """Mean rise of the mel bands [T,128] since the frame before, [T]: spectral flux."""
     rise = np.maximum(0, np.diff(full_db, axis=0, prepend=full_db[:1]))
-    return rise.mean(axis=1)
+    return np.asarray(rise.mean(axis=1))
 
 
 def _stretched(values: np.ndarray) -> np.ndarray:
     low, high = values.min(), values.max()
-    return (values - low) / (high - low + np.float32(TINY))
+    return np.asarray((values - low) / (high - low + np.float32(TINY)))
 
 
 def _unit_peak(values: np.ndarray) -> np.ndarray:
-    return values / (values.max() + np.float32(TINY))
+    return np.asarray(values / (values.max() + np.float32(TINY)))

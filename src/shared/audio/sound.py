@@ -128,11 +128,11 @@ class _Mixer:
     def push(self, samples: np.ndarray) -> np.ndarray:
         """[s,channels] at the file's rate -> [S] at 44.1 kHz."""
         mono = samples.mean(axis=1, dtype=np.float32)
-        return mono if self._resampler is None else self._resampler.resample_chunk(mono)
+        return np.asarray(mono if self._resampler is None else self._resampler.resample_chunk(mono))
 
     def finish(self) -> np.ndarray:
         """The samples that the resampler still holds."""
         nothing = np.zeros(0, np.float32)
         if self._resampler is None:
             return nothing
-        return self._resampler.resample_chunk(nothing, last=True)
+        return np.asarray(self._resampler.resample_chunk(nothing, last=True))

@@ -68,7 +68,7 @@ def mel_matrix(bands: int, low: float, high: float) -> np.ndarray:
     rising = (frequencies - centres[:-2]) / np.diff(centres)[:-1]
     falling = (centres[2:] - frequencies) / np.diff(centres)[1:]
     triangles = np.maximum(0, np.minimum(rising, falling))
-    return (triangles * 2 / (centres[2:] - centres[:-2])).astype(np.float32)
+    return np.asarray((triangles * 2 / (centres[2:] - centres[:-2])).astype(np.float32))
 
 
 _KNEE_HERTZ, _KNEE_MEL, _HERTZ_PER_MEL, _LOG_STEP = 1000.0, 15.0, 200 / 3, np.log(6.4) / 27
@@ -89,7 +89,7 @@ def decibels(power: np.ndarray, *, reference: float = 1.0) -> np.ndarray:
     """10 log10(power / reference), at most 80 dB below the loudest value of the whole array."""
     level = 10 * np.log10(np.maximum(power, FLOOR_POWER))
     level -= 10 * np.log10(max(reference, FLOOR_POWER))
-    return np.maximum(level, level.max() - RANGE_DB)
+    return np.asarray(np.maximum(level, level.max() - RANGE_DB))
 
 
 # ---------------------------------------------------------------- chroma
@@ -226,8 +226,10 @@ def exact_chroma(samples: np.ndarray) -> np.ndarray:
     tuning = estimate_tuning(samples, TUNING_HOP)
 
     def exact(part: np.ndarray) -> np.ndarray:
-        return librosa.feature.chroma_cqt(
-            y=part, sr=SAMPLE_RATE, hop_length=HOP, n_chroma=CLASSES, tuning=tuning
+        return np.asarray(
+            librosa.feature.chroma_cqt(
+                y=part, sr=SAMPLE_RATE, hop_length=HOP, n_chroma=CLASSES, tuning=tuning
+            )
         )
 
     return _in_blocks(exact, samples, EXACT_BLOCK)

@@ -184,7 +184,7 @@ class SoundReader:
     def __init__(self, path: Path) -> None:
         import soundfile
 
-        class ForwardOnly(soundfile.SoundFile):
+        class ForwardOnly(soundfile.SoundFile):  # type: ignore[misc]  # without stubs
             """Without soundfile's seek after each read, which loses samples of an mp3."""
 
             def seekable(self) -> bool:

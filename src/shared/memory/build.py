@@ -184,7 +184,7 @@ class Source:
         pieces, warp = read_pair(self._pairs[phrase])
         shown = np.rint(warp.times(np.arange(start, stop) / FPS) * FPS)
         places = np.searchsorted([piece.at for piece in pieces], shown, side="right") - 1
-        return Counter(pieces[n].clip for n in places.clip(0).tolist()).most_common(1)[0][0]
+        return str(Counter(pieces[n].clip for n in places.clip(0)).most_common(1)[0][0])
 
 
 def _pairs(remote: Remote) -> dict[str, dict[str, Any]]:

@@ -56,7 +56,9 @@ def prior_curves(
     if contacts is not None:
         on_foot = np.clip(np.asarray(contacts, np.float64).max(axis=1), 0, 1)
         stability = (stability + _average(on_foot, FAST)) / 2
-    return np.clip(np.stack([energy, density, tension, stability]), 0, 1).astype(np.float32)
+    return np.asarray(
+        np.clip(np.stack([energy, density, tension, stability]), 0, 1).astype(np.float32)
+    )
 
 
 def _level(measure: np.ndarray, half: float) -> np.ndarray:

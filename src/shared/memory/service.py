@@ -133,7 +133,7 @@ class MPMService:
         if self.index is None:
             raise RuntimeError("await initialize() before the first query")
         index, config = self.index, self.config
-        query = torch.atleast_2d(torch.as_tensor(audio_embedding).detach().float().cpu())
+        query = torch.atleast_2d(torch.as_tensor(audio_embedding).detach().float().cpu())  # type: ignore[no-untyped-call]
         index.check_width(query)
         phase = None if beat_phase is None else torch.as_tensor(beat_phase).detach().cpu()
         query_bars(phase, len(query), num_frames)

@@ -58,7 +58,7 @@ class Projection:
 
     def __call__(self, samples: np.ndarray) -> np.ndarray:
         """[N, D] to [N, C]."""
-        return (samples.astype(np.float64) - self.mean) @ self.axes
+        return np.asarray((samples.astype(np.float64) - self.mean) @ self.axes)
 
 
 class JointFrechet:

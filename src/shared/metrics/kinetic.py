@@ -56,7 +56,7 @@ def windowed_mean(values: Array) -> Array:
     at = np.arange(len(values))
     low, high = np.maximum(at - WINDOW, 0), np.minimum(at + WINDOW + 1, len(values))
     count = (high - low).reshape(-1, *[1] * (values.ndim - 1))
-    return (total[high] - total[low]) / count
+    return np.asarray((total[high] - total[low]) / count)
 
 
 def _checked(points: Array) -> Array:
@@ -117,18 +117,18 @@ class _Body:
 
     def to(self, start: str, end: str) -> Array:
         """Vector [T-1, 3] from one joint to another."""
-        return self.at(end) - self.at(start)
+        return np.asarray(self.at(end) - self.at(start))
 
     def relative(self, name: str, to: str) -> Array:
         """Velocity [T-1, 3] of one joint seen from another."""
         return self.velocity[:, self._index(name)] - self.velocity[:, self._index(to)]
 
     def speed(self, name: str) -> Array:
-        return np.linalg.norm(self.velocity[:, self._index(name)], axis=-1)
+        return np.asarray(np.linalg.norm(self.velocity[:, self._index(name)], axis=-1))
 
     def height(self, name: str) -> Array:
         """Metres above the lowest joint."""
-        return self.at(name)[:, 1] - self.now[..., 1].min(1)
+        return np.asarray(self.at(name)[:, 1] - self.now[..., 1].min(1))
 
     def front(self) -> Array:
         """Normal [T-1, 3] of the plane of neck and hips, forwards."""
@@ -138,12 +138,14 @@ class _Body:
 def _along(vector: Array, direction: Array) -> Array:
     """Component [T-1] of a vector along a direction; 0 where there is no direction."""
     length = np.linalg.norm(direction, axis=-1)
-    return (vector * direction).sum(-1) / np.where(length > 1e-9, length, np.inf)
+    return np.asarray((vector * direction).sum(-1) / np.where(length > 1e-9, length, np.inf))
 
 
 def _angle(a: Array, b: Array) -> Array:
     """Degrees [T-1] between two vectors."""
-    return np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b), axis=-1), (a * b).sum(-1)))
+    return np.asarray(
+        np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b), axis=-1), (a * b).sum(-1)))
+    )
 
 
 def _of_one_side(body: _Body) -> dict[str, Array]:
@@ -300,7 +302,7 @@ class FeatureSpace:
 
     def __call__(self, features: np.ndarray) -> np.ndarray:
         """[N, F] in units of the real deviation, 0 at the real mean."""
-        return (features - self.mean) / self.scale
+        return np.asarray((features - self.mean) / self.scale)
 
     def distance(self, a: np.ndarray, b: np.ndarray, axes: Projection | None = None) -> float:
         """Fréchet distance of features [N, F] and [M, F], along principal axes if given."""

@@ -19,7 +19,7 @@ BALLS = [ball for _, ball in FOOT_JOINTS]
 
 def ground_speed(positions: np.ndarray, fps: float) -> np.ndarray:
     """Horizontal speed [T - 1, ...] in m/s of positions [T, ..., 3]."""
-    return np.linalg.norm(np.diff(positions[..., [0, 2]], axis=0), axis=-1) * fps
+    return np.asarray(np.linalg.norm(np.diff(positions[..., [0, 2]], axis=0), axis=-1) * fps)
 
 
 def contact_slide(positions: np.ndarray, fps: float) -> float:
@@ -160,7 +160,7 @@ def support_speed(positions: np.ndarray, fps: float) -> np.ndarray:
     balls = positions[:, BALLS]  # T 2 3
     frames, lower = np.arange(len(balls) - 1), balls[:-1, :, 1].argmin(1)
     near = balls[frames, lower, 1] < REST_FOOT_HEIGHT + SUPPORT_HEIGHT
-    return ground_speed(balls, fps)[frames, lower][near]
+    return np.asarray(ground_speed(balls, fps)[frames, lower][near])
 
 
 def slide_per_metre(positions: np.ndarray, fps: float) -> float:

@@ -67,7 +67,7 @@ class Ranks:
 
     def mean(self) -> np.ndarray:
         """Mean rank [Q] of the best right answer over all orders of the ties; 1 is the first."""
-        return self.better + 1 + self.wrong / (self.right + 1)
+        return np.asarray(self.better + 1 + self.wrong / (self.right + 1))
 
 
 def best_ranks(distances: np.ndarray, relevant: np.ndarray) -> Ranks:
@@ -90,7 +90,7 @@ def rank_of(distances: np.ndarray, column: int) -> np.ndarray:
 def pair_distances(text: np.ndarray, motion: np.ndarray) -> np.ndarray:
     """Euclidean distances [M, M] of texts [M, D] (rows) to motions [M, D] (columns)."""
     difference = text[:, None].astype(np.float64) - motion[None].astype(np.float64)
-    return np.sqrt((difference**2).sum(-1))
+    return np.asarray(np.sqrt((difference**2).sum(-1)))
 
 
 def guo_retrieval(
@@ -219,7 +219,7 @@ def cosines(text: np.ndarray, motion: np.ndarray) -> np.ndarray:
         raise ValueError(f"texts {text.shape} and motions {motion.shape} must be aligned [N, D]")
     rows, row = np.unique(_unit(text), axis=0, return_inverse=True)
     columns, column = np.unique(_unit(motion), axis=0, return_inverse=True)
-    return (rows @ columns.T)[row.reshape(-1)][:, column.reshape(-1)]
+    return np.asarray((rows @ columns.T)[row.reshape(-1)][:, column.reshape(-1)])
 
 
 def _unit(vectors: np.ndarray) -> np.ndarray:
@@ -229,7 +229,7 @@ def _unit(vectors: np.ndarray) -> np.ndarray:
     length = np.linalg.norm(values, axis=1, keepdims=True)
     if not length.all():
         raise ValueError("an embedding of length 0 has no direction to compare")
-    return values / length
+    return np.asarray(values / length)
 
 
 def text_similarity(captions: Sequence[str], groups: Sequence[str] | None = None) -> np.ndarray:
@@ -268,7 +268,7 @@ def dissimilar_subset(
         if not (similarity[row, unlike] > threshold).any():
             unlike.append(row)
     rows = np.sort(unlike)
-    return rows[_farthest(similarity[np.ix_(rows, rows)], size)]
+    return np.asarray(rows[_farthest(similarity[np.ix_(rows, rows)], size)])
 
 
 def _farthest(similarity: np.ndarray, size: int) -> np.ndarray:

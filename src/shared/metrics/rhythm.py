@@ -79,8 +79,8 @@ def distances(beats: np.ndarray, others: np.ndarray) -> np.ndarray:
     """Seconds [N] from each of `beats` [N] to the nearest of `others` [M], sorted, M ≥ 1."""
     right = np.clip(np.searchsorted(others, beats), 1, max(1, len(others) - 1))
     left = others[right - 1]
-    return np.minimum(
-        np.abs(beats - left), np.abs(others[np.minimum(right, len(others) - 1)] - beats)
+    return np.asarray(
+        np.minimum(np.abs(beats - left), np.abs(others[np.minimum(right, len(others) - 1)] - beats))
     )
 
 
@@ -356,7 +356,7 @@ def seen_from_pelvis(motion: Motion) -> np.ndarray:
     """Joint positions [T,21,3] in metres in the frame of the pelvis, place and rotation."""
     positions = motion.positions().astype(np.float64)
     pelvis = motion.global_rotations()[:, 0].astype(np.float64)  # T 3 3
-    return np.einsum("tji,tkj->tki", pelvis, positions[:, 1:] - positions[:, :1])
+    return np.asarray(np.einsum("tji,tkj->tki", pelvis, positions[:, 1:] - positions[:, :1]))
 
 
 def landings(motion: Motion) -> np.ndarray:

@@ -191,7 +191,7 @@ def _split(songs: Sequence[Values]) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _ratios(seam: np.ndarray, other: np.ndarray) -> np.ndarray:
-    return np.percentile(seam, POINTS) / np.maximum(np.percentile(other, POINTS), 1e-12)
+    return np.asarray(np.percentile(seam, POINTS) / np.maximum(np.percentile(other, POINTS), 1e-12))
 
 
 def _turned(songs: Sequence[Values], rng: np.random.Generator) -> list[Values]:

@@ -401,7 +401,9 @@ def masked_loss(
         mask: bool [B, T], True = real frame; None = all are real.
         time_dim: the dimension of output that holds the T frames.
     """
-    error = getattr(F, f"{loss_type}_loss")(output.float(), target.float(), reduction="none")
+    error: Tensor = getattr(F, f"{loss_type}_loss")(
+        output.float(), target.float(), reduction="none"
+    )
     if mask is None:
         return error.mean()
     shape = [1] * error.ndim

@@ -163,4 +163,4 @@ def _percentile(measures: np.ndarray, reference: np.ndarray) -> np.ndarray:
     low, middle, high = np.log(reference).T  # 4 each
     log = np.log(np.maximum(measures, _FLOOR))
     width = np.where(log < middle, middle - low, high - middle)
-    return 1 / (1 + np.exp(-_STEEPNESS * (log - middle) / width))
+    return np.asarray(1 / (1 + np.exp(-_STEEPNESS * (log - middle) / width)))

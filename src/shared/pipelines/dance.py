@@ -24,10 +24,10 @@ from ..errors import UserError
 from ..model.audio.conditioning import ENERGY
 from ..model.audio.shared_space import SharedSpace
 from ..model.clip.pretrained import tower_hash
-from ..model.generation.motion_generator import TextToMotion
+from ..model.generation.motion_generator import Progress, TextToMotion
 from ..motion.features import FORWARD, HEIGHT, LATERAL
 from ..motion.trajectory import FPS, MotionTrajectory, to_root
-from .body import Performance, Performer, Progress
+from .body import Performance, Performer
 from .ranking import PerformanceJudge, ScoreTable, unranked
 from .song import SongCondition, finished
 from .stream import Passage

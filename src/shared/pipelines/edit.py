@@ -18,6 +18,7 @@ from torch import Tensor
 
 from ..config_loader import nearest
 from ..errors import UsageError, UserError
+from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.features import (
@@ -35,7 +36,7 @@ from ..motion.motion import Motion
 from ..motion.postprocess.stitching import place_of
 from ..motion.rotations import turn_about_y
 from ..motion.skeleton import JOINT_INDEX, LIMBS
-from .stream import OVERLAP, Passage, Sampling, stream_features
+from .stream import OVERLAP, Passage, stream_features
 
 KEEP = 1.0  # seconds of a clip that are kept
 GROUND = [FORWARD, LATERAL, YAW_RATE]  # channels of the root row that say where the body goes

@@ -59,7 +59,7 @@ class MotionGenerator:
     def __init__(
         self,
         text: TextToMotion | str | Path = TEXT_MODEL,
-        audio: SongGenerator | str | Path | None = None,
+        audio: SongGenerator[Any] | str | Path | None = None,
         *,
         device: str = "auto",
         runtime: str = "torch",

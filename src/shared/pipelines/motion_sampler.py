@@ -219,7 +219,7 @@ class MPMSMotionSampler(MotionSampler):
                 raise UsageError("give audio_embedding, or a shared space to this sampler")
             asked = questions(self.space, sound.rows, bars, windows)
         else:
-            query = torch.atleast_2d(torch.as_tensor(embedding))
+            query = torch.atleast_2d(torch.as_tensor(embedding))  # type: ignore[no-untyped-call]
             asked = same_question(query, bars, windows)
         if bars is None:  # only the first window starts where the caller says
             asked[0] = Question(asked[0].embedding, beat_phase, asked[0].num_frames)

@@ -22,6 +22,7 @@ from scipy.ndimage import gaussian_filter1d
 from ..config_loader import parse_yaml
 from ..errors import UserError
 from ..io.files import read_text
+from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, Place
@@ -30,7 +31,7 @@ from ..motion.rotations import yaw_quaternion
 from ..motion.skeleton import REST_PELVIS_HEIGHT
 from ..motion.trajectory import MotionTrajectory, to_root
 from .edit import ControlledMotion
-from .stream import Passage, Sampling, stream_features
+from .stream import Passage, stream_features
 from .timeline import Timeline, make_timeline
 
 COLUMNS = ("x", "z", "t", "heading")
@@ -271,7 +272,7 @@ def time_path(
 def _shares(points: np.ndarray) -> np.ndarray:
     """Of the length [N], from 0 to 1."""
     steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    return np.concatenate(([0.0], np.cumsum(steps))) / steps.sum()
+    return np.asarray(np.concatenate(([0.0], np.cumsum(steps))) / steps.sum())
 
 
 def _rounded(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -322,7 +323,7 @@ def _in_seconds(line: np.ndarray, moments: np.ndarray, seconds: float) -> np.nda
             f"the path is too long for its time: it takes {shortest:.1f} s at {FASTEST:g} m/s, the"
             " fastest there is; give it more seconds"
         )
-    return stretched
+    return np.asarray(stretched)
 
 
 def _smooth_in_time(drawn: DrawnPath, fps: float) -> np.ndarray:

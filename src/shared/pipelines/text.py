@@ -41,7 +41,6 @@ from .stream import (
     WINDOW,
     Miss,
     Passage,
-    Sampling,
     retry_seeds,
     stream_features,
     window_seed,

@@ -20,6 +20,7 @@ from torch import Tensor
 from ..config_loader import nearest, parse_yaml
 from ..errors import UsageError, UserError
 from ..io.files import read_text
+from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.features import Place
@@ -27,7 +28,7 @@ from ..motion.motion import Motion
 from ..motion.postprocess.stitching import moved_to, place_of
 from ..motion.postprocess.streaming import streamed
 from .edit import ControlledMotion, all_but, chosen_joints, fill_free
-from .stream import OVERLAP, WINDOW, ConstraintOf, Passage, Sampling, stream_features
+from .stream import OVERLAP, WINDOW, ConstraintOf, Passage, stream_features
 
 KEYS = ("text", "start", "end", "parts", "tag")
 SHORTEST = 0.2  # seconds of an entry

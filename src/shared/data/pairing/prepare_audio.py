@@ -32,12 +32,12 @@ import numpy as np
 
 from ...errors import UserError
 from ...io.arrays import load_array, load_arrays
-from ...io.files import inside, load_json, write_json
+from ...io.files import inside, is_whole, load_json, write_json
 from ...metrics.rhythm import motion_beats
 from ...motion.style import measure_style
 from ...motion.trajectory import STYLE, MotionTrajectory, encode_window
 from ..phrases.layout import PhraseRecord, features_path, trajectory_path, write_phrase
-from ..prepare import finished_record, is_whole, prepare, run_jobs
+from ..prepare import finished_record, prepare, run_jobs
 from ..prepared import PreparedData
 from ..sources.caption_tables import Piece
 from ..sources.folders import MotionFolder
@@ -133,7 +133,7 @@ def make_report(
 
 
 def _hours(entries: Sequence[Entry]) -> float:
-    return round(sum(entry["pair"]["frames"] for entry in entries) / FPS / 3600, 3)
+    return round(sum(int(entry["pair"]["frames"]) for entry in entries) / FPS / 3600, 3)
 
 
 def _alignment(entries: Sequence[Entry]) -> dict[str, dict[str, float]]:

@@ -56,7 +56,7 @@ def _align(start: np.ndarray, end: np.ndarray) -> np.ndarray:
         axis /= np.linalg.norm(axis)
         return np.asarray(2 * np.outer(axis, axis) - np.eye(3))
     k = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
-    return np.eye(3) + k + k @ k / (1 + c)
+    return np.asarray(np.eye(3) + k + k @ k / (1 + c))
 
 
 def rest_corrections(clip: SourceClip, mapping: SkeletonMapping) -> dict[str, np.ndarray]:

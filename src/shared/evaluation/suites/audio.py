@@ -27,6 +27,7 @@ from ...io.files import atomic_write
 from ...metrics.rhythm import phase_error, strangers
 from ...metrics.sanity import frozen
 from ...metrics.seams import Seamed, marked, seam_report
+from ...model.audio.audio_motion_model import AudioMotionModel
 from ...motion.trajectory import FPS, MotionTrajectory
 from ...pipelines.song import SongGenerator, own_noise
 from ...pipelines.song_sampler import SPARE, SongSampling, spans
@@ -90,7 +91,7 @@ class AudioContext:
         progress: told what begins.
     """
 
-    generator: SongGenerator
+    generator: SongGenerator[AudioMotionModel]
     settings: AudioSettings = field(default_factory=AudioSettings)
     data: str | None = None
     songs: Path | None = None
@@ -128,7 +129,7 @@ class AudioContext:
         *,
         replication: int = 0,
         held: bool = True,
-        generator: SongGenerator | None = None,
+        generator: SongGenerator[AudioMotionModel] | None = None,
     ) -> MotionTrajectory:
         """A motion for a song, with noise of its own; not `held`, it counts the phase for itself.
 
@@ -152,7 +153,7 @@ class AudioContext:
         """The same by the same network with fresh weights, the last layer included."""
         return cache(lambda replication: self._made(self.fresh, replication))
 
-    def _made(self, generator: SongGenerator, replication: int) -> Made:
+    def _made(self, generator: SongGenerator[AudioMotionModel], replication: int) -> Made:
         return [
             (piece, self.dance(piece, replication=replication, generator=generator))
             for piece in self.pieces
@@ -226,7 +227,7 @@ class AudioContext:
         return sample_of(self.made_untrained(replication))
 
     @cached_property
-    def fresh(self) -> SongGenerator:
+    def fresh(self) -> SongGenerator[AudioMotionModel]:
         """The same network with fresh weights, the last layer included."""
         fresh = untrained(self.generator.model, self.settings.seed)
         return SongGenerator(fresh, device=str(self.generator.device))
@@ -296,7 +297,7 @@ def phase_table(context: AudioContext) -> list[Grid]:
 
 
 def _counted(
-    context: AudioContext, name: str, generator: SongGenerator
+    context: AudioContext, name: str, generator: SongGenerator[AudioMotionModel]
 ) -> list[tuple[Piece, np.ndarray]]:
     """Bars [T] that a network counts for itself, of the first songs."""
     asked = context.pieces[: context.settings.own_count]

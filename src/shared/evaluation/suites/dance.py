@@ -24,6 +24,7 @@ from ...formats.arrays import write_npz
 from ...metrics.retrieval import rank_of
 from ...metrics.rhythm import beats_of_phase, body_beats, limb_beats, rhythm, strangers
 from ...metrics.seams import marked
+from ...model.audio.audio_motion_model import AudioMotionModel
 from ...model.generation.motion_generator import TextToMotion
 from ...motion.features import decode_features
 from ...motion.motion import Motion
@@ -88,7 +89,7 @@ class DanceContext:
     """
 
     generator: TextToMotion
-    singer: SongGenerator
+    singer: SongGenerator[AudioMotionModel]
     judge: Evaluator
     settings: DanceSettings
     data: str | None = None

@@ -173,4 +173,4 @@ def related(records: Sequence[PhraseRecord]) -> np.ndarray:
             owners.setdefault(clip, []).append(number)
     for rows in owners.values():
         same[np.ix_(rows, rows)] = True
-    return same
+    return np.asarray(same)

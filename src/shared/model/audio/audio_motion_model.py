@@ -111,7 +111,8 @@ class AudioMotionModel(nn.Module):
         memory: MemoryCondition | None = None,
     ) -> Tensor:
         """One prediction [B, 25, T] of the UNet; see `UNet1D.forward`."""
-        return self.unet(x_t, t, condition, drop, memory)
+        result: Tensor = self.unet(x_t, t, condition, drop, memory)
+        return result
 
     def model_fn(
         self,

@@ -75,7 +75,8 @@ class AudioConditioner(nn.Module):
             self.energy_proj(condition[:, ENERGY]),
             self.beat_proj(condition[:, BEAT]),
         ]
-        return self.combine(F.silu(torch.cat(parts, dim=1)))  # [B, E, T]
+        result: Tensor = self.combine(F.silu(torch.cat(parts, dim=1)))  # [B, E, T]
+        return result
 
 
 class ConditionAugmentation(nn.Module):
@@ -199,7 +200,8 @@ class ContextTransformer(nn.Module):
             h = h + self.motion(self._patches(recent, mode="constant"))
         for layer in self.layers:
             h = layer(h)
-        return self.out(h.mean(dim=1))
+        result: Tensor = self.out(h.mean(dim=1))
+        return result
 
     def _patches(self, rows: Tensor, *, mode: str = "replicate") -> Tensor:
         """[B, C, T] -> [B, P, C * patch]."""

@@ -52,7 +52,8 @@ class FiLMLayer(nn.Module):
 
     def gamma_beta(self, condition: Tensor) -> Tensor:
         """Condition [B, E, T] -> both modulations [B, 2C, T]."""
-        return self.mlp(condition)
+        result: Tensor = self.mlp(condition)
+        return result
 
     @staticmethod
     def modulate(h: Tensor, gamma_beta: Tensor) -> Tensor:
@@ -111,7 +112,8 @@ class ResBlock(nn.Module):
         if gamma_beta is not None:
             h = FiLMLayer.modulate(h, gamma_beta)
         h = self.conv2(self.dropout(F.silu(h)))  # [B, C', T]
-        return h + self.skip_conv(x)
+        result: Tensor = h + self.skip_conv(x)
+        return result
 
 
 class AttentionBlock(nn.Module):
@@ -173,7 +175,8 @@ class AttentionBlock(nn.Module):
         if self.rotary is not None:
             query = self.rotary(query)
         out = attend(query.transpose(1, 2), *keys_values, None)  # [B, H, T, d]
-        return x + self.proj_cross(out.transpose(1, 2).flatten(2)).transpose(1, 2)
+        result: Tensor = x + self.proj_cross(out.transpose(1, 2).flatten(2)).transpose(1, 2)
+        return result
 
 
 class Downsample(nn.Module):
@@ -185,7 +188,8 @@ class Downsample(nn.Module):
 
     def forward(self, x: Tensor) -> Tensor:
         """[B, C, T] -> [B, C, T/2]."""
-        return self.conv(x)
+        result: Tensor = self.conv(x)
+        return result
 
 
 class Upsample(nn.Module):
@@ -197,7 +201,8 @@ class Upsample(nn.Module):
 
     def forward(self, x: Tensor) -> Tensor:
         """[B, C, T] -> [B, C, 2T]."""
-        return self.conv(x.repeat_interleave(2, dim=-1))
+        result: Tensor = self.conv(x.repeat_interleave(2, dim=-1))
+        return result
 
 
 # ---------------------------------------------------------------- stages
@@ -473,7 +478,8 @@ class UNet1D(nn.Module):
             h = torch.cat((h, skips[level]), dim=1)  # [B, 2 C_i, T/2^i]
             h = self._run(self.up[level], h, time_emb, own)
         h = F.silu(self.output_norm(h))  # [B, C, T']
-        return self.output_conv(h)[..., :frames]  # [B, 25, T]
+        result: Tensor = self.output_conv(h)[..., :frames]  # [B, 25, T]
+        return result
 
     def _split(
         self, prepared: Prepared
@@ -489,9 +495,12 @@ class UNet1D(nn.Module):
             )
 
     def _run(self, stage: nn.Module, h: Tensor, time: Tensor, condition: StageCondition) -> Tensor:
+        out: Tensor
         if self.config.use_checkpoint and torch.is_grad_enabled():
-            return checkpoint(stage, h, time, condition, use_reentrant=False)
-        return stage(h, time, condition)
+            out = checkpoint(stage, h, time, condition, use_reentrant=False)
+        else:
+            out = stage(h, time, condition)
+        return out
 
 
 # ---------------------------------------------------------------- a faster copy to sample

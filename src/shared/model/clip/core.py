@@ -47,9 +47,10 @@ def keys_of(input_ids: Tensor) -> Tensor:
 
 def shared_keys(batches: Iterable[Tensor], least: int) -> Tensor:
     """The keys [N], ascending, that stand in at least so many of the texts."""
-    found = [torch.cat([keys_of(row[None]).unique() for row in batch]) for batch in batches]
-    keys, counts = torch.cat(found).unique(return_counts=True)
-    return keys[(counts >= least) & (keys > 0)]
+    found = [torch.cat([torch.unique(keys_of(row[None])) for row in batch]) for batch in batches]
+    keys, counts = torch.unique(torch.cat(found), return_counts=True)
+    shared: Tensor = keys[(counts >= least) & (keys > 0)]
+    return shared
 
 
 class TokenPairEncoder(nn.Module):

@@ -144,14 +144,16 @@ class MotionDenoiser(nn.Module):
         out = out.unflatten(-1, (self.stride, -1)).flatten(1, 2)[:, :frames]  # [B, frames, K*C]
         if self.refiner is not None:
             out = out + self.refiner(motion, out, frame_mask)  # [B, frames, K*C]
-        return out.view_as(noisy)  # [B, frames, K, C]
+        result: Tensor = out.view_as(noisy)  # [B, frames, K, C]
+        return result
 
     def _tokens(self, values: Tensor) -> Tensor:
         """Rows of `stride` frames side by side: [B, frames, N] -> [B, T, stride * N]."""
         if self.stride == 1:
             return values
         lacking = -values.shape[1] % self.stride
-        return pad(values, (0, 0, 0, lacking)).unflatten(1, (-1, self.stride)).flatten(2)
+        padded = pad(values, (0, 0, 0, lacking))
+        return padded.reshape(len(values), -1, self.stride * values.shape[2])
 
     def text_keys_values(self, text: TextFeatures) -> list[KeyValue]:
         """Keys and values of every block's cross-attention; empty for pooled conditioning."""

@@ -42,7 +42,8 @@ class TemporalUNet(nn.Module):
         for layer in self.layers:
             h = layer(h, mask)  # [B, T', D]
         pooled = masked_mean(self.norm(h), mask)  # [B, D]
-        return self.output_proj(pooled)
+        result: Tensor = self.output_proj(pooled)
+        return result
 
     @staticmethod
     def _shorten(h: Tensor, mask: Tensor | None, conv: nn.Conv1d) -> tuple[Tensor, Tensor | None]:

@@ -139,7 +139,8 @@ class MultiHeadAttention(nn.Module):
             heads = torch.cat([self.rotary(positioned), value], dim=2)
         query, key, value = heads.transpose(1, 2).chunk(3, dim=1)  # [B, H, T, d] each
         mixed = attend(query, key, value, mask)  # [B, H, T, d]
-        return self.out(rearrange(mixed, "b h t d -> b t (h d)"))
+        result: Tensor = self.out(rearrange(mixed, "b h t d -> b t (h d)"))
+        return result
 
 
 class CrossAttention(nn.Module):
@@ -164,7 +165,8 @@ class CrossAttention(nn.Module):
         """x [B, T, D], keys and values of the context, its mask [B, L] -> [B, T, D]."""
         query = rearrange(self.query(x), "b t (h d) -> b h t d", h=self.num_heads)
         mixed = attend(query, *keys_values, mask)  # [B, H, T, d]
-        return self.out(rearrange(mixed, "b h t d -> b t (h d)"))
+        result: Tensor = self.out(rearrange(mixed, "b h t d -> b t (h d)"))
+        return result
 
 
 class FiLM(nn.Module):
@@ -180,7 +182,8 @@ class FiLM(nn.Module):
     def forward(self, x: Tensor, condition: Tensor) -> Tensor:
         """x [B, T, D], condition [B, E] -> [B, T, D]."""
         scale, shift = self.modulation(condition)[:, None].chunk(2, dim=-1)  # [B, 1, D] each
-        return x * (1 + scale) + shift
+        result: Tensor = x * (1 + scale) + shift
+        return result
 
 
 class AdaLN(nn.Module):
@@ -196,7 +199,8 @@ class AdaLN(nn.Module):
 
     def forward(self, x: Tensor, condition: Tensor) -> Tensor:
         """x [B, T, D], condition [B, E] -> [B, T, D]."""
-        return self.film(self.norm(x), condition)
+        result: Tensor = self.film(self.norm(x), condition)
+        return result
 
 
 class TimestepEmbedding(nn.Module):
@@ -210,7 +214,8 @@ class TimestepEmbedding(nn.Module):
     def forward(self, timesteps: Tensor) -> Tensor:
         """Steps [B] -> [B, D]."""
         code = sinusoidal(timesteps, self.dim)  # [B, D]
-        return self.mlp(code)
+        result: Tensor = self.mlp(code)
+        return result
 
 
 class TagEmbedding(nn.Module):
@@ -224,7 +229,8 @@ class TagEmbedding(nn.Module):
 
     def forward(self, tags: Tensor) -> Tensor:
         """Tag indices [B], `num_tags` where there is none -> [B, D]."""
-        return self.embedding(tags)
+        result: Tensor = self.embedding(tags)
+        return result
 
 
 class ChannelDropout(nn.Module):
@@ -290,7 +296,8 @@ class TemporalLayer(nn.Module):
     def forward(self, x: Tensor, mask: Tensor | None = None) -> Tensor:
         """x [B, T, D], mask [B, T] bool (True = real) or None -> [B, T, D]."""
         x = x + self.dropout(self.attention(self.attention_norm(x), mask))  # [B, T, D]
-        return x + self.feed_forward(self.feed_forward_norm(x))
+        result: Tensor = x + self.feed_forward(self.feed_forward_norm(x))
+        return result
 
 
 class DenoiserBlock(nn.Module):
@@ -328,4 +335,5 @@ class DenoiserBlock(nn.Module):
             attended = self.cross_attention(self.cross_norm(h), text, text_mask)  # [B, T, D]
             h = h + self.dropout(attended)
         h = self.adaln(h, condition)  # [B, T, D]
-        return self.transform(h)  # [B, T, D]
+        result: Tensor = self.transform(h)  # [B, T, D]
+        return result
