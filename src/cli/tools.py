@@ -11,14 +11,15 @@ import typer
 
 from .console import guarded, results_on_stdout, with_quiet
 from .convert import convert, inspect
-from .evaluate import evaluate
-from .evaluate_audio import evaluate_audio
-from .evaluate_memory import evaluate_memory
-from .evaluate_performer import evaluate_performer
-from .evaluate_requests import evaluate_requests
-from .evaluate_sanity import evaluate_sanity
-from .evaluate_selection import evaluate_selection
-from .evaluate_space import evaluate_space
+from .evaluate import evaluate, evaluate_audio
+from .evaluate_suites import (
+    evaluate_memory,
+    evaluate_performer,
+    evaluate_requests,
+    evaluate_sanity,
+    evaluate_selection,
+    evaluate_space,
+)
 from .features import features
 from .generate import generate
 from .memory import memory

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from src.cli import evaluate_audio, evaluate_sanity
+from src.cli import evaluate, evaluate_suites
 from src.cli.tools import app
 from src.shared import environment
 from src.shared.evaluation.suites import sanity
@@ -24,7 +24,7 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> list[dict[str, Any]]:
         found[-1].update(options)
         raise KeyboardInterrupt  # enough
 
-    monkeypatch.setattr(evaluate_sanity, "load_generator", load)
+    monkeypatch.setattr(evaluate_suites, "load_generator", load)
     monkeypatch.setattr(sanity, "evaluate_sanity", evaluate)
     return found
 
@@ -109,4 +109,4 @@ def test_no_such_model_is_one_line(tmp_path: Path) -> None:
     for command, flag in (("evaluate-audio", "--out"), ("evaluate-sanity", "--output-dir")):
         result = CliRunner().invoke(app, [command, "--model", "nosuch", flag, str(tmp_path)])
         assert result.exit_code == 1 and "no model named 'nosuch'" in result.output
-    assert evaluate_audio.MODEL == evaluate_sanity.MODEL == "starter-audio"
+    assert evaluate.MODEL == evaluate_suites.MODEL == "starter-audio"

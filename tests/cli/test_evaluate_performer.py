@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from src.cli import evaluate_performer
+from src.cli import evaluate_suites
 from src.cli.tools import app
 from src.shared.evaluation.report.tables import report_data
 from src.shared.evaluation.suites.dance import DanceSettings
@@ -27,7 +27,7 @@ from src.shared.evaluation.suites.dance import DanceSettings
 def test_wrong_ones_are_usage_errors(
     arguments: list[str], message: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(evaluate_performer, "run", lambda *a, **k: pytest.fail("it began"))
+    monkeypatch.setattr(evaluate_suites, "run_performer", lambda *a, **k: pytest.fail("it began"))
     result = CliRunner().invoke(app, ["evaluate-performer", *arguments])
     assert result.exit_code == 2 and message in result.output
 
@@ -39,7 +39,7 @@ def test_right_ones_reach_the_harness(monkeypatch: pytest.MonkeyPatch, tmp_path:
         asked.extend(arguments)
         return report_data("performer", {"model": "starter"}, {}, [], [])
 
-    monkeypatch.setattr(evaluate_performer, "run", run)
+    monkeypatch.setattr(evaluate_suites, "run_performer", run)
     flags = ["--quick", "--edits", "0", "--steps", "5", "--seed", "3", "--out", str(tmp_path)]
     result = CliRunner().invoke(app, ["evaluate-performer", *flags])
     assert result.exit_code == 0 and "Evaluation of starter" in result.output

@@ -9,7 +9,7 @@ import pytest
 import torch
 from typer.testing import CliRunner
 
-from src.cli.evaluate_memory import numbers
+from src.cli.evaluate_suites import numbers
 from src.cli.tools import app
 from src.shared.data.phrases.layout import parse_manifest
 from src.shared.errors import UsageError, UserError
