@@ -1,7 +1,7 @@
 """`evaluate`, `evaluate-audio`: honest figures, each beside real, chance and untrained rows."""
 
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -13,7 +13,7 @@ from . import options
 from .console import print_json, tell
 
 if TYPE_CHECKING:
-    from ..shared.evaluation.report.tables import Table
+    from ..shared.evaluation.report.tables import Report
     from ..shared.model.audio.audio_motion_model import AudioMotionModel
     from ..shared.pipelines.song import SongGenerator
 
@@ -280,54 +280,32 @@ def load_generator(
     return generator
 
 
-def show(
-    report: Mapping[str, Any], text: str, lines: Iterable[str], tables: Iterable["Table"],
-    *, json: bool,
-) -> None:  # fmt: skip
-    """JSON, or tables: drawn in a terminal, `text` in a pipe, where drawn ones would be cut."""
-    from ..shared.evaluation.report.tables import draw
+def show_report(report: "Report", *, json: bool) -> None:
+    """On stdout: JSON, or tables: drawn in a terminal, Markdown in a pipe, where they would be cut.
+
+    Whatever suite it is of.
+    """
+    from ..shared.evaluation.report.tables import draw, heading, intervals_note, markdown, tables
 
     if json:
         print_json(report)
     elif sys.stdout.isatty():
         from rich.console import Console
 
-        draw(lines, tables, Console(markup=False))
+        lines = [*heading(report), intervals_note(report)]
+        draw(lines, tables(report), Console(markup=False))
     else:
-        print(text)
+        print(markdown(report))
 
 
-def show_report(report: dict[str, Any], *, json: bool) -> None:
-    """What a folder of `save_report` holds, on stdout."""
-    from ..shared.evaluation.report.tables import heading, intervals_note, markdown, tables
-
-    lines = [*heading(report), intervals_note(report)]
-    show(report, markdown(report), lines, tables(report), json=json)
-
-
-def save_and_show(
-    report: dict[str, Any], name: str, title: str, tables: Sequence["Table"], folder: Path,
-    *, json: bool,
-) -> None:  # fmt: skip
-    """The report as name.json and name.md in a folder, and on stdout."""
-    from ..shared.evaluation.report.tables import as_markdown, heading
+def keep_and_show(report: "Report", *files: Path, json: bool) -> None:
+    """The report in these files, Markdown where one ends so, and on stdout."""
+    from ..shared.evaluation.report.tables import markdown
     from ..shared.io.files import write_json, write_text
 
-    text = as_markdown(title, heading(report), tables)
-    write_json(folder / f"{name}.json", report)
-    write_text(folder / f"{name}.md", text)
-    show(report, text, heading(report), tables, json=json)
-
-
-def print_and_keep(report: dict[str, Any], text: str, out: Path | None, *, json: bool) -> None:
-    """The report in a file if there is one to be, and on stdout as tables or JSON."""
-    from ..shared.io.files import write_json, write_text
-
-    if out is not None and out.suffix == ".md":
-        write_text(out, text)
-    elif out is not None:
-        write_json(out, report)
-    if json:
-        print_json(report)
-    else:
-        print(text)
+    for file in files:
+        if file.suffix == ".md":
+            write_text(file, markdown(report))
+        else:
+            write_json(file, report)
+    show_report(report, json=json)

@@ -12,9 +12,8 @@ from .console import tell
 from .evaluate import (
     MODEL,
     SONG_LIMITS,
+    keep_and_show,
     load_generator,
-    print_and_keep,
-    save_and_show,
     show_report,
 )
 
@@ -93,7 +92,6 @@ def evaluate_memory(
         raise UsageError(f"--top-k {top_k}: each must be 1 or more")
     check_report(out)
 
-    from ..shared.evaluation.report.tables import as_markdown, heading, tables
     from ..shared.evaluation.suites import memory as suite
     from ..shared.pipelines.runtime import load_trained
     from ..shared.pipelines.song_memory import open_memory, require_memory
@@ -120,12 +118,7 @@ def evaluate_memory(
         about={"model": model, "data": data, "threads": threads},
         progress=told("memory"),
     )
-    said = [
-        f"{name}: against no memory {words['without']}, against a random one {words['random']}"
-        for name, words in report["verdict"].items()
-    ]
-    text = as_markdown("Memory", [*heading(report), *said], tables(report))
-    print_and_keep(report, text, out, json=json)
+    keep_and_show(report, *filter(None, [out]), json=json)
 
 
 def numbers(flag: str, text: str, kind: type[Number]) -> tuple[Number, ...]:
@@ -315,7 +308,6 @@ def evaluate_requests(
 
     from ..shared.data.prepared import PreparedData
     from ..shared.evaluation.floors import untrained
-    from ..shared.evaluation.report.tables import tables
     from ..shared.evaluation.suites.requests import RequestSettings, evaluate_requests
     from ..shared.model.generation.motion_generator import TextToMotion
     from ..shared.pipelines.text import SentenceGenerator
@@ -330,8 +322,8 @@ def evaluate_requests(
         about={"model": model, "data": str(data)},
         progress=told("requests"),
     )
-    title = f"What people ask of {model}"
-    save_and_show(report, "requests", title, list(tables(report)), out, json=json)
+    report["title"] = f"What people ask of {model}"
+    keep_and_show(report, out / "requests.json", out / "requests.md", json=json)
 
 
 # ---------------------------------------------------------------- sanity
@@ -386,8 +378,8 @@ def evaluate_sanity(
         about={"model": model, "decoder": decoder_checkpoint or model},
         progress=told("sanity"),
     )
-    tables = list(sanity.sanity_tables(result.report))
-    save_and_show(result.report, "sanity", "Sanity", tables, output_dir, json=json)
+    files = [output_dir / name for name in ("sanity.json", "sanity.md")]
+    keep_and_show(result.report, *files, json=json)
     draw_pictures(result, output_dir)
 
 
@@ -497,13 +489,7 @@ def evaluate_selection(
             settings=songs,
             **wanted,
         )
-    from ..shared.evaluation.report.tables import as_markdown, heading
-    from ..shared.evaluation.suites.selection import selection_tables
-
-    apart = ", ".join(report["outside_apart"]) or "none"
-    lines = [*heading(report), f"outside figures that are better, intervals apart: {apart}"]
-    text = as_markdown("Best of N", lines, selection_tables(report))
-    print_and_keep(report, text, out, json=json)
+    keep_and_show(report, *filter(None, [out]), json=json)
 
 
 # ---------------------------------------------------------------- space
@@ -550,7 +536,6 @@ def evaluate_space(
     options.check_pairs(data)
     options.check_folder("--out", out)
 
-    from ..shared.evaluation.report.tables import tables
     from ..shared.evaluation.suites.space import SpaceSettings, Texts, evaluate_space
     from ..shared.model.audio.shared_space import SharedSpace
     from ..shared.model.generation.motion_generator import TextToMotion
@@ -570,5 +555,5 @@ def evaluate_space(
         about={"model": model, "data": data, "text": text},
         progress=told("space"),
     )
-    title = f"Shared space of {model}"
-    save_and_show(report, "space", title, list(tables(report)), out, json=json)
+    report["title"] = f"Shared space of {model}"
+    keep_and_show(report, out / "space.json", out / "space.md", json=json)

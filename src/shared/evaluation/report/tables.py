@@ -116,6 +116,7 @@ def report_data(
     pictures: Sequence[Mapping[str, Any]] = (),
     *,
     title: str = "",
+    **found: Any,
 ) -> Report:
     """A whole report as plain data: what report.json holds.
 
@@ -126,6 +127,7 @@ def report_data(
         samples: motions to be looked at, see `Keeper`.
         pictures: `file` in the report's folder and `title` of each.
         title: over the pages; the model's name.
+        found: more of it for programs; `notes` are lines under `about`.
     """
     return {
         "format-version": FORMAT_VERSION,
@@ -136,6 +138,7 @@ def report_data(
         "tables": [grid.as_dict() for grid in tables],
         "samples": plain(samples),
         "pictures": plain(pictures),
+        **plain(found),
     }
 
 
@@ -209,14 +212,15 @@ def heading(report: Report) -> list[str]:
     """What was measured with what, line by line."""
     facts = {**report["about"], **report["settings"]}
     listed = {k: ", ".join(map(str, v)) if isinstance(v, list) else v for k, v in facts.items()}
-    return [f"{key.replace('_', '-')}: {value}" for key, value in listed.items()]
+    lines = [f"{key.replace('_', '-')}: {value}" for key, value in listed.items()]
+    return [*lines, *report.get("notes", ())]
 
 
 def intervals_note(report: Report) -> str:
     """How the ± of a report came about, and with which seeds."""
     settings = report["settings"]
-    if "replications" not in settings:
-        return ""
+    if not any(table["plot"] for table in report["tables"]):
+        return ""  # no table of a bench
     first, runs = settings["seed"], settings["replications"]
     seeds = f"seed {first}" if runs == 1 else f"seeds {first}, {first + 1000}, … ({runs} runs)"
     return (
@@ -229,24 +233,18 @@ def intervals_note(report: Report) -> str:
 def markdown(report: Report) -> str:
     """The report as a Markdown text, with the motions that were kept, worst first."""
     lines = filter(None, [*heading(report), intervals_note(report)])
-    text = as_markdown(report["title"], lines, tables(report))
+    text = [f"# {_inert(report['title'])}", "", *(f"- {_inert(line)}" for line in lines), ""]
+    for table in tables(report):
+        text += table_lines(table)
     samples = report.get("samples", [])
-    if not samples:
-        return text
-    rows = [[f"{s['rank']} of {s['of']}, {s['bench']}", s["title"], s["file"]] for s in samples]
-    worst = Table("worst first", ["place", "asked for", "file"], rows)
-    return text + "\n".join(_table_lines(worst)) + "\n"
-
-
-def as_markdown(title: str, lines: Iterable[str], parts: Iterable[Table]) -> str:
-    """Any report as a Markdown text: a title, facts line by line, tables."""
-    text = [f"# {_inert(title)}", "", *(f"- {_inert(line)}" for line in lines), ""]
-    for table in parts:
-        text += _table_lines(table)
+    if samples:
+        rows = [[f"{s['rank']} of {s['of']}, {s['bench']}", s["title"], s["file"]] for s in samples]
+        text += table_lines(Table("worst first", ["place", "asked for", "file"], rows))
     return "\n".join(text)
 
 
-def _table_lines(table: Table) -> list[str]:
+def table_lines(table: Table) -> list[str]:
+    """A table in Markdown."""
     lines = [f"## {_inert(table.title)}", "", _line(table.header), "|" + "---|" * len(table.header)]
     lines += [_line(row) for row in table.rows]
     return [*lines, "", table.note, ""] if table.note else [*lines, ""]

@@ -31,7 +31,7 @@ from ...pipelines.song_memory import as_condition, bars_of_sound, bars_of_window
 from ...pipelines.song_sampler import SPARE, SongSampler, SongSampling
 from ..engine import Progress
 from ..families_audio import BEAT_ALIGNMENT, TRAJECTORY_SANITY
-from ..report.tables import Column, Grid, GridRow, plain
+from ..report.tables import Column, Grid, GridRow, plain, report_data
 from ..samples import DanceSample
 from ..stats import MIN_PAIRS, bootstrap_mean, paired_bootstrap
 from .songs import Piece, dance_of, held_out_songs, open_split
@@ -447,12 +447,13 @@ def evaluate_memory(
         "phrases": f"{len(items)} of {len({item.record.song for item in items})} songs",
         "asked": plain(config.model_dump()),
     }
-    return {
-        "about": facts,
-        "settings": plain(asdict(settings)),
-        "tables": [table.as_dict() for table in tables],
-        "verdict": verdict,
-    }
+    said = [
+        f"{name}: against no memory {words[WITHOUT]}, against a random one {words[RANDOM]}"
+        for name, words in verdict.items()
+    ]
+    return report_data(
+        "audio", facts, asdict(settings), tables, title="Memory", notes=said, verdict=verdict
+    )
 
 
 def over_songs(values: Values, clusters: Sequence[str]) -> Values:

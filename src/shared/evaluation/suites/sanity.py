@@ -24,7 +24,7 @@ from ...motion.trajectory import MotionTrajectory
 from ...pipelines.song import SongCondition, SongGenerator, finished
 from ...pipelines.song_sampler import SongSampling
 from ..report.plots import new_figure, save_figure
-from ..report.tables import Table, number
+from ..report.tables import Column, Grid, GridRow, Report, number, report_data
 from ..stats import success_rate
 from .songs import TEMPI, conditions_of_songs, open_split, phrases
 
@@ -61,7 +61,7 @@ class SanitySettings:
 class SanityEvaluation:
     """The report as plain data, the motions by row, and the bands of training motions."""
 
-    report: dict[str, Any]
+    report: Report
     motions: dict[str, list[MotionTrajectory]]
     bands: Bands | None
 
@@ -107,14 +107,18 @@ def evaluate_sanity(
     } | ({"real": real} if real else {})
     checker = SanityChecker(bands=bands)
     rows = {name: sanity_row(name, group, checker) for name, group in motions.items()}
-    report = {
-        "about": {**(about or {}), "model_hash": model.card.content_hash[:12], **facts},
-        "settings": asdict(settings),
-        "rows": rows,
-        "bands": None if bands is None else {k: asdict(b) for k, b in bands.bands.items()},
-        "verdict": verdict(rows, bands),
-        "seconds": round(time.perf_counter() - started, 1),
-    }
+    said = verdict(rows, bands)
+    report = report_data(
+        "audio",
+        {**(about or {}), "model_hash": model.card.content_hash[:12], **facts},
+        asdict(settings),
+        list(sanity_grids(rows, bands, said)),
+        title="Sanity",
+        rows=rows,
+        bands=None if bands is None else {k: asdict(b) for k, b in bands.bands.items()},
+        verdict=said,
+        seconds=round(time.perf_counter() - started, 1),
+    )
     return SanityEvaluation(report, motions, bands)
 
 
@@ -217,33 +221,38 @@ def verdict(rows: Mapping[str, dict[str, Any]], bands: Bands | None) -> dict[str
 # ---------------------------------------------------------------- tables and a picture
 
 
-def sanity_tables(report: Mapping[str, Any]) -> Iterator[Table]:
-    """Every table of the report, in reading order."""
-    rows, bands = report["rows"], report["bands"]
-    cells = [
-        [name, str(row["motions"]), str(row["passed_seven"]), str(row["passed"])]
-        + [str(row["checks"][key]["passed"]) if key in row["checks"] else "–" for key in COLUMNS]
+def sanity_grids(
+    rows: Mapping[str, dict[str, Any]], bands: Bands | None, found: Mapping[str, Any]
+) -> Iterator[Grid]:
+    """Every table of the report, in reading order; `found` is the verdict."""
+    named = [Column(key, key.replace("_", " "), 0) for key in COLUMNS]
+    columns = (Column("passed_seven", "seven", 0), Column("passed", "suite", 0), *named)
+    passed = {
+        name: GridRow(
+            {key: row["checks"][key]["passed"] for key in COLUMNS if key in row["checks"]}
+            | {key: row[key] for key in ("passed_seven", "passed")},
+            row["motions"],
+        )
         for name, row in rows.items()
-    ]
-    header = ["row", "N", "seven", "suite", *(key.replace("_", " ") for key in COLUMNS)]
-    yield Table("motions that pass", header, cells, NOTES["sanity"])
-    if bands:
-        names = list(rows["generated"]["inside"])
-        limits = [f"{bands[name]['low']:.3g} – {bands[name]['high']:.3g}" for name in names]
-        shares = [
-            [name, *(number(row["inside"].get(key), 2) for key in names)]
-            for name, row in rows.items()
-        ]
-        header = ["row", *(name.replace("_", " ") for name in names)]
+    }
+    yield Grid("sanity", "motions that pass", columns, passed, NOTES["sanity"])
+    if bands is not None:
+        known = {k: bands.bands[k] for k in rows["generated"]["inside"]}
+        columns = tuple(Column(name, name.replace("_", " "), 2) for name in known)
+        limits = {name: f"{band.low:.3g} – {band.high:.3g}" for name, band in known.items()}
+        shares = {name: GridRow(row["inside"]) for name, row in rows.items()}
         title = "motions inside the training motions' band"
-        yield Table(title, header, [["p5 to p95", *limits], *shares], NOTES["inside"])
-    said = [[what, value, "yes" if holds else "NO"] for what, value, holds in _said(report)]
-    yield Table("verdict", ["what must hold", "value", "holds"], said)
+        yield Grid(
+            "inside", title, columns, {"p5 to p95": GridRow(limits)} | shares, NOTES["inside"]
+        )
+    said = {what: GridRow({"value": value, "holds": "yes" if holds else "NO"})
+            for what, value, holds in _said(found)}  # fmt: skip
+    columns = (Column("value", "value"), Column("holds", "holds"))
+    yield Grid("verdict", "verdict", columns, said, head="what must hold")
 
 
-def _said(report: Mapping[str, Any]) -> Iterator[tuple[str, str, bool]]:
+def _said(found: Mapping[str, Any]) -> Iterator[tuple[str, str, bool]]:
     """The lines of the verdict."""
-    found = report["verdict"]
     for key, what in (("seven_checks", "all seven checks"), ("whole_suite", "the whole suite")):
         share = found[key]
         value = f"{share['value']:.2f} [{share['low']:.2f}, {share['high']:.2f}]"

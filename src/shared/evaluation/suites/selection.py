@@ -44,7 +44,7 @@ from ..engine import Progress
 from ..held_out import open_held_out, real_clips
 from ..judge.evaluator import Evaluator
 from ..judge.instructions import check
-from ..report.tables import Column, Grid, GridRow, Report, Table, printed
+from ..report.tables import Column, Grid, GridRow, Report, report_data
 from ..samples import Clips
 from ..stats import Estimate, bootstrap_mean, replicated
 from .songs import Piece, held_out_songs, open_split, phrases
@@ -183,20 +183,29 @@ def report_of(
     Args:
         subjects: words for the titles.
     """
-    figures = [asdict(figure) for figure in pool.figures]
-    facts = {"about": about, "settings": settings, "subjects": subjects, "figures": figures}
-    return facts | selection_report(pool, largest)
+    found = selection_report(pool, largest)
+    apart = ", ".join(found["outside_apart"]) or "none"
+    return report_data(
+        "selection",
+        about,
+        settings,
+        list(selection_grids(found, pool.figures, subjects)),
+        title="Best of N",
+        notes=[f"outside figures that are better, intervals apart: {apart}"],
+        subjects=subjects,
+        figures=[asdict(figure) for figure in pool.figures],
+        **found,
+    )
 
 
-def selection_tables(report: Report) -> Iterator[Table]:
-    """One table a role: rows as in the report, and the gain below."""
-    last = [name for name in report["rows"] if name.startswith("best of ")][-1]
-    figures = [Figure(**figure) for figure in report["figures"]]
+def selection_grids(found: Report, figures: Sequence[Figure], subjects: str) -> Iterator[Grid]:
+    """One table a role: rows as `selection_report` has them, and the gain below."""
+    last = [name for name in found["rows"] if name.startswith("best of ")][-1]
     gains = {
         key: {"value": None, **gain.get("difference", {}), "apart": gain["apart"]}
-        for key, gain in report["gains"].items()
+        for key, gain in found["gains"].items()
     }
-    rows = {name: GridRow(cells) for name, cells in report["rows"].items()}
+    rows = {name: GridRow(cells) for name, cells in found["rows"].items()}
     rows[f"{last} less best of 1"] = GridRow(gains)
     for role, title in ROLES.items():
         columns = [
@@ -205,7 +214,7 @@ def selection_tables(report: Report) -> Iterator[Table]:
             if f.role == role
         ]
         if columns:
-            yield printed(Grid(role, f"{title} ({report['subjects']})", tuple(columns), rows, NOTE))
+            yield Grid(role, f"{title} ({subjects})", tuple(columns), rows, NOTE)
 
 
 # ---------------------------------------------------------------- prompts

@@ -18,9 +18,9 @@ from src.shared.evaluation.report.tables import (
     Column,
     Grid,
     Table,
-    as_markdown,
     markdown,
     report_data,
+    table_lines,
 )
 from src.shared.evaluation.stats import Difference
 from tests.shared.evaluation.toy_bench import toy_bench
@@ -62,7 +62,7 @@ def test_markdown_takes_no_html_from_what_it_quotes(tmp_path: Path) -> None:
     assert "- model: \\<script>alert(1)\\</script>" in text and "| \\<b>1" in text
     assert not re.search(r"(?<!\\)<(?=[a-z/!])", text)
     table = Table("t", ["asked for"], [["![x](http://x) [y](javascript:z) a|b \\"]])
-    assert "| !\\[x](http://x) \\[y](javascript:z) a\\|b \\\\ |" in as_markdown("t", [], [table])
+    assert "| !\\[x](http://x) \\[y](javascript:z) a\\|b \\\\ |" in table_lines(table)
 
 
 @pytest.mark.skipif(chromium() is None, reason="no Chromium here")
@@ -119,7 +119,7 @@ def test_a_verdict_needs_pairs_and_an_interval_off_zero() -> None:
 
 def test_a_bar_in_a_heading_is_no_border() -> None:
     table = Table("t", ["row", "|error|"], [["real", "0.1"]])
-    assert "| row | \\|error\\| |" in as_markdown("title", [], [table])
+    assert "| row | \\|error\\| |" in table_lines(table)
 
 
 def test_only_like_is_compared_with_like(tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from src.shared.evaluation.report.tables import tables
 from src.shared.evaluation.stats import replicated
 from src.shared.evaluation.suites.selection import (
     Figure,
@@ -11,7 +12,6 @@ from src.shared.evaluation.suites.selection import (
     measured,
     report_of,
     selection_report,
-    selection_tables,
     sizes,
 )
 
@@ -102,7 +102,7 @@ def test_one_replication_proves_nothing() -> None:
 
 def test_tables_part_what_counts_from_what_does_not() -> None:
     report = report_of(pool(1.0), N, "400 dice", {}, {})
-    outside, own = selection_tables(report)
+    outside, own = tables(report)
     assert outside.header == ["row", "quality ↑", "error ↓"] and own.header == ["row", "term ↑"]
     assert [row[0] for row in outside.rows] == [
         "chance", "best of 1", "best of 2", "best of 4", "best of 8", "worst of 8",

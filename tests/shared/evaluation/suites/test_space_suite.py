@@ -8,7 +8,7 @@ import pytest
 import torch
 
 from src.shared.data.phrases.dataset import MotionPhraseDataset
-from src.shared.evaluation.report.tables import Grid, as_markdown, heading, tables
+from src.shared.evaluation.report.tables import Grid, markdown
 from src.shared.evaluation.suites.space import (
     CHANCE,
     SPACE,
@@ -163,5 +163,5 @@ def test_the_report_has_every_row_and_repeats(folder: Path) -> None:
     assert list(grids["text → motion"].rows) == [SPACE, UNTRAINED, CHANCE]
     assert grids["sound → motion"].value(TEMPO, "r_at_5") >= 0
     assert made["about"]["songs"] == 4 and made["about"]["phrases"] == 8
-    text = as_markdown("Space", heading(made), tables(made))
+    text = markdown(made)
     assert "| tempo alone |" in text and "nan" not in text.lower()
