@@ -134,14 +134,17 @@ def check_folder(flag: str, folder: Path) -> None:
             if not part.is_dir():
                 raise UsageError(f"{flag} {folder}: {part} is a file; name a folder")
             break
-    try:  # a trial: whoever writes makes the folder
-        with made_folder(folder), tempfile.TemporaryFile(dir=folder):
-            pass
-    except OSError as error:
-        reason = error.strerror or error
-        raise UsageError(
-            f"{flag} {folder}: cannot write there ({reason}); name another folder"
-        ) from None
+    for chance in (1, 2):  # a trial: whoever writes makes the folder
+        try:
+            with made_folder(folder), tempfile.TemporaryFile(dir=folder):
+                return
+        except OSError as error:
+            if chance == 1 and isinstance(error, FileNotFoundError):
+                continue  # another process's trial took it away meanwhile
+            reason = error.strerror or error
+            raise UsageError(
+                f"{flag} {folder}: cannot write there ({reason}); name another folder"
+            ) from None
 
 
 def check_limits(values: Map[str, float | None], limits: Map[str, tuple[float, float]]) -> None:

@@ -233,20 +233,6 @@ def kept_error(motion: Motion, given: Constraint) -> dict[str, float]:
     }
 
 
-def kept_positions_error(motion: Motion, clip: Motion, frames: slice, of_clip: slice) -> float:
-    """Metres that a joint in kept frames is at most from where it was, place apart."""
-    made = _seen_from_start(motion, frames)
-    return float(np.abs(made - _seen_from_start(clip, of_clip)).max())
-
-
-def _seen_from_start(motion: Motion, frames: slice) -> np.ndarray:
-    """Joint positions [t,22,3] from where the body is in the first of some frames."""
-    place = place_of(motion, range(motion.num_frames)[frames][0])
-    positions = torch.as_tensor(motion.positions()[frames], dtype=torch.float64)
-    positions = positions - torch.tensor([place.x, 0.0, place.z])
-    return turn_about_y(positions, -place.heading).numpy()
-
-
 NO_TEXT = "a person moves"  # where nothing is said: its weight is nothing, too
 
 

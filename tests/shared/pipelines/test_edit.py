@@ -15,6 +15,7 @@ from src.shared.motion.features import FORWARD, ROOT_ROW, Place, integrate_root
 from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess.footskate import ease_from_kept
 from src.shared.motion.postprocess.stitching import moved_to, place_of
+from src.shared.motion.rotations import turn_about_y
 from src.shared.motion.skeleton import JOINT_INDEX, JOINT_NAMES
 from src.shared.pipelines.edit import (
     GROUPS,
@@ -25,13 +26,26 @@ from src.shared.pipelines.edit import (
     fill_free,
     keep_ends,
     kept_error,
-    kept_positions_error,
     redo,
 )
 from tests.shared.model.conftest import tiny_generator
 
 WALK = "a person walks"
 SETTINGS = Sampling(seed=2)
+
+
+def kept_positions_error(motion: Motion, clip: Motion, frames: slice, of_clip: slice) -> float:
+    """Metres that a joint in kept frames is at most from where it was, place apart."""
+    made = _seen_from_start(motion, frames)
+    return float(np.abs(made - _seen_from_start(clip, of_clip)).max())
+
+
+def _seen_from_start(motion: Motion, frames: slice) -> np.ndarray:
+    """Joint positions [t,22,3] from where the body is in the first of some frames."""
+    place = place_of(motion, range(motion.num_frames)[frames][0])
+    positions = torch.as_tensor(motion.positions()[frames], dtype=torch.float64)
+    positions = positions - torch.tensor([place.x, 0.0, place.z])
+    return turn_about_y(positions, -place.heading).numpy()
 
 
 @pytest.fixture(scope="module")
