@@ -16,7 +16,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
-from scipy.signal import find_peaks
 
 from ..motion.motion import Motion
 from ..motion.skeleton import REST_FOOT_HEIGHT
@@ -60,6 +59,8 @@ def motion_beats(points: np.ndarray, fps: float = 30.0) -> MotionBeats:
 
     The minimum is placed between frames by a parabola through its three samples.
     """
+    from scipy.signal import find_peaks  # takes a second, and a prompt has no beats
+
     speed = smoothed_speed(points, fps)
     if len(speed) < 3:
         return MotionBeats(np.zeros(0), speed)

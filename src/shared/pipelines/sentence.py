@@ -11,12 +11,16 @@ import unicodedata
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
+from itertools import groupby
 from typing import Any
 
 from ..config_loader import load_yaml, packaged_config
 
 MAX_COUNT, MAX_METRES, MAX_DEGREES, MAX_SECONDS = 20, 100.0, 720.0, 600.0
 _CJK = "\u3040-\u30ff\u3400-\u9fff"
+# Classes without case: re would spell out every character of their ranges, seconds in all.
+_CJK_SIGN = f"(?-i:[{_CJK}])"
+_LETTER, _SIGN = rf"(?-i:[^\W\d{_CJK}])", rf"(?-i:[^\W{_CJK}])"  # of words; or a digit
 _COMMAS = r"[,;、，；]"
 _EDGES = " \t,;.!?。、，；！？"
 _DIGITS = r"\d+(?:[.,]\d+)?"
@@ -239,7 +243,7 @@ class _Words:
         self.angle = re.compile(_any(self.angles), re.I)
         self.often = re.compile(_any(self.adverbs), re.I)
         number = rf"(?P<number>{_DIGITS}|{_any(self.numbers)})"
-        ready = rf"(?:(?<![\w.,])|(?<=[{_CJK}]))"
+        ready = rf"(?:(?<![\w.,])|(?<={_CJK_SIGN}))"
         self.units = {
             name: re.compile(rf"{_lead()}{ready}{number}[\s-]*{_any(all_of(name))}", re.I)
             for name in ("degrees", "metres", "seconds")
@@ -260,19 +264,22 @@ def _lead() -> str:
 
 def _any(words: Sequence[str] | dict[str, Any]) -> str:
     """One of the words, whole where the writing parts words; never empty."""
-    ordered = sorted(words, key=len, reverse=True)
-    return "(?:" + "|".join(map(_whole, ordered)) + ")" if ordered else r"(?!)"
+    ordered = map(_whole, sorted(words, key=len, reverse=True))
+    alike = groupby(ordered, key=lambda parts: (parts[0], parts[2]))
+    runs = [f"{before}(?:{'|'.join(word for _, word, _ in run)}){after}"
+            for (before, after), run in alike]  # fmt: skip
+    return "(?:" + "|".join(runs) + ")" if runs else r"(?!)"
 
 
-def _whole(word: str) -> str:
+def _whole(word: str) -> tuple[str, str, str]:
+    """A word's pattern, and what must stand before and behind it."""
     stays, bar, word = word.rpartition("|")
     if bar:
-        return f"(?<={stays}){word}"
+        return f"(?<={stays})", word, ""
     pattern = re.escape(word).replace(r"\ ", r"\s+")
     if re.search(f"[{_CJK}°]", word):
-        return pattern
-    end = "" if word.endswith("'") else rf"(?![^\W{_CJK}])"
-    return rf"(?<![^\W\d{_CJK}]){pattern}{end}"
+        return "", pattern, ""
+    return f"(?<!{_LETTER})", pattern, "" if word.endswith("'") else f"(?!{_SIGN})"
 
 
 @cache
