@@ -358,10 +358,10 @@ def _places(embeddings: np.ndarray, labels: np.ndarray) -> np.ndarray:
         optimizer.zero_grad()
         logits = SCALE * x @ normalize(places, dim=-1).T
         total = cross_entropy(logits, y, weight=share, reduction="sum")
-        total.backward()
+        total.backward()  # type: ignore[no-untyped-call]
         return total
 
-    optimizer.step(loss)
+    optimizer.step(loss)  # type: ignore[no-untyped-call]
     return _unit(places.detach().numpy())
 
 
