@@ -26,6 +26,7 @@ from ..metrics.actions import ACTIONS, repetitions
 from ..metrics.measurements import measure
 from ..model.clip.core import TextFeatures
 from ..model.clip.out_of_domain import ScopeResult
+from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import Progress, TextToMotion
 from ..motion.features import ROOT_ROW, YAW_RATE, decode_features
