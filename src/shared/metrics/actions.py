@@ -159,6 +159,13 @@ ACTIONS: dict[str, Check] = {name: _of_a_body(check) for name, check in _ACTIONS
 """Actions that kinematics define, whoever performs them and in whatever style."""
 
 
+def side_check(action: str, side: str, *, by_hand: bool) -> Check | None:
+    """Whether an action is done with the left or right limb, or to that side; None where nobody can
+    say. `by_hand`: it is done with the arms alone."""
+    name = f"turn-{side}" if action == "spin" else f"{action}-{side}"
+    return CHECKS.get(name) or (CHECKS.get(f"{side}-hand") if by_hand else None)
+
+
 def repetitions(action: str, m: Measurements, side: str | None = None) -> int | None:
     """How often an action is seen, with either limb or the named one; None where nobody counts."""
     sides = {"left": m.kicks[:1], "right": m.kicks[1:]}.get(side or "", m.kicks)

@@ -134,7 +134,7 @@ def _together(text: str, known: Known, arms: Arms) -> Clause | None:
     at_once = words.meanwhile.search(text) is not None
     if len(parts) == 1:
         parts = [part for part in map(_trimmed, words.joint.split(parts[0])) if part]
-    sides = [_side(part) for part in parts]
+    sides = [side_of(part) for part in parts]
     if len(parts) != 2 or not (at_once or set(sides) == {"left", "right"}):
         return None
     if not all(map(known, parts)) or not any(map(arms, parts)):
@@ -145,7 +145,8 @@ def _together(text: str, known: Known, arms: Arms) -> Clause | None:
     return None
 
 
-def _side(text: str) -> str:
+def side_of(text: str) -> str:
+    """left, right, or both where a text names neither or both."""
     left, right = (bool(side.search(text)) for side in (_words().left, _words().right))
     return "both" if left == right else "left" if left else "right"
 
@@ -157,7 +158,7 @@ def _measured(text: str) -> Clause:
     """A clause with its measures taken out."""
     words, clause = _words(), Clause(text)
     said = words.angle.sub(" ", text)  # a right angle is on no side
-    side = _side(said)
+    side = side_of(said)
     for name, pattern in words.units.items():
         match = pattern.search(clause.text)
         if match is None:

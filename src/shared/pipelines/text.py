@@ -22,7 +22,7 @@ from torch import Tensor
 
 from ..device import idle_threads
 from ..errors import UserError
-from ..metrics.actions import ACTIONS, repetitions
+from ..metrics.actions import ACTIONS, Check, repetitions, side_check
 from ..metrics.measurements import measure
 from ..model.clip.core import TextFeatures
 from ..model.clip.out_of_domain import ScopeResult
@@ -36,7 +36,7 @@ from ..motion.postprocess.streaming import streamed
 from .edit import all_but, chosen_joints, fill_free
 from .path import DrawnPath, natural_gait, time_path
 from .ranking import ScoreTable, TextJudge, unranked
-from .sentence import Clause, clauses
+from .sentence import Clause, clauses, side_of
 from .stream import (
     OVERLAP,
     WINDOW,
@@ -184,10 +184,16 @@ class SentenceGenerator:
         asked = any(self._nearest(text) in scope.gestures for text in texts)
         return rest_to_rest(motion) if asked else motion
 
-    def _checked(self, text: str) -> str | None:
-        """The action that is nearest to a text, where kinematics can see it."""
+    def _wanted(self, text: str) -> Check | None:
+        """Whether a motion shows the action that is nearest to a text, on the side that it names;
+        None where kinematics cannot see that."""
         action, scope = self._nearest(text), self.generator.scope
-        return action if scope is not None and action in scope.checked else None
+        if scope is None or action is None:
+            return None
+        seen = [ACTIONS[action]] if action in scope.checked else []
+        if (side := side_check(action, side_of(text), by_hand=action in scope.arms)) is not None:
+            seen.append(side)
+        return (lambda m: all(check(m) for check in seen)) if seen else None
 
     def _arms(self, text: str) -> bool:
         """Whether a text asks for what the arms alone do."""
@@ -196,24 +202,25 @@ class SentenceGenerator:
 
     def _does(self, prompt: str, motion: Motion) -> bool:
         """Whether a motion shows the action of its prompt; True where nobody can say."""
-        action = self._checked(prompt)
-        return action is None or motion.seconds < LEAST or ACTIONS[action](measure(motion))
+        wanted = self._wanted(prompt)
+        return wanted is None or motion.seconds < LEAST or wanted(measure(motion))
 
     def _better(self, prompt: str, old: Motion, new: Motion) -> Motion:
         return new if self._does(prompt, new) and not self._does(prompt, old) else old
 
     def _miss(self, clause: Clause, frames: int) -> Miss | None:
         """How far a passage of so many frames is from showing what its clause asks for."""
-        action, fps = self._checked(clause.text), self.card.fps
-        if action is None or frames < LEAST * fps:
+        wanted, fps = self._wanted(clause.text), self.card.fps
+        action, side = self._nearest(clause.text), side_of(clause.text)
+        if wanted is None or action is None or frames < LEAST * fps:
             return None
 
         def miss(features: Tensor) -> float:
             seen = measure(decode_features(features, fps=fps))
-            count = repetitions(action, seen)
+            count = repetitions(action, seen, side)
             if clause.count > 1 and count is not None:
                 return abs(count - round(clause.count * len(features) / frames))
-            return 0.0 if ACTIONS[action](seen) else 1.0
+            return 0.0 if wanted(seen) else 1.0
 
         return miss
 
