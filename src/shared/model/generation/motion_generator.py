@@ -206,17 +206,17 @@ def sample_batch(
 
     tag = torch.tensor([request.tag for request in requests], device=device)
     no_tag = torch.full_like(tag, denoiser.num_tags)
-    null = denoiser.null_text(len(requests), text.mask.shape[1])
     learned = denoiser.known_proj is not None
     shared = {
         "mask": mask,
         "known": known.shown if known is not None and learned else None,
         "provenance": _captured(denoiser, tag),
     }
-    condition, no_condition = (
-        {"text": tokens, "tag": tags, "keys_values": denoiser.text_keys_values(tokens), **shared}
-        for tokens, tags in ((text, tag), (null, no_tag))
-    )  # keys and values once a sample, not once a step
+    null = denoiser.null_text(len(requests), text.mask.shape[1])
+    # keys and values once a sample, not once a step
+    own, none = denoiser.text_keys_values(text), denoiser.text_keys_values(null)
+    condition = {"text": text, "tag": tag, "keys_values": own, **shared}
+    no_condition = {"text": null, "tag": no_tag, "keys_values": none, **shared}
     model_fn = guided(denoiser, condition, no_condition, guidance_scale)
     noise = noise.to(device)
     if known is not None:

@@ -9,6 +9,7 @@ Letters: T frames, J joints, `...` any leading dimensions, mostly frames.
 """
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import torch
@@ -104,14 +105,11 @@ def _move_leg(
         offsets[ankle],
         target + (rise @ lever[..., None]).squeeze(-1),
     )
-    foot = rise @ world[:, ankle]
-    chain = (world[:, PARENTS[hip]], thigh, shin, foot, world[:, ball])
-    return {
-        joint: matrix_to_quaternion(parent.transpose(-1, -2) @ child)
-        for joint, parent, child in zip(
-            (hip, knee, ankle, ball), chain[:-1], chain[1:], strict=True
-        )
-    }
+    chain = (world[:, PARENTS[hip]], thigh, shin, rise @ world[:, ankle], world[:, ball])
+    legs = {}
+    for joint, (parent, child) in zip((hip, knee, ankle, ball), pairwise(chain), strict=True):
+        legs[joint] = matrix_to_quaternion(parent.transpose(-1, -2) @ child)
+    return legs
 
 
 def lock_carried_feet(motion: Motion, *, kept: np.ndarray | None = None) -> Motion:
