@@ -47,7 +47,7 @@ _PLACES = {
     "Song": "shared.audio.song",
     "Trajectory": "shared.motion.trajectory:MotionTrajectory",
     "load": "shared.pipelines.motion_generator",
-    "models": "shared.model.zoo:list_models",
+    "models": "shared.model.checkpoint:list_models",
     "prepare": "shared.data.prepare",
     "read_motion": "shared.data.retarget.read_motion",
     "save": "shared.formats.registry:write_motion",
