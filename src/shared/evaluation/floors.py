@@ -1,5 +1,7 @@
 """What everything is held against: a pose held still, and a network that has learned nothing."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -18,6 +20,8 @@ from ..motion.features import (
 from ..motion.motion import Motion
 
 if TYPE_CHECKING:
+    from ..model.audio.audio_motion_model import AudioMotionModel
+    from ..model.audio.shared_space import AudioTower, MotionTower, SharedSpace
     from ..model.generation.motion_generator import TextToMotion
 
 
@@ -44,13 +48,20 @@ def held_still(motion: Motion) -> Motion:
     )
 
 
+@contextmanager
+def drawn_from(seed: int) -> Iterator[None]:
+    """Inside, weights are drawn from this seed; outside, random numbers go on as before."""
+    with torch.random.fork_rng(devices=[]):
+        torch.manual_seed(seed)
+        yield
+
+
 def untrained(generator: "TextToMotion", seed: int) -> "TextToMotion":
     """The same denoiser with fresh weights, text tower and statistics of the trained one."""
     from ..model.generation.denoiser import MotionDenoiser
     from ..model.generation.motion_generator import TextToMotion
 
-    with torch.random.fork_rng(devices=[]):
-        torch.manual_seed(seed)
+    with drawn_from(seed):
         fresh = MotionDenoiser(generator.network, generator.denoiser.num_tags)
         # As training begins the last layer is zero, and every motion the mean one.
         torch.nn.init.xavier_uniform_(fresh.output_proj.weight)
@@ -63,3 +74,32 @@ def untrained(generator: "TextToMotion", seed: int) -> "TextToMotion":
         card=generator.card,
         device=str(generator.device),
     )
+
+
+def untrained_audio_model(model: "AudioMotionModel", seed: int) -> "AudioMotionModel":
+    """The same network with fresh weights but the trained one's row statistics.
+
+    As training begins the last layer is zero, and every motion stands still: here it is random too.
+    """
+    with drawn_from(seed):
+        fresh = type(model)(model.config)
+        torch.nn.init.xavier_uniform_(fresh.unet.output_conv.get_parameter("weight"))
+    fresh.set_statistics(model.mean.cpu(), model.std.cpu())
+    return fresh.to(model.mean.device).eval()
+
+
+def untrained_audio_tower(space: "SharedSpace", seed: int) -> "AudioTower":
+    """The audio tower as its training began, but for the seed; the statistics are the same."""
+    with drawn_from(seed):
+        tower = type(space.audio)(space.config)
+    tower.set_statistics(space.audio.mean, space.audio.std)
+    return tower.eval()
+
+
+def untrained_motion_tower(space: "SharedSpace", seed: int) -> "MotionTower":
+    """The motion tower with random weights and the statistics of the trained one."""
+    with drawn_from(seed):
+        tower = type(space.motion)(space.card.network)
+    tower.mean.copy_(space.motion.mean)
+    tower.std.copy_(space.motion.std)
+    return tower

@@ -33,6 +33,7 @@ from ...pipelines.song import SongGenerator, own_noise
 from ...pipelines.song_sampler import SPARE, SongSampling, spans
 from ..engine import Bench, Progress, Row, Suite, run_suite
 from ..families_audio import FAMILIES, beats_of
+from ..floors import untrained_audio_model
 from ..manifest import Part, Parts, Sources, model_hashes, song_hashes
 from ..report.tables import Column, Grid, GridRow
 from ..samples import Dance, DanceSample, Trajectories
@@ -46,7 +47,6 @@ from .alignment import (
     right_tempo,
     song_scores,
 )
-from .sanity import untrained
 from .songs import (
     TEMPI,
     Piece,
@@ -229,7 +229,7 @@ class AudioContext:
     @cached_property
     def fresh(self) -> SongGenerator[AudioMotionModel]:
         """The same network with fresh weights, the last layer included."""
-        fresh = untrained(self.generator.model, self.settings.seed)
+        fresh = untrained_audio_model(self.generator.model, self.settings.seed)
         return SongGenerator(fresh, device=str(self.generator.device))
 
 

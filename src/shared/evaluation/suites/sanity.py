@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import torch
 
 from ...errors import UserError
 from ...metrics.bands import MEASURES, UNITS, Bands
@@ -23,6 +22,7 @@ from ...model.audio.audio_motion_model import AudioMotionModel
 from ...motion.trajectory import MotionTrajectory
 from ...pipelines.song import SongCondition, SongGenerator, finished
 from ...pipelines.song_sampler import SongSampling
+from ..floors import untrained_audio_model
 from ..report.plots import new_figure, save_figure
 from ..report.tables import Column, Grid, GridRow, Report, number, report_data
 from ..stats import success_rate
@@ -97,7 +97,7 @@ def evaluate_sanity(
     else:
         songs, real, bands, facts = _from_data(data, model, settings)
     few = songs[: max(1, len(songs) // 5)]
-    blind = SongGenerator(untrained(model, settings.seed), device=str(generator.device))
+    blind = SongGenerator(untrained_audio_model(model, settings.seed), device=str(generator.device))
     generated = sampled(generator, songs, settings, progress)
     motions = {
         "generated": generated,
@@ -168,19 +168,6 @@ def sampled(
         progress(f"sample {index} of {len(songs)}")
         made += generator.sample(song, sampling)
     return made
-
-
-def untrained(model: AudioMotionModel, seed: int) -> AudioMotionModel:
-    """The same network with fresh weights but the trained one's row statistics: a floor.
-
-    As training begins the last layer is zero, and every motion stands still: here it is random too.
-    """
-    with torch.random.fork_rng(devices=[]):
-        torch.manual_seed(seed)
-        fresh = AudioMotionModel(model.config)
-        torch.nn.init.xavier_uniform_(fresh.unet.output_conv.get_parameter("weight"))
-    fresh.set_statistics(model.mean.cpu(), model.std.cpu())
-    return fresh.to(model.mean.device).eval()
 
 
 # ---------------------------------------------------------------- verdict

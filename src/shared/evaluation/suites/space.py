@@ -15,10 +15,11 @@ from torch import Tensor
 
 from ...data.phrases.dataset import MotionPhraseDataset
 from ...metrics.retrieval import BATCH, Ranks, best_ranks
-from ...model.audio.shared_space import AudioTower, MotionTower, SharedSpace
+from ...model.audio.shared_space import SharedSpace
 from ...model.clip.core import TextTower
 from ...model.clip.tokenizer import PromptTokenizer
 from ...motion.features import FORWARD, LATERAL, ROOT_ROW
+from ..floors import untrained_audio_tower, untrained_motion_tower
 from ..report.tables import Column, Grid, GridRow, report_data
 from ..stats import Estimate
 from .space_windows import Windows, related
@@ -291,7 +292,7 @@ def evaluate_space(
     sounds = {
         SPACE: held_out.embed_sounds(space.embed_audio),
         TEMPO: tempo_alone(train, train.embed_bodies(space.embed_motion), held_out),
-        UNTRAINED: held_out.embed_sounds(untrained(space, settings.seed)),
+        UNTRAINED: held_out.embed_sounds(untrained_audio_tower(space, settings.seed)),
     }
     tables = [
         _table(bench, "sound → motion", sounds, {SPACE: motion}),
@@ -302,7 +303,7 @@ def evaluate_space(
         progress("phrases without captions: texts are left out")
     elif texts is not None:
         spoken = space.embed_text(captions, texts.tower, texts.tokenizer)
-        blind = held_out.embed_bodies(untrained_motion(space, settings.seed))
+        blind = held_out.embed_bodies(untrained_motion_tower(space, settings.seed))
         text = {SPACE: spoken[[window.phrase for window in held_out.items]]}
         tables += [
             _table(bench, "text → sound", text, sounds, by_action=True),
@@ -324,25 +325,6 @@ def _windows(data: str, split: str, settings: SpaceSettings) -> Windows:
         min_frames=settings.min_frames,
         max_frames=settings.max_frames,
     )
-
-
-def untrained(space: SharedSpace, seed: int) -> AudioTower:
-    """The audio tower as its training began, but for the seed; the statistics are the same."""
-    with torch.random.fork_rng(devices=[]):
-        torch.manual_seed(seed)
-        tower = AudioTower(space.config)
-    tower.set_statistics(space.audio.mean, space.audio.std)
-    return tower.eval()
-
-
-def untrained_motion(space: SharedSpace, seed: int) -> MotionTower:
-    """The motion tower with random weights and the statistics of the trained one."""
-    with torch.random.fork_rng(devices=[]):
-        torch.manual_seed(seed)
-        tower = MotionTower(space.card.network)
-    tower.mean.copy_(space.motion.mean)
-    tower.std.copy_(space.motion.std)
-    return tower
 
 
 def tempo_alone(train: Windows, motion: Tensor, held_out: Windows) -> Tensor:

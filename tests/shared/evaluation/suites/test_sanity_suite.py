@@ -8,6 +8,7 @@ import pytest
 import torch
 
 from src.shared.errors import UserError
+from src.shared.evaluation.floors import untrained_audio_model
 from src.shared.evaluation.report.tables import grids, markdown, printed
 from src.shared.evaluation.suites.sanity import (
     FREE,
@@ -15,7 +16,6 @@ from src.shared.evaluation.suites.sanity import (
     evaluate_sanity,
     plot_bands,
     sampled,
-    untrained,
     verdict,
 )
 from src.shared.evaluation.suites.songs import conditions_of_songs, open_split
@@ -82,7 +82,7 @@ def test_the_untrained_network_moves_keeps_the_statistics_and_nothing_else() -> 
     model = tiny_model()
     model.set_statistics(torch.linspace(-1, 1, 25), torch.linspace(0.5, 2, 25))
     before = torch.get_rng_state()
-    fresh = untrained(model, seed=0)
+    fresh = untrained_audio_model(model, seed=0)
     assert torch.equal(torch.get_rng_state(), before)
     assert torch.equal(fresh.mean, model.mean) and torch.equal(fresh.std, model.std)
     same = [torch.equal(a, b) for a, b in zip(fresh.parameters(), model.parameters(), strict=True)]

@@ -8,6 +8,7 @@ import pytest
 import torch
 
 from src.shared.data.phrases.dataset import MotionPhraseDataset
+from src.shared.evaluation.floors import untrained_audio_tower
 from src.shared.evaluation.report.tables import Grid, markdown
 from src.shared.evaluation.suites.space import (
     CHANCE,
@@ -20,7 +21,6 @@ from src.shared.evaluation.suites.space import (
     Texts,
     evaluate_space,
     tempo_alone,
-    untrained,
 )
 from src.shared.evaluation.suites.space_windows import Windows, padded, related
 from src.shared.model.audio.shared_space import rate_rows
@@ -140,7 +140,7 @@ def test_tempo_alone_is_a_kernel_regression(windows: Windows) -> None:
 def test_the_untrained_row_depends_on_the_seed_alone() -> None:
     space = tiny_space()
     space.audio.set_statistics(torch.ones(163), torch.full((163,), 2.0))
-    one, again, other = (untrained(space, seed) for seed in (0, 0, 1))
+    one, again, other = (untrained_audio_tower(space, seed) for seed in (0, 0, 1))
     weights = [tower.audio_proj.weight for tower in (one, again, other)]
     assert torch.equal(weights[0], weights[1]) and not torch.equal(weights[0], weights[2])
     assert torch.equal(one.mean, space.audio.mean) and torch.equal(one.std, space.audio.std)
