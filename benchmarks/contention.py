@@ -46,12 +46,11 @@ def jobs(song_file: Path, seconds: float) -> dict[str, Callable[[], object]]:
     paths = SongGenerator.from_pretrained("starter-audio", device="cpu")
     song = analyse(song_file)
     heard, settings = SongCondition.of(song, seconds), of_song(SongSampling(), song)
-    rough = paths.generate(heard.condition, phase=heard.phase, settings=settings)
     dancers = SongPerformer(Performer(generator))
     return {
         "text": lambda: generator.generate(["a person walks and waves"], seconds=4.0),
         "path": lambda: paths.generate(heard.condition, phase=heard.phase, settings=settings),
-        "dance": lambda: dancers.dance(rough, heard, "a person dances"),
+        "dance": lambda: dancers.dance(heard, "a person dances"),
     }
 
 

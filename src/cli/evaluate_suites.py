@@ -151,6 +151,9 @@ def evaluate_performer(
     clips: Annotated[
         str, typer.Option(help="What editing is measured on: a prepared folder, or synthetic.")
     ] = "synthetic",
+    dances: Annotated[
+        Path | None, typer.Option(help="Folder of captured dances, for the real row.")
+    ] = None,
     songs: options.Songs = None,
     evaluator: options.Judge = "evaluator",
     out: Annotated[Path, typer.Option(help="Folder of the report. Begun ones go on.")] = Path(
@@ -177,8 +180,8 @@ def evaluate_performer(
 ) -> None:
     """Measure whole-body dances and edited motions: beats, prompts, paths, feet, seams.
 
-    Beside every figure: real dances, another song, a frozen pose, the path alone, an untrained
-    network. With --quick: 4 songs, one replication.
+    Beside every figure: real dances, another song, a frozen pose, a dance that is pinned to the
+    song's path, the path alone, an untrained network. With --quick: 4 songs, one replication.
 
     \b
     Example:
@@ -200,6 +203,8 @@ def evaluate_performer(
     options.check_limits({k: v for k, v in amount.items() if k in DANCE_LIMITS}, DANCE_LIMITS)
     options.check_pairs(data)
     options.check_songs(songs)
+    if dances is not None and not dances.is_dir():
+        raise UsageError(f"--dances {dances} is no folder; name one of captured dances")
     if amount.get("edits") != 0:
         options.check_data(clips)
     options.check_folder("--out", out)
@@ -210,7 +215,7 @@ def evaluate_performer(
     set_threads(threads)
     with sole_writer(out):
         report = run_performer(
-            models, amount | {"seed": seed}, sampling, data, clips, songs, out, device
+            models, amount | {"seed": seed}, sampling, data, dances, clips, songs, out, device
         )
     show_report(report, json=json)
 
@@ -220,6 +225,7 @@ def run_performer(
     amount: dict[str, Any],
     sampling: dict[str, Any],
     data: str | None,
+    dances: Path | None,
     clips: str,
     songs: Path | None,
     out: Path,
@@ -250,6 +256,7 @@ def run_performer(
         judge,
         settings,
         data=data,
+        dances=dances,
         songs=songs,
         other=None if not other else TextToMotion.from_pretrained(other, device=device),
         sampling=PerformerSettings(**sampling),

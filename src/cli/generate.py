@@ -9,8 +9,9 @@ from ..shared import environment
 from ..shared.errors import UsageError
 from . import options
 from .console import counted, print_json, tell
+from .directions import Directions
 from .generate_files import show_scores
-from .generate_request import Directions, Request, only_song, produce
+from .generate_request import Request, only_song, produce
 
 
 def generate(
@@ -24,6 +25,12 @@ def generate(
         bool,
         typer.Option(
             "--body", help="For a song: a whole body that dances as the music says; or --prompt."
+        ),
+    ] = False,
+    follow_path: Annotated[
+        bool,
+        typer.Option(
+            "--follow-path", help="For a dance: the song makes a path, which the body follows."
         ),
     ] = False,
     style: Annotated[
@@ -159,7 +166,8 @@ def generate(
         raise UsageError("--judge compares candidates: give --num-samples 2 or more with it")
     result = produce(
         Request(
-            prompt or [], only_song(audio), directions, body=body, style=style, meter=meter,
+            prompt or [], only_song(audio), directions, body=body, follow_path=follow_path,
+            style=style, meter=meter,
             memory=memory, tag=tag, seconds=seconds, num_samples=num_samples,
             return_all=return_all, judge=judge, seed=seed, steps=steps, sampler=sampler,
             guidance_scale=guidance_scale, foot_lock=foot_lock,

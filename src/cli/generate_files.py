@@ -217,12 +217,13 @@ def _told_of_dance(dance: "Performance", song: "Song") -> dict[str, Any]:
     from ..shared.pipelines.ranking import beat_report
 
     motion, beats = dance.motion, song.beats
+    error = None if dance.error is None else asdict(dance.error)
     return {
         "prompt": motion.text,
         "passages": [{"text": p.text, "seconds": p.frames / motion.fps} for p in dance.passages],
         "frames": motion.num_frames,
         "fps": motion.fps,
-        "root-error": {name.replace("_", "-"): v for name, v in asdict(dance.error).items()},
+        "root-error": error and {name.replace("_", "-"): v for name, v in error.items()},
         "beat-alignment": beat_report(motion, beats.beat_times) if beats.tempo > 0 else None,
     }
 

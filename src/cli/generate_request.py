@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,121 +10,17 @@ from ..shared.environment import TEXT_MODEL, default_audio_model
 from ..shared.errors import UsageError
 from . import generate_files as files
 from .console import Stopwatch, complain, progress_bar, tell
+from .directions import Directions, read_given, read_timed
 
 if TYPE_CHECKING:
     from ..shared.audio.song import Song
     from ..shared.model.diffusion import Sampling
     from ..shared.model.generation.motion_generator import Progress
-    from ..shared.pipelines.edit import Given
     from ..shared.pipelines.motion_generator import MotionGenerator
-    from ..shared.pipelines.path import DrawnPath
     from ..shared.pipelines.ranking import ScoreTable
-    from ..shared.pipelines.timeline import Timeline
 
 RUNTIMES = ("torch", "onnx")
-FLAGS = {"begin": "--from", "until": "--to"}  # the others are called as their attributes
 STAGES = {"path": "frames of the path", "body": "frames of the body"}
-
-
-@dataclass(frozen=True)
-class Directions:
-    """What `generate` was told beside prompts; None and False = not."""
-
-    start: Path | None = None
-    end: Path | None = None
-    keep: float | None = None
-    edit: Path | None = None
-    joints: str | None = None
-    begin: float | None = None
-    until: float | None = None
-    path: Path | None = None
-    timeline: Path | None = None
-    then: list[str] | None = None
-    loop: bool = False
-
-    def given(self) -> list[str]:
-        """The flags that were given, as they are typed."""
-        return [
-            FLAGS.get(name, f"--{name}")
-            for name, value in vars(self).items()
-            if value not in (None, False, [])
-        ]
-
-    @property
-    def kind(self) -> str:
-        """edit, ends, path or timeline: what has the say."""
-        if self.edit is not None:
-            return "edit"
-        if self.start is not None or self.end is not None:
-            return "ends"
-        return "timeline" if self.path is None else "path"
-
-    def refuse(self, beside: str) -> None:
-        """Raises UsageError if any was given: none means anything beside that flag."""
-        if given := self.given():
-            raise UsageError(f"{given[0]} does not go with {beside}; leave one out")
-
-    def check(self, prompts: int, *, num_samples: int, seconds: float | None) -> None:
-        """Refuse what does not go together, before anything slow starts.
-
-        Args:
-            prompts: how often --prompt was given.
-            num_samples: of --num-samples.
-            seconds: of --seconds.
-
-        Raises:
-            UsageError: naming the flags.
-        """
-        own = {
-            "edit": ("--edit", "--joints", "--from", "--to"),
-            "ends": ("--start", "--end", "--keep"),
-            "path": ("--path", "--timeline", "--then"),
-            "timeline": ("--timeline", "--then", "--loop"),
-        }[self.kind]
-        given = self.given()
-        chief = next(flag for flag in (*own, *given) if flag in given)
-        for flag in given:
-            if flag in ("--joints", "--from", "--to") and self.edit is None:
-                raise UsageError(f"{flag} says what of a clip is made anew: give --edit CLIP too")
-            if flag == "--keep" and self.kind != "ends":
-                raise UsageError("--keep says how much of a clip stays: give --start or --end too")
-            if flag not in own:
-                raise UsageError(f"{flag} does not go with {chief}; leave one out")
-        if self.edit is not None and given == ["--edit"]:
-            raise UsageError("--edit: say what is made anew, by --joints, or --from and --to")
-        if self.timeline is not None and self.then:
-            raise UsageError("--timeline does not go with --then; leave one out")
-        if num_samples > 1:
-            raise UsageError(
-                f"--num-samples does not go with {chief}, which makes one motion; another --seed"
-                " makes another one"
-            )
-        self._check_spans(seconds)
-        self._check_prompts(prompts)
-
-    def _check_spans(self, seconds: float | None) -> None:
-        if seconds is not None and (self.edit is not None or self.timeline is not None):
-            file = "--edit" if self.edit is not None else "--timeline"
-            raise UsageError(
-                f"--seconds does not go with {file}, which says how long it is; leave it out"
-            )
-        if self.begin is not None and self.until is not None and self.until <= self.begin:
-            raise UsageError(
-                f"--to {self.until:g} is not after --from {self.begin:g}; give a later --to"
-            )
-
-    def _check_prompts(self, prompts: int) -> None:
-        if self.timeline is not None and prompts:
-            raise UsageError(
-                "--prompt does not go with --timeline, which has texts of its own; leave one out"
-            )
-        if prompts > 1:
-            raise UsageError(
-                f"--prompt is given {prompts} times beside {self.given()[0]}, which makes one"
-                " motion: --then TEXT says what comes next"
-            )
-        if not prompts and self.timeline is None and self.kind in ("path", "timeline"):
-            raise UsageError('--prompt is missing; give one, e.g. --prompt "a person walks"')
 
 
 @dataclass(frozen=True)
@@ -140,6 +36,7 @@ class Request:
     audio: Path | None
     directions: Directions
     body: bool
+    follow_path: bool
     style: str | None
     meter: int | None
     memory: Path | None
@@ -195,6 +92,11 @@ class Request:
         """Whether a song is asked for, and no body."""
         return self.audio is not None and not (self.prompt or self.body)
 
+    @property
+    def pathed(self) -> bool:
+        """Whether the audio model makes a path."""
+        return self.path_alone or self.follow_path
+
     def generator(self) -> "MotionGenerator":
         """With these models; none is loaded yet."""
         from ..shared.device import set_threads
@@ -226,13 +128,14 @@ def produce(request: Request) -> dict[str, Any]:
         UserError: as the model, the song or the files.
     """
     if request.audio is not None:
-        request.directions.refuse("--audio")
+        replace(request.directions, path=None).refuse("--audio")
         made = song_path if request.path_alone else dance
         result = made(request, request.audio)
         if result["tempo"] == 0:
             tell(f"note: no beat was found in {result['audio']}; the motion keeps its own time")
         return result
-    for flag, value in (("--body", request.body), ("--body-model", request.body_model)):
+    dancing = ("body", "body_model", "follow_path")
+    for flag, value in ((f"--{n.replace('_', '-')}", getattr(request, n)) for n in dancing):
         if value:
             raise UsageError(f"{flag} is about a dance; name a song with --audio, or leave it out")
     return controlled(request) if request.directions.given() else prompted(request)
@@ -320,7 +223,9 @@ def controlled(request: Request) -> dict[str, Any]:
 def song_path(request: Request, audio: Path) -> dict[str, Any]:
     """The path of a song alone."""
     no_body = {name: getattr(request, name) for name in ("tag", "foot_lock", "judge", "body_model")}
-    refuse_with("--audio alone", **no_body)
+    refuse_with("--audio alone", **no_body, path=request.directions.path)
+    if request.follow_path:
+        raise UsageError('--follow-path is about a body: add --prompt "a person dances", or --body')
     files.check_path_formats(request.format or "")
     check_runtime(request)
     formats = files.checked_formats(request.format or "npz,glb,html", files.PATH_FORMATS)
@@ -344,7 +249,13 @@ def song_path(request: Request, audio: Path) -> dict[str, Any]:
 
 def dance(request: Request, audio: Path) -> dict[str, Any]:
     """A body that dances to a song."""
+    drawn = request.directions.path
     check_runtime(request)
+    if drawn is not None and request.follow_path:
+        raise UsageError("--path does not go with --follow-path; leave one out")
+    if not request.follow_path:
+        of_paths = {name: getattr(request, name) for name in ("style", "memory", "runtime")}
+        refuse_with("a dance that follows no path (--follow-path)", **of_paths)
     if not request.prompt:
         refuse_with("--body alone", tag=request.tag)
     elif request.body:
@@ -352,7 +263,11 @@ def dance(request: Request, audio: Path) -> dict[str, Any]:
     said = checked_prompts(request.prompt) if request.prompt else []
     prompts: list[str | None] = [*said] or [None]
     tags = checked_tags(request.tag, len(said)) or [None] * len(prompts)
-    formats = request.body_formats()
+    formats, path = request.body_formats(), None
+    if drawn is not None:
+        from ..shared.pipelines.path import read_path
+
+        path = read_path(drawn)
     generator, song, clock, style = listen(request, audio, bodies=True)
     warnings = warn(generator.text.scope_warnings(said)) if said else [None]
     found = [
@@ -361,6 +276,8 @@ def dance(request: Request, audio: Path) -> dict[str, Any]:
             prompt,
             tag=tag,
             seconds=request.seconds,
+            follow_path=request.follow_path,
+            path=path,
             style=style,
             num_samples=request.num_samples,
             sampling=request.sampling,
@@ -395,7 +312,7 @@ def listen(
     generator = request.generator()
     clock.lap("import")
     style = styled(request.style)
-    _ = generator.audio
+    _ = generator.audio if request.pathed else None
     if bodies:
         _ = generator.text, generator.tower if request.num_samples > 1 else None
         _ = None if request.prompt else generator.prompter
@@ -448,7 +365,7 @@ def told_of_song(
     clock: Stopwatch,
 ) -> dict[str, Any]:
     """What was heard, what it was made with, and the results."""
-    paths, memory = generator.audio, generator.audio.memory
+    memory = generator.audio.memory if request.pathed else None
     dancing = not request.path_alone
     remembered = None
     if memory is not None:
@@ -460,10 +377,10 @@ def told_of_song(
         "tempo": round(song.beats.tempo, 2),
         "meter": song.beats.meter,
         "beats": len(song.beats.beat_times),
-        "model": request.audio_model,
+        "model": request.audio_model if request.pathed else None,
         **({"body-model": request.text_model} if dancing else {}),
         "runtime": request.runtime or "torch",
-        "device": str(generator.text.device if dancing else paths.device),
+        "device": str(generator.text.device if dancing else generator.audio.device),
         "seed": request.seed,
         "memory": remembered,
         **results(rows, clock, selection, index),
@@ -495,58 +412,6 @@ def check_runtime(request: Request) -> None:
         raise UsageError("--runtime onnx hears no memory: an export leaves it out; use torch")
     if memory is not None and not memory.is_dir():
         raise UsageError(f"--memory {memory} is no folder; make one with `memory build`")
-
-
-# ---------------------------------------------------------------- clips, paths, timelines
-
-
-def read_timed(
-    directions: Directions, texts: list[str], tags: list[str | None] | None, seconds: float | None
-) -> "tuple[DrawnPath | None, Timeline]":
-    """The files that were named, and the prompts one after another.
-
-    Raises:
-        UserError: a file cannot be read or says what cannot be.
-    """
-    from ..shared.pipelines.path import read_path
-    from ..shared.pipelines.timeline import Timeline, read_timeline
-
-    path = None if directions.path is None else read_path(directions.path)
-    if path is not None and path.times is not None and seconds is not None:
-        raise UsageError(
-            f"--seconds does not go with {directions.path}, which has times; leave it out"
-        )
-    if directions.timeline is not None:
-        return path, read_timeline(directions.timeline)
-    return path, Timeline.of(texts, seconds, tags)
-
-
-def read_given(directions: Directions, seconds: float | None) -> "Given":
-    """What is kept of the clips that were named.
-
-    Raises:
-        UserError: a clip cannot be read, or is shorter than what is asked of it.
-    """
-    from ..shared.data.retarget.read_motion import read_motion
-    from ..shared.pipelines.edit import KEEP, chosen_joints, continue_clips, edit_clip
-
-    names = [part.strip() for part in (directions.joints or "").split(",") if part.strip()]
-    if directions.joints is not None and not names:
-        raise UsageError("--joints is empty; name joints or groups, e.g. --joints left-arm,head")
-    joints = chosen_joints(names) if names else None
-    if directions.edit is not None:
-        clip = read_motion(directions.edit)
-        return edit_clip(clip, directions.begin or 0.0, directions.until, joints)
-    start, end = (
-        None if path is None else read_motion(path) for path in (directions.start, directions.end)
-    )
-    return continue_clips(
-        start,
-        end,
-        keep=KEEP if directions.keep is None else directions.keep,
-        seconds=seconds,
-        rejoin=directions.start == directions.end,
-    )
 
 
 # ---------------------------------------------------------------- arguments

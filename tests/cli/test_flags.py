@@ -13,8 +13,8 @@ from src.cli.train import STAGES
 
 FLAGS = {
     "generate": (
-        "--audio --body --body-model --device --edit --end --foot-lock --format --from"
-        " --guidance-scale --joints --json --judge --keep --loop --memory --meter --model"
+        "--audio --body --body-model --device --edit --end --follow-path --foot-lock --format"
+        " --from --guidance-scale --joints --json --judge --keep --loop --memory --meter --model"
         " --no-foot-lock --num-samples --out --path --post-processing --prompt --return-all"
         " --runtime --sampler --seconds --seed --start --steps --style --tag --then --threads"
         " --timeline --to"
@@ -52,9 +52,9 @@ FLAGS = {
         " --sampler --seed --shares --song-seconds --space --splits --steps --threads --top-k"
     ),
     "evaluate-performer": (
-        "--audio-model --clips --data --device --edits --evaluator --guidance-scale --json --model"
-        " --num-songs --other --out --quick --replications --sampler --seed --song-seconds --songs"
-        " --steps --style-songs --threads --track-seconds"
+        "--audio-model --clips --dances --data --device --edits --evaluator --guidance-scale --json"
+        " --model --num-songs --other --out --quick --replications --sampler --seed"
+        " --song-seconds --songs --steps --style-songs --threads --track-seconds"
     ),
     "evaluate-requests": (
         "--data --json --languages --model --out --seconds --seed --threads --wordings"

@@ -3,6 +3,7 @@
 Letters: N dances.
 """
 
+from dataclasses import asdict
 from functools import partial
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from ..metrics.kinetic import amount
 from ..metrics.physical import contact, physics
 from ..metrics.rhythm import against_chance, body_beats, landings, limb_beats, seen_from_pelvis
+from ..metrics.stage import stage
 from ..motion.motion import Motion
 from ..pipelines.body import root_error
 from .engine import MetricFamily
@@ -37,8 +39,11 @@ def _scores(
 
 def _moments(sample: Bodies, reference: Bodies, seed: int) -> list[dict[str, float]]:
     moments = {key: sample.each(key + "beats", find) for key, find in MOMENTS.items()}
-    rows = []
+    rows: list[dict[str, float]] = []
     for index, dance in enumerate(sample.dances):
+        if not len(dance.beats):  # of a captured dance nobody knows the music
+            rows.append({})
+            continue
         rng = np.random.default_rng([seed, 5, index])
         figures = {"landings": len(moments["landing_"][index]) / dance.seconds}
         for key, times in moments.items():
@@ -157,4 +162,30 @@ FEET = MetricFamily(
     " contact escapes it. A frozen pose is perfect in all but *jerk / speed*, which it has not.",
     _feet,
 )
-FAMILIES = (BODY_RHYTHM, ON_THE_PATH, FEET)
+
+
+ON_STAGE: MetricFamily[Bodies] = MetricFamily(
+    "on stage",
+    (
+        Column("backward", "backward", 2, "low"),
+        Column("radius", "radius m", 2),
+        Column("net_way", "net way", 2, "low"),
+        Column("turning", "turning °/s", 1),
+        Column("poses", "poses", 1, "high"),
+        Column("dimensions", "dimensions", 1, "high"),
+        Column("hovering", "hovering /min", 2, "low"),
+        Column("both_slide", "both slide", 3, "low"),
+    ),
+    "Is it a dance or a procession? *backward*: share of the way gone backward, a quarter where no"
+    " direction is preferred. *radius*: the furthest that the pelvis gets from the middle of where"
+    " it was. *net way*: distance from start to end over the way between. *poses*: how many differ"
+    " by 12 cm a joint; it grows with the length. *dimensions*: participation ratio of the poses."
+    " *hovering*: no joint near the floor for over 0.45 s. *both slide*: share of time in which"
+    " both feet are near the floor and faster than 20 cm/s. A frozen pose is perfect in the last"
+    " two, has one pose and no way.",
+    lambda sample, *_: [
+        {name: value for name, value in asdict(found).items() if not np.isnan(value)}
+        for found in sample.each("stage", stage)
+    ],
+)
+FAMILIES = (BODY_RHYTHM, ON_STAGE, ON_THE_PATH, FEET)

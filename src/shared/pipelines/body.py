@@ -1,10 +1,13 @@
-"""A body on a path: the trajectory pins the root row, the text branch fills in the rest.
+"""A body that dances: free on a stage, or on a path that is known.
 
-Ruling 19 in reverse: the path of a song, made by the audio branch, is what is known of the root
-track; everything else is sampled for a prompt, window after window, in the song's time. While a
-path travels, left and right foot land in turn, on every beat or, in fast music, on every second
-one. The body stands on the path exactly, since neither smoothing nor foot lock moves a pelvis that
-is known.
+A free body is sampled for a prompt, window after window, in the song's time: the beats lead it,
+and left and right foot land in turn, on every beat or, in fast music, on every second one. Where it
+goes is its own; then its root is pulled to the middle of the stage and to the front
+(`motion/steering`).
+
+On a path it is ruling 19 in reverse: the trajectory is what is known of the root track. Feet are
+planned while the path travels. The body stands on the path exactly, since neither smoothing nor
+foot lock moves a pelvis that is known.
 
 Letters: T frames, R rows (bones, root track), M beats, S steps.
 """
@@ -16,6 +19,7 @@ from itertools import accumulate
 import numpy as np
 import torch
 from scipy.ndimage import gaussian_filter1d
+from torch import Tensor
 
 from ..device import idle_threads
 from ..errors import UsageError
@@ -32,7 +36,8 @@ from ..motion.rotations import (
     turn_about_y,
     yaw_to_matrix,
 )
-from ..motion.trajectory import MotionTrajectory, to_root
+from ..motion.steering import steered
+from ..motion.trajectory import MotionTrajectory, from_motion, to_root
 from .song_sampler import Progress
 from .stream import Passage, stream_features
 
@@ -55,19 +60,37 @@ def step_plan(trajectory: MotionTrajectory, beats: np.ndarray) -> tuple[np.ndarr
     contact, planned = np.zeros((frames, 2), dtype=bool), np.zeros(frames, dtype=bool)
     if len(beats) < 2:
         return contact, planned
-    lands = landings(beats, frames / fps)
-    time = np.arange(frames) / fps
-    number = np.clip(np.searchsorted(lands, time, side="right") - 1, 0, len(lands) - 2)  # T
-    share = (time - lands[number]) / (lands[number + 1] - lands[number])
-    first = (number + _parity(trajectory, number)) % 2  # which foot landed last
-    contact[np.arange(frames), first] = True
-    both = share < BOTH_STAND
-    contact[both] = True
+    lands, number = _steps(beats, frames, fps)
+    contact = in_turn(lands, number, _parity(trajectory, number), fps)
     speed = np.linalg.norm(np.gradient(trajectory.position[:, [0, 2]], axis=0), axis=1) * fps
     counts = np.bincount(number, minlength=len(lands))
     mean = np.bincount(number, weights=speed, minlength=len(lands)) / np.maximum(counts, 1)
     planned = (mean[number] > STILL) & (mean[number] < RUNNING)
     return contact, planned
+
+
+def _steps(beats: np.ndarray, frames: int, fps: float) -> tuple[np.ndarray, np.ndarray]:
+    """When feet land [S], seconds, and the number [T] of the landing before each frame."""
+    lands = landings(beats, frames / fps)
+    number = np.searchsorted(lands, np.arange(frames) / fps, side="right") - 1
+    return lands, np.clip(number, 0, len(lands) - 2)
+
+
+def in_turn(lands: np.ndarray, number: np.ndarray, first: int, fps: float) -> np.ndarray:
+    """Contacts [T,2] bool of feet that land in turn: one stands, and both just after a landing.
+
+    Args:
+        lands: seconds [S].
+        number: of the landing before each frame [T].
+        first: the foot that lands at number 0: 0 left, 1 right.
+        fps: frames per second.
+    """
+    frames = np.arange(len(number))
+    contact = np.zeros((len(number), 2), dtype=bool)
+    contact[frames, (number + first) % 2] = True
+    share = (frames / fps - lands[number]) / (lands[number + 1] - lands[number])
+    contact[share < BOTH_STAND] = True
+    return contact
 
 
 def landings(beats: np.ndarray, seconds: float) -> np.ndarray:
@@ -139,6 +162,35 @@ def pin(
     return Constraint(values, known, times)
 
 
+def free_body(
+    frames: int,
+    *,
+    beats: np.ndarray | None,
+    steps: np.ndarray | None,
+    waits: Sequence[tuple[int, int]] = (),
+    first: int = 0,
+    fps: float = 30.0,
+) -> Constraint:
+    """What is known of a body that goes where it likes: when its feet land, T frames.
+
+    Args:
+        frames: T.
+        beats, steps: see `pin`; feet step wherever it does not wait.
+        waits: frames [start, stop) in which nothing is known.
+        first: the foot that begins: 0 left, 1 right.
+        fps: frames per second.
+    """
+    free = Constraint.free(frames)
+    if steps is not None and len(steps) > 1:
+        contacts = in_turn(*_steps(steps, frames, fps), first, fps)
+        free.values[:, ROOT_ROW, LEFT_CONTACT:] = torch.from_numpy(contacts).float()
+        free.known[:, ROOT_ROW, LEFT_CONTACT:] = True
+    for start, stop in waits:
+        free.known[start:stop] = False
+    times = None if beats is None else torch.as_tensor(np.asarray(beats), dtype=torch.float32)
+    return replace(free, beats=times)
+
+
 def start_of(trajectory: MotionTrajectory) -> Place:
     """Where a body on this path begins."""
     x, _, z = trajectory.position[0].tolist()
@@ -175,7 +227,7 @@ class PerformerSettings(Sampling):
         tilt: the path also says how the pelvis leans and rolls.
         on_beats: False = the song's beats are not used at all.
         guide: the sampler leads the body to slow down on beats.
-        steps_on_beats: feet land on beats while the path travels; see `step_plan`.
+        steps_on_beats: feet land on beats, on a path while it travels; see `step_plan`.
     """
 
     foot_lock: bool | None = None
@@ -190,16 +242,16 @@ class Performance:
     """A dance.
 
     Attributes:
-        motion: T frames, on the path.
-        trajectory: the path, T frames.
+        motion: T frames.
+        trajectory: the path of its pelvis, T frames.
         passages: what the body was asked to do, and for how long.
-        error: how far the body's pelvis is from the path.
+        error: how far the body's pelvis is from the path that was given; None = none was.
     """
 
     motion: Motion
     trajectory: MotionTrajectory
     passages: tuple[Passage, ...]
-    error: RootError
+    error: RootError | None = None
 
 
 class Performer:
@@ -254,19 +306,9 @@ class Performer:
             steps=beats if own.steps_on_beats else None,
             tilt=own.tilt,
         )
-        pieces = []
-        for piece in stream_features(
-            self.generator,
-            passages,
-            own if seed is None else replace(own, seed=seed),
-            constraint=lambda start, stop: known.window(start, stop),
-        ):
-            pieces.append(piece)
-            if progress is not None:
-                progress(sum(map(len, pieces)), num_frames)
-        cuts = list(accumulate(map(len, pieces)))[:-1]
+        features = self._sampled(passages, known, seed, progress)
         motion = self.generator.post_processor(
-            known.keep(blend_cuts(torch.cat(pieces), cuts)),
+            known.keep(features),
             known.known,
             text=_title(passages),
             place=start_of(trajectory),
@@ -274,6 +316,68 @@ class Performer:
             carried=True,
         )
         return Performance(motion, trajectory, passages, root_error(motion, trajectory))
+
+    @idle_threads()
+    def improvise(
+        self,
+        passages: Sequence[Passage],
+        *,
+        beats: np.ndarray | None = None,
+        phase: np.ndarray | None = None,
+        waits: Sequence[tuple[int, int]] = (),
+        seed: int | None = None,
+        progress: Progress | None = None,
+    ) -> Performance:
+        """A body that goes where it likes, near the middle of the stage.
+
+        Args:
+            passages: what it does, T frames in all.
+            beats, seed, progress: see `perform`.
+            phase: unwrapped bars [T], for whoever shows its path; None = no music.
+            waits: frames [start, stop) that are a passage or more each and have no beat.
+
+        Raises:
+            UserError: as `TextToMotion.sample_features`.
+        """
+        frames, own = sum(passage.frames for passage in passages), self.settings
+        beats = beats if own.on_beats else None
+        known = free_body(
+            frames,
+            beats=beats if own.guide else None,
+            steps=beats if own.steps_on_beats else None,
+            waits=waits,
+            first=(own.seed if seed is None else seed) % 2,
+        )
+        features = self._sampled(passages, known, seed, progress, waits)
+        features[:, ROOT_ROW] = steered(features[:, ROOT_ROW], self.generator.card.fps)
+        motion = self.generator.post_processor(
+            features, None, text=_title(passages), foot_lock=own.foot_lock, carried=True
+        )
+        return Performance(motion, from_motion(motion, phase), tuple(passages))
+
+    def _sampled(
+        self,
+        passages: Sequence[Passage],
+        known: Constraint,
+        seed: int | None,
+        progress: Progress | None,
+        waits: Sequence[tuple[int, int]] = (),
+    ) -> Tensor:
+        """Raw features [T,R,6] of all windows."""
+
+        def window(start: int, stop: int) -> Constraint:
+            part = known.window(start, stop)
+            silent = any(first < stop <= last for first, last in waits)
+            return replace(part, beats=None) if silent else part
+
+        own, pieces = self.settings, []
+        settings = own if seed is None else replace(own, seed=seed)
+        for piece in stream_features(self.generator, passages, settings, constraint=window):
+            pieces.append(piece)
+            if progress is not None:
+                progress(sum(map(len, pieces)), len(known))
+        cuts = list(accumulate(map(len, pieces)))[:-1]
+        return blend_cuts(torch.cat(pieces), cuts)
 
 
 def _passages(what: str | Sequence[Passage], frames: int) -> tuple[Passage, ...]:

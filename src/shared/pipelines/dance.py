@@ -1,9 +1,9 @@
 """A song and a prompt become dances, the best first.
 
-The audio branch makes the path, `body` puts a body on it. A prompt also sets the path's style
-(ruling 11) where the text model can read one from it. Without a prompt, one is drawn every few bars
-from a fixed list, by a softmax over three terms: how near it is to the sound in the shared space,
-how near its energy is to the loudness, and whether a body that does it could keep to the path. The
+The body dances near the middle of a stage, or follows a path: the audio branch's or a drawn one.
+Where nothing is heard it stands. Without a prompt, one is drawn every few bars from a fixed list,
+by a softmax over three terms: how near it is to the sound in the shared space, how near its energy
+is to the loudness, and whether a body that does it could keep to the path, or to the stage. The
 space learned from rendered songs laid on mocap by tempo: it knows a song's tempo, nothing of its
 mood (docs/experiments.md), so the first term says little more than fast or slow.
 
@@ -12,24 +12,25 @@ Letters: N candidates, P prompts, T frames, M beats, D width of the shared space
 
 import logging
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Self
 
 import numpy as np
 import torch
 from torch import Tensor
 
-from ..config_audio import PostProcessConfig
 from ..errors import UserError
 from ..model.audio.conditioning import ENERGY
 from ..model.audio.shared_space import SharedSpace
 from ..model.clip.pretrained import tower_hash
 from ..model.generation.motion_generator import Progress, TextToMotion
 from ..motion.features import FORWARD, HEIGHT, LATERAL
+from ..motion.skeleton import REST_PELVIS_HEIGHT
 from ..motion.trajectory import FPS, MotionTrajectory, to_root
 from .body import Performance, Performer
 from .ranking import PerformanceJudge, ScoreTable, unranked
-from .song import SongCondition, finished
+from .song import SongCondition
 from .stream import Passage
 
 log = logging.getLogger(__name__)
@@ -38,6 +39,7 @@ SPACE = "starter-space"
 SECTION = 6.0  # seconds, about; whole bars where a beat is known
 HEARD = 150  # frames that the audio tower hears at once: it learned from five seconds at most
 SHORTEST = 40  # frames of them
+STAND = "a person stands still"  # where nothing is heard
 SPEED_WIDTH, HEIGHT_WIDTH, ENERGY_WIDTH = 0.6, 0.12, 0.5  # m/s, m, share: one unit of logit
 
 
@@ -115,23 +117,26 @@ class DancePrompter:
         self,
         condition: Tensor,
         phase: np.ndarray | None,
-        path: MotionTrajectory,
+        path: MotionTrajectory | None = None,
         *,
         seed: int = 0,
     ) -> list[Passage]:
-        """Prompts that follow each other for as long as a path lasts.
+        """Prompts that follow each other for as long as a song lasts.
 
         Args:
             condition: the song [163 or 167, T].
             phase: bars [T], unwrapped; None = no beat known.
-            path: T frames.
+            path: T frames that the body is to follow; None = it stays where it is.
             seed: of the draws.
         """
         rng = np.random.default_rng(seed)
-        root = to_root(path)
+        frames = condition.shape[1]
+        root = torch.zeros(frames, 6) if path is None else to_root(path)
+        if path is None:
+            root[:, HEIGHT] = REST_PELVIS_HEIGHT
         loudness = condition[ENERGY][0].double().numpy()
         found: list[Passage] = []
-        for start, stop in sections(path.num_frames, phase):
+        for start, stop in sections(frames, phase):
             part = slice(start, stop)
             energy = float((loudness <= loudness[part].mean()).mean())
             logits = self._near_sound(condition[:, part])
@@ -139,10 +144,10 @@ class DancePrompter:
             logits -= (np.array([p.energy for p in self.prompts]) - energy) ** 2 / ENERGY_WIDTH**2
             share = np.exp(logits - logits.max())
             text = self.prompts[rng.choice(len(share), p=share / share.sum())].text
-            frames = stop - start
+            length = stop - start
             if found and found[-1].text == text:
-                frames += found.pop().frames
-            found.append(Passage(text, frames))
+                length += found.pop().frames
+            found.append(Passage(text, length))
         return found
 
     @torch.inference_mode()
@@ -184,6 +189,22 @@ def sections(frames: int, phase: np.ndarray | None) -> list[tuple[int, int]]:
     return list(zip(kept, [*kept[1:], frames], strict=True))
 
 
+def with_waits(passages: Sequence[Passage], waits: Sequence[tuple[int, int]]) -> list[Passage]:
+    """Passages in which a body stands in the frames [start, stop) of each wait."""
+    silent = np.zeros(sum(passage.frames for passage in passages), dtype=bool)
+    for start, stop in waits:
+        silent[start:stop] = True
+    found, at = [], 0
+    for passage in passages:
+        stop = at + passage.frames
+        cuts = [at, *(at + 1 + np.flatnonzero(np.diff(silent[at:stop]))).tolist(), stop]
+        for first, last in pairwise(cuts):
+            stands = Passage(STAND, last - first)
+            found.append(stands if silent[first] else replace(passage, frames=last - first))
+        at = stop
+    return found
+
+
 @dataclass(frozen=True, eq=False)
 class Dances:
     """What was asked for, the dances by rank, and what was found of them in the order sampled."""
@@ -194,13 +215,12 @@ class Dances:
 
 
 class SongPerformer:
-    """Puts bodies on the paths of a song.
+    """Dances to songs, on a stage or on paths.
 
     Args:
         performer: of bodies.
         prompter: finds prompts in music; None = a prompt must be given.
         judge: of the candidates; None = one without the words.
-        paths: their post-processing; None = as TECH has it.
     """
 
     def __init__(
@@ -209,64 +229,113 @@ class SongPerformer:
         *,
         prompter: DancePrompter | None = None,
         judge: PerformanceJudge | None = None,
-        paths: PostProcessConfig | None = None,
     ) -> None:
-        self.performer, self.prompter, self.paths = performer, prompter, paths
+        self.performer, self.prompter = performer, prompter
         self.judge = judge or PerformanceJudge()
 
     def dance(
         self,
-        raw: Sequence[MotionTrajectory],
         song: SongCondition,
         prompt: str | None = None,
         *,
+        num_samples: int = 1,
         tag: str | None = None,
         seed: int = 0,
         progress: Progress | None = None,
     ) -> Dances:
-        """A body for each path, ranked.
+        """Bodies that dance where they like, near the middle of the stage, ranked.
 
         Args:
-            raw: N ≥ 1 paths of T frames as the audio branch made them.
+            song: T frames.
+            prompt: what the body does; None = what the music says.
+            num_samples: candidates N.
+            tag: action label beside the prompt.
+            seed: candidate n depends on (seed, song, n) and its prompts alone.
+            progress: told the frames done of N · T.
+
+        Raises:
+            UserError: as `Performer.improvise`.
+        """
+        frames, made = song.condition.shape[1], []
+        for number in range(num_samples):
+            own = candidate_seed(seed, song.seed, number)
+            passages = self._passages(song, None, prompt, tag, own)
+            dance = self.performer.improvise(
+                with_waits(passages, song.waits),
+                beats=song.beats if len(song.beats) else None,
+                phase=song.phase,
+                waits=song.waits,
+                seed=own,
+                progress=_from(progress, number * frames, num_samples * frames),
+            )
+            made.append(dance)
+        return self._ranked(made, song, prompt)
+
+    def follow(
+        self,
+        paths: Sequence[MotionTrajectory],
+        song: SongCondition,
+        prompt: str | None = None,
+        *,
+        raw: Sequence[MotionTrajectory] | None = None,
+        tag: str | None = None,
+        seed: int = 0,
+        progress: Progress | None = None,
+    ) -> Dances:
+        """A body on each path, ranked.
+
+        Args:
+            paths: N ≥ 1 of T frames each.
             song: that they belong to.
             prompt: what the body does; None = what the music says.
+            raw: the same as the audio branch made them, for the judge; None = they are drawn.
             tag: action label beside the prompt.
             seed: candidate n depends on (seed, song, n), its path and its prompts alone.
             progress: told the frames done of N · T.
 
         Raises:
-            UsageError: no prompt and no prompter, or as `Performer.perform`.
+            UsageError: as `Performer.perform`.
             UserError: as `Performer.perform`.
         """
         beats = song.beats if len(song.beats) else None
-        made: list[Performance] = []
-        for number, rough in enumerate(raw):
-            path = finished(rough, self.paths)
+        made = []
+        for number, path in enumerate(paths):
             own = candidate_seed(seed, song.seed, number)
-            passages = self._passages(path, song, prompt, tag, own)
-            before, total = number * path.num_frames, len(raw) * path.num_frames
-            told = None if progress is None else _from(progress, before, total)
+            passages = self._passages(song, path, prompt, tag, own)
+            told = _from(progress, number * path.num_frames, len(paths) * path.num_frames)
             made.append(
                 self.performer.perform(path, passages, beats=beats, seed=own, progress=told)
             )
+        return self._ranked(made, song, prompt, raw)
+
+    def _ranked(
+        self,
+        made: Sequence[Performance],
+        song: SongCondition,
+        prompt: str | None,
+        raw: Sequence[MotionTrajectory] | None = None,
+    ) -> Dances:
         table = unranked()
         if len(made) > 1:
             prompts = [self._embedded(dance.passages) for dance in made]
-            table = self.judge.judge(made, raw, prompts, beats)
+            beats = song.beats if len(song.beats) else None
+            table = self.judge.judge(made, prompts, beats, raw=raw)
         return Dances(prompt, [made[place] for place in table.order], table)
 
     def _passages(
         self,
-        path: MotionTrajectory,
         song: SongCondition,
+        path: MotionTrajectory | None,
         prompt: str | None,
         tag: str | None,
         seed: int,
     ) -> Sequence[Passage]:
+        frames = song.condition.shape[1] if path is None else path.num_frames
         if prompt is not None:
-            return [Passage(prompt, path.num_frames, tag)]
+            return [Passage(prompt, frames, tag)]
         assert self.prompter is not None, "give a prompt, or a prompter that finds one"
-        return self.prompter.passages(song.condition, song.phase, path, seed=seed)
+        phase = None if song.phase is None else song.phase[:frames]
+        return self.prompter.passages(song.condition[:, :frames], phase, path, seed=seed)
 
     def _embedded(self, passages: Sequence[Passage]) -> Tensor:
         return self.performer.generator.encode_prompts([each.text for each in passages]).pooled
@@ -278,5 +347,5 @@ def candidate_seed(seed: int, song: int, number: int) -> int:
     return int(mixed[0] >> np.uint64(1))
 
 
-def _from(progress: Progress, before: int, total: int) -> Progress:
-    return lambda done, _: progress(before + done, total)
+def _from(progress: Progress | None, before: int, total: int) -> Progress | None:
+    return None if progress is None else lambda done, _: progress(before + done, total)

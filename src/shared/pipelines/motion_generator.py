@@ -22,12 +22,21 @@ from ..model.checkpoint import read_card, resolve_model
 from ..model.diffusion import Sampling
 from ..model.generation.motion_generator import Progress, TextToMotion
 from ..motion.motion import Motion
+from ..motion.trajectory import FPS, MotionTrajectory
 from .body import Performer, PerformerSettings
 from .dance import DancePrompter, Dances, SongPerformer
 from .edit import ControlledMotion, Given, edited
-from .path import DrawnPath, along_path
+from .path import DrawnPath, TimedPath, along_path, time_path
 from .ranking import PerformanceJudge, TextJudge, load_tower, own_tower
-from .song import SongCondition, SongGenerator, SongMotions, Stage, silently, styled
+from .song import (
+    SongCondition,
+    SongGenerator,
+    SongMotions,
+    Stage,
+    finished,
+    silently,
+    styled,
+)
 from .song_memory import SongMemory
 from .song_sampler import SongSampling
 from .stream import DEFAULT_SAMPLING, MotionStream, Passage
@@ -236,41 +245,67 @@ class MotionGenerator:
         tag: str | None = None,
         meter: int | None = None,
         seconds: float | None = None,
+        follow_path: bool = False,
+        path: DrawnPath | None = None,
         style: str | np.ndarray | None = None,
         num_samples: int = 1,
         sampling: Sampling = DEFAULT_SAMPLING,
         foot_lock: bool | None = None,
         stage: Stage = silently,
     ) -> Dances:
-        """A body that dances to a song, the best of N first.
+        """A body that dances to a song, near the middle of a stage; the best of N first.
 
         Args:
             audio, meter, seconds, num_samples: see `trajectory`.
             prompt: what the body does; None = what the music says.
             tag: action label beside the prompt.
-            style: of the path, see `trajectory`; None = what the prompt says of it.
+            follow_path: the audio model makes a path that the body follows.
+            path: where it goes instead; see `path.read_path`. Without times it takes as long as
+                the song.
+            style: of the audio model's path, see `trajectory`; None = what the prompt says of it.
             sampling: the guidance is the body's; the path keeps its model's own.
             foot_lock: hold standing feet; None = the model's own setting.
             stage: given "path" and "body", see `trajectory`.
 
         Raises:
-            UserError: the file cannot be used.
+            UserError: the file cannot be used, or the path is too long for the song.
         """
         song = SongCondition.of(_analysed(audio, meter), seconds)
+        judge = None
+        if num_samples > 1:
+            judge = PerformanceJudge(self.audio.bands if follow_path else None, self.tower)
+        settings = PerformerSettings(**vars(sampling), foot_lock=foot_lock)
+        prompter = self.prompter if prompt is None else None
+        dancers = SongPerformer(Performer(self.text, settings), prompter=prompter, judge=judge)
+        own: dict[str, Any] = {"tag": tag, "seed": sampling.seed}
+        if follow_path:
+            raw = self._song_path(song, prompt, style, num_samples, sampling, stage)
+            paths = [finished(each, self.audio.post_processing) for each in raw]
+        elif path is not None:
+            raw, paths = None, [_drawn(path, song)] * num_samples
+        with stage("body") as progress:
+            if not follow_path and path is None:
+                return dancers.dance(
+                    song, prompt, num_samples=num_samples, **own, progress=progress
+                )
+            return dancers.follow(paths, song, prompt, raw=raw, **own, progress=progress)
+
+    def _song_path(
+        self,
+        song: SongCondition,
+        prompt: str | None,
+        style: str | np.ndarray | None,
+        num_samples: int,
+        sampling: Sampling,
+        stage: Stage,
+    ) -> list[MotionTrajectory]:
+        """Candidates of the audio model, as its decoder gave them."""
         own = styled(style) if isinstance(style, str) else style
         if own is None and prompt is not None:
             own = self.text.style_of(prompt)
-        options = vars(sampling)
-        settings = SongSampling(num_samples, **options | {"guidance_scale": None})
+        settings = SongSampling(num_samples, **vars(sampling) | {"guidance_scale": None})
         with stage("path") as progress:
-            raw = self.audio.sample(song, settings, style=own, progress=progress)
-        judge = PerformanceJudge(self.audio.bands, self.tower) if num_samples > 1 else None
-        performer = Performer(self.text, PerformerSettings(**options, foot_lock=foot_lock))
-        prompter = self.prompter if prompt is None else None
-        paths = self.audio.post_processing
-        dancers = SongPerformer(performer, prompter=prompter, judge=judge, paths=paths)
-        with stage("body") as progress:
-            return dancers.dance(raw, song, prompt, tag=tag, seed=sampling.seed, progress=progress)
+            return self.audio.sample(song, settings, style=own, progress=progress)
 
     # ------------------------------------------------------------ controlled motion
 
@@ -330,6 +365,16 @@ def load(name_or_folder: str | Path = TEXT_MODEL, **options: Any) -> MotionGener
 
 def _analysed(audio: Song | str | Path, meter: int | None) -> Song:
     return audio if isinstance(audio, Song) else analyse(audio, meter=meter)
+
+
+def _drawn(path: DrawnPath, song: SongCondition) -> MotionTrajectory:
+    """A drawn path in the time of a song, at most as long as it."""
+    frames = song.condition.shape[1]
+    seconds = None if path.times is not None else (frames - 1) / FPS
+    timed = time_path(path, fps=FPS, seconds=seconds)
+    length = min(len(timed), frames)
+    phase = None if song.phase is None else song.phase[:length]
+    return TimedPath(timed.points[:length], timed.headings[:length], FPS).trajectory(phase)
 
 
 def _changed(config: ConfigT, overrides: Sequence[str]) -> ConfigT:

@@ -212,13 +212,17 @@ class TimedPath:
     def __len__(self) -> int:
         return len(self.points)
 
-    def constraint(self) -> Constraint:
-        """Forward, lateral and turning velocity are known, T frames; all else is free."""
+    def trajectory(self, phase: np.ndarray | None = None) -> MotionTrajectory:
+        """The same of an upright pelvis at its height at rest; phase: unwrapped bars [T]."""
         position = np.insert(self.points, 1, REST_PELVIS_HEIGHT, axis=1)
         turns = yaw_quaternion(torch.as_tensor(self.headings)).numpy()
-        path = MotionTrajectory.from_pose(position, turns, np.zeros(len(self)), fps=self.fps)
+        bars = np.zeros(len(self)) if phase is None else phase
+        return MotionTrajectory.from_pose(position, turns, bars, fps=self.fps)
+
+    def constraint(self) -> Constraint:
+        """Forward, lateral and turning velocity are known, T frames; all else is free."""
         given = Constraint.free(len(self))
-        given.values[:, ROOT_ROW] = to_root(path)
+        given.values[:, ROOT_ROW] = to_root(self.trajectory())
         given.known[:, ROOT_ROW, [FORWARD, LATERAL, YAW_RATE]] = True
         return given
 

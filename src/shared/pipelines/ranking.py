@@ -341,22 +341,26 @@ class PerformanceJudge:
     def judge(
         self,
         candidates: Sequence[Performance],
-        raw: Sequence[MotionTrajectory],
         prompts: Sequence[Tensor],
         beats: np.ndarray | None = None,
+        *,
+        raw: Sequence[MotionTrajectory] | None = None,
     ) -> ScoreTable:
         """Rank dances of equal length.
 
         Args:
             candidates: N ≥ 1.
-            raw: their paths before post-processing, which would hide what the suite looks for.
             prompts: [P,D] for each candidate, one embedding a passage, unit-norm.
             beats: seconds [M], ascending; None or none at all = unknown.
+            raw: their paths before post-processing, which would hide what the suite looks for;
+                None = the audio branch made none.
         """
         motions = [candidate.motion for candidate in candidates]
         body = self.bodies.judge(motions, torch.zeros(1))
-        path = self.paths.judge(raw)
-        terms = body.terms | path.terms
+        terms, failed = body.terms, body.failed
+        if raw is not None:
+            path = self.paths.judge(raw)
+            terms, failed = terms | path.terms, failed + path.failed
         if beats is not None and len(beats):
             both = [body_alignment(motion, beats) for motion in motions]
             means = [(each.motion_to_music + each.music_to_motion) / 2 for each in both]
@@ -368,7 +372,7 @@ class PerformanceJudge:
             ]
             terms = {"similarity": np.array(found)} | terms
         points = np.stack([motion.positions() for motion in motions])
-        return rank(terms, body.failed + path.failed, distances(points, SCALE), self.config)
+        return rank(terms, failed, distances(points, SCALE), self.config)
 
 
 def body_alignment(motion: Motion, beats: np.ndarray) -> Alignment:

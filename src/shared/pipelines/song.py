@@ -13,13 +13,14 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from ..audio.silence import is_noise, silent_spans
 from ..audio.song import Song, analyse
 from ..config_audio import PostProcessConfig
 from ..data.phrases.layout import phase_rows
 from ..device import choose_device
 from ..metrics.bands import Bands
 from ..model.audio.audio_motion_model import AudioMotionModel
-from ..model.audio.conditioning import BEAT, CONDITION_ROWS, FEATURE_ROWS
+from ..model.audio.conditioning import BEAT, CHROMA, CONDITION_ROWS, ENERGY, FEATURE_ROWS
 from ..model.checkpoint import resolve_model
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.postprocess.trajectory import MotionPostProcessor
@@ -79,6 +80,15 @@ class SongCondition:
         condition, phase = song_condition(song, seconds)
         beats = np.asarray(song.beats.beat_times) if song.beats.tempo > 0 else np.zeros(0)
         return cls(condition, phase, beats, int(song.sha256 or "0", 16))
+
+    @property
+    def waits(self) -> list[tuple[int, int]]:
+        """First and past-the-last frame of each part in which nobody dances: silences, and all of
+        a sound that has neither beats nor pitch."""
+        rows = self.condition.cpu().numpy()
+        if not len(self.beats) and is_noise(rows[CHROMA]):
+            return [(0, rows.shape[1])]
+        return silent_spans(rows[ENERGY.start], FPS)
 
 
 class SongGenerator(Generic[ModelT]):

@@ -26,13 +26,14 @@ from src.shared.pipelines.body import (
     QUICK,
     Performer,
     PerformerSettings,
+    free_body,
     landings,
     pin,
     root_error,
     start_of,
     step_plan,
 )
-from src.shared.pipelines.dance import SongPerformer, candidate_seed
+from src.shared.pipelines.dance import STAND, SongPerformer, candidate_seed
 from src.shared.pipelines.ranking import PerformanceJudge, beat_report
 from src.shared.pipelines.song import SongCondition, finished
 from src.shared.pipelines.stream import Passage
@@ -189,6 +190,7 @@ def test_the_body_stands_on_the_path(settings: PerformerSettings, trained: bool)
         way, PROMPT, beats=np.arange(14) * 0.5, progress=lambda *at: done.append(at)
     )
     assert dance.motion.num_frames == 200 and dance.motion.text == PROMPT
+    assert dance.error is not None
     assert dance.error.max_metres < 0.001 and dance.error.max_degrees < 0.1
     np.testing.assert_allclose(dance.motion.root_position, way.position, atol=1e-3)
     assert done[-1] == (200, 200) and len(done) == 2  # windows of 150 frames that share 30
@@ -225,12 +227,13 @@ def test_each_path_gets_a_body_and_the_best_comes_first() -> None:
     generator = tiny_generator()
     dancers = SongPerformer(Performer(generator))
     raw = [path(90, turn) for turn in (0.1, 0.4)]
-    found = dancers.dance(raw, song(), PROMPT, seed=3)
+    ways = [finished(each) for each in raw]
+    found = dancers.follow(ways, song(), PROMPT, raw=raw, seed=3)
     assert len(found.ranked) == 2
     assert set(found.table.terms) == {"feet", "smoothness", "sanity", "beats"}
     best = int(found.table.order[0])
-    np.testing.assert_allclose(found.ranked[0].trajectory.data, finished(raw[best]).data, atol=1e-6)
-    alone = dancers.dance(raw[:1], song(), PROMPT, seed=3)
+    np.testing.assert_allclose(found.ranked[0].trajectory.data, ways[best].data, atol=1e-6)
+    alone = dancers.follow(ways[:1], song(), PROMPT, seed=3)
     first = found.ranked[int(np.flatnonzero(found.table.order == 0)[0])]
     np.testing.assert_array_equal(
         alone.ranked[0].motion.quaternions, first.motion.quaternions
@@ -244,15 +247,38 @@ def test_the_judge_sees_the_words_where_it_has_a_tower() -> None:
         Performer(generator),
         judge=PerformanceJudge(tower=lambda features: torch.eye(32)[:1].expand(len(features), -1)),
     )
-    table = dancers.dance([path(90), path(90, 0.4)], song(), PROMPT).table
+    table = dancers.follow([path(90), path(90, 0.4)], song(), PROMPT).table
     prompt = generator.encode_prompts([PROMPT]).pooled[0]
     said = [max(0.0, float(prompt[0]))] * 2
     np.testing.assert_allclose(table.terms["similarity"], said, atol=1e-6)
 
 
 def test_one_candidate_is_not_judged() -> None:
-    table = SongPerformer(Performer(tiny_generator())).dance([path(90)], song(), PROMPT).table
+    table = SongPerformer(Performer(tiny_generator())).dance(song(), PROMPT).table
     assert table.best == 0 and table.terms == {}
+
+
+def test_a_free_body_dances_and_waits() -> None:
+    generator, sound = tiny_generator(), torch.zeros(167, 200)
+    sound[160, :120] = 1.0  # then a silence
+    heard = SongCondition(sound, np.arange(200) / 60.0, np.arange(8) * 0.5, 7)
+    assert heard.waits == [(120, 200)]
+    found = SongPerformer(Performer(generator)).dance(heard, PROMPT, num_samples=2, seed=1)
+    assert set(found.table.terms) == {"feet", "smoothness", "beats"}
+    dance = found.ranked[0]
+    assert dance.error is None and dance.motion.num_frames == dance.trajectory.num_frames == 200
+    assert [(each.text, each.frames) for each in dance.passages] == [(PROMPT, 120), (STAND, 80)]
+    again = SongPerformer(Performer(generator)).dance(heard, PROMPT, num_samples=2, seed=1)
+    np.testing.assert_array_equal(again.ranked[0].motion.quaternions, dance.motion.quaternions)
+
+
+def test_what_is_known_of_a_free_body() -> None:
+    known = free_body(120, beats=np.arange(8) * 0.5, steps=np.arange(8) * 0.5, waits=[(60, 120)])
+    contacts = known.known[:, ROOT_ROW, LEFT_CONTACT:]
+    assert contacts[:60].all() and not known.known[60:].any()
+    assert int(known.known.sum()) == 120  # nothing of path and height
+    assert known.values[:60, ROOT_ROW, LEFT_CONTACT:].any(1).all()
+    assert not free_body(120, beats=None, steps=np.zeros(1)).known.any()
 
 
 def test_beats_are_told_with_their_chance() -> None:

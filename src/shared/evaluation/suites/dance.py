@@ -7,7 +7,7 @@ Letters: T frames, N songs, S songs of a table, P prompts, W windows of a dance,
 judge.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import cache, cached_property, partial
 from itertools import accumulate
@@ -19,6 +19,7 @@ import numpy as np
 from scipy.spatial.distance import cdist, pdist
 
 from ...data.phrases.dataset import MotionPhraseDataset
+from ...data.retarget.read_motion import FOLDER_ENDINGS, read_motion
 from ...errors import UserError
 from ...formats.arrays import write_npz
 from ...metrics.retrieval import rank_of
@@ -27,14 +28,14 @@ from ...metrics.seams import marked
 from ...model.audio.audio_motion_model import AudioMotionModel
 from ...model.generation.motion_generator import TextToMotion
 from ...motion.features import decode_features
-from ...motion.motion import Motion
+from ...motion.motion import Motion, resample_motion
 from ...motion.postprocess.footskate import lock_carried_feet
 from ...motion.trajectory import FPS, MotionTrajectory, to_motion
 from ...pipelines.body import Performer, PerformerSettings
 from ...pipelines.dance import candidate_seed
 from ...pipelines.song import SongGenerator, finished, own_noise
 from ...pipelines.song_sampler import SongSampling
-from ...pipelines.stream import OVERLAP, WINDOW, window_lengths
+from ...pipelines.stream import OVERLAP, WINDOW, Passage, window_lengths
 from ..engine import Bench, Progress, Row, Suite, run_suite
 from ..families_dance import FAMILIES, MOMENTS
 from ..floors import held_still, untrained
@@ -82,6 +83,7 @@ class DanceContext:
         judge: the separate evaluator.
         settings: how much.
         data: pairs with bodies, whose test split is the real row; None = no such row.
+        dances: folder of captured dances, more of the real row; None = none.
         songs: folder of sound files; None = synthetic songs alone.
         other: another text model, for a row of its own; None = none.
         sampling: of the text branch.
@@ -93,6 +95,7 @@ class DanceContext:
     judge: Evaluator
     settings: DanceSettings
     data: str | None = None
+    dances: Path | None = None
     songs: Path | None = None
     other: TextToMotion | None = None
     sampling: PerformerSettings = field(default_factory=PerformerSettings)
@@ -140,21 +143,27 @@ class DanceContext:
         replication: int,
         prompt: str,
         seed: int | None = None,
+        pinned: bool = False,
     ) -> Dance[Motion]:
-        """A body on the path of a song; with the `seed` of its replication unless told."""
-        piece, path = self.pieces[number], self.path(number, replication)
+        """A body that dances to a song; with the `seed` of its replication unless told."""
+        piece = self.pieces[number]
         again = replication if seed is None else seed
         own = candidate_seed(self.settings.seed, crc32(piece.name.encode()), again)
         # Told are the beats that the tracker heard.
         heard = None if piece.phase is None else beats_of_phase(piece.phase * piece.meter, FPS)
-        raw = performer.perform(path, prompt, beats=heard, seed=own).motion
+        path = self.path(number, replication) if pinned else None
+        if path is not None:
+            raw = performer.perform(path, prompt, beats=heard, seed=own).motion
+        else:
+            passages = [Passage(prompt, piece.condition.shape[1])]
+            raw = performer.improvise(passages, beats=heard, seed=own).motion
         return Dance(
             song=piece.name,
             motion=lock_carried_feet(raw),
             beats=piece.beats,
             raw=raw,
             path=path,
-            seams=near_seams(path.num_frames),
+            seams=near_seams(raw.num_frames),
         )
 
     def performer(self, generator: TextToMotion, *, on_beats: bool = True) -> Performer:
@@ -167,7 +176,13 @@ class DanceContext:
         prompts = self.settings.prompts
         return DanceSample.of(
             [
-                self.perform(performer, number, replication, prompts[number % len(prompts)])
+                self.perform(
+                    performer,
+                    number,
+                    replication,
+                    prompts[number % len(prompts)],
+                    pinned=who == "pinned",
+                )
                 for number in range(len(self.pieces))
             ]
         )
@@ -177,6 +192,7 @@ class DanceContext:
         """By the row that they dance in."""
         return {
             "generated": lambda: self.performer(self.generator),
+            "pinned": lambda: self.performer(self.generator),
             "beats not told": lambda: self.performer(self.generator, on_beats=False),
             "untrained": lambda: self.performer(self.fresh),
             "other": lambda: self.performer(self.other or self.generator),
@@ -191,13 +207,14 @@ class DanceContext:
 
     @cached_property
     def reference(self) -> Bodies:
-        """Real bodies of the test split with their music; empty without data.
+        """Real bodies of the test split with their music, and captured dances without; or none.
 
         Raises:
-            UserError: the split holds no body with a beat.
+            UserError: the split holds no body with a beat, or a dance cannot be read.
         """
+        captured = [] if self.dances is None else list(captured_dances(self.dances))
         if self.data is None:
-            return DanceSample.of([])
+            return DanceSample(captured, np.arange(len(captured)))
         self.progress(f"the test split of {self.data}")
         settings = self.settings
         frames = round(settings.song_seconds * FPS)
@@ -207,6 +224,7 @@ class DanceContext:
                 f"{self.data}: no test phrase has a body and beats; make the pairs with"
                 " prepare-audio"
             )
+        dances += captured
         return DanceSample(dances, np.arange(len(dances)))
 
     def another_song(self, replication: int) -> Bodies:
@@ -223,16 +241,16 @@ class DanceContext:
     def path_alone(self, replication: int) -> Bodies:
         """A statue carried along each path."""
         numbers = range(len(self.pieces))
-        return self._instead([to_motion(self.path(number, replication)) for number in numbers])
+        paths = [self.path(number, replication) for number in numbers]
+        return self._instead([to_motion(path) for path in paths], paths)
 
-    def _instead(self, motions: Sequence[Motion]) -> Bodies:
-        """Other motions to the same songs, on the same paths."""
-        dances = self.danced("generated", 0).dances
+    def _instead(
+        self, motions: Sequence[Motion], paths: Sequence[MotionTrajectory | None] = ()
+    ) -> Bodies:
+        """Other motions to the same songs, each on its path if there are paths."""
+        rows = zip(self.pieces, motions, paths or [None] * len(motions), strict=True)
         return DanceSample.of(
-            [
-                Dance(dance.song, motion, dance.beats, path=dance.path)
-                for dance, motion in zip(dances, motions, strict=True)
-            ]
+            [Dance(piece.name, motion, piece.beats, path=path) for piece, motion, path in rows]
         )
 
 
@@ -240,6 +258,19 @@ def near_seams(frames: int) -> np.ndarray:
     """True [T] where a window of the body's stream ends, and just around."""
     cuts = list(accumulate(window_lengths(frames, 0, WINDOW, OVERLAP)))[:-1]
     return marked(frames, ((cut, cut) for cut in cuts))
+
+
+def captured_dances(folder: Path) -> Iterator[Dance[Motion]]:
+    """The motion files of a folder, nobody knows to which music.
+
+    Raises:
+        UserError: there is none, or one cannot be read.
+    """
+    files = sorted(each for each in folder.iterdir() if each.suffix.lower() in FOLDER_ENDINGS)
+    if not files:
+        raise UserError(f"{folder} holds no motion files; name a folder of captured dances")
+    for file in files:
+        yield Dance(file.stem, resample_motion(read_motion(file), FPS), np.zeros(0))
 
 
 def real_dances(data: str, frames: int, number: int, seed: int) -> list[Dance[Motion]]:
@@ -271,8 +302,9 @@ def alignment_tables(context: DanceContext) -> list[Grid]:
     if number:
         groups["sound files, whole-body"] = made.rows(range(number))
         groups["synthetic songs, whole-body"] = made.rows(range(number, len(made)))
-    if len(context.reference):
-        groups["real whole-body"] = context.reference
+    heard = [row for row, dance in enumerate(context.reference.dances) if len(dance.beats)]
+    if heard:
+        groups["real whole-body"] = context.reference.rows(heard)
     tables: list[Grid] = []
     for name, sample in groups.items():
         key = "limbs_" if name.startswith("limbs") else ""
@@ -309,7 +341,7 @@ PROMPT_COLUMNS = (
     Column("limbs_f", "limbs F", better="high"),
 )  # fmt: skip
 PROMPT_NOTE = (
-    "The path of each song stays the same; only words and noise change. *other prompt*: mean"
+    "Song by song only words and noise change. *other prompt*: mean"
     " distance of the judge's embeddings of dances of two prompts with one noise; *other noise*: of"
     " one prompt with two noises; *difference*: song by song. *R@k*: the dance's prompt is among"
     " the k nearest of the prompts used; chance is k over their number. *words alone*: the same"
@@ -457,6 +489,7 @@ def dance_bench(context: DanceContext) -> Bench[Bodies]:
     """The songs, danced by the model, by its floors, and by real dancers where there is data."""
     few = context.settings.untrained
     hinted = context.generator.network.generation.constraints
+    known = context.data is not None or context.dances is not None
 
     def real(replication: int = 0) -> Bodies:
         return context.reference
@@ -466,10 +499,11 @@ def dance_bench(context: DanceContext) -> Bench[Bodies]:
         "dances",
         real,
         [
-            Row("real", real, None if context.data is not None else 0, fixed=True, real=True),
+            Row("real", real, None if known else 0, fixed=True, real=True),
             Row("generated", partial(context.danced, "generated")),
             Row("another song", context.another_song),
             Row("frozen pose", context.frozen_pose, limit=1, fixed=True),
+            Row("pinned", partial(context.danced, "pinned")),
             Row("path alone", context.path_alone, limit=1, fixed=True),
             Row(
                 "beats not told",
@@ -504,6 +538,7 @@ def _sources(context: DanceContext, edits: EditContext | None, about: dict[str, 
         evaluator={"hash": context.judge.content_hash},
         data={
             "pairs": context.data or "",
+            "dances": "" if context.dances is None else str(context.dances),
             "songs": song_hashes(context.songs),
             "clips": "" if edits is None else edits.held_out.data.manifest_hash,
         },

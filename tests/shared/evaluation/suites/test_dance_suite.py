@@ -11,12 +11,19 @@ from src.shared.data.phrases.layout import parse_manifest, write_body, write_man
 from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
 from src.shared.data.sources.folders import SyntheticSource
+from src.shared.errors import UserError
 from src.shared.evaluation.held_out import HeldOut
 from src.shared.evaluation.judge.evaluator import Evaluator
 from src.shared.evaluation.report.pages import save_report
 from src.shared.evaluation.report.tables import Grid, grids, markdown
-from src.shared.evaluation.suites.dance import DanceContext, DanceSettings, evaluate_performer
+from src.shared.evaluation.suites.dance import (
+    DanceContext,
+    DanceSettings,
+    captured_dances,
+    evaluate_performer,
+)
 from src.shared.evaluation.suites.editing import EditContext, EditSettings
+from src.shared.formats.arrays import write_npz
 from src.shared.motion.features import encode_features
 from src.shared.pipelines.body import PerformerSettings
 from src.shared.pipelines.song import SongGenerator
@@ -75,20 +82,36 @@ def found(folder: Path) -> dict[str, Grid]:
 
 
 def test_every_row_meets_every_family(found: dict[str, Grid]) -> None:
-    rows = ["real", "generated", "another song", "frozen pose", "path alone", "beats not told",
-            "other model", "untrained"]  # fmt: skip
-    for name in ("whole-body beats", "root against the trajectory", "feet"):
+    rows = ["real", "generated", "another song", "frozen pose", "pinned", "path alone",
+            "beats not told", "other model", "untrained"]  # fmt: skip
+    for name in ("whole-body beats", "on stage", "root against the trajectory", "feet"):
         assert list(found[f"dances/{name}"].rows) == rows
     assert found["dances/whole-body beats"].rows["real"].num == 4
 
 
 def test_a_body_keeps_to_its_path_and_a_frozen_pose_keeps_nothing(found: dict[str, Grid]) -> None:
     root, beats = found["dances/root against the trajectory"], found["dances/whole-body beats"]
-    assert root.value("generated", "root_max") < 0.1 and root.value("untrained", "turn_max") < 0.1
+    assert root.value("pinned", "root_max") < 0.1 and root.value("pinned", "turn_max") < 0.1
     assert root.value("frozen pose", "limb_speed") == 0
     assert root.value("path alone", "limb_speed") < 1e-3
     assert beats.value("frozen pose", "f") == beats.value("path alone", "limbs_f") == 0
     assert beats.value("real", "f") >= 0
+
+
+def test_a_frozen_pose_is_no_dance(found: dict[str, Grid]) -> None:
+    stage = found["dances/on stage"]
+    assert stage.value("frozen pose", "poses") == 1
+    assert stage.value("frozen pose", "dimensions") == stage.value("frozen pose", "radius") == 0
+    assert stage.value("generated", "dimensions") > 1
+
+
+def test_captured_dances_are_real_whatever_their_music(tmp_path: Path) -> None:
+    write_npz(swinging_arms(frames=60), tmp_path / "waltz.npz")
+    (dance,) = captured_dances(tmp_path)
+    assert dance.song == "waltz" and not len(dance.beats)
+    (tmp_path / "waltz.npz").unlink()
+    with pytest.raises(UserError, match="no motion files"):
+        next(captured_dances(tmp_path))
 
 
 def test_what_is_kept_stays(found: dict[str, Grid]) -> None:

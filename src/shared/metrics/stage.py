@@ -1,0 +1,136 @@
+"""Is it a dance and no procession? Way, stage, turning, poses, hovering and sliding of one body.
+
+Needs no learned model. Each figure is the same computation for real and generated motion and means
+little without the real row: a frozen pose has a small stage and never hovers.
+
+Letters: T frames, K joints, A principal axes.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from scipy.ndimage import gaussian_filter1d
+
+from ..motion.features import headings
+from ..motion.motion import Motion
+from ..motion.postprocess.contacts import contact_runs
+from ..motion.rotations import quaternion_to_matrix, turn_about_y
+from ..motion.skeleton import REST_FOOT_HEIGHT
+from .physical import BALLS, SUPPORT_HEIGHT, ground_speed
+
+SWAY = 0.25  # seconds, standard deviation: a sway within a step is no way
+MOVING = 0.1  # m/s of that smoothed path; slower has no direction
+BEHIND = 0.75 * np.pi  # radians from where it faces, beyond which it goes backward
+POSE_APART = 0.12  # metres, mean over the joints, between poses that differ
+POSE_STEP = 0.1  # seconds between poses that are looked at
+HOVER_SECONDS = 0.45  # off the floor for longer: nobody jumps so in a dance
+SLIDING = 0.2  # m/s of the slower foot while both are near the floor
+
+
+@dataclass(frozen=True)
+class Stage:
+    """Figures of one dance; NaN where there is nothing to judge."""
+
+    backward: float  # share of the way that is gone backward; NaN without a way
+    radius: float  # metres, furthest that the pelvis is from the middle of where it was
+    net_way: float  # distance from first to last place over the way between them; NaN without
+    turning: float  # degrees a second of the heading, either way
+    poses: float  # poses that differ from each other
+    dimensions: float  # participation ratio of the poses' principal axes
+    hovering: float  # times a minute that no joint is near the floor for over 0.45 s
+    both_slide: float  # share of time in which both feet slide
+
+
+def stage(motion: Motion) -> Stage:
+    """All figures of one motion of at least two frames."""
+    positions = motion.positions().astype(np.float64)
+    facing = headings(quaternion_to_matrix(torch.as_tensor(motion.quaternions[:, 0])))
+    path, heading = positions[:, 0, [0, 2]], facing.double().numpy()
+    poses = local_poses(positions, heading)
+    return Stage(
+        backward=backward_share(path, heading, motion.fps),
+        radius=float(np.linalg.norm(path - path.mean(0), axis=1).max()),
+        net_way=net_way(path, motion.fps),
+        turning=turning(heading, motion.fps),
+        poses=float(distinct_poses(poses[:: max(1, round(POSE_STEP * motion.fps))])),
+        dimensions=pose_dimensions(poses),
+        hovering=hovering(positions, motion.fps),
+        both_slide=both_slide(positions, motion.fps),
+    )
+
+
+# ---------------------------------------------------------------- way and stage
+
+
+def _smooth(values: np.ndarray, fps: float) -> np.ndarray:
+    return np.asarray(gaussian_filter1d(values, SWAY * fps, axis=0, mode="nearest"))
+
+
+def backward_share(path: np.ndarray, heading: np.ndarray, fps: float) -> float:
+    """Share of the way of a path [T, 2] (x, z) in metres that is gone more than 135° off the
+    heading [T], radians; sways apart, and NaN where it never moves."""
+    step = np.diff(_smooth(path, fps), axis=0)  # T-1 2
+    length = np.linalg.norm(step, axis=1)
+    length = np.where(length * fps > MOVING, length, 0.0)
+    off = (np.arctan2(step[:, 0], step[:, 1]) - heading[:-1] + np.pi) % (2 * np.pi) - np.pi
+    total = float(length.sum())
+    return float(length[np.abs(off) > BEHIND].sum()) / total if total else float("nan")
+
+
+def net_way(path: np.ndarray, fps: float) -> float:
+    """How straight a path [T, 2] leads away: 1 for a line, 0 where it ends as it began; NaN
+    where it never moves."""
+    smooth = _smooth(path, fps)
+    way = float(np.linalg.norm(np.diff(smooth, axis=0), axis=1).sum())
+    return float(np.linalg.norm(smooth[-1] - smooth[0])) / way if way > 1e-6 else float("nan")
+
+
+def turning(heading: np.ndarray, fps: float) -> float:
+    """Mean degrees a second of a heading [T] in radians, unwrapped, either way; sways apart."""
+    return float(np.degrees(np.abs(np.diff(_smooth(heading, fps))).mean() * fps))
+
+
+# ---------------------------------------------------------------- poses
+
+
+def local_poses(positions: np.ndarray, heading: np.ndarray) -> np.ndarray:
+    """Joints [T, K, 3] seen from below the pelvis, facing +Z, of positions [T, K, 3]."""
+    ground = positions[:, :1] * np.array([1.0, 0.0, 1.0])
+    turned = turn_about_y(torch.from_numpy(positions - ground), -torch.from_numpy(heading)[:, None])
+    return np.asarray(turned.numpy())
+
+
+def distinct_poses(poses: np.ndarray) -> int:
+    """How many of poses [T, K, 3] are all `POSE_APART` from each other, taken in their order."""
+    kept: list[np.ndarray] = []
+    for pose in poses:
+        if not kept or np.linalg.norm(np.stack(kept) - pose, axis=-1).mean(1).min() > POSE_APART:
+            kept.append(pose)
+    return len(kept)
+
+
+def pose_dimensions(poses: np.ndarray) -> float:
+    """Participation ratio (Σλ)² / Σλ² of the covariance of poses [T, K, 3]; 0 of a frozen one."""
+    flat = poses.reshape(len(poses), -1)
+    spread = np.linalg.svd(flat - flat.mean(0), compute_uv=False) ** 2  # A
+    total = float((spread**2).sum())
+    return float(spread.sum() ** 2 / total) if total > 1e-12 else 0.0
+
+
+# ---------------------------------------------------------------- feet
+
+
+def hovering(positions: np.ndarray, fps: float) -> float:
+    """Times a minute that every joint of [T, K, 3] is over 6 cm above where the ball of a standing
+    foot is, for longer than `HOVER_SECONDS`."""
+    high = positions[..., 1].min(1) > REST_FOOT_HEIGHT + SUPPORT_HEIGHT
+    long = [stop - start for start, stop in contact_runs(high, 0)]
+    return sum(run > HOVER_SECONDS * fps for run in long) * 60.0 * fps / len(positions)
+
+
+def both_slide(positions: np.ndarray, fps: float) -> float:
+    """Share of the frames of [T, 22, 3] in which both feet are near the floor and neither rests."""
+    balls = positions[:, BALLS]  # T 2 3
+    near = balls[:-1, :, 1].max(1) < REST_FOOT_HEIGHT + SUPPORT_HEIGHT
+    return float((near & (ground_speed(balls, fps).min(1) > SLIDING)).mean())
