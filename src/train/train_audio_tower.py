@@ -24,8 +24,7 @@ from ..shared.config_audio import AudioTowerConfig
 from ..shared.config_schema import NetworkConfig
 from ..shared.data.phrases.dataset import MotionPhraseDataset, sound_statistics
 from ..shared.data.phrases.layout import PhraseRecord
-from ..shared.evaluation.suites.space import Bench
-from ..shared.evaluation.suites.space_windows import Windows
+from ..shared.evaluation.suites.space import Bench, Windows
 from ..shared.metrics.retrieval import BATCH
 from ..shared.model.audio.conditioning import ConditionAugmentation
 from ..shared.model.audio.shared_space import AudioTower, SharedSpace

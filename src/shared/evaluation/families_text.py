@@ -17,7 +17,7 @@ from ..metrics.frechet import (
 )
 from ..metrics.kinetic import AXES, body_features, kinetic_columns, stacked
 from ..metrics.measurements import measure
-from ..metrics.physical import contact, physics
+from ..metrics.physical import contact, physics, travel, travel_error
 from ..metrics.retrieval import (
     BATCH,
     POOL,
@@ -31,7 +31,6 @@ from ..metrics.retrieval import (
     recall_of_dissimilar,
     text_similarity,
 )
-from ..metrics.travel import travel, travel_error
 from .engine import MetricFamily, Value
 from .judge.instructions import check
 from .report.tables import Column

@@ -1,17 +1,21 @@
-"""Physical plausibility of one body's motion: sliding feet, the floor, jerk, EDGE's score.
+"""What one body's motion does, by kinematics: sliding feet, the floor, jerk, where it goes.
 
 Needs no learned model. Each is the same computation for real and generated motion and means little
 without the real row; figures over which a frozen pose has no say are NaN instead of perfect.
 
-Letters: T frames, K joints.
+Letters: T frames, K joints, N motions.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import torch
 
+from ..motion.features import headings
 from ..motion.motion import Motion
 from ..motion.postprocess.contacts import detect_contacts
+from ..motion.rotations import quaternion_to_matrix
 from ..motion.skeleton import FOOT_JOINTS, JOINT_INDEX, REST_FOOT_HEIGHT
 
 BALLS = [ball for _, ball in FOOT_JOINTS]
@@ -236,3 +240,63 @@ def pfc(positions: np.ndarray, fps: float) -> float:
     speed = ground_speed(positions[1:, np.array(FOOT_JOINTS)], fps) / PFC_FPS  # T-2 foot joint
     stiller = speed.min(-1)
     return float(1e4 * (stiller.prod(-1) * strength / strength.max()).mean())
+
+
+# ---------------------------------------------------------------- travel
+
+
+MIN_TRAVEL = 0.5  # metres: below this a direction is noise
+
+
+@dataclass(frozen=True)
+class Travel:
+    """Net travel of one motion, seen from its first frame."""
+
+    speed: float  # m/s, path length of the pelvis over the ground
+    direction: float  # radians from where it faces at first, + = to its left; NaN below 0.5 m
+    turn: float  # radians of heading gained, + = to the left
+
+
+def travel(motion: Motion) -> Travel:
+    """Speed, direction and turning of one motion of at least two frames."""
+    heading = headings(quaternion_to_matrix(torch.as_tensor(motion.quaternions[:, 0]))).numpy()
+    path = motion.root_position[:, [0, 2]].astype(np.float64)  # x, z
+    seconds = (motion.num_frames - 1) / motion.fps
+    across, along = path[-1] - path[0]
+    direction = float("nan")
+    if np.hypot(across, along) >= MIN_TRAVEL:
+        direction = _wrap(float(np.arctan2(across, along)) - float(heading[0]))
+    return Travel(
+        speed=float(np.linalg.norm(np.diff(path, axis=0), axis=-1).sum() / seconds),
+        direction=direction,
+        turn=float(heading[-1] - heading[0]),
+    )
+
+
+def _wrap(angle: float) -> float:
+    """Radians into -pi..pi."""
+    return (angle + np.pi) % (2 * np.pi) - np.pi
+
+
+@dataclass(frozen=True)
+class TravelError:
+    """Absolute differences to a real motion of the same caption; one entry a motion, NaN = none."""
+
+    speed: list[float]  # m/s
+    direction: list[float]  # degrees, where both travel
+    turn: list[float]  # degrees
+
+
+def travel_error(motions: Sequence[Travel], references: Sequence[Travel]) -> TravelError:
+    """Row by row; a motion that stands where its reference travels has a direction error of 90°."""
+    speed, direction, turn = [], [], []
+    for ours, real in zip(motions, references, strict=True):
+        speed.append(abs(ours.speed - real.speed))
+        turn.append(abs(float(np.degrees(ours.turn - real.turn))))
+        if np.isnan(real.direction):
+            direction.append(float("nan"))
+        elif np.isnan(ours.direction):
+            direction.append(90.0)
+        else:
+            direction.append(abs(float(np.degrees(_wrap(ours.direction - real.direction)))))
+    return TravelError(speed, direction, turn)

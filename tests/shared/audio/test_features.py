@@ -7,9 +7,14 @@ import numpy as np
 import pytest
 import soundfile
 
-from src.shared.audio.features import AudioFeatures, extract_features
+from src.shared.audio.features import (
+    AudioFeatures,
+    centred_frames,
+    decibels,
+    extract_features,
+    mel_matrix,
+)
 from src.shared.audio.sound import HOP, SAMPLE_RATE, load_sound, sound_from_samples
-from src.shared.audio.spectrum import centred_frames, decibels, mel_matrix
 from src.shared.errors import UserError
 
 MUSIC = Path(__file__).parents[4] / "shared" / "data" / "music"

@@ -6,14 +6,14 @@ import librosa
 import numpy as np
 import pytest
 
-from src.shared.audio.sound import HOP, SAMPLE_RATE, load_sound
-from src.shared.audio.spectrum import (
+from src.shared.audio.features import (
     TUNING_HOP,
     TuningEstimator,
     estimate_tuning,
     exact_chroma,
     fast_chroma,
 )
+from src.shared.audio.sound import HOP, SAMPLE_RATE, load_sound
 
 MUSIC = Path(__file__).parents[4] / "shared" / "data" / "music"
 SHORT_TRACKS = sorted(MUSIC.glob("sorohanro*.ogg")) + sorted(MUSIC.glob("admiralbob77*.ogg"))
@@ -55,7 +55,7 @@ def test_fast_is_close_to_exact(cents: float) -> None:
 def test_fast_is_the_same_in_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     samples = melody(12.0, cents=7.0)
     whole = fast_chroma(samples, 0.1)
-    monkeypatch.setattr("src.shared.audio.spectrum.FAST_BLOCK", 70)
+    monkeypatch.setattr("src.shared.audio.features.FAST_BLOCK", 70)
     np.testing.assert_allclose(fast_chroma(samples, 0.1), whole, atol=1e-5)
 
 
@@ -68,7 +68,7 @@ def test_fast_is_close_to_exact_on_real_music() -> None:
 
 
 def test_exact_is_librosa_in_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("src.shared.audio.spectrum.EXACT_BLOCK", 70)
+    monkeypatch.setattr("src.shared.audio.features.EXACT_BLOCK", 70)
     samples = melody(5.0, cents=7.0)
     np.testing.assert_allclose(exact_chroma(samples), librosa_chroma(samples), atol=1e-4)
 

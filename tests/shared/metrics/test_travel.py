@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from src.shared.metrics.travel import Travel, travel, travel_error
+from src.shared.metrics.physical import Travel, travel, travel_error
 from src.shared.motion.motion import Motion
 
 

@@ -29,10 +29,9 @@ from ...metrics.kinetic import (
     root_kinetic_features,
     stacked,
 )
-from ...metrics.physical import physics
+from ...metrics.physical import physics, travel, travel_error
 from ...metrics.retrieval import BATCH, TOP, best_ranks, pair_distances
 from ...metrics.rhythm import against_chance, motion_beats, rhythm
-from ...metrics.travel import travel, travel_error
 from ...model.generation.motion_generator import TextToMotion
 from ...motion.motion import Motion
 from ...motion.trajectory import FPS, MotionTrajectory

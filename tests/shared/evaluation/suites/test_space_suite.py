@@ -19,10 +19,12 @@ from src.shared.evaluation.suites.space import (
     Neighbours,
     SpaceSettings,
     Texts,
+    Windows,
     evaluate_space,
+    padded,
+    related,
     tempo_alone,
 )
-from src.shared.evaluation.suites.space_windows import Windows, padded, related
 from src.shared.model.audio.shared_space import rate_rows
 from src.shared.motion.features import FORWARD, ROOT_ROW
 from tests.shared.evaluation.space_samples import tiny_bundle, tiny_space, write_space_phrases
