@@ -111,7 +111,7 @@ def calibrate(
         tell(f"calibrate: {what}")
 
     judge = recognizer_of(clips, seed, progress)
-    checked = tuple(sorted(judge.kinematic))
+    checked = tuple(sorted(judge.necessary))
     generator.scope = replace(
         generator.scope, gestures=gestures(clips), arms=arm_actions(clips), checked=checked
     )

@@ -152,11 +152,12 @@ _ACTIONS: dict[str, Check] = {
     "spin": lambda m: abs(m.yaw) > 4.7 and _within(m, 0.8),
     "kick": lambda m: max(m.kicks) >= 1,
     "punch": lambda m: max(m.punches) >= 1 and not _travels(m, 0.25),
+    **dict.fromkeys(("raise", "bye"), lambda m: _hand_up(m, 0) or _hand_up(m, 1)),
     **{name: _RAW[name] for name in ("squat", "jump", "clap", "bow", "stand")},
 }
 
 ACTIONS: dict[str, Check] = {name: _of_a_body(check) for name, check in _ACTIONS.items()}
-"""Actions that kinematics define, whoever performs them and in whatever style."""
+"""Actions that kinematics define, or ask something of, whoever performs them in whatever style."""
 
 
 def side_check(action: str, side: str, *, by_hand: bool) -> Check | None:

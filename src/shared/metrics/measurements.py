@@ -27,6 +27,8 @@ ARM_LENGTH = float(
 
 HAND_DOWN = 0.15  # metres above the pelvis, at most, of a hand at rest
 AT_REST = 3  # frames at either end
+_TRUNK = [JOINT_INDEX[name] for name in ("spine1", "spine2", "spine3", "neck", "head")]
+STANDING = 0.92 * (REST_PELVIS_HEIGHT + float(_OFFSETS[_TRUNK, 1].sum()))  # metres, of the head
 IN_PLACE = 0.6  # metres that a body may sway and still stay where it is
 
 
@@ -34,6 +36,12 @@ def at_rest(motion: Motion) -> bool:
     """Whether both hands hang at the beginning and at the end."""
     ends = np.r_[:AT_REST, -AT_REST:0]
     return bool((_hand_heights(motion)[ends] < HAND_DOWN).all())
+
+
+def ends_at_rest(motion: Motion) -> bool:
+    """Whether a body stands upright in its last frames, hands hanging."""
+    height = motion.positions()[-AT_REST:, JOINT_INDEX["head"], 1].min()
+    return bool(height > STANDING) and bool((_hand_heights(motion)[-AT_REST:] < HAND_DOWN).all())
 
 
 def arms_alone(motion: Motion) -> bool:

@@ -23,7 +23,7 @@ from torch import Tensor
 from ..device import idle_threads
 from ..errors import UserError
 from ..metrics.actions import ACTIONS, Check, repetitions, side_check
-from ..metrics.measurements import measure
+from ..metrics.measurements import ends_at_rest, measure
 from ..model.clip.core import TextFeatures
 from ..model.clip.out_of_domain import ScopeResult
 from ..model.diffusion import Sampling
@@ -50,6 +50,7 @@ from .stream import (
 TURN_SPEED, TURN_REST = 75.0, 0.5  # degrees a second; seconds before and after a turn
 ONCE = (2.0, 3.0)  # seconds of one repetition, from … to
 LEAST = 1.0  # seconds in which an action can be seen
+UNEASY = 0.5  # what it counts that a gesture does not end at rest; 1: that it is not there
 REPEATED_OVERLAP = 10  # frames: a repetition begins as the one before it ended, at rest
 
 log = logging.getLogger(__name__)
@@ -209,18 +210,25 @@ class SentenceGenerator:
         return new if self._does(prompt, new) and not self._does(prompt, old) else old
 
     def _miss(self, clause: Clause, frames: int) -> Miss | None:
-        """How far a passage of so many frames is from showing what its clause asks for."""
-        wanted, fps = self._wanted(clause.text), self.card.fps
+        """How far a passage of so many frames is from showing what its clause asks for, and, where
+        that is done in place, from ending at rest."""
+        wanted, fps, scope = self._wanted(clause.text), self.card.fps, self.generator.scope
         action, side = self._nearest(clause.text), side_of(clause.text)
-        if wanted is None or action is None or frames < LEAST * fps:
+        if scope is None or action is None or frames < LEAST * fps:
+            return None
+        rests = action in scope.gestures
+        if wanted is None and not rests:
             return None
 
         def miss(features: Tensor) -> float:
-            seen = measure(decode_features(features, fps=fps))
-            count = repetitions(action, seen, side)
-            if clause.count > 1 and count is not None:
-                return abs(count - round(clause.count * len(features) / frames))
-            return 0.0 if wanted(seen) else 1.0
+            motion = decode_features(features, fps=fps)
+            seen = measure(motion)
+            count = repetitions(action, seen, side) if clause.count > 1 else None
+            found = float(wanted is not None and not wanted(seen))
+            if count is not None:
+                found = abs(count - round(clause.count * len(features) / frames))
+            uneasy = rests and len(features) >= frames and not ends_at_rest(motion)
+            return found + UNEASY * uneasy
 
         return miss
 

@@ -170,6 +170,7 @@ class ActionRecognizer:
         judge: the discriminant, fitted on every clip.
         kinematic: actions that are shown too where `metrics.actions.ACTIONS` says so: MIN_RECALL of
             their captured clips pass, and of those of other actions at most MAX_FALSE.
+        necessary: actions of which MIN_RECALL of the captured clips pass, whatever else does.
         recall: share of an action's clips that is recognised, the discriminant fitted on other
             takes each time.
         false_alarms: share of the clips of other actions that pass for it, likewise.
@@ -177,6 +178,7 @@ class ActionRecognizer:
 
     judge: ActionJudge
     kinematic: frozenset[str]
+    necessary: frozenset[str]
     recall: dict[str, float]
     false_alarms: dict[str, float]
 
@@ -194,17 +196,20 @@ class ActionRecognizer:
         seen = np.array(_of_unseen_takes(features, tags, takes), object)
         few = _first_of_each(tags, WITNESS_CLIPS)
         figures = {row: measure(motions[row]) for row in few}
-        kinematic, recall, false_alarms = set(), dict[str, float](), dict[str, float]()
+        kinematic, necessary = set[str](), set[str]()
+        recall, false_alarms = dict[str, float](), dict[str, float]()
         for action in judge.classes:
             own = np.array([same_action(action, tags[row]) for row in few])
             said = np.array([same_action(action, seen[row]) for row in few])
             shown = np.array([ACTIONS.get(action, _never)(figures[row]) for row in few])
-            if shown[own].mean() >= MIN_RECALL and shown[~own].mean() <= MAX_FALSE:
-                kinematic.add(action)
-                said |= shown
+            if shown[own].mean() >= MIN_RECALL:
+                necessary.add(action)
+                if shown[~own].mean() <= MAX_FALSE:
+                    kinematic.add(action)
+                    said |= shown
             recall[action] = float(said[own].mean())
             false_alarms[action] = float(said[~own].mean())
-        return cls(judge, frozenset(kinematic), recall, false_alarms)
+        return cls(judge, frozenset(kinematic), frozenset(necessary), recall, false_alarms)
 
     def shows(self, action: str, found: str, motion: Motion) -> bool:
         """Whether a motion, in which the discriminant found an action, shows this one."""

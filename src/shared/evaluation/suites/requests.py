@@ -51,7 +51,7 @@ GESTURES = ("wave", "raise", "bow", "bye", "call", "respond", "guide", "clap")
 WALK = "a person walks forward"
 LONG_WALKS = (2.0, 10.0, 30.0, 60.0)  # seconds
 FLOOR_SHARE = 4  # every so many-th plain request is put to the floors
-PIECE, HOP = 60, 15  # frames: windows in which the parts of a composition are looked for
+PIECES, HOP = (60, 120), 15  # frames: windows in which the parts of a composition are looked for
 REAL = "captured, held out"  # name of the row
 
 
@@ -404,7 +404,13 @@ def _exactness(yardstick: Yardstick, model: Model, requests: Sequence[Request], 
         of("sides", simultaneous=True),
         lambda r, motion: shown_together(r.parts, motion),
     )
-    row("one-sentence sequences", of(COMPOSITIONS), partial(in_order, yardstick))
+    if sequences := of(COMPOSITIONS):
+        acted, order = make([r.text for r in sequences]).motions, partial(in_order, yardstick)
+        others = _of_other_actions([r.action for r in sequences], settings.seed)
+        done = [order(r, motion) for r, motion in zip(sequences, acted, strict=True)]
+        chance = [order(sequences[o], motion) for o, motion in zip(others, acted, strict=True)]
+        rows["one-sentence sequences"] = GridRow({"share": share_of(done)}, len(done))
+        rows["the same, for another sequence"] = GridRow({"share": share_of(chance)}, len(chance))
     rows |= _styles(yardstick, of("styled"), make)
     gestures = drawn([r for r in of("plain") if r.action in GESTURES], 1, settings.seed)
     if gestures:
@@ -446,7 +452,7 @@ def _spread_row(yardstick: Yardstick, model: Model, gestures: Sequence[Request])
     made = [spread(list(motions)) for motions in zip(*by_seed, strict=True)]
     groups: dict[str, list[Motion]] = {}
     for record, motion in zip(yardstick.records, yardstick.real.motions, strict=True):
-        if record.tag in GESTURES and motion.num_frames >= PIECE:
+        if record.tag in GESTURES and motion.num_frames >= PIECES[0]:
             groups.setdefault(record.group, []).append(motion)
     real = [spread(motions) for motions in groups.values() if len(motions) > 3]
     cells = {"share": bootstrap_mean(made), "real": bootstrap_mean(real)}
@@ -525,7 +531,7 @@ def _warnings(
 
 def spread(motions: Sequence[Motion]) -> float:
     """Deviation of the joints, seen from the pelvis, over motions of two seconds or more; cm."""
-    joints = np.stack([motion.positions()[:PIECE] for motion in motions])
+    joints = np.stack([motion.positions()[: PIECES[0]] for motion in motions])
     deviation: np.ndarray = (joints - joints[:, :, :1]).std(0)  # T K 3
     return float(100 * np.linalg.norm(deviation, axis=-1).mean())
 
@@ -567,9 +573,14 @@ def mean_speed(motion: Motion) -> float:
 
 
 def in_order(yardstick: Yardstick, request: Request, motion: Motion) -> bool:
-    """Whether the parts are seen one after the other, each in some window of two seconds."""
-    starts = range(0, max(motion.num_frames - PIECE, 0) + 1, HOP)
-    pieces = Seen.of([motion.frames(at, at + PIECE) for at in starts])
+    """Whether the parts are seen one after the other, each in some window of PIECES frames."""
+    windows = [
+        (at, at + length)
+        for length in PIECES
+        for at in range(0, max(motion.num_frames - length, 0) + 1, HOP)
+    ]
+    windows.sort(key=lambda window: window[1])
+    pieces = Seen.of([motion.frames(*window) for window in windows])
     rest = iter(list(zip(yardstick.shows(pieces), pieces.motions, strict=True)))
     shows = yardstick.recognizer.shows
     return all(any(shows(part["action"], *piece) for piece in rest) for part in request.parts)

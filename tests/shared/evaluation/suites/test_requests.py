@@ -106,6 +106,8 @@ def test_every_action_the_judge_knows_has_a_row(tables: dict[str, Grid]) -> None
     )
     exact = tables["exactness"]
     assert {"counts", "a walk of 10 s, m/s"} <= exact.rows.keys()
+    order, chance = "one-sentence sequences", "the same, for another sequence"
+    assert exact.value(order, "share") >= exact.value(chance, "share")
     rests, gestures = "gestures from rest to rest", "the same, and obeyed"
     assert exact.value(gestures, "share") <= exact.value(rests, "share")
 

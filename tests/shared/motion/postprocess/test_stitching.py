@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from src.shared.data.synthetic.clips import generate_clip, spec_for
-from src.shared.metrics.measurements import arms_alone, at_rest, rests_in_place
+from src.shared.metrics.measurements import arms_alone, at_rest, ends_at_rest, rests_in_place
 from src.shared.motion.features import LEFT_CONTACT, ROOT_ROW
 from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess.stitching import (
@@ -110,6 +110,7 @@ def test_raised_hands_come_down_at_both_ends_without_a_jerk() -> None:
     motion = waving(90)
     assert not at_rest(motion)
     whole = rest_to_rest(motion)
+    assert ends_at_rest(whole) and not ends_at_rest(motion)
     assert arms_alone(whole) and rests_in_place(whole) and not rests_in_place(motion)
     fade = round(REST_FADE * motion.fps)
     assert np.array_equal(whole.quaternions[fade:-fade], motion.quaternions[fade:-fade])
@@ -121,7 +122,7 @@ def test_raised_hands_come_down_at_both_ends_without_a_jerk() -> None:
 def test_arms_that_hang_are_left_alone() -> None:
     stand = generate_clip(spec_for({"action": "stand"}, 0), seed=0)
     assert np.array_equal(rest_to_rest(stand).quaternions, stand.quaternions)
-    assert rests_in_place(stand) and not arms_alone(stand)
+    assert ends_at_rest(stand) and rests_in_place(stand) and not arms_alone(stand)
 
 
 def test_what_is_too_short_for_both_fades_is_left_alone() -> None:
