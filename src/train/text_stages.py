@@ -135,7 +135,7 @@ def fit_scope(
     pretrained = tower.config.text_model not in OWN
     scope = OutOfDomainDetector.fit(texts, actions, embeddings, pretrained_tower=pretrained)
     scope = replace(scope, gestures=gestures(data), arms=arm_actions(data))
-    if len(scope.actions) < 2:  # nothing to take one for another
+    if len(set(scope.actions) - {""}) < 2:  # nothing to take one for another
         return scope
     return _calibrated(scope, texts, actions, tower, tokenizer)
 
@@ -149,13 +149,14 @@ def _calibrated(
 ) -> OutOfDomainDetector:
     """Texts as they are, with made-up words in them, and with made-up words for what tells."""
     rng = np.random.default_rng(0)
-    chosen = rng.permutation(len(texts))[:CALIBRATING]
+    labelled = np.flatnonzero(np.array(actions) != "")
+    chosen = rng.permutation(labelled)[:CALIBRATING]
     asked = [texts[row] for row in chosen]
     strange = [insert_babble(text, text, rng) for text in asked]
     empty = [_without_key_words(text, scope, rng) for text in asked]
     prompts = [*asked, *strange, *empty]
     embeddings = encode_captions(tower, tokenizer, prompts).numpy()
-    nearest = [scope.actions[row] for row in (embeddings @ scope.means.T).argmax(1)]
+    nearest = [scope.actions[scope.ranked(row)[0]] for row in embeddings @ scope.means.T]
     wanted = [actions[row] for row in chosen] * 2
     right = [is_near == wish for is_near, wish in zip(nearest, wanted, strict=False)]
     return scope.calibrated(prompts, embeddings, right + [False] * len(empty))

@@ -191,11 +191,15 @@ class OutOfDomainDetector:
             known = self.familiar(prompt)
         if self.min_cosine is not None:
             known = known or float(cosines.max()) >= self.min_cosine
-        ranked = [self.actions[index] for index in np.argsort(-cosines, kind="stable")]
-        named = [action for action in ranked if action]  # "" is that of clips without a label
-        if known and self.reliability.get(ranked[0], 1.0) < RELIABLE:
-            return ScopeResult(False, named[:NUM_NEAREST], unreliable=ranked[0])
-        return ScopeResult(known, named[:NUM_NEAREST])
+        nearest = [self.actions[index] for index in self.ranked(cosines)[:NUM_NEAREST]]
+        if known and nearest and self.reliability.get(nearest[0], 1.0) < RELIABLE:
+            return ScopeResult(False, nearest, unreliable=nearest[0])
+        return ScopeResult(known, nearest)
+
+    def ranked(self, cosines: np.ndarray) -> list[int]:
+        """Indices of the actions by their cosines [A], nearest first; without that of clips that
+        nobody labelled, whose captions may ask for any of the others."""
+        return [row for row in np.argsort(-cosines, kind="stable").tolist() if self.actions[row]]
 
     def familiar(self, prompt: str) -> bool:
         """Whether the words of a prompt are those of training, whatever it asks for."""
@@ -212,14 +216,14 @@ class OutOfDomainDetector:
     def evidence(self, prompt: str, cosines: np.ndarray) -> np.ndarray:
         """What speaks for a prompt [6], its cosines with the A actions given; the last is 1."""
         words = frozenset(words_of(prompt))
-        first, second = np.argsort(-cosines, kind="stable")[[0, min(1, len(cosines) - 1)]]
+        first, second = (self.ranked(cosines) * 2)[:2]  # of one action alone: twice the same
         named = {action for word in words for action in self.key_words.get(word, ())}
         for word in words - self.key_words.keys():
             for key in self._by_stem.get(word[:MIN_STEM], ()):
                 if _same_stem(word, key):
                     named.update(self.key_words[key])
         seen = len(words & self.words) / max(len(words), 1)
-        agreement = 0.0 if not named else 1.0 if int(first) in named else -1.0
+        agreement = 0.0 if not named else 1.0 if first in named else -1.0
         only_fillers = float(words <= self.fillers)
         margin = float(cosines[first] - cosines[second])
         return np.array([float(cosines[first]), margin, seen, agreement, only_fillers, 1.0])

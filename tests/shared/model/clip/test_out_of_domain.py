@@ -84,6 +84,14 @@ def test_clips_without_an_action_are_not_named(scope: OutOfDomainDetector):
     assert len(result.nearest) == 3 and all(result.nearest)
 
 
+def test_clips_without_an_action_are_no_rival(scope: OutOfDomainDetector):
+    unlabelled = replace(scope, actions=("", *scope.actions[1:]))
+    cosines = np.linspace(1, 0, len(scope.actions))
+    assert unlabelled.ranked(cosines) == list(range(1, len(scope.actions)))
+    first, margin, *_ = unlabelled.evidence("a person walks", cosines)
+    assert first == cosines[1] and margin == pytest.approx(cosines[1] - cosines[2])
+
+
 def test_paraphrases_are_known_in_every_language(scope: OutOfDomainDetector, book):
     sentences = [
         text for labels in LABELS for texts in book.paraphrases(labels).values() for text in texts
