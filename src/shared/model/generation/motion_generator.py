@@ -34,8 +34,7 @@ from ..checkpoint import (
 )
 from ..clip.core import TextFeatures, TextTower
 from ..clip.out_of_domain import OutOfDomainDetector
-from ..clip.pretrained import TOKENIZER_FOLDER, check_embed_dims
-from ..clip.style_map import StyleMap
+from ..clip.pretrained import TOKENIZER_FOLDER, StyleMap, check_embed_dims
 from ..clip.tokenizer import PromptTokenizer
 from ..diffusion import GaussianDiffusion, guided
 from .constraint import Constraint, KnownBatch
