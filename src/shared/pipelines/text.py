@@ -56,18 +56,6 @@ REPEATED_OVERLAP = 10  # frames: a repetition begins as the one before it ended,
 log = logging.getLogger(__name__)
 
 
-@dataclass(frozen=True, eq=False)
-class _Stretch:
-    """What one clause becomes: passages and what is known of their frames; nothing if None."""
-
-    passages: list[Passage]
-    constraint: Constraint | None = None
-
-    @property
-    def frames(self) -> int:
-        return sum(passage.frames for passage in self.passages)
-
-
 class SentenceGenerator:
     """A `TextToMotion` that does what its sentences say of order, number, angle and length.
 
@@ -270,19 +258,19 @@ class SentenceGenerator:
     ) -> Motion:
         parts = self.clauses(prompt)
         stretches = [self._stretch(part, seconds, tag, sampling) for part in parts]
-        starts = [0, *accumulate(stretch.frames for stretch in stretches)]
+        starts = [0, *accumulate(passage.frames for passage, _ in stretches)]
         given = Constraint.free(starts[-1])
-        for start, stretch in zip(starts, stretches, strict=False):
-            if stretch.constraint is not None:
-                stop = start + stretch.frames
-                given.values[start:stop] = stretch.constraint.values
-                given.known[start:stop] = stretch.constraint.known
-        led = any(stretch.constraint is not None for stretch in stretches)
+        for start, (passage, constraint) in zip(starts, stretches, strict=False):
+            if constraint is not None:
+                stop = start + passage.frames
+                given.values[start:stop] = constraint.values
+                given.known[start:stop] = constraint.known
+        led = any(constraint is not None for _, constraint in stretches)
         repeated = any(part.count > 1 for part in parts)
         fps = self.card.fps
         pieces = stream_features(
             self.generator,
-            [passage for stretch in stretches for passage in stretch.passages],
+            [passage for passage, _ in stretches],
             constraint=(lambda start, stop: given.window(start, stop, fps=fps)) if led else None,
             window=self._window(),
             overlap=REPEATED_OVERLAP if repeated else OVERLAP,
@@ -304,22 +292,22 @@ class SentenceGenerator:
 
     def _stretch(
         self, clause: Clause, seconds: float, tag: str | None, sampling: Sampling
-    ) -> _Stretch:
-        """Passages and constraint of one clause."""
+    ) -> tuple[Passage, Constraint | None]:
+        """What one clause becomes, and what is known of its frames."""
         fps, text = self.card.fps, clause.text
         seconds = clause.seconds or seconds
         if clause.degrees is not None:
             given = turned(clause.degrees, fps)
-            return _Stretch([Passage(text, len(given), tag)], given)
+            return Passage(text, len(given), tag), given
         if clause.metres is not None:
             given = self._led(Passage(text, round(seconds * fps), tag), clause, sampling)
-            return _Stretch([Passage(text, len(given), tag)], given)
+            return Passage(text, len(given), tag), given
         if clause.count > 1:
             once = float(np.clip(seconds / clause.count, *ONCE))
             frames, window = round(once * fps) * clause.count, round(once * fps) + REPEATED_OVERLAP
-            return _Stretch([Passage(text, frames, tag, window, self._miss(clause, frames))])
+            return Passage(text, frames, tag, window, self._miss(clause, frames)), None
         frames = max(1, round(seconds * fps))
-        return _Stretch([Passage(text, frames, tag, miss=self._miss(clause, frames))])
+        return Passage(text, frames, tag, miss=self._miss(clause, frames)), None
 
     def _led(self, passage: Passage, clause: Clause, sampling: Sampling) -> Constraint:
         """So many metres, at the pace and in the direction that are the clause's own."""
