@@ -27,6 +27,13 @@ def generate(
             "--body", help="For a song: a whole body that dances as the music says; or --prompt."
         ),
     ] = False,
+    figures: Annotated[
+        bool,
+        typer.Option(
+            "--figures/--no-figures",
+            help="For a dance: recorded figures where they show it; or the model dances alone.",
+        ),
+    ] = True,
     follow_path: Annotated[
         bool,
         typer.Option(
@@ -42,7 +49,8 @@ def generate(
     memory: Annotated[
         Path | None,
         typer.Option(
-            help="For a song: folder of `memory build`, heard by a --model of train_memory."
+            help="For a song: folder of `memory build`: figures to dance, or phrases that a"
+            " --model of train_memory hears."
         ),
     ] = None,
     then: Annotated[
@@ -166,8 +174,8 @@ def generate(
         raise UsageError("--judge compares candidates: give --num-samples 2 or more with it")
     result = produce(
         Request(
-            prompt or [], only_song(audio), directions, body=body, follow_path=follow_path,
-            style=style, meter=meter,
+            prompt or [], only_song(audio), directions, body=body, figures=figures,
+            follow_path=follow_path, style=style, meter=meter,
             memory=memory, tag=tag, seconds=seconds, num_samples=num_samples,
             return_all=return_all, judge=judge, seed=seed, steps=steps, sampler=sampler,
             guidance_scale=guidance_scale, foot_lock=foot_lock,

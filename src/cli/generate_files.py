@@ -221,6 +221,7 @@ def _told_of_dance(dance: "Performance", song: "Song") -> dict[str, Any]:
     return {
         "prompt": motion.text,
         "passages": [{"text": p.text, "seconds": p.frames / motion.fps} for p in dance.passages],
+        "figures": [figure.told() for figure in dance.figures],
         "frames": motion.num_frames,
         "fps": motion.fps,
         "root-error": error and {name.replace("_", "-"): v for name, v in error.items()},

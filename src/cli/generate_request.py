@@ -36,6 +36,7 @@ class Request:
     audio: Path | None
     directions: Directions
     body: bool
+    figures: bool
     follow_path: bool
     style: str | None
     meter: int | None
@@ -254,8 +255,13 @@ def dance(request: Request, audio: Path) -> dict[str, Any]:
     if drawn is not None and request.follow_path:
         raise UsageError("--path does not go with --follow-path; leave one out")
     if not request.follow_path:
-        of_paths = {name: getattr(request, name) for name in ("style", "memory", "runtime")}
+        of_paths = {name: getattr(request, name) for name in ("style", "runtime")}
         refuse_with("a dance that follows no path (--follow-path)", **of_paths)
+        check_figures(request)
+    elif not request.figures:
+        raise UsageError(
+            "--no-figures does not go with --follow-path, which has none; leave it out"
+        )
     if not request.prompt:
         refuse_with("--body alone", tag=request.tag)
     elif request.body:
@@ -276,6 +282,7 @@ def dance(request: Request, audio: Path) -> dict[str, Any]:
             prompt,
             tag=tag,
             seconds=request.seconds,
+            figures=request.figures,
             follow_path=request.follow_path,
             path=path,
             style=style,
@@ -415,6 +422,17 @@ def check_runtime(request: Request) -> None:
 
 
 # ---------------------------------------------------------------- arguments
+
+
+def check_figures(request: Request) -> None:
+    """Refuse a memory that holds no figures to dance."""
+    from ..shared.memory.figures import is_figure_memory
+
+    if request.memory is not None and not is_figure_memory(request.memory):
+        raise UsageError(
+            f"--memory {request.memory} holds no figures; make some with `memory build --figures`,"
+            " or give --follow-path for a memory of phrases"
+        )
 
 
 def checked_prompts(prompts: list[str] | None) -> list[str]:

@@ -1,4 +1,4 @@
-"""`memory build` and `memory query`: phrases of real motion, found by song or by text."""
+"""`memory build` and `memory query`: phrases and figures of real motion, found by song or text."""
 
 import os
 from pathlib import Path
@@ -10,6 +10,7 @@ from ..shared.environment import TEXT_MODEL
 from ..shared.errors import UsageError, printable
 from . import options
 from .console import complain, guarded, print_json, tell, with_quiet
+from .generate_request import refuse_with
 from .options import Command
 
 if TYPE_CHECKING:
@@ -29,12 +30,27 @@ memory = typer.Typer(
 
 
 def build(
-    data: Annotated[str, typer.Argument(help="Folder that `prepare-audio` wrote, or a gs:// URL.")],
+    data: Annotated[
+        str,
+        typer.Argument(
+            help="Folder that `prepare-audio` wrote, or a gs:// URL; for --figures, motion files."
+        ),
+    ],
     out: Annotated[Path, typer.Option(help="Folder for the memory.")],
+    figures: Annotated[
+        bool, typer.Option("--figures", help="Figures to dance, from motion files without music.")
+    ] = False,
+    takes: Annotated[
+        Path | None,
+        typer.Option(help="Of --figures: CSV with file, kind, source, licence, repeat."),
+    ] = None,
     space: Annotated[
-        str, typer.Option(help="Shared space of sound and motion: a name or a folder.")
-    ] = SPACE,
-    split: Annotated[str, typer.Option(help="Of the data: train, val or test.")] = "train",
+        str | None,
+        typer.Option(help=f"Shared space of sound and motion: a name or a folder; {SPACE}."),
+    ] = None,
+    split: Annotated[
+        str | None, typer.Option(help="Of the data: train, val or test; train.")
+    ] = None,
     bars: Annotated[int | None, typer.Option(help="Length of a phrase; 2.")] = None,
     threads: options.Threads = None,
     json: options.Json = False,
@@ -44,11 +60,18 @@ def build(
     A memory that is up to date is left as it is; a stopped build goes on where it was.
 
     \b
-    Example:
+    Examples:
       motion-tools memory build data/pairs --out data/memory
+      motion-tools memory build my-dances --figures --takes takes.csv --out data/figures
     """
     options.check_ranges(threads=threads)
     options.check_folder("--out", out)
+    if figures:
+        refuse_with("--figures", space=space, split=split, bars=bars)
+        remember_figures(Path(data), takes, out, json=json)
+        return
+    refuse_with("a memory of phrases (--figures makes one of figures)", takes=takes)
+    space, split = space or SPACE, split or "train"
     config = load_settings(bars=bars)
 
     from ..shared.device import set_threads
@@ -88,7 +111,10 @@ def build(
 
 def query(
     ask: Annotated[str, typer.Argument(help="A sound file, or words.", metavar="SONG|TEXT")],
-    memory: Annotated[Path, typer.Option(help="Folder that `memory build` wrote.")],
+    memory: Annotated[
+        Path,
+        typer.Option(help="Folder that `memory build` wrote; figures: the shipped figures."),
+    ],
     top_k: Annotated[int | None, typer.Option(help="Phrases to find; 8.")] = None,
     space: Annotated[
         str | None, typer.Option(help="Where the shared space is now; the one of the build.")
@@ -98,7 +124,7 @@ def query(
     threads: options.Threads = None,
     json: options.Json = False,
 ) -> None:
-    """Find phrases that fit a song, bar by bar, or that move as words say.
+    """Find phrases that fit a song, bar by bar, or that move as words say; or figures likewise.
 
     \b
     Examples:
@@ -114,11 +140,17 @@ def query(
 
     from ..shared.audio.sound import check_sound
     from ..shared.device import set_threads
-    from ..shared.pipelines.song_memory import open_memory
+    from ..shared.memory.figures import SHIPPED, is_figure_memory
 
     if is_song:
         check_sound(ask)
     set_threads(threads)
+    folder = SHIPPED if str(memory) == "figures" and not memory.exists() else memory
+    if is_figure_memory(folder):
+        query_figures(ask, folder, is_song=is_song, top_k=top_k or 8, meter=meter, json=json)
+        return
+    from ..shared.pipelines.song_memory import open_memory
+
     index, loaded = open_memory(memory, space or "")
     config = load_settings(top_k=top_k, bars=index.about["bars"])
     if is_song:
@@ -138,6 +170,68 @@ def query(
     else:
         print(f"confidence {results[0].confidence:.2f}")
         print_hits(results[0].hits)
+
+
+def remember_figures(data: Path, table: Path | None, out: Path, *, json: bool) -> None:
+    """Build and write a memory of figures.
+
+    Raises:
+        UserError: as `build_figures`.
+    """
+    from ..shared.io.files import sole_writer
+    from ..shared.memory.build_figures import build_figures, every_file, read_takes
+    from .console import progress_bar
+
+    if not data.is_dir():
+        raise UsageError(f"{data} is no folder; name one of motion files")
+    rows = every_file(data) if table is None else read_takes(table, data)
+    with sole_writer(out), progress_bar("takes") as progress:
+        memory, left_out = build_figures(rows, progress=progress)
+        memory.save(out)
+    seconds = float(memory.offsets[-1]) / 30
+    found = {"memory": str(out), "takes": len(memory.takes), "seconds": round(seconds, 1)}
+    found |= {"figures": len(memory.figures(8)), "left_out": left_out}
+    if json:
+        print_json(found)
+        return
+    for name, reason in left_out.items():
+        tell(f"left out {name}: {reason}")
+    print(f"{found['takes']} takes, {seconds:.0f} s, {found['figures']} figures of eight: {out}")
+    print(f"next: motion-tools memory query SONG --memory {out}")
+
+
+def query_figures(
+    ask: str, folder: Path, *, is_song: bool, top_k: int, meter: int | None, json: bool
+) -> None:
+    """The figures that a song is danced in, or those of a kind that words ask for."""
+    from ..shared.memory.figures import FigureMemory
+    from ..shared.pipelines.choreography import Choreographer, Wish, song_slots
+    from ..shared.pipelines.figure_dance import listed, told
+
+    choreographer = Choreographer(FigureMemory.open(folder))
+    if is_song:
+        from ..shared.audio.song import analyse
+        from ..shared.pipelines.song import SongCondition
+
+        song = SongCondition.of(analyse(ask, meter=meter))
+        slots = []
+        if song.phase is not None:
+            slots = song_slots(song.beats, song.phase, song.condition.numpy(), song.waits)
+        chosen = choreographer.choose(slots, Wish(), 0) if slots else None
+        rows = [] if chosen is None else [d.told() for d in told(choreographer, slots, chosen)]
+    else:
+        from ..shared.pipelines.wish import wish_of
+
+        wish = wish_of(ask, choreographer.kinds)
+        rows = [] if wish is None else listed(choreographer, wish)[:top_k]
+    if json:
+        print_json({"query": ask, "memory": str(folder), "figures": rows})
+        return
+    if not rows:
+        kinds = ", ".join(sorted(choreographer.kinds))
+        tell(f"no figure shows {ask!r}; there are: {kinds}")
+    for row in rows:
+        print("  ".join(f"{name} {value}" for name, value in row.items()))
 
 
 for command in (build, query):

@@ -13,11 +13,11 @@ from src.cli.train import STAGES
 
 FLAGS = {
     "generate": (
-        "--audio --body --body-model --device --edit --end --follow-path --foot-lock --format"
-        " --from --guidance-scale --joints --json --judge --keep --loop --memory --meter --model"
-        " --no-foot-lock --num-samples --out --path --post-processing --prompt --return-all"
-        " --runtime --sampler --seconds --seed --start --steps --style --tag --then --threads"
-        " --timeline --to"
+        "--audio --body --body-model --device --edit --end --figures --follow-path --foot-lock"
+        " --format --from --guidance-scale --joints --json --judge --keep --loop --memory"
+        " --meter --model --no-figures --no-foot-lock --num-samples --out --path"
+        " --post-processing --prompt --return-all --runtime --sampler --seconds --seed --start"
+        " --steps --style --tag --then --threads --timeline --to"
     ),
     "convert": (
         "--asf --format --fps --json --mapping --names --resume --root --skeleton --source-fps"
@@ -79,7 +79,7 @@ FLAGS = {
         " --out --quick --replications --row --seed --steps --threads A B"
     ),
     "export-onnx": "--json --model --out",
-    "memory build": "--bars --json --out --space --split --threads DATA",
+    "memory build": "--bars --figures --json --out --space --split --takes --threads DATA",
     "memory query": "--json --memory --meter --model --space --threads --top-k ASK",
     "models": "--json",
     "plot": "--out FILE",

@@ -60,6 +60,18 @@ def test_a_song_and_a_sentence_become_a_body(folder: Path, tmp_path: Path) -> No
     assert len(shown["turning"]) > 4  # all joints move, not only the stand-in's legs
 
 
+def test_it_dances_figures_and_says_which(folder: Path, tmp_path: Path) -> None:
+    asked = ("--prompt", "a person dances", "--format", "npz", "--out", tmp_path, "--json")
+    render_song(SongSpec(seconds=9.0, tempo=120.0, seed=5)).write_wav(tmp_path / "long.wav")
+    rows = {}
+    for flag in ("--figures", "--no-figures"):
+        told = json.loads(generate(folder, *asked, flag, song=tmp_path / "long.wav").stdout)
+        (rows[flag],) = told["motions"]
+    assert rows["--no-figures"]["figures"] == []
+    figures = rows["--figures"]["figures"]
+    assert figures and {"name", "kind", "start", "stop", "counts", "mirrored"} <= set(figures[0])
+
+
 def test_candidates_share_a_page_and_are_scored(folder: Path, tmp_path: Path) -> None:
     arguments = (*PROMPT, "--num-samples", "2", "--return-all", "--format", "npz,html", "--json")
     told = json.loads(generate(folder, *arguments, "--out", tmp_path).stdout)
@@ -120,6 +132,8 @@ def test_a_song_without_beat(folder: Path, tmp_path: Path) -> None:
         ((*PROMPT, "--seconds", "0.5"), "--seconds"),
         ((*PROMPT, "--style", "tired"), "--follow-path"),
         (("--follow-path",), "--prompt"),
+        ((*PROMPT, "--follow-path", "--no-figures"), "--no-figures"),
+        ((*PROMPT, "--memory", "."), "--memory"),
         (("--path", "way.csv"), "--path"),
         ((*PROMPT, "--path", "way.csv", "--follow-path"), "--path"),
         ((*PROMPT, "--loop"), "--loop"),

@@ -13,11 +13,13 @@ from typer.testing import CliRunner
 from src.cli.tools import app
 from src.shared.audio.synthetic_songs import SongSpec, render_song
 from src.shared.config_audio import AudioTowerConfig
+from src.shared.formats.arrays import write_npz
 from src.shared.memory.index import MemoryIndex
 from src.shared.model.audio.shared_space import SharedSpace
 from src.shared.model.checkpoint import ModelCard
 from src.shared.model.clip.core import MotionClip
 from src.shared.model.clip.pretrained import ClipBundle
+from tests.shared.memory.tiny_figures import stepping, tiny_figures
 from tests.shared.memory.tiny_memory import write_dancers
 from tests.shared.model.conftest import tiny_generator
 
@@ -34,6 +36,27 @@ def invoke(*arguments: str, code: int = 0) -> tuple[str, str]:
 @pytest.fixture(autouse=True)
 def private_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("MOTIONGEN_AUDIO_CACHE", str(tmp_path / "cache"))
+
+
+def test_figures_are_built_and_asked(tmp_path: Path) -> None:
+    tiny_figures().save(tmp_path / "own")
+    song = tmp_path / "song.wav"
+    render_song(SongSpec(seconds=9.0, tempo=120.0, seed=5)).write_wav(song)
+    (tmp_path / "dances").mkdir()
+    write_npz(stepping(0.5), tmp_path / "dances" / "step.npz")
+    out = str(tmp_path / "built")
+    told, _ = invoke("build", str(tmp_path / "dances"), "--figures", "--out", out, "--json")
+    assert json.loads(told)["takes"] == 1 and json.loads(told)["figures"] > 10
+    told, _ = invoke("query", str(song), "--memory", out, "--json")
+    assert all(row["name"].startswith("step@") for row in json.loads(told)["figures"])
+    told, _ = invoke("query", "polka", "--memory", str(tmp_path / "own"), "--top-k", "2", "--json")
+    assert [row["kind"] for row in json.loads(told)["figures"]] == ["polka"] * 2
+    _, said = invoke("query", "a tango", "--memory", "figures")
+    assert "salsa" in said
+    for wrong in (("--space", "x"), ("--split", "val"), ("--bars", "2")):
+        invoke("build", "x", "--figures", "--out", out, *wrong, code=2)
+    invoke("build", "nowhere", "--figures", "--out", out, code=2)
+    invoke("build", "x", "--takes", "t.csv", "--out", out, code=2)
 
 
 @pytest.fixture(scope="module")

@@ -16,6 +16,7 @@ from ..motion.motion import Motion
 from ..pipelines.body import root_error
 from .engine import MetricFamily
 from .families_audio import ABOVE, SCORES
+from .families_text import BODY_KINETICS, body_kinetics
 from .report.tables import Column
 from .samples import Bodies, Dance
 
@@ -188,4 +189,11 @@ ON_STAGE: MetricFamily[Bodies] = MetricFamily(
         for found in sample.each("stage", stage)
     ],
 )
-FAMILIES = (BODY_RHYTHM, ON_STAGE, ON_THE_PATH, FEET)
+KINETICS: MetricFamily[Bodies] = MetricFamily(
+    BODY_KINETICS.name,
+    BODY_KINETICS.columns,
+    BODY_KINETICS.definition,
+    body_kinetics,
+    distance=True,
+)
+FAMILIES = (BODY_RHYTHM, ON_STAGE, KINETICS, ON_THE_PATH, FEET)

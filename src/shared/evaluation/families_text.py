@@ -34,7 +34,7 @@ from ..metrics.retrieval import (
 from .engine import MetricFamily, Value
 from .judge.instructions import check
 from .report.tables import Column
-from .samples import MotionSample
+from .samples import Bodies, MotionSample
 
 JOINT_AXES = 16
 MIN_SAMPLE = 2  # motions that have a covariance
@@ -203,7 +203,9 @@ KINETIC_WARNING = (
 )
 
 
-def _body_kinetics(sample: MotionSample, reference: MotionSample, seed: int) -> dict[str, float]:
+def body_kinetics(
+    sample: MotionSample | Bodies, reference: MotionSample | Bodies, seed: int
+) -> dict[str, float]:
     """Nothing for fewer than two motions on either side; no random choice."""
     if min(len(sample), len(reference)) < MIN_SAMPLE:
         return {}
@@ -214,7 +216,7 @@ def _body_kinetics(sample: MotionSample, reference: MotionSample, seed: int) -> 
     return kinetic_columns(own, real, kinds=3, units_of=whole)
 
 
-BODY_KINETICS = MetricFamily(
+BODY_KINETICS: MetricFamily[MotionSample] = MetricFamily(
     "kinetic and geometric features",
     (
         Column("fid_k", "FID_k, 66-d", 2, "low"),
@@ -230,7 +232,7 @@ BODY_KINETICS = MetricFamily(
     "(Müller et al. 2005); as in AIST++ (Li et al. 2021). FID: Fréchet distance to the real "
     "motions, also along the 16 directions in which these vary most: the one to read below "
     "a thousand motions. Div: mean distance over all pairs. " + KINETIC_WARNING,
-    _body_kinetics,
+    body_kinetics,
     distance=True,
 )
 

@@ -23,7 +23,24 @@ LAG = 1.0  # seconds over which place and heading are averaged: a sway and a spi
 PULL, NEAR = 0.12, 0.8  # m/s at most, and metres from the middle at which 0.7 of it is reached
 TURN = 0.3  # rad/s at most, for a body that has its side to the front
 SWAY = 0.5  # seconds, standard deviation: quicker steps backward stay
+STEADY, STROLL = 1.0, 0.1  # seconds, standard deviation, and m/s: a faster way is a walk
 BACKWARD = 0.8  # share of the way backward that is left out
+
+
+def settled(root: Tensor, fps: float) -> Tensor:
+    """Root rows [T,6] of a body that goes nowhere in particular: of a steady way little is left.
+
+    Args:
+        root: see `steered`.
+        fps: frames a second.
+    """
+    rows = root.double().clone()
+    way = rows[:, [FORWARD, LATERAL]].numpy()
+    slow = gaussian_filter1d(way, STEADY * fps, axis=0, mode="nearest")
+    speed = np.linalg.norm(slow, axis=1, keepdims=True)
+    too_fast = np.maximum(1 - STROLL / np.maximum(speed, 1e-9), 0)
+    rows[:, [FORWARD, LATERAL]] -= torch.from_numpy(too_fast * slow)
+    return rows.to(root.dtype)
 
 
 def steered(root: Tensor, fps: float, *, pull: float = PULL, turn: float = TURN) -> Tensor:

@@ -15,6 +15,7 @@ Letters: T frames, R rows (bones, root track), M beats, S steps.
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import accumulate
+from typing import TYPE_CHECKING
 
 import numpy as np
 import torch
@@ -26,7 +27,7 @@ from ..errors import UsageError
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
-from ..motion.features import LEFT_CONTACT, ROOT_ROW, Place
+from ..motion.features import FORWARD, LATERAL, LEFT_CONTACT, ROOT_ROW, YAW_RATE, Place
 from ..motion.motion import Motion
 from ..motion.postprocess.stitching import blend_cuts
 from ..motion.rotations import (
@@ -36,13 +37,18 @@ from ..motion.rotations import (
     turn_about_y,
     yaw_to_matrix,
 )
-from ..motion.steering import steered
+from ..motion.steering import settled, steered
 from ..motion.trajectory import MotionTrajectory, from_motion, to_root
 from .song_sampler import Progress
 from .stream import Passage, stream_features
 
+if TYPE_CHECKING:
+    from .figure_dance import Danced
+
 QUICK = 0.45  # seconds; beats closer than this are too fast for a step each
 BOTH_STAND = 0.2  # of a step, both feet are on the ground
+GROUND = [FORWARD, LATERAL, YAW_RATE]
+WALKS = 0.3  # m/s; who goes so much faster than a dancer strolls is made once more, to stay
 STILL, RUNNING = 0.25, 2.0  # m/s over a step; nobody walks slower, or faster
 SWAY = 0.5  # seconds, standard deviation of the path that the pelvis sways about
 
@@ -246,12 +252,14 @@ class Performance:
         trajectory: the path of its pelvis, T frames.
         passages: what the body was asked to do, and for how long.
         error: how far the body's pelvis is from the path that was given; None = none was.
+        figures: what it dances when; none where no memory was asked.
     """
 
     motion: Motion
     trajectory: MotionTrajectory
     passages: tuple[Passage, ...]
     error: RootError | None = None
+    figures: tuple["Danced", ...] = ()
 
 
 class Performer:
@@ -330,6 +338,8 @@ class Performer:
     ) -> Performance:
         """A body that goes where it likes, near the middle of the stage.
 
+        Who walks off ("an old man dances") is made once more, on its own way without the walk.
+
         Args:
             passages: what it does, T frames in all.
             beats, seed, progress: see `perform`.
@@ -349,7 +359,14 @@ class Performer:
             first=(own.seed if seed is None else seed) % 2,
         )
         features = self._sampled(passages, known, seed, progress, waits)
-        features[:, ROOT_ROW] = steered(features[:, ROOT_ROW], self.generator.card.fps)
+        free, fps = features[:, ROOT_ROW], self.generator.card.fps
+        stays = settled(free, fps)
+        if float((stays - free)[:, [FORWARD, LATERAL]].abs().max()) > WALKS:
+            known.values[:, ROOT_ROW, GROUND] = stays[:, GROUND]
+            known.known[:, ROOT_ROW, GROUND] = True
+            features = self._sampled(passages, known, seed, progress, waits)
+            features[:, ROOT_ROW, GROUND] = stays[:, GROUND]
+        features[:, ROOT_ROW] = steered(features[:, ROOT_ROW], fps)
         motion = self.generator.post_processor(
             features, None, text=_title(passages), foot_lock=own.foot_lock, carried=True
         )

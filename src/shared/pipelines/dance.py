@@ -27,11 +27,14 @@ from ..model.clip.pretrained import tower_hash
 from ..model.generation.motion_generator import Progress, TextToMotion
 from ..motion.features import FORWARD, HEIGHT, LATERAL
 from ..motion.skeleton import REST_PELVIS_HEIGHT
-from ..motion.trajectory import FPS, MotionTrajectory, to_root
+from ..motion.trajectory import FPS, MotionTrajectory, from_motion, to_root
 from .body import Performance, Performer
+from .choreography import Choreographer, Wish
+from .figure_dance import STAND, FigureDancer
 from .ranking import PerformanceJudge, ScoreTable, unranked
 from .song import SongCondition
 from .stream import Passage
+from .wish import wish_of
 
 log = logging.getLogger(__name__)
 
@@ -39,7 +42,6 @@ SPACE = "starter-space"
 SECTION = 6.0  # seconds, about; whole bars where a beat is known
 HEARD = 150  # frames that the audio tower hears at once: it learned from five seconds at most
 SHORTEST = 40  # frames of them
-STAND = "a person stands still"  # where nothing is heard
 SPEED_WIDTH, HEIGHT_WIDTH, ENERGY_WIDTH = 0.6, 0.12, 0.5  # m/s, m, share: one unit of logit
 
 
@@ -221,6 +223,7 @@ class SongPerformer:
         performer: of bodies.
         prompter: finds prompts in music; None = a prompt must be given.
         judge: of the candidates; None = one without the words.
+        choreographer: of recorded figures; None = the generator dances alone.
     """
 
     def __init__(
@@ -229,8 +232,9 @@ class SongPerformer:
         *,
         prompter: DancePrompter | None = None,
         judge: PerformanceJudge | None = None,
+        choreographer: Choreographer | None = None,
     ) -> None:
-        self.performer, self.prompter = performer, prompter
+        self.performer, self.prompter, self.choreographer = performer, prompter, choreographer
         self.judge = judge or PerformanceJudge()
 
     def dance(
@@ -259,17 +263,46 @@ class SongPerformer:
         frames, made = song.condition.shape[1], []
         for number in range(num_samples):
             own = candidate_seed(seed, song.seed, number)
-            passages = self._passages(song, None, prompt, tag, own)
-            dance = self.performer.improvise(
-                with_waits(passages, song.waits),
-                beats=song.beats if len(song.beats) else None,
-                phase=song.phase,
-                waits=song.waits,
-                seed=own,
-                progress=_from(progress, number * frames, num_samples * frames),
-            )
+            told = _from(progress, number * frames, num_samples * frames)
+            dance = self._in_figures(song, prompt, own, told)
+            if dance is None:
+                passages = self._passages(song, None, prompt, tag, own)
+                dance = self.performer.improvise(
+                    with_waits(passages, song.waits),
+                    beats=song.beats if len(song.beats) else None,
+                    phase=song.phase,
+                    waits=song.waits,
+                    seed=own,
+                    progress=told,
+                )
             made.append(dance)
         return self._ranked(made, song, prompt)
+
+    def _in_figures(
+        self, song: SongCondition, prompt: str | None, seed: int, progress: Progress | None
+    ) -> Performance | None:
+        """A dance of recorded figures; None where they do not show what is asked."""
+        if self.choreographer is None:
+            return None
+        kinds = self.choreographer.kinds
+        wish = Wish() if prompt is None else wish_of(prompt, kinds)
+        if wish is None:
+            return None
+        dancer, own = FigureDancer(self.choreographer, self.performer.generator), self.performer
+        found = dancer.dance(
+            song,
+            wish,
+            text=prompt or "a person dances",
+            sampling=replace(own.settings, seed=seed),
+            foot_lock=own.settings.foot_lock,
+        )
+        if found is None:
+            return None
+        motion, figures = found
+        if progress is not None:
+            progress(motion.num_frames, motion.num_frames)
+        passages = (Passage(motion.text, motion.num_frames),)
+        return Performance(motion, from_motion(motion, song.phase), passages, figures=figures)
 
     def follow(
         self,

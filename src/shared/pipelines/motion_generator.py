@@ -17,6 +17,7 @@ import numpy as np
 from ..audio.song import Song, analyse
 from ..config_loader import ConfigT, dump_config, load_config
 from ..environment import TEXT_MODEL, default_audio_model
+from ..memory.figures import SHIPPED, FigureMemory, is_figure_memory
 from ..model.audio.audio_motion_model import KIND as AUDIO_KIND
 from ..model.checkpoint import read_card, resolve_model
 from ..model.diffusion import Sampling
@@ -24,6 +25,7 @@ from ..model.generation.motion_generator import Progress, TextToMotion
 from ..motion.motion import Motion
 from ..motion.trajectory import FPS, MotionTrajectory
 from .body import Performer, PerformerSettings
+from .choreography import Choreographer
 from .dance import DancePrompter, Dances, SongPerformer
 from .edit import ControlledMotion, Given, edited
 from .path import DrawnPath, TimedPath, along_path, time_path
@@ -55,7 +57,8 @@ class MotionGenerator:
             None = what MOTIONGEN_DIFFUSION_CHECKPOINT names, else what is shipped.
         device: auto, cuda, mps or cpu.
         runtime: of the audio model: torch or onnx.
-        memory: folder of `memory build`, for an audio model that hears one; None = no memory.
+        memory: folder of `memory build`: of figures that are danced (None = the shipped ones), or
+            of phrases, for an audio model that hears them.
         judge: folder of `train_clip` that holds candidates against their prompt; None = what
             belongs to the text model, where it is shipped.
         post_processing: of bodies, `key=value` of `PostProcessingConfig` over the model's own.
@@ -120,7 +123,8 @@ class MotionGenerator:
         """The audio model, with its memory."""
         model: SongGenerator[Any] | str | Path = self._audio
         if not isinstance(model, SongGenerator):
-            memory = None if self._memory is None else SongMemory.open(self._memory)
+            remembers = self._memory is not None and not is_figure_memory(self._memory)
+            memory = SongMemory.open(str(self._memory)) if remembers else None
             model = SongGenerator.from_pretrained(
                 model, device=self._device, runtime=self._runtime, memory=memory
             )
@@ -139,6 +143,12 @@ class MotionGenerator:
         if self._judge is None:
             return own_tower(self.text.text)
         return load_tower(self._judge, self.text.text)
+
+    @cached_property
+    def choreographer(self) -> Choreographer:
+        """Chooses recorded figures: of the memory, if it has figures, else the shipped ones."""
+        own = self._memory is not None and is_figure_memory(self._memory)
+        return Choreographer(FigureMemory.open(str(self._memory) if own else SHIPPED))
 
     @cached_property
     def prompter(self) -> DancePrompter:
@@ -245,6 +255,7 @@ class MotionGenerator:
         tag: str | None = None,
         meter: int | None = None,
         seconds: float | None = None,
+        figures: bool = True,
         follow_path: bool = False,
         path: DrawnPath | None = None,
         style: str | np.ndarray | None = None,
@@ -259,6 +270,8 @@ class MotionGenerator:
             audio, meter, seconds, num_samples: see `trajectory`.
             prompt: what the body does; None = what the music says.
             tag: action label beside the prompt.
+            figures: recorded ones, wherever they show what the prompt asks; else the text model
+                dances alone.
             follow_path: the audio model makes a path that the body follows.
             path: where it goes instead; see `path.read_path`. Without times it takes as long as
                 the song.
@@ -275,8 +288,12 @@ class MotionGenerator:
         if num_samples > 1:
             judge = PerformanceJudge(self.audio.bands if follow_path else None, self.tower)
         settings = PerformerSettings(**vars(sampling), foot_lock=foot_lock)
-        prompter = self.prompter if prompt is None else None
-        dancers = SongPerformer(Performer(self.text, settings), prompter=prompter, judge=judge)
+        dancers = SongPerformer(
+            Performer(self.text, settings),
+            prompter=self.prompter if prompt is None else None,
+            judge=judge,
+            choreographer=self.choreographer if figures else None,
+        )
         own: dict[str, Any] = {"tag": tag, "seed": sampling.seed}
         if follow_path:
             raw = self._song_path(song, prompt, style, num_samples, sampling, stage)

@@ -4,7 +4,7 @@ import numpy as np
 import torch
 
 from src.shared.motion.features import FORWARD, HEIGHT, LATERAL, YAW_RATE, integrate_root
-from src.shared.motion.steering import PULL, TURN, steered
+from src.shared.motion.steering import PULL, TURN, settled, steered
 
 
 def root(frames: int = 900, **rates: float) -> torch.Tensor:
@@ -49,3 +49,11 @@ def test_heights_and_contacts_stay() -> None:
     rows = root(forward=0.2)
     rows[::2, 4:] = 1.0
     torch.testing.assert_close(steered(rows, 30.0)[:, [2, 4, 5]], rows[:, [2, 4, 5]])
+
+
+def test_a_walk_is_left_out_and_a_sway_stays() -> None:
+    walk = settled(root(forward=1.0), 30.0)
+    assert float(walk[:, FORWARD].max()) < 0.11
+    sway = root()
+    sway[:, LATERAL] = torch.from_numpy(np.sin(np.arange(900) / 30 * 2 * np.pi)).float()
+    assert float((settled(sway, 30.0) - sway)[60:-60].abs().max()) < 0.02

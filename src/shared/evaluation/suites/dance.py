@@ -16,12 +16,14 @@ from typing import Any
 from zlib import crc32
 
 import numpy as np
+import torch
 from scipy.spatial.distance import cdist, pdist
 
 from ...data.phrases.dataset import MotionPhraseDataset
 from ...data.retarget.read_motion import FOLDER_ENDINGS, read_motion
 from ...errors import UserError
 from ...formats.arrays import write_npz
+from ...memory.figures import FigureMemory
 from ...metrics.retrieval import rank_of
 from ...metrics.rhythm import beats_of_phase, body_beats, limb_beats, rhythm, strangers
 from ...metrics.seams import marked
@@ -29,11 +31,13 @@ from ...model.audio.audio_motion_model import AudioMotionModel
 from ...model.generation.motion_generator import TextToMotion
 from ...motion.features import decode_features
 from ...motion.motion import Motion, resample_motion
-from ...motion.postprocess.footskate import lock_carried_feet
+from ...motion.postprocess.footskate import lock_carried_feet, lock_feet
 from ...motion.trajectory import FPS, MotionTrajectory, to_motion
 from ...pipelines.body import Performer, PerformerSettings
+from ...pipelines.choreography import Choreographer, Wish
 from ...pipelines.dance import candidate_seed
-from ...pipelines.song import SongGenerator, finished, own_noise
+from ...pipelines.figure_dance import FigureDancer
+from ...pipelines.song import SongCondition, SongGenerator, finished, own_noise
 from ...pipelines.song_sampler import SongSampling
 from ...pipelines.stream import OVERLAP, WINDOW, Passage, window_lengths
 from ..engine import Bench, Progress, Row, Suite, run_suite
@@ -212,12 +216,12 @@ class DanceContext:
         Raises:
             UserError: the split holds no body with a beat, or a dance cannot be read.
         """
-        captured = [] if self.dances is None else list(captured_dances(self.dances))
+        frames = round(self.settings.song_seconds * FPS)
+        captured = [] if self.dances is None else list(captured_dances(self.dances, frames))
         if self.data is None:
             return DanceSample(captured, np.arange(len(captured)))
         self.progress(f"the test split of {self.data}")
         settings = self.settings
-        frames = round(settings.song_seconds * FPS)
         dances = real_dances(self.data, frames, settings.max_real, settings.seed)
         if not dances:
             raise UserError(
@@ -226,6 +230,29 @@ class DanceContext:
             )
         dances += captured
         return DanceSample(dances, np.arange(len(dances)))
+
+    @cached_property
+    def choreographer(self) -> Choreographer:
+        """Of the shipped figures."""
+        return Choreographer(FigureMemory.open())
+
+    def figured(self, replication: int, *, at_random: bool = False) -> Bodies:
+        """Dances of recorded figures, chosen or drawn; a song without beats has none."""
+        settings = replace(self.sampling, foot_lock=False)
+        dancer = FigureDancer(self.choreographer, self.generator, at_random=at_random)
+        found = []
+        for piece in self.pieces:
+            heard = np.zeros(0)
+            if piece.phase is not None:
+                heard = beats_of_phase(piece.phase * piece.meter, FPS)
+            own = candidate_seed(self.settings.seed, crc32(piece.name.encode()), replication)
+            song = SongCondition(torch.as_tensor(piece.condition), piece.phase, heard)
+            sampling = replace(settings, seed=own)
+            made = dancer.dance(song, Wish(), sampling=sampling, foot_lock=False)
+            if made is not None:
+                dance = Dance(piece.name, lock_feet(made[0]), piece.beats, raw=made[0])
+                found.append(dance)
+        return DanceSample.of(found)
 
     def another_song(self, replication: int) -> Bodies:
         """The generated dances, each on another song: what not listening scores."""
@@ -260,8 +287,10 @@ def near_seams(frames: int) -> np.ndarray:
     return marked(frames, ((cut, cut) for cut in cuts))
 
 
-def captured_dances(folder: Path) -> Iterator[Dance[Motion]]:
-    """The motion files of a folder, nobody knows to which music.
+def captured_dances(folder: Path, frames: int) -> Iterator[Dance[Motion]]:
+    """The motion files of a folder in pieces of so many frames, nobody knows to which music.
+
+    What is left at the end is a piece if it is half as long, or all there is.
 
     Raises:
         UserError: there is none, or one cannot be read.
@@ -270,7 +299,11 @@ def captured_dances(folder: Path) -> Iterator[Dance[Motion]]:
     if not files:
         raise UserError(f"{folder} holds no motion files; name a folder of captured dances")
     for file in files:
-        yield Dance(file.stem, resample_motion(read_motion(file), FPS), np.zeros(0))
+        motion = resample_motion(read_motion(file), FPS)
+        for start in range(0, motion.num_frames, frames):
+            piece = motion.frames(start, start + frames)
+            if start == 0 or piece.num_frames >= frames / 2:
+                yield Dance(file.stem, piece, np.zeros(0))
 
 
 def real_dances(data: str, frames: int, number: int, seed: int) -> list[Dance[Motion]]:
@@ -501,6 +534,8 @@ def dance_bench(context: DanceContext) -> Bench[Bodies]:
         [
             Row("real", real, None if known else 0, fixed=True, real=True),
             Row("generated", partial(context.danced, "generated")),
+            Row("figures", context.figured),
+            Row("figures at random", partial(context.figured, at_random=True), limit=few),
             Row("another song", context.another_song),
             Row("frozen pose", context.frozen_pose, limit=1, fixed=True),
             Row("pinned", partial(context.danced, "pinned")),

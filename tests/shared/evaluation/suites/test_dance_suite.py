@@ -82,8 +82,8 @@ def found(folder: Path) -> dict[str, Grid]:
 
 
 def test_every_row_meets_every_family(found: dict[str, Grid]) -> None:
-    rows = ["real", "generated", "another song", "frozen pose", "pinned", "path alone",
-            "beats not told", "other model", "untrained"]  # fmt: skip
+    rows = ["real", "generated", "figures", "figures at random", "another song", "frozen pose",
+            "pinned", "path alone", "beats not told", "other model", "untrained"]  # fmt: skip
     for name in ("whole-body beats", "on stage", "root against the trajectory", "feet"):
         assert list(found[f"dances/{name}"].rows) == rows
     assert found["dances/whole-body beats"].rows["real"].num == 4
@@ -107,11 +107,12 @@ def test_a_frozen_pose_is_no_dance(found: dict[str, Grid]) -> None:
 
 def test_captured_dances_are_real_whatever_their_music(tmp_path: Path) -> None:
     write_npz(swinging_arms(frames=60), tmp_path / "waltz.npz")
-    (dance,) = captured_dances(tmp_path)
+    (dance,) = captured_dances(tmp_path, 90)
     assert dance.song == "waltz" and not len(dance.beats)
+    assert [each.motion.num_frames for each in captured_dances(tmp_path, 40)] == [40, 20]
     (tmp_path / "waltz.npz").unlink()
     with pytest.raises(UserError, match="no motion files"):
-        next(captured_dances(tmp_path))
+        next(captured_dances(tmp_path, 90))
 
 
 def test_what_is_kept_stays(found: dict[str, Grid]) -> None:

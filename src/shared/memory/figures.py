@@ -1,0 +1,415 @@
+"""Figures of dance: recorded takes with their counts, cut into phrases of any number of counts.
+
+A figure is a stretch of a take from one count to another, as it is or mirrored: where it starts and
+ends, how fast its counts are, how much it moves, where it leads and how far it turns, on which feet
+it begins and ends. Takes are kept whole, so that a figure can be entered and left while it is still
+moving. Slow takes are counted twice as fast as well: a reading more.
+
+Letters: F frames of all takes, T frames, N figures, K joints, C counts.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+import torch
+from scipy.ndimage import gaussian_filter1d, percentile_filter
+from torch import Tensor
+
+from ..errors import UserError
+from ..io.arrays import BadArray, load_arrays, write_arrays
+from ..io.files import load_json, write_json
+from ..metrics.rhythm import body_beats, rhythm
+from ..metrics.stage import hovering
+from ..motion.features import (
+    HEIGHT,
+    LEFT_CONTACT,
+    ROOT_ROW,
+    encode_features,
+    heading_joints,
+    headings,
+    integrate_root,
+)
+from ..motion.motion import Motion, resample_motion
+from ..motion.postprocess.contacts import detect_contacts
+from ..motion.rotations import (
+    matrix_to_quaternion,
+    quaternion_multiply,
+    quaternion_to_matrix,
+    rotation_6d_to_matrix,
+    yaw_quaternion,
+)
+from ..motion.skeleton import JOINT_INDEX, MIRROR, NUM_JOINTS, REST_FOOT_HEIGHT
+from .counts import find_counts
+
+KIND = "figures"
+CARD, TAKES = "figures.json", "figures.npz"
+SHIPPED = Path(__file__).resolve().parent / "shipped"
+FPS = 30.0
+TURN_STEPS, PLACE_STEPS = 4096.0, 5000.0  # of a quaternion's parts, and of a metre or a radian
+SLOW = 0.55  # seconds; longer counts are read as two as well
+FLOOR_SECONDS, FLOOR_SHARE = 3.0, 20  # in which somebody stands for that percentage
+MIN_COUNTS = 5  # of a take
+STILL = 0.12  # m/s, mean of all joints over half a second: nobody dances
+WEIGHTS = np.ones(NUM_JOINTS)  # of joints in the cost of a join
+WEIGHTS[[JOINT_INDEX[f"{side}_{name}"] for side in "lr" for name in ("ankle", "foot", "wrist")]] = 2
+
+
+@dataclass(frozen=True, eq=False)
+class Take:
+    """A recording of dance.
+
+    Attributes:
+        name: of the file.
+        kind: what is danced, a word or a few.
+        source, licence: whose it is, and what may be done with it.
+        motion: T frames at 30 a second.
+        counts: seconds [C].
+    """
+
+    name: str
+    kind: str
+    source: str
+    licence: str
+    motion: Motion
+    counts: np.ndarray
+
+    @classmethod
+    def of(cls, motion: Motion, name: str, kind: str, source: str = "", licence: str = "") -> Self:
+        """With the counts that its motion shows; brought to 30 frames a second and the floor."""
+        motion = on_floor(resample_motion(motion, FPS))
+        return cls(name, kind, source, licence, motion, find_counts(motion))
+
+    @property
+    def is_dance(self) -> bool:
+        """Whether it has enough counts to hold figures."""
+        return len(self.counts) >= MIN_COUNTS
+
+
+@dataclass(frozen=True, eq=False)
+class Figures:
+    """N phrases of n counts; row i of each belongs together.
+
+    Attributes:
+        take: number of the take [N].
+        times: seconds of the counts in the frames of all takes [N,n+1].
+        mirrored: bool [N].
+        number: which count of which reading it begins with [N]; neighbours differ by 1.
+        energy: mean speed of the joints, m/s [N].
+        clear: how well what it shows falls on its counts, 0 to 1 [N]; `rhythm`'s F.
+        extent: mean distance of the joints from where they are on average, metres [N].
+        low: lowest height of the pelvis, metres [N].
+        travel, far: where it ends, and gets furthest, to the left and forward of the heading at
+            entry, metres [N,2].
+        turn: radians to the left [N].
+        entry, leave: poses and velocities at the first and the last count [N,E].
+    """
+
+    take: np.ndarray
+    times: np.ndarray
+    mirrored: np.ndarray
+    number: np.ndarray
+    energy: np.ndarray
+    clear: np.ndarray
+    extent: np.ndarray
+    low: np.ndarray
+    travel: np.ndarray
+    far: np.ndarray
+    turn: np.ndarray
+    entry: np.ndarray
+    leave: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.take)
+
+    @property
+    def count(self) -> np.ndarray:
+        """Seconds of a count, mean of each figure [N]."""
+        return np.asarray((self.times[:, -1] - self.times[:, 0]) / (self.times.shape[1] - 1))
+
+    def rows(self, index: np.ndarray) -> "Figures":
+        """The figures at these rows, in this order."""
+        return Figures(**{name: values[index] for name, values in vars(self).items()})
+
+
+class FigureMemory:
+    """Takes of dance, and the figures in them.
+
+    Args:
+        takes: one or more, 30 frames a second.
+
+    Raises:
+        UserError: no take has five counts.
+    """
+
+    def __init__(self, takes: list[Take]) -> None:
+        self.takes = [take for take in takes if take.is_dance]
+        if not self.takes:
+            raise UserError(
+                f"no dance in {len(takes)} motions: none has five counts; give longer takes of dance"
+            )
+        lengths = [take.motion.num_frames for take in self.takes]
+        self.offsets = np.concatenate(([0], np.cumsum(lengths)))
+
+    # ------------------------------------------------------------ of every frame
+
+    @cached_property
+    def features(self) -> Tensor:
+        """Raw features [F,23,6]."""
+        return torch.cat([encode_features(take.motion) for take in self.takes])
+
+    @cached_property
+    def poses(self) -> np.ndarray:
+        """Joints [F,K,3] over the origin in the frame of the heading, metres."""
+        rotations = rotation_6d_to_matrix(self.features[:, :NUM_JOINTS])
+        return np.asarray(heading_joints(rotations, self.features[:, ROOT_ROW, HEIGHT]).numpy())
+
+    @cached_property
+    def _joints(self) -> np.ndarray:
+        """Joints in the world [F,K,3], metres."""
+        return np.concatenate([take.motion.positions() for take in self.takes])
+
+    @cached_property
+    def speed(self) -> np.ndarray:
+        """Mean speed of the joints in the world, m/s [F]; 0 in the last frame of a take."""
+        steps = np.linalg.norm(np.diff(self._joints, axis=0, append=self._joints[-1:]), axis=-1)
+        speed = steps.mean(1) * FPS
+        speed[self.offsets[1:] - 1] = 0.0
+        return np.asarray(speed)
+
+    @cached_property
+    def _path(self) -> tuple[np.ndarray, np.ndarray]:
+        """Place [F,2] and heading [F] of each take from where it begins."""
+        places, facing = [], []
+        for start, stop in zip(self.offsets[:-1], self.offsets[1:], strict=True):
+            path, heading = integrate_root(self.features[start:stop, ROOT_ROW].double(), FPS)
+            places.append(path[:, [0, 2]].numpy())
+            facing.append(heading.numpy())
+        return np.concatenate(places), np.concatenate(facing)
+
+    def bounds(self, take: int) -> tuple[int, int]:
+        """First and past-the-last frame of a take."""
+        return int(self.offsets[take]), int(self.offsets[take + 1])
+
+    # ------------------------------------------------------------ figures
+
+    def readings(self) -> list[tuple[int, np.ndarray]]:
+        """Takes and seconds of their counts from the first frame of all."""
+        found = []
+        for number, take in enumerate(self.takes):
+            counts = take.counts + self.offsets[number] / FPS
+            found.append((number, counts))
+            if np.median(np.diff(counts)) > SLOW:
+                halves = np.sort(np.concatenate((counts, (counts[1:] + counts[:-1]) / 2)))
+                found.append((number, halves))
+        return found
+
+    def figures(self, counts: int) -> Figures:
+        """All phrases of so many counts in which somebody dances, and their mirror images."""
+        rows, take, number, before = [], [], [], 0
+        for which, moments in self.readings():
+            for begin in range(len(moments) - counts):
+                rows.append(moments[begin : begin + counts + 1])
+                take.append(which)
+                number.append(before + begin)
+            before += len(moments) + 1000  # neighbours of different takes are no neighbours
+        times, takes = np.array(rows).reshape(-1, counts + 1), np.array(take, dtype=int)
+        first = np.rint(times[:, 0] * FPS).astype(int)
+        last = np.minimum(np.rint(times[:, -1] * FPS).astype(int), self.offsets[takes + 1] - 2)
+        spans = list(zip(first.tolist(), last.tolist(), strict=True))
+        places, heading = self._path
+        away = [np.linalg.norm(places[a : b + 1] - places[a], axis=1).argmax() for a, b in spans]
+        ends, furthest = (
+            _seen_from(places[to] - places[first], heading[first]) for to in (last, first + away)
+        )
+        low = [float(self.features[a:b, ROOT_ROW, HEIGHT].min()) for a, b in spans]
+        own = Figures(
+            take=takes,
+            times=times,
+            mirrored=np.zeros(len(takes), dtype=bool),
+            number=np.array(number, dtype=int),
+            energy=np.array([self.speed[a:b].mean() for a, b in spans]),
+            clear=self._clear(takes, times),
+            extent=np.array([self._extent(a, b) for a, b in spans]),
+            low=np.array(low),
+            travel=ends,
+            far=furthest,
+            turn=heading[last] - heading[first],
+            entry=self._seen(first),
+            leave=self._seen(last),
+        )
+        dances = [row for row, (start, stop) in enumerate(spans) if self._dances(start, stop)]
+        return _with_mirrors(own.rows(np.array(dances, dtype=int)))
+
+    def _clear(self, take: np.ndarray, times: np.ndarray) -> np.ndarray:
+        """F of the motion's beats on the counts of each figure [N]."""
+        beats = [body_beats(each.motion) for each in self.takes]
+        found = []
+        for which, counts in zip(take, times, strict=True):
+            start, stop = float(counts[0]), float(counts[-1])
+            own = beats[which] + self.offsets[which] / FPS - start
+            found.append(rhythm(own, counts - start, stop - start).f)
+        return np.array(found)
+
+    def _extent(self, first: int, last: int) -> float:
+        own = self.poses[first : last + 1]
+        return float(np.linalg.norm(own - own.mean(0), axis=-1).mean())
+
+    def _dances(self, first: int, last: int) -> bool:
+        """Whether nobody stands still for half a second, or is off the floor for as long."""
+        if last - first < 10 or hovering(self._joints[first:last], FPS):
+            return False
+        window = np.convolve(self.speed[first:last], np.ones(15) / 15, "valid")
+        return bool(len(window) == 0 or window.min() > STILL)
+
+    def _seen(self, frames: np.ndarray) -> np.ndarray:
+        """Pose, velocity and root velocity [N,E] at frames [N], in metres and comparable ones."""
+        after = np.minimum(frames + 1, len(self.poses) - 1)
+        before = np.maximum(frames - 1, 0)
+        velocity = (self.poses[after] - self.poses[before]) * FPS / 2
+        pose = self.poses[frames] * WEIGHTS[:, None]
+        root = self.features[frames, ROOT_ROW].numpy()
+        contact = root[:, LEFT_CONTACT:]
+        parts = (pose, 0.15 * velocity, 0.6 * root[:, :2], 0.3 * root[:, 3:4], 0.5 * contact)
+        return np.concatenate([part.reshape(len(frames), -1) for part in parts], 1)
+
+    # ------------------------------------------------------------ files
+
+    def save(self, folder: str | Path) -> Path:
+        """Write it: rotations in steps of 1/4096, places of 0.2 mm, differences of frames.
+
+        Raises:
+            UserError: the folder cannot be written.
+        """
+        folder = Path(folder)
+        turns, places, contacts = [], [], []
+        for take in self.takes:
+            own, root, contact = _packed(take.motion)
+            turns.append(own)
+            places.append(root)
+            contacts.append(contact)
+        folder.mkdir(parents=True, exist_ok=True)
+        arrays = {
+            "turns": np.concatenate(turns),
+            "places": np.concatenate(places),
+            "contacts": np.concatenate(contacts),
+            "offsets": self.offsets,
+            "counts": np.concatenate([take.counts for take in self.takes]),
+            "counted": np.array([len(take.counts) for take in self.takes]),
+        }
+        write_arrays(arrays, folder / TAKES, compressed=True)
+        about = [
+            {name: getattr(take, name) for name in ("name", "kind", "source", "licence")}
+            for take in self.takes
+        ]
+        write_json(folder / CARD, {"kind": KIND, "version": 1, "takes": about})
+        return folder
+
+    @classmethod
+    def open(cls, folder: str | Path = SHIPPED) -> Self:
+        """What `save` wrote; without a folder what is shipped.
+
+        Raises:
+            UserError: nothing there, or damaged.
+        """
+        folder = Path(folder)
+        if not is_figure_memory(folder):
+            raise UserError(f"{folder} holds no figures; make them with `memory build --figures`")
+        try:
+            about: Any = load_json(folder / CARD)["takes"]
+            arrays = load_arrays(folder / TAKES)
+            edges = arrays["offsets"].tolist()
+            counted = np.concatenate(([0], np.cumsum(arrays["counted"])))
+            takes = []
+            for number, row in enumerate(about):
+                part = slice(edges[number], edges[number + 1])
+                motion = _unpacked(*(arrays[n][part] for n in ("turns", "places", "contacts")))
+                counts = arrays["counts"][counted[number] : counted[number + 1]]
+                takes.append(Take(**row, motion=motion, counts=counts))
+            return cls(takes)
+        except (BadArray, KeyError, TypeError, ValueError, IndexError, OSError) as error:
+            raise UserError(f"{folder} is damaged ({error}); build the figures again") from error
+
+
+def on_floor(motion: Motion) -> Motion:
+    """A motion whose feet stand on the floor in every few seconds, and what then stands.
+
+    One frame below the floor leaves a whole recording above it, and some drift.
+    """
+    low = motion.positions()[..., 1].min(1).astype(np.float64) - REST_FOOT_HEIGHT
+    size = min(round(FLOOR_SECONDS * motion.fps), len(low))
+    floor = percentile_filter(low, FLOOR_SHARE, size=size, mode="nearest")
+    floor = gaussian_filter1d(floor, FLOOR_SECONDS / 3 * motion.fps, mode="nearest")
+    place = motion.root_position - floor[:, None] * np.array([0.0, 1.0, 0.0])
+    moved = replace(motion, root_position=place.astype(np.float32))
+    return replace(moved, contacts=detect_contacts(moved.positions(), motion.fps))
+
+
+def is_figure_memory(folder: str | Path) -> bool:
+    """Whether a folder is a memory of figures, and not one of phrases."""
+    return (Path(folder) / CARD).is_file()
+
+
+def _seen_from(way: np.ndarray, heading: np.ndarray) -> np.ndarray:
+    """Ways [N,2] (x, z) to the left and forward of headings [N]."""
+    sine, cosine = np.sin(heading), np.cos(heading)
+    left = way[:, 0] * cosine - way[:, 1] * sine
+    return np.stack([left, way[:, 0] * sine + way[:, 1] * cosine], 1)
+
+
+def _with_mirrors(own: Figures) -> Figures:
+    """The figures, then their mirror images."""
+    pose = NUM_JOINTS * 3
+    signs = np.array([-1.0, 1.0, 1.0])
+
+    def mirrored(seen: np.ndarray) -> np.ndarray:
+        joints = seen[:, : 2 * pose].reshape(len(seen), 2, NUM_JOINTS, 3)
+        joints = (joints[:, :, list(MIRROR)] * signs).reshape(len(seen), -1)
+        rest = seen[:, 2 * pose :][:, [0, 1, 2, 4, 3]] * np.array([1.0, -1.0, -1.0, 1.0, 1.0])
+        return np.concatenate((joints, rest), 1)
+
+    other = vars(own) | {
+        "mirrored": ~own.mirrored,
+        "travel": own.travel * np.array([-1.0, 1.0]),
+        "far": own.far * np.array([-1.0, 1.0]),
+        "turn": -own.turn,
+        "entry": mirrored(own.entry),
+        "leave": mirrored(own.leave),
+    }
+    return Figures(
+        **{name: np.concatenate((values, other[name])) for name, values in vars(own).items()}
+    )
+
+
+def _packed(motion: Motion) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Differences of frames: turns [T,K,3] int16, place and heading [T,4] int32; contacts [T,2]."""
+    rotations = rotation_6d_to_matrix(encode_features(motion)[:, :NUM_JOINTS].double())
+    quaternions = matrix_to_quaternion(rotations)
+    signed = torch.where(quaternions[..., :1] < 0, -quaternions, quaternions)[..., 1:].numpy()
+    heading = headings(quaternion_to_matrix(torch.as_tensor(motion.quaternions[:, 0]))).numpy()
+    place = np.concatenate((motion.root_position, heading[:, None]), 1).astype(np.float64)
+    turns = np.rint(signed * TURN_STEPS).astype(np.int16)
+    places = np.rint(place * PLACE_STEPS).astype(np.int32)
+    return (
+        np.diff(turns, axis=0, prepend=np.zeros_like(turns[:1])),
+        np.diff(places, axis=0, prepend=np.zeros_like(places[:1])),
+        (motion.contacts > 0.5).astype(np.uint8),
+    )
+
+
+def _unpacked(turns: np.ndarray, places: np.ndarray, contacts: np.ndarray) -> Motion:
+    """The inverse of `_packed`."""
+    parts = torch.from_numpy(turns.cumsum(0, dtype=np.int64) / TURN_STEPS)
+    scalar = (1 - (parts**2).sum(-1, keepdim=True)).clamp_min(0).sqrt()
+    quaternions = torch.nn.functional.normalize(torch.cat((scalar, parts), -1), dim=-1)
+    place = places.cumsum(0, dtype=np.int64) / PLACE_STEPS
+    yaw = yaw_quaternion(torch.from_numpy(place[:, 3]))
+    quaternions[:, 0] = quaternion_multiply(yaw, quaternions[:, 0])
+    return Motion(
+        quaternions.float().numpy(),
+        place[:, :3].astype(np.float32),
+        contacts.astype(np.float32),
+        fps=FPS,
+    )

@@ -1,0 +1,312 @@
+"""A choreographer: from the beats, bars and loudness of a song to a sequence of figures.
+
+The song's beats are counted at a pace that dancers count, in phrases of about eight counts. Dynamic
+programming takes a figure for each: what it costs to join two (pose, velocity, turning, feet), how
+far its tempo has to be warped, how its energy is against the loudness, whether it leads off the
+stage or away from the front, and whether it repeats what the form asks for: a a' b a', a repetition
+best a mirror image, and what the song plays again is danced again. Noise of the seed makes one
+choice of many good ones.
+
+Letters: T frames, M beats, S slots, N figures, C candidates of a slot, n counts.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from scipy.spatial.distance import cdist
+
+from ..memory.figures import FPS, FigureMemory, Figures
+from .body import beats_beyond
+
+PACE = 0.5  # seconds of a count, about; a beat counts half, one or two of them
+WARP = 0.2  # of the tempo, at most
+UPRIGHT = 0.6  # metres; a lower pelvis is asked for, by its kind
+CANDIDATES = 400  # figures of a slot, by what they cost alone
+# What a unit of each costs; the first is a metre of pose, all joints and channels together.
+JOIN, TEMPO, ENERGY, CLEAR, EXTENT, STAGE, FRONT = 1.0, 30.0, 1.0, 1.0, 7.0, 4.0, 0.3
+# Gain of a repetition; cost of an unasked one, of each earlier figure of the same take; the seed's.
+REPEAT, AGAIN, SAME_TAKE, NOISE = 2.0, 0.8, 1.0, 0.4
+FREE = 0.35  # metres from the middle that cost nothing, twice that on the way
+ALIKE = 0.9  # cosine of what two phrases of a song sound like, from which one is the other again
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What a sentence asks of the figures.
+
+    Attributes:
+        kinds: only of these; empty = of any that stay on their feet.
+        energy: the share of figures, by energy, to take: (0, 0.4) is calm.
+    """
+
+    kinds: frozenset[str] = frozenset()
+    energy: tuple[float, float] = (0.0, 1.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Slot:
+    """A phrase of a song.
+
+    Attributes:
+        counts: seconds of n counts and of the end [n+1].
+        loudness: rank among the phrases, 0 to 1.
+        same: the earlier phrase that it is to repeat; None = none.
+        part: letter of the form.
+    """
+
+    counts: np.ndarray
+    loudness: float = 0.5
+    same: int | None = None
+    part: str = "a"
+
+
+# ---------------------------------------------------------------- the song
+
+
+def song_slots(
+    beats: np.ndarray,
+    phase: np.ndarray,
+    condition: np.ndarray,
+    waits: Sequence[tuple[int, int]] = (),
+) -> list[Slot]:
+    """The phrases of a song of T frames, in order; none where less than a bar sounds.
+
+    Args:
+        beats: seconds [M], ascending.
+        phase: unwrapped bars [T].
+        condition: what is heard, rows [R,T]; the 160th is the loudness.
+        waits: frames [start, stop) in which nobody dances.
+    """
+    seconds = len(phase) / FPS
+    counts, bars = _counts(beats, phase, seconds)
+    silent = np.zeros(len(phase) + 1, dtype=bool)
+    for start, stop in waits:
+        silent[start:stop] = True
+    frame = np.clip(np.rint(counts * FPS).astype(int), 0, len(phase))
+    alive = (counts >= 0) & (counts <= seconds + 1e-6) & ~silent[frame]
+    edges = np.flatnonzero(np.diff(alive.astype(int), prepend=0, append=0)).reshape(-1, 2)
+    per_phrase, bars_of_phrase = _phrase(bars)
+    found: list[np.ndarray] = []
+    for first, stop in edges.tolist():
+        opens = first + np.flatnonzero(np.isclose(bars[first:stop] % bars_of_phrase, 0))
+        cuts = sorted({first, stop - 1, *opens.tolist()})
+        found += _merged([counts[start : end + 1] for start, end in pairwise(cuts)], per_phrase)
+    return _formed(found, condition)
+
+
+def _counts(beats: np.ndarray, phase: np.ndarray, seconds: float) -> tuple[np.ndarray, np.ndarray]:
+    """Counts and the bar [C] that each falls in, from before 0 to the end."""
+    beats = beats_beyond(beats, seconds)
+    period = float(np.median(np.diff(beats)))
+    share = min((0.5, 1.0, 2.0), key=lambda s: abs(np.log(period * s / PACE)))
+    if share == 0.5:
+        beats = np.sort(np.concatenate((beats, (beats[1:] + beats[:-1]) / 2)))
+    times = np.arange(len(phase)) / FPS
+    slope = (phase[-1] - phase[0]) / max(times[-1], 1e-6)
+    bars = np.interp(beats, times, phase)
+    bars += slope * (np.minimum(beats, 0) + np.maximum(beats - times[-1], 0))
+    per_bar = max(1, round(1 / float(np.median(np.diff(bars)))))
+    bars = np.rint(bars * per_bar) / per_bar
+    if share == 2.0:  # every second beat, the downbeats among them
+        first = int(np.flatnonzero(np.isclose(bars % 1, 0))[:1].sum()) % 2
+        beats, bars = beats[first::2], bars[first::2]
+    return beats, bars
+
+
+def _phrase(bars: np.ndarray) -> tuple[int, int]:
+    """Counts and bars of a phrase: so many bars (1, 2 or 4) as are nearest to eight counts."""
+    per_bar = 1 / float(np.median(np.diff(bars)))
+    number = min((1, 2, 4), key=lambda bars: abs(np.log(per_bar * bars / 8)))
+    return round(per_bar * number), number
+
+
+def _merged(phrases: list[np.ndarray], per_phrase: int) -> list[np.ndarray]:
+    """Phrases of two counts and more, one after the other; those below three join a neighbour."""
+    found: list[np.ndarray] = []
+    for phrase in phrases:
+        both = len(found[-1]) + len(phrase) - 2 if found else 0
+        short = bool(found) and min(len(found[-1]), len(phrase)) < 4
+        if short and both <= per_phrase + 2:
+            found[-1] = np.concatenate((found[-1], phrase[1:]))
+        else:
+            found.append(phrase)
+    return [phrase for phrase in found if len(phrase) > 2]
+
+
+def _formed(phrases: list[np.ndarray], condition: np.ndarray) -> list[Slot]:
+    """Phrases with their loudness, and which earlier one each repeats: a a' b a', and what the
+    song plays again."""
+    heard, loudness = [], []
+    for phrase in phrases:
+        start, stop = int(phrase[0] * FPS), max(int(phrase[-1] * FPS), int(phrase[0] * FPS) + 1)
+        part = condition[:, start:stop]
+        heard.append(part[128:160].mean(1) if part.size else np.zeros(32))
+        loudness.append(float(part[160].mean()) if part.size else 0.0)
+    sound = np.array(heard).reshape(len(phrases), -1)
+    sound = sound - sound.mean(0)
+    sound /= np.linalg.norm(sound, axis=1, keepdims=True).clip(min=1e-9)
+    ranks = np.argsort(np.argsort(loudness)) / max(len(phrases) - 1, 1)
+    slots: list[Slot] = []
+    for index, phrase in enumerate(phrases):
+        place = index % 4
+        same = {1: index - 1, 3: index - 2}.get(place)
+        if place in (0, 2) and index >= 4:
+            earlier = [other for other in range(place, index - 3, 4) if len(phrases[other]) > 3]
+            near = max(earlier, key=lambda other: sound[index] @ sound[other], default=None)
+            if near is not None and sound[index] @ sound[near] > ALIKE:
+                same = near
+        if same is not None and len(phrases[same]) != len(phrase):
+            same = None
+        slots.append(
+            Slot(
+                phrase,
+                float(ranks[index]),
+                same,
+                ("a", "a'", "b", "a'")[place] + (f"{index // 4 + 1}" if index >= 4 else ""),
+            )
+        )
+    return slots
+
+
+# ---------------------------------------------------------------- which figures
+
+
+class Choreographer:
+    """Chooses figures for songs.
+
+    Args:
+        memory: where they are.
+    """
+
+    def __init__(self, memory: FigureMemory) -> None:
+        self.memory = memory
+        self._figures: dict[int, Figures] = {}
+
+    @property
+    def kinds(self) -> frozenset[str]:
+        """What is danced in the memory."""
+        return frozenset(take.kind for take in self.memory.takes)
+
+    def figures(self, counts: int) -> Figures:
+        """All of so many counts."""
+        if counts not in self._figures:
+            self._figures[counts] = self.memory.figures(counts)
+        return self._figures[counts]
+
+    def choose(self, slots: Sequence[Slot], wish: Wish, seed: int) -> list[Figures] | None:
+        """One figure a slot (each `Figures` of one row); None where nothing fits one.
+
+        Args:
+            slots: S ≥ 1.
+            wish: of the sentence.
+            seed: with the song and the wish it decides everything.
+        """
+        rng = np.random.default_rng(seed)
+        options: list[Figures] = []
+        back: list[np.ndarray] = []
+        value = np.zeros(1)
+        place = np.zeros((1, 3))  # left, forward and heading, seen from the front
+        history, taken = (np.zeros((1, 0), dtype=int) for _ in range(2))
+        mirrored = np.zeros((1, 0), dtype=bool)
+        for index, slot in enumerate(slots):
+            found, alone = self._candidates(slot, wish, rng)
+            if not len(found):
+                return None
+            cost = np.repeat(value[:, None], len(found), 1) + alone
+            if index:
+                cost += JOIN * _joins(options[-1], found)
+                cost += self._repeats(slot, found, history, mirrored)
+                if slot.same is None:
+                    cost += SAME_TAKE * (taken[:, None] == found.take[:, None]).sum(-1)
+            ends, furthest = (_places(place, way, found.turn) for way in (found.travel, found.far))
+            for at, free in ((ends, FREE), (furthest, 2 * FREE)):
+                cost += STAGE * np.maximum(np.linalg.norm(at[..., :2], axis=-1) - free, 0)
+            cost += FRONT * (1 - np.cos(ends[..., 2]))
+            best = cost.argmin(0)
+            column = np.arange(len(found))
+            value, place = cost[best, column], ends[best, column]
+            history = np.concatenate((history[best], found.number[:, None]), 1)
+            taken = np.concatenate((taken[best], found.take[:, None]), 1)
+            mirrored = np.concatenate((mirrored[best], found.mirrored[:, None]), 1)
+            options.append(found)
+            back.append(best)
+        at_end = int(value.argmin())
+        chosen = [at_end]
+        for best in back[:0:-1]:
+            chosen.append(int(best[chosen[-1]]))
+        return [each.rows(np.array([row])) for each, row in zip(options, chosen[::-1], strict=True)]
+
+    def draw(self, slots: Sequence[Slot], wish: Wish, seed: int) -> list[Figures] | None:
+        """As `choose`, any figure that fits by its tempo."""
+        rng, found = np.random.default_rng(seed), []
+        for slot in slots:
+            counts = len(slot.counts) - 1
+            period = float(slot.counts[-1] - slot.counts[0]) / counts
+            fits, _ = self.allowed(counts, wish, period)
+            if not len(fits):
+                return None
+            found.append(fits.rows(rng.integers(len(fits), size=1)))
+        return found
+
+    def allowed(
+        self, counts: int, wish: Wish, period: float | None = None
+    ) -> tuple[Figures, np.ndarray]:
+        """Figures of so many counts that a wish allows, and their ranks by energy [N], 0 to 1.
+
+        Args:
+            counts: n.
+            wish: of the sentence.
+            period: seconds of a count that they are to be warped to; None = no matter.
+        """
+        figures = self.figures(counts)
+        kinds = np.array([take.kind for take in self.memory.takes])[figures.take]
+        fits = figures.low > UPRIGHT if not wish.kinds else np.isin(kinds, sorted(wish.kinds))
+        if period is not None:
+            fits = fits & (np.abs(figures.count / period - 1) < WARP)
+        rows = np.flatnonzero(fits)
+        rank = np.argsort(np.argsort(figures.energy[rows])) / max(len(rows) - 1, 1)
+        low, high = wish.energy
+        inside = (rank >= low) & (rank <= high)
+        return figures.rows(rows[inside]), (rank[inside] - low) / (high - low)
+
+    def _candidates(
+        self, slot: Slot, wish: Wish, rng: np.random.Generator
+    ) -> tuple[Figures, np.ndarray]:
+        """Figures that fit a slot, and what each costs alone [C]."""
+        counts = len(slot.counts) - 1
+        noise = rng.gumbel(size=len(self.figures(counts)))  # as many draws whatever fits
+        period = float(slot.counts[-1] - slot.counts[0]) / counts
+        found, rank = self.allowed(counts, wish, period)
+        cost = TEMPO * np.log(found.count / period) ** 2 + ENERGY * (rank - slot.loudness) ** 2
+        cost -= CLEAR * found.clear + EXTENT * found.extent + NOISE * noise[: len(found)]
+        kept = np.argsort(cost)[:CANDIDATES]
+        return found.rows(kept), cost[kept]
+
+    @staticmethod
+    def _repeats(
+        slot: Slot, found: Figures, history: np.ndarray, mirrored: np.ndarray
+    ) -> np.ndarray:
+        """Gain of the repetition that is asked for, cost of any other [H,C]."""
+        apart = np.abs(history[:, None, :] - found.number[None, :, None])  # H C slots
+        length = found.times.shape[1] - 1
+        seen = np.maximum(1 - apart / length, 0)
+        if slot.same is None:
+            return np.asarray(AGAIN * seen.sum(-1))
+        asked = seen[..., slot.same] == 1
+        other_side = mirrored[:, None, slot.same] != found.mirrored[None]
+        return np.asarray(-REPEAT * asked * np.where(other_side, 1.0, 0.5))
+
+
+def _joins(before: Figures, after: Figures) -> np.ndarray:
+    """What it costs to go from the end of each figure to the beginning of each other [H,C]."""
+    return np.asarray(cdist(before.leave, after.entry))
+
+
+def _places(place: np.ndarray, way: np.ndarray, turn: np.ndarray) -> np.ndarray:
+    """Where ways [C,2] and turns [C] lead from each place [H,3]: [H,C,3]."""
+    sine, cosine = np.sin(place[:, 2, None]), np.cos(place[:, 2, None])
+    x = place[:, 0, None] + way[:, 1] * sine + way[:, 0] * cosine
+    z = place[:, 1, None] + way[:, 1] * cosine - way[:, 0] * sine
+    return np.stack([x, z, place[:, 2, None] + turn], -1)

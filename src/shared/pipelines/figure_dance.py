@@ -1,0 +1,251 @@
+"""Figures laid on the counts of a song: a body that dances what was recorded.
+
+Each figure is warped so that its counts fall on the song's; neighbours fade into each other while
+both are moving. Where nobody dances the text branch fills in a body that stands. Then the root is
+pulled softly to the middle of the stage and the feet are held. Seams filled by the text branch were
+measured and are rougher, and feet slide there (docs/experiments.md).
+
+Letters: T frames, S slots.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import torch
+from scipy.interpolate import PchipInterpolator
+from torch import Tensor
+
+from ..memory.figures import FPS, FigureMemory, Figures
+from ..model.diffusion import Sampling
+from ..model.generation.constraint import Constraint
+from ..model.generation.motion_generator import TextToMotion
+from ..motion.features import FORWARD, LATERAL, LEFT_CONTACT, ROOT_ROW, YAW_RATE, mirror_features
+from ..motion.motion import Motion
+from ..motion.steering import steered
+from .choreography import Choreographer, Slot, Wish, song_slots
+from .edit import fill_free
+from .song import SongCondition
+
+BLEND = 0.3  # seconds either side of a seam
+STAND = "a person stands still"  # where nobody dances
+LONG = 10  # frames; for less the pose is held
+
+
+@dataclass(frozen=True)
+class Danced:
+    """A figure in a dance: what it shows, from when to when, as which part of the form."""
+
+    name: str
+    kind: str
+    start: float
+    stop: float
+    counts: int
+    mirrored: bool
+    part: str
+
+    def told(self) -> dict[str, Any]:
+        """As plain values."""
+        rounded = {"start": round(self.start, 3), "stop": round(self.stop, 3)}
+        return vars(self) | rounded
+
+
+class FigureDancer:
+    """Dances figures to songs.
+
+    Args:
+        choreographer: chooses them.
+        generator: fills in a body that stands where nobody dances, and finishes the motion.
+        at_random: draw figures that fit instead of choosing; what choosing is measured against.
+    """
+
+    def __init__(
+        self, choreographer: Choreographer, generator: TextToMotion, *, at_random: bool = False
+    ) -> None:
+        self.choreographer, self.generator = choreographer, generator
+        self._choose = choreographer.draw if at_random else choreographer.choose
+
+    def dance(
+        self,
+        song: SongCondition,
+        wish: Wish,
+        *,
+        text: str = "",
+        sampling: Sampling,
+        foot_lock: bool | None = None,
+    ) -> tuple[Motion, tuple[Danced, ...]] | None:
+        """A body that dances figures, T frames; None where none fits the song and the wish.
+
+        Args:
+            song: with beats.
+            wish: of the sentence.
+            text: the caption.
+            sampling: its seed decides everything; the rest is how a standing body is made.
+            foot_lock: hold standing feet; None = the model's own setting.
+
+        Raises:
+            UserError: as `TextToMotion.sample_features`.
+        """
+        if song.phase is None or len(song.beats) < 2:
+            return None
+        slots = song_slots(song.beats, song.phase, song.condition.cpu().numpy(), song.waits)
+        chosen = self._choose(slots, wish, sampling.seed) if slots else None
+        if chosen is None:
+            return None
+        memory = self.choreographer.memory
+        features, danced = lay(memory, slots, chosen, len(song.phase))
+        features = self._standing(features, danced, sampling)
+        features[:, ROOT_ROW] = steered(features[:, ROOT_ROW], FPS)
+        motion = self.generator.post_processor(features, None, text=text, foot_lock=foot_lock)
+        return motion, told(self.choreographer, slots, chosen)
+
+    def _standing(self, features: Tensor, danced: Tensor, sampling: Sampling) -> Tensor:
+        """Features [T,23,6] in which the text branch fills in what no figure has."""
+        edges = np.flatnonzero(np.diff((~danced).numpy().astype(int), prepend=0, append=0))
+        for start, stop in edges.reshape(-1, 2).tolist():
+            if stop - start < LONG:
+                continue
+            known = torch.ones(features.shape, dtype=torch.bool)
+            known[start:stop] = False
+            features = fill_free(self.generator, STAND, Constraint(features, known), sampling)
+        return features
+
+
+def named(memory: FigureMemory, figure: Figures, row: int = 0) -> str:
+    """The take of a figure, and the second at which it begins there."""
+    number = int(figure.take[row])
+    start = float(figure.times[row, 0]) - memory.bounds(number)[0] / FPS
+    return f"{memory.takes[number].name}@{start:.1f}"
+
+
+def listed(choreographer: Choreographer, wish: Wish, counts: int = 8) -> list[dict[str, Any]]:
+    """The figures that a wish allows, the clearest first, mirror images apart."""
+    found, memory = choreographer.allowed(counts, wish)[0], choreographer.memory
+    rows = [row for row in np.argsort(-found.clear).tolist() if not found.mirrored[row]]
+    return [
+        {
+            "name": named(memory, found, row),
+            "kind": memory.takes[int(found.take[row])].kind,
+            "counts": counts,
+            "bpm": round(60 / float(found.count[row]), 1),
+            "energy": round(float(found.energy[row]), 3),
+            "travel": [round(float(way), 2) for way in found.travel[row]],
+            "turn": round(float(np.degrees(found.turn[row])), 1),
+            "source": memory.takes[int(found.take[row])].source,
+            "licence": memory.takes[int(found.take[row])].licence,
+        }
+        for row in rows
+    ]
+
+
+def told(
+    choreographer: Choreographer, slots: Sequence[Slot], chosen: Sequence[Figures]
+) -> tuple[Danced, ...]:
+    """What is danced when."""
+    found, memory = [], choreographer.memory
+    for slot, figure in zip(slots, chosen, strict=True):
+        take = memory.takes[int(figure.take[0])]
+        found.append(
+            Danced(
+                name=named(memory, figure),
+                kind=take.kind,
+                start=float(slot.counts[0]),
+                stop=float(slot.counts[-1]),
+                counts=len(slot.counts) - 1,
+                mirrored=bool(figure.mirrored[0]),
+                part=slot.part,
+            )
+        )
+    return tuple(found)
+
+
+def lay(
+    memory: FigureMemory,
+    slots: Sequence[Slot],
+    chosen: Sequence[Figures],
+    frames: int,
+    *,
+    blend: float = BLEND,
+) -> tuple[Tensor, Tensor]:
+    """Figures on the counts of a song, one fading into the next.
+
+    Args:
+        memory: of the figures.
+        slots: S ≥ 1.
+        chosen: a figure of one row for each.
+        frames: T.
+        blend: seconds either side of a seam in which both are seen.
+
+    Returns:
+        Raw features [T,23,6], and which frames [T] bool belong to a figure; a frame of none repeats
+        the nearest one at rest.
+    """
+    time = torch.arange(frames, dtype=torch.float64) / FPS
+    total = torch.zeros(frames, ROOT_ROW + 1, 6)
+    weights, contacts = torch.zeros(frames), torch.zeros(frames, 2)
+    danced = torch.zeros(frames, dtype=torch.bool)
+    for index, (slot, figure) in enumerate(zip(slots, chosen, strict=True)):
+        start, stop = float(slot.counts[0]), float(slot.counts[-1])
+        joined = [
+            0 <= other < len(slots) and abs(slots[other].counts[edge] - at) < 1e-6
+            for other, edge, at in ((index - 1, -1, start), (index + 1, 0, stop))
+        ]
+        weight = torch.ones(frames, dtype=torch.float64)
+        for seam, is_joined, sign in ((start, joined[0], 1.0), (stop, joined[1], -1.0)):
+            share = ((time - seam) * sign / blend + 1) / 2
+            x = share.clamp(0, 1) if is_joined else (sign * (time - seam) >= -1e-9).double()
+            weight *= x**3 * (x * (6 * x - 15) + 10)
+        own = torch.nonzero(weight > 0)[:, 0]
+        if not len(own):
+            continue
+        features = _warped(memory, figure, slot.counts, time[own].numpy())
+        part = weight[own].float()
+        total[own] += part[:, None, None] * features
+        foremost = part >= 0.5  # a foot stands or not
+        contacts[own[foremost]] = features[foremost, ROOT_ROW, LEFT_CONTACT:]
+        weights[own] += part
+        danced[own] = True
+    total = total / weights.clamp_min(1e-6)[:, None, None]
+    total[:, ROOT_ROW, LEFT_CONTACT:] = contacts
+    return _held(total, danced), danced
+
+
+def _warped(memory: FigureMemory, figure: Figures, counts: np.ndarray, time: np.ndarray) -> Tensor:
+    """Features [t,23,6] of one figure at seconds [t] of a song, its counts on the song's."""
+    first, last = memory.bounds(int(figure.take[0]))
+    warp = PchipInterpolator(counts, figure.times[0])
+    speed = warp.derivative()
+    inside = np.clip(time, counts[0], counts[-1])
+    at = warp(inside) + (time - inside) * np.where(time < inside, speed(counts[0]), 1.0)
+    late = time > counts[-1]
+    at[late] = warp(counts[-1]) + (time[late] - counts[-1]) * float(speed(counts[-1]))
+    rate = speed(inside)
+    frame = at * FPS
+    held = np.clip(frame, first, last - 2)
+    rate = np.where(held == frame, rate, 0.0)
+    low = np.floor(held).astype(int)
+    share = torch.from_numpy(held - low).float()[:, None, None]
+    features = torch.lerp(memory.features[low], memory.features[low + 1], share)
+    near = memory.features[np.rint(held).astype(int), ROOT_ROW, LEFT_CONTACT:]
+    features[:, ROOT_ROW, LEFT_CONTACT:] = near
+    way = [FORWARD, LATERAL, YAW_RATE]
+    features[:, ROOT_ROW, way] *= torch.from_numpy(rate).float()[:, None]
+    return mirror_features(features) if figure.mirrored[0] else features
+
+
+def _held(features: Tensor, danced: Tensor) -> Tensor:
+    """Features in which frames that no figure has repeat the nearest one, at rest."""
+    known = torch.nonzero(danced)[:, 0]
+    if not len(known) or len(known) == len(features):
+        return features
+    frames = torch.arange(len(features))
+    right = torch.searchsorted(known, frames).clamp(max=len(known) - 1)
+    left = (right - 1).clamp_min(0)
+    nearer = (frames - known[left]).abs() <= (known[right] - frames).abs()
+    source = torch.where(nearer, known[left], known[right])
+    result = features[source].clone()
+    rest = torch.nonzero(~danced)[:, 0]
+    for channel in (FORWARD, LATERAL, YAW_RATE):
+        result[rest, ROOT_ROW, channel] = 0.0
+    return result

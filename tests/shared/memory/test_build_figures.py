@@ -1,0 +1,59 @@
+"""Takes by a table or by a folder."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from src.shared.errors import UserError
+from src.shared.formats.arrays import write_npz
+from src.shared.memory.build_figures import build_figures, every_file, read_takes, repeated
+from tests.shared.evaluation.dancers import swinging_arms
+from tests.shared.memory.tiny_figures import stepping
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    write_npz(stepping(0.5, 300), tmp_path / "long.npz")
+    write_npz(swinging_arms(0.5, 60), tmp_path / "loop.npz")
+    return tmp_path
+
+
+def test_a_table_names_takes_and_loops_are_repeated(folder: Path) -> None:
+    table = folder / "takes.csv"
+    table.write_text("file,kind,source,licence,repeat\nlong.npz,waltz,us,MIT,\nloop.npz,,,,4\n")
+    rows = read_takes(table, folder)
+    assert [(row.kind, row.repeat) for row in rows] == [("waltz", 1), ("dance", 4)]
+    memory, left_out = build_figures(rows)
+    assert [(take.name, take.licence) for take in memory.takes] == [("long", "MIT"), ("loop", "")]
+    assert not left_out and memory.takes[1].motion.num_frames == 240
+
+
+def test_without_a_table_every_file_is_a_take(folder: Path) -> None:
+    memory, left_out = build_figures(every_file(folder))
+    assert [take.name for take in memory.takes] == ["long"]
+    assert list(left_out) == [str(folder / "loop.npz")]
+    with pytest.raises(UserError, match="no motion files"):
+        (folder / "empty").mkdir()
+        every_file(folder / "empty")
+
+
+@pytest.mark.parametrize(
+    ("text", "named"),
+    [
+        ("name\nlong.npz\n", "columns"),
+        ("file,colour\nlong.npz,red\n", "colour"),
+        ("file\nlost.npz\n", "line 2"),
+        ("file,repeat\nlong.npz,often\n", "'often'"),
+        ("file\n", "names no file"),
+    ],
+)
+def test_bad_tables_are_refused(folder: Path, text: str, named: str) -> None:
+    (folder / "takes.csv").write_text(text)
+    with pytest.raises(UserError, match=named):
+        read_takes(folder / "takes.csv", folder)
+
+
+def test_a_loop_goes_round() -> None:
+    twice = repeated(swinging_arms(frames=60), 2)
+    np.testing.assert_array_equal(twice.quaternions[:60], twice.quaternions[60:])

@@ -1,0 +1,76 @@
+"""Figures: cut at counts, mirrored, kept in files, and those that are shipped."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from src.shared.errors import UserError
+from src.shared.memory.figures import CARD, SHIPPED, TAKES, FigureMemory, Take, is_figure_memory
+from src.shared.motion.skeleton import REST_FOOT_HEIGHT
+from tests.shared.evaluation.dancers import swinging_arms
+from tests.shared.memory.tiny_figures import stepping, tiny_figures
+
+
+def test_figures_lie_between_counts_and_each_has_a_mirror_image() -> None:
+    memory = tiny_figures()
+    found = memory.figures(8)
+    half = len(found) // 2
+    assert half > 20 and not found.mirrored[:half].any() and found.mirrored[half:].all()
+    own = memory.takes[0].counts
+    first = found.times[found.take == 0][0]
+    assert np.abs(first[:, None] - own).min(1).max() < 1e-9
+    np.testing.assert_allclose(found.travel[:half, 0], -found.travel[half:, 0], atol=1e-9)
+    np.testing.assert_allclose(found.turn[:half], -found.turn[half:], atol=1e-9)
+    assert found.entry.shape == found.leave.shape
+    assert (found.clear >= 0).all() and found.clear[found.take == 0].mean() > 0.6
+
+
+def test_slow_takes_are_counted_twice_as_fast_too() -> None:
+    found = tiny_figures().figures(8)
+    paces = found.count[found.take == 2]
+    assert paces.min() == pytest.approx(0.35, abs=0.03)
+    assert paces.max() == pytest.approx(0.7, abs=0.03)
+
+
+def test_who_floats_is_brought_down() -> None:
+    lifted = stepping(0.5, bend=-0.12)
+    take = Take.of(lifted, "x", "y")
+    low = take.motion.positions()[..., 1].min(1)
+    assert np.abs(low - REST_FOOT_HEIGHT).max() < 0.01
+    assert take.motion.contacts.any()
+
+
+def test_files_keep_what_was_saved(tmp_path: Path) -> None:
+    memory = tiny_figures()
+    again = FigureMemory.open(memory.save(tmp_path / "figures"))
+    assert is_figure_memory(tmp_path / "figures") and not is_figure_memory(tmp_path)
+    for before, after in zip(memory.takes, again.takes, strict=True):
+        assert (before.name, before.kind, before.licence) == (after.name, after.kind, "CC0")
+        assert np.abs(before.motion.positions() - after.motion.positions()).max() < 2e-3
+        np.testing.assert_array_equal(before.motion.contacts, after.motion.contacts)
+        np.testing.assert_array_equal(before.counts, after.counts)
+
+
+def test_a_damaged_memory_and_one_without_dance_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(UserError, match="holds no figures"):
+        FigureMemory.open(tmp_path)
+    folder = tiny_figures().save(tmp_path / "figures")
+    (folder / TAKES).write_bytes(b"PK")
+    with pytest.raises(UserError, match="damaged"):
+        FigureMemory.open(folder)
+    (folder / CARD).write_text("{}")
+    with pytest.raises(UserError, match="damaged"):
+        FigureMemory.open(folder)
+    with pytest.raises(UserError, match="five counts"):
+        FigureMemory([Take.of(swinging_arms(frames=40), "short", "dance")])
+
+
+def test_the_shipped_figures_are_free_small_and_of_several_kinds() -> None:
+    assert sum(path.stat().st_size for path in SHIPPED.iterdir()) < 2_000_000
+    memory = FigureMemory.open()
+    assert {"salsa", "breakdance", "indian dance", "modern dance"} <= {t.kind for t in memory.takes}
+    assert {take.licence for take in memory.takes} <= {"free for all uses", "CC0", "MIT"}
+    assert all(take.source for take in memory.takes)
+    assert "mocap.cs.cmu.edu" in (SHIPPED / "README.md").read_text()
+    assert len(memory.figures(8)) > 1000

@@ -1,0 +1,98 @@
+"""Phrases of songs, and the figures that are chosen for them."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from src.shared.pipelines.choreography import WARP, Choreographer, Slot, Wish, song_slots
+from tests.shared.memory.tiny_figures import tiny_figures
+
+
+def song(tempo: float = 120.0, seconds: float = 20.0, meter: int = 4) -> tuple[np.ndarray, ...]:
+    """Beats, bars and silence but for the loudness."""
+    frames = round(seconds * 30)
+    beats = np.arange(0.1, seconds, 60 / tempo)
+    phase = (np.arange(frames) / 30 - 0.1) * tempo / 60 / meter
+    condition = np.zeros((167, frames))
+    condition[160] = np.linspace(0, 1, frames)
+    return beats, phase, condition
+
+
+@given(tempo=st.floats(50, 210), meter=st.sampled_from([3, 4]), seconds=st.floats(6, 60))
+def test_phrases_follow_each_other_at_a_pace_that_is_danced(
+    tempo: float, meter: int, seconds: float
+) -> None:
+    slots = song_slots(*song(tempo, seconds, meter))
+    edges = [(slot.counts[0], slot.counts[-1]) for slot in slots]
+    assert all(a[1] == pytest.approx(b[0]) for a, b in pairwise(edges))
+    assert edges[0][0] < 3 and edges[-1][1] > seconds - 3
+    for slot in slots:
+        assert 0.3 < np.diff(slot.counts).mean() < 0.75 and 2 <= len(slot.counts) - 1 <= 16
+        assert slot.same is None or len(slots[slot.same].counts) == len(slot.counts)
+
+
+def test_phrases_begin_with_bars_and_have_a_form() -> None:
+    slots = song_slots(*song())
+    whole = [slot for slot in slots if len(slot.counts) == 9]
+    assert len(whole) >= 4
+    starts = np.array([slot.counts[0] for slot in whole])
+    assert np.abs((starts - 0.1) / 4 - np.rint((starts - 0.1) / 4)).max() < 0.02
+    assert [slot.part for slot in slots[:4]] == ["a", "a'", "b", "a'"]
+    assert slots[1].same == 0 and slots[3].same == 1 and slots[2].same is None
+    assert slots[-1].loudness > slots[0].loudness
+
+
+def test_nobody_dances_in_a_gap() -> None:
+    slots = song_slots(*song(), waits=[(240, 360)])
+    for slot in slots:
+        assert slot.counts[-1] <= 8.1 or slot.counts[0] >= 11.9
+
+
+def test_the_same_seed_chooses_the_same_and_warps_little() -> None:
+    slots, choreographer = song_slots(*song()), Choreographer(tiny_figures())
+    chosen, again, other = (choreographer.choose(slots, Wish(), seed) for seed in (1, 1, 2))
+    assert chosen is not None and again is not None and other is not None
+    names = [[float(figure.times[0, 0]) for figure in dance] for dance in (chosen, again, other)]
+    assert names[0] == names[1] != names[2]
+    for slot, figure in zip(slots, chosen, strict=True):
+        period = np.diff(slot.counts).mean()
+        assert abs(figure.count[0] / period - 1) <= WARP
+        assert figure.times.shape[1] == len(slot.counts)
+
+
+def test_a_wish_restricts_and_what_nobody_dances_is_told() -> None:
+    choreographer = Choreographer(tiny_figures())
+    slots = song_slots(*song())
+    assert choreographer.kinds == {"salsa", "polka"}
+    for kind, take in (("polka", {1}), ("salsa", {0, 2})):
+        chosen = choreographer.choose(slots, Wish(frozenset({kind})), 0)
+        assert chosen is not None and {int(figure.take[0]) for figure in chosen} <= take
+    assert choreographer.choose(slots, Wish(frozenset({"tango"})), 0) is None
+    fast = [Slot(np.arange(9) * 0.2)]
+    assert choreographer.choose(fast, Wish(), 0) is None
+    drawn = choreographer.draw(slots, Wish(), 0)
+    assert drawn is not None and len(drawn) == len(slots)
+    assert choreographer.draw(fast, Wish(), 0) is None
+
+
+def test_calm_is_calmer_than_lively() -> None:
+    choreographer = Choreographer(tiny_figures())
+    calm, lively = (
+        choreographer.allowed(8, Wish(energy=share))[0].energy for share in ((0, 0.4), (0.5, 1))
+    )
+    assert calm.max() <= lively.min()
+
+
+def test_a_repetition_is_danced_again() -> None:
+    slots = song_slots(*song(seconds=40))
+    chosen = Choreographer(tiny_figures()).choose(slots, Wish(), 0)
+    assert chosen is not None
+    asked = [(slot.same, number) for number, slot in enumerate(slots) if slot.same is not None]
+    again = [chosen[a].number[0] == chosen[b].number[0] for a, b in asked]
+    by_chance = np.mean(
+        [chosen[a].number[0] == chosen[b].number[0] for a in (0, 2) for b in (4, 5)]
+    )
+    assert np.mean(again) >= 0.5 > by_chance

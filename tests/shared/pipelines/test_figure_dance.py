@@ -1,0 +1,90 @@
+"""Figures on the counts of a song: in time, without jumps, standing where nobody dances."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import torch
+
+from src.shared.memory.figures import FPS
+from src.shared.metrics.rhythm import body_beats, rhythm
+from src.shared.metrics.seams import body_quantities
+from src.shared.model.diffusion import Sampling
+from src.shared.motion.features import LEFT_CONTACT, ROOT_ROW, decode_features
+from src.shared.pipelines.body import Performer, PerformerSettings
+from src.shared.pipelines.choreography import Choreographer, Wish, song_slots
+from src.shared.pipelines.dance import SongPerformer
+from src.shared.pipelines.figure_dance import BLEND, FigureDancer, lay, listed
+from src.shared.pipelines.song import SongCondition
+from tests.shared.memory.tiny_figures import tiny_figures
+from tests.shared.model.conftest import tiny_generator
+from tests.shared.pipelines.test_choreography import song
+
+
+@pytest.fixture(scope="module")
+def choreographer() -> Choreographer:
+    return Choreographer(tiny_figures())
+
+
+def condition(silent: tuple[int, int] | None = None) -> SongCondition:
+    beats, phase, rows = song(110.0, 12.0)
+    rows[160] = 1.0
+    if silent is not None:
+        rows[160, slice(*silent)] = 0.0
+    return SongCondition(torch.from_numpy(rows).float(), phase, beats, 3)
+
+
+def test_counts_fall_on_beats_and_seams_are_not_seen(choreographer: Choreographer) -> None:
+    beats, phase, rows = song(110.0, 12.0)
+    slots = song_slots(beats, phase, rows)
+    chosen = choreographer.choose(slots, Wish(), 0)
+    assert chosen is not None
+    features, danced = lay(choreographer.memory, slots, chosen, 360)
+    assert features.shape == (360, 23, 6) and danced.float().mean() > 0.8
+    assert set(features[:, ROOT_ROW, LEFT_CONTACT:].flatten().tolist()) <= {0.0, 1.0}
+    motion = decode_features(features)
+    assert rhythm(body_beats(motion), beats, motion.seconds).f > 0.6
+    hard = decode_features(lay(choreographer.memory, slots, chosen, 360, blend=0.01)[0])
+    seams = [round(float(slot.counts[0]) * FPS) for slot in slots[1:]]
+    worst = [
+        max(body_quantities(each)["acceleration, m/s²"][s - 3 : s + 4].max() for s in seams)
+        for each in (motion, hard)
+    ]
+    assert worst[0] <= worst[1] + 1e-6 and BLEND > 0.1
+
+
+def test_it_says_what_it_danced(choreographer: Choreographer) -> None:
+    dancer = FigureDancer(choreographer, tiny_generator())
+    found = dancer.dance(condition(), Wish(frozenset({"polka"})), sampling=Sampling(steps=2))
+    assert found is not None
+    motion, figures = found
+    assert motion.num_frames == 360 and np.isfinite(motion.quaternions).all()
+    assert {figure.kind for figure in figures} == {"polka"}
+    assert all(a.stop == pytest.approx(b.start) for a, b in pairwise(figures))
+    assert figures[0].told()["name"].startswith("sway@")
+    assert listed(choreographer, Wish())[0]["licence"] == "CC0"
+    silent = SongCondition(torch.zeros(167, 90), None, np.zeros(0))
+    assert dancer.dance(silent, Wish(), sampling=Sampling(steps=2)) is None
+
+
+def test_where_nobody_dances_somebody_stands(choreographer: Choreographer) -> None:
+    dancer = FigureDancer(choreographer, tiny_generator())
+    found = dancer.dance(condition((150, 240)), Wish(), sampling=Sampling(steps=2))
+    assert found is not None and not any(5.1 < f.start < 7.9 for f in found[1])
+
+
+def test_figures_where_they_show_it_and_the_generator_where_not(
+    choreographer: Choreographer,
+) -> None:
+    performer = Performer(tiny_generator(), PerformerSettings(steps=2))
+    dancers = SongPerformer(performer, choreographer=choreographer)
+    done: list[int] = []
+    polka = dancers.dance(
+        condition(), "a person dances polka", progress=lambda frames, _: done.append(frames)
+    )
+    assert polka.ranked[0].figures and done == [360]
+    assert polka.ranked[0].trajectory.num_frames == 360
+    free = dancers.dance(condition(), "somebody jumps twice")
+    assert not free.ranked[0].figures
+    both = dancers.dance(condition(), "a person dances", num_samples=2, seed=1)
+    assert len(both.ranked) == 2 and "beats" in both.table.terms
