@@ -148,7 +148,7 @@ class FigureMemory:
         self.takes = [take for take in takes if take.is_dance]
         if not self.takes:
             raise UserError(
-                f"no dance in {len(takes)} motions: none has five counts; give longer takes of dance"
+                f"no dance in {len(takes)} motions: none has five counts; give longer takes"
             )
         lengths = [take.motion.num_frames for take in self.takes]
         self.offsets = np.concatenate(([0], np.cumsum(lengths)))
