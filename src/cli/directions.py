@@ -16,7 +16,12 @@ FLAGS = {"begin": "--from", "until": "--to"}  # the others are called as their a
 
 @dataclass(frozen=True)
 class Directions:
-    """What `generate` was told beside prompts; None and False = not."""
+    """What `generate` was told beside prompts; None and False = not.
+
+    To add a way: its option in `generate.py`, a field here and what it goes with in `check`, and a
+    `Constraint` made of it where `MotionGenerator` has `timeline` or `edit`: `text.turned` makes
+    one of a heading alone, `path.TimedPath.constraint` of way and heading.
+    """
 
     start: Path | None = None
     end: Path | None = None
@@ -33,7 +38,7 @@ class Directions:
     def given(self) -> list[str]:
         """The flags that were given, as they are typed."""
         return [
-            FLAGS.get(name, f"--{name}")
+            FLAGS.get(name, "--" + name.replace("_", "-"))
             for name, value in vars(self).items()
             if value not in (None, False, [])
         ]

@@ -157,8 +157,9 @@ def generate(
       motion-tools generate --audio song.mp3 --prompt "a proud old man dances"
     """
     directions = Directions(
-        start, end, keep, edit, joints, begin, until, path, timeline, then, loop
-    )
+        start=start, end=end, keep=keep, edit=edit, joints=joints, begin=begin, until=until,
+        path=path, timeline=timeline, then=then, loop=loop,
+    )  # fmt: skip
     options.check_ranges(
         **{"song_seconds" if audio or directions.given() else "seconds": seconds},
         **{"keep": keep, "from": begin, "to": until},

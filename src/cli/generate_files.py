@@ -1,7 +1,7 @@
 """What `generate` writes: names, files and pages, and a row of facts for each motion."""
 
 import unicodedata
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from ..shared.pipelines.song import SongMotions
 
 FORMATS = ("bvh", "glb", "npz", "html")  # of a body, where nothing else is asked for
-ALL_FORMATS = (*FORMATS, "usd", "amass", "csv", "png", "gif", "mp4")
-PATH_FORMATS = ("npz", "csv", "glb", "html", "png")  # of the path of a song
 DANCE = "dance"  # ends the file names of a dance that no prompt asked for
 SHOWN = 8  # candidates in the printed table
 
@@ -29,8 +27,8 @@ SHOWN = 8  # candidates in the printed table
 # ---------------------------------------------------------------- formats and names
 
 
-def checked_formats(text: str, known: Sequence[str]) -> list[str]:
-    """The wanted formats, each once, before anything slow starts."""
+def checked_formats(text: str, known: Iterable[str]) -> list[str]:
+    """The wanted formats, each once, of a table of `formats/registry.py`, before anything slow."""
     names = list(dict.fromkeys(part.strip().lower() for part in text.split(",") if part.strip()))
     unknown = [name for name in names if name not in known]
     if unknown or not names:
@@ -47,8 +45,10 @@ def check_path_formats(text: str) -> None:
     Raises:
         UsageError: naming them.
     """
+    from ..shared.formats.registry import EXPORTERS, TRAJECTORY_EXPORTERS
+
     names = {part.strip().lower() for part in text.split(",")}
-    bodies = sorted(names & (set(ALL_FORMATS) - set(PATH_FORMATS)))
+    bodies = sorted(names & (EXPORTERS.keys() - TRAJECTORY_EXPORTERS.keys()))
     if bodies:
         raise UsageError(
             f"--format {text!r}: {' and '.join(bodies)} would hold a body, and --audio alone makes"

@@ -118,7 +118,9 @@ class Request:
     def body_formats(self) -> list[str]:
         """Formats of a body's files."""
         wanted = ",".join(files.FORMATS) if self.format is None else self.format
-        return files.checked_formats(wanted, files.ALL_FORMATS)
+        from ..shared.formats.registry import EXPORTERS
+
+        return files.checked_formats(wanted, EXPORTERS)
 
 
 def produce(request: Request) -> dict[str, Any]:
@@ -229,7 +231,9 @@ def song_path(request: Request, audio: Path) -> dict[str, Any]:
         raise UsageError('--follow-path is about a body: add --prompt "a person dances", or --body')
     files.check_path_formats(request.format or "")
     check_runtime(request)
-    formats = files.checked_formats(request.format or "npz,glb,html", files.PATH_FORMATS)
+    from ..shared.formats.registry import TRAJECTORY_EXPORTERS
+
+    formats = files.checked_formats(request.format or "npz,glb,html", TRAJECTORY_EXPORTERS)
     generator, song, clock, style = listen(request, audio, bodies=False)
     made = generator.trajectory(
         song,

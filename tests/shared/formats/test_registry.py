@@ -6,7 +6,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from src.cli.generate_files import ALL_FORMATS
 from src.shared.errors import UsageError, UserError
 from src.shared.formats.registry import (
     EXPORTERS,
@@ -40,10 +39,6 @@ def test_every_format_writes_by_its_ending(tmp_path: Path, name: str) -> None:
     assert write_motion(standing(), path) == path
     assert path.read_bytes().startswith(STARTS[name])
     assert [entry.name for entry in path.parent.iterdir()] == [path.name]
-
-
-def test_the_command_offers_only_what_is_written_here() -> None:
-    assert set(ALL_FORMATS) <= set(EXPORTERS)
 
 
 @pytest.mark.parametrize("name", ["a.fbx", "a", "a.tar.gz"])
