@@ -23,12 +23,13 @@ LAG = 1.0  # seconds over which place and heading are averaged: a sway and a spi
 PULL, NEAR = 0.12, 0.8  # m/s at most, and metres from the middle at which 0.7 of it is reached
 TURN = 0.3  # rad/s at most, for a body that has its side to the front
 SWAY = 0.5  # seconds, standard deviation: quicker steps backward stay
-STEADY, STROLL = 1.0, 0.1  # seconds, standard deviation, and m/s: a faster way is a walk
+STEADY, STROLL = 1.0, 0.12  # seconds, standard deviation, and m/s: a faster way is a walk,
+ROUND = 0.55  # metres, radius of the circle that it is bent to
 BACKWARD = 0.8  # share of the way backward that is left out
 
 
-def settled(root: Tensor, fps: float) -> Tensor:
-    """Root rows [T,6] of a body that goes nowhere in particular: of a steady way little is left.
+def circling(root: Tensor, fps: float) -> Tensor:
+    """Root rows [T,6] of a body that walks round where it would have walked off.
 
     Args:
         root: see `steered`.
@@ -37,9 +38,10 @@ def settled(root: Tensor, fps: float) -> Tensor:
     rows = root.double().clone()
     way = rows[:, [FORWARD, LATERAL]].numpy()
     slow = gaussian_filter1d(way, STEADY * fps, axis=0, mode="nearest")
-    speed = np.linalg.norm(slow, axis=1, keepdims=True)
-    too_fast = np.maximum(1 - STROLL / np.maximum(speed, 1e-9), 0)
-    rows[:, [FORWARD, LATERAL]] -= torch.from_numpy(too_fast * slow)
+    speed = np.linalg.norm(slow, axis=1)
+    side = 1.0 if float(rows[:, YAW_RATE].sum()) >= 0 else -1.0
+    bend = side * np.maximum(speed - STROLL, 0) / ROUND
+    rows[:, YAW_RATE] += torch.from_numpy(bend)
     return rows.to(root.dtype)
 
 

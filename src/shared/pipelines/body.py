@@ -27,7 +27,7 @@ from ..errors import UsageError
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
-from ..motion.features import FORWARD, LATERAL, LEFT_CONTACT, ROOT_ROW, YAW_RATE, Place
+from ..motion.features import LEFT_CONTACT, ROOT_ROW, Place
 from ..motion.motion import Motion
 from ..motion.postprocess.stitching import blend_cuts
 from ..motion.rotations import (
@@ -37,7 +37,7 @@ from ..motion.rotations import (
     turn_about_y,
     yaw_to_matrix,
 )
-from ..motion.steering import settled, steered
+from ..motion.steering import circling, steered
 from ..motion.trajectory import MotionTrajectory, from_motion, to_root
 from .song_sampler import Progress
 from .stream import Passage, stream_features
@@ -47,8 +47,6 @@ if TYPE_CHECKING:
 
 QUICK = 0.45  # seconds; beats closer than this are too fast for a step each
 BOTH_STAND = 0.2  # of a step, both feet are on the ground
-GROUND = [FORWARD, LATERAL, YAW_RATE]
-WALKS = 0.3  # m/s; who goes so much faster than a dancer strolls is made once more, to stay
 STILL, RUNNING = 0.25, 2.0  # m/s over a step; nobody walks slower, or faster
 SWAY = 0.5  # seconds, standard deviation of the path that the pelvis sways about
 
@@ -338,7 +336,7 @@ class Performer:
     ) -> Performance:
         """A body that goes where it likes, near the middle of the stage.
 
-        Who walks off ("an old man dances") is made once more, on its own way without the walk.
+        Who walks off ("an old man dances") walks round instead.
 
         Args:
             passages: what it does, T frames in all.
@@ -359,13 +357,8 @@ class Performer:
             first=(own.seed if seed is None else seed) % 2,
         )
         features = self._sampled(passages, known, seed, progress, waits)
-        free, fps = features[:, ROOT_ROW], self.generator.card.fps
-        stays = settled(free, fps)
-        if float((stays - free)[:, [FORWARD, LATERAL]].abs().max()) > WALKS:
-            known.values[:, ROOT_ROW, GROUND] = stays[:, GROUND]
-            known.known[:, ROOT_ROW, GROUND] = True
-            features = self._sampled(passages, known, seed, progress, waits)
-            features[:, ROOT_ROW, GROUND] = stays[:, GROUND]
+        fps = self.generator.card.fps
+        features[:, ROOT_ROW] = circling(features[:, ROOT_ROW], fps)
         features[:, ROOT_ROW] = steered(features[:, ROOT_ROW], fps)
         motion = self.generator.post_processor(
             features, None, text=_title(passages), foot_lock=own.foot_lock, carried=True

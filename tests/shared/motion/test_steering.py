@@ -4,7 +4,7 @@ import numpy as np
 import torch
 
 from src.shared.motion.features import FORWARD, HEIGHT, LATERAL, YAW_RATE, integrate_root
-from src.shared.motion.steering import PULL, TURN, settled, steered
+from src.shared.motion.steering import PULL, TURN, circling, steered
 
 
 def root(frames: int = 900, **rates: float) -> torch.Tensor:
@@ -51,9 +51,10 @@ def test_heights_and_contacts_stay() -> None:
     torch.testing.assert_close(steered(rows, 30.0)[:, [2, 4, 5]], rows[:, [2, 4, 5]])
 
 
-def test_a_walk_is_left_out_and_a_sway_stays() -> None:
-    walk = settled(root(forward=1.0), 30.0)
-    assert float(walk[:, FORWARD].max()) < 0.11
+def test_who_walks_off_walks_round_and_a_sway_stays() -> None:
+    walk = circling(root(forward=1.0), 30.0)
+    assert furthest(walk) < 1.6 and furthest(root(forward=1.0)) > 29
+    assert float(walk[:, FORWARD].min()) == 1.0
     sway = root()
     sway[:, LATERAL] = torch.from_numpy(np.sin(np.arange(900) / 30 * 2 * np.pi)).float()
-    assert float((settled(sway, 30.0) - sway)[60:-60].abs().max()) < 0.02
+    assert float((circling(sway, 30.0) - sway)[60:-60].abs().max()) < 0.02
