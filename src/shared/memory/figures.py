@@ -21,8 +21,8 @@ from torch import Tensor
 from ..errors import UserError
 from ..io.arrays import BadArray, load_arrays, write_arrays
 from ..io.files import load_json, write_json
-from ..metrics.rhythm import body_beats, rhythm
-from ..metrics.stage import hovering
+from ..metrics.rhythm import motion_beats, rhythm
+from ..metrics.stage import HOVER_SECONDS, aloft
 from ..motion.features import (
     HEIGHT,
     LEFT_CONTACT,
@@ -172,6 +172,12 @@ class FigureMemory:
         return np.concatenate([take.motion.positions() for take in self.takes])
 
     @cached_property
+    def _aloft(self) -> list[tuple[int, int]]:
+        """Where nothing of a body is near the floor for long."""
+        runs = aloft(self._joints)
+        return [run for run in runs if run[1] - run[0] > HOVER_SECONDS * FPS]
+
+    @cached_property
     def speed(self) -> np.ndarray:
         """Mean speed of the joints in the world, m/s [F]; 0 in the last frame of a take."""
         steps = np.linalg.norm(np.diff(self._joints, axis=0, append=self._joints[-1:]), axis=-1)
@@ -245,7 +251,8 @@ class FigureMemory:
 
     def _clear(self, take: np.ndarray, times: np.ndarray) -> np.ndarray:
         """F of the motion's beats on the counts of each figure [N]."""
-        beats = [body_beats(each.motion) for each in self.takes]
+        spans = [slice(*self.bounds(number)) for number in range(len(self.takes))]
+        beats = [motion_beats(self._joints[span], FPS).times for span in spans]
         found = []
         for which, counts in zip(take, times, strict=True):
             start, stop = float(counts[0]), float(counts[-1])
@@ -259,7 +266,10 @@ class FigureMemory:
 
     def _dances(self, first: int, last: int) -> bool:
         """Whether nobody stands still for half a second, or is off the floor for as long."""
-        if last - first < 10 or hovering(self._joints[first:last], FPS):
+        hovers = HOVER_SECONDS * FPS
+        if last - first < 10 or any(
+            min(stop, last) - max(start, first) > hovers for start, stop in self._aloft
+        ):
             return False
         window = np.convolve(self.speed[first:last], np.ones(15) / 15, "valid")
         return bool(len(window) == 0 or window.min() > STILL)

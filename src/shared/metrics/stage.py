@@ -124,9 +124,14 @@ def pose_dimensions(poses: np.ndarray) -> float:
 def hovering(positions: np.ndarray, fps: float) -> float:
     """Times a minute that every joint of [T, K, 3] is over 6 cm above where the ball of a standing
     foot is, for longer than `HOVER_SECONDS`."""
-    high = positions[..., 1].min(1) > REST_FOOT_HEIGHT + SUPPORT_HEIGHT
-    long = [stop - start for start, stop in contact_runs(high, 0)]
-    return sum(run > HOVER_SECONDS * fps for run in long) * 60.0 * fps / len(positions)
+    long = [stop - start > HOVER_SECONDS * fps for start, stop in aloft(positions)]
+    return sum(long) * 60.0 * fps / len(positions)
+
+
+def aloft(positions: np.ndarray) -> list[tuple[int, int]]:
+    """First and past-the-last frame of each stretch of [T, K, 3] in which no joint is near the
+    floor."""
+    return contact_runs(positions[..., 1].min(1) > REST_FOOT_HEIGHT + SUPPORT_HEIGHT, 0)
 
 
 def both_slide(positions: np.ndarray, fps: float) -> float:
