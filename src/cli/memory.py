@@ -220,7 +220,7 @@ def query_figures(
         chosen = choreographer.choose(slots, Wish(), 0) if slots else None
         rows = [] if chosen is None else [d.told() for d in told(choreographer, slots, chosen)]
     else:
-        from ..shared.pipelines.wish import wish_of
+        from ..shared.pipelines.choreography import wish_of
 
         wish = wish_of(ask, choreographer.kinds)
         rows = [] if wish is None else listed(choreographer, wish)[:top_k]

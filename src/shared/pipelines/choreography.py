@@ -10,13 +10,17 @@ choice of many good ones.
 Letters: T frames, M beats, S slots, N figures, C candidates of a slot, n counts.
 """
 
-from collections.abc import Sequence
+import re
+import unicodedata
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
 from scipy.spatial.distance import cdist
 
+from ..config_loader import load_yaml, packaged_config
 from ..memory.figures import FPS, FigureMemory, Figures
 from .body import beats_beyond
 
@@ -310,3 +314,55 @@ def _places(place: np.ndarray, way: np.ndarray, turn: np.ndarray) -> np.ndarray:
     x = place[:, 0, None] + way[:, 1] * sine + way[:, 0] * cosine
     z = place[:, 1, None] + way[:, 1] * cosine - way[:, 0] * sine
     return np.stack([x, z, place[:, 2, None] + turn], -1)
+
+
+# ---------------------------------------------------------------- what a sentence asks
+
+CALM, LIVELY = (0.0, 0.4), (0.5, 1.0)  # shares of the figures by their energy
+_WORD = re.compile(r"[^\W\d_]")
+
+
+def wish_of(sentence: str, kinds: Collection[str]) -> Wish | None:
+    """What a sentence asks of figures of some kinds; None where they cannot show it.
+
+    Args:
+        sentence: in any of the six languages.
+        kinds: of the figures that there are; their own names are understood, too.
+    """
+    rest = unicodedata.normalize("NFC", sentence).casefold()
+    dances, energy, wanted = False, (0.0, 1.0), set()
+    names = {name.casefold(): ("kinds", name) for name in kinds}
+    for word, (about, kind) in sorted(
+        (_words() | names).items(), key=lambda item: len(item[0]), reverse=True
+    ):
+        left, found = _pattern(word).subn(" ", rest)
+        if not found:
+            continue
+        rest = left
+        dances |= about in ("dance", "kinds")
+        energy = {"calm": CALM, "lively": LIVELY}.get(about, energy)
+        if about == "kinds":
+            wanted.add(kind)
+    if not dances or _WORD.search(rest) or not wanted <= set(kinds):
+        return None
+    return Wish(frozenset(wanted), energy)
+
+
+@cache
+def _words() -> dict[str, tuple[str, str]]:
+    """Each word with what it is about and, of a kind, which."""
+    found: dict[str, tuple[str, str]] = {}
+    for table in load_yaml(packaged_config("dances.yaml")).values():
+        for about in ("plain", "calm", "lively", "dance"):
+            found |= {word.casefold(): (about, "") for word in table[about]}
+        for kind, words in table["kinds"].items():
+            found |= {word.casefold(): ("kinds", kind) for word in words}
+    return found
+
+
+@cache
+def _pattern(word: str) -> re.Pattern[str]:
+    """The word where it stands alone, or anywhere in writing that parts no words."""
+    escaped = re.escape(word)
+    parted = word.isascii() or unicodedata.name(word[0], "").startswith("LATIN")
+    return re.compile(rf"(?<!\w){escaped}(?!\w)" if parted else escaped)

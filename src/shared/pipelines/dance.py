@@ -29,12 +29,11 @@ from ..motion.features import FORWARD, HEIGHT, LATERAL
 from ..motion.skeleton import REST_PELVIS_HEIGHT
 from ..motion.trajectory import FPS, MotionTrajectory, from_motion, to_root
 from .body import Performance, Performer
-from .choreography import Choreographer, Wish
+from .choreography import Choreographer, Wish, wish_of
 from .figure_dance import STAND, FigureDancer
 from .ranking import PerformanceJudge, ScoreTable, unranked
 from .song import SongCondition
 from .stream import Passage
-from .wish import wish_of
 
 log = logging.getLogger(__name__)
 

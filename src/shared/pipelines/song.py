@@ -13,7 +13,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from ..audio.silence import is_noise, silent_spans
+from ..audio.features import is_noise, silent_spans
 from ..audio.song import Song, analyse
 from ..config_audio import PostProcessConfig
 from ..data.phrases.layout import phase_rows

@@ -3,8 +3,8 @@
 A sentence is read as clauses (sentence.py). One plain clause that is no longer than the model's
 training clips is one sample of the network; all else is a stream of passages, one for each clause,
 with what the clause measures as a constraint: a path of so many metres, a heading that turns by so
-many degrees. Where kinematics tell whether the action is there, and how often (`metrics.actions`),
-what misses it is sampled again. Of several candidates the judge's first choice comes first.
+many degrees. Where kinematics tell whether the action is there, and how often, what misses it is
+sampled again (`metrics.measurements`). Of several candidates the judge's first choice comes first.
 
 Letters: N candidates, T frames, R rows (bones, root track).
 """
@@ -22,8 +22,7 @@ from torch import Tensor
 
 from ..device import idle_threads
 from ..errors import UserError
-from ..metrics.actions import ACTIONS, Check, repetitions, side_check
-from ..metrics.measurements import ends_at_rest, measure
+from ..metrics.measurements import ACTIONS, Check, ends_at_rest, measure, repetitions, side_check
 from ..model.clip.core import TextFeatures
 from ..model.clip.out_of_domain import ScopeResult
 from ..model.diffusion import Sampling
@@ -31,8 +30,8 @@ from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import Progress, TextToMotion
 from ..motion.features import ROOT_ROW, YAW_RATE, decode_features
 from ..motion.motion import Motion
-from ..motion.postprocess.stitching import rest_to_rest
 from ..motion.postprocess.streaming import streamed
+from ..motion.postprocess.whole import rest_to_rest
 from .edit import all_but, chosen_joints, fill_free
 from .path import DrawnPath, natural_gait, time_path
 from .ranking import ScoreTable, TextJudge, unranked

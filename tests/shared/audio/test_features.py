@@ -12,7 +12,9 @@ from src.shared.audio.features import (
     centred_frames,
     decibels,
     extract_features,
+    is_noise,
     mel_matrix,
+    silent_spans,
 )
 from src.shared.audio.sound import HOP, SAMPLE_RATE, load_sound, sound_from_samples
 from src.shared.errors import UserError
@@ -177,3 +179,18 @@ def test_file_and_sound_give_the_same(tmp_path: Path) -> None:
     soundfile.write(path, notes(1.3), SAMPLE_RATE, subtype="FLOAT")
     from_file = extract_features(path).stack()
     np.testing.assert_array_equal(from_file, extract_features(load_sound(path)).stack())
+
+
+def test_gaps_of_a_second_and_more() -> None:
+    loud = np.ones(300)
+    loud[60:120] = loud[200:220] = 0.01
+    assert silent_spans(loud) == [(60, 120)]
+    assert silent_spans(np.zeros(90)) == [(0, 90)] and silent_spans(np.ones(90)) == []
+
+
+def test_noise_has_no_pitch() -> None:
+    rng = np.random.default_rng(0)
+    noise = 1 - 0.3 * rng.random((12, 200))
+    tune = 0.1 * noise
+    tune[rng.integers(12, size=200), np.arange(200)] = 1
+    assert is_noise(noise) and is_noise(np.zeros((12, 50))) and not is_noise(tune)

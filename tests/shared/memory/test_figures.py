@@ -6,9 +6,17 @@ import numpy as np
 import pytest
 
 from src.shared.errors import UserError
-from src.shared.memory.figures import CARD, SHIPPED, TAKES, FigureMemory, Take, is_figure_memory
+from src.shared.memory.figures import (
+    CARD,
+    SHIPPED,
+    TAKES,
+    FigureMemory,
+    Take,
+    find_counts,
+    is_figure_memory,
+)
 from src.shared.motion.skeleton import REST_FOOT_HEIGHT
-from tests.shared.evaluation.dancers import swinging_arms
+from tests.shared.evaluation.dancers import hopping, swinging_arms
 from tests.shared.memory.tiny_figures import stepping, tiny_figures
 
 
@@ -74,3 +82,17 @@ def test_the_shipped_figures_are_free_small_and_of_several_kinds() -> None:
     assert all(take.source for take in memory.takes)
     assert "mocap.cs.cmu.edu" in (SHIPPED / "README.md").read_text()
     assert len(memory.figures(8)) > 1000
+
+
+@pytest.mark.parametrize("period", [0.4, 0.5, 0.6])
+@pytest.mark.parametrize("offset", [0.0, 0.2])
+def test_counts_fall_where_a_dancer_slows_down(period: float, offset: float) -> None:
+    counts = find_counts(swinging_arms(period, 300, offset))
+    assert np.median(np.diff(counts)) == pytest.approx(period, abs=0.02)
+    off = (counts - offset + period / 2) % period - period / 2
+    assert np.abs(off).mean() < 0.05 and len(counts) > 0.7 * 10 / period
+
+
+def test_a_short_or_still_motion_has_none() -> None:
+    assert not len(find_counts(swinging_arms(0.5, 50)))
+    assert not len(find_counts(hopping(height=0.0)))

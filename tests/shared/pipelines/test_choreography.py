@@ -7,7 +7,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.pipelines.choreography import WARP, Choreographer, Slot, Wish, song_slots
+from src.shared.pipelines.choreography import (
+    CALM,
+    LIVELY,
+    WARP,
+    Choreographer,
+    Slot,
+    Wish,
+    song_slots,
+    wish_of,
+)
 from tests.shared.memory.tiny_figures import tiny_figures
 
 
@@ -96,3 +105,39 @@ def test_a_repetition_is_danced_again() -> None:
         [chosen[a].number[0] == chosen[b].number[0] for a in (0, 2) for b in (4, 5)]
     )
     assert np.mean(again) >= 0.5 > by_chance
+
+
+KINDS = {"salsa", "breakdance", "polka"}
+
+
+@pytest.mark.parametrize(
+    "sentence",
+    ["a person dances", "una persona baila", "une personne danse", "eine Person tanzt",
+     "人が踊っている", "一个人在跳舞", "Somebody dances to the music."],
+)  # fmt: skip
+def test_whoever_just_dances_may_dance_anything(sentence: str) -> None:
+    assert wish_of(sentence, KINDS) == Wish()
+
+
+@pytest.mark.parametrize(
+    ("sentence", "kind", "energy"),
+    [
+        ("salsa", "salsa", (0.0, 1.0)),
+        ("a calm person dances salsa", "salsa", CALM),
+        ("una persona feliz baila salsa", "salsa", LIVELY),
+        ("一个人在跳萨尔萨舞", "salsa", (0.0, 1.0)),
+        ("a person is breakdancing wildly", "breakdance", LIVELY),
+        ("a person dances the polka", "polka", (0.0, 1.0)),  # a memory's own kind
+    ],
+)
+def test_kinds_and_energy(sentence: str, kind: str, energy: tuple[float, float]) -> None:
+    assert wish_of(sentence, KINDS) == Wish(frozenset({kind}), energy)
+
+
+@pytest.mark.parametrize(
+    "sentence",
+    ["an old man dances", "a person walks", "a person dances tango", "", "person",
+     "a person dances ballet", "ein alter Mann tanzt"],
+)  # fmt: skip
+def test_what_no_figure_shows_is_left_to_the_generator(sentence: str) -> None:
+    assert wish_of(sentence, KINDS) is None

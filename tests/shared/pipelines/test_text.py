@@ -10,8 +10,7 @@ import pytest
 import torch
 
 from src.shared.errors import UserError
-from src.shared.metrics.actions import ACTIONS, Check
-from src.shared.metrics.measurements import Measurements, at_rest, measure
+from src.shared.metrics.measurements import ACTIONS, Check, Measurements, at_rest, measure
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.features import ROOT_ROW, YAW_RATE, encode_features
 from src.shared.motion.motion import Motion

@@ -19,8 +19,7 @@ import numpy as np
 
 from ...data.prepared import ClipRecord, PreparedData
 from ...errors import UserError
-from ...metrics.actions import ACTIONS, CHECKS
-from ...metrics.measurements import heading_frame, measure
+from ...metrics.measurements import ACTIONS, CHECKS, heading_frame, measure
 from ...motion.features import decode_features, headings
 from ...motion.motion import Motion
 from ...motion.rotations import quaternion_to_matrix
@@ -168,8 +167,8 @@ class ActionRecognizer:
 
     Attributes:
         judge: the discriminant, fitted on every clip.
-        kinematic: actions that are shown too where `metrics.actions.ACTIONS` says so: MIN_RECALL of
-            their captured clips pass, and of those of other actions at most MAX_FALSE.
+        kinematic: actions that are shown too where `metrics.measurements.ACTIONS` says so: a share
+            MIN_RECALL of their captured clips pass, and of those of other actions at most MAX_FALSE.
         necessary: actions of which MIN_RECALL of the captured clips pass, whatever else does.
         recall: share of an action's clips that is recognised, the discriminant fitted on other
             takes each time.

@@ -1,12 +1,11 @@
-"""Did the motion do what its labels say? The checks of `metrics/actions.py`, by labels."""
+"""Did the motion do what its labels say? The checks of `metrics/measurements.py`, by labels."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
 from ...data.synthetic.clips import SPEED_METRES, SPEEDS
-from ...metrics.actions import CHECKS, Check, credible, repetitions
-from ...metrics.measurements import Measurements, measure
+from ...metrics.measurements import CHECKS, Check, Measurements, credible, measure, repetitions
 from ...motion.motion import Motion
 
 

@@ -101,7 +101,7 @@ class OutOfDomainDetector:
         reliability: share of tries in which each action came out, where that was measured.
         gestures: actions done in place, from hanging arms to hanging arms.
         arms: actions done with the arms alone.
-        checked: actions that `metrics.actions` tells, as captured clips bear out.
+        checked: actions that `metrics.measurements` tells, as captured clips bear out.
     """
 
     actions: tuple[str, ...]

@@ -17,19 +17,12 @@ from ..features import LEFT_CONTACT, ROOT_ROW, Place, headings
 from ..motion import Motion
 from ..rotations import (
     quaternion_continuous,
-    quaternion_exp,
     quaternion_multiply,
-    quaternion_slerp,
     quaternion_to_matrix,
     turn_about_y,
     yaw_quaternion,
 )
-from ..skeleton import JOINT_INDEX
 
-REST_FADE = 0.5  # seconds in which an arm comes down
-# Rotation vectors of a left arm that hangs beside the body, out of the T-pose; mirrored in y and z.
-_HANGING = {"collar": (0.0, 0.0, 0.0), "shoulder": (0.0, 0.0, -1.37), "elbow": (0.0, -0.38, 0.0),
-            "wrist": (0.0, 0.0, 0.0)}  # fmt: skip
 FADE = 10  # frames until a correction at a border has faded out
 BLUR, REACH = 1.5, 4.0  # frames, standard deviations: of the average at a cut, of where it is made
 
@@ -64,35 +57,6 @@ def joined(first: Motion, second: Motion) -> Motion:
         root_position=np.concatenate((first.root_position, second.root_position)),
         contacts=np.concatenate((first.contacts, second.contacts)),
     )
-
-
-def rest_to_rest(motion: Motion) -> Motion:
-    """The same motion with arms that hang in its first and last frame, where they did not.
-
-    Within REST_FADE seconds of an end each joint of a raised arm turns towards how it hangs, with
-    no speed at either side of the fade. The rest of the body is not touched, nor is a motion that
-    is shorter than four fades.
-    """
-    frames = round(REST_FADE * motion.fps)
-    if motion.num_frames < 4 * frames:
-        return motion
-    heights = motion.positions()[:, :, 1]
-    quaternions = motion.quaternions.copy()
-    way = np.linspace(1.0, 0.0, frames + 1)[:-1]  # from an end inwards
-    weights = way**3 * (10 - 15 * way + 6 * way**2)  # [frames], the minimum-jerk profile
-    for end, rows in ((0, np.arange(frames)), (-1, np.arange(-1, -frames - 1, -1))):
-        for letter, side in (("l", 1.0), ("r", -1.0)):
-            if heights[end, JOINT_INDEX[f"{letter}_wrist"]] < heights[end, 0]:
-                continue
-            for joint, turn in _HANGING.items():
-                row = JOINT_INDEX[f"{letter}_{joint}"]
-                rest = torch.tensor(turn, dtype=torch.float64) * torch.tensor((1.0, side, side))
-                now = torch.as_tensor(quaternions[rows, row], dtype=torch.float64)
-                hung = quaternion_exp(rest).expand_as(now)
-                moved = quaternion_slerp(now, hung, torch.as_tensor(weights)[:, None])
-                quaternions[rows, row] = moved.float().numpy()
-    signed = quaternion_continuous(torch.as_tensor(quaternions), dim=0).numpy()
-    return replace(motion, quaternions=signed)
 
 
 def blend_boundaries(features: Tensor, known: Tensor, *, fade: int = FADE) -> Tensor:

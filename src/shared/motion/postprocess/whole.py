@@ -1,4 +1,5 @@
-"""From sampled features to a motion: smoothing, Gram–Schmidt, quaternions, clamp, foot lock.
+"""From sampled features to a motion: smoothing, Gram–Schmidt, quaternions, clamp, foot lock; arms
+that hang at both ends.
 
 TEXT, inference only. Order: depthwise smoothing → Gram–Schmidt → quaternion → optional velocity
 clamp → optional footskate clean-up. `streaming.py` does the same piece by piece.
@@ -9,6 +10,7 @@ Letters: B batch, T frames, R = K bones and, with a root track, one row more; C 
 import math
 from dataclasses import replace
 
+import numpy as np
 import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
@@ -23,9 +25,11 @@ from ..rotations import (
     quaternion_exp,
     quaternion_log,
     quaternion_multiply,
+    quaternion_slerp,
     rotation_6d_to_matrix,
     yaw_to_matrix,
 )
+from ..skeleton import JOINT_INDEX
 from .footskate import ease_from_kept, kept_legs, lock_carried_feet, lock_feet
 
 
@@ -141,3 +145,40 @@ def without_heading(features: Tensor) -> Tensor:
     pelvis = rotation_6d_to_matrix(features[:, PELVIS])
     level = yaw_to_matrix(-headings(pelvis)) @ pelvis
     return torch.cat((matrix_to_rotation_6d(level)[:, None], features[:, 1:]), 1)
+
+
+# ---------------------------------------------------------------- arms at rest
+
+REST_FADE = 0.5  # seconds in which an arm comes down
+# Rotation vectors of a left arm that hangs beside the body, out of the T-pose; mirrored in y and z.
+_HANGING = {"collar": (0.0, 0.0, 0.0), "shoulder": (0.0, 0.0, -1.37), "elbow": (0.0, -0.38, 0.0),
+            "wrist": (0.0, 0.0, 0.0)}  # fmt: skip
+
+
+def rest_to_rest(motion: Motion) -> Motion:
+    """The same motion with arms that hang in its first and last frame, where they did not.
+
+    Within REST_FADE seconds of an end each joint of a raised arm turns towards how it hangs, with
+    no speed at either side of the fade. The rest of the body is not touched, nor is a motion that
+    is shorter than four fades.
+    """
+    frames = round(REST_FADE * motion.fps)
+    if motion.num_frames < 4 * frames:
+        return motion
+    heights = motion.positions()[:, :, 1]
+    quaternions = motion.quaternions.copy()
+    way = np.linspace(1.0, 0.0, frames + 1)[:-1]  # from an end inwards
+    weights = way**3 * (10 - 15 * way + 6 * way**2)  # [frames], the minimum-jerk profile
+    for end, rows in ((0, np.arange(frames)), (-1, np.arange(-1, -frames - 1, -1))):
+        for letter, side in (("l", 1.0), ("r", -1.0)):
+            if heights[end, JOINT_INDEX[f"{letter}_wrist"]] < heights[end, 0]:
+                continue
+            for joint, turn in _HANGING.items():
+                row = JOINT_INDEX[f"{letter}_{joint}"]
+                rest = torch.tensor(turn) * torch.tensor((1.0, side, side))
+                now = torch.as_tensor(quaternions[rows, row]).float()
+                hung = quaternion_exp(rest).expand_as(now)
+                moved = quaternion_slerp(now, hung, torch.as_tensor(weights).float()[:, None])
+                quaternions[rows, row] = moved.numpy()
+    signed = quaternion_continuous(torch.as_tensor(quaternions), dim=0).numpy()
+    return replace(motion, quaternions=signed)

@@ -13,7 +13,7 @@ from src.shared.evaluation.judge.actions import (
     shown,
     shown_together,
 )
-from src.shared.metrics.actions import ACTIONS
+from src.shared.metrics.measurements import ACTIONS
 from src.shared.motion.features import decode_features, encode_features
 
 LABELS = {

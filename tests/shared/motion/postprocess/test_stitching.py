@@ -1,22 +1,15 @@
 """No jump where known frames end, and nothing known moves; cuts are softened."""
 
-import numpy as np
 import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.data.synthetic.clips import generate_clip, spec_for
-from src.shared.metrics.measurements import arms_alone, at_rest, ends_at_rest, rests_in_place
 from src.shared.motion.features import LEFT_CONTACT, ROOT_ROW
-from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess.stitching import (
     FADE,
-    REST_FADE,
     blend_boundaries,
     blend_cuts,
-    rest_to_rest,
 )
-from src.shared.motion.skeleton import JOINT_INDEX
 
 SHAPE = (23, 6)
 
@@ -96,35 +89,3 @@ def test_cuts_are_softened_and_the_rest_is_left_alone() -> None:
     assert torch.equal(soft[:, ROOT_ROW, LEFT_CONTACT:], features[:, ROOT_ROW, LEFT_CONTACT:])
     assert torch.equal(soft[:24], features[:24]) and torch.equal(soft[56:], features[56:])
     assert blend_cuts(features, []) is features
-
-
-def waving(frames: int) -> Motion:
-    """The middle of a wave: the hand is up at both ends."""
-    clip = generate_clip(spec_for({"action": "wave", "side": "right", "speed": "slow"}, 0), seed=0)
-    up = np.flatnonzero(clip.positions()[:, JOINT_INDEX["r_wrist"], 1] > 1.2)
-    middle = int(up[len(up) // 2])
-    return clip.frames(middle - frames // 2, middle + frames // 2)
-
-
-def test_raised_hands_come_down_at_both_ends_without_a_jerk() -> None:
-    motion = waving(90)
-    assert not at_rest(motion)
-    whole = rest_to_rest(motion)
-    assert ends_at_rest(whole) and not ends_at_rest(motion)
-    assert arms_alone(whole) and rests_in_place(whole) and not rests_in_place(motion)
-    fade = round(REST_FADE * motion.fps)
-    assert np.array_equal(whole.quaternions[fade:-fade], motion.quaternions[fade:-fade])
-    speed = np.linalg.norm(np.diff(whole.positions(), axis=0), axis=-1) * motion.fps
-    assert speed.max() < 4.0
-    assert np.allclose(np.linalg.norm(whole.quaternions, axis=-1), 1.0, atol=1e-5)
-
-
-def test_arms_that_hang_are_left_alone() -> None:
-    stand = generate_clip(spec_for({"action": "stand"}, 0), seed=0)
-    assert np.array_equal(rest_to_rest(stand).quaternions, stand.quaternions)
-    assert ends_at_rest(stand) and rests_in_place(stand) and not arms_alone(stand)
-
-
-def test_what_is_too_short_for_both_fades_is_left_alone() -> None:
-    short = waving(40)
-    assert np.array_equal(rest_to_rest(short).quaternions, short.quaternions)

@@ -8,11 +8,15 @@ from hypothesis import strategies as st
 from scipy.ndimage import convolve1d
 
 from src.shared.config_schema import PostProcessingConfig
+from src.shared.data.synthetic.clips import generate_clip, spec_for
+from src.shared.metrics.measurements import arms_alone, at_rest, ends_at_rest, rests_in_place
 from src.shared.motion.features import decode_features, encode_features
 from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess.whole import (
+    REST_FADE,
     MotionPostProcessor,
     clamp_velocity,
+    rest_to_rest,
     smooth_features,
 )
 from src.shared.motion.rotations import (
@@ -21,7 +25,7 @@ from src.shared.motion.rotations import (
     quaternion_log,
     quaternion_multiply,
 )
-from src.shared.motion.skeleton import NUM_JOINTS, REST_PELVIS_HEIGHT
+from src.shared.motion.skeleton import JOINT_INDEX, NUM_JOINTS, REST_PELVIS_HEIGHT
 
 
 def some_motion(frames: int = 40, seed: int = 0) -> Motion:
@@ -137,3 +141,35 @@ def test_the_whole_chain_gives_a_motion(rows: int) -> None:
 
 def test_the_module_holds_no_weights() -> None:
     assert not MotionPostProcessor(PostProcessingConfig()).state_dict()
+
+
+def waving(frames: int) -> Motion:
+    """The middle of a wave: the hand is up at both ends."""
+    clip = generate_clip(spec_for({"action": "wave", "side": "right", "speed": "slow"}, 0), seed=0)
+    up = np.flatnonzero(clip.positions()[:, JOINT_INDEX["r_wrist"], 1] > 1.2)
+    middle = int(up[len(up) // 2])
+    return clip.frames(middle - frames // 2, middle + frames // 2)
+
+
+def test_raised_hands_come_down_at_both_ends_without_a_jerk() -> None:
+    motion = waving(90)
+    assert not at_rest(motion)
+    whole = rest_to_rest(motion)
+    assert ends_at_rest(whole) and not ends_at_rest(motion)
+    assert arms_alone(whole) and rests_in_place(whole) and not rests_in_place(motion)
+    fade = round(REST_FADE * motion.fps)
+    assert np.array_equal(whole.quaternions[fade:-fade], motion.quaternions[fade:-fade])
+    speed = np.linalg.norm(np.diff(whole.positions(), axis=0), axis=-1) * motion.fps
+    assert speed.max() < 4.0
+    assert np.allclose(np.linalg.norm(whole.quaternions, axis=-1), 1.0, atol=1e-5)
+
+
+def test_arms_that_hang_are_left_alone() -> None:
+    stand = generate_clip(spec_for({"action": "stand"}, 0), seed=0)
+    assert np.array_equal(rest_to_rest(stand).quaternions, stand.quaternions)
+    assert ends_at_rest(stand) and rests_in_place(stand) and not arms_alone(stand)
+
+
+def test_what_is_too_short_for_both_fades_is_left_alone() -> None:
+    short = waving(40)
+    assert np.array_equal(rest_to_rest(short).quaternions, short.quaternions)

@@ -3,8 +3,7 @@
 import pytest
 
 from src.shared.data.synthetic.clips import generate_clip, spec_for
-from src.shared.metrics.actions import ACTIONS, repetitions, side_check
-from src.shared.metrics.measurements import measure
+from src.shared.metrics.measurements import ACTIONS, measure, repetitions, side_check
 
 SIDED = {
     "kick": {"action": "kick", "side": "left", "count": "2"},
