@@ -168,7 +168,7 @@ class ActionRecognizer:
     Attributes:
         judge: the discriminant, fitted on every clip.
         kinematic: actions that are shown too where `metrics.measurements.ACTIONS` says so: a share
-            MIN_RECALL of their captured clips pass, and of those of other actions at most MAX_FALSE.
+            MIN_RECALL of their captured clips pass, and MAX_FALSE at most of those of others.
         necessary: actions of which MIN_RECALL of the captured clips pass, whatever else does.
         recall: share of an action's clips that is recognised, the discriminant fitted on other
             takes each time.
