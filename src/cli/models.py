@@ -1,5 +1,6 @@
 """What can be named in `--model`: `models` lists, `calibrate` tries, `export-onnx` writes ONNX."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
@@ -34,35 +35,45 @@ def models(json: options.Json = False) -> None:
 
 
 def export_onnx(
-    out: Annotated[Path, typer.Option(help="Folder for unet.onnx, decoder.onnx, onnx.json.")],
+    out: Annotated[
+        Path, typer.Option(help="Folder for the model with its graphs; may be the model's own.")
+    ],
     model: Annotated[
-        str,
-        typer.Option(
-            envvar=environment.DIFFUSION_CHECKPOINT,
-            help="A name that `models` lists, or a folder from training.",
-        ),
-    ] = "starter-audio",
+        str | None, typer.Option(help="A name that `models` lists, or a folder from training.")
+    ] = None,
     json: options.Json = False,
 ) -> None:
-    """Write UNet and decoder of an audio model for onnxruntime; any length, any batch.
+    """Write a model for onnxruntime, in Python or a browser: any text, any length, any batch.
+
+    The folder holds the weights, tokenizer and graphs; docs/onnx.md says what goes in and out.
 
     \b
     Examples:
       motion-tools export-onnx --out onnx
-      motion-tools generate --audio song.mp3 --runtime onnx --model onnx
+      motion-tools export-onnx --model starter-audio --out onnx-audio
+      motion-tools generate --prompt "a person waves" --runtime onnx --model onnx
     """
     options.check_folder("--out", out)
 
-    from ..shared.model.audio.audio_motion_model import AudioMotionModel
-    from ..shared.model.audio.onnx import CARD_FILE, require_packages
-    from ..shared.model.audio.onnx import export_onnx as export
+    from ..shared.model.checkpoint import read_card, resolve_model, wrong_kind
+    from ..shared.model.onnx_card import EXPORTED, ONNX_CARD, OnnxCard, require_packages
 
     require_packages("onnx", "onnxscript")
-    card = export(AudioMotionModel.from_pretrained(model), out)
-    files = [out / name for name in (*card.graphs, CARD_FILE)]
+    name = environment.TEXT_MODEL if model is None else model
+    folder = resolve_model(name)
+    kind = read_card(folder).kind
+    export: Callable[[str, Path], OnnxCard]
+    if kind == EXPORTED[0]:
+        from ..shared.model.generation.onnx import export_text as export
+    elif kind == EXPORTED[1]:
+        from ..shared.model.audio.onnx import export_audio as export
+    else:
+        raise wrong_kind(folder, kind, EXPORTED[0])
+    card = export(name, out)
+    files = [out / name for name in (*card.graphs, card.weights, ONNX_CARD)]
     if json:
         graphs = {name: graph.model_dump() for name, graph in card.graphs.items()}
-        result = {"model": model, "opset": card.opset, "graphs": graphs}
+        result = {"model": name, "opset": card.opset, "graphs": graphs}
         print_json(result | {"files": [str(file) for file in files]})
     else:
         print(*files, sep="\n")

@@ -5,6 +5,7 @@ Schedules are NumPy in float64; the diffusion process rounds to float32 once, at
 Letters: S training steps, N sampling steps. Timestep t runs from 0 (almost clean) to S-1.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -17,7 +18,6 @@ from ..config_schema import DiffusionConfig
 from ..errors import UsageError
 
 Array = NDArray[np.float64]
-Generators = torch.Generator | Sequence[torch.Generator] | None
 
 COSINE_OFFSET = 0.008  # s of Nichol & Dhariwal 2021, eq. 17
 MAX_FINAL_SIGNAL = 0.02  # sqrt(alpha_bar) at the last step stays below this (SPEC ruling 15)
@@ -105,17 +105,85 @@ def sampling_timesteps(num_timesteps: int, num_steps: int, spacing: str) -> tupl
 
 # ---------------------------------------------------------------- drawing
 
+_MULTIPLIERS = (0xD2511F53, 0xCD9E8D57)
+_WEYL = (0x9E3779B9, 0xBB67AE85)
+_ROUNDS, _LOW, _WORD = 10, np.uint64(0xFFFFFFFF), np.uint64(32)
+_NO_SAMPLE = 0xFFFFFFFF  # in the counter of what is no motion's noise
 
-def sample_generators(seed: int, num_samples: int, start: int = 0) -> list[torch.Generator]:
-    """One CPU generator for each of the samples start ... start + num_samples - 1.
+
+def philox(counter: Sequence[int | NDArray[np.uint64]], seed: int) -> list[NDArray[np.uint64]]:
+    """Philox4x32-10 (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3").
+
+    Args:
+        counter: four 32-bit words, or arrays of them.
+        seed: the key, below 2^64.
+
+    Returns:
+        Four arrays of 32-bit words.
+    """
+    words = np.broadcast_arrays(*(np.asarray(word, np.uint64) for word in counter))
+    c0, c1, c2, c3 = words
+    key = [seed & 0xFFFFFFFF, seed >> 32 & 0xFFFFFFFF]
+    first, second = map(np.uint64, _MULTIPLIERS)
+    for _ in range(_ROUNDS):
+        low, high = first * c0, second * c2  # 64-bit products of 32-bit words
+        c0, c1, c2, c3 = (
+            (high >> _WORD) ^ c1 ^ np.uint64(key[0]),
+            high & _LOW,
+            (low >> _WORD) ^ c3 ^ np.uint64(key[1]),
+            low & _LOW,
+        )
+        key = [(word + step) & 0xFFFFFFFF for word, step in zip(key, _WEYL, strict=True)]
+    return [c0, c1, c2, c3]
+
+
+class NoiseStream:
+    """Standard normals that any runtime can make: a function of (seed, text, sample, draw, place).
+
+    Each draw takes the next number of draws: the first one is 0. docs/onnx.md writes it down.
+
+    Args:
+        seed: below 2^63.
+        text: CRC-32 of the prompt, 0 without one.
+        sample: which one of that prompt.
+    """
+
+    def __init__(self, seed: int, text: int = 0, sample: int = 0) -> None:
+        self.seed, self.text, self.sample = seed, text, sample
+        self.draws = 0
+
+    def normal(self, shape: Sequence[int]) -> Tensor:
+        """The next draw, float32 on the CPU."""
+        count = math.prod(shape)
+        blocks = np.arange(-(-count // 4), dtype=np.uint64)
+        words = philox((blocks, self.draws, self.text, self.sample), self.seed)
+        self.draws += 1
+        u = [(word.astype(np.float64) + 0.5) * 2.0**-32 for word in words]
+        numbers = np.empty((len(blocks), 4))
+        for at in (0, 2):  # Box & Muller 1958
+            radius, angle = np.sqrt(-2 * np.log(u[at])), 2 * np.pi * u[at + 1]
+            numbers[:, at], numbers[:, at + 1] = radius * np.cos(angle), radius * np.sin(angle)
+        flat = numbers.ravel()[:count].astype(np.float32)
+        return torch.from_numpy(flat).reshape(tuple(shape))
+
+
+Generators = torch.Generator | Sequence[NoiseStream] | None
+
+
+def derived_seed(seed: int, number: int) -> int:
+    """Another seed, below 2^63, for the number 1, 2, ... of a part; the seed itself for 0."""
+    if number == 0:
+        return seed
+    low, high, *_ = philox((number, 0, 0, _NO_SAMPLE), seed)
+    return int(low) + (int(high) >> 1 << 32)
+
+
+def sample_generators(seed: int, num_samples: int, start: int = 0) -> list[NoiseStream]:
+    """The noise of each of the samples start ... start + num_samples - 1.
 
     Sample i depends on (seed, i) alone: not on the batch size, its neighbours, or the device.
     """
-    generators = []
-    for index in range(start, start + num_samples):
-        state = np.random.SeedSequence((seed, index)).generate_state(1, np.uint64)
-        generators.append(torch.Generator("cpu").manual_seed(int(state[0] >> np.uint64(1))))
-    return generators
+    return [NoiseStream(seed, sample=index) for index in range(start, start + num_samples)]
 
 
 def standard_normal(
@@ -124,11 +192,10 @@ def standard_normal(
     """Float32 noise of the given shape.
 
     Drawn on the CPU and moved, so that a seed means the same on CPU, CUDA and MPS. A sequence of
-    generators gives each batch element its own stream.
+    streams gives each batch element its own.
     """
     shape = tuple(shape)
     if generator is None or isinstance(generator, torch.Generator):
         return torch.randn(shape, generator=generator, dtype=torch.float32).to(device)
-    assert len(generator) == shape[0], f"{len(generator)} generators for a batch of {shape[0]}"
-    rows = [torch.randn(shape[1:], generator=own, dtype=torch.float32) for own in generator]
-    return torch.stack(rows).to(device)
+    assert len(generator) == shape[0], f"{len(generator)} streams for a batch of {shape[0]}"
+    return torch.stack([own.normal(shape[1:]) for own in generator]).to(device)

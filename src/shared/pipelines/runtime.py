@@ -16,9 +16,9 @@ from ..errors import UserError
 from ..model.audio.audio_motion_model import AudioMotionModel, load_decoder
 from ..model.audio.conditioning import MemoryCondition, with_phase_rows
 from ..model.audio.decoder import Decoded
-from ..model.audio.onnx import GRAPHS, OnnxCard, read_onnx_card, require_packages
 from ..model.audio.unet import sampling_copy
 from ..model.diffusion import GaussianDiffusion, ModelFn, guided
+from ..model.onnx_card import AudioOnnxCard, open_graph, read_onnx_card
 
 
 class Runtime(Protocol):
@@ -103,7 +103,7 @@ class OnnxRuntime:
         unet, decoder: its sessions; anything with onnxruntime's `run`.
     """
 
-    def __init__(self, card: OnnxCard, unet: Any, decoder: Any) -> None:
+    def __init__(self, card: AudioOnnxCard, unet: Any, decoder: Any) -> None:
         self.card = card
         self.config = card.audio_network
         self.diffusion = GaussianDiffusion(self.config.diffusion)
@@ -118,26 +118,11 @@ class OnnxRuntime:
         Raises:
             UserError: the package is missing, or the folder holds no whole export.
         """
-        require_packages("onnxruntime")
-        import onnxruntime
-
-        folder = Path(folder)
-        card = read_onnx_card(folder)
-        options = onnxruntime.SessionOptions()
-        options.intra_op_num_threads = torch.get_num_threads()
-        options.log_severity_level = 3  # errors
-        try:
-            unet, decoder = (
-                onnxruntime.InferenceSession(
-                    str(folder / name), options, providers=["CPUExecutionProvider"]
-                )
-                for name in GRAPHS
-            )
-        except Exception as error:  # onnxruntime's own types derive from it directly
-            reason = str(error).splitlines()[0]
-            raise UserError(
-                f"onnxruntime cannot load {folder} ({reason}); update it, or export again"
-            ) from error
+        folder, threads = Path(folder), torch.get_num_threads()
+        card = read_onnx_card(folder, AudioOnnxCard)
+        unet, decoder = (
+            open_graph(folder, f"{name}.onnx", threads) for name in ("unet", "decoder")
+        )
         return cls(card, unet, decoder)
 
     def normalise(self, raw: Tensor) -> Tensor:

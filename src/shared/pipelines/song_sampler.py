@@ -23,7 +23,7 @@ from ..errors import UsageError
 from ..model.audio.conditioning import MemoryCondition, known_frames
 from ..model.audio.unet import MIN_FRAMES
 from ..model.diffusion import Sampling, holding, make_sampler
-from ..model.noise import sample_generators, standard_normal
+from ..model.noise import NoiseStream, sample_generators, standard_normal
 from ..motion.rotations import (
     quaternion_conjugate,
     quaternion_continuous,
@@ -185,7 +185,7 @@ class SongSampler:
         assert self.settings.window is not None  # resolved
         return max(frames + SPARE, self.settings.window)
 
-    def _generators(self) -> list[torch.Generator]:
+    def _generators(self) -> list[NoiseStream]:
         return sample_generators(self.settings.seed, self.settings.num_samples)
 
     def _known(
@@ -212,7 +212,7 @@ class SongSampler:
         known: Tensor,
         values: Tensor,
         tracked: np.ndarray | None,
-        draws: list[torch.Generator],
+        draws: list[NoiseStream],
         memory: MemoryCondition | None = None,
         *,
         shown: int,

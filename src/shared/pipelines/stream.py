@@ -12,7 +12,6 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-import numpy as np
 import torch
 from torch import Tensor
 
@@ -20,6 +19,7 @@ from ..errors import UsageError
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
+from ..model.noise import derived_seed
 from ..motion.features import Place
 from ..motion.motion import Motion
 from ..motion.postprocess.stitching import blend_boundaries
@@ -110,7 +110,7 @@ def stream_features(
             start = made - len(before)
             given = None if constraint is None else constraint(start, made + length)
             known = carried_on(before, given, len(before) + length)
-            seeds = retry_seeds(window_seed(sampling.seed, number))
+            seeds = retry_seeds(derived_seed(sampling.seed, number))
             tries = (sampled(passage, known, seed)[len(before) :] for seed in seeds)
             piece = nearest_to_wanted(tries, own, passage.miss)
             before = torch.cat((before, piece))[-overlap:]
@@ -135,7 +135,7 @@ def nearest_to_wanted(tries: Iterator[Tensor], own: Tensor, miss: Miss | None) -
 
 def retry_seeds(seed: int) -> Iterator[int]:
     """The seeds of TRIES samples, the first one `seed` itself."""
-    return (window_seed(seed, number) for number in range(TRIES))
+    return (derived_seed(seed, number) for number in range(TRIES))
 
 
 def window_lengths(frames: int, known: int, window: int, overlap: int) -> list[int]:
@@ -152,13 +152,6 @@ def window_lengths(frames: int, known: int, window: int, overlap: int) -> list[i
     cuts = [total * index // number for index in range(number + 1)]
     shared = [known] + [overlap] * (number - 1)
     return [stop - start - own for (start, stop), own in zip(pairwise(cuts), shared, strict=True)]
-
-
-def window_seed(seed: int, number: int) -> int:
-    """The seed of a window: that of the motion for the first one, which is like any other."""
-    if number == 0:
-        return seed
-    return int(np.random.SeedSequence((seed, number)).generate_state(1, np.uint64)[0] >> 1)
 
 
 def carried_on(before: Tensor, given: Constraint | None, frames: int) -> Constraint:

@@ -28,6 +28,7 @@ from ..model.clip.out_of_domain import ScopeResult
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import Progress, TextToMotion
+from ..model.noise import derived_seed
 from ..motion.features import ROOT_ROW, YAW_RATE, decode_features
 from ..motion.motion import Motion
 from ..motion.postprocess.streaming import streamed
@@ -43,7 +44,6 @@ from .stream import (
     Passage,
     retry_seeds,
     stream_features,
-    window_seed,
 )
 
 TURN_SPEED, TURN_REST = 75.0, 0.5  # degrees a second; seconds before and after a turn
@@ -141,7 +141,7 @@ class SentenceGenerator:
                     log.warning("%s", warning)
                 made[index] = []
                 for sample in range(num_samples):
-                    own = replace(sampling, seed=window_seed(seed, 1000 * sample))
+                    own = replace(sampling, seed=derived_seed(seed, 1000 * sample))
                     made[index].append(
                         self._one(prompt, lengths[index], labels[index], own, foot_lock)
                     )

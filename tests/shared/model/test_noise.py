@@ -1,6 +1,8 @@
 """Noise schedules end in noise, keep the documents' formulas, and space steps as published."""
 
+import zlib
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,7 +14,13 @@ from hypothesis import strategies as st
 from src.shared.config_schema import DiffusionConfig
 from src.shared.errors import UsageError
 from src.shared.model.diffusion import GaussianDiffusion
-from src.shared.model.noise import get_beta_schedule, sampling_timesteps
+from src.shared.model.noise import (
+    NoiseStream,
+    derived_seed,
+    get_beta_schedule,
+    philox,
+    sampling_timesteps,
+)
 
 SCHEDULES = ("linear", "cosine", "sqrt")
 SPACINGS = ("leading", "linspace", "trailing")
@@ -88,3 +96,49 @@ def test_wrong_values_are_named() -> None:
         sampling_timesteps(100, 10, "even")
     with pytest.raises(UsageError, match=r"'square'.*cosine"):
         get_beta_schedule("square", 100)
+
+
+# ------------------------------------------------------------ counter-based noise
+
+
+@pytest.mark.parametrize(
+    ("counter", "seed", "words"),
+    [  # Random123's known answers, version 1.09
+        ((0,) * 4, 0, "6627e8d5 e169c58d bc57ac4c 9b00dbd8"),
+        ((0xFFFFFFFF,) * 4, 0xFFFFFFFFFFFFFFFF, "408f276d 41c83b0e a20bc7c6 6d5451fd"),
+        (
+            (0x243F6A88, 0x85A308D3, 0x13198A2E, 0x03707344),
+            0x299F31D0A4093822,
+            "d16cfe09 94fdcceb 5001e420 24126ea1",
+        ),
+    ],
+)
+def test_philox_gives_the_published_words(counter: tuple[int, ...], seed: int, words: str) -> None:
+    assert " ".join(f"{int(word):08x}" for word in philox(counter, seed)) == words
+
+
+def test_noise_is_standard_normal_and_a_draw_its_own() -> None:
+    stream = NoiseStream(3, 7, 1)
+    first, second = stream.normal((501, 23, 6)), stream.normal((501, 23, 6))
+    assert first.dtype == torch.float32 and first.isfinite().all()
+    assert abs(float(first.mean())) < 0.01 and abs(float(first.std()) - 1) < 0.01
+    flat = torch.stack((first.flatten(), second.flatten()))
+    assert abs(float(torch.corrcoef(flat)[0, 1])) < 0.01
+    again = NoiseStream(3, 7, 1)
+    assert torch.equal(again.normal((3,)), first.flatten()[:3]), "a shorter motion begins alike"
+    assert torch.equal(again.normal((501, 23, 6)), second)
+    others = [NoiseStream(*parts).normal((8,)) for parts in ((4, 7, 1), (3, 8, 1), (3, 7, 2))]
+    assert not any(torch.equal(other, first.flatten()[:8]) for other in others)
+
+
+def test_the_first_numbers_are_those_of_the_document() -> None:
+    """docs/onnx.md prints them for whoever writes the generator again."""
+    document = (Path(__file__).parents[3] / "docs" / "onnx.md").read_text("utf-8")
+    found = NoiseStream(0, zlib.crc32(b"a person waves"), 0).normal((4,))
+    assert " ".join(f"{float(number):.6f}" for number in found) in document
+
+
+def test_derived_seeds_differ_and_fit() -> None:
+    assert derived_seed(5, 0) == 5
+    seeds = {derived_seed(seed, number) for seed in (0, 5, 2**63 - 1) for number in range(1, 50)}
+    assert len(seeds) == 147 and all(0 <= seed < 2**63 for seed in seeds)

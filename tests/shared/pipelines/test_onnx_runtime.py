@@ -14,10 +14,12 @@ from typer.testing import CliRunner
 from src.cli.tools import app
 from src.shared.audio.synthetic_songs import SongSpec, render_song
 from src.shared.errors import UserError
-from src.shared.model.audio import onnx as export
+from src.shared.model import onnx_card
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.model.audio.onnx import CARD_FILE, GRAPHS, read_onnx_card
-from src.shared.model.checkpoint import ModelCard
+from src.shared.model.audio.onnx import DECODER_GRAPH, UNET_GRAPH
+from src.shared.model.checkpoint import WEIGHTS_FILE, ModelCard
+from src.shared.model.onnx_card import ONNX_CARD as CARD_FILE
+from src.shared.model.onnx_card import AudioOnnxCard, read_onnx_card
 from src.shared.pipelines.runtime import OnnxRuntime, run
 from src.shared.pipelines.song_sampler import SongSampler, SongSampling
 from tests.shared.model.audio.tiny_audio import awake, network_config, unet_config, walk
@@ -26,6 +28,7 @@ pytest.importorskip("onnxruntime")
 pytest.importorskip("onnxscript")
 
 invoke = CliRunner().invoke
+GRAPHS = (UNET_GRAPH, DECODER_GRAPH)
 LENGTHS = (8, 30, 100, 239, 240, 600)
 TOLERANCE = 1e-4
 COLUMNS = (
@@ -55,7 +58,9 @@ def exported(model: AudioMotionModel, folder: Path) -> OnnxRuntime:
     arguments = ["--model", str(folder / "model"), "--out", str(folder / "onnx")]
     result = invoke(app, ["export-onnx", *arguments])
     assert result.exit_code == 0, result.output
-    assert result.stdout.split() == [str(folder / "onnx" / n) for n in (*GRAPHS, CARD_FILE)]
+    assert result.stdout.split() == [
+        str(folder / "onnx" / n) for n in (*GRAPHS, WEIGHTS_FILE, CARD_FILE)
+    ]
     return OnnxRuntime.from_folder(folder / "onnx")
 
 
@@ -137,7 +142,7 @@ def test_same_seed_same_motion(model: AudioMotionModel, runtime: OnnxRuntime) ->
 def test_graphs_name_their_dimensions(home: Path, runtime: OnnxRuntime) -> None:
     shapes = {value.name: value.shape for value in runtime._unet.get_inputs()}
     assert shapes["x"] == ["batch", 25, "frames"] and shapes["t"] == ["batch"]
-    card = read_onnx_card(home / "onnx")
+    card = read_onnx_card(home / "onnx", AudioOnnxCard)
     assert card.trained and card.name == "tiny" and len(card.model) == 64
     assert len(card.mean) == 25 and len(card.null_condition) == 167
 
@@ -182,7 +187,7 @@ def test_damage_is_one_line(home: Path, runtime: OnnxRuntime, tmp_path: Path, da
     elif damage == "card":
         card.write_text("{")
     elif damage == "version":
-        card.write_text(card.read_text().replace('"format-version": 1', '"format-version": 2'))
+        card.write_text(card.read_text().replace('"format-version": 2', '"format-version": 1'))
     else:
         card.unlink()
     with pytest.raises(UserError, match="export") as caught:
@@ -193,11 +198,11 @@ def test_damage_is_one_line(home: Path, runtime: OnnxRuntime, tmp_path: Path, da
 def test_no_export_yet_says_how_to_make_one(home: Path, tmp_path: Path) -> None:
     trained("derived", **SMALL).save_pretrained(home / "model")
     audio = (home / "model", Path("starter-audio"))
-    others = (tmp_path, tmp_path / "none", Path("starter"))
-    wanted = [(folder, f" --model {folder}") for folder in audio]
+    others = (tmp_path, tmp_path / "none", Path("evaluator"))
+    wanted = [(folder, f" --model {folder}") for folder in (*audio, Path("starter"))]
     for folder, model in [*wanted, *((folder, "") for folder in others)]:
         with pytest.raises(UserError, match=re.escape(f"`export-onnx{model} --out DIR`")):
-            read_onnx_card(folder)
+            read_onnx_card(folder, AudioOnnxCard)
 
 
 def test_an_export_that_is_stopped_leaves_nothing(
@@ -214,10 +219,12 @@ def test_an_export_that_is_stopped_leaves_nothing(
     assert result.exit_code == 130 and not out.exists()
 
 
-def test_missing_package_names_the_extra(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(export, "find_spec", lambda name: None)
+def test_missing_package_names_the_extra(
+    home: Path, runtime: OnnxRuntime, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(onnx_card, "find_spec", lambda name: None)
     with pytest.raises(UserError, match=r"onnxruntime.*pip install onnx"):
-        OnnxRuntime.from_folder(home)
+        OnnxRuntime.from_folder(home / "onnx")
 
 
 @pytest.mark.parametrize(

@@ -2,138 +2,36 @@
 
 unet.onnx: x [B,25,T] float32 z-scores, t [B] int64, condition [B,167,T] float32 -> prediction
 [B,25,T]. decoder.onnx: rows [B,T,25] in raw units, start [B] (bar phase of the first frame, NaN =
-the decoder's guess) -> trajectory [B,T,25] and phase [B,T], unwrapped, in bars. onnx.json beside
-them holds all that a program without PyTorch needs: the statistics, the learned "no audio", the
-settings of the diffusion, and the hashes of the graphs.
-
-The exporter follows lengths as symbols. Where eager code asks for a number, the layer is rewritten
-here with the same weights and the same result.
+the decoder's guess) -> trajectory [B,T,25] and phase [B,T], unwrapped, in bars.
 
 Letters: B batch, T frames, C channels.
 """
 
-import copy
-import logging
-import warnings
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from importlib.util import find_spec
 from pathlib import Path
-from typing import Literal
 
 import torch
-from pydantic import ValidationError
 from torch import Tensor, nn
 from torch.nn import functional as F
 
-from ...config_audio import AudioNetworkConfig
-from ...config_schema import Config
-from ...errors import UserError, first_fault
-from ...io.files import atomic_write, load_json, sha256_file, write_json
 from ...motion.trajectory import CHANNELS, PHASE
-from ..checkpoint import read_card, resolve_model
-from ..layers.transformer import RotaryEmbedding
+from ..checkpoint import CARD_FILE, WEIGHTS_FILE, resolve_model
+from ..onnx_card import ONNX_CARD, AudioOnnxCard
+from ..onnx_export import (
+    EXAMPLE_FRAMES,
+    copy_model,
+    process_info,
+    symbolic,
+    traced,
+    write_card,
+    write_graph,
+)
 from .audio_motion_model import AudioMotionModel
 from .conditioning import CONDITION_ROWS
 from .decoder import Decoder, wrapped_phase
 from .unet import Downsample, UNet1D
 
-CARD_FILE = "onnx.json"
-GRAPHS = ("unet.onnx", "decoder.onnx")
-PACKAGES = ("onnx", "onnxscript", "onnxruntime")
-
-
-class GraphInfo(Config):
-    """What a graph file must be."""
-
-    sha256: str
-    bytes: int
-
-
-class OnnxCard(Config):
-    """What an export says about itself.
-
-    Attributes:
-        model: SHA-256 of the weights it was made from; "" when they came from no folder.
-        mean, std: statistics of the 25 rows: `x = z * std + mean` (ruling 13).
-        null_condition: the 167 rows of "no audio", the same in every frame (ruling 14).
-        graphs: file name -> what it must be.
-    """
-
-    format_version: Literal[1] = 1
-    kind: Literal["audio-motion-onnx"] = "audio-motion-onnx"
-    name: str = ""
-    description: str = ""
-    licence: str = ""
-    trained: bool = False
-    model: str = ""
-    fps: float = 30.0
-    opset: int
-    audio_network: AudioNetworkConfig
-    mean: tuple[float, ...]
-    std: tuple[float, ...]
-    null_condition: tuple[float, ...]
-    graphs: dict[str, GraphInfo]
-
-
-def require_packages(*names: str) -> None:
-    """Raises UserError, naming the extra, when a package of it is missing."""
-    missing = [name for name in names if find_spec(name) is None]
-    if missing:
-        raise UserError(
-            f"ONNX needs the package {' and '.join(missing)}, which is not installed;"
-            " install the project with its extra `onnx`, or:"
-            " pip install onnx onnxscript onnxruntime"
-        )
-
-
-def graph_info(path: Path) -> GraphInfo:
-    """Hash and size of a file."""
-    return GraphInfo(sha256=sha256_file(path), bytes=path.stat().st_size)
-
-
-def read_onnx_card(folder: Path) -> OnnxCard:
-    """The card of an export whose graphs are whole.
-
-    Raises:
-        UserError: no export there, one that this version cannot read, or a damaged graph.
-    """
-    path = Path(folder) / CARD_FILE
-    if not path.is_file():
-        model = f" --model {folder}" if _is_audio_model(folder) else ""
-        raise UserError(
-            f"{folder} holds no ONNX export ({CARD_FILE} is missing); make one with"
-            f" `export-onnx{model} --out DIR` and name DIR"
-        )
-    try:
-        card = OnnxCard.model_validate(load_json(path))
-    except ValidationError as error:
-        raise UserError(f"{path}: {first_fault(error)}; export the model again") from error
-    except (OSError, ValueError) as error:
-        raise UserError(f"{path} cannot be read ({error}); export the model again") from error
-    for name in GRAPHS:
-        graph = path.with_name(name)
-        if not graph.is_file() or card.graphs.get(name) != graph_info(graph):
-            raise UserError(
-                f"{graph} is missing or not the file that {CARD_FILE} vouches for;"
-                " export the model again"
-            )
-    return card
-
-
-def _is_audio_model(name_or_folder: str | Path) -> bool:
-    """Could `export-onnx` make something of it?"""
-    try:
-        return read_card(resolve_model(name_or_folder)).audio_network is not None
-    except UserError:
-        return False
-
-
-# ---------------------------------------------------------------- export
-
-OPSET = 18
-EXAMPLE_FRAMES = 37  # no multiple of anything, so that no length is taken for a constant
-Shapes = Mapping[int, str]  # dimension -> name of its symbol
+UNET_GRAPH, DECODER_GRAPH = "unet.onnx", "decoder.onnx"
+FILES = (CARD_FILE, WEIGHTS_FILE, "README.md", "bands.json")
 
 
 class SymbolicUNet(UNet1D):
@@ -151,16 +49,6 @@ class SymbolicDownsample(Downsample):
     def forward(self, x: Tensor) -> Tensor:
         """[B, C, T] -> [B, C, T/2]."""
         return F.conv1d(F.pad(x, (1, 0)), self.conv.weight, self.conv.bias, stride=2)
-
-
-class SymbolicRotary(RotaryEmbedding):
-    """Computes its table in the graph instead of keeping one."""
-
-    def _tables(self, length: int, device: torch.device) -> tuple[Tensor, Tensor]:
-        positions = torch.arange(length, dtype=torch.float32, device=device)
-        positions = positions * self.stride + self.stride // 2
-        angles = positions[:, None, None] * self.frequencies
-        return angles.cos(), angles.sin()
 
 
 class DecoderGraph(nn.Module):
@@ -185,42 +73,37 @@ class DecoderGraph(nn.Module):
         return torch.cat(columns, dim=-1), phase
 
 
-def symbolic(unet: UNet1D) -> UNet1D:
+def symbolic_unet(unet: UNet1D) -> UNet1D:
     """The network again, on the CPU, in layers that the exporter can follow; without memory."""
-    twins: dict[type, type] = {
-        UNet1D: SymbolicUNet,
-        Downsample: SymbolicDownsample,
-        RotaryEmbedding: SymbolicRotary,
-    }
-    twin = copy.deepcopy(unet).cpu().float().eval()
+    twin = symbolic(unet, {UNet1D: SymbolicUNet, Downsample: SymbolicDownsample})
     twin.memory = None
-    for module in twin.modules():
-        module.__class__ = twins.get(type(module), type(module))
     return twin
 
 
-def export_onnx(model: AudioMotionModel, folder: str | Path) -> OnnxCard:
-    """Write both graphs and the card that vouches for them.
+def export_audio(model: str | Path, folder: str | Path) -> AudioOnnxCard:
+    """Write a model folder with both graphs, and the card that vouches for them.
+
+    Args:
+        model: name of shipped weights, or a folder that training wrote.
+        folder: made when absent; may be the model's own.
 
     Raises:
-        UserError: the packages are missing, or the folder cannot be written.
+        UserError: no such model, or the folder cannot be written.
     """
-    require_packages("onnx", "onnxscript")
-    frames, rows = EXAMPLE_FRAMES, len(model.mean)
-    unet = _program(
-        symbolic(model.unet),
+    source, folder = resolve_model(model), Path(folder)
+    loaded = AudioMotionModel.from_pretrained(source)
+    frames, rows = EXAMPLE_FRAMES, len(loaded.mean)
+    unet = traced(
+        symbolic_unet(loaded.unet),
         {
             "x": (torch.randn(2, rows, frames), {0: "batch", 2: "frames"}),
             "t": (torch.tensor([1, 2]), {0: "batch"}),
-            "condition": (
-                torch.randn(2, CONDITION_ROWS, frames),
-                {0: "batch", 2: "frames"},
-            ),
+            "condition": (torch.randn(2, CONDITION_ROWS, frames), {0: "batch", 2: "frames"}),
         },
         ("prediction",),
     )
-    decoder = _program(
-        DecoderGraph(copy.deepcopy(model.decoder).cpu().float().eval()),
+    decoder = traced(
+        DecoderGraph(symbolic(loaded.decoder)),
         {
             "rows": (torch.randn(2, frames, CHANNELS), {0: "batch", 1: "frames"}),
             "start": (torch.rand(2), {0: "batch"}),
@@ -228,58 +111,25 @@ def export_onnx(model: AudioMotionModel, folder: str | Path) -> OnnxCard:
         ("trajectory", "phase"),
     )
     # Written only now: who stops the slow part leaves no folder behind.
-    files = [Path(folder) / name for name in GRAPHS]
-    for program, path in zip((unet, decoder), files, strict=True):
-        with atomic_write(path) as temporary:
-            program.save(str(temporary))
-    card = OnnxCard(
-        name=model.card.name,
-        description=model.card.description,
-        licence=model.card.licence,
-        trained=model.card.trained,
-        model=model.card.content_hash,
-        fps=model.card.fps,
-        opset=OPSET,
-        audio_network=model.config,
-        mean=tuple(model.mean.tolist()),
-        std=tuple(model.std.tolist()),
-        null_condition=tuple(model.unet.null.tolist()),
-        graphs={path.name: graph_info(path) for path in files},
+    copy_model(source, folder, FILES)
+    graphs = {
+        UNET_GRAPH: write_graph(unet, folder / UNET_GRAPH),
+        DECODER_GRAPH: write_graph(decoder, folder / DECODER_GRAPH),
+    }
+    card = loaded.card
+    result = AudioOnnxCard(
+        name=card.name,
+        description=card.description,
+        licence=card.licence,
+        trained=card.trained,
+        model=card.content_hash,
+        fps=card.fps,
+        graphs=graphs,
+        process=process_info(loaded.diffusion, loaded.config.guidance_scale),
+        audio_network=loaded.config,
+        mean=tuple(loaded.mean.tolist()),
+        std=tuple(loaded.std.tolist()),
+        null_condition=tuple(loaded.unet.null.tolist()),
     )
-    write_json(Path(folder) / CARD_FILE, card.model_dump(mode="json", by_alias=True))
-    return card
-
-
-def _program(
-    module: nn.Module,
-    inputs: Mapping[str, tuple[Tensor, Shapes]],
-    outputs: Sequence[str],
-) -> torch.onnx.ONNXProgram:
-    with torch.no_grad(), _quiet():
-        program = torch.onnx.export(
-            module,
-            tuple(example for example, _ in inputs.values()),
-            dynamo=True,
-            dynamic_shapes=tuple(shapes for _, shapes in inputs.values()),
-            input_names=list(inputs),
-            output_names=list(outputs),
-            opset_version=OPSET,
-            optimize=False,  # onnxruntime does it on loading, many times faster
-            verbose=False,
-        )
-    assert program is not None
-    return program
-
-
-@contextmanager
-def _quiet() -> Iterator[None]:
-    """The exporter tells about packages and names that are none of the user's business."""
-    logger = logging.getLogger("torch.onnx")
-    level = logger.level
-    logger.setLevel(logging.ERROR)
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            yield
-    finally:
-        logger.setLevel(level)
+    write_card(folder / ONNX_CARD, result)
+    return result

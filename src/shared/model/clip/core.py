@@ -77,13 +77,17 @@ class TokenPairEncoder(nn.Module):
         """[B, L] ids and mask -> `last_hidden_state` [B, L, H]: a token with the pair it begins."""
         keys = keys_of(input_ids)  # [B, L, 2]
         unknown = len(self.keys)
-        index = torch.searchsorted(self.keys, keys).clamp(max=unknown - 1)
+        index = self._places(keys)
         index = torch.where(self.keys[index] == keys, index, unknown)
         if self.training:
             dropped = torch.rand(index.shape, device=index.device) < ENTRY_DROPOUT
             index = index.masked_fill(dropped, unknown)
         hidden = self.rows(index).sum(2)  # [B, L, H]
         return SimpleNamespace(last_hidden_state=hidden * attention_mask.unsqueeze(-1))
+
+    def _places(self, keys: Tensor) -> Tensor:
+        """Where each key stands in the table if it is in it, else some other row of the table."""
+        return torch.searchsorted(self.keys, keys).clamp(max=len(self.keys) - 1)
 
 
 # ---------------------------------------------------------------- towers

@@ -181,6 +181,11 @@ class PromptTokenizer:
         """Number of ids."""
         return self._backend.vocab_size
 
+    @property
+    def kind(self) -> str:
+        """Sentencepiece or transformers: who reads its folder."""
+        return self._backend.kind
+
     def pieces(self, prompt: str) -> list[str]:
         """The prompt cut into pieces, without special tokens."""
         return self._backend.pieces(prompt)

@@ -37,6 +37,7 @@ from ..clip.out_of_domain import OutOfDomainDetector
 from ..clip.pretrained import TOKENIZER_FOLDER, StyleMap, check_embed_dims
 from ..clip.tokenizer import PromptTokenizer
 from ..diffusion import GaussianDiffusion, guided
+from ..noise import NoiseStream
 from .constraint import Constraint, KnownBatch
 from .denoiser import MotionDenoiser
 
@@ -60,14 +61,9 @@ class SampleRequest:
     tag: int
     stream: tuple[int, int, int]
 
-    def generator(self) -> torch.Generator:
-        """A fresh CPU generator, so that a seed means the same on every device."""
-        state = np.random.SeedSequence(self.stream).generate_state(1, np.uint64)
-        return torch.Generator("cpu").manual_seed(int(state[0] >> np.uint64(1)))
-
-    def noise(self, rows: int, channels: int) -> Tensor:
-        """Starting noise [T, rows, channels] float32."""
-        return torch.randn(self.frames, rows, channels, generator=self.generator())
+    def noise(self) -> NoiseStream:
+        """Its noise, from the first draw on; the same on every device and runtime."""
+        return NoiseStream(*self.stream)
 
 
 def make_requests(
@@ -198,8 +194,9 @@ def sample_batch(
     lengths = torch.tensor([request.frames for request in requests])
     longest = int(lengths.max())
     noise = torch.zeros(len(requests), longest, rows, channels)  # [B, T, K, C]
-    for row, request in zip(noise, requests, strict=True):
-        row[: request.frames] = request.noise(rows, channels)
+    streams = [request.noise() for request in requests]
+    for row, request, stream in zip(noise, requests, streams, strict=True):
+        row[: request.frames] = stream.normal((request.frames, rows, channels))
     padded = bool((lengths < longest).any())
     mask = (torch.arange(longest) < lengths[:, None]).to(device) if padded else None
 
@@ -232,7 +229,7 @@ def sample_batch(
         noise.shape,
         sampler=sampler,
         num_steps=steps,
-        generator=[request.generator() for request in requests],
+        generator=streams,
         x_T=noise,
     )
 

@@ -14,7 +14,7 @@ from torch import Tensor
 from src.shared.config_audio import MemoryConditionConfig
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.audio.conditioning import ContextTransformer, MemoryCondition, MPMSConditioner
-from src.shared.model.audio.onnx import symbolic
+from src.shared.model.audio.onnx import symbolic_unet as symbolic
 from src.shared.model.audio.unet import UNet1D, sampling_copy
 from tests.shared.model.audio.tiny_audio import awake, network_config, unet, unet_config
 

@@ -35,14 +35,16 @@ def test_noise_depends_on_seed_prompt_and_sample_only():
     alone = make(["b"], num_samples=2, seed=4)
     among = make(["a", "b", "c"], num_samples=3, seed=4)
     for sample in range(2):
-        assert torch.equal(alone[sample].noise(2, 3), among[3 + sample].noise(2, 3))
+        assert torch.equal(
+            alone[sample].noise().normal((9, 2)), among[3 + sample].noise().normal((9, 2))
+        )
     streams = {r.stream for r in [*among, *make(["a", "b"], seed=5)]}
     assert len(streams) == 11
 
 
 def test_a_prompt_given_twice_gets_two_motions():
     first, second = make(["a", "a"])
-    assert not torch.equal(first.noise(1, 1), second.noise(1, 1))
+    assert not torch.equal(first.noise().normal((4,)), second.noise().normal((4,)))
 
 
 @given(

@@ -1,0 +1,207 @@
+"""What an ONNX export says about itself (onnx.json), and its graphs in onnxruntime; no PyTorch.
+
+An export is a model folder with graphs beside the weights. The graphs hold no weights of their own:
+their initializers are external data in model.safetensors, int8 and float16 ones with the few nodes
+that make float32 of them, which onnxruntime folds away on loading. docs/onnx.md is the contract.
+"""
+
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any, Literal, TypeVar
+
+from pydantic import ValidationError
+
+from ..config_audio import AudioNetworkConfig
+from ..config_schema import Config, DiffusionConfig, PostProcessingConfig
+from ..errors import UserError, first_fault
+from ..io.files import load_json, sha256_file
+from .checkpoint import WEIGHTS_FILE, read_card, resolve_model
+
+ONNX_CARD = "onnx.json"
+OPSET = 18
+EXPORTED = ("motion-generator", "audio-motion")  # kinds of model that `export-onnx` knows
+
+
+class ValueInfo(Config):
+    """An input or output of a graph: its type, and its sizes, a name where any will do."""
+
+    dtype: str
+    shape: tuple[int | str, ...]
+
+
+class GraphInfo(Config):
+    """What a graph file must be."""
+
+    sha256: str
+    bytes: int
+    inputs: dict[str, ValueInfo]
+    outputs: dict[str, ValueInfo]
+
+
+class ProcessInfo(Config):
+    """The diffusion of an export, in numbers.
+
+    Attributes:
+        config: its settings.
+        alphas_cumprod: signal left after each training step [S].
+        timesteps: those that sampling visits, as configured.
+        guidance_scale: prediction = null + scale * (conditional - null).
+        noise: the generator of standard normals, see docs/onnx.md.
+    """
+
+    config: DiffusionConfig
+    alphas_cumprod: tuple[float, ...]
+    timesteps: tuple[int, ...]
+    guidance_scale: float
+    noise: Literal["philox4x32-10/box-muller"] = "philox4x32-10/box-muller"
+
+
+class TokenizerInfo(Config):
+    """The tokenizer of an export, and what is done to its ids."""
+
+    kind: str
+    file: str
+    bos: int = 0
+    pad: int = 1
+    eos: int = 2
+    unk: int = 3
+    max_tokens: int
+
+
+class OnnxCard(Config):
+    """What an export says about itself.
+
+    Attributes:
+        model: SHA-256 of the weights that the graphs read.
+        weights: their file.
+        graphs: file name -> what it must be.
+        process: the diffusion.
+    """
+
+    format_version: Literal[2] = 2
+    kind: str
+    name: str = ""
+    description: str = ""
+    licence: str = ""
+    trained: bool = False
+    model: str = ""
+    weights: str = WEIGHTS_FILE
+    fps: float = 30.0
+    opset: int = OPSET
+    graphs: dict[str, GraphInfo]
+    process: ProcessInfo
+
+
+class TextOnnxCard(OnnxCard):
+    """An export that makes bodies from sentences: text.onnx and denoiser.onnx.
+
+    Attributes:
+        mean, std: [K][C] of the features: `x = z * std + mean`.
+        null_pooled: the learned "no text" [D].
+        null_token: of a network that hears tokens [D]; None otherwise.
+        tags: action labels; `no_tag` is the index of none.
+        shown: whether known entries are shown to the network, or only held.
+        max_seconds: of the longest clip it learned from; `min_frames` are needed.
+    """
+
+    kind: Literal["motion-generator"] = "motion-generator"
+    mean: tuple[tuple[float, ...], ...]
+    std: tuple[tuple[float, ...], ...]
+    null_pooled: tuple[float, ...]
+    null_token: tuple[float, ...] | None = None
+    tags: tuple[str, ...] = ()
+    no_tag: int
+    languages: tuple[str, ...] = ()
+    shown: bool
+    max_seconds: float | None = None
+    min_frames: int
+    tokenizer: TokenizerInfo
+    post_processing: PostProcessingConfig
+
+
+class AudioOnnxCard(OnnxCard):
+    """An export that makes paths from songs: unet.onnx and decoder.onnx.
+
+    Attributes:
+        mean, std: statistics of the 25 rows: `x = z * std + mean` (ruling 13).
+        null_condition: the 167 rows of "no audio", the same in every frame (ruling 14).
+    """
+
+    kind: Literal["audio-motion"] = "audio-motion"
+    audio_network: AudioNetworkConfig
+    mean: tuple[float, ...]
+    std: tuple[float, ...]
+    null_condition: tuple[float, ...]
+
+
+CardT = TypeVar("CardT", bound=OnnxCard)
+
+
+def require_packages(*names: str) -> None:
+    """Raises UserError, naming the extra, when a package of it is missing."""
+    missing = [name for name in names if find_spec(name) is None]
+    if missing:
+        raise UserError(
+            f"ONNX needs the package {' and '.join(missing)}, which is not installed;"
+            " install the project with its extra `onnx`, or:"
+            " pip install onnx onnxscript onnxruntime"
+        )
+
+
+def read_onnx_card(folder: str | Path, kind: type[CardT]) -> CardT:
+    """The card of an export whose graphs are whole.
+
+    Raises:
+        UserError: no export there, one that this version cannot read, or a damaged graph.
+    """
+    path = Path(folder) / ONNX_CARD
+    if not path.is_file():
+        model = f" --model {folder}" if _could_be_exported(folder) else ""
+        raise UserError(
+            f"{folder} holds no ONNX export ({ONNX_CARD} is missing); make one with"
+            f" `export-onnx{model} --out DIR` and name DIR"
+        )
+    try:
+        card = kind.model_validate(load_json(path))
+    except ValidationError as error:
+        raise UserError(f"{path}: {first_fault(error)}; export the model again") from error
+    except (OSError, ValueError) as error:
+        raise UserError(f"{path} cannot be read ({error}); export the model again") from error
+    for name, graph in card.graphs.items():
+        file = path.with_name(name)
+        if not file.is_file() or sha256_file(file) != graph.sha256:
+            raise UserError(
+                f"{file} is missing or not the file that {ONNX_CARD} vouches for;"
+                " export the model again"
+            )
+    return card
+
+
+def _could_be_exported(name_or_folder: str | Path) -> bool:
+    try:
+        return read_card(resolve_model(name_or_folder)).kind in EXPORTED
+    except UserError:
+        return False
+
+
+def open_graph(folder: Path, name: str, threads: int) -> Any:
+    """An onnxruntime session of a graph, on so many threads of the CPU.
+
+    Raises:
+        UserError: the package is missing, or it cannot load the graph.
+    """
+    require_packages("onnxruntime")
+    import onnxruntime
+
+    options = onnxruntime.SessionOptions()
+    options.intra_op_num_threads = threads
+    options.log_severity_level = 3  # errors
+    try:
+        return onnxruntime.InferenceSession(
+            str(folder / name), options, providers=["CPUExecutionProvider"]
+        )
+    except Exception as error:  # onnxruntime's own types derive from it directly
+        reason = str(error).splitlines()[0]
+        raise UserError(
+            f"onnxruntime cannot load {folder / name} ({reason}); update it, or export again"
+        ) from error

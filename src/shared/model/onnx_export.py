@@ -1,0 +1,241 @@
+"""From a PyTorch module to an ONNX graph that reads its weights from model.safetensors.
+
+The exporter follows lengths as symbols. Where eager code asks for a number, a layer has a twin with
+the same weights and the same result.
+"""
+
+import copy
+import hashlib
+import json
+import logging
+import shutil
+import warnings
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+import torch
+from torch import Tensor, nn
+
+from ..io.files import atomic_write, sha256_file, write_json
+from .checkpoint import INT8_SCALE, WEIGHTS_FILE, read_card, read_tensors
+from .diffusion import GaussianDiffusion
+from .layers.transformer import RotaryEmbedding
+from .noise import sampling_timesteps
+from .onnx_card import OPSET, GraphInfo, OnnxCard, ProcessInfo, ValueInfo
+
+EXAMPLE_FRAMES = 37  # no multiple of anything, so that no length is taken for a constant
+Shapes = Mapping[int, str]  # dimension -> name of its symbol
+ModuleT = TypeVar("ModuleT", bound=nn.Module)
+
+
+class SymbolicRotary(RotaryEmbedding):
+    """Computes its table in the graph instead of keeping one."""
+
+    def _tables(self, length: int, device: torch.device) -> tuple[Tensor, Tensor]:
+        positions = torch.arange(length, dtype=torch.float32, device=device)
+        positions = positions * self.stride + self.stride // 2
+        angles = positions[:, None, None] * self.frequencies
+        return angles.cos(), angles.sin()
+
+
+def symbolic(module: ModuleT, twins: Mapping[type, type] | None = None) -> ModuleT:
+    """The network again, on the CPU, in layers that the exporter can follow."""
+    found = {RotaryEmbedding: SymbolicRotary, **(twins or {})}
+    twin = copy.deepcopy(module).cpu().float().eval()
+    for part in twin.modules():
+        part.__class__ = found.get(type(part), type(part))
+    return twin
+
+
+def traced(
+    module: nn.Module,
+    inputs: Mapping[str, tuple[Tensor, Shapes]],
+    outputs: Sequence[str],
+) -> Any:
+    """The graph of a module, an onnx `ModelProto` that holds its weights."""
+    with torch.no_grad(), _quiet():
+        program = torch.onnx.export(
+            module,
+            tuple(example for example, _ in inputs.values()),
+            dynamo=True,
+            dynamic_shapes=tuple(shapes for _, shapes in inputs.values()),
+            input_names=list(inputs),
+            output_names=list(outputs),
+            opset_version=OPSET,
+            optimize=True,
+            verbose=False,
+        )
+    assert program is not None
+    model = program.model_proto
+    for node in model.graph.node:  # where in the source it came from: paths, and most of the bytes
+        node.ClearField("metadata_props")
+        node.ClearField("doc_string")
+    model.graph.ClearField("value_info")
+    model.graph.ClearField("metadata_props")
+    model.ClearField("metadata_props")
+    return model
+
+
+def write_graph(model: Any, path: Path) -> GraphInfo:
+    """Write a graph of `traced` that reads its weights from the model.safetensors beside it.
+
+    Raises:
+        UserError: it cannot be written.
+    """
+    link_weights(model, path.parent)
+    with atomic_write(path) as temporary:
+        temporary.write_bytes(model.SerializeToString(deterministic=True))
+    return GraphInfo(
+        sha256=sha256_file(path),
+        bytes=path.stat().st_size,
+        inputs={value.name: _info(value) for value in model.graph.input},
+        outputs={value.name: _info(value) for value in model.graph.output},
+    )
+
+
+def write_card(path: Path, card: OnnxCard) -> None:
+    """Write the card of an export."""
+    write_json(path, card.model_dump(mode="json", by_alias=True))
+
+
+def process_info(diffusion: GaussianDiffusion, guidance_scale: float) -> ProcessInfo:
+    """A diffusion in numbers."""
+    config = diffusion.config
+    return ProcessInfo(
+        config=config,
+        alphas_cumprod=tuple(diffusion.schedule.alphas_cumprod.tolist()),
+        timesteps=sampling_timesteps(
+            config.timesteps, config.sampling_steps, config.timestep_spacing
+        ),
+        guidance_scale=guidance_scale,
+    )
+
+
+def copy_model(source: Path, folder: Path, files: Sequence[str]) -> None:
+    """Copy what there is of a model folder's files, whole; nothing where it is the same folder."""
+    for name in files:
+        given, target = source / name, folder / name
+        if given.is_file() and not (target.exists() and target.samefile(given)):
+            with atomic_write(target) as temporary:
+                shutil.copyfile(given, temporary)
+
+
+# ---------------------------------------------------------------- weights outside the graph
+
+
+def link_weights(model: Any, folder: Path) -> None:
+    """Let the initializers of a graph be what lies in a folder's model.safetensors, where it does.
+
+    They are recognised by their content, as it is or transposed. What is stored as int8 or float16
+    becomes float32 in the graph: onnxruntime folds those nodes away on loading.
+    """
+    from onnx import helper, numpy_helper
+
+    header = _header(folder / WEIGHTS_FILE)
+    known: dict[str, tuple[str, bool]] = {}
+    for name, tensor in read_tensors(folder, read_card(folder)).items():
+        value = tensor.numpy()
+        known[_digest(value)] = (name, False)
+        if value.ndim == 2:
+            known.setdefault(_digest(value.T), (name, True))
+    graph = model.graph
+    inside = [(each, known.get(_digest(numpy_helper.to_array(each)))) for each in graph.initializer]
+    initializers = [each for each, found in inside if found is None]
+    nodes: list[Any] = []
+    for name in sorted({found[0] for _, found in inside if found is not None}):
+        parts, making = _stored(name, header)
+        initializers += parts
+        nodes += making
+    for each, found in inside:
+        if found is not None:
+            kind = "Transpose" if found[1] else "Identity"
+            nodes.append(helper.make_node(kind, [_called(found[0])], [each.name]))
+    nodes += list(graph.node)
+    graph.ClearField("initializer")
+    graph.ClearField("node")
+    graph.initializer.extend(initializers)
+    graph.node.extend(nodes)
+
+
+def _stored(name: str, header: Mapping[str, Any]) -> tuple[list[Any], list[Any]]:
+    """What a graph needs for the value of a stored tensor: initializers, and nodes."""
+    from onnx import TensorProto, helper
+
+    types = {"F32": TensorProto.FLOAT, "F16": TensorProto.FLOAT16, "I8": TensorProto.INT8,
+             "I32": TensorProto.INT32, "I64": TensorProto.INT64}  # fmt: skip
+
+    def outside(stored: str, called: str, more: int = 0) -> Any:
+        entry = header[stored]
+        tensor = TensorProto(name=called, data_type=types[entry["dtype"]])
+        tensor.dims.extend([*entry["shape"], *[1] * more])
+        tensor.data_location = TensorProto.EXTERNAL
+        start, stop = entry["data_offsets"]
+        where = {"location": WEIGHTS_FILE, "offset": start + header[_START], "length": stop - start}
+        for key, value in where.items():
+            tensor.external_data.add(key=key, value=str(value))
+        return tensor
+
+    parts, nodes = [], []
+
+    def float32(stored: str, called: str, more: int = 0) -> None:
+        if header[stored]["dtype"] not in ("F16", "I8"):
+            parts.append(outside(stored, called, more))
+            return
+        parts.append(outside(stored, f"{called}/low", more))
+        nodes.append(helper.make_node("Cast", [f"{called}/low"], [called], to=TensorProto.FLOAT))
+
+    scale = name + INT8_SCALE
+    if scale not in header:
+        float32(name, _called(name))
+    else:
+        rounded, factor = f"{_called(name)}/rounded", _called(scale)
+        float32(name, rounded)
+        float32(scale, factor, len(header[name]["shape"]) - 1)  # [R, 1, ...]
+        nodes.append(helper.make_node("Mul", [rounded, factor], [_called(name)]))
+    return parts, nodes
+
+
+def _called(name: str) -> str:
+    """What a stored tensor is called in a graph, where its own name may be taken."""
+    return f"stored/{name}"
+
+
+_START = ""  # in a header, where the data begins; no tensor has such a name
+
+
+def _header(path: Path) -> dict[str, Any]:
+    """What a safetensors file says of its tensors, and the byte at which they begin."""
+    with path.open("rb") as stream:
+        length = int.from_bytes(stream.read(8), "little")
+        found: dict[str, Any] = json.loads(stream.read(length))
+    return found | {_START: 8 + length}
+
+
+def _digest(value: np.ndarray) -> str:
+    kind = f"{value.dtype.str}{value.shape}".encode()
+    return hashlib.sha256(kind + value.tobytes()).hexdigest()
+
+
+def _info(value: Any) -> ValueInfo:
+    from onnx import TensorProto
+
+    kind = value.type.tensor_type
+    shape = [dim.dim_param or dim.dim_value for dim in kind.shape.dim]
+    return ValueInfo(dtype=TensorProto.DataType.Name(kind.elem_type).lower(), shape=tuple(shape))
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """The exporter tells about packages and names that are none of the user's business."""
+    logger = logging.getLogger("torch.onnx")
+    level = logger.level
+    logger.setLevel(logging.ERROR)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            yield
+    finally:
+        logger.setLevel(level)

@@ -1,0 +1,94 @@
+"""The exported tower and denoiser give what PyTorch's give, from the weights beside them."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+
+from src.shared.io.files import sha256_file
+from src.shared.model.checkpoint import WEIGHTS_FILE
+from src.shared.model.clip.core import TextTower
+from src.shared.model.generation.motion_generator import TextToMotion
+from src.shared.model.generation.onnx import DENOISER_GRAPH, TEXT_GRAPH, export_text
+from src.shared.model.onnx_card import TextOnnxCard, open_graph, read_onnx_card
+
+pytest.importorskip("onnxruntime")
+pytest.importorskip("onnxscript")
+
+PROMPTS = ["a person walks forward", "人が前に歩く", "jump"]
+
+
+def with_pairs(generator: TextToMotion) -> TextToMotion:
+    """With a tower of token pairs instead of the random-init transformer."""
+    clip = generator.network.clip.model_copy(
+        update={"text_model": "pairs", "text_pairs": 300, "text_places": 3}
+    )
+    tower = TextTower(clip, generator.network.embed_dim)
+    ids, _ = generator.tokenizer(PROMPTS)
+    tower.encoder.keys[:290] += 3
+    tower.encoder.keys[290:] = torch.arange(10, dtype=torch.int32) + 60_000
+    tower.get_buffer("places").normal_()
+    assert int(ids.max()) > 3
+    generator.text = tower.freeze()
+    generator.network = generator.network.model_copy(update={"clip": clip})
+    return generator
+
+
+@pytest.mark.parametrize(
+    ("pairs", "settings"),
+    [
+        (True, {"constraints": True}),
+        pytest.param(
+            False,
+            {"text_conditioning": "tokens", "provenance": True, "frames_per_token": 2},
+            marks=pytest.mark.slow,
+        ),
+    ],
+)
+@torch.no_grad()
+def test_graphs_compute_what_the_networks_do(
+    make_generator, tmp_path: Path, pairs: bool, settings: dict
+) -> None:
+    generator = make_generator(**settings)
+    if pairs:
+        generator = with_pairs(generator)
+    generator.save_pretrained(tmp_path / "model", int8=True)
+    generator = TextToMotion.from_pretrained(tmp_path / "model", device="cpu")
+    export_text(tmp_path / "model", tmp_path / "onnx")
+
+    card = read_onnx_card(tmp_path / "onnx", TextOnnxCard)
+    weights = [tmp_path / folder / WEIGHTS_FILE for folder in ("model", "onnx")]
+    assert sha256_file(weights[0]) == sha256_file(weights[1]) == card.model
+    assert sum(graph.bytes for graph in card.graphs.values()) < weights[0].stat().st_size
+    again = TextToMotion.from_pretrained(tmp_path / "onnx", device="cpu")
+    assert torch.equal(again.mean, generator.mean)
+
+    ids, words = generator.tokenizer(PROMPTS)
+    text = generator.text(ids, words)
+    session = open_graph(tmp_path / "onnx", TEXT_GRAPH, 1)
+    outputs = session.run(None, {"input_ids": ids.numpy(), "attention_mask": words.numpy()})
+    np.testing.assert_allclose(outputs[0], text.pooled, atol=1e-5)
+
+    session = open_graph(tmp_path / "onnx", DENOISER_GRAPH, 1)
+    for frames in (8, 61):
+        x = torch.randn(3, frames, 23, 6)
+        mask = torch.arange(frames) < torch.tensor([frames, frames, frames - 3])[:, None]
+        known = torch.rand(x.shape) < 0.1
+        t, tag = torch.tensor([0, 20, 49]), torch.tensor([0, 1, 2])
+        feed = {"x": x, "t": t, "tag": tag, "mask": mask, "pooled": text.pooled, "known": known}
+        if len(outputs) > 1:
+            feed |= {"tokens": torch.as_tensor(outputs[1]), "token_mask": words.bool()}
+        assert feed.keys() == card.graphs[DENOISER_GRAPH].inputs.keys()
+        (found,) = session.run(None, {name: value.numpy() for name, value in feed.items()})
+        wanted = generator.denoiser(
+            x,
+            t,
+            text,
+            tag,
+            mask,
+            known=known if settings.get("constraints") else None,
+            provenance=torch.zeros(3, dtype=torch.long) if settings.get("provenance") else None,
+        )
+        assert wanted.abs().max() > 0.3
+        np.testing.assert_allclose(found[mask], wanted[mask], atol=1e-4)
