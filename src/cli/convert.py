@@ -134,7 +134,7 @@ def plan(files: list[Path], format: str | None) -> Iterator[Job]:
                              "--format glb")  # fmt: skip
         name = format_of(out)
         check_apart(sources[0], out)
-        options.check_folder("OUT", out.parent)
+        options.check_file("OUT", out)
         yield Job(sources[0], {name: out})
         return
     formats = list(

@@ -63,13 +63,14 @@ def features(
 
 
 def check_suffix(flag: str, path: Path, suffix: str) -> None:
-    """Refuse an output that is a folder or has another suffix.
+    """Refuse an output that is a folder, has another suffix or cannot be written.
 
     Raises:
         UsageError: naming the flag.
     """
     if path.suffix.lower() != suffix or path.is_dir():
         raise UsageError(f"{flag} {path} is no {suffix} file; name one")
+    options.check_file(flag, path)
 
 
 def describe(path: Path, song: "Song") -> str:

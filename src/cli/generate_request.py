@@ -314,9 +314,6 @@ def listen(
 ) -> "tuple[MotionGenerator, Song, Stopwatch, Any]":
     """Models loaded, and the song analysed: generator, song, clock, and what `--style` says."""
     clock = Stopwatch()
-    from ..shared.audio.sound import check_sound
-
-    check_sound(audio)
     from ..shared.audio.song import analyse
     from ..shared.pipelines.song import styled
 
@@ -409,6 +406,9 @@ def only_song(paths: list[Path] | None) -> Path | None:
         raise UsageError(f"--audio {path} is a folder; name a wav, flac, ogg or mp3 file in it")
     if not path.is_file():
         raise UsageError(f"--audio {path}: no such file; name a wav, flac, ogg or mp3 file")
+    from ..shared.audio.sound import check_sound
+
+    check_sound(path)
     return path
 
 

@@ -138,12 +138,14 @@ def query(
     if not is_song and Path(ask).suffix.lower() in SOUND_FILES:
         raise UsageError(f"{ask}: no such file; name a sound file, or give words")
 
-    from ..shared.audio.sound import check_sound
+    if is_song:
+        from ..shared.audio.sound import check_sound
+
+        check_sound(ask)
+
     from ..shared.device import set_threads
     from ..shared.memory.figures import SHIPPED, is_figure_memory
 
-    if is_song:
-        check_sound(ask)
     set_threads(threads)
     folder = SHIPPED if str(memory) == "figures" and not memory.exists() else memory
     if is_figure_memory(folder):

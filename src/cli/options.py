@@ -1,5 +1,6 @@
 """Options that several commands share, checks of their values, and the help page of a command."""
 
+import errno
 import re
 import tempfile
 from collections.abc import Mapping as Map
@@ -11,7 +12,7 @@ from typer.core import TyperCommand
 
 from ..shared import environment
 from ..shared.errors import UsageError
-from ..shared.io.files import made_folder
+from ..shared.io.files import made_folder, unfinished
 from .console import complain
 
 Model = Annotated[str, typer.Option(help="A name that `models` lists, or a folder from training.")]
@@ -145,6 +146,23 @@ def check_folder(flag: str, folder: Path) -> None:
             raise UsageError(
                 f"{flag} {folder}: cannot write there ({reason}); name another folder"
             ) from None
+
+
+def check_file(flag: str, path: Path) -> None:
+    """Refuse a file that cannot be written, before anything slow starts.
+
+    Raises:
+        UsageError: as `check_folder` of its folder, or its name is too long for the system.
+    """
+    check_folder(flag, path.parent)
+    trial = unfinished(path)
+    try:
+        with made_folder(path.parent):
+            trial.touch()
+            trial.unlink()
+    except OSError as error:
+        if error.errno == errno.ENAMETOOLONG:  # of anything else writing tells
+            raise UsageError(f"{flag} {path}: {error.strerror}; shorten its name") from None
 
 
 def check_limits(values: Map[str, float | None], limits: Map[str, tuple[float, float]]) -> None:

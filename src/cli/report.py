@@ -112,7 +112,7 @@ def plot(
         raise UsageError(f"--out {picture}: choose from {', '.join(PICTURES)}")
     if picture.is_dir():
         raise UsageError(f"--out {picture} is a folder; name a picture")
-    options.check_folder("--out", picture.parent)
+    options.check_file("--out", picture)
 
     if file.suffix.lower() in (".json", ".jsonl"):
         from ..shared.evaluation.report.plots import plot_losses, read_losses

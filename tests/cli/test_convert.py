@@ -164,6 +164,8 @@ def test_missing_files_are_named(walk: Path, tmp_path: Path) -> None:
     (tmp_path / "empty").mkdir()
     result = run(tmp_path / "empty", tmp_path / "out", "--format", "glb")
     assert (result.exit_code, "holds no motion file" in result.stderr) == (1, True)
+    result = run(walk, tmp_path / ("a" * 240 + ".glb"))
+    assert (result.exit_code, "shorten its name" in result.stderr) == (2, True)
     result = run(walk, tmp_path / "a.glb", "--skeleton", tmp_path / "hero.glb")
     assert (result.exit_code, "hero.glb" in result.stderr) == (1, True)
 

@@ -60,6 +60,7 @@ def test_json_and_meter_and_cache_folder(tune: Path, tmp_path: Path) -> None:
     [
         (["--chroma", "stft"], "choose from fast, cqt"),
         (["--meter", "1"], "--meter 1 is out of range"),
+        (["--out", "a" * 240 + ".npz"], "shorten its name"),
         (["--out", "song.txt"], "--out song.txt is no .npz file"),
         (["--plot", "song.jpg"], "--plot song.jpg is no .png file"),
     ],

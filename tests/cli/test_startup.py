@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -33,6 +34,21 @@ def test_help_imports_nothing_heavy(arguments: list[str]) -> None:
     imported = {line.rpartition("|")[2].strip() for line in result.stderr.splitlines()}
     assert "typer" in imported, "the import list was not read"
     assert not HEAVY & {name.partition(".")[0] for name in imported}
+
+
+@pytest.mark.parametrize(
+    "arguments", [("generate", "--audio", "SONG"), ("memory", "query", "SONG", "--memory", "figures")]
+)
+def test_an_empty_song_is_refused_before_torch_is_imported(
+    arguments: tuple[str, ...], tmp_path: Path
+) -> None:
+    song = tmp_path / "empty.wav"
+    song.touch()
+    named = [str(song) if word == "SONG" else word for word in arguments]
+    result = run("-X", "importtime", "-m", "src.cli.tools", *named)
+    assert result.returncode == 1 and f"error: {song} is empty" in result.stderr
+    imported = {line.rpartition("|")[2].strip() for line in result.stderr.splitlines()}
+    assert "numpy" in imported and "torch" not in imported
 
 
 @pytest.mark.parametrize("command", [name.replace("_", "-") for name in COMMANDS])

@@ -14,6 +14,7 @@ from src.shared.audio.synthetic_songs import (
     render_song,
     sample_song_specs,
 )
+from tests.shared.audio.other_songs import pattern, pop
 
 
 def f_measure(truth: np.ndarray, found: np.ndarray, window: float = 0.07) -> float:
@@ -85,6 +86,37 @@ def test_a_waltz_is_recognised() -> None:
     assert track_beats(song.samples, meter=4).meter == 4
 
 
+def test_bars_that_strokes_alone_tell() -> None:
+    """Without harmony the weights of before began two bars of three a beat off."""
+    songs = [pattern(seed, seconds=12.0) for seed in range(1000, 1010)]
+    found = [track_beats(song.samples, meter=song.meter) for song in songs]
+    scores = [
+        f_measure(song.downbeat_times, beats.downbeat_times)
+        for song, beats in zip(songs, found, strict=True)
+    ]
+    assert np.mean(scores) > 0.85
+
+
+def test_a_dotted_bass_is_not_the_beat() -> None:
+    """One and a half times 117.5 is 176: what was heard."""
+    songs = [pop(seed, seconds=12.0, tempo=117.5) for seed in range(1000, 1010)]
+    tempi = np.array([track_beats(song.samples).tempo for song in songs])
+    assert (np.abs(tempi / 117.5 - 1) < 0.04).mean() >= 0.8
+
+
+def test_a_gap_has_no_beats_and_loses_no_bar() -> None:
+    song = render_song(SongSpec(seconds=20.0, tempo=120.0, seed=6, silence=0.0))
+    whole = track_beats(song.samples)
+    sound = song.samples.copy()
+    sound[8 * SAMPLE_RATE : 13 * SAMPLE_RATE] = 0.0
+    beats = track_beats(sound)
+    assert not ((beats.beat_times > 8.7) & (beats.beat_times < 12.9)).any()
+    late = beats.beat_times > 13
+    assert f_measure(song.beat_times[song.beat_times > 13], beats.beat_times[late]) > 0.9
+    phase, expected = (bar_phase(each, 600) for each in (beats, whole))
+    assert (np.diff(phase) > 0).all() and np.abs(phase - expected)[450:].max() < 0.1
+
+
 def test_a_change_of_tempo_is_followed() -> None:
     spec = SongSpec(seconds=30.0, tempo=((0.0, 100.0), (15.0, 100.0), (15.0, 128.0)), seed=2)
     song = render_song(spec)
@@ -141,7 +173,7 @@ def test_short_sounds_do_not_fail(samples: int) -> None:
     assert np.isfinite(bar_phase(beats, 30)).all()
 
 
-times = st.lists(st.floats(0.2, 2.0), min_size=2, max_size=30).map(np.cumsum)
+times = st.lists(st.floats(0.2, 1.4), min_size=2, max_size=30).map(np.cumsum)
 
 
 @given(times, st.integers(2, 6), st.integers(0, 5), st.sampled_from([24.0, 30.0]))
