@@ -36,9 +36,11 @@ def test_help_imports_nothing_heavy(arguments: list[str]) -> None:
     assert not HEAVY & {name.partition(".")[0] for name in imported}
 
 
-@pytest.mark.parametrize(
-    "arguments", [("generate", "--audio", "SONG"), ("memory", "query", "SONG", "--memory", "figures")]
-)
+AUDIO = ("generate", "--audio", "SONG")
+ASKED = ("memory", "query", "SONG", "--memory", "figures")
+
+
+@pytest.mark.parametrize("arguments", [AUDIO, ASKED])
 def test_an_empty_song_is_refused_before_torch_is_imported(
     arguments: tuple[str, ...], tmp_path: Path
 ) -> None:
