@@ -28,6 +28,7 @@ from .options import Command, SuiteCommand
 from .prepare import prepare, prepare_audio
 from .report import compare, plot, report
 from .shape_check import shape_check
+from .studio import studio
 from .train import train
 
 PROGRAM = "motion-tools"
@@ -85,6 +86,7 @@ for command in (
     models,
     plot,
     export_onnx,
+    studio,
 ):
     kind = SuiteCommand if command is evaluate else Command
     app.command(cls=kind)(with_quiet(guarded(command)))

@@ -79,6 +79,7 @@ FLAGS = {
         " --out --quick --replications --row --seed --steps --threads A B"
     ),
     "export-onnx": "--json --model --out",
+    "studio": "--json --model --no-open --out",
     "memory build": "--bars --figures --json --out --space --split --takes --threads DATA",
     "memory query": "--json --memory --meter --model --space --threads --top-k ASK",
     "models": "--json",

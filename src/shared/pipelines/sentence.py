@@ -290,3 +290,37 @@ def _words() -> _Words:
 
 def _tables() -> Iterator[dict[str, Any]]:
     yield from load_yaml(packaged_config("measures.yaml")).values()
+
+
+# ---------------------------------------------------------------- the same in a browser
+
+_WORD = r"\p{L}\p{N}_"  # what \w is here
+_JAVASCRIPT = (
+    (_LETTER, rf"(?![\p{{Nd}}{_CJK}])[{_WORD}]"),
+    (_SIGN, rf"(?![{_CJK}])[{_WORD}]"),
+    ("(?-i:", "(?:"),
+    ("(?P<", "(?<"),
+    (r"[\w", f"[{_WORD}"),
+    (r"\w", f"[{_WORD}]"),
+    (r"\d", r"\p{Nd}"),
+    (r"\-", "-"),
+)
+
+
+def javascript_patterns() -> dict[str, Any]:
+    """The patterns as JavaScript reads them, with the flags i and u, and what their words say."""
+    words, found = _words(), dict[str, str]()
+    for name, value in vars(words).items():
+        patterns = value if name == "units" else {name: value}
+        found |= {key: _translated(p.pattern) for key, p in patterns.items() if name not in _SAID}
+    said = {name: getattr(words, name) for name in _SAID}
+    return {"patterns": found, "most": _MOST, "maxCount": MAX_COUNT} | said
+
+
+_SAID = ("numbers", "adverbs", "angles")
+
+
+def _translated(pattern: str) -> str:
+    for ours, theirs in _JAVASCRIPT:
+        pattern = pattern.replace(ours, theirs)
+    return pattern

@@ -39,15 +39,24 @@ def chromium() -> str | None:
 class Browser:
     """One page in a browser of its own; a context manager.
 
-    `problems` collects what the page logged as an error or warning, and its exceptions.
+    `problems` collects what the page logged as an error or warning, and its exceptions; `requests`
+    the addresses that it asked for.
     """
 
-    def __init__(self, url: str, profile: Path, size: tuple[int, int] = (700, 500)) -> None:
+    def __init__(
+        self,
+        url: str,
+        profile: Path,
+        size: tuple[int, int] = (700, 500),
+        ready: str = "typeof cards === 'object'",
+        flags: tuple[str, ...] = (),
+    ) -> None:
         self.problems: list[str] = []
+        self.requests: list[str] = []
         self._count = 0
         there, self._out = os.pipe()
         self._in, back = os.pipe()
-        command = [str(chromium()), *FLAGS, f"--window-size={size[0]},{size[1]}",
+        command = [str(chromium()), *FLAGS, *flags, f"--window-size={size[0]},{size[1]}",
                    f"--user-data-dir={profile}", "about:blank"]  # fmt: skip
         shim = [sys.executable, "-c", SHIM, str(there), str(back)]
         self._process = subprocess.Popen(
@@ -63,10 +72,10 @@ class Browser:
         page = next(target["targetId"] for target in targets if target["type"] == "page")
         attached = self.call("Target.attachToTarget", targetId=page, flatten=True)
         self._session: str | None = attached["sessionId"]
-        for domain in ("Runtime", "Log", "Page"):
+        for domain in ("Runtime", "Log", "Page", "Network"):
             self.call(f"{domain}.enable")
         self.call("Page.navigate", url=url)
-        self.wait("document.readyState === 'complete' && typeof cards === 'object'")
+        self.wait(f"document.readyState === 'complete' && {ready}")
 
     _session: str | None = None
 
@@ -127,4 +136,6 @@ class Browser:
             self.problems.append(str(details["entry"].get("text")))
         elif event.get("method") == "Runtime.consoleAPICalled":
             self.problems.append(str(details["args"]))
+        elif event.get("method") == "Network.requestWillBeSent":
+            self.requests.append(details["request"]["url"])
         return event

@@ -74,7 +74,7 @@ def write_page(
     """
     resources = files(__package__)
     parts = {
-        "@DATA@": script_safe_json(_body() | data),
+        "@DATA@": script_safe_json(body_data() | data),
         "@SCRIPT@": "\n".join(resources.joinpath(n).read_text("utf-8") for n in SCRIPTS),
         "@HINT@": hint,
         "@SONG@": media,
@@ -92,7 +92,7 @@ def script_safe_json(value: Any) -> str:
 
 
 @lru_cache(maxsize=1)
-def _body() -> dict[str, Any]:
+def body_data() -> dict[str, Any]:
     """What all motions share: skeleton, mesh, limbs for browsers without WebGL, colours."""
     body, skeleton = mannequin(), canonical_skeleton()
     return {

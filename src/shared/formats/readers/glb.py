@@ -71,13 +71,18 @@ class GlbFile:
         Raises:
             UserError: the file cannot be written.
         """
+        data = self.to_bytes()
+        with atomic_write(path) as temporary:
+            temporary.write_bytes(data)
+        return path
+
+    def to_bytes(self) -> bytes:
+        """The whole file."""
         buffers = [{"byteLength": len(self.data)}, *self.document.get("buffers", [])[1:]]
         document = self.document | {"buffers": buffers}
         text = json.dumps(document, allow_nan=False, separators=(",", ":")).encode()
         chunks = _chunk(b"JSON", text, b" ") + _chunk(b"BIN\0", bytes(self.data), b"\0")
-        with atomic_write(path) as temporary:
-            temporary.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
-        return path
+        return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
     def view(self, data: bytes, target: int | None = None) -> int:
         """Add bytes at the next multiple of 4; the index of their view."""

@@ -16,6 +16,7 @@ import numpy as np
 from PIL import Image
 
 from ...motion.motion import Motion
+from ...motion.skeleton import NUM_JOINTS
 from ...motion.trajectory import MotionTrajectory
 from ..mannequin import Mannequin, mannequin, side_colours, whole_shares
 from ..preview.trajectory import proxy_body
@@ -58,7 +59,20 @@ def write_glb_clip(clip: RigClip, path: str | Path) -> Path:
     return _write(clip, bone_mesh(clip.rig, clip.moving()), path)
 
 
+def rest_glb() -> bytes:
+    """A file of `write_glb` with two keys a channel, to be replaced by those of a motion."""
+    turned = np.zeros((2, NUM_JOINTS, 4), np.float32)
+    turned[..., 0] = 1.0
+    turned[1, :, :2] = np.sqrt(0.5)  # every joint turns, so that each has a key in every frame
+    motion = Motion(turned, np.zeros((2, 3), np.float32), np.zeros((2, 2), np.float32))
+    return _file(motion_clip(motion), mannequin()).to_bytes()
+
+
 def _write(clip: RigClip, body: Mannequin, path: str | Path) -> Path:
+    return _file(clip, body).write(Path(path))
+
+
+def _file(clip: RigClip, body: Mannequin) -> GlbFile:
     file = GlbFile()
     name = clip.text or "motion"
     joints = len(clip.names)
@@ -87,7 +101,7 @@ def _write(clip: RigClip, body: Mannequin, path: str | Path) -> Path:
         "images": [{"name": "sides", "mimeType": "image/png", "bufferView": file.view(_palette())}],
     }
     file.document |= document
-    return file.write(Path(path))
+    return file
 
 
 def _nodes(rig: Rig) -> list[dict[str, Any]]:

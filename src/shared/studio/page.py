@@ -1,0 +1,176 @@
+"""The studio: one page with a text model inside that makes motions in a browser, without a server.
+
+The shell (scripts, onnxruntime's WebAssembly, the denoiser's graph without weights) is built from
+`studio/` and ships; the model goes in here as it is stored. Each part is a `<script>` of base64
+that no browser runs. The page refuses the network by its own Content-Security-Policy.
+"""
+
+import base64
+import gzip
+import json
+import re
+from importlib.resources import files
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from ..environment import TEXT_MODEL
+from ..errors import UserError
+from ..formats.preview.html import body_data, script_safe_json
+from ..formats.rig import END_SITES
+from ..formats.writers.glb import rest_glb
+from ..io.files import atomic_write, load_json, write_json
+from ..model.checkpoint import WEIGHTS_FILE, ModelCard, read_card, resolve_model, wrong_kind
+from ..model.clip.core import PAIRS
+from ..model.clip.out_of_domain import META_FILE as SCOPE_FILE
+from ..model.clip.out_of_domain import TABLE_FILE
+from ..model.clip.pretrained import TOKENIZER_FOLDER
+from ..model.clip.tokenizer import META_FILE, MODEL_FILE
+from ..model.generation.motion_generator import KIND
+from ..model.noise import NoiseSchedule, sampling_timesteps
+from ..motion.skeleton import JOINT_NAMES, LIMBS
+from ..pipelines.edit import GROUPS
+from ..pipelines.sentence import javascript_patterns
+
+GRAPH, GRAPH_CARD, WASM = "denoiser.onnx.gz", "graph.json", "onnxruntime.wasm.gz"
+SCRIPT, TEMPLATE = "studio.js", "studio.html"
+LICENCES = "licences.txt.gz"
+
+
+def write_studio(out: Path, model: str = TEXT_MODEL) -> Path:
+    """Write the page; returns its path.
+
+    Args:
+        out: an HTML file, or a folder that then holds index.html.
+        model: a name that `models` lists, or a folder of training.
+
+    Raises:
+        UserError: no such model, or one that the studio cannot run; the file cannot be written.
+    """
+    shell = files(__package__).joinpath("shell")
+    folder = resolve_model(model)
+    card = read_card(folder)
+    _check(card, folder)
+    parts = {
+        "wasm": shell.joinpath(WASM).read_bytes(),
+        "graph": graph_of(folder, card),
+        "weights": (folder / WEIGHTS_FILE).read_bytes(),
+        "tokenizer": (folder / TOKENIZER_FOLDER / MODEL_FILE).read_bytes(),
+        "scope": (folder / TABLE_FILE).read_bytes(),
+        "glb": rest_glb(),
+        "licences": shell.joinpath(LICENCES).read_bytes(),
+    }
+    blobs = "\n".join(
+        f'<script type="text/plain" id="part-{name}">{_coded(part)}</script>'
+        for name, part in parts.items()
+    )
+    filled = {
+        "@SETTINGS@": script_safe_json(settings(folder, card)),
+        "@PARTS@": blobs,
+        "@SCRIPT@": shell.joinpath(SCRIPT).read_text("utf-8"),
+    }
+    page = shell.joinpath(TEMPLATE).read_text("utf-8")
+    page = re.sub("|".join(filled), lambda mark: filled[mark[0]], page)
+    single = out.suffix.lower() in (".html", ".htm")
+    path = out if single else out / "index.html"
+    with atomic_write(path) as temporary:
+        temporary.write_text(page, "utf-8", newline="\n")
+    return path
+
+
+def _coded(part: bytes) -> str:
+    return base64.b64encode(_packed(part)).decode()
+
+
+def _packed(part: bytes) -> bytes:
+    """Compressed, unless it is already."""
+    return part if part[:2] == b"\x1f\x8b" else gzip.compress(part, 9, mtime=0)
+
+
+def _check(card: ModelCard, folder: Path) -> None:
+    """Raises UserError where the page's scripts cannot run a model."""
+    if card.kind != KIND:
+        raise wrong_kind(folder, card.kind, KIND)
+    generation, clip = card.network.generation, card.network.clip
+    if (clip.text_model, generation.sampler, generation.text_conditioning) != (
+        PAIRS,
+        "ddim",
+        "pooled",
+    ):
+        raise UserError(
+            f"{folder}: the studio runs models with clip.text-model pairs, text-conditioning pooled"
+            " and sampler ddim, as the shipped starter is; use `generate` for this one"
+        )
+
+
+def graph_of(folder: Path, card: ModelCard) -> bytes:
+    """The denoiser's graph without its weights: the shipped one where it fits, else exported."""
+    shell = files(__package__).joinpath("shell")
+    if json.loads(shell.joinpath(GRAPH_CARD).read_text("utf-8"))["model"] == card.content_hash:
+        return shell.joinpath(GRAPH).read_bytes()
+    from ..model.generation.onnx import DENOISER_GRAPH, export_text
+    from ..model.onnx_card import require_packages
+
+    if (folder / DENOISER_GRAPH).is_file():
+        return (folder / DENOISER_GRAPH).read_bytes()
+    require_packages("onnx", "onnxscript")
+    with TemporaryDirectory() as scratch:
+        export_text(folder, scratch)
+        return (Path(scratch) / DENOISER_GRAPH).read_bytes()
+
+
+def settings(folder: Path, card: ModelCard) -> dict[str, Any]:
+    """All that the page needs to know besides arrays."""
+    generation = card.network.generation
+    diffusion = generation.diffusion()
+    alpha_bar = NoiseSchedule.from_config(diffusion).alphas_cumprod
+    steps = sampling_timesteps(
+        diffusion.timesteps, diffusion.sampling_steps, diffusion.timestep_spacing
+    )
+    post = generation.post_processing
+    body = body_data()
+    tokenizer = load_json(folder / TOKENIZER_FOLDER / META_FILE)
+    return {
+        "name": card.name,
+        "licence": card.licence,
+        "languages": list(card.languages),
+        "maxSeconds": card.max_seconds,
+        "maxTokens": tokenizer["max-tokens"],
+        "tags": len(card.tags),
+        "schedule": [[step, float(alpha_bar[step])] for step in steps],
+        "guidance": generation.guidance_scale,
+        "clip": generation.clip_sigma,
+        "prediction": generation.prediction_type,
+        "post": {
+            "kernel": post.smoothing_kernel,
+            "maxVelocity": post.max_velocity,
+            "footLock": post.foot_lock,
+        },
+        "scope": load_json(folder / SCOPE_FILE),
+        "measures": javascript_patterns(),
+        "skeleton": {
+            "names": list(JOINT_NAMES),
+            "parents": body["skeleton"]["parents"],
+            "offsets": body["skeleton"]["offsets"],
+            "tips": list(END_SITES.items()),
+            "limbs": LIMBS,
+            "groups": GROUPS,
+        },
+        "body": body,
+    }
+
+
+def write_graph() -> None:
+    """Export the graph of the shipped model into the shell, after its weights have changed."""
+    from ..model.generation.onnx import DENOISER_GRAPH, export_text
+
+    shell = Path(__file__).with_name("shell")
+    with TemporaryDirectory() as scratch:
+        card = export_text(TEXT_MODEL, scratch)
+        graph = (Path(scratch) / DENOISER_GRAPH).read_bytes()
+    (shell / GRAPH).write_bytes(_packed(graph))
+    write_json(shell / GRAPH_CARD, {"model": card.model})
+
+
+if __name__ == "__main__":
+    write_graph()

@@ -1,0 +1,4230 @@
+var studioAddress="studio://page/studio.js",studioOrigin="null";
+(()=>{var ls=(i=>typeof require<"u"?require:typeof Proxy<"u"?new Proxy(i,{get:(t,e)=>(typeof require<"u"?require:t)[e]}):i)(function(i){if(typeof require<"u")return require.apply(this,arguments);throw Error('Dynamic require of "'+i+'" is not supported')});var yh=Object.defineProperty,E0=Object.getOwnPropertyDescriptor,T0=Object.getOwnPropertyNames,A0=Object.prototype.hasOwnProperty,R0=(i=>typeof ls<"u"?ls:typeof Proxy<"u"?new Proxy(i,{get:(t,e)=>(typeof ls<"u"?ls:t)[e]}):i)(function(i){if(typeof ls<"u")return ls.apply(this,arguments);throw Error('Dynamic require of "'+i+'" is not supported')}),he=(i,t)=>()=>(i&&(t=i(i=0)),t),fo=(i,t)=>{for(var e in t)yh(i,e,{get:t[e],enumerable:!0})},C0=(i,t,e,n)=>{if(t&&typeof t=="object"||typeof t=="function")for(let s of T0(t))!A0.call(i,s)&&s!==e&&yh(i,s,{get:()=>t[s],enumerable:!(n=E0(t,s))||n.enumerable});return i},dh=i=>C0(yh({},"__esModule",{value:!0}),i),kr,Bi,co,qf,cd,hd=he(()=>{"use strict";kr=new Map,Bi=[],co=(i,t,e)=>{if(t&&typeof t.init=="function"&&typeof t.createInferenceSessionHandler=="function"){let n=kr.get(i);if(n===void 0)kr.set(i,{backend:t,priority:e});else{if(n.priority>e)return;if(n.priority===e&&n.backend!==t)throw new Error(`cannot register backend "${i}" using priority ${e}`)}if(e>=0){let s=Bi.indexOf(i);s!==-1&&Bi.splice(s,1);for(let r=0;r<Bi.length;r++)if(kr.get(Bi[r]).priority<=e){Bi.splice(r,0,i);return}Bi.push(i)}return}throw new TypeError("not a valid backend")},qf=async i=>{let t=kr.get(i);if(!t)return"backend not found.";if(t.initialized)return t.backend;if(t.aborted)return t.error;{let e=!!t.initPromise;try{return e||(t.initPromise=t.backend.init(i)),await t.initPromise,t.initialized=!0,t.backend}catch(n){return e||(t.error=`${n}`,t.aborted=!0),t.error}finally{delete t.initPromise}}},cd=async i=>{let t=i.executionProviders||[],e=t.map(c=>typeof c=="string"?c:c.name),n=e.length===0?Bi:e,s,r=[],a=new Set;for(let c of n){let l=await qf(c);typeof l=="string"?r.push({name:c,err:l}):(s||(s=l),s===l&&a.add(c))}if(!s)throw new Error(`no available backend found. ERR: ${r.map(c=>`[${c.name}] ${c.err}`).join(", ")}`);for(let{name:c,err:l}of r)e.includes(c)&&console.warn(`removing requested execution provider "${c}" from session options because it is not available: ${l}`);let o=t.filter(c=>a.has(typeof c=="string"?c:c.name));return[s,new Proxy(i,{get:(c,l)=>l==="executionProviders"?o:Reflect.get(c,l)})]}}),P0=he(()=>{"use strict";hd()}),ud,I0=he(()=>{"use strict";ud="1.23.2"}),Kc,Je,fd=he(()=>{"use strict";I0(),Kc="warning",Je={wasm:{},webgl:{},webgpu:{},versions:{common:ud},set logLevel(i){if(i!==void 0){if(typeof i!="string"||["verbose","info","warning","error","fatal"].indexOf(i)===-1)throw new Error(`Unsupported logging level: ${i}`);Kc=i}},get logLevel(){return Kc}},Object.defineProperty(Je,"logLevel",{enumerable:!0})}),be,L0=he(()=>{"use strict";fd(),be=Je}),dd,pd,N0=he(()=>{"use strict";dd=(i,t)=>{let e=typeof document<"u"?document.createElement("canvas"):new OffscreenCanvas(1,1);e.width=i.dims[3],e.height=i.dims[2];let n=e.getContext("2d");if(n!=null){let s,r;t?.tensorLayout!==void 0&&t.tensorLayout==="NHWC"?(s=i.dims[2],r=i.dims[3]):(s=i.dims[3],r=i.dims[2]);let a=t?.format!==void 0?t.format:"RGB",o=t?.norm,c,l;o===void 0||o.mean===void 0?c=[255,255,255,255]:typeof o.mean=="number"?c=[o.mean,o.mean,o.mean,o.mean]:(c=[o.mean[0],o.mean[1],o.mean[2],0],o.mean[3]!==void 0&&(c[3]=o.mean[3])),o===void 0||o.bias===void 0?l=[0,0,0,0]:typeof o.bias=="number"?l=[o.bias,o.bias,o.bias,o.bias]:(l=[o.bias[0],o.bias[1],o.bias[2],0],o.bias[3]!==void 0&&(l[3]=o.bias[3]));let h=r*s,u=0,f=h,d=h*2,p=-1;a==="RGBA"?(u=0,f=h,d=h*2,p=h*3):a==="RGB"?(u=0,f=h,d=h*2):a==="RBG"&&(u=0,d=h,f=h*2);for(let _=0;_<r;_++)for(let g=0;g<s;g++){let m=(i.data[u++]-l[0])*c[0],x=(i.data[f++]-l[1])*c[1],b=(i.data[d++]-l[2])*c[2],w=p===-1?255:(i.data[p++]-l[3])*c[3];n.fillStyle="rgba("+m+","+x+","+b+","+w+")",n.fillRect(g,_,1,1)}if("toDataURL"in e)return e.toDataURL();throw new Error("toDataURL is not supported")}else throw new Error("Can not access image data")},pd=(i,t)=>{let e=typeof document<"u"?document.createElement("canvas").getContext("2d"):new OffscreenCanvas(1,1).getContext("2d"),n;if(e!=null){let s,r,a;t?.tensorLayout!==void 0&&t.tensorLayout==="NHWC"?(s=i.dims[2],r=i.dims[1],a=i.dims[3]):(s=i.dims[3],r=i.dims[2],a=i.dims[1]);let o=t!==void 0&&t.format!==void 0?t.format:"RGB",c=t?.norm,l,h;c===void 0||c.mean===void 0?l=[255,255,255,255]:typeof c.mean=="number"?l=[c.mean,c.mean,c.mean,c.mean]:(l=[c.mean[0],c.mean[1],c.mean[2],255],c.mean[3]!==void 0&&(l[3]=c.mean[3])),c===void 0||c.bias===void 0?h=[0,0,0,0]:typeof c.bias=="number"?h=[c.bias,c.bias,c.bias,c.bias]:(h=[c.bias[0],c.bias[1],c.bias[2],0],c.bias[3]!==void 0&&(h[3]=c.bias[3]));let u=r*s;if(t!==void 0&&(t.format!==void 0&&a===4&&t.format!=="RGBA"||a===3&&t.format!=="RGB"&&t.format!=="BGR"))throw new Error("Tensor format doesn't match input tensor dims");let f=4,d=0,p=1,_=2,g=3,m=0,x=u,b=u*2,w=-1;o==="RGBA"?(m=0,x=u,b=u*2,w=u*3):o==="RGB"?(m=0,x=u,b=u*2):o==="RBG"&&(m=0,b=u,x=u*2),n=e.createImageData(s,r);for(let A=0;A<r*s;d+=f,p+=f,_+=f,g+=f,A++)n.data[d]=(i.data[m++]-h[0])*l[0],n.data[p]=(i.data[x++]-h[1])*l[1],n.data[_]=(i.data[b++]-h[2])*l[2],n.data[g]=w===-1?255:(i.data[w++]-h[3])*l[3]}else throw new Error("Can not access image data");return n}}),io,md,gd,_d,yd,xd,D0=he(()=>{"use strict";xh(),io=(i,t)=>{if(i===void 0)throw new Error("Image buffer must be defined");if(t.height===void 0||t.width===void 0)throw new Error("Image height and width must be defined");if(t.tensorLayout==="NHWC")throw new Error("NHWC Tensor layout is not supported yet");let{height:e,width:n}=t,s=t.norm??{mean:255,bias:0},r,a;typeof s.mean=="number"?r=[s.mean,s.mean,s.mean,s.mean]:r=[s.mean[0],s.mean[1],s.mean[2],s.mean[3]??255],typeof s.bias=="number"?a=[s.bias,s.bias,s.bias,s.bias]:a=[s.bias[0],s.bias[1],s.bias[2],s.bias[3]??0];let o=t.format!==void 0?t.format:"RGBA",c=t.tensorFormat!==void 0&&t.tensorFormat!==void 0?t.tensorFormat:"RGB",l=e*n,h=c==="RGBA"?new Float32Array(l*4):new Float32Array(l*3),u=4,f=0,d=1,p=2,_=3,g=0,m=l,x=l*2,b=-1;o==="RGB"&&(u=3,f=0,d=1,p=2,_=-1),c==="RGBA"?b=l*3:c==="RBG"?(g=0,x=l,m=l*2):c==="BGR"&&(x=0,m=l,g=l*2);for(let w=0;w<l;w++,f+=u,p+=u,d+=u,_+=u)h[g++]=(i[f]+a[0])/r[0],h[m++]=(i[d]+a[1])/r[1],h[x++]=(i[p]+a[2])/r[2],b!==-1&&_!==-1&&(h[b++]=(i[_]+a[3])/r[3]);return c==="RGBA"?new Ln("float32",h,[1,4,e,n]):new Ln("float32",h,[1,3,e,n])},md=async(i,t)=>{let e=typeof HTMLImageElement<"u"&&i instanceof HTMLImageElement,n=typeof ImageData<"u"&&i instanceof ImageData,s=typeof ImageBitmap<"u"&&i instanceof ImageBitmap,r=typeof i=="string",a,o=t??{},c=()=>{if(typeof document<"u")return document.createElement("canvas");if(typeof OffscreenCanvas<"u")return new OffscreenCanvas(1,1);throw new Error("Canvas is not supported")},l=h=>typeof HTMLCanvasElement<"u"&&h instanceof HTMLCanvasElement||h instanceof OffscreenCanvas?h.getContext("2d"):null;if(e){let h=c();h.width=i.width,h.height=i.height;let u=l(h);if(u!=null){let f=i.height,d=i.width;if(t!==void 0&&t.resizedHeight!==void 0&&t.resizedWidth!==void 0&&(f=t.resizedHeight,d=t.resizedWidth),t!==void 0){if(o=t,t.tensorFormat!==void 0)throw new Error("Image input config format must be RGBA for HTMLImageElement");o.tensorFormat="RGBA",o.height=f,o.width=d}else o.tensorFormat="RGBA",o.height=f,o.width=d;u.drawImage(i,0,0),a=u.getImageData(0,0,d,f).data}else throw new Error("Can not access image data")}else if(n){let h,u;if(t!==void 0&&t.resizedWidth!==void 0&&t.resizedHeight!==void 0?(h=t.resizedHeight,u=t.resizedWidth):(h=i.height,u=i.width),t!==void 0&&(o=t),o.format="RGBA",o.height=h,o.width=u,t!==void 0){let f=c();f.width=u,f.height=h;let d=l(f);if(d!=null)d.putImageData(i,0,0),a=d.getImageData(0,0,u,h).data;else throw new Error("Can not access image data")}else a=i.data}else if(s){if(t===void 0)throw new Error("Please provide image config with format for Imagebitmap");let h=c();h.width=i.width,h.height=i.height;let u=l(h);if(u!=null){let f=i.height,d=i.width;return u.drawImage(i,0,0,d,f),a=u.getImageData(0,0,d,f).data,o.height=f,o.width=d,io(a,o)}else throw new Error("Can not access image data")}else{if(r)return new Promise((h,u)=>{let f=c(),d=l(f);if(!i||!d)return u();let p=new Image;p.crossOrigin="Anonymous",p.src=i,p.onload=()=>{f.width=p.width,f.height=p.height,d.drawImage(p,0,0,f.width,f.height);let _=d.getImageData(0,0,f.width,f.height);o.height=f.height,o.width=f.width,h(io(_.data,o))}});throw new Error("Input data provided is not supported - aborted tensor creation")}if(a!==void 0)return io(a,o);throw new Error("Input data provided is not supported - aborted tensor creation")},gd=(i,t)=>{let{width:e,height:n,download:s,dispose:r}=t,a=[1,n,e,4];return new Ln({location:"texture",type:"float32",texture:i,dims:a,download:s,dispose:r})},_d=(i,t)=>{let{dataType:e,dims:n,download:s,dispose:r}=t;return new Ln({location:"gpu-buffer",type:e??"float32",gpuBuffer:i,dims:n,download:s,dispose:r})},yd=(i,t)=>{let{dataType:e,dims:n,download:s,dispose:r}=t;return new Ln({location:"ml-tensor",type:e??"float32",mlTensor:i,dims:n,download:s,dispose:r})},xd=(i,t,e)=>new Ln({location:"cpu-pinned",type:i,data:t,dims:e??[t.length]})}),fs,Wr,jc,vd,O0=he(()=>{"use strict";fs=new Map([["float32",Float32Array],["uint8",Uint8Array],["int8",Int8Array],["uint16",Uint16Array],["int16",Int16Array],["int32",Int32Array],["bool",Uint8Array],["float64",Float64Array],["uint32",Uint32Array],["int4",Uint8Array],["uint4",Uint8Array]]),Wr=new Map([[Float32Array,"float32"],[Uint8Array,"uint8"],[Int8Array,"int8"],[Uint16Array,"uint16"],[Int16Array,"int16"],[Int32Array,"int32"],[Float64Array,"float64"],[Uint32Array,"uint32"]]),jc=!1,vd=()=>{if(!jc){jc=!0;let i=typeof BigInt64Array<"u"&&BigInt64Array.from,t=typeof BigUint64Array<"u"&&BigUint64Array.from,e=globalThis.Float16Array,n=typeof e<"u"&&e.from;i&&(fs.set("int64",BigInt64Array),Wr.set(BigInt64Array,"int64")),t&&(fs.set("uint64",BigUint64Array),Wr.set(BigUint64Array,"uint64")),n?(fs.set("float16",e),Wr.set(e,"float16")):fs.set("float16",Uint16Array)}}}),Md,Sd,U0=he(()=>{"use strict";xh(),Md=i=>{let t=1;for(let e=0;e<i.length;e++){let n=i[e];if(typeof n!="number"||!Number.isSafeInteger(n))throw new TypeError(`dims[${e}] must be an integer, got: ${n}`);if(n<0)throw new RangeError(`dims[${e}] must be a non-negative integer, got: ${n}`);t*=n}return t},Sd=(i,t)=>{switch(i.location){case"cpu":return new Ln(i.type,i.data,t);case"cpu-pinned":return new Ln({location:"cpu-pinned",data:i.data,type:i.type,dims:t});case"texture":return new Ln({location:"texture",texture:i.texture,type:i.type,dims:t});case"gpu-buffer":return new Ln({location:"gpu-buffer",gpuBuffer:i.gpuBuffer,type:i.type,dims:t});case"ml-tensor":return new Ln({location:"ml-tensor",mlTensor:i.mlTensor,type:i.type,dims:t});default:throw new Error(`tensorReshape: tensor location ${i.location} is not supported`)}}}),Ln,xh=he(()=>{"use strict";N0(),D0(),O0(),U0(),Ln=class{constructor(i,t,e){vd();let n,s;if(typeof i=="object"&&"location"in i)switch(this.dataLocation=i.location,n=i.type,s=i.dims,i.location){case"cpu-pinned":{let a=fs.get(n);if(!a)throw new TypeError(`unsupported type "${n}" to create tensor from pinned buffer`);if(!(i.data instanceof a))throw new TypeError(`buffer should be of type ${a.name}`);this.cpuData=i.data;break}case"texture":{if(n!=="float32")throw new TypeError(`unsupported type "${n}" to create tensor from texture`);this.gpuTextureData=i.texture,this.downloader=i.download,this.disposer=i.dispose;break}case"gpu-buffer":{if(n!=="float32"&&n!=="float16"&&n!=="int32"&&n!=="int64"&&n!=="uint32"&&n!=="uint8"&&n!=="bool"&&n!=="uint4"&&n!=="int4")throw new TypeError(`unsupported type "${n}" to create tensor from gpu buffer`);this.gpuBufferData=i.gpuBuffer,this.downloader=i.download,this.disposer=i.dispose;break}case"ml-tensor":{if(n!=="float32"&&n!=="float16"&&n!=="int32"&&n!=="int64"&&n!=="uint32"&&n!=="uint64"&&n!=="int8"&&n!=="uint8"&&n!=="bool"&&n!=="uint4"&&n!=="int4")throw new TypeError(`unsupported type "${n}" to create tensor from MLTensor`);this.mlTensorData=i.mlTensor,this.downloader=i.download,this.disposer=i.dispose;break}default:throw new Error(`Tensor constructor: unsupported location '${this.dataLocation}'`)}else{let a,o;if(typeof i=="string")if(n=i,o=e,i==="string"){if(!Array.isArray(t))throw new TypeError("A string tensor's data must be a string array.");a=t}else{let c=fs.get(i);if(c===void 0)throw new TypeError(`Unsupported tensor type: ${i}.`);if(Array.isArray(t)){if(i==="float16"&&c===Uint16Array||i==="uint4"||i==="int4")throw new TypeError(`Creating a ${i} tensor from number array is not supported. Please use ${c.name} as data.`);i==="uint64"||i==="int64"?a=c.from(t,BigInt):a=c.from(t)}else if(t instanceof c)a=t;else if(t instanceof Uint8ClampedArray)if(i==="uint8")a=Uint8Array.from(t);else throw new TypeError("A Uint8ClampedArray tensor's data must be type of uint8");else if(i==="float16"&&t instanceof Uint16Array&&c!==Uint16Array)a=new globalThis.Float16Array(t.buffer,t.byteOffset,t.length);else throw new TypeError(`A ${n} tensor's data must be type of ${c}`)}else if(o=t,Array.isArray(i)){if(i.length===0)throw new TypeError("Tensor type cannot be inferred from an empty array.");let c=typeof i[0];if(c==="string")n="string",a=i;else if(c==="boolean")n="bool",a=Uint8Array.from(i);else throw new TypeError(`Invalid element type of data array: ${c}.`)}else if(i instanceof Uint8ClampedArray)n="uint8",a=Uint8Array.from(i);else{let c=Wr.get(i.constructor);if(c===void 0)throw new TypeError(`Unsupported type for tensor data: ${i.constructor}.`);n=c,a=i}if(o===void 0)o=[a.length];else if(!Array.isArray(o))throw new TypeError("A tensor's dims must be a number array");s=o,this.cpuData=a,this.dataLocation="cpu"}let r=Md(s);if(this.cpuData&&r!==this.cpuData.length&&!((n==="uint4"||n==="int4")&&Math.ceil(r/2)===this.cpuData.length))throw new Error(`Tensor's size(${r}) does not match data length(${this.cpuData.length}).`);this.type=n,this.dims=s,this.size=r}static async fromImage(i,t){return md(i,t)}static fromTexture(i,t){return gd(i,t)}static fromGpuBuffer(i,t){return _d(i,t)}static fromMLTensor(i,t){return yd(i,t)}static fromPinnedBuffer(i,t,e){return xd(i,t,e)}toDataURL(i){return dd(this,i)}toImageData(i){return pd(this,i)}get data(){if(this.ensureValid(),!this.cpuData)throw new Error("The data is not on CPU. Use `getData()` to download GPU data to CPU, or use `texture` or `gpuBuffer` property to access the GPU data directly.");return this.cpuData}get location(){return this.dataLocation}get texture(){if(this.ensureValid(),!this.gpuTextureData)throw new Error("The data is not stored as a WebGL texture.");return this.gpuTextureData}get gpuBuffer(){if(this.ensureValid(),!this.gpuBufferData)throw new Error("The data is not stored as a WebGPU buffer.");return this.gpuBufferData}get mlTensor(){if(this.ensureValid(),!this.mlTensorData)throw new Error("The data is not stored as a WebNN MLTensor.");return this.mlTensorData}async getData(i){switch(this.ensureValid(),this.dataLocation){case"cpu":case"cpu-pinned":return this.data;case"texture":case"gpu-buffer":case"ml-tensor":{if(!this.downloader)throw new Error("The current tensor is not created with a specified data downloader.");if(this.isDownloading)throw new Error("The current tensor is being downloaded.");try{this.isDownloading=!0;let t=await this.downloader();return this.downloader=void 0,this.dataLocation="cpu",this.cpuData=t,i&&this.disposer&&(this.disposer(),this.disposer=void 0),t}finally{this.isDownloading=!1}}default:throw new Error(`cannot get data from location: ${this.dataLocation}`)}}dispose(){if(this.isDownloading)throw new Error("The current tensor is being downloaded.");this.disposer&&(this.disposer(),this.disposer=void 0),this.cpuData=void 0,this.gpuTextureData=void 0,this.gpuBufferData=void 0,this.mlTensorData=void 0,this.downloader=void 0,this.isDownloading=void 0,this.dataLocation="none"}ensureValid(){if(this.dataLocation==="none")throw new Error("The tensor is disposed.")}reshape(i){if(this.ensureValid(),this.downloader||this.disposer)throw new Error("Cannot reshape a tensor that owns GPU resource.");return Sd(this,i)}}}),nn,bd=he(()=>{"use strict";xh(),nn=Ln}),ph,Qc,Hs,Ws,Xs,qs,wd=he(()=>{"use strict";fd(),ph=(i,t)=>{(typeof Je.trace>"u"?!Je.wasm.trace:!Je.trace)||console.timeStamp(`${i}::ORT::${t}`)},Qc=(i,t)=>{let e=new Error().stack?.split(/\r\n|\r|\n/g)||[],n=!1;for(let s=0;s<e.length;s++){if(n&&!e[s].includes("TRACE_FUNC")){let r=`FUNC_${i}::${e[s].trim().split(" ")[1]}`;t&&(r+=`::${t}`),ph("CPU",r);return}e[s].includes("TRACE_FUNC")&&(n=!0)}},Hs=i=>{(typeof Je.trace>"u"?!Je.wasm.trace:!Je.trace)||Qc("BEGIN",i)},Ws=i=>{(typeof Je.trace>"u"?!Je.wasm.trace:!Je.trace)||Qc("END",i)},Xs=i=>{(typeof Je.trace>"u"?!Je.wasm.trace:!Je.trace)||console.time(`ORT::${i}`)},qs=i=>{(typeof Je.trace>"u"?!Je.wasm.trace:!Je.trace)||console.timeEnd(`ORT::${i}`)}}),Ed,F0=he(()=>{"use strict";hd(),bd(),wd(),Ed=class Td{constructor(t){this.handler=t}async run(t,e,n){Hs(),Xs("InferenceSession.run");let s={},r={};if(typeof t!="object"||t===null||t instanceof nn||Array.isArray(t))throw new TypeError("'feeds' must be an object that use input names as keys and OnnxValue as corresponding values.");let a=!0;if(typeof e=="object"){if(e===null)throw new TypeError("Unexpected argument[1]: cannot be null.");if(e instanceof nn)throw new TypeError("'fetches' cannot be a Tensor");if(Array.isArray(e)){if(e.length===0)throw new TypeError("'fetches' cannot be an empty array.");a=!1;for(let l of e){if(typeof l!="string")throw new TypeError("'fetches' must be a string array or an object.");if(this.outputNames.indexOf(l)===-1)throw new RangeError(`'fetches' contains invalid output name: ${l}.`);s[l]=null}if(typeof n=="object"&&n!==null)r=n;else if(typeof n<"u")throw new TypeError("'options' must be an object.")}else{let l=!1,h=Object.getOwnPropertyNames(e);for(let u of this.outputNames)if(h.indexOf(u)!==-1){let f=e[u];(f===null||f instanceof nn)&&(l=!0,a=!1,s[u]=f)}if(l){if(typeof n=="object"&&n!==null)r=n;else if(typeof n<"u")throw new TypeError("'options' must be an object.")}else r=e}}else if(typeof e<"u")throw new TypeError("Unexpected argument[1]: must be 'fetches' or 'options'.");for(let l of this.inputNames)if(typeof t[l]>"u")throw new Error(`input '${l}' is missing in 'feeds'.`);if(a)for(let l of this.outputNames)s[l]=null;let o=await this.handler.run(t,s,r),c={};for(let l in o)if(Object.hasOwnProperty.call(o,l)){let h=o[l];h instanceof nn?c[l]=h:c[l]=new nn(h.type,h.data,h.dims)}return qs("InferenceSession.run"),Ws(),c}async release(){return this.handler.dispose()}static async create(t,e,n,s){Hs(),Xs("InferenceSession.create");let r,a={};if(typeof t=="string"){if(r=t,typeof e=="object"&&e!==null)a=e;else if(typeof e<"u")throw new TypeError("'options' must be an object.")}else if(t instanceof Uint8Array){if(r=t,typeof e=="object"&&e!==null)a=e;else if(typeof e<"u")throw new TypeError("'options' must be an object.")}else if(t instanceof ArrayBuffer||typeof SharedArrayBuffer<"u"&&t instanceof SharedArrayBuffer){let h=t,u=0,f=t.byteLength;if(typeof e=="object"&&e!==null)a=e;else if(typeof e=="number"){if(u=e,!Number.isSafeInteger(u))throw new RangeError("'byteOffset' must be an integer.");if(u<0||u>=h.byteLength)throw new RangeError(`'byteOffset' is out of range [0, ${h.byteLength}).`);if(f=t.byteLength-u,typeof n=="number"){if(f=n,!Number.isSafeInteger(f))throw new RangeError("'byteLength' must be an integer.");if(f<=0||u+f>h.byteLength)throw new RangeError(`'byteLength' is out of range (0, ${h.byteLength-u}].`);if(typeof s=="object"&&s!==null)a=s;else if(typeof s<"u")throw new TypeError("'options' must be an object.")}else if(typeof n<"u")throw new TypeError("'byteLength' must be a number.")}else if(typeof e<"u")throw new TypeError("'options' must be an object.");r=new Uint8Array(h,u,f)}else throw new TypeError("Unexpected argument[0]: must be 'path' or 'buffer'.");let[o,c]=await cd(a),l=await o.createInferenceSessionHandler(r,c);return qs("InferenceSession.create"),Ws(),new Td(l)}startProfiling(){this.handler.startProfiling()}endProfiling(){this.handler.endProfiling()}get inputNames(){return this.handler.inputNames}get outputNames(){return this.handler.outputNames}get inputMetadata(){return this.handler.inputMetadata}get outputMetadata(){return this.handler.outputMetadata}}}),po,B0=he(()=>{"use strict";F0(),po=Ed}),k0=he(()=>{"use strict"}),z0=he(()=>{"use strict"}),G0=he(()=>{"use strict"}),V0=he(()=>{"use strict"}),H0={};fo(H0,{InferenceSession:()=>po,TRACE:()=>ph,TRACE_EVENT_BEGIN:()=>Xs,TRACE_EVENT_END:()=>qs,TRACE_FUNC_BEGIN:()=>Hs,TRACE_FUNC_END:()=>Ws,Tensor:()=>nn,env:()=>be,registerBackend:()=>co});var ds=he(()=>{"use strict";P0(),L0(),B0(),bd(),k0(),z0(),wd(),G0(),V0()}),vh=he(()=>{"use strict"}),Ad={};fo(Ad,{default:()=>Rd});var th,eh,Rd,W0=he(()=>{"use strict";Gd(),Ys(),Mh(),th="ort-wasm-proxy-worker",eh=globalThis.self?.name===th,eh&&(self.onmessage=i=>{let{type:t,in:e}=i.data;try{switch(t){case"init-wasm":Sh(e.wasm).then(()=>{Ah(e).then(()=>{postMessage({type:t})},n=>{postMessage({type:t,err:n})})},n=>{postMessage({type:t,err:n})});break;case"init-ep":{let{epName:n,env:s}=e;Rh(s,n).then(()=>{postMessage({type:t})},r=>{postMessage({type:t,err:r})});break}case"copy-from":{let{buffer:n}=e,s=uo(n);postMessage({type:t,out:s});break}case"create":{let{model:n,options:s}=e;Ch(n,s).then(r=>{postMessage({type:t,out:r})},r=>{postMessage({type:t,err:r})});break}case"release":Ph(e),postMessage({type:t});break;case"run":{let{sessionId:n,inputIndices:s,inputs:r,outputIndices:a,options:o}=e;Ih(n,s,r,a,new Array(a.length).fill(null),o).then(c=>{c.some(l=>l[3]!=="cpu")?postMessage({type:t,err:"Proxy does not support non-cpu tensor location."}):postMessage({type:t,out:c},Nh([...r,...c]))},c=>{postMessage({type:t,err:c})});break}case"end-profiling":Lh(e),postMessage({type:t});break;default:}}catch(n){postMessage({type:t,err:n})}}),Rd=eh?null:i=>new Worker(i??In,{type:"module",name:th})}),Cd={};fo(Cd,{default:()=>Pd});var nh,Pd,Yf,X0=he(()=>{"use strict";nh=async function(i={}){var t,e,n=i,s=new Promise((y,T)=>{t=y,e=T}),r=typeof window=="object",a=typeof WorkerGlobalScope<"u",o=a&&self.name?.startsWith("em-pthread");n.mountExternalData=(y,T)=>{y.startsWith("./")&&(y=y.substring(2)),(n.Sa||(n.Sa=new Map)).set(y,T)},n.unmountExternalData=()=>{delete n.Sa};var c,l,h=globalThis.SharedArrayBuffer??new WebAssembly.Memory({initial:0,maximum:0,kb:!0}).buffer.constructor,u=(y,T)=>{throw T},f=studioAddress,d="";if(r||a){try{d=new URL(".",f).href}catch{}a&&(l=y=>{var T=new XMLHttpRequest;return T.open("GET",y,!1),T.responseType="arraybuffer",T.send(null),new Uint8Array(T.response)}),c=async y=>{if(Q(y))return new Promise((U,$)=>{var K=new XMLHttpRequest;K.open("GET",y,!0),K.responseType="arraybuffer",K.onload=()=>{K.status==200||K.status==0&&K.response?U(K.response):$(K.status)},K.onerror=$,K.send(null)});var T=await fetch(y,{credentials:"same-origin"});if(T.ok)return T.arrayBuffer();throw Error(T.status+" : "+T.url)}}var p,_,g,m,x,b,w,A,C,v,E,F,N,D=console.log.bind(console),H=console.error.bind(console),J=D,P=H,q=!1,Q=y=>y.startsWith("file://");function X(){return _.buffer!=x.buffer&&_t(),x}function rt(){return _.buffer!=x.buffer&&_t(),b}function W(){return _.buffer!=x.buffer&&_t(),w}function k(){return _.buffer!=x.buffer&&_t(),A}function it(){return _.buffer!=x.buffer&&_t(),C}function Tt(){return _.buffer!=x.buffer&&_t(),v}function Bt(){return _.buffer!=x.buffer&&_t(),F}if(o){let y=function(T){try{var U=T.data,$=U.Ra;if($==="load"){let K=[];self.onmessage=vt=>K.push(vt),self.startWorker=()=>{postMessage({Ra:"loaded"});for(let vt of K)y(vt);self.onmessage=y};for(let vt of U.Za)n[vt]&&!n[vt].proxy||(n[vt]=(...Vt)=>{postMessage({Ra:"callHandler",Ya:vt,args:Vt})},vt=="print"&&(J=n[vt]),vt=="printErr"&&(P=n[vt]));_=U.fb,_t(),N(U.gb)}else if($==="run"){R(U.Qa),qc(U.Qa,0,0,1,0,0),Mt(),rs(U.Qa),pt||=!0;try{G(U.bb,U.Va)}catch(K){if(K!="unwind")throw K}}else U.target!=="setimmediate"&&($==="checkMailbox"?pt&&Fs():$&&(P(`worker: received unknown command ${$}`),P(U)))}catch(K){throw zf(),K}};var et=y,pt=!1;self.onunhandledrejection=T=>{throw T.reason||T},self.onmessage=y}function _t(){var y=_.buffer;n.HEAP8=x=new Int8Array(y),w=new Int16Array(y),n.HEAPU8=b=new Uint8Array(y),new Uint16Array(y),n.HEAP32=A=new Int32Array(y),n.HEAPU32=C=new Uint32Array(y),v=new Float32Array(y),F=new Float64Array(y),E=new BigInt64Array(y),new BigUint64Array(y)}function It(){o?startWorker(n):Wt.$()}var lt,Et=0,se=null;function Ot(){if(--Et==0&&se){var y=se;se=null,y()}}function Qt(y){throw P(y="Aborted("+y+")"),q=!0,y=new WebAssembly.RuntimeError(y+". Build with -sASSERTIONS for more info."),e(y),y}function me(){return{a:{j:eo,b:st,E:yt,f:I,U:nt,A:Z,C:mt,V:ht,S:dt,L:Lt,R:Zt,n:ct,B:Nt,y:$t,T:St,z:fe,_:De,O:ri,w:Ja,F:yi,t:Nr,i:Ka,N:rs,X:ja,I:ks,J:Hc,K:Qa,G:Ur,H:to,u:Fr,q:L,Z:V,o:At,k:xt,Y,d:bt,W:Pt,x:Xt,c:Wc,e:te,h:Rt,v:ee,s:$e,r:Ct,P:Ge,Q:Yn,D:an,g:oi,m:ae,M:Oe,l:we,a:_,p:Pe}}}class Jt{name="ExitStatus";constructor(T){this.message=`Program terminated with exit(${T})`,this.status=T}}var Ne=y=>{y.terminate(),y.onmessage=()=>{}},Re=[],en=y=>{Le.length==0&&(Ut(),Ie(Le[0]));var T=Le.pop();if(!T)return 6;O.push(T),ue[y.Qa]=T,T.Qa=y.Qa;var U={Ra:"run",bb:y.ab,Va:y.Va,Qa:y.Qa};return T.postMessage(U,y.Xa),0},ge=0,re=(y,T,...U)=>{for(var $=2*U.length,K=Zc(),vt=$c(8*$),Vt=vt>>>3,Ce=0;Ce<U.length;Ce++){var Ze=U[Ce];typeof Ze=="bigint"?(E[Vt+2*Ce]=1n,E[Vt+2*Ce+1]=Ze):(E[Vt+2*Ce]=0n,Bt()[Vt+2*Ce+1>>>0]=Ze)}return y=Gf(y,0,$,vt,T),no(K),y};function Pe(y){if(o)return re(0,1,y);if(m=y,!(0<ge)){for(var T of O)Ne(T);for(T of Le)Ne(T);Le=[],O=[],ue={},q=!0}u(0,new Jt(y))}function gn(y){if(o)return re(1,0,y);an(y)}var an=y=>{if(m=y,o)throw gn(y),"unwind";Pe(y)},Le=[],O=[],_n=[],ue={},Me=y=>{var T=y.Qa;delete ue[T],Le.push(y),O.splice(O.indexOf(y),1),y.Qa=0,Vf(T)};function Mt(){_n.forEach(y=>y())}var Ie=y=>new Promise(T=>{y.onmessage=K=>{var vt=(K=K.data).Ra;if(K.Ta&&K.Ta!=Xc()){var Vt=ue[K.Ta];Vt?Vt.postMessage(K,K.Xa):P(`Internal error! Worker sent a message "${vt}" to target pthread ${K.Ta}, but that thread no longer exists!`)}else vt==="checkMailbox"?Fs():vt==="spawnThread"?en(K):vt==="cleanupThread"?Me(ue[K.cb]):vt==="loaded"?(y.loaded=!0,T(y)):K.target==="setimmediate"?y.postMessage(K):vt==="callHandler"?n[K.Ya](...K.args):vt&&P(`worker sent an unknown command ${vt}`)},y.onerror=K=>{throw P(`worker sent an error! ${K.filename}:${K.lineno}: ${K.message}`),K};var U,$=[];for(U of[])n.propertyIsEnumerable(U)&&$.push(U);y.postMessage({Ra:"load",Za:$,fb:_,gb:g})});function Ut(){var y=new Worker((()=>{let T=URL;return studioAddress>"file:"&&studioAddress<"file;"?new T("ort.wasm.bundle.min.mjs",studioAddress):new URL(studioAddress)})(),{type:"module",workerData:"em-pthread",name:"em-pthread"});Le.push(y)}var Gt,R=y=>{_t();var T=it()[y+52>>>2>>>0];y=it()[y+56>>>2>>>0],Xf(T,T-y),no(T)},M=[],G=(y,T)=>{ge=0;var U=M[y];U||(M[y]=U=Gt.get(y)),y=U(T),0<ge?m=y:Yc(y)};class at{constructor(T){this.Ua=T-24}}function st(y,T,U){var $=new at(y>>>=0);throw T>>>=0,U>>>=0,it()[$.Ua+16>>>2>>>0]=0,it()[$.Ua+4>>>2>>>0]=T,it()[$.Ua+8>>>2>>>0]=U,y}function ut(y,T,U,$){return o?re(2,1,y,T,U,$):yt(y,T,U,$)}function yt(y,T,U,$){if(y>>>=0,U>>>=0,$>>>=0,h===void 0)return 6;var K=[];return o&&K.length===0?ut(y,T>>>=0,U,$):(y={ab:U,Qa:y,Va:$,Xa:K},o?(y.Ra="spawnThread",postMessage(y,K),0):en(y))}var j=typeof TextDecoder<"u"?new TextDecoder:void 0,tt=(y,T=0,U=NaN)=>{var $=(T>>>=0)+U;for(U=T;y[U]&&!(U>=$);)++U;if(16<U-T&&y.buffer&&j)return j.decode(y.buffer instanceof ArrayBuffer?y.subarray(T,U):y.slice(T,U));for($="";T<U;){var K=y[T++];if(128&K){var vt=63&y[T++];if((224&K)==192)$+=String.fromCharCode((31&K)<<6|vt);else{var Vt=63&y[T++];65536>(K=(240&K)==224?(15&K)<<12|vt<<6|Vt:(7&K)<<18|vt<<12|Vt<<6|63&y[T++])?$+=String.fromCharCode(K):(K-=65536,$+=String.fromCharCode(55296|K>>10,56320|1023&K))}}else $+=String.fromCharCode(K)}return $},ft=(y,T)=>(y>>>=0)?tt(rt(),y,T):"";function I(y,T,U){return o?re(3,1,y,T,U):0}function nt(y,T){if(o)return re(4,1,y,T)}function Z(y,T){if(o)return re(5,1,y,T)}function mt(y,T,U){if(o)return re(6,1,y,T,U)}function ht(y,T,U){return o?re(7,1,y,T,U):0}function dt(y,T){if(o)return re(8,1,y,T)}function Lt(y,T,U){if(o)return re(9,1,y,T,U)}function Zt(y,T,U,$){if(o)return re(10,1,y,T,U,$)}function ct(y,T,U,$){if(o)return re(11,1,y,T,U,$)}function Nt(y,T,U,$){if(o)return re(12,1,y,T,U,$)}function $t(y){if(o)return re(13,1,y)}function St(y,T){if(o)return re(14,1,y,T)}function fe(y,T,U){if(o)return re(15,1,y,T,U)}var De=()=>Qt("");function ri(y){qc(y>>>0,!a,1,!r,131072,!1),Mt()}var Lr=y=>{if(!q)try{if(y(),!(0<ge))try{o?Yc(m):an(m)}catch(T){T instanceof Jt||T=="unwind"||u(0,T)}}catch(T){T instanceof Jt||T=="unwind"||u(0,T)}};function rs(y){y>>>=0,typeof Atomics.eb=="function"&&(Atomics.eb(k(),y>>>2,y).value.then(Fs),y+=128,Atomics.store(k(),y>>>2,1))}var Fs=()=>{var y=Xc();y&&(rs(y),Lr(Wf))};function Ja(y,T){(y>>>=0)==T>>>0?setTimeout(Fs):o?postMessage({Ta:y,Ra:"checkMailbox"}):(y=ue[y])&&y.postMessage({Ra:"checkMailbox"})}var Bs=[];function yi(y,T,U,$,K){for(T>>>=0,$/=2,Bs.length=$,U=K>>>0>>>3,K=0;K<$;K++)Bs[K]=E[U+2*K]?E[U+2*K+1]:Bt()[U+2*K+1>>>0];return(T?Bn[T]:Ue[y])(...Bs)}var Nr=()=>{ge=0};function Ka(y){y>>>=0,o?postMessage({Ra:"cleanupThread",cb:y}):Me(ue[y])}function ja(y){}function ks(y,T){y=-9007199254740992>y||9007199254740992<y?NaN:Number(y),T>>>=0,y=new Date(1e3*y),k()[T>>>2>>>0]=y.getUTCSeconds(),k()[T+4>>>2>>>0]=y.getUTCMinutes(),k()[T+8>>>2>>>0]=y.getUTCHours(),k()[T+12>>>2>>>0]=y.getUTCDate(),k()[T+16>>>2>>>0]=y.getUTCMonth(),k()[T+20>>>2>>>0]=y.getUTCFullYear()-1900,k()[T+24>>>2>>>0]=y.getUTCDay(),y=(y.getTime()-Date.UTC(y.getUTCFullYear(),0,1,0,0,0,0))/864e5|0,k()[T+28>>>2>>>0]=y}var Dr=y=>y%4==0&&(y%100!=0||y%400==0),Or=[0,31,60,91,121,152,182,213,244,274,305,335],Fi=[0,31,59,90,120,151,181,212,243,273,304,334];function Hc(y,T){y=-9007199254740992>y||9007199254740992<y?NaN:Number(y),T>>>=0,y=new Date(1e3*y),k()[T>>>2>>>0]=y.getSeconds(),k()[T+4>>>2>>>0]=y.getMinutes(),k()[T+8>>>2>>>0]=y.getHours(),k()[T+12>>>2>>>0]=y.getDate(),k()[T+16>>>2>>>0]=y.getMonth(),k()[T+20>>>2>>>0]=y.getFullYear()-1900,k()[T+24>>>2>>>0]=y.getDay();var U=(Dr(y.getFullYear())?Or:Fi)[y.getMonth()]+y.getDate()-1|0;k()[T+28>>>2>>>0]=U,k()[T+36>>>2>>>0]=-60*y.getTimezoneOffset(),U=new Date(y.getFullYear(),6,1).getTimezoneOffset();var $=new Date(y.getFullYear(),0,1).getTimezoneOffset();y=0|(U!=$&&y.getTimezoneOffset()==Math.min($,U)),k()[T+32>>>2>>>0]=y}function Qa(y){y>>>=0;var T=new Date(k()[y+20>>>2>>>0]+1900,k()[y+16>>>2>>>0],k()[y+12>>>2>>>0],k()[y+8>>>2>>>0],k()[y+4>>>2>>>0],k()[y>>>2>>>0],0),U=k()[y+32>>>2>>>0],$=T.getTimezoneOffset(),K=new Date(T.getFullYear(),6,1).getTimezoneOffset(),vt=new Date(T.getFullYear(),0,1).getTimezoneOffset(),Vt=Math.min(vt,K);return 0>U?k()[y+32>>>2>>>0]=+(K!=vt&&Vt==$):0<U!=(Vt==$)&&(K=Math.max(vt,K),T.setTime(T.getTime()+6e4*((0<U?Vt:K)-$))),k()[y+24>>>2>>>0]=T.getDay(),U=(Dr(T.getFullYear())?Or:Fi)[T.getMonth()]+T.getDate()-1|0,k()[y+28>>>2>>>0]=U,k()[y>>>2>>>0]=T.getSeconds(),k()[y+4>>>2>>>0]=T.getMinutes(),k()[y+8>>>2>>>0]=T.getHours(),k()[y+12>>>2>>>0]=T.getDate(),k()[y+16>>>2>>>0]=T.getMonth(),k()[y+20>>>2>>>0]=T.getYear(),y=T.getTime(),BigInt(isNaN(y)?-1:y/1e3)}function Ur(y,T,U,$,K,vt,Vt){return o?re(16,1,y,T,U,$,K,vt,Vt):-52}function to(y,T,U,$,K,vt){if(o)return re(17,1,y,T,U,$,K,vt)}var as={},Wc=()=>performance.timeOrigin+performance.now();function Fr(y,T){if(o)return re(18,1,y,T);if(as[y]&&(clearTimeout(as[y].id),delete as[y]),!T)return 0;var U=setTimeout(()=>{delete as[y],Lr(()=>Hf(y,performance.timeOrigin+performance.now()))},T);return as[y]={id:U,lb:T},0}var S=(y,T,U)=>{var $=rt();if(T>>>=0,0<U){var K=T;U=T+U-1;for(var vt=0;vt<y.length;++vt){var Vt=y.charCodeAt(vt);if(55296<=Vt&&57343>=Vt&&(Vt=65536+((1023&Vt)<<10)|1023&y.charCodeAt(++vt)),127>=Vt){if(T>=U)break;$[T++>>>0]=Vt}else{if(2047>=Vt){if(T+1>=U)break;$[T++>>>0]=192|Vt>>6}else{if(65535>=Vt){if(T+2>=U)break;$[T++>>>0]=224|Vt>>12}else{if(T+3>=U)break;$[T++>>>0]=240|Vt>>18,$[T++>>>0]=128|Vt>>12&63}$[T++>>>0]=128|Vt>>6&63}$[T++>>>0]=128|63&Vt}}$[T>>>0]=0,y=T-K}else y=0;return y};function L(y,T,U,$){y>>>=0,T>>>=0,U>>>=0,$>>>=0;var K=new Date().getFullYear(),vt=new Date(K,0,1).getTimezoneOffset();K=new Date(K,6,1).getTimezoneOffset();var Vt=Math.max(vt,K);it()[y>>>2>>>0]=60*Vt,k()[T>>>2>>>0]=+(vt!=K),y=(T=Ce=>{var Ze=Math.abs(Ce);return`UTC${0<=Ce?"-":"+"}${String(Math.floor(Ze/60)).padStart(2,"0")}${String(Ze%60).padStart(2,"0")}`})(vt),T=T(K),K<vt?(S(y,U,17),S(T,$,17)):(S(y,$,17),S(T,U,17))}var Y=()=>Date.now(),z=1;function V(y,T,U){if(!(0<=y&&3>=y))return 28;if(y===0)y=Date.now();else{if(!z)return 52;y=performance.timeOrigin+performance.now()}return E[U>>>0>>>3]=BigInt(Math.round(1e6*y)),0}var gt=[];function At(y,T,U){y>>>=0,T>>>=0,U>>>=0,gt.length=0;for(var $;$=rt()[T++>>>0];){var K=$!=105;U+=(K&=$!=112)&&U%8?4:0,gt.push($==112?it()[U>>>2>>>0]:$==106?E[U>>>3]:$==105?k()[U>>>2>>>0]:Bt()[U>>>3>>>0]),U+=K?8:4}return Bn[y](...gt)}var xt=()=>{};function bt(y,T){return P(ft(y>>>0,T>>>0))}var Pt=()=>{throw ge+=1,"unwind"};function Xt(){return 4294901760}var te=()=>navigator.hardwareConcurrency;function Rt(){return Qt("Cannot use emscripten_pc_get_function without -sUSE_OFFSET_CONVERTER"),0}function ee(y){y>>>=0;var T=rt().length;if(y<=T||4294901760<y)return!1;for(var U=1;4>=U;U*=2){var $=T*(1+.2/U);$=Math.min($,y+100663296);t:{$=(Math.min(4294901760,65536*Math.ceil(Math.max(y,$)/65536))-_.buffer.byteLength+65535)/65536|0;try{_.grow($),_t();var K=1;break t}catch{}K=void 0}if(K)return!0}return!1}var Ee=()=>(Qt("Cannot use convertFrameToPC (needed by __builtin_return_address) without -sUSE_OFFSET_CONVERTER"),0),ce={},_e=y=>{y.forEach(T=>{var U=Ee();U&&(ce[U]=T)})};function $e(){var y=Error().stack.toString().split(`
+`);return y[0]=="Error"&&y.shift(),_e(y),ce.Wa=Ee(),ce.$a=y,ce.Wa}function Ct(y,T,U){if(y>>>=0,T>>>=0,ce.Wa==y)var $=ce.$a;else($=Error().stack.toString().split(`
+`))[0]=="Error"&&$.shift(),_e($);for(var K=3;$[K]&&Ee()!=y;)++K;for(y=0;y<U&&$[y+K];++y)k()[T+4*y>>>2>>>0]=Ee();return y}var ze,le={},ai=()=>{if(!ze){var y,T={USER:"web_user",LOGNAME:"web_user",PATH:"/",PWD:"/",HOME:"/home/web_user",LANG:(typeof navigator=="object"&&navigator.languages&&navigator.languages[0]||"C").replace("-","_")+".UTF-8",_:"./this.program"};for(y in le)le[y]===void 0?delete T[y]:T[y]=le[y];var U=[];for(y in T)U.push(`${y}=${T[y]}`);ze=U}return ze};function Ge(y,T){if(o)return re(19,1,y,T);y>>>=0,T>>>=0;var U,$=0,K=0;for(U of ai()){var vt=T+$;it()[y+K>>>2>>>0]=vt,$+=S(U,vt,1/0)+1,K+=4}return 0}var os=y=>{for(var T=0,U=0;U<y.length;++U){var $=y.charCodeAt(U);127>=$?T++:2047>=$?T+=2:55296<=$&&57343>=$?(T+=4,++U):T+=3}return T};function Yn(y,T){if(o)return re(20,1,y,T);y>>>=0,T>>>=0;var U=ai();for(var $ of(it()[y>>>2>>>0]=U.length,y=0,U))y+=os($)+1;return it()[T>>>2>>>0]=y,0}function oi(y){return o?re(21,1,y):52}function ae(y,T,U,$){return o?re(22,1,y,T,U,$):52}function Oe(y,T,U,$){return o?re(23,1,y,T,U,$):70}var Pn=[null,[],[]];function we(y,T,U,$){if(o)return re(24,1,y,T,U,$);T>>>=0,U>>>=0,$>>>=0;for(var K=0,vt=0;vt<U;vt++){var Vt=it()[T>>>2>>>0],Ce=it()[T+4>>>2>>>0];T+=8;for(var Ze=0;Ze<Ce;Ze++){var on=y,Br=rt()[Vt+Ze>>>0],Jc=Pn[on];Br===0||Br===10?((on===1?J:P)(tt(Jc)),Jc.length=0):Jc.push(Br)}K+=Ce}return it()[$>>>2>>>0]=K,0}o||(function(){for(var y=n.numThreads-1;y--;)Ut();Re.push(()=>{Et++,(function(T){o?T():Promise.all(Le.map(Ie)).then(T)})(()=>Ot())})})(),o||(_=new WebAssembly.Memory({initial:256,maximum:65536,shared:!0}),_t()),n.wasmBinary&&(p=n.wasmBinary),n.stackSave=()=>Zc(),n.stackRestore=y=>no(y),n.stackAlloc=y=>$c(y),n.setValue=function(y,T,U="i8"){switch(U.endsWith("*")&&(U="*"),U){case"i1":case"i8":X()[y>>>0]=T;break;case"i16":W()[y>>>1>>>0]=T;break;case"i32":k()[y>>>2>>>0]=T;break;case"i64":E[y>>>3]=BigInt(T);break;case"float":Tt()[y>>>2>>>0]=T;break;case"double":Bt()[y>>>3>>>0]=T;break;case"*":it()[y>>>2>>>0]=T;break;default:Qt(`invalid type for setValue: ${U}`)}},n.getValue=function(y,T="i8"){switch(T.endsWith("*")&&(T="*"),T){case"i1":case"i8":return X()[y>>>0];case"i16":return W()[y>>>1>>>0];case"i32":return k()[y>>>2>>>0];case"i64":return E[y>>>3];case"float":return Tt()[y>>>2>>>0];case"double":return Bt()[y>>>3>>>0];case"*":return it()[y>>>2>>>0];default:Qt(`invalid type for getValue: ${T}`)}},n.UTF8ToString=ft,n.stringToUTF8=S,n.lengthBytesUTF8=os;var Ue=[Pe,gn,ut,I,nt,Z,mt,ht,dt,Lt,Zt,ct,Nt,$t,St,fe,Ur,to,Fr,Ge,Yn,oi,ae,Oe,we],Bn={853836:(y,T,U,$,K)=>{if(n===void 0||!n.Sa)return 1;if((y=ft(Number(y>>>0))).startsWith("./")&&(y=y.substring(2)),!(y=n.Sa.get(y)))return 2;if(T=Number(T>>>0),U=Number(U>>>0),$=Number($>>>0),T+U>y.byteLength)return 3;try{let vt=y.subarray(T,T+U);switch(K){case 0:rt().set(vt,$>>>0);break;case 1:n.hb?n.hb($,vt):n.jb($,vt);break;default:return 4}return 0}catch{return 4}},854660:()=>typeof wasmOffsetConverter<"u"};function eo(){return typeof wasmOffsetConverter<"u"}var Wt=await(async function(){function y($,K){return Wt=$.exports,Wt=(function(){var vt=Wt,Vt=Ze=>()=>Ze()>>>0,Ce=Ze=>on=>Ze(on)>>>0;return(vt=Object.assign({},vt)).Aa=Vt(vt.Aa),vt.Ca=Ce(vt.Ca),vt.Oa=Ce(vt.Oa),vt.Pa=Vt(vt.Pa),vt.__cxa_get_exception_ptr=Ce(vt.__cxa_get_exception_ptr),vt})(),_n.push(Wt.Da),Gt=Wt.Ea,g=K,Ot(),Wt}Et++;var T=me();if(n.instantiateWasm)return new Promise($=>{n.instantiateWasm(T,(K,vt)=>{$(y(K,vt))})});if(o)return new Promise($=>{N=K=>{var vt=new WebAssembly.Instance(K,me());$(y(vt,K))}});lt??=n.locateFile?n.locateFile?n.locateFile("ort-wasm-simd-threaded.wasm",d):d+"ort-wasm-simd-threaded.wasm":new URL("ort-wasm-simd-threaded.wasm",studioAddress).href;try{var U=await(async function($){var K=lt;if(!p&&typeof WebAssembly.instantiateStreaming=="function"&&!Q(K))try{var vt=fetch(K,{credentials:"same-origin"});return await WebAssembly.instantiateStreaming(vt,$)}catch(Vt){P(`wasm streaming compile failed: ${Vt}`),P("falling back to ArrayBuffer instantiation")}return(async function(Vt,Ce){try{var Ze=await(async function(on){if(!p)try{var Br=await c(on);return new Uint8Array(Br)}catch{}if(on==lt&&p)on=new Uint8Array(p);else{if(!l)throw"both async and sync fetching of the wasm failed";on=l(on)}return on})(Vt);return await WebAssembly.instantiate(Ze,Ce)}catch(on){P(`failed to asynchronously prepare wasm: ${on}`),Qt(on)}})(K,$)})(T);return y(U.instance,U.module)}catch($){return e($),Promise.reject($)}})();n._OrtInit=(y,T)=>(n._OrtInit=Wt.aa)(y,T),n._OrtGetLastError=(y,T)=>(n._OrtGetLastError=Wt.ba)(y,T),n._OrtCreateSessionOptions=(y,T,U,$,K,vt,Vt,Ce,Ze,on)=>(n._OrtCreateSessionOptions=Wt.ca)(y,T,U,$,K,vt,Vt,Ce,Ze,on),n._OrtAppendExecutionProvider=(y,T,U,$,K)=>(n._OrtAppendExecutionProvider=Wt.da)(y,T,U,$,K),n._OrtAddFreeDimensionOverride=(y,T,U)=>(n._OrtAddFreeDimensionOverride=Wt.ea)(y,T,U),n._OrtAddSessionConfigEntry=(y,T,U)=>(n._OrtAddSessionConfigEntry=Wt.fa)(y,T,U),n._OrtReleaseSessionOptions=y=>(n._OrtReleaseSessionOptions=Wt.ga)(y),n._OrtCreateSession=(y,T,U)=>(n._OrtCreateSession=Wt.ha)(y,T,U),n._OrtReleaseSession=y=>(n._OrtReleaseSession=Wt.ia)(y),n._OrtGetInputOutputCount=(y,T,U)=>(n._OrtGetInputOutputCount=Wt.ja)(y,T,U),n._OrtGetInputOutputMetadata=(y,T,U,$)=>(n._OrtGetInputOutputMetadata=Wt.ka)(y,T,U,$),n._OrtFree=y=>(n._OrtFree=Wt.la)(y),n._OrtCreateTensor=(y,T,U,$,K,vt)=>(n._OrtCreateTensor=Wt.ma)(y,T,U,$,K,vt),n._OrtGetTensorData=(y,T,U,$,K)=>(n._OrtGetTensorData=Wt.na)(y,T,U,$,K),n._OrtReleaseTensor=y=>(n._OrtReleaseTensor=Wt.oa)(y),n._OrtCreateRunOptions=(y,T,U,$)=>(n._OrtCreateRunOptions=Wt.pa)(y,T,U,$),n._OrtAddRunConfigEntry=(y,T,U)=>(n._OrtAddRunConfigEntry=Wt.qa)(y,T,U),n._OrtReleaseRunOptions=y=>(n._OrtReleaseRunOptions=Wt.ra)(y),n._OrtCreateBinding=y=>(n._OrtCreateBinding=Wt.sa)(y),n._OrtBindInput=(y,T,U)=>(n._OrtBindInput=Wt.ta)(y,T,U),n._OrtBindOutput=(y,T,U,$)=>(n._OrtBindOutput=Wt.ua)(y,T,U,$),n._OrtClearBoundOutputs=y=>(n._OrtClearBoundOutputs=Wt.va)(y),n._OrtReleaseBinding=y=>(n._OrtReleaseBinding=Wt.wa)(y),n._OrtRunWithBinding=(y,T,U,$,K)=>(n._OrtRunWithBinding=Wt.xa)(y,T,U,$,K),n._OrtRun=(y,T,U,$,K,vt,Vt,Ce)=>(n._OrtRun=Wt.ya)(y,T,U,$,K,vt,Vt,Ce),n._OrtEndProfiling=y=>(n._OrtEndProfiling=Wt.za)(y);var Xc=()=>(Xc=Wt.Aa)();n._free=y=>(n._free=Wt.Ba)(y),n._malloc=y=>(n._malloc=Wt.Ca)(y);var qc=(y,T,U,$,K,vt)=>(qc=Wt.Fa)(y,T,U,$,K,vt),zf=()=>(zf=Wt.Ga)(),Gf=(y,T,U,$,K)=>(Gf=Wt.Ha)(y,T,U,$,K),Vf=y=>(Vf=Wt.Ia)(y),Yc=y=>(Yc=Wt.Ja)(y),Hf=(y,T)=>(Hf=Wt.Ka)(y,T),Wf=()=>(Wf=Wt.La)(),Xf=(y,T)=>(Xf=Wt.Ma)(y,T),no=y=>(no=Wt.Na)(y),$c=y=>($c=Wt.Oa)(y),Zc=()=>(Zc=Wt.Pa)();return(function y(){if(0<Et)se=y;else if(o)t(n),It();else{for(;0<Re.length;)Re.shift()(n);0<Et?se=y:(n.calledRun=!0,q||(It(),t(n)))}})(),n.PTR_SIZE=4,s},Pd=nh,Yf=globalThis.self?.name?.startsWith("em-pthread"),Yf&&nh()}),ih,mh,$f,In,Id,so,Zf,Jf,sh,Kf,rh,Ld,ah,Nd,Mh=he(()=>{"use strict";vh(),ih=typeof location>"u"?void 0:studioOrigin,mh=studioAddress>"file:"&&studioAddress<"file;",$f=()=>{if(mh){let i=URL;return new URL(new i("ort.wasm.bundle.min.mjs",studioAddress).href,ih).href}return studioAddress},In=$f(),Id=()=>{if(In&&!In.startsWith("blob:"))return In.substring(0,In.lastIndexOf("/")+1)},so=(i,t)=>{try{let e=t??In;return(e?new URL(i,e):new URL(i)).origin===ih}catch{return!1}},Zf=(i,t)=>{let e=t??In;try{return(e?new URL(i,e):new URL(i)).href}catch{return}},Jf=(i,t)=>`${t??"./"}${i}`,sh=async i=>{let t=await(await fetch(i,{credentials:"same-origin"})).blob();return URL.createObjectURL(t)},Kf=async i=>(await import(i)).default,rh=(W0(),dh(Ad)).default,Ld=async()=>{if(!In)throw new Error("Failed to load proxy worker: cannot determine the script source URL.");if(so(In))return[void 0,rh()];let i=await sh(In);return[i,rh(i)]},ah=(X0(),dh(Cd)).default,Nd=async(i,t,e,n)=>{let s=ah&&!(i||t);if(s)if(In)s=so(In);else if(n&&!e)s=!0;else throw new Error("cannot determine the script source URL.");if(s)return[void 0,ah];{let r="ort-wasm-simd-threaded.mjs",a=i??Zf(r,t),o=e&&a&&!so(a,t),c=o?await sh(a):a??Jf(r,t);return[o?c:void 0,await Kf(c)]}}}),oh,ro,zr,lh,jf,Qf,td,Sh,Te,Ys=he(()=>{"use strict";Mh(),ro=!1,zr=!1,lh=!1,jf=()=>{if(typeof SharedArrayBuffer>"u")return!1;try{return typeof MessageChannel<"u"&&new MessageChannel().port1.postMessage(new SharedArrayBuffer(1)),WebAssembly.validate(new Uint8Array([0,97,115,109,1,0,0,0,1,4,1,96,0,0,3,2,1,0,5,4,1,3,1,1,10,11,1,9,0,65,0,254,16,2,0,26,11]))}catch{return!1}},Qf=()=>{try{return WebAssembly.validate(new Uint8Array([0,97,115,109,1,0,0,0,1,4,1,96,0,0,3,2,1,0,10,30,1,28,0,65,0,253,15,253,12,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,253,186,1,26,11]))}catch{return!1}},td=()=>{try{return WebAssembly.validate(new Uint8Array([0,97,115,109,1,0,0,0,1,5,1,96,0,1,123,3,2,1,0,10,19,1,17,0,65,1,253,15,65,2,253,15,65,3,253,15,253,147,2,11]))}catch{return!1}},Sh=async i=>{if(ro)return Promise.resolve();if(zr)throw new Error("multiple calls to 'initializeWebAssembly()' detected.");if(lh)throw new Error("previous call to 'initializeWebAssembly()' failed.");zr=!0;let t=i.initTimeout,e=i.numThreads;if(i.simd!==!1){if(i.simd==="relaxed"){if(!td())throw new Error("Relaxed WebAssembly SIMD is not supported in the current environment.")}else if(!Qf())throw new Error("WebAssembly SIMD is not supported in the current environment.")}let n=jf();e>1&&!n&&(typeof self<"u"&&!self.crossOriginIsolated&&console.warn("env.wasm.numThreads is set to "+e+", but this will not work unless you enable crossOriginIsolated mode. See https://web.dev/cross-origin-isolation-guide/ for more info."),console.warn("WebAssembly multi-threading is not supported in the current environment. Falling back to single-threading."),i.numThreads=e=1);let s=i.wasmPaths,r=typeof s=="string"?s:void 0,a=s?.mjs,o=a?.href??a,c=s?.wasm,l=c?.href??c,h=i.wasmBinary,[u,f]=await Nd(o,r,e>1,!!h||!!l),d=!1,p=[];if(t>0&&p.push(new Promise(_=>{setTimeout(()=>{d=!0,_()},t)})),p.push(new Promise((_,g)=>{let m={numThreads:e};if(h)m.wasmBinary=h;else if(l||r)m.locateFile=x=>l??r+x;else if(o&&o.indexOf("blob:")!==0)m.locateFile=x=>new URL(x,o).href;else if(u){let x=Id();x&&(m.locateFile=b=>x+b)}f(m).then(x=>{zr=!1,ro=!0,oh=x,_(),u&&URL.revokeObjectURL(u)},x=>{zr=!1,lh=!0,g(x)})})),await Promise.race(p),d)throw new Error(`WebAssembly backend initializing failed due to timeout: ${t}ms`)},Te=()=>{if(ro&&oh)return oh;throw new Error("WebAssembly is not initialized yet.")}}),$n,ho,Se,bh=he(()=>{"use strict";Ys(),$n=(i,t)=>{let e=Te(),n=e.lengthBytesUTF8(i)+1,s=e._malloc(n);return e.stringToUTF8(i,s,n),t.push(s),s},ho=(i,t,e,n)=>{if(typeof i=="object"&&i!==null){if(e.has(i))throw new Error("Circular reference in options");e.add(i)}Object.entries(i).forEach(([s,r])=>{let a=t?t+s:s;if(typeof r=="object")ho(r,a+".",e,n);else if(typeof r=="string"||typeof r=="number")n(a,r.toString());else if(typeof r=="boolean")n(a,r?"1":"0");else throw new Error(`Can't handle extra config type: ${typeof r}`)})},Se=i=>{let t=Te(),e=t.stackSave();try{let n=t.PTR_SIZE,s=t.stackAlloc(2*n);t._OrtGetLastError(s,s+n);let r=Number(t.getValue(s,n===4?"i32":"i64")),a=t.getValue(s+n,"*"),o=a?t.UTF8ToString(a):"";throw new Error(`${i} ERROR_CODE: ${r}, ERROR_MESSAGE: ${o}`)}finally{t.stackRestore(e)}}}),Dd,q0=he(()=>{"use strict";Ys(),bh(),Dd=i=>{let t=Te(),e=0,n=[],s=i||{};try{if(i?.logSeverityLevel===void 0)s.logSeverityLevel=2;else if(typeof i.logSeverityLevel!="number"||!Number.isInteger(i.logSeverityLevel)||i.logSeverityLevel<0||i.logSeverityLevel>4)throw new Error(`log severity level is not valid: ${i.logSeverityLevel}`);if(i?.logVerbosityLevel===void 0)s.logVerbosityLevel=0;else if(typeof i.logVerbosityLevel!="number"||!Number.isInteger(i.logVerbosityLevel))throw new Error(`log verbosity level is not valid: ${i.logVerbosityLevel}`);i?.terminate===void 0&&(s.terminate=!1);let r=0;return i?.tag!==void 0&&(r=$n(i.tag,n)),e=t._OrtCreateRunOptions(s.logSeverityLevel,s.logVerbosityLevel,!!s.terminate,r),e===0&&Se("Can't create run options."),i?.extra!==void 0&&ho(i.extra,"",new WeakSet,(a,o)=>{let c=$n(a,n),l=$n(o,n);t._OrtAddRunConfigEntry(e,c,l)!==0&&Se(`Can't set a run config entry: ${a} - ${o}.`)}),[e,n]}catch(r){throw e!==0&&t._OrtReleaseRunOptions(e),n.forEach(a=>t._free(a)),r}}}),ed,nd,id,Gr,sd,Od,Y0=he(()=>{"use strict";Ys(),bh(),ed=i=>{switch(i){case"disabled":return 0;case"basic":return 1;case"extended":return 2;case"layout":return 3;case"all":return 99;default:throw new Error(`unsupported graph optimization level: ${i}`)}},nd=i=>{switch(i){case"sequential":return 0;case"parallel":return 1;default:throw new Error(`unsupported execution mode: ${i}`)}},id=i=>{i.extra||(i.extra={}),i.extra.session||(i.extra.session={});let t=i.extra.session;t.use_ort_model_bytes_directly||(t.use_ort_model_bytes_directly="1"),i.executionProviders&&i.executionProviders.some(e=>(typeof e=="string"?e:e.name)==="webgpu")&&(i.enableMemPattern=!1)},Gr=(i,t,e,n)=>{let s=$n(t,n),r=$n(e,n);Te()._OrtAddSessionConfigEntry(i,s,r)!==0&&Se(`Can't set a session config entry: ${t} - ${e}.`)},sd=async(i,t,e)=>{for(let n of t){let s=typeof n=="string"?n:n.name,r=[];switch(s){case"webnn":if(s="WEBNN",typeof n!="string"){let h=n?.deviceType;h&&Gr(i,"deviceType",h,e)}break;case"webgpu":if(s="JS",typeof n!="string"){let h=n;if(h?.preferredLayout){if(h.preferredLayout!=="NCHW"&&h.preferredLayout!=="NHWC")throw new Error(`preferredLayout must be either 'NCHW' or 'NHWC': ${h.preferredLayout}`);Gr(i,"preferredLayout",h.preferredLayout,e)}}break;case"wasm":case"cpu":continue;default:throw new Error(`not supported execution provider: ${s}`)}let a=$n(s,e),o=r.length,c=0,l=0;if(o>0){c=Te()._malloc(o*Te().PTR_SIZE),e.push(c),l=Te()._malloc(o*Te().PTR_SIZE),e.push(l);for(let h=0;h<o;h++)Te().setValue(c+h*Te().PTR_SIZE,r[h][0],"*"),Te().setValue(l+h*Te().PTR_SIZE,r[h][1],"*")}await Te()._OrtAppendExecutionProvider(i,a,c,l,o)!==0&&Se(`Can't append execution provider: ${s}.`)}},Od=async i=>{let t=Te(),e=0,n=[],s=i||{};id(s);try{let r=ed(s.graphOptimizationLevel??"all"),a=nd(s.executionMode??"sequential"),o=typeof s.logId=="string"?$n(s.logId,n):0,c=s.logSeverityLevel??2;if(!Number.isInteger(c)||c<0||c>4)throw new Error(`log severity level is not valid: ${c}`);let l=s.logVerbosityLevel??0;if(!Number.isInteger(l)||l<0||l>4)throw new Error(`log verbosity level is not valid: ${l}`);let h=typeof s.optimizedModelFilePath=="string"?$n(s.optimizedModelFilePath,n):0;if(e=t._OrtCreateSessionOptions(r,!!s.enableCpuMemArena,!!s.enableMemPattern,a,!!s.enableProfiling,0,o,c,l,h),e===0&&Se("Can't create session options."),s.executionProviders&&await sd(e,s.executionProviders,n),s.enableGraphCapture!==void 0){if(typeof s.enableGraphCapture!="boolean")throw new Error(`enableGraphCapture must be a boolean value: ${s.enableGraphCapture}`);Gr(e,"enableGraphCapture",s.enableGraphCapture.toString(),n)}if(s.freeDimensionOverrides)for(let[u,f]of Object.entries(s.freeDimensionOverrides)){if(typeof u!="string")throw new Error(`free dimension override name must be a string: ${u}`);if(typeof f!="number"||!Number.isInteger(f)||f<0)throw new Error(`free dimension override value must be a non-negative integer: ${f}`);let d=$n(u,n);t._OrtAddFreeDimensionOverride(e,d,f)!==0&&Se(`Can't set a free dimension override: ${u} - ${f}.`)}return s.extra!==void 0&&ho(s.extra,"",new WeakSet,(u,f)=>{Gr(e,u,f,n)}),[e,n]}catch(r){throw e!==0&&t._OrtReleaseSessionOptions(e)!==0&&Se("Can't release session options."),n.forEach(a=>t._free(a)),r}}}),Gs,lo,Vs,Ud,Fd,wh,Eh,Bd,kd=he(()=>{"use strict";Gs=i=>{switch(i){case"int8":return 3;case"uint8":return 2;case"bool":return 9;case"int16":return 5;case"uint16":return 4;case"int32":return 6;case"uint32":return 12;case"float16":return 10;case"float32":return 1;case"float64":return 11;case"string":return 8;case"int64":return 7;case"uint64":return 13;case"int4":return 22;case"uint4":return 21;default:throw new Error(`unsupported data type: ${i}`)}},lo=i=>{switch(i){case 3:return"int8";case 2:return"uint8";case 9:return"bool";case 5:return"int16";case 4:return"uint16";case 6:return"int32";case 12:return"uint32";case 10:return"float16";case 1:return"float32";case 11:return"float64";case 8:return"string";case 7:return"int64";case 13:return"uint64";case 22:return"int4";case 21:return"uint4";default:throw new Error(`unsupported data type: ${i}`)}},Vs=(i,t)=>{let e=[-1,4,1,1,2,2,4,8,-1,1,2,8,4,8,-1,-1,-1,-1,-1,-1,-1,.5,.5][i],n=typeof t=="number"?t:t.reduce((s,r)=>s*r,1);return e>0?Math.ceil(n*e):void 0},Ud=i=>{switch(i){case"float16":return typeof Float16Array<"u"&&Float16Array.from?Float16Array:Uint16Array;case"float32":return Float32Array;case"uint8":return Uint8Array;case"int8":return Int8Array;case"uint16":return Uint16Array;case"int16":return Int16Array;case"int32":return Int32Array;case"bool":return Uint8Array;case"float64":return Float64Array;case"uint32":return Uint32Array;case"int64":return BigInt64Array;case"uint64":return BigUint64Array;default:throw new Error(`unsupported type: ${i}`)}},Fd=i=>{switch(i){case"verbose":return 0;case"info":return 1;case"warning":return 2;case"error":return 3;case"fatal":return 4;default:throw new Error(`unsupported logging level: ${i}`)}},wh=i=>i==="float32"||i==="float16"||i==="int32"||i==="int64"||i==="uint32"||i==="uint8"||i==="bool"||i==="uint4"||i==="int4",Eh=i=>i==="float32"||i==="float16"||i==="int32"||i==="int64"||i==="uint32"||i==="uint64"||i==="int8"||i==="uint8"||i==="bool"||i==="uint4"||i==="int4",Bd=i=>{switch(i){case"none":return 0;case"cpu":return 1;case"cpu-pinned":return 2;case"texture":return 3;case"gpu-buffer":return 4;case"ml-tensor":return 5;default:throw new Error(`unsupported data location: ${i}`)}}}),Th,zd=he(()=>{"use strict";vh(),Th=async i=>{if(typeof i=="string"){let t=await fetch(i);if(!t.ok)throw new Error(`failed to load external data file: ${i}`);let e=t.headers.get("Content-Length"),n=e?parseInt(e,10):0;if(n<1073741824)return new Uint8Array(await t.arrayBuffer());{if(!t.body)throw new Error(`failed to load external data file: ${i}, no response body.`);let s=t.body.getReader(),r;try{r=new ArrayBuffer(n)}catch(o){if(o instanceof RangeError){let c=Math.ceil(n/65536);r=new WebAssembly.Memory({initial:c,maximum:c}).buffer}else throw o}let a=0;for(;;){let{done:o,value:c}=await s.read();if(o)break;let l=c.byteLength;new Uint8Array(r,a,l).set(c),a+=l}return new Uint8Array(r,0,n)}}else return i instanceof Blob?new Uint8Array(await i.arrayBuffer()):i instanceof Uint8Array?i:new Uint8Array(i)}}),rd,Ah,Rh,cs,ad,ch,uo,Ch,Ph,hh,Ih,Lh,Nh,Gd=he(()=>{"use strict";ds(),q0(),Y0(),kd(),Ys(),bh(),zd(),rd=(i,t)=>{Te()._OrtInit(i,t)!==0&&Se("Can't initialize onnxruntime.")},Ah=async i=>{rd(i.wasm.numThreads,Fd(i.logLevel))},Rh=async(i,t)=>{Te().asyncInit?.();let e=i.webgpu.adapter;if(t==="webgpu"){if(typeof navigator>"u"||!navigator.gpu)throw new Error("WebGPU is not supported in current environment");if(e){if(typeof e.limits!="object"||typeof e.features!="object"||typeof e.requestDevice!="function")throw new Error("Invalid GPU adapter set in `env.webgpu.adapter`. It must be a GPUAdapter object.")}else{let n=i.webgpu.powerPreference;if(n!==void 0&&n!=="low-power"&&n!=="high-performance")throw new Error(`Invalid powerPreference setting: "${n}"`);let s=i.webgpu.forceFallbackAdapter;if(s!==void 0&&typeof s!="boolean")throw new Error(`Invalid forceFallbackAdapter setting: "${s}"`);if(e=await navigator.gpu.requestAdapter({powerPreference:n,forceFallbackAdapter:s}),!e)throw new Error('Failed to get GPU adapter. You may need to enable flag "--enable-unsafe-webgpu" if you are using Chrome.')}}if(t==="webnn"&&(typeof navigator>"u"||!navigator.ml))throw new Error("WebNN is not supported in current environment")},cs=new Map,ad=i=>{let t=Te(),e=t.stackSave();try{let n=t.PTR_SIZE,s=t.stackAlloc(2*n);t._OrtGetInputOutputCount(i,s,s+n)!==0&&Se("Can't get session input/output count.");let r=n===4?"i32":"i64";return[Number(t.getValue(s,r)),Number(t.getValue(s+n,r))]}finally{t.stackRestore(e)}},ch=(i,t)=>{let e=Te(),n=e.stackSave(),s=0;try{let r=e.PTR_SIZE,a=e.stackAlloc(2*r);e._OrtGetInputOutputMetadata(i,t,a,a+r)!==0&&Se("Can't get session input/output metadata.");let o=Number(e.getValue(a,"*"));s=Number(e.getValue(a+r,"*"));let c=e.HEAP32[s/4];if(c===0)return[o,0];let l=e.HEAPU32[s/4+1],h=[];for(let u=0;u<l;u++){let f=Number(e.getValue(s+8+u*r,"*"));h.push(f!==0?e.UTF8ToString(f):Number(e.getValue(s+8+(u+l)*r,"*")))}return[o,c,h]}finally{e.stackRestore(n),s!==0&&e._OrtFree(s)}},uo=i=>{let t=Te(),e=t._malloc(i.byteLength);if(e===0)throw new Error(`Can't create a session. failed to allocate a buffer of size ${i.byteLength}.`);return t.HEAPU8.set(i,e),[e,i.byteLength]},Ch=async(i,t)=>{let e,n,s=Te();Array.isArray(i)?[e,n]=i:i.buffer===s.HEAPU8.buffer?[e,n]=[i.byteOffset,i.byteLength]:[e,n]=uo(i);let r=0,a=0,o=0,c=[],l=[],h=[];try{if([a,c]=await Od(t),t?.externalData&&s.mountExternalData){let b=[];for(let w of t.externalData){let A=typeof w=="string"?w:w.path;b.push(Th(typeof w=="string"?w:w.data).then(C=>{s.mountExternalData(A,C)}))}await Promise.all(b)}for(let b of t?.executionProviders??[])if((typeof b=="string"?b:b.name)==="webnn"){if(s.shouldTransferToMLTensor=!1,typeof b!="string"){let w=b,A=w?.context,C=w?.gpuDevice,v=w?.deviceType,E=w?.powerPreference;A?s.currentContext=A:C?s.currentContext=await s.webnnCreateMLContext(C):s.currentContext=await s.webnnCreateMLContext({deviceType:v,powerPreference:E})}else s.currentContext=await s.webnnCreateMLContext();break}r=await s._OrtCreateSession(e,n,a),s.webgpuOnCreateSession?.(r),r===0&&Se("Can't create a session."),s.jsepOnCreateSession?.(),s.currentContext&&(s.webnnRegisterMLContext(r,s.currentContext),s.currentContext=void 0,s.shouldTransferToMLTensor=!0);let[u,f]=ad(r),d=!!t?.enableGraphCapture,p=[],_=[],g=[],m=[],x=[];for(let b=0;b<u;b++){let[w,A,C]=ch(r,b);w===0&&Se("Can't get an input name."),l.push(w);let v=s.UTF8ToString(w);p.push(v),g.push(A===0?{name:v,isTensor:!1}:{name:v,isTensor:!0,type:lo(A),shape:C})}for(let b=0;b<f;b++){let[w,A,C]=ch(r,b+u);w===0&&Se("Can't get an output name."),h.push(w);let v=s.UTF8ToString(w);_.push(v),m.push(A===0?{name:v,isTensor:!1}:{name:v,isTensor:!0,type:lo(A),shape:C})}return cs.set(r,[r,l,h,null,d,!1]),[r,p,_,g,m]}catch(u){throw l.forEach(f=>s._OrtFree(f)),h.forEach(f=>s._OrtFree(f)),o!==0&&s._OrtReleaseBinding(o)!==0&&Se("Can't release IO binding."),r!==0&&s._OrtReleaseSession(r)!==0&&Se("Can't release session."),u}finally{s._free(e),a!==0&&s._OrtReleaseSessionOptions(a)!==0&&Se("Can't release session options."),c.forEach(u=>s._free(u)),s.unmountExternalData?.()}},Ph=i=>{let t=Te(),e=cs.get(i);if(!e)throw new Error(`cannot release session. invalid session id: ${i}`);let[n,s,r,a,o]=e;a&&(o&&t._OrtClearBoundOutputs(a.handle)!==0&&Se("Can't clear bound outputs."),t._OrtReleaseBinding(a.handle)!==0&&Se("Can't release IO binding.")),t.jsepOnReleaseSession?.(i),t.webnnOnReleaseSession?.(i),t.webgpuOnReleaseSession?.(i),s.forEach(c=>t._OrtFree(c)),r.forEach(c=>t._OrtFree(c)),t._OrtReleaseSession(n)!==0&&Se("Can't release session."),cs.delete(i)},hh=async(i,t,e,n,s,r,a=!1)=>{if(!i){t.push(0);return}let o=Te(),c=o.PTR_SIZE,l=i[0],h=i[1],u=i[3],f=u,d,p;if(l==="string"&&(u==="gpu-buffer"||u==="ml-tensor"))throw new Error("String tensor is not supported on GPU.");if(a&&u!=="gpu-buffer")throw new Error(`External buffer must be provided for input/output index ${r} when enableGraphCapture is true.`);if(u==="gpu-buffer"){let m=i[2].gpuBuffer;p=Vs(Gs(l),h);{let x=o.jsepRegisterBuffer;if(!x)throw new Error('Tensor location "gpu-buffer" is not supported without using WebGPU.');d=x(n,r,m,p)}}else if(u==="ml-tensor"){let m=i[2].mlTensor;p=Vs(Gs(l),h);let x=o.webnnRegisterMLTensor;if(!x)throw new Error('Tensor location "ml-tensor" is not supported without using WebNN.');d=x(n,m,Gs(l),h)}else{let m=i[2];if(Array.isArray(m)){p=c*m.length,d=o._malloc(p),e.push(d);for(let x=0;x<m.length;x++){if(typeof m[x]!="string")throw new TypeError(`tensor data at index ${x} is not a string`);o.setValue(d+x*c,$n(m[x],e),"*")}}else{let x=o.webnnIsGraphInput,b=o.webnnIsGraphOutput;if(l!=="string"&&x&&b){let w=o.UTF8ToString(s);if(x(n,w)||b(n,w)){let A=Gs(l);p=Vs(A,h),f="ml-tensor";let C=o.webnnCreateTemporaryTensor,v=o.webnnUploadTensor;if(!C||!v)throw new Error('Tensor location "ml-tensor" is not supported without using WebNN.');let E=await C(n,A,h);v(E,new Uint8Array(m.buffer,m.byteOffset,m.byteLength)),d=E}else p=m.byteLength,d=o._malloc(p),e.push(d),o.HEAPU8.set(new Uint8Array(m.buffer,m.byteOffset,p),d)}else p=m.byteLength,d=o._malloc(p),e.push(d),o.HEAPU8.set(new Uint8Array(m.buffer,m.byteOffset,p),d)}}let _=o.stackSave(),g=o.stackAlloc(4*h.length);try{h.forEach((x,b)=>o.setValue(g+b*c,x,c===4?"i32":"i64"));let m=o._OrtCreateTensor(Gs(l),d,p,g,h.length,Bd(f));m===0&&Se(`Can't create tensor for input/output. session=${n}, index=${r}.`),t.push(m)}finally{o.stackRestore(_)}},Ih=async(i,t,e,n,s,r)=>{let a=Te(),o=a.PTR_SIZE,c=cs.get(i);if(!c)throw new Error(`cannot run inference. invalid session id: ${i}`);let l=c[0],h=c[1],u=c[2],f=c[3],d=c[4],p=c[5],_=t.length,g=n.length,m=0,x=[],b=[],w=[],A=[],C=a.stackSave(),v=a.stackAlloc(_*o),E=a.stackAlloc(_*o),F=a.stackAlloc(g*o),N=a.stackAlloc(g*o);try{[m,x]=Dd(r),Xs("wasm prepareInputOutputTensor");for(let P=0;P<_;P++)await hh(e[P],b,A,i,h[t[P]],t[P],d);for(let P=0;P<g;P++)await hh(s[P],w,A,i,u[n[P]],_+n[P],d);qs("wasm prepareInputOutputTensor");for(let P=0;P<_;P++)a.setValue(v+P*o,b[P],"*"),a.setValue(E+P*o,h[t[P]],"*");for(let P=0;P<g;P++)a.setValue(F+P*o,w[P],"*"),a.setValue(N+P*o,u[n[P]],"*");a.jsepOnRunStart?.(l),a.webnnOnRunStart?.(l);let D;D=await a._OrtRun(l,E,v,_,N,g,F,m),D!==0&&Se("failed to call OrtRun().");let H=[],J=[];Xs("wasm ProcessOutputTensor");for(let P=0;P<g;P++){let q=Number(a.getValue(F+P*o,"*"));if(q===w[P]){H.push(s[P]);continue}let Q=a.stackSave(),X=a.stackAlloc(4*o),rt=!1,W,k=0;try{a._OrtGetTensorData(q,X,X+o,X+2*o,X+3*o)!==0&&Se(`Can't access output tensor data on index ${P}.`);let it=o===4?"i32":"i64",Tt=Number(a.getValue(X,it));k=a.getValue(X+o,"*");let Bt=a.getValue(X+o*2,"*"),et=Number(a.getValue(X+o*3,it)),pt=[];for(let lt=0;lt<et;lt++)pt.push(Number(a.getValue(Bt+lt*o,it)));a._OrtFree(Bt)!==0&&Se("Can't free memory for tensor dims.");let _t=pt.reduce((lt,Et)=>lt*Et,1);W=lo(Tt);let It=f?.outputPreferredLocations[n[P]];if(W==="string"){if(It==="gpu-buffer"||It==="ml-tensor")throw new Error("String tensor is not supported on GPU.");let lt=[];for(let Et=0;Et<_t;Et++){let se=a.getValue(k+Et*o,"*"),Ot=a.getValue(k+(Et+1)*o,"*"),Qt=Et===_t-1?void 0:Ot-se;lt.push(a.UTF8ToString(se,Qt))}H.push([W,pt,lt,"cpu"])}else if(It==="gpu-buffer"&&_t>0){let lt=a.jsepGetBuffer;if(!lt)throw new Error('preferredLocation "gpu-buffer" is not supported without using WebGPU.');let Et=lt(k),se=Vs(Tt,_t);if(se===void 0||!wh(W))throw new Error(`Unsupported data type: ${W}`);rt=!0,H.push([W,pt,{gpuBuffer:Et,download:a.jsepCreateDownloader(Et,se,W),dispose:()=>{a._OrtReleaseTensor(q)!==0&&Se("Can't release tensor.")}},"gpu-buffer"])}else if(It==="ml-tensor"&&_t>0){let lt=a.webnnEnsureTensor,Et=a.webnnIsGraphInputOutputTypeSupported;if(!lt||!Et)throw new Error('preferredLocation "ml-tensor" is not supported without using WebNN.');if(Vs(Tt,_t)===void 0||!Eh(W))throw new Error(`Unsupported data type: ${W}`);if(!Et(i,W,!1))throw new Error(`preferredLocation "ml-tensor" for ${W} output is not supported by current WebNN Context.`);let se=await lt(i,k,Tt,pt,!1);rt=!0,H.push([W,pt,{mlTensor:se,download:a.webnnCreateMLTensorDownloader(k,W),dispose:()=>{a.webnnReleaseTensorId(k),a._OrtReleaseTensor(q)}},"ml-tensor"])}else if(It==="ml-tensor-cpu-output"&&_t>0){let lt=a.webnnCreateMLTensorDownloader(k,W)(),Et=H.length;rt=!0,J.push((async()=>{let se=[Et,await lt];return a.webnnReleaseTensorId(k),a._OrtReleaseTensor(q),se})()),H.push([W,pt,[],"cpu"])}else{let lt=Ud(W),Et=new lt(_t);new Uint8Array(Et.buffer,Et.byteOffset,Et.byteLength).set(a.HEAPU8.subarray(k,k+Et.byteLength)),H.push([W,pt,Et,"cpu"])}}finally{a.stackRestore(Q),W==="string"&&k&&a._free(k),rt||a._OrtReleaseTensor(q)}}f&&!d&&(a._OrtClearBoundOutputs(f.handle)!==0&&Se("Can't clear bound outputs."),cs.set(i,[l,h,u,f,d,!1]));for(let[P,q]of await Promise.all(J))H[P][2]=q;return qs("wasm ProcessOutputTensor"),H}finally{a.webnnOnRunEnd?.(l),a.stackRestore(C),b.forEach(D=>a._OrtReleaseTensor(D)),w.forEach(D=>a._OrtReleaseTensor(D)),A.forEach(D=>a._free(D)),m!==0&&a._OrtReleaseRunOptions(m),x.forEach(D=>a._free(D))}},Lh=i=>{let t=Te(),e=cs.get(i);if(!e)throw new Error("invalid session id");let n=e[0],s=t._OrtEndProfiling(n);s===0&&Se("Can't get an profile file name."),t._OrtFree(s)},Nh=i=>{let t=[];for(let e of i){let n=e[2];!Array.isArray(n)&&"buffer"in n&&t.push(n.buffer)}return t}}),ki,kn,zs,Vr,Hr,ao,uh,oo,hs,us,od,Vd,Hd,Wd,Xd,qd,Yd,$d,Zd=he(()=>{"use strict";ds(),Gd(),Ys(),Mh(),ki=()=>!!be.wasm.proxy&&typeof document<"u",zs=!1,Vr=!1,Hr=!1,oo=new Map,hs=(i,t)=>{let e=oo.get(i);e?e.push(t):oo.set(i,[t])},us=()=>{if(zs||!Vr||Hr||!kn)throw new Error("worker not ready")},od=i=>{switch(i.data.type){case"init-wasm":zs=!1,i.data.err?(Hr=!0,uh[1](i.data.err)):(Vr=!0,uh[0]()),ao&&(URL.revokeObjectURL(ao),ao=void 0);break;case"init-ep":case"copy-from":case"create":case"release":case"run":case"end-profiling":{let t=oo.get(i.data.type);i.data.err?t.shift()[1](i.data.err):t.shift()[0](i.data.out);break}default:}},Vd=async()=>{if(!Vr){if(zs)throw new Error("multiple calls to 'initWasm()' detected.");if(Hr)throw new Error("previous call to 'initWasm()' failed.");if(zs=!0,ki())return new Promise((i,t)=>{kn?.terminate(),Ld().then(([e,n])=>{try{kn=n,kn.onerror=r=>t(r),kn.onmessage=od,uh=[i,t];let s={type:"init-wasm",in:be};!s.in.wasm.wasmPaths&&(e||mh)&&(s.in.wasm.wasmPaths={wasm:new URL("ort-wasm-simd-threaded.wasm",studioAddress).href}),kn.postMessage(s),ao=e}catch(s){t(s)}},t)});try{await Sh(be.wasm),await Ah(be),Vr=!0}catch(i){throw Hr=!0,i}finally{zs=!1}}},Hd=async i=>{if(ki())return us(),new Promise((t,e)=>{hs("init-ep",[t,e]);let n={type:"init-ep",in:{epName:i,env:be}};kn.postMessage(n)});await Rh(be,i)},Wd=async i=>ki()?(us(),new Promise((t,e)=>{hs("copy-from",[t,e]);let n={type:"copy-from",in:{buffer:i}};kn.postMessage(n,[i.buffer])})):uo(i),Xd=async(i,t)=>{if(ki()){if(t?.preferredOutputLocation)throw new Error('session option "preferredOutputLocation" is not supported for proxy.');return us(),new Promise((e,n)=>{hs("create",[e,n]);let s={type:"create",in:{model:i,options:{...t}}},r=[];i instanceof Uint8Array&&r.push(i.buffer),kn.postMessage(s,r)})}else return Ch(i,t)},qd=async i=>{if(ki())return us(),new Promise((t,e)=>{hs("release",[t,e]);let n={type:"release",in:i};kn.postMessage(n)});Ph(i)},Yd=async(i,t,e,n,s,r)=>{if(ki()){if(e.some(a=>a[3]!=="cpu"))throw new Error("input tensor on GPU is not supported for proxy.");if(s.some(a=>a))throw new Error("pre-allocated output tensor is not supported for proxy.");return us(),new Promise((a,o)=>{hs("run",[a,o]);let c=e,l={type:"run",in:{sessionId:i,inputIndices:t,inputs:c,outputIndices:n,options:r}};kn.postMessage(l,Nh(c))})}else return Ih(i,t,e,n,s,r)},$d=async i=>{if(ki())return us(),new Promise((t,e)=>{hs("end-profiling",[t,e]);let n={type:"end-profiling",in:i};kn.postMessage(n)});Lh(i)}}),fh,ld,Jd,$0=he(()=>{"use strict";ds(),Zd(),kd(),vh(),zd(),fh=(i,t)=>{switch(i.location){case"cpu":return[i.type,i.dims,i.data,"cpu"];case"gpu-buffer":return[i.type,i.dims,{gpuBuffer:i.gpuBuffer},"gpu-buffer"];case"ml-tensor":return[i.type,i.dims,{mlTensor:i.mlTensor},"ml-tensor"];default:throw new Error(`invalid data location: ${i.location} for ${t()}`)}},ld=i=>{switch(i[3]){case"cpu":return new nn(i[0],i[2],i[1]);case"gpu-buffer":{let t=i[0];if(!wh(t))throw new Error(`not supported data type: ${t} for deserializing GPU tensor`);let{gpuBuffer:e,download:n,dispose:s}=i[2];return nn.fromGpuBuffer(e,{dataType:t,dims:i[1],download:n,dispose:s})}case"ml-tensor":{let t=i[0];if(!Eh(t))throw new Error(`not supported data type: ${t} for deserializing MLTensor tensor`);let{mlTensor:e,download:n,dispose:s}=i[2];return nn.fromMLTensor(e,{dataType:t,dims:i[1],download:n,dispose:s})}default:throw new Error(`invalid data location: ${i[3]}`)}},Jd=class{async fetchModelAndCopyToWasmMemory(i){return Wd(await Th(i))}async loadModel(i,t){Hs();let e;typeof i=="string"?e=await this.fetchModelAndCopyToWasmMemory(i):e=i,[this.sessionId,this.inputNames,this.outputNames,this.inputMetadata,this.outputMetadata]=await Xd(e,t),Ws()}async dispose(){return qd(this.sessionId)}async run(i,t,e){Hs();let n=[],s=[];Object.entries(i).forEach(u=>{let f=u[0],d=u[1],p=this.inputNames.indexOf(f);if(p===-1)throw new Error(`invalid input '${f}'`);n.push(d),s.push(p)});let r=[],a=[];Object.entries(t).forEach(u=>{let f=u[0],d=u[1],p=this.outputNames.indexOf(f);if(p===-1)throw new Error(`invalid output '${f}'`);r.push(d),a.push(p)});let o=n.map((u,f)=>fh(u,()=>`input "${this.inputNames[s[f]]}"`)),c=r.map((u,f)=>u?fh(u,()=>`output "${this.outputNames[a[f]]}"`):null),l=await Yd(this.sessionId,s,o,a,c,e),h={};for(let u=0;u<l.length;u++)h[this.outputNames[a[u]]]=r[u]??ld(l[u]);return Ws(),h}startProfiling(){}endProfiling(){$d(this.sessionId)}}}),Kd={};fo(Kd,{OnnxruntimeWebAssemblyBackend:()=>_h,initializeFlags:()=>gh,wasmBackend:()=>jd});var gh,_h,jd,Z0=he(()=>{"use strict";ds(),Zd(),$0(),gh=()=>{(typeof be.wasm.initTimeout!="number"||be.wasm.initTimeout<0)&&(be.wasm.initTimeout=0);let i=be.wasm.simd;if(typeof i!="boolean"&&i!==void 0&&i!=="fixed"&&i!=="relaxed"&&(console.warn(`Property "env.wasm.simd" is set to unknown value "${i}". Reset it to \`false\` and ignore SIMD feature checking.`),be.wasm.simd=!1),typeof be.wasm.proxy!="boolean"&&(be.wasm.proxy=!1),typeof be.wasm.trace!="boolean"&&(be.wasm.trace=!1),typeof be.wasm.numThreads!="number"||!Number.isInteger(be.wasm.numThreads)||be.wasm.numThreads<=0)if(typeof self<"u"&&!self.crossOriginIsolated)be.wasm.numThreads=1;else{let t=typeof navigator>"u"?R0("node:os").cpus().length:navigator.hardwareConcurrency;be.wasm.numThreads=Math.min(4,Math.ceil((t||1)/2))}},_h=class{async init(i){gh(),await Vd(),await Hd(i)}async createInferenceSessionHandler(i,t){let e=new Jd;return await e.loadModel(i,t),e}},jd=new _h});ds();ds();ds();var J0="1.23.2";{let i=(Z0(),dh(Kd)).wasmBackend;co("cpu",i,10),co("wasm",i,10)}Object.defineProperty(be.versions,"web",{value:J0,enumerable:!0});var $s=class i{static async open(t,e,n){be.wasm.numThreads=1,be.wasm.wasmBinary=t.buffer,be.logLevel="error";let s=await po.create(e,{externalData:[{path:"model.safetensors",data:n}],graphOptimizationLevel:"all"});return new i(s)}constructor(t){this.session=t,this.helper=null}async predict(t,e,n,s,r){if(this.helper&&t.length>1){let f=t.length>>1,d=this.helper(t.slice(f),e,n.slice(f),s,r);return[...await this.predict(t.slice(0,f),e,n.slice(0,f),s,r),...await d]}let a=t.length,o=t[0].length,c=o/138,l=(f,d=Float32Array)=>{let p=new d(f.length*f[0].length);return f.forEach((_,g)=>p.set(_,g*_.length)),p},h=[a,c,23,6],{prediction:u}=await this.session.run({x:new nn("float32",l(t),h),t:new nn("int64",new BigInt64Array(a).fill(BigInt(e)),[a]),pooled:new nn("float32",l(n),[a,n[0].length]),tag:new nn("int64",new BigInt64Array(a).fill(BigInt(s)),[a]),mask:new nn("bool",new Uint8Array(a*c).fill(1),[a,c]),known:new nn("bool",l(t.map(()=>r),Uint8Array),h)});return t.map((f,d)=>u.data.slice(d*o,(d+1)*o))}};var Zs=(i,t)=>i[0]*t[0]+i[1]*t[1]+i[2]*t[2],xe=i=>Math.hypot(i[0],i[1],i[2]),ln=(i,t)=>[i[0]+t[0],i[1]+t[1],i[2]+t[2]],Ve=(i,t)=>[i[0]-t[0],i[1]-t[1],i[2]-t[2]],yn=(i,t)=>[i[0]*t,i[1]*t,i[2]*t],Xr=(i,t)=>[i[1]*t[2]-i[2]*t[1],i[2]*t[0]-i[0]*t[2],i[0]*t[1]-i[1]*t[0]],Zn=(i,t=1e-12)=>yn(i,1/Math.max(xe(i),t)),zn=(i,t,e)=>Math.min(Math.max(i,t),e),cn=(i,t)=>{let e=new Array(9);for(let n=0;n<9;n+=3)for(let s=0;s<3;s++)e[n+s]=i[n]*t[s]+i[n+1]*t[3+s]+i[n+2]*t[6+s];return e},Qd=i=>[i[0],i[3],i[6],i[1],i[4],i[7],i[2],i[5],i[8]],Gn=(i,t)=>[i[0]*t[0]+i[1]*t[1]+i[2]*t[2],i[3]*t[0]+i[4]*t[1]+i[5]*t[2],i[6]*t[0]+i[7]*t[1]+i[8]*t[2]];function mo(i,t=0){let e=[i[t],i[t+1],i[t+2]],n=[i[t+3],i[t+4],i[t+5]];xe(e)>1e-6||(e=[1,0,0]);let s=Zn(e,1e-6),r=Ve(n,yn(s,Zs(s,n)));if(xe(r)<=1e-6*(1+xe(n))){let o=s.map(Math.abs),c=[0,0,0];c[o.indexOf(Math.min(...o))]=1,r=Ve(c,yn(s,Zs(s,c)))}r=Zn(r,1e-6);let a=Xr(s,r);return[s[0],r[0],a[0],s[1],r[1],a[1],s[2],r[2],a[2]]}function go(i,t,e){t.set([i[0],i[3],i[6],i[1],i[4],i[7]],e)}function ms(i){let t=[1+i[0]+i[4]+i[8],1+i[0]-i[4]-i[8],1-i[0]+i[4]-i[8],1-i[0]-i[4]+i[8]],[e,n,s]=[i[7]-i[5],i[2]-i[6],i[3]-i[1]],[r,a,o]=[i[3]+i[1],i[2]+i[6],i[7]+i[5]],l=[[t[0],e,n,s],[e,t[1],r,a],[n,r,t[2],o],[s,a,o,t[3]]][t.indexOf(Math.max(...t))],h=Math.hypot(...l)*(l[0]<0?-1:1);return l.map(u=>u/h)}function li(i,t=0){let e=Math.max(Math.hypot(i[t],i[t+1],i[t+2],i[t+3]),1e-12),[n,s,r,a]=[i[t]/e,i[t+1]/e,i[t+2]/e,i[t+3]/e];return[1-2*(r*r+a*a),2*(s*r-n*a),2*(s*a+n*r),2*(s*r+n*a),1-2*(s*s+a*a),2*(r*a-n*s),2*(s*a-n*r),2*(r*a+n*s),1-2*(s*s+r*r)]}var ps=(i,t)=>[i[0]*t[0]-i[1]*t[1]-i[2]*t[2]-i[3]*t[3],i[0]*t[1]+i[1]*t[0]+i[2]*t[3]-i[3]*t[2],i[0]*t[2]-i[1]*t[3]+i[2]*t[0]+i[3]*t[1],i[0]*t[3]+i[1]*t[2]-i[2]*t[1]+i[3]*t[0]],_o=i=>[i[0],-i[1],-i[2],-i[3]];function Dh(i){let t=i[0]<0?-1:1,e=Math.hypot(i[1],i[2],i[3]),n=e>1e-6?2*Math.atan2(e,t*i[0])/e:2;return[t*i[1]*n,t*i[2]*n,t*i[3]*n]}function qr(i){let t=xe(i),e=t>1e-6?Math.sin(t/2)/t:.5;return[Math.cos(t/2),i[0]*e,i[1]*e,i[2]*e]}var zi=(i,t,e)=>ps(i,qr(yn(Dh(ps(_o(i),t)),e)));function xn(i,t){for(let e=0;e<t;e+=4)for(let n=e;n<i.length;n+=t){let s=n-t;if((s<0?i[n]:i[n]*i[s]+i[n+1]*i[s+1]+i[n+2]*i[s+2]+i[n+3]*i[s+3])<0)for(let a=0;a<4;a++)i[n+a]=-i[n+a]}return i}function Yr(i){let[t,e]=[Math.cos(i),Math.sin(i)];return[t,0,e,0,1,0,-e,0,t]}function Oh([i,t,e],n){let[s,r]=[Math.cos(n),Math.sin(n)];return[s*i+r*e,t,s*e-r*i]}var $r=(i,t)=>li(qr(yn(i,t)));function tp(i,t){let[e,n]=[Zn(i),Zn(t)],s=Xr(e,n);return $r(Zn(s),Math.atan2(xe(s),Zs(e,n)))}function yo(i){let t=ms(i);return 2*Math.atan2(t[2],t[0])}function gs(i){let t=0;for(let e=1,n=i[0];e<i.length;e++){let s=i[e]-n;n=i[e];let r=((s+Math.PI)%(2*Math.PI)+2*Math.PI)%(2*Math.PI)-Math.PI;r===-Math.PI&&s>0&&(r=Math.PI),Math.abs(s)>=Math.PI&&(t+=r-s),i[e]+=t}return i}var Kt=22,Ft=30,Fe={names:[],parents:[],offsets:[]},He={},Vn,_s,xo,Zr,Jn,Jr;function vo({names:i,parents:t,offsets:e,tips:n,limbs:s,groups:r}){Object.assign(Fe,{names:i,parents:t,offsets:e,tips:n}),i.forEach((a,o)=>{He[a]=o}),Jn=["left-leg","right-leg"].map(a=>s[a].map(o=>He[o])),Zr=Jn.map(([,,a,o])=>({ankle:a,ball:o})),Jr=r,Vn=.02,_s=Vn-Jn[0].reduce((a,o)=>a+e[o][1],0),xo=-e[Jn[0][1]][1]-e[Jn[0][2]][1]}function j0(i,t){let{parents:e,offsets:n}=Fe,s=[i[0]],r=[t];for(let a=1;a<Kt;a++){let o=e[a];s.push(cn(s[o],i[a])),r.push(ln(r[o],Gn(s[o],n[a])))}return{positions:r,world:s}}function xi(i,t){let e=[];for(let n=0;n<Kt;n++)e.push(li(i.quaternions,(t*Kt+n)*4));return j0(e,Array.from(i.root.subarray(t*3,t*3+3)))}var Q0=23,zt=Q0*6,Ke=132,[vi,Gi,t_,Kn,ys]=[0,1,2,3,4],xs={x:0,z:0,heading:0},Be=i=>i.length/zt,vn=(i,t,e)=>i.slice(t*zt,e*zt);function sn(i,t=Float32Array){let e=new t(i.reduce((s,r)=>s+r.length,0)),n=0;for(let s of i)e.set(s,n),n+=s.length;return e}function Js(i,t=xs,e=Ft,n=(r,a)=>i[r*zt+Ke+a],s=Be(i)){let r=new Float64Array(s*3),a=new Float64Array(s),{x:o,z:c,heading:l}=t;for(let h=0;h<s;h++){r.set([o,n(h,t_),c],h*3),a[h]=l;let[u,f]=[Math.sin(l),Math.cos(l)],[d,p]=[n(h,vi),n(h,Gi)];o+=(d*u+p*f)/e,c+=(d*f-p*u)/e,l+=n(h,Kn)/e}return{path:r,heading:a,end:{x:o,z:c,heading:l}}}function Kr(i,t=xs,e="",n=Ft){let s=Be(i),{path:r,heading:a}=Js(i,t,n),o=new Float32Array(s*Kt*4),c=new Float32Array(s*2);for(let l=0;l<s;l++){for(let h=0;h<Kt;h++){let u=mo(i,l*zt+h*6);h===0&&(u=cn(Yr(a[l]),u)),o.set(ms(u),(l*Kt+h)*4)}for(let h of[0,1])c[l*2+h]=zn(i[l*zt+Ke+ys+h],0,1)}return xn(o,Kt*4),{frames:s,quaternions:o,root:Float32Array.from(r),contacts:c,fps:n,text:e}}function Mo(i){let t=new Float64Array(i.frames);for(let e=0;e<i.frames;e++)t[e]=yo(li(i.quaternions,e*Kt*4));return gs(t)}function Ks(i,t){return{x:i.root[t*3],z:i.root[t*3+2],heading:Mo(i)[t]}}function Uh(i){let{frames:t,fps:e}=i,n=new Float32Array(t*zt),s=Mo(i);for(let r=0;r<t;r++){let a=Yr(-s[r]);for(let d=0;d<Kt;d++){let p=li(i.quaternions,(r*Kt+d)*4);go(d===0?cn(a,p):p,n,r*zt+d*6)}let o=r*zt+Ke,c=Math.max(Math.min(r,t-2),0),l=t<2?[0,0,0]:[0,1,2].map(d=>(i.root[(c+1)*3+d]-i.root[c*3+d])*e),[h,,u]=Gn(a,l),f=t<2?0:(s[c+1]-s[c])*e;n.set([u,h,i.root[r*3+1],f,i.contacts[r*2],i.contacts[r*2+1]],o)}return n}var So=(i,t,e)=>({...i,frames:e-t,quaternions:i.quaternions.slice(t*Kt*4,e*Kt*4),root:i.root.slice(t*3,e*3),contacts:i.contacts.slice(t*2,e*2)}),Fh=(i,t)=>({...i,frames:i.frames+t.frames,quaternions:xn(sn([i.quaternions,t.quaternions]),Kt*4),root:sn([i.root,t.root]),contacts:sn([i.contacts,t.contacts])});function Nn(i,t,e="nearest"){let n=Math.floor(4*t+.5),s=[];for(let a=-n;a<=n;a++)s.push(Math.exp(-.5*a*a/(t*t)));let r=s.reduce((a,o)=>a+o,0);return i.map((a,o)=>{let c=0;for(let l=-n;l<=n;l++)c+=s[l+n]*i[ep(o+l,i.length,e)];return c/r})}function ep(i,t,e){if(e==="nearest")return Math.min(Math.max(i,0),t-1);let n=2*t,s=(i%n+n)%n;return s<t?s:n-1-s}function np(i,t,e){let n=Math.floor(t/2);return i.map((s,r)=>{let a=i[r];for(let o=-n;o<=t-1-n;o++)a=e(a,i[ep(r+o,i.length,"reflect")]);return a})}var Bh=(i,t)=>np(i,t,Math.max),ip=(i,t)=>np(i,t,Math.min),ci=i=>i.map((t,e)=>e===0?i[1]-i[0]:e===i.length-1?i[e]-i[e-1]:(i[e+1]-i[e-1])/2);function Vi(i,t){let e=[...i].sort((a,o)=>a-o),n=(e.length-1)*t/100,s=Math.floor(n),r=e[Math.min(s+1,e.length-1)];return e[s]+(n-s)*(r-e[s])}function bo(i,t,e){if(i<=t[0])return e[0];if(i>=t[t.length-1])return e[e.length-1];let n=0,s=t.length-1;for(;s-n>1;){let r=n+s>>1;t[r]<=i?n=r:s=r}return e[n]+(e[s]-e[n])*(i-t[n])/(t[s]-t[n])}var kh=(i,t,e)=>Array.from({length:e},(n,s)=>e===1?i:i+(t-i)*s/(e-1));function de(i){let t=Math.floor(i);return i-t!==.5?Math.round(i):t%2===0?t:t+1}var e_=3,n_=.15;function lp(i){let e=.92*(_s+["spine1","spine2","spine3","neck","head"].reduce((n,s)=>n+Fe.offsets[He[s]][1],0));for(let n=Math.max(0,i.frames-e_);n<i.frames;n++){let{positions:s}=xi(i,n);if(!(s[He.head][1]>e)||["l_wrist","r_wrist"].some(r=>s[He[r]][1]-s[0][1]>=n_))return!1}return!0}function wo(i,t){let e=Math.max(Math.floor(Math.min(t,i.length)/2)*2+1,1),n=e>>1,s=i.length-1;return i.map((r,a)=>{let o=0;for(let c=-n;c<=n;c++)o+=i[Math.min(Math.max(a+c,0),s)];return o/e})}function Hi(i,t,e){let n=0,s=i[0]<=t;for(let r of i)s&&r>t?(n++,s=!1):r<e&&(s=!0);return n}var Eo=(i,t)=>i.map(e=>e[t]),zh=(i,t)=>{let e=[0,1,2].map(n=>wo(Eo(i,n),t));return i.map((n,s)=>[e[0][s],e[1][s],e[2][s]])},jn=(i,t)=>i.map((e,n)=>[e[0]-t[n][0],e[1]-t[n][1],e[2]-t[n][2]]),Gh=i=>i.map(t=>Math.hypot(...t)),vs=i=>i.reduce((t,e)=>t+e,0),i_=i=>[Math.min(...i),Math.max(...i)];function Wh(i){let{fps:t,frames:e}=i,n=Array.from({length:e},(f,d)=>xi(i,d)),s=wo(Array.from(Mo(i)),de(.5*t)),r={},a=f=>r[f]??=zh(n.map(({positions:d})=>d[He[f]]),de(.1*t)),o=f=>jn(a(f),a("pelvis")).map(([d,p,_],g)=>{let[m,x]=[Math.sin(s[g]),Math.cos(s[g])];return[d*x-_*m,p,d*m+_*x]}),c=n.map(({world:f})=>[f[He.spine3][1],f[He.spine3][4],f[He.spine3][7]]),l={fps:t,frames:e,heading:s,joint:a,seen:o,up:c,path:zh(a("pelvis"),de(.3*t))},h=ci(Eo(l.path,0)),u=ci(Eo(l.path,2));return l.ground=h.map((f,d)=>Math.hypot(f,u[d])*t),{seconds:e/t,...s_(i),...r_(l),...a_(l),...c_(l),...h_(l),...u_(l)}}function s_(i){let t=i.quaternions,e=88,n=0,s=0;for(let r=e;r<t.length;r+=4){let a=r-e,o=Math.abs(t[r]*t[a]+t[r+1]*t[a+1]+t[r+2]*t[a+2]+t[r+3]*t[a+3]);n+=Math.acos(Math.min(o,1))}for(let r=0;r<i.frames;r++){let[a,o,c,l]=t.subarray(r*e,r*e+4),h=i.root[r*3+1];(1-2*(o*o+l*l))/Math.max(a*a+o*o+c*c+l*l,1e-9)>.3&&h>.2&&h<2&&s++}return{angularSpeed:2*n/(t.length/4-22)*i.fps,upright:s/i.frames}}function r_({fps:i,heading:t,path:e,seen:n}){let s=[],r=[],a=[];for(let g=0;g+1<e.length;g++){let[m,x]=[e[g+1][0]-e[g][0],e[g+1][2]-e[g][2]],[b,w]=[Math.sin(t[g]),Math.cos(t[g])];s.push(m*b+x*w),r.push(m*w-x*b),a.push(Math.hypot(m,x))}let o=a.map(g=>g*i>.12),c=g=>g.filter((m,x)=>o[x]),l=Math.max(c(a).length/i,.5),h=[0,1,2].map(g=>e[e.length-1][g]-e[0][g]),[u,f]=[Math.sin(t[0]),Math.cos(t[0])],d=[vs(r),vs(s)],p=Math.max(Math.hypot(...d),1e-6),_=jn(n("l_ankle"),n("r_ankle")).map(g=>(g[0]*d[0]+g[2]*d[1])/p);return{forward:d[1],lateral:d[0],forwardNet:h[0]*u+h[2]*f,lateralNet:h[0]*f-h[2]*u,forwardSpeed:vs(c(s))/l,lateralSpeed:vs(c(r))/l,cruise:o.some(Boolean)?Vi(c(a),70)*i:0,stride:(Vi(_,97)-Vi(_,3))/2,yaw:t[t.length-1]-t[0]}}var cp=()=>Math.abs(Fe.offsets[He.l_elbow][0])+Math.abs(Fe.offsets[He.l_wrist][0]);function a_({fps:i,joint:t,seen:e}){let n={handPeak:[],handTravel:[],handSwings:[]};for(let s of"lr"){let r=jn(t(`${s}_wrist`),t(`${s}_shoulder`)).map(o=>o[1]/cp()),a=jn(e(`${s}_wrist`),e("spine3"));n.handPeak.push(Vi(r,95)),n.handTravel.push(vs(Gh(jn(a.slice(1),a.slice(0,-1))))),n.handSwings.push(o_(a.filter((o,c)=>r[c]>-.1)))}return n}function o_(i){if(i.length<4)return 0;let t=jn(i,zh(i,31)),e=[0,1,2].map(r=>vs(Eo(t,r))/t.length),n=[0,1,2].map(r=>[0,1,2].map(a=>vs(t.map(o=>(o[r]-e[r])*(o[a]-e[a]))))),s=l_(n).slice(0,2).map(r=>{let a=t.map(o=>o[0]*r[0]+o[1]*r[1]+o[2]*r[2]);return Hi(a,.03,-.03)+Hi(a.map(o=>-o),.03,-.03)});return Math.max(...s)}function l_(i){let t=i.map(n=>[...n]),e=[[1,0,0],[0,1,0],[0,0,1]];for(let n=0;n<30;n++)for(let[s,r]of[[0,1],[0,2],[1,2]]){if(Math.abs(t[s][r])<1e-300)continue;let a=(t[r][r]-t[s][s])/(2*t[s][r]),o=Math.sign(a||1)/(Math.abs(a)+Math.hypot(a,1)),c=1/Math.hypot(o,1),l=o*c;for(let h of[t,e])for(let u of h)[u[s],u[r]]=[c*u[s]-l*u[r],l*u[s]+c*u[r]];for(let h=0;h<3;h++)[t[s][h],t[r][h]]=[c*t[s][h]-l*t[r][h],l*t[s][h]+c*t[r][h]]}return[0,1,2].sort((n,s)=>t[s][s]-t[n][n]).map(n=>e.map(s=>s[n]))}function c_({fps:i,heading:t,joint:e,seen:n,up:s,ground:r}){let a=[];for(let d of"lr"){let p=jn(e(`${d}_wrist`),e(`${d}_shoulder`)),_=Gh(p),g=_.map(w=>w/cp()),m=jn(n(`${d}_wrist`),n(`${d}_shoulder`)),x=wo(ci(g).map(w=>+(w*i>1.5)),de(.4*i)),b=g.map((w,A)=>Math.abs(p[A][0]*s[A][0]+p[A][1]*s[A][1]+p[A][2]*s[A][2])<.6*_[A]&&m[A][2]>.25&&x[A]>.05?w:Math.min(w,.7));a.push(Hi(b,.85,.72))}let o=Gh(jn(e("l_wrist"),e("r_wrist"))),[c,l]=[n("l_wrist"),n("r_wrist")],h=o.map((d,p)=>(c[p][2]+l[p][2])/2>.12&&(c[p][1]+l[p][1])/2>.05?-d:-1),u=e("pelvis"),f=s.map((d,p)=>{let _=d[0]*Math.sin(t[p])+d[2]*Math.cos(t[p]),g=Math.asin(Math.min(Math.max(_,-1),1))*180/Math.PI;return u[p][1]>.83*_s&&r[p]<.5?g:Math.min(g,25)});return{punches:a,claps:Hi(h,-.17,-.24),bows:Hi(wo(f,5),35,18)}}function h_({joint:i,seen:t}){let e=jn(i("l_ankle"),i("r_ankle")).map(s=>s[1]);return{kicks:[["l",e],["r",e.map(s=>-s)]].map(([s,r])=>{let a=t(`${s}_ankle`);return Hi(r.map((o,c)=>a[c][2]>.3?o:Math.min(o,.2)),.33,.25)})}}function u_({fps:i,joint:t,seen:e,ground:n}){let s=t("pelvis").map(u=>u[1]),r=t("l_foot").map((u,f)=>Math.min(u[1],t("r_foot")[f][1])),a=Vi(r,10),o=r.map(u=>u-a),c=jn(e("l_ankle"),e("r_ankle")),l=o.map((u,f)=>s[f]>_s+.03&&Math.hypot(c[f][1],c[f][2])<.3&&n[f]<2.6?u:0),h=o.map((u,f)=>u<.06?_s-s[f]:0);return{squats:Hi(h,.27,.12),jumps:Hi(l,.05,.02),pelvisLow:i_(s)[0]/_s,flight:o.filter(u=>u>.03).length/i}}var Vh=.7,hp=.06,f_=i=>i.upright>.9&&i.angularSpeed>.02&&i.angularSpeed<6,up=(i,t,e)=>t>.3&&e>.17&&i.stride>hp,d_=i=>up(i,i.forward,i.forwardSpeed)&&Math.abs(i.lateral)<.6*i.forward,sp=(i,t)=>up(i,t*i.lateral,t*i.lateralSpeed/.7)&&t*i.lateral>.25*Math.abs(i.forward),To=(i,t)=>i.handPeak[t]>-.2&&i.handTravel[t]>.15,rp=(i,t)=>To(i,t)&&i.handPeak[t]-i.handPeak[1-t]>.35,p_=i=>{let t=i.handPeak[1]>i.handPeak[0]?1:0;return To(i,t)&&i.handSwings[t]>=4},m_=i=>d_(i)&&(i.cruise>2||i.flight>.05*i.seconds&&i.cruise>1.3),Hh=(i,t)=>Math.hypot(i.forwardNet,i.lateralNet)>t*i.seconds,fp=(i,t)=>Math.abs(i.forwardNet)<t&&Math.abs(i.lateralNet)<t,g_=i=>i.cruise<2&&i.flight<.05*i.seconds&&Hh(i,.25)&&i.stride>hp&&i.pelvisLow>.82,__=i=>(sp(i,1)||sp(i,-1))&&Math.abs(i.lateralNet)>Math.abs(i.forwardNet),y_=i=>Math.abs(i.yaw)>Vh&&fp(i,.6)&&Math.max(...i.handPeak)<-.3,x_=i=>Math.abs(i.forward)<.4&&Math.abs(i.lateral)<.4&&Math.max(...i.handPeak)<-.3&&Math.abs(i.yaw)<.5&&i.angularSpeed<1&&i.pelvisLow>.9&&i.stride<.1&&i.bows===0,ap=i=>To(i,0)||To(i,1),dp=i=>Object.fromEntries(Object.entries(i).map(([t,e])=>[t,n=>f_(n)&&e(n)])),pp=dp({walk:g_,run:m_,wave:p_,"side-step":__,turn:y_,stand:x_,"crouch-walk":i=>i.pelvisLow<.85&&Hh(i,.2),spin:i=>Math.abs(i.yaw)>4.7&&fp(i,.8),kick:i=>Math.max(...i.kicks)>=1,punch:i=>Math.max(...i.punches)>=1&&!Hh(i,.25),raise:ap,bye:ap,squat:i=>i.squats>=1,jump:i=>i.jumps>=1,clap:i=>i.claps>=1,bow:i=>i.bows>=1}),op=dp({"turn-left":i=>i.yaw>Vh,"turn-right":i=>-i.yaw>Vh,"left-hand":i=>rp(i,0),"right-hand":i=>rp(i,1),"kick-left":i=>i.kicks[0]>i.kicks[1],"kick-right":i=>i.kicks[1]>i.kicks[0],"punch-left":i=>i.punches[0]>i.punches[1],"punch-right":i=>i.punches[1]>i.punches[0]});function mp(i,t,e){let n=i==="spin"?`turn-${t}`:`${i}-${t}`;return op[n]??(e?op[`${t}-hand`]??null:null)}function gp(i,t,e){let n=s=>e==="left"?s[0]:e==="right"?s[1]:s[0]+s[1];return{squat:t.squats,jump:t.jumps,clap:t.claps,bow:t.bows,kick:n(t.kicks),punch:n(t.punches)}[i]??null}var v_=.5,yp=.12,M_=.4,S_=.01,b_=.08,w_=.5,E_=-3,T_=2/30,A_=3/30,R_=8/30,C_=12/30,P_=9/30,I_=8/30,L_=.1,N_=.1,jr=.01,D_=.05,O_=.005,_p=.22,U_=2.5,F_=[0,.5,1],Ao=.9;function xp(i,t,e,n,s){let r=B_(i,s,n),a=i.map((l,h)=>l.map((u,f)=>ln(u,r[h][f]))),o=k_(a,t,e,n),c=o.map(l=>l.map(()=>!1));return G_(a,t,o,n,s).forEach((l,h)=>{let u=Y_(a[h],l,s[h],n);r[h]=r[h].map((f,d)=>ln(f,u[d]));for(let f of l)c[h].fill(!0,f.start,f.stop)}),{shifts:r,held:c}}function B_(i,t,e){let n=i[0].length,s=Array.from({length:n},(r,a)=>Math.min(i[0][a][1],i[1][a][1])-Vn);return s=ip(s,2*de(M_*e)+1),s=s.map(r=>Math.sign(r)*Math.max(Math.abs(r)-S_,0)),s=s.map(r=>r*zn(2-Math.abs(r)/yp,0,1)),t.map(r=>{let a=Bh(r.map(Number),2*de(.2*e)+1);return Nn(s.map((c,l)=>c*(1-a[l])),.1*e).map((c,l)=>[0,r[l]?0:-c,0])})}function k_(i,t,e,n){let s=i.map(l=>l.map(h=>h[1]-Vn)),r=s.map((l,h)=>l.map((u,f)=>e[h][f]>v_&&u<yp));if(i[0].length<2)return r;let a=s.map(l=>ci(l).map(h=>Math.abs(h)*n)),o=Nn(t[0].map((l,h)=>(l[1]+t[1][h][1])/2),.05*n),c=ci(ci(o)).map(l=>l*n*n<E_);return r.map((l,h)=>l.map((u,f)=>{if(u)return!0;let d=s[0][f]<=s[1][f]?0:1,p=s[h][f]<b_&&a[h][f]<w_&&!c[f];return!r[0][f]&&!r[1][f]&&p&&d===h}))}function z_(i,t){let e=[];for(let n=0,s=-1;n<=i.length;n++)if(i[n]&&s<0&&(s=n),!i[n]&&s>=0){let r=e[e.length-1];r&&s-r[1]<=t?r[1]=n:e.push([s,n]),s=-1}return e}function G_(i,t,e,n,s){let r=e[0].map((o,c)=>(e[0][c]||e[1][c])&&!s[0][c]&&!s[1][c]),a=new qh(i,t,r,n,s);for(let[o,c,l]of V_(i,e,n,s))a.plant(o,c,l);return a.stepOn(i[0].length,null),a.found}var qh=class{constructor(t,e,n,s,r){Object.assign(this,{balls:t,hips:e,free:n,kept:r,found:[[],[]],until:0,last:0}),this.shortest=Math.min(de(A_*s),t[0].length),this.swing=de(R_*s),this.sooner=de(C_*s)}plant(t,e,n){this.stepOn(t,n),this.gap(t)&&t-this.until<=this.sooner&&(t=Math.max(this.ready(n),Math.min(t,this.until))),this.hold(t,e,n)}stepOn(t,e){for(;this.gap(t)&&(t-this.until>this.sooner||e===null||e===this.last);){let n=this.until,s=1-this.last;if(this.hold(this.ready(s),s===e?t-this.swing:t,s),this.until===n)break}}gap(t){return this.until<t&&this.free.slice(this.until,t).every(Boolean)}ready(t){let e=this.found[t];return Math.max(this.until,e.length?e[e.length-1].stop+this.swing:0)}hold(t,e,n){let s=this.balls[n],r=this.hips[n],a=[];for(let h=t;h<e;h++)this.kept[n][h]&&a.push(h-t);let o,c,l;if(a.length)o=Yh(s[t+(a[0]===0?a[a.length-1]:a[0])]),[c,l]=q_(o,r,t,e);else{if(e-t<this.shortest)return;[o,c,l]=X_(s,r,t,e,this.shortest)}l-c>=this.shortest&&(this.found[n].push({start:c,stop:l,point:o}),l>this.until&&(this.until=l,this.last=n))}};function V_(i,t,e,n){let s=[];for(let r of[0,1])for(let[a,o]of z_(t[r],de(T_*e))){let l=n[r].slice(a,o).some(Boolean)?[[a,o]]:H_(i[r].slice(a,o),a,e,.5*r);for(let[h,u]of l)s.push([h,u,r])}return s.sort((r,a)=>r[0]-a[0]||r[1]-a[1]||r[2]-a[2])}function H_(i,t,e,n){let s=[[t,t+i.length]],r=i.map(b=>b[0]),a=i.map(b=>b[2]),o=b=>b.reduce((w,A)=>w+A,0)/b.length,[c,l]=[o(r),o(a)];if(Math.max(...r.map((b,w)=>Math.hypot(b-c,a[w]-l)))<=_p)return s;let[h,u]=[Nn(r,.1*e),Nn(a,.1*e)],f=[0];for(let b=1;b<h.length;b++)f.push(f[b-1]+Math.hypot(h[b]-h[b-1],u[b]-u[b-1]));let d=de(I_*e),p=f[f.length-1],_=Math.min(Math.ceil(p/(2*_p)),Math.floor(i.length/(2*d)));if(_<2)return s;let g=Math.floor(d/2),m=[-g];for(let b=1;b<=_;b++){let w=(b-n)/_;w<1-1e-9&&m.push(W_(f,w*p))}m.push(i.length+g);let x=[];for(let b=1;b<m.length;b++){let[w,A]=[m[b-1]+g,m[b]-g];A>w&&x.push([t+Math.max(w,0),t+Math.min(A,i.length)])}return x}function W_(i,t){let e=i.findIndex(n=>n>=t);return e<0?i.length:e}var Yh=i=>[i[0],Vn,i[2]];function $h(i,t,e){let n=[0,0,0];for(let s=t;s<e;s++)n=ln(n,i[s]);return yn(n,1/(e-t))}function X_(i,t,e,n,s){for(let r=e;r<=n-s;r++)for(let a=n;a>=r+s;a--){let o=$h(i,r,a),c=$h(t,r,a);for(let l of F_){let h=Yh(ln(yn(o,1-l),yn(c,l))),u=0;for(let f=r;f<a;f++)u=Math.max(u,xe(Ve(t[f],h)));if(u<=Ao)return[h,r,a]}}return[Yh(i[e]),e,e]}function q_(i,t,e,n){let s=t.slice(e,n).map(c=>xe(Ve(c,i))),r=s.indexOf(Math.min(...s));if(s[r]>Ao)return[e,e];let a=r,o=r+1;for(;a>0&&s[a-1]<=Ao;)a--;for(;o<s.length&&s[o]<=Ao;)o++;return[e+a,e+o]}function Y_(i,t,e,n){let s=i.length,r=i.map(()=>[0,0,0]),a=[...e],o=new Array(s).fill(0);for(let l of t){let h=i.slice(l.start,l.stop),u=e.slice(l.start,l.stop).some(Boolean)?null:$_(h,n);h.forEach((f,d)=>{let p=Ve(l.point,f);u&&(p[0]+=u[d][0],p[2]+=u[d][2]),p[1]=zn(f[1],Vn,Vn+O_)-f[1],r[l.start+d]=p,a[l.start+d]=!0})}e.forEach((l,h)=>{l&&(r[h]=[0,0,0])});for(let l=1;l<t.length;l++){let[h,u]=[t[l-1],t[l]],f=u.start-h.stop,d=Math.min(L_,N_*xe(Ve(u.point,h.point)));for(let p=0;p<f;p++)o[h.stop+p]=d*Math.sin(Math.PI*(p+1)/(f+1))**2}r=Z_(r,a,de(P_*n),n);for(let l=0;l<s;l++){if(a[l]||o[l]===0)continue;let h=o[l]-(i[l][1]+r[l][1]-Vn),u=zn((h+jr)/(2*jr),0,1)**2*jr;r[l][1]+=(h<jr?u:h)*Math.min(o[l]/jr,1)}return J_(i.map((l,h)=>l[1]+r[h][1]),a,n).forEach((l,h)=>{r[h][1]+=l}),r}function $_(i,t){let e=$h(i,0,i.length),n=i.map(r=>[r[0]-e[0],0,r[2]-e[2]]),s=0;for(let r=1;r<n.length;r++)s+=xe(Ve(n[r],n[r-1]));return s=s*t/Math.max(i.length-1,1),n.map(r=>yn(r,Math.min(1,D_/Math.max(s,1e-9))))}function Z_(i,t,e,n){let s=i.map(l=>[...l]),r=U_/n,a=s.length,o=[0,0,0],c=(l,h)=>{let u=l>=0&&l<a?s[l]:o,f=o;return Math.min(l,h)>=0&&Math.max(l,h)<a&&t[h]&&(f=yn(Ve(s[l],s[h]),l-h)),[u,f.map(d=>zn(d,-r,r))]};for(let l=0;l<a;l++){if(t[l])continue;let h=l;for(;h<a&&!t[h];)h++;let[u,f]=c(l-1,l-2),[d,p]=c(h,h+1),_=h-l+1;if(l>0&&h<a&&_<=2*e){let g=Xh(u,d,f,p,_);for(let m=l;m<h;m++)s[m]=g[m-l+1]}else{let g=Xh(u,o,f,o,e),m=Xh(o,d,o,p,e);for(let x=l,b=1;x<h;x++,b++)l>0&&(s[x]=ln(s[x],g[Math.min(b,e)])),h<a&&(s[x]=ln(s[x],m[Math.max(b-_+e,0)]))}l=h}return s}function Xh(i,t,e,n,s){return Array.from({length:s+1},(r,a)=>{let o=a/s,c=o*o,l=c*o;return[0,1,2].map(h=>(2*l-3*c+1)*i[h]+(l-2*c+o)*s*e[h]+(3*c-2*l)*t[h]+(l-c)*s*n[h])})}function J_(i,t,e){let n=i.map((r,a)=>t[a]?0:Math.max(Vn-r,0));if(!n.some(Boolean))return n;let s=2*de(.1*e)+1;return Nn(Bh(n,s),s/6).map((r,a)=>t[a]?0:r)}var K_=1e-4,j_=1.5/30,Q_=.5/30,ty=10,ey=.995,ny=.97,iy=.8,vp=.02,sy=.1;function Zh(i){let t=i.length/zt;return Jn.map(([e,n,s])=>Array.from({length:t},(r,a)=>[e,n,s].some(o=>{for(let c=0;c<6;c++)if(i[a*zt+o*6+c])return!0;return!1})))}var ry=i=>[0,1].map(()=>new Array(i).fill(!1));function Qr(i,t=null){let e=i.frames,n=Array.from({length:e},(u,f)=>xi(i,f)),s=Zr.map(({ball:u})=>n.map(({positions:f})=>f[u])),r=Jn.map(([u])=>n.map(({positions:f})=>f[u])),a=[0,1].map(u=>Array.from({length:e},(f,d)=>i.contacts[d*2+u])),{shifts:o,held:c}=xp(s,r,a,i.fps,t??ry(e)),l=i.quaternions.slice(),h=new Float32Array(e*2);for(let u of[0,1])for(let f=0;f<e;f++)if(h[f*2+u]=t?.[u][f]?a[u][f]:Number(c[u][f]),!(xe(o[u][f])<=K_))for(let[d,p]of ay(u,n[f],o[u][f])){let _=(f*Kt+d)*4,g=0;for(let m=0;m<4;m++)g+=p[m]*i.quaternions[_+m];l.set(g<0?p.map(m=>-m):p,_)}return{...i,quaternions:l,contacts:h}}function ay(i,{positions:t,world:e},n){let[s,r,a,o]=Jn[i],c=ln(t[o],n),l=Ve(t[a],t[o]),h=Math.max(xe(Ve(t[a],t[s])),ny*xo),u=ly(t[s],c,l,h),[f,d]=cy(t[s],e[s],e[r],Fe.offsets[r],Fe.offsets[a],ln(c,Gn(u,l))),p=[e[Fe.parents[s]],f,d,cn(u,e[a]),e[o]];return[s,r,a,o].map((_,g)=>[_,ms(cn(Qd(p[g]),p[g+1]))])}function Sp(i,t=null){return Mp(Qr(Mp(Qr(i,t),j_,t),t),Q_,t)}function Mp(i,t,e){let n=i.quaternions.slice(),s=Kt*4;return Jn.forEach((r,a)=>{for(let o of r){let c=new Float64Array(i.frames*4);for(let h=0;h<i.frames;h++)c.set(i.quaternions.subarray(h*s+o*4,h*s+o*4+4),h*4);xn(c,4);let l=[0,1,2,3].map(h=>Nn(Array.from({length:i.frames},(u,f)=>c[f*4+h]),t*i.fps));for(let h=0;h<i.frames;h++){if(e?.[a][h])continue;let u=Math.hypot(...l.map(f=>f[h]));n.set(l.map(f=>f[h]/u),h*s+o*4)}}}),{...i,quaternions:n}}function bp(i,t,e){let n=t.quaternions.slice();return Jn.forEach((s,r)=>{let a=oy(e[r]);for(let o=0;o<t.frames;o++){let c=Math.min(a[o]/ty,1),l=c*c*(3-2*c);for(let h of s){let u=(o*Kt+h)*4;n.set(zi(Array.from(i.quaternions.subarray(u,u+4)),Array.from(t.quaternions.subarray(u,u+4)),l),u)}}}),{...t,quaternions:xn(n,Kt*4)}}function oy(i){let t=i.map(e=>e?0:1/0);for(let e=1;e<t.length;e++)t[e]=Math.min(t[e],t[e-1]+1);for(let e=t.length-2;e>=0;e--)t[e]=Math.min(t[e],t[e+1]+1);return t}function ly(i,t,e,n){let s=Ve(i,t),r=xe(e),a=xe(s),o=(r*r+a*a-n*n)/(2*r*a),c=Xr(e,s),l=Math.atan2(xe(c),Zs(e,s));return $r(Zn(c),zn(l-Math.acos(zn(o,-1,1)),0,iy))}function cy(i,t,e,n,s,r){let a=xe(n),o=xe(s),c=xe(ln(Gn(t,n),Gn(e,s))),l=Math.max(c,ey*xo),h=1.05*Math.abs(a-o)+.05,u=xe(Ve(r,i)),f=Math.max(Math.min(u,l),Math.min(c,h));for(let d=0;d<2;d++){let p=Gn(t,n),_=ln(p,Gn(e,s)),g=hy(_,p,t),m=xe(_),x=Ro(a,f,o)-Ro(a,m,o),b=Ro(a,o,f)-Ro(a,o,m);t=cn($r(g,x),t),e=cn($r(g,x+b),e);let w=tp(ln(Gn(t,n),Gn(e,s)),Ve(r,i));t=cn(w,t),e=cn(w,e)}return[t,e]}var Ro=(i,t,e)=>Math.acos(zn((i*i+t*t-e*e)/(2*i*t),-1,1));function hy(i,t,e){let n=Xr(i,t),s=xe(n)/Math.max(xe(i)*xe(t),1e-9),r=zn((s-vp)/(sy-vp),0,1),a=Zn(i),o=[-e[0],-e[3],-e[6]];return o=Ve(o,yn(a,Zs(o,a))),Zn(ln(yn(Zn(n),r),yn(Zn(o),1-r)))}function wp(i,t){if(t===1)return i;let e=Be(i),n=t>>1,s=[];for(let a=0,o=1;a<t;o=o*(t-1-a)/(a+1),a++)s.push(o/2**(t-1));let r=i.slice();for(let a=0;a<e;a++)for(let o=0;o<Ke+ys;o++){let c=0;for(let l=-n;l<=n;l++)c+=s[l+n]*i[Math.min(Math.max(a+l,0),e-1)*zt+o];r[a*zt+o]=c}return r}var Kh=(i,t,e)=>e.map((n,s)=>i[s]?t[s]:n);function uy(i){let t=Be(i),e=i.slice(),n=new Float64Array(t),s=[];for(let r=0;r<t;r++)s.push(mo(i,r*zt)),n[r]=yo(s[r]);gs(n);for(let r=0;r<t;r++)go(cn(Yr(-n[r]),s[r]),e,r*zt);return e}function Ep(i,t,e){if(t===null)return i;let n=Kt*4,s=t/e,r=i.slice();for(let a=n;a<r.length;a+=4){let o=Array.from(r.subarray(a-n,a-n+4)),c=Dh(ps(_o(o),Array.from(i.subarray(a,a+4)))),l=Math.hypot(...c);l>s&&r.set(ps(o,qr(c.map(h=>h*s/l))),a)}return xn(r,n)}function Co(i,t,{known:e=null,text:n="",place:s=xs,carried:r=!1}={}){let a=wp(i,t.kernel);e&&(a=Kh(e,i,uy(Kh(e,i,a))));let o=Kr(a,s,n);if(o={...o,quaternions:Ep(o.quaternions,t.maxVelocity,Ft)},!t.footLock)return o;let c=r?Sp:Qr,l=e&&Zh(e);return!l||!l.some(h=>h.some(Boolean))?c(o):bp(o,c(o,l),l)}var fy=.5,dy={collar:[0,0,0],shoulder:[0,0,-1.37],elbow:[0,-.38,0],wrist:[0,0,0]};function Tp(i){let t=Math.round(fy*i.fps);if(i.frames<4*t)return i;let e=i.quaternions.slice();for(let n of[0,i.frames-1]){let{positions:s}=xi(i,n);for(let[r,a]of[["l",1],["r",-1]])if(!(s[He[`${r}_wrist`]][1]<s[0][1]))for(let[o,c]of Object.entries(dy)){let l=qr([c[0],c[1]*a,c[2]*a]);for(let h=0;h<t;h++){let u=1-h/t,f=u**3*(10-15*u+6*u*u),d=((n?n-h:h)*Kt+He[`${r}_${o}`])*4;e.set(zi(Array.from(e.subarray(d,d+4)),l,f),d)}}}return{...i,quaternions:xn(e,Kt*4)}}var Ap=10;function Rp(i,t,e=Ap){let n=Be(i),s=Float64Array.from(i),r=(a,o)=>o>=Ke+ys||t[a*zt+o];for(let a=0;a<Ke+ys;a++)for(let o of[!1,!0]){let c=h=>(o?n-1-h:h)*zt+a,l=h=>r(o?n-1-h:h,a);for(let h=0;h+1<n;h++){if(!l(h)||l(h+1))continue;let u=1;for(;h+1+u<n&&!l(h+1+u);)u++;let f=h+1,d=[];u>1&&d.push(s[c(f+1)]-s[c(f)]),h>0&&d.push(l(h-1)?s[c(h)]-s[c(h-1)]:d[0]??0);let p=d.length?d.reduce((m,x)=>m+x,0)/d.length:0,_=s[c(h)]+p-s[c(f)],g=f+u===n?e:Math.min(e,Math.max(1,u>>1));for(let m=0;m<u;m++){let x=Math.min(m/g,1);s[c(f+m)]+=_*(1-x**3*(x*(6*x-15)+10))}}}return Float32Array.from(s)}var Jh=15,py=12,my=24;function jh(i,t,{known:e=null,text:n=""}={}){let s=Be(i),r=t.kernel>>1,a=e??new Uint8Array(i.length),o=Kh(a,i,wp(i,t.kernel)),c=[[0,s-r],[Math.max(s-r,0),s]].filter(([f,d])=>d>f),l=xs,h=null;return h=c.map(([f,d])=>{let p=vn(o,f,d),_=Kr(p,l);return l=Js(p,l).end,_}).reduce(Fh),h={...h,text:n,quaternions:Ep(h.quaternions,t.maxVelocity,Ft)},t.footLock?gy(h,a):h}function gy(i,t){let e=null,n=null,s=[];for(let a=0;a<i.frames;a+=Jh){let o=Math.min(Jh,i.frames-a),c=Math.min(i.frames,a+Jh+py),l=So(i,a,c),h=0,u=Zh(t.slice(a*zt,c*zt)),f=l.quaternions;e&&(h=e.frames,l={...l,quaternions:_y(f,e.quaternions.slice(-Kt*4),n,u)},l=Fh(e,l),u=u.map(p=>[...new Array(h).fill(!0),...p]));let d=Qr(l,u);n=f.slice((o-1)*Kt*4,o*Kt*4),e=So(d,Math.max(0,h+o-my),h+o),s.push(So(d,h,h+o))}let r={...i,quaternions:sn(s.map(a=>a.quaternions)),root:sn(s.map(a=>a.root)),contacts:sn(s.map(a=>a.contacts))};return xn(r.quaternions,Kt*4),r}function _y(i,t,e,n){let s=Kt*4,r=i.slice(),a=i.length/s,o=[1,0,0,0];for(let c=0;c<s;c+=4){let l=(u,f)=>Array.from(u.subarray(f,f+4)),h=ps(_o(l(e,c)),l(t,c));for(let u=0;u<a;u++){let f=Math.min((u+1)/(Ap+1),1),d=n[0][u]||n[1][u]?0:1-f*f*(3-2*f),p=u*s+c;r.set(ps(l(i,p),zi(o,h,d)),p)}}return xn(r,s)}var Cp=0xffffffffn;function Pp(i,t){let[e,n,s,r]=[i>>>16,i&65535,t>>>16,t&65535],a=e*r+(n*r>>>16),o=n*s+(a&65535);return e*s+Math.floor(a/65536)+Math.floor(o/65536)>>>0}function Ip(i,t,e,n,s,r,a){for(let o=0;o<10;o++){let[c,l]=[Pp(3528531795,i),Pp(3449720151,e)],[h,u]=[Math.imul(3528531795,i)>>>0,Math.imul(3449720151,e)>>>0];[i,t,e,n]=[(l^t^s)>>>0,u,(c^n^r)>>>0,h],s=s+2654435769>>>0,r=r+3144134277>>>0}a[0]=i,a[1]=t,a[2]=e,a[3]=n}var Lp=i=>[Number(BigInt(i)&Cp),Number(BigInt(i)>>32n&Cp)];function Qh(i,t){if(t===0)return BigInt(i);let e=[];return Ip(t,0,0,4294967295,...Lp(i),e),BigInt(e[0])+(BigInt(e[1]>>>1)<<32n)}function Np(i,t,e){let n=new Float32Array(e),s=yy(new TextEncoder().encode(t)),r=[0,0,0,0],[a,o]=Lp(i);for(let c=0;c<e;c+=4){Ip(c>>>2,0,s,0,a,o,r);for(let l of[0,2]){let h=Math.sqrt(-2*Math.log((r[l]+.5)/4294967296)),u=2*Math.PI*(r[l+1]+.5)/4294967296;n[c+l]=h*Math.cos(u),n[c+l+1]=h*Math.sin(u)}}return n}function yy(i){let t=-1;for(let e of i){t^=e;for(let n=0;n<8;n++)t=t>>>1^3988292384&-(t&1)}return~t>>>0}var Po=150,Ms=30,xy=48,vy=8,Mi=i=>({values:new Float32Array(i*zt),known:new Uint8Array(i*zt),shown:new Uint8Array(i*zt).fill(1)}),tu=(i,t,e)=>({values:vn(i.values,t,e),known:vn(i.known,t,e),shown:vn(i.shown,t,e)});function My(i,t){let e=t-Be(i.values);if(e<=0)return i;let n=Mi(e);return{values:sn([i.values,n.values]),known:sn([i.known,n.known],Uint8Array),shown:sn([i.shown,n.shown],Uint8Array)}}function Sy(i,t,e,n){let s=1+Math.max(0,Math.ceil((i+t-e)/(e-n))),r=i+t+(s-1)*n,a=o=>Math.floor(r*o/s);return Array.from({length:s},(o,c)=>a(c+1)-a(c)-(c?n:t))}var eu=i=>Array.from({length:vy},(t,e)=>Qh(i,e));async function Wi(i,t,e,n={}){let{constraint:s=null,window:r=Po,overlap:a=Ms,guidance:o,told:c}=n,l=new Float32Array,h=0,u=0,f=[];for(let d of t){let p=new Float32Array;for(let _ of Sy(d.frames,Be(l),Math.min(r,d.window??r),a)){let g=Be(l),m=h-g,x=s?tu(s,m,h+_):Mi(g+_);x.values.set(l),x.known.fill(1,0,l.length),x.shown.fill(1,0,l.length);let b=My(x,xy),w=l.length>0||s,A=null,C=1/0;for(let v of eu(Qh(e,u))){let E=await i.sample(d.text,Be(b.values),v,w?b:null,o),F=vn(Rp(vn(E,0,g+_),x.known),g,g+_),N=d.miss?d.miss(sn([p,F])):0;if(N<C&&(C=N,A=F),C<=0)break}l=vn(sn([l,A]),Math.max(0,g+_-a),g+_),p=sn([p,A]),h+=_,u++,f.push(A),c?.(h)}}return sn(f)}var Dp="a person moves",nu=i=>new Set(i.flatMap(t=>Jr[t]??(t in He?[t]:[])));function iu(i,t,e,n){let s=new Uint8Array(i.length).fill(1),r=new Uint8Array(i.length).fill(n===null?1:0),a=new Set([...Jr["left-leg"],...Jr["right-leg"]]);for(let o=t;o<e;o++){let c=o*zt;if(n===null){s.fill(0,c,c+zt);continue}for(let l of n)s.fill(0,c+He[l]*6,c+He[l]*6+6);[...n].some(l=>a.has(l))&&s.fill(0,c+Ke+ys,c+zt)}return{values:i,known:s,shown:r}}function Op(i,t,e,n){let s=n!==null||e>=i.frames;return{constraint:iu(Uh(i),t,e,n),place:Ks(i,0),rejoin:s?null:{stop:e,place:Ks(i,e)}}}function Up(i,t,e,n,s=!1){let r=Mi(n),a=(o,c,l)=>{r.values.set(vn(Uh(o),c,c+e),l*zt),r.known.fill(1,l*zt,(l+e)*zt)};return i&&a(i,0,0),t&&a(t,t.frames-e,n-e),{constraint:r,place:i?Ks(i,0):xs,rejoin:t&&s?{stop:n-e,place:Ks(t,t.frames-e)}:null}}async function Fp(i,t,e,n,s){let r=await Io(i,t,e.constraint,n,s);if(!e.rejoin)return{features:r,known:e.constraint.known};let a=by(r,e);return{features:await Io(i,t,a,n,s),known:a.known}}async function Io(i,t,e,n,s={}){let r=Be(e.values),a=[];for(let h=0;h<r;h++)vn(e.known,h,h+1).includes(0)&&a.push(h);if(!a.length)return e.values;let o=Math.max(0,a[0]-Ms),c=Math.min(r,a[a.length-1]+1+Ms),l=await Wi(i,[{text:t,frames:c-o}],n,{...s,constraint:tu(e,o,c)});return sn([vn(e.values,0,o),l,vn(e.values,c,r)])}function by(i,{constraint:t,place:e,rejoin:{stop:n,place:s}}){let r=0;for(;t.known[r*zt+Ke+vi];)r++;let a=Float64Array.from(vn(i,0,n+1)),o=Array.from({length:n+1},(g,m)=>{let x=m<r?0:(m-r)/(n-r);return x**3*(x*(6*x-15)+10)}),c=Js(a,e).heading,l=s.heading-c[n]+Math.PI,h=2*Math.PI,u=(l%h+h)%h-Math.PI;for(let g=0;g<n;g++)a[g*zt+Ke+Kn]+=u*(o[g+1]-o[g])*Ft;let f=Js(a,e),d=[s.x-f.path[n*3],s.z-f.path[n*3+2]],p=t.values.slice(),_=t.known.slice();for(let g=r;g<n;g++){let m=[0,2].map((A,C)=>(f.path[(g+1)*3+A]-f.path[g*3+A]+(o[g+1]-o[g])*d[C])*Ft),[x,,b]=Oh([m[0],0,m[1]],-f.heading[g]),w=g*zt+Ke;p[w+vi]=b,p[w+Gi]=x,p[w+Kn]=a[w+Kn],_[w+vi]=_[w+Gi]=_[w+Kn]=1}return{...t,values:p,known:_}}var Bp=.01,kp=.12,Gp=1.2,Vp=.25,Lo=4,wy=2,Ey=1.5,Ty=2.5,Ay=4,Ry=.1,zp=.4,Hp=2,Cy=.12,Py=.25,ta=i=>i.slice(1).map((t,e)=>[t[0]-i[e][0],t[1]-i[e][1]]),Wp=i=>ta(i).reduce((t,e)=>t+Math.hypot(...e),0);function su(i,{speed:t=Gp,seconds:e=null,facing:n=0}){let s=Iy(i),r=Ly(s,Math.min(Math.max(t,Vp),Lo)),a=t>Hp?0:e===null?zp:Math.min(zp,e/8),o=Math.trunc(a*Ft);e!==null&&(r=Ny(s,r,e-2*o/Ft));let c=r[r.length-1],l=kh(0,c,Math.max(2,de(c*Ft)+1));l=[...new Array(o).fill(l[0]),...l,...new Array(o).fill(c)];let[h,u]=[s.map(d=>d[0]),s.map(d=>d[1])],f=l.map(d=>[bo(d,r,h),bo(d,r,u)]);return{points:f,headings:Oy(Dy(f).map(d=>d+n))}}function Iy(i){let t=Wp(i),e=[0];for(let h of ta(i))e.push(e[e.length-1]+Math.hypot(...h));let n=e.map(h=>h/t),s=n.map((h,u)=>u===0||h>n[u-1]),r=n.filter((h,u)=>s[u]),a=i.filter((h,u)=>s[u]),o=kh(0,1,Math.max(3,Math.ceil(t/Bp)+1)),c=Math.min(Math.ceil(4*kp/Bp),o.length-1),l=[0,1].map(h=>{let u=o.map(p=>bo(p,r,a.map(_=>_[h]))),f=u.length-1,d=[];for(let p=c;p>0;p--)d.push(2*u[0]-u[p]);d.push(...u);for(let p=1;p<=c;p++)d.push(2*u[f]-u[f-p]);return Nn(d,kp*f/t,"reflect").slice(c,c+u.length)});return o.map((h,u)=>[l[0][u],l[1][u]])}function Ly(i,t){let e=ta(i),n=e.map(h=>Math.max(Math.hypot(...h),1e-9)),s=gs(e.map(([h,u])=>Math.atan2(h,u))),r=n.length>1?ci(s).map((h,u)=>Math.abs(h)/n[u]):[0];r=Nn(r,5);let a=r.map(h=>Math.min(Math.max(Math.min(Math.sqrt(wy/Math.max(h,1e-6)),Ty/Math.max(h,1e-6)),Math.min(Vp,t)),t)),o=a.length-1;if(t<=Hp)for(let h of[0,o])a[h]=Math.min(a[h],Ry);let c=(h,u)=>{a[h]=Math.min(a[h],Math.sqrt(a[u]**2+2*Ey*n[h]))};for(let h=1;h<=o;h++)c(h,h-1);for(let h=o-1;h>=0;h--)c(h,h+1);let l=[0];return n.forEach((h,u)=>l.push(l[u]+h/a[u])),l}function Ny(i,t,e){let n=t.map(r=>r*e/t[t.length-1]),s=Math.max(...ta(i).map((r,a)=>Math.hypot(...r)/(n[a+1]-n[a])));if(!(e>0)||s>Lo)throw new Error(`The path is too long for its time: give it ${(Math.max(e,0)*s/Lo||Wp(i)/Lo).toFixed(1)} seconds or more, or draw a shorter one.`);return n}function Dy(i){let t=ta(i),e=t.map(r=>Math.hypot(...r)*Ft>.05);e.some(Boolean)||e.fill(!0);let n=e.indexOf(!0),s=t.map((r,a)=>(e[a]&&(n=Math.max(n,a)),Math.atan2(...t[n])));return gs(s),[...s,s[s.length-1]]}function Oy(i){let t=Cy*Ft,e=Nn(i,t),n=()=>Math.max(...e.slice(1).map((s,r)=>Math.abs(s-e[r])))*Ft;for(;n()>Ay&&t<i.length;)t*=1.25,e=Nn(i,t);return e}function ru({points:i,headings:t}){let e=Mi(i.length);return i.forEach((n,s)=>{let r=Math.min(s,i.length-2),[a,o]=[(i[r+1][0]-i[r][0])*Ft,(i[r+1][1]-i[r][1])*Ft],[c,l]=[Math.sin(t[s]),Math.cos(t[s])],h=s*zt+Ke;e.values[h+vi]=a*c+o*l,e.values[h+Gi]=a*l-o*c,e.values[h+Kn]=(t[r+1]-t[r])*Ft,e.known[h+vi]=e.known[h+Gi]=e.known[h+Kn]=1}),e}async function au(i,t,e,n={}){let s=await Wi(i,[{text:t,frames:90}],e,n),r=[],a=[0,0],o=Be(s);for(let l=0;l<o;l++){let h=[s[l*zt+Ke+vi],s[l*zt+Ke+Gi]];r.push(Math.hypot(...h)),h.forEach((u,f)=>{a[f]+=u/o})}if(Math.hypot(...a)<Py)return{speed:Gp,facing:0};let c=-de(Math.atan2(a[1],a[0])/(Math.PI/2))*(Math.PI/2);return{speed:Vi(r,75),facing:c}}var Uy=" 	,;.!?。、，；！？",Xp=i=>({text:i,count:1,degrees:null,metres:null,seconds:null,meanwhile:"",side:"both"}),qp=i=>i.count===1&&i.degrees===null&&i.metres===null&&i.seconds===null&&!i.meanwhile&&i.side==="both";function Ss(i,t=Uy){let e=0,n=i.length;for(;e<n&&t.includes(i[e]);)e++;for(;n>e&&t.includes(i[n-1]);)n--;return i.slice(e,n)}var No=class{constructor({patterns:t,numbers:e,adverbs:n,angles:s,most:r,maxCount:a},o,c){Object.assign(this,{numbers:e,adverbs:n,angles:s,most:r,maxCount:a,known:o,arms:c}),this.first={},this.each={},this.head={};for(let[l,h]of Object.entries(t))this.first[l]=new RegExp(h,"iu"),this.each[l]=new RegExp(h,"giu"),this.head[l]=new RegExp(`^(?:${h})`,"iu")}clauses(t){let e=t.trim().split(/\s+/u).join(" ").normalize("NFKC"),n=[];for(let r of this.ordered(e)){let a=this.together(r);a?n.push(a):n.push(...this.joined(r).map(o=>this.measured(o)))}let s=n.filter(r=>r.text);return s.length?s:[Xp(t)]}ordered(t){for(let[e,n]of[["head_after",!1],["head_before",!0]]){let s=this.head[e].exec(t),r=s?t.indexOf(",",s[0].length):-1;if(!s)continue;let a=r<0?t.slice(s[0].length):t.slice(s[0].length,r),o=r<0?"":t.slice(r+1),c=n?[o,a]:[a,o];if(r>=0&&Ss(c[1]))return c.flatMap(l=>this.ordered(l))}for(let[e,n]of[["then",!1],["earlier",!1],["later",!0],["before",!1],["after",!0]])for(let s of t.matchAll(this.each[e])){let r=t.slice(0,s.index),a=t.slice(s.index+s[0].length);if(e==="then"&&([r,a]=this.around(r,a)),Ss(r)&&Ss(a))return(n?[a,r]:[r,a]).flatMap(o=>this.ordered(o))}return[this.trimmed(this.head.then.test(t)?t.replace(this.each.then," "):t)]}around(t,e){let n=[...t.matchAll(this.each.joint)],s=n[n.length-1],r=s?t.slice(s.index+s[0].length):"";return s&&Ss(r)&&(r.trim().split(/\s+/u).length<=3||!Ss(e))?[t.slice(0,s.index),`${r.trimEnd()} ${e.trimStart()}`]:[t,e]}joined(t){let e=t.split(this.first.joint).map(s=>this.trimmed(s)).filter(Boolean);if(e.length<2)return[t];let n=e.map(s=>this.known(this.measured(s).text));return n.includes(null)||new Set(n).size<n.length?[t]:e}together(t){let e=t.split(this.first.meanwhile).map(c=>this.trimmed(c)).filter(Boolean),n=this.first.meanwhile.test(t);e.length===1&&(e=e[0].split(this.first.joint).map(c=>this.trimmed(c)).filter(Boolean));let s=e.map(c=>this.sideOf(c));if(e.length!==2||!(n||s.includes("left")&&s.includes("right")))return null;let r=e.map(c=>this.arms(c));if(!e.every(c=>this.known(c))||!r.some(Boolean))return null;let[a,o]=r[0]&&!r[1]?[1,0]:[0,1];return!n&&!r.every(Boolean)?null:{...this.measured(e[a]),meanwhile:e[o],side:s[o]}}sideOf(t){let[e,n]=[this.first.left.test(t),this.first.right.test(t)];return e===n?"both":e?"left":"right"}measured(t){let e=Xp(t),n=this.sideOf(t.replace(this.each.angle," "));for(let r of["degrees","metres","seconds"]){let a=this.first[r].exec(e.text);if(!a)continue;let o=this.value(a.groups.number);r==="degrees"&&o<15||!(o>0&&o<=this.most[r])||(e={...e,text:this.without(e.text,a),[r]:o})}let s=e.degrees===null&&n!=="both"&&this.first.angle.exec(e.text);return s&&(e={...e,degrees:this.angles[s[0].toLowerCase()]}),e.degrees!==null?{...e,degrees:(n==="right"?-1:1)*e.degrees}:e.metres===null&&e.seconds===null?this.counted(e):e}counted(t){let e=this.first.often.exec(t.text),n;if(e)n=this.adverbs[e[0].toLowerCase()];else{if(e=this.first.times.exec(t.text)??this.first.bare.exec(t.text),!e)return t;n=Math.trunc(this.value(e.groups.number??e.groups.after))}if(!(n>1&&n<=this.maxCount))return t;let s=this.without(t.text,e);return s?{...t,text:s,count:n}:t}value(t){return this.numbers[t.toLowerCase()]??Number(t.replace(",","."))}without(t,e){return this.trimmed(`${t.slice(0,e.index).trimEnd()} ${t.slice(e.index+e[0].length).trimStart()}`)}trimmed(t){return Ss(Ss(t).replace(this.each.loose,""))}};var Yp=8,Fy=75,By=.5,$p=[2,3],Zp=1,ky=.5,Jp=10,Do=class{constructor(t,e,n){Object.assign(this,{sampler:t,scope:e,settings:n});let s=r=>r?this.scope.check(r):null;this.reader=new No(n.measures,r=>{let a=s(r);return a?.known?a.nearest[0]:null},r=>this.scope.meta.arms.includes(s(r)?.nearest[0]))}warning(t){let n=this.reader.clauses(t).flatMap(({text:s,meanwhile:r})=>[s,r]).filter(Boolean);return n.length===1&&(n=[t]),n.map(s=>this.scope.warning(s)).find(Boolean)??null}async make(t,e,n){let s={told:n};if(t.clip)return this.edited(t,e,s);if(t.path)return this.alongPath(t,e,s);if(t.blocks.length===1)return this.sentence(t.blocks[0].text,t.blocks[0].seconds,e,s);let r=this.passages(t.blocks),a=await Wi(this.sampler,r,e,s);return jh(a,this.settings.post,{text:r.map(({text:o})=>o).join(", then ")})}passages(t){let e=0,n=0;return t.map(({text:s,seconds:r})=>{e+=r;let a=de(e*Ft)-n;return n+=a,{text:s,frames:a}})}async sentence(t,e,n,s){let r=this.reader.clauses(t),a=de(e*Ft);if(a<Yp)throw new Error(`${e} seconds are too short; ask for ${(Yp/Ft).toFixed(2)} or more.`);let o=this.settings.maxSeconds;if(r.length>1||!qp(r[0])||o!==null&&a>de(o*Ft))return this.clausesOf(t,r,e,n,s);let c=null;for(let l of eu(n)){let h=await this.sampler.sample(t,a,l),u=this.rested(Co(h,this.settings.post,{text:t}),t);s.told?.(a);let f=this.does(t,u);if((c===null||f)&&(c=u),f)break}return c}async clausesOf(t,e,n,s,r){let a=[];for(let _ of e)a.push(await this.stretch(_,_.seconds??n,s));let o=a.map(({passage:_})=>_),c=a.some(({given:_})=>_),l=Mi(o.reduce((_,{frames:g})=>_+g,0)),h=[],u=0;for(let _ of a)h.push(u),_.given&&(l.values.set(_.given.values,u*zt),l.known.set(_.given.known,u*zt)),u+=_.passage.frames;let f=this.settings.maxSeconds??Po/Ft,d=await Wi(this.sampler,o,s,{...r,constraint:c?l:null,window:Math.min(Po,Math.max(2*Ms,de(f*Ft))),overlap:e.some(({count:_})=>_>1)?Jp:Ms});for(let[_,g]of e.entries())if(g.meanwhile){let m=nu([g.side==="both"?"arms":`${g.side}-arm`]),x=iu(d,h[_],h[_]+o[_].frames,m);d=await Io(this.sampler,g.meanwhile,x,s)}let p=jh(d,this.settings.post,{text:t});return{...this.rested(p,e[0].text,e[e.length-1].text),text:t}}async stretch(t,e,n){let{text:s,count:r}=t;if(t.degrees!==null){let o=Gy(t.degrees);return{passage:{text:s,frames:Be(o.values)},given:o}}if(t.metres!==null){let o=await au(this.sampler,s,n),c=ru(su([[0,0],[0,t.metres]],{...o,seconds:t.seconds}));return{passage:{text:s,frames:Be(c.values)},given:c}}if(r>1){let o=de(Math.min(Math.max(e/r,$p[0]),$p[1])*Ft),c=o*r;return{passage:{text:s,frames:c,window:o+Jp,miss:this.miss(t,c)}}}let a=Math.max(1,de(e*Ft));return{passage:{text:s,frames:a,miss:this.miss(t,a)}}}nearest(t){return t?this.scope.check(t).nearest[0]??null:null}rested(t,...e){return e.some(n=>this.scope.meta.gestures.includes(this.nearest(n)))?Tp(t):t}wanted(t){let e=this.nearest(t),{checked:n,arms:s}=this.scope.meta;if(e===null)return null;let r=mp(e,this.reader.sideOf(t),s.includes(e)),a=[...n.includes(e)?[pp[e]]:[],...r?[r]:[]];return a.length?o=>a.every(c=>c(o)):null}does(t,e){let n=this.wanted(t);return n===null||e.frames/Ft<Zp||n(Wh(e))}miss(t,e){let n=this.wanted(t.text),s=this.nearest(t.text),r=this.reader.sideOf(t.text);if(s===null||e<Zp*Ft)return null;let a=this.scope.meta.gestures.includes(s);return n===null&&!a?null:o=>{let c=Kr(o),l=Wh(c),h=Be(o),u=t.count>1?gp(s,l,r):null,f=+(n!==null&&!n(l));return u!==null&&(f=Math.abs(u-de(t.count*h/e))),f+ky*Number(a&&h>=e&&!lp(c))}}async alongPath({blocks:t,path:e},n,s){let r=t.length===1,a=this.passages(t),o=await au(this.sampler,t[0].text,n),c=a.reduce((d,{frames:p})=>d+p,0),l=su(e,{...o,seconds:r?t[0].seconds:(c-1)/Ft}),h=ru(l),u=l.points.length;a[a.length-1].frames+=u-c;let f=await Wi(this.sampler,a,n,{...s,constraint:h});return Co(f,this.settings.post,{known:h.known,text:a.map(({text:d})=>d).join(", then "),place:{x:l.points[0][0],z:l.points[0][1],heading:l.headings[0]},carried:!0})}async edited({blocks:t,clip:e},n,s){let r=t.map(d=>d.text).join(", then "),{motion:a,mode:o}=e,c=t.reduce((d,p)=>d+p.seconds,0),l=de(e.keep*Ft),h;if(o==="redo"){let d=de(e.from*Ft),p=Math.min(de(e.until*Ft),a.frames);if(!(d>=0&&d<p))throw new Error(`The clip lasts ${(a.frames/Ft).toFixed(2)} seconds; choose a span of it.`);h=Op(a,d,p,e.joints.length?nu(e.joints):null)}else{let d=o==="between"?2:1,p=de(c*Ft)+d*l;if(a.frames<l)throw new Error(`The clip lasts ${(a.frames/Ft).toFixed(2)} seconds, less than the ${e.keep} to be kept.`);let _=o==="between"?a:zy(a,l);h=Up(_,o==="between"?e.second??a:null,l,p,o==="between"&&!e.second)}let{features:u,known:f}=await Fp(this.sampler,r||Dp,h,n,{...s,...r?{}:{guidance:0}});return Co(u,this.settings.post,{known:f,text:r,place:h.place})}},zy=(i,t)=>({...i,frames:t,quaternions:i.quaternions.slice((i.frames-t)*88),root:i.root.slice((i.frames-t)*3),contacts:i.contacts.slice((i.frames-t)*2)});function Gy(i){let t=de(Math.max(Math.abs(i)/Fy,1)*Ft),e=de(By*Ft),n=Mi(t+2*e),s=r=>i*Math.PI/180*(3*(r/t)**2-2*(r/t)**3);for(let r=0;r<t+2*e;r++){let a=r-e,o=r*zt+Ke+Kn;a>=0&&a<t&&(n.values[o]=(s(a+1)-s(a))*Ft),n.known[o]=1}return n}var Oo=class{constructor(t,e,n){Object.assign(this,{denoiser:t,tower:e,settings:n})}async sample(t,e,n,s=null,r=this.settings.guidance){let{mean:a,std:o,schedule:c,nullText:l,tags:h}=this.settings,u=e*zt,f=Np(n,t,u),d=new Uint8Array(u),p=s?s.shown.map((b,w)=>b&&s.known[w]):d,_=new Float32Array(u);if(s)for(let b=0;b<u;b++)s.known[b]&&(_[b]=(s.values[b]-a[b%zt])/o[b%zt]);let g=this.tower.encode(t),m=f.slice();for(let b=0;b<c.length;b++){let[w,A]=c[b],C=b+1<c.length?c[b+1][1]:1,v=Math.sqrt(A),E=Math.sqrt(1-A),F=m;if(s){F=m.slice();for(let D=0;D<u;D++)s.known[D]&&(F[D]=p[D]?_[D]:v*_[D]+E*f[D])}let N=await this.guided(F,w,g,l,h,p,r);m=this.follow(m,N,v,E,C,s?.known,_)}let x=new Float32Array(u);for(let b=0;b<u;b++)x[b]=s?.known[b]?s.values[b]:m[b]*o[b%zt]+a[b%zt];return x}async guided(t,e,n,s,r,a,o){if(o===1||o===0)return(await this.denoiser.predict([t],e,[o?n:s],r,a))[0];let[c,l]=await this.denoiser.predict([t,t],e,[n,s],r,a);return c.map((h,u)=>l[u]+o*(h-l[u]))}follow(t,e,n,s,r,a,o){let{clip:c,prediction:l}=this.settings,h=Math.sqrt(1-r),u=Math.sqrt(r);return t.map((f,d)=>{let p=e[d];return a?.[d]?p=o[d]:l==="epsilon"?p=(f-s*e[d])/n:l==="v"&&(p=n*f-s*e[d]),c!==null&&(p=Math.min(Math.max(p,-c),c)),u*p+h*(f-n*p)/s})}};var Uo=class{constructor(t,e){this.tokenizer=e,this.keys=t.raw("text.encoder.keys",Int32Array),this.width=t.shape("text.encoder.rows.weight")[1];let n="text.encoder.rows.weight";this.stored=t.has(`${n}.int8_scale`),this.rows=this.stored?t.raw(n,Int8Array):t.floats(n),this.scales=this.stored?t.scales(n):null,this.weight=t.floats("text.text_proj.weight"),this.bias=t.floats("text.text_proj.bias"),this.places=t.has("text.places")?t.floats("text.places"):null,this.remembered=new Map}encode(t){let e=this.remembered.get(t);return e||(e=this.pool(this.mean(this.tokenizer.encode(t))),this.remembered.set(t,e)),e}mean(t){let e=new Float64Array(this.width);return t.forEach((n,s)=>{let r=n<32768?n:3,a=t[s+1]<32768?t[s+1]:3;r>=3&&this.addRow(r,e),s+1<t.length&&(r>=3||a>=3)&&this.addRow((r+1)*32768+a,e)}),e.map(n=>n/t.length)}addRow(t,e){let n=0,s=this.keys.length;for(;n<s;){let a=n+s>>1;this.keys[a]<t?n=a+1:s=a}if(this.keys[n]!==t)return;let r=this.stored?this.scales[n]:1;for(let a=0;a<this.width;a++)e[a]+=this.rows[n*this.width+a]*r}pool(t){let e=Fo(Array.from(this.bias,(l,h)=>{let u=l;for(let f=0;f<this.width;f++)u+=this.weight[h*this.width+f]*t[f];return u}));if(!this.places)return Float32Array.from(e);let n=e.length,s=[];for(let l=0;l<this.places.length;l+=n){let h=0;for(let u=0;u<n;u++)h+=this.places[l+u]*e[u];s.push(30*h)}let r=Math.max(...s),a=s.map(l=>Math.exp(l-r)),o=a.reduce((l,h)=>l+h,0),c=new Array(n).fill(0);return a.forEach((l,h)=>{for(let u=0;u<n;u++)c[u]+=l/o*this.places[h*n+u]}),Float32Array.from(Fo(c))}};function Fo(i){let t=Math.max(Math.hypot(...i),1e-12);return i.map(e=>e/t)}var Vy=.65,Hy=4,Wy=.5,Xy=3,qy=.5,Yy=/[\u3040-\u30ff\u3400-\u9fff]/u,$y=/[\u3400-\u9fff]/gu,Zy=/[\u3040-\u30ff\u3400-\u9fff]+|(?:(?![\u3040-\u30ff\u3400-\u9fff])[\p{L}\p{N}_])+/gu;function Jy(i){let t=new Set;for(let[e]of i.normalize("NFKC").toLowerCase().replaceAll("ß","ss").matchAll(Zy)){if(!Yy.test(e)){t.add(e);continue}for(let n=0;n+1<e.length;n++)t.add(e.slice(n,n+2));for(let[n]of e.matchAll($y))t.add(n)}return t}var Bo=class{constructor(t,e,n){this.meta=t,this.tower=n,this.words=new Set(t.words),this.fillers=new Set(t.fillers??t.words),this.keyWords=new Map(Object.entries(t["key-words"]));let s=e.floats("means"),r=s.length/t.actions.length;this.means=t.actions.map((a,o)=>s.subarray(o*r,(o+1)*r)),this.checkedTexts=new Map}check(t){let e=this.checkedTexts.get(t);return e||(e=this.judged(t),this.checkedTexts.set(t,e)),e}judged(t){let e=Fo(Array.from(this.tower.encode(t))),n=this.means.map(u=>u.reduce((f,d,p)=>f+d*e[p],0)),{actions:s,weights:r,reliability:a={}}=this.meta,o=n.map((u,f)=>f).sort((u,f)=>n[f]-n[u]).filter(u=>s[u]),c=Jy(t),l;r?l=this.evidence(c,n,o).reduce((u,f,d)=>u+f*r[d],0)>0:l=this.familiar(c),this.meta["min-cosine"]!=null&&(l||=Math.max(...n)>=this.meta["min-cosine"]);let h=o.slice(0,Xy).map(u=>s[u]);return l&&h.length&&(a[h[0]]??1)<qy?{known:!1,nearest:h,unreliable:h[0]}:{known:l,nearest:h,unreliable:null}}evidence(t,e,n){let[s,r=s]=n,a=new Set,o=0,c=!0;for(let h of t){let u=this.keyWords.get(h);if(u)u.forEach(f=>a.add(f));else for(let[f,d]of this.keyWords)Kp(h,f)&&d.forEach(p=>a.add(p));this.words.has(h)&&o++,this.fillers.has(h)||(c=!1)}let l=a.size===0?0:a.has(s)?1:-1;return[e[s],e[s]-e[r],o/Math.max(t.size,1),l,Number(c),1]}familiar(t){let e=[...t];if(e.some(r=>this.keyWords.has(r))||e.every(r=>this.words.has(r))&&!e.every(r=>this.fillers.has(r)))return!0;let n=e.filter(r=>[...this.keyWords.keys()].some(a=>Kp(r,a))),s=e.filter(r=>this.words.has(r)||n.includes(r));return n.length>0&&s.length>=Wy*e.length}warning(t){let{known:e,nearest:n,unreliable:s}=this.check(t);if(e)return null;if(s){let r=Math.round(100*this.meta.reliability[s]);return`“${t}” asks for “${s}”, which this model shows in about ${r}% of tries; look at the motion before you use it.`}return`“${t}” is far from anything this model was trained on; nearest known actions: ${n.join(", ")}.`}};function Kp(i,t){let[e,n]=[[...i],[...t]],s=Math.max(Hy,Math.ceil(Vy*Math.max(e.length,n.length)));return Math.min(e.length,n.length)>=s&&e.slice(0,s).join("")===n.slice(0,s).join("")}var ko=class{constructor(t,e){this.maxTokens=e,this.pieces=new Map,this.bytes=[],this.longest=1;let n=0,s=0,r=new Uint8Array;for(let[a,o]of ou(t)){if(a===3&&(r=o),a!==1)continue;let c="",l=0,h=1;for(let[u,f]of ou(o))u===1&&(c=new TextDecoder().decode(f)),u===2&&(l=f),u===3&&(h=f);h===6&&(this.bytes[parseInt(c.slice(3,5),16)]=s),(h===1||h===4||h===5)&&(this.pieces.set(c,{id:s,score:l}),this.longest=Math.max(this.longest,[...c].length),n=Math.min(n,l)),s++}this.unknown=Math.fround(n-10);for(let[a,o]of ou(r))if(a===2){let c=new DataView(o.buffer,o.byteOffset).getUint32(0,!0);this.trie=new Uint32Array(o.slice(4,4+c).buffer),this.replacements=o.subarray(4+c)}}encode(t){let e=[0,...this.best([...this.normalized(t)]),2];return e.length>this.maxTokens?[...e.slice(0,this.maxTokens-1),2]:e}normalized(t){let e=new TextEncoder().encode(t),n=[];for(let r=0;r<e.length;){let a=0,o=-1;if(this.trie){let c=jp(this.trie[0]);for(let l=r;l<e.length;l++){c^=e[l];let h=this.trie[c];if(h===void 0||(h&2147483903)>>>0!==e[l])break;c^=jp(h),h>>>8&1&&(a=l+1-r,o=this.trie[c]&2147483647)}}if(a===0)a=e[r]<128?1:e[r]<224?2:e[r]<240?3:4,n.push(...e.subarray(r,r+a));else for(let c=o;this.replacements[c];c++)n.push(this.replacements[c]);r+=a}return new TextDecoder().decode(Uint8Array.from(n)).split(" ").filter(Boolean).map(r=>"▁"+r).join("")}best(t){let e=[0],n=[0],s=[[]],r=(o,c,l,h)=>{let u=Math.fround(e[o]+l);(e[c]===void 0||u>e[c])&&(e[c]=u,n[c]=o,s[c]=h)};for(let o=0;o<t.length;o++){let c=!1;for(let l=1,h="";l<=this.longest&&o+l<=t.length;l++){h+=t[o+l-1];let u=this.pieces.get(h);u&&(r(o,o+l,u.score,[u.id]),c||=l===1)}if(!c){let l=[...new TextEncoder().encode(t[o])];r(o,o+1,this.unknown,l.map(h=>this.bytes[h]??3))}}let a=[];for(let o=t.length;o>0;o=n[o])a.unshift(s[o]);return a.flat()}},jp=i=>i>>>10<<((i&512)>>>6);function*ou(i){let t=new DataView(i.buffer,i.byteOffset,i.byteLength),e=0,n=()=>{let s=0,r=1,a;do a=i[e++],s+=(a&127)*r,r*=128;while(a&128);return s};for(;e<i.length;){let s=n(),r=s&7;if(r===0)yield[s>>>3,n()];else if(r===5)yield[s>>>3,t.getFloat32(e,!0)],e+=4;else if(r===1)yield[s>>>3,t.getFloat64(e,!0)],e+=8;else{let a=n();yield[s>>>3,i.subarray(e,e+a)],e+=a}}}var ea=class{constructor(t){let e=new DataView(t.buffer,t.byteOffset,t.byteLength),n=Number(e.getBigUint64(0,!0));this.entries=JSON.parse(new TextDecoder().decode(t.subarray(8,8+n))),this.data=t.subarray(8+n)}has(t){return t in this.entries}shape(t){return this.entries[t].shape}raw(t,e){let[n,s]=this.entries[t].data_offsets;return new e(this.data.slice(n,s).buffer)}scales(t){return this.floats(`${t}.int8_scale`)}floats(t){let{dtype:e}=this.entries[t];if(e==="F32")return this.raw(t,Float32Array);if(e==="F16")return Float32Array.from(this.raw(t,Uint16Array),Ky);if(e!=="I8")throw new Error(`${t} is stored as ${e}`);let n=this.scales(t),s=Float32Array.from(this.raw(t,Int8Array)),r=s.length/n.length;for(let a=0,o=0;a<n.length;a++)for(let c=o+r;o<c;o++)s[o]*=n[a];return s}};function Ky(i){let t=i>>15?-1:1,e=i>>10&31,n=i&1023;return e===0?t*n*2**-24:t*(1+n/1024)*2**(e-15)}var zo=class i{static async open(t,e){vo(t.skeleton);let n=new ea(e.weights),s=new Uo(n,new ko(e.tokenizer,t.maxTokens)),r=await $s.open(e.wasm,e.graph,e.weights),a={...t,mean:n.floats("statistics.mean"),std:n.floats("statistics.std"),nullText:n.floats("denoiser.null_pooled")},o=new Bo(t.scope,new ea(e.scope),s);return new i(new Do(new Oo(r,s,a),o,a))}constructor(t){this.director=t}make({scene:t,seed:e},n){return this.director.make(t,e,n)}warning({text:t}){return this.director.warning(t)}};function Qp(i){let t=lu();i.onmessage=async({data:e})=>{let{id:n,call:s,...r}=e;try{let a=await t(s,r,o=>i.postMessage({id:n,progress:o}));i.postMessage({id:n,result:a})}catch(a){i.postMessage({id:n,error:String(a?.message??a)})}}}function lu(){let i=null;return async(t,e,n)=>t==="open"?(i=await zo.open(e.settings,e.parts),null):t==="help"?(await jy(e),null):t==="helper"?(i.director.sampler.denoiser.helper=Qy(e.port),null):i[t](e,n)}async function jy({parts:i,port:t}){let e=await $s.open(i.wasm,i.graph,i.weights);t.onmessage=async({data:{id:n,args:s}})=>{try{t.postMessage({id:n,result:await e.predict(...s)})}catch(r){t.postMessage({id:n,error:String(r)})}}}function Qy(i){let t=new Map,e=0;return i.onmessage=({data:{id:n,result:s,error:r}})=>{let{resolve:a,reject:o}=t.get(n);t.delete(n),r?o(new Error(r)):a(s)},(...n)=>new Promise((s,r)=>{t.set(++e,{resolve:s,reject:r}),i.postMessage({id:e,args:n})})}var tx=180/Math.PI;function tm(i){let{parents:t,names:e,offsets:n}=Fe,s=ex(),r=l=>(Math.round(l*1e5)/1e5+0).toFixed(5).replace(/^-0\.00000$/,"0.00000"),a=["HIERARCHY"],o=(l,h)=>{let u="	".repeat(h),f=l?n[l].map(p=>p*100):[0,0,0];a.push(`${u}${l?"JOINT":"ROOT"} ${e[l]}`,`${u}{`,`${u}	OFFSET ${f.map(r).join(" ")}`),a.push(`${u}	CHANNELS ${l?"3":"6 Xposition Yposition Zposition"} Zrotation Xrotation Yrotation`);let d=s.filter(p=>t[p]===l);for(let p of d)o(p,h+1);for(let[p,_]of Fe.tips)p===l&&a.push(`${u}	End Site`,`${u}	{`,`${u}		OFFSET ${_.map(g=>r(g*100)).join(" ")}`,`${u}	}`);a.push(`${u}}`)};o(0,0),a.push("MOTION",`Frames: ${i.frames}`,`Frame Time: ${(1/i.fps).toFixed(8)}`);let c=Array.from({length:Kt},()=>[0,0,0]);for(let l=0;l<i.frames;l++){let h=c.map((f,d)=>nx(li(i.quaternions,(l*Kt+d)*4),f,l===0));c=h;let u=[0,1,2].map(f=>i.root[l*3+f]*100);for(let f of s)u.push(...h[f].map(d=>d*tx));a.push(u.map(f=>f.toFixed(5)).join(" "))}return`${a.join(`
+`)}
+`}function ex(){let i=[],t=[0];for(;t.length;){let e=t.pop();i.push(e);for(let n=Kt-1;n>0;n--)Fe.parents[n]===e&&t.push(n)}return i}function nx(i,t,e){let n=Math.hypot(i[1],i[4]),s=n<1e-8,r=s?t[0]:Math.atan2(-i[1],i[4]),a=Math.atan2(i[7],n),o=(u,f)=>[u,f,Math.atan2(Math.cos(u)*i[2]+Math.sin(u)*i[5],Math.cos(u)*i[0]+Math.sin(u)*i[3])].map((d,p)=>d-2*Math.PI*Math.round((d-t[p])/(2*Math.PI))),c=o(r,a),l=o(r+Math.PI,Math.PI-a),h=u=>u.reduce((f,d,p)=>f+Math.abs(d-t[p]),0);return!e&&!s&&h(l)<h(c)?l:c}var em=1313821514,nm=5130562;function cu(i){let t=new DataView(i.buffer,i.byteOffset,i.byteLength);if(i.length<20||t.getUint32(0,!0)!==1179937895)throw new Error("This is no GLB file.");let e={document:null,data:new Uint8Array};for(let n=12;n+8<=i.length;){let s=t.getUint32(n,!0),r=t.getUint32(n+4,!0),a=i.subarray(n+8,n+8+s);r===em&&(e.document=JSON.parse(new TextDecoder().decode(a))),r===nm&&(e.data=a),n+=8+s}if(!e.document)throw new Error("This is no whole GLB file.");return e}function im(i,t){let{document:e,data:n}=cu(t),{frames:s,fps:r}=i,[a]=e.animations,o=new Map,c=(d,p)=>o.set(d,p);for(let{sampler:d,target:p}of a.channels){let{input:_,output:g}=a.samplers[d];if(c(_,Float32Array.from({length:s},(x,b)=>b/r)),p.path==="translation"){c(g,i.root.slice());continue}let m=new Float32Array(s*4);for(let x=0;x<s;x++)m.set(i.quaternions.subarray((x*Kt+p.node)*4,(x*Kt+p.node)*4+4),x*4);xn(m,4);for(let x=0;x<m.length;x+=4)m.copyWithin(x,x,x+4),m.set([m[x+1],m[x+2],m[x+3],m[x]],x);c(g,m)}let l=[],h=0;e.bufferViews.forEach((d,p)=>{let _=e.accessors.findIndex(({bufferView:x})=>x===p),g=o.get(_),m=g?new Uint8Array(g.buffer):n.subarray(d.byteOffset,d.byteOffset+d.byteLength);h+=-h&3,Object.assign(d,{byteOffset:h,byteLength:m.length}),l.push([h,m]),h+=m.length,g&&Object.assign(e.accessors[_],{count:s}),g&&e.accessors[_].max&&Object.assign(e.accessors[_],{min:[0],max:[g[s-1]]})});let u=i.text||"motion";Object.assign(e.scenes[0],{name:u,extras:{text:i.text}}),a.name=u;let f=new Uint8Array(h);for(let[d,p]of l)f.set(p,d);return e.buffers[0].byteLength=h,ix(new TextEncoder().encode(JSON.stringify(e)),f)}function ix(i,t){let e=[i.length+(-i.length&3),t.length+(-t.length&3)],n=new Uint8Array(28+e[0]+e[1]).fill(32,20,20+e[0]),s=new DataView(n.buffer);return[1179937895,2,n.length,e[0],em].forEach((r,a)=>s.setUint32(a*4,r,!0)),n.set(i,20),s.setUint32(20+e[0],e[1],!0),s.setUint32(24+e[0],nm,!0),n.set(t,28+e[0]),n}var sm=18e3,rm="This skeleton is not the studio's. Bring it onto ours first: motion-tools convert CLIP clip.bvh --canonical";function am(i,t){if(/\.glb$/i.test(i))return ax(t);if(/\.bvh$/i.test(i))return rx(new TextDecoder().decode(t));throw new Error("Only .bvh and .glb can be opened.")}function om(i,t,e,n){if(i<2||i>sm)throw new Error(`The clip has ${i} frames; 2 to ${sm} can be used.`);Math.abs(t/Ft-1)<.001&&(t=Ft);let s=Math.floor((i-1)/t*Ft+1e-6)+1,r=new Float32Array(s*Kt*4),a=new Float32Array(s*3);for(let c=0;c<s;c++){let l=c/Ft*t,h=Math.min(Math.floor(l+1e-9),i-2),u=Math.min(l-h,1);for(let p=0;p<Kt;p++){let _=e(h,p);r.set(u<1e-6?_:zi(_,e(h+1,p),u),(c*Kt+p)*4)}let[f,d]=[n(h),n(h+1)];a.set(f.map((p,_)=>p+u*(d[_]-p)),c*3)}if(![...r,...a].every(Number.isFinite))throw new Error("The clip holds numbers that are none.");let o={frames:s,quaternions:xn(r,Kt*4),root:a,contacts:new Float32Array(s*2),fps:Ft,text:""};return{...o,contacts:sx(o)}}function sx(i){let{frames:t,fps:e}=i,n=Array.from({length:t},(r,a)=>xi(i,a).positions),s=new Float32Array(t*2);return Zr.forEach(({ball:r},a)=>{let o=n.map((c,l)=>{let h=Math.min(l,t-2),u=xe(Ve(n[h+1][r],n[h][r]))*e;return+(c[r][1]<Vn+.06&&u<.35)});o.forEach((c,l)=>{let h=(o[l-1]??c)+c+(o[l+1]??c);s[l*2+a]=+(h>=2)})}),s}function lm(i){let t=new Map(i.map(a=>[a.name,a])),e=Fe.names.map(a=>t.get(a));if(e.some(a=>!a))throw new Error(rm);let n=a=>a.slice(1).reduce((o,c)=>o+xe(c),0),s=n(e.map(({offset:a})=>a))/n(Fe.offsets);if(!e.every(({offset:a,parent:o},c)=>c===0||o===Fe.names[Fe.parents[c]]&&xe(Ve(a.map(l=>l/s),Fe.offsets[c]))<.01))throw new Error(rm);return{ours:e,unit:s}}function rx(i){let t=i.split(/\s+/u).filter(Boolean),e=[],n=[],s=0,r=0,a=0;for(;s<t.length&&t[s]!=="MOTION";s++){let p=t[s].toUpperCase();if(p==="ROOT"||p==="JOINT"){let _={name:t[++s],parent:n[n.length-1]?.name??null,offset:[0,0,0],channels:[],column:0};e.push(_),n.push(_)}else if(p==="END")a=1,n.push({name:""});else if(p==="OFFSET"&&!a)n[n.length-1].offset=[1,2,3].map(_=>Number(t[s+_]));else if(p==="CHANNELS"){let _=n[n.length-1],g=Number(t[s+1]);if(!(g>=0&&g<=6))throw new Error("This BVH file is damaged.");Object.assign(_,{channels:t.slice(s+2,s+2+g).map(m=>m.toUpperCase()),column:r}),r+=g}else p==="}"&&(n.pop(),a=0)}let o=Number(t[s+2]),c=1/Number(t[s+5]);if(t[s]!=="MOTION"||!(o>0)||!(c>0&&c<=1e3))throw new Error("This is no whole BVH file.");if(t.length-(s+6)<o*r)throw new Error("This BVH file ends too soon.");let l=Float64Array.from(t.slice(s+6,s+6+o*r),Number),{ours:h,unit:u}=lm(e);return om(o,c,(p,_)=>{let{channels:g,column:m}=h[_],x=[1,0,0,0,1,0,0,0,1];return g.forEach((b,w)=>{let A={XROTATION:[1,0,0],YROTATION:[0,1,0],ZROTATION:[0,0,1]}[b],C=l[p*r+m+w]*Math.PI/360;A&&(x=cn(x,li([Math.cos(C),...A.map(v=>v*Math.sin(C))])))}),ms(x)},p=>["X","Y","Z"].map(_=>{let g=h[0].channels.indexOf(`${_}POSITION`);return g<0?0:l[p*r+h[0].column+g]/u}))}function ax(i){let{document:t,data:e}=cu(i),{nodes:n=[],animations:s=[]}=t,r=new Map(n.flatMap((m,x)=>(m.children??[]).map(b=>[b,x]))),a=n.map((m,x)=>({name:m.name,parent:n[r.get(x)]?.name??null,offset:m.translation??[0,0,0],index:x,node:m})),{ours:o,unit:c}=lm(a),[l]=s;if(!l)throw new Error("There is no animation in this file.");let h=m=>{let{bufferView:x,byteOffset:b=0,count:w,type:A,componentType:C}=t.accessors[m],v={SCALAR:1,VEC3:3,VEC4:4}[A],E=t.bufferViews[x];if(C!==5126||!v||(E.byteStride??v*4)!==v*4)throw new Error("This animation is stored in a way the studio does not read.");let F=(E.byteOffset??0)+b;return new Float32Array(e.slice(F,F+w*v*4).buffer)},u=new Map(l.channels.map(({sampler:m,target:x})=>{let{input:b,output:w,interpolation:A="LINEAR"}=l.samplers[m];if(A==="CUBICSPLINE")throw new Error("This animation is stored in a way the studio does not read.");return[`${x.node} ${x.path}`,{times:h(b),values:h(w)}]})),f=Math.max(...[...u.values()].map(({times:m})=>m[m.length-1])),d=Math.round(f*Ft)+1,p=({times:m},x)=>{let b=0;for(;b+1<m.length&&m[b+1]<=x+1e-6;)b++;let w=Math.min(b+1,m.length-1);return[b,w,w===b?0:Math.min(Math.max((x-m[b])/(m[w]-m[b]),0),1)]};return om(d,Ft,(m,x)=>{let b=u.get(`${o[x].index} rotation`),[w,A,C,v]=o[x].node.rotation??[0,0,0,1];if(!b)return[v,w,A,C];let[E,F,N]=p(b,m/Ft),D=H=>{let[J,P,q,Q]=b.values.subarray(H*4,H*4+4);return[Q,J,P,q]};return N<1e-6?D(E):zi(D(E),D(F),N)},m=>{let x=u.get(`${o[0].index} translation`);if(!x)return o[0].offset.map(C=>C/c);let[b,w,A]=p(x,m/Ft);return[0,1,2].map(C=>(x.values[b*3+C]+A*(x.values[w*3+C]-x.values[b*3+C]))/c)})}var ox=["video/mp4;codecs=avc1.42E01F","video/webm;codecs=vp9","video/webm;codecs=vp8","video/webm"];async function cm(i,t,e){let n=globalThis.MediaRecorder&&ox.find(c=>MediaRecorder.isTypeSupported(c));if(!n||!i.captureStream)throw new Error("This browser records no films.");let s=new MediaRecorder(i.captureStream(60),{mimeType:n,videoBitsPerSecond:6e6}),r=[];s.ondataavailable=({data:c})=>r.push(c);let a=new Promise(c=>{s.onstop=c});e(0),s.start();let o=performance.now();return await new Promise(c=>{let l=h=>{let u=(h-o)/1e3;e(Math.min(Math.max(u,0),t)),u<t+.2?requestAnimationFrame(l):c()};requestAnimationFrame(l)}),s.stop(),await a,{blob:new Blob(r,{type:n.split(";")[0]}),kind:n.includes("mp4")?"mp4":"webm"}}var Go=class i{static async open(t,e,n){let s=new i;try{let r=URL.createObjectURL(new Blob([t],{type:"text/javascript"}));s.worker=new Worker(r),s.worker.onmessage=({data:f})=>s.heard(f);let a=new Promise((f,d)=>{s.worker.onerror=p=>d(new Error(p.message||"no worker"))}),{wasm:o,graph:c,weights:l}=n,h=Promise.race([s.call("open",{settings:e,parts:n}),a]),u=navigator.hardwareConcurrency>1&&(navigator.deviceMemory??8)>=4?s.getHelp(r,{parts:{wasm:o,graph:c,weights:l}}).catch(()=>null):null;await h,u?.then(f=>f&&s.call("helper",{port:f},[f]))}catch{s.worker?.terminate(),s.worker=null,s.answer=lu(),await s.call("open",{settings:e,parts:n})}return s}waiting=new Map;count=0;async getHelp(t,e){let n=new Worker(t),{port1:s,port2:r}=new MessageChannel;return await new Promise((a,o)=>{n.onmessage=({data:c})=>c.error?o(new Error(c.error)):a(),n.onerror=o,n.postMessage({id:0,call:"help",...e,port:r},[r])}),s}call(t,e,n=[],s=null){return this.worker?new Promise((r,a)=>{this.waiting.set(++this.count,{resolve:r,reject:a,told:s}),this.worker.postMessage({id:this.count,call:t,...e},n)}):this.answer(t,e,s??(()=>{}))}heard({id:t,result:e,error:n,progress:s}){let{resolve:r,reject:a,told:o}=this.waiting.get(t);if(s!==void 0){o?.(s);return}this.waiting.delete(t),n===void 0?r(e):a(new Error(n))}};async function hm(i){let t=[...i.querySelectorAll('script[id^="part-"]')],e=await Promise.all(t.map(async n=>{let s=lx(n.textContent);return n.remove(),[n.id.slice(5),await cx(s)]}));return Object.fromEntries(e)}function lx(i){if(Uint8Array.fromBase64)return Uint8Array.fromBase64(i);let t=atob(i),e=new Uint8Array(t.length);for(let n=0;n<t.length;n++)e[n]=t.charCodeAt(n);return e}async function cx(i){let t=new Blob([i]).stream().pipeThrough(new DecompressionStream("gzip"));return new Uint8Array(await new Response(t).arrayBuffer())}var hx={en:["a person walks forward","a person waves with the right hand","a person jumps"],es:["una persona corre","una persona salta"],fr:["une personne salue de la main","une personne marche"],de:["eine Person verbeugt sich","eine Person geht drei Meter und winkt dann"],ja:["人が歩く","人が右手を振る"],zh:["一个人向前走","一个人跳"]},fm=i=>i.flatMap(t=>(hx[t]??[]).map(e=>({language:t,prompt:e}))),um=(i,t,e,n)=>Array.from({length:n},(s,r)=>{let a=t+(e-t)*r/(n-1);return[i-i*Math.cos(a),i*Math.sin(a)].map(o=>Math.round(o*100)/100+0)}),na={none:{label:"its own way",points:null},draw:{label:"draw one …"},straight:{label:"straight, 4 m",points:[[0,0],[0,4]]},left:{label:"a bend to the left",points:um(2,0,Math.PI/2,12)},circle:{label:"a circle, 3 m across",points:um(1.5,0,2*Math.PI,25)},zigzag:{label:"a zigzag",points:[[0,0],[.8,1.2],[-.8,2.4],[0,3.6]]},drawn:{label:"as drawn"}};var hn={blocks:24,text:300,seconds:[.5,30],takes:4,seed:2147483647,points:400,room:50},ux=1,dm={blocks:[{text:"a person waves",seconds:4}],seed:0,takes:2,chosen:0,path:null},uu=(i,[t,e],n)=>{let s=Number(i);return Number.isFinite(s)?Math.min(Math.max(s,t),e):n},hu=(i,t,e)=>Math.round(uu(i,t,e));function pm(i){if(typeof i!="object"||i===null||!Array.isArray(i.blocks)||!i.blocks.length)return null;let t=i.blocks.slice(0,hn.blocks).map(s=>({text:String(s?.text??"").slice(0,hn.text),seconds:Math.round(uu(s?.seconds,hn.seconds,4)*10)/10})),e=hu(i.takes,[1,hn.takes],1),n=null;if(Array.isArray(i.path)&&i.path.length>1){let s=[-hn.room,hn.room];n=i.path.slice(0,hn.points).map(r=>[0,1].map(a=>Math.round(uu(r?.[a],s,0)*100)/100)),n.every(r=>Math.hypot(r[0]-n[0][0],r[1]-n[0][1])<.05)&&(n=null)}return{blocks:t,seed:hu(i.seed,[0,hn.seed],0),takes:e,chosen:hu(i.chosen,[0,e-1],0),path:n}}function mm(i){let t=new TextEncoder().encode(JSON.stringify({v:ux,...i})),e="";for(let n of t)e+=String.fromCharCode(n);return btoa(e).replaceAll("+","-").replaceAll("/","_").replaceAll("=","")}function fu(i){try{let t=atob(i.replace(/^#/,"").replaceAll("-","+").replaceAll("_","/"));return pm(JSON.parse(new TextDecoder().decode(Uint8Array.from(t,e=>e.charCodeAt(0)))))}catch{return null}}var Vo=class{constructor(t,e){Object.assign(this,{now:t,past:[],future:[],changed:e})}change(t,e=null){let n=pm({...this.now,...t});!n||JSON.stringify(n)===JSON.stringify(this.now)||((e===null||e!==this.kind)&&this.past.push(this.now),this.past=this.past.slice(-200),this.future=[],this.kind=e,this.now=n,this.changed())}rest(){this.kind=null}undo(){this.move(this.past,this.future)}redo(){this.move(this.future,this.past)}move(t,e){t.length&&(e.push(this.now),this.now=t.pop(),this.kind=null,this.changed())}};var es={LEFT:0,MIDDLE:1,RIGHT:2,ROTATE:0,DOLLY:1,PAN:2},ns={ROTATE:0,PAN:1,DOLLY_PAN:2,DOLLY_ROTATE:3},Km=0,Xu=1,jm=2;var Ps=1,Qm=2,Tr=3,is=0,En=1,pi=2,Is=0,Ar=1,qu=2,Yu=3,$u=4,tg=5;var Ls=100,eg=101,ng=102,ig=103,sg=104,rg=200,ag=201,og=202,lg=203,Zu=204,Ju=205,cg=206,hg=207,ug=208,fg=209,dg=210,pg=211,mg=212,gg=213,_g=214,pl=0,ml=1,gl=2,fr=3,_l=4,yl=5,xl=6,vl=7,ql=0,yg=1,xg=2,mi=0,Ku=1,ju=2,Qu=3,tf=4,ef=5,nf=6,sf=7,Uu="attached",vg="detached",rf=300,Ns=301,Rr=302,Yl=303,$l=304,Ml=1e3,ui=1001,Sl=1002,Qe=1003,Mg=1004;var ka=1005;var bn=1006,Zl=1007;var Di=1008;var Rn=1009,af=1010,of=1011,Cr=1012,Jl=1013,ii=1014,Xn=1015,si=1016,Kl=1017,jl=1018,Ds=1020,lf=35902,cf=35899,hf=1021,uf=1022,qn=1023,Ri=1026,Oi=1027,ff=1028,Ql=1029,ss=1030,tc=1031;var ec=1033,za=33776,Ga=33777,Va=33778,Ha=33779,nc=35840,ic=35841,sc=35842,rc=35843,ac=36196,oc=37492,lc=37496,cc=37488,hc=37489,Wa=37490,uc=37491,fc=37808,dc=37809,pc=37810,mc=37811,gc=37812,_c=37813,yc=37814,xc=37815,vc=37816,Mc=37817,Sc=37818,bc=37819,wc=37820,Ec=37821,Tc=36492,Ac=36494,Rc=36495,Cc=36283,Pc=36284,Xa=36285,Ic=36286;var fa=2300,bl=2301,fl=2302,Fu=2303,Bu=2400,ku=2401,zu=2402;var Sg=3200;var Lc=0,bg=1,Ui="",dn="srgb",da="srgb-linear",pa="linear",ye="srgb";var dl=7680;var wg=519,Eg=512,Tg=513,Ag=514,df=515,Rg=516,Cg=517,pf=518,mf=519,Pg=35044;var gf="300 es",Wn=2e3,dr=2001;function fx(i){for(let t=i.length-1;t>=0;--t)if(i[t]>=65535)return!0;return!1}function dx(i){return ArrayBuffer.isView(i)&&!(i instanceof DataView)}function ma(i){return document.createElementNS("http://www.w3.org/1999/xhtml",i)}function Ig(){let i=ma("canvas");return i.style.display="block",i}var gm={},pr=null;function _f(...i){let t="THREE."+i.shift();pr?pr("log",t,...i):console.log(t,...i)}function Lg(i){let t=i[0];if(typeof t=="string"&&t.startsWith("TSL:")){let e=i[1];e&&e.isStackTrace?i[0]+=" "+e.getLocation():i[1]='Stack trace not available. Enable "THREE.Node.captureStackTrace" to capture stack traces.'}return i}function Dt(...i){i=Lg(i);let t="THREE."+i.shift();if(pr)pr("warn",t,...i);else{let e=i[0];e&&e.isStackTrace?console.warn(e.getError(t)):console.warn(t,...i)}}function Ht(...i){i=Lg(i);let t="THREE."+i.shift();if(pr)pr("error",t,...i);else{let e=i[0];e&&e.isStackTrace?console.error(e.getError(t)):console.error(t,...i)}}function ca(...i){let t=i.join(" ");t in gm||(gm[t]=!0,Dt(...i))}function Ng(i,t,e){return new Promise(function(n,s){function r(){switch(i.clientWaitSync(t,i.SYNC_FLUSH_COMMANDS_BIT,0)){case i.WAIT_FAILED:s();break;case i.TIMEOUT_EXPIRED:setTimeout(r,e);break;default:n()}}setTimeout(r,e)})}var Dg={[pl]:pl,[gl]:xl,[_l]:_l,[fr]:yl,[ml]:ml,[xl]:gl,[vl]:vl,[yl]:fr},ni=class{addEventListener(t,e){this._listeners===void 0&&(this._listeners={});let n=this._listeners;n[t]===void 0&&(n[t]=[]),n[t].indexOf(e)===-1&&n[t].push(e)}hasEventListener(t,e){let n=this._listeners;return n===void 0?!1:n[t]!==void 0&&n[t].indexOf(e)!==-1}removeEventListener(t,e){let n=this._listeners;if(n===void 0)return;let s=n[t];if(s!==void 0){let r=s.indexOf(e);r!==-1&&s.splice(r,1)}}dispatchEvent(t){let e=this._listeners;if(e===void 0)return;let n=e[t.type];if(n!==void 0){t.target=this;let s=n.slice(0);for(let r=0,a=s.length;r<a;r++)s[r].call(this,t);t.target=null}}},un=["00","01","02","03","04","05","06","07","08","09","0a","0b","0c","0d","0e","0f","10","11","12","13","14","15","16","17","18","19","1a","1b","1c","1d","1e","1f","20","21","22","23","24","25","26","27","28","29","2a","2b","2c","2d","2e","2f","30","31","32","33","34","35","36","37","38","39","3a","3b","3c","3d","3e","3f","40","41","42","43","44","45","46","47","48","49","4a","4b","4c","4d","4e","4f","50","51","52","53","54","55","56","57","58","59","5a","5b","5c","5d","5e","5f","60","61","62","63","64","65","66","67","68","69","6a","6b","6c","6d","6e","6f","70","71","72","73","74","75","76","77","78","79","7a","7b","7c","7d","7e","7f","80","81","82","83","84","85","86","87","88","89","8a","8b","8c","8d","8e","8f","90","91","92","93","94","95","96","97","98","99","9a","9b","9c","9d","9e","9f","a0","a1","a2","a3","a4","a5","a6","a7","a8","a9","aa","ab","ac","ad","ae","af","b0","b1","b2","b3","b4","b5","b6","b7","b8","b9","ba","bb","bc","bd","be","bf","c0","c1","c2","c3","c4","c5","c6","c7","c8","c9","ca","cb","cc","cd","ce","cf","d0","d1","d2","d3","d4","d5","d6","d7","d8","d9","da","db","dc","dd","de","df","e0","e1","e2","e3","e4","e5","e6","e7","e8","e9","ea","eb","ec","ed","ee","ef","f0","f1","f2","f3","f4","f5","f6","f7","f8","f9","fa","fb","fc","fd","fe","ff"],_m=1234567,ha=Math.PI/180,mr=180/Math.PI;function Os(){let i=Math.random()*4294967295|0,t=Math.random()*4294967295|0,e=Math.random()*4294967295|0,n=Math.random()*4294967295|0;return(un[i&255]+un[i>>8&255]+un[i>>16&255]+un[i>>24&255]+"-"+un[t&255]+un[t>>8&255]+"-"+un[t>>16&15|64]+un[t>>24&255]+"-"+un[e&63|128]+un[e>>8&255]+"-"+un[e>>16&255]+un[e>>24&255]+un[n&255]+un[n>>8&255]+un[n>>16&255]+un[n>>24&255]).toLowerCase()}function ne(i,t,e){return Math.max(t,Math.min(e,i))}function yf(i,t){return(i%t+t)%t}function px(i,t,e,n,s){return n+(i-t)*(s-n)/(e-t)}function mx(i,t,e){return i!==t?(e-i)/(t-i):0}function ua(i,t,e){return(1-e)*i+e*t}function gx(i,t,e,n){return ua(i,t,1-Math.exp(-e*n))}function _x(i,t=1){return t-Math.abs(yf(i,t*2)-t)}function yx(i,t,e){return i<=t?0:i>=e?1:(i=(i-t)/(e-t),i*i*(3-2*i))}function xx(i,t,e){return i<=t?0:i>=e?1:(i=(i-t)/(e-t),i*i*i*(i*(i*6-15)+10))}function vx(i,t){return i+Math.floor(Math.random()*(t-i+1))}function Mx(i,t){return i+Math.random()*(t-i)}function Sx(i){return i*(.5-Math.random())}function bx(i){i!==void 0&&(_m=i);let t=_m+=1831565813;return t=Math.imul(t^t>>>15,t|1),t^=t+Math.imul(t^t>>>7,t|61),((t^t>>>14)>>>0)/4294967296}function wx(i){return i*ha}function Ex(i){return i*mr}function Tx(i){return i>0&&Number.isInteger(i)&&2**Math.round(Math.log2(i))===i}function Ax(i){return Math.pow(2,Math.ceil(Math.log(i)/Math.LN2))}function xf(i){return Math.pow(2,Math.floor(Math.log(i)/Math.LN2))}function Rx(i,t,e,n,s){let r=Math.cos,a=Math.sin,o=r(e/2),c=a(e/2),l=r((t+n)/2),h=a((t+n)/2),u=r((t-n)/2),f=a((t-n)/2),d=r((n-t)/2),p=a((n-t)/2);switch(s){case"XYX":i.set(o*h,c*u,c*f,o*l);break;case"YZY":i.set(c*f,o*h,c*u,o*l);break;case"ZXZ":i.set(c*u,c*f,o*h,o*l);break;case"XZX":i.set(o*h,c*p,c*d,o*l);break;case"YXY":i.set(c*d,o*h,c*p,o*l);break;case"ZYZ":i.set(c*p,c*d,o*h,o*l);break;default:Dt("MathUtils: .setQuaternionFromProperEuler() encountered an unknown order: "+s)}}function vf(i){switch(i.constructor){case Uint32Array:return 4294967295;case Uint16Array:return 65535;case Uint8Array:case Uint8ClampedArray:return 255;case Int32Array:return 2147483647;case Int16Array:return 32767;case Int8Array:return 127;default:return}}function Og(i,t){if(t.constructor===Float32Array)return i;let e=vf(t);if(e===void 0)throw new Error("THREE.MathUtils: Invalid component type.");return Math.max(i/e,-1)}function Ug(i,t){if(t.constructor===Float32Array)return i;let e=vf(t);if(e===void 0)throw new Error("THREE.MathUtils: Invalid component type.");return Math.round(i*e)}var Mf={DEG2RAD:ha,RAD2DEG:mr,generateUUID:Os,clamp:ne,euclideanModulo:yf,mapLinear:px,inverseLerp:mx,lerp:ua,damp:gx,pingpong:_x,smoothstep:yx,smootherstep:xx,randInt:vx,randFloat:Mx,randFloatSpread:Sx,seededRandom:bx,degToRad:wx,radToDeg:Ex,isPowerOfTwo:Tx,ceilPowerOfTwo:Ax,floorPowerOfTwo:xf,setQuaternionFromProperEuler:Rx,normalize:Ug,denormalize:Og},kt=class{static{this.prototype.isVector2=!0}constructor(t=0,e=0){this.x=t,this.y=e}get width(){return this.x}set width(t){this.x=t}get height(){return this.y}set height(t){this.y=t}set(t,e){return this.x=t,this.y=e,this}setScalar(t){return this.x=t,this.y=t,this}setX(t){return this.x=t,this}setY(t){return this.y=t,this}setComponent(t,e){switch(t){case 0:this.x=e;break;case 1:this.y=e;break;default:throw new Error("THREE.Vector2: index is out of range: "+t)}return this}getComponent(t){switch(t){case 0:return this.x;case 1:return this.y;default:throw new Error("THREE.Vector2: index is out of range: "+t)}}clone(){return new this.constructor(this.x,this.y)}copy(t){return this.x=t.x,this.y=t.y,this}add(t){return this.x+=t.x,this.y+=t.y,this}addScalar(t){return this.x+=t,this.y+=t,this}addVectors(t,e){return this.x=t.x+e.x,this.y=t.y+e.y,this}addScaledVector(t,e){return this.x+=t.x*e,this.y+=t.y*e,this}sub(t){return this.x-=t.x,this.y-=t.y,this}subScalar(t){return this.x-=t,this.y-=t,this}subVectors(t,e){return this.x=t.x-e.x,this.y=t.y-e.y,this}multiply(t){return this.x*=t.x,this.y*=t.y,this}multiplyScalar(t){return this.x*=t,this.y*=t,this}divide(t){return this.x/=t.x,this.y/=t.y,this}divideScalar(t){return this.multiplyScalar(1/t)}applyMatrix3(t){let e=this.x,n=this.y,s=t.elements;return this.x=s[0]*e+s[3]*n+s[6],this.y=s[1]*e+s[4]*n+s[7],this}min(t){return this.x=Math.min(this.x,t.x),this.y=Math.min(this.y,t.y),this}max(t){return this.x=Math.max(this.x,t.x),this.y=Math.max(this.y,t.y),this}clamp(t,e){return this.x=ne(this.x,t.x,e.x),this.y=ne(this.y,t.y,e.y),this}clampScalar(t,e){return this.x=ne(this.x,t,e),this.y=ne(this.y,t,e),this}clampLength(t,e){let n=this.length();return this.divideScalar(n||1).multiplyScalar(ne(n,t,e))}floor(){return this.x=Math.floor(this.x),this.y=Math.floor(this.y),this}ceil(){return this.x=Math.ceil(this.x),this.y=Math.ceil(this.y),this}round(){return this.x=Math.round(this.x),this.y=Math.round(this.y),this}roundToZero(){return this.x=Math.trunc(this.x),this.y=Math.trunc(this.y),this}negate(){return this.x=-this.x,this.y=-this.y,this}dot(t){return this.x*t.x+this.y*t.y}cross(t){return this.x*t.y-this.y*t.x}lengthSq(){return this.x*this.x+this.y*this.y}length(){return Math.sqrt(this.x*this.x+this.y*this.y)}manhattanLength(){return Math.abs(this.x)+Math.abs(this.y)}normalize(){return this.divideScalar(this.length()||1)}angle(){return Math.atan2(-this.y,-this.x)+Math.PI}angleTo(t){let e=Math.sqrt(this.lengthSq()*t.lengthSq());if(e===0)return Math.PI/2;let n=this.dot(t)/e;return Math.acos(ne(n,-1,1))}distanceTo(t){return Math.sqrt(this.distanceToSquared(t))}distanceToSquared(t){let e=this.x-t.x,n=this.y-t.y;return e*e+n*n}manhattanDistanceTo(t){return Math.abs(this.x-t.x)+Math.abs(this.y-t.y)}setLength(t){return this.normalize().multiplyScalar(t)}lerp(t,e){return this.x+=(t.x-this.x)*e,this.y+=(t.y-this.y)*e,this}lerpVectors(t,e,n){return this.x=t.x+(e.x-t.x)*n,this.y=t.y+(e.y-t.y)*n,this}equals(t){return t.x===this.x&&t.y===this.y}fromArray(t,e=0){return this.x=t[e],this.y=t[e+1],this}toArray(t=[],e=0){return t[e]=this.x,t[e+1]=this.y,t}fromBufferAttribute(t,e){return this.x=t.getX(e),this.y=t.getY(e),this}rotateAround(t,e){let n=Math.cos(e),s=Math.sin(e),r=this.x-t.x,a=this.y-t.y;return this.x=r*n-a*s+t.x,this.y=r*s+a*n+t.y,this}random(){return this.x=Math.random(),this.y=Math.random(),this}*[Symbol.iterator](){yield this.x,yield this.y}},pn=class{constructor(t=0,e=0,n=0,s=1){this.isQuaternion=!0,this._x=t,this._y=e,this._z=n,this._w=s}static slerpFlat(t,e,n,s,r,a,o){let c=n[s+0],l=n[s+1],h=n[s+2],u=n[s+3],f=r[a+0],d=r[a+1],p=r[a+2],_=r[a+3];if(u!==_||c!==f||l!==d||h!==p){let g=c*f+l*d+h*p+u*_;g<0&&(f=-f,d=-d,p=-p,_=-_,g=-g);let m=1-o;if(g<.9995){let x=Math.acos(g),b=Math.sin(x);m=Math.sin(m*x)/b,o=Math.sin(o*x)/b,c=c*m+f*o,l=l*m+d*o,h=h*m+p*o,u=u*m+_*o}else{c=c*m+f*o,l=l*m+d*o,h=h*m+p*o,u=u*m+_*o;let x=1/Math.sqrt(c*c+l*l+h*h+u*u);c*=x,l*=x,h*=x,u*=x}}t[e]=c,t[e+1]=l,t[e+2]=h,t[e+3]=u}static multiplyQuaternionsFlat(t,e,n,s,r,a){let o=n[s],c=n[s+1],l=n[s+2],h=n[s+3],u=r[a],f=r[a+1],d=r[a+2],p=r[a+3];return t[e]=o*p+h*u+c*d-l*f,t[e+1]=c*p+h*f+l*u-o*d,t[e+2]=l*p+h*d+o*f-c*u,t[e+3]=h*p-o*u-c*f-l*d,t}get x(){return this._x}set x(t){this._x=t,this._onChangeCallback()}get y(){return this._y}set y(t){this._y=t,this._onChangeCallback()}get z(){return this._z}set z(t){this._z=t,this._onChangeCallback()}get w(){return this._w}set w(t){this._w=t,this._onChangeCallback()}set(t,e,n,s){return this._x=t,this._y=e,this._z=n,this._w=s,this._onChangeCallback(),this}clone(){return new this.constructor(this._x,this._y,this._z,this._w)}copy(t){return this._x=t.x,this._y=t.y,this._z=t.z,this._w=t.w,this._onChangeCallback(),this}setFromEuler(t,e=!0){let n=t._x,s=t._y,r=t._z,a=t._order,o=Math.cos,c=Math.sin,l=o(n/2),h=o(s/2),u=o(r/2),f=c(n/2),d=c(s/2),p=c(r/2);switch(a){case"XYZ":this._x=f*h*u+l*d*p,this._y=l*d*u-f*h*p,this._z=l*h*p+f*d*u,this._w=l*h*u-f*d*p;break;case"YXZ":this._x=f*h*u+l*d*p,this._y=l*d*u-f*h*p,this._z=l*h*p-f*d*u,this._w=l*h*u+f*d*p;break;case"ZXY":this._x=f*h*u-l*d*p,this._y=l*d*u+f*h*p,this._z=l*h*p+f*d*u,this._w=l*h*u-f*d*p;break;case"ZYX":this._x=f*h*u-l*d*p,this._y=l*d*u+f*h*p,this._z=l*h*p-f*d*u,this._w=l*h*u+f*d*p;break;case"YZX":this._x=f*h*u+l*d*p,this._y=l*d*u+f*h*p,this._z=l*h*p-f*d*u,this._w=l*h*u-f*d*p;break;case"XZY":this._x=f*h*u-l*d*p,this._y=l*d*u-f*h*p,this._z=l*h*p+f*d*u,this._w=l*h*u+f*d*p;break;default:Dt("Quaternion: .setFromEuler() encountered an unknown order: "+a)}return e===!0&&this._onChangeCallback(),this}setFromAxisAngle(t,e){let n=e/2,s=Math.sin(n);return this._x=t.x*s,this._y=t.y*s,this._z=t.z*s,this._w=Math.cos(n),this._onChangeCallback(),this}setFromRotationMatrix(t){let e=t.elements,n=e[0],s=e[4],r=e[8],a=e[1],o=e[5],c=e[9],l=e[2],h=e[6],u=e[10],f=n+o+u;if(f>0){let d=.5/Math.sqrt(f+1);this._w=.25/d,this._x=(h-c)*d,this._y=(r-l)*d,this._z=(a-s)*d}else if(n>o&&n>u){let d=2*Math.sqrt(1+n-o-u);this._w=(h-c)/d,this._x=.25*d,this._y=(s+a)/d,this._z=(r+l)/d}else if(o>u){let d=2*Math.sqrt(1+o-n-u);this._w=(r-l)/d,this._x=(s+a)/d,this._y=.25*d,this._z=(c+h)/d}else{let d=2*Math.sqrt(1+u-n-o);this._w=(a-s)/d,this._x=(r+l)/d,this._y=(c+h)/d,this._z=.25*d}return this._onChangeCallback(),this}setFromUnitVectors(t,e){let n=t.dot(e)+1;return n<1e-8?(n=0,Math.abs(t.x)>Math.abs(t.z)?(this._x=-t.y,this._y=t.x,this._z=0,this._w=n):(this._x=0,this._y=-t.z,this._z=t.y,this._w=n)):(this._x=t.y*e.z-t.z*e.y,this._y=t.z*e.x-t.x*e.z,this._z=t.x*e.y-t.y*e.x,this._w=n),this.normalize()}angleTo(t){return 2*Math.acos(Math.abs(ne(this.dot(t),-1,1)))}rotateTowards(t,e){let n=this.angleTo(t);if(n===0)return this;let s=Math.min(1,e/n);return this.slerp(t,s),this}identity(){return this.set(0,0,0,1)}invert(){return this.conjugate()}conjugate(){return this._x*=-1,this._y*=-1,this._z*=-1,this._onChangeCallback(),this}dot(t){return this._x*t._x+this._y*t._y+this._z*t._z+this._w*t._w}lengthSq(){return this._x*this._x+this._y*this._y+this._z*this._z+this._w*this._w}length(){return Math.sqrt(this._x*this._x+this._y*this._y+this._z*this._z+this._w*this._w)}normalize(){let t=this.length();return t===0?(this._x=0,this._y=0,this._z=0,this._w=1):(t=1/t,this._x=this._x*t,this._y=this._y*t,this._z=this._z*t,this._w=this._w*t),this._onChangeCallback(),this}multiply(t){return this.multiplyQuaternions(this,t)}premultiply(t){return this.multiplyQuaternions(t,this)}multiplyQuaternions(t,e){let n=t._x,s=t._y,r=t._z,a=t._w,o=e._x,c=e._y,l=e._z,h=e._w;return this._x=n*h+a*o+s*l-r*c,this._y=s*h+a*c+r*o-n*l,this._z=r*h+a*l+n*c-s*o,this._w=a*h-n*o-s*c-r*l,this._onChangeCallback(),this}slerp(t,e){let n=t._x,s=t._y,r=t._z,a=t._w,o=this.dot(t);o<0&&(n=-n,s=-s,r=-r,a=-a,o=-o);let c=1-e;if(o<.9995){let l=Math.acos(o),h=Math.sin(l);c=Math.sin(c*l)/h,e=Math.sin(e*l)/h,this._x=this._x*c+n*e,this._y=this._y*c+s*e,this._z=this._z*c+r*e,this._w=this._w*c+a*e,this._onChangeCallback()}else this._x=this._x*c+n*e,this._y=this._y*c+s*e,this._z=this._z*c+r*e,this._w=this._w*c+a*e,this.normalize();return this}slerpQuaternions(t,e,n){return this.copy(t).slerp(e,n)}random(){let t=2*Math.PI*Math.random(),e=2*Math.PI*Math.random(),n=Math.random(),s=Math.sqrt(1-n),r=Math.sqrt(n);return this.set(s*Math.sin(t),s*Math.cos(t),r*Math.sin(e),r*Math.cos(e))}equals(t){return t._x===this._x&&t._y===this._y&&t._z===this._z&&t._w===this._w}fromArray(t,e=0){return this._x=t[e],this._y=t[e+1],this._z=t[e+2],this._w=t[e+3],this._onChangeCallback(),this}toArray(t=[],e=0){return t[e]=this._x,t[e+1]=this._y,t[e+2]=this._z,t[e+3]=this._w,t}fromBufferAttribute(t,e){return this._x=t.getX(e),this._y=t.getY(e),this._z=t.getZ(e),this._w=t.getW(e),this._onChangeCallback(),this}toJSON(){return this.toArray()}_onChange(t){return this._onChangeCallback=t,this}_onChangeCallback(){}*[Symbol.iterator](){yield this._x,yield this._y,yield this._z,yield this._w}},B=class{static{this.prototype.isVector3=!0}constructor(t=0,e=0,n=0){this.x=t,this.y=e,this.z=n}set(t,e,n){return n===void 0&&(n=this.z),this.x=t,this.y=e,this.z=n,this}setScalar(t){return this.x=t,this.y=t,this.z=t,this}setX(t){return this.x=t,this}setY(t){return this.y=t,this}setZ(t){return this.z=t,this}setComponent(t,e){switch(t){case 0:this.x=e;break;case 1:this.y=e;break;case 2:this.z=e;break;default:throw new Error("THREE.Vector3: index is out of range: "+t)}return this}getComponent(t){switch(t){case 0:return this.x;case 1:return this.y;case 2:return this.z;default:throw new Error("THREE.Vector3: index is out of range: "+t)}}clone(){return new this.constructor(this.x,this.y,this.z)}copy(t){return this.x=t.x,this.y=t.y,this.z=t.z,this}add(t){return this.x+=t.x,this.y+=t.y,this.z+=t.z,this}addScalar(t){return this.x+=t,this.y+=t,this.z+=t,this}addVectors(t,e){return this.x=t.x+e.x,this.y=t.y+e.y,this.z=t.z+e.z,this}addScaledVector(t,e){return this.x+=t.x*e,this.y+=t.y*e,this.z+=t.z*e,this}sub(t){return this.x-=t.x,this.y-=t.y,this.z-=t.z,this}subScalar(t){return this.x-=t,this.y-=t,this.z-=t,this}subVectors(t,e){return this.x=t.x-e.x,this.y=t.y-e.y,this.z=t.z-e.z,this}multiply(t){return this.x*=t.x,this.y*=t.y,this.z*=t.z,this}multiplyScalar(t){return this.x*=t,this.y*=t,this.z*=t,this}multiplyVectors(t,e){return this.x=t.x*e.x,this.y=t.y*e.y,this.z=t.z*e.z,this}applyEuler(t){return this.applyQuaternion(ym.setFromEuler(t))}applyAxisAngle(t,e){return this.applyQuaternion(ym.setFromAxisAngle(t,e))}applyMatrix3(t){let e=this.x,n=this.y,s=this.z,r=t.elements;return this.x=r[0]*e+r[3]*n+r[6]*s,this.y=r[1]*e+r[4]*n+r[7]*s,this.z=r[2]*e+r[5]*n+r[8]*s,this}applyNormalMatrix(t){return this.applyMatrix3(t).normalize()}applyMatrix4(t){let e=this.x,n=this.y,s=this.z,r=t.elements,a=1/(r[3]*e+r[7]*n+r[11]*s+r[15]);return this.x=(r[0]*e+r[4]*n+r[8]*s+r[12])*a,this.y=(r[1]*e+r[5]*n+r[9]*s+r[13])*a,this.z=(r[2]*e+r[6]*n+r[10]*s+r[14])*a,this}applyQuaternion(t){let e=this.x,n=this.y,s=this.z,r=t.x,a=t.y,o=t.z,c=t.w,l=2*(a*s-o*n),h=2*(o*e-r*s),u=2*(r*n-a*e);return this.x=e+c*l+a*u-o*h,this.y=n+c*h+o*l-r*u,this.z=s+c*u+r*h-a*l,this}project(t){return this.applyMatrix4(t.matrixWorldInverse).applyMatrix4(t.projectionMatrix)}unproject(t){return this.applyMatrix4(t.projectionMatrixInverse).applyMatrix4(t.matrixWorld)}transformDirection(t){let e=this.x,n=this.y,s=this.z,r=t.elements;return this.x=r[0]*e+r[4]*n+r[8]*s,this.y=r[1]*e+r[5]*n+r[9]*s,this.z=r[2]*e+r[6]*n+r[10]*s,this.normalize()}divide(t){return this.x/=t.x,this.y/=t.y,this.z/=t.z,this}divideScalar(t){return this.multiplyScalar(1/t)}min(t){return this.x=Math.min(this.x,t.x),this.y=Math.min(this.y,t.y),this.z=Math.min(this.z,t.z),this}max(t){return this.x=Math.max(this.x,t.x),this.y=Math.max(this.y,t.y),this.z=Math.max(this.z,t.z),this}clamp(t,e){return this.x=ne(this.x,t.x,e.x),this.y=ne(this.y,t.y,e.y),this.z=ne(this.z,t.z,e.z),this}clampScalar(t,e){return this.x=ne(this.x,t,e),this.y=ne(this.y,t,e),this.z=ne(this.z,t,e),this}clampLength(t,e){let n=this.length();return this.divideScalar(n||1).multiplyScalar(ne(n,t,e))}floor(){return this.x=Math.floor(this.x),this.y=Math.floor(this.y),this.z=Math.floor(this.z),this}ceil(){return this.x=Math.ceil(this.x),this.y=Math.ceil(this.y),this.z=Math.ceil(this.z),this}round(){return this.x=Math.round(this.x),this.y=Math.round(this.y),this.z=Math.round(this.z),this}roundToZero(){return this.x=Math.trunc(this.x),this.y=Math.trunc(this.y),this.z=Math.trunc(this.z),this}negate(){return this.x=-this.x,this.y=-this.y,this.z=-this.z,this}dot(t){return this.x*t.x+this.y*t.y+this.z*t.z}lengthSq(){return this.x*this.x+this.y*this.y+this.z*this.z}length(){return Math.sqrt(this.x*this.x+this.y*this.y+this.z*this.z)}manhattanLength(){return Math.abs(this.x)+Math.abs(this.y)+Math.abs(this.z)}normalize(){return this.divideScalar(this.length()||1)}setLength(t){return this.normalize().multiplyScalar(t)}lerp(t,e){return this.x+=(t.x-this.x)*e,this.y+=(t.y-this.y)*e,this.z+=(t.z-this.z)*e,this}lerpVectors(t,e,n){return this.x=t.x+(e.x-t.x)*n,this.y=t.y+(e.y-t.y)*n,this.z=t.z+(e.z-t.z)*n,this}cross(t){return this.crossVectors(this,t)}crossVectors(t,e){let n=t.x,s=t.y,r=t.z,a=e.x,o=e.y,c=e.z;return this.x=s*c-r*o,this.y=r*a-n*c,this.z=n*o-s*a,this}projectOnVector(t){let e=t.lengthSq();if(e===0)return this.set(0,0,0);let n=t.dot(this)/e;return this.copy(t).multiplyScalar(n)}projectOnPlane(t){return du.copy(this).projectOnVector(t),this.sub(du)}reflect(t){return this.sub(du.copy(t).multiplyScalar(2*this.dot(t)))}angleTo(t){let e=Math.sqrt(this.lengthSq()*t.lengthSq());if(e===0)return Math.PI/2;let n=this.dot(t)/e;return Math.acos(ne(n,-1,1))}distanceTo(t){return Math.sqrt(this.distanceToSquared(t))}distanceToSquared(t){let e=this.x-t.x,n=this.y-t.y,s=this.z-t.z;return e*e+n*n+s*s}manhattanDistanceTo(t){return Math.abs(this.x-t.x)+Math.abs(this.y-t.y)+Math.abs(this.z-t.z)}setFromSpherical(t){return this.setFromSphericalCoords(t.radius,t.phi,t.theta)}setFromSphericalCoords(t,e,n){let s=Math.sin(e)*t;return this.x=s*Math.sin(n),this.y=Math.cos(e)*t,this.z=s*Math.cos(n),this}setFromCylindrical(t){return this.setFromCylindricalCoords(t.radius,t.theta,t.y)}setFromCylindricalCoords(t,e,n){return this.x=t*Math.sin(e),this.y=n,this.z=t*Math.cos(e),this}setFromMatrixPosition(t){let e=t.elements;return this.x=e[12],this.y=e[13],this.z=e[14],this}setFromMatrixScale(t){let e=this.setFromMatrixColumn(t,0).length(),n=this.setFromMatrixColumn(t,1).length(),s=this.setFromMatrixColumn(t,2).length();return this.x=e,this.y=n,this.z=s,this}setFromMatrixColumn(t,e){return this.fromArray(t.elements,e*4)}setFromMatrix3Column(t,e){return this.fromArray(t.elements,e*3)}setFromEuler(t){return this.x=t._x,this.y=t._y,this.z=t._z,this}setFromColor(t){return this.x=t.r,this.y=t.g,this.z=t.b,this}equals(t){return t.x===this.x&&t.y===this.y&&t.z===this.z}fromArray(t,e=0){return this.x=t[e],this.y=t[e+1],this.z=t[e+2],this}toArray(t=[],e=0){return t[e]=this.x,t[e+1]=this.y,t[e+2]=this.z,t}fromBufferAttribute(t,e){return this.x=t.getX(e),this.y=t.getY(e),this.z=t.getZ(e),this}random(){return this.x=Math.random(),this.y=Math.random(),this.z=Math.random(),this}randomDirection(){let t=Math.random()*Math.PI*2,e=Math.random()*2-1,n=Math.sqrt(1-e*e);return this.x=n*Math.cos(t),this.y=e,this.z=n*Math.sin(t),this}*[Symbol.iterator](){yield this.x,yield this.y,yield this.z}},du=new B,ym=new pn,qt=class{static{this.prototype.isMatrix3=!0}constructor(t,e,n,s,r,a,o,c,l){this.elements=[1,0,0,0,1,0,0,0,1],t!==void 0&&this.set(t,e,n,s,r,a,o,c,l)}set(t,e,n,s,r,a,o,c,l){let h=this.elements;return h[0]=t,h[1]=s,h[2]=o,h[3]=e,h[4]=r,h[5]=c,h[6]=n,h[7]=a,h[8]=l,this}identity(){return this.set(1,0,0,0,1,0,0,0,1),this}copy(t){let e=this.elements,n=t.elements;return e[0]=n[0],e[1]=n[1],e[2]=n[2],e[3]=n[3],e[4]=n[4],e[5]=n[5],e[6]=n[6],e[7]=n[7],e[8]=n[8],this}extractBasis(t,e,n){return t.setFromMatrix3Column(this,0),e.setFromMatrix3Column(this,1),n.setFromMatrix3Column(this,2),this}setFromMatrix4(t){let e=t.elements;return this.set(e[0],e[4],e[8],e[1],e[5],e[9],e[2],e[6],e[10]),this}multiply(t){return this.multiplyMatrices(this,t)}premultiply(t){return this.multiplyMatrices(t,this)}multiplyMatrices(t,e){let n=t.elements,s=e.elements,r=this.elements,a=n[0],o=n[3],c=n[6],l=n[1],h=n[4],u=n[7],f=n[2],d=n[5],p=n[8],_=s[0],g=s[3],m=s[6],x=s[1],b=s[4],w=s[7],A=s[2],C=s[5],v=s[8];return r[0]=a*_+o*x+c*A,r[3]=a*g+o*b+c*C,r[6]=a*m+o*w+c*v,r[1]=l*_+h*x+u*A,r[4]=l*g+h*b+u*C,r[7]=l*m+h*w+u*v,r[2]=f*_+d*x+p*A,r[5]=f*g+d*b+p*C,r[8]=f*m+d*w+p*v,this}multiplyScalar(t){let e=this.elements;return e[0]*=t,e[3]*=t,e[6]*=t,e[1]*=t,e[4]*=t,e[7]*=t,e[2]*=t,e[5]*=t,e[8]*=t,this}determinant(){let t=this.elements,e=t[0],n=t[1],s=t[2],r=t[3],a=t[4],o=t[5],c=t[6],l=t[7],h=t[8];return e*a*h-e*o*l-n*r*h+n*o*c+s*r*l-s*a*c}invert(){let t=this.elements,e=t[0],n=t[1],s=t[2],r=t[3],a=t[4],o=t[5],c=t[6],l=t[7],h=t[8],u=h*a-o*l,f=o*c-h*r,d=l*r-a*c,p=e*u+n*f+s*d;if(p===0)return this.set(0,0,0,0,0,0,0,0,0);let _=1/p;return t[0]=u*_,t[1]=(s*l-h*n)*_,t[2]=(o*n-s*a)*_,t[3]=f*_,t[4]=(h*e-s*c)*_,t[5]=(s*r-o*e)*_,t[6]=d*_,t[7]=(n*c-l*e)*_,t[8]=(a*e-n*r)*_,this}transpose(){let t,e=this.elements;return t=e[1],e[1]=e[3],e[3]=t,t=e[2],e[2]=e[6],e[6]=t,t=e[5],e[5]=e[7],e[7]=t,this}getNormalMatrix(t){return this.setFromMatrix4(t).invert().transpose()}transposeIntoArray(t){let e=this.elements;return t[0]=e[0],t[1]=e[3],t[2]=e[6],t[3]=e[1],t[4]=e[4],t[5]=e[7],t[6]=e[2],t[7]=e[5],t[8]=e[8],this}setUvTransform(t,e,n,s,r,a,o){let c=Math.cos(r),l=Math.sin(r);return this.set(n*c,n*l,-n*(c*a+l*o)+a+t,-s*l,s*c,-s*(-l*a+c*o)+o+e,0,0,1),this}scale(t,e){return ca("Matrix3: .scale() is deprecated. Use .makeScale() instead."),this.premultiply(pu.makeScale(t,e)),this}rotate(t){return ca("Matrix3: .rotate() is deprecated. Use .makeRotation() instead."),this.premultiply(pu.makeRotation(-t)),this}translate(t,e){return ca("Matrix3: .translate() is deprecated. Use .makeTranslation() instead."),this.premultiply(pu.makeTranslation(t,e)),this}makeTranslation(t,e){return t.isVector2?this.set(1,0,t.x,0,1,t.y,0,0,1):this.set(1,0,t,0,1,e,0,0,1),this}makeRotation(t){let e=Math.cos(t),n=Math.sin(t);return this.set(e,-n,0,n,e,0,0,0,1),this}makeScale(t,e){return this.set(t,0,0,0,e,0,0,0,1),this}equals(t){let e=this.elements,n=t.elements;for(let s=0;s<9;s++)if(e[s]!==n[s])return!1;return!0}fromArray(t,e=0){for(let n=0;n<9;n++)this.elements[n]=t[n+e];return this}toArray(t=[],e=0){let n=this.elements;return t[e]=n[0],t[e+1]=n[1],t[e+2]=n[2],t[e+3]=n[3],t[e+4]=n[4],t[e+5]=n[5],t[e+6]=n[6],t[e+7]=n[7],t[e+8]=n[8],t}clone(){return new this.constructor().fromArray(this.elements)}},pu=new qt,xm=new qt().set(.4123908,.3575843,.1804808,.212639,.7151687,.0721923,.0193308,.1191948,.9505322),vm=new qt().set(3.2409699,-1.5373832,-.4986108,-.9692436,1.8759675,.0415551,.0556301,-.203977,1.0569715);function Cx(){let i={enabled:!0,workingColorSpace:da,spaces:{},convert:function(s,r,a){return this.enabled===!1||r===a||!r||!a||(this.spaces[r].transfer===ye&&(s.r=Ai(s.r),s.g=Ai(s.g),s.b=Ai(s.b)),this.spaces[r].primaries!==this.spaces[a].primaries&&(s.applyMatrix3(this.spaces[r].toXYZ),s.applyMatrix3(this.spaces[a].fromXYZ)),this.spaces[a].transfer===ye&&(s.r=ur(s.r),s.g=ur(s.g),s.b=ur(s.b))),s},workingToColorSpace:function(s,r){return this.convert(s,this.workingColorSpace,r)},colorSpaceToWorking:function(s,r){return this.convert(s,r,this.workingColorSpace)},getPrimaries:function(s){return this.spaces[s].primaries},getTransfer:function(s){return s===Ui?pa:this.spaces[s].transfer},getToneMappingMode:function(s){return this.spaces[s].outputColorSpaceConfig.toneMappingMode||"standard"},getLuminanceCoefficients:function(s,r=this.workingColorSpace){return s.fromArray(this.spaces[r].luminanceCoefficients)},define:function(s){Object.assign(this.spaces,s)},_getMatrix:function(s,r,a){return s.copy(this.spaces[a].fromXYZ).multiply(this.spaces[r].toXYZ)},_getDrawingBufferColorSpace:function(s){return this.spaces[s].outputColorSpaceConfig.drawingBufferColorSpace},_getUnpackColorSpace:function(s=this.workingColorSpace){return this.spaces[s].workingColorSpaceConfig.unpackColorSpace}},t=[.64,.33,.3,.6,.15,.06],e=[.2126,.7152,.0722],n=[.3127,.329];return i.define({[da]:{primaries:t,whitePoint:n,transfer:pa,toXYZ:xm,fromXYZ:vm,luminanceCoefficients:e,workingColorSpaceConfig:{unpackColorSpace:dn},outputColorSpaceConfig:{drawingBufferColorSpace:dn}},[dn]:{primaries:t,whitePoint:n,transfer:ye,toXYZ:xm,fromXYZ:vm,luminanceCoefficients:e,outputColorSpaceConfig:{drawingBufferColorSpace:dn}}}),i}var oe=Cx();function Ai(i){return i<.04045?i*.0773993808:Math.pow(i*.9478672986+.0521327014,2.4)}function ur(i){return i<.0031308?i*12.92:1.055*Math.pow(i,.41666)-.055}var js,wl=class{static getDataURL(t,e="image/png"){if(/^data:/i.test(t.src)||typeof HTMLCanvasElement>"u")return t.src;let n;if(t instanceof HTMLCanvasElement)n=t;else{js===void 0&&(js=ma("canvas")),js.width=t.width,js.height=t.height;let s=js.getContext("2d");t instanceof ImageData?s.putImageData(t,0,0):s.drawImage(t,0,0,t.width,t.height),n=js}return n.toDataURL(e)}static sRGBToLinear(t){if(typeof HTMLImageElement<"u"&&t instanceof HTMLImageElement||typeof HTMLCanvasElement<"u"&&t instanceof HTMLCanvasElement||typeof ImageBitmap<"u"&&t instanceof ImageBitmap){let e=ma("canvas");e.width=t.width,e.height=t.height;let n=e.getContext("2d");n.drawImage(t,0,0,t.width,t.height);let s=n.getImageData(0,0,t.width,t.height),r=s.data;for(let a=0;a<r.length;a++)r[a]=Ai(r[a]/255)*255;return n.putImageData(s,0,0),e}else if(t.data){let e=t.data.slice(0);for(let n=0;n<e.length;n++)e instanceof Uint8Array||e instanceof Uint8ClampedArray?e[n]=Math.floor(Ai(e[n]/255)*255):e[n]=Ai(e[n]);return{data:e,width:t.width,height:t.height}}else return Dt("ImageUtils.sRGBToLinear(): Unsupported image type. No color space conversion applied."),t}},Px=0,gr=class{constructor(t=null){this.isTextureSource=!0,Object.defineProperty(this,"id",{value:Px++}),this.uuid=Os(),this.data=t,this.dataReady=!0,this.version=0}getSize(t){let e=this.data;return typeof HTMLVideoElement<"u"&&e instanceof HTMLVideoElement?t.set(e.videoWidth,e.videoHeight,0):typeof VideoFrame<"u"&&e instanceof VideoFrame?t.set(e.displayWidth,e.displayHeight,0):e!==null?t.set(e.width||0,e.height||0,e.depth||0):t.set(0,0,0),t}set needsUpdate(t){t===!0&&this.version++}toJSON(t){let e=t===void 0||typeof t=="string";if(!e&&t.images[this.uuid]!==void 0)return t.images[this.uuid];let n={uuid:this.uuid,url:""},s=this.data;if(s!==null){let r;if(Array.isArray(s)){r=[];for(let a=0,o=s.length;a<o;a++)s[a].isDataTexture?r.push(mu(s[a].image)):r.push(mu(s[a]))}else r=mu(s);n.url=r}return e||(t.images[this.uuid]=n),n}};function mu(i){return typeof HTMLImageElement<"u"&&i instanceof HTMLImageElement||typeof HTMLCanvasElement<"u"&&i instanceof HTMLCanvasElement||typeof ImageBitmap<"u"&&i instanceof ImageBitmap?wl.getDataURL(i):i.data?{data:Array.from(i.data),width:i.width,height:i.height,type:i.data.constructor.name}:(Dt("Texture: Unable to serialize Texture."),{})}var Ix=0,gu=new B,Tn=class i extends ni{constructor(t=i.DEFAULT_IMAGE,e=i.DEFAULT_MAPPING,n=ui,s=ui,r=bn,a=Di,o=qn,c=Rn,l=i.DEFAULT_ANISOTROPY,h=Ui){super(),this.isTexture=!0,Object.defineProperty(this,"id",{value:Ix++}),this.uuid=Os(),this.name="",this.source=new gr(t),this.mipmaps=[],this.mapping=e,this.channel=0,this.wrapS=n,this.wrapT=s,this.magFilter=r,this.minFilter=a,this.anisotropy=l,this.format=o,this.internalFormat=null,this.type=c,this.offset=new kt(0,0),this.repeat=new kt(1,1),this.center=new kt(0,0),this.rotation=0,this.matrixAutoUpdate=!0,this.matrix=new qt,this.generateMipmaps=!0,this.mipmapsAutoUpdate=!0,this.premultiplyAlpha=!1,this.flipY=!0,this.unpackAlignment=4,this.colorSpace=h,this.userData={},this.updateRanges=[],this.version=0,this.onUpdate=null,this.renderTarget=null,this.isRenderTargetTexture=!1,this.isArrayTexture=!!(t&&t.depth&&t.depth>1),this.pmremVersion=0,this.isPMREMTexture=!1,this.normalized=!1}get width(){return this.source.getSize(gu).x}get height(){return this.source.getSize(gu).y}get depth(){return this.source.getSize(gu).z}get image(){return this.source.data}set image(t){this.source.data=t}updateMatrix(){this.matrix.setUvTransform(this.offset.x,this.offset.y,this.repeat.x,this.repeat.y,this.rotation,this.center.x,this.center.y)}addUpdateRange(t,e){this.updateRanges.push({start:t,count:e})}clearUpdateRanges(){this.updateRanges.length=0}clone(){return new this.constructor().copy(this)}copy(t){return this.name=t.name,this.source=t.source,this.mipmaps=t.mipmaps.slice(0),this.mapping=t.mapping,this.channel=t.channel,this.wrapS=t.wrapS,this.wrapT=t.wrapT,this.magFilter=t.magFilter,this.minFilter=t.minFilter,this.anisotropy=t.anisotropy,this.format=t.format,this.internalFormat=t.internalFormat,this.type=t.type,this.normalized=t.normalized,this.offset.copy(t.offset),this.repeat.copy(t.repeat),this.center.copy(t.center),this.rotation=t.rotation,this.matrixAutoUpdate=t.matrixAutoUpdate,this.matrix.copy(t.matrix),this.generateMipmaps=t.generateMipmaps,this.mipmapsAutoUpdate=t.mipmapsAutoUpdate,this.premultiplyAlpha=t.premultiplyAlpha,this.flipY=t.flipY,this.unpackAlignment=t.unpackAlignment,this.colorSpace=t.colorSpace,this.renderTarget=t.renderTarget,this.isRenderTargetTexture=t.isRenderTargetTexture,this.isPMREMTexture=t.isPMREMTexture,this.isArrayTexture=t.isArrayTexture,this.userData=JSON.parse(JSON.stringify(t.userData)),this.needsUpdate=!0,this}setValues(t){for(let e in t){let n=t[e];if(n===void 0){Dt(`Texture.setValues(): parameter '${e}' has value of undefined.`);continue}let s=this[e];if(s===void 0){Dt(`Texture.setValues(): property '${e}' does not exist.`);continue}s&&n&&s.isVector2&&n.isVector2||s&&n&&s.isVector3&&n.isVector3||s&&n&&s.isMatrix3&&n.isMatrix3?s.copy(n):this[e]=n}}toJSON(t){let e=t===void 0||typeof t=="string";if(!e&&t.textures[this.uuid]!==void 0)return t.textures[this.uuid];let n={metadata:{version:4.7,type:"Texture",generator:"Texture.toJSON"},uuid:this.uuid,name:this.name,image:this.source.toJSON(t).uuid,mapping:this.mapping,channel:this.channel,repeat:[this.repeat.x,this.repeat.y],offset:[this.offset.x,this.offset.y],center:[this.center.x,this.center.y],rotation:this.rotation,wrap:[this.wrapS,this.wrapT],format:this.format,internalFormat:this.internalFormat,type:this.type,normalized:this.normalized,colorSpace:this.colorSpace,minFilter:this.minFilter,magFilter:this.magFilter,anisotropy:this.anisotropy,flipY:this.flipY,generateMipmaps:this.generateMipmaps,mipmapsAutoUpdate:this.mipmapsAutoUpdate,premultiplyAlpha:this.premultiplyAlpha,unpackAlignment:this.unpackAlignment};return Object.keys(this.userData).length>0&&(n.userData=this.userData),e||(t.textures[this.uuid]=n),n}dispose(){this.dispatchEvent({type:"dispose"})}transformUv(t){if(this.mapping!==rf)return t;if(t.applyMatrix3(this.matrix),t.x<0||t.x>1)switch(this.wrapS){case Ml:t.x=t.x-Math.floor(t.x);break;case ui:t.x=t.x<0?0:1;break;case Sl:Math.abs(Math.floor(t.x)%2)===1?t.x=Math.ceil(t.x)-t.x:t.x=t.x-Math.floor(t.x);break}if(t.y<0||t.y>1)switch(this.wrapT){case Ml:t.y=t.y-Math.floor(t.y);break;case ui:t.y=t.y<0?0:1;break;case Sl:Math.abs(Math.floor(t.y)%2)===1?t.y=Math.ceil(t.y)-t.y:t.y=t.y-Math.floor(t.y);break}return this.flipY&&(t.y=1-t.y),t}set needsUpdate(t){t===!0&&(this.version++,this.source.needsUpdate=!0)}set needsPMREMUpdate(t){t===!0&&this.pmremVersion++}};Tn.DEFAULT_IMAGE=null;Tn.DEFAULT_MAPPING=rf;Tn.DEFAULT_ANISOTROPY=1;var ve=class{static{this.prototype.isVector4=!0}constructor(t=0,e=0,n=0,s=1){this.x=t,this.y=e,this.z=n,this.w=s}get width(){return this.z}set width(t){this.z=t}get height(){return this.w}set height(t){this.w=t}set(t,e,n,s){return this.x=t,this.y=e,this.z=n,this.w=s,this}setScalar(t){return this.x=t,this.y=t,this.z=t,this.w=t,this}setX(t){return this.x=t,this}setY(t){return this.y=t,this}setZ(t){return this.z=t,this}setW(t){return this.w=t,this}setComponent(t,e){switch(t){case 0:this.x=e;break;case 1:this.y=e;break;case 2:this.z=e;break;case 3:this.w=e;break;default:throw new Error("THREE.Vector4: index is out of range: "+t)}return this}getComponent(t){switch(t){case 0:return this.x;case 1:return this.y;case 2:return this.z;case 3:return this.w;default:throw new Error("THREE.Vector4: index is out of range: "+t)}}clone(){return new this.constructor(this.x,this.y,this.z,this.w)}copy(t){return this.x=t.x,this.y=t.y,this.z=t.z,this.w=t.w!==void 0?t.w:1,this}add(t){return this.x+=t.x,this.y+=t.y,this.z+=t.z,this.w+=t.w,this}addScalar(t){return this.x+=t,this.y+=t,this.z+=t,this.w+=t,this}addVectors(t,e){return this.x=t.x+e.x,this.y=t.y+e.y,this.z=t.z+e.z,this.w=t.w+e.w,this}addScaledVector(t,e){return this.x+=t.x*e,this.y+=t.y*e,this.z+=t.z*e,this.w+=t.w*e,this}sub(t){return this.x-=t.x,this.y-=t.y,this.z-=t.z,this.w-=t.w,this}subScalar(t){return this.x-=t,this.y-=t,this.z-=t,this.w-=t,this}subVectors(t,e){return this.x=t.x-e.x,this.y=t.y-e.y,this.z=t.z-e.z,this.w=t.w-e.w,this}multiply(t){return this.x*=t.x,this.y*=t.y,this.z*=t.z,this.w*=t.w,this}multiplyScalar(t){return this.x*=t,this.y*=t,this.z*=t,this.w*=t,this}applyMatrix4(t){let e=this.x,n=this.y,s=this.z,r=this.w,a=t.elements;return this.x=a[0]*e+a[4]*n+a[8]*s+a[12]*r,this.y=a[1]*e+a[5]*n+a[9]*s+a[13]*r,this.z=a[2]*e+a[6]*n+a[10]*s+a[14]*r,this.w=a[3]*e+a[7]*n+a[11]*s+a[15]*r,this}divide(t){return this.x/=t.x,this.y/=t.y,this.z/=t.z,this.w/=t.w,this}divideScalar(t){return this.multiplyScalar(1/t)}setAxisAngleFromQuaternion(t){this.w=2*Math.acos(t.w);let e=Math.sqrt(1-t.w*t.w);return e<1e-4?(this.x=1,this.y=0,this.z=0):(this.x=t.x/e,this.y=t.y/e,this.z=t.z/e),this}setAxisAngleFromRotationMatrix(t){let e,n,s,r,c=t.elements,l=c[0],h=c[4],u=c[8],f=c[1],d=c[5],p=c[9],_=c[2],g=c[6],m=c[10];if(Math.abs(h-f)<.01&&Math.abs(u-_)<.01&&Math.abs(p-g)<.01){if(Math.abs(h+f)<.1&&Math.abs(u+_)<.1&&Math.abs(p+g)<.1&&Math.abs(l+d+m-3)<.1)return this.set(1,0,0,0),this;e=Math.PI;let b=(l+1)/2,w=(d+1)/2,A=(m+1)/2,C=(h+f)/4,v=(u+_)/4,E=(p+g)/4;return b>w&&b>A?b<.01?(n=0,s=.707106781,r=.707106781):(n=Math.sqrt(b),s=C/n,r=v/n):w>A?w<.01?(n=.707106781,s=0,r=.707106781):(s=Math.sqrt(w),n=C/s,r=E/s):A<.01?(n=.707106781,s=.707106781,r=0):(r=Math.sqrt(A),n=v/r,s=E/r),this.set(n,s,r,e),this}let x=Math.sqrt((g-p)*(g-p)+(u-_)*(u-_)+(f-h)*(f-h));return Math.abs(x)<.001&&(x=1),this.x=(g-p)/x,this.y=(u-_)/x,this.z=(f-h)/x,this.w=Math.acos((l+d+m-1)/2),this}setFromMatrixPosition(t){let e=t.elements;return this.x=e[12],this.y=e[13],this.z=e[14],this.w=e[15],this}min(t){return this.x=Math.min(this.x,t.x),this.y=Math.min(this.y,t.y),this.z=Math.min(this.z,t.z),this.w=Math.min(this.w,t.w),this}max(t){return this.x=Math.max(this.x,t.x),this.y=Math.max(this.y,t.y),this.z=Math.max(this.z,t.z),this.w=Math.max(this.w,t.w),this}clamp(t,e){return this.x=ne(this.x,t.x,e.x),this.y=ne(this.y,t.y,e.y),this.z=ne(this.z,t.z,e.z),this.w=ne(this.w,t.w,e.w),this}clampScalar(t,e){return this.x=ne(this.x,t,e),this.y=ne(this.y,t,e),this.z=ne(this.z,t,e),this.w=ne(this.w,t,e),this}clampLength(t,e){let n=this.length();return this.divideScalar(n||1).multiplyScalar(ne(n,t,e))}floor(){return this.x=Math.floor(this.x),this.y=Math.floor(this.y),this.z=Math.floor(this.z),this.w=Math.floor(this.w),this}ceil(){return this.x=Math.ceil(this.x),this.y=Math.ceil(this.y),this.z=Math.ceil(this.z),this.w=Math.ceil(this.w),this}round(){return this.x=Math.round(this.x),this.y=Math.round(this.y),this.z=Math.round(this.z),this.w=Math.round(this.w),this}roundToZero(){return this.x=Math.trunc(this.x),this.y=Math.trunc(this.y),this.z=Math.trunc(this.z),this.w=Math.trunc(this.w),this}negate(){return this.x=-this.x,this.y=-this.y,this.z=-this.z,this.w=-this.w,this}dot(t){return this.x*t.x+this.y*t.y+this.z*t.z+this.w*t.w}lengthSq(){return this.x*this.x+this.y*this.y+this.z*this.z+this.w*this.w}length(){return Math.sqrt(this.x*this.x+this.y*this.y+this.z*this.z+this.w*this.w)}manhattanLength(){return Math.abs(this.x)+Math.abs(this.y)+Math.abs(this.z)+Math.abs(this.w)}normalize(){return this.divideScalar(this.length()||1)}setLength(t){return this.normalize().multiplyScalar(t)}lerp(t,e){return this.x+=(t.x-this.x)*e,this.y+=(t.y-this.y)*e,this.z+=(t.z-this.z)*e,this.w+=(t.w-this.w)*e,this}lerpVectors(t,e,n){return this.x=t.x+(e.x-t.x)*n,this.y=t.y+(e.y-t.y)*n,this.z=t.z+(e.z-t.z)*n,this.w=t.w+(e.w-t.w)*n,this}equals(t){return t.x===this.x&&t.y===this.y&&t.z===this.z&&t.w===this.w}fromArray(t,e=0){return this.x=t[e],this.y=t[e+1],this.z=t[e+2],this.w=t[e+3],this}toArray(t=[],e=0){return t[e]=this.x,t[e+1]=this.y,t[e+2]=this.z,t[e+3]=this.w,t}fromBufferAttribute(t,e){return this.x=t.getX(e),this.y=t.getY(e),this.z=t.getZ(e),this.w=t.getW(e),this}random(){return this.x=Math.random(),this.y=Math.random(),this.z=Math.random(),this.w=Math.random(),this}*[Symbol.iterator](){yield this.x,yield this.y,yield this.z,yield this.w}},El=class extends ni{constructor(t=1,e=1,n={}){super(),n=Object.assign({generateMipmaps:!1,internalFormat:null,minFilter:bn,depthBuffer:!0,stencilBuffer:!1,resolveColorBuffer:!0,resolveDepthBuffer:!0,resolveStencilBuffer:!0,storeMultisampledColorBuffer:!0,storeMultisampledDepthBuffer:!0,storeMultisampledStencilBuffer:!0,depthTexture:null,samples:0,count:1,depth:1,multiview:!1,useArrayDepthTexture:!1},n),this.isRenderTarget=!0,this.width=t,this.height=e,this.depth=n.depth,this.scissor=new ve(0,0,t,e),this.scissorTest=!1,this.viewport=new ve(0,0,t,e),this.textures=[];let s=n.count;for(let r=0;r<s;r++)this.textures[r]=new Tn({width:t,height:e,depth:n.depth}),this.textures[r].isRenderTargetTexture=!0,this.textures[r].renderTarget=this;this._setTextureOptions(n),this.depthBuffer=n.depthBuffer,this.stencilBuffer=n.stencilBuffer,this.resolveColorBuffer=n.resolveColorBuffer,this.resolveDepthBuffer=n.resolveDepthBuffer,this.resolveStencilBuffer=n.resolveStencilBuffer,this.storeMultisampledColorBuffer=n.storeMultisampledColorBuffer,this.storeMultisampledDepthBuffer=n.storeMultisampledDepthBuffer,this.storeMultisampledStencilBuffer=n.storeMultisampledStencilBuffer,this._depthTexture=null,this.depthTexture=n.depthTexture,this.samples=n.samples,this.multiview=n.multiview,this.useArrayDepthTexture=n.useArrayDepthTexture}_setTextureOptions(t={}){let e={minFilter:bn,generateMipmaps:!1,flipY:!1,internalFormat:null};t.mapping!==void 0&&(e.mapping=t.mapping),t.wrapS!==void 0&&(e.wrapS=t.wrapS),t.wrapT!==void 0&&(e.wrapT=t.wrapT),t.wrapR!==void 0&&(e.wrapR=t.wrapR),t.magFilter!==void 0&&(e.magFilter=t.magFilter),t.minFilter!==void 0&&(e.minFilter=t.minFilter),t.format!==void 0&&(e.format=t.format),t.type!==void 0&&(e.type=t.type),t.anisotropy!==void 0&&(e.anisotropy=t.anisotropy),t.colorSpace!==void 0&&(e.colorSpace=t.colorSpace),t.flipY!==void 0&&(e.flipY=t.flipY),t.generateMipmaps!==void 0&&(e.generateMipmaps=t.generateMipmaps),t.mipmapsAutoUpdate!==void 0&&(e.mipmapsAutoUpdate=t.mipmapsAutoUpdate),t.internalFormat!==void 0&&(e.internalFormat=t.internalFormat);for(let n=0;n<this.textures.length;n++)this.textures[n].setValues(e)}get texture(){return this.textures[0]}set texture(t){this.textures[0]=t}set depthTexture(t){this._depthTexture!==null&&this._depthTexture.renderTarget===this&&(this._depthTexture.renderTarget=null),t!==null&&t.renderTarget===null&&(t.renderTarget=this),this._depthTexture=t}get depthTexture(){return this._depthTexture}setSize(t,e,n=1){if(this.width!==t||this.height!==e||this.depth!==n){this.width=t,this.height=e,this.depth=n;for(let s=0,r=this.textures.length;s<r;s++)this.textures[s].image.width=t,this.textures[s].image.height=e,this.textures[s].image.depth=n,this.textures[s].isData3DTexture!==!0&&(this.textures[s].isArrayTexture=this.textures[s].image.depth>1);this.dispose()}this.viewport.set(0,0,t,e),this.scissor.set(0,0,t,e)}clone(){return new this.constructor().copy(this)}copy(t){this.width=t.width,this.height=t.height,this.depth=t.depth,this.scissor.copy(t.scissor),this.scissorTest=t.scissorTest,this.viewport.copy(t.viewport),this.textures.length=0;for(let e=0,n=t.textures.length;e<n;e++){this.textures[e]=t.textures[e].clone(),this.textures[e].isRenderTargetTexture=!0,this.textures[e].renderTarget=this;let s=Object.assign({},t.textures[e].image);this.textures[e].source=new gr(s)}if(this.depthBuffer=t.depthBuffer,this.stencilBuffer=t.stencilBuffer,this.resolveColorBuffer=t.resolveColorBuffer,this.resolveDepthBuffer=t.resolveDepthBuffer,this.resolveStencilBuffer=t.resolveStencilBuffer,this.storeMultisampledColorBuffer=t.storeMultisampledColorBuffer,this.storeMultisampledDepthBuffer=t.storeMultisampledDepthBuffer,this.storeMultisampledStencilBuffer=t.storeMultisampledStencilBuffer,t.depthTexture!==null)if(t.depthTexture.renderTarget===t){let e=t.depthTexture.clone();e.renderTarget=null,this.depthTexture=e}else this.depthTexture=t.depthTexture;else this.depthTexture=null;return this.samples=t.samples,this.multiview=t.multiview,this.useArrayDepthTexture=t.useArrayDepthTexture,this}dispose(){this.dispatchEvent({type:"dispose"})}},Un=class extends El{constructor(t=1,e=1,n={}){super(t,e,n),this.isWebGLRenderTarget=!0}},ga=class extends Tn{constructor(t=null,e=1,n=1,s=1){super(null),this.isDataArrayTexture=!0,this.image={data:t,width:e,height:n,depth:s},this.magFilter=Qe,this.minFilter=Qe,this.wrapR=ui,this.generateMipmaps=!1,this.flipY=!1,this.unpackAlignment=1,this.layerUpdates=new Set}copy(t){return super.copy(t),this.wrapR=t.wrapR,this}addLayerUpdate(t){this.layerUpdates.add(t)}clearLayerUpdates(){this.layerUpdates.clear()}};var Tl=class extends Tn{constructor(t=null,e=1,n=1,s=1){super(null),this.isData3DTexture=!0,this.image={data:t,width:e,height:n,depth:s},this.magFilter=Qe,this.minFilter=Qe,this.wrapR=ui,this.generateMipmaps=!1,this.flipY=!1,this.unpackAlignment=1}copy(t){return super.copy(t),this.wrapR=t.wrapR,this}};var ie=class i{static{this.prototype.isMatrix4=!0}constructor(t,e,n,s,r,a,o,c,l,h,u,f,d,p,_,g){this.elements=[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1],t!==void 0&&this.set(t,e,n,s,r,a,o,c,l,h,u,f,d,p,_,g)}set(t,e,n,s,r,a,o,c,l,h,u,f,d,p,_,g){let m=this.elements;return m[0]=t,m[4]=e,m[8]=n,m[12]=s,m[1]=r,m[5]=a,m[9]=o,m[13]=c,m[2]=l,m[6]=h,m[10]=u,m[14]=f,m[3]=d,m[7]=p,m[11]=_,m[15]=g,this}identity(){return this.set(1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1),this}clone(){return new i().fromArray(this.elements)}copy(t){let e=this.elements,n=t.elements;return e[0]=n[0],e[1]=n[1],e[2]=n[2],e[3]=n[3],e[4]=n[4],e[5]=n[5],e[6]=n[6],e[7]=n[7],e[8]=n[8],e[9]=n[9],e[10]=n[10],e[11]=n[11],e[12]=n[12],e[13]=n[13],e[14]=n[14],e[15]=n[15],this}copyPosition(t){let e=this.elements,n=t.elements;return e[12]=n[12],e[13]=n[13],e[14]=n[14],this}setFromMatrix3(t){let e=t.elements;return this.set(e[0],e[3],e[6],0,e[1],e[4],e[7],0,e[2],e[5],e[8],0,0,0,0,1),this}extractBasis(t,e,n){return this.determinantAffine()===0?(t.set(1,0,0),e.set(0,1,0),n.set(0,0,1),this):(t.setFromMatrixColumn(this,0),e.setFromMatrixColumn(this,1),n.setFromMatrixColumn(this,2),this)}makeBasis(t,e,n){return this.set(t.x,e.x,n.x,0,t.y,e.y,n.y,0,t.z,e.z,n.z,0,0,0,0,1),this}extractRotation(t){if(t.determinantAffine()===0)return this.identity();let e=this.elements,n=t.elements,s=1/Qs.setFromMatrixColumn(t,0).length(),r=1/Qs.setFromMatrixColumn(t,1).length(),a=1/Qs.setFromMatrixColumn(t,2).length();return e[0]=n[0]*s,e[1]=n[1]*s,e[2]=n[2]*s,e[3]=0,e[4]=n[4]*r,e[5]=n[5]*r,e[6]=n[6]*r,e[7]=0,e[8]=n[8]*a,e[9]=n[9]*a,e[10]=n[10]*a,e[11]=0,e[12]=0,e[13]=0,e[14]=0,e[15]=1,this}makeRotationFromEuler(t){let e=this.elements,n=t.x,s=t.y,r=t.z,a=Math.cos(n),o=Math.sin(n),c=Math.cos(s),l=Math.sin(s),h=Math.cos(r),u=Math.sin(r);if(t.order==="XYZ"){let f=a*h,d=a*u,p=o*h,_=o*u;e[0]=c*h,e[4]=-c*u,e[8]=l,e[1]=d+p*l,e[5]=f-_*l,e[9]=-o*c,e[2]=_-f*l,e[6]=p+d*l,e[10]=a*c}else if(t.order==="YXZ"){let f=c*h,d=c*u,p=l*h,_=l*u;e[0]=f+_*o,e[4]=p*o-d,e[8]=a*l,e[1]=a*u,e[5]=a*h,e[9]=-o,e[2]=d*o-p,e[6]=_+f*o,e[10]=a*c}else if(t.order==="ZXY"){let f=c*h,d=c*u,p=l*h,_=l*u;e[0]=f-_*o,e[4]=-a*u,e[8]=p+d*o,e[1]=d+p*o,e[5]=a*h,e[9]=_-f*o,e[2]=-a*l,e[6]=o,e[10]=a*c}else if(t.order==="ZYX"){let f=a*h,d=a*u,p=o*h,_=o*u;e[0]=c*h,e[4]=p*l-d,e[8]=f*l+_,e[1]=c*u,e[5]=_*l+f,e[9]=d*l-p,e[2]=-l,e[6]=o*c,e[10]=a*c}else if(t.order==="YZX"){let f=a*c,d=a*l,p=o*c,_=o*l;e[0]=c*h,e[4]=_-f*u,e[8]=p*u+d,e[1]=u,e[5]=a*h,e[9]=-o*h,e[2]=-l*h,e[6]=d*u+p,e[10]=f-_*u}else if(t.order==="XZY"){let f=a*c,d=a*l,p=o*c,_=o*l;e[0]=c*h,e[4]=-u,e[8]=l*h,e[1]=f*u+_,e[5]=a*h,e[9]=d*u-p,e[2]=p*u-d,e[6]=o*h,e[10]=_*u+f}return e[3]=0,e[7]=0,e[11]=0,e[12]=0,e[13]=0,e[14]=0,e[15]=1,this}makeRotationFromQuaternion(t){return this.compose(Lx,t,Nx)}lookAt(t,e,n){let s=this.elements;return Dn.subVectors(t,e),Dn.lengthSq()===0&&(Dn.z=1),Dn.normalize(),Xi.crossVectors(n,Dn),Xi.lengthSq()===0&&(Math.abs(n.z)===1?Dn.x+=1e-4:Dn.z+=1e-4,Dn.normalize(),Xi.crossVectors(n,Dn)),Xi.normalize(),Ho.crossVectors(Dn,Xi),s[0]=Xi.x,s[4]=Ho.x,s[8]=Dn.x,s[1]=Xi.y,s[5]=Ho.y,s[9]=Dn.y,s[2]=Xi.z,s[6]=Ho.z,s[10]=Dn.z,this}multiply(t){return this.multiplyMatrices(this,t)}premultiply(t){return this.multiplyMatrices(t,this)}multiplyMatrices(t,e){let n=t.elements,s=e.elements,r=this.elements,a=n[0],o=n[4],c=n[8],l=n[12],h=n[1],u=n[5],f=n[9],d=n[13],p=n[2],_=n[6],g=n[10],m=n[14],x=n[3],b=n[7],w=n[11],A=n[15],C=s[0],v=s[4],E=s[8],F=s[12],N=s[1],D=s[5],H=s[9],J=s[13],P=s[2],q=s[6],Q=s[10],X=s[14],rt=s[3],W=s[7],k=s[11],it=s[15];return r[0]=a*C+o*N+c*P+l*rt,r[4]=a*v+o*D+c*q+l*W,r[8]=a*E+o*H+c*Q+l*k,r[12]=a*F+o*J+c*X+l*it,r[1]=h*C+u*N+f*P+d*rt,r[5]=h*v+u*D+f*q+d*W,r[9]=h*E+u*H+f*Q+d*k,r[13]=h*F+u*J+f*X+d*it,r[2]=p*C+_*N+g*P+m*rt,r[6]=p*v+_*D+g*q+m*W,r[10]=p*E+_*H+g*Q+m*k,r[14]=p*F+_*J+g*X+m*it,r[3]=x*C+b*N+w*P+A*rt,r[7]=x*v+b*D+w*q+A*W,r[11]=x*E+b*H+w*Q+A*k,r[15]=x*F+b*J+w*X+A*it,this}multiplyScalar(t){let e=this.elements;return e[0]*=t,e[4]*=t,e[8]*=t,e[12]*=t,e[1]*=t,e[5]*=t,e[9]*=t,e[13]*=t,e[2]*=t,e[6]*=t,e[10]*=t,e[14]*=t,e[3]*=t,e[7]*=t,e[11]*=t,e[15]*=t,this}determinant(){let t=this.elements,e=t[0],n=t[4],s=t[8],r=t[12],a=t[1],o=t[5],c=t[9],l=t[13],h=t[2],u=t[6],f=t[10],d=t[14],p=t[3],_=t[7],g=t[11],m=t[15],x=c*d-l*f,b=o*d-l*u,w=o*f-c*u,A=a*d-l*h,C=a*f-c*h,v=a*u-o*h;return e*(_*x-g*b+m*w)-n*(p*x-g*A+m*C)+s*(p*b-_*A+m*v)-r*(p*w-_*C+g*v)}determinantAffine(){let t=this.elements,e=t[0],n=t[4],s=t[8],r=t[1],a=t[5],o=t[9],c=t[2],l=t[6],h=t[10];return e*(a*h-o*l)-n*(r*h-o*c)+s*(r*l-a*c)}transpose(){let t=this.elements,e;return e=t[1],t[1]=t[4],t[4]=e,e=t[2],t[2]=t[8],t[8]=e,e=t[6],t[6]=t[9],t[9]=e,e=t[3],t[3]=t[12],t[12]=e,e=t[7],t[7]=t[13],t[13]=e,e=t[11],t[11]=t[14],t[14]=e,this}setPosition(t,e,n){let s=this.elements;return t.isVector3?(s[12]=t.x,s[13]=t.y,s[14]=t.z):(s[12]=t,s[13]=e,s[14]=n),this}invert(){let t=this.elements,e=t[0],n=t[1],s=t[2],r=t[3],a=t[4],o=t[5],c=t[6],l=t[7],h=t[8],u=t[9],f=t[10],d=t[11],p=t[12],_=t[13],g=t[14],m=t[15],x=e*o-n*a,b=e*c-s*a,w=e*l-r*a,A=n*c-s*o,C=n*l-r*o,v=s*l-r*c,E=h*_-u*p,F=h*g-f*p,N=h*m-d*p,D=u*g-f*_,H=u*m-d*_,J=f*m-d*g,P=x*J-b*H+w*D+A*N-C*F+v*E;if(P===0)return this.set(0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0);let q=1/P;return t[0]=(o*J-c*H+l*D)*q,t[1]=(s*H-n*J-r*D)*q,t[2]=(_*v-g*C+m*A)*q,t[3]=(f*C-u*v-d*A)*q,t[4]=(c*N-a*J-l*F)*q,t[5]=(e*J-s*N+r*F)*q,t[6]=(g*w-p*v-m*b)*q,t[7]=(h*v-f*w+d*b)*q,t[8]=(a*H-o*N+l*E)*q,t[9]=(n*N-e*H-r*E)*q,t[10]=(p*C-_*w+m*x)*q,t[11]=(u*w-h*C-d*x)*q,t[12]=(o*F-a*D-c*E)*q,t[13]=(e*D-n*F+s*E)*q,t[14]=(_*b-p*A-g*x)*q,t[15]=(h*A-u*b+f*x)*q,this}scale(t){let e=this.elements,n=t.x,s=t.y,r=t.z;return e[0]*=n,e[4]*=s,e[8]*=r,e[1]*=n,e[5]*=s,e[9]*=r,e[2]*=n,e[6]*=s,e[10]*=r,e[3]*=n,e[7]*=s,e[11]*=r,this}getMaxScaleOnAxis(){let t=this.elements,e=t[0]*t[0]+t[1]*t[1]+t[2]*t[2],n=t[4]*t[4]+t[5]*t[5]+t[6]*t[6],s=t[8]*t[8]+t[9]*t[9]+t[10]*t[10];return Math.sqrt(Math.max(e,n,s))}makeTranslation(t,e,n){return t.isVector3?this.set(1,0,0,t.x,0,1,0,t.y,0,0,1,t.z,0,0,0,1):this.set(1,0,0,t,0,1,0,e,0,0,1,n,0,0,0,1),this}makeRotationX(t){let e=Math.cos(t),n=Math.sin(t);return this.set(1,0,0,0,0,e,-n,0,0,n,e,0,0,0,0,1),this}makeRotationY(t){let e=Math.cos(t),n=Math.sin(t);return this.set(e,0,n,0,0,1,0,0,-n,0,e,0,0,0,0,1),this}makeRotationZ(t){let e=Math.cos(t),n=Math.sin(t);return this.set(e,-n,0,0,n,e,0,0,0,0,1,0,0,0,0,1),this}makeRotationAxis(t,e){let n=Math.cos(e),s=Math.sin(e),r=1-n,a=t.x,o=t.y,c=t.z,l=r*a,h=r*o;return this.set(l*a+n,l*o-s*c,l*c+s*o,0,l*o+s*c,h*o+n,h*c-s*a,0,l*c-s*o,h*c+s*a,r*c*c+n,0,0,0,0,1),this}makeScale(t,e,n){return this.set(t,0,0,0,0,e,0,0,0,0,n,0,0,0,0,1),this}makeShear(t,e,n,s,r,a){return this.set(1,n,r,0,t,1,a,0,e,s,1,0,0,0,0,1),this}compose(t,e,n){let s=this.elements,r=e._x,a=e._y,o=e._z,c=e._w,l=r+r,h=a+a,u=o+o,f=r*l,d=r*h,p=r*u,_=a*h,g=a*u,m=o*u,x=c*l,b=c*h,w=c*u,A=n.x,C=n.y,v=n.z;return s[0]=(1-(_+m))*A,s[1]=(d+w)*A,s[2]=(p-b)*A,s[3]=0,s[4]=(d-w)*C,s[5]=(1-(f+m))*C,s[6]=(g+x)*C,s[7]=0,s[8]=(p+b)*v,s[9]=(g-x)*v,s[10]=(1-(f+_))*v,s[11]=0,s[12]=t.x,s[13]=t.y,s[14]=t.z,s[15]=1,this}decompose(t,e,n){let s=this.elements;t.x=s[12],t.y=s[13],t.z=s[14];let r=this.determinantAffine();if(r===0)return n.set(1,1,1),e.identity(),this;let a=Qs.set(s[0],s[1],s[2]).length(),o=Qs.set(s[4],s[5],s[6]).length(),c=Qs.set(s[8],s[9],s[10]).length();r<0&&(a=-a),Qn.copy(this);let l=1/a,h=1/o,u=1/c;return Qn.elements[0]*=l,Qn.elements[1]*=l,Qn.elements[2]*=l,Qn.elements[4]*=h,Qn.elements[5]*=h,Qn.elements[6]*=h,Qn.elements[8]*=u,Qn.elements[9]*=u,Qn.elements[10]*=u,e.setFromRotationMatrix(Qn),n.x=a,n.y=o,n.z=c,this}makePerspective(t,e,n,s,r,a,o=Wn,c=!1){let l=this.elements,h=2*r/(e-t),u=2*r/(n-s),f=(e+t)/(e-t),d=(n+s)/(n-s),p,_;if(c)p=r/(a-r),_=a*r/(a-r);else if(o===Wn)p=-(a+r)/(a-r),_=-2*a*r/(a-r);else if(o===dr)p=-a/(a-r),_=-a*r/(a-r);else throw new Error("THREE.Matrix4.makePerspective(): Invalid coordinate system: "+o);return l[0]=h,l[4]=0,l[8]=f,l[12]=0,l[1]=0,l[5]=u,l[9]=d,l[13]=0,l[2]=0,l[6]=0,l[10]=p,l[14]=_,l[3]=0,l[7]=0,l[11]=-1,l[15]=0,this}makeOrthographic(t,e,n,s,r,a,o=Wn,c=!1){let l=this.elements,h=2/(e-t),u=2/(n-s),f=-(e+t)/(e-t),d=-(n+s)/(n-s),p,_;if(c)p=1/(a-r),_=a/(a-r);else if(o===Wn)p=-2/(a-r),_=-(a+r)/(a-r);else if(o===dr)p=-1/(a-r),_=-r/(a-r);else throw new Error("THREE.Matrix4.makeOrthographic(): Invalid coordinate system: "+o);return l[0]=h,l[4]=0,l[8]=0,l[12]=f,l[1]=0,l[5]=u,l[9]=0,l[13]=d,l[2]=0,l[6]=0,l[10]=p,l[14]=_,l[3]=0,l[7]=0,l[11]=0,l[15]=1,this}equals(t){let e=this.elements,n=t.elements;for(let s=0;s<16;s++)if(e[s]!==n[s])return!1;return!0}fromArray(t,e=0){for(let n=0;n<16;n++)this.elements[n]=t[n+e];return this}toArray(t=[],e=0){let n=this.elements;return t[e]=n[0],t[e+1]=n[1],t[e+2]=n[2],t[e+3]=n[3],t[e+4]=n[4],t[e+5]=n[5],t[e+6]=n[6],t[e+7]=n[7],t[e+8]=n[8],t[e+9]=n[9],t[e+10]=n[10],t[e+11]=n[11],t[e+12]=n[12],t[e+13]=n[13],t[e+14]=n[14],t[e+15]=n[15],t}},Qs=new B,Qn=new ie,Lx=new B(0,0,0),Nx=new B(1,1,1),Xi=new B,Ho=new B,Dn=new B,Mm=new ie,Sm=new pn,Ci=class i{constructor(t=0,e=0,n=0,s=i.DEFAULT_ORDER){this.isEuler=!0,this._x=t,this._y=e,this._z=n,this._order=s}get x(){return this._x}set x(t){this._x=t,this._onChangeCallback()}get y(){return this._y}set y(t){this._y=t,this._onChangeCallback()}get z(){return this._z}set z(t){this._z=t,this._onChangeCallback()}get order(){return this._order}set order(t){this._order=t,this._onChangeCallback()}set(t,e,n,s=this._order){return this._x=t,this._y=e,this._z=n,this._order=s,this._onChangeCallback(),this}clone(){return new this.constructor(this._x,this._y,this._z,this._order)}copy(t){return this._x=t._x,this._y=t._y,this._z=t._z,this._order=t._order,this._onChangeCallback(),this}setFromRotationMatrix(t,e=this._order,n=!0){let s=t.elements,r=s[0],a=s[4],o=s[8],c=s[1],l=s[5],h=s[9],u=s[2],f=s[6],d=s[10];switch(e){case"XYZ":this._y=Math.asin(ne(o,-1,1)),Math.abs(o)<.9999999?(this._x=Math.atan2(-h,d),this._z=Math.atan2(-a,r)):(this._x=Math.atan2(f,l),this._z=0);break;case"YXZ":this._x=Math.asin(-ne(h,-1,1)),Math.abs(h)<.9999999?(this._y=Math.atan2(o,d),this._z=Math.atan2(c,l)):(this._y=Math.atan2(-u,r),this._z=0);break;case"ZXY":this._x=Math.asin(ne(f,-1,1)),Math.abs(f)<.9999999?(this._y=Math.atan2(-u,d),this._z=Math.atan2(-a,l)):(this._y=0,this._z=Math.atan2(c,r));break;case"ZYX":this._y=Math.asin(-ne(u,-1,1)),Math.abs(u)<.9999999?(this._x=Math.atan2(f,d),this._z=Math.atan2(c,r)):(this._x=0,this._z=Math.atan2(-a,l));break;case"YZX":this._z=Math.asin(ne(c,-1,1)),Math.abs(c)<.9999999?(this._x=Math.atan2(-h,l),this._y=Math.atan2(-u,r)):(this._x=0,this._y=Math.atan2(o,d));break;case"XZY":this._z=Math.asin(-ne(a,-1,1)),Math.abs(a)<.9999999?(this._x=Math.atan2(f,l),this._y=Math.atan2(o,r)):(this._x=Math.atan2(-h,d),this._y=0);break;default:Dt("Euler: .setFromRotationMatrix() encountered an unknown order: "+e)}return this._order=e,n===!0&&this._onChangeCallback(),this}setFromQuaternion(t,e,n){return Mm.makeRotationFromQuaternion(t),this.setFromRotationMatrix(Mm,e,n)}setFromVector3(t,e=this._order){return this.set(t.x,t.y,t.z,e)}reorder(t){return Sm.setFromEuler(this),this.setFromQuaternion(Sm,t)}equals(t){return t._x===this._x&&t._y===this._y&&t._z===this._z&&t._order===this._order}fromArray(t){return this._x=t[0],this._y=t[1],this._z=t[2],t[3]!==void 0&&(this._order=t[3]),this._onChangeCallback(),this}toArray(t=[],e=0){return t[e]=this._x,t[e+1]=this._y,t[e+2]=this._z,t[e+3]=this._order,t}_onChange(t){return this._onChangeCallback=t,this}_onChangeCallback(){}*[Symbol.iterator](){yield this._x,yield this._y,yield this._z,yield this._order}};Ci.DEFAULT_ORDER="XYZ";var _r=class{constructor(){this.mask=1}set(t){this.mask=(1<<t|0)>>>0}enable(t){this.mask|=1<<t|0}enableAll(){this.mask=-1}toggle(t){this.mask^=1<<t|0}disable(t){this.mask&=~(1<<t|0)}disableAll(){this.mask=0}test(t){return(this.mask&t.mask)!==0}isEnabled(t){return(this.mask&(1<<t|0))!==0}},Dx=0,bm=new B,tr=new pn,Si=new ie,Wo=new B,ia=new B,Ox=new B,Ux=new pn,wm=new B(1,0,0),Em=new B(0,1,0),Tm=new B(0,0,1),Am={type:"added"},Fx={type:"removed"},er={type:"childadded",child:null},_u={type:"childremoved",child:null},tn=class i extends ni{constructor(){super(),this.isObject3D=!0,Object.defineProperty(this,"id",{value:Dx++}),this.uuid=Os(),this.name="",this.type="Object3D",this.parent=null,this.children=[],this.up=i.DEFAULT_UP.clone();let t=new B,e=new Ci,n=new pn,s=new B(1,1,1);function r(){n.setFromEuler(e,!1)}function a(){e.setFromQuaternion(n,void 0,!1)}e._onChange(r),n._onChange(a),Object.defineProperties(this,{position:{configurable:!0,enumerable:!0,value:t},rotation:{configurable:!0,enumerable:!0,value:e},quaternion:{configurable:!0,enumerable:!0,value:n},scale:{configurable:!0,enumerable:!0,value:s},modelViewMatrix:{value:new ie},normalMatrix:{value:new qt}}),this.matrix=new ie,this.matrixWorld=new ie,this.matrixAutoUpdate=i.DEFAULT_MATRIX_AUTO_UPDATE,this.matrixWorldAutoUpdate=i.DEFAULT_MATRIX_WORLD_AUTO_UPDATE,this.matrixWorldNeedsUpdate=!1,this.layers=new _r,this.visible=!0,this.castShadow=!1,this.receiveShadow=!1,this.frustumCulled=!0,this.renderOrder=0,this.animations=[],this.customDepthMaterial=void 0,this.customDistanceMaterial=void 0,this.static=!1,this.userData={},this.pivot=null}onBeforeShadow(){}onAfterShadow(){}onBeforeRender(){}onAfterRender(){}applyMatrix4(t){this.matrixAutoUpdate&&this.updateMatrix(),this.matrix.premultiply(t),this.matrix.decompose(this.position,this.quaternion,this.scale),this.pivot!==null&&this.position.copy(this.pivot).applyMatrix4(this.matrix).sub(this.pivot)}applyQuaternion(t){return this.quaternion.premultiply(t),this}setRotationFromAxisAngle(t,e){this.quaternion.setFromAxisAngle(t,e)}setRotationFromEuler(t){this.quaternion.setFromEuler(t,!0)}setRotationFromMatrix(t){this.quaternion.setFromRotationMatrix(t)}setRotationFromQuaternion(t){this.quaternion.copy(t)}rotateOnAxis(t,e){return tr.setFromAxisAngle(t,e),this.quaternion.multiply(tr),this}rotateOnWorldAxis(t,e){return tr.setFromAxisAngle(t,e),this.quaternion.premultiply(tr),this}rotateX(t){return this.rotateOnAxis(wm,t)}rotateY(t){return this.rotateOnAxis(Em,t)}rotateZ(t){return this.rotateOnAxis(Tm,t)}translateOnAxis(t,e){return bm.copy(t).applyQuaternion(this.quaternion),this.position.add(bm.multiplyScalar(e)),this}translateX(t){return this.translateOnAxis(wm,t)}translateY(t){return this.translateOnAxis(Em,t)}translateZ(t){return this.translateOnAxis(Tm,t)}localToWorld(t){return this.updateWorldMatrix(!0,!1),t.applyMatrix4(this.matrixWorld)}worldToLocal(t){return this.updateWorldMatrix(!0,!1),t.applyMatrix4(Si.copy(this.matrixWorld).invert())}lookAt(t,e,n){t.isVector3?Wo.copy(t):Wo.set(t,e,n);let s=this.parent;this.updateWorldMatrix(!0,!1),ia.setFromMatrixPosition(this.matrixWorld),this.isCamera||this.isLight?Si.lookAt(ia,Wo,this.up):Si.lookAt(Wo,ia,this.up),this.quaternion.setFromRotationMatrix(Si),s&&(Si.extractRotation(s.matrixWorld),tr.setFromRotationMatrix(Si),this.quaternion.premultiply(tr.invert()))}add(t){if(arguments.length>1){for(let e=0;e<arguments.length;e++)this.add(arguments[e]);return this}return t===this?(Ht("Object3D.add: object can't be added as a child of itself.",t),this):(t&&t.isObject3D?(t.removeFromParent(),t.parent=this,this.children.push(t),t.dispatchEvent(Am),er.child=t,this.dispatchEvent(er),er.child=null):Ht("Object3D.add: object not an instance of THREE.Object3D.",t),this)}remove(t){if(arguments.length>1){for(let n=0;n<arguments.length;n++)this.remove(arguments[n]);return this}let e=this.children.indexOf(t);return e!==-1&&(t.parent=null,this.children.splice(e,1),t.dispatchEvent(Fx),_u.child=t,this.dispatchEvent(_u),_u.child=null),this}removeFromParent(){let t=this.parent;return t!==null&&t.remove(this),this}clear(){return this.remove(...this.children)}attach(t){return this.updateWorldMatrix(!0,!1),Si.copy(this.matrixWorld).invert(),t.parent!==null&&(t.parent.updateWorldMatrix(!0,!1),Si.multiply(t.parent.matrixWorld)),t.applyMatrix4(Si),t.removeFromParent(),t.parent=this,this.children.push(t),t.updateWorldMatrix(!1,!0),t.dispatchEvent(Am),er.child=t,this.dispatchEvent(er),er.child=null,this}getObjectById(t){return this.getObjectByProperty("id",t)}getObjectByName(t){return this.getObjectByProperty("name",t)}getObjectByProperty(t,e){if(this[t]===e)return this;for(let n=0,s=this.children.length;n<s;n++){let a=this.children[n].getObjectByProperty(t,e);if(a!==void 0)return a}}getObjectsByProperty(t,e,n=[]){this[t]===e&&n.push(this);let s=this.children;for(let r=0,a=s.length;r<a;r++)s[r].getObjectsByProperty(t,e,n);return n}getWorldPosition(t){return this.updateWorldMatrix(!0,!1),t.setFromMatrixPosition(this.matrixWorld)}getWorldQuaternion(t){return this.updateWorldMatrix(!0,!1),this.matrixWorld.decompose(ia,t,Ox),t}getWorldScale(t){return this.updateWorldMatrix(!0,!1),this.matrixWorld.decompose(ia,Ux,t),t}getWorldDirection(t){this.updateWorldMatrix(!0,!1);let e=this.matrixWorld.elements;return t.set(e[8],e[9],e[10]).normalize()}raycast(){}intersectsFrustum(){return!0}traverse(t){t(this);let e=this.children;for(let n=0,s=e.length;n<s;n++)e[n].traverse(t)}traverseVisible(t){if(this.visible===!1)return;t(this);let e=this.children;for(let n=0,s=e.length;n<s;n++)e[n].traverseVisible(t)}traverseAncestors(t){let e=this.parent;e!==null&&(t(e),e.traverseAncestors(t))}updateMatrix(){this.matrix.compose(this.position,this.quaternion,this.scale);let t=this.pivot;if(t!==null){let e=t.x,n=t.y,s=t.z,r=this.matrix.elements;r[12]+=e-r[0]*e-r[4]*n-r[8]*s,r[13]+=n-r[1]*e-r[5]*n-r[9]*s,r[14]+=s-r[2]*e-r[6]*n-r[10]*s}this.matrixWorldNeedsUpdate=!0}updateMatrixWorld(t){this.matrixAutoUpdate&&this.updateMatrix(),(this.matrixWorldNeedsUpdate||t)&&(this.matrixWorldAutoUpdate===!0&&(this.parent===null?this.matrixWorld.copy(this.matrix):this.matrixWorld.multiplyMatrices(this.parent.matrixWorld,this.matrix)),this.matrixWorldNeedsUpdate=!1,t=!0);let e=this.children;for(let n=0,s=e.length;n<s;n++)e[n].updateMatrixWorld(t)}updateWorldMatrix(t,e,n=!1){let s=this.parent;if(t===!0&&s!==null&&s.updateWorldMatrix(!0,!1),this.matrixAutoUpdate&&this.updateMatrix(),(this.matrixWorldNeedsUpdate||n)&&(this.matrixWorldAutoUpdate===!0&&(this.parent===null?this.matrixWorld.copy(this.matrix):this.matrixWorld.multiplyMatrices(this.parent.matrixWorld,this.matrix)),this.matrixWorldNeedsUpdate=!1,n=!0),e===!0){let r=this.children;for(let a=0,o=r.length;a<o;a++)r[a].updateWorldMatrix(!1,!0,n)}}toJSON(t){let e=t===void 0||typeof t=="string",n={};e&&(t={geometries:{},materials:{},textures:{},images:{},shapes:{},skeletons:{},animations:{},nodes:{}},n.metadata={version:4.7,type:"Object",generator:"Object3D.toJSON"});let s={};s.uuid=this.uuid,s.type=this.type,s.name=this.name,s.castShadow=this.castShadow,s.receiveShadow=this.receiveShadow,s.visible=this.visible,s.frustumCulled=this.frustumCulled,s.renderOrder=this.renderOrder,s.static=this.static,s.matrixAutoUpdate=this.matrixAutoUpdate,Object.keys(this.userData).length>0&&(s.userData=this.userData),s.layers=this.layers.mask,s.matrix=this.matrix.toArray(),s.up=this.up.toArray(),this.pivot!==null&&(s.pivot=this.pivot.toArray()),this.morphTargetDictionary!==void 0&&(s.morphTargetDictionary=Object.assign({},this.morphTargetDictionary)),this.morphTargetInfluences!==void 0&&(s.morphTargetInfluences=this.morphTargetInfluences.slice()),this.isInstancedMesh&&(s.type="InstancedMesh",s.count=this.count,s.instanceMatrix=this.instanceMatrix.toJSON(),this.instanceColor!==null&&(s.instanceColor=this.instanceColor.toJSON())),this.isBatchedMesh&&(s.type="BatchedMesh",s.perObjectFrustumCulled=this.perObjectFrustumCulled,s.sortObjects=this.sortObjects,s.drawRanges=this._drawRanges,s.reservedRanges=this._reservedRanges,s.geometryInfo=this._geometryInfo.map(o=>({...o,boundingBox:o.boundingBox?o.boundingBox.toJSON():void 0,boundingSphere:o.boundingSphere?o.boundingSphere.toJSON():void 0})),s.instanceInfo=this._instanceInfo.map(o=>({...o})),s.availableInstanceIds=this._availableInstanceIds.slice(),s.availableGeometryIds=this._availableGeometryIds.slice(),s.nextIndexStart=this._nextIndexStart,s.nextVertexStart=this._nextVertexStart,s.geometryCount=this._geometryCount,s.maxInstanceCount=this._maxInstanceCount,s.maxVertexCount=this._maxVertexCount,s.maxIndexCount=this._maxIndexCount,s.geometryInitialized=this._geometryInitialized,s.matricesTexture=this._matricesTexture.toJSON(t),s.indirectTexture=this._indirectTexture.toJSON(t),this._colorsTexture!==null&&(s.colorsTexture=this._colorsTexture.toJSON(t)),this.boundingSphere!==null&&(s.boundingSphere=this.boundingSphere.toJSON()),this.boundingBox!==null&&(s.boundingBox=this.boundingBox.toJSON()));function r(o,c){return o[c.uuid]===void 0&&(o[c.uuid]=c.toJSON(t)),c.uuid}if(this.isScene)this.background&&(this.background.isColor?s.background=this.background.toJSON():this.background.isTexture&&(s.background=this.background.toJSON(t).uuid)),this.environment&&this.environment.isTexture&&this.environment.isRenderTargetTexture!==!0&&(s.environment=this.environment.toJSON(t).uuid);else if(this.isMesh||this.isLine||this.isPoints){s.geometry=r(t.geometries,this.geometry);let o=this.geometry.parameters;if(o!==void 0&&o.shapes!==void 0){let c=o.shapes;if(Array.isArray(c))for(let l=0,h=c.length;l<h;l++){let u=c[l];r(t.shapes,u)}else r(t.shapes,c)}}if(this.isSkinnedMesh&&(s.bindMode=this.bindMode,s.bindMatrix=this.bindMatrix.toArray(),this.skeleton!==void 0&&(r(t.skeletons,this.skeleton),s.skeleton=this.skeleton.uuid)),this.material!==void 0)if(Array.isArray(this.material)){let o=[];for(let c=0,l=this.material.length;c<l;c++)o.push(r(t.materials,this.material[c]));s.material=o}else s.material=r(t.materials,this.material);if(this.children.length>0){s.children=[];for(let o=0;o<this.children.length;o++)s.children.push(this.children[o].toJSON(t).object)}if(this.animations.length>0){s.animations=[];for(let o=0;o<this.animations.length;o++){let c=this.animations[o];s.animations.push(r(t.animations,c))}}if(e){let o=a(t.geometries),c=a(t.materials),l=a(t.textures),h=a(t.images),u=a(t.shapes),f=a(t.skeletons),d=a(t.animations),p=a(t.nodes);o.length>0&&(n.geometries=o),c.length>0&&(n.materials=c),l.length>0&&(n.textures=l),h.length>0&&(n.images=h),u.length>0&&(n.shapes=u),f.length>0&&(n.skeletons=f),d.length>0&&(n.animations=d),p.length>0&&(n.nodes=p)}return n.object=s,n;function a(o){let c=[];for(let l in o){let h=o[l];delete h.metadata,c.push(h)}return c}}clone(t){return new this.constructor().copy(this,t)}copy(t,e=!0){if(this.name=t.name,this.up.copy(t.up),this.position.copy(t.position),this.rotation.order=t.rotation.order,this.quaternion.copy(t.quaternion),this.scale.copy(t.scale),this.pivot=t.pivot!==null?t.pivot.clone():null,this.matrix.copy(t.matrix),this.matrixWorld.copy(t.matrixWorld),this.matrixAutoUpdate=t.matrixAutoUpdate,this.matrixWorldAutoUpdate=t.matrixWorldAutoUpdate,this.matrixWorldNeedsUpdate=t.matrixWorldNeedsUpdate,this.layers.mask=t.layers.mask,this.visible=t.visible,this.castShadow=t.castShadow,this.receiveShadow=t.receiveShadow,this.frustumCulled=t.frustumCulled,this.renderOrder=t.renderOrder,this.static=t.static,this.animations=t.animations.slice(),this.userData=JSON.parse(JSON.stringify(t.userData)),e===!0)for(let n=0;n<t.children.length;n++){let s=t.children[n];this.add(s.clone())}return this}dispose(){this.dispatchEvent({type:"dispose"})}};tn.DEFAULT_UP=new B(0,1,0);tn.DEFAULT_MATRIX_AUTO_UPDATE=!0;tn.DEFAULT_MATRIX_WORLD_AUTO_UPDATE=!0;var As=class extends tn{constructor(){super(),this.isGroup=!0,this.type="Group"}},Bx={type:"move"},yr=class{constructor(){this._targetRay=null,this._grip=null,this._hand=null}getHandSpace(){return this._hand===null&&(this._hand=new As,this._hand.matrixAutoUpdate=!1,this._hand.visible=!1,this._hand.joints={},this._hand.inputState={pinching:!1}),this._hand}getTargetRaySpace(){return this._targetRay===null&&(this._targetRay=new As,this._targetRay.matrixAutoUpdate=!1,this._targetRay.visible=!1,this._targetRay.hasLinearVelocity=!1,this._targetRay.linearVelocity=new B,this._targetRay.hasAngularVelocity=!1,this._targetRay.angularVelocity=new B),this._targetRay}getGripSpace(){return this._grip===null&&(this._grip=new As,this._grip.matrixAutoUpdate=!1,this._grip.visible=!1,this._grip.hasLinearVelocity=!1,this._grip.linearVelocity=new B,this._grip.hasAngularVelocity=!1,this._grip.angularVelocity=new B,this._grip.eventsEnabled=!1),this._grip}dispatchEvent(t){return this._targetRay!==null&&this._targetRay.dispatchEvent(t),this._grip!==null&&this._grip.dispatchEvent(t),this._hand!==null&&this._hand.dispatchEvent(t),this}connect(t){if(t&&t.hand){let e=this._hand;if(e)for(let n of t.hand.values())this._getHandJoint(e,n)}return this.dispatchEvent({type:"connected",data:t}),this}disconnect(t){return this.dispatchEvent({type:"disconnected",data:t}),this._targetRay!==null&&(this._targetRay.visible=!1),this._grip!==null&&(this._grip.visible=!1),this._hand!==null&&(this._hand.visible=!1),this}update(t,e,n){let s=null,r=null,a=null,o=this._targetRay,c=this._grip,l=this._hand;if(t&&e.session.visibilityState!=="visible-blurred"){if(l&&t.hand){a=!0;for(let _ of t.hand.values()){let g=e.getJointPose(_,n),m=this._getHandJoint(l,_);g!==null&&(m.matrix.fromArray(g.transform.matrix),m.matrix.decompose(m.position,m.quaternion,m.scale),m.matrixWorldNeedsUpdate=!0,m.jointRadius=g.radius),m.visible=g!==null}let h=l.joints["index-finger-tip"],u=l.joints["thumb-tip"],f=h.position.distanceTo(u.position),d=.02,p=.005;l.inputState.pinching&&f>d+p?(l.inputState.pinching=!1,this.dispatchEvent({type:"pinchend",handedness:t.handedness,target:this})):!l.inputState.pinching&&f<=d-p&&(l.inputState.pinching=!0,this.dispatchEvent({type:"pinchstart",handedness:t.handedness,target:this}))}else c!==null&&t.gripSpace&&(r=e.getPose(t.gripSpace,n),r!==null&&(c.matrix.fromArray(r.transform.matrix),c.matrix.decompose(c.position,c.quaternion,c.scale),c.matrixWorldNeedsUpdate=!0,r.linearVelocity?(c.hasLinearVelocity=!0,c.linearVelocity.copy(r.linearVelocity)):c.hasLinearVelocity=!1,r.angularVelocity?(c.hasAngularVelocity=!0,c.angularVelocity.copy(r.angularVelocity)):c.hasAngularVelocity=!1,c.eventsEnabled&&c.dispatchEvent({type:"gripUpdated",data:t,target:this})));o!==null&&(s=e.getPose(t.targetRaySpace,n),s===null&&r!==null&&(s=r),s!==null&&(o.matrix.fromArray(s.transform.matrix),o.matrix.decompose(o.position,o.quaternion,o.scale),o.matrixWorldNeedsUpdate=!0,s.linearVelocity?(o.hasLinearVelocity=!0,o.linearVelocity.copy(s.linearVelocity)):o.hasLinearVelocity=!1,s.angularVelocity?(o.hasAngularVelocity=!0,o.angularVelocity.copy(s.angularVelocity)):o.hasAngularVelocity=!1,this.dispatchEvent(Bx)))}return o!==null&&(o.visible=s!==null),c!==null&&(c.visible=r!==null),l!==null&&(l.visible=a!==null),this}_getHandJoint(t,e){if(t.joints[e.jointName]===void 0){let n=new As;n.matrixAutoUpdate=!1,n.visible=!1,t.joints[e.jointName]=n,t.add(n)}return t.joints[e.jointName]}},Fg={aliceblue:15792383,antiquewhite:16444375,aqua:65535,aquamarine:8388564,azure:15794175,beige:16119260,bisque:16770244,black:0,blanchedalmond:16772045,blue:255,blueviolet:9055202,brown:10824234,burlywood:14596231,cadetblue:6266528,chartreuse:8388352,chocolate:13789470,coral:16744272,cornflowerblue:6591981,cornsilk:16775388,crimson:14423100,cyan:65535,darkblue:139,darkcyan:35723,darkgoldenrod:12092939,darkgray:11119017,darkgreen:25600,darkgrey:11119017,darkkhaki:12433259,darkmagenta:9109643,darkolivegreen:5597999,darkorange:16747520,darkorchid:10040012,darkred:9109504,darksalmon:15308410,darkseagreen:9419919,darkslateblue:4734347,darkslategray:3100495,darkslategrey:3100495,darkturquoise:52945,darkviolet:9699539,deeppink:16716947,deepskyblue:49151,dimgray:6908265,dimgrey:6908265,dodgerblue:2003199,firebrick:11674146,floralwhite:16775920,forestgreen:2263842,fuchsia:16711935,gainsboro:14474460,ghostwhite:16316671,gold:16766720,goldenrod:14329120,gray:8421504,green:32768,greenyellow:11403055,grey:8421504,honeydew:15794160,hotpink:16738740,indianred:13458524,indigo:4915330,ivory:16777200,khaki:15787660,lavender:15132410,lavenderblush:16773365,lawngreen:8190976,lemonchiffon:16775885,lightblue:11393254,lightcoral:15761536,lightcyan:14745599,lightgoldenrodyellow:16448210,lightgray:13882323,lightgreen:9498256,lightgrey:13882323,lightpink:16758465,lightsalmon:16752762,lightseagreen:2142890,lightskyblue:8900346,lightslategray:7833753,lightslategrey:7833753,lightsteelblue:11584734,lightyellow:16777184,lime:65280,limegreen:3329330,linen:16445670,magenta:16711935,maroon:8388608,mediumaquamarine:6737322,mediumblue:205,mediumorchid:12211667,mediumpurple:9662683,mediumseagreen:3978097,mediumslateblue:8087790,mediumspringgreen:64154,mediumturquoise:4772300,mediumvioletred:13047173,midnightblue:1644912,mintcream:16121850,mistyrose:16770273,moccasin:16770229,navajowhite:16768685,navy:128,oldlace:16643558,olive:8421376,olivedrab:7048739,orange:16753920,orangered:16729344,orchid:14315734,palegoldenrod:15657130,palegreen:10025880,paleturquoise:11529966,palevioletred:14381203,papayawhip:16773077,peachpuff:16767673,peru:13468991,pink:16761035,plum:14524637,powderblue:11591910,purple:8388736,rebeccapurple:6697881,red:16711680,rosybrown:12357519,royalblue:4286945,saddlebrown:9127187,salmon:16416882,sandybrown:16032864,seagreen:3050327,seashell:16774638,sienna:10506797,silver:12632256,skyblue:8900331,slateblue:6970061,slategray:7372944,slategrey:7372944,snow:16775930,springgreen:65407,steelblue:4620980,tan:13808780,teal:32896,thistle:14204888,tomato:16737095,turquoise:4251856,violet:15631086,wheat:16113331,white:16777215,whitesmoke:16119285,yellow:16776960,yellowgreen:10145074},qi={h:0,s:0,l:0},Xo={h:0,s:0,l:0};function yu(i,t,e){return e<0&&(e+=1),e>1&&(e-=1),e<1/6?i+(t-i)*6*e:e<1/2?t:e<2/3?i+(t-i)*6*(2/3-e):i}var Yt=class{constructor(t,e,n){return this.isColor=!0,this.r=1,this.g=1,this.b=1,this.set(t,e,n)}set(t,e,n){if(e===void 0&&n===void 0){let s=t;s&&s.isColor?this.copy(s):typeof s=="number"?this.setHex(s):typeof s=="string"&&this.setStyle(s)}else this.setRGB(t,e,n);return this}setScalar(t){return this.r=t,this.g=t,this.b=t,this}setHex(t,e=dn){return t=Math.floor(t),this.r=(t>>16&255)/255,this.g=(t>>8&255)/255,this.b=(t&255)/255,oe.colorSpaceToWorking(this,e),this}setRGB(t,e,n,s=oe.workingColorSpace){return this.r=t,this.g=e,this.b=n,oe.colorSpaceToWorking(this,s),this}setHSL(t,e,n,s=oe.workingColorSpace){if(t=yf(t,1),e=ne(e,0,1),n=ne(n,0,1),e===0)this.r=this.g=this.b=n;else{let r=n<=.5?n*(1+e):n+e-n*e,a=2*n-r;this.r=yu(a,r,t+1/3),this.g=yu(a,r,t),this.b=yu(a,r,t-1/3)}return oe.colorSpaceToWorking(this,s),this}setStyle(t,e=dn){function n(r){r!==void 0&&parseFloat(r)<1&&Dt("Color: Alpha component of "+t+" will be ignored.")}let s;if(s=/^(\w+)\(([^\)]*)\)/.exec(t)){let r,a=s[1],o=s[2];switch(a){case"rgb":case"rgba":if(r=/^\s*(\d+)\s*,\s*(\d+)\s*,\s*(\d+)\s*(?:,\s*(\d+(?:\.\d+)?|\.\d+)\s*)?$/.exec(o))return n(r[4]),this.setRGB(Math.min(255,parseInt(r[1],10))/255,Math.min(255,parseInt(r[2],10))/255,Math.min(255,parseInt(r[3],10))/255,e);if(r=/^\s*(\d+(?:\.\d+)?|\.\d+)\%\s*,\s*(\d+(?:\.\d+)?|\.\d+)\%\s*,\s*(\d+(?:\.\d+)?|\.\d+)\%\s*(?:,\s*(\d+(?:\.\d+)?|\.\d+)\s*)?$/.exec(o))return n(r[4]),this.setRGB(Math.min(100,parseFloat(r[1]))/100,Math.min(100,parseFloat(r[2]))/100,Math.min(100,parseFloat(r[3]))/100,e);break;case"hsl":case"hsla":if(r=/^\s*([+-]?(?:\d+(?:\.\d+)?|\.\d+))\s*,\s*(\d+(?:\.\d+)?|\.\d+)\%\s*,\s*(\d+(?:\.\d+)?|\.\d+)\%\s*(?:,\s*(\d+(?:\.\d+)?|\.\d+)\s*)?$/.exec(o))return n(r[4]),this.setHSL(parseFloat(r[1])/360,parseFloat(r[2])/100,parseFloat(r[3])/100,e);break;default:Dt("Color: Unknown color model "+t)}}else if(s=/^\#([A-Fa-f\d]+)$/.exec(t)){let r=s[1],a=r.length;if(a===3)return this.setRGB(parseInt(r.charAt(0),16)/15,parseInt(r.charAt(1),16)/15,parseInt(r.charAt(2),16)/15,e);if(a===6)return this.setHex(parseInt(r,16),e);Dt("Color: Invalid hex color "+t)}else if(t&&t.length>0)return this.setColorName(t,e);return this}setColorName(t,e=dn){let n=Fg[t.toLowerCase()];return n!==void 0?this.setHex(n,e):Dt("Color: Unknown color "+t),this}clone(){return new this.constructor(this.r,this.g,this.b)}copy(t){return this.r=t.r,this.g=t.g,this.b=t.b,this}copySRGBToLinear(t){return this.r=Ai(t.r),this.g=Ai(t.g),this.b=Ai(t.b),this}copyLinearToSRGB(t){return this.r=ur(t.r),this.g=ur(t.g),this.b=ur(t.b),this}convertSRGBToLinear(){return this.copySRGBToLinear(this),this}convertLinearToSRGB(){return this.copyLinearToSRGB(this),this}getHex(t=dn){return oe.workingToColorSpace(fn.copy(this),t),Math.round(ne(fn.r*255,0,255))*65536+Math.round(ne(fn.g*255,0,255))*256+Math.round(ne(fn.b*255,0,255))}getHexString(t=dn){return("000000"+this.getHex(t).toString(16)).slice(-6)}getHSL(t,e=oe.workingColorSpace){oe.workingToColorSpace(fn.copy(this),e);let n=fn.r,s=fn.g,r=fn.b,a=Math.max(n,s,r),o=Math.min(n,s,r),c,l,h=(o+a)/2;if(o===a)c=0,l=0;else{let u=a-o;switch(l=h<=.5?u/(a+o):u/(2-a-o),a){case n:c=(s-r)/u+(s<r?6:0);break;case s:c=(r-n)/u+2;break;case r:c=(n-s)/u+4;break}c/=6}return t.h=c,t.s=l,t.l=h,t}getRGB(t,e=oe.workingColorSpace){return oe.workingToColorSpace(fn.copy(this),e),t.r=fn.r,t.g=fn.g,t.b=fn.b,t}getStyle(t=dn){oe.workingToColorSpace(fn.copy(this),t);let e=fn.r,n=fn.g,s=fn.b;return t!==dn?`color(${t} ${e.toFixed(3)} ${n.toFixed(3)} ${s.toFixed(3)})`:`rgb(${Math.round(e*255)},${Math.round(n*255)},${Math.round(s*255)})`}offsetHSL(t,e,n){return this.getHSL(qi),this.setHSL(qi.h+t,qi.s+e,qi.l+n)}add(t){return this.r+=t.r,this.g+=t.g,this.b+=t.b,this}addColors(t,e){return this.r=t.r+e.r,this.g=t.g+e.g,this.b=t.b+e.b,this}addScalar(t){return this.r+=t,this.g+=t,this.b+=t,this}sub(t){return this.r=Math.max(0,this.r-t.r),this.g=Math.max(0,this.g-t.g),this.b=Math.max(0,this.b-t.b),this}multiply(t){return this.r*=t.r,this.g*=t.g,this.b*=t.b,this}multiplyScalar(t){return this.r*=t,this.g*=t,this.b*=t,this}lerp(t,e){return this.r+=(t.r-this.r)*e,this.g+=(t.g-this.g)*e,this.b+=(t.b-this.b)*e,this}lerpColors(t,e,n){return this.r=t.r+(e.r-t.r)*n,this.g=t.g+(e.g-t.g)*n,this.b=t.b+(e.b-t.b)*n,this}lerpHSL(t,e){this.getHSL(qi),t.getHSL(Xo);let n=ua(qi.h,Xo.h,e),s=ua(qi.s,Xo.s,e),r=ua(qi.l,Xo.l,e);return this.setHSL(n,s,r),this}setFromVector3(t){return this.r=t.x,this.g=t.y,this.b=t.z,this}applyMatrix3(t){let e=this.r,n=this.g,s=this.b,r=t.elements;return this.r=r[0]*e+r[3]*n+r[6]*s,this.g=r[1]*e+r[4]*n+r[7]*s,this.b=r[2]*e+r[5]*n+r[8]*s,this}equals(t){return t.r===this.r&&t.g===this.g&&t.b===this.b}fromArray(t,e=0){return this.r=t[e],this.g=t[e+1],this.b=t[e+2],this}toArray(t=[],e=0){return t[e]=this.r,t[e+1]=this.g,t[e+2]=this.b,t}fromBufferAttribute(t,e){return this.r=t.getX(e),this.g=t.getY(e),this.b=t.getZ(e),this}toJSON(){return this.getHex()}*[Symbol.iterator](){yield this.r,yield this.g,yield this.b}},fn=new Yt;Yt.NAMES=Fg;var _a=class i{constructor(t,e=1,n=1e3){this.isFog=!0,this.name="",this.color=new Yt(t),this.near=e,this.far=n}clone(){return new i(this.color,this.near,this.far)}toJSON(){return{type:"Fog",name:this.name,color:this.color.getHex(),near:this.near,far:this.far}}},ya=class extends tn{constructor(){super(),this.isScene=!0,this.type="Scene",this.background=null,this.environment=null,this.fog=null,this.backgroundBlurriness=0,this.backgroundIntensity=1,this.backgroundRotation=new Ci,this.environmentIntensity=1,this.environmentRotation=new Ci,this.overrideMaterial=null,typeof __THREE_DEVTOOLS__<"u"&&__THREE_DEVTOOLS__.dispatchEvent(new CustomEvent("observe",{detail:this}))}copy(t,e){return super.copy(t,e),this.background=t.background!==null?t.background.clone():null,this.environment=t.environment!==null?t.environment.clone():null,this.fog=t.fog!==null?t.fog.clone():null,this.backgroundBlurriness=t.backgroundBlurriness,this.backgroundIntensity=t.backgroundIntensity,this.backgroundRotation.copy(t.backgroundRotation),this.environmentIntensity=t.environmentIntensity,this.environmentRotation.copy(t.environmentRotation),this.overrideMaterial=t.overrideMaterial!==null?t.overrideMaterial.clone():null,this.matrixAutoUpdate=t.matrixAutoUpdate,this}toJSON(t){let e=super.toJSON(t);return this.fog!==null&&(e.object.fog=this.fog.toJSON()),e.object.backgroundBlurriness=this.backgroundBlurriness,e.object.backgroundIntensity=this.backgroundIntensity,e.object.backgroundRotation=this.backgroundRotation.toArray(),e.object.environmentIntensity=this.environmentIntensity,e.object.environmentRotation=this.environmentRotation.toArray(),e}},ti=new B,bi=new B,xu=new B,wi=new B,nr=new B,ir=new B,Rm=new B,vu=new B,Mu=new B,Su=new B,bu=new ve,wu=new ve,Eu=new ve,Ji=class i{constructor(t=new B,e=new B,n=new B){this.a=t,this.b=e,this.c=n}static getNormal(t,e,n,s){s.subVectors(n,e),ti.subVectors(t,e),s.cross(ti);let r=s.lengthSq();return r>0?s.multiplyScalar(1/Math.sqrt(r)):s.set(0,0,0)}static getBarycoord(t,e,n,s,r){ti.subVectors(s,e),bi.subVectors(n,e),xu.subVectors(t,e);let a=ti.dot(ti),o=ti.dot(bi),c=ti.dot(xu),l=bi.dot(bi),h=bi.dot(xu),u=a*l-o*o;if(u===0)return r.set(0,0,0),null;let f=1/u,d=(l*c-o*h)*f,p=(a*h-o*c)*f;return r.set(1-d-p,p,d)}static containsPoint(t,e,n,s){return this.getBarycoord(t,e,n,s,wi)===null?!1:wi.x>=0&&wi.y>=0&&wi.x+wi.y<=1}static getInterpolation(t,e,n,s,r,a,o,c){return this.getBarycoord(t,e,n,s,wi)===null?(c.x=0,c.y=0,"z"in c&&(c.z=0),"w"in c&&(c.w=0),null):(c.setScalar(0),c.addScaledVector(r,wi.x),c.addScaledVector(a,wi.y),c.addScaledVector(o,wi.z),c)}static getInterpolatedAttribute(t,e,n,s,r,a){return bu.setScalar(0),wu.setScalar(0),Eu.setScalar(0),bu.fromBufferAttribute(t,e),wu.fromBufferAttribute(t,n),Eu.fromBufferAttribute(t,s),a.setScalar(0),a.addScaledVector(bu,r.x),a.addScaledVector(wu,r.y),a.addScaledVector(Eu,r.z),a}static isFrontFacing(t,e,n,s){return ti.subVectors(n,e),bi.subVectors(t,e),ti.cross(bi).dot(s)<0}set(t,e,n){return this.a.copy(t),this.b.copy(e),this.c.copy(n),this}setFromPointsAndIndices(t,e,n,s){return this.a.copy(t[e]),this.b.copy(t[n]),this.c.copy(t[s]),this}setFromAttributeAndIndices(t,e,n,s){return this.a.fromBufferAttribute(t,e),this.b.fromBufferAttribute(t,n),this.c.fromBufferAttribute(t,s),this}clone(){return new this.constructor().copy(this)}copy(t){return this.a.copy(t.a),this.b.copy(t.b),this.c.copy(t.c),this}getArea(){return ti.subVectors(this.c,this.b),bi.subVectors(this.a,this.b),ti.cross(bi).length()*.5}getMidpoint(t){return t.addVectors(this.a,this.b).add(this.c).multiplyScalar(1/3)}getNormal(t){return i.getNormal(this.a,this.b,this.c,t)}getPlane(t){return t.setFromCoplanarPoints(this.a,this.b,this.c)}getBarycoord(t,e){return i.getBarycoord(t,this.a,this.b,this.c,e)}getInterpolation(t,e,n,s,r){return i.getInterpolation(t,this.a,this.b,this.c,e,n,s,r)}containsPoint(t){return i.containsPoint(t,this.a,this.b,this.c)}isFrontFacing(t){return i.isFrontFacing(this.a,this.b,this.c,t)}intersectsBox(t){return t.intersectsTriangle(this)}closestPointToPoint(t,e){let n=this.a,s=this.b,r=this.c,a,o;nr.subVectors(s,n),ir.subVectors(r,n),vu.subVectors(t,n);let c=nr.dot(vu),l=ir.dot(vu);if(c<=0&&l<=0)return e.copy(n);Mu.subVectors(t,s);let h=nr.dot(Mu),u=ir.dot(Mu);if(h>=0&&u<=h)return e.copy(s);let f=c*u-h*l;if(f<=0&&c>=0&&h<=0&&c-h>0)return a=c/(c-h),e.copy(n).addScaledVector(nr,a);Su.subVectors(t,r);let d=nr.dot(Su),p=ir.dot(Su);if(p>=0&&d<=p)return e.copy(r);let _=d*l-c*p;if(_<=0&&l>=0&&p<=0)return o=l/(l-p),e.copy(n).addScaledVector(ir,o);let g=h*p-d*u;if(g<=0&&u-h>=0&&d-p>=0)return Rm.subVectors(r,s),o=(u-h)/(u-h+(d-p)),e.copy(s).addScaledVector(Rm,o);let m=1/(g+_+f);return a=_*m,o=f*m,e.copy(n).addScaledVector(nr,a).addScaledVector(ir,o)}equals(t){return t.a.equals(this.a)&&t.b.equals(this.b)&&t.c.equals(this.c)}},Pi=class{constructor(t=new B(1/0,1/0,1/0),e=new B(-1/0,-1/0,-1/0)){this.isBox3=!0,this.min=t,this.max=e}set(t,e){return this.min.copy(t),this.max.copy(e),this}setFromArray(t){this.makeEmpty();for(let e=0,n=t.length;e<n;e+=3)this.expandByPoint(ei.fromArray(t,e));return this}setFromBufferAttribute(t){this.makeEmpty();for(let e=0,n=t.count;e<n;e++)this.expandByPoint(ei.fromBufferAttribute(t,e));return this}setFromPoints(t){this.makeEmpty();for(let e=0,n=t.length;e<n;e++)this.expandByPoint(t[e]);return this}setFromCenterAndSize(t,e){let n=ei.copy(e).multiplyScalar(.5);return this.min.copy(t).sub(n),this.max.copy(t).add(n),this}setFromObject(t,e=!1){return this.makeEmpty(),this.expandByObject(t,e)}clone(){return new this.constructor().copy(this)}copy(t){return this.min.copy(t.min),this.max.copy(t.max),this}makeEmpty(){return this.min.x=this.min.y=this.min.z=1/0,this.max.x=this.max.y=this.max.z=-1/0,this}isEmpty(){return this.max.x<this.min.x||this.max.y<this.min.y||this.max.z<this.min.z}getCenter(t){return this.isEmpty()?t.set(0,0,0):t.addVectors(this.min,this.max).multiplyScalar(.5)}getSize(t){return this.isEmpty()?t.set(0,0,0):t.subVectors(this.max,this.min)}expandByPoint(t){return this.min.min(t),this.max.max(t),this}expandByVector(t){return this.min.sub(t),this.max.add(t),this}expandByScalar(t){return this.min.addScalar(-t),this.max.addScalar(t),this}expandByObject(t,e=!1){t.updateWorldMatrix(!1,!1);let n=t.geometry;if(n!==void 0){let r=n.getAttribute("position");if(e===!0&&r!==void 0&&t.isInstancedMesh!==!0&&t.isBatchedMesh!==!0)for(let a=0,o=r.count;a<o;a++)t.isMesh===!0?t.getVertexPosition(a,ei):ei.fromBufferAttribute(r,a),ei.applyMatrix4(t.matrixWorld),this.expandByPoint(ei);else t.boundingBox!==void 0?(t.boundingBox===null&&t.computeBoundingBox(),qo.copy(t.boundingBox)):(n.boundingBox===null&&n.computeBoundingBox(),qo.copy(n.boundingBox)),qo.applyMatrix4(t.matrixWorld),this.union(qo)}let s=t.children;for(let r=0,a=s.length;r<a;r++)this.expandByObject(s[r],e);return this}containsPoint(t){return t.x>=this.min.x&&t.x<=this.max.x&&t.y>=this.min.y&&t.y<=this.max.y&&t.z>=this.min.z&&t.z<=this.max.z}containsBox(t){return this.min.x<=t.min.x&&t.max.x<=this.max.x&&this.min.y<=t.min.y&&t.max.y<=this.max.y&&this.min.z<=t.min.z&&t.max.z<=this.max.z}getParameter(t,e){return e.set((t.x-this.min.x)/(this.max.x-this.min.x),(t.y-this.min.y)/(this.max.y-this.min.y),(t.z-this.min.z)/(this.max.z-this.min.z))}intersectsBox(t){return t.max.x>=this.min.x&&t.min.x<=this.max.x&&t.max.y>=this.min.y&&t.min.y<=this.max.y&&t.max.z>=this.min.z&&t.min.z<=this.max.z}intersectsSphere(t){return this.clampPoint(t.center,ei),ei.distanceToSquared(t.center)<=t.radius*t.radius}intersectsPlane(t){let e,n;return t.normal.x>0?(e=t.normal.x*this.min.x,n=t.normal.x*this.max.x):(e=t.normal.x*this.max.x,n=t.normal.x*this.min.x),t.normal.y>0?(e+=t.normal.y*this.min.y,n+=t.normal.y*this.max.y):(e+=t.normal.y*this.max.y,n+=t.normal.y*this.min.y),t.normal.z>0?(e+=t.normal.z*this.min.z,n+=t.normal.z*this.max.z):(e+=t.normal.z*this.max.z,n+=t.normal.z*this.min.z),e<=-t.constant&&n>=-t.constant}intersectsTriangle(t){if(this.isEmpty())return!1;this.getCenter(sa),Yo.subVectors(this.max,sa),sr.subVectors(t.a,sa),rr.subVectors(t.b,sa),ar.subVectors(t.c,sa),Yi.subVectors(rr,sr),$i.subVectors(ar,rr),bs.subVectors(sr,ar);let e=[0,-Yi.z,Yi.y,0,-$i.z,$i.y,0,-bs.z,bs.y,Yi.z,0,-Yi.x,$i.z,0,-$i.x,bs.z,0,-bs.x,-Yi.y,Yi.x,0,-$i.y,$i.x,0,-bs.y,bs.x,0];return!Tu(e,sr,rr,ar,Yo)||(e=[1,0,0,0,1,0,0,0,1],!Tu(e,sr,rr,ar,Yo))?!1:($o.crossVectors(Yi,$i),e=[$o.x,$o.y,$o.z],Tu(e,sr,rr,ar,Yo))}clampPoint(t,e){return e.copy(t).clamp(this.min,this.max)}distanceToPoint(t){return this.clampPoint(t,ei).distanceTo(t)}getBoundingSphere(t){return this.isEmpty()?t.makeEmpty():(this.getCenter(t.center),t.radius=this.getSize(ei).length()*.5),t}intersect(t){return this.min.max(t.min),this.max.min(t.max),this.isEmpty()&&this.makeEmpty(),this}union(t){return this.min.min(t.min),this.max.max(t.max),this}applyMatrix4(t){return this.isEmpty()?this:(Ei[0].set(this.min.x,this.min.y,this.min.z).applyMatrix4(t),Ei[1].set(this.min.x,this.min.y,this.max.z).applyMatrix4(t),Ei[2].set(this.min.x,this.max.y,this.min.z).applyMatrix4(t),Ei[3].set(this.min.x,this.max.y,this.max.z).applyMatrix4(t),Ei[4].set(this.max.x,this.min.y,this.min.z).applyMatrix4(t),Ei[5].set(this.max.x,this.min.y,this.max.z).applyMatrix4(t),Ei[6].set(this.max.x,this.max.y,this.min.z).applyMatrix4(t),Ei[7].set(this.max.x,this.max.y,this.max.z).applyMatrix4(t),this.setFromPoints(Ei),this)}translate(t){return this.min.add(t),this.max.add(t),this}equals(t){return t.min.equals(this.min)&&t.max.equals(this.max)}toJSON(){return{min:this.min.toArray(),max:this.max.toArray()}}fromJSON(t){return this.min.fromArray(t.min),this.max.fromArray(t.max),this}},Ei=[new B,new B,new B,new B,new B,new B,new B,new B],ei=new B,qo=new Pi,sr=new B,rr=new B,ar=new B,Yi=new B,$i=new B,bs=new B,sa=new B,Yo=new B,$o=new B,ws=new B;function Tu(i,t,e,n,s){for(let r=0,a=i.length-3;r<=a;r+=3){ws.fromArray(i,r);let o=s.x*Math.abs(ws.x)+s.y*Math.abs(ws.y)+s.z*Math.abs(ws.z),c=t.dot(ws),l=e.dot(ws),h=n.dot(ws);if(Math.max(-Math.max(c,l,h),Math.min(c,l,h))>o)return!1}return!0}var ke=new B,Zo=new kt,kx=0,rn=class extends ni{constructor(t,e,n=!1){if(super(),Array.isArray(t))throw new TypeError("THREE.BufferAttribute: array should be a Typed Array.");this.isBufferAttribute=!0,Object.defineProperty(this,"id",{value:kx++}),this.name="",this.array=t,this.itemSize=e,this.count=t!==void 0?t.length/e:0,this.normalized=n,this.usage=Pg,this.updateRanges=[],this.gpuType=Xn,this.version=0,this._normalizationScale=t!==void 0?vf(t):void 0}onUploadCallback(){}set needsUpdate(t){t===!0&&this.version++}setUsage(t){return this.usage=t,this}addUpdateRange(t,e){this.updateRanges.push({start:t,count:e})}clearUpdateRanges(){this.updateRanges.length=0}copy(t){return this.name=t.name,this.array=new t.array.constructor(t.array),this.itemSize=t.itemSize,this.count=t.count,this.normalized=t.normalized,this.usage=t.usage,this.gpuType=t.gpuType,this._normalizationScale=t._normalizationScale,this}copyAt(t,e,n){t*=this.itemSize,n*=e.itemSize;for(let s=0,r=this.itemSize;s<r;s++)this.array[t+s]=e.array[n+s];return this}copyArray(t){return this.array.set(t),this}applyMatrix3(t){if(this.itemSize===2)for(let e=0,n=this.count;e<n;e++)Zo.fromBufferAttribute(this,e),Zo.applyMatrix3(t),this.setXY(e,Zo.x,Zo.y);else if(this.itemSize===3)for(let e=0,n=this.count;e<n;e++)ke.fromBufferAttribute(this,e),ke.applyMatrix3(t),this.setXYZ(e,ke.x,ke.y,ke.z);return this}applyMatrix4(t){for(let e=0,n=this.count;e<n;e++)ke.fromBufferAttribute(this,e),ke.applyMatrix4(t),this.setXYZ(e,ke.x,ke.y,ke.z);return this}applyNormalMatrix(t){for(let e=0,n=this.count;e<n;e++)ke.fromBufferAttribute(this,e),ke.applyNormalMatrix(t),this.setXYZ(e,ke.x,ke.y,ke.z);return this}transformDirection(t){for(let e=0,n=this.count;e<n;e++)ke.fromBufferAttribute(this,e),ke.transformDirection(t),this.setXYZ(e,ke.x,ke.y,ke.z);return this}set(t,e=0){return this.array.set(t,e),this}getComponent(t,e){let n=this.array[t*this.itemSize+e];return this.normalized&&(n=this._denormalize(n)),n}setComponent(t,e,n){return this.normalized&&(n=this._normalize(n)),this.array[t*this.itemSize+e]=n,this}getX(t){let e=this.array[t*this.itemSize];return this.normalized&&(e=this._denormalize(e)),e}setX(t,e){return this.normalized&&(e=this._normalize(e)),this.array[t*this.itemSize]=e,this}getY(t){let e=this.array[t*this.itemSize+1];return this.normalized&&(e=this._denormalize(e)),e}setY(t,e){return this.normalized&&(e=this._normalize(e)),this.array[t*this.itemSize+1]=e,this}getZ(t){let e=this.array[t*this.itemSize+2];return this.normalized&&(e=this._denormalize(e)),e}setZ(t,e){return this.normalized&&(e=this._normalize(e)),this.array[t*this.itemSize+2]=e,this}getW(t){let e=this.array[t*this.itemSize+3];return this.normalized&&(e=this._denormalize(e)),e}setW(t,e){return this.normalized&&(e=this._normalize(e)),this.array[t*this.itemSize+3]=e,this}setXY(t,e,n){return t*=this.itemSize,this.normalized&&(e=this._normalize(e),n=this._normalize(n)),this.array[t+0]=e,this.array[t+1]=n,this}setXYZ(t,e,n,s){return t*=this.itemSize,this.normalized&&(e=this._normalize(e),n=this._normalize(n),s=this._normalize(s)),this.array[t+0]=e,this.array[t+1]=n,this.array[t+2]=s,this}setXYZW(t,e,n,s,r){return t*=this.itemSize,this.normalized&&(e=this._normalize(e),n=this._normalize(n),s=this._normalize(s),r=this._normalize(r)),this.array[t+0]=e,this.array[t+1]=n,this.array[t+2]=s,this.array[t+3]=r,this}onUpload(t){return this.onUploadCallback=t,this}clone(){return new this.constructor(this.array,this.itemSize).copy(this)}toJSON(){let t={itemSize:this.itemSize,type:this.array.constructor.name,array:Array.from(this.array),normalized:this.normalized};return t.name=this.name,t.usage=this.usage,t.gpuType=this.gpuType,t}dispose(){this.dispatchEvent({type:"dispose"})}_denormalize(t){let e=this._normalizationScale;return e!==void 0?Math.max(t/e,-1):Og(t,this.array)}_normalize(t){let e=this._normalizationScale;return e!==void 0?Math.round(t*e):Ug(t,this.array)}};var xa=class extends rn{constructor(t,e,n){super(new Uint16Array(t),e,n)}};var va=class extends rn{constructor(t,e,n){super(new Uint32Array(t),e,n)}};var We=class extends rn{constructor(t,e,n){super(new Float32Array(t),e,n)}},zx=new Pi,ra=new B,Au=new B,Ii=class{constructor(t=new B,e=-1){this.isSphere=!0,this.center=t,this.radius=e}set(t,e){return this.center.copy(t),this.radius=e,this}setFromPoints(t,e){let n=this.center;e!==void 0?n.copy(e):zx.setFromPoints(t).getCenter(n);let s=0;for(let r=0,a=t.length;r<a;r++)s=Math.max(s,n.distanceToSquared(t[r]));return this.radius=Math.sqrt(s),this}copy(t){return this.center.copy(t.center),this.radius=t.radius,this}isEmpty(){return this.radius<0}makeEmpty(){return this.center.set(0,0,0),this.radius=-1,this}containsPoint(t){return t.distanceToSquared(this.center)<=this.radius*this.radius}distanceToPoint(t){return t.distanceTo(this.center)-this.radius}intersectsSphere(t){let e=this.radius+t.radius;return t.center.distanceToSquared(this.center)<=e*e}intersectsBox(t){return t.intersectsSphere(this)}intersectsPlane(t){return Math.abs(t.distanceToPoint(this.center))<=this.radius}clampPoint(t,e){let n=this.center.distanceToSquared(t);return e.copy(t),n>this.radius*this.radius&&(e.sub(this.center).normalize(),e.multiplyScalar(this.radius).add(this.center)),e}getBoundingBox(t){return this.isEmpty()?(t.makeEmpty(),t):(t.set(this.center,this.center),t.expandByScalar(this.radius),t)}applyMatrix4(t){return this.center.applyMatrix4(t),this.radius=this.radius*t.getMaxScaleOnAxis(),this}translate(t){return this.center.add(t),this}expandByPoint(t){if(this.isEmpty())return this.center.copy(t),this.radius=0,this;ra.subVectors(t,this.center);let e=ra.lengthSq();if(e>this.radius*this.radius){let n=Math.sqrt(e),s=(n-this.radius)*.5;this.center.addScaledVector(ra,s/n),this.radius+=s}return this}union(t){return t.isEmpty()?this:this.isEmpty()?(this.copy(t),this):(this.center.equals(t.center)===!0?this.radius=Math.max(this.radius,t.radius):(Au.subVectors(t.center,this.center).setLength(t.radius),this.expandByPoint(ra.copy(t.center).add(Au)),this.expandByPoint(ra.copy(t.center).sub(Au))),this)}equals(t){return t.center.equals(this.center)&&t.radius===this.radius}clone(){return new this.constructor().copy(this)}toJSON(){return{radius:this.radius,center:this.center.toArray()}}fromJSON(t){return this.radius=t.radius,this.center.fromArray(t.center),this}},Gx=0,Hn=new ie,Ru=new tn,or=new B,On=new Pi,aa=new Pi,je=new B,wn=class i extends ni{constructor(){super(),this.isBufferGeometry=!0,Object.defineProperty(this,"id",{value:Gx++}),this.uuid=Os(),this.name="",this.type="BufferGeometry",this.index=null,this.indirect=null,this.indirectOffset=0,this.attributes={},this.morphAttributes={},this.morphTargetsRelative=!1,this.groups=[],this.boundingBox=null,this.boundingSphere=null,this.drawRange={start:0,count:1/0},this.userData={},this._transformed=!1}getIndex(){return this.index}setIndex(t){return Array.isArray(t)?this.index=new(fx(t)?va:xa)(t,1):this.index=t,this}setIndirect(t,e=0){return this.indirect=t,this.indirectOffset=e,this}getIndirect(){return this.indirect}getAttribute(t){return this.attributes[t]}setAttribute(t,e){return this.attributes[t]=e,this}deleteAttribute(t){return delete this.attributes[t],this}hasAttribute(t){return this.attributes[t]!==void 0}addGroup(t,e,n=0){this.groups.push({start:t,count:e,materialIndex:n})}clearGroups(){this.groups=[]}setDrawRange(t,e){this.drawRange.start=t,this.drawRange.count=e}applyMatrix4(t){let e=this.attributes.position;e!==void 0&&(e.applyMatrix4(t),e.needsUpdate=!0);let n=this.attributes.normal;if(n!==void 0){let r=new qt().getNormalMatrix(t);n.applyNormalMatrix(r),n.needsUpdate=!0}let s=this.attributes.tangent;return s!==void 0&&(s.transformDirection(t),s.needsUpdate=!0),this.boundingBox!==null&&this.computeBoundingBox(),this.boundingSphere!==null&&this.computeBoundingSphere(),this._transformed=!0,this}applyQuaternion(t){return Hn.makeRotationFromQuaternion(t),this.applyMatrix4(Hn),this}rotateX(t){return Hn.makeRotationX(t),this.applyMatrix4(Hn),this}rotateY(t){return Hn.makeRotationY(t),this.applyMatrix4(Hn),this}rotateZ(t){return Hn.makeRotationZ(t),this.applyMatrix4(Hn),this}translate(t,e,n){return Hn.makeTranslation(t,e,n),this.applyMatrix4(Hn),this}scale(t,e,n){return Hn.makeScale(t,e,n),this.applyMatrix4(Hn),this}lookAt(t){return Ru.lookAt(t),Ru.updateMatrix(),this.applyMatrix4(Ru.matrix),this}center(){return this.computeBoundingBox(),this.boundingBox.getCenter(or).negate(),this.translate(or.x,or.y,or.z),this}setFromPoints(t){let e=this.getAttribute("position");if(e===void 0){let n=[];for(let s=0,r=t.length;s<r;s++){let a=t[s];n.push(a.x,a.y,a.z||0)}this.setAttribute("position",new We(n,3))}else{let n=Math.min(t.length,e.count);for(let s=0;s<n;s++){let r=t[s];e.setXYZ(s,r.x,r.y,r.z||0)}t.length>e.count&&Dt("BufferGeometry: Buffer size too small for points data. Use .dispose() and create a new geometry."),e.needsUpdate=!0}return this}computeBoundingBox(){this.boundingBox===null&&(this.boundingBox=new Pi);let t=this.attributes.position,e=this.morphAttributes.position;if(t&&t.isGLBufferAttribute){Ht("BufferGeometry.computeBoundingBox(): GLBufferAttribute requires a manual bounding box.",this),this.boundingBox.set(new B(-1/0,-1/0,-1/0),new B(1/0,1/0,1/0));return}if(t!==void 0){if(this.boundingBox.setFromBufferAttribute(t),e)for(let n=0,s=e.length;n<s;n++){let r=e[n];On.setFromBufferAttribute(r),this.morphTargetsRelative?(je.addVectors(this.boundingBox.min,On.min),this.boundingBox.expandByPoint(je),je.addVectors(this.boundingBox.max,On.max),this.boundingBox.expandByPoint(je)):(this.boundingBox.expandByPoint(On.min),this.boundingBox.expandByPoint(On.max))}}else this.boundingBox.makeEmpty();(isNaN(this.boundingBox.min.x)||isNaN(this.boundingBox.min.y)||isNaN(this.boundingBox.min.z))&&Ht('BufferGeometry.computeBoundingBox(): Computed min/max have NaN values. The "position" attribute is likely to have NaN values.',this)}computeBoundingSphere(){this.boundingSphere===null&&(this.boundingSphere=new Ii);let t=this.attributes.position,e=this.morphAttributes.position;if(t&&t.isGLBufferAttribute){Ht("BufferGeometry.computeBoundingSphere(): GLBufferAttribute requires a manual bounding sphere.",this),this.boundingSphere.set(new B,1/0);return}if(t){let n=this.boundingSphere.center;if(On.setFromBufferAttribute(t),e)for(let r=0,a=e.length;r<a;r++){let o=e[r];aa.setFromBufferAttribute(o),this.morphTargetsRelative?(je.addVectors(On.min,aa.min),On.expandByPoint(je),je.addVectors(On.max,aa.max),On.expandByPoint(je)):(On.expandByPoint(aa.min),On.expandByPoint(aa.max))}On.getCenter(n);let s=0;for(let r=0,a=t.count;r<a;r++)je.fromBufferAttribute(t,r),s=Math.max(s,n.distanceToSquared(je));if(e)for(let r=0,a=e.length;r<a;r++){let o=e[r],c=this.morphTargetsRelative;for(let l=0,h=o.count;l<h;l++)je.fromBufferAttribute(o,l),c&&(or.fromBufferAttribute(t,l),je.add(or)),s=Math.max(s,n.distanceToSquared(je))}this.boundingSphere.radius=Math.sqrt(s),isNaN(this.boundingSphere.radius)&&Ht('BufferGeometry.computeBoundingSphere(): Computed radius is NaN. The "position" attribute is likely to have NaN values.',this)}}computeTangents(){let t=this.index,e=this.attributes;if(t===null||e.position===void 0||e.normal===void 0||e.uv===void 0){Ht("BufferGeometry: .computeTangents() failed. Missing required attributes (index, position, normal or uv)");return}let n=e.position,s=e.normal,r=e.uv,a=this.getAttribute("tangent");(a===void 0||a.count!==n.count)&&(a=new rn(new Float32Array(4*n.count),4),this.setAttribute("tangent",a));let o=[],c=[],l=new Uint8Array(n.count);for(let F=0;F<n.count;F++)o[F]=new B,c[F]=new B;let h=new B,u=new B,f=new B,d=new kt,p=new kt,_=new kt,g=new B,m=new B;function x(F,N,D){l[F]=l[N]=l[D]=1,h.fromBufferAttribute(n,F),u.fromBufferAttribute(n,N),f.fromBufferAttribute(n,D),d.fromBufferAttribute(r,F),p.fromBufferAttribute(r,N),_.fromBufferAttribute(r,D),u.sub(h),f.sub(h),p.sub(d),_.sub(d);let H=1/(p.x*_.y-_.x*p.y);isFinite(H)&&(g.copy(u).multiplyScalar(_.y).addScaledVector(f,-p.y).multiplyScalar(H),m.copy(f).multiplyScalar(p.x).addScaledVector(u,-_.x).multiplyScalar(H),o[F].add(g),o[N].add(g),o[D].add(g),c[F].add(m),c[N].add(m),c[D].add(m))}let b=this.groups;b.length===0&&(b=[{start:0,count:t.count}]);for(let F=0,N=b.length;F<N;++F){let D=b[F],H=D.start,J=D.count;for(let P=H,q=H+J;P<q;P+=3)x(t.getX(P+0),t.getX(P+1),t.getX(P+2))}let w=new B,A=new B,C=new B,v=new B;function E(F){C.fromBufferAttribute(s,F),v.copy(C);let N=o[F];w.copy(N),w.sub(C.multiplyScalar(C.dot(N))).normalize(),A.crossVectors(v,N);let H=A.dot(c[F])<0?-1:1;a.setXYZW(F,w.x,w.y,w.z,H)}for(let F=0,N=n.count;F<N;++F)l[F]&&E(F);this._transformed=!0}computeVertexNormals(){let t=this.index,e=this.getAttribute("position");if(e!==void 0){let n=this.getAttribute("normal");if(n===void 0||n.count!==e.count)n=new rn(new Float32Array(e.count*3),3),this.setAttribute("normal",n);else for(let f=0,d=n.count;f<d;f++)n.setXYZ(f,0,0,0);let s=new B,r=new B,a=new B,o=new B,c=new B,l=new B,h=new B,u=new B;if(t)for(let f=0,d=t.count;f<d;f+=3){let p=t.getX(f+0),_=t.getX(f+1),g=t.getX(f+2);s.fromBufferAttribute(e,p),r.fromBufferAttribute(e,_),a.fromBufferAttribute(e,g),h.subVectors(a,r),u.subVectors(s,r),h.cross(u),o.fromBufferAttribute(n,p),c.fromBufferAttribute(n,_),l.fromBufferAttribute(n,g),o.add(h),c.add(h),l.add(h),n.setXYZ(p,o.x,o.y,o.z),n.setXYZ(_,c.x,c.y,c.z),n.setXYZ(g,l.x,l.y,l.z)}else for(let f=0,d=e.count;f<d;f+=3)s.fromBufferAttribute(e,f+0),r.fromBufferAttribute(e,f+1),a.fromBufferAttribute(e,f+2),h.subVectors(a,r),u.subVectors(s,r),h.cross(u),n.setXYZ(f+0,h.x,h.y,h.z),n.setXYZ(f+1,h.x,h.y,h.z),n.setXYZ(f+2,h.x,h.y,h.z);this.normalizeNormals(),n.needsUpdate=!0}}normalizeNormals(){let t=this.attributes.normal;for(let e=0,n=t.count;e<n;e++)je.fromBufferAttribute(t,e),je.normalize(),t.setXYZ(e,je.x,je.y,je.z)}toNonIndexed(){function t(o,c){let l=o.array,h=o.itemSize,u=o.normalized,f=new l.constructor(c.length*h),d=0,p=0;for(let _=0,g=c.length;_<g;_++){o.isInterleavedBufferAttribute?d=c[_]*o.data.stride+o.offset:d=c[_]*h;for(let m=0;m<h;m++)f[p++]=l[d++]}return new rn(f,h,u)}if(this.index===null)return Dt("BufferGeometry.toNonIndexed(): BufferGeometry is already non-indexed."),this;let e=new i,n=this.index.array,s=this.attributes;for(let o in s){let c=s[o],l=t(c,n);e.setAttribute(o,l)}let r=this.morphAttributes;for(let o in r){let c=[],l=r[o];for(let h=0,u=l.length;h<u;h++){let f=l[h],d=t(f,n);c.push(d)}e.morphAttributes[o]=c}e.morphTargetsRelative=this.morphTargetsRelative;let a=this.groups;for(let o=0,c=a.length;o<c;o++){let l=a[o];e.addGroup(l.start,l.count,l.materialIndex)}return e}toJSON(){let t={metadata:{version:4.7,type:"BufferGeometry",generator:"BufferGeometry.toJSON"}};if(t.uuid=this.uuid,t.type=this.parameters!==void 0&&this._transformed===!0?"BufferGeometry":this.type,t.name=this.name,Object.keys(this.userData).length>0&&(t.userData=this.userData),this.parameters!==void 0&&this._transformed!==!0){let c=this.parameters;for(let l in c)c[l]!==void 0&&(t[l]=c[l]);return t}t.data={attributes:{}};let e=this.index;e!==null&&(t.data.index={type:e.array.constructor.name,array:Array.prototype.slice.call(e.array)});let n=this.attributes;for(let c in n){let l=n[c];t.data.attributes[c]=l.toJSON(t.data)}let s={},r=!1;for(let c in this.morphAttributes){let l=this.morphAttributes[c],h=[];for(let u=0,f=l.length;u<f;u++){let d=l[u];h.push(d.toJSON(t.data))}h.length>0&&(s[c]=h,r=!0)}r&&(t.data.morphAttributes=s,t.data.morphTargetsRelative=this.morphTargetsRelative);let a=this.groups;a.length>0&&(t.data.groups=JSON.parse(JSON.stringify(a)));let o=this.boundingSphere;return o!==null&&(t.data.boundingSphere=o.toJSON()),t}clone(){return new this.constructor().copy(this)}copy(t){this.index=null,this.attributes={},this.morphAttributes={},this.groups=[],this.boundingBox=null,this.boundingSphere=null;let e={};this.name=t.name;let n=t.index;n!==null&&this.setIndex(n.clone());let s=t.attributes;for(let l in s){let h=s[l];this.setAttribute(l,h.clone(e))}let r=t.morphAttributes;for(let l in r){let h=[],u=r[l];for(let f=0,d=u.length;f<d;f++)h.push(u[f].clone(e));this.morphAttributes[l]=h}this.morphTargetsRelative=t.morphTargetsRelative;let a=t.groups;for(let l=0,h=a.length;l<h;l++){let u=a[l];this.addGroup(u.start,u.count,u.materialIndex)}let o=t.boundingBox;o!==null&&(this.boundingBox=o.clone());let c=t.boundingSphere;return c!==null&&(this.boundingSphere=c.clone()),this.drawRange.start=t.drawRange.start,this.drawRange.count=t.drawRange.count,this.userData=t.userData,this._transformed=t._transformed,this}dispose(){this.dispatchEvent({type:"dispose"})}};var Cu=new B,Vx=new B,Hx=new qt,Mn=class{constructor(t=new B(1,0,0),e=0){this.isPlane=!0,this.normal=t,this.constant=e}set(t,e){return this.normal.copy(t),this.constant=e,this}setComponents(t,e,n,s){return this.normal.set(t,e,n),this.constant=s,this}setFromNormalAndCoplanarPoint(t,e){return this.normal.copy(t),this.constant=-e.dot(this.normal),this}setFromCoplanarPoints(t,e,n){let s=Cu.subVectors(n,e).cross(Vx.subVectors(t,e)).normalize();return this.setFromNormalAndCoplanarPoint(s,t),this}copy(t){return this.normal.copy(t.normal),this.constant=t.constant,this}normalize(){let t=1/this.normal.length();return this.normal.multiplyScalar(t),this.constant*=t,this}negate(){return this.constant*=-1,this.normal.negate(),this}distanceToPoint(t){return this.normal.dot(t)+this.constant}distanceToSphere(t){return this.distanceToPoint(t.center)-t.radius}projectPoint(t,e){return e.copy(t).addScaledVector(this.normal,-this.distanceToPoint(t))}intersectLine(t,e,n=!0){let s=t.delta(Cu),r=this.normal.dot(s);if(r===0)return this.distanceToPoint(t.start)===0?e.copy(t.start):null;let a=-(t.start.dot(this.normal)+this.constant)/r;return n===!0&&(a<0||a>1)?null:e.copy(t.start).addScaledVector(s,a)}intersectsLine(t){let e=this.distanceToPoint(t.start),n=this.distanceToPoint(t.end);return e<0&&n>0||n<0&&e>0}intersectsBox(t){return t.intersectsPlane(this)}intersectsSphere(t){return t.intersectsPlane(this)}coplanarPoint(t){return t.copy(this.normal).multiplyScalar(-this.constant)}applyMatrix4(t,e){let n=e||Hx.getNormalMatrix(t),s=this.coplanarPoint(Cu).applyMatrix4(t),r=this.normal.applyMatrix3(n).normalize();return this.constant=-s.dot(r),this}translate(t){return this.constant-=t.dot(this.normal),this}equals(t){return t.normal.equals(this.normal)&&t.constant===this.constant}clone(){return new this.constructor().copy(this)}toJSON(){return{normal:this.normal.toArray(),constant:this.constant}}fromJSON(t){return this.normal.fromArray(t.normal),this.constant=t.constant,this}},Wx=0,fi=class extends ni{constructor(){super(),this.isMaterial=!0,Object.defineProperty(this,"id",{value:Wx++}),this.uuid=Os(),this.name="",this.type="Material",this.blending=Ar,this.side=is,this.vertexColors=!1,this.opacity=1,this.transparent=!1,this.alphaHash=!1,this.blendSrc=Zu,this.blendDst=Ju,this.blendEquation=Ls,this.blendSrcAlpha=null,this.blendDstAlpha=null,this.blendEquationAlpha=null,this.blendColor=new Yt(0,0,0),this.blendAlpha=0,this.depthFunc=fr,this.depthTest=!0,this.depthWrite=!0,this.stencilWriteMask=255,this.stencilFunc=wg,this.stencilRef=0,this.stencilFuncMask=255,this.stencilFail=dl,this.stencilZFail=dl,this.stencilZPass=dl,this.stencilWrite=!1,this.clippingPlanes=null,this.clipIntersection=!1,this.clipShadows=!1,this.shadowSide=null,this.colorWrite=!0,this.precision=null,this.polygonOffset=!1,this.polygonOffsetFactor=0,this.polygonOffsetUnits=0,this.dithering=!1,this.alphaToCoverage=!1,this.premultipliedAlpha=!1,this.forceSinglePass=!1,this.allowOverride=!0,this.visible=!0,this.toneMapped=!0,this.userData={},this.version=0,this._alphaTest=0}get alphaTest(){return this._alphaTest}set alphaTest(t){this._alphaTest>0!=t>0&&this.version++,this._alphaTest=t}onBeforeRender(){}onBeforeCompile(){}customProgramCacheKey(){return this.onBeforeCompile.toString()}setValues(t){if(t!==void 0)for(let e in t){let n=t[e];if(n===void 0){Dt(`Material: parameter '${e}' has value of undefined.`);continue}let s=this[e];if(s===void 0){Dt(`Material: '${e}' is not a property of THREE.${this.type}.`);continue}s&&s.isColor?s.set(n):s&&s.isVector2&&n&&n.isVector2||s&&s.isEuler&&n&&n.isEuler||s&&s.isVector3&&n&&n.isVector3?s.copy(n):this[e]=n}}toJSON(t){let e=t===void 0||typeof t=="string";e&&(t={textures:{},images:{}});let n={metadata:{version:4.7,type:"Material",generator:"Material.toJSON"}};n.uuid=this.uuid,n.type=this.type,n.blending=this.blending,n.side=this.side,n.shadowSide=this.shadowSide,n.vertexColors=this.vertexColors,n.opacity=this.opacity,n.transparent=this.transparent,n.blendSrc=this.blendSrc,n.blendDst=this.blendDst,n.blendEquation=this.blendEquation,n.blendSrcAlpha=this.blendSrcAlpha,n.blendDstAlpha=this.blendDstAlpha,n.blendEquationAlpha=this.blendEquationAlpha,n.blendColor=this.blendColor.getHex(),n.blendAlpha=this.blendAlpha,n.depthFunc=this.depthFunc,n.depthTest=this.depthTest,n.depthWrite=this.depthWrite,n.colorWrite=this.colorWrite,n.clipIntersection=this.clipIntersection,n.clipShadows=this.clipShadows,n.stencilWriteMask=this.stencilWriteMask,n.stencilFunc=this.stencilFunc,n.stencilRef=this.stencilRef,n.stencilFuncMask=this.stencilFuncMask,n.stencilFail=this.stencilFail,n.stencilZFail=this.stencilZFail,n.stencilZPass=this.stencilZPass,n.stencilWrite=this.stencilWrite,n.polygonOffset=this.polygonOffset,n.polygonOffsetFactor=this.polygonOffsetFactor,n.polygonOffsetUnits=this.polygonOffsetUnits,n.dithering=this.dithering,n.alphaTest=this.alphaTest,n.alphaHash=this.alphaHash,n.alphaToCoverage=this.alphaToCoverage,n.premultipliedAlpha=this.premultipliedAlpha,n.forceSinglePass=this.forceSinglePass,n.allowOverride=this.allowOverride,n.visible=this.visible,n.toneMapped=this.toneMapped,n.name=this.name,this.color&&this.color.isColor&&(n.color=this.color.getHex()),this.roughness!==void 0&&(n.roughness=this.roughness),this.metalness!==void 0&&(n.metalness=this.metalness),this.sheen!==void 0&&(n.sheen=this.sheen),this.sheenColor&&this.sheenColor.isColor&&(n.sheenColor=this.sheenColor.getHex()),this.sheenRoughness!==void 0&&(n.sheenRoughness=this.sheenRoughness),this.emissive&&this.emissive.isColor&&(n.emissive=this.emissive.getHex()),this.emissiveIntensity!==void 0&&(n.emissiveIntensity=this.emissiveIntensity),this.specular&&this.specular.isColor&&(n.specular=this.specular.getHex()),this.specularIntensity!==void 0&&(n.specularIntensity=this.specularIntensity),this.specularColor&&this.specularColor.isColor&&(n.specularColor=this.specularColor.getHex()),this.shininess!==void 0&&(n.shininess=this.shininess),this.clearcoat!==void 0&&(n.clearcoat=this.clearcoat),this.clearcoatRoughness!==void 0&&(n.clearcoatRoughness=this.clearcoatRoughness),this.diffuseRoughness!==void 0&&(n.diffuseRoughness=this.diffuseRoughness),this.diffuseRoughnessMap&&this.diffuseRoughnessMap.isTexture&&(n.diffuseRoughnessMap=this.diffuseRoughnessMap.toJSON(t).uuid),this.clearcoatMap&&this.clearcoatMap.isTexture&&(n.clearcoatMap=this.clearcoatMap.toJSON(t).uuid),this.clearcoatRoughnessMap&&this.clearcoatRoughnessMap.isTexture&&(n.clearcoatRoughnessMap=this.clearcoatRoughnessMap.toJSON(t).uuid),this.clearcoatNormalMap&&this.clearcoatNormalMap.isTexture&&(n.clearcoatNormalMap=this.clearcoatNormalMap.toJSON(t).uuid,n.clearcoatNormalScale=this.clearcoatNormalScale.toArray()),this.sheenColorMap&&this.sheenColorMap.isTexture&&(n.sheenColorMap=this.sheenColorMap.toJSON(t).uuid),this.sheenRoughnessMap&&this.sheenRoughnessMap.isTexture&&(n.sheenRoughnessMap=this.sheenRoughnessMap.toJSON(t).uuid),this.dispersion!==void 0&&(n.dispersion=this.dispersion),this.retroreflectivity!==void 0&&(n.retroreflectivity=this.retroreflectivity),this.iridescence!==void 0&&(n.iridescence=this.iridescence),this.iridescenceIOR!==void 0&&(n.iridescenceIOR=this.iridescenceIOR),this.iridescenceThicknessMinimum!==void 0&&(n.iridescenceThicknessMinimum=this.iridescenceThicknessMinimum),this.iridescenceThicknessMaximum!==void 0&&(n.iridescenceThicknessMaximum=this.iridescenceThicknessMaximum),this.iridescenceMap&&this.iridescenceMap.isTexture&&(n.iridescenceMap=this.iridescenceMap.toJSON(t).uuid),this.iridescenceThicknessMap&&this.iridescenceThicknessMap.isTexture&&(n.iridescenceThicknessMap=this.iridescenceThicknessMap.toJSON(t).uuid),this.anisotropy!==void 0&&(n.anisotropy=this.anisotropy),this.anisotropyRotation!==void 0&&(n.anisotropyRotation=this.anisotropyRotation),this.anisotropyMap&&this.anisotropyMap.isTexture&&(n.anisotropyMap=this.anisotropyMap.toJSON(t).uuid),this.map&&this.map.isTexture&&(n.map=this.map.toJSON(t).uuid),this.matcap&&this.matcap.isTexture&&(n.matcap=this.matcap.toJSON(t).uuid),this.alphaMap&&this.alphaMap.isTexture&&(n.alphaMap=this.alphaMap.toJSON(t).uuid),this.lightMap&&this.lightMap.isTexture&&(n.lightMap=this.lightMap.toJSON(t).uuid,n.lightMapIntensity=this.lightMapIntensity),this.aoMap&&this.aoMap.isTexture&&(n.aoMap=this.aoMap.toJSON(t).uuid,n.aoMapIntensity=this.aoMapIntensity),this.bumpMap&&this.bumpMap.isTexture&&(n.bumpMap=this.bumpMap.toJSON(t).uuid,n.bumpScale=this.bumpScale),this.normalMap&&this.normalMap.isTexture&&(n.normalMap=this.normalMap.toJSON(t).uuid,n.normalMapType=this.normalMapType,n.normalScale=this.normalScale.toArray()),this.displacementMap&&this.displacementMap.isTexture&&(n.displacementMap=this.displacementMap.toJSON(t).uuid,n.displacementScale=this.displacementScale,n.displacementBias=this.displacementBias),this.roughnessMap&&this.roughnessMap.isTexture&&(n.roughnessMap=this.roughnessMap.toJSON(t).uuid),this.metalnessMap&&this.metalnessMap.isTexture&&(n.metalnessMap=this.metalnessMap.toJSON(t).uuid),this.emissiveMap&&this.emissiveMap.isTexture&&(n.emissiveMap=this.emissiveMap.toJSON(t).uuid),this.specularMap&&this.specularMap.isTexture&&(n.specularMap=this.specularMap.toJSON(t).uuid),this.specularIntensityMap&&this.specularIntensityMap.isTexture&&(n.specularIntensityMap=this.specularIntensityMap.toJSON(t).uuid),this.specularColorMap&&this.specularColorMap.isTexture&&(n.specularColorMap=this.specularColorMap.toJSON(t).uuid),this.envMap&&this.envMap.isTexture&&(n.envMap=this.envMap.toJSON(t).uuid,this.combine!==void 0&&(n.combine=this.combine)),this.envMapRotation!==void 0&&(n.envMapRotation=this.envMapRotation.toArray()),this.envMapIntensity!==void 0&&(n.envMapIntensity=this.envMapIntensity),this.reflectivity!==void 0&&(n.reflectivity=this.reflectivity),this.refractionRatio!==void 0&&(n.refractionRatio=this.refractionRatio),this.gradientMap&&this.gradientMap.isTexture&&(n.gradientMap=this.gradientMap.toJSON(t).uuid),this.transmission!==void 0&&(n.transmission=this.transmission),this.transmissionMap&&this.transmissionMap.isTexture&&(n.transmissionMap=this.transmissionMap.toJSON(t).uuid),this.thickness!==void 0&&(n.thickness=this.thickness),this.thicknessMap&&this.thicknessMap.isTexture&&(n.thicknessMap=this.thicknessMap.toJSON(t).uuid),this.attenuationDistance!==void 0&&(n.attenuationDistance=this.attenuationDistance),this.attenuationColor!==void 0&&(n.attenuationColor=this.attenuationColor.getHex()),this.size!==void 0&&(n.size=this.size),this.sizeAttenuation!==void 0&&(n.sizeAttenuation=this.sizeAttenuation),Array.isArray(this.clippingPlanes)&&this.clippingPlanes.length>0&&(n.clippingPlanes=this.clippingPlanes.map(r=>r.toJSON())),this.rotation!==void 0&&(n.rotation=this.rotation),this.depthPacking!==void 0&&(n.depthPacking=this.depthPacking),this.linewidth!==void 0&&(n.linewidth=this.linewidth),this.linecap!==void 0&&(n.linecap=this.linecap),this.linejoin!==void 0&&(n.linejoin=this.linejoin),this.dashSize!==void 0&&(n.dashSize=this.dashSize),this.gapSize!==void 0&&(n.gapSize=this.gapSize),this.scale!==void 0&&(n.scale=this.scale),this.wireframe!==void 0&&(n.wireframe=this.wireframe),this.wireframeLinewidth!==void 0&&(n.wireframeLinewidth=this.wireframeLinewidth),this.wireframeLinecap!==void 0&&(n.wireframeLinecap=this.wireframeLinecap),this.wireframeLinejoin!==void 0&&(n.wireframeLinejoin=this.wireframeLinejoin),this.flatShading!==void 0&&(n.flatShading=this.flatShading),this.fog!==void 0&&(n.fog=this.fog),Object.keys(this.userData).length>0&&(n.userData=this.userData);function s(r){let a=[];for(let o in r){let c=r[o];delete c.metadata,a.push(c)}return a}if(e){let r=s(t.textures),a=s(t.images);r.length>0&&(n.textures=r),a.length>0&&(n.images=a)}return n}fromJSON(t,e){if(t.uuid!==void 0&&(this.uuid=t.uuid),t.name!==void 0&&(this.name=t.name),t.color!==void 0&&this.color!==void 0&&this.color.setHex(t.color),t.roughness!==void 0&&(this.roughness=t.roughness),t.metalness!==void 0&&(this.metalness=t.metalness),t.sheen!==void 0&&(this.sheen=t.sheen),t.sheenColor!==void 0&&(this.sheenColor=new Yt().setHex(t.sheenColor)),t.sheenRoughness!==void 0&&(this.sheenRoughness=t.sheenRoughness),t.emissive!==void 0&&this.emissive!==void 0&&this.emissive.setHex(t.emissive),t.specular!==void 0&&this.specular!==void 0&&this.specular.setHex(t.specular),t.specularIntensity!==void 0&&(this.specularIntensity=t.specularIntensity),t.specularColor!==void 0&&this.specularColor!==void 0&&this.specularColor.setHex(t.specularColor),t.shininess!==void 0&&(this.shininess=t.shininess),t.clearcoat!==void 0&&(this.clearcoat=t.clearcoat),t.clearcoatRoughness!==void 0&&(this.clearcoatRoughness=t.clearcoatRoughness),t.diffuseRoughness!==void 0&&(this.diffuseRoughness=t.diffuseRoughness),t.dispersion!==void 0&&(this.dispersion=t.dispersion),t.retroreflectivity!==void 0&&(this.retroreflectivity=t.retroreflectivity),t.iridescence!==void 0&&(this.iridescence=t.iridescence),t.iridescenceIOR!==void 0&&(this.iridescenceIOR=t.iridescenceIOR),t.iridescenceThicknessMinimum!==void 0&&(this.iridescenceThicknessMinimum=t.iridescenceThicknessMinimum),t.iridescenceThicknessMaximum!==void 0&&(this.iridescenceThicknessMaximum=t.iridescenceThicknessMaximum),t.iridescenceThicknessRange!==void 0&&(this.iridescenceThicknessMinimum=t.iridescenceThicknessRange[0],this.iridescenceThicknessMaximum=t.iridescenceThicknessRange[1]),t.transmission!==void 0&&(this.transmission=t.transmission),t.thickness!==void 0&&(this.thickness=t.thickness),t.attenuationDistance!==void 0&&(this.attenuationDistance=t.attenuationDistance),t.attenuationColor!==void 0&&this.attenuationColor!==void 0&&this.attenuationColor.setHex(t.attenuationColor),t.anisotropy!==void 0&&(this.anisotropy=t.anisotropy),t.anisotropyRotation!==void 0&&(this.anisotropyRotation=t.anisotropyRotation),t.fog!==void 0&&(this.fog=t.fog),t.flatShading!==void 0&&(this.flatShading=t.flatShading),t.blending!==void 0&&(this.blending=t.blending),t.combine!==void 0&&(this.combine=t.combine),t.side!==void 0&&(this.side=t.side),t.shadowSide!==void 0&&(this.shadowSide=t.shadowSide),t.opacity!==void 0&&(this.opacity=t.opacity),t.transparent!==void 0&&(this.transparent=t.transparent),t.alphaTest!==void 0&&(this.alphaTest=t.alphaTest),t.alphaHash!==void 0&&(this.alphaHash=t.alphaHash),t.depthFunc!==void 0&&(this.depthFunc=t.depthFunc),t.depthTest!==void 0&&(this.depthTest=t.depthTest),t.depthWrite!==void 0&&(this.depthWrite=t.depthWrite),t.colorWrite!==void 0&&(this.colorWrite=t.colorWrite),t.clippingPlanes!==void 0&&(this.clippingPlanes=t.clippingPlanes.map(n=>new Mn().fromJSON(n))),t.clipIntersection!==void 0&&(this.clipIntersection=t.clipIntersection),t.clipShadows!==void 0&&(this.clipShadows=t.clipShadows),t.depthPacking!==void 0&&(this.depthPacking=t.depthPacking),t.blendSrc!==void 0&&(this.blendSrc=t.blendSrc),t.blendDst!==void 0&&(this.blendDst=t.blendDst),t.blendEquation!==void 0&&(this.blendEquation=t.blendEquation),t.blendSrcAlpha!==void 0&&(this.blendSrcAlpha=t.blendSrcAlpha),t.blendDstAlpha!==void 0&&(this.blendDstAlpha=t.blendDstAlpha),t.blendEquationAlpha!==void 0&&(this.blendEquationAlpha=t.blendEquationAlpha),t.blendColor!==void 0&&this.blendColor!==void 0&&this.blendColor.setHex(t.blendColor),t.blendAlpha!==void 0&&(this.blendAlpha=t.blendAlpha),t.stencilWriteMask!==void 0&&(this.stencilWriteMask=t.stencilWriteMask),t.stencilFunc!==void 0&&(this.stencilFunc=t.stencilFunc),t.stencilRef!==void 0&&(this.stencilRef=t.stencilRef),t.stencilFuncMask!==void 0&&(this.stencilFuncMask=t.stencilFuncMask),t.stencilFail!==void 0&&(this.stencilFail=t.stencilFail),t.stencilZFail!==void 0&&(this.stencilZFail=t.stencilZFail),t.stencilZPass!==void 0&&(this.stencilZPass=t.stencilZPass),t.stencilWrite!==void 0&&(this.stencilWrite=t.stencilWrite),t.wireframe!==void 0&&(this.wireframe=t.wireframe),t.wireframeLinewidth!==void 0&&(this.wireframeLinewidth=t.wireframeLinewidth),t.wireframeLinecap!==void 0&&(this.wireframeLinecap=t.wireframeLinecap),t.wireframeLinejoin!==void 0&&(this.wireframeLinejoin=t.wireframeLinejoin),t.rotation!==void 0&&(this.rotation=t.rotation),t.linewidth!==void 0&&(this.linewidth=t.linewidth),t.linecap!==void 0&&(this.linecap=t.linecap),t.linejoin!==void 0&&(this.linejoin=t.linejoin),t.dashSize!==void 0&&(this.dashSize=t.dashSize),t.gapSize!==void 0&&(this.gapSize=t.gapSize),t.scale!==void 0&&(this.scale=t.scale),t.polygonOffset!==void 0&&(this.polygonOffset=t.polygonOffset),t.polygonOffsetFactor!==void 0&&(this.polygonOffsetFactor=t.polygonOffsetFactor),t.polygonOffsetUnits!==void 0&&(this.polygonOffsetUnits=t.polygonOffsetUnits),t.dithering!==void 0&&(this.dithering=t.dithering),t.alphaToCoverage!==void 0&&(this.alphaToCoverage=t.alphaToCoverage),t.premultipliedAlpha!==void 0&&(this.premultipliedAlpha=t.premultipliedAlpha),t.forceSinglePass!==void 0&&(this.forceSinglePass=t.forceSinglePass),t.allowOverride!==void 0&&(this.allowOverride=t.allowOverride),t.visible!==void 0&&(this.visible=t.visible),t.toneMapped!==void 0&&(this.toneMapped=t.toneMapped),t.userData!==void 0&&(this.userData=t.userData),t.vertexColors!==void 0&&(typeof t.vertexColors=="number"?this.vertexColors=t.vertexColors>0:this.vertexColors=t.vertexColors),t.size!==void 0&&(this.size=t.size),t.sizeAttenuation!==void 0&&(this.sizeAttenuation=t.sizeAttenuation),t.map!==void 0&&(this.map=e[t.map]||null),t.matcap!==void 0&&(this.matcap=e[t.matcap]||null),t.alphaMap!==void 0&&(this.alphaMap=e[t.alphaMap]||null),t.bumpMap!==void 0&&(this.bumpMap=e[t.bumpMap]||null),t.bumpScale!==void 0&&(this.bumpScale=t.bumpScale),t.normalMap!==void 0&&(this.normalMap=e[t.normalMap]||null),t.normalMapType!==void 0&&(this.normalMapType=t.normalMapType),t.normalScale!==void 0){let n=t.normalScale;Array.isArray(n)===!1&&(n=[n,n]),this.normalScale=new kt().fromArray(n)}return t.displacementMap!==void 0&&(this.displacementMap=e[t.displacementMap]||null),t.displacementScale!==void 0&&(this.displacementScale=t.displacementScale),t.displacementBias!==void 0&&(this.displacementBias=t.displacementBias),t.roughnessMap!==void 0&&(this.roughnessMap=e[t.roughnessMap]||null),t.metalnessMap!==void 0&&(this.metalnessMap=e[t.metalnessMap]||null),t.emissiveMap!==void 0&&(this.emissiveMap=e[t.emissiveMap]||null),t.emissiveIntensity!==void 0&&(this.emissiveIntensity=t.emissiveIntensity),t.specularMap!==void 0&&(this.specularMap=e[t.specularMap]||null),t.specularIntensityMap!==void 0&&(this.specularIntensityMap=e[t.specularIntensityMap]||null),t.specularColorMap!==void 0&&(this.specularColorMap=e[t.specularColorMap]||null),t.envMap!==void 0&&(this.envMap=e[t.envMap]||null),t.envMapRotation!==void 0&&this.envMapRotation.fromArray(t.envMapRotation),t.envMapIntensity!==void 0&&(this.envMapIntensity=t.envMapIntensity),t.reflectivity!==void 0&&(this.reflectivity=t.reflectivity),t.refractionRatio!==void 0&&(this.refractionRatio=t.refractionRatio),t.lightMap!==void 0&&(this.lightMap=e[t.lightMap]||null),t.lightMapIntensity!==void 0&&(this.lightMapIntensity=t.lightMapIntensity),t.aoMap!==void 0&&(this.aoMap=e[t.aoMap]||null),t.aoMapIntensity!==void 0&&(this.aoMapIntensity=t.aoMapIntensity),t.gradientMap!==void 0&&(this.gradientMap=e[t.gradientMap]||null),t.clearcoatMap!==void 0&&(this.clearcoatMap=e[t.clearcoatMap]||null),t.clearcoatRoughnessMap!==void 0&&(this.clearcoatRoughnessMap=e[t.clearcoatRoughnessMap]||null),t.clearcoatNormalMap!==void 0&&(this.clearcoatNormalMap=e[t.clearcoatNormalMap]||null),t.clearcoatNormalScale!==void 0&&(this.clearcoatNormalScale=new kt().fromArray(t.clearcoatNormalScale)),t.diffuseRoughnessMap!==void 0&&(this.diffuseRoughnessMap=e[t.diffuseRoughnessMap]||null),t.iridescenceMap!==void 0&&(this.iridescenceMap=e[t.iridescenceMap]||null),t.iridescenceThicknessMap!==void 0&&(this.iridescenceThicknessMap=e[t.iridescenceThicknessMap]||null),t.transmissionMap!==void 0&&(this.transmissionMap=e[t.transmissionMap]||null),t.thicknessMap!==void 0&&(this.thicknessMap=e[t.thicknessMap]||null),t.anisotropyMap!==void 0&&(this.anisotropyMap=e[t.anisotropyMap]||null),t.sheenColorMap!==void 0&&(this.sheenColorMap=e[t.sheenColorMap]||null),t.sheenRoughnessMap!==void 0&&(this.sheenRoughnessMap=e[t.sheenRoughnessMap]||null),this}clone(){return new this.constructor().copy(this)}copy(t){this.name=t.name,this.blending=t.blending,this.side=t.side,this.vertexColors=t.vertexColors,this.opacity=t.opacity,this.transparent=t.transparent,this.blendSrc=t.blendSrc,this.blendDst=t.blendDst,this.blendEquation=t.blendEquation,this.blendSrcAlpha=t.blendSrcAlpha,this.blendDstAlpha=t.blendDstAlpha,this.blendEquationAlpha=t.blendEquationAlpha,this.blendColor.copy(t.blendColor),this.blendAlpha=t.blendAlpha,this.depthFunc=t.depthFunc,this.depthTest=t.depthTest,this.depthWrite=t.depthWrite,this.stencilWriteMask=t.stencilWriteMask,this.stencilFunc=t.stencilFunc,this.stencilRef=t.stencilRef,this.stencilFuncMask=t.stencilFuncMask,this.stencilFail=t.stencilFail,this.stencilZFail=t.stencilZFail,this.stencilZPass=t.stencilZPass,this.stencilWrite=t.stencilWrite;let e=t.clippingPlanes,n=null;if(e!==null){let s=e.length;n=new Array(s);for(let r=0;r!==s;++r)n[r]=e[r].clone()}return this.clippingPlanes=n,this.clipIntersection=t.clipIntersection,this.clipShadows=t.clipShadows,this.shadowSide=t.shadowSide,this.colorWrite=t.colorWrite,this.precision=t.precision,this.polygonOffset=t.polygonOffset,this.polygonOffsetFactor=t.polygonOffsetFactor,this.polygonOffsetUnits=t.polygonOffsetUnits,this.dithering=t.dithering,this.alphaTest=t.alphaTest,this.alphaHash=t.alphaHash,this.alphaToCoverage=t.alphaToCoverage,this.premultipliedAlpha=t.premultipliedAlpha,this.forceSinglePass=t.forceSinglePass,this.allowOverride=t.allowOverride,this.visible=t.visible,this.toneMapped=t.toneMapped,this.userData=JSON.parse(JSON.stringify(t.userData)),this}dispose(){this.dispatchEvent({type:"dispose"})}set needsUpdate(t){t===!0&&this.version++}};var Ti=new B,Pu=new B,Jo=new B,Ko=new B,Li=class{constructor(t=new B,e=new B(0,0,-1)){this.origin=t,this.direction=e}set(t,e){return this.origin.copy(t),this.direction.copy(e),this}copy(t){return this.origin.copy(t.origin),this.direction.copy(t.direction),this}at(t,e){return e.copy(this.origin).addScaledVector(this.direction,t)}lookAt(t){return this.direction.copy(t).sub(this.origin).normalize(),this}recast(t){return this.origin.copy(this.at(t,Ti)),this}closestPointToPoint(t,e){e.subVectors(t,this.origin);let n=e.dot(this.direction);return n<0?e.copy(this.origin):e.copy(this.origin).addScaledVector(this.direction,n)}distanceToPoint(t){return Math.sqrt(this.distanceSqToPoint(t))}distanceSqToPoint(t){let e=Ti.subVectors(t,this.origin).dot(this.direction);return e<0?this.origin.distanceToSquared(t):(Ti.copy(this.origin).addScaledVector(this.direction,e),Ti.distanceToSquared(t))}distanceSqToSegment(t,e,n,s){Pu.copy(t).add(e).multiplyScalar(.5),Jo.copy(e).sub(t).normalize(),Ko.copy(this.origin).sub(Pu);let r=t.distanceTo(e)*.5,a=-this.direction.dot(Jo),o=Ko.dot(this.direction),c=-Ko.dot(Jo),l=Ko.lengthSq(),h=Math.abs(1-a*a),u,f,d,p;if(h>0)if(u=a*c-o,f=a*o-c,p=r*h,u>=0)if(f>=-p)if(f<=p){let _=1/h;u*=_,f*=_,d=u*(u+a*f+2*o)+f*(a*u+f+2*c)+l}else f=r,u=Math.max(0,-(a*f+o)),d=-u*u+f*(f+2*c)+l;else f=-r,u=Math.max(0,-(a*f+o)),d=-u*u+f*(f+2*c)+l;else f<=-p?(u=Math.max(0,-(-a*r+o)),f=u>0?-r:Math.min(Math.max(-r,-c),r),d=-u*u+f*(f+2*c)+l):f<=p?(u=0,f=Math.min(Math.max(-r,-c),r),d=f*(f+2*c)+l):(u=Math.max(0,-(a*r+o)),f=u>0?r:Math.min(Math.max(-r,-c),r),d=-u*u+f*(f+2*c)+l);else f=a>0?-r:r,u=Math.max(0,-(a*f+o)),d=-u*u+f*(f+2*c)+l;return n&&n.copy(this.origin).addScaledVector(this.direction,u),s&&s.copy(Pu).addScaledVector(Jo,f),d}intersectSphere(t,e){if(t.radius<0)return null;Ti.subVectors(t.center,this.origin);let n=Ti.dot(this.direction),s=Ti.dot(Ti)-n*n,r=t.radius*t.radius;if(s>r)return null;let a=Math.sqrt(r-s),o=n-a,c=n+a;return c<0?null:o<0?this.at(c,e):this.at(o,e)}intersectsSphere(t){return t.radius<0?!1:this.distanceSqToPoint(t.center)<=t.radius*t.radius}distanceToPlane(t){let e=t.normal.dot(this.direction);if(e===0)return t.distanceToPoint(this.origin)===0?0:null;let n=-(this.origin.dot(t.normal)+t.constant)/e;return n>=0?n:null}intersectPlane(t,e){let n=this.distanceToPlane(t);return n===null?null:this.at(n,e)}intersectsPlane(t){let e=t.distanceToPoint(this.origin);return e===0||t.normal.dot(this.direction)*e<0}intersectBox(t,e){let n,s,r,a,o,c,l=1/this.direction.x,h=1/this.direction.y,u=1/this.direction.z,f=this.origin;return l>=0?(n=(t.min.x-f.x)*l,s=(t.max.x-f.x)*l):(n=(t.max.x-f.x)*l,s=(t.min.x-f.x)*l),h>=0?(r=(t.min.y-f.y)*h,a=(t.max.y-f.y)*h):(r=(t.max.y-f.y)*h,a=(t.min.y-f.y)*h),n>a||r>s||((r>n||isNaN(n))&&(n=r),(a<s||isNaN(s))&&(s=a),u>=0?(o=(t.min.z-f.z)*u,c=(t.max.z-f.z)*u):(o=(t.max.z-f.z)*u,c=(t.min.z-f.z)*u),n>c||o>s)||((o>n||n!==n)&&(n=o),(c<s||s!==s)&&(s=c),s<0)?null:this.at(n>=0?n:s,e)}intersectsBox(t){return this.intersectBox(t,Ti)!==null}intersectTriangle(t,e,n,s,r){let a=this.origin,o=this.direction,c=o.x,l=o.y,h=o.z,u=t.x-a.x,f=t.y-a.y,d=t.z-a.z,p=e.x-a.x,_=e.y-a.y,g=e.z-a.z,m=n.x-a.x,x=n.y-a.y,b=n.z-a.z,w=Math.abs(c),A=Math.abs(l),C=Math.abs(h),v,E,F,N,D,H,J,P,q,Q,X,rt;if(w>=A&&w>=C?(F=c,H=u,q=p,rt=m,c>=0?(v=l,E=h,N=f,D=d,J=_,P=g,Q=x,X=b):(v=h,E=l,N=d,D=f,J=g,P=_,Q=b,X=x)):A>=C?(F=l,H=f,q=_,rt=x,l>=0?(v=h,E=c,N=d,D=u,J=g,P=p,Q=b,X=m):(v=c,E=h,N=u,D=d,J=p,P=g,Q=m,X=b)):(F=h,H=d,q=g,rt=b,h>=0?(v=c,E=l,N=u,D=f,J=p,P=_,Q=m,X=x):(v=l,E=c,N=f,D=u,J=_,P=p,Q=x,X=m)),F===0)return null;let W=v/F,k=E/F,it=1/F,Tt=N-W*H,Bt=D-k*H,et=J-W*q,pt=P-k*q,_t=Q-W*rt,It=X-k*rt,lt=_t*pt-It*et,Et=Tt*It-Bt*_t,se=et*Bt-pt*Tt;if(s){if(lt<0||Et<0||se<0)return null}else if((lt<0||Et<0||se<0)&&(lt>0||Et>0||se>0))return null;let Ot=lt+Et+se;if(Ot===0)return null;let Qt=it*(lt*H+Et*q+se*rt);return(Ot>0?Qt<0:Qt>0)?null:this.at(Qt/Ot,r)}applyMatrix4(t){return this.origin.applyMatrix4(t),this.direction.transformDirection(t),this}equals(t){return t.origin.equals(this.origin)&&t.direction.equals(this.direction)}clone(){return new this.constructor().copy(this)}},xr=class extends fi{constructor(t){super(),this.isMeshBasicMaterial=!0,this.type="MeshBasicMaterial",this.color=new Yt(16777215),this.map=null,this.lightMap=null,this.lightMapIntensity=1,this.aoMap=null,this.aoMapIntensity=1,this.specularMap=null,this.alphaMap=null,this.envMap=null,this.envMapRotation=new Ci,this.combine=ql,this.reflectivity=1,this.refractionRatio=.98,this.wireframe=!1,this.wireframeLinewidth=1,this.wireframeLinecap="round",this.wireframeLinejoin="round",this.fog=!0,this.setValues(t)}copy(t){return super.copy(t),this.color.copy(t.color),this.map=t.map,this.lightMap=t.lightMap,this.lightMapIntensity=t.lightMapIntensity,this.aoMap=t.aoMap,this.aoMapIntensity=t.aoMapIntensity,this.specularMap=t.specularMap,this.alphaMap=t.alphaMap,this.envMap=t.envMap,this.envMapRotation.copy(t.envMapRotation),this.combine=t.combine,this.reflectivity=t.reflectivity,this.refractionRatio=t.refractionRatio,this.wireframe=t.wireframe,this.wireframeLinewidth=t.wireframeLinewidth,this.wireframeLinecap=t.wireframeLinecap,this.wireframeLinejoin=t.wireframeLinejoin,this.fog=t.fog,this}},Cm=new ie,Es=new Li,jo=new Ii,Pm=new B,Qo=new B,tl=new B,el=new B,Iu=new B,nl=new B,Im=new B,il=new B,An=class extends tn{constructor(t=new wn,e=new xr){super(),this.isMesh=!0,this.type="Mesh",this.geometry=t,this.material=e,this.morphTargetDictionary=void 0,this.morphTargetInfluences=void 0,this.count=1,this.updateMorphTargets()}copy(t,e){return super.copy(t,e),t.morphTargetInfluences!==void 0?this.morphTargetInfluences=t.morphTargetInfluences.slice():this.morphTargetInfluences=void 0,t.morphTargetDictionary!==void 0?this.morphTargetDictionary=Object.assign({},t.morphTargetDictionary):this.morphTargetDictionary=void 0,this.material=Array.isArray(t.material)?t.material.slice():t.material,this.geometry=t.geometry,this}updateMorphTargets(){let e=this.geometry.morphAttributes,n=Object.keys(e);if(n.length>0){let s=e[n[0]];if(s!==void 0){this.morphTargetInfluences=[],this.morphTargetDictionary={};for(let r=0,a=s.length;r<a;r++){let o=s[r].name||String(r);this.morphTargetInfluences.push(0),this.morphTargetDictionary[o]=r}}}}getVertexPosition(t,e){let n=this.geometry,s=n.attributes.position,r=n.morphAttributes.position,a=n.morphTargetsRelative;e.fromBufferAttribute(s,t);let o=this.morphTargetInfluences;if(r&&o){nl.set(0,0,0);for(let c=0,l=r.length;c<l;c++){let h=o[c],u=r[c];h!==0&&(Iu.fromBufferAttribute(u,t),a?nl.addScaledVector(Iu,h):nl.addScaledVector(Iu.sub(e),h))}e.add(nl)}return e}intersectsFrustum(t){return t.intersectsObject(this)}raycast(t,e){let n=this.geometry,s=this.material,r=this.matrixWorld;s!==void 0&&(n.boundingSphere===null&&n.computeBoundingSphere(),jo.copy(n.boundingSphere),jo.applyMatrix4(r),Es.copy(t.ray).recast(t.near),!(jo.containsPoint(Es.origin)===!1&&(Es.intersectSphere(jo,Pm)===null||Es.origin.distanceToSquared(Pm)>(t.far-t.near)**2))&&(Cm.copy(r).invert(),Es.copy(t.ray).applyMatrix4(Cm),!(n.boundingBox!==null&&Es.intersectsBox(n.boundingBox)===!1)&&this._computeIntersections(t,e,Es)))}_computeIntersections(t,e,n){let s,r=this.geometry,a=this.material,o=r.index,c=r.attributes.position,l=r.attributes.uv,h=r.attributes.uv1,u=r.attributes.normal,f=r.groups,d=r.drawRange;if(o!==null)if(Array.isArray(a))for(let p=0,_=f.length;p<_;p++){let g=f[p],m=a[g.materialIndex],x=Math.max(g.start,d.start),b=Math.min(o.count,Math.min(g.start+g.count,d.start+d.count));for(let w=x,A=b;w<A;w+=3){let C=o.getX(w),v=o.getX(w+1),E=o.getX(w+2);s=sl(this,m,t,n,l,h,u,C,v,E),s&&(s.faceIndex=Math.floor(w/3),s.face.materialIndex=g.materialIndex,e.push(s))}}else{let p=Math.max(0,d.start),_=Math.min(o.count,d.start+d.count);for(let g=p,m=_;g<m;g+=3){let x=o.getX(g),b=o.getX(g+1),w=o.getX(g+2);s=sl(this,a,t,n,l,h,u,x,b,w),s&&(s.faceIndex=Math.floor(g/3),e.push(s))}}else if(c!==void 0)if(Array.isArray(a))for(let p=0,_=f.length;p<_;p++){let g=f[p],m=a[g.materialIndex],x=Math.max(g.start,d.start),b=Math.min(c.count,Math.min(g.start+g.count,d.start+d.count));for(let w=x,A=b;w<A;w+=3){let C=w,v=w+1,E=w+2;s=sl(this,m,t,n,l,h,u,C,v,E),s&&(s.faceIndex=Math.floor(w/3),s.face.materialIndex=g.materialIndex,e.push(s))}}else{let p=Math.max(0,d.start),_=Math.min(c.count,d.start+d.count);for(let g=p,m=_;g<m;g+=3){let x=g,b=g+1,w=g+2;s=sl(this,a,t,n,l,h,u,x,b,w),s&&(s.faceIndex=Math.floor(g/3),e.push(s))}}}};function Xx(i,t,e,n,s,r,a,o){let c;if(t.side===En?c=n.intersectTriangle(a,r,s,!0,o):c=n.intersectTriangle(s,r,a,t.side===is,o),c===null)return null;il.copy(o),il.applyMatrix4(i.matrixWorld);let l=e.ray.origin.distanceTo(il);return l<e.near||l>e.far?null:{distance:l,point:il.clone(),object:i}}function sl(i,t,e,n,s,r,a,o,c,l){i.getVertexPosition(o,Qo),i.getVertexPosition(c,tl),i.getVertexPosition(l,el);let h=Xx(i,t,e,n,Qo,tl,el,Im);if(h){let u=new B;Ji.getBarycoord(Im,Qo,tl,el,u),s&&(h.uv=Ji.getInterpolatedAttribute(s,o,c,l,u,new kt)),r&&(h.uv1=Ji.getInterpolatedAttribute(r,o,c,l,u,new kt)),a&&(h.normal=Ji.getInterpolatedAttribute(a,o,c,l,u,new B),h.normal.dot(n.direction)>0&&h.normal.multiplyScalar(-1));let f={a:o,b:c,c:l,normal:new B,materialIndex:0};Ji.getNormal(Qo,tl,el,f.normal),h.face=f,h.barycoord=u}return h}var oa=new ve,Lm=new ve,Nm=new ve,qx=new ve,Dm=new ie,rl=new B,Lu=new Ii,Om=new ie,Nu=new Li,Ma=class extends An{constructor(t,e){super(t,e),this.isSkinnedMesh=!0,this.type="SkinnedMesh",this.bindMode=Uu,this.bindMatrix=new ie,this.bindMatrixInverse=new ie,this.boundingBox=null,this.boundingSphere=null}computeBoundingBox(){let t=this.geometry;this.boundingBox===null&&(this.boundingBox=new Pi),this.boundingBox.makeEmpty();let e=t.getAttribute("position");for(let n=0;n<e.count;n++)this.getVertexPosition(n,rl),this.boundingBox.expandByPoint(rl)}computeBoundingSphere(){let t=this.geometry;this.boundingSphere===null&&(this.boundingSphere=new Ii),this.boundingSphere.makeEmpty();let e=t.getAttribute("position");for(let n=0;n<e.count;n++)this.getVertexPosition(n,rl),this.boundingSphere.expandByPoint(rl)}copy(t,e){return super.copy(t,e),this.bindMode=t.bindMode,this.bindMatrix.copy(t.bindMatrix),this.bindMatrixInverse.copy(t.bindMatrixInverse),this.skeleton=t.skeleton,this.boundingBox=t.boundingBox!==null?t.boundingBox.clone():null,this.boundingSphere=t.boundingSphere!==null?t.boundingSphere.clone():null,this}raycast(t,e){let n=this.material,s=this.matrixWorld;n!==void 0&&(this.boundingSphere===null&&this.computeBoundingSphere(),Lu.copy(this.boundingSphere),Lu.applyMatrix4(s),t.ray.intersectsSphere(Lu)!==!1&&(Om.copy(s).invert(),Nu.copy(t.ray).applyMatrix4(Om),!(this.boundingBox!==null&&Nu.intersectsBox(this.boundingBox)===!1)&&this._computeIntersections(t,e,Nu)))}getVertexPosition(t,e){return super.getVertexPosition(t,e),this.applyBoneTransform(t,e),e}bind(t,e){this.skeleton=t,e===void 0&&(this.updateMatrixWorld(!0),this.skeleton.calculateInverses(),e=this.matrixWorld),this.bindMatrix.copy(e),this.bindMatrixInverse.copy(e).invert()}pose(){this.skeleton.pose()}normalizeSkinWeights(){let t=new ve,e=this.geometry.attributes.skinWeight;for(let n=0,s=e.count;n<s;n++){t.fromBufferAttribute(e,n);let r=1/t.manhattanLength();r!==1/0?t.multiplyScalar(r):t.set(1,0,0,0),e.setXYZW(n,t.x,t.y,t.z,t.w)}}updateMatrixWorld(t){super.updateMatrixWorld(t),this.bindMode===Uu?this.bindMatrixInverse.copy(this.matrixWorld).invert():this.bindMode===vg?this.bindMatrixInverse.copy(this.bindMatrix).invert():Dt("SkinnedMesh: Unrecognized bindMode: "+this.bindMode)}applyBoneTransform(t,e){let n=this.skeleton,s=this.geometry;Lm.fromBufferAttribute(s.attributes.skinIndex,t),Nm.fromBufferAttribute(s.attributes.skinWeight,t),e.isVector4?(oa.copy(e),e.set(0,0,0,0)):(oa.set(e.x,e.y,e.z,1),e.set(0,0,0)),oa.applyMatrix4(this.bindMatrix);for(let r=0;r<4;r++){let a=Nm.getComponent(r);if(a!==0){let o=Lm.getComponent(r);Dm.multiplyMatrices(n.bones[o].matrixWorld,n.boneInverses[o]),e.addScaledVector(qx.copy(oa).applyMatrix4(Dm),a)}}return e.isVector4&&(e.w=oa.w),e.applyMatrix4(this.bindMatrixInverse)}},vr=class extends tn{constructor(){super(),this.isBone=!0,this.type="Bone"}},Sa=class extends Tn{constructor(t=null,e=1,n=1,s,r,a,o,c,l=Qe,h=Qe,u,f){super(null,a,o,c,l,h,s,r,u,f),this.isDataTexture=!0,this.image={data:t,width:e,height:n},this.generateMipmaps=!1,this.flipY=!1,this.unpackAlignment=1}},Um=new ie,Yx=new ie,ba=class i{constructor(t=[],e=[]){this.uuid=Os(),this.bones=t.slice(0),this.boneInverses=e,this.boneMatrices=null,this.previousBoneMatrices=null,this.boneTexture=null,this.previousBoneTexture=null,this.init()}init(){let t=this.bones,e=this.boneInverses;if(this.boneMatrices=new Float32Array(t.length*16),e.length===0)this.calculateInverses();else if(t.length!==e.length){Dt("Skeleton: Number of inverse bone matrices does not match amount of bones."),this.boneInverses=[];for(let n=0,s=this.bones.length;n<s;n++)this.boneInverses.push(new ie)}}calculateInverses(){this.boneInverses.length=0;for(let t=0,e=this.bones.length;t<e;t++){let n=new ie;this.bones[t]&&n.copy(this.bones[t].matrixWorld).invert(),this.boneInverses.push(n)}}pose(){for(let t=0,e=this.bones.length;t<e;t++){let n=this.bones[t];n&&n.matrixWorld.copy(this.boneInverses[t]).invert()}for(let t=0,e=this.bones.length;t<e;t++){let n=this.bones[t];n&&(n.parent&&n.parent.isBone?(n.matrix.copy(n.parent.matrixWorld).invert(),n.matrix.multiply(n.matrixWorld)):n.matrix.copy(n.matrixWorld),n.matrix.decompose(n.position,n.quaternion,n.scale))}}update(){let t=this.bones,e=this.boneInverses,n=this.boneMatrices,s=this.boneTexture;for(let r=0,a=t.length;r<a;r++){let o=t[r]?t[r].matrixWorld:Yx;Um.multiplyMatrices(o,e[r]),Um.toArray(n,r*16)}s!==null&&(s.needsUpdate=!0)}clone(){return new i(this.bones,this.boneInverses)}computeBoneTexture(){let t=Math.sqrt(this.bones.length*4);t=Math.ceil(t/4)*4,t=Math.max(t,4);let e=new Float32Array(t*t*4);e.set(this.boneMatrices);let n=new Sa(e,t,t,qn,Xn);return n.needsUpdate=!0,this.boneMatrices=e,this.boneTexture=n,this}getBoneByName(t){for(let e=0,n=this.bones.length;e<n;e++){let s=this.bones[e];if(s.name===t)return s}}dispose(){this.boneTexture!==null&&(this.boneTexture.dispose(),this.boneTexture=null),this.previousBoneTexture!==null&&(this.previousBoneTexture.dispose(),this.previousBoneTexture=null)}fromJSON(t,e){this.uuid=t.uuid;for(let n=0,s=t.bones.length;n<s;n++){let r=t.bones[n],a=e[r];a===void 0&&(Dt("Skeleton: No bone found with UUID:",r),a=new vr),this.bones.push(a),this.boneInverses.push(new ie().fromArray(t.boneInverses[n]))}return this.init(),this}toJSON(){let t={metadata:{version:4.7,type:"Skeleton",generator:"Skeleton.toJSON"},bones:[],boneInverses:[]};t.uuid=this.uuid;let e=this.bones,n=this.boneInverses;for(let s=0,r=e.length;s<r;s++){let a=e[s];t.bones.push(a.uuid);let o=n[s];t.boneInverses.push(o.toArray())}return t}};var Ts=new Ii,$x=new kt(.5,.5),al=new B,Ki=class{constructor(t=new Mn,e=new Mn,n=new Mn,s=new Mn,r=new Mn,a=new Mn){this.planes=[t,e,n,s,r,a]}set(t,e,n,s,r,a){let o=this.planes;return o[0].copy(t),o[1].copy(e),o[2].copy(n),o[3].copy(s),o[4].copy(r),o[5].copy(a),this}copy(t){let e=this.planes;for(let n=0;n<6;n++)e[n].copy(t.planes[n]);return this}setFromProjectionMatrix(t,e=Wn,n=!1){let s=this.planes,r=t.elements,a=r[0],o=r[1],c=r[2],l=r[3],h=r[4],u=r[5],f=r[6],d=r[7],p=r[8],_=r[9],g=r[10],m=r[11],x=r[12],b=r[13],w=r[14],A=r[15];if(s[0].setComponents(l-a,d-h,m-p,A-x).normalize(),s[1].setComponents(l+a,d+h,m+p,A+x).normalize(),s[2].setComponents(l+o,d+u,m+_,A+b).normalize(),s[3].setComponents(l-o,d-u,m-_,A-b).normalize(),n)s[4].setComponents(c,f,g,w).normalize(),s[5].setComponents(l-c,d-f,m-g,A-w).normalize();else if(s[4].setComponents(l-c,d-f,m-g,A-w).normalize(),e===Wn)s[5].setComponents(l+c,d+f,m+g,A+w).normalize();else if(e===dr)s[5].setComponents(c,f,g,w).normalize();else throw new Error("THREE.Frustum.setFromProjectionMatrix(): Invalid coordinate system: "+e);return this}intersectsObject(t){if(t.boundingSphere!==void 0)t.boundingSphere===null&&t.computeBoundingSphere(),Ts.copy(t.boundingSphere).applyMatrix4(t.matrixWorld);else{let e=t.geometry;e.boundingSphere===null&&e.computeBoundingSphere(),Ts.copy(e.boundingSphere).applyMatrix4(t.matrixWorld)}return this.intersectsSphere(Ts)}intersectsSprite(t){Ts.center.set(0,0,0);let e=$x.distanceTo(t.center);return Ts.radius=.7071067811865476+e,Ts.applyMatrix4(t.matrixWorld),this.intersectsSphere(Ts)}intersectsSphere(t){let e=this.planes,n=t.center,s=-t.radius;for(let r=0;r<6;r++)if(e[r].distanceToPoint(n)<s)return!1;return!0}intersectsBox(t){let e=this.planes;for(let n=0;n<6;n++){let s=e[n];if(al.x=s.normal.x>0?t.max.x:t.min.x,al.y=s.normal.y>0?t.max.y:t.min.y,al.z=s.normal.z>0?t.max.z:t.min.z,s.distanceToPoint(al)<0)return!1}return!0}containsPoint(t){let e=this.planes;for(let n=0;n<6;n++)if(e[n].distanceToPoint(t)<0)return!1;return!0}clone(){return new this.constructor().copy(this)}},Fm=new ie,Al=class i{constructor(){this.coordinateSystem=Wn,this._frustums=[],this._count=0}setFromArrayCamera(t){let e=t.cameras,n=this._frustums;for(let s=0;s<e.length;s++){let r=e[s];Fm.multiplyMatrices(r.projectionMatrix,r.matrixWorldInverse),n[s]===void 0&&(n[s]=new Ki),n[s].setFromProjectionMatrix(Fm,r.coordinateSystem,r.reversedDepth)}return this._count=e.length,this}getFrustum(t){return this._frustums[t]}intersectsObject(t){let e=this._frustums;for(let n=0;n<this._count;n++)if(e[n].intersectsObject(t))return!0;return!1}intersectsSprite(t){let e=this._frustums;for(let n=0;n<this._count;n++)if(e[n].intersectsSprite(t))return!0;return!1}intersectsSphere(t){let e=this._frustums;for(let n=0;n<this._count;n++)if(e[n].intersectsSphere(t))return!0;return!1}intersectsBox(t){let e=this._frustums;for(let n=0;n<this._count;n++)if(e[n].intersectsBox(t))return!0;return!1}containsPoint(t){let e=this._frustums;for(let n=0;n<this._count;n++)if(e[n].containsPoint(t))return!0;return!1}copy(t){this.coordinateSystem=t.coordinateSystem;let e=this._frustums,n=t._frustums;for(let s=0;s<t._count;s++)e[s]===void 0&&(e[s]=new Ki),e[s].copy(n[s]);return this._count=t._count,this}clone(){return new i().copy(this)}};var Rs=class extends fi{constructor(t){super(),this.isLineBasicMaterial=!0,this.type="LineBasicMaterial",this.color=new Yt(16777215),this.map=null,this.linewidth=1,this.linecap="round",this.linejoin="round",this.fog=!0,this.setValues(t)}copy(t){return super.copy(t),this.color.copy(t.color),this.map=t.map,this.linewidth=t.linewidth,this.linecap=t.linecap,this.linejoin=t.linejoin,this.fog=t.fog,this}},Rl=new B,Cl=new B,Bm=new ie,la=new Li,ol=new Ii,Du=new B,km=new B,Mr=class extends tn{constructor(t=new wn,e=new Rs){super(),this.isLine=!0,this.type="Line",this.geometry=t,this.material=e,this.morphTargetDictionary=void 0,this.morphTargetInfluences=void 0,this.updateMorphTargets()}copy(t,e){return super.copy(t,e),t.morphTargetInfluences!==void 0?this.morphTargetInfluences=t.morphTargetInfluences.slice():this.morphTargetInfluences=void 0,t.morphTargetDictionary!==void 0?this.morphTargetDictionary=Object.assign({},t.morphTargetDictionary):this.morphTargetDictionary=void 0,this.material=Array.isArray(t.material)?t.material.slice():t.material,this.geometry=t.geometry,this}computeLineDistances(){let t=this.geometry;if(t.index===null){let e=t.attributes.position,n=[0];for(let s=1,r=e.count;s<r;s++)Rl.fromBufferAttribute(e,s-1),Cl.fromBufferAttribute(e,s),n[s]=n[s-1],n[s]+=Rl.distanceTo(Cl);t.setAttribute("lineDistance",new We(n,1))}else Dt("Line.computeLineDistances(): Computation only possible with non-indexed BufferGeometry.");return this}intersectsFrustum(t){return t.intersectsObject(this)}raycast(t,e){let n=this.geometry,s=this.matrixWorld,r=t.params.Line.threshold,a=n.drawRange;if(n.boundingSphere===null&&n.computeBoundingSphere(),ol.copy(n.boundingSphere),ol.applyMatrix4(s),ol.radius+=r,t.ray.intersectsSphere(ol)===!1)return;Bm.copy(s).invert(),la.copy(t.ray).applyMatrix4(Bm);let o=r/((this.scale.x+this.scale.y+this.scale.z)/3),c=o*o,l=this.isLineSegments?2:1,h=n.index,f=n.attributes.position;if(h!==null){let d=Math.max(0,a.start),p=Math.min(h.count,a.start+a.count);for(let _=d,g=p-1;_<g;_+=l){let m=h.getX(_),x=h.getX(_+1),b=ll(this,t,la,c,m,x,_);b&&e.push(b)}if(this.isLineLoop){let _=h.getX(p-1),g=h.getX(d),m=ll(this,t,la,c,_,g,p-1);m&&e.push(m)}}else{let d=Math.max(0,a.start),p=Math.min(f.count,a.start+a.count);for(let _=d,g=p-1;_<g;_+=l){let m=ll(this,t,la,c,_,_+1,_);m&&e.push(m)}if(this.isLineLoop){let _=ll(this,t,la,c,p-1,d,p-1);_&&e.push(_)}}}updateMorphTargets(){let e=this.geometry.morphAttributes,n=Object.keys(e);if(n.length>0){let s=e[n[0]];if(s!==void 0){this.morphTargetInfluences=[],this.morphTargetDictionary={};for(let r=0,a=s.length;r<a;r++){let o=s[r].name||String(r);this.morphTargetInfluences.push(0),this.morphTargetDictionary[o]=r}}}}};function ll(i,t,e,n,s,r,a){let o=i.geometry.attributes.position;if(Rl.fromBufferAttribute(o,s),Cl.fromBufferAttribute(o,r),e.distanceSqToSegment(Rl,Cl,Du,km)>n)return;Du.applyMatrix4(i.matrixWorld);let l=t.ray.origin.distanceTo(Du);if(!(l<t.near||l>t.far))return{distance:l,point:km.clone().applyMatrix4(i.matrixWorld),index:a,face:null,faceIndex:null,barycoord:null,object:i}}var zm=new B,Gm=new B,Pl=class extends Mr{constructor(t,e){super(t,e),this.isLineSegments=!0,this.type="LineSegments"}computeLineDistances(){let t=this.geometry;if(t.index===null){let e=t.attributes.position,n=[];for(let s=0,r=e.count;s<r;s+=2)zm.fromBufferAttribute(e,s),Gm.fromBufferAttribute(e,s+1),n[s]=s===0?0:n[s-1],n[s+1]=n[s]+zm.distanceTo(Gm);t.setAttribute("lineDistance",new We(n,1))}else Dt("LineSegments.computeLineDistances(): Computation only possible with non-indexed BufferGeometry.");return this}};var wa=class extends Tn{constructor(t=[],e=Ns,n,s,r,a,o,c,l,h){super(t,e,n,s,r,a,o,c,l,h),this.isCubeTexture=!0,this.flipY=!1}get images(){return this.image}set images(t){this.image=t}};var Ni=class extends Tn{constructor(t,e,n=ii,s,r,a,o=Qe,c=Qe,l,h=Ri,u=1){if(h!==Ri&&h!==Oi)throw new Error("THREE.DepthTexture: format must be either THREE.DepthFormat or THREE.DepthStencilFormat");let f={width:t,height:e,depth:u};super(f,s,r,a,o,c,h,n,l),this.isDepthTexture=!0,this.flipY=!1,this.generateMipmaps=!1,this.compareFunction=null}copy(t){return super.copy(t),this.source=new gr(Object.assign({},t.image)),this.compareFunction=t.compareFunction,this}toJSON(t){let e=super.toJSON(t);return e.compareFunction=this.compareFunction,e}},Ea=class extends Ni{constructor(t,e=ii,n=Ns,s,r,a=Qe,o=Qe,c,l=Ri){let h={width:t,height:t,depth:1},u=[h,h,h,h,h,h];super(t,t,e,n,s,r,a,o,c,l),this.image=u,this.isCubeDepthTexture=!0,this.isCubeTexture=!0}get images(){return this.image}set images(t){this.image=t}},Ta=class extends Tn{constructor(t=null){super(),this.sourceTexture=t,this.isExternalTexture=!0}copy(t){return super.copy(t),this.sourceTexture=t.sourceTexture,this}},Sr=class i extends wn{constructor(t=1,e=1,n=1,s=1,r=1,a=1){super(),this.type="BoxGeometry",this.parameters={width:t,height:e,depth:n,widthSegments:s,heightSegments:r,depthSegments:a};let o=this;s=Math.floor(s),r=Math.floor(r),a=Math.floor(a);let c=[],l=[],h=[],u=[],f=0,d=0;p("z","y","x",-1,-1,n,e,t,a,r,0),p("z","y","x",1,-1,n,e,-t,a,r,1),p("x","z","y",1,1,t,n,e,s,a,2),p("x","z","y",1,-1,t,n,-e,s,a,3),p("x","y","z",1,-1,t,e,n,s,r,4),p("x","y","z",-1,-1,t,e,-n,s,r,5),this.setIndex(c),this.setAttribute("position",new We(l,3)),this.setAttribute("normal",new We(h,3)),this.setAttribute("uv",new We(u,2));function p(_,g,m,x,b,w,A,C,v,E,F){let N=w/v,D=A/E,H=w/2,J=A/2,P=C/2,q=v+1,Q=E+1,X=0,rt=0,W=new B;for(let k=0;k<Q;k++){let it=k*D-J;for(let Tt=0;Tt<q;Tt++){let Bt=Tt*N-H;W[_]=Bt*x,W[g]=it*b,W[m]=P,l.push(W.x,W.y,W.z),W[_]=0,W[g]=0,W[m]=C>0?1:-1,h.push(W.x,W.y,W.z),u.push(Tt/v),u.push(1-k/E),X+=1}}for(let k=0;k<E;k++)for(let it=0;it<v;it++){let Tt=f+it+q*k,Bt=f+it+q*(k+1),et=f+(it+1)+q*(k+1),pt=f+(it+1)+q*k;c.push(Tt,Bt,pt),c.push(Bt,et,pt),rt+=6}o.addGroup(d,rt,F),d+=rt,f+=X}}copy(t){return super.copy(t),this.parameters=Object.assign({},t.parameters),this}static fromJSON(t){return new i(t.width,t.height,t.depth,t.widthSegments,t.heightSegments,t.depthSegments)}};var Cs=class i extends wn{constructor(t=1,e=1,n=1,s=1){super(),this.type="PlaneGeometry",this.parameters={width:t,height:e,widthSegments:n,heightSegments:s};let r=t/2,a=e/2,o=Math.floor(n),c=Math.floor(s),l=o+1,h=c+1,u=t/o,f=e/c,d=[],p=[],_=[],g=[];for(let m=0;m<h;m++){let x=m*f-a;for(let b=0;b<l;b++){let w=b*u-r;p.push(w,-x,0),_.push(0,0,1),g.push(b/o),g.push(1-m/c)}}for(let m=0;m<c;m++)for(let x=0;x<o;x++){let b=x+l*m,w=x+l*(m+1),A=x+1+l*(m+1),C=x+1+l*m;d.push(b,w,C),d.push(w,A,C)}this.setIndex(d),this.setAttribute("position",new We(p,3)),this.setAttribute("normal",new We(_,3)),this.setAttribute("uv",new We(g,2))}copy(t){return super.copy(t),this.parameters=Object.assign({},t.parameters),this}static fromJSON(t){return new i(t.width,t.height,t.widthSegments,t.heightSegments)}},Aa=class i extends wn{constructor(t=.5,e=1,n=32,s=1,r=0,a=Math.PI*2){super(),this.type="RingGeometry",this.parameters={innerRadius:t,outerRadius:e,thetaSegments:n,phiSegments:s,thetaStart:r,thetaLength:a},n=Math.max(3,n),s=Math.max(1,s);let o=[],c=[],l=[],h=[],u=t,f=(e-t)/s,d=new B,p=new kt;for(let _=0;_<=s;_++){for(let g=0;g<=n;g++){let m=r+g/n*a;d.x=u*Math.cos(m),d.y=u*Math.sin(m),c.push(d.x,d.y,d.z),l.push(0,0,1),p.x=(d.x/e+1)/2,p.y=(d.y/e+1)/2,h.push(p.x,p.y)}u+=f}for(let _=0;_<s;_++){let g=_*(n+1);for(let m=0;m<n;m++){let x=m+g,b=x,w=x+n+1,A=x+n+2,C=x+1;o.push(b,w,C),o.push(w,A,C)}}this.setIndex(o),this.setAttribute("position",new We(c,3)),this.setAttribute("normal",new We(l,3)),this.setAttribute("uv",new We(h,2))}copy(t){return super.copy(t),this.parameters=Object.assign({},t.parameters),this}static fromJSON(t){return new i(t.innerRadius,t.outerRadius,t.thetaSegments,t.phiSegments,t.thetaStart,t.thetaLength)}};var Ra=class extends fi{constructor(t){super(),this.isShadowMaterial=!0,this.type="ShadowMaterial",this.color=new Yt(0),this.transparent=!0,this.fog=!0,this.setValues(t)}copy(t){return super.copy(t),this.color.copy(t.color),this.fog=t.fog,this}};function Us(i){let t={};for(let e in i){t[e]={};for(let n in i[e]){let s=i[e][n];if(Vm(s))s.isRenderTargetTexture?(Dt("UniformsUtils: Textures of render targets cannot be cloned via cloneUniforms() or mergeUniforms()."),t[e][n]=null):t[e][n]=s.clone();else if(Array.isArray(s))if(Vm(s[0])){let r=[];for(let a=0,o=s.length;a<o;a++)r[a]=s[a].clone();t[e][n]=r}else t[e][n]=s.slice();else t[e][n]=s}}return t}function mn(i){let t={};for(let e=0;e<i.length;e++){let n=Us(i[e]);for(let s in n)t[s]=n[s]}return t}function Vm(i){return i&&(i.isColor||i.isMatrix3||i.isMatrix4||i.isVector2||i.isVector3||i.isVector4||i.isTexture||i.isQuaternion)}function Zx(i){let t=[];for(let e=0;e<i.length;e++)t.push(i[e].clone());return t}function Sf(i){let t=i.getRenderTarget();return t===null?i.outputColorSpace:t.isXRRenderTarget===!0?t.texture.colorSpace:oe.workingColorSpace}var Bg={clone:Us,merge:mn},Jx=`void main() {
+	gl_Position = projectionMatrix * modelViewMatrix * vec4( position, 1.0 );
+}`,Kx=`void main() {
+	gl_FragColor = vec4( 1.0, 0.0, 0.0, 1.0 );
+}`,di=class extends fi{constructor(t){super(),this.isShaderMaterial=!0,this.type="ShaderMaterial",this.defines={},this.uniforms={},this.uniformsGroups=[],this.vertexShader=Jx,this.fragmentShader=Kx,this.linewidth=1,this.wireframe=!1,this.wireframeLinewidth=1,this.fog=!1,this.lights=!1,this.clipping=!1,this.forceSinglePass=!0,this.extensions={clipCullDistance:!1,multiDraw:!1},this.defaultAttributeValues={color:[1,1,1],uv:[0,0],uv1:[0,0]},this.index0AttributeName=void 0,this.uniformsNeedUpdate=!1,this.glslVersion=null,t!==void 0&&this.setValues(t)}copy(t){return super.copy(t),this.fragmentShader=t.fragmentShader,this.vertexShader=t.vertexShader,this.uniforms=Us(t.uniforms),this.uniformsGroups=Zx(t.uniformsGroups),this.defines=Object.assign({},t.defines),this.wireframe=t.wireframe,this.wireframeLinewidth=t.wireframeLinewidth,this.fog=t.fog,this.lights=t.lights,this.clipping=t.clipping,this.extensions=Object.assign({},t.extensions),this.glslVersion=t.glslVersion,this.defaultAttributeValues=Object.assign({},t.defaultAttributeValues),this.index0AttributeName=t.index0AttributeName,this.uniformsNeedUpdate=t.uniformsNeedUpdate,this}toJSON(t){let e=super.toJSON(t);e.glslVersion=this.glslVersion,e.uniforms={};for(let s in this.uniforms){let a=this.uniforms[s].value;a&&a.isTexture?e.uniforms[s]={type:"t",value:a.toJSON(t).uuid}:a&&a.isColor?e.uniforms[s]={type:"c",value:a.getHex()}:a&&a.isVector2?e.uniforms[s]={type:"v2",value:a.toArray()}:a&&a.isVector3?e.uniforms[s]={type:"v3",value:a.toArray()}:a&&a.isVector4?e.uniforms[s]={type:"v4",value:a.toArray()}:a&&a.isMatrix3?e.uniforms[s]={type:"m3",value:a.toArray()}:a&&a.isMatrix4?e.uniforms[s]={type:"m4",value:a.toArray()}:e.uniforms[s]={value:a}}Object.keys(this.defines).length>0&&(e.defines=this.defines),e.vertexShader=this.vertexShader,e.fragmentShader=this.fragmentShader,e.lights=this.lights,e.clipping=this.clipping;let n={};for(let s in this.extensions)this.extensions[s]===!0&&(n[s]=!0);return Object.keys(n).length>0&&(e.extensions=n),e}fromJSON(t,e){if(super.fromJSON(t,e),t.uniforms!==void 0)for(let n in t.uniforms){let s=t.uniforms[n];switch(this.uniforms[n]={},s.type){case"t":this.uniforms[n].value=e[s.value]||null;break;case"c":this.uniforms[n].value=new Yt().setHex(s.value);break;case"v2":this.uniforms[n].value=new kt().fromArray(s.value);break;case"v3":this.uniforms[n].value=new B().fromArray(s.value);break;case"v4":this.uniforms[n].value=new ve().fromArray(s.value);break;case"m3":this.uniforms[n].value=new qt().fromArray(s.value);break;case"m4":this.uniforms[n].value=new ie().fromArray(s.value);break;default:this.uniforms[n].value=s.value}}if(t.defines!==void 0&&(this.defines=t.defines),t.vertexShader!==void 0&&(this.vertexShader=t.vertexShader),t.fragmentShader!==void 0&&(this.fragmentShader=t.fragmentShader),t.glslVersion!==void 0&&(this.glslVersion=t.glslVersion),t.extensions!==void 0)for(let n in t.extensions)this.extensions[n]=t.extensions[n];return t.lights!==void 0&&(this.lights=t.lights),t.clipping!==void 0&&(this.clipping=t.clipping),this}},Il=class extends di{constructor(t){super(t),this.isRawShaderMaterial=!0,this.type="RawShaderMaterial"}};var Ca=class extends fi{constructor(t){super(),this.isMeshLambertMaterial=!0,this.type="MeshLambertMaterial",this.color=new Yt(16777215),this.map=null,this.lightMap=null,this.lightMapIntensity=1,this.aoMap=null,this.aoMapIntensity=1,this.emissive=new Yt(0),this.emissiveIntensity=1,this.emissiveMap=null,this.bumpMap=null,this.bumpScale=1,this.normalMap=null,this.normalMapType=Lc,this.normalScale=new kt(1,1),this.displacementMap=null,this.displacementScale=1,this.displacementBias=0,this.specularMap=null,this.alphaMap=null,this.envMap=null,this.envMapRotation=new Ci,this.combine=ql,this.reflectivity=1,this.envMapIntensity=1,this.refractionRatio=.98,this.wireframe=!1,this.wireframeLinewidth=1,this.wireframeLinecap="round",this.wireframeLinejoin="round",this.flatShading=!1,this.fog=!0,this.setValues(t)}copy(t){return super.copy(t),this.color.copy(t.color),this.map=t.map,this.lightMap=t.lightMap,this.lightMapIntensity=t.lightMapIntensity,this.aoMap=t.aoMap,this.aoMapIntensity=t.aoMapIntensity,this.emissive.copy(t.emissive),this.emissiveMap=t.emissiveMap,this.emissiveIntensity=t.emissiveIntensity,this.bumpMap=t.bumpMap,this.bumpScale=t.bumpScale,this.normalMap=t.normalMap,this.normalMapType=t.normalMapType,this.normalScale.copy(t.normalScale),this.displacementMap=t.displacementMap,this.displacementScale=t.displacementScale,this.displacementBias=t.displacementBias,this.specularMap=t.specularMap,this.alphaMap=t.alphaMap,this.envMap=t.envMap,this.envMapRotation.copy(t.envMapRotation),this.combine=t.combine,this.reflectivity=t.reflectivity,this.envMapIntensity=t.envMapIntensity,this.refractionRatio=t.refractionRatio,this.wireframe=t.wireframe,this.wireframeLinewidth=t.wireframeLinewidth,this.wireframeLinecap=t.wireframeLinecap,this.wireframeLinejoin=t.wireframeLinejoin,this.flatShading=t.flatShading,this.fog=t.fog,this}},Ll=class extends fi{constructor(t){super(),this.isMeshDepthMaterial=!0,this.type="MeshDepthMaterial",this.depthPacking=Sg,this.map=null,this.alphaMap=null,this.displacementMap=null,this.displacementScale=1,this.displacementBias=0,this.wireframe=!1,this.wireframeLinewidth=1,this.setValues(t)}copy(t){return super.copy(t),this.depthPacking=t.depthPacking,this.map=t.map,this.alphaMap=t.alphaMap,this.displacementMap=t.displacementMap,this.displacementScale=t.displacementScale,this.displacementBias=t.displacementBias,this.wireframe=t.wireframe,this.wireframeLinewidth=t.wireframeLinewidth,this}},Nl=class extends fi{constructor(t){super(),this.isMeshDistanceMaterial=!0,this.type="MeshDistanceMaterial",this.map=null,this.alphaMap=null,this.displacementMap=null,this.displacementScale=1,this.displacementBias=0,this.setValues(t)}copy(t){return super.copy(t),this.map=t.map,this.alphaMap=t.alphaMap,this.displacementMap=t.displacementMap,this.displacementScale=t.displacementScale,this.displacementBias=t.displacementBias,this}};function lr(i,t){return!i||i.constructor===t?i:typeof t.BYTES_PER_ELEMENT=="number"?new t(i):Array.prototype.slice.call(i)}function cl(i){return i!==void 0&&i.inTangents!==void 0&&i.outTangents!==void 0}var ji=class{constructor(t,e,n,s){this.parameterPositions=t,this._cachedIndex=0,this.resultBuffer=s!==void 0?s:new e.constructor(n),this.sampleValues=e,this.valueSize=n,this.settings=null,this.DefaultSettings_={}}evaluate(t){let e=this.parameterPositions,n=this._cachedIndex,s=e[n],r=e[n-1];t:{e:{let a;n:{i:if(!(t<s)){for(let o=n+2;;){if(s===void 0){if(t<r)break i;return n=e.length,this._cachedIndex=n,this.copySampleValue_(n-1)}if(n===o)break;if(r=s,s=e[++n],t<s)break e}a=e.length;break n}if(!(t>=r)){let o=e[1];t<o&&(n=2,r=o);for(let c=n-2;;){if(r===void 0)return this._cachedIndex=0,this.copySampleValue_(0);if(n===c)break;if(s=r,r=e[--n-1],t>=r)break e}a=n,n=0;break n}break t}for(;n<a;){let o=n+a>>>1;t<e[o]?a=o:n=o+1}if(s=e[n],r=e[n-1],r===void 0)return this._cachedIndex=0,this.copySampleValue_(0);if(s===void 0)return n=e.length,this._cachedIndex=n,this.copySampleValue_(n-1)}this._cachedIndex=n,this.intervalChanged_(n,r,s)}return this.interpolate_(n,r,t,s)}getSettings_(){return this.settings||this.DefaultSettings_}copySampleValue_(t){let e=this.resultBuffer,n=this.sampleValues,s=this.valueSize,r=t*s;for(let a=0;a!==s;++a)e[a]=n[r+a];return e}interpolate_(){throw new Error("THREE.Interpolant: Call to abstract method.")}intervalChanged_(){}},Dl=class extends ji{constructor(t,e,n,s){super(t,e,n,s),this._weightPrev=-0,this._offsetPrev=-0,this._weightNext=-0,this._offsetNext=-0,this.DefaultSettings_={endingStart:Bu,endingEnd:Bu}}intervalChanged_(t,e,n){let s=this.parameterPositions,r=t-2,a=t+1,o=s[r],c=s[a];if(o===void 0)switch(this.getSettings_().endingStart){case ku:r=t,o=2*e-n;break;case zu:r=s.length-2,o=e+s[r]-s[r+1];break;default:r=t,o=n}if(c===void 0)switch(this.getSettings_().endingEnd){case ku:a=t,c=2*n-e;break;case zu:a=1,c=n+s[1]-s[0];break;default:a=t-1,c=e}let l=(n-e)*.5,h=this.valueSize;this._weightPrev=l/(e-o),this._weightNext=l/(c-n),this._offsetPrev=r*h,this._offsetNext=a*h}interpolate_(t,e,n,s){let r=this.resultBuffer,a=this.sampleValues,o=this.valueSize,c=t*o,l=c-o,h=this._offsetPrev,u=this._offsetNext,f=this._weightPrev,d=this._weightNext,p=(n-e)/(s-e),_=p*p,g=_*p,m=-f*g+2*f*_-f*p,x=(1+f)*g+(-1.5-2*f)*_+(-.5+f)*p+1,b=(-1-d)*g+(1.5+d)*_+.5*p,w=d*g-d*_;for(let A=0;A!==o;++A)r[A]=m*a[h+A]+x*a[l+A]+b*a[c+A]+w*a[u+A];return r}},Ol=class extends ji{constructor(t,e,n,s){super(t,e,n,s)}interpolate_(t,e,n,s){let r=this.resultBuffer,a=this.sampleValues,o=this.valueSize,c=t*o,l=c-o,h=(n-e)/(s-e),u=1-h;for(let f=0;f!==o;++f)r[f]=a[l+f]*u+a[c+f]*h;return r}},Ul=class extends ji{constructor(t,e,n,s){super(t,e,n,s)}interpolate_(t){return this.copySampleValue_(t-1)}},Fl=class extends ji{interpolate_(t,e,n,s){let r=this.resultBuffer,a=this.sampleValues,o=this.valueSize,c=t*o,l=c-o,h=this.inTangents,u=this.outTangents;if(!h||!u){let p=(n-e)/(s-e),_=1-p;for(let g=0;g!==o;++g)r[g]=a[l+g]*_+a[c+g]*p;return r}let f=o*2,d=t-1;for(let p=0;p!==o;++p){let _=a[l+p],g=a[c+p],m=d*f+p*2,x=u[m],b=u[m+1],w=t*f+p*2,A=h[w],C=h[w+1],v=Qx(n,e,x,A,s);r[p]=kg(v,_,b,C,g)}return r}};function kg(i,t,e,n,s){let r=1-i;return r*r*r*t+3*r*r*i*e+3*r*i*i*n+i*i*i*s}function jx(i,t,e,n,s){let r=1-i;return 3*r*r*(e-t)+6*r*i*(n-e)+3*i*i*(s-n)}function Qx(i,t,e,n,s){let r=(i-t)/(s-t);for(let a=0;a<8;a++){let o=kg(r,t,e,n,s)-i;if(Math.abs(o)<1e-10)break;let c=jx(r,t,e,n,s);if(Math.abs(c)<1e-10)break;r=Math.max(0,Math.min(1,r-o/c))}return r}var Fn=class{constructor(t,e,n,s){if(t===void 0)throw new Error("THREE.KeyframeTrack: track name is undefined");if(e===void 0||e.length===0)throw new Error("THREE.KeyframeTrack: no keyframes in track named "+t);this.name=t,this.times=lr(e,this.TimeBufferType),this.values=lr(n,this.ValueBufferType),this.setInterpolation(s||this.DefaultInterpolation)}static toJSON(t){let e=t.constructor,n;if(e.toJSON!==this.toJSON)n=e.toJSON(t);else{n={name:t.name,times:lr(t.times,Array),values:lr(t.values,Array)};let s=t.getInterpolation();s!==t.DefaultInterpolation&&(n.interpolation=s),cl(t.settings)&&(n.settings={inTangents:lr(t.settings.inTangents,Array),outTangents:lr(t.settings.outTangents,Array)})}return n.type=t.ValueTypeName,n}InterpolantFactoryMethodDiscrete(t){return new Ul(this.times,this.values,this.getValueSize(),t)}InterpolantFactoryMethodLinear(t){return new Ol(this.times,this.values,this.getValueSize(),t)}InterpolantFactoryMethodSmooth(t){return new Dl(this.times,this.values,this.getValueSize(),t)}InterpolantFactoryMethodBezier(t){let e=new Fl(this.times,this.values,this.getValueSize(),t);return this.settings&&(e.inTangents=this.settings.inTangents,e.outTangents=this.settings.outTangents),e}setInterpolation(t){let e;switch(t){case fa:e=this.InterpolantFactoryMethodDiscrete;break;case bl:e=this.InterpolantFactoryMethodLinear;break;case fl:e=this.InterpolantFactoryMethodSmooth;break;case Fu:e=this.InterpolantFactoryMethodBezier;break}if(e===void 0){let n="unsupported interpolation for "+this.ValueTypeName+" keyframe track named "+this.name;if(this.createInterpolant===void 0)if(t!==this.DefaultInterpolation)this.setInterpolation(this.DefaultInterpolation);else throw new Error(n);return Dt("KeyframeTrack:",n),this}return this.createInterpolant=e,this}getInterpolation(){switch(this.createInterpolant){case this.InterpolantFactoryMethodDiscrete:return fa;case this.InterpolantFactoryMethodLinear:return bl;case this.InterpolantFactoryMethodSmooth:return fl;case this.InterpolantFactoryMethodBezier:return Fu}}getValueSize(){return this.values.length/this.times.length}shift(t){if(t!==0){let e=this.times;for(let n=0,s=e.length;n!==s;++n)e[n]+=t;cl(this.settings)&&(Hm(this.settings.inTangents,t),Hm(this.settings.outTangents,t))}return this}scale(t){if(t!==1){let e=this.times;for(let n=0,s=e.length;n!==s;++n)e[n]*=t;cl(this.settings)&&(Wm(this.settings.inTangents,t),Wm(this.settings.outTangents,t))}return this}trim(t,e){let n=this.times,s=n.length,r=0,a=s-1;for(;r!==s&&n[r]<t;)++r;for(;a!==-1&&n[a]>e;)--a;if(++a,r!==0||a!==s){r>=a&&(a=Math.max(a,1),r=a-1);let o=this.getValueSize();this.times=n.slice(r,a),this.values=this.values.slice(r*o,a*o)}return this}validate(){let t=!0,e=this.getValueSize();e-Math.floor(e)!==0&&(Ht("KeyframeTrack: Invalid value size in track.",this),t=!1);let n=this.times,s=this.values,r=n.length;r===0&&(Ht("KeyframeTrack: Track is empty.",this),t=!1);let a=null;for(let o=0;o!==r;o++){let c=n[o];if(typeof c=="number"&&isNaN(c)){Ht("KeyframeTrack: Time is not a valid number.",this,o,c),t=!1;break}if(a!==null&&a>c){Ht("KeyframeTrack: Out of order keys.",this,o,c,a),t=!1;break}a=c}if(s!==void 0&&dx(s))for(let o=0,c=s.length;o!==c;++o){let l=s[o];if(isNaN(l)){Ht("KeyframeTrack: Value is not a valid number.",this,o,l),t=!1;break}}return t}optimize(){let t=this.times.slice(),e=this.values.slice(),n=this.getValueSize(),s=this.getInterpolation()===fl,r=t.length-1,a=1;for(let o=1;o<r;++o){let c=!1,l=t[o],h=t[o+1];if(l!==h&&(o!==1||l!==t[0]))if(s)c=!0;else{let u=o*n,f=u-n,d=u+n;for(let p=0;p!==n;++p){let _=e[u+p];if(_!==e[f+p]||_!==e[d+p]){c=!0;break}}}if(c){if(o!==a){t[a]=t[o];let u=o*n,f=a*n;for(let d=0;d!==n;++d)e[f+d]=e[u+d]}++a}}if(r>0){t[a]=t[r];for(let o=r*n,c=a*n,l=0;l!==n;++l)e[c+l]=e[o+l];++a}return a!==t.length?(this.times=t.slice(0,a),this.values=e.slice(0,a*n)):(this.times=t,this.values=e),this}clone(){let t=this.times.slice(),e=this.values.slice(),n=this.constructor,s=new n(this.name,t,e);return s.createInterpolant=this.createInterpolant,cl(this.settings)&&(s.settings={inTangents:this.settings.inTangents.slice(),outTangents:this.settings.outTangents.slice()}),s}};function Hm(i,t){for(let e=0,n=i.length;e!==n;e+=2)i[e]+=t}function Wm(i,t){for(let e=0,n=i.length;e!==n;e+=2)i[e]*=t}Fn.prototype.ValueTypeName="";Fn.prototype.TimeBufferType=Float32Array;Fn.prototype.ValueBufferType=Float32Array;Fn.prototype.DefaultInterpolation=bl;var Qi=class extends Fn{constructor(t,e,n){super(t,e,n)}};Qi.prototype.ValueTypeName="bool";Qi.prototype.ValueBufferType=Array;Qi.prototype.DefaultInterpolation=fa;Qi.prototype.InterpolantFactoryMethodLinear=void 0;Qi.prototype.InterpolantFactoryMethodSmooth=void 0;var Bl=class extends Fn{constructor(t,e,n,s){super(t,e,n,s)}};Bl.prototype.ValueTypeName="color";var kl=class extends Fn{constructor(t,e,n,s){super(t,e,n,s)}};kl.prototype.ValueTypeName="number";var zl=class extends ji{constructor(t,e,n,s){super(t,e,n,s)}interpolate_(t,e,n,s){let r=this.resultBuffer,a=this.sampleValues,o=this.valueSize,c=(n-e)/(s-e),l=t*o;for(let h=l+o;l!==h;l+=4)pn.slerpFlat(r,0,a,l-o,a,l,c);return r}},Pa=class extends Fn{constructor(t,e,n,s){super(t,e,n,s)}InterpolantFactoryMethodLinear(t){return new zl(this.times,this.values,this.getValueSize(),t)}};Pa.prototype.ValueTypeName="quaternion";Pa.prototype.InterpolantFactoryMethodSmooth=void 0;var ts=class extends Fn{constructor(t,e,n){super(t,e,n)}};ts.prototype.ValueTypeName="string";ts.prototype.ValueBufferType=Array;ts.prototype.DefaultInterpolation=fa;ts.prototype.InterpolantFactoryMethodLinear=void 0;ts.prototype.InterpolantFactoryMethodSmooth=void 0;var Gl=class extends Fn{constructor(t,e,n,s){super(t,e,n,s)}};Gl.prototype.ValueTypeName="vector";var Vl=class{constructor(t,e,n){let s=this,r=!1,a=0,o=0,c,l=[];this.onStart=void 0,this.onLoad=t,this.onProgress=e,this.onError=n,this._abortController=null,this.itemStart=function(h){o++,r===!1&&s.onStart!==void 0&&s.onStart(h,a,o),r=!0},this.itemEnd=function(h){a++,s.onProgress!==void 0&&s.onProgress(h,a,o),a===o&&(r=!1,s.onLoad!==void 0&&s.onLoad())},this.itemError=function(h){s.onError!==void 0&&s.onError(h)},this.resolveURL=function(h){return h=h.normalize("NFC"),c?c(h):h},this.setURLModifier=function(h){return c=h,this},this.addHandler=function(h,u){return l.push(h,u),this},this.removeHandler=function(h){let u=l.indexOf(h);return u!==-1&&l.splice(u,2),this},this.getHandler=function(h){for(let u=0,f=l.length;u<f;u+=2){let d=l[u],p=l[u+1];if(d.global&&(d.lastIndex=0),d.test(h))return p}return null},this.abort=function(){return this.abortController.abort(),this._abortController=null,this}}get abortController(){return this._abortController||(this._abortController=new AbortController),this._abortController}},zg=new Vl,Hl=class{constructor(t){this.manager=t!==void 0?t:zg,this.crossOrigin="anonymous",this.withCredentials=!1,this.path="",this.resourcePath="",this.requestHeader={},this.priority="auto",this.cache="default",typeof __THREE_DEVTOOLS__<"u"&&__THREE_DEVTOOLS__.dispatchEvent(new CustomEvent("observe",{detail:this}))}load(){}loadAsync(t,e){let n=this;return new Promise(function(s,r){n.load(t,s,e,r)})}parse(){}setCrossOrigin(t){return this.crossOrigin=t,this}setWithCredentials(t){return this.withCredentials=t,this}setPath(t){return this.path=t,this}setResourcePath(t){return this.resourcePath=t,this}setRequestHeader(t){return this.requestHeader=t,this}setPriority(t){return this.priority=t,this}setCache(t){return this.cache=t,this}abort(){return this}};Hl.DEFAULT_MATERIAL_NAME="__DEFAULT";var br=class extends tn{static registerNode(t){this.prototype._lightNode=t}constructor(t,e=1){super(),this.isLight=!0,this.type="Light",this.color=new Yt(t),this.intensity=e}copy(t,e){return super.copy(t,e),this.color.copy(t.color),this.intensity=t.intensity,this}toJSON(t){let e=super.toJSON(t);return e.object.color=this.color.getHex(),e.object.intensity=this.intensity,e}},Ia=class extends br{constructor(t,e,n){super(t,n),this.isHemisphereLight=!0,this.type="HemisphereLight",this.position.copy(tn.DEFAULT_UP),this.updateMatrix(),this.groundColor=new Yt(e)}copy(t,e){return super.copy(t,e),this.groundColor.copy(t.groundColor),this}toJSON(t){let e=super.toJSON(t);return e.object.groundColor=this.groundColor.getHex(),e}},Ou=new ie,Xm=new B,qm=new B,Wl=class{constructor(t){this.camera=t,this.intensity=1,this.bias=0,this.biasNode=null,this.normalBias=0,this.radius=1,this.blurSamples=8,this.mapSize=new kt(512,512),this.mapType=Rn,this.map=null,this.mapPass=null,this.matrix=new ie,this.autoUpdate=!0,this.needsUpdate=!1,this._frustum=new Ki,this._frameExtents=new kt(1,1),this._viewportCount=1,this._viewports=[new ve(0,0,1,1)]}getViewportCount(){return this._viewportCount}getCamera(){return this.camera}getFrustum(){return this._frustum}updateMatrices(t){let e=this.camera;Xm.setFromMatrixPosition(t.matrixWorld),e.position.copy(Xm),qm.setFromMatrixPosition(t.target.matrixWorld),e.lookAt(qm),e.updateMatrixWorld(),this._updateMatrix(e,this.matrix,this._frustum)}_updateMatrix(t,e,n,s){Ou.multiplyMatrices(t.projectionMatrix,t.matrixWorldInverse),n.setFromProjectionMatrix(Ou,t.coordinateSystem,t.reversedDepth);let r=this._frameExtents,a=s?s.z/r.x:1,o=s?s.w/r.y:1,c=s?s.x/r.x:0,l=s?s.y/r.y:0;t.coordinateSystem===dr||t.reversedDepth?e.set(.5*a,0,0,.5*a+c,0,.5*o,0,.5*o+l,0,0,1,0,0,0,0,1):e.set(.5*a,0,0,.5*a+c,0,.5*o,0,.5*o+l,0,0,.5,.5,0,0,0,1),e.multiply(Ou)}getViewport(t){return this._viewports[t]}getFrameExtents(){return this._frameExtents}dispose(){this.map&&this.map.dispose(),this.mapPass&&this.mapPass.dispose()}copy(t){return this.camera=t.camera.clone(),this.intensity=t.intensity,this.bias=t.bias,this.radius=t.radius,this.autoUpdate=t.autoUpdate,this.needsUpdate=t.needsUpdate,this.normalBias=t.normalBias,this.blurSamples=t.blurSamples,this.mapSize.copy(t.mapSize),this.mapType=t.mapType,this.biasNode=t.biasNode,this}clone(){return new this.constructor().copy(this)}toJSON(){let t={};return t.intensity=this.intensity,t.bias=this.bias,t.normalBias=this.normalBias,t.radius=this.radius,t.blurSamples=this.blurSamples,t.mapSize=this.mapSize.toArray(),t.mapType=this.mapType,t.camera=this.camera.toJSON(!1).object,delete t.camera.matrix,t}},hl=new B,ul=new pn,hi=new B,La=class extends tn{constructor(){super(),this.isCamera=!0,this.type="Camera",this.matrixWorldInverse=new ie,this.projectionMatrix=new ie,this.projectionMatrixInverse=new ie,this.coordinateSystem=Wn,this._reversedDepth=!1}get reversedDepth(){return this._reversedDepth}copy(t,e){return super.copy(t,e),this.matrixWorldInverse.copy(t.matrixWorldInverse),this.projectionMatrix.copy(t.projectionMatrix),this.projectionMatrixInverse.copy(t.projectionMatrixInverse),this.coordinateSystem=t.coordinateSystem,this}getWorldDirection(t){return super.getWorldDirection(t).negate()}updateMatrixWorld(t){super.updateMatrixWorld(t),this.matrixWorld.decompose(hl,ul,hi),hi.x===1&&hi.y===1&&hi.z===1?this.matrixWorldInverse.copy(this.matrixWorld).invert():this.matrixWorldInverse.compose(hl,ul,hi.set(1,1,1)).invert()}updateWorldMatrix(t,e,n=!1){super.updateWorldMatrix(t,e,n),this.matrixWorld.decompose(hl,ul,hi),hi.x===1&&hi.y===1&&hi.z===1?this.matrixWorldInverse.copy(this.matrixWorld).invert():this.matrixWorldInverse.compose(hl,ul,hi.set(1,1,1)).invert()}clone(){return new this.constructor().copy(this)}},Zi=new B,Ym=new kt,$m=new kt,Sn=class extends La{constructor(t=50,e=1,n=.1,s=2e3){super(),this.isPerspectiveCamera=!0,this.type="PerspectiveCamera",this.fov=t,this.zoom=1,this.near=n,this.far=s,this.focus=10,this.aspect=e,this.view=null,this.filmGauge=35,this.filmOffset=0,this.updateProjectionMatrix()}copy(t,e){return super.copy(t,e),this.fov=t.fov,this.zoom=t.zoom,this.near=t.near,this.far=t.far,this.focus=t.focus,this.aspect=t.aspect,this.view=t.view===null?null:Object.assign({},t.view),this.filmGauge=t.filmGauge,this.filmOffset=t.filmOffset,this}setFocalLength(t){let e=.5*this.getFilmHeight()/t;this.fov=mr*2*Math.atan(e),this.updateProjectionMatrix()}getFocalLength(){let t=Math.tan(ha*.5*this.fov);return .5*this.getFilmHeight()/t}getEffectiveFOV(){return mr*2*Math.atan(Math.tan(ha*.5*this.fov)/this.zoom)}getFilmWidth(){return this.filmGauge*Math.min(this.aspect,1)}getFilmHeight(){return this.filmGauge/Math.max(this.aspect,1)}getViewBounds(t,e,n){Zi.set(-1,-1,.5).applyMatrix4(this.projectionMatrixInverse),e.set(Zi.x,Zi.y).multiplyScalar(-t/Zi.z),Zi.set(1,1,.5).applyMatrix4(this.projectionMatrixInverse),n.set(Zi.x,Zi.y).multiplyScalar(-t/Zi.z)}getViewSize(t,e){return this.getViewBounds(t,Ym,$m),e.subVectors($m,Ym)}setViewOffset(t,e,n,s,r,a){this.aspect=t/e,this.view===null&&(this.view={enabled:!0,fullWidth:1,fullHeight:1,offsetX:0,offsetY:0,width:1,height:1}),this.view.enabled=!0,this.view.fullWidth=t,this.view.fullHeight=e,this.view.offsetX=n,this.view.offsetY=s,this.view.width=r,this.view.height=a,this.updateProjectionMatrix()}clearViewOffset(){this.view!==null&&(this.view.enabled=!1),this.updateProjectionMatrix()}updateProjectionMatrix(){let t=this.near,e=t*Math.tan(ha*.5*this.fov)/this.zoom,n=2*e,s=this.aspect*n,r=-.5*s,a=this.view;if(this.view!==null&&this.view.enabled){let c=a.fullWidth,l=a.fullHeight;r+=a.offsetX*s/c,e-=a.offsetY*n/l,s*=a.width/c,n*=a.height/l}let o=this.filmOffset;o!==0&&(r+=t*o/this.getFilmWidth()),this.projectionMatrix.makePerspective(r,r+s,e,e-n,t,this.far,this.coordinateSystem,this.reversedDepth),this.projectionMatrixInverse.copy(this.projectionMatrix).invert()}toJSON(t){let e=super.toJSON(t);return e.object.fov=this.fov,e.object.zoom=this.zoom,e.object.near=this.near,e.object.far=this.far,e.object.focus=this.focus,e.object.aspect=this.aspect,this.view!==null&&(e.object.view=Object.assign({},this.view)),e.object.filmGauge=this.filmGauge,e.object.filmOffset=this.filmOffset,e}};var Na=class extends La{constructor(t=-1,e=1,n=1,s=-1,r=.1,a=2e3){super(),this.isOrthographicCamera=!0,this.type="OrthographicCamera",this.zoom=1,this.view=null,this.left=t,this.right=e,this.top=n,this.bottom=s,this.near=r,this.far=a,this.updateProjectionMatrix()}copy(t,e){return super.copy(t,e),this.left=t.left,this.right=t.right,this.top=t.top,this.bottom=t.bottom,this.near=t.near,this.far=t.far,this.zoom=t.zoom,this.view=t.view===null?null:Object.assign({},t.view),this}setViewOffset(t,e,n,s,r,a){this.view===null&&(this.view={enabled:!0,fullWidth:1,fullHeight:1,offsetX:0,offsetY:0,width:1,height:1}),this.view.enabled=!0,this.view.fullWidth=t,this.view.fullHeight=e,this.view.offsetX=n,this.view.offsetY=s,this.view.width=r,this.view.height=a,this.updateProjectionMatrix()}clearViewOffset(){this.view!==null&&(this.view.enabled=!1),this.updateProjectionMatrix()}updateProjectionMatrix(){let t=(this.right-this.left)/(2*this.zoom),e=(this.top-this.bottom)/(2*this.zoom),n=(this.right+this.left)/2,s=(this.top+this.bottom)/2,r=n-t,a=n+t,o=s+e,c=s-e;if(this.view!==null&&this.view.enabled){let l=(this.right-this.left)/this.view.fullWidth/this.zoom,h=(this.top-this.bottom)/this.view.fullHeight/this.zoom;r+=l*this.view.offsetX,a=r+l*this.view.width,o-=h*this.view.offsetY,c=o-h*this.view.height}this.projectionMatrix.makeOrthographic(r,a,o,c,this.near,this.far,this.coordinateSystem,this.reversedDepth),this.projectionMatrixInverse.copy(this.projectionMatrix).invert()}toJSON(t){let e=super.toJSON(t);return e.object.zoom=this.zoom,e.object.left=this.left,e.object.right=this.right,e.object.top=this.top,e.object.bottom=this.bottom,e.object.near=this.near,e.object.far=this.far,this.view!==null&&(e.object.view=Object.assign({},this.view)),e}},Gu=class extends Wl{constructor(){super(new Na(-5,5,5,-5,.5,500)),this.isDirectionalLightShadow=!0}},Da=class extends br{constructor(t,e){super(t,e),this.isDirectionalLight=!0,this.type="DirectionalLight",this.position.copy(tn.DEFAULT_UP),this.updateMatrix(),this.target=new tn,this.shadow=new Gu}dispose(){super.dispose(),this.shadow.dispose()}copy(t){return super.copy(t),this.target=t.target.clone(),this.shadow=t.shadow.clone(),this}toJSON(t){let e=super.toJSON(t);return e.object.shadow=this.shadow.toJSON(),e.object.target=this.target.uuid,e}},Oa=class extends br{constructor(t,e){super(t,e),this.isAmbientLight=!0,this.type="AmbientLight"}};var cr=-90,hr=1,wr=class extends tn{constructor(t,e,n){super(),this.type="CubeCamera",this.renderTarget=n,this.coordinateSystem=null,this.activeMipmapLevel=0;let s=new Sn(cr,hr,t,e);s.layers=this.layers,this.add(s);let r=new Sn(cr,hr,t,e);r.layers=this.layers,this.add(r);let a=new Sn(cr,hr,t,e);a.layers=this.layers,this.add(a);let o=new Sn(cr,hr,t,e);o.layers=this.layers,this.add(o);let c=new Sn(cr,hr,t,e);c.layers=this.layers,this.add(c);let l=new Sn(cr,hr,t,e);l.layers=this.layers,this.add(l)}updateCoordinateSystem(){let t=this.coordinateSystem,e=this.children.concat(),[n,s,r,a,o,c]=e;for(let l of e)this.remove(l);if(t===Wn)n.up.set(0,1,0),n.lookAt(1,0,0),s.up.set(0,1,0),s.lookAt(-1,0,0),r.up.set(0,0,-1),r.lookAt(0,1,0),a.up.set(0,0,1),a.lookAt(0,-1,0),o.up.set(0,1,0),o.lookAt(0,0,1),c.up.set(0,1,0),c.lookAt(0,0,-1);else if(t===dr)n.up.set(0,-1,0),n.lookAt(-1,0,0),s.up.set(0,-1,0),s.lookAt(1,0,0),r.up.set(0,0,1),r.lookAt(0,1,0),a.up.set(0,0,-1),a.lookAt(0,-1,0),o.up.set(0,-1,0),o.lookAt(0,0,1),c.up.set(0,-1,0),c.lookAt(0,0,-1);else throw new Error("THREE.CubeCamera.updateCoordinateSystem(): Invalid coordinate system: "+t);for(let l of e)this.add(l),l.updateMatrixWorld()}update(t,e){this.parent===null&&this.updateMatrixWorld();let{renderTarget:n,activeMipmapLevel:s}=this;this.coordinateSystem!==t.coordinateSystem&&(this.coordinateSystem=t.coordinateSystem,this.updateCoordinateSystem());let[r,a,o,c,l,h]=this.children,u=t.getRenderTarget(),f=t.getActiveCubeFace(),d=t.getActiveMipmapLevel(),p=t.xr.enabled;t.xr.enabled=!1;let _=n.texture.mipmapsAutoUpdate;n.texture.mipmapsAutoUpdate=!1;let g=!1;t.isWebGLRenderer===!0?g=t.state.buffers.depth.getReversed():g=t.reversedDepthBuffer,t.setRenderTarget(n,0,s),g&&t.autoClear===!1&&t.clearDepth(),t.render(e,r),t.setRenderTarget(n,1,s),g&&t.autoClear===!1&&t.clearDepth(),t.render(e,a),t.setRenderTarget(n,2,s),g&&t.autoClear===!1&&t.clearDepth(),t.render(e,o),t.setRenderTarget(n,3,s),g&&t.autoClear===!1&&t.clearDepth(),t.render(e,c),t.setRenderTarget(n,4,s),g&&t.autoClear===!1&&t.clearDepth(),t.render(e,l),n.texture.mipmapsAutoUpdate=_,t.setRenderTarget(n,5,s),g&&t.autoClear===!1&&t.clearDepth(),t.render(e,h),t.setRenderTarget(u,f,d),t.xr.enabled=p,n.texture.needsPMREMUpdate=!0}},Xl=class extends Sn{constructor(t=[]){super(),this.isArrayCamera=!0,this.isMultiViewCamera=!1,this.cameras=t,this.perCameraFrustumCulled=!1}};var bf="\\[\\]\\.:\\/",tv=new RegExp("["+bf+"]","g"),wf="[^"+bf+"]",ev="[^"+bf.replace("\\.","")+"]",nv=/((?:WC+[\/:])*)/.source.replace("WC",wf),iv=/(WCOD+)?/.source.replace("WCOD",ev),sv=/(?:\.(WC+)(?:\[(.+)\])?)?/.source.replace("WC",wf),rv=/\.(WC+)(?:\[(.+)\])?/.source.replace("WC",wf),av=new RegExp("^"+nv+iv+sv+rv+"$"),ov=["material","materials","bones","map"],Vu=class{constructor(t,e,n){let s=n||Ae.parseTrackName(e);this._targetGroup=t,this._bindings=t.subscribe_(e,s)}getValue(t,e){this.bind();let n=this._targetGroup.nCachedObjects_,s=this._bindings[n];s!==void 0&&s.getValue(t,e)}setValue(t,e){let n=this._bindings;for(let s=this._targetGroup.nCachedObjects_,r=n.length;s!==r;++s)n[s].setValue(t,e)}bind(){let t=this._bindings;for(let e=this._targetGroup.nCachedObjects_,n=t.length;e!==n;++e)t[e].bind()}unbind(){let t=this._bindings;for(let e=this._targetGroup.nCachedObjects_,n=t.length;e!==n;++e)t[e].unbind()}},Ae=class i{constructor(t,e,n){this.path=e,this.parsedPath=n||i.parseTrackName(e),this.node=i.findNode(t,this.parsedPath.nodeName),this.rootNode=t,this.getValue=this._getValue_unbound,this.setValue=this._setValue_unbound}static create(t,e,n){return t&&t.isAnimationObjectGroup?new i.Composite(t,e,n):new i(t,e,n)}static sanitizeNodeName(t){return t.replace(/\s/g,"_").replace(tv,"")}static parseTrackName(t){let e=av.exec(t);if(e===null)throw new Error("THREE.PropertyBinding: Cannot parse trackName: "+t);let n={nodeName:e[2],objectName:e[3],objectIndex:e[4],propertyName:e[5],propertyIndex:e[6]},s=n.nodeName&&n.nodeName.lastIndexOf(".");if(s!==void 0&&s!==-1){let r=n.nodeName.substring(s+1);ov.indexOf(r)!==-1&&(n.nodeName=n.nodeName.substring(0,s),n.objectName=r)}if(n.propertyName===null||n.propertyName.length===0)throw new Error("THREE.PropertyBinding: can not parse propertyName from trackName: "+t);return n}static findNode(t,e){if(e===void 0||e===""||e==="."||e===-1||e===t.name||e===t.uuid)return t;if(t.skeleton){let n=t.skeleton.getBoneByName(e);if(n!==void 0)return n}if(t.children){let n=function(r){for(let a=0;a<r.length;a++){let o=r[a];if(o.name===e||o.uuid===e)return o;let c=n(o.children);if(c)return c}return null},s=n(t.children);if(s)return s}return null}_getValue_unavailable(){}_setValue_unavailable(){}_getValue_direct(t,e){t[e]=this.targetObject[this.propertyName]}_getValue_array(t,e){let n=this.resolvedProperty;for(let s=0,r=n.length;s!==r;++s)t[e++]=n[s]}_getValue_arrayElement(t,e){t[e]=this.resolvedProperty[this.propertyIndex]}_getValue_toArray(t,e){this.resolvedProperty.toArray(t,e)}_setValue_direct(t,e){this.targetObject[this.propertyName]=t[e]}_setValue_direct_setNeedsUpdate(t,e){this.targetObject[this.propertyName]=t[e],this.targetObject.needsUpdate=!0}_setValue_direct_setMatrixWorldNeedsUpdate(t,e){this.targetObject[this.propertyName]=t[e],this.targetObject.matrixWorldNeedsUpdate=!0}_setValue_array(t,e){let n=this.resolvedProperty;for(let s=0,r=n.length;s!==r;++s)n[s]=t[e++]}_setValue_array_setNeedsUpdate(t,e){let n=this.resolvedProperty;for(let s=0,r=n.length;s!==r;++s)n[s]=t[e++];this.targetObject.needsUpdate=!0}_setValue_array_setMatrixWorldNeedsUpdate(t,e){let n=this.resolvedProperty;for(let s=0,r=n.length;s!==r;++s)n[s]=t[e++];this.targetObject.matrixWorldNeedsUpdate=!0}_setValue_arrayElement(t,e){this.resolvedProperty[this.propertyIndex]=t[e]}_setValue_arrayElement_setNeedsUpdate(t,e){this.resolvedProperty[this.propertyIndex]=t[e],this.targetObject.needsUpdate=!0}_setValue_arrayElement_setMatrixWorldNeedsUpdate(t,e){this.resolvedProperty[this.propertyIndex]=t[e],this.targetObject.matrixWorldNeedsUpdate=!0}_setValue_fromArray(t,e){this.resolvedProperty.fromArray(t,e)}_setValue_fromArray_setNeedsUpdate(t,e){this.resolvedProperty.fromArray(t,e),this.targetObject.needsUpdate=!0}_setValue_fromArray_setMatrixWorldNeedsUpdate(t,e){this.resolvedProperty.fromArray(t,e),this.targetObject.matrixWorldNeedsUpdate=!0}_getValue_unbound(t,e){this.bind(),this.getValue(t,e)}_setValue_unbound(t,e){this.bind(),this.setValue(t,e)}bind(){let t=this.node,e=this.parsedPath,n=e.objectName,s=e.propertyName,r=e.propertyIndex;if(t||(t=i.findNode(this.rootNode,e.nodeName),this.node=t),this.getValue=this._getValue_unavailable,this.setValue=this._setValue_unavailable,!t){Dt("PropertyBinding: No target node found for track: "+this.path+".");return}if(n){let l=e.objectIndex;switch(n){case"materials":if(!t.material){Ht("PropertyBinding: Can not bind to material as node does not have a material.",this);return}if(!t.material.materials){Ht("PropertyBinding: Can not bind to material.materials as node.material does not have a materials array.",this);return}t=t.material.materials;break;case"bones":if(!t.skeleton){Ht("PropertyBinding: Can not bind to bones as node does not have a skeleton.",this);return}t=t.skeleton.bones;for(let h=0;h<t.length;h++)if(t[h].name===l){l=h;break}break;case"map":if("map"in t){t=t.map;break}if(!t.material){Ht("PropertyBinding: Can not bind to material as node does not have a material.",this);return}if(!t.material.map){Ht("PropertyBinding: Can not bind to material.map as node.material does not have a map.",this);return}t=t.material.map;break;default:if(t[n]===void 0){Ht("PropertyBinding: Can not bind to objectName of node undefined.",this);return}t=t[n]}if(l!==void 0){if(t[l]===void 0){Ht("PropertyBinding: Trying to bind to objectIndex of objectName, but is undefined.",this,t);return}t=t[l]}}let a=t[s];if(a===void 0){let l=e.nodeName;Ht("PropertyBinding: Trying to update property for track: "+l+"."+s+" but it wasn't found.",t);return}let o=this.Versioning.None;this.targetObject=t,t.isMaterial===!0?o=this.Versioning.NeedsUpdate:t.isObject3D===!0&&(o=this.Versioning.MatrixWorldNeedsUpdate);let c=this.BindingType.Direct;if(r!==void 0){if(s==="morphTargetInfluences"){if(!t.geometry){Ht("PropertyBinding: Can not bind to morphTargetInfluences because node does not have a geometry.",this);return}if(!t.geometry.morphAttributes){Ht("PropertyBinding: Can not bind to morphTargetInfluences because node does not have a geometry.morphAttributes.",this);return}t.morphTargetDictionary[r]!==void 0&&(r=t.morphTargetDictionary[r])}c=this.BindingType.ArrayElement,this.resolvedProperty=a,this.propertyIndex=r}else a.fromArray!==void 0&&a.toArray!==void 0?(c=this.BindingType.HasFromToArray,this.resolvedProperty=a):Array.isArray(a)?(c=this.BindingType.EntireArray,this.resolvedProperty=a):this.propertyName=s;this.getValue=this.GetterByBindingType[c],this.setValue=this.SetterByBindingTypeAndVersioning[c][o]}unbind(){this.node=null,this.getValue=this._getValue_unbound,this.setValue=this._setValue_unbound}};Ae.Composite=Vu;Ae.prototype.BindingType={Direct:0,EntireArray:1,ArrayElement:2,HasFromToArray:3};Ae.prototype.Versioning={None:0,NeedsUpdate:1,MatrixWorldNeedsUpdate:2};Ae.prototype.GetterByBindingType=[Ae.prototype._getValue_direct,Ae.prototype._getValue_array,Ae.prototype._getValue_arrayElement,Ae.prototype._getValue_toArray];Ae.prototype.SetterByBindingTypeAndVersioning=[[Ae.prototype._setValue_direct,Ae.prototype._setValue_direct_setNeedsUpdate,Ae.prototype._setValue_direct_setMatrixWorldNeedsUpdate],[Ae.prototype._setValue_array,Ae.prototype._setValue_array_setNeedsUpdate,Ae.prototype._setValue_array_setMatrixWorldNeedsUpdate],[Ae.prototype._setValue_arrayElement,Ae.prototype._setValue_arrayElement_setNeedsUpdate,Ae.prototype._setValue_arrayElement_setMatrixWorldNeedsUpdate],[Ae.prototype._setValue_fromArray,Ae.prototype._setValue_fromArray_setNeedsUpdate,Ae.prototype._setValue_fromArray_setMatrixWorldNeedsUpdate]];var nT=new Float32Array(1);var Zm=new ie,Ua=class{constructor(t,e,n=0,s=1/0){this.ray=new Li(t,e),this.near=n,this.far=s,this.camera=null,this.layers=new _r,this.params={Mesh:{},Line:{threshold:1},LOD:{},Points:{threshold:1},Sprite:{}}}set(t,e){this.ray.set(t,e)}setFromCamera(t,e){e.isPerspectiveCamera?(this.ray.origin.setFromMatrixPosition(e.matrixWorld),this.ray.direction.set(t.x,t.y,.5).unproject(e).sub(this.ray.origin).normalize(),this.camera=e):e.isOrthographicCamera?(this.ray.origin.set(t.x,t.y,e.projectionMatrix.elements[14]).unproject(e),this.ray.direction.set(0,0,-1).transformDirection(e.matrixWorld),this.camera=e):Ht("Raycaster: Unsupported camera type: "+e.type)}setFromXRController(t){return Zm.identity().extractRotation(t.matrixWorld),this.ray.origin.setFromMatrixPosition(t.matrixWorld),this.ray.direction.set(0,0,-1).applyMatrix4(Zm),this}intersectObject(t,e=!0,n=[]){return Hu(t,this,n,e),n.sort(Jm),n}intersectObjects(t,e=!0,n=[]){for(let s=0,r=t.length;s<r;s++)Hu(t[s],this,n,e);return n.sort(Jm),n}};function Jm(i,t){return i.distance-t.distance}function Hu(i,t,e,n){let s=!0;if(i.layers.test(t.layers)&&i.raycast(t,e)===!1&&(s=!1),s===!0&&n===!0){let r=i.children;for(let a=0,o=r.length;a<o;a++)Hu(r[a],t,e,!0)}}var Er=class{constructor(t=1,e=0,n=0){this.radius=t,this.phi=e,this.theta=n}set(t,e,n){return this.radius=t,this.phi=e,this.theta=n,this}copy(t){return this.radius=t.radius,this.phi=t.phi,this.theta=t.theta,this}makeSafe(){return this.phi=ne(this.phi,1e-6,Math.PI-1e-6),this}setFromVector3(t){return this.setFromCartesianCoords(t.x,t.y,t.z)}setFromCartesianCoords(t,e,n){return this.radius=Math.sqrt(t*t+e*e+n*n),this.radius===0?(this.theta=0,this.phi=0):(this.theta=Math.atan2(t,n),this.phi=Math.acos(ne(e/this.radius,-1,1))),this}clone(){return new this.constructor().copy(this)}};var Wu=class{static{this.prototype.isMatrix2=!0}constructor(t,e,n,s){this.elements=[1,0,0,1],t!==void 0&&this.set(t,e,n,s)}identity(){return this.set(1,0,0,1),this}fromArray(t,e=0){for(let n=0;n<4;n++)this.elements[n]=t[n+e];return this}set(t,e,n,s){let r=this.elements;return r[0]=t,r[2]=e,r[1]=n,r[3]=s,this}};var Fa=class extends Pl{constructor(t=10,e=10,n=4473924,s=8947848){n=new Yt(n),s=new Yt(s);let r=e/2,a=t/e,o=t/2,c=[],l=[];for(let f=0,d=0,p=-o;f<=e;f++,p+=a){c.push(-o,0,p,o,0,p),c.push(p,0,-o,p,0,o);let _=f===r?n:s;_.toArray(l,d),d+=3,_.toArray(l,d),d+=3,_.toArray(l,d),d+=3,_.toArray(l,d),d+=3}let h=new wn;h.setAttribute("position",new We(c,3)),h.setAttribute("color",new We(l,3));let u=new Rs({vertexColors:!0,toneMapped:!1});super(h,u),this.type="GridHelper"}dispose(){super.dispose(),this.geometry.dispose(),this.material.dispose()}};var Ba=class extends ni{constructor(t,e=null){super(),this.object=t,this.domElement=e,this.enabled=!0,this.state=-1,this.keys={},this.mouseButtons={LEFT:null,MIDDLE:null,RIGHT:null},this.touches={ONE:null,TWO:null}}connect(t){this.domElement!==null&&this.disconnect(),this.domElement=t}disconnect(){}dispose(){}update(){}};function Ef(i,t,e,n){let s=lv(n);switch(e){case hf:return i*t;case ff:return i*t/s.components*s.byteLength;case Ql:return i*t/s.components*s.byteLength;case ss:return i*t*2/s.components*s.byteLength;case tc:return i*t*2/s.components*s.byteLength;case uf:return i*t*3/s.components*s.byteLength;case qn:return i*t*4/s.components*s.byteLength;case ec:return i*t*4/s.components*s.byteLength;case za:case Ga:return Math.floor((i+3)/4)*Math.floor((t+3)/4)*8;case Va:case Ha:return Math.floor((i+3)/4)*Math.floor((t+3)/4)*16;case ic:case rc:return Math.max(i,16)*Math.max(t,8)/4;case nc:case sc:return Math.max(i,8)*Math.max(t,8)/2;case ac:case oc:case cc:case hc:return Math.floor((i+3)/4)*Math.floor((t+3)/4)*8;case lc:case Wa:case uc:return Math.floor((i+3)/4)*Math.floor((t+3)/4)*16;case fc:return Math.floor((i+3)/4)*Math.floor((t+3)/4)*16;case dc:return Math.floor((i+4)/5)*Math.floor((t+3)/4)*16;case pc:return Math.floor((i+4)/5)*Math.floor((t+4)/5)*16;case mc:return Math.floor((i+5)/6)*Math.floor((t+4)/5)*16;case gc:return Math.floor((i+5)/6)*Math.floor((t+5)/6)*16;case _c:return Math.floor((i+7)/8)*Math.floor((t+4)/5)*16;case yc:return Math.floor((i+7)/8)*Math.floor((t+5)/6)*16;case xc:return Math.floor((i+7)/8)*Math.floor((t+7)/8)*16;case vc:return Math.floor((i+9)/10)*Math.floor((t+4)/5)*16;case Mc:return Math.floor((i+9)/10)*Math.floor((t+5)/6)*16;case Sc:return Math.floor((i+9)/10)*Math.floor((t+7)/8)*16;case bc:return Math.floor((i+9)/10)*Math.floor((t+9)/10)*16;case wc:return Math.floor((i+11)/12)*Math.floor((t+9)/10)*16;case Ec:return Math.floor((i+11)/12)*Math.floor((t+11)/12)*16;case Tc:case Ac:case Rc:return Math.ceil(i/4)*Math.ceil(t/4)*16;case Cc:case Pc:return Math.ceil(i/4)*Math.ceil(t/4)*8;case Xa:case Ic:return Math.ceil(i/4)*Math.ceil(t/4)*16}throw new Error(`Unable to determine texture byte length for ${e} format.`)}function lv(i){switch(i){case Rn:case af:return{byteLength:1,components:1};case Cr:case of:case si:return{byteLength:2,components:1};case Kl:case jl:return{byteLength:2,components:4};case ii:case Jl:case Xn:return{byteLength:4,components:1};case lf:case cf:return{byteLength:4,components:3}}throw new Error(`THREE.TextureUtils: Unknown texture type ${i}.`)}typeof __THREE_DEVTOOLS__<"u"&&__THREE_DEVTOOLS__.dispatchEvent(new CustomEvent("register",{detail:{revision:"187"}}));typeof window<"u"&&(window.__THREE__?Dt("WARNING: Multiple instances of Three.js being imported."):window.__THREE__="187");function l0(){let i=null,t=!1,e=null,n=null;function s(r,a){n=i.requestAnimationFrame(s),e(r,a)}return{start:function(){t!==!0&&e!==null&&i!==null&&(n=i.requestAnimationFrame(s),t=!0)},stop:function(){i!==null&&i.cancelAnimationFrame(n),t=!1},setAnimationLoop:function(r){e=r},setContext:function(r){i=r}}}function hv(i){let t=new WeakMap;function e(o,c){let l=o.array,h=o.usage,u=l.byteLength,f=i.createBuffer();i.bindBuffer(c,f),i.bufferData(c,l,h),o.onUploadCallback();let d;if(l instanceof Float32Array)d=i.FLOAT;else if(typeof Float16Array<"u"&&l instanceof Float16Array)d=i.HALF_FLOAT;else if(l instanceof Uint16Array)o.isFloat16BufferAttribute?d=i.HALF_FLOAT:d=i.UNSIGNED_SHORT;else if(l instanceof Int16Array)d=i.SHORT;else if(l instanceof Uint32Array)d=i.UNSIGNED_INT;else if(l instanceof Int32Array)d=i.INT;else if(l instanceof Int8Array)d=i.BYTE;else if(l instanceof Uint8Array)d=i.UNSIGNED_BYTE;else if(l instanceof Uint8ClampedArray)d=i.UNSIGNED_BYTE;else throw new Error("THREE.WebGLAttributes: Unsupported buffer data format: "+l);return{buffer:f,type:d,bytesPerElement:l.BYTES_PER_ELEMENT,version:o.version,size:u}}function n(o,c,l){let h=c.array,u=c.updateRanges;if(i.bindBuffer(l,o),u.length===0)i.bufferSubData(l,0,h);else{u.sort((d,p)=>d.start-p.start);let f=0;for(let d=1;d<u.length;d++){let p=u[f],_=u[d];_.start<=p.start+p.count+1?p.count=Math.max(p.count,_.start+_.count-p.start):(++f,u[f]=_)}u.length=f+1;for(let d=0,p=u.length;d<p;d++){let _=u[d];i.bufferSubData(l,_.start*h.BYTES_PER_ELEMENT,h,_.start,_.count)}c.clearUpdateRanges()}c.onUploadCallback()}function s(o){return o.isInterleavedBufferAttribute&&(o=o.data),t.get(o)}function r(o){o.isInterleavedBufferAttribute&&(o=o.data);let c=t.get(o);c&&(i.deleteBuffer(c.buffer),t.delete(o))}function a(o,c){if(o.isInterleavedBufferAttribute&&(o=o.data),o.isGLBufferAttribute){let h=t.get(o);(!h||h.version<o.version)&&t.set(o,{buffer:o.buffer,type:o.type,bytesPerElement:o.elementSize,version:o.version});return}let l=t.get(o);if(l===void 0)t.set(o,e(o,c));else if(l.version<o.version){if(l.size!==o.array.byteLength)throw new Error("THREE.WebGLAttributes: The size of the buffer attribute's array buffer does not match the original size. Resizing buffer attributes is not supported.");n(l.buffer,o,c),l.version=o.version}}return{get:s,remove:r,update:a}}var uv=`#ifdef USE_ALPHAHASH
+	if ( diffuseColor.a < getAlphaHashThreshold( vPosition ) ) discard;
+#endif`,fv=`#ifdef USE_ALPHAHASH
+	const float ALPHA_HASH_SCALE = 0.05;
+	float hash2D( vec2 value ) {
+		return fract( 1.0e4 * sin( 17.0 * value.x + 0.1 * value.y ) * ( 0.1 + abs( sin( 13.0 * value.y + value.x ) ) ) );
+	}
+	float hash3D( vec3 value ) {
+		return hash2D( vec2( hash2D( value.xy ), value.z ) );
+	}
+	float getAlphaHashThreshold( vec3 position ) {
+		float maxDeriv = max(
+			length( dFdx( position.xyz ) ),
+			length( dFdy( position.xyz ) )
+		);
+		float pixScale = 1.0 / ( ALPHA_HASH_SCALE * maxDeriv );
+		vec2 pixScales = vec2(
+			exp2( floor( log2( pixScale ) ) ),
+			exp2( ceil( log2( pixScale ) ) )
+		);
+		vec2 alpha = vec2(
+			hash3D( floor( pixScales.x * position.xyz ) ),
+			hash3D( floor( pixScales.y * position.xyz ) )
+		);
+		float lerpFactor = fract( log2( pixScale ) );
+		float x = ( 1.0 - lerpFactor ) * alpha.x + lerpFactor * alpha.y;
+		float a = min( lerpFactor, 1.0 - lerpFactor );
+		vec3 cases = vec3(
+			x * x / ( 2.0 * a * ( 1.0 - a ) ),
+			( x - 0.5 * a ) / ( 1.0 - a ),
+			1.0 - ( ( 1.0 - x ) * ( 1.0 - x ) / ( 2.0 * a * ( 1.0 - a ) ) )
+		);
+		float threshold = ( x < ( 1.0 - a ) )
+			? ( ( x < a ) ? cases.x : cases.y )
+			: cases.z;
+		return clamp( threshold , 1.0e-6, 1.0 );
+	}
+#endif`,dv=`#ifdef USE_ALPHAMAP
+	diffuseColor.a *= texture2D( alphaMap, vAlphaMapUv ).g;
+#endif`,pv=`#ifdef USE_ALPHAMAP
+	uniform sampler2D alphaMap;
+#endif`,mv=`#ifdef USE_ALPHATEST
+	#ifdef ALPHA_TO_COVERAGE
+	diffuseColor.a = smoothstep( alphaTest, alphaTest + fwidth( diffuseColor.a ), diffuseColor.a );
+	if ( diffuseColor.a == 0.0 ) discard;
+	#else
+	if ( diffuseColor.a < alphaTest ) discard;
+	#endif
+#endif`,gv=`#ifdef USE_ALPHATEST
+	uniform float alphaTest;
+#endif`,_v=`#ifdef USE_AOMAP
+	float ambientOcclusion = ( texture2D( aoMap, vAoMapUv ).r - 1.0 ) * aoMapIntensity + 1.0;
+	reflectedLight.indirectDiffuse *= ambientOcclusion;
+	#if defined( USE_CLEARCOAT ) 
+		clearcoatSpecularIndirect *= ambientOcclusion;
+	#endif
+	#if defined( USE_SHEEN ) 
+		sheenSpecularIndirect *= ambientOcclusion;
+	#endif
+	#if defined( USE_ENVMAP ) && defined( STANDARD )
+		float dotNV = saturate( dot( geometryNormal, geometryViewDir ) );
+		reflectedLight.indirectSpecular *= computeSpecularOcclusion( dotNV, ambientOcclusion, material.roughness );
+	#endif
+#endif`,yv=`#ifdef USE_AOMAP
+	uniform sampler2D aoMap;
+	uniform float aoMapIntensity;
+#endif`,xv=`#ifdef USE_BATCHING
+	#if ! defined( GL_ANGLE_multi_draw )
+	#define gl_DrawID _gl_DrawID
+	uniform int _gl_DrawID;
+	#endif
+	uniform highp sampler2D batchingTexture;
+	uniform highp usampler2D batchingIdTexture;
+	mat4 getBatchingMatrix( const in float i ) {
+		int size = textureSize( batchingTexture, 0 ).x;
+		int j = int( i ) * 4;
+		int x = j % size;
+		int y = j / size;
+		vec4 v1 = texelFetch( batchingTexture, ivec2( x, y ), 0 );
+		vec4 v2 = texelFetch( batchingTexture, ivec2( x + 1, y ), 0 );
+		vec4 v3 = texelFetch( batchingTexture, ivec2( x + 2, y ), 0 );
+		vec4 v4 = texelFetch( batchingTexture, ivec2( x + 3, y ), 0 );
+		return mat4( v1, v2, v3, v4 );
+	}
+	float getIndirectIndex( const in int i ) {
+		int size = textureSize( batchingIdTexture, 0 ).x;
+		int x = i % size;
+		int y = i / size;
+		return float( texelFetch( batchingIdTexture, ivec2( x, y ), 0 ).r );
+	}
+#endif
+#ifdef USE_BATCHING_COLOR
+	uniform sampler2D batchingColorTexture;
+	vec4 getBatchingColor( const in float i ) {
+		int size = textureSize( batchingColorTexture, 0 ).x;
+		int j = int( i );
+		int x = j % size;
+		int y = j / size;
+		return texelFetch( batchingColorTexture, ivec2( x, y ), 0 );
+	}
+#endif`,vv=`#ifdef USE_BATCHING
+	mat4 batchingMatrix = getBatchingMatrix( getIndirectIndex( gl_DrawID ) );
+#endif`,Mv=`vec3 transformed = vec3( position );
+#ifdef USE_ALPHAHASH
+	vPosition = vec3( position );
+#endif`,Sv=`vec3 objectNormal = vec3( normal );
+#ifdef USE_TANGENT
+	vec3 objectTangent = vec3( tangent.xyz );
+#endif`,bv=`float G_BlinnPhong_Implicit( ) {
+	return 0.25;
+}
+float D_BlinnPhong( const in float shininess, const in float dotNH ) {
+	return RECIPROCAL_PI * ( shininess * 0.5 + 1.0 ) * pow( dotNH, shininess );
+}
+vec3 BRDF_BlinnPhong( const in vec3 lightDir, const in vec3 viewDir, const in vec3 normal, const in vec3 specularColor, const in float shininess ) {
+	vec3 halfDir = normalize( lightDir + viewDir );
+	float dotNH = saturate( dot( normal, halfDir ) );
+	float dotVH = saturate( dot( viewDir, halfDir ) );
+	vec3 F = F_Schlick( specularColor, 1.0, dotVH );
+	float G = G_BlinnPhong_Implicit( );
+	float D = D_BlinnPhong( shininess, dotNH );
+	return F * ( G * D );
+} // validated`,wv=`#ifdef USE_IRIDESCENCE
+	const mat3 XYZ_TO_REC709 = mat3(
+		 3.2404542, -0.9692660,  0.0556434,
+		-1.5371385,  1.8760108, -0.2040259,
+		-0.4985314,  0.0415560,  1.0572252
+	);
+	vec3 Fresnel0ToIor( vec3 fresnel0 ) {
+		vec3 sqrtF0 = sqrt( fresnel0 );
+		return ( vec3( 1.0 ) + sqrtF0 ) / ( vec3( 1.0 ) - sqrtF0 );
+	}
+	vec3 IorToFresnel0( vec3 transmittedIor, float incidentIor ) {
+		return pow2( ( transmittedIor - vec3( incidentIor ) ) / ( transmittedIor + vec3( incidentIor ) ) );
+	}
+	float IorToFresnel0( float transmittedIor, float incidentIor ) {
+		return pow2( ( transmittedIor - incidentIor ) / ( transmittedIor + incidentIor ));
+	}
+	vec3 evalSensitivity( float OPD, vec3 shift ) {
+		float phase = 2.0 * PI * OPD * 1.0e-9;
+		vec3 val = vec3( 5.4856e-13, 4.4201e-13, 5.2481e-13 );
+		vec3 pos = vec3( 1.6810e+06, 1.7953e+06, 2.2084e+06 );
+		vec3 var = vec3( 4.3278e+09, 9.3046e+09, 6.6121e+09 );
+		vec3 xyz = val * sqrt( 2.0 * PI * var ) * cos( pos * phase + shift ) * exp( - pow2( phase ) * var );
+		xyz.x += 9.7470e-14 * sqrt( 2.0 * PI * 4.5282e+09 ) * cos( 2.2399e+06 * phase + shift[ 0 ] ) * exp( - 4.5282e+09 * pow2( phase ) );
+		xyz /= 1.0685e-7;
+		vec3 rgb = XYZ_TO_REC709 * xyz;
+		return rgb;
+	}
+	vec3 evalIridescence( float outsideIOR, float eta2, float cosTheta1, float thinFilmThickness, vec3 baseF0 ) {
+		vec3 I;
+		float iridescenceIOR = mix( outsideIOR, eta2, smoothstep( 0.0, 0.03, thinFilmThickness ) );
+		float sinTheta2Sq = pow2( outsideIOR / iridescenceIOR ) * ( 1.0 - pow2( cosTheta1 ) );
+		float cosTheta2Sq = 1.0 - sinTheta2Sq;
+		if ( cosTheta2Sq < 0.0 ) {
+			return vec3( 1.0 );
+		}
+		float cosTheta2 = sqrt( cosTheta2Sq );
+		float R0 = IorToFresnel0( iridescenceIOR, outsideIOR );
+		float R12 = F_Schlick( R0, 1.0, cosTheta1 );
+		float T121 = 1.0 - R12;
+		float phi12 = 0.0;
+		if ( iridescenceIOR < outsideIOR ) phi12 = PI;
+		float phi21 = PI - phi12;
+		vec3 baseIOR = Fresnel0ToIor( clamp( baseF0, 0.0, 0.9999 ) );		vec3 R1 = IorToFresnel0( baseIOR, iridescenceIOR );
+		vec3 R23 = F_Schlick( R1, 1.0, cosTheta2 );
+		vec3 phi23 = vec3( 0.0 );
+		if ( baseIOR[ 0 ] < iridescenceIOR ) phi23[ 0 ] = PI;
+		if ( baseIOR[ 1 ] < iridescenceIOR ) phi23[ 1 ] = PI;
+		if ( baseIOR[ 2 ] < iridescenceIOR ) phi23[ 2 ] = PI;
+		float OPD = 2.0 * iridescenceIOR * thinFilmThickness * cosTheta2;
+		vec3 phi = vec3( phi21 ) + phi23;
+		vec3 R123 = clamp( R12 * R23, 1e-5, 0.9999 );
+		vec3 r123 = sqrt( R123 );
+		vec3 Rs = pow2( T121 ) * R23 / ( vec3( 1.0 ) - R123 );
+		vec3 C0 = R12 + Rs;
+		I = C0;
+		vec3 Cm = Rs - T121;
+		for ( int m = 1; m <= 2; ++ m ) {
+			Cm *= r123;
+			vec3 Sm = 2.0 * evalSensitivity( float( m ) * OPD, float( m ) * phi );
+			I += Cm * Sm;
+		}
+		return max( I, vec3( 0.0 ) );
+	}
+#endif`,Ev=`#ifdef USE_BUMPMAP
+	uniform sampler2D bumpMap;
+	uniform float bumpScale;
+	vec2 dHdxy_fwd() {
+		vec2 dSTdx = dFdx( vBumpMapUv );
+		vec2 dSTdy = dFdy( vBumpMapUv );
+		float Hll = bumpScale * texture2D( bumpMap, vBumpMapUv ).x;
+		float dBx = bumpScale * texture2D( bumpMap, vBumpMapUv + dSTdx ).x - Hll;
+		float dBy = bumpScale * texture2D( bumpMap, vBumpMapUv + dSTdy ).x - Hll;
+		return vec2( dBx, dBy );
+	}
+	vec3 perturbNormalArb( vec3 surf_pos, vec3 surf_norm, vec2 dHdxy, float faceDirection ) {
+		vec3 vSigmaX = normalize( dFdx( surf_pos.xyz ) );
+		vec3 vSigmaY = normalize( dFdy( surf_pos.xyz ) );
+		vec3 vN = surf_norm;
+		vec3 R1 = cross( vSigmaY, vN );
+		vec3 R2 = cross( vN, vSigmaX );
+		float fDet = dot( vSigmaX, R1 ) * faceDirection;
+		vec3 vGrad = sign( fDet ) * ( dHdxy.x * R1 + dHdxy.y * R2 );
+		return normalize( abs( fDet ) * surf_norm - vGrad );
+	}
+#endif`,Tv=`#if NUM_CLIPPING_PLANES > 0
+	vec4 plane;
+	#ifdef ALPHA_TO_COVERAGE
+		float distanceToPlane, distanceGradient;
+		float clipOpacity = 1.0;
+		#pragma unroll_loop_start
+		for ( int i = 0; i < UNION_CLIPPING_PLANES; i ++ ) {
+			plane = clippingPlanes[ i ];
+			distanceToPlane = - dot( vClipPosition, plane.xyz ) + plane.w;
+			distanceGradient = fwidth( distanceToPlane ) / 2.0;
+			clipOpacity *= smoothstep( - distanceGradient, distanceGradient, distanceToPlane );
+			if ( clipOpacity == 0.0 ) discard;
+		}
+		#pragma unroll_loop_end
+		#if UNION_CLIPPING_PLANES < NUM_CLIPPING_PLANES
+			float unionClipOpacity = 1.0;
+			#pragma unroll_loop_start
+			for ( int i = UNION_CLIPPING_PLANES; i < NUM_CLIPPING_PLANES; i ++ ) {
+				plane = clippingPlanes[ i ];
+				distanceToPlane = - dot( vClipPosition, plane.xyz ) + plane.w;
+				distanceGradient = fwidth( distanceToPlane ) / 2.0;
+				unionClipOpacity *= 1.0 - smoothstep( - distanceGradient, distanceGradient, distanceToPlane );
+			}
+			#pragma unroll_loop_end
+			clipOpacity *= 1.0 - unionClipOpacity;
+		#endif
+		diffuseColor.a *= clipOpacity;
+		if ( diffuseColor.a == 0.0 ) discard;
+	#else
+		#pragma unroll_loop_start
+		for ( int i = 0; i < UNION_CLIPPING_PLANES; i ++ ) {
+			plane = clippingPlanes[ i ];
+			if ( dot( vClipPosition, plane.xyz ) > plane.w ) discard;
+		}
+		#pragma unroll_loop_end
+		#if UNION_CLIPPING_PLANES < NUM_CLIPPING_PLANES
+			bool clipped = true;
+			#pragma unroll_loop_start
+			for ( int i = UNION_CLIPPING_PLANES; i < NUM_CLIPPING_PLANES; i ++ ) {
+				plane = clippingPlanes[ i ];
+				clipped = ( dot( vClipPosition, plane.xyz ) > plane.w ) && clipped;
+			}
+			#pragma unroll_loop_end
+			if ( clipped ) discard;
+		#endif
+	#endif
+#endif`,Av=`#if NUM_CLIPPING_PLANES > 0
+	varying vec3 vClipPosition;
+	uniform vec4 clippingPlanes[ NUM_CLIPPING_PLANES ];
+#endif`,Rv=`#if NUM_CLIPPING_PLANES > 0
+	varying vec3 vClipPosition;
+#endif`,Cv=`#if NUM_CLIPPING_PLANES > 0
+	vClipPosition = - mvPosition.xyz;
+#endif`,Pv=`#if defined( USE_COLOR ) || defined( USE_COLOR_ALPHA )
+	diffuseColor *= vColor;
+#endif`,Iv=`#if defined( USE_COLOR ) || defined( USE_COLOR_ALPHA )
+	varying vec4 vColor;
+#endif`,Lv=`#if defined( USE_COLOR ) || defined( USE_COLOR_ALPHA ) || defined( USE_INSTANCING_COLOR ) || defined( USE_BATCHING_COLOR )
+	varying vec4 vColor;
+#endif`,Nv=`#if defined( USE_COLOR ) || defined( USE_COLOR_ALPHA ) || defined( USE_INSTANCING_COLOR ) || defined( USE_BATCHING_COLOR )
+	vColor = vec4( 1.0 );
+#endif
+#ifdef USE_COLOR_ALPHA
+	vColor *= color;
+#elif defined( USE_COLOR )
+	vColor.rgb *= color;
+#endif
+#ifdef USE_INSTANCING_COLOR
+	vColor.rgb *= instanceColor.rgb;
+#endif
+#ifdef USE_BATCHING_COLOR
+	vColor *= getBatchingColor( getIndirectIndex( gl_DrawID ) );
+#endif`,Dv=`#define PI 3.141592653589793
+#define PI2 6.283185307179586
+#define PI_HALF 1.5707963267948966
+#define RECIPROCAL_PI 0.3183098861837907
+#define RECIPROCAL_PI2 0.15915494309189535
+#define EPSILON 1e-6
+#ifndef saturate
+#define saturate( a ) clamp( a, 0.0, 1.0 )
+#endif
+#define whiteComplement( a ) ( 1.0 - saturate( a ) )
+float pow2( const in float x ) { return x*x; }
+vec3 pow2( const in vec3 x ) { return x*x; }
+float pow3( const in float x ) { return x*x*x; }
+float pow4( const in float x ) { float x2 = x*x; return x2*x2; }
+float max3( const in vec3 v ) { return max( max( v.x, v.y ), v.z ); }
+float average( const in vec3 v ) { return dot( v, vec3( 0.3333333 ) ); }
+highp float rand( const in vec2 uv ) {
+	const highp float a = 12.9898, b = 78.233, c = 43758.5453;
+	highp float dt = dot( uv.xy, vec2( a,b ) ), sn = mod( dt, PI );
+	return fract( sin( sn ) * c );
+}
+#ifdef HIGH_PRECISION
+	float precisionSafeLength( vec3 v ) { return length( v ); }
+#else
+	float precisionSafeLength( vec3 v ) {
+		float maxComponent = max3( abs( v ) );
+		return length( v / maxComponent ) * maxComponent;
+	}
+#endif
+struct IncidentLight {
+	vec3 color;
+	vec3 direction;
+	bool visible;
+};
+struct ReflectedLight {
+	vec3 directDiffuse;
+	vec3 directSpecular;
+	vec3 indirectDiffuse;
+	vec3 indirectSpecular;
+};
+#ifdef USE_ALPHAHASH
+	varying vec3 vPosition;
+#endif
+vec3 transformDirection( in vec3 dir, in mat4 matrix ) {
+	return normalize( ( matrix * vec4( dir, 0.0 ) ).xyz );
+}
+#define inverseTransformDirection transformDirectionByInverseViewMatrix
+vec3 transformNormalByInverseViewMatrix( in vec3 normal, in mat4 viewMatrix ) {
+	return normalize( ( vec4( normal, 0.0 ) * viewMatrix ).xyz );
+}
+vec3 transformDirectionByInverseViewMatrix( in vec3 dir, in mat4 viewMatrix ) {
+	return normalize( ( vec4( dir, 0.0 ) * viewMatrix ).xyz );
+}
+bool isPerspectiveMatrix( mat4 m ) {
+	return m[ 2 ][ 3 ] == - 1.0;
+}
+vec2 equirectUv( in vec3 dir ) {
+	float u = atan( dir.z, dir.x ) * RECIPROCAL_PI2 + 0.5;
+	float v = asin( clamp( dir.y, - 1.0, 1.0 ) ) * RECIPROCAL_PI + 0.5;
+	return vec2( u, v );
+}
+vec3 BRDF_Lambert( const in vec3 diffuseColor ) {
+	return RECIPROCAL_PI * diffuseColor;
+}
+vec3 F_Schlick( const in vec3 f0, const in float f90, const in float dotVH ) {
+	float fresnel = exp2( ( - 5.55473 * dotVH - 6.98316 ) * dotVH );
+	return f0 * ( 1.0 - fresnel ) + ( f90 * fresnel );
+}
+float F_Schlick( const in float f0, const in float f90, const in float dotVH ) {
+	float fresnel = exp2( ( - 5.55473 * dotVH - 6.98316 ) * dotVH );
+	return f0 * ( 1.0 - fresnel ) + ( f90 * fresnel );
+} // validated`,Ov=`vec3 transformedNormal = objectNormal;
+#ifdef USE_TANGENT
+	vec3 transformedTangent = objectTangent;
+#endif
+#ifdef USE_BATCHING
+	mat3 bm = mat3( batchingMatrix );
+	transformedNormal /= vec3( dot( bm[ 0 ], bm[ 0 ] ), dot( bm[ 1 ], bm[ 1 ] ), dot( bm[ 2 ], bm[ 2 ] ) );
+	transformedNormal = bm * transformedNormal;
+	#ifdef USE_TANGENT
+		transformedTangent = bm * transformedTangent;
+	#endif
+#endif
+#ifdef USE_INSTANCING
+	mat3 im = mat3( instanceMatrix );
+	transformedNormal /= vec3( dot( im[ 0 ], im[ 0 ] ), dot( im[ 1 ], im[ 1 ] ), dot( im[ 2 ], im[ 2 ] ) );
+	transformedNormal = im * transformedNormal;
+	#ifdef USE_TANGENT
+		transformedTangent = im * transformedTangent;
+	#endif
+#endif
+transformedNormal = normalMatrix * transformedNormal;
+#ifdef FLIP_SIDED
+	transformedNormal = - transformedNormal;
+#endif
+#ifdef USE_TANGENT
+	transformedTangent = ( modelViewMatrix * vec4( transformedTangent, 0.0 ) ).xyz;
+#endif`,Uv=`#ifdef USE_DISPLACEMENTMAP
+	uniform sampler2D displacementMap;
+	uniform float displacementScale;
+	uniform float displacementBias;
+#endif`,Fv=`#ifdef USE_DISPLACEMENTMAP
+	transformed += normalize( objectNormal ) * ( texture2D( displacementMap, vDisplacementMapUv ).x * displacementScale + displacementBias );
+#endif`,Bv=`#ifdef USE_EMISSIVEMAP
+	vec4 emissiveColor = texture2D( emissiveMap, vEmissiveMapUv );
+	#ifdef DECODE_VIDEO_TEXTURE_EMISSIVE
+		emissiveColor = sRGBTransferEOTF( emissiveColor );
+	#endif
+	totalEmissiveRadiance *= emissiveColor.rgb;
+#endif`,kv=`#ifdef USE_EMISSIVEMAP
+	uniform sampler2D emissiveMap;
+#endif`,zv="gl_FragColor = linearToOutputTexel( gl_FragColor );",Gv=`vec4 LinearTransferOETF( in vec4 value ) {
+	return value;
+}
+vec4 sRGBTransferEOTF( in vec4 value ) {
+	return vec4( mix( pow( value.rgb * 0.9478672986 + vec3( 0.0521327014 ), vec3( 2.4 ) ), value.rgb * 0.0773993808, vec3( lessThanEqual( value.rgb, vec3( 0.04045 ) ) ) ), value.a );
+}
+vec4 sRGBTransferOETF( in vec4 value ) {
+	return vec4( mix( pow( value.rgb, vec3( 0.41666 ) ) * 1.055 - vec3( 0.055 ), value.rgb * 12.92, vec3( lessThanEqual( value.rgb, vec3( 0.0031308 ) ) ) ), value.a );
+}`,Vv=`#ifdef USE_ENVMAP
+	#ifdef ENV_WORLDPOS
+		vec3 cameraToFrag;
+		if ( isOrthographic ) {
+			cameraToFrag = normalize( vec3( - viewMatrix[ 0 ][ 2 ], - viewMatrix[ 1 ][ 2 ], - viewMatrix[ 2 ][ 2 ] ) );
+		} else {
+			cameraToFrag = normalize( vWorldPosition - cameraPosition );
+		}
+		vec3 worldNormal = transformNormalByInverseViewMatrix( normal, viewMatrix );
+		#ifdef ENVMAP_MODE_REFLECTION
+			vec3 reflectVec = reflect( cameraToFrag, worldNormal );
+		#else
+			vec3 reflectVec = refract( cameraToFrag, worldNormal, refractionRatio );
+		#endif
+	#else
+		vec3 reflectVec = vReflect;
+	#endif
+	#ifdef ENVMAP_TYPE_CUBE
+		vec4 envColor = textureCube( envMap, envMapRotation * reflectVec );
+		#ifdef ENVMAP_BLENDING_MULTIPLY
+			outgoingLight = mix( outgoingLight, outgoingLight * envColor.xyz, specularStrength * reflectivity );
+		#elif defined( ENVMAP_BLENDING_MIX )
+			outgoingLight = mix( outgoingLight, envColor.xyz, specularStrength * reflectivity );
+		#elif defined( ENVMAP_BLENDING_ADD )
+			outgoingLight += envColor.xyz * specularStrength * reflectivity;
+		#endif
+	#endif
+#endif`,Hv=`#ifdef USE_ENVMAP
+	uniform float envMapIntensity;
+	uniform mat3 envMapRotation;
+	uniform samplerCube envMap;
+	#ifdef ENVMAP_TYPE_PMREM
+		float roughnessToMip( const in float roughness ) {
+			float r = clamp( roughness, 0.0, 1.0 );
+			return ENVMAP_MAX_LOD * r * ( 2.0 - r );
+		}
+	#endif
+#endif`,Wv=`#ifdef USE_ENVMAP
+	uniform float reflectivity;
+	#if defined( USE_BUMPMAP ) || defined( USE_NORMALMAP ) || defined( PHONG ) || defined( LAMBERT )
+		#define ENV_WORLDPOS
+	#endif
+	#ifdef ENV_WORLDPOS
+		varying vec3 vWorldPosition;
+		uniform float refractionRatio;
+	#else
+		varying vec3 vReflect;
+	#endif
+#endif`,Xv=`#ifdef USE_ENVMAP
+	#if defined( USE_BUMPMAP ) || defined( USE_NORMALMAP ) || defined( PHONG ) || defined( LAMBERT )
+		#define ENV_WORLDPOS
+	#endif
+	#ifdef ENV_WORLDPOS
+		
+		varying vec3 vWorldPosition;
+	#else
+		varying vec3 vReflect;
+		uniform float refractionRatio;
+	#endif
+#endif`,qv=`#ifdef USE_ENVMAP
+	#ifdef ENV_WORLDPOS
+		vWorldPosition = worldPosition.xyz;
+	#else
+		vec3 cameraToVertex;
+		if ( isOrthographic ) {
+			cameraToVertex = normalize( vec3( - viewMatrix[ 0 ][ 2 ], - viewMatrix[ 1 ][ 2 ], - viewMatrix[ 2 ][ 2 ] ) );
+		} else {
+			cameraToVertex = normalize( worldPosition.xyz - cameraPosition );
+		}
+		vec3 worldNormal = transformNormalByInverseViewMatrix( transformedNormal, viewMatrix );
+		#ifdef ENVMAP_MODE_REFLECTION
+			vReflect = reflect( cameraToVertex, worldNormal );
+		#else
+			vReflect = refract( cameraToVertex, worldNormal, refractionRatio );
+		#endif
+	#endif
+#endif`,Yv=`#ifdef USE_FOG
+	vFogDepth = - mvPosition.z;
+#endif`,$v=`#ifdef USE_FOG
+	varying float vFogDepth;
+#endif`,Zv=`#ifdef USE_FOG
+	#ifdef FOG_EXP2
+		float fogFactor = 1.0 - exp( - fogDensity * fogDensity * vFogDepth * vFogDepth );
+	#else
+		float fogFactor = smoothstep( fogNear, fogFar, vFogDepth );
+	#endif
+	gl_FragColor.rgb = mix( gl_FragColor.rgb, fogColor, fogFactor );
+#endif`,Jv=`#ifdef USE_FOG
+	uniform vec3 fogColor;
+	varying float vFogDepth;
+	#ifdef FOG_EXP2
+		uniform float fogDensity;
+	#else
+		uniform float fogNear;
+		uniform float fogFar;
+	#endif
+#endif`,Kv=`#ifdef USE_GRADIENTMAP
+	uniform sampler2D gradientMap;
+#endif
+vec3 getGradientIrradiance( vec3 normal, vec3 lightDirection ) {
+	float dotNL = dot( normal, lightDirection );
+	vec2 coord = vec2( dotNL * 0.5 + 0.5, 0.0 );
+	#ifdef USE_GRADIENTMAP
+		return vec3( texture2D( gradientMap, coord ).r );
+	#else
+		vec2 fw = fwidth( coord ) * 0.5;
+		return mix( vec3( 0.7 ), vec3( 1.0 ), smoothstep( 0.7 - fw.x, 0.7 + fw.x, coord.x ) );
+	#endif
+}`,jv=`#ifdef USE_LIGHTMAP
+	uniform sampler2D lightMap;
+	uniform float lightMapIntensity;
+#endif`,Qv=`LambertMaterial material;
+material.diffuseColor = diffuseColor.rgb;
+material.specularStrength = specularStrength;`,tM=`varying vec3 vViewPosition;
+struct LambertMaterial {
+	vec3 diffuseColor;
+	float specularStrength;
+};
+void RE_Direct_Lambert( const in IncidentLight directLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in LambertMaterial material, inout ReflectedLight reflectedLight ) {
+	float dotNL = saturate( dot( geometryNormal, directLight.direction ) );
+	vec3 irradiance = dotNL * directLight.color;
+	reflectedLight.directDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+}
+void RE_IndirectDiffuse_Lambert( const in vec3 irradiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in LambertMaterial material, inout ReflectedLight reflectedLight ) {
+	reflectedLight.indirectDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+}
+#define RE_Direct				RE_Direct_Lambert
+#define RE_IndirectDiffuse		RE_IndirectDiffuse_Lambert`,eM=`uniform bool receiveShadow;
+uniform vec3 ambientLightColor;
+#if defined( USE_LIGHT_PROBES )
+	uniform vec3 lightProbe[ 9 ];
+#endif
+vec3 shGetIrradianceAt( in vec3 normal, in vec3 shCoefficients[ 9 ] ) {
+	float x = normal.x, y = normal.y, z = normal.z;
+	vec3 result = shCoefficients[ 0 ] * 0.886227;
+	result += shCoefficients[ 1 ] * 2.0 * 0.511664 * y;
+	result += shCoefficients[ 2 ] * 2.0 * 0.511664 * z;
+	result += shCoefficients[ 3 ] * 2.0 * 0.511664 * x;
+	result += shCoefficients[ 4 ] * 2.0 * 0.429043 * x * y;
+	result += shCoefficients[ 5 ] * 2.0 * 0.429043 * y * z;
+	result += shCoefficients[ 6 ] * ( 0.743125 * z * z - 0.247708 );
+	result += shCoefficients[ 7 ] * 2.0 * 0.429043 * x * z;
+	result += shCoefficients[ 8 ] * 0.429043 * ( x * x - y * y );
+	return result;
+}
+vec3 getLightProbeIrradiance( const in vec3 lightProbe[ 9 ], const in vec3 normal ) {
+	vec3 worldNormal = transformNormalByInverseViewMatrix( normal, viewMatrix );
+	vec3 irradiance = shGetIrradianceAt( worldNormal, lightProbe );
+	return irradiance;
+}
+vec3 getAmbientLightIrradiance( const in vec3 ambientLightColor ) {
+	vec3 irradiance = ambientLightColor;
+	return irradiance;
+}
+float getDistanceAttenuation( const in float lightDistance, const in float cutoffDistance, const in float decayExponent ) {
+	float distanceFalloff = 1.0 / max( pow( lightDistance, decayExponent ), 0.01 );
+	if ( cutoffDistance > 0.0 ) {
+		distanceFalloff *= pow2( saturate( 1.0 - pow4( lightDistance / cutoffDistance ) ) );
+	}
+	return distanceFalloff;
+}
+float getSpotAttenuation( const in float coneCosine, const in float penumbraCosine, const in float angleCosine ) {
+	return smoothstep( coneCosine, penumbraCosine, angleCosine );
+}
+#if NUM_SUN_LIGHTS > 0
+	struct SunLight {
+		vec3 direction;
+		vec3 color;
+	};
+	uniform SunLight sunLights[ NUM_SUN_LIGHTS ];
+	void getSunLightInfo( const in SunLight sunLight, out IncidentLight light ) {
+		light.color = sunLight.color;
+		light.direction = sunLight.direction;
+		light.visible = true;
+	}
+#endif
+#if NUM_DIR_LIGHTS > 0
+	struct DirectionalLight {
+		vec3 direction;
+		vec3 color;
+	};
+	uniform DirectionalLight directionalLights[ NUM_DIR_LIGHTS ];
+	void getDirectionalLightInfo( const in DirectionalLight directionalLight, out IncidentLight light ) {
+		light.color = directionalLight.color;
+		light.direction = directionalLight.direction;
+		light.visible = true;
+	}
+#endif
+#if NUM_POINT_LIGHTS > 0
+	struct PointLight {
+		vec3 position;
+		vec3 color;
+		float distance;
+		float decay;
+	};
+	uniform PointLight pointLights[ NUM_POINT_LIGHTS ];
+	void getPointLightInfo( const in PointLight pointLight, const in vec3 geometryPosition, out IncidentLight light ) {
+		vec3 lVector = pointLight.position - geometryPosition;
+		light.direction = normalize( lVector );
+		float lightDistance = length( lVector );
+		light.color = pointLight.color;
+		light.color *= getDistanceAttenuation( lightDistance, pointLight.distance, pointLight.decay );
+		light.visible = ( light.color != vec3( 0.0 ) );
+	}
+#endif
+#if NUM_SPOT_LIGHTS > 0
+	struct SpotLight {
+		vec3 position;
+		vec3 direction;
+		vec3 color;
+		float distance;
+		float decay;
+		float coneCos;
+		float penumbraCos;
+	};
+	uniform SpotLight spotLights[ NUM_SPOT_LIGHTS ];
+	void getSpotLightInfo( const in SpotLight spotLight, const in vec3 geometryPosition, out IncidentLight light ) {
+		vec3 lVector = spotLight.position - geometryPosition;
+		light.direction = normalize( lVector );
+		float angleCos = dot( light.direction, spotLight.direction );
+		float spotAttenuation = getSpotAttenuation( spotLight.coneCos, spotLight.penumbraCos, angleCos );
+		if ( spotAttenuation > 0.0 ) {
+			float lightDistance = length( lVector );
+			light.color = spotLight.color * spotAttenuation;
+			light.color *= getDistanceAttenuation( lightDistance, spotLight.distance, spotLight.decay );
+			light.visible = ( light.color != vec3( 0.0 ) );
+		} else {
+			light.color = vec3( 0.0 );
+			light.visible = false;
+		}
+	}
+#endif
+#if NUM_RECT_AREA_LIGHTS > 0
+	struct RectAreaLight {
+		vec3 color;
+		vec3 position;
+		vec3 halfWidth;
+		vec3 halfHeight;
+	};
+	uniform sampler2D ltc_1;	uniform sampler2D ltc_2;
+	uniform RectAreaLight rectAreaLights[ NUM_RECT_AREA_LIGHTS ];
+#endif
+#if NUM_HEMI_LIGHTS > 0
+	struct HemisphereLight {
+		vec3 direction;
+		vec3 skyColor;
+		vec3 groundColor;
+	};
+	uniform HemisphereLight hemisphereLights[ NUM_HEMI_LIGHTS ];
+	vec3 getHemisphereLightIrradiance( const in HemisphereLight hemiLight, const in vec3 normal ) {
+		float dotNL = dot( normal, hemiLight.direction );
+		float hemiDiffuseWeight = 0.5 * dotNL + 0.5;
+		vec3 irradiance = mix( hemiLight.groundColor, hemiLight.skyColor, hemiDiffuseWeight );
+		return irradiance;
+	}
+#endif
+#include <lightprobes_pars_fragment>`,nM=`#ifdef USE_ENVMAP
+	vec3 getIBLIrradiance( const in vec3 normal ) {
+		#ifdef ENVMAP_TYPE_PMREM
+			vec3 worldNormal = transformNormalByInverseViewMatrix( normal, viewMatrix );
+			vec4 envMapColor = textureLod( envMap, envMapRotation * worldNormal, ENVMAP_MAX_LOD );
+			return PI * envMapColor.rgb * envMapIntensity;
+		#else
+			return vec3( 0.0 );
+		#endif
+	}
+	vec3 getIBLRadiance( const in vec3 viewDir, const in vec3 normal, const in float roughness ) {
+		#ifdef ENVMAP_TYPE_PMREM
+			vec3 reflectVec = reflect( - viewDir, normal );
+			reflectVec = normalize( mix( reflectVec, normal, pow4( roughness ) ) );
+			reflectVec = transformDirectionByInverseViewMatrix( reflectVec, viewMatrix );
+			vec4 envMapColor = textureLod( envMap, envMapRotation * reflectVec, roughnessToMip( roughness ) );
+			return envMapColor.rgb * envMapIntensity;
+		#else
+			return vec3( 0.0 );
+		#endif
+	}
+	#ifdef USE_RETROREFLECTION
+		vec3 getIBLRetroRadiance( const in vec3 viewDir, const in vec3 normal, const in float roughness ) {
+			#ifdef ENVMAP_TYPE_PMREM
+				vec3 retroVec = normalize( mix( viewDir, normal, pow4( roughness ) ) );
+				retroVec = transformDirectionByInverseViewMatrix( retroVec, viewMatrix );
+				vec4 envMapColor = textureLod( envMap, envMapRotation * retroVec, roughnessToMip( roughness ) );
+				return envMapColor.rgb * envMapIntensity;
+			#else
+				return vec3( 0.0 );
+			#endif
+		}
+	#endif
+	#ifdef USE_ANISOTROPY
+		vec3 getIBLAnisotropyRadiance( const in vec3 viewDir, const in vec3 normal, const in float roughness, const in vec3 bitangent, const in float anisotropy ) {
+			#ifdef ENVMAP_TYPE_PMREM
+				vec3 bentNormal = cross( bitangent, viewDir );
+				bentNormal = normalize( cross( bentNormal, bitangent ) );
+				bentNormal = normalize( mix( bentNormal, normal, pow2( pow2( 1.0 - anisotropy * ( 1.0 - roughness ) ) ) ) );
+				return getIBLRadiance( viewDir, bentNormal, roughness );
+			#else
+				return vec3( 0.0 );
+			#endif
+		}
+		#ifdef USE_RETROREFLECTION
+			vec3 getIBLAnisotropyRetroRadiance( const in vec3 viewDir, const in vec3 normal, const in float roughness, const in vec3 bitangent, const in float anisotropy ) {
+				#ifdef ENVMAP_TYPE_PMREM
+					vec3 bentNormal = cross( bitangent, viewDir );
+					bentNormal = normalize( cross( bentNormal, bitangent ) );
+					bentNormal = normalize( mix( bentNormal, normal, pow2( pow2( 1.0 - anisotropy * ( 1.0 - roughness ) ) ) ) );
+					return getIBLRetroRadiance( viewDir, bentNormal, roughness );
+				#else
+					return vec3( 0.0 );
+				#endif
+			}
+		#endif
+	#endif
+#endif`,iM=`ToonMaterial material;
+material.diffuseColor = diffuseColor.rgb;`,sM=`varying vec3 vViewPosition;
+struct ToonMaterial {
+	vec3 diffuseColor;
+};
+void RE_Direct_Toon( const in IncidentLight directLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in ToonMaterial material, inout ReflectedLight reflectedLight ) {
+	vec3 irradiance = getGradientIrradiance( geometryNormal, directLight.direction ) * directLight.color;
+	reflectedLight.directDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+}
+void RE_IndirectDiffuse_Toon( const in vec3 irradiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in ToonMaterial material, inout ReflectedLight reflectedLight ) {
+	reflectedLight.indirectDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+}
+#define RE_Direct				RE_Direct_Toon
+#define RE_IndirectDiffuse		RE_IndirectDiffuse_Toon`,rM=`BlinnPhongMaterial material;
+material.diffuseColor = diffuseColor.rgb;
+material.specularColor = specular;
+material.specularShininess = shininess;
+material.specularStrength = specularStrength;`,aM=`varying vec3 vViewPosition;
+struct BlinnPhongMaterial {
+	vec3 diffuseColor;
+	vec3 specularColor;
+	float specularShininess;
+	float specularStrength;
+};
+void RE_Direct_BlinnPhong( const in IncidentLight directLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in BlinnPhongMaterial material, inout ReflectedLight reflectedLight ) {
+	float dotNL = saturate( dot( geometryNormal, directLight.direction ) );
+	vec3 irradiance = dotNL * directLight.color;
+	reflectedLight.directDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+	reflectedLight.directSpecular += irradiance * BRDF_BlinnPhong( directLight.direction, geometryViewDir, geometryNormal, material.specularColor, material.specularShininess ) * material.specularStrength;
+}
+void RE_IndirectDiffuse_BlinnPhong( const in vec3 irradiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in BlinnPhongMaterial material, inout ReflectedLight reflectedLight ) {
+	reflectedLight.indirectDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+}
+#define RE_Direct				RE_Direct_BlinnPhong
+#define RE_IndirectDiffuse		RE_IndirectDiffuse_BlinnPhong`,oM=`PhysicalMaterial material;
+material.diffuseColor = diffuseColor.rgb;
+material.diffuseContribution = diffuseColor.rgb * ( 1.0 - metalnessFactor );
+material.metalness = metalnessFactor;
+vec3 dxy = max( abs( dFdx( nonPerturbedNormal ) ), abs( dFdy( nonPerturbedNormal ) ) );
+float geometryRoughness = max( max( dxy.x, dxy.y ), dxy.z );
+material.roughness = max( roughnessFactor, 0.045 );
+material.roughness += geometryRoughness;
+material.roughness = min( material.roughness, 1.0 );
+#ifdef USE_DIFFUSE_ROUGHNESS
+	float diffuseRoughnessFactor = diffuseRoughness;
+	#ifdef USE_DIFFUSE_ROUGHNESSMAP
+		diffuseRoughnessFactor *= texture2D( diffuseRoughnessMap, vDiffuseRoughnessMapUv ).r;
+	#endif
+	material.diffuseRoughness = saturate( diffuseRoughnessFactor );
+#endif
+#ifdef IOR
+	material.ior = ior;
+	#ifdef USE_SPECULAR
+		float specularIntensityFactor = specularIntensity;
+		vec3 specularColorFactor = specularColor;
+		#ifdef USE_SPECULAR_COLORMAP
+			specularColorFactor *= texture2D( specularColorMap, vSpecularColorMapUv ).rgb;
+		#endif
+		#ifdef USE_SPECULAR_INTENSITYMAP
+			specularIntensityFactor *= texture2D( specularIntensityMap, vSpecularIntensityMapUv ).a;
+		#endif
+		material.specularF90 = mix( specularIntensityFactor, 1.0, metalnessFactor );
+	#else
+		float specularIntensityFactor = 1.0;
+		vec3 specularColorFactor = vec3( 1.0 );
+		material.specularF90 = 1.0;
+	#endif
+	material.specularColor = min( pow2( ( material.ior - 1.0 ) / ( material.ior + 1.0 ) ) * specularColorFactor, vec3( 1.0 ) ) * specularIntensityFactor;
+	material.specularColorBlended = mix( material.specularColor, diffuseColor.rgb, metalnessFactor );
+#else
+	material.specularColor = vec3( 0.04 );
+	material.specularColorBlended = mix( material.specularColor, diffuseColor.rgb, metalnessFactor );
+	material.specularF90 = 1.0;
+#endif
+#ifdef USE_CLEARCOAT
+	material.clearcoat = clearcoat;
+	material.clearcoatRoughness = clearcoatRoughness;
+	material.clearcoatF0 = vec3( 0.04 );
+	material.clearcoatF90 = 1.0;
+	#ifdef USE_CLEARCOATMAP
+		material.clearcoat *= texture2D( clearcoatMap, vClearcoatMapUv ).x;
+	#endif
+	#ifdef USE_CLEARCOAT_ROUGHNESSMAP
+		material.clearcoatRoughness *= texture2D( clearcoatRoughnessMap, vClearcoatRoughnessMapUv ).y;
+	#endif
+	material.clearcoat = saturate( material.clearcoat );	material.clearcoatRoughness = max( material.clearcoatRoughness, 0.045 );
+	material.clearcoatRoughness += geometryRoughness;
+	material.clearcoatRoughness = min( material.clearcoatRoughness, 1.0 );
+#endif
+#ifdef USE_DISPERSION
+	material.dispersion = dispersion;
+#endif
+#ifdef USE_RETROREFLECTION
+	material.retroreflectivity = retroreflectivity;
+#endif
+#ifdef USE_IRIDESCENCE
+	material.iridescence = iridescence;
+	material.iridescenceIOR = iridescenceIOR;
+	#ifdef USE_IRIDESCENCEMAP
+		material.iridescence *= texture2D( iridescenceMap, vIridescenceMapUv ).r;
+	#endif
+	#ifdef USE_IRIDESCENCE_THICKNESSMAP
+		material.iridescenceThickness = (iridescenceThicknessMaximum - iridescenceThicknessMinimum) * texture2D( iridescenceThicknessMap, vIridescenceThicknessMapUv ).g + iridescenceThicknessMinimum;
+	#else
+		material.iridescenceThickness = iridescenceThicknessMaximum;
+	#endif
+#endif
+#ifdef USE_SHEEN
+	material.sheenColor = sheenColor;
+	#ifdef USE_SHEEN_COLORMAP
+		material.sheenColor *= texture2D( sheenColorMap, vSheenColorMapUv ).rgb;
+	#endif
+	material.sheenRoughness = clamp( sheenRoughness, 0.0001, 1.0 );
+	#ifdef USE_SHEEN_ROUGHNESSMAP
+		material.sheenRoughness *= texture2D( sheenRoughnessMap, vSheenRoughnessMapUv ).a;
+	#endif
+#endif
+#ifdef USE_ANISOTROPY
+	#ifdef USE_ANISOTROPYMAP
+		mat2 anisotropyMat = mat2( anisotropyVector.x, anisotropyVector.y, - anisotropyVector.y, anisotropyVector.x );
+		vec3 anisotropyPolar = texture2D( anisotropyMap, vAnisotropyMapUv ).rgb;
+		vec2 anisotropyV = anisotropyMat * normalize( 2.0 * anisotropyPolar.rg - vec2( 1.0 ) ) * anisotropyPolar.b;
+	#else
+		vec2 anisotropyV = anisotropyVector;
+	#endif
+	material.anisotropy = length( anisotropyV );
+	if( material.anisotropy == 0.0 ) {
+		anisotropyV = vec2( 1.0, 0.0 );
+	} else {
+		anisotropyV /= material.anisotropy;
+		material.anisotropy = saturate( material.anisotropy );
+	}
+	material.alphaT = mix( pow2( material.roughness ), 1.0, pow2( material.anisotropy ) );
+	material.anisotropyT = tbn[ 0 ] * anisotropyV.x + tbn[ 1 ] * anisotropyV.y;
+	material.anisotropyB = tbn[ 1 ] * anisotropyV.x - tbn[ 0 ] * anisotropyV.y;
+#endif`,lM=`uniform sampler2D dfgLUT;
+struct PhysicalMaterial {
+	vec3 diffuseColor;
+	vec3 diffuseContribution;
+	vec3 specularColor;
+	vec3 specularColorBlended;
+	float roughness;
+	float metalness;
+	float specularF90;
+	float dispersion;
+	vec2 dfg;
+	vec3 multiScatteringCompensation;
+	#ifdef USE_DIFFUSE_ROUGHNESS
+		float diffuseRoughness;
+	#endif
+	#ifdef USE_RETROREFLECTION
+		float retroreflectivity;
+	#endif
+	#ifdef USE_CLEARCOAT
+		float clearcoat;
+		float clearcoatRoughness;
+		vec3 clearcoatF0;
+		float clearcoatF90;
+	#endif
+	#ifdef USE_IRIDESCENCE
+		float iridescence;
+		float iridescenceIOR;
+		float iridescenceThickness;
+		vec3 iridescenceFresnel;
+		vec3 iridescenceF0Dielectric;
+		vec3 iridescenceF0Metallic;
+	#endif
+	#ifdef USE_SHEEN
+		vec3 sheenColor;
+		float sheenRoughness;
+	#endif
+	#ifdef IOR
+		float ior;
+	#endif
+	#ifdef USE_TRANSMISSION
+		float transmission;
+		float transmissionAlpha;
+		float thickness;
+		float attenuationDistance;
+		vec3 attenuationColor;
+	#endif
+	#ifdef USE_ANISOTROPY
+		float anisotropy;
+		float alphaT;
+		vec3 anisotropyT;
+		vec3 anisotropyB;
+	#endif
+};
+vec3 clearcoatSpecularDirect = vec3( 0.0 );
+vec3 clearcoatSpecularIndirect = vec3( 0.0 );
+vec3 sheenSpecularDirect = vec3( 0.0 );
+vec3 sheenSpecularIndirect = vec3(0.0 );
+vec3 Schlick_to_F0( const in vec3 f, const in float f90, const in float dotVH ) {
+    float x = clamp( 1.0 - dotVH, 0.0, 1.0 );
+    float x2 = x * x;
+    float x5 = clamp( x * x2 * x2, 0.0, 0.9999 );
+    return ( f - vec3( f90 ) * x5 ) / ( 1.0 - x5 );
+}
+#ifdef USE_DIFFUSE_ROUGHNESS
+	const float EON_EPSILON = 1e-7;
+	float FON_DirectionalAlbedo( const in float mu, const in float roughness, const in float A ) {
+		float muComp = 1.0 - mu;
+		float gOverPi = muComp * ( 0.0571085289 + muComp * ( 0.491881867 + muComp * ( - 0.332181442 + muComp * 0.0714429953 ) ) );
+		return A * ( 1.0 + roughness * gOverPi );
+	}
+	vec3 BRDF_EON( const in vec3 lightDir, const in vec3 viewDir, const in vec3 normal, const in vec3 diffuseColor, const in float roughness ) {
+		vec3 rho = saturate( diffuseColor );
+		if ( roughness <= EON_EPSILON ) return BRDF_Lambert( rho );
+		float dotNL = saturate( dot( normal, lightDir ) );
+		float dotNV = saturate( dot( normal, viewDir ) );
+		float s = dot( lightDir, viewDir ) - dotNL * dotNV;
+		float sOverT = ( s > 0.0 ) ? s / max( max( dotNL, dotNV ), EON_EPSILON ) : s;
+		float A = 1.0 / ( 1.0 + ( 0.5 - 2.0 / ( 3.0 * PI ) ) * roughness );
+		vec3 singleScatter = rho * RECIPROCAL_PI * A * ( 1.0 + roughness * sOverT );
+		float averageAlbedo = A * ( 1.0 + ( 2.0 / 3.0 - 28.0 / ( 15.0 * PI ) ) * roughness );
+		float albedoV = FON_DirectionalAlbedo( dotNV, roughness, A );
+		float albedoL = FON_DirectionalAlbedo( dotNL, roughness, A );
+		vec3 rhoMultiScatter = rho * rho * averageAlbedo / max( vec3( EON_EPSILON ), vec3( 1.0 ) - rho * ( 1.0 - averageAlbedo ) );
+		vec3 multiScatter = rhoMultiScatter * RECIPROCAL_PI
+			* max( EON_EPSILON, 1.0 - albedoV )
+			* max( EON_EPSILON, 1.0 - albedoL )
+			/ max( EON_EPSILON, 1.0 - averageAlbedo );
+		return singleScatter + multiScatter;
+	}
+	vec3 EON_DirectionalAlbedo( const in vec3 diffuseColor, const in float roughness, const in float dotNV ) {
+		vec3 rho = saturate( diffuseColor );
+		if ( roughness <= EON_EPSILON ) return rho;
+		float A = 1.0 / ( 1.0 + ( 0.5 - 2.0 / ( 3.0 * PI ) ) * roughness );
+		float directionalAlbedo = FON_DirectionalAlbedo( dotNV, roughness, A );
+		float averageAlbedo = A * ( 1.0 + ( 2.0 / 3.0 - 28.0 / ( 15.0 * PI ) ) * roughness );
+		vec3 rhoMultiScatter = rho * rho * averageAlbedo / max( vec3( EON_EPSILON ), vec3( 1.0 ) - rho * ( 1.0 - averageAlbedo ) );
+		return rho * directionalAlbedo + rhoMultiScatter * ( 1.0 - directionalAlbedo );
+	}
+#endif
+float V_GGX_SmithCorrelated( const in float alpha, const in float dotNL, const in float dotNV ) {
+	float a2 = pow2( alpha );
+	float gv = dotNL * sqrt( a2 + ( 1.0 - a2 ) * pow2( dotNV ) );
+	float gl = dotNV * sqrt( a2 + ( 1.0 - a2 ) * pow2( dotNL ) );
+	return 0.5 / max( gv + gl, EPSILON );
+}
+float D_GGX( const in float alpha, const in float dotNH ) {
+	float a2 = pow2( alpha );
+	float denom = pow2( dotNH ) * ( a2 - 1.0 ) + 1.0;
+	return RECIPROCAL_PI * a2 / pow2( denom );
+}
+#ifdef USE_ANISOTROPY
+	float V_GGX_SmithCorrelated_Anisotropic( const in float alphaT, const in float alphaB, const in float dotTV, const in float dotBV, const in float dotTL, const in float dotBL, const in float dotNV, const in float dotNL ) {
+		float gv = dotNL * length( vec3( alphaT * dotTV, alphaB * dotBV, dotNV ) );
+		float gl = dotNV * length( vec3( alphaT * dotTL, alphaB * dotBL, dotNL ) );
+		return 0.5 / max( gv + gl, EPSILON );
+	}
+	float D_GGX_Anisotropic( const in float alphaT, const in float alphaB, const in float dotNH, const in float dotTH, const in float dotBH ) {
+		float a2 = alphaT * alphaB;
+		highp vec3 v = vec3( alphaB * dotTH, alphaT * dotBH, a2 * dotNH );
+		highp float v2 = dot( v, v );
+		float w2 = a2 / v2;
+		return RECIPROCAL_PI * a2 * pow2 ( w2 );
+	}
+#endif
+#ifdef USE_CLEARCOAT
+	vec3 BRDF_GGX_Clearcoat( const in vec3 lightDir, const in vec3 viewDir, const in vec3 normal, const in PhysicalMaterial material) {
+		vec3 f0 = material.clearcoatF0;
+		float f90 = material.clearcoatF90;
+		float roughness = max( material.clearcoatRoughness, 0.045 );
+		float alpha = pow2( roughness );
+		vec3 halfDir = normalize( lightDir + viewDir );
+		float dotNL = saturate( dot( normal, lightDir ) );
+		float dotNV = saturate( dot( normal, viewDir ) );
+		float dotNH = saturate( dot( normal, halfDir ) );
+		float dotVH = saturate( dot( viewDir, halfDir ) );
+		vec3 F = F_Schlick( f0, f90, dotVH );
+		float V = V_GGX_SmithCorrelated( alpha, dotNL, dotNV );
+		float D = D_GGX( alpha, dotNH );
+		return F * ( V * D );
+	}
+#endif
+vec3 BRDF_GGX( const in vec3 lightDir, const in vec3 viewDir, const in vec3 normal, const in PhysicalMaterial material ) {
+	vec3 f0 = material.specularColorBlended;
+	float f90 = material.specularF90;
+	float roughness = max( material.roughness, 0.045 );
+	float alpha = pow2( roughness );
+	vec3 halfDir = normalize( lightDir + viewDir );
+	float dotNL = saturate( dot( normal, lightDir ) );
+	float dotNV = saturate( dot( normal, viewDir ) );
+	float dotNH = saturate( dot( normal, halfDir ) );
+	float dotVH = saturate( dot( viewDir, halfDir ) );
+	vec3 F = F_Schlick( f0, f90, dotVH );
+	#ifdef USE_IRIDESCENCE
+		F = mix( F, material.iridescenceFresnel, material.iridescence );
+	#endif
+	#ifdef USE_ANISOTROPY
+		float dotTL = dot( material.anisotropyT, lightDir );
+		float dotTV = dot( material.anisotropyT, viewDir );
+		float dotTH = dot( material.anisotropyT, halfDir );
+		float dotBL = dot( material.anisotropyB, lightDir );
+		float dotBV = dot( material.anisotropyB, viewDir );
+		float dotBH = dot( material.anisotropyB, halfDir );
+		float alphaT = max( material.alphaT, alpha );
+		float V = V_GGX_SmithCorrelated_Anisotropic( alphaT, alpha, dotTV, dotBV, dotTL, dotBL, dotNV, dotNL );
+		float D = D_GGX_Anisotropic( alphaT, alpha, dotNH, dotTH, dotBH );
+	#else
+		float V = V_GGX_SmithCorrelated( alpha, dotNL, dotNV );
+		float D = D_GGX( alpha, dotNH );
+	#endif
+	return F * ( V * D );
+}
+vec2 LTC_Uv( const in vec3 N, const in vec3 V, const in float roughness ) {
+	const float LUT_SIZE = 64.0;
+	const float LUT_SCALE = ( LUT_SIZE - 1.0 ) / LUT_SIZE;
+	const float LUT_BIAS = 0.5 / LUT_SIZE;
+	float dotNV = saturate( dot( N, V ) );
+	vec2 uv = vec2( roughness, sqrt( 1.0 - dotNV ) );
+	uv = uv * LUT_SCALE + LUT_BIAS;
+	return uv;
+}
+float LTC_ClippedSphereFormFactor( const in vec3 f ) {
+	float l = length( f );
+	return max( ( l * l + f.z ) / ( l + 1.0 ), 0.0 );
+}
+vec3 LTC_EdgeVectorFormFactor( const in vec3 v1, const in vec3 v2 ) {
+	float x = dot( v1, v2 );
+	float y = abs( x );
+	float a = 0.8543985 + ( 0.4965155 + 0.0145206 * y ) * y;
+	float b = 3.4175940 + ( 4.1616724 + y ) * y;
+	float v = a / b;
+	float theta_sintheta = ( x > 0.0 ) ? v : 0.5 * inversesqrt( max( 1.0 - x * x, 1e-7 ) ) - v;
+	return cross( v1, v2 ) * theta_sintheta;
+}
+vec3 LTC_Evaluate( const in vec3 N, const in vec3 V, const in vec3 P, const in mat3 mInv, const in vec3 rectCoords[ 4 ] ) {
+	vec3 v1 = rectCoords[ 1 ] - rectCoords[ 0 ];
+	vec3 v2 = rectCoords[ 3 ] - rectCoords[ 0 ];
+	vec3 lightNormal = cross( v1, v2 );
+	if( dot( lightNormal, P - rectCoords[ 0 ] ) < 0.0 ) return vec3( 0.0 );
+	vec3 T1, T2;
+	T1 = normalize( V - N * dot( V, N ) );
+	T2 = - cross( N, T1 );
+	mat3 mat = mInv * transpose( mat3( T1, T2, N ) );
+	vec3 coords[ 4 ];
+	coords[ 0 ] = mat * ( rectCoords[ 0 ] - P );
+	coords[ 1 ] = mat * ( rectCoords[ 1 ] - P );
+	coords[ 2 ] = mat * ( rectCoords[ 2 ] - P );
+	coords[ 3 ] = mat * ( rectCoords[ 3 ] - P );
+	coords[ 0 ] = normalize( coords[ 0 ] );
+	coords[ 1 ] = normalize( coords[ 1 ] );
+	coords[ 2 ] = normalize( coords[ 2 ] );
+	coords[ 3 ] = normalize( coords[ 3 ] );
+	vec3 vectorFormFactor = vec3( 0.0 );
+	vectorFormFactor += LTC_EdgeVectorFormFactor( coords[ 0 ], coords[ 1 ] );
+	vectorFormFactor += LTC_EdgeVectorFormFactor( coords[ 1 ], coords[ 2 ] );
+	vectorFormFactor += LTC_EdgeVectorFormFactor( coords[ 2 ], coords[ 3 ] );
+	vectorFormFactor += LTC_EdgeVectorFormFactor( coords[ 3 ], coords[ 0 ] );
+	float result = LTC_ClippedSphereFormFactor( vectorFormFactor );
+	return vec3( result );
+}
+#if defined( USE_SHEEN )
+float D_Charlie( float roughness, float dotNH ) {
+	float alpha = pow2( roughness );
+	float invAlpha = 1.0 / alpha;
+	float cos2h = dotNH * dotNH;
+	float sin2h = max( 1.0 - cos2h, 0.0078125 );
+	return ( 2.0 + invAlpha ) * pow( sin2h, invAlpha * 0.5 ) / ( 2.0 * PI );
+}
+float V_Neubelt( float dotNV, float dotNL ) {
+	return saturate( 1.0 / ( 4.0 * ( dotNL + dotNV - dotNL * dotNV ) ) );
+}
+vec3 BRDF_Sheen( const in vec3 lightDir, const in vec3 viewDir, const in vec3 normal, vec3 sheenColor, const in float sheenRoughness ) {
+	vec3 halfDir = normalize( lightDir + viewDir );
+	float dotNL = saturate( dot( normal, lightDir ) );
+	float dotNV = saturate( dot( normal, viewDir ) );
+	float dotNH = saturate( dot( normal, halfDir ) );
+	float D = D_Charlie( sheenRoughness, dotNH );
+	float V = V_Neubelt( dotNV, dotNL );
+	return sheenColor * ( D * V );
+}
+#endif
+float IBLSheenBRDF( const in vec3 normal, const in vec3 viewDir, const in float roughness ) {
+	float dotNV = saturate( dot( normal, viewDir ) );
+	float r2 = roughness * roughness;
+	float rInv = 1.0 / ( roughness + 0.1 );
+	float a = -1.9362 + 1.0678 * roughness + 0.4573 * r2 - 0.8469 * rInv;
+	float b = -0.6014 + 0.5538 * roughness - 0.4670 * r2 - 0.1255 * rInv;
+	float DG = exp( a * dotNV + b );
+	return saturate( DG );
+}
+vec3 EnvironmentBRDF( const in vec3 normal, const in vec3 viewDir, const in vec3 specularColor, const in float specularF90, const in float roughness ) {
+	float dotNV = saturate( dot( normal, viewDir ) );
+	vec2 fab = texture2D( dfgLUT, vec2( roughness, dotNV ) ).rg;
+	return specularColor * fab.x + specularF90 * fab.y;
+}
+#ifdef USE_IRIDESCENCE
+void computeMultiscatteringIridescence( const in vec2 fab, const in vec3 specularColor, const in float specularF90, const in float iridescence, const in vec3 iridescenceF0, inout vec3 singleScatter, inout vec3 multiScatter ) {
+#else
+void computeMultiscattering( const in vec2 fab, const in vec3 specularColor, const in float specularF90, inout vec3 singleScatter, inout vec3 multiScatter ) {
+#endif
+	#ifdef USE_IRIDESCENCE
+		vec3 Fr = mix( specularColor, iridescenceF0, iridescence );
+	#else
+		vec3 Fr = specularColor;
+	#endif
+	vec3 FssEss = Fr * fab.x + specularF90 * fab.y;
+	float Ess = fab.x + fab.y;
+	float Ems = 1.0 - Ess;
+	vec3 Favg = Fr + ( 1.0 - Fr ) * 0.047619;	vec3 Fms = FssEss * Favg / ( 1.0 - Ems * Favg );
+	singleScatter += FssEss;
+	multiScatter += Fms * Ems;
+}
+#if NUM_RECT_AREA_LIGHTS > 0
+	void RE_Direct_RectArea_Physical( const in RectAreaLight rectAreaLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material, inout ReflectedLight reflectedLight ) {
+		vec3 normal = geometryNormal;
+		vec3 viewDir = geometryViewDir;
+		vec3 position = geometryPosition;
+		vec3 lightPos = rectAreaLight.position;
+		vec3 halfWidth = rectAreaLight.halfWidth;
+		vec3 halfHeight = rectAreaLight.halfHeight;
+		vec3 lightColor = rectAreaLight.color;
+		float roughness = material.roughness;
+		vec3 rectCoords[ 4 ];
+		rectCoords[ 0 ] = lightPos + halfWidth - halfHeight;		rectCoords[ 1 ] = lightPos - halfWidth - halfHeight;
+		rectCoords[ 2 ] = lightPos - halfWidth + halfHeight;
+		rectCoords[ 3 ] = lightPos + halfWidth + halfHeight;
+		vec2 uv = LTC_Uv( normal, viewDir, roughness );
+		vec4 t1 = texture2D( ltc_1, uv );
+		vec4 t2 = texture2D( ltc_2, uv );
+		mat3 mInv = mat3(
+			vec3( t1.x, 0, t1.y ),
+			vec3(    0, 1,    0 ),
+			vec3( t1.z, 0, t1.w )
+		);
+		vec3 fresnel = ( material.specularColorBlended * t2.x + ( material.specularF90 - material.specularColorBlended ) * t2.y );
+		reflectedLight.directSpecular += lightColor * fresnel * LTC_Evaluate( normal, viewDir, position, mInv, rectCoords );
+		reflectedLight.directDiffuse += lightColor * material.diffuseContribution * LTC_Evaluate( normal, viewDir, position, mat3( 1.0 ), rectCoords );
+		#ifdef USE_CLEARCOAT
+			vec3 Ncc = geometryClearcoatNormal;
+			vec2 uvClearcoat = LTC_Uv( Ncc, viewDir, material.clearcoatRoughness );
+			vec4 t1Clearcoat = texture2D( ltc_1, uvClearcoat );
+			vec4 t2Clearcoat = texture2D( ltc_2, uvClearcoat );
+			mat3 mInvClearcoat = mat3(
+				vec3( t1Clearcoat.x, 0, t1Clearcoat.y ),
+				vec3(             0, 1,             0 ),
+				vec3( t1Clearcoat.z, 0, t1Clearcoat.w )
+			);
+			vec3 fresnelClearcoat = material.clearcoatF0 * t2Clearcoat.x + ( material.clearcoatF90 - material.clearcoatF0 ) * t2Clearcoat.y;
+			clearcoatSpecularDirect += lightColor * fresnelClearcoat * LTC_Evaluate( Ncc, viewDir, position, mInvClearcoat, rectCoords );
+		#endif
+	}
+#endif
+void RE_Direct_Physical( const in IncidentLight directLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material, inout ReflectedLight reflectedLight ) {
+	float dotNL = saturate( dot( geometryNormal, directLight.direction ) );
+	vec3 irradiance = dotNL * directLight.color;
+	#ifdef USE_CLEARCOAT
+		float dotNLcc = saturate( dot( geometryClearcoatNormal, directLight.direction ) );
+		vec3 ccIrradiance = dotNLcc * directLight.color;
+		clearcoatSpecularDirect += ccIrradiance * BRDF_GGX_Clearcoat( directLight.direction, geometryViewDir, geometryClearcoatNormal, material );
+	#endif
+	#ifdef USE_SHEEN
+ 
+ 		sheenSpecularDirect += irradiance * BRDF_Sheen( directLight.direction, geometryViewDir, geometryNormal, material.sheenColor, material.sheenRoughness );
+ 
+ 		float sheenAlbedoV = IBLSheenBRDF( geometryNormal, geometryViewDir, material.sheenRoughness );
+ 		float sheenAlbedoL = IBLSheenBRDF( geometryNormal, directLight.direction, material.sheenRoughness );
+ 
+ 		float sheenEnergyComp = 1.0 - max3( material.sheenColor ) * max( sheenAlbedoV, sheenAlbedoL );
+ 
+ 		irradiance *= sheenEnergyComp;
+ 
+ 	#endif
+	vec3 specularBRDF = BRDF_GGX( directLight.direction, geometryViewDir, geometryNormal, material );
+	#ifdef USE_RETROREFLECTION
+		vec3 retroViewDir = reflect( - geometryViewDir, geometryNormal );
+		vec3 retroSpecularBRDF = BRDF_GGX( directLight.direction, retroViewDir, geometryNormal, material );
+		specularBRDF = mix( specularBRDF, retroSpecularBRDF, saturate( material.retroreflectivity ) );
+	#endif
+	reflectedLight.directSpecular += irradiance * specularBRDF * material.multiScatteringCompensation;
+	vec3 halfDir = normalize( directLight.direction + geometryViewDir );
+	float dotVH = saturate( dot( geometryViewDir, halfDir ) );
+	vec3 F = F_Schlick( material.specularColor, material.specularF90, dotVH );
+	#ifdef USE_RETROREFLECTION
+		vec3 retroHalfDir = normalize( directLight.direction + retroViewDir );
+		float dotRetroVH = saturate( dot( retroViewDir, retroHalfDir ) );
+		vec3 retroF = F_Schlick( material.specularColor, material.specularF90, dotRetroVH );
+		F = mix( F, retroF, saturate( material.retroreflectivity ) );
+	#endif
+	#ifdef USE_DIFFUSE_ROUGHNESS
+		vec3 diffuseBRDF = BRDF_EON( directLight.direction, geometryViewDir, geometryNormal, material.diffuseColor, material.diffuseRoughness ) * ( 1.0 - material.metalness );
+	#else
+		vec3 diffuseBRDF = BRDF_Lambert( material.diffuseContribution );
+	#endif
+	reflectedLight.directDiffuse += irradiance * diffuseBRDF * ( 1.0 - F );
+}
+void RE_IndirectDiffuse_Physical( const in vec3 irradiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material, inout ReflectedLight reflectedLight ) {
+	vec3 singleScattering = vec3( 0.0 );
+	vec3 multiScattering = vec3( 0.0 );
+	#ifdef USE_IRIDESCENCE
+		computeMultiscatteringIridescence( material.dfg, material.specularColor, material.specularF90, material.iridescence, material.iridescenceF0Dielectric, singleScattering, multiScattering );
+	#else
+		computeMultiscattering( material.dfg, material.specularColor, material.specularF90, singleScattering, multiScattering );
+	#endif
+	#ifdef USE_DIFFUSE_ROUGHNESS
+		float dotNV = saturate( dot( geometryNormal, geometryViewDir ) );
+		vec3 diffuseAlbedo = EON_DirectionalAlbedo( material.diffuseColor, material.diffuseRoughness, dotNV ) * ( 1.0 - material.metalness );
+		vec3 diffuse = irradiance * RECIPROCAL_PI * diffuseAlbedo * ( 1.0 - singleScattering - multiScattering );
+	#else
+		vec3 diffuse = irradiance * BRDF_Lambert( material.diffuseContribution ) * ( 1.0 - singleScattering - multiScattering );
+	#endif
+	#ifdef USE_SHEEN
+		float sheenAlbedo = IBLSheenBRDF( geometryNormal, geometryViewDir, material.sheenRoughness );
+		sheenSpecularIndirect += irradiance * material.sheenColor * sheenAlbedo * RECIPROCAL_PI;
+		float sheenEnergyComp = 1.0 - max3( material.sheenColor ) * sheenAlbedo;
+		diffuse *= sheenEnergyComp;
+	#endif
+	reflectedLight.indirectDiffuse += diffuse;
+}
+void RE_IndirectSpecular_Physical( const in vec3 radiance, const in vec3 irradiance, const in vec3 clearcoatRadiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material, inout ReflectedLight reflectedLight) {
+	#ifdef USE_CLEARCOAT
+		clearcoatSpecularIndirect += clearcoatRadiance * EnvironmentBRDF( geometryClearcoatNormal, geometryViewDir, material.clearcoatF0, material.clearcoatF90, material.clearcoatRoughness );
+	#endif
+	#ifdef USE_SHEEN
+		sheenSpecularIndirect += irradiance * material.sheenColor * IBLSheenBRDF( geometryNormal, geometryViewDir, material.sheenRoughness ) * RECIPROCAL_PI;
+ 	#endif
+	vec3 singleScatteringDielectric = vec3( 0.0 );
+	vec3 multiScatteringDielectric = vec3( 0.0 );
+	vec3 singleScatteringMetallic = vec3( 0.0 );
+	vec3 multiScatteringMetallic = vec3( 0.0 );
+	#ifdef USE_IRIDESCENCE
+		computeMultiscatteringIridescence( material.dfg, material.specularColor, material.specularF90, material.iridescence, material.iridescenceF0Dielectric, singleScatteringDielectric, multiScatteringDielectric );
+		computeMultiscatteringIridescence( material.dfg, material.diffuseColor, material.specularF90, material.iridescence, material.iridescenceF0Metallic, singleScatteringMetallic, multiScatteringMetallic );
+	#else
+		computeMultiscattering( material.dfg, material.specularColor, material.specularF90, singleScatteringDielectric, multiScatteringDielectric );
+		computeMultiscattering( material.dfg, material.diffuseColor, material.specularF90, singleScatteringMetallic, multiScatteringMetallic );
+	#endif
+	vec3 singleScattering = mix( singleScatteringDielectric, singleScatteringMetallic, material.metalness );
+	vec3 multiScattering = mix( multiScatteringDielectric, multiScatteringMetallic, material.metalness );
+	vec3 totalScatteringDielectric = singleScatteringDielectric + multiScatteringDielectric;
+	#ifdef USE_DIFFUSE_ROUGHNESS
+		float dotNV = saturate( dot( geometryNormal, geometryViewDir ) );
+		vec3 diffuse = EON_DirectionalAlbedo( material.diffuseColor, material.diffuseRoughness, dotNV ) * ( 1.0 - material.metalness ) * ( 1.0 - totalScatteringDielectric );
+	#else
+		vec3 diffuse = material.diffuseContribution * ( 1.0 - totalScatteringDielectric );
+	#endif
+	vec3 cosineWeightedIrradiance = irradiance * RECIPROCAL_PI;
+	vec3 indirectSpecular = radiance * singleScattering;
+	indirectSpecular += multiScattering * cosineWeightedIrradiance;
+	vec3 indirectDiffuse = diffuse * cosineWeightedIrradiance;
+	#ifdef USE_SHEEN
+		float sheenAlbedo = IBLSheenBRDF( geometryNormal, geometryViewDir, material.sheenRoughness );
+		float sheenEnergyComp = 1.0 - max3( material.sheenColor ) * sheenAlbedo;
+		indirectSpecular *= sheenEnergyComp;
+		indirectDiffuse *= sheenEnergyComp;
+	#endif
+	reflectedLight.indirectSpecular += indirectSpecular;
+	reflectedLight.indirectDiffuse += indirectDiffuse;
+}
+#define RE_Direct				RE_Direct_Physical
+#define RE_Direct_RectArea		RE_Direct_RectArea_Physical
+#define RE_IndirectDiffuse		RE_IndirectDiffuse_Physical
+#define RE_IndirectSpecular		RE_IndirectSpecular_Physical
+float computeSpecularOcclusion( const in float dotNV, const in float ambientOcclusion, const in float roughness ) {
+	return saturate( pow( dotNV + ambientOcclusion, exp2( - 16.0 * roughness - 1.0 ) ) - 1.0 + ambientOcclusion );
+}`,cM=`
+vec3 geometryPosition = - vViewPosition;
+vec3 geometryNormal = normal;
+vec3 geometryViewDir = ( isOrthographic ) ? vec3( 0, 0, 1 ) : normalize( vViewPosition );
+vec3 geometryClearcoatNormal = vec3( 0.0 );
+#ifdef USE_CLEARCOAT
+	geometryClearcoatNormal = clearcoatNormal;
+#endif
+#ifdef USE_IRIDESCENCE
+	float dotNVi = saturate( dot( normal, geometryViewDir ) );
+	if ( material.iridescenceThickness == 0.0 ) {
+		material.iridescence = 0.0;
+	} else {
+		material.iridescence = saturate( material.iridescence );
+	}
+	if ( material.iridescence > 0.0 ) {
+		vec3 iridescenceFresnelDielectric = evalIridescence( 1.0, material.iridescenceIOR, dotNVi, material.iridescenceThickness, material.specularColor );
+		vec3 iridescenceFresnelMetallic = evalIridescence( 1.0, material.iridescenceIOR, dotNVi, material.iridescenceThickness, material.diffuseColor );
+		material.iridescenceFresnel = mix( iridescenceFresnelDielectric, iridescenceFresnelMetallic, material.metalness );
+		material.iridescenceF0Dielectric = Schlick_to_F0( iridescenceFresnelDielectric, 1.0, dotNVi );
+		material.iridescenceF0Metallic = Schlick_to_F0( iridescenceFresnelMetallic, 1.0, dotNVi );
+	}
+#endif
+#ifdef STANDARD
+	float dotNVms = saturate( dot( geometryNormal, geometryViewDir ) );
+	material.dfg = texture2D( dfgLUT, vec2( material.roughness, dotNVms ) ).rg;
+	#if ( NUM_SUN_LIGHTS > 0 || NUM_DIR_LIGHTS > 0 || NUM_POINT_LIGHTS > 0 || NUM_SPOT_LIGHTS > 0 )
+		float EssMs = material.dfg.x + material.dfg.y;
+		material.multiScatteringCompensation = 1.0 + material.specularColorBlended * ( 1.0 / EssMs - 1.0 );
+	#endif
+#endif
+IncidentLight directLight;
+#if ( NUM_POINT_LIGHTS > 0 ) && defined( RE_Direct )
+	PointLight pointLight;
+	#if defined( USE_SHADOWMAP ) && NUM_POINT_LIGHT_SHADOWS > 0
+	PointLightShadow pointLightShadow;
+	#endif
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_POINT_LIGHTS; i ++ ) {
+		pointLight = pointLights[ i ];
+		getPointLightInfo( pointLight, geometryPosition, directLight );
+		#if defined( USE_SHADOWMAP ) && ( UNROLLED_LOOP_INDEX < NUM_POINT_LIGHT_SHADOWS ) && ( defined( SHADOWMAP_TYPE_PCF ) || defined( SHADOWMAP_TYPE_BASIC ) )
+		pointLightShadow = pointLightShadows[ i ];
+		directLight.color *= ( directLight.visible && receiveShadow ) ? getPointShadow( pointShadowMap[ i ], pointLightShadow.shadowMapSize, pointLightShadow.shadowIntensity, pointLightShadow.shadowBias, pointLightShadow.shadowRadius, vPointShadowCoord[ i ], pointLightShadow.shadowCameraNear, pointLightShadow.shadowCameraFar ) : 1.0;
+		#endif
+		RE_Direct( directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+	}
+	#pragma unroll_loop_end
+#endif
+#if ( NUM_SPOT_LIGHTS > 0 ) && defined( RE_Direct )
+	SpotLight spotLight;
+	vec4 spotColor;
+	vec3 spotLightCoord;
+	bool inSpotLightMap;
+	#if defined( USE_SHADOWMAP ) && NUM_SPOT_LIGHT_SHADOWS > 0
+	SpotLightShadow spotLightShadow;
+	#endif
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_SPOT_LIGHTS; i ++ ) {
+		spotLight = spotLights[ i ];
+		getSpotLightInfo( spotLight, geometryPosition, directLight );
+		#if ( UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS_WITH_MAPS )
+		#define SPOT_LIGHT_MAP_INDEX UNROLLED_LOOP_INDEX
+		#elif ( UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS )
+		#define SPOT_LIGHT_MAP_INDEX NUM_SPOT_LIGHT_MAPS
+		#else
+		#define SPOT_LIGHT_MAP_INDEX ( UNROLLED_LOOP_INDEX - NUM_SPOT_LIGHT_SHADOWS + NUM_SPOT_LIGHT_SHADOWS_WITH_MAPS )
+		#endif
+		#if ( SPOT_LIGHT_MAP_INDEX < NUM_SPOT_LIGHT_MAPS )
+			spotLightCoord = vSpotLightCoord[ i ].xyz / vSpotLightCoord[ i ].w;
+			inSpotLightMap = all( lessThan( abs( spotLightCoord * 2. - 1. ), vec3( 1.0 ) ) );
+			spotColor = texture2D( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], spotLightCoord.xy );
+			directLight.color = inSpotLightMap ? directLight.color * spotColor.rgb : directLight.color;
+		#endif
+		#undef SPOT_LIGHT_MAP_INDEX
+		#if defined( USE_SHADOWMAP ) && ( UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS )
+		spotLightShadow = spotLightShadows[ i ];
+		directLight.color *= ( directLight.visible && receiveShadow ) ? getShadow( spotShadowMap[ i ], spotLightShadow.shadowMapSize, spotLightShadow.shadowIntensity, spotLightShadow.shadowBias, spotLightShadow.shadowRadius, vSpotLightCoord[ i ] ) : 1.0;
+		#endif
+		RE_Direct( directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+	}
+	#pragma unroll_loop_end
+#endif
+#if ( NUM_SUN_LIGHTS > 0 ) && defined( RE_Direct )
+	SunLight sunLight;
+	#if defined( USE_SHADOWMAP ) && NUM_SUN_LIGHT_SHADOWS > 0
+	SunLightShadow sunLightShadow;
+	#endif
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_SUN_LIGHTS; i ++ ) {
+		sunLight = sunLights[ i ];
+		getSunLightInfo( sunLight, directLight );
+		#if defined( USE_SHADOWMAP ) && ( UNROLLED_LOOP_INDEX < NUM_SUN_LIGHT_SHADOWS )
+		sunLightShadow = sunLightShadows[ i ];
+		directLight.color *= ( directLight.visible && receiveShadow ) ? getSunShadow( sunShadowMap[ i ], sunLightShadow, UNROLLED_LOOP_INDEX ) : 1.0;
+		#endif
+		RE_Direct( directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+	}
+	#pragma unroll_loop_end
+#endif
+#if ( NUM_DIR_LIGHTS > 0 ) && defined( RE_Direct )
+	DirectionalLight directionalLight;
+	#if defined( USE_SHADOWMAP ) && NUM_DIR_LIGHT_SHADOWS > 0
+	DirectionalLightShadow directionalLightShadow;
+	#endif
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_DIR_LIGHTS; i ++ ) {
+		directionalLight = directionalLights[ i ];
+		getDirectionalLightInfo( directionalLight, directLight );
+		#if defined( USE_SHADOWMAP ) && ( UNROLLED_LOOP_INDEX < NUM_DIR_LIGHT_SHADOWS )
+		directionalLightShadow = directionalLightShadows[ i ];
+		directLight.color *= ( directLight.visible && receiveShadow ) ? getShadow( directionalShadowMap[ i ], directionalLightShadow.shadowMapSize, directionalLightShadow.shadowIntensity, directionalLightShadow.shadowBias, directionalLightShadow.shadowRadius, vDirectionalShadowCoord[ i ] ) : 1.0;
+		#endif
+		RE_Direct( directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+	}
+	#pragma unroll_loop_end
+#endif
+#if ( NUM_RECT_AREA_LIGHTS > 0 ) && defined( RE_Direct_RectArea )
+	RectAreaLight rectAreaLight;
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_RECT_AREA_LIGHTS; i ++ ) {
+		rectAreaLight = rectAreaLights[ i ];
+		RE_Direct_RectArea( rectAreaLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+	}
+	#pragma unroll_loop_end
+#endif
+#if defined( RE_IndirectDiffuse )
+	vec3 iblIrradiance = vec3( 0.0 );
+	vec3 irradiance = getAmbientLightIrradiance( ambientLightColor );
+	#if defined( USE_LIGHT_PROBES )
+		irradiance += getLightProbeIrradiance( lightProbe, geometryNormal );
+	#endif
+	#if ( NUM_HEMI_LIGHTS > 0 )
+		#pragma unroll_loop_start
+		for ( int i = 0; i < NUM_HEMI_LIGHTS; i ++ ) {
+			irradiance += getHemisphereLightIrradiance( hemisphereLights[ i ], geometryNormal );
+		}
+		#pragma unroll_loop_end
+	#endif
+	#if NUM_LIGHT_PROBE_GRIDS > 0
+		vec3 probeWorldPos = ( ( vec4( geometryPosition, 1.0 ) - viewMatrix[ 3 ] ) * viewMatrix ).xyz;
+		vec3 probeWorldNormal = transformNormalByInverseViewMatrix( geometryNormal, viewMatrix );
+		int probeGrid = - 1;
+		#pragma unroll_loop_start
+		for ( int i = 0; i < NUM_LIGHT_PROBE_GRIDS; i ++ ) {
+			if ( isInsideLightProbeGrid( probeWorldPos, probeWorldNormal, probesMin[ i ], probesMax[ i ], probesResolution[ i ] ) ) probeGrid = UNROLLED_LOOP_INDEX;
+		}
+		#pragma unroll_loop_end
+		#pragma unroll_loop_start
+		for ( int i = 0; i < NUM_LIGHT_PROBE_GRIDS; i ++ ) {
+			if ( probeGrid == UNROLLED_LOOP_INDEX ) irradiance += getLightProbeGridIrradiance( probesSH[ i ], probesMin[ i ], probesMax[ i ], probesResolution[ i ], probeWorldPos, probeWorldNormal );
+		}
+		#pragma unroll_loop_end
+	#endif
+#endif
+#if defined( RE_IndirectSpecular )
+	vec3 radiance = vec3( 0.0 );
+	vec3 clearcoatRadiance = vec3( 0.0 );
+#endif`,hM=`#if defined( RE_IndirectDiffuse )
+	#ifdef USE_LIGHTMAP
+		vec4 lightMapTexel = texture2D( lightMap, vLightMapUv );
+		vec3 lightMapIrradiance = lightMapTexel.rgb * lightMapIntensity;
+		irradiance += lightMapIrradiance;
+	#endif
+	#if defined( USE_ENVMAP ) && defined( ENVMAP_TYPE_PMREM )
+		#if defined( STANDARD ) || defined( LAMBERT ) || defined( PHONG )
+			iblIrradiance += getIBLIrradiance( geometryNormal );
+		#endif
+	#endif
+#endif
+#if defined( USE_ENVMAP ) && defined( RE_IndirectSpecular )
+	#ifdef USE_ANISOTROPY
+		vec3 iblRadiance = getIBLAnisotropyRadiance( geometryViewDir, geometryNormal, material.roughness, material.anisotropyB, material.anisotropy );
+	#else
+		vec3 iblRadiance = getIBLRadiance( geometryViewDir, geometryNormal, material.roughness );
+	#endif
+	#ifdef USE_RETROREFLECTION
+		#ifdef USE_ANISOTROPY
+			vec3 retroIBLRadiance = getIBLAnisotropyRetroRadiance( geometryViewDir, geometryNormal, material.roughness, material.anisotropyB, material.anisotropy );
+		#else
+			vec3 retroIBLRadiance = getIBLRetroRadiance( geometryViewDir, geometryNormal, material.roughness );
+		#endif
+		iblRadiance = mix( iblRadiance, retroIBLRadiance, saturate( material.retroreflectivity ) );
+	#endif
+	radiance += iblRadiance;
+	#ifdef USE_CLEARCOAT
+		clearcoatRadiance += getIBLRadiance( geometryViewDir, geometryClearcoatNormal, material.clearcoatRoughness );
+	#endif
+#endif`,uM=`#if defined( RE_IndirectDiffuse )
+	#if defined( LAMBERT ) || defined( PHONG )
+		irradiance += iblIrradiance;
+	#endif
+	RE_IndirectDiffuse( irradiance, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+#endif
+#if defined( RE_IndirectSpecular )
+	RE_IndirectSpecular( radiance, iblIrradiance, clearcoatRadiance, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+#endif`,fM=`#if NUM_LIGHT_PROBE_GRIDS > 0
+uniform highp sampler3D probesSH[ NUM_LIGHT_PROBE_GRIDS ];
+uniform vec3 probesMin[ NUM_LIGHT_PROBE_GRIDS ];
+uniform vec3 probesMax[ NUM_LIGHT_PROBE_GRIDS ];
+uniform vec3 probesResolution[ NUM_LIGHT_PROBE_GRIDS ];
+bool isInsideLightProbeGrid( vec3 worldPos, vec3 worldNormal, vec3 probesMin, vec3 probesMax, vec3 probesResolution ) {
+	vec3 spacing = ( probesMax - probesMin ) / probesResolution;
+	vec3 samplePos = worldPos + worldNormal * spacing * 0.5;
+	vec3 margin = spacing * 0.01;
+	return all( greaterThanEqual( samplePos, probesMin - margin ) ) && all( lessThanEqual( samplePos, probesMax + margin ) );
+}
+vec3 getLightProbeGridIrradiance( highp sampler3D probesSH, vec3 probesMin, vec3 probesMax, vec3 probesResolution, vec3 worldPos, vec3 worldNormal ) {
+	vec3 res = probesResolution;
+	vec3 gridRange = probesMax - probesMin;
+	vec3 probeSpacing = gridRange / res;
+	vec3 samplePos = worldPos + worldNormal * probeSpacing * 0.5;
+	vec3 uvw = clamp( ( samplePos - probesMin ) / gridRange, 0.5 / res, 1.0 - 0.5 / res );
+	float nz          = res.z;
+	float paddedSlices = nz + 2.0;
+	float atlasDepth  = 7.0 * paddedSlices;
+	float uvZBase     = uvw.z * nz + 1.0;
+	vec4 s0 = texture( probesSH, vec3( uvw.xy, ( uvZBase                       ) / atlasDepth ) );
+	vec4 s1 = texture( probesSH, vec3( uvw.xy, ( uvZBase +       paddedSlices   ) / atlasDepth ) );
+	vec4 s2 = texture( probesSH, vec3( uvw.xy, ( uvZBase + 2.0 * paddedSlices   ) / atlasDepth ) );
+	vec4 s3 = texture( probesSH, vec3( uvw.xy, ( uvZBase + 3.0 * paddedSlices   ) / atlasDepth ) );
+	vec4 s4 = texture( probesSH, vec3( uvw.xy, ( uvZBase + 4.0 * paddedSlices   ) / atlasDepth ) );
+	vec4 s5 = texture( probesSH, vec3( uvw.xy, ( uvZBase + 5.0 * paddedSlices   ) / atlasDepth ) );
+	vec4 s6 = texture( probesSH, vec3( uvw.xy, ( uvZBase + 6.0 * paddedSlices   ) / atlasDepth ) );
+	vec3 c0 = s0.xyz;
+	vec3 c1 = vec3( s0.w, s1.xy );
+	vec3 c2 = vec3( s1.zw, s2.x );
+	vec3 c3 = s2.yzw;
+	vec3 c4 = s3.xyz;
+	vec3 c5 = vec3( s3.w, s4.xy );
+	vec3 c6 = vec3( s4.zw, s5.x );
+	vec3 c7 = s5.yzw;
+	vec3 c8 = s6.xyz;
+	float x = worldNormal.x, y = worldNormal.y, z = worldNormal.z;
+	vec3 result = c0 * 0.886227;
+	result += c1 * 2.0 * 0.511664 * y;
+	result += c2 * 2.0 * 0.511664 * z;
+	result += c3 * 2.0 * 0.511664 * x;
+	result += c4 * 2.0 * 0.429043 * x * y;
+	result += c5 * 2.0 * 0.429043 * y * z;
+	result += c6 * ( 0.743125 * z * z - 0.247708 );
+	result += c7 * 2.0 * 0.429043 * x * z;
+	result += c8 * 0.429043 * ( x * x - y * y );
+	return max( result, vec3( 0.0 ) );
+}
+#endif`,dM=`#if defined( USE_LOGARITHMIC_DEPTH_BUFFER )
+	gl_FragDepth = vIsPerspective == 0.0 ? gl_FragCoord.z : log2( vFragDepth ) * logDepthBufFC * 0.5;
+#endif`,pM=`#if defined( USE_LOGARITHMIC_DEPTH_BUFFER )
+	uniform float logDepthBufFC;
+	varying float vFragDepth;
+	varying float vIsPerspective;
+#endif`,mM=`#ifdef USE_LOGARITHMIC_DEPTH_BUFFER
+	varying float vFragDepth;
+	varying float vIsPerspective;
+#endif`,gM=`#ifdef USE_LOGARITHMIC_DEPTH_BUFFER
+	vFragDepth = 1.0 + gl_Position.w;
+	vIsPerspective = float( isPerspectiveMatrix( projectionMatrix ) );
+#endif`,_M=`#ifdef USE_MAP
+	vec4 sampledDiffuseColor = texture2D( map, vMapUv );
+	#ifdef DECODE_VIDEO_TEXTURE
+		sampledDiffuseColor = sRGBTransferEOTF( sampledDiffuseColor );
+	#endif
+	diffuseColor *= sampledDiffuseColor;
+#endif`,yM=`#ifdef USE_MAP
+	uniform sampler2D map;
+#endif`,xM=`#if defined( USE_MAP ) || defined( USE_ALPHAMAP )
+	#if defined( USE_POINTS_UV )
+		vec2 uv = vUv;
+	#else
+		vec2 uv = ( uvTransform * vec3( gl_PointCoord.x, 1.0 - gl_PointCoord.y, 1 ) ).xy;
+	#endif
+#endif
+#ifdef USE_MAP
+	diffuseColor *= texture2D( map, uv );
+#endif
+#ifdef USE_ALPHAMAP
+	diffuseColor.a *= texture2D( alphaMap, uv ).g;
+#endif`,vM=`#if defined( USE_POINTS_UV )
+	varying vec2 vUv;
+#else
+	#if defined( USE_MAP ) || defined( USE_ALPHAMAP )
+		uniform mat3 uvTransform;
+	#endif
+#endif
+#ifdef USE_MAP
+	uniform sampler2D map;
+#endif
+#ifdef USE_ALPHAMAP
+	uniform sampler2D alphaMap;
+#endif`,MM=`float metalnessFactor = metalness;
+#ifdef USE_METALNESSMAP
+	vec4 texelMetalness = texture2D( metalnessMap, vMetalnessMapUv );
+	metalnessFactor *= texelMetalness.b;
+#endif`,SM=`#ifdef USE_METALNESSMAP
+	uniform sampler2D metalnessMap;
+#endif`,bM=`#ifdef USE_INSTANCING_MORPH
+	float morphTargetInfluences[ MORPHTARGETS_COUNT ];
+	float morphTargetBaseInfluence = texelFetch( morphTexture, ivec2( 0, gl_InstanceID ), 0 ).r;
+	for ( int i = 0; i < MORPHTARGETS_COUNT; i ++ ) {
+		morphTargetInfluences[i] =  texelFetch( morphTexture, ivec2( i + 1, gl_InstanceID ), 0 ).r;
+	}
+#endif`,wM=`#if defined( USE_MORPHCOLORS )
+	#if defined( USE_COLOR_ALPHA )
+		vColor *= morphTargetBaseInfluence;
+	#elif defined( USE_COLOR )
+		vColor.rgb *= morphTargetBaseInfluence;
+	#endif
+	for ( int i = 0; i < MORPHTARGETS_COUNT; i ++ ) {
+		#if defined( USE_COLOR_ALPHA )
+			if ( morphTargetInfluences[ i ] != 0.0 ) vColor += getMorph( gl_VertexID, i, 2 ) * morphTargetInfluences[ i ];
+		#elif defined( USE_COLOR )
+			if ( morphTargetInfluences[ i ] != 0.0 ) vColor.rgb += getMorph( gl_VertexID, i, 2 ).rgb * morphTargetInfluences[ i ];
+		#endif
+	}
+#endif`,EM=`#ifdef USE_MORPHNORMALS
+	objectNormal *= morphTargetBaseInfluence;
+	for ( int i = 0; i < MORPHTARGETS_COUNT; i ++ ) {
+		if ( morphTargetInfluences[ i ] != 0.0 ) objectNormal += getMorph( gl_VertexID, i, 1 ).xyz * morphTargetInfluences[ i ];
+	}
+#endif`,TM=`#ifdef USE_MORPHTARGETS
+	#ifndef USE_INSTANCING_MORPH
+		uniform float morphTargetBaseInfluence;
+		uniform float morphTargetInfluences[ MORPHTARGETS_COUNT ];
+	#endif
+	uniform sampler2DArray morphTargetsTexture;
+	uniform ivec2 morphTargetsTextureSize;
+	vec4 getMorph( const in int vertexIndex, const in int morphTargetIndex, const in int offset ) {
+		int texelIndex = vertexIndex * MORPHTARGETS_TEXTURE_STRIDE + offset;
+		int y = texelIndex / morphTargetsTextureSize.x;
+		int x = texelIndex - y * morphTargetsTextureSize.x;
+		ivec3 morphUV = ivec3( x, y, morphTargetIndex );
+		return texelFetch( morphTargetsTexture, morphUV, 0 );
+	}
+#endif`,AM=`#ifdef USE_MORPHTARGETS
+	transformed *= morphTargetBaseInfluence;
+	for ( int i = 0; i < MORPHTARGETS_COUNT; i ++ ) {
+		if ( morphTargetInfluences[ i ] != 0.0 ) transformed += getMorph( gl_VertexID, i, 0 ).xyz * morphTargetInfluences[ i ];
+	}
+#endif`,RM=`float faceDirection = gl_FrontFacing ? 1.0 : - 1.0;
+#ifdef FLAT_SHADED
+	vec3 fdx = dFdx( vViewPosition );
+	vec3 fdy = dFdy( vViewPosition );
+	vec3 normal = normalize( cross( fdx, fdy ) );
+#else
+	vec3 normal = normalize( vNormal );
+	#ifdef DOUBLE_SIDED
+		normal *= faceDirection;
+	#endif
+#endif
+#if defined( USE_NORMALMAP_TANGENTSPACE ) || defined( USE_CLEARCOAT_NORMALMAP ) || defined( USE_ANISOTROPY )
+	#ifdef USE_TANGENT
+		mat3 tbn = mat3( normalize( vTangent ), normalize( vBitangent ), normal );
+	#else
+		mat3 tbn = getTangentFrame( - vViewPosition, normal,
+		#if defined( USE_NORMALMAP )
+			vNormalMapUv
+		#elif defined( USE_CLEARCOAT_NORMALMAP )
+			vClearcoatNormalMapUv
+		#else
+			vUv
+		#endif
+		);
+	#endif
+	#ifdef DOUBLE_SIDED
+		tbn[0] *= faceDirection;
+		tbn[1] *= faceDirection;
+	#endif
+#endif
+#ifdef USE_CLEARCOAT_NORMALMAP
+	#ifdef USE_TANGENT
+		mat3 tbn2 = mat3( normalize( vTangent ), normalize( vBitangent ), normal );
+	#else
+		mat3 tbn2 = getTangentFrame( - vViewPosition, normal, vClearcoatNormalMapUv );
+	#endif
+	#ifdef DOUBLE_SIDED
+		tbn2[0] *= faceDirection;
+		tbn2[1] *= faceDirection;
+	#endif
+#endif
+vec3 nonPerturbedNormal = normal;`,CM=`#ifdef USE_NORMALMAP_OBJECTSPACE
+	normal = texture2D( normalMap, vNormalMapUv ).xyz * 2.0 - 1.0;
+	#ifdef FLIP_SIDED
+		normal = - normal;
+	#endif
+	#ifdef DOUBLE_SIDED
+		normal = normal * faceDirection;
+	#endif
+	normal = normalize( normalMatrix * normal );
+#elif defined( USE_NORMALMAP_TANGENTSPACE )
+	vec3 mapN = texture2D( normalMap, vNormalMapUv ).xyz * 2.0 - 1.0;
+	#if defined( USE_PACKED_NORMALMAP )
+		mapN = vec3( mapN.xy, sqrt( saturate( 1.0 - dot( mapN.xy, mapN.xy ) ) ) );
+	#endif
+	mapN.xy *= normalScale;
+	normal = normalize( tbn * mapN );
+#elif defined( USE_BUMPMAP )
+	normal = perturbNormalArb( - vViewPosition, normal, dHdxy_fwd(), faceDirection );
+#endif`,PM=`#ifndef FLAT_SHADED
+	varying vec3 vNormal;
+	#ifdef USE_TANGENT
+		varying vec3 vTangent;
+		varying vec3 vBitangent;
+	#endif
+#endif`,IM=`#ifndef FLAT_SHADED
+	varying vec3 vNormal;
+	#ifdef USE_TANGENT
+		varying vec3 vTangent;
+		varying vec3 vBitangent;
+	#endif
+#endif`,LM=`#ifndef FLAT_SHADED
+	vNormal = normalize( transformedNormal );
+	#ifdef USE_TANGENT
+		vTangent = normalize( transformedTangent );
+		vBitangent = normalize( cross( vNormal, vTangent ) * tangent.w );
+		#ifdef FLIP_SIDED
+			vBitangent = - vBitangent;
+		#endif
+	#endif
+#endif`,NM=`#ifdef USE_NORMALMAP
+	uniform sampler2D normalMap;
+	uniform vec2 normalScale;
+#endif
+#ifdef USE_NORMALMAP_OBJECTSPACE
+	uniform mat3 normalMatrix;
+#endif
+#if ! defined ( USE_TANGENT ) && ( defined ( USE_NORMALMAP_TANGENTSPACE ) || defined ( USE_CLEARCOAT_NORMALMAP ) || defined( USE_ANISOTROPY ) )
+	mat3 getTangentFrame( vec3 eye_pos, vec3 surf_norm, vec2 uv ) {
+		vec3 q0 = dFdx( eye_pos.xyz );
+		vec3 q1 = dFdy( eye_pos.xyz );
+		vec2 st0 = dFdx( uv.st );
+		vec2 st1 = dFdy( uv.st );
+		vec3 N = surf_norm;
+		vec3 q1perp = cross( q1, N );
+		vec3 q0perp = cross( N, q0 );
+		vec3 T = q1perp * st0.x + q0perp * st1.x;
+		vec3 B = q1perp * st0.y + q0perp * st1.y;
+		float det = max( dot( T, T ), dot( B, B ) );
+		float scale = ( det == 0.0 ) ? 0.0 : inversesqrt( det );
+		return mat3( T * scale, B * scale, N );
+	}
+#endif`,DM=`#ifdef USE_CLEARCOAT
+	vec3 clearcoatNormal = nonPerturbedNormal;
+#endif`,OM=`#ifdef USE_CLEARCOAT_NORMALMAP
+	vec3 clearcoatMapN = texture2D( clearcoatNormalMap, vClearcoatNormalMapUv ).xyz * 2.0 - 1.0;
+	clearcoatMapN.xy *= clearcoatNormalScale;
+	clearcoatNormal = normalize( tbn2 * clearcoatMapN );
+#endif`,UM=`#ifdef USE_CLEARCOATMAP
+	uniform sampler2D clearcoatMap;
+#endif
+#ifdef USE_CLEARCOAT_NORMALMAP
+	uniform sampler2D clearcoatNormalMap;
+	uniform vec2 clearcoatNormalScale;
+#endif
+#ifdef USE_CLEARCOAT_ROUGHNESSMAP
+	uniform sampler2D clearcoatRoughnessMap;
+#endif`,FM=`#ifdef USE_IRIDESCENCEMAP
+	uniform sampler2D iridescenceMap;
+#endif
+#ifdef USE_IRIDESCENCE_THICKNESSMAP
+	uniform sampler2D iridescenceThicknessMap;
+#endif`,BM=`#ifdef OPAQUE
+diffuseColor.a = 1.0;
+#endif
+#ifdef USE_TRANSMISSION
+diffuseColor.a *= material.transmissionAlpha;
+#endif
+gl_FragColor = vec4( outgoingLight, diffuseColor.a );`,kM=`vec3 packNormalToRGB( const in vec3 normal ) {
+	return normalize( normal ) * 0.5 + 0.5;
+}
+vec3 unpackRGBToNormal( const in vec3 rgb ) {
+	return 2.0 * rgb.xyz - 1.0;
+}
+const float PackUpscale = 256. / 255.;const float UnpackDownscale = 255. / 256.;const float ShiftRight8 = 1. / 256.;
+const float Inv255 = 1. / 255.;
+const vec4 PackFactors = vec4( 1.0, 256.0, 256.0 * 256.0, 256.0 * 256.0 * 256.0 );
+const vec2 UnpackFactors2 = vec2( UnpackDownscale, 1.0 / PackFactors.g );
+const vec3 UnpackFactors3 = vec3( UnpackDownscale / PackFactors.rg, 1.0 / PackFactors.b );
+const vec4 UnpackFactors4 = vec4( UnpackDownscale / PackFactors.rgb, 1.0 / PackFactors.a );
+vec4 packDepthToRGBA( const in float v ) {
+	if( v <= 0.0 )
+		return vec4( 0., 0., 0., 0. );
+	if( v >= 1.0 )
+		return vec4( 1., 1., 1., 1. );
+	float vuf;
+	float af = modf( v * PackFactors.a, vuf );
+	float bf = modf( vuf * ShiftRight8, vuf );
+	float gf = modf( vuf * ShiftRight8, vuf );
+	return vec4( vuf * Inv255, gf * PackUpscale, bf * PackUpscale, af );
+}
+vec3 packDepthToRGB( const in float v ) {
+	if( v <= 0.0 )
+		return vec3( 0., 0., 0. );
+	if( v >= 1.0 )
+		return vec3( 1., 1., 1. );
+	float vuf;
+	float bf = modf( v * PackFactors.b, vuf );
+	float gf = modf( vuf * ShiftRight8, vuf );
+	return vec3( vuf * Inv255, gf * PackUpscale, bf );
+}
+vec2 packDepthToRG( const in float v ) {
+	if( v <= 0.0 )
+		return vec2( 0., 0. );
+	if( v >= 1.0 )
+		return vec2( 1., 1. );
+	float vuf;
+	float gf = modf( v * 256., vuf );
+	return vec2( vuf * Inv255, gf );
+}
+float unpackRGBAToDepth( const in vec4 v ) {
+	return dot( v, UnpackFactors4 );
+}
+float unpackRGBToDepth( const in vec3 v ) {
+	return dot( v, UnpackFactors3 );
+}
+float unpackRGToDepth( const in vec2 v ) {
+	return v.r * UnpackFactors2.r + v.g * UnpackFactors2.g;
+}
+vec4 pack2HalfToRGBA( const in vec2 v ) {
+	vec4 r = vec4( v.x, fract( v.x * 255.0 ), v.y, fract( v.y * 255.0 ) );
+	return vec4( r.x - r.y / 255.0, r.y, r.z - r.w / 255.0, r.w );
+}
+vec2 unpackRGBATo2Half( const in vec4 v ) {
+	return vec2( v.x + ( v.y / 255.0 ), v.z + ( v.w / 255.0 ) );
+}
+float viewZToOrthographicDepth( const in float viewZ, const in float near, const in float far ) {
+	return ( viewZ + near ) / ( near - far );
+}
+float orthographicDepthToViewZ( const in float depth, const in float near, const in float far ) {
+	#ifdef USE_REVERSED_DEPTH_BUFFER
+	
+		return depth * ( far - near ) - far;
+	#else
+		return depth * ( near - far ) - near;
+	#endif
+}
+float viewZToPerspectiveDepth( const in float viewZ, const in float near, const in float far ) {
+	return ( ( near + viewZ ) * far ) / ( ( far - near ) * viewZ );
+}
+float perspectiveDepthToViewZ( const in float depth, const in float near, const in float far ) {
+	
+	#ifdef USE_REVERSED_DEPTH_BUFFER
+		return ( near * far ) / ( ( near - far ) * depth - near );
+	#else
+		return ( near * far ) / ( ( far - near ) * depth - far );
+	#endif
+}`,zM=`#ifdef PREMULTIPLIED_ALPHA
+	gl_FragColor.rgb *= gl_FragColor.a;
+#endif`,GM=`vec4 mvPosition = vec4( transformed, 1.0 );
+#ifdef USE_BATCHING
+	mvPosition = batchingMatrix * mvPosition;
+#endif
+#ifdef USE_INSTANCING
+	mvPosition = instanceMatrix * mvPosition;
+#endif
+mvPosition = modelViewMatrix * mvPosition;
+gl_Position = projectionMatrix * mvPosition;`,VM=`#ifdef DITHERING
+	gl_FragColor.rgb = dithering( gl_FragColor.rgb );
+#endif`,HM=`#ifdef DITHERING
+	vec3 dithering( vec3 color ) {
+		float grid_position = rand( gl_FragCoord.xy );
+		vec3 dither_shift_RGB = vec3( 0.25 / 255.0, -0.25 / 255.0, 0.25 / 255.0 );
+		dither_shift_RGB = mix( 2.0 * dither_shift_RGB, -2.0 * dither_shift_RGB, grid_position );
+		return color + dither_shift_RGB;
+	}
+#endif`,WM=`float roughnessFactor = roughness;
+#ifdef USE_ROUGHNESSMAP
+	vec4 texelRoughness = texture2D( roughnessMap, vRoughnessMapUv );
+	roughnessFactor *= texelRoughness.g;
+#endif`,XM=`#ifdef USE_ROUGHNESSMAP
+	uniform sampler2D roughnessMap;
+#endif`,qM=`#if NUM_SPOT_LIGHT_COORDS > 0
+	varying vec4 vSpotLightCoord[ NUM_SPOT_LIGHT_COORDS ];
+#endif
+#if NUM_SPOT_LIGHT_MAPS > 0
+	uniform sampler2D spotLightMap[ NUM_SPOT_LIGHT_MAPS ];
+#endif
+#ifdef USE_SHADOWMAP
+	#if NUM_SUN_LIGHT_SHADOWS > 0
+		#define SUN_LIGHT_CASCADES 2
+		#if defined( SHADOWMAP_TYPE_PCF )
+			uniform sampler2DShadow sunShadowMap[ NUM_SUN_LIGHT_SHADOWS ];
+		#else
+			uniform sampler2D sunShadowMap[ NUM_SUN_LIGHT_SHADOWS ];
+		#endif
+		uniform mat4 sunShadowMatrix[ NUM_SUN_LIGHT_SHADOWS * SUN_LIGHT_CASCADES ];
+		uniform vec4 sunShadowCascade[ NUM_SUN_LIGHT_SHADOWS * SUN_LIGHT_CASCADES ];
+		varying vec4 vSunShadowWorldPosition;
+		varying vec3 vSunShadowWorldNormal;
+		struct SunLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+		};
+		uniform SunLightShadow sunLightShadows[ NUM_SUN_LIGHT_SHADOWS ];
+	#endif
+	#if NUM_DIR_LIGHT_SHADOWS > 0
+		#if defined( SHADOWMAP_TYPE_PCF )
+			uniform sampler2DShadow directionalShadowMap[ NUM_DIR_LIGHT_SHADOWS ];
+		#else
+			uniform sampler2D directionalShadowMap[ NUM_DIR_LIGHT_SHADOWS ];
+		#endif
+		varying vec4 vDirectionalShadowCoord[ NUM_DIR_LIGHT_SHADOWS ];
+		struct DirectionalLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+		};
+		uniform DirectionalLightShadow directionalLightShadows[ NUM_DIR_LIGHT_SHADOWS ];
+	#endif
+	#if NUM_SPOT_LIGHT_SHADOWS > 0
+		#if defined( SHADOWMAP_TYPE_PCF )
+			uniform sampler2DShadow spotShadowMap[ NUM_SPOT_LIGHT_SHADOWS ];
+		#else
+			uniform sampler2D spotShadowMap[ NUM_SPOT_LIGHT_SHADOWS ];
+		#endif
+		struct SpotLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+		};
+		uniform SpotLightShadow spotLightShadows[ NUM_SPOT_LIGHT_SHADOWS ];
+	#endif
+	#if NUM_POINT_LIGHT_SHADOWS > 0
+		#if defined( SHADOWMAP_TYPE_PCF )
+			uniform samplerCubeShadow pointShadowMap[ NUM_POINT_LIGHT_SHADOWS ];
+		#elif defined( SHADOWMAP_TYPE_BASIC )
+			uniform samplerCube pointShadowMap[ NUM_POINT_LIGHT_SHADOWS ];
+		#endif
+		varying vec4 vPointShadowCoord[ NUM_POINT_LIGHT_SHADOWS ];
+		struct PointLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+			float shadowCameraNear;
+			float shadowCameraFar;
+		};
+		uniform PointLightShadow pointLightShadows[ NUM_POINT_LIGHT_SHADOWS ];
+	#endif
+	#if defined( SHADOWMAP_TYPE_PCF )
+		float interleavedGradientNoise( vec2 position ) {
+			return fract( 52.9829189 * fract( dot( position, vec2( 0.06711056, 0.00583715 ) ) ) );
+		}
+		vec2 vogelDiskSample( int sampleIndex, int samplesCount, float phi ) {
+			const float goldenAngle = 2.399963229728653;
+			float r = sqrt( ( float( sampleIndex ) + 0.5 ) / float( samplesCount ) );
+			float theta = float( sampleIndex ) * goldenAngle + phi;
+			return vec2( cos( theta ), sin( theta ) ) * r;
+		}
+	#endif
+	#if defined( SHADOWMAP_TYPE_PCF )
+		float getShadow( sampler2DShadow shadowMap, vec2 shadowMapSize, float shadowIntensity, float shadowBias, float shadowRadius, vec4 shadowCoord ) {
+			float shadow = 1.0;
+			shadowCoord.xyz /= shadowCoord.w;
+			#ifdef USE_REVERSED_DEPTH_BUFFER
+				shadowCoord.z -= shadowBias;
+			#else
+				shadowCoord.z += shadowBias;
+			#endif
+			bool inFrustum = shadowCoord.x >= 0.0 && shadowCoord.x <= 1.0 && shadowCoord.y >= 0.0 && shadowCoord.y <= 1.0;
+			bool frustumTest = inFrustum && shadowCoord.z <= 1.0;
+			if ( frustumTest ) {
+				vec2 texelSize = vec2( 1.0 ) / shadowMapSize;
+				vec2 radius = shadowRadius * texelSize;
+				float phi = interleavedGradientNoise( gl_FragCoord.xy ) * PI2;
+				shadow = (
+					texture( shadowMap, vec3( shadowCoord.xy + vogelDiskSample( 0, 5, phi ) * radius, shadowCoord.z ) ) +
+					texture( shadowMap, vec3( shadowCoord.xy + vogelDiskSample( 1, 5, phi ) * radius, shadowCoord.z ) ) +
+					texture( shadowMap, vec3( shadowCoord.xy + vogelDiskSample( 2, 5, phi ) * radius, shadowCoord.z ) ) +
+					texture( shadowMap, vec3( shadowCoord.xy + vogelDiskSample( 3, 5, phi ) * radius, shadowCoord.z ) ) +
+					texture( shadowMap, vec3( shadowCoord.xy + vogelDiskSample( 4, 5, phi ) * radius, shadowCoord.z ) )
+				) * 0.2;
+			}
+			return mix( 1.0, shadow, shadowIntensity );
+		}
+	#elif defined( SHADOWMAP_TYPE_VSM )
+		float getShadow( sampler2D shadowMap, vec2 shadowMapSize, float shadowIntensity, float shadowBias, float shadowRadius, vec4 shadowCoord ) {
+			float shadow = 1.0;
+			shadowCoord.xyz /= shadowCoord.w;
+			#ifdef USE_REVERSED_DEPTH_BUFFER
+				shadowCoord.z -= shadowBias;
+			#else
+				shadowCoord.z += shadowBias;
+			#endif
+			bool inFrustum = shadowCoord.x >= 0.0 && shadowCoord.x <= 1.0 && shadowCoord.y >= 0.0 && shadowCoord.y <= 1.0;
+			bool frustumTest = inFrustum && shadowCoord.z <= 1.0;
+			if ( frustumTest ) {
+				vec2 distribution = texture2D( shadowMap, shadowCoord.xy ).rg;
+				float mean = distribution.x;
+				float variance = distribution.y * distribution.y;
+				#ifdef USE_REVERSED_DEPTH_BUFFER
+					float hard_shadow = step( mean, shadowCoord.z );
+				#else
+					float hard_shadow = step( shadowCoord.z, mean );
+				#endif
+				
+				if ( hard_shadow == 1.0 ) {
+					shadow = 1.0;
+				} else {
+					variance = max( variance, 0.0000001 );
+					float d = shadowCoord.z - mean;
+					float p_max = variance / ( variance + d * d );
+					p_max = clamp( ( p_max - 0.3 ) / 0.65, 0.0, 1.0 );
+					shadow = max( hard_shadow, p_max );
+				}
+			}
+			return mix( 1.0, shadow, shadowIntensity );
+		}
+	#else
+		float getShadow( sampler2D shadowMap, vec2 shadowMapSize, float shadowIntensity, float shadowBias, float shadowRadius, vec4 shadowCoord ) {
+			float shadow = 1.0;
+			shadowCoord.xyz /= shadowCoord.w;
+			#ifdef USE_REVERSED_DEPTH_BUFFER
+				shadowCoord.z -= shadowBias;
+			#else
+				shadowCoord.z += shadowBias;
+			#endif
+			bool inFrustum = shadowCoord.x >= 0.0 && shadowCoord.x <= 1.0 && shadowCoord.y >= 0.0 && shadowCoord.y <= 1.0;
+			bool frustumTest = inFrustum && shadowCoord.z <= 1.0;
+			if ( frustumTest ) {
+				float depth = texture2D( shadowMap, shadowCoord.xy ).r;
+				#ifdef USE_REVERSED_DEPTH_BUFFER
+					shadow = step( depth, shadowCoord.z );
+				#else
+					shadow = step( shadowCoord.z, depth );
+				#endif
+			}
+			return mix( 1.0, shadow, shadowIntensity );
+		}
+	#endif
+	#if NUM_SUN_LIGHT_SHADOWS > 0
+		float getSunShadow(
+			#if defined( SHADOWMAP_TYPE_PCF )
+				sampler2DShadow shadowMap,
+			#else
+				sampler2D shadowMap,
+			#endif
+			SunLightShadow sunLightShadow,
+			int shadowIndex
+		) {
+			vec4 shadowWorldPosition = vec4( vSunShadowWorldPosition.xyz + vSunShadowWorldNormal * sunLightShadow.shadowNormalBias, 1.0 );
+			float viewDepth = vSunShadowWorldPosition.w;
+			int cascadeOffset = shadowIndex * SUN_LIGHT_CASCADES;
+			float shadow = 1.0;
+			for ( int i = SUN_LIGHT_CASCADES - 1; i >= 0; i -- ) {
+				vec4 cascade = sunShadowCascade[ cascadeOffset + i ];
+				if ( viewDepth >= cascade.x && viewDepth < cascade.y ) {
+					float cascadeShadow = getShadow(
+						shadowMap,
+						sunLightShadow.shadowMapSize,
+						sunLightShadow.shadowIntensity,
+						sunLightShadow.shadowBias,
+						sunLightShadow.shadowRadius,
+						sunShadowMatrix[ cascadeOffset + i ] * shadowWorldPosition
+					);
+					shadow = mix( cascadeShadow, shadow, smoothstep( cascade.z, cascade.y, viewDepth ) );
+				}
+			}
+			return shadow;
+		}
+	#endif
+	#if NUM_POINT_LIGHT_SHADOWS > 0
+	#if defined( SHADOWMAP_TYPE_PCF )
+	float getPointShadow( samplerCubeShadow shadowMap, vec2 shadowMapSize, float shadowIntensity, float shadowBias, float shadowRadius, vec4 shadowCoord, float shadowCameraNear, float shadowCameraFar ) {
+		float shadow = 1.0;
+		vec3 lightToPosition = shadowCoord.xyz;
+		vec3 bd3D = normalize( lightToPosition );
+		vec3 absVec = abs( lightToPosition );
+		float viewSpaceZ = max( max( absVec.x, absVec.y ), absVec.z );
+		if ( viewSpaceZ - shadowCameraFar <= 0.0 && viewSpaceZ - shadowCameraNear >= 0.0 ) {
+			float lightDistance = length( lightToPosition );
+			float depthRange = shadowCameraFar - shadowCameraNear;
+			#ifdef USE_REVERSED_DEPTH_BUFFER
+				float depthA = - shadowCameraNear / depthRange - shadowBias;
+				float depthB = shadowCameraNear * shadowCameraFar / ( depthRange * lightDistance );
+			#else
+				float depthA = shadowCameraFar / depthRange + shadowBias;
+				float depthB = - shadowCameraNear * shadowCameraFar / ( depthRange * lightDistance );
+			#endif
+			float texelSize = shadowRadius / shadowMapSize.x;
+			vec3 absDir = abs( bd3D );
+			vec3 tangent = absDir.x > absDir.z ? vec3( 0.0, 1.0, 0.0 ) : vec3( 1.0, 0.0, 0.0 );
+			tangent = normalize( cross( bd3D, tangent ) );
+			vec3 bitangent = cross( bd3D, tangent );
+			float phi = interleavedGradientNoise( gl_FragCoord.xy ) * PI2;
+			shadow = 0.0;
+			for ( int i = 0; i < 5; i ++ ) {
+				vec2 offset = vogelDiskSample( i, 5, phi );
+				vec3 direction = bd3D + ( tangent * offset.x + bitangent * offset.y ) * texelSize;
+				vec3 absDirection = abs( direction );
+				float dp = depthA + depthB / max( max( absDirection.x, absDirection.y ), absDirection.z );
+				shadow += texture( shadowMap, vec4( direction, dp ) );
+			}
+			shadow *= 0.2;
+		}
+		return mix( 1.0, shadow, shadowIntensity );
+	}
+	#elif defined( SHADOWMAP_TYPE_BASIC )
+	float getPointShadow( samplerCube shadowMap, vec2 shadowMapSize, float shadowIntensity, float shadowBias, float shadowRadius, vec4 shadowCoord, float shadowCameraNear, float shadowCameraFar ) {
+		float shadow = 1.0;
+		vec3 lightToPosition = shadowCoord.xyz;
+		vec3 absVec = abs( lightToPosition );
+		float viewSpaceZ = max( max( absVec.x, absVec.y ), absVec.z );
+		if ( viewSpaceZ - shadowCameraFar <= 0.0 && viewSpaceZ - shadowCameraNear >= 0.0 ) {
+			float dp = ( shadowCameraFar * ( viewSpaceZ - shadowCameraNear ) ) / ( viewSpaceZ * ( shadowCameraFar - shadowCameraNear ) );
+			dp += shadowBias;
+			vec3 bd3D = normalize( lightToPosition );
+			float depth = textureCube( shadowMap, bd3D ).r;
+			#ifdef USE_REVERSED_DEPTH_BUFFER
+				depth = 1.0 - depth;
+			#endif
+			shadow = step( dp, depth );
+		}
+		return mix( 1.0, shadow, shadowIntensity );
+	}
+	#endif
+	#endif
+#endif`,YM=`#if NUM_SPOT_LIGHT_COORDS > 0
+	uniform mat4 spotLightMatrix[ NUM_SPOT_LIGHT_COORDS ];
+	varying vec4 vSpotLightCoord[ NUM_SPOT_LIGHT_COORDS ];
+#endif
+#ifdef USE_SHADOWMAP
+	#if NUM_SUN_LIGHT_SHADOWS > 0
+		varying vec4 vSunShadowWorldPosition;
+		varying vec3 vSunShadowWorldNormal;
+	#endif
+	#if NUM_DIR_LIGHT_SHADOWS > 0
+		uniform mat4 directionalShadowMatrix[ NUM_DIR_LIGHT_SHADOWS ];
+		varying vec4 vDirectionalShadowCoord[ NUM_DIR_LIGHT_SHADOWS ];
+		struct DirectionalLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+		};
+		uniform DirectionalLightShadow directionalLightShadows[ NUM_DIR_LIGHT_SHADOWS ];
+	#endif
+	#if NUM_SPOT_LIGHT_SHADOWS > 0
+		struct SpotLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+		};
+		uniform SpotLightShadow spotLightShadows[ NUM_SPOT_LIGHT_SHADOWS ];
+	#endif
+	#if NUM_POINT_LIGHT_SHADOWS > 0
+		uniform mat4 pointShadowMatrix[ NUM_POINT_LIGHT_SHADOWS ];
+		varying vec4 vPointShadowCoord[ NUM_POINT_LIGHT_SHADOWS ];
+		struct PointLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+			float shadowCameraNear;
+			float shadowCameraFar;
+		};
+		uniform PointLightShadow pointLightShadows[ NUM_POINT_LIGHT_SHADOWS ];
+	#endif
+#endif`,$M=`#if ( defined( USE_SHADOWMAP ) && ( NUM_DIR_LIGHT_SHADOWS > 0 || NUM_SUN_LIGHT_SHADOWS > 0 || NUM_POINT_LIGHT_SHADOWS > 0 ) ) || ( NUM_SPOT_LIGHT_COORDS > 0 )
+	#ifdef HAS_NORMAL
+		vec3 shadowWorldNormal = transformNormalByInverseViewMatrix( transformedNormal, viewMatrix );
+	#else
+		vec3 shadowWorldNormal = vec3( 0.0 );
+	#endif
+	vec4 shadowWorldPosition;
+#endif
+#if defined( USE_SHADOWMAP )
+	#if NUM_SUN_LIGHT_SHADOWS > 0
+		vSunShadowWorldPosition = vec4( worldPosition.xyz, - mvPosition.z );
+		vSunShadowWorldNormal = shadowWorldNormal;
+	#endif
+	#if NUM_DIR_LIGHT_SHADOWS > 0
+		#pragma unroll_loop_start
+		for ( int i = 0; i < NUM_DIR_LIGHT_SHADOWS; i ++ ) {
+			shadowWorldPosition = worldPosition + vec4( shadowWorldNormal * directionalLightShadows[ i ].shadowNormalBias, 0 );
+			vDirectionalShadowCoord[ i ] = directionalShadowMatrix[ i ] * shadowWorldPosition;
+		}
+		#pragma unroll_loop_end
+	#endif
+	#if NUM_POINT_LIGHT_SHADOWS > 0
+		#pragma unroll_loop_start
+		for ( int i = 0; i < NUM_POINT_LIGHT_SHADOWS; i ++ ) {
+			shadowWorldPosition = worldPosition + vec4( shadowWorldNormal * pointLightShadows[ i ].shadowNormalBias, 0 );
+			vPointShadowCoord[ i ] = pointShadowMatrix[ i ] * shadowWorldPosition;
+		}
+		#pragma unroll_loop_end
+	#endif
+#endif
+#if NUM_SPOT_LIGHT_COORDS > 0
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_SPOT_LIGHT_COORDS; i ++ ) {
+		shadowWorldPosition = worldPosition;
+		#if ( defined( USE_SHADOWMAP ) && UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS )
+			shadowWorldPosition.xyz += shadowWorldNormal * spotLightShadows[ i ].shadowNormalBias;
+		#endif
+		vSpotLightCoord[ i ] = spotLightMatrix[ i ] * shadowWorldPosition;
+	}
+	#pragma unroll_loop_end
+#endif`,ZM=`float getShadowMask() {
+	float shadow = 1.0;
+	#ifdef USE_SHADOWMAP
+	#if NUM_SUN_LIGHT_SHADOWS > 0
+	SunLightShadow sunLight;
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_SUN_LIGHT_SHADOWS; i ++ ) {
+		sunLight = sunLightShadows[ i ];
+		shadow *= receiveShadow ? getSunShadow( sunShadowMap[ i ], sunLight, UNROLLED_LOOP_INDEX ) : 1.0;
+	}
+	#pragma unroll_loop_end
+	#endif
+	#if NUM_DIR_LIGHT_SHADOWS > 0
+	DirectionalLightShadow directionalLight;
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_DIR_LIGHT_SHADOWS; i ++ ) {
+		directionalLight = directionalLightShadows[ i ];
+		shadow *= receiveShadow ? getShadow( directionalShadowMap[ i ], directionalLight.shadowMapSize, directionalLight.shadowIntensity, directionalLight.shadowBias, directionalLight.shadowRadius, vDirectionalShadowCoord[ i ] ) : 1.0;
+	}
+	#pragma unroll_loop_end
+	#endif
+	#if NUM_SPOT_LIGHT_SHADOWS > 0
+	SpotLightShadow spotLight;
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_SPOT_LIGHT_SHADOWS; i ++ ) {
+		spotLight = spotLightShadows[ i ];
+		shadow *= receiveShadow ? getShadow( spotShadowMap[ i ], spotLight.shadowMapSize, spotLight.shadowIntensity, spotLight.shadowBias, spotLight.shadowRadius, vSpotLightCoord[ i ] ) : 1.0;
+	}
+	#pragma unroll_loop_end
+	#endif
+	#if NUM_POINT_LIGHT_SHADOWS > 0 && ( defined( SHADOWMAP_TYPE_PCF ) || defined( SHADOWMAP_TYPE_BASIC ) )
+	PointLightShadow pointLight;
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_POINT_LIGHT_SHADOWS; i ++ ) {
+		pointLight = pointLightShadows[ i ];
+		shadow *= receiveShadow ? getPointShadow( pointShadowMap[ i ], pointLight.shadowMapSize, pointLight.shadowIntensity, pointLight.shadowBias, pointLight.shadowRadius, vPointShadowCoord[ i ], pointLight.shadowCameraNear, pointLight.shadowCameraFar ) : 1.0;
+	}
+	#pragma unroll_loop_end
+	#endif
+	#endif
+	return shadow;
+}`,JM=`#ifdef USE_SKINNING
+	mat4 boneMatX = getBoneMatrix( skinIndex.x );
+	mat4 boneMatY = getBoneMatrix( skinIndex.y );
+	mat4 boneMatZ = getBoneMatrix( skinIndex.z );
+	mat4 boneMatW = getBoneMatrix( skinIndex.w );
+#endif`,KM=`#ifdef USE_SKINNING
+	uniform mat4 bindMatrix;
+	uniform mat4 bindMatrixInverse;
+	uniform highp sampler2D boneTexture;
+	mat4 getBoneMatrix( const in float i ) {
+		int size = textureSize( boneTexture, 0 ).x;
+		int j = int( i ) * 4;
+		int x = j % size;
+		int y = j / size;
+		vec4 v1 = texelFetch( boneTexture, ivec2( x, y ), 0 );
+		vec4 v2 = texelFetch( boneTexture, ivec2( x + 1, y ), 0 );
+		vec4 v3 = texelFetch( boneTexture, ivec2( x + 2, y ), 0 );
+		vec4 v4 = texelFetch( boneTexture, ivec2( x + 3, y ), 0 );
+		return mat4( v1, v2, v3, v4 );
+	}
+#endif`,jM=`#ifdef USE_SKINNING
+	vec4 skinVertex = bindMatrix * vec4( transformed, 1.0 );
+	vec4 skinned = vec4( 0.0 );
+	skinned += boneMatX * skinVertex * skinWeight.x;
+	skinned += boneMatY * skinVertex * skinWeight.y;
+	skinned += boneMatZ * skinVertex * skinWeight.z;
+	skinned += boneMatW * skinVertex * skinWeight.w;
+	transformed = ( bindMatrixInverse * skinned ).xyz;
+#endif`,QM=`#ifdef USE_SKINNING
+	mat4 skinMatrix = mat4( 0.0 );
+	skinMatrix += skinWeight.x * boneMatX;
+	skinMatrix += skinWeight.y * boneMatY;
+	skinMatrix += skinWeight.z * boneMatZ;
+	skinMatrix += skinWeight.w * boneMatW;
+	skinMatrix = bindMatrixInverse * skinMatrix * bindMatrix;
+	objectNormal = vec4( skinMatrix * vec4( objectNormal, 0.0 ) ).xyz;
+	#ifdef USE_TANGENT
+		objectTangent = vec4( skinMatrix * vec4( objectTangent, 0.0 ) ).xyz;
+	#endif
+#endif`,tS=`float specularStrength;
+#ifdef USE_SPECULARMAP
+	vec4 texelSpecular = texture2D( specularMap, vSpecularMapUv );
+	specularStrength = texelSpecular.r;
+#else
+	specularStrength = 1.0;
+#endif`,eS=`#ifdef USE_SPECULARMAP
+	uniform sampler2D specularMap;
+#endif`,nS=`#if defined( TONE_MAPPING )
+	gl_FragColor.rgb = toneMapping( gl_FragColor.rgb );
+#endif`,iS=`#ifndef saturate
+#define saturate( a ) clamp( a, 0.0, 1.0 )
+#endif
+uniform float toneMappingExposure;
+vec3 LinearToneMapping( vec3 color ) {
+	return saturate( toneMappingExposure * color );
+}
+vec3 ReinhardToneMapping( vec3 color ) {
+	color *= toneMappingExposure;
+	return saturate( color / ( vec3( 1.0 ) + color ) );
+}
+vec3 CineonToneMapping( vec3 color ) {
+	color *= toneMappingExposure;
+	color = max( vec3( 0.0 ), color - 0.004 );
+	return pow( ( color * ( 6.2 * color + 0.5 ) ) / ( color * ( 6.2 * color + 1.7 ) + 0.06 ), vec3( 2.2 ) );
+}
+vec3 RRTAndODTFit( vec3 v ) {
+	vec3 a = v * ( v + 0.0245786 ) - 0.000090537;
+	vec3 b = v * ( 0.983729 * v + 0.4329510 ) + 0.238081;
+	return a / b;
+}
+vec3 ACESFilmicToneMapping( vec3 color ) {
+	const mat3 ACESInputMat = mat3(
+		vec3( 0.59719, 0.07600, 0.02840 ),		vec3( 0.35458, 0.90834, 0.13383 ),
+		vec3( 0.04823, 0.01566, 0.83777 )
+	);
+	const mat3 ACESOutputMat = mat3(
+		vec3(  1.60475, -0.10208, -0.00327 ),		vec3( -0.53108,  1.10813, -0.07276 ),
+		vec3( -0.07367, -0.00605,  1.07602 )
+	);
+	color *= toneMappingExposure / 0.6;
+	color = ACESInputMat * color;
+	color = RRTAndODTFit( color );
+	color = ACESOutputMat * color;
+	return saturate( color );
+}
+const mat3 LINEAR_REC2020_TO_LINEAR_SRGB = mat3(
+	vec3( 1.6605, - 0.1246, - 0.0182 ),
+	vec3( - 0.5876, 1.1329, - 0.1006 ),
+	vec3( - 0.0728, - 0.0083, 1.1187 )
+);
+const mat3 LINEAR_SRGB_TO_LINEAR_REC2020 = mat3(
+	vec3( 0.6274, 0.0691, 0.0164 ),
+	vec3( 0.3293, 0.9195, 0.0880 ),
+	vec3( 0.0433, 0.0113, 0.8956 )
+);
+vec3 agxDefaultContrastApprox( vec3 x ) {
+	vec3 x2 = x * x;
+	vec3 x4 = x2 * x2;
+	return + 15.5 * x4 * x2
+		- 40.14 * x4 * x
+		+ 31.96 * x4
+		- 6.868 * x2 * x
+		+ 0.4298 * x2
+		+ 0.1191 * x
+		- 0.00232;
+}
+vec3 AgXToneMapping( vec3 color ) {
+	const mat3 AgXInsetMatrix = mat3(
+		vec3( 0.856627153315983, 0.137318972929847, 0.11189821299995 ),
+		vec3( 0.0951212405381588, 0.761241990602591, 0.0767994186031903 ),
+		vec3( 0.0482516061458583, 0.101439036467562, 0.811302368396859 )
+	);
+	const mat3 AgXOutsetMatrix = mat3(
+		vec3( 1.1271005818144368, - 0.1413297634984383, - 0.14132976349843826 ),
+		vec3( - 0.11060664309660323, 1.157823702216272, - 0.11060664309660294 ),
+		vec3( - 0.016493938717834573, - 0.016493938717834257, 1.2519364065950405 )
+	);
+	const float AgxMinEv = - 12.47393;	const float AgxMaxEv = 4.026069;
+	color *= toneMappingExposure;
+	color = LINEAR_SRGB_TO_LINEAR_REC2020 * color;
+	color = AgXInsetMatrix * color;
+	color = max( color, 1e-10 );	color = log2( color );
+	color = ( color - AgxMinEv ) / ( AgxMaxEv - AgxMinEv );
+	color = clamp( color, 0.0, 1.0 );
+	color = agxDefaultContrastApprox( color );
+	color = AgXOutsetMatrix * color;
+	color = pow( max( vec3( 0.0 ), color ), vec3( 2.2 ) );
+	color = LINEAR_REC2020_TO_LINEAR_SRGB * color;
+	color = clamp( color, 0.0, 1.0 );
+	return color;
+}
+vec3 NeutralToneMapping( vec3 color ) {
+	const float StartCompression = 0.8 - 0.04;
+	const float Desaturation = 0.15;
+	color *= toneMappingExposure;
+	float x = min( color.r, min( color.g, color.b ) );
+	float offset = x < 0.08 ? x - 6.25 * x * x : 0.04;
+	color -= offset;
+	float peak = max( color.r, max( color.g, color.b ) );
+	if ( peak < StartCompression ) return color;
+	float d = 1. - StartCompression;
+	float newPeak = 1. - d * d / ( peak + d - StartCompression );
+	color *= newPeak / peak;
+	float g = 1. - 1. / ( Desaturation * ( peak - newPeak ) + 1. );
+	return mix( color, vec3( newPeak ), g );
+}
+vec3 CustomToneMapping( vec3 color ) { return color; }`,sS=`#ifdef USE_TRANSMISSION
+	material.transmission = transmission;
+	material.transmissionAlpha = 1.0;
+	material.thickness = thickness;
+	material.attenuationDistance = attenuationDistance;
+	material.attenuationColor = attenuationColor;
+	#ifdef USE_TRANSMISSIONMAP
+		material.transmission *= texture2D( transmissionMap, vTransmissionMapUv ).r;
+	#endif
+	#ifdef USE_THICKNESSMAP
+		material.thickness *= texture2D( thicknessMap, vThicknessMapUv ).g;
+	#endif
+	vec3 pos = vWorldPosition;
+	vec3 v = normalize( cameraPosition - pos );
+	vec3 n = transformNormalByInverseViewMatrix( normal, viewMatrix );
+	vec4 transmitted = getIBLVolumeRefraction(
+		n, v, material.roughness, material.diffuseContribution, material.specularColorBlended, material.specularF90,
+		pos, modelMatrix, viewMatrix, projectionMatrix, material.dispersion, material.ior, material.thickness,
+		material.attenuationColor, material.attenuationDistance );
+	material.transmissionAlpha = mix( material.transmissionAlpha, transmitted.a, material.transmission );
+	totalDiffuse = mix( totalDiffuse, transmitted.rgb, material.transmission );
+#endif`,rS=`#ifdef USE_TRANSMISSION
+	uniform float transmission;
+	uniform float thickness;
+	uniform float attenuationDistance;
+	uniform vec3 attenuationColor;
+	#ifdef USE_TRANSMISSIONMAP
+		uniform sampler2D transmissionMap;
+	#endif
+	#ifdef USE_THICKNESSMAP
+		uniform sampler2D thicknessMap;
+	#endif
+	uniform vec2 transmissionSamplerSize;
+	uniform sampler2D transmissionSamplerMap;
+	uniform mat4 modelMatrix;
+	uniform mat4 projectionMatrix;
+	varying vec3 vWorldPosition;
+	float w0( float a ) {
+		return ( 1.0 / 6.0 ) * ( a * ( a * ( - a + 3.0 ) - 3.0 ) + 1.0 );
+	}
+	float w1( float a ) {
+		return ( 1.0 / 6.0 ) * ( a *  a * ( 3.0 * a - 6.0 ) + 4.0 );
+	}
+	float w2( float a ){
+		return ( 1.0 / 6.0 ) * ( a * ( a * ( - 3.0 * a + 3.0 ) + 3.0 ) + 1.0 );
+	}
+	float w3( float a ) {
+		return ( 1.0 / 6.0 ) * ( a * a * a );
+	}
+	float g0( float a ) {
+		return w0( a ) + w1( a );
+	}
+	float g1( float a ) {
+		return w2( a ) + w3( a );
+	}
+	float h0( float a ) {
+		return - 1.0 + w1( a ) / ( w0( a ) + w1( a ) );
+	}
+	float h1( float a ) {
+		return 1.0 + w3( a ) / ( w2( a ) + w3( a ) );
+	}
+	vec4 bicubic( sampler2D tex, vec2 uv, vec4 texelSize, float lod ) {
+		uv = uv * texelSize.zw + 0.5;
+		vec2 iuv = floor( uv );
+		vec2 fuv = fract( uv );
+		float g0x = g0( fuv.x );
+		float g1x = g1( fuv.x );
+		float h0x = h0( fuv.x );
+		float h1x = h1( fuv.x );
+		float h0y = h0( fuv.y );
+		float h1y = h1( fuv.y );
+		vec2 p0 = ( vec2( iuv.x + h0x, iuv.y + h0y ) - 0.5 ) * texelSize.xy;
+		vec2 p1 = ( vec2( iuv.x + h1x, iuv.y + h0y ) - 0.5 ) * texelSize.xy;
+		vec2 p2 = ( vec2( iuv.x + h0x, iuv.y + h1y ) - 0.5 ) * texelSize.xy;
+		vec2 p3 = ( vec2( iuv.x + h1x, iuv.y + h1y ) - 0.5 ) * texelSize.xy;
+		return g0( fuv.y ) * ( g0x * textureLod( tex, p0, lod ) + g1x * textureLod( tex, p1, lod ) ) +
+			g1( fuv.y ) * ( g0x * textureLod( tex, p2, lod ) + g1x * textureLod( tex, p3, lod ) );
+	}
+	vec4 textureBicubic( sampler2D sampler, vec2 uv, float lod ) {
+		vec2 fLodSize = vec2( textureSize( sampler, int( lod ) ) );
+		vec2 cLodSize = vec2( textureSize( sampler, int( lod + 1.0 ) ) );
+		vec2 fLodSizeInv = 1.0 / fLodSize;
+		vec2 cLodSizeInv = 1.0 / cLodSize;
+		vec4 fSample = bicubic( sampler, uv, vec4( fLodSizeInv, fLodSize ), floor( lod ) );
+		vec4 cSample = bicubic( sampler, uv, vec4( cLodSizeInv, cLodSize ), ceil( lod ) );
+		return mix( fSample, cSample, fract( lod ) );
+	}
+	vec3 getVolumeTransmissionRay( const in vec3 n, const in vec3 v, const in float thickness, const in float ior, const in mat4 modelMatrix ) {
+		vec3 refractionVector = refract( - v, normalize( n ), 1.0 / ior );
+		vec3 modelScale;
+		modelScale.x = length( vec3( modelMatrix[ 0 ].xyz ) );
+		modelScale.y = length( vec3( modelMatrix[ 1 ].xyz ) );
+		modelScale.z = length( vec3( modelMatrix[ 2 ].xyz ) );
+		return normalize( refractionVector ) * thickness * modelScale;
+	}
+	float applyIorToRoughness( const in float roughness, const in float ior ) {
+		return roughness * clamp( ior * 2.0 - 2.0, 0.0, 1.0 );
+	}
+	vec4 getTransmissionSample( const in vec2 fragCoord, const in float roughness, const in float ior ) {
+		float lod = log2( transmissionSamplerSize.x ) * applyIorToRoughness( roughness, ior );
+		return textureBicubic( transmissionSamplerMap, fragCoord.xy, lod );
+	}
+	vec3 volumeAttenuation( const in float transmissionDistance, const in vec3 attenuationColor, const in float attenuationDistance ) {
+		if ( isinf( attenuationDistance ) ) {
+			return vec3( 1.0 );
+		} else {
+			vec3 attenuationCoefficient = -log( attenuationColor ) / attenuationDistance;
+			vec3 transmittance = exp( - attenuationCoefficient * transmissionDistance );			return transmittance;
+		}
+	}
+	vec4 getIBLVolumeRefraction( const in vec3 n, const in vec3 v, const in float roughness, const in vec3 diffuseColor,
+		const in vec3 specularColor, const in float specularF90, const in vec3 position, const in mat4 modelMatrix,
+		const in mat4 viewMatrix, const in mat4 projMatrix, const in float dispersion, const in float ior, const in float thickness,
+		const in vec3 attenuationColor, const in float attenuationDistance ) {
+		vec4 transmittedLight;
+		vec3 transmittance;
+		#ifdef USE_DISPERSION
+			float halfSpread = ( ior - 1.0 ) * 0.025 * dispersion;
+			vec3 iors = vec3( ior - halfSpread, ior, ior + halfSpread );
+			for ( int i = 0; i < 3; i ++ ) {
+				vec3 transmissionRay = getVolumeTransmissionRay( n, v, thickness, iors[ i ], modelMatrix );
+				vec3 refractedRayExit = position + transmissionRay;
+				vec4 ndcPos = projMatrix * viewMatrix * vec4( refractedRayExit, 1.0 );
+				vec2 refractionCoords = ndcPos.xy / ndcPos.w;
+				refractionCoords += 1.0;
+				refractionCoords /= 2.0;
+				vec4 transmissionSample = getTransmissionSample( refractionCoords, roughness, iors[ i ] );
+				transmittedLight[ i ] = transmissionSample[ i ];
+				transmittedLight.a += transmissionSample.a;
+				transmittance[ i ] = diffuseColor[ i ] * volumeAttenuation( length( transmissionRay ), attenuationColor, attenuationDistance )[ i ];
+			}
+			transmittedLight.a /= 3.0;
+		#else
+			vec3 transmissionRay = getVolumeTransmissionRay( n, v, thickness, ior, modelMatrix );
+			vec3 refractedRayExit = position + transmissionRay;
+			vec4 ndcPos = projMatrix * viewMatrix * vec4( refractedRayExit, 1.0 );
+			vec2 refractionCoords = ndcPos.xy / ndcPos.w;
+			refractionCoords += 1.0;
+			refractionCoords /= 2.0;
+			transmittedLight = getTransmissionSample( refractionCoords, roughness, ior );
+			transmittance = diffuseColor * volumeAttenuation( length( transmissionRay ), attenuationColor, attenuationDistance );
+		#endif
+		vec3 attenuatedColor = transmittance * transmittedLight.rgb;
+		vec3 F = EnvironmentBRDF( n, v, specularColor, specularF90, roughness );
+		float transmittanceFactor = ( transmittance.r + transmittance.g + transmittance.b ) / 3.0;
+		return vec4( ( 1.0 - F ) * attenuatedColor, 1.0 - ( 1.0 - transmittedLight.a ) * transmittanceFactor );
+	}
+#endif`,aS=`#if defined( USE_UV ) || defined( USE_ANISOTROPY )
+	varying vec2 vUv;
+#endif
+#ifdef USE_MAP
+	varying vec2 vMapUv;
+#endif
+#ifdef USE_ALPHAMAP
+	varying vec2 vAlphaMapUv;
+#endif
+#ifdef USE_LIGHTMAP
+	varying vec2 vLightMapUv;
+#endif
+#ifdef USE_AOMAP
+	varying vec2 vAoMapUv;
+#endif
+#ifdef USE_BUMPMAP
+	varying vec2 vBumpMapUv;
+#endif
+#ifdef USE_NORMALMAP
+	varying vec2 vNormalMapUv;
+#endif
+#ifdef USE_EMISSIVEMAP
+	varying vec2 vEmissiveMapUv;
+#endif
+#ifdef USE_METALNESSMAP
+	varying vec2 vMetalnessMapUv;
+#endif
+#ifdef USE_ROUGHNESSMAP
+	varying vec2 vRoughnessMapUv;
+#endif
+#ifdef USE_DIFFUSE_ROUGHNESSMAP
+	varying vec2 vDiffuseRoughnessMapUv;
+#endif
+#ifdef USE_ANISOTROPYMAP
+	varying vec2 vAnisotropyMapUv;
+#endif
+#ifdef USE_CLEARCOATMAP
+	varying vec2 vClearcoatMapUv;
+#endif
+#ifdef USE_CLEARCOAT_NORMALMAP
+	varying vec2 vClearcoatNormalMapUv;
+#endif
+#ifdef USE_CLEARCOAT_ROUGHNESSMAP
+	varying vec2 vClearcoatRoughnessMapUv;
+#endif
+#ifdef USE_IRIDESCENCEMAP
+	varying vec2 vIridescenceMapUv;
+#endif
+#ifdef USE_IRIDESCENCE_THICKNESSMAP
+	varying vec2 vIridescenceThicknessMapUv;
+#endif
+#ifdef USE_SHEEN_COLORMAP
+	varying vec2 vSheenColorMapUv;
+#endif
+#ifdef USE_SHEEN_ROUGHNESSMAP
+	varying vec2 vSheenRoughnessMapUv;
+#endif
+#ifdef USE_SPECULARMAP
+	varying vec2 vSpecularMapUv;
+#endif
+#ifdef USE_SPECULAR_COLORMAP
+	varying vec2 vSpecularColorMapUv;
+#endif
+#ifdef USE_SPECULAR_INTENSITYMAP
+	varying vec2 vSpecularIntensityMapUv;
+#endif
+#ifdef USE_TRANSMISSIONMAP
+	uniform mat3 transmissionMapTransform;
+	varying vec2 vTransmissionMapUv;
+#endif
+#ifdef USE_THICKNESSMAP
+	uniform mat3 thicknessMapTransform;
+	varying vec2 vThicknessMapUv;
+#endif`,oS=`#if defined( USE_UV ) || defined( USE_ANISOTROPY )
+	varying vec2 vUv;
+#endif
+#ifdef USE_MAP
+	uniform mat3 mapTransform;
+	varying vec2 vMapUv;
+#endif
+#ifdef USE_ALPHAMAP
+	uniform mat3 alphaMapTransform;
+	varying vec2 vAlphaMapUv;
+#endif
+#ifdef USE_LIGHTMAP
+	uniform mat3 lightMapTransform;
+	varying vec2 vLightMapUv;
+#endif
+#ifdef USE_AOMAP
+	uniform mat3 aoMapTransform;
+	varying vec2 vAoMapUv;
+#endif
+#ifdef USE_BUMPMAP
+	uniform mat3 bumpMapTransform;
+	varying vec2 vBumpMapUv;
+#endif
+#ifdef USE_NORMALMAP
+	uniform mat3 normalMapTransform;
+	varying vec2 vNormalMapUv;
+#endif
+#ifdef USE_DISPLACEMENTMAP
+	uniform mat3 displacementMapTransform;
+	varying vec2 vDisplacementMapUv;
+#endif
+#ifdef USE_EMISSIVEMAP
+	uniform mat3 emissiveMapTransform;
+	varying vec2 vEmissiveMapUv;
+#endif
+#ifdef USE_METALNESSMAP
+	uniform mat3 metalnessMapTransform;
+	varying vec2 vMetalnessMapUv;
+#endif
+#ifdef USE_ROUGHNESSMAP
+	uniform mat3 roughnessMapTransform;
+	varying vec2 vRoughnessMapUv;
+#endif
+#ifdef USE_DIFFUSE_ROUGHNESSMAP
+	uniform mat3 diffuseRoughnessMapTransform;
+	varying vec2 vDiffuseRoughnessMapUv;
+#endif
+#ifdef USE_ANISOTROPYMAP
+	uniform mat3 anisotropyMapTransform;
+	varying vec2 vAnisotropyMapUv;
+#endif
+#ifdef USE_CLEARCOATMAP
+	uniform mat3 clearcoatMapTransform;
+	varying vec2 vClearcoatMapUv;
+#endif
+#ifdef USE_CLEARCOAT_NORMALMAP
+	uniform mat3 clearcoatNormalMapTransform;
+	varying vec2 vClearcoatNormalMapUv;
+#endif
+#ifdef USE_CLEARCOAT_ROUGHNESSMAP
+	uniform mat3 clearcoatRoughnessMapTransform;
+	varying vec2 vClearcoatRoughnessMapUv;
+#endif
+#ifdef USE_SHEEN_COLORMAP
+	uniform mat3 sheenColorMapTransform;
+	varying vec2 vSheenColorMapUv;
+#endif
+#ifdef USE_SHEEN_ROUGHNESSMAP
+	uniform mat3 sheenRoughnessMapTransform;
+	varying vec2 vSheenRoughnessMapUv;
+#endif
+#ifdef USE_IRIDESCENCEMAP
+	uniform mat3 iridescenceMapTransform;
+	varying vec2 vIridescenceMapUv;
+#endif
+#ifdef USE_IRIDESCENCE_THICKNESSMAP
+	uniform mat3 iridescenceThicknessMapTransform;
+	varying vec2 vIridescenceThicknessMapUv;
+#endif
+#ifdef USE_SPECULARMAP
+	uniform mat3 specularMapTransform;
+	varying vec2 vSpecularMapUv;
+#endif
+#ifdef USE_SPECULAR_COLORMAP
+	uniform mat3 specularColorMapTransform;
+	varying vec2 vSpecularColorMapUv;
+#endif
+#ifdef USE_SPECULAR_INTENSITYMAP
+	uniform mat3 specularIntensityMapTransform;
+	varying vec2 vSpecularIntensityMapUv;
+#endif
+#ifdef USE_TRANSMISSIONMAP
+	uniform mat3 transmissionMapTransform;
+	varying vec2 vTransmissionMapUv;
+#endif
+#ifdef USE_THICKNESSMAP
+	uniform mat3 thicknessMapTransform;
+	varying vec2 vThicknessMapUv;
+#endif`,lS=`#if defined( USE_UV ) || defined( USE_ANISOTROPY )
+	vUv = vec3( uv, 1 ).xy;
+#endif
+#ifdef USE_MAP
+	vMapUv = ( mapTransform * vec3( MAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_ALPHAMAP
+	vAlphaMapUv = ( alphaMapTransform * vec3( ALPHAMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_LIGHTMAP
+	vLightMapUv = ( lightMapTransform * vec3( LIGHTMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_AOMAP
+	vAoMapUv = ( aoMapTransform * vec3( AOMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_BUMPMAP
+	vBumpMapUv = ( bumpMapTransform * vec3( BUMPMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_NORMALMAP
+	vNormalMapUv = ( normalMapTransform * vec3( NORMALMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_DISPLACEMENTMAP
+	vDisplacementMapUv = ( displacementMapTransform * vec3( DISPLACEMENTMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_EMISSIVEMAP
+	vEmissiveMapUv = ( emissiveMapTransform * vec3( EMISSIVEMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_METALNESSMAP
+	vMetalnessMapUv = ( metalnessMapTransform * vec3( METALNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_ROUGHNESSMAP
+	vRoughnessMapUv = ( roughnessMapTransform * vec3( ROUGHNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_DIFFUSE_ROUGHNESSMAP
+	vDiffuseRoughnessMapUv = ( diffuseRoughnessMapTransform * vec3( DIFFUSE_ROUGHNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_ANISOTROPYMAP
+	vAnisotropyMapUv = ( anisotropyMapTransform * vec3( ANISOTROPYMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_CLEARCOATMAP
+	vClearcoatMapUv = ( clearcoatMapTransform * vec3( CLEARCOATMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_CLEARCOAT_NORMALMAP
+	vClearcoatNormalMapUv = ( clearcoatNormalMapTransform * vec3( CLEARCOAT_NORMALMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_CLEARCOAT_ROUGHNESSMAP
+	vClearcoatRoughnessMapUv = ( clearcoatRoughnessMapTransform * vec3( CLEARCOAT_ROUGHNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_IRIDESCENCEMAP
+	vIridescenceMapUv = ( iridescenceMapTransform * vec3( IRIDESCENCEMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_IRIDESCENCE_THICKNESSMAP
+	vIridescenceThicknessMapUv = ( iridescenceThicknessMapTransform * vec3( IRIDESCENCE_THICKNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_SHEEN_COLORMAP
+	vSheenColorMapUv = ( sheenColorMapTransform * vec3( SHEEN_COLORMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_SHEEN_ROUGHNESSMAP
+	vSheenRoughnessMapUv = ( sheenRoughnessMapTransform * vec3( SHEEN_ROUGHNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_SPECULARMAP
+	vSpecularMapUv = ( specularMapTransform * vec3( SPECULARMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_SPECULAR_COLORMAP
+	vSpecularColorMapUv = ( specularColorMapTransform * vec3( SPECULAR_COLORMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_SPECULAR_INTENSITYMAP
+	vSpecularIntensityMapUv = ( specularIntensityMapTransform * vec3( SPECULAR_INTENSITYMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_TRANSMISSIONMAP
+	vTransmissionMapUv = ( transmissionMapTransform * vec3( TRANSMISSIONMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_THICKNESSMAP
+	vThicknessMapUv = ( thicknessMapTransform * vec3( THICKNESSMAP_UV, 1 ) ).xy;
+#endif`,cS=`#if defined( USE_ENVMAP ) || defined( DISTANCE ) || defined ( USE_SHADOWMAP ) || defined ( USE_TRANSMISSION ) || NUM_SPOT_LIGHT_COORDS > 0
+	vec4 worldPosition = vec4( transformed, 1.0 );
+	#ifdef USE_BATCHING
+		worldPosition = batchingMatrix * worldPosition;
+	#endif
+	#ifdef USE_INSTANCING
+		worldPosition = instanceMatrix * worldPosition;
+	#endif
+	worldPosition = modelMatrix * worldPosition;
+#endif`,hS=`varying vec2 vUv;
+uniform mat3 uvTransform;
+void main() {
+	vUv = ( uvTransform * vec3( uv, 1 ) ).xy;
+	gl_Position = vec4( position.xy, 1.0, 1.0 );
+}`,uS=`uniform sampler2D t2D;
+uniform float backgroundIntensity;
+varying vec2 vUv;
+void main() {
+	vec4 texColor = texture2D( t2D, vUv );
+	#ifdef DECODE_VIDEO_TEXTURE
+		texColor = vec4( mix( pow( texColor.rgb * 0.9478672986 + vec3( 0.0521327014 ), vec3( 2.4 ) ), texColor.rgb * 0.0773993808, vec3( lessThanEqual( texColor.rgb, vec3( 0.04045 ) ) ) ), texColor.w );
+	#endif
+	texColor.rgb *= backgroundIntensity;
+	gl_FragColor = texColor;
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+}`,fS=`varying vec3 vWorldDirection;
+#include <common>
+void main() {
+	vWorldDirection = transformDirection( position, modelMatrix );
+	#include <begin_vertex>
+	#include <project_vertex>
+	gl_Position.z = gl_Position.w;
+}`,dS=`uniform float backgroundBlurriness;
+uniform float backgroundIntensity;
+uniform mat3 backgroundRotation;
+varying vec3 vWorldDirection;
+#include <envmap_common_pars_fragment>
+void main() {
+	#ifdef ENVMAP_TYPE_PMREM
+		vec4 texColor = textureLod( envMap, backgroundRotation * vWorldDirection, roughnessToMip( backgroundBlurriness ) );
+	#else
+		vec4 texColor = textureCube( envMap, backgroundRotation * vWorldDirection );
+	#endif
+	texColor.rgb *= backgroundIntensity;
+	gl_FragColor = texColor;
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+}`,pS=`varying vec3 vWorldDirection;
+#include <common>
+void main() {
+	vWorldDirection = transformDirection( position, modelMatrix );
+	#include <begin_vertex>
+	#include <project_vertex>
+	gl_Position.z = gl_Position.w;
+}`,mS=`uniform samplerCube tCube;
+uniform float tFlip;
+uniform float opacity;
+varying vec3 vWorldDirection;
+void main() {
+	vec4 texColor = textureCube( tCube, vec3( tFlip * vWorldDirection.x, vWorldDirection.yz ) );
+	gl_FragColor = texColor;
+	gl_FragColor.a *= opacity;
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+}`,gS=`#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+varying vec2 vHighPrecisionZW;
+void main() {
+	#include <uv_vertex>
+	#include <batching_vertex>
+	#include <skinbase_vertex>
+	#include <morphinstance_vertex>
+	#ifdef USE_DISPLACEMENTMAP
+		#include <beginnormal_vertex>
+		#include <morphnormal_vertex>
+		#include <skinnormal_vertex>
+	#endif
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	vHighPrecisionZW = gl_Position.zw;
+}`,_S=`#if DEPTH_PACKING == 3200
+	uniform float opacity;
+#endif
+#include <common>
+#include <packing>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+varying vec2 vHighPrecisionZW;
+void main() {
+	vec4 diffuseColor = vec4( 1.0 );
+	#include <clipping_planes_fragment>
+	#if DEPTH_PACKING == 3200
+		diffuseColor.a = opacity;
+	#endif
+	#include <map_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <logdepthbuf_fragment>
+	#ifdef USE_REVERSED_DEPTH_BUFFER
+		float fragCoordZ = vHighPrecisionZW[ 0 ] / vHighPrecisionZW[ 1 ];
+	#else
+		float fragCoordZ = 0.5 * vHighPrecisionZW[ 0 ] / vHighPrecisionZW[ 1 ] + 0.5;
+	#endif
+	#if DEPTH_PACKING == 3200
+		gl_FragColor = vec4( vec3( 1.0 - fragCoordZ ), opacity );
+	#elif DEPTH_PACKING == 3201
+		gl_FragColor = packDepthToRGBA( fragCoordZ );
+	#elif DEPTH_PACKING == 3202
+		gl_FragColor = vec4( packDepthToRGB( fragCoordZ ), 1.0 );
+	#elif DEPTH_PACKING == 3203
+		gl_FragColor = vec4( packDepthToRG( fragCoordZ ), 0.0, 1.0 );
+	#endif
+}`,yS=`#define DISTANCE
+varying vec3 vWorldPosition;
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <batching_vertex>
+	#include <skinbase_vertex>
+	#include <morphinstance_vertex>
+	#ifdef USE_DISPLACEMENTMAP
+		#include <beginnormal_vertex>
+		#include <morphnormal_vertex>
+		#include <skinnormal_vertex>
+	#endif
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <worldpos_vertex>
+	#include <clipping_planes_vertex>
+	vWorldPosition = worldPosition.xyz;
+}`,xS=`#define DISTANCE
+uniform vec3 referencePosition;
+uniform float nearDistance;
+uniform float farDistance;
+varying vec3 vWorldPosition;
+#include <common>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( 1.0 );
+	#include <clipping_planes_fragment>
+	#include <map_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	float dist = length( vWorldPosition - referencePosition );
+	dist = ( dist - nearDistance ) / ( farDistance - nearDistance );
+	dist = saturate( dist );
+	gl_FragColor = vec4( dist, 0.0, 0.0, 1.0 );
+}`,vS=`varying vec3 vWorldDirection;
+#include <common>
+void main() {
+	vWorldDirection = transformDirection( position, modelMatrix );
+	#include <begin_vertex>
+	#include <project_vertex>
+}`,MS=`uniform sampler2D tEquirect;
+varying vec3 vWorldDirection;
+#include <common>
+void main() {
+	vec3 direction = normalize( vWorldDirection );
+	vec2 sampleUV = equirectUv( direction );
+	gl_FragColor = texture2D( tEquirect, sampleUV );
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+}`,SS=`uniform float scale;
+attribute float lineDistance;
+varying float vLineDistance;
+#include <common>
+#include <uv_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	vLineDistance = scale * lineDistance;
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	#include <fog_vertex>
+}`,bS=`uniform vec3 diffuse;
+uniform float opacity;
+uniform float dashSize;
+uniform float totalSize;
+varying float vLineDistance;
+#include <common>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <fog_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	if ( mod( vLineDistance, totalSize ) > dashSize ) {
+		discard;
+	}
+	vec3 outgoingLight = vec3( 0.0 );
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	outgoingLight = diffuseColor.rgb;
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+}`,wS=`#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <envmap_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#if defined ( USE_ENVMAP ) || defined ( USE_SKINNING )
+		#include <beginnormal_vertex>
+		#include <morphnormal_vertex>
+		#include <skinbase_vertex>
+		#include <skinnormal_vertex>
+		#include <defaultnormal_vertex>
+	#endif
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	#include <worldpos_vertex>
+	#include <envmap_vertex>
+	#include <fog_vertex>
+}`,ES=`uniform vec3 diffuse;
+uniform float opacity;
+#ifndef FLAT_SHADED
+	varying vec3 vNormal;
+#endif
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <aomap_pars_fragment>
+#include <lightmap_pars_fragment>
+#include <envmap_common_pars_fragment>
+#include <envmap_pars_fragment>
+#include <fog_pars_fragment>
+#include <specularmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <specularmap_fragment>
+	ReflectedLight reflectedLight = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+	#ifdef USE_LIGHTMAP
+		vec4 lightMapTexel = texture2D( lightMap, vLightMapUv );
+		reflectedLight.indirectDiffuse += lightMapTexel.rgb * lightMapIntensity * RECIPROCAL_PI;
+	#else
+		reflectedLight.indirectDiffuse += vec3( 1.0 );
+	#endif
+	#include <aomap_fragment>
+	reflectedLight.indirectDiffuse *= diffuseColor.rgb;
+	vec3 outgoingLight = reflectedLight.indirectDiffuse;
+	#include <envmap_fragment>
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,TS=`#define LAMBERT
+varying vec3 vViewPosition;
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <envmap_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <shadowmap_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	vViewPosition = - mvPosition.xyz;
+	#include <worldpos_vertex>
+	#include <envmap_vertex>
+	#include <shadowmap_vertex>
+	#include <fog_vertex>
+}`,AS=`#define LAMBERT
+uniform vec3 diffuse;
+uniform vec3 emissive;
+uniform float opacity;
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <aomap_pars_fragment>
+#include <lightmap_pars_fragment>
+#include <emissivemap_pars_fragment>
+#include <envmap_common_pars_fragment>
+#include <envmap_pars_fragment>
+#include <envmap_physical_pars_fragment>
+#include <fog_pars_fragment>
+#include <bsdfs>
+#include <lights_pars_begin>
+#include <normal_pars_fragment>
+#include <lights_lambert_pars_fragment>
+#include <shadowmap_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <specularmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	ReflectedLight reflectedLight = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+	vec3 totalEmissiveRadiance = emissive;
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <specularmap_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	#include <emissivemap_fragment>
+	#include <lights_lambert_fragment>
+	#include <lights_fragment_begin>
+	#include <lights_fragment_maps>
+	#include <lights_fragment_end>
+	#include <aomap_fragment>
+	vec3 outgoingLight = reflectedLight.directDiffuse + reflectedLight.indirectDiffuse + totalEmissiveRadiance;
+	#include <envmap_fragment>
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,RS=`#define MATCAP
+varying vec3 vViewPosition;
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <color_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <fog_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	#include <fog_vertex>
+	vViewPosition = - mvPosition.xyz;
+}`,CS=`#define MATCAP
+uniform vec3 diffuse;
+uniform float opacity;
+uniform sampler2D matcap;
+varying vec3 vViewPosition;
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <fog_pars_fragment>
+#include <normal_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	vec3 viewDir = normalize( vViewPosition );
+	vec3 x = normalize( vec3( viewDir.z, 0.0, - viewDir.x ) );
+	vec3 y = cross( viewDir, x );
+	vec2 uv = vec2( dot( x, normal ), dot( y, normal ) ) * 0.495 + 0.5;
+	#ifdef USE_MATCAP
+		vec4 matcapColor = texture2D( matcap, uv );
+	#else
+		vec4 matcapColor = vec4( vec3( mix( 0.2, 0.8, uv.y ) ), 1.0 );
+	#endif
+	vec3 outgoingLight = diffuseColor.rgb * matcapColor.rgb;
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,PS=`#define NORMAL
+#if defined( FLAT_SHADED ) || defined( USE_BUMPMAP ) || defined( USE_NORMALMAP_TANGENTSPACE )
+	varying vec3 vViewPosition;
+#endif
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphinstance_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+#if defined( FLAT_SHADED ) || defined( USE_BUMPMAP ) || defined( USE_NORMALMAP_TANGENTSPACE )
+	vViewPosition = - mvPosition.xyz;
+#endif
+}`,IS=`#define NORMAL
+uniform float opacity;
+#if defined( FLAT_SHADED ) || defined( USE_BUMPMAP ) || defined( USE_NORMALMAP_TANGENTSPACE )
+	varying vec3 vViewPosition;
+#endif
+#include <uv_pars_fragment>
+#include <normal_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( 0.0, 0.0, 0.0, opacity );
+	#include <clipping_planes_fragment>
+	#include <logdepthbuf_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	gl_FragColor = vec4( normalize( normal ) * 0.5 + 0.5, diffuseColor.a );
+	#ifdef OPAQUE
+		gl_FragColor.a = 1.0;
+	#endif
+}`,LS=`#define PHONG
+varying vec3 vViewPosition;
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <envmap_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <shadowmap_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphinstance_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	vViewPosition = - mvPosition.xyz;
+	#include <worldpos_vertex>
+	#include <envmap_vertex>
+	#include <shadowmap_vertex>
+	#include <fog_vertex>
+}`,NS=`#define PHONG
+uniform vec3 diffuse;
+uniform vec3 emissive;
+uniform vec3 specular;
+uniform float shininess;
+uniform float opacity;
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <aomap_pars_fragment>
+#include <lightmap_pars_fragment>
+#include <emissivemap_pars_fragment>
+#include <envmap_common_pars_fragment>
+#include <envmap_pars_fragment>
+#include <envmap_physical_pars_fragment>
+#include <fog_pars_fragment>
+#include <bsdfs>
+#include <lights_pars_begin>
+#include <normal_pars_fragment>
+#include <lights_phong_pars_fragment>
+#include <shadowmap_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <specularmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	ReflectedLight reflectedLight = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+	vec3 totalEmissiveRadiance = emissive;
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <specularmap_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	#include <emissivemap_fragment>
+	#include <lights_phong_fragment>
+	#include <lights_fragment_begin>
+	#include <lights_fragment_maps>
+	#include <lights_fragment_end>
+	#include <aomap_fragment>
+	vec3 outgoingLight = reflectedLight.directDiffuse + reflectedLight.indirectDiffuse + reflectedLight.directSpecular + reflectedLight.indirectSpecular + totalEmissiveRadiance;
+	#include <envmap_fragment>
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,DS=`#define STANDARD
+varying vec3 vViewPosition;
+#ifdef USE_TRANSMISSION
+	varying vec3 vWorldPosition;
+#endif
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <shadowmap_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	vViewPosition = - mvPosition.xyz;
+	#include <worldpos_vertex>
+	#include <shadowmap_vertex>
+	#include <fog_vertex>
+#ifdef USE_TRANSMISSION
+	vWorldPosition = worldPosition.xyz;
+#endif
+}`,OS=`#define STANDARD
+#ifdef PHYSICAL
+	#define IOR
+	#define USE_SPECULAR
+#endif
+uniform vec3 diffuse;
+uniform vec3 emissive;
+uniform float roughness;
+uniform float metalness;
+uniform float opacity;
+#ifdef IOR
+	uniform float ior;
+#endif
+#ifdef USE_SPECULAR
+	uniform float specularIntensity;
+	uniform vec3 specularColor;
+	#ifdef USE_SPECULAR_COLORMAP
+		uniform sampler2D specularColorMap;
+	#endif
+	#ifdef USE_SPECULAR_INTENSITYMAP
+		uniform sampler2D specularIntensityMap;
+	#endif
+#endif
+#ifdef USE_CLEARCOAT
+	uniform float clearcoat;
+	uniform float clearcoatRoughness;
+#endif
+#ifdef USE_DIFFUSE_ROUGHNESS
+	uniform float diffuseRoughness;
+	#ifdef USE_DIFFUSE_ROUGHNESSMAP
+		uniform sampler2D diffuseRoughnessMap;
+	#endif
+#endif
+#ifdef USE_DISPERSION
+	uniform float dispersion;
+#endif
+#ifdef USE_RETROREFLECTION
+	uniform float retroreflectivity;
+#endif
+#ifdef USE_IRIDESCENCE
+	uniform float iridescence;
+	uniform float iridescenceIOR;
+	uniform float iridescenceThicknessMinimum;
+	uniform float iridescenceThicknessMaximum;
+#endif
+#ifdef USE_SHEEN
+	uniform vec3 sheenColor;
+	uniform float sheenRoughness;
+	#ifdef USE_SHEEN_COLORMAP
+		uniform sampler2D sheenColorMap;
+	#endif
+	#ifdef USE_SHEEN_ROUGHNESSMAP
+		uniform sampler2D sheenRoughnessMap;
+	#endif
+#endif
+#ifdef USE_ANISOTROPY
+	uniform vec2 anisotropyVector;
+	#ifdef USE_ANISOTROPYMAP
+		uniform sampler2D anisotropyMap;
+	#endif
+#endif
+varying vec3 vViewPosition;
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <aomap_pars_fragment>
+#include <lightmap_pars_fragment>
+#include <emissivemap_pars_fragment>
+#include <iridescence_fragment>
+#include <envmap_common_pars_fragment>
+#include <envmap_physical_pars_fragment>
+#include <fog_pars_fragment>
+#include <lights_pars_begin>
+#include <normal_pars_fragment>
+#include <lights_physical_pars_fragment>
+#include <transmission_pars_fragment>
+#include <shadowmap_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <clearcoat_pars_fragment>
+#include <iridescence_pars_fragment>
+#include <roughnessmap_pars_fragment>
+#include <metalnessmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	ReflectedLight reflectedLight = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+	vec3 totalEmissiveRadiance = emissive;
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <roughnessmap_fragment>
+	#include <metalnessmap_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	#include <clearcoat_normal_fragment_begin>
+	#include <clearcoat_normal_fragment_maps>
+	#include <emissivemap_fragment>
+	#include <lights_physical_fragment>
+	#include <lights_fragment_begin>
+	#include <lights_fragment_maps>
+	#include <lights_fragment_end>
+	#include <aomap_fragment>
+	vec3 totalDiffuse = reflectedLight.directDiffuse + reflectedLight.indirectDiffuse;
+	vec3 totalSpecular = reflectedLight.directSpecular + reflectedLight.indirectSpecular;
+	#include <transmission_fragment>
+	vec3 outgoingLight = totalDiffuse + totalSpecular + totalEmissiveRadiance;
+	#ifdef USE_SHEEN
+ 
+		outgoingLight = outgoingLight + sheenSpecularDirect + sheenSpecularIndirect;
+ 
+ 	#endif
+	#ifdef USE_CLEARCOAT
+		float dotNVcc = saturate( dot( geometryClearcoatNormal, geometryViewDir ) );
+		vec3 Fcc = F_Schlick( material.clearcoatF0, material.clearcoatF90, dotNVcc );
+		outgoingLight = outgoingLight * ( 1.0 - material.clearcoat * Fcc ) + ( clearcoatSpecularDirect + clearcoatSpecularIndirect ) * material.clearcoat;
+	#endif
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,US=`#define TOON
+varying vec3 vViewPosition;
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <shadowmap_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	vViewPosition = - mvPosition.xyz;
+	#include <worldpos_vertex>
+	#include <shadowmap_vertex>
+	#include <fog_vertex>
+}`,FS=`#define TOON
+uniform vec3 diffuse;
+uniform vec3 emissive;
+uniform float opacity;
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <aomap_pars_fragment>
+#include <lightmap_pars_fragment>
+#include <emissivemap_pars_fragment>
+#include <gradientmap_pars_fragment>
+#include <fog_pars_fragment>
+#include <bsdfs>
+#include <lights_pars_begin>
+#include <normal_pars_fragment>
+#include <lights_toon_pars_fragment>
+#include <shadowmap_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	ReflectedLight reflectedLight = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+	vec3 totalEmissiveRadiance = emissive;
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	#include <emissivemap_fragment>
+	#include <lights_toon_fragment>
+	#include <lights_fragment_begin>
+	#include <lights_fragment_maps>
+	#include <lights_fragment_end>
+	#include <aomap_fragment>
+	vec3 outgoingLight = reflectedLight.directDiffuse + reflectedLight.indirectDiffuse + totalEmissiveRadiance;
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,BS=`uniform float size;
+uniform float scale;
+#include <common>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+#ifdef USE_POINTS_UV
+	varying vec2 vUv;
+	uniform mat3 uvTransform;
+#endif
+void main() {
+	#ifdef USE_POINTS_UV
+		vUv = ( uvTransform * vec3( uv, 1 ) ).xy;
+	#endif
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <project_vertex>
+	gl_PointSize = size;
+	#ifdef USE_SIZEATTENUATION
+		bool isPerspective = isPerspectiveMatrix( projectionMatrix );
+		if ( isPerspective ) gl_PointSize *= ( scale / - mvPosition.z );
+	#endif
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	#include <worldpos_vertex>
+	#include <fog_vertex>
+}`,kS=`uniform vec3 diffuse;
+uniform float opacity;
+#include <common>
+#include <color_pars_fragment>
+#include <map_particle_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <fog_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	vec3 outgoingLight = vec3( 0.0 );
+	#include <logdepthbuf_fragment>
+	#include <map_particle_fragment>
+	#include <color_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	outgoingLight = diffuseColor.rgb;
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+}`,zS=`#include <common>
+#include <batching_pars_vertex>
+#include <fog_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <shadowmap_pars_vertex>
+void main() {
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphinstance_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <worldpos_vertex>
+	#include <shadowmap_vertex>
+	#include <fog_vertex>
+}`,GS=`uniform vec3 color;
+uniform float opacity;
+#include <common>
+#include <fog_pars_fragment>
+#include <bsdfs>
+#include <lights_pars_begin>
+#include <logdepthbuf_pars_fragment>
+#include <shadowmap_pars_fragment>
+#include <shadowmask_pars_fragment>
+void main() {
+	#include <logdepthbuf_fragment>
+	gl_FragColor = vec4( color, opacity * ( 1.0 - getShadowMask() ) );
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+}`,VS=`uniform float rotation;
+uniform vec2 center;
+#include <common>
+#include <uv_pars_vertex>
+#include <fog_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	vec4 mvPosition = modelViewMatrix[ 3 ];
+	vec2 scale = vec2( length( modelMatrix[ 0 ].xyz ), length( modelMatrix[ 1 ].xyz ) );
+	#ifndef USE_SIZEATTENUATION
+		bool isPerspective = isPerspectiveMatrix( projectionMatrix );
+		if ( isPerspective ) scale *= - mvPosition.z;
+	#endif
+	vec2 alignedPosition = ( position.xy - ( center - vec2( 0.5 ) ) ) * scale;
+	vec2 rotatedPosition;
+	rotatedPosition.x = cos( rotation ) * alignedPosition.x - sin( rotation ) * alignedPosition.y;
+	rotatedPosition.y = sin( rotation ) * alignedPosition.x + cos( rotation ) * alignedPosition.y;
+	mvPosition.xy += rotatedPosition;
+	gl_Position = projectionMatrix * mvPosition;
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	#include <fog_vertex>
+}`,HS=`uniform vec3 diffuse;
+uniform float opacity;
+#include <common>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <fog_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	vec3 outgoingLight = vec3( 0.0 );
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	outgoingLight = diffuseColor.rgb;
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+}`,jt={alphahash_fragment:uv,alphahash_pars_fragment:fv,alphamap_fragment:dv,alphamap_pars_fragment:pv,alphatest_fragment:mv,alphatest_pars_fragment:gv,aomap_fragment:_v,aomap_pars_fragment:yv,batching_pars_vertex:xv,batching_vertex:vv,begin_vertex:Mv,beginnormal_vertex:Sv,bsdfs:bv,iridescence_fragment:wv,bumpmap_pars_fragment:Ev,clipping_planes_fragment:Tv,clipping_planes_pars_fragment:Av,clipping_planes_pars_vertex:Rv,clipping_planes_vertex:Cv,color_fragment:Pv,color_pars_fragment:Iv,color_pars_vertex:Lv,color_vertex:Nv,common:Dv,defaultnormal_vertex:Ov,displacementmap_pars_vertex:Uv,displacementmap_vertex:Fv,emissivemap_fragment:Bv,emissivemap_pars_fragment:kv,colorspace_fragment:zv,colorspace_pars_fragment:Gv,envmap_fragment:Vv,envmap_common_pars_fragment:Hv,envmap_pars_fragment:Wv,envmap_pars_vertex:Xv,envmap_physical_pars_fragment:nM,envmap_vertex:qv,fog_vertex:Yv,fog_pars_vertex:$v,fog_fragment:Zv,fog_pars_fragment:Jv,gradientmap_pars_fragment:Kv,lightmap_pars_fragment:jv,lights_lambert_fragment:Qv,lights_lambert_pars_fragment:tM,lights_pars_begin:eM,lights_toon_fragment:iM,lights_toon_pars_fragment:sM,lights_phong_fragment:rM,lights_phong_pars_fragment:aM,lights_physical_fragment:oM,lights_physical_pars_fragment:lM,lights_fragment_begin:cM,lights_fragment_maps:hM,lights_fragment_end:uM,lightprobes_pars_fragment:fM,logdepthbuf_fragment:dM,logdepthbuf_pars_fragment:pM,logdepthbuf_pars_vertex:mM,logdepthbuf_vertex:gM,map_fragment:_M,map_pars_fragment:yM,map_particle_fragment:xM,map_particle_pars_fragment:vM,metalnessmap_fragment:MM,metalnessmap_pars_fragment:SM,morphinstance_vertex:bM,morphcolor_vertex:wM,morphnormal_vertex:EM,morphtarget_pars_vertex:TM,morphtarget_vertex:AM,normal_fragment_begin:RM,normal_fragment_maps:CM,normal_pars_fragment:PM,normal_pars_vertex:IM,normal_vertex:LM,normalmap_pars_fragment:NM,clearcoat_normal_fragment_begin:DM,clearcoat_normal_fragment_maps:OM,clearcoat_pars_fragment:UM,iridescence_pars_fragment:FM,opaque_fragment:BM,packing:kM,premultiplied_alpha_fragment:zM,project_vertex:GM,dithering_fragment:VM,dithering_pars_fragment:HM,roughnessmap_fragment:WM,roughnessmap_pars_fragment:XM,shadowmap_pars_fragment:qM,shadowmap_pars_vertex:YM,shadowmap_vertex:$M,shadowmask_pars_fragment:ZM,skinbase_vertex:JM,skinning_pars_vertex:KM,skinning_vertex:jM,skinnormal_vertex:QM,specularmap_fragment:tS,specularmap_pars_fragment:eS,tonemapping_fragment:nS,tonemapping_pars_fragment:iS,transmission_fragment:sS,transmission_pars_fragment:rS,uv_pars_fragment:aS,uv_pars_vertex:oS,uv_vertex:lS,worldpos_vertex:cS,background_vert:hS,background_frag:uS,backgroundCube_vert:fS,backgroundCube_frag:dS,cube_vert:pS,cube_frag:mS,depth_vert:gS,depth_frag:_S,distance_vert:yS,distance_frag:xS,equirect_vert:vS,equirect_frag:MS,linedashed_vert:SS,linedashed_frag:bS,meshbasic_vert:wS,meshbasic_frag:ES,meshlambert_vert:TS,meshlambert_frag:AS,meshmatcap_vert:RS,meshmatcap_frag:CS,meshnormal_vert:PS,meshnormal_frag:IS,meshphong_vert:LS,meshphong_frag:NS,meshphysical_vert:DS,meshphysical_frag:OS,meshtoon_vert:US,meshtoon_frag:FS,points_vert:BS,points_frag:kS,shadow_vert:zS,shadow_frag:GS,sprite_vert:VS,sprite_frag:HS},wt={common:{diffuse:{value:new Yt(16777215)},opacity:{value:1},map:{value:null},mapTransform:{value:new qt},alphaMap:{value:null},alphaMapTransform:{value:new qt},alphaTest:{value:0}},specularmap:{specularMap:{value:null},specularMapTransform:{value:new qt}},envmap:{envMap:{value:null},envMapRotation:{value:new qt},reflectivity:{value:1},ior:{value:1.5},refractionRatio:{value:.98},dfgLUT:{value:null}},aomap:{aoMap:{value:null},aoMapIntensity:{value:1},aoMapTransform:{value:new qt}},lightmap:{lightMap:{value:null},lightMapIntensity:{value:1},lightMapTransform:{value:new qt}},bumpmap:{bumpMap:{value:null},bumpMapTransform:{value:new qt},bumpScale:{value:1}},normalmap:{normalMap:{value:null},normalMapTransform:{value:new qt},normalScale:{value:new kt(1,1)}},displacementmap:{displacementMap:{value:null},displacementMapTransform:{value:new qt},displacementScale:{value:1},displacementBias:{value:0}},emissivemap:{emissiveMap:{value:null},emissiveMapTransform:{value:new qt}},metalnessmap:{metalnessMap:{value:null},metalnessMapTransform:{value:new qt}},roughnessmap:{roughnessMap:{value:null},roughnessMapTransform:{value:new qt}},gradientmap:{gradientMap:{value:null}},fog:{fogDensity:{value:25e-5},fogNear:{value:1},fogFar:{value:2e3},fogColor:{value:new Yt(16777215)}},lights:{ambientLightColor:{value:[]},lightProbe:{value:[]},sunLights:{value:[],properties:{direction:{},color:{}}},sunLightShadows:{value:[],properties:{shadowIntensity:1,shadowBias:{},shadowNormalBias:{},shadowRadius:{},shadowMapSize:{}}},sunShadowMatrix:{value:[]},sunShadowCascade:{value:[]},directionalLights:{value:[],properties:{direction:{},color:{}}},directionalLightShadows:{value:[],properties:{shadowIntensity:1,shadowBias:{},shadowNormalBias:{},shadowRadius:{},shadowMapSize:{}}},directionalShadowMatrix:{value:[]},spotLights:{value:[],properties:{color:{},position:{},direction:{},distance:{},coneCos:{},penumbraCos:{},decay:{}}},spotLightShadows:{value:[],properties:{shadowIntensity:1,shadowBias:{},shadowNormalBias:{},shadowRadius:{},shadowMapSize:{}}},spotLightMap:{value:[]},spotLightMatrix:{value:[]},pointLights:{value:[],properties:{color:{},position:{},decay:{},distance:{}}},pointLightShadows:{value:[],properties:{shadowIntensity:1,shadowBias:{},shadowNormalBias:{},shadowRadius:{},shadowMapSize:{},shadowCameraNear:{},shadowCameraFar:{}}},pointShadowMatrix:{value:[]},hemisphereLights:{value:[],properties:{direction:{},skyColor:{},groundColor:{}}},rectAreaLights:{value:[],properties:{color:{},position:{},width:{},height:{}}},ltc_1:{value:null},ltc_2:{value:null},probesSH:{value:[]},probesMin:{value:[]},probesMax:{value:[]},probesResolution:{value:[]}},points:{diffuse:{value:new Yt(16777215)},opacity:{value:1},size:{value:1},scale:{value:1},map:{value:null},alphaMap:{value:null},alphaMapTransform:{value:new qt},alphaTest:{value:0},uvTransform:{value:new qt}},sprite:{diffuse:{value:new Yt(16777215)},opacity:{value:1},center:{value:new kt(.5,.5)},rotation:{value:0},map:{value:null},mapTransform:{value:new qt},alphaMap:{value:null},alphaMapTransform:{value:new qt},alphaTest:{value:0}}},_i={basic:{uniforms:mn([wt.common,wt.specularmap,wt.envmap,wt.aomap,wt.lightmap,wt.fog]),vertexShader:jt.meshbasic_vert,fragmentShader:jt.meshbasic_frag},lambert:{uniforms:mn([wt.common,wt.specularmap,wt.envmap,wt.aomap,wt.lightmap,wt.emissivemap,wt.bumpmap,wt.normalmap,wt.displacementmap,wt.fog,wt.lights,{emissive:{value:new Yt(0)},envMapIntensity:{value:1}}]),vertexShader:jt.meshlambert_vert,fragmentShader:jt.meshlambert_frag},phong:{uniforms:mn([wt.common,wt.specularmap,wt.envmap,wt.aomap,wt.lightmap,wt.emissivemap,wt.bumpmap,wt.normalmap,wt.displacementmap,wt.fog,wt.lights,{emissive:{value:new Yt(0)},specular:{value:new Yt(1118481)},shininess:{value:30},envMapIntensity:{value:1}}]),vertexShader:jt.meshphong_vert,fragmentShader:jt.meshphong_frag},standard:{uniforms:mn([wt.common,wt.envmap,wt.aomap,wt.lightmap,wt.emissivemap,wt.bumpmap,wt.normalmap,wt.displacementmap,wt.roughnessmap,wt.metalnessmap,wt.fog,wt.lights,{emissive:{value:new Yt(0)},roughness:{value:1},metalness:{value:0},envMapIntensity:{value:1}}]),vertexShader:jt.meshphysical_vert,fragmentShader:jt.meshphysical_frag},toon:{uniforms:mn([wt.common,wt.aomap,wt.lightmap,wt.emissivemap,wt.bumpmap,wt.normalmap,wt.displacementmap,wt.gradientmap,wt.fog,wt.lights,{emissive:{value:new Yt(0)}}]),vertexShader:jt.meshtoon_vert,fragmentShader:jt.meshtoon_frag},matcap:{uniforms:mn([wt.common,wt.bumpmap,wt.normalmap,wt.displacementmap,wt.fog,{matcap:{value:null}}]),vertexShader:jt.meshmatcap_vert,fragmentShader:jt.meshmatcap_frag},points:{uniforms:mn([wt.points,wt.fog]),vertexShader:jt.points_vert,fragmentShader:jt.points_frag},dashed:{uniforms:mn([wt.common,wt.fog,{scale:{value:1},dashSize:{value:1},totalSize:{value:2}}]),vertexShader:jt.linedashed_vert,fragmentShader:jt.linedashed_frag},depth:{uniforms:mn([wt.common,wt.displacementmap]),vertexShader:jt.depth_vert,fragmentShader:jt.depth_frag},normal:{uniforms:mn([wt.common,wt.bumpmap,wt.normalmap,wt.displacementmap,{opacity:{value:1}}]),vertexShader:jt.meshnormal_vert,fragmentShader:jt.meshnormal_frag},sprite:{uniforms:mn([wt.sprite,wt.fog]),vertexShader:jt.sprite_vert,fragmentShader:jt.sprite_frag},background:{uniforms:{uvTransform:{value:new qt},t2D:{value:null},backgroundIntensity:{value:1}},vertexShader:jt.background_vert,fragmentShader:jt.background_frag},backgroundCube:{uniforms:{envMap:{value:null},backgroundBlurriness:{value:0},backgroundIntensity:{value:1},backgroundRotation:{value:new qt}},vertexShader:jt.backgroundCube_vert,fragmentShader:jt.backgroundCube_frag},cube:{uniforms:{tCube:{value:null},tFlip:{value:-1},opacity:{value:1}},vertexShader:jt.cube_vert,fragmentShader:jt.cube_frag},equirect:{uniforms:{tEquirect:{value:null}},vertexShader:jt.equirect_vert,fragmentShader:jt.equirect_frag},distance:{uniforms:mn([wt.common,wt.displacementmap,{referencePosition:{value:new B},nearDistance:{value:1},farDistance:{value:1e3}}]),vertexShader:jt.distance_vert,fragmentShader:jt.distance_frag},shadow:{uniforms:mn([wt.lights,wt.fog,{color:{value:new Yt(0)},opacity:{value:1}}]),vertexShader:jt.shadow_vert,fragmentShader:jt.shadow_frag}};_i.physical={uniforms:mn([_i.standard.uniforms,{clearcoat:{value:0},clearcoatMap:{value:null},clearcoatMapTransform:{value:new qt},clearcoatNormalMap:{value:null},clearcoatNormalMapTransform:{value:new qt},clearcoatNormalScale:{value:new kt(1,1)},clearcoatRoughness:{value:0},clearcoatRoughnessMap:{value:null},clearcoatRoughnessMapTransform:{value:new qt},diffuseRoughness:{value:0},diffuseRoughnessMap:{value:null},diffuseRoughnessMapTransform:{value:new qt},dispersion:{value:0},retroreflectivity:{value:0},iridescence:{value:0},iridescenceMap:{value:null},iridescenceMapTransform:{value:new qt},iridescenceIOR:{value:1.3},iridescenceThicknessMinimum:{value:100},iridescenceThicknessMaximum:{value:400},iridescenceThicknessMap:{value:null},iridescenceThicknessMapTransform:{value:new qt},sheen:{value:0},sheenColor:{value:new Yt(0)},sheenColorMap:{value:null},sheenColorMapTransform:{value:new qt},sheenRoughness:{value:1},sheenRoughnessMap:{value:null},sheenRoughnessMapTransform:{value:new qt},transmission:{value:0},transmissionMap:{value:null},transmissionMapTransform:{value:new qt},transmissionSamplerSize:{value:new kt},transmissionSamplerMap:{value:null},thickness:{value:0},thicknessMap:{value:null},thicknessMapTransform:{value:new qt},attenuationDistance:{value:0},attenuationColor:{value:new Yt(0)},specularColor:{value:new Yt(1,1,1)},specularColorMap:{value:null},specularColorMapTransform:{value:new qt},specularIntensity:{value:1},specularIntensityMap:{value:null},specularIntensityMapTransform:{value:new qt},anisotropyVector:{value:new kt},anisotropyMap:{value:null},anisotropyMapTransform:{value:new qt}}]),vertexShader:jt.meshphysical_vert,fragmentShader:jt.meshphysical_frag};var Nc={r:0,b:0,g:0},WS=new ie,c0=new qt;c0.set(-1,0,0,0,1,0,0,0,1);function XS(i,t,e,n,s,r){let a=new Yt(0),o=s===!0?0:1,c,l,h=null,u=0,f=null;function d(x){let b=x.isScene===!0?x.background:null;if(b&&b.isTexture){let w=x.backgroundBlurriness>0;b=t.get(b,w)}return b}function p(x){let b=!1,w=d(x);w===null?g(a,o):w&&w.isColor&&(g(w,1),b=!0);let A=i.xr.getEnvironmentBlendMode();A==="additive"?e.buffers.color.setClear(0,0,0,1,r):A==="alpha-blend"&&e.buffers.color.setClear(0,0,0,0,r),(i.autoClear||b)&&(e.buffers.depth.setTest(!0),e.buffers.depth.setMask(!0),e.buffers.color.setMask(!0),i.clear(i.autoClearColor,i.autoClearDepth,i.autoClearStencil))}function _(x,b){let w=d(b);w&&w.isCubeTexture?(l===void 0&&(l=new An(new Sr(1,1,1),new di({name:"BackgroundCubeMaterial",uniforms:Us(_i.backgroundCube.uniforms),vertexShader:_i.backgroundCube.vertexShader,fragmentShader:_i.backgroundCube.fragmentShader,side:En,depthTest:!1,depthWrite:!1,fog:!1,allowOverride:!1})),l.geometry.deleteAttribute("normal"),l.geometry.deleteAttribute("uv"),l.onBeforeRender=function(A,C,v){this.matrixWorld.copyPosition(v.matrixWorld)},Object.defineProperty(l.material,"envMap",{get:function(){return this.uniforms.envMap.value}}),n.update(l)),l.material.uniforms.envMap.value=w,l.material.uniforms.backgroundBlurriness.value=b.backgroundBlurriness,l.material.uniforms.backgroundIntensity.value=b.backgroundIntensity,l.material.uniforms.backgroundRotation.value.setFromMatrix4(WS.makeRotationFromEuler(b.backgroundRotation)).transpose(),w.isRenderTargetTexture===!1&&l.material.uniforms.backgroundRotation.value.premultiply(c0),l.material.toneMapped=oe.getTransfer(w.colorSpace)!==ye,(h!==w||u!==w.version||f!==i.toneMapping)&&(l.material.needsUpdate=!0,h=w,u=w.version,f=i.toneMapping),l.layers.enableAll(),x.unshift(l,l.geometry,l.material,0,0,null)):w&&w.isTexture&&(c===void 0&&(c=new An(new Cs(2,2),new di({name:"BackgroundMaterial",uniforms:Us(_i.background.uniforms),vertexShader:_i.background.vertexShader,fragmentShader:_i.background.fragmentShader,side:is,depthTest:!1,depthWrite:!1,fog:!1,allowOverride:!1})),c.geometry.deleteAttribute("normal"),Object.defineProperty(c.material,"map",{get:function(){return this.uniforms.t2D.value}}),n.update(c)),c.material.uniforms.t2D.value=w,c.material.uniforms.backgroundIntensity.value=b.backgroundIntensity,c.material.toneMapped=oe.getTransfer(w.colorSpace)!==ye,w.matrixAutoUpdate===!0&&w.updateMatrix(),c.material.uniforms.uvTransform.value.copy(w.matrix),(h!==w||u!==w.version||f!==i.toneMapping)&&(c.material.needsUpdate=!0,h=w,u=w.version,f=i.toneMapping),c.layers.enableAll(),x.unshift(c,c.geometry,c.material,0,0,null))}function g(x,b){x.getRGB(Nc,Sf(i)),e.buffers.color.setClear(Nc.r,Nc.g,Nc.b,b,r)}function m(){l!==void 0&&(l.geometry.dispose(),l.material.dispose(),l=void 0),c!==void 0&&(c.geometry.dispose(),c.material.dispose(),c=void 0)}return{getClearColor:function(){return a},setClearColor:function(x,b=1){a.set(x),o=b,g(a,o)},getClearAlpha:function(){return o},setClearAlpha:function(x){o=x,g(a,o)},render:p,addToRenderList:_,dispose:m}}function qS(i,t){let e=i.getParameter(i.MAX_VERTEX_ATTRIBS),n={},s=f(null),r=s,a=!1;function o(D,H,J,P,q){let Q=!1,X=u(D,P,J,H);r!==X&&(r=X,l(r.object)),Q=d(D,P,J,q),Q&&p(D,P,J,q),q!==null&&t.update(q,i.ELEMENT_ARRAY_BUFFER),(Q||a)&&(a=!1,w(D,H,J,P),q!==null&&i.bindBuffer(i.ELEMENT_ARRAY_BUFFER,t.get(q).buffer))}function c(){return i.createVertexArray()}function l(D){return i.bindVertexArray(D)}function h(D){return i.deleteVertexArray(D)}function u(D,H,J,P){let q=P.wireframe===!0,Q=n[H.id];Q===void 0&&(Q={},n[H.id]=Q);let X=D.isInstancedMesh===!0?D.id:0,rt=Q[X];rt===void 0&&(rt={},Q[X]=rt);let W=rt[J.id];W===void 0&&(W={},rt[J.id]=W);let k=W[q];return k===void 0&&(k=f(c()),W[q]=k),k}function f(D){let H=[],J=[],P=[];for(let q=0;q<e;q++)H[q]=0,J[q]=0,P[q]=0;return{geometry:null,program:null,wireframe:!1,newAttributes:H,enabledAttributes:J,attributeDivisors:P,object:D,attributes:{},index:null}}function d(D,H,J,P){let q=r.attributes,Q=H.attributes,X=0,rt=J.getAttributes();for(let W in rt)if(rt[W].location>=0){let it=q[W],Tt=Q[W];if(Tt===void 0&&(W==="instanceMatrix"&&D.instanceMatrix&&(Tt=D.instanceMatrix),W==="instanceColor"&&D.instanceColor&&(Tt=D.instanceColor)),it===void 0||it.attribute!==Tt||Tt&&it.data!==Tt.data)return!0;X++}return r.attributesNum!==X||r.index!==P}function p(D,H,J,P){let q={},Q=H.attributes,X=0,rt=J.getAttributes();for(let W in rt)if(rt[W].location>=0){let it=Q[W];it===void 0&&(W==="instanceMatrix"&&D.instanceMatrix&&(it=D.instanceMatrix),W==="instanceColor"&&D.instanceColor&&(it=D.instanceColor));let Tt={};Tt.attribute=it,it&&it.data&&(Tt.data=it.data),q[W]=Tt,X++}r.attributes=q,r.attributesNum=X,r.index=P}function _(){let D=r.newAttributes;for(let H=0,J=D.length;H<J;H++)D[H]=0}function g(D){m(D,0)}function m(D,H){let J=r.newAttributes,P=r.enabledAttributes,q=r.attributeDivisors;J[D]=1,P[D]===0&&(i.enableVertexAttribArray(D),P[D]=1),q[D]!==H&&(i.vertexAttribDivisor(D,H),q[D]=H)}function x(){let D=r.newAttributes,H=r.enabledAttributes;for(let J=0,P=H.length;J<P;J++)H[J]!==D[J]&&(i.disableVertexAttribArray(J),H[J]=0)}function b(D,H,J,P,q,Q,X){X===!0?i.vertexAttribIPointer(D,H,J,q,Q):i.vertexAttribPointer(D,H,J,P,q,Q)}function w(D,H,J,P){_();let q=P.attributes,Q=J.getAttributes(),X=H.defaultAttributeValues;for(let rt in Q){let W=Q[rt];if(W.location>=0){let k=q[rt];if(k===void 0&&(rt==="instanceMatrix"&&D.instanceMatrix&&(k=D.instanceMatrix),rt==="instanceColor"&&D.instanceColor&&(k=D.instanceColor)),k!==void 0){let it=k.normalized,Tt=k.itemSize,Bt=t.get(k);if(Bt===void 0)continue;let et=Bt.buffer,pt=Bt.type,_t=Bt.bytesPerElement,It=pt===i.INT||pt===i.UNSIGNED_INT||k.gpuType===Jl;if(k.isInterleavedBufferAttribute){let lt=k.data,Et=lt.isInterleavedBuffer===!0?lt.stride:lt.itemSize,se=k.offset;if(lt.isInstancedInterleavedBuffer||lt.isInstancedBufferAttribute){for(let Ot=0;Ot<W.locationSize;Ot++)m(W.location+Ot,lt.meshPerAttribute);D.isInstancedMesh!==!0&&P._maxInstanceCount===void 0&&(P._maxInstanceCount=lt.meshPerAttribute*lt.count)}else for(let Ot=0;Ot<W.locationSize;Ot++)g(W.location+Ot);i.bindBuffer(i.ARRAY_BUFFER,et);for(let Ot=0;Ot<W.locationSize;Ot++)b(W.location+Ot,Tt/W.locationSize,pt,it,Et*_t,(se+Tt/W.locationSize*Ot)*_t,It)}else{if(k.isInstancedBufferAttribute){for(let lt=0;lt<W.locationSize;lt++)m(W.location+lt,k.meshPerAttribute);D.isInstancedMesh!==!0&&P._maxInstanceCount===void 0&&(P._maxInstanceCount=k.meshPerAttribute*k.count)}else for(let lt=0;lt<W.locationSize;lt++)g(W.location+lt);i.bindBuffer(i.ARRAY_BUFFER,et);for(let lt=0;lt<W.locationSize;lt++)b(W.location+lt,Tt/W.locationSize,pt,it,Tt*_t,Tt/W.locationSize*lt*_t,It)}}else if(X!==void 0){let it=X[rt];if(it!==void 0)switch(it.length){case 2:i.vertexAttrib2fv(W.location,it);break;case 3:i.vertexAttrib3fv(W.location,it);break;case 4:i.vertexAttrib4fv(W.location,it);break;default:i.vertexAttrib1fv(W.location,it)}}}}x()}function A(){F();for(let D in n){let H=n[D];for(let J in H){let P=H[J];for(let q in P){let Q=P[q];for(let X in Q)h(Q[X].object),delete Q[X];delete P[q]}}delete n[D]}}function C(D){if(n[D.id]===void 0)return;let H=n[D.id];for(let J in H){let P=H[J];for(let q in P){let Q=P[q];for(let X in Q)h(Q[X].object),delete Q[X];delete P[q]}}delete n[D.id]}function v(D){for(let H in n){let J=n[H];for(let P in J){let q=J[P];if(q[D.id]===void 0)continue;let Q=q[D.id];for(let X in Q)h(Q[X].object),delete Q[X];delete q[D.id]}}}function E(D){for(let H in n){let J=n[H],P=D.isInstancedMesh===!0?D.id:0,q=J[P];if(q!==void 0){for(let Q in q){let X=q[Q];for(let rt in X)h(X[rt].object),delete X[rt];delete q[Q]}delete J[P],Object.keys(J).length===0&&delete n[H]}}}function F(){N(),a=!0,r!==s&&(r=s,l(r.object))}function N(){s.geometry=null,s.program=null,s.wireframe=!1}return{setup:o,reset:F,resetDefaultState:N,dispose:A,releaseStatesOfGeometry:C,releaseStatesOfObject:E,releaseStatesOfProgram:v,initAttributes:_,enableAttribute:g,disableUnusedAttributes:x}}function YS(i,t,e){let n;function s(c){n=c}function r(c,l){i.drawArrays(n,c,l),e.update(l,n,1)}function a(c,l,h){h!==0&&(i.drawArraysInstanced(n,c,l,h),e.update(l,n,h))}function o(c,l,h){if(h===0)return;t.get("WEBGL_multi_draw").multiDrawArraysWEBGL(n,c,0,l,0,h);let f=0;for(let d=0;d<h;d++)f+=l[d];e.update(f,n,1)}this.setMode=s,this.render=r,this.renderInstances=a,this.renderMultiDraw=o}function $S(i,t,e,n){let s;function r(){if(s!==void 0)return s;if(t.has("EXT_texture_filter_anisotropic")===!0){let v=t.get("EXT_texture_filter_anisotropic");s=i.getParameter(v.MAX_TEXTURE_MAX_ANISOTROPY_EXT)}else s=0;return s}function a(v){return!(v!==qn&&n.convert(v)!==i.getParameter(i.IMPLEMENTATION_COLOR_READ_FORMAT))}function o(v){let E=v===si&&(t.has("EXT_color_buffer_half_float")||t.has("EXT_color_buffer_float"));return!(v!==Rn&&v!==Xn&&!E&&n.convert(v)!==i.getParameter(i.IMPLEMENTATION_COLOR_READ_TYPE))}function c(v){if(v==="highp"){if(i.getShaderPrecisionFormat(i.VERTEX_SHADER,i.HIGH_FLOAT).precision>0&&i.getShaderPrecisionFormat(i.FRAGMENT_SHADER,i.HIGH_FLOAT).precision>0)return"highp";v="mediump"}return v==="mediump"&&i.getShaderPrecisionFormat(i.VERTEX_SHADER,i.MEDIUM_FLOAT).precision>0&&i.getShaderPrecisionFormat(i.FRAGMENT_SHADER,i.MEDIUM_FLOAT).precision>0?"mediump":"lowp"}let l=e.precision!==void 0?e.precision:"highp",h=c(l);h!==l&&(Dt("WebGLRenderer:",l,"not supported, using",h,"instead."),l=h);let u=e.reversedDepthBuffer===!0&&t.has("EXT_clip_control"),f=e.logarithmicDepthBuffer===!0&&u===!1;e.reversedDepthBuffer===!0&&u===!1&&Dt("WebGLRenderer: Unable to use reversed depth buffer due to missing EXT_clip_control extension. Fallback to default depth buffer."),e.logarithmicDepthBuffer===!0&&u===!0&&Dt("WebGLRenderer: Logarithmic depth buffer is ignored when reversed depth buffer is enabled.");let d=i.getParameter(i.MAX_TEXTURE_IMAGE_UNITS),p=i.getParameter(i.MAX_VERTEX_TEXTURE_IMAGE_UNITS),_=i.getParameter(i.MAX_TEXTURE_SIZE),g=i.getParameter(i.MAX_CUBE_MAP_TEXTURE_SIZE),m=i.getParameter(i.MAX_VERTEX_ATTRIBS),x=i.getParameter(i.MAX_VERTEX_UNIFORM_VECTORS),b=i.getParameter(i.MAX_VARYING_VECTORS),w=i.getParameter(i.MAX_FRAGMENT_UNIFORM_VECTORS),A=i.getParameter(i.MAX_SAMPLES),C=i.getParameter(i.SAMPLES);return{isWebGL2:!0,getMaxAnisotropy:r,getMaxPrecision:c,textureFormatReadable:a,textureTypeReadable:o,precision:l,logarithmicDepthBuffer:f,reversedDepthBuffer:u,maxTextures:d,maxVertexTextures:p,maxTextureSize:_,maxCubemapSize:g,maxAttributes:m,maxVertexUniforms:x,maxVaryings:b,maxFragmentUniforms:w,maxSamples:A,samples:C}}function ZS(i){let t=this,e=null,n=0,s=!1,r=!1,a=new Mn,o=new qt,c={value:null,needsUpdate:!1};this.uniform=c,this.numPlanes=0,this.numIntersection=0,this.init=function(u,f){let d=u.length!==0||f||n!==0||s;return s=f,n=u.length,d},this.beginShadows=function(){r=!0,h(null)},this.endShadows=function(){r=!1},this.setGlobalState=function(u,f){e=h(u,f,0)},this.setState=function(u,f,d){let p=u.clippingPlanes,_=u.clipIntersection,g=u.clipShadows,m=i.get(u);if(!s||p===null||p.length===0||r&&!g)r?h(null):l();else{let x=r?0:n,b=x*4,w=m.clippingState||null;c.value=w,w=h(p,f,b,d);for(let A=0;A!==b;++A)w[A]=e[A];m.clippingState=w,this.numIntersection=_?this.numPlanes:0,this.numPlanes+=x}};function l(){c.value!==e&&(c.value=e,c.needsUpdate=n>0),t.numPlanes=n,t.numIntersection=0}function h(u,f,d,p){let _=u!==null?u.length:0,g=null;if(_!==0){if(g=c.value,p!==!0||g===null){let m=d+_*4,x=f.matrixWorldInverse;o.getNormalMatrix(x),(g===null||g.length<m)&&(g=new Float32Array(m));for(let b=0,w=d;b!==_;++b,w+=4)a.copy(u[b]).applyMatrix4(x,o),a.normal.toArray(g,w),g[w+3]=a.constant}c.value=g,c.needsUpdate=!0}return t.numPlanes=_,t.numIntersection=0,g}}var $a=class extends Un{constructor(t=1,e={}){super(t,t,e),this.isWebGLCubeRenderTarget=!0;let n={width:t,height:t,depth:1},s=[n,n,n,n,n,n];this.texture=new wa(s),this._setTextureOptions(e),this.texture.isRenderTargetTexture=!0}fromEquirectangularTexture(t,e){this.texture.type=e.type,this.texture.colorSpace=e.colorSpace,this.texture.generateMipmaps=e.generateMipmaps,this.texture.minFilter=e.minFilter,this.texture.magFilter=e.magFilter;let n={uniforms:{tEquirect:{value:null}},vertexShader:`
+
+				varying vec3 vWorldDirection;
+
+				vec3 transformDirection( in vec3 dir, in mat4 matrix ) {
+
+					return normalize( ( matrix * vec4( dir, 0.0 ) ).xyz );
+
+				}
+
+				void main() {
+
+					vWorldDirection = transformDirection( position, modelMatrix );
+
+					#include <begin_vertex>
+					#include <project_vertex>
+
+				}
+			`,fragmentShader:`
+
+				uniform sampler2D tEquirect;
+
+				varying vec3 vWorldDirection;
+
+				#include <common>
+
+				void main() {
+
+					vec3 direction = normalize( vWorldDirection );
+
+					vec2 sampleUV = equirectUv( direction );
+
+					gl_FragColor = texture2D( tEquirect, sampleUV );
+
+				}
+			`},s=new Sr(5,5,5),r=new di({name:"CubemapFromEquirect",uniforms:Us(n.uniforms),vertexShader:n.vertexShader,fragmentShader:n.fragmentShader,side:En,blending:Is});r.uniforms.tEquirect.value=e;let a=new An(s,r),o=e.minFilter;return e.minFilter===Di&&(e.minFilter=bn),new wr(1,10,this).update(t,a),e.minFilter=o,a.geometry.dispose(),a.material.dispose(),this}clear(t,e=!0,n=!0,s=!0){let r=t.getRenderTarget();for(let a=0;a<6;a++)t.setRenderTarget(this,a),t.clear(e,n,s);t.setRenderTarget(r)}},Gg=256,JS=3,KS=20,h0=256,u0=16,jS=3,QS=new B,tb=new Yt,Oc=class i{constructor(t){this._renderer=t,this._cubeSize=0,this._sourceTarget=null,this._cubeCamera=new wr(1,10,null),this._boxMesh=new An(new Sr(5,5,5),null),this._cubemapMaterial=null,this._equirectMaterial=null,this._blurMaterial=null,this._ggxMaterial=null,this._integrationMaterial=null}fromScene(t,e=0,n=.1,s=100,r={}){let{size:a=256,position:o=QS}=r,c=this._renderer;this._setSize(a);let l=this._allocateTarget(),h=this._getSourceTarget(!0);e>0&&(h.texture.mipmapsAutoUpdate=!1);let u=c.autoClear,f=c.autoClearColor,d=c.autoClearDepth,p=c.autoClearStencil,_=t.background;c.autoClear=!0,c.autoClearColor=!0,c.autoClearDepth=!0,c.autoClearStencil=!0,_===null&&(t.background=c.getClearColor(tb));let g=new wr(n,s,h);return g.position.copy(o),g.update(c,t),c.autoClear=u,c.autoClearColor=f,c.autoClearDepth=d,c.autoClearStencil=p,t.background=_,e>0&&(h.texture.mipmapsAutoUpdate=!0,this._blur(l,e)),this._applyPMREM(l),l}fromEquirectangular(t,e=null){return this._fromTexture(t,e)}fromCubemap(t,e=null){return this._fromTexture(t,e)}compileCubemapShader(){this._cubemapMaterial===null&&(this._cubemapMaterial=Wg(),this._compileMaterial(this._cubemapMaterial))}compileEquirectangularShader(){this._equirectMaterial===null&&(this._equirectMaterial=Hg(),this._compileMaterial(this._equirectMaterial))}dispose(){this._sourceTarget!==null&&this._sourceTarget.dispose(),this._cubemapMaterial!==null&&this._cubemapMaterial.dispose(),this._equirectMaterial!==null&&this._equirectMaterial.dispose(),this._blurMaterial!==null&&this._blurMaterial.dispose(),this._ggxMaterial!==null&&this._ggxMaterial.dispose(),this._integrationMaterial!==null&&this._integrationMaterial.dispose(),this._boxMesh.geometry.dispose()}static lodToRoughness(t,e){return e>0?1-Math.sqrt(1-t/e):0}_setSize(t){this._cubeSize=Math.max(Gg,xf(t))}_fromTexture(t,e){t.mapping===Ns||t.mapping===Rr?this._setSize(t.image.length===0?Gg:t.image[0].width||t.image[0].image.width):this._setSize(t.image.width/4);let n=e||this._allocateTarget();return this._textureToCubemap(t),this._applyPMREM(n),n}_allocateTarget(){let t=this._cubeSize,e=Vg(t,!1,!1),n=Math.log2(t)-JS;for(let s=0;s<=n;s++)e.texture.mipmaps.push({width:t>>s,height:t>>s});return e.texture.name="PMREM",e.texture.isPMREMTexture=!0,e}_getSourceTarget(t=!1){let e=this._cubeSize,n=this._sourceTarget;return(n===null||n.width!==e||t&&n.depthBuffer===!1)&&(n!==null&&n.dispose(),this._sourceTarget=Vg(e,!0,t)),this._sourceTarget}_compileMaterial(t){this._boxMesh.material=t,this._renderer.compile(this._boxMesh,this._cubeCamera.children[0])}_renderCube(t,e,n){let s=this._boxMesh,r=this._cubeCamera;s.material=n,r.renderTarget=t,r.activeMipmapLevel=e;let a=t.width>>e;t.viewport.set(0,0,a,a),r.update(this._renderer,s),t.viewport.set(0,0,t.width,t.height)}_textureToCubemap(t){let e;t.mapping===Ns||t.mapping===Rr?(this._cubemapMaterial===null&&(this._cubemapMaterial=Wg()),e=this._cubemapMaterial,e.uniforms.flipEnvMap.value=t.isRenderTargetTexture===!1?-1:1):(this._equirectMaterial===null&&(this._equirectMaterial=Hg()),e=this._equirectMaterial),e.uniforms.envMap.value=t,this._renderCube(this._getSourceTarget(),0,e)}_applyPMREM(t){this._ggxMaterial===null&&(this._ggxMaterial=eb(),this._integrationMaterial=nb());let e=this._cubeSize,n=t.texture.mipmaps.length-1,s=this._ggxMaterial.uniforms;s.envMap.value=this._sourceTarget.texture;let r=this._integrationMaterial.uniforms;r.envMap.value=this._sourceTarget.texture,r.sourceLod.value=Math.log2(e/u0);for(let a=0;a<=n;a++){let o=i.lodToRoughness(a,n);if(a>n-jS)r.roughness.value=o,this._renderCube(t,a,this._integrationMaterial);else{let c=o>0?Math.log2(e)+.5*Math.log2(6/(h0*Math.pow(o,4)))+.5:0;s.roughness.value=o,s.lodBias.value=c,this._renderCube(t,a,this._ggxMaterial)}}}_blur(t,e){this._blurMaterial===null&&(this._blurMaterial=ib());let n=this._blurMaterial,s=n.uniforms,r=this._sourceTarget;s.sigma.value=Math.min(e,Math.PI)/Math.SQRT2,s.envMap.value=r.texture,this._renderCube(t,0,n),s.envMap.value=t.texture,this._renderCube(r,0,n)}};function Vg(i,t,e){return new $a(i,{minFilter:Di,generateMipmaps:t,type:si,colorSpace:da,depthBuffer:e})}function Za(i,t,e){return new di({name:i,uniforms:t,vertexShader:jt.cube_vert,fragmentShader:e,side:En,blending:Is,depthTest:!1,depthWrite:!1})}function eb(){return Za("PMREMGGXConvolution",{envMap:{value:null},roughness:{value:0},lodBias:{value:0}},`
+
+		#define GGX_SAMPLES ${h0}u
+
+		varying vec3 vWorldDirection;
+
+		uniform samplerCube envMap;
+		uniform float roughness;
+		uniform float lodBias;
+
+		#include <common>
+
+		// Van der Corput radical inverse
+		float radicalInverse_VdC( uint bits ) {
+
+			bits = ( bits << 16u ) | ( bits >> 16u );
+			bits = ( ( bits & 0x55555555u ) << 1u ) | ( ( bits & 0xAAAAAAAAu ) >> 1u );
+			bits = ( ( bits & 0x33333333u ) << 2u ) | ( ( bits & 0xCCCCCCCCu ) >> 2u );
+			bits = ( ( bits & 0x0F0F0F0Fu ) << 4u ) | ( ( bits & 0xF0F0F0F0u ) >> 4u );
+			bits = ( ( bits & 0x00FF00FFu ) << 8u ) | ( ( bits & 0xFF00FF00u ) >> 8u );
+			return float( bits ) * 2.3283064365386963e-10; // / 0x100000000
+
+		}
+
+		// Hammersley sequence
+		vec2 hammersley( uint i, uint N ) {
+
+			return vec2( float( i ) / float( N ), radicalInverse_VdC( i ) );
+
+		}
+
+		void main() {
+
+			vec3 N = normalize( vWorldDirection );
+
+			// For very low roughness, just sample the environment directly
+			if ( roughness < 0.001 ) {
+
+				gl_FragColor = vec4( textureLod( envMap, N, 0.0 ).rgb, 1.0 );
+				return;
+
+			}
+
+			float alpha = roughness * roughness;
+			float alpha2 = alpha * alpha;
+
+			// Tangent space basis for VNDF sampling
+			vec3 up = abs( N.z ) < 0.999 ? vec3( 0.0, 0.0, 1.0 ) : vec3( 1.0, 0.0, 0.0 );
+			vec3 tangent = normalize( cross( up, N ) );
+			vec3 bitangent = cross( N, tangent );
+
+			vec3 prefilteredColor = vec3( 0.0 );
+			float totalWeight = 0.0;
+
+			for ( uint i = 0u; i < GGX_SAMPLES; i ++ ) {
+
+				vec2 Xi = hammersley( i, GGX_SAMPLES );
+
+				// With V = N, sample the reflected direction directly.
+				float invQ = 1.0 / ( 1.0 - Xi.x + alpha2 * Xi.x );
+				float NdotL = ( 1.0 - Xi.x - alpha2 * Xi.x ) * invQ;
+
+				if ( NdotL > 0.0 ) {
+
+					float phi = 2.0 * PI * Xi.y;
+					float sinTheta = 2.0 * alpha * sqrt( Xi.x * ( 1.0 - Xi.x ) ) * invQ;
+					vec3 L = N * NdotL + ( tangent * cos( phi ) + bitangent * sin( phi ) ) * sinTheta;
+
+					// Match the source mip to the sample's solid angle. The terms
+					// independent of the sample are precomputed in lodBias.
+					float d = alpha2 * invQ;
+					float lod = max( log2( d ) + lodBias, 0.0 );
+
+					// Weight by NdotL for the split-sum approximation
+					prefilteredColor += textureLod( envMap, L, lod ).rgb * NdotL;
+					totalWeight += NdotL;
+
+				}
+
+			}
+
+			gl_FragColor = vec4( prefilteredColor / totalWeight, 1.0 );
+
+		}
+	`)}function nb(){return Za("PMREMGGXIntegration",{envMap:{value:null},roughness:{value:0},sourceLod:{value:0},sourceSize:{value:u0}},`
+
+		varying vec3 vWorldDirection;
+
+		uniform samplerCube envMap;
+		uniform float roughness;
+		uniform float sourceLod;
+		uniform int sourceSize;
+
+		void main() {
+
+			vec3 N = normalize( vWorldDirection );
+
+			float alpha = roughness * roughness;
+			float alpha2 = alpha * alpha;
+
+			float texelSize = 2.0 / float( sourceSize );
+
+			vec3 prefilteredColor = vec3( 0.0 );
+			float totalWeight = 0.0;
+
+			// Pair opposite texels: only the one in N's hemisphere contributes.
+			for ( int face = 0; face < 3; face ++ ) {
+
+				for ( int y = 0; y < sourceSize; y ++ ) {
+
+					for ( int x = 0; x < sourceSize; x ++ ) {
+
+						vec2 uv = ( vec2( x, y ) + 0.5 ) * texelSize - 1.0;
+						vec3 texelDirection = face == 0 ? vec3( 1.0, uv ) : ( face == 1 ? vec3( uv.x, 1.0, uv.y ) : vec3( uv, 1.0 ) );
+
+						float invDistance = inversesqrt( 1.0 + dot( uv, uv ) );
+						float NdotL = dot( N, texelDirection );
+						texelDirection *= NdotL < 0.0 ? - 1.0 : 1.0;
+						NdotL = abs( NdotL ) * invDistance;
+
+						// With V = N, NdotH squared is ( 1 + NdotL ) / 2. Common factors
+						// in the GGX distribution and texel solid angle cancel when normalized.
+						float d = 1.0 + alpha2 + ( alpha2 - 1.0 ) * NdotL;
+						float weight = NdotL * invDistance * invDistance * invDistance / ( d * d );
+
+						prefilteredColor += textureLod( envMap, texelDirection, sourceLod ).rgb * weight;
+						totalWeight += weight;
+
+					}
+
+				}
+
+			}
+
+			gl_FragColor = vec4( prefilteredColor / totalWeight, 1.0 );
+
+		}
+	`)}function ib(){return Za("PMREMSphericalGaussianBlur",{envMap:{value:null},sigma:{value:0}},`
+
+		#define SAMPLES ${KS}
+		#define GOLDEN_ANGLE 2.39996322973
+
+		varying vec3 vWorldDirection;
+
+		uniform samplerCube envMap;
+		uniform float sigma;
+
+		#include <common>
+
+		void main() {
+
+			vec3 outputDirection = normalize( vWorldDirection );
+
+			vec3 up = abs( outputDirection.z ) < 0.999 ? vec3( 0.0, 0.0, 1.0 ) : vec3( 1.0, 0.0, 0.0 );
+			vec3 tangent = normalize( cross( up, outputDirection ) );
+			vec3 bitangent = cross( outputDirection, tangent );
+
+			// Truncate the kernel at three standard deviations or at the antipode.
+			float thetaMax = min( 3.0 * sigma, PI );
+			float truncation = 1.0 - exp( - 0.5 * thetaMax * thetaMax / ( sigma * sigma ) );
+
+			vec3 accumColor = vec3( 0.0 );
+			float accumWeight = 0.0;
+
+			for ( int i = 0; i < SAMPLES; i ++ ) {
+
+				// Stratified inverse-CDF sampling of the Gaussian, placed on a golden-angle spiral.
+				float stratum = ( float( i ) + 0.5 ) / float( SAMPLES );
+				float theta = sigma * sqrt( - 2.0 * log( 1.0 - stratum * truncation ) );
+				float phi = float( i ) * GOLDEN_ANGLE;
+
+				vec3 offset = cos( phi ) * tangent + sin( phi ) * bitangent;
+				vec3 sampleDirection = cos( theta ) * outputDirection + sin( theta ) * offset;
+
+				// Correct the planar sample density to solid angle.
+				float weight = sin( theta ) / theta;
+
+				accumColor += weight * textureLod( envMap, sampleDirection, 0.0 ).rgb;
+				accumWeight += weight;
+
+			}
+
+			gl_FragColor = vec4( accumColor / accumWeight, 1.0 );
+
+		}
+	`)}function Hg(){return Za("PMREMEquirectangularToCubemap",{envMap:{value:null}},`
+
+		varying vec3 vWorldDirection;
+
+		uniform sampler2D envMap;
+
+		#include <common>
+
+		void main() {
+
+			// Average four subpixel samples to preserve small, bright features.
+			vec3 direction = normalize( vWorldDirection );
+			vec3 dx = dFdx( direction ) * 0.25;
+			vec3 dy = dFdy( direction ) * 0.25;
+
+			vec3 color = textureLod( envMap, equirectUv( normalize( direction - dx - dy ) ), 0.0 ).rgb;
+			color += textureLod( envMap, equirectUv( normalize( direction + dx - dy ) ), 0.0 ).rgb;
+			color += textureLod( envMap, equirectUv( normalize( direction - dx + dy ) ), 0.0 ).rgb;
+			color += textureLod( envMap, equirectUv( normalize( direction + dx + dy ) ), 0.0 ).rgb;
+			gl_FragColor = vec4( color * 0.25, 1.0 );
+
+		}
+	`)}function Wg(){return Za("PMREMCubemapToCubemap",{envMap:{value:null},flipEnvMap:{value:-1}},`
+
+		varying vec3 vWorldDirection;
+
+		uniform samplerCube envMap;
+		uniform float flipEnvMap;
+
+		void main() {
+
+			gl_FragColor = vec4( textureCube( envMap, vec3( flipEnvMap * vWorldDirection.x, vWorldDirection.yz ) ).rgb, 1.0 );
+
+		}
+	`)}function sb(i){let t=new WeakMap,e=new WeakMap,n=null;function s(f,d=!1){return f==null?null:d?a(f):r(f)}function r(f){if(f&&f.isTexture){let d=f.mapping;if(d===Yl||d===$l)if(t.has(f)){let p=t.get(f).texture;return o(p,f.mapping)}else{let p=f.image;if(p&&p.height>0){let _=new $a(p.height);return _.fromEquirectangularTexture(i,f),t.set(f,_),f.addEventListener("dispose",l),o(_.texture,f.mapping)}else return null}}return f}function a(f){if(f&&f.isTexture&&f.isPMREMTexture!==!0){let d=f.mapping,p=d===Yl||d===$l,_=d===Ns||d===Rr;if(p||_){let g=e.get(f),m=g!==void 0?g.texture.pmremVersion:0;if(f.isRenderTargetTexture&&f.pmremVersion!==m)return n===null&&(n=new Oc(i)),g=p?n.fromEquirectangular(f,g):n.fromCubemap(f,g),g.texture.pmremVersion=f.pmremVersion,e.set(f,g),g.texture;if(g!==void 0)return g.texture;{let x=f.image;return p&&x&&x.height>0||_&&x&&c(x)?(n===null&&(n=new Oc(i)),g=p?n.fromEquirectangular(f):n.fromCubemap(f),g.texture.pmremVersion=f.pmremVersion,e.set(f,g),f.addEventListener("dispose",h),g.texture):null}}}return f}function o(f,d){return d===Yl?f.mapping=Ns:d===$l&&(f.mapping=Rr),f}function c(f){let d=0,p=6;for(let _=0;_<p;_++)f[_]!==void 0&&d++;return d===p}function l(f){let d=f.target;d.removeEventListener("dispose",l);let p=t.get(d);p!==void 0&&(t.delete(d),p.dispose())}function h(f){let d=f.target;d.removeEventListener("dispose",h);let p=e.get(d);p!==void 0&&(e.delete(d),p.dispose())}function u(){t=new WeakMap,e=new WeakMap,n!==null&&(n.dispose(),n=null)}return{get:s,dispose:u}}function rb(i){let t={};function e(n){if(t[n]!==void 0)return t[n];let s=i.getExtension(n);return t[n]=s,s}return{has:function(n){return e(n)!==null},init:function(){e("EXT_color_buffer_float"),e("WEBGL_clip_cull_distance"),e("OES_texture_float_linear"),e("EXT_color_buffer_half_float"),e("WEBGL_multisampled_render_to_texture"),e("WEBGL_render_shared_exponent")},get:function(n){let s=e(n);return s===null&&ca("WebGLRenderer: "+n+" extension not supported."),s}}}function ab(i,t,e,n){let s={},r=new WeakMap,a=new FinalizationRegistry(p=>delete s[p]);function o(p){c(p.target)}function c(p){p.index!==null&&t.remove(p.index);for(let g in p.attributes)t.remove(p.attributes[g]);p.removeEventListener("dispose",o),delete s[p.id],a.unregister(p);let _=r.get(p);_&&(t.remove(_),r.delete(p)),n.releaseStatesOfGeometry(p),p.isInstancedBufferGeometry===!0&&delete p._maxInstanceCount,e.memory.geometries--}function l(p,_){return s[_.id]!==void 0||(_.addEventListener("dispose",o),s[_.id]=new WeakRef(_),a.register(_,_.id,_),e.memory.geometries++),_}function h(p){let _=p.attributes;for(let g in _)t.update(_[g],i.ARRAY_BUFFER)}function u(p){let _=p.index,g=p.attributes.position,m=0;if(g===void 0)return;let x=_!==null?_.array.length:g.array.length/3-1,b=g.count>=65535?va:xa,w=new b(Math.ceil(x/3)*6,1),A=w.array;if(_!==null){let v=_.array;m=_.version;for(let E=0,F=0;E<x;E+=3){let N=v[E+0],D=v[E+1],H=v[E+2];A[F++]=N,A[F++]=D,A[F++]=D,A[F++]=H,A[F++]=H,A[F++]=N}}else{m=g.version;for(let v=0,E=0;v<x;v+=3){let F=v+0,N=v+1,D=v+2;A[E++]=F,A[E++]=N,A[E++]=N,A[E++]=D,A[E++]=D,A[E++]=F}}w.version=m;let C=r.get(p);C&&t.remove(C),r.set(p,w)}function f(p){let _=r.get(p);if(_){let g=p.index;g!==null&&_.version<g.version&&u(p)}else u(p);return r.get(p)}function d(){for(let p in s){let _=s[p].deref();_!==void 0&&c(_)}}return{get:l,update:h,getWireframeAttribute:f,dispose:d}}function ob(i,t,e){let n;function s(u){n=u}let r,a;function o(u){r=u.type,a=u.bytesPerElement}function c(u,f){i.drawElements(n,f,r,u*a),e.update(f,n,1)}function l(u,f,d){d!==0&&(i.drawElementsInstanced(n,f,r,u*a,d),e.update(f,n,d))}function h(u,f,d){if(d===0)return;t.get("WEBGL_multi_draw").multiDrawElementsWEBGL(n,f,0,r,u,0,d);let _=0;for(let g=0;g<d;g++)_+=f[g];e.update(_,n,1)}this.setMode=s,this.setIndex=o,this.render=c,this.renderInstances=l,this.renderMultiDraw=h}function lb(i){let t={geometries:0,textures:0},e={frame:0,calls:0,triangles:0,points:0,lines:0};function n(r,a,o){switch(e.calls++,a){case i.TRIANGLES:e.triangles+=o*(r/3);break;case i.LINES:e.lines+=o*(r/2);break;case i.LINE_STRIP:e.lines+=o*(r-1);break;case i.LINE_LOOP:e.lines+=o*r;break;case i.POINTS:e.points+=o*r;break;default:Ht("WebGLInfo: Unknown draw mode:",a);break}}function s(){e.calls=0,e.triangles=0,e.points=0,e.lines=0}return{memory:t,render:e,programs:null,autoReset:!0,reset:s,update:n}}function cb(i,t,e){let n=new WeakMap,s=new ve;function r(a,o,c){let l=a.morphTargetInfluences,h=o.morphAttributes.position||o.morphAttributes.normal||o.morphAttributes.color,u=h!==void 0?h.length:0,f=n.get(o);if(f===void 0||f.count!==u){let F=function(){v.dispose(),n.delete(o),o.removeEventListener("dispose",F)};f!==void 0&&f.texture.dispose();let d=o.morphAttributes.position!==void 0,p=o.morphAttributes.normal!==void 0,_=o.morphAttributes.color!==void 0,g=o.morphAttributes.position||[],m=o.morphAttributes.normal||[],x=o.morphAttributes.color||[],b=0;d===!0&&(b=1),p===!0&&(b=2),_===!0&&(b=3);let w=o.attributes.position.count*b,A=1;w>t.maxTextureSize&&(A=Math.ceil(w/t.maxTextureSize),w=t.maxTextureSize);let C=new Float32Array(w*A*4*u),v=new ga(C,w,A,u);v.type=Xn,v.needsUpdate=!0;let E=b*4;for(let N=0;N<u;N++){let D=g[N],H=m[N],J=x[N],P=w*A*4*N;for(let q=0;q<D.count;q++){let Q=q*E;d===!0&&(s.fromBufferAttribute(D,q),C[P+Q+0]=s.x,C[P+Q+1]=s.y,C[P+Q+2]=s.z,C[P+Q+3]=0),p===!0&&(s.fromBufferAttribute(H,q),C[P+Q+4]=s.x,C[P+Q+5]=s.y,C[P+Q+6]=s.z,C[P+Q+7]=0),_===!0&&(s.fromBufferAttribute(J,q),C[P+Q+8]=s.x,C[P+Q+9]=s.y,C[P+Q+10]=s.z,C[P+Q+11]=J.itemSize===4?s.w:1)}}f={count:u,texture:v,size:new kt(w,A)},n.set(o,f),o.addEventListener("dispose",F)}if(a.isInstancedMesh===!0&&a.morphTexture!==null)c.getUniforms().setValue(i,"morphTexture",a.morphTexture,e);else{let d=0;for(let _=0;_<l.length;_++)d+=l[_];let p=o.morphTargetsRelative?1:1-d;c.getUniforms().setValue(i,"morphTargetBaseInfluence",p),c.getUniforms().setValue(i,"morphTargetInfluences",l)}c.getUniforms().setValue(i,"morphTargetsTexture",f.texture,e),c.getUniforms().setValue(i,"morphTargetsTextureSize",f.size)}return{update:r}}function hb(i,t,e,n,s){let r=new WeakMap;function a(l){let h=s.render.frame,u=l.geometry,f=t.get(l,u);if(r.get(f)!==h&&(t.update(f),r.set(f,h)),l.isInstancedMesh&&(l.hasEventListener("dispose",c)===!1&&l.addEventListener("dispose",c),r.get(l)!==h&&(e.update(l.instanceMatrix,i.ARRAY_BUFFER),l.instanceColor!==null&&e.update(l.instanceColor,i.ARRAY_BUFFER),r.set(l,h))),l.isSkinnedMesh){let d=l.skeleton;r.get(d)!==h&&(d.update(),r.set(d,h))}return f}function o(){r=new WeakMap}function c(l){let h=l.target;h.removeEventListener("dispose",c),n.releaseStatesOfObject(h),e.remove(h.instanceMatrix),h.instanceColor!==null&&e.remove(h.instanceColor)}return{update:a,dispose:o}}var ub={[Ku]:"LINEAR_TONE_MAPPING",[ju]:"REINHARD_TONE_MAPPING",[Qu]:"CINEON_TONE_MAPPING",[tf]:"ACES_FILMIC_TONE_MAPPING",[nf]:"AGX_TONE_MAPPING",[sf]:"NEUTRAL_TONE_MAPPING",[ef]:"CUSTOM_TONE_MAPPING"};function fb(i,t,e,n,s,r){let a=new Un(t,e,{type:i,depthBuffer:s,stencilBuffer:r,samples:n?4:0,storeMultisampledDepthBuffer:!1,storeMultisampledStencilBuffer:!1,resolveDepthBuffer:!1,resolveStencilBuffer:!1}),o=null,c=null,l=null,h=new wn;h.setAttribute("position",new We([-1,3,0,-1,-1,0,3,-1,0],3)),h.setAttribute("uv",new We([0,2,0,0,2,0],2));let u=new Il({uniforms:{tDiffuse:{value:null}},vertexShader:`
+			precision highp float;
+
+			uniform mat4 modelViewMatrix;
+			uniform mat4 projectionMatrix;
+
+			attribute vec3 position;
+			attribute vec2 uv;
+
+			varying vec2 vUv;
+
+			void main() {
+				vUv = uv;
+				gl_Position = projectionMatrix * modelViewMatrix * vec4( position, 1.0 );
+			}`,fragmentShader:`
+			precision highp float;
+
+			uniform sampler2D tDiffuse;
+
+			varying vec2 vUv;
+
+			#include <tonemapping_pars_fragment>
+			#include <colorspace_pars_fragment>
+
+			void main() {
+				gl_FragColor = texture2D( tDiffuse, vUv );
+
+				#ifdef LINEAR_TONE_MAPPING
+					gl_FragColor.rgb = LinearToneMapping( gl_FragColor.rgb );
+				#elif defined( REINHARD_TONE_MAPPING )
+					gl_FragColor.rgb = ReinhardToneMapping( gl_FragColor.rgb );
+				#elif defined( CINEON_TONE_MAPPING )
+					gl_FragColor.rgb = CineonToneMapping( gl_FragColor.rgb );
+				#elif defined( ACES_FILMIC_TONE_MAPPING )
+					gl_FragColor.rgb = ACESFilmicToneMapping( gl_FragColor.rgb );
+				#elif defined( AGX_TONE_MAPPING )
+					gl_FragColor.rgb = AgXToneMapping( gl_FragColor.rgb );
+				#elif defined( NEUTRAL_TONE_MAPPING )
+					gl_FragColor.rgb = NeutralToneMapping( gl_FragColor.rgb );
+				#elif defined( CUSTOM_TONE_MAPPING )
+					gl_FragColor.rgb = CustomToneMapping( gl_FragColor.rgb );
+				#endif
+
+				#ifdef SRGB_TRANSFER
+					gl_FragColor = sRGBTransferOETF( gl_FragColor );
+				#endif
+			}`,depthTest:!1,depthWrite:!1}),f=new An(h,u),d=new Na(-1,1,1,-1,0,1),p=null,_=null,g=!1,m,x=null,b=[],w=!1;this.setSize=function(A,C){a.setSize(A,C),o!==null&&o.setSize(A,C),c!==null&&c.setSize(A,C);for(let v=0;v<b.length;v++){let E=b[v];E.setSize&&E.setSize(A,C)}},this.setEffects=function(A){b=A,w=b.length>0&&b[0].isRenderPass===!0;let C=a.width,v=a.height;b.length>0&&o===null&&(o=new Un(C,v,{type:si,depthBuffer:!1,stencilBuffer:!1}),c=new Un(C,v,{type:si,depthBuffer:!1,stencilBuffer:!1}));let E=s===!0&&b.some(F=>F.needsDepthTexture===!0);E!==(a.depthTexture!==null)&&(E===!0&&l===null&&(l=new Ni(C,v),r===!0&&(l.format=Oi,l.type=Ds)),a.dispose(),a.depthTexture=E?l:null,a.resolveDepthBuffer=E,a.storeMultisampledDepthBuffer=E);for(let F=0;F<b.length;F++){let N=b[F];N.setSize&&N.setSize(C,v),E&&N.needsDepthTexture===!0&&N.setDepthTexture&&N.setDepthTexture(l)}},this.begin=function(A,C){if(g||A.toneMapping===mi&&b.length===0)return!1;if(x=C,C!==null){let v=C.width,E=C.height;(a.width!==v||a.height!==E)&&this.setSize(v,E)}return w===!1&&A.setRenderTarget(a),m=A.toneMapping,A.toneMapping=mi,!0},this.hasRenderPass=function(){return w},this.end=function(A,C){A.toneMapping=m,g=!0;let v=a,E=o;for(let F=0;F<b.length;F++){let N=b[F];N.enabled!==!1&&(N.render(A,E,v,C),N.needsSwap!==!1&&(v=E,E=E===o?c:o))}if(p!==A.outputColorSpace||_!==A.toneMapping){p=A.outputColorSpace,_=A.toneMapping,u.defines={},oe.getTransfer(p)===ye&&(u.defines.SRGB_TRANSFER="");let F=ub[_];F&&(u.defines[F]=""),u.needsUpdate=!0}u.uniforms.tDiffuse.value=v.texture,A.setRenderTarget(x),A.render(f,d),x=null,g=!1},this.isCompositing=function(){return g},this.dispose=function(){a.dispose(),o!==null&&o.dispose(),c!==null&&c.dispose(),h.dispose(),u.dispose()}}var f0=new Tn,d0=new Ni(1,1),p0=new Ea(1),m0=new ga,g0=new Tl,_0=new wa,Xg=[],qg=[],Yg=new Float32Array(16),$g=new Float32Array(9),Zg=new Float32Array(4);function Ir(i,t,e){let n=i[0];if(n<=0||n>0)return i;let s=t*e,r=Xg[s];if(r===void 0&&(r=new Float32Array(s),Xg[s]=r),t!==0){n.toArray(r,0);for(let a=1,o=0;a!==t;++a)o+=e,i[a].toArray(r,o)}return r}function Xe(i,t){if(i.length!==t.length)return!1;for(let e=0,n=i.length;e<n;e++)if(i[e]!==t[e])return!1;return!0}function qe(i,t){for(let e=0,n=t.length;e<n;e++)i[e]=t[e]}function Fc(i,t){let e=qg[t];e===void 0&&(e=new Int32Array(t),qg[t]=e);for(let n=0;n!==t;++n)e[n]=i.allocateTextureUnit();return e}function db(i,t){let e=this.cache;e[0]!==t&&(i.uniform1f(this.addr,t),e[0]=t)}function pb(i,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y)&&(i.uniform2f(this.addr,t.x,t.y),e[0]=t.x,e[1]=t.y);else{if(Xe(e,t))return;i.uniform2fv(this.addr,t),qe(e,t)}}function mb(i,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y||e[2]!==t.z)&&(i.uniform3f(this.addr,t.x,t.y,t.z),e[0]=t.x,e[1]=t.y,e[2]=t.z);else if(t.r!==void 0)(e[0]!==t.r||e[1]!==t.g||e[2]!==t.b)&&(i.uniform3f(this.addr,t.r,t.g,t.b),e[0]=t.r,e[1]=t.g,e[2]=t.b);else{if(Xe(e,t))return;i.uniform3fv(this.addr,t),qe(e,t)}}function gb(i,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y||e[2]!==t.z||e[3]!==t.w)&&(i.uniform4f(this.addr,t.x,t.y,t.z,t.w),e[0]=t.x,e[1]=t.y,e[2]=t.z,e[3]=t.w);else{if(Xe(e,t))return;i.uniform4fv(this.addr,t),qe(e,t)}}function _b(i,t){let e=this.cache,n=t.elements;if(n===void 0){if(Xe(e,t))return;i.uniformMatrix2fv(this.addr,!1,t),qe(e,t)}else{if(Xe(e,n))return;Zg.set(n),i.uniformMatrix2fv(this.addr,!1,Zg),qe(e,n)}}function yb(i,t){let e=this.cache,n=t.elements;if(n===void 0){if(Xe(e,t))return;i.uniformMatrix3fv(this.addr,!1,t),qe(e,t)}else{if(Xe(e,n))return;$g.set(n),i.uniformMatrix3fv(this.addr,!1,$g),qe(e,n)}}function xb(i,t){let e=this.cache,n=t.elements;if(n===void 0){if(Xe(e,t))return;i.uniformMatrix4fv(this.addr,!1,t),qe(e,t)}else{if(Xe(e,n))return;Yg.set(n),i.uniformMatrix4fv(this.addr,!1,Yg),qe(e,n)}}function vb(i,t){let e=this.cache;e[0]!==t&&(i.uniform1i(this.addr,t),e[0]=t)}function Mb(i,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y)&&(i.uniform2i(this.addr,t.x,t.y),e[0]=t.x,e[1]=t.y);else{if(Xe(e,t))return;i.uniform2iv(this.addr,t),qe(e,t)}}function Sb(i,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y||e[2]!==t.z)&&(i.uniform3i(this.addr,t.x,t.y,t.z),e[0]=t.x,e[1]=t.y,e[2]=t.z);else{if(Xe(e,t))return;i.uniform3iv(this.addr,t),qe(e,t)}}function bb(i,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y||e[2]!==t.z||e[3]!==t.w)&&(i.uniform4i(this.addr,t.x,t.y,t.z,t.w),e[0]=t.x,e[1]=t.y,e[2]=t.z,e[3]=t.w);else{if(Xe(e,t))return;i.uniform4iv(this.addr,t),qe(e,t)}}function wb(i,t){let e=this.cache;e[0]!==t&&(i.uniform1ui(this.addr,t),e[0]=t)}function Eb(i,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y)&&(i.uniform2ui(this.addr,t.x,t.y),e[0]=t.x,e[1]=t.y);else{if(Xe(e,t))return;i.uniform2uiv(this.addr,t),qe(e,t)}}function Tb(i,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y||e[2]!==t.z)&&(i.uniform3ui(this.addr,t.x,t.y,t.z),e[0]=t.x,e[1]=t.y,e[2]=t.z);else{if(Xe(e,t))return;i.uniform3uiv(this.addr,t),qe(e,t)}}function Ab(i,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y||e[2]!==t.z||e[3]!==t.w)&&(i.uniform4ui(this.addr,t.x,t.y,t.z,t.w),e[0]=t.x,e[1]=t.y,e[2]=t.z,e[3]=t.w);else{if(Xe(e,t))return;i.uniform4uiv(this.addr,t),qe(e,t)}}function Bc(i){return i.version===0&&(i.compareFunction=mf,i.needsUpdate=!0),i}function Rb(i,t,e){let n=this.cache,s=e.allocateTextureUnit();n[0]!==s&&(i.uniform1i(this.addr,s),n[0]=s);let r;this.type===i.SAMPLER_2D_SHADOW?r=Bc(d0):r=f0,e.setTexture2D(t||r,s)}function Cb(i,t,e){let n=this.cache,s=e.allocateTextureUnit();n[0]!==s&&(i.uniform1i(this.addr,s),n[0]=s),e.setTexture3D(t||g0,s)}function Pb(i,t,e){let n=this.cache,s=e.allocateTextureUnit();n[0]!==s&&(i.uniform1i(this.addr,s),n[0]=s);let r;this.type===i.SAMPLER_CUBE_SHADOW?r=Bc(p0):r=_0,e.setTextureCube(t||r,s)}function Ib(i,t,e){let n=this.cache,s=e.allocateTextureUnit();n[0]!==s&&(i.uniform1i(this.addr,s),n[0]=s),e.setTexture2DArray(t||m0,s)}function Lb(i){switch(i){case 5126:return db;case 35664:return pb;case 35665:return mb;case 35666:return gb;case 35674:return _b;case 35675:return yb;case 35676:return xb;case 5124:case 35670:return vb;case 35667:case 35671:return Mb;case 35668:case 35672:return Sb;case 35669:case 35673:return bb;case 5125:return wb;case 36294:return Eb;case 36295:return Tb;case 36296:return Ab;case 35678:case 36198:case 36298:case 36306:case 35682:return Rb;case 35679:case 36299:case 36307:return Cb;case 35680:case 36300:case 36308:case 36293:return Pb;case 36289:case 36303:case 36311:case 36292:return Ib}}function Nb(i,t){i.uniform1fv(this.addr,t)}function Db(i,t){let e=Ir(t,this.size,2);i.uniform2fv(this.addr,e)}function Ob(i,t){let e=Ir(t,this.size,3);i.uniform3fv(this.addr,e)}function Ub(i,t){let e=Ir(t,this.size,4);i.uniform4fv(this.addr,e)}function Fb(i,t){let e=Ir(t,this.size,4);i.uniformMatrix2fv(this.addr,!1,e)}function Bb(i,t){let e=Ir(t,this.size,9);i.uniformMatrix3fv(this.addr,!1,e)}function kb(i,t){let e=Ir(t,this.size,16);i.uniformMatrix4fv(this.addr,!1,e)}function zb(i,t){i.uniform1iv(this.addr,t)}function Gb(i,t){i.uniform2iv(this.addr,t)}function Vb(i,t){i.uniform3iv(this.addr,t)}function Hb(i,t){i.uniform4iv(this.addr,t)}function Wb(i,t){i.uniform1uiv(this.addr,t)}function Xb(i,t){i.uniform2uiv(this.addr,t)}function qb(i,t){i.uniform3uiv(this.addr,t)}function Yb(i,t){i.uniform4uiv(this.addr,t)}function $b(i,t,e){let n=this.cache,s=t.length,r=Fc(e,s);Xe(n,r)||(i.uniform1iv(this.addr,r),qe(n,r));let a;this.type===i.SAMPLER_2D_SHADOW?a=Bc(d0):a=f0;for(let o=0;o!==s;++o)e.setTexture2D(t[o]||a,r[o])}function Zb(i,t,e){let n=this.cache,s=t.length,r=Fc(e,s);Xe(n,r)||(i.uniform1iv(this.addr,r),qe(n,r));for(let a=0;a!==s;++a)e.setTexture3D(t[a]||g0,r[a])}function Jb(i,t,e){let n=this.cache,s=t.length,r=Fc(e,s);Xe(n,r)||(i.uniform1iv(this.addr,r),qe(n,r));let a;this.type===i.SAMPLER_CUBE_SHADOW?a=Bc(p0):a=_0;for(let o=0;o!==s;++o)e.setTextureCube(t[o]||a,r[o])}function Kb(i,t,e){let n=this.cache,s=t.length,r=Fc(e,s);Xe(n,r)||(i.uniform1iv(this.addr,r),qe(n,r));for(let a=0;a!==s;++a)e.setTexture2DArray(t[a]||m0,r[a])}function jb(i){switch(i){case 5126:return Nb;case 35664:return Db;case 35665:return Ob;case 35666:return Ub;case 35674:return Fb;case 35675:return Bb;case 35676:return kb;case 5124:case 35670:return zb;case 35667:case 35671:return Gb;case 35668:case 35672:return Vb;case 35669:case 35673:return Hb;case 5125:return Wb;case 36294:return Xb;case 36295:return qb;case 36296:return Yb;case 35678:case 36198:case 36298:case 36306:case 35682:return $b;case 35679:case 36299:case 36307:return Zb;case 35680:case 36300:case 36308:case 36293:return Jb;case 36289:case 36303:case 36311:case 36292:return Kb}}var Rf=class{constructor(t,e,n){this.id=t,this.addr=n,this.cache=[],this.type=e.type,this.setValue=Lb(e.type)}},Cf=class{constructor(t,e,n){this.id=t,this.addr=n,this.cache=[],this.type=e.type,this.size=e.size,this.setValue=jb(e.type)}},Pf=class{constructor(t){this.id=t,this.seq=[],this.map={}}setValue(t,e,n){let s=this.seq;for(let r=0,a=s.length;r!==a;++r){let o=s[r];o.setValue(t,e[o.id],n)}}},Tf=/(\w+)(\])?(\[|\.)?/g;function Jg(i,t){i.seq.push(t),i.map[t.id]=t}function Qb(i,t,e){let n=i.name,s=n.length;for(Tf.lastIndex=0;;){let r=Tf.exec(n),a=Tf.lastIndex,o=r[1],c=r[2]==="]",l=r[3];if(c&&(o=o|0),l===void 0||l==="["&&a+2===s){Jg(e,l===void 0?new Rf(o,i,t):new Cf(o,i,t));break}else{let u=e.map[o];u===void 0&&(u=new Pf(o),Jg(e,u)),e=u}}}var Pr=class{constructor(t,e){this.seq=[],this.map={};let n=t.getProgramParameter(e,t.ACTIVE_UNIFORMS);for(let a=0;a<n;++a){let o=t.getActiveUniform(e,a),c=t.getUniformLocation(e,o.name);Qb(o,c,this)}let s=[],r=[];for(let a of this.seq)a.type===t.SAMPLER_2D_SHADOW||a.type===t.SAMPLER_CUBE_SHADOW||a.type===t.SAMPLER_2D_ARRAY_SHADOW?s.push(a):r.push(a);s.length>0&&(this.seq=s.concat(r))}setValue(t,e,n,s){let r=this.map[e];r!==void 0&&r.setValue(t,n,s)}setOptional(t,e,n){let s=e[n];s!==void 0&&this.setValue(t,n,s)}static upload(t,e,n,s){for(let r=0,a=e.length;r!==a;++r){let o=e[r],c=n[o.id];c.needsUpdate!==!1&&o.setValue(t,c.value,s)}}static seqWithValue(t,e){let n=[];for(let s=0,r=t.length;s!==r;++s){let a=t[s];a.id in e&&n.push(a)}return n}};function Kg(i,t,e){let n=i.createShader(t);return i.shaderSource(n,e),i.compileShader(n),n}var tw=37297,ew=0;function nw(i,t){let e=i.split(`
+`),n=[],s=Math.max(t-6,0),r=Math.min(t+6,e.length);for(let a=s;a<r;a++){let o=a+1;n.push(`${o===t?">":" "} ${o}: ${e[a]}`)}return n.join(`
+`)}var jg=new qt;function iw(i){oe._getMatrix(jg,oe.workingColorSpace,i);let t=`mat3( ${jg.elements.map(e=>e.toFixed(4))} )`;switch(oe.getTransfer(i)){case pa:return[t,"LinearTransferOETF"];case ye:return[t,"sRGBTransferOETF"];default:return Dt("WebGLProgram: Unsupported color space: ",i),[t,"LinearTransferOETF"]}}function Qg(i,t,e){let n=i.getShaderParameter(t,i.COMPILE_STATUS),r=(i.getShaderInfoLog(t)||"").trim();if(n&&r==="")return"";let a=/ERROR: 0:(\d+)/.exec(r);if(a){let o=parseInt(a[1]);return e.toUpperCase()+`
+
+`+r+`
+
+`+nw(i.getShaderSource(t),o)}else return r}function sw(i,t){let e=iw(t);return[`vec4 ${i}( vec4 value ) {`,`	return ${e[1]}( vec4( ${e[0]} * value.rgb, value.a ) );`,"}"].join(`
+`)}var rw={[Ku]:"Linear",[ju]:"Reinhard",[Qu]:"Cineon",[tf]:"ACESFilmic",[nf]:"AgX",[sf]:"Neutral",[ef]:"Custom"};function aw(i,t){let e=rw[t];return e===void 0?(Dt("WebGLProgram: Unsupported toneMapping:",t),"vec3 "+i+"( vec3 color ) { return LinearToneMapping( color ); }"):"vec3 "+i+"( vec3 color ) { return "+e+"ToneMapping( color ); }"}var Dc=new B;function ow(){oe.getLuminanceCoefficients(Dc);let i=Dc.x.toFixed(4),t=Dc.y.toFixed(4),e=Dc.z.toFixed(4);return["float luminance( const in vec3 rgb ) {",`	const vec3 weights = vec3( ${i}, ${t}, ${e} );`,"	return dot( weights, rgb );","}"].join(`
+`)}function lw(i){return[i.extensionClipCullDistance?"#extension GL_ANGLE_clip_cull_distance : require":"",i.extensionMultiDraw?"#extension GL_ANGLE_multi_draw : require":""].filter(Ya).join(`
+`)}function cw(i){let t=[];for(let e in i){let n=i[e];n!==!1&&t.push("#define "+e+" "+n)}return t.join(`
+`)}function hw(i,t){let e={},n=i.getProgramParameter(t,i.ACTIVE_ATTRIBUTES);for(let s=0;s<n;s++){let r=i.getActiveAttrib(t,s),a=r.name,o=1;r.type===i.FLOAT_MAT2&&(o=2),r.type===i.FLOAT_MAT3&&(o=3),r.type===i.FLOAT_MAT4&&(o=4),e[a]={type:r.type,location:i.getAttribLocation(t,a),locationSize:o}}return e}function Ya(i){return i!==""}function t0(i,t){let e=t.numSpotLightShadows+t.numSpotLightMaps-t.numSpotLightShadowsWithMaps;return i.replace(/NUM_SUN_LIGHTS/g,t.numSunLights).replace(/NUM_DIR_LIGHTS/g,t.numDirLights).replace(/NUM_SPOT_LIGHTS/g,t.numSpotLights).replace(/NUM_SPOT_LIGHT_MAPS/g,t.numSpotLightMaps).replace(/NUM_SPOT_LIGHT_COORDS/g,e).replace(/NUM_RECT_AREA_LIGHTS/g,t.numRectAreaLights).replace(/NUM_POINT_LIGHTS/g,t.numPointLights).replace(/NUM_HEMI_LIGHTS/g,t.numHemiLights).replace(/NUM_SUN_LIGHT_SHADOWS/g,t.numSunLightShadows).replace(/NUM_DIR_LIGHT_SHADOWS/g,t.numDirLightShadows).replace(/NUM_SPOT_LIGHT_SHADOWS_WITH_MAPS/g,t.numSpotLightShadowsWithMaps).replace(/NUM_SPOT_LIGHT_SHADOWS/g,t.numSpotLightShadows).replace(/NUM_POINT_LIGHT_SHADOWS/g,t.numPointLightShadows).replace(/NUM_LIGHT_PROBE_GRIDS/g,t.numLightProbeGrids)}function e0(i,t){return i.replace(/NUM_CLIPPING_PLANES/g,t.numClippingPlanes).replace(/UNION_CLIPPING_PLANES/g,t.numClippingPlanes-t.numClipIntersection)}var uw=/^[ \t]*#include +<([\w\d./]+)>/gm;function If(i){return i.replace(uw,fw)}function fw(i,t){let e=jt[t];if(e===void 0)throw new Error("THREE.WebGLProgram: Can not resolve #include <"+t+">");return If(e)}var dw=/#pragma unroll_loop_start\s+for\s*\(\s*int\s+i\s*=\s*(\d+)\s*;\s*i\s*<\s*(\d+)\s*;\s*i\s*\+\+\s*\)\s*{([\s\S]+?)}\s+#pragma unroll_loop_end/g;function n0(i){return i.replace(dw,pw)}function pw(i,t,e,n){let s="";for(let r=parseInt(t);r<parseInt(e);r++)s+=n.replace(/\[\s*i\s*\]/g,"[ "+r+" ]").replace(/UNROLLED_LOOP_INDEX/g,r);return s}function i0(i){let t=`precision ${i.precision} float;
+	precision ${i.precision} int;
+	precision ${i.precision} sampler2D;
+	precision ${i.precision} samplerCube;
+	precision ${i.precision} sampler3D;
+	precision ${i.precision} sampler2DArray;
+	precision ${i.precision} sampler2DShadow;
+	precision ${i.precision} samplerCubeShadow;
+	precision ${i.precision} sampler2DArrayShadow;
+	precision ${i.precision} isampler2D;
+	precision ${i.precision} isampler3D;
+	precision ${i.precision} isamplerCube;
+	precision ${i.precision} isampler2DArray;
+	precision ${i.precision} usampler2D;
+	precision ${i.precision} usampler3D;
+	precision ${i.precision} usamplerCube;
+	precision ${i.precision} usampler2DArray;
+	`;return i.precision==="highp"?t+=`
+#define HIGH_PRECISION`:i.precision==="mediump"?t+=`
+#define MEDIUM_PRECISION`:i.precision==="lowp"&&(t+=`
+#define LOW_PRECISION`),t}var mw={[Ps]:"SHADOWMAP_TYPE_PCF",[Tr]:"SHADOWMAP_TYPE_VSM"};function gw(i){return mw[i.shadowMapType]||"SHADOWMAP_TYPE_BASIC"}var _w={[Rr]:"ENVMAP_MODE_REFRACTION"};function yw(i){return i.envMap===!1?"ENVMAP_MODE_REFLECTION":_w[i.envMapMode]||"ENVMAP_MODE_REFLECTION"}var xw={[ql]:"ENVMAP_BLENDING_MULTIPLY",[yg]:"ENVMAP_BLENDING_MIX",[xg]:"ENVMAP_BLENDING_ADD"};function vw(i){return i.envMap===!1?"ENVMAP_BLENDING_NONE":xw[i.combine]||"ENVMAP_BLENDING_NONE"}function Mw(i,t,e,n){let s=i.getContext(),r=e.defines,a=e.vertexShader,o=e.fragmentShader,c=gw(e),l=e.envMapPMREM===!0?"ENVMAP_TYPE_PMREM":"ENVMAP_TYPE_CUBE",h=yw(e),u=vw(e),f=lw(e),d=cw(r),p=s.createProgram(),_,g,m=e.glslVersion?"#version "+e.glslVersion+`
+`:"";e.isRawShaderMaterial?(_=["#define SHADER_TYPE "+e.shaderType,"#define SHADER_NAME "+e.shaderName,d].filter(Ya).join(`
+`),_.length>0&&(_+=`
+`),g=["#define SHADER_TYPE "+e.shaderType,"#define SHADER_NAME "+e.shaderName,d].filter(Ya).join(`
+`),g.length>0&&(g+=`
+`)):(_=[i0(e),"#define SHADER_TYPE "+e.shaderType,"#define SHADER_NAME "+e.shaderName,d,e.extensionClipCullDistance?"#define USE_CLIP_DISTANCE":"",e.batching?"#define USE_BATCHING":"",e.batchingColor?"#define USE_BATCHING_COLOR":"",e.instancing?"#define USE_INSTANCING":"",e.instancingColor?"#define USE_INSTANCING_COLOR":"",e.instancingMorph?"#define USE_INSTANCING_MORPH":"",e.useFog&&e.fog?"#define USE_FOG":"",e.useFog&&e.fogExp2?"#define FOG_EXP2":"",e.map?"#define USE_MAP":"",e.envMap?"#define USE_ENVMAP":"",e.envMap?"#define "+h:"",e.lightMap?"#define USE_LIGHTMAP":"",e.aoMap?"#define USE_AOMAP":"",e.bumpMap?"#define USE_BUMPMAP":"",e.normalMap?"#define USE_NORMALMAP":"",e.normalMapObjectSpace?"#define USE_NORMALMAP_OBJECTSPACE":"",e.normalMapTangentSpace?"#define USE_NORMALMAP_TANGENTSPACE":"",e.displacementMap?"#define USE_DISPLACEMENTMAP":"",e.emissiveMap?"#define USE_EMISSIVEMAP":"",e.anisotropy?"#define USE_ANISOTROPY":"",e.anisotropyMap?"#define USE_ANISOTROPYMAP":"",e.clearcoatMap?"#define USE_CLEARCOATMAP":"",e.clearcoatRoughnessMap?"#define USE_CLEARCOAT_ROUGHNESSMAP":"",e.clearcoatNormalMap?"#define USE_CLEARCOAT_NORMALMAP":"",e.diffuseRoughnessMap?"#define USE_DIFFUSE_ROUGHNESSMAP":"",e.iridescenceMap?"#define USE_IRIDESCENCEMAP":"",e.iridescenceThicknessMap?"#define USE_IRIDESCENCE_THICKNESSMAP":"",e.specularMap?"#define USE_SPECULARMAP":"",e.specularColorMap?"#define USE_SPECULAR_COLORMAP":"",e.specularIntensityMap?"#define USE_SPECULAR_INTENSITYMAP":"",e.roughnessMap?"#define USE_ROUGHNESSMAP":"",e.metalnessMap?"#define USE_METALNESSMAP":"",e.alphaMap?"#define USE_ALPHAMAP":"",e.alphaHash?"#define USE_ALPHAHASH":"",e.transmission?"#define USE_TRANSMISSION":"",e.transmissionMap?"#define USE_TRANSMISSIONMAP":"",e.thicknessMap?"#define USE_THICKNESSMAP":"",e.sheenColorMap?"#define USE_SHEEN_COLORMAP":"",e.sheenRoughnessMap?"#define USE_SHEEN_ROUGHNESSMAP":"",e.mapUv?"#define MAP_UV "+e.mapUv:"",e.alphaMapUv?"#define ALPHAMAP_UV "+e.alphaMapUv:"",e.lightMapUv?"#define LIGHTMAP_UV "+e.lightMapUv:"",e.aoMapUv?"#define AOMAP_UV "+e.aoMapUv:"",e.emissiveMapUv?"#define EMISSIVEMAP_UV "+e.emissiveMapUv:"",e.bumpMapUv?"#define BUMPMAP_UV "+e.bumpMapUv:"",e.normalMapUv?"#define NORMALMAP_UV "+e.normalMapUv:"",e.displacementMapUv?"#define DISPLACEMENTMAP_UV "+e.displacementMapUv:"",e.metalnessMapUv?"#define METALNESSMAP_UV "+e.metalnessMapUv:"",e.roughnessMapUv?"#define ROUGHNESSMAP_UV "+e.roughnessMapUv:"",e.anisotropyMapUv?"#define ANISOTROPYMAP_UV "+e.anisotropyMapUv:"",e.clearcoatMapUv?"#define CLEARCOATMAP_UV "+e.clearcoatMapUv:"",e.clearcoatNormalMapUv?"#define CLEARCOAT_NORMALMAP_UV "+e.clearcoatNormalMapUv:"",e.clearcoatRoughnessMapUv?"#define CLEARCOAT_ROUGHNESSMAP_UV "+e.clearcoatRoughnessMapUv:"",e.diffuseRoughnessMapUv?"#define DIFFUSE_ROUGHNESSMAP_UV "+e.diffuseRoughnessMapUv:"",e.iridescenceMapUv?"#define IRIDESCENCEMAP_UV "+e.iridescenceMapUv:"",e.iridescenceThicknessMapUv?"#define IRIDESCENCE_THICKNESSMAP_UV "+e.iridescenceThicknessMapUv:"",e.sheenColorMapUv?"#define SHEEN_COLORMAP_UV "+e.sheenColorMapUv:"",e.sheenRoughnessMapUv?"#define SHEEN_ROUGHNESSMAP_UV "+e.sheenRoughnessMapUv:"",e.specularMapUv?"#define SPECULARMAP_UV "+e.specularMapUv:"",e.specularColorMapUv?"#define SPECULAR_COLORMAP_UV "+e.specularColorMapUv:"",e.specularIntensityMapUv?"#define SPECULAR_INTENSITYMAP_UV "+e.specularIntensityMapUv:"",e.transmissionMapUv?"#define TRANSMISSIONMAP_UV "+e.transmissionMapUv:"",e.thicknessMapUv?"#define THICKNESSMAP_UV "+e.thicknessMapUv:"",e.vertexTangents&&e.flatShading===!1?"#define USE_TANGENT":"",e.vertexNormals?"#define HAS_NORMAL":"",e.vertexColors?"#define USE_COLOR":"",e.vertexAlphas?"#define USE_COLOR_ALPHA":"",e.vertexUv1s?"#define USE_UV1":"",e.vertexUv2s?"#define USE_UV2":"",e.vertexUv3s?"#define USE_UV3":"",e.pointsUvs?"#define USE_POINTS_UV":"",e.flatShading?"#define FLAT_SHADED":"",e.skinning?"#define USE_SKINNING":"",e.morphTargets?"#define USE_MORPHTARGETS":"",e.morphNormals&&e.flatShading===!1?"#define USE_MORPHNORMALS":"",e.morphColors?"#define USE_MORPHCOLORS":"",e.morphTargetsCount>0?"#define MORPHTARGETS_TEXTURE_STRIDE "+e.morphTextureStride:"",e.morphTargetsCount>0?"#define MORPHTARGETS_COUNT "+e.morphTargetsCount:"",e.doubleSided?"#define DOUBLE_SIDED":"",e.flipSided?"#define FLIP_SIDED":"",e.shadowMapEnabled?"#define USE_SHADOWMAP":"",e.shadowMapEnabled?"#define "+c:"",e.sizeAttenuation?"#define USE_SIZEATTENUATION":"",e.numLightProbes>0?"#define USE_LIGHT_PROBES":"",e.logarithmicDepthBuffer?"#define USE_LOGARITHMIC_DEPTH_BUFFER":"",e.reversedDepthBuffer?"#define USE_REVERSED_DEPTH_BUFFER":"","uniform mat4 modelMatrix;","uniform mat4 modelViewMatrix;","uniform mat4 projectionMatrix;","uniform mat4 viewMatrix;","uniform mat3 normalMatrix;","uniform vec3 cameraPosition;","uniform bool isOrthographic;","#ifdef USE_INSTANCING","	attribute mat4 instanceMatrix;","#endif","#ifdef USE_INSTANCING_COLOR","	attribute vec3 instanceColor;","#endif","#ifdef USE_INSTANCING_MORPH","	uniform sampler2D morphTexture;","#endif","attribute vec3 position;","attribute vec3 normal;","attribute vec2 uv;","#ifdef USE_UV1","	attribute vec2 uv1;","#endif","#ifdef USE_UV2","	attribute vec2 uv2;","#endif","#ifdef USE_UV3","	attribute vec2 uv3;","#endif","#ifdef USE_TANGENT","	attribute vec4 tangent;","#endif","#if defined( USE_COLOR_ALPHA )","	attribute vec4 color;","#elif defined( USE_COLOR )","	attribute vec3 color;","#endif","#ifdef USE_SKINNING","	attribute vec4 skinIndex;","	attribute vec4 skinWeight;","#endif",`
+`].filter(Ya).join(`
+`),g=[i0(e),"#define SHADER_TYPE "+e.shaderType,"#define SHADER_NAME "+e.shaderName,d,e.useFog&&e.fog?"#define USE_FOG":"",e.useFog&&e.fogExp2?"#define FOG_EXP2":"",e.alphaToCoverage?"#define ALPHA_TO_COVERAGE":"",e.map?"#define USE_MAP":"",e.matcap?"#define USE_MATCAP":"",e.envMap?"#define USE_ENVMAP":"",e.envMap?"#define "+l:"",e.envMap?"#define "+h:"",e.envMap?"#define "+u:"",e.envMapPMREM?"#define ENVMAP_MAX_LOD "+e.envMapMaxLod+".0":"",e.envMapPMREM?"#define ENVMAP_SIZE "+e.envMapSize+".0":"",e.lightMap?"#define USE_LIGHTMAP":"",e.aoMap?"#define USE_AOMAP":"",e.bumpMap?"#define USE_BUMPMAP":"",e.normalMap?"#define USE_NORMALMAP":"",e.normalMapObjectSpace?"#define USE_NORMALMAP_OBJECTSPACE":"",e.normalMapTangentSpace?"#define USE_NORMALMAP_TANGENTSPACE":"",e.packedNormalMap?"#define USE_PACKED_NORMALMAP":"",e.emissiveMap?"#define USE_EMISSIVEMAP":"",e.anisotropy?"#define USE_ANISOTROPY":"",e.anisotropyMap?"#define USE_ANISOTROPYMAP":"",e.clearcoat?"#define USE_CLEARCOAT":"",e.clearcoatMap?"#define USE_CLEARCOATMAP":"",e.clearcoatRoughnessMap?"#define USE_CLEARCOAT_ROUGHNESSMAP":"",e.clearcoatNormalMap?"#define USE_CLEARCOAT_NORMALMAP":"",e.diffuseRoughness?"#define USE_DIFFUSE_ROUGHNESS":"",e.diffuseRoughnessMap?"#define USE_DIFFUSE_ROUGHNESSMAP":"",e.dispersion?"#define USE_DISPERSION":"",e.retroreflection?"#define USE_RETROREFLECTION":"",e.iridescence?"#define USE_IRIDESCENCE":"",e.iridescenceMap?"#define USE_IRIDESCENCEMAP":"",e.iridescenceThicknessMap?"#define USE_IRIDESCENCE_THICKNESSMAP":"",e.specularMap?"#define USE_SPECULARMAP":"",e.specularColorMap?"#define USE_SPECULAR_COLORMAP":"",e.specularIntensityMap?"#define USE_SPECULAR_INTENSITYMAP":"",e.roughnessMap?"#define USE_ROUGHNESSMAP":"",e.metalnessMap?"#define USE_METALNESSMAP":"",e.alphaMap?"#define USE_ALPHAMAP":"",e.alphaTest?"#define USE_ALPHATEST":"",e.alphaHash?"#define USE_ALPHAHASH":"",e.sheen?"#define USE_SHEEN":"",e.sheenColorMap?"#define USE_SHEEN_COLORMAP":"",e.sheenRoughnessMap?"#define USE_SHEEN_ROUGHNESSMAP":"",e.transmission?"#define USE_TRANSMISSION":"",e.transmissionMap?"#define USE_TRANSMISSIONMAP":"",e.thicknessMap?"#define USE_THICKNESSMAP":"",e.vertexTangents&&e.flatShading===!1?"#define USE_TANGENT":"",e.vertexColors||e.instancingColor?"#define USE_COLOR":"",e.vertexAlphas||e.batchingColor?"#define USE_COLOR_ALPHA":"",e.vertexUv1s?"#define USE_UV1":"",e.vertexUv2s?"#define USE_UV2":"",e.vertexUv3s?"#define USE_UV3":"",e.pointsUvs?"#define USE_POINTS_UV":"",e.gradientMap?"#define USE_GRADIENTMAP":"",e.flatShading?"#define FLAT_SHADED":"",e.doubleSided?"#define DOUBLE_SIDED":"",e.flipSided?"#define FLIP_SIDED":"",e.shadowMapEnabled?"#define USE_SHADOWMAP":"",e.shadowMapEnabled?"#define "+c:"",e.premultipliedAlpha?"#define PREMULTIPLIED_ALPHA":"",e.numLightProbes>0?"#define USE_LIGHT_PROBES":"",e.decodeVideoTexture?"#define DECODE_VIDEO_TEXTURE":"",e.decodeVideoTextureEmissive?"#define DECODE_VIDEO_TEXTURE_EMISSIVE":"",e.logarithmicDepthBuffer?"#define USE_LOGARITHMIC_DEPTH_BUFFER":"",e.reversedDepthBuffer?"#define USE_REVERSED_DEPTH_BUFFER":"","uniform mat4 viewMatrix;","uniform vec3 cameraPosition;","uniform bool isOrthographic;",e.toneMapping!==mi?"#define TONE_MAPPING":"",e.toneMapping!==mi?jt.tonemapping_pars_fragment:"",e.toneMapping!==mi?aw("toneMapping",e.toneMapping):"",e.dithering?"#define DITHERING":"",e.opaque?"#define OPAQUE":"",jt.colorspace_pars_fragment,sw("linearToOutputTexel",e.outputColorSpace),ow(),e.useDepthPacking?"#define DEPTH_PACKING "+e.depthPacking:"",`
+`].filter(Ya).join(`
+`)),a=If(a),a=t0(a,e),a=e0(a,e),o=If(o),o=t0(o,e),o=e0(o,e),a=n0(a),o=n0(o),e.isRawShaderMaterial!==!0&&(m=`#version 300 es
+`,_=[f,"#define attribute in","#define varying out","#define texture2D texture"].join(`
+`)+`
+`+_,g=["#define varying in",e.glslVersion===gf?"":"layout(location = 0) out highp vec4 pc_fragColor;",e.glslVersion===gf?"":"#define gl_FragColor pc_fragColor","#define gl_FragDepthEXT gl_FragDepth","#define texture2D texture","#define textureCube texture","#define texture2DProj textureProj","#define texture2DLodEXT textureLod","#define texture2DProjLodEXT textureProjLod","#define textureCubeLodEXT textureLod","#define texture2DGradEXT textureGrad","#define texture2DProjGradEXT textureProjGrad","#define textureCubeGradEXT textureGrad"].join(`
+`)+`
+`+g);let x=m+_+a,b=m+g+o,w=Kg(s,s.VERTEX_SHADER,x),A=Kg(s,s.FRAGMENT_SHADER,b);s.attachShader(p,w),s.attachShader(p,A),e.index0AttributeName!==void 0?s.bindAttribLocation(p,0,e.index0AttributeName):e.hasPositionAttribute===!0&&s.bindAttribLocation(p,0,"position"),s.linkProgram(p);function C(N){if(i.debug.checkShaderErrors){let D=s.getProgramInfoLog(p)||"",H=s.getShaderInfoLog(w)||"",J=s.getShaderInfoLog(A)||"",P=D.trim(),q=H.trim(),Q=J.trim(),X=!0,rt=!0;if(s.getProgramParameter(p,s.LINK_STATUS)===!1)if(X=!1,typeof i.debug.onShaderError=="function")i.debug.onShaderError(s,p,w,A);else{let W=Qg(s,w,"vertex"),k=Qg(s,A,"fragment");Ht("WebGLProgram: Shader Error "+s.getError()+" - VALIDATE_STATUS "+s.getProgramParameter(p,s.VALIDATE_STATUS)+`
+
+Material Name: `+N.name+`
+Material Type: `+N.type+`
+
+Program Info Log: `+P+`
+`+W+`
+`+k)}else P!==""?Dt("WebGLProgram: Program Info Log:",P):(q===""||Q==="")&&(rt=!1);rt&&(N.diagnostics={runnable:X,programLog:P,vertexShader:{log:q,prefix:_},fragmentShader:{log:Q,prefix:g}})}s.deleteShader(w),s.deleteShader(A),v=new Pr(s,p),E=hw(s,p)}let v;this.getUniforms=function(){return v===void 0&&C(this),v};let E;this.getAttributes=function(){return E===void 0&&C(this),E};let F=e.rendererExtensionParallelShaderCompile===!1;return this.isReady=function(){return F===!1&&(F=s.getProgramParameter(p,tw)),F},this.destroy=function(){n.releaseStatesOfProgram(this),s.deleteProgram(p),this.program=void 0},this.type=e.shaderType,this.name=e.shaderName,this.id=ew++,this.cacheKey=t,this.usedTimes=1,this.program=p,this.vertexShader=w,this.fragmentShader=A,this}var Sw=0,Lf=class{constructor(){this.shaderCache=new Map,this.materialCache=new Map}update(t,e,n){let s=this._getShaderCacheForMaterial(t);return s.has(e)===!1&&(s.add(e),e.usedTimes++),s.has(n)===!1&&(s.add(n),n.usedTimes++),this}remove(t){let e=this.materialCache.get(t);for(let n of e)n.usedTimes--,n.usedTimes===0&&this.shaderCache.delete(n.code);return this.materialCache.delete(t),this}getVertexShaderStage(t){return this._getShaderStage(t.vertexShader)}getFragmentShaderStage(t){return this._getShaderStage(t.fragmentShader)}dispose(){this.shaderCache.clear(),this.materialCache.clear()}_getShaderCacheForMaterial(t){let e=this.materialCache,n=e.get(t);return n===void 0&&(n=new Set,e.set(t,n)),n}_getShaderStage(t){let e=this.shaderCache,n=e.get(t);return n===void 0&&(n=new Nf(t),e.set(t,n)),n}},Nf=class{constructor(t){this.id=Sw++,this.code=t,this.usedTimes=0}};function bw(i){return i===ss||i===Wa||i===Xa}function ww(i,t,e,n,s,r){let a=new _r,o=new Lf,c=new Set,l=[],h=new Map,u=n.logarithmicDepthBuffer,f={MeshDepthMaterial:"depth",MeshDistanceMaterial:"distance",MeshNormalMaterial:"normal",MeshBasicMaterial:"basic",MeshLambertMaterial:"lambert",MeshPhongMaterial:"phong",MeshToonMaterial:"toon",MeshStandardMaterial:"physical",MeshPhysicalMaterial:"physical",MeshMatcapMaterial:"matcap",LineBasicMaterial:"basic",LineDashedMaterial:"dashed",PointsMaterial:"points",ShadowMaterial:"shadow",SpriteMaterial:"sprite"};function d(v){return c.add(v),v===0?"uv":`uv${v}`}function p(v,E,F,N,D,H){let J=N.fog,P=D.geometry,q=v.isMeshStandardMaterial||v.isMeshLambertMaterial||v.isMeshPhongMaterial?N.environment:null,Q=v.isMeshStandardMaterial||v.isMeshLambertMaterial&&!v.envMap||v.isMeshPhongMaterial&&!v.envMap,X=t.get(v.envMap||q,Q),rt=f[v.type],W=n.precision;v.precision!==null&&(W=n.getMaxPrecision(v.precision),W!==v.precision&&Dt("WebGLProgram.getParameters:",v.precision,"not supported, using",W,"instead."));let k=P.morphAttributes.position||P.morphAttributes.normal||P.morphAttributes.color,it=k!==void 0?k.length:0,Tt=0;P.morphAttributes.position!==void 0&&(Tt=1),P.morphAttributes.normal!==void 0&&(Tt=2),P.morphAttributes.color!==void 0&&(Tt=3);let Bt,et,pt,_t;if(rt){let St=_i[rt];Bt=St.vertexShader,et=St.fragmentShader}else{Bt=v.vertexShader,et=v.fragmentShader;let St=o.getVertexShaderStage(v),fe=o.getFragmentShaderStage(v);o.update(v,St,fe),pt=St.id,_t=fe.id}let It=i.getRenderTarget(),lt=i.state.buffers.depth.getReversed(),Et=D.isInstancedMesh===!0,se=D.isBatchedMesh===!0,Ot=!!v.map,Qt=!!v.matcap,me=!!X,Jt=me&&X.isPMREMTexture===!0,Ne=!!v.aoMap,Re=!!v.lightMap,en=!!v.bumpMap&&v.wireframe===!1,ge=!!v.normalMap,re=!!v.displacementMap,Pe=!!v.emissiveMap,gn=!!v.metalnessMap,an=!!v.roughnessMap,Le=v.anisotropy>0,O=v.clearcoat>0,_n=v.diffuseRoughness>0,ue=v.dispersion>0,Me=v.retroreflectivity>0,Mt=v.iridescence>0,Ie=v.sheen>0,Ut=v.transmission>0,Gt=Le&&!!v.anisotropyMap,R=O&&!!v.clearcoatMap,M=O&&!!v.clearcoatNormalMap,G=O&&!!v.clearcoatRoughnessMap,at=_n&&!!v.diffuseRoughnessMap,st=Mt&&!!v.iridescenceMap,ut=Mt&&!!v.iridescenceThicknessMap,yt=Ie&&!!v.sheenColorMap,j=Ie&&!!v.sheenRoughnessMap,tt=!!v.specularMap,ft=!!v.specularColorMap,I=!!v.specularIntensityMap,nt=Ut&&!!v.transmissionMap,Z=Ut&&!!v.thicknessMap,mt=!!v.gradientMap,ht=!!v.alphaMap,dt=v.alphaTest>0,Lt=!!v.alphaHash,Zt=!!v.extensions,ct=mi;v.toneMapped&&(It===null||It.isXRRenderTarget===!0)&&(ct=i.toneMapping);let Nt=Jt?X.isCompressedCubeTexture?X.image[0].mipmaps:X.mipmaps:null,$t={shaderID:rt,shaderType:v.type,shaderName:v.name,vertexShader:Bt,fragmentShader:et,defines:v.defines,customVertexShaderID:pt,customFragmentShaderID:_t,isRawShaderMaterial:v.isRawShaderMaterial===!0,glslVersion:v.glslVersion,precision:W,batching:se,batchingColor:se&&D._colorsTexture!==null,instancing:Et,instancingColor:Et&&D.instanceColor!==null,instancingMorph:Et&&D.morphTexture!==null,outputColorSpace:It===null?i.outputColorSpace:It.isXRRenderTarget===!0?It.texture.colorSpace:oe.workingColorSpace,alphaToCoverage:!!v.alphaToCoverage,map:Ot,matcap:Qt,envMap:me,envMapMode:me&&X.mapping,envMapPMREM:Jt,envMapMaxLod:Jt?Nt.length-1:null,envMapSize:Jt?Nt[0].width:null,aoMap:Ne,lightMap:Re,bumpMap:en,normalMap:ge,displacementMap:re,emissiveMap:Pe,normalMapObjectSpace:ge&&v.normalMapType===bg,normalMapTangentSpace:ge&&v.normalMapType===Lc,packedNormalMap:ge&&v.normalMapType===Lc&&bw(v.normalMap.format),metalnessMap:gn,roughnessMap:an,anisotropy:Le,anisotropyMap:Gt,clearcoat:O,clearcoatMap:R,clearcoatNormalMap:M,clearcoatRoughnessMap:G,diffuseRoughness:_n,diffuseRoughnessMap:at,dispersion:ue,retroreflection:Me,iridescence:Mt,iridescenceMap:st,iridescenceThicknessMap:ut,sheen:Ie,sheenColorMap:yt,sheenRoughnessMap:j,specularMap:tt,specularColorMap:ft,specularIntensityMap:I,transmission:Ut,transmissionMap:nt,thicknessMap:Z,gradientMap:mt,opaque:v.transparent===!1&&v.blending===Ar&&v.alphaToCoverage===!1,alphaMap:ht,alphaTest:dt,alphaHash:Lt,combine:v.combine,mapUv:Ot&&d(v.map.channel),aoMapUv:Ne&&d(v.aoMap.channel),lightMapUv:Re&&d(v.lightMap.channel),bumpMapUv:en&&d(v.bumpMap.channel),normalMapUv:ge&&d(v.normalMap.channel),displacementMapUv:re&&d(v.displacementMap.channel),emissiveMapUv:Pe&&d(v.emissiveMap.channel),metalnessMapUv:gn&&d(v.metalnessMap.channel),roughnessMapUv:an&&d(v.roughnessMap.channel),anisotropyMapUv:Gt&&d(v.anisotropyMap.channel),clearcoatMapUv:R&&d(v.clearcoatMap.channel),clearcoatNormalMapUv:M&&d(v.clearcoatNormalMap.channel),clearcoatRoughnessMapUv:G&&d(v.clearcoatRoughnessMap.channel),diffuseRoughnessMapUv:at&&d(v.diffuseRoughnessMap.channel),iridescenceMapUv:st&&d(v.iridescenceMap.channel),iridescenceThicknessMapUv:ut&&d(v.iridescenceThicknessMap.channel),sheenColorMapUv:yt&&d(v.sheenColorMap.channel),sheenRoughnessMapUv:j&&d(v.sheenRoughnessMap.channel),specularMapUv:tt&&d(v.specularMap.channel),specularColorMapUv:ft&&d(v.specularColorMap.channel),specularIntensityMapUv:I&&d(v.specularIntensityMap.channel),transmissionMapUv:nt&&d(v.transmissionMap.channel),thicknessMapUv:Z&&d(v.thicknessMap.channel),alphaMapUv:ht&&d(v.alphaMap.channel),vertexTangents:!!P.attributes.tangent&&(ge||Le),vertexNormals:!!P.attributes.normal,vertexColors:v.vertexColors,vertexAlphas:v.vertexColors===!0&&!!P.attributes.color&&P.attributes.color.itemSize===4,pointsUvs:D.isPoints===!0&&!!P.attributes.uv&&(Ot||ht),fog:!!J,useFog:v.fog===!0,fogExp2:!!J&&J.isFogExp2,flatShading:v.wireframe===!1&&(v.flatShading===!0||P.attributes.normal===void 0&&ge===!1&&(v.isMeshLambertMaterial||v.isMeshPhongMaterial||v.isMeshStandardMaterial||v.isMeshPhysicalMaterial)),sizeAttenuation:v.sizeAttenuation===!0,logarithmicDepthBuffer:u,reversedDepthBuffer:lt,skinning:D.isSkinnedMesh===!0,hasPositionAttribute:P.attributes.position!==void 0,morphTargets:P.morphAttributes.position!==void 0,morphNormals:P.morphAttributes.normal!==void 0,morphColors:P.morphAttributes.color!==void 0,morphTargetsCount:it,morphTextureStride:Tt,numSunLights:E.sun.length,numDirLights:E.directional.length,numPointLights:E.point.length,numSpotLights:E.spot.length,numSpotLightMaps:E.spotLightMap.length,numRectAreaLights:E.rectArea.length,numHemiLights:E.hemi.length,numSunLightShadows:E.sunShadowMap.length,numDirLightShadows:E.directionalShadowMap.length,numPointLightShadows:E.pointShadowMap.length,numSpotLightShadows:E.spotShadowMap.length,numSpotLightShadowsWithMaps:E.numSpotLightShadowsWithMaps,numLightProbes:E.numLightProbes,numLightProbeGrids:H.filter(St=>St.texture!==null).length,numClippingPlanes:r.numPlanes,numClipIntersection:r.numIntersection,dithering:v.dithering,shadowMapEnabled:i.shadowMap.enabled&&F.length>0,shadowMapType:i.shadowMap.type,toneMapping:ct,decodeVideoTexture:Ot&&v.map.isVideoTexture===!0&&oe.getTransfer(v.map.colorSpace)===ye,decodeVideoTextureEmissive:Pe&&v.emissiveMap.isVideoTexture===!0&&oe.getTransfer(v.emissiveMap.colorSpace)===ye,premultipliedAlpha:v.premultipliedAlpha,doubleSided:v.side===pi,flipSided:v.side===En,useDepthPacking:v.depthPacking>=0,depthPacking:v.depthPacking||0,index0AttributeName:v.index0AttributeName,extensionClipCullDistance:Zt&&v.extensions.clipCullDistance===!0&&e.has("WEBGL_clip_cull_distance"),extensionMultiDraw:(Zt&&v.extensions.multiDraw===!0||se)&&e.has("WEBGL_multi_draw"),rendererExtensionParallelShaderCompile:e.has("KHR_parallel_shader_compile"),customProgramCacheKey:v.customProgramCacheKey()};return $t.vertexUv1s=c.has(1),$t.vertexUv2s=c.has(2),$t.vertexUv3s=c.has(3),c.clear(),$t}function _(v){let E=[];if(v.shaderID?E.push(v.shaderID):(E.push(v.customVertexShaderID),E.push(v.customFragmentShaderID)),v.defines!==void 0)for(let F in v.defines)E.push(F),E.push(v.defines[F]);return v.isRawShaderMaterial===!1&&(g(E,v),m(E,v),E.push(i.outputColorSpace)),E.push(v.customProgramCacheKey),E.join()}function g(v,E){v.push(E.precision),v.push(E.outputColorSpace),v.push(E.envMapMode),v.push(E.envMapPMREM),v.push(E.envMapMaxLod),v.push(E.envMapSize),v.push(E.mapUv),v.push(E.alphaMapUv),v.push(E.lightMapUv),v.push(E.aoMapUv),v.push(E.bumpMapUv),v.push(E.normalMapUv),v.push(E.displacementMapUv),v.push(E.emissiveMapUv),v.push(E.metalnessMapUv),v.push(E.roughnessMapUv),v.push(E.anisotropyMapUv),v.push(E.clearcoatMapUv),v.push(E.clearcoatNormalMapUv),v.push(E.clearcoatRoughnessMapUv),v.push(E.diffuseRoughnessMapUv),v.push(E.iridescenceMapUv),v.push(E.iridescenceThicknessMapUv),v.push(E.sheenColorMapUv),v.push(E.sheenRoughnessMapUv),v.push(E.specularMapUv),v.push(E.specularColorMapUv),v.push(E.specularIntensityMapUv),v.push(E.transmissionMapUv),v.push(E.thicknessMapUv),v.push(E.combine),v.push(E.fogExp2),v.push(E.sizeAttenuation),v.push(E.morphTargetsCount),v.push(E.numSunLights),v.push(E.numDirLights),v.push(E.numPointLights),v.push(E.numSpotLights),v.push(E.numSpotLightMaps),v.push(E.numHemiLights),v.push(E.numRectAreaLights),v.push(E.numSunLightShadows),v.push(E.numDirLightShadows),v.push(E.numPointLightShadows),v.push(E.numSpotLightShadows),v.push(E.numSpotLightShadowsWithMaps),v.push(E.numLightProbes),v.push(E.numLightProbeGrids),v.push(E.shadowMapType),v.push(E.toneMapping),v.push(E.numClippingPlanes),v.push(E.numClipIntersection),v.push(E.depthPacking)}function m(v,E){a.disableAll(),E.instancing&&a.enable(0),E.instancingColor&&a.enable(1),E.instancingMorph&&a.enable(2),E.matcap&&a.enable(3),E.envMap&&a.enable(4),E.normalMapObjectSpace&&a.enable(5),E.normalMapTangentSpace&&a.enable(6),E.clearcoat&&a.enable(7),E.iridescence&&a.enable(8),E.alphaTest&&a.enable(9),E.vertexColors&&a.enable(10),E.vertexAlphas&&a.enable(11),E.vertexUv1s&&a.enable(12),E.vertexUv2s&&a.enable(13),E.vertexUv3s&&a.enable(14),E.vertexTangents&&a.enable(15),E.anisotropy&&a.enable(16),E.alphaHash&&a.enable(17),E.batching&&a.enable(18),E.dispersion&&a.enable(19),E.retroreflection&&a.enable(24),E.diffuseRoughness&&a.enable(25),E.batchingColor&&a.enable(20),E.gradientMap&&a.enable(21),E.packedNormalMap&&a.enable(22),E.vertexNormals&&a.enable(23),v.push(a.mask),a.disableAll(),E.fog&&a.enable(0),E.useFog&&a.enable(1),E.flatShading&&a.enable(2),E.logarithmicDepthBuffer&&a.enable(3),E.reversedDepthBuffer&&a.enable(4),E.skinning&&a.enable(5),E.morphTargets&&a.enable(6),E.morphNormals&&a.enable(7),E.morphColors&&a.enable(8),E.premultipliedAlpha&&a.enable(9),E.shadowMapEnabled&&a.enable(10),E.doubleSided&&a.enable(11),E.flipSided&&a.enable(12),E.useDepthPacking&&a.enable(13),E.dithering&&a.enable(14),E.transmission&&a.enable(15),E.sheen&&a.enable(16),E.opaque&&a.enable(17),E.pointsUvs&&a.enable(18),E.decodeVideoTexture&&a.enable(19),E.decodeVideoTextureEmissive&&a.enable(20),E.alphaToCoverage&&a.enable(21),E.numLightProbeGrids>0&&a.enable(22),E.hasPositionAttribute&&a.enable(23),v.push(a.mask)}function x(v){let E=f[v.type],F;if(E){let N=_i[E];F=Bg.clone(N.uniforms)}else F=v.uniforms;return F}function b(v,E){let F=h.get(E);return F!==void 0?++F.usedTimes:(F=new Mw(i,E,v,s),l.push(F),h.set(E,F)),F}function w(v){if(--v.usedTimes===0){let E=l.indexOf(v);l[E]=l[l.length-1],l.pop(),h.delete(v.cacheKey),v.destroy()}}function A(v){o.remove(v)}function C(){o.dispose()}return{getParameters:p,getProgramCacheKey:_,getUniforms:x,acquireProgram:b,releaseProgram:w,releaseShaderCache:A,programs:l,dispose:C}}function Ew(){let i=new WeakMap;function t(a){return i.has(a)}function e(a){let o=i.get(a);return o===void 0&&(o={},i.set(a,o)),o}function n(a){i.delete(a)}function s(a,o,c){i.get(a)[o]=c}function r(){i=new WeakMap}return{has:t,get:e,remove:n,update:s,dispose:r}}function Tw(i,t){return i.groupOrder!==t.groupOrder?i.groupOrder-t.groupOrder:i.renderOrder!==t.renderOrder?i.renderOrder-t.renderOrder:i.material.id!==t.material.id?i.material.id-t.material.id:i.materialVariant!==t.materialVariant?i.materialVariant-t.materialVariant:i.z!==t.z?i.z-t.z:i.id-t.id}function s0(i,t){return i.groupOrder!==t.groupOrder?i.groupOrder-t.groupOrder:i.renderOrder!==t.renderOrder?i.renderOrder-t.renderOrder:i.z!==t.z?t.z-i.z:i.id-t.id}function r0(){let i=[],t=0,e=[],n=[],s=[];function r(){t=0,e.length=0,n.length=0,s.length=0}function a(f){let d=0;return f.isInstancedMesh&&(d+=2),f.isSkinnedMesh&&(d+=1),d}function o(f,d,p,_,g,m){let x=i[t];return x===void 0?(x={id:f.id,object:f,geometry:d,material:p,materialVariant:a(f),groupOrder:_,renderOrder:f.renderOrder,z:g,group:m},i[t]=x):(x.id=f.id,x.object=f,x.geometry=d,x.material=p,x.materialVariant=a(f),x.groupOrder=_,x.renderOrder=f.renderOrder,x.z=g,x.group=m),t++,x}function c(f,d,p,_,g,m,x){x.reversedDepth===!0&&(g=-g);let b=o(f,d,p,_,g,m);p.transmission>0?n.push(b):p.transparent===!0?s.push(b):e.push(b)}function l(f,d,p,_,g,m){let x=o(f,d,p,_,g,m);p.transmission>0?n.unshift(x):p.transparent===!0?s.unshift(x):e.unshift(x)}function h(f,d){e.length>1&&e.sort(f||Tw),n.length>1&&n.sort(d||s0),s.length>1&&s.sort(d||s0)}function u(){for(let f=t,d=i.length;f<d;f++){let p=i[f];if(p.id===null)break;p.id=null,p.object=null,p.geometry=null,p.material=null,p.group=null}}return{opaque:e,transmissive:n,transparent:s,init:r,push:c,unshift:l,finish:u,sort:h}}function Aw(){let i=new WeakMap;function t(n,s){let r=i.get(n),a;return r===void 0?(a=new r0,i.set(n,[a])):s>=r.length?(a=new r0,r.push(a)):a=r[s],a}function e(){i=new WeakMap}return{get:t,dispose:e}}function Rw(){let i={};return{get:function(t){if(i[t.id]!==void 0)return i[t.id];let e;switch(t.type){case"SunLight":case"DirectionalLight":e={direction:new B,color:new Yt};break;case"SpotLight":e={position:new B,direction:new B,color:new Yt,distance:0,coneCos:0,penumbraCos:0,decay:0};break;case"PointLight":e={position:new B,color:new Yt,distance:0,decay:0};break;case"HemisphereLight":e={direction:new B,skyColor:new Yt,groundColor:new Yt};break;case"RectAreaLight":e={color:new Yt,position:new B,halfWidth:new B,halfHeight:new B};break}return i[t.id]=e,e}}}function Cw(){let i={};return{get:function(t){if(i[t.id]!==void 0)return i[t.id];let e;switch(t.type){case"SunLight":case"DirectionalLight":e={shadowIntensity:1,shadowBias:0,shadowNormalBias:0,shadowRadius:1,shadowMapSize:new kt};break;case"SpotLight":e={shadowIntensity:1,shadowBias:0,shadowNormalBias:0,shadowRadius:1,shadowMapSize:new kt};break;case"PointLight":e={shadowIntensity:1,shadowBias:0,shadowNormalBias:0,shadowRadius:1,shadowMapSize:new kt,shadowCameraNear:1,shadowCameraFar:1e3};break}return i[t.id]=e,e}}}var Pw=0;function Iw(i,t){return(t.castShadow?2:0)-(i.castShadow?2:0)+(t.map?1:0)-(i.map?1:0)}function Lw(i){let t=new Rw,e=Cw(),n={version:0,hash:{sunLength:-1,directionalLength:-1,pointLength:-1,spotLength:-1,rectAreaLength:-1,hemiLength:-1,numSunShadows:-1,numDirectionalShadows:-1,numPointShadows:-1,numSpotShadows:-1,numSpotMaps:-1,numLightProbes:-1},ambient:[0,0,0],probe:[],sun:[],sunShadow:[],sunShadowMap:[],sunShadowMatrix:[],sunShadowCascade:[],directional:[],directionalShadow:[],directionalShadowMap:[],directionalShadowMatrix:[],spot:[],spotLightMap:[],spotShadow:[],spotShadowMap:[],spotLightMatrix:[],rectArea:[],rectAreaLTC1:null,rectAreaLTC2:null,point:[],pointShadow:[],pointShadowMap:[],pointShadowMatrix:[],hemi:[],numSpotLightShadowsWithMaps:0,numLightProbes:0};for(let l=0;l<9;l++)n.probe.push(new B);let s=new B,r=new ie,a=new ie;function o(l){let h=0,u=0,f=0;for(let H=0;H<9;H++)n.probe[H].set(0,0,0);let d=0,p=0,_=0,g=0,m=0,x=0,b=0,w=0,A=0,C=0,v=0,E=0,F=0,N=0;l.sort(Iw);for(let H=0,J=l.length;H<J;H++){let P=l[H],q=P.color,Q=P.intensity,X=P.distance,rt=null;if(P.shadow&&P.shadow.map&&(P.shadow.map.texture.format===ss?rt=P.shadow.map.texture:rt=P.shadow.map.depthTexture||P.shadow.map.texture),P.isAmbientLight)h+=q.r*Q,u+=q.g*Q,f+=q.b*Q;else if(P.isLightProbe){for(let W=0;W<9;W++)n.probe[W].addScaledVector(P.sh.coefficients[W],Q);N++}else if(P.isSunLight){let W=t.get(P);if(W.color.copy(P.color).multiplyScalar(P.intensity),P.castShadow){let k=P.shadow,it=e.get(P);it.shadowIntensity=k.intensity,it.shadowBias=k.bias,it.shadowNormalBias=k.normalBias,it.shadowRadius=k.radius,it.shadowMapSize.copy(k.mapSize).multiply(k.getFrameExtents()),n.sunShadow[p]=it,n.sunShadowMap[p]=rt;let Tt=k.getViewportCount();for(let Bt=0;Bt<Tt;Bt++)n.sunShadowMatrix[_+Bt]=k.getMatrix(Bt),n.sunShadowCascade[_+Bt]=k._cascadeData[Bt];_+=Tt,p++}n.sun[d]=W,d++}else if(P.isDirectionalLight){let W=t.get(P);if(W.color.copy(P.color).multiplyScalar(P.intensity),P.castShadow){let k=P.shadow,it=e.get(P);it.shadowIntensity=k.intensity,it.shadowBias=k.bias,it.shadowNormalBias=k.normalBias,it.shadowRadius=k.radius,it.shadowMapSize=k.mapSize,n.directionalShadow[g]=it,n.directionalShadowMap[g]=rt,n.directionalShadowMatrix[g]=P.shadow.matrix,A++}n.directional[g]=W,g++}else if(P.isSpotLight){let W=t.get(P);W.position.setFromMatrixPosition(P.matrixWorld),W.color.copy(q).multiplyScalar(Q),W.distance=X,W.coneCos=Math.cos(P.angle),W.penumbraCos=Math.cos(P.angle*(1-P.penumbra)),W.decay=P.decay,n.spot[x]=W;let k=P.shadow;if(P.map&&(n.spotLightMap[E]=P.map,E++,k.updateMatrices(P),P.castShadow&&F++),n.spotLightMatrix[x]=k.matrix,P.castShadow){let it=e.get(P);it.shadowIntensity=k.intensity,it.shadowBias=k.bias,it.shadowNormalBias=k.normalBias,it.shadowRadius=k.radius,it.shadowMapSize=k.mapSize,n.spotShadow[x]=it,n.spotShadowMap[x]=rt,v++}x++}else if(P.isRectAreaLight){let W=t.get(P);W.color.copy(q).multiplyScalar(Q),W.halfWidth.set(P.width*.5,0,0),W.halfHeight.set(0,P.height*.5,0),n.rectArea[b]=W,b++}else if(P.isPointLight){let W=t.get(P);if(W.color.copy(P.color).multiplyScalar(P.intensity),W.distance=P.distance,W.decay=P.decay,P.castShadow){let k=P.shadow,it=e.get(P);it.shadowIntensity=k.intensity,it.shadowBias=k.bias,it.shadowNormalBias=k.normalBias,it.shadowRadius=k.radius,it.shadowMapSize=k.mapSize,it.shadowCameraNear=k.camera.near,it.shadowCameraFar=k.camera.far,n.pointShadow[m]=it,n.pointShadowMap[m]=rt,n.pointShadowMatrix[m]=P.shadow.matrix,C++}n.point[m]=W,m++}else if(P.isHemisphereLight){let W=t.get(P);W.skyColor.copy(P.color).multiplyScalar(Q),W.groundColor.copy(P.groundColor).multiplyScalar(Q),n.hemi[w]=W,w++}}b>0&&(i.has("OES_texture_float_linear")===!0?(n.rectAreaLTC1=wt.LTC_FLOAT_1,n.rectAreaLTC2=wt.LTC_FLOAT_2):(n.rectAreaLTC1=wt.LTC_HALF_1,n.rectAreaLTC2=wt.LTC_HALF_2)),n.ambient[0]=h,n.ambient[1]=u,n.ambient[2]=f;let D=n.hash;(D.sunLength!==d||D.directionalLength!==g||D.pointLength!==m||D.spotLength!==x||D.rectAreaLength!==b||D.hemiLength!==w||D.numSunShadows!==p||D.numDirectionalShadows!==A||D.numPointShadows!==C||D.numSpotShadows!==v||D.numSpotMaps!==E||D.numLightProbes!==N)&&(n.sun.length=d,n.directional.length=g,n.spot.length=x,n.rectArea.length=b,n.point.length=m,n.hemi.length=w,n.sunShadow.length=p,n.sunShadowMap.length=p,n.sunShadowMatrix.length=_,n.sunShadowCascade.length=_,n.directionalShadow.length=A,n.directionalShadowMap.length=A,n.directionalShadowMatrix.length=A,n.pointShadow.length=C,n.pointShadowMap.length=C,n.pointShadowMatrix.length=C,n.spotShadow.length=v,n.spotShadowMap.length=v,n.spotLightMatrix.length=v+E-F,n.spotLightMap.length=E,n.numSpotLightShadowsWithMaps=F,n.numLightProbes=N,D.sunLength=d,D.directionalLength=g,D.pointLength=m,D.spotLength=x,D.rectAreaLength=b,D.hemiLength=w,D.numSunShadows=p,D.numDirectionalShadows=A,D.numPointShadows=C,D.numSpotShadows=v,D.numSpotMaps=E,D.numLightProbes=N,n.version=Pw++)}function c(l,h){let u=0,f=0,d=0,p=0,_=0,g=0,m=h.matrixWorldInverse;for(let x=0,b=l.length;x<b;x++){let w=l[x];if(w.isSunLight){let A=n.sun[u];A.direction.setFromMatrixPosition(w.matrixWorld),A.direction.transformDirection(m),u++}else if(w.isDirectionalLight){let A=n.directional[f];A.direction.setFromMatrixPosition(w.matrixWorld),s.setFromMatrixPosition(w.target.matrixWorld),A.direction.sub(s),A.direction.transformDirection(m),f++}else if(w.isSpotLight){let A=n.spot[p];A.position.setFromMatrixPosition(w.matrixWorld),A.position.applyMatrix4(m),A.direction.setFromMatrixPosition(w.matrixWorld),s.setFromMatrixPosition(w.target.matrixWorld),A.direction.sub(s),A.direction.transformDirection(m),p++}else if(w.isRectAreaLight){let A=n.rectArea[_];A.position.setFromMatrixPosition(w.matrixWorld),A.position.applyMatrix4(m),a.identity(),r.copy(w.matrixWorld),r.premultiply(m),a.extractRotation(r),A.halfWidth.set(w.width*.5,0,0),A.halfHeight.set(0,w.height*.5,0),A.halfWidth.applyMatrix4(a),A.halfHeight.applyMatrix4(a),_++}else if(w.isPointLight){let A=n.point[d];A.position.setFromMatrixPosition(w.matrixWorld),A.position.applyMatrix4(m),d++}else if(w.isHemisphereLight){let A=n.hemi[g];A.direction.setFromMatrixPosition(w.matrixWorld),A.direction.transformDirection(m),g++}}}return{setup:o,setupView:c,state:n}}function a0(i){let t=new Lw(i),e=[],n=[],s=[];function r(u){h.camera=u,e.length=0,n.length=0,s.length=0}function a(u){u.isLightProbeGrid?s.push(u):e.push(u)}function o(u){n.push(u)}function c(){t.setup(e),s.sort((u,f)=>u.priority-f.priority||u.id-f.id)}function l(u){t.setupView(e,u)}let h={lightsArray:e,shadowsArray:n,lightProbeGridArray:s,camera:null,lights:t,transmissionRenderTarget:{},textureUnits:0};return{init:r,state:h,setupLights:c,setupLightsView:l,pushLight:a,pushShadow:o}}function Nw(i){let t=new WeakMap;function e(s,r=0){let a=t.get(s),o;return a===void 0?(o=new a0(i),t.set(s,[o])):r>=a.length?(o=new a0(i),a.push(o)):o=a[r],o}function n(){t=new WeakMap}return{get:e,dispose:n}}var Dw=`void main() {
+	gl_Position = vec4( position, 1.0 );
+}`,Ow=`uniform sampler2D shadow_pass;
+uniform vec2 resolution;
+uniform float radius;
+void main() {
+	const float samples = float( VSM_SAMPLES );
+	float mean = 0.0;
+	float squared_mean = 0.0;
+	float uvStride = samples <= 1.0 ? 0.0 : 2.0 / ( samples - 1.0 );
+	float uvStart = samples <= 1.0 ? 0.0 : - 1.0;
+	for ( float i = 0.0; i < samples; i ++ ) {
+		float uvOffset = uvStart + i * uvStride;
+		#ifdef HORIZONTAL_PASS
+			vec2 distribution = texture2D( shadow_pass, ( gl_FragCoord.xy + vec2( uvOffset, 0.0 ) * radius ) / resolution ).rg;
+			mean += distribution.x;
+			squared_mean += distribution.y * distribution.y + distribution.x * distribution.x;
+		#else
+			float depth = texture2D( shadow_pass, ( gl_FragCoord.xy + vec2( 0.0, uvOffset ) * radius ) / resolution ).r;
+			mean += depth;
+			squared_mean += depth * depth;
+		#endif
+	}
+	mean = mean / samples;
+	squared_mean = squared_mean / samples;
+	float std_dev = sqrt( max( 0.0, squared_mean - mean * mean ) );
+	gl_FragColor = vec4( mean, std_dev, 0.0, 1.0 );
+}`,Uw=[new B(1,0,0),new B(-1,0,0),new B(0,1,0),new B(0,-1,0),new B(0,0,1),new B(0,0,-1)],Fw=[new B(0,-1,0),new B(0,-1,0),new B(0,0,1),new B(0,0,-1),new B(0,-1,0),new B(0,-1,0)],o0=new ie,qa=new B,Af=new B;function Bw(i,t,e){let n=new Ki,s=new kt,r=new kt,a=new ve,o=new Ll,c=new Nl,l={},h=e.maxTextureSize,u={[is]:En,[En]:is,[pi]:pi},f=new di({defines:{VSM_SAMPLES:8},uniforms:{shadow_pass:{value:null},resolution:{value:new kt},radius:{value:4}},vertexShader:Dw,fragmentShader:Ow}),d=f.clone();d.defines.HORIZONTAL_PASS=1;let p=new wn;p.setAttribute("position",new rn(new Float32Array([-1,-1,.5,3,-1,.5,-1,3,.5]),3));let _=new An(p,f),g=this;this.enabled=!1,this.autoUpdate=!0,this.needsUpdate=!1,this.type=Ps;let m=this.type;this.render=function(C,v,E){if(g.enabled===!1||g.autoUpdate===!1&&g.needsUpdate===!1||C.length===0)return;this.type===Qm&&(Dt("WebGLShadowMap: PCFSoftShadowMap has been removed. Using PCFShadowMap instead."),this.type=Ps);let F=i.getRenderTarget(),N=i.getActiveCubeFace(),D=i.getActiveMipmapLevel(),H=i.state;H.setBlending(Is),H.buffers.depth.getReversed()===!0?H.buffers.color.setClear(0,0,0,0):H.buffers.color.setClear(1,1,1,1),H.buffers.depth.setTest(!0),H.setScissorTest(!1);let J=m!==this.type;J&&v.traverse(function(P){P.material&&(Array.isArray(P.material)?P.material.forEach(q=>q.needsUpdate=!0):P.material.needsUpdate=!0)});for(let P=0,q=C.length;P<q;P++){let Q=C[P],X=Q.shadow;if(X===void 0){Dt("WebGLShadowMap:",Q,"has no shadow.");continue}if(X.autoUpdate===!1&&X.needsUpdate===!1)continue;s.copy(X.mapSize);let rt=X.getFrameExtents();s.multiply(rt),r.copy(X.mapSize),(s.x>h||s.y>h)&&(s.x>h&&(r.x=Math.floor(h/rt.x),s.x=r.x*rt.x,X.mapSize.x=r.x),s.y>h&&(r.y=Math.floor(h/rt.y),s.y=r.y*rt.y,X.mapSize.y=r.y));let W=i.state.buffers.depth.getReversed();if(X.camera._reversedDepth=W,X.map===null||J===!0){if(X.map!==null&&(X.map.depthTexture!==null&&(X.map.depthTexture.dispose(),X.map.depthTexture=null),X.map.dispose()),this.type===Tr){if(Q.isPointLight){Dt("WebGLShadowMap: VSM shadow maps are not supported for PointLights. Use PCF or BasicShadowMap instead.");continue}X.map=new Un(s.x,s.y,{format:ss,type:si,minFilter:bn,magFilter:bn,generateMipmaps:!1}),X.map.texture.name=Q.name+".shadowMap",X.map.depthTexture=new Ni(s.x,s.y,Xn),X.map.depthTexture.name=Q.name+".shadowMapDepth",X.map.depthTexture.format=Ri,X.map.depthTexture.compareFunction=null,X.map.depthTexture.minFilter=Qe,X.map.depthTexture.magFilter=Qe}else Q.isPointLight?(X.map=new $a(s.x),X.map.depthTexture=new Ea(s.x,ii)):(X.map=new Un(s.x,s.y),X.map.depthTexture=new Ni(s.x,s.y,ii)),X.map.depthTexture.name=Q.name+".shadowMap",X.map.depthTexture.format=Ri,this.type===Ps?(X.map.depthTexture.compareFunction=W?pf:df,X.map.depthTexture.minFilter=bn,X.map.depthTexture.magFilter=bn):(X.map.depthTexture.compareFunction=null,X.map.depthTexture.minFilter=Qe,X.map.depthTexture.magFilter=Qe);X.camera.updateProjectionMatrix()}X.map.isWebGLCubeRenderTarget!==!0&&(X.map.width!==s.x||X.map.height!==s.y)&&X.map.setSize(s.x,s.y);let k=X.map.isWebGLCubeRenderTarget?6:X.getViewportCount();Q.isPointLight!==!0&&X.updateMatrices(Q,E);let it=(X.camera.layers.mask&4294967294)!==0?X.camera.layers:E.layers;for(let Tt=0;Tt<k;Tt++){let Bt=X.getCamera(Tt);if(Q.isPointLight){let et=X.camera,pt=X.matrix,_t=Q.distance||et.far;_t!==et.far&&(et.far=_t,et.updateProjectionMatrix()),qa.setFromMatrixPosition(Q.matrixWorld),et.position.copy(qa),Af.copy(et.position),Af.add(Uw[Tt]),et.up.copy(Fw[Tt]),et.lookAt(Af),et.updateMatrixWorld(),pt.makeTranslation(-qa.x,-qa.y,-qa.z),o0.multiplyMatrices(et.projectionMatrix,et.matrixWorldInverse),X._frustum.setFromProjectionMatrix(o0,et.coordinateSystem,et.reversedDepth)}if(X.map.isWebGLCubeRenderTarget)i.setRenderTarget(X.map,Tt),i.clear();else{Tt===0&&(i.setRenderTarget(X.map),i.clear());let et=X.getViewport(Tt);a.set(r.x*et.x,r.y*et.y,r.x*et.z,r.y*et.w),H.viewport(a)}n=X.getFrustum(Tt),w(v,E,Bt,Q,it,this.type)}X.isPointLightShadow!==!0&&this.type===Tr&&x(X,E),X.needsUpdate=!1}m=this.type,g.needsUpdate=!1,i.setRenderTarget(F,N,D)};function x(C,v){let E=t.update(_);f.defines.VSM_SAMPLES!==C.blurSamples&&(f.defines.VSM_SAMPLES=C.blurSamples,d.defines.VSM_SAMPLES=C.blurSamples,f.needsUpdate=!0,d.needsUpdate=!0),C.mapPass===null?C.mapPass=new Un(s.x,s.y,{format:ss,type:si}):(C.mapPass.width!==C.map.width||C.mapPass.height!==C.map.height)&&C.mapPass.setSize(C.map.width,C.map.height),f.uniforms.shadow_pass.value=C.map.depthTexture,f.uniforms.resolution.value.set(C.map.width,C.map.height),f.uniforms.radius.value=C.radius,i.setRenderTarget(C.mapPass),i.clear(),i.renderBufferDirect(v,null,E,f,_,null),d.uniforms.shadow_pass.value=C.mapPass.texture,d.uniforms.resolution.value.set(C.map.width,C.map.height),d.uniforms.radius.value=C.radius,i.setRenderTarget(C.map),i.clear(),i.renderBufferDirect(v,null,E,d,_,null)}function b(C,v,E,F){let N=null,D=E.isPointLight===!0?C.customDistanceMaterial:C.customDepthMaterial;if(D!==void 0)N=D;else if(N=E.isPointLight===!0?c:o,i.localClippingEnabled&&v.clipShadows===!0&&Array.isArray(v.clippingPlanes)&&v.clippingPlanes.length!==0||v.displacementMap&&v.displacementScale!==0||v.alphaMap&&v.alphaTest>0||v.map&&v.alphaTest>0||v.alphaToCoverage===!0){let H=N.uuid,J=v.uuid,P=l[H];P===void 0&&(P={},l[H]=P);let q=P[J];q===void 0&&(q=N.clone(),P[J]=q,v.addEventListener("dispose",A)),N=q}if(N.visible=v.visible,N.wireframe=v.wireframe,F===Tr?N.side=v.shadowSide!==null?v.shadowSide:v.side:N.side=v.shadowSide!==null?v.shadowSide:u[v.side],N.alphaMap=v.alphaMap,N.alphaTest=v.alphaToCoverage===!0?.5:v.alphaTest,N.map=v.map,N.clipShadows=v.clipShadows,N.clippingPlanes=v.clippingPlanes,N.clipIntersection=v.clipIntersection,N.displacementMap=v.displacementMap,N.displacementScale=v.displacementScale,N.displacementBias=v.displacementBias,N.wireframeLinewidth=v.wireframeLinewidth,N.linewidth=v.linewidth,E.isPointLight===!0&&N.isMeshDistanceMaterial===!0){let H=i.properties.get(N);H.light=E}return N}function w(C,v,E,F,N,D){if(C.visible===!1)return;if(C.layers.test(N)&&(C.isMesh||C.isLine||C.isPoints)&&(C.castShadow||C.receiveShadow&&D===Tr)&&(!C.frustumCulled||C.intersectsFrustum(n))){C.modelViewMatrix.multiplyMatrices(E.matrixWorldInverse,C.matrixWorld);let P=t.update(C),q=C.material;if(Array.isArray(q)){let Q=P.groups;for(let X=0,rt=Q.length;X<rt;X++){let W=Q[X],k=q[W.materialIndex];if(k&&k.visible){let it=b(C,k,F,D);C.onBeforeShadow(i,C,v,E,P,it,W),i.renderBufferDirect(E,null,P,it,C,W),C.onAfterShadow(i,C,v,E,P,it,W)}}}else if(q.visible){let Q=b(C,q,F,D);C.onBeforeShadow(i,C,v,E,P,Q,null),i.renderBufferDirect(E,null,P,Q,C,null),C.onAfterShadow(i,C,v,E,P,Q,null)}}let J=C.children;for(let P=0,q=J.length;P<q;P++)w(J[P],v,E,F,N,D)}function A(C){C.target.removeEventListener("dispose",A);for(let E in l){let F=l[E],N=C.target.uuid;N in F&&(F[N].dispose(),delete F[N])}}}function kw(i,t){function e(){let I=!1,nt=new ve,Z=null,mt=new ve(0,0,0,0);return{setMask:function(ht){Z!==ht&&!I&&(i.colorMask(ht,ht,ht,ht),Z=ht)},setLocked:function(ht){I=ht},setClear:function(ht,dt,Lt,Zt,ct){ct===!0&&(ht*=Zt,dt*=Zt,Lt*=Zt),nt.set(ht,dt,Lt,Zt),mt.equals(nt)===!1&&(i.clearColor(ht,dt,Lt,Zt),mt.copy(nt))},reset:function(){I=!1,Z=null,mt.set(-1,0,0,0)}}}function n(){let I=!1,nt=!1,Z=null,mt=null,ht=null;return{setReversed:function(dt){if(nt!==dt){let Lt=t.get("EXT_clip_control");dt?Lt.clipControlEXT(Lt.LOWER_LEFT_EXT,Lt.ZERO_TO_ONE_EXT):Lt.clipControlEXT(Lt.LOWER_LEFT_EXT,Lt.NEGATIVE_ONE_TO_ONE_EXT),nt=dt;let Zt=ht;ht=null,this.setClear(Zt)}},getReversed:function(){return nt},setTest:function(dt){dt?lt(i.DEPTH_TEST):Et(i.DEPTH_TEST)},setMask:function(dt){Z!==dt&&!I&&(i.depthMask(dt),Z=dt)},setFunc:function(dt){if(nt&&(dt=Dg[dt]),mt!==dt){switch(dt){case pl:i.depthFunc(i.NEVER);break;case ml:i.depthFunc(i.ALWAYS);break;case gl:i.depthFunc(i.LESS);break;case fr:i.depthFunc(i.LEQUAL);break;case _l:i.depthFunc(i.EQUAL);break;case yl:i.depthFunc(i.GEQUAL);break;case xl:i.depthFunc(i.GREATER);break;case vl:i.depthFunc(i.NOTEQUAL);break;default:i.depthFunc(i.LEQUAL)}mt=dt}},setLocked:function(dt){I=dt},setClear:function(dt){ht!==dt&&(ht=dt,nt&&(dt=1-dt),i.clearDepth(dt))},reset:function(){I=!1,Z=null,mt=null,ht=null,nt=!1}}}function s(){let I=!1,nt=null,Z=null,mt=null,ht=null,dt=null,Lt=null,Zt=null,ct=null;return{setTest:function(Nt){I||(Nt?lt(i.STENCIL_TEST):Et(i.STENCIL_TEST))},setMask:function(Nt){nt!==Nt&&!I&&(i.stencilMask(Nt),nt=Nt)},setFunc:function(Nt,$t,St){(Z!==Nt||mt!==$t||ht!==St)&&(i.stencilFunc(Nt,$t,St),Z=Nt,mt=$t,ht=St)},setOp:function(Nt,$t,St){(dt!==Nt||Lt!==$t||Zt!==St)&&(i.stencilOp(Nt,$t,St),dt=Nt,Lt=$t,Zt=St)},setLocked:function(Nt){I=Nt},setClear:function(Nt){ct!==Nt&&(i.clearStencil(Nt),ct=Nt)},reset:function(){I=!1,nt=null,Z=null,mt=null,ht=null,dt=null,Lt=null,Zt=null,ct=null}}}let r=new e,a=new n,o=new s,c={},l=new WeakMap,h={},u={},f={},d=new WeakMap,p=[],_=null,g=!1,m=null,x=null,b=null,w=null,A=null,C=null,v=null,E=new Yt(0,0,0),F=0,N=!1,D=null,H=null,J=null,P=null,q=null,Q=i.getParameter(i.MAX_COMBINED_TEXTURE_IMAGE_UNITS),X=!1,rt=0,W=i.getParameter(i.VERSION);W.indexOf("WebGL")!==-1?(rt=parseFloat(/^WebGL (\d)/.exec(W)[1]),X=rt>=1):W.indexOf("OpenGL ES")!==-1&&(rt=parseFloat(/^OpenGL ES (\d)/.exec(W)[1]),X=rt>=2);let k=null,it={},Tt=i.getParameter(i.SCISSOR_BOX),Bt=i.getParameter(i.VIEWPORT),et=new ve().fromArray(Tt),pt=new ve().fromArray(Bt);function _t(I,nt,Z,mt){let ht=new Uint8Array(4),dt=i.createTexture();i.bindTexture(I,dt),i.texParameteri(I,i.TEXTURE_MIN_FILTER,i.NEAREST),i.texParameteri(I,i.TEXTURE_MAG_FILTER,i.NEAREST);for(let Lt=0;Lt<Z;Lt++)I===i.TEXTURE_3D||I===i.TEXTURE_2D_ARRAY?i.texImage3D(nt,0,i.RGBA,1,1,mt,0,i.RGBA,i.UNSIGNED_BYTE,ht):i.texImage2D(nt+Lt,0,i.RGBA,1,1,0,i.RGBA,i.UNSIGNED_BYTE,ht);return dt}let It={};It[i.TEXTURE_2D]=_t(i.TEXTURE_2D,i.TEXTURE_2D,1),It[i.TEXTURE_CUBE_MAP]=_t(i.TEXTURE_CUBE_MAP,i.TEXTURE_CUBE_MAP_POSITIVE_X,6),It[i.TEXTURE_2D_ARRAY]=_t(i.TEXTURE_2D_ARRAY,i.TEXTURE_2D_ARRAY,1,1),It[i.TEXTURE_3D]=_t(i.TEXTURE_3D,i.TEXTURE_3D,1,1),r.setClear(0,0,0,1),a.setClear(1),o.setClear(0),lt(i.DEPTH_TEST),a.setFunc(fr),en(!1),ge(Xu),lt(i.CULL_FACE),Ne(Is);function lt(I){h[I]!==!0&&(i.enable(I),h[I]=!0)}function Et(I){h[I]!==!1&&(i.disable(I),h[I]=!1)}function se(I,nt){return f[I]!==nt?(i.bindFramebuffer(I,nt),f[I]=nt,I===i.DRAW_FRAMEBUFFER&&(f[i.FRAMEBUFFER]=nt),I===i.FRAMEBUFFER&&(f[i.DRAW_FRAMEBUFFER]=nt),!0):!1}function Ot(I,nt){let Z=p,mt=!1;if(I){Z=d.get(nt),Z===void 0&&(Z=[],d.set(nt,Z));let ht=I.textures;if(Z.length!==ht.length||Z[0]!==i.COLOR_ATTACHMENT0){for(let dt=0,Lt=ht.length;dt<Lt;dt++)Z[dt]=i.COLOR_ATTACHMENT0+dt;Z.length=ht.length,mt=!0}}else Z[0]!==i.BACK&&(Z[0]=i.BACK,mt=!0);mt&&i.drawBuffers(Z)}function Qt(I){return _!==I?(i.useProgram(I),_=I,!0):!1}let me={[Ls]:i.FUNC_ADD,[eg]:i.FUNC_SUBTRACT,[ng]:i.FUNC_REVERSE_SUBTRACT};me[ig]=i.MIN,me[sg]=i.MAX;let Jt={[rg]:i.ZERO,[ag]:i.ONE,[og]:i.SRC_COLOR,[Zu]:i.SRC_ALPHA,[dg]:i.SRC_ALPHA_SATURATE,[ug]:i.DST_COLOR,[cg]:i.DST_ALPHA,[lg]:i.ONE_MINUS_SRC_COLOR,[Ju]:i.ONE_MINUS_SRC_ALPHA,[fg]:i.ONE_MINUS_DST_COLOR,[hg]:i.ONE_MINUS_DST_ALPHA,[pg]:i.CONSTANT_COLOR,[mg]:i.ONE_MINUS_CONSTANT_COLOR,[gg]:i.CONSTANT_ALPHA,[_g]:i.ONE_MINUS_CONSTANT_ALPHA};function Ne(I,nt,Z,mt,ht,dt,Lt,Zt,ct,Nt){if(I===Is){g===!0&&(Et(i.BLEND),g=!1);return}if(g===!1&&(lt(i.BLEND),g=!0),I!==tg){if(I!==m||Nt!==N){if((x!==Ls||A!==Ls)&&(i.blendEquation(i.FUNC_ADD),x=Ls,A=Ls),Nt)switch(I){case Ar:i.blendFuncSeparate(i.ONE,i.ONE_MINUS_SRC_ALPHA,i.ONE,i.ONE_MINUS_SRC_ALPHA);break;case qu:i.blendFunc(i.ONE,i.ONE);break;case Yu:i.blendFuncSeparate(i.ZERO,i.ONE_MINUS_SRC_COLOR,i.ZERO,i.ONE);break;case $u:i.blendFuncSeparate(i.DST_COLOR,i.ONE_MINUS_SRC_ALPHA,i.ZERO,i.ONE);break;default:Ht("WebGLState: Invalid blending: ",I);break}else switch(I){case Ar:i.blendFuncSeparate(i.SRC_ALPHA,i.ONE_MINUS_SRC_ALPHA,i.ONE,i.ONE_MINUS_SRC_ALPHA);break;case qu:i.blendFuncSeparate(i.SRC_ALPHA,i.ONE,i.ONE,i.ONE);break;case Yu:Ht("WebGLState: SubtractiveBlending requires material.premultipliedAlpha = true");break;case $u:Ht("WebGLState: MultiplyBlending requires material.premultipliedAlpha = true");break;default:Ht("WebGLState: Invalid blending: ",I);break}b=null,w=null,C=null,v=null,E.set(0,0,0),F=0,m=I,N=Nt}return}ht=ht||nt,dt=dt||Z,Lt=Lt||mt,(nt!==x||ht!==A)&&(i.blendEquationSeparate(me[nt],me[ht]),x=nt,A=ht),(Z!==b||mt!==w||dt!==C||Lt!==v)&&(i.blendFuncSeparate(Jt[Z],Jt[mt],Jt[dt],Jt[Lt]),b=Z,w=mt,C=dt,v=Lt),(Zt.equals(E)===!1||ct!==F)&&(i.blendColor(Zt.r,Zt.g,Zt.b,ct),E.copy(Zt),F=ct),m=I,N=!1}function Re(I,nt){I.side===pi?Et(i.CULL_FACE):lt(i.CULL_FACE);let Z=I.side===En;nt&&(Z=!Z),en(Z),I.blending===Ar&&I.transparent===!1?Ne(Is):Ne(I.blending,I.blendEquation,I.blendSrc,I.blendDst,I.blendEquationAlpha,I.blendSrcAlpha,I.blendDstAlpha,I.blendColor,I.blendAlpha,I.premultipliedAlpha),a.setFunc(I.depthFunc),a.setTest(I.depthTest),a.setMask(I.depthWrite),r.setMask(I.colorWrite);let mt=I.stencilWrite;o.setTest(mt),mt&&(o.setMask(I.stencilWriteMask),o.setFunc(I.stencilFunc,I.stencilRef,I.stencilFuncMask),o.setOp(I.stencilFail,I.stencilZFail,I.stencilZPass)),Pe(I.polygonOffset,I.polygonOffsetFactor,I.polygonOffsetUnits),I.alphaToCoverage===!0?lt(i.SAMPLE_ALPHA_TO_COVERAGE):Et(i.SAMPLE_ALPHA_TO_COVERAGE)}function en(I){D!==I&&(I?i.frontFace(i.CW):i.frontFace(i.CCW),D=I)}function ge(I){I!==Km?(lt(i.CULL_FACE),I!==H&&(I===Xu?i.cullFace(i.BACK):I===jm?i.cullFace(i.FRONT):i.cullFace(i.FRONT_AND_BACK))):Et(i.CULL_FACE),H=I}function re(I){I!==J&&(X&&i.lineWidth(I),J=I)}function Pe(I,nt,Z){I?(lt(i.POLYGON_OFFSET_FILL),(P!==nt||q!==Z)&&(P=nt,q=Z,a.getReversed()&&(nt=-nt,Z=-Z),i.polygonOffset(nt,Z))):Et(i.POLYGON_OFFSET_FILL)}function gn(I){I?lt(i.SCISSOR_TEST):Et(i.SCISSOR_TEST)}function an(I){I===void 0&&(I=i.TEXTURE0+Q-1),k!==I&&(i.activeTexture(I),k=I)}function Le(I,nt,Z){Z===void 0&&(k===null?Z=i.TEXTURE0+Q-1:Z=k);let mt=it[Z];mt===void 0&&(mt={type:void 0,texture:void 0},it[Z]=mt),(mt.type!==I||mt.texture!==nt)&&(k!==Z&&(i.activeTexture(Z),k=Z),i.bindTexture(I,nt||It[I]),mt.type=I,mt.texture=nt)}function O(){let I=it[k];I!==void 0&&I.type!==void 0&&(i.bindTexture(I.type,null),I.type=void 0,I.texture=void 0)}function _n(){try{i.compressedTexImage2D(...arguments)}catch(I){Ht("WebGLState:",I)}}function ue(){try{i.compressedTexImage3D(...arguments)}catch(I){Ht("WebGLState:",I)}}function Me(){try{i.texSubImage2D(...arguments)}catch(I){Ht("WebGLState:",I)}}function Mt(){try{i.texSubImage3D(...arguments)}catch(I){Ht("WebGLState:",I)}}function Ie(){try{i.compressedTexSubImage2D(...arguments)}catch(I){Ht("WebGLState:",I)}}function Ut(){try{i.compressedTexSubImage3D(...arguments)}catch(I){Ht("WebGLState:",I)}}function Gt(){try{i.texStorage2D(...arguments)}catch(I){Ht("WebGLState:",I)}}function R(){try{i.texStorage3D(...arguments)}catch(I){Ht("WebGLState:",I)}}function M(){try{i.texImage2D(...arguments)}catch(I){Ht("WebGLState:",I)}}function G(){try{i.texImage3D(...arguments)}catch(I){Ht("WebGLState:",I)}}function at(I){return u[I]!==void 0?u[I]:i.getParameter(I)}function st(I,nt){u[I]!==nt&&(i.pixelStorei(I,nt),u[I]=nt)}function ut(I){et.equals(I)===!1&&(i.scissor(I.x,I.y,I.z,I.w),et.copy(I))}function yt(I){pt.equals(I)===!1&&(i.viewport(I.x,I.y,I.z,I.w),pt.copy(I))}function j(I,nt){let Z=l.get(nt);Z===void 0&&(Z=new WeakMap,l.set(nt,Z));let mt=Z.get(I);mt===void 0&&(mt=i.getUniformBlockIndex(nt,I.name),i.uniformBlockBinding(nt,mt,mt),Z.set(I,mt))}function tt(I,nt,Z){let ht=l.get(nt).get(I);c[ht]!==Z&&(i.bindBufferBase(i.UNIFORM_BUFFER,ht,Z),c[ht]=Z)}function ft(){i.disable(i.BLEND),i.disable(i.CULL_FACE),i.disable(i.DEPTH_TEST),i.disable(i.POLYGON_OFFSET_FILL),i.disable(i.SCISSOR_TEST),i.disable(i.STENCIL_TEST),i.disable(i.SAMPLE_ALPHA_TO_COVERAGE),i.blendEquation(i.FUNC_ADD),i.blendFunc(i.ONE,i.ZERO),i.blendFuncSeparate(i.ONE,i.ZERO,i.ONE,i.ZERO),i.blendColor(0,0,0,0),i.colorMask(!0,!0,!0,!0),i.clearColor(0,0,0,0),i.depthMask(!0),i.depthFunc(i.LESS),a.setReversed(!1),i.clearDepth(1),i.stencilMask(4294967295),i.stencilFunc(i.ALWAYS,0,4294967295),i.stencilOp(i.KEEP,i.KEEP,i.KEEP),i.clearStencil(0),i.cullFace(i.BACK),i.frontFace(i.CCW),i.polygonOffset(0,0),i.activeTexture(i.TEXTURE0),i.bindFramebuffer(i.FRAMEBUFFER,null),i.bindFramebuffer(i.DRAW_FRAMEBUFFER,null),i.bindFramebuffer(i.READ_FRAMEBUFFER,null),i.useProgram(null),i.lineWidth(1),i.scissor(0,0,i.canvas.width,i.canvas.height),i.viewport(0,0,i.canvas.width,i.canvas.height),i.pixelStorei(i.PACK_ALIGNMENT,4),i.pixelStorei(i.UNPACK_ALIGNMENT,4),i.pixelStorei(i.UNPACK_FLIP_Y_WEBGL,!1),i.pixelStorei(i.UNPACK_PREMULTIPLY_ALPHA_WEBGL,!1),i.pixelStorei(i.UNPACK_COLORSPACE_CONVERSION_WEBGL,i.BROWSER_DEFAULT_WEBGL),i.pixelStorei(i.PACK_ROW_LENGTH,0),i.pixelStorei(i.PACK_SKIP_PIXELS,0),i.pixelStorei(i.PACK_SKIP_ROWS,0),i.pixelStorei(i.UNPACK_ROW_LENGTH,0),i.pixelStorei(i.UNPACK_IMAGE_HEIGHT,0),i.pixelStorei(i.UNPACK_SKIP_PIXELS,0),i.pixelStorei(i.UNPACK_SKIP_ROWS,0),i.pixelStorei(i.UNPACK_SKIP_IMAGES,0),h={},u={},k=null,it={},f={},c={},d=new WeakMap,p=[],_=null,g=!1,m=null,x=null,b=null,w=null,A=null,C=null,v=null,E=new Yt(0,0,0),F=0,N=!1,D=null,H=null,J=null,P=null,q=null,et.set(0,0,i.canvas.width,i.canvas.height),pt.set(0,0,i.canvas.width,i.canvas.height),r.reset(),a.reset(),o.reset()}return{buffers:{color:r,depth:a,stencil:o},enable:lt,disable:Et,bindFramebuffer:se,drawBuffers:Ot,useProgram:Qt,setBlending:Ne,setMaterial:Re,setFlipSided:en,setCullFace:ge,setLineWidth:re,setPolygonOffset:Pe,setScissorTest:gn,activeTexture:an,bindTexture:Le,unbindTexture:O,compressedTexImage2D:_n,compressedTexImage3D:ue,texImage2D:M,texImage3D:G,pixelStorei:st,getParameter:at,updateUBOMapping:j,uniformBlockBinding:tt,texStorage2D:Gt,texStorage3D:R,texSubImage2D:Me,texSubImage3D:Mt,compressedTexSubImage2D:Ie,compressedTexSubImage3D:Ut,scissor:ut,viewport:yt,reset:ft}}function zw(i,t,e,n,s,r,a){let o=t.has("WEBGL_multisampled_render_to_texture")?t.get("WEBGL_multisampled_render_to_texture"):null,c=typeof navigator>"u"?!1:/OculusBrowser/g.test(navigator.userAgent),l=new kt,h=new WeakMap,u=new Set,f,d=new WeakMap,p=new Set,_=new FinalizationRegistry(R=>p.delete(R)),g=!1;try{g=typeof OffscreenCanvas<"u"&&new OffscreenCanvas(1,1).getContext("2d")!==null}catch{}function m(R,M){return g?new OffscreenCanvas(R,M):ma("canvas")}function x(R,M,G){let at=1,st=Gt(R);if((st.width>G||st.height>G)&&(at=G/Math.max(st.width,st.height)),at<1)if(typeof HTMLImageElement<"u"&&R instanceof HTMLImageElement||typeof HTMLCanvasElement<"u"&&R instanceof HTMLCanvasElement||typeof ImageBitmap<"u"&&R instanceof ImageBitmap||typeof VideoFrame<"u"&&R instanceof VideoFrame){let ut=Math.floor(at*st.width),yt=Math.floor(at*st.height);f===void 0&&(f=m(ut,yt));let j=M?m(ut,yt):f;return j.width=ut,j.height=yt,j.getContext("2d").drawImage(R,0,0,ut,yt),Dt("WebGLRenderer: Texture has been resized from ("+st.width+"x"+st.height+") to ("+ut+"x"+yt+")."),j}else return"data"in R&&Dt("WebGLRenderer: Image in DataTexture is too big ("+st.width+"x"+st.height+")."),R;return R}function b(R){return R.generateMipmaps}function w(R){i.generateMipmap(R)}function A(R){return R.isWebGLCubeRenderTarget?i.TEXTURE_CUBE_MAP:R.isWebGL3DRenderTarget?i.TEXTURE_3D:R.isWebGLArrayRenderTarget||R.isCompressedArrayTexture?i.TEXTURE_2D_ARRAY:i.TEXTURE_2D}function C(R,M,G,at,st,ut=!1){if(R!==null){if(i[R]!==void 0)return i[R];Dt("WebGLRenderer: Attempt to use non-existing WebGL internal format '"+R+"'")}let yt;at&&(yt=t.get("EXT_texture_norm16"),yt||Dt("WebGLRenderer: Unable to use normalized textures without EXT_texture_norm16 extension"));let j=M;if(M===i.RED&&(G===i.FLOAT&&(j=i.R32F),G===i.HALF_FLOAT&&(j=i.R16F),G===i.UNSIGNED_BYTE&&(j=i.R8),G===i.UNSIGNED_SHORT&&yt&&(j=yt.R16_EXT),G===i.SHORT&&yt&&(j=yt.R16_SNORM_EXT)),M===i.RED_INTEGER&&(G===i.UNSIGNED_BYTE&&(j=i.R8UI),G===i.UNSIGNED_SHORT&&(j=i.R16UI),G===i.UNSIGNED_INT&&(j=i.R32UI),G===i.BYTE&&(j=i.R8I),G===i.SHORT&&(j=i.R16I),G===i.INT&&(j=i.R32I)),M===i.RG&&(G===i.FLOAT&&(j=i.RG32F),G===i.HALF_FLOAT&&(j=i.RG16F),G===i.UNSIGNED_BYTE&&(j=i.RG8),G===i.UNSIGNED_SHORT&&yt&&(j=yt.RG16_EXT),G===i.SHORT&&yt&&(j=yt.RG16_SNORM_EXT)),M===i.RG_INTEGER&&(G===i.UNSIGNED_BYTE&&(j=i.RG8UI),G===i.UNSIGNED_SHORT&&(j=i.RG16UI),G===i.UNSIGNED_INT&&(j=i.RG32UI),G===i.BYTE&&(j=i.RG8I),G===i.SHORT&&(j=i.RG16I),G===i.INT&&(j=i.RG32I)),M===i.RGB_INTEGER&&(G===i.UNSIGNED_BYTE&&(j=i.RGB8UI),G===i.UNSIGNED_SHORT&&(j=i.RGB16UI),G===i.UNSIGNED_INT&&(j=i.RGB32UI),G===i.BYTE&&(j=i.RGB8I),G===i.SHORT&&(j=i.RGB16I),G===i.INT&&(j=i.RGB32I)),M===i.RGBA_INTEGER&&(G===i.UNSIGNED_BYTE&&(j=i.RGBA8UI),G===i.UNSIGNED_SHORT&&(j=i.RGBA16UI),G===i.UNSIGNED_INT&&(j=i.RGBA32UI),G===i.BYTE&&(j=i.RGBA8I),G===i.SHORT&&(j=i.RGBA16I),G===i.INT&&(j=i.RGBA32I)),M===i.RGB&&(G===i.UNSIGNED_SHORT&&yt&&(j=yt.RGB16_EXT),G===i.SHORT&&yt&&(j=yt.RGB16_SNORM_EXT),G===i.UNSIGNED_INT_5_9_9_9_REV&&(j=i.RGB9_E5),G===i.UNSIGNED_INT_10F_11F_11F_REV&&(j=i.R11F_G11F_B10F)),M===i.RGBA){let tt=ut?pa:oe.getTransfer(st);G===i.FLOAT&&(j=i.RGBA32F),G===i.HALF_FLOAT&&(j=i.RGBA16F),G===i.UNSIGNED_BYTE&&(j=tt===ye?i.SRGB8_ALPHA8:i.RGBA8),G===i.UNSIGNED_SHORT&&yt&&(j=yt.RGBA16_EXT),G===i.SHORT&&yt&&(j=yt.RGBA16_SNORM_EXT),G===i.UNSIGNED_SHORT_4_4_4_4&&(j=i.RGBA4),G===i.UNSIGNED_SHORT_5_5_5_1&&(j=i.RGB5_A1)}return(j===i.R16F||j===i.R32F||j===i.RG16F||j===i.RG32F||j===i.RGBA16F||j===i.RGBA32F)&&t.get("EXT_color_buffer_float"),j}function v(R,M){let G;return R?M===null||M===ii||M===Ds?G=i.DEPTH24_STENCIL8:M===Xn?G=i.DEPTH32F_STENCIL8:M===Cr&&(G=i.DEPTH24_STENCIL8,Dt("DepthTexture: 16 bit depth attachment is not supported with stencil. Using 24-bit attachment.")):M===null||M===ii||M===Ds?G=i.DEPTH_COMPONENT24:M===Xn?G=i.DEPTH_COMPONENT32F:M===Cr&&(G=i.DEPTH_COMPONENT16),G}function E(R,M){return b(R)===!0||R.isFramebufferTexture&&R.minFilter!==Qe&&R.minFilter!==bn?Math.log2(Math.max(M.width,M.height))+1:R.mipmaps.length>0?R.mipmaps.length:R.isCompressedTexture&&Array.isArray(R.image)?M.mipmaps.length:1}function F(R){let M=new WeakRef(R);n.get(R).__ref=M,p.add(M),_.register(R,M,M)}function N(R){let M=n.get(R).__ref;M!==void 0&&(p.delete(M),_.unregister(M))}function D(R){J(R.target)}function H(R){P(R.target)}function J(R){R.removeEventListener("dispose",D),N(R),Q(R),R.isVideoTexture&&h.delete(R),R.isHTMLTexture&&u.delete(R)}function P(R){R.removeEventListener("dispose",H),N(R),rt(R)}function q(){for(let R of p){let M=R.deref();M!==void 0&&(M.isRenderTarget===!0?P(M):J(M))}p.clear(),u.clear()}function Q(R){let M=n.get(R);if(M.__webglInit===void 0)return;let G=R.source,at=d.get(G);if(at){let st=at[M.__cacheKey];st.usedTimes--,st.usedTimes===0&&X(R),Object.keys(at).length===0&&d.delete(G)}n.remove(R)}function X(R){let M=n.get(R);i.deleteTexture(M.__webglTexture);let G=R.source,at=d.get(G);delete at[M.__cacheKey],a.memory.textures--}function rt(R){let M=n.get(R);M.__depthDisposeCallback&&M.__depthDisposeCallback();let G=R.depthTexture;if(G&&G.renderTarget===R&&J(G),R.isWebGLCubeRenderTarget)for(let st=0;st<6;st++){if(Array.isArray(M.__webglFramebuffer[st]))for(let ut=0;ut<M.__webglFramebuffer[st].length;ut++)i.deleteFramebuffer(M.__webglFramebuffer[st][ut]);else i.deleteFramebuffer(M.__webglFramebuffer[st]);M.__webglDepthbuffer&&i.deleteRenderbuffer(M.__webglDepthbuffer[st])}else{if(Array.isArray(M.__webglFramebuffer))for(let st=0;st<M.__webglFramebuffer.length;st++)i.deleteFramebuffer(M.__webglFramebuffer[st]);else i.deleteFramebuffer(M.__webglFramebuffer);if(M.__webglDepthbuffer&&i.deleteRenderbuffer(M.__webglDepthbuffer),M.__webglMultisampledFramebuffer&&i.deleteFramebuffer(M.__webglMultisampledFramebuffer),M.__webglColorRenderbuffer)for(let st=0;st<M.__webglColorRenderbuffer.length;st++)M.__webglColorRenderbuffer[st]&&i.deleteRenderbuffer(M.__webglColorRenderbuffer[st]);M.__webglDepthRenderbuffer&&i.deleteRenderbuffer(M.__webglDepthRenderbuffer)}let at=R.textures;for(let st=0,ut=at.length;st<ut;st++){let yt=n.get(at[st]);yt.__webglTexture&&(i.deleteTexture(yt.__webglTexture),a.memory.textures--),n.remove(at[st])}n.remove(R)}let W=0;function k(){W=0}function it(){return W}function Tt(R){W=R}function Bt(){let R=W;return R>=s.maxTextures&&Dt("WebGLTextures: Trying to use "+(R+1)+" texture units while this GPU supports only "+s.maxTextures),W+=1,R}function et(R){let M=[];return M.push(R.wrapS),M.push(R.wrapT),M.push(R.wrapR||0),M.push(R.magFilter),M.push(R.minFilter),M.push(R.anisotropy),M.push(R.internalFormat),M.push(R.format),M.push(R.type),M.push(R.generateMipmaps),M.push(R.mipmapsAutoUpdate),M.push(R.premultiplyAlpha),M.push(R.flipY),M.push(R.unpackAlignment),M.push(R.colorSpace),M.join()}function pt(R,M){let G=n.get(R);if(R.isVideoTexture&&Ie(R),R.isRenderTargetTexture===!1&&R.isExternalTexture!==!0&&R.version>0&&G.__version!==R.version){let at=R.image;if(at===null)Dt("WebGLRenderer: Texture marked for update but no image data found.");else if(at.complete===!1)Dt("WebGLRenderer: Texture marked for update but image is incomplete");else{Re(G,R,M);return}}else R.isExternalTexture&&(G.__webglTexture=R.sourceTexture?R.sourceTexture:null);e.bindTexture(i.TEXTURE_2D,G.__webglTexture,i.TEXTURE0+M)}function _t(R,M){let G=n.get(R);if(R.isRenderTargetTexture===!1&&R.version>0&&G.__version!==R.version){Re(G,R,M);return}else R.isExternalTexture&&(G.__webglTexture=R.sourceTexture?R.sourceTexture:null);e.bindTexture(i.TEXTURE_2D_ARRAY,G.__webglTexture,i.TEXTURE0+M)}function It(R,M){let G=n.get(R);if(R.isRenderTargetTexture===!1&&R.version>0&&G.__version!==R.version){Re(G,R,M);return}e.bindTexture(i.TEXTURE_3D,G.__webglTexture,i.TEXTURE0+M)}function lt(R,M){let G=n.get(R);if(R.version>0&&G.__version!==R.version){en(G,R,M);return}e.bindTexture(i.TEXTURE_CUBE_MAP,G.__webglTexture,i.TEXTURE0+M)}let Et={[Ml]:i.REPEAT,[ui]:i.CLAMP_TO_EDGE,[Sl]:i.MIRRORED_REPEAT},se={[Qe]:i.NEAREST,[Mg]:i.NEAREST_MIPMAP_NEAREST,[ka]:i.NEAREST_MIPMAP_LINEAR,[bn]:i.LINEAR,[Zl]:i.LINEAR_MIPMAP_NEAREST,[Di]:i.LINEAR_MIPMAP_LINEAR},Ot={[Eg]:i.NEVER,[mf]:i.ALWAYS,[Tg]:i.LESS,[df]:i.LEQUAL,[Ag]:i.EQUAL,[pf]:i.GEQUAL,[Rg]:i.GREATER,[Cg]:i.NOTEQUAL};function Qt(R,M){if(M.type===Xn&&t.has("OES_texture_float_linear")===!1&&(M.magFilter===bn||M.magFilter===Zl||M.magFilter===ka||M.magFilter===Di||M.minFilter===bn||M.minFilter===Zl||M.minFilter===ka||M.minFilter===Di)&&Dt("WebGLRenderer: Unable to use linear filtering with floating point textures. OES_texture_float_linear not supported on this device."),i.texParameteri(R,i.TEXTURE_WRAP_S,Et[M.wrapS]),i.texParameteri(R,i.TEXTURE_WRAP_T,Et[M.wrapT]),(R===i.TEXTURE_3D||R===i.TEXTURE_2D_ARRAY)&&i.texParameteri(R,i.TEXTURE_WRAP_R,Et[M.wrapR]),i.texParameteri(R,i.TEXTURE_MAG_FILTER,se[M.magFilter]),i.texParameteri(R,i.TEXTURE_MIN_FILTER,se[M.minFilter]),M.compareFunction&&(i.texParameteri(R,i.TEXTURE_COMPARE_MODE,i.COMPARE_REF_TO_TEXTURE),i.texParameteri(R,i.TEXTURE_COMPARE_FUNC,Ot[M.compareFunction])),t.has("EXT_texture_filter_anisotropic")===!0){if(M.magFilter===Qe||M.minFilter!==ka&&M.minFilter!==Di||M.type===Xn&&t.has("OES_texture_float_linear")===!1)return;if(M.anisotropy>1||n.get(M).__currentAnisotropy){let G=t.get("EXT_texture_filter_anisotropic");i.texParameterf(R,G.TEXTURE_MAX_ANISOTROPY_EXT,Math.min(M.anisotropy,s.getMaxAnisotropy())),n.get(M).__currentAnisotropy=M.anisotropy}}}function me(R,M){let G=!1;R.__webglInit===void 0&&(R.__webglInit=!0,M.addEventListener("dispose",D),F(M));let at=M.source,st=d.get(at);st===void 0&&(st={},d.set(at,st));let ut=et(M);if(ut!==R.__cacheKey){st[ut]===void 0&&(st[ut]={texture:i.createTexture(),usedTimes:0},a.memory.textures++,G=!0),st[ut].usedTimes++;let yt=st[R.__cacheKey];yt!==void 0&&(st[R.__cacheKey].usedTimes--,yt.usedTimes===0&&X(M)),R.__cacheKey=ut,R.__webglTexture=st[ut].texture}return G}function Jt(R,M,G){return Math.floor(Math.floor(R/G)/M)}function Ne(R,M,G,at){let ut=R.updateRanges;if(ut.length===0)e.texSubImage2D(i.TEXTURE_2D,0,0,0,M.width,M.height,G,at,M.data);else{ut.sort((I,nt)=>I.start-nt.start);let yt=0;for(let I=1;I<ut.length;I++){let nt=ut[yt],Z=ut[I],mt=nt.start+nt.count,ht=Jt(Z.start,M.width,4),dt=Jt(nt.start,M.width,4);Z.start<=mt+1&&ht===dt&&Jt(Z.start+Z.count-1,M.width,4)===ht?nt.count=Math.max(nt.count,Z.start+Z.count-nt.start):(++yt,ut[yt]=Z)}ut.length=yt+1;let j=e.getParameter(i.UNPACK_ROW_LENGTH),tt=e.getParameter(i.UNPACK_SKIP_PIXELS),ft=e.getParameter(i.UNPACK_SKIP_ROWS);e.pixelStorei(i.UNPACK_ROW_LENGTH,M.width);for(let I=0,nt=ut.length;I<nt;I++){let Z=ut[I],mt=Math.floor(Z.start/4),ht=Math.ceil(Z.count/4),dt=mt%M.width,Lt=Math.floor(mt/M.width),Zt=ht,ct=1;e.pixelStorei(i.UNPACK_SKIP_PIXELS,dt),e.pixelStorei(i.UNPACK_SKIP_ROWS,Lt),e.texSubImage2D(i.TEXTURE_2D,0,dt,Lt,Zt,ct,G,at,M.data)}R.clearUpdateRanges(),e.pixelStorei(i.UNPACK_ROW_LENGTH,j),e.pixelStorei(i.UNPACK_SKIP_PIXELS,tt),e.pixelStorei(i.UNPACK_SKIP_ROWS,ft)}}function Re(R,M,G){let at=i.TEXTURE_2D;(M.isDataArrayTexture||M.isCompressedArrayTexture)&&(at=i.TEXTURE_2D_ARRAY),M.isData3DTexture&&(at=i.TEXTURE_3D);let st=me(R,M),ut=M.source;e.bindTexture(at,R.__webglTexture,i.TEXTURE0+G);let yt=n.get(ut);if(ut.version!==yt.__version||st===!0){if(e.activeTexture(i.TEXTURE0+G),(typeof ImageBitmap<"u"&&M.image instanceof ImageBitmap)===!1){let ct=oe.getPrimaries(oe.workingColorSpace),Nt=M.colorSpace===Ui?null:oe.getPrimaries(M.colorSpace),$t=M.colorSpace===Ui||ct===Nt?i.NONE:i.BROWSER_DEFAULT_WEBGL;e.pixelStorei(i.UNPACK_FLIP_Y_WEBGL,M.flipY),e.pixelStorei(i.UNPACK_PREMULTIPLY_ALPHA_WEBGL,M.premultiplyAlpha),e.pixelStorei(i.UNPACK_COLORSPACE_CONVERSION_WEBGL,$t)}e.pixelStorei(i.UNPACK_ALIGNMENT,M.unpackAlignment);let tt=x(M.image,!1,s.maxTextureSize);tt=Ut(M,tt);let ft=r.convert(M.format,M.colorSpace),I=r.convert(M.type),nt=C(M.internalFormat,ft,I,M.normalized,M.colorSpace,M.isVideoTexture);Qt(at,M);let Z,mt=M.mipmaps,ht=M.isVideoTexture!==!0,dt=yt.__version===void 0||st===!0,Lt=ut.dataReady,Zt=E(M,tt);if(M.isDepthTexture)nt=v(M.format===Oi,M.type),dt&&(ht?e.texStorage2D(i.TEXTURE_2D,1,nt,tt.width,tt.height):e.texImage2D(i.TEXTURE_2D,0,nt,tt.width,tt.height,0,ft,I,null));else if(M.isDataTexture)if(mt.length>0){ht&&dt&&e.texStorage2D(i.TEXTURE_2D,Zt,nt,mt[0].width,mt[0].height);for(let ct=0,Nt=mt.length;ct<Nt;ct++)Z=mt[ct],ht?Lt&&e.texSubImage2D(i.TEXTURE_2D,ct,0,0,Z.width,Z.height,ft,I,Z.data):e.texImage2D(i.TEXTURE_2D,ct,nt,Z.width,Z.height,0,ft,I,Z.data);M.generateMipmaps=!1}else ht?(dt&&e.texStorage2D(i.TEXTURE_2D,Zt,nt,tt.width,tt.height),Lt&&Ne(M,tt,ft,I)):e.texImage2D(i.TEXTURE_2D,0,nt,tt.width,tt.height,0,ft,I,tt.data);else if(M.isCompressedTexture)if(M.isCompressedArrayTexture){ht&&dt&&e.texStorage3D(i.TEXTURE_2D_ARRAY,Zt,nt,mt[0].width,mt[0].height,tt.depth);for(let ct=0,Nt=mt.length;ct<Nt;ct++)if(Z=mt[ct],M.format!==qn)if(ft!==null)if(ht){if(Lt)if(M.layerUpdates.size>0){let $t=Ef(Z.width,Z.height,M.format,M.type);for(let St of M.layerUpdates){let fe=Z.data.subarray(St*$t/Z.data.BYTES_PER_ELEMENT,(St+1)*$t/Z.data.BYTES_PER_ELEMENT);e.compressedTexSubImage3D(i.TEXTURE_2D_ARRAY,ct,0,0,St,Z.width,Z.height,1,ft,fe)}}else e.compressedTexSubImage3D(i.TEXTURE_2D_ARRAY,ct,0,0,0,Z.width,Z.height,tt.depth,ft,Z.data)}else e.compressedTexImage3D(i.TEXTURE_2D_ARRAY,ct,nt,Z.width,Z.height,tt.depth,0,Z.data,0,0);else Dt("WebGLRenderer: Attempt to load unsupported compressed texture format in .uploadTexture()");else ht?Lt&&e.texSubImage3D(i.TEXTURE_2D_ARRAY,ct,0,0,0,Z.width,Z.height,tt.depth,ft,I,Z.data):e.texImage3D(i.TEXTURE_2D_ARRAY,ct,nt,Z.width,Z.height,tt.depth,0,ft,I,Z.data);M.layerUpdates.size>0&&M.clearLayerUpdates()}else{ht&&dt&&e.texStorage2D(i.TEXTURE_2D,Zt,nt,mt[0].width,mt[0].height);for(let ct=0,Nt=mt.length;ct<Nt;ct++)Z=mt[ct],M.format!==qn?ft!==null?ht?Lt&&e.compressedTexSubImage2D(i.TEXTURE_2D,ct,0,0,Z.width,Z.height,ft,Z.data):e.compressedTexImage2D(i.TEXTURE_2D,ct,nt,Z.width,Z.height,0,Z.data):Dt("WebGLRenderer: Attempt to load unsupported compressed texture format in .uploadTexture()"):ht?Lt&&e.texSubImage2D(i.TEXTURE_2D,ct,0,0,Z.width,Z.height,ft,I,Z.data):e.texImage2D(i.TEXTURE_2D,ct,nt,Z.width,Z.height,0,ft,I,Z.data)}else if(M.isDataArrayTexture)if(ht){if(dt&&e.texStorage3D(i.TEXTURE_2D_ARRAY,Zt,nt,tt.width,tt.height,tt.depth),Lt)if(M.layerUpdates.size>0){let ct=Ef(tt.width,tt.height,M.format,M.type);for(let Nt of M.layerUpdates){let $t=tt.data.subarray(Nt*ct/tt.data.BYTES_PER_ELEMENT,(Nt+1)*ct/tt.data.BYTES_PER_ELEMENT);e.texSubImage3D(i.TEXTURE_2D_ARRAY,0,0,0,Nt,tt.width,tt.height,1,ft,I,$t)}M.clearLayerUpdates()}else e.texSubImage3D(i.TEXTURE_2D_ARRAY,0,0,0,0,tt.width,tt.height,tt.depth,ft,I,tt.data)}else e.texImage3D(i.TEXTURE_2D_ARRAY,0,nt,tt.width,tt.height,tt.depth,0,ft,I,tt.data);else if(M.isData3DTexture)ht?(dt&&e.texStorage3D(i.TEXTURE_3D,Zt,nt,tt.width,tt.height,tt.depth),Lt&&e.texSubImage3D(i.TEXTURE_3D,0,0,0,0,tt.width,tt.height,tt.depth,ft,I,tt.data)):e.texImage3D(i.TEXTURE_3D,0,nt,tt.width,tt.height,tt.depth,0,ft,I,tt.data);else if(M.isFramebufferTexture){if(dt)if(ht)e.texStorage2D(i.TEXTURE_2D,Zt,nt,tt.width,tt.height);else{let ct=tt.width,Nt=tt.height;for(let $t=0;$t<Zt;$t++)e.texImage2D(i.TEXTURE_2D,$t,nt,ct,Nt,0,ft,I,null),ct>>=1,Nt>>=1}}else if(M.isHTMLTexture){if("texElementImage2D"in i){let ct=i.canvas;if(ct.hasAttribute("layoutsubtree")||ct.setAttribute("layoutsubtree","true"),tt.parentNode!==ct){ct.appendChild(tt),u.add(M),ct.onpaint=Nt=>{let $t=Nt.changedElements;for(let St of u)$t.includes(St.image)&&(St.needsUpdate=!0)},ct.requestPaint();return}if(i.texElementImage2D.length===3)i.texElementImage2D(i.TEXTURE_2D,i.RGBA8,tt);else{let $t=i.RGBA,St=i.RGBA,fe=i.UNSIGNED_BYTE;i.texElementImage2D(i.TEXTURE_2D,0,$t,St,fe,tt)}i.texParameteri(i.TEXTURE_2D,i.TEXTURE_MIN_FILTER,i.LINEAR),i.texParameteri(i.TEXTURE_2D,i.TEXTURE_WRAP_S,i.CLAMP_TO_EDGE),i.texParameteri(i.TEXTURE_2D,i.TEXTURE_WRAP_T,i.CLAMP_TO_EDGE)}}else if(mt.length>0){if(ht&&dt){let ct=Gt(mt[0]);e.texStorage2D(i.TEXTURE_2D,Zt,nt,ct.width,ct.height)}for(let ct=0,Nt=mt.length;ct<Nt;ct++)Z=mt[ct],ht?Lt&&e.texSubImage2D(i.TEXTURE_2D,ct,0,0,ft,I,Z):e.texImage2D(i.TEXTURE_2D,ct,nt,ft,I,Z);M.generateMipmaps=!1}else if(ht){if(dt){let ct=Gt(tt);e.texStorage2D(i.TEXTURE_2D,Zt,nt,ct.width,ct.height)}Lt&&e.texSubImage2D(i.TEXTURE_2D,0,0,0,ft,I,tt)}else e.texImage2D(i.TEXTURE_2D,0,nt,ft,I,tt);b(M)&&M.mipmapsAutoUpdate===!0&&w(at),yt.__version=ut.version,M.onUpdate&&M.onUpdate(M)}R.__version=M.version}function en(R,M,G){if(M.image.length!==6)return;let at=me(R,M),st=M.source;e.bindTexture(i.TEXTURE_CUBE_MAP,R.__webglTexture,i.TEXTURE0+G);let ut=n.get(st);if(st.version!==ut.__version||at===!0){e.activeTexture(i.TEXTURE0+G);let yt=oe.getPrimaries(oe.workingColorSpace),j=M.colorSpace===Ui?null:oe.getPrimaries(M.colorSpace),tt=M.colorSpace===Ui||yt===j?i.NONE:i.BROWSER_DEFAULT_WEBGL;e.pixelStorei(i.UNPACK_FLIP_Y_WEBGL,M.flipY),e.pixelStorei(i.UNPACK_PREMULTIPLY_ALPHA_WEBGL,M.premultiplyAlpha),e.pixelStorei(i.UNPACK_ALIGNMENT,M.unpackAlignment),e.pixelStorei(i.UNPACK_COLORSPACE_CONVERSION_WEBGL,tt);let ft=M.isCompressedTexture||M.image[0].isCompressedTexture,I=M.image[0]&&M.image[0].isDataTexture,nt=[];for(let St=0;St<6;St++)!ft&&!I?nt[St]=x(M.image[St],!0,s.maxCubemapSize):nt[St]=I?M.image[St].image:M.image[St],nt[St]=Ut(M,nt[St]);let Z=nt[0],mt=r.convert(M.format,M.colorSpace),ht=r.convert(M.type),dt=C(M.internalFormat,mt,ht,M.normalized,M.colorSpace),Lt=M.isVideoTexture!==!0,Zt=ut.__version===void 0||at===!0,ct=st.dataReady,Nt=E(M,Z);Qt(i.TEXTURE_CUBE_MAP,M);let $t;if(M.isDepthTexture){if(dt=v(M.format===Oi,M.type),Zt)if(Lt)e.texStorage2D(i.TEXTURE_CUBE_MAP,1,dt,Z.width,Z.height);else for(let St=0;St<6;St++)e.texImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+St,0,dt,Z.width,Z.height,0,mt,ht,null)}else if(ft){Lt&&Zt&&e.texStorage2D(i.TEXTURE_CUBE_MAP,Nt,dt,Z.width,Z.height);for(let St=0;St<6;St++){$t=nt[St].mipmaps;for(let fe=0;fe<$t.length;fe++){let De=$t[fe];M.format!==qn?mt!==null?Lt?ct&&e.compressedTexSubImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+St,fe,0,0,De.width,De.height,mt,De.data):e.compressedTexImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+St,fe,dt,De.width,De.height,0,De.data):Dt("WebGLRenderer: Attempt to load unsupported compressed texture format in .setTextureCube()"):Lt?ct&&e.texSubImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+St,fe,0,0,De.width,De.height,mt,ht,De.data):e.texImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+St,fe,dt,De.width,De.height,0,mt,ht,De.data)}}}else{if($t=M.mipmaps,Lt&&Zt){$t.length>0&&Nt++;let St=Gt(nt[0]);e.texStorage2D(i.TEXTURE_CUBE_MAP,Nt,dt,St.width,St.height)}for(let St=0;St<6;St++)if(I){Lt?ct&&e.texSubImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+St,0,0,0,nt[St].width,nt[St].height,mt,ht,nt[St].data):e.texImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+St,0,dt,nt[St].width,nt[St].height,0,mt,ht,nt[St].data);for(let fe=0;fe<$t.length;fe++){let ri=$t[fe].image[St].image;Lt?ct&&e.texSubImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+St,fe+1,0,0,ri.width,ri.height,mt,ht,ri.data):e.texImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+St,fe+1,dt,ri.width,ri.height,0,mt,ht,ri.data)}}else{Lt?ct&&e.texSubImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+St,0,0,0,mt,ht,nt[St]):e.texImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+St,0,dt,mt,ht,nt[St]);for(let fe=0;fe<$t.length;fe++){let De=$t[fe];Lt?ct&&e.texSubImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+St,fe+1,0,0,mt,ht,De.image[St]):e.texImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+St,fe+1,dt,mt,ht,De.image[St])}}}b(M)&&M.mipmapsAutoUpdate===!0&&w(i.TEXTURE_CUBE_MAP),ut.__version=st.version,M.onUpdate&&M.onUpdate(M)}R.__version=M.version}function ge(R,M,G,at,st,ut){let yt=r.convert(G.format,G.colorSpace),j=r.convert(G.type),tt=C(G.internalFormat,yt,j,G.normalized,G.colorSpace),ft=n.get(M),I=n.get(G);if(I.__renderTarget=M,!ft.__hasExternalTextures){let nt=Math.max(1,M.width>>ut),Z=Math.max(1,M.height>>ut);st===i.TEXTURE_3D||st===i.TEXTURE_2D_ARRAY?e.texImage3D(st,ut,tt,nt,Z,M.depth,0,yt,j,null):e.texImage2D(st,ut,tt,nt,Z,0,yt,j,null)}e.bindFramebuffer(i.FRAMEBUFFER,R),Mt(M)?o.framebufferTexture2DMultisampleEXT(i.FRAMEBUFFER,at,st,I.__webglTexture,0,Me(M)):(st===i.TEXTURE_2D||st>=i.TEXTURE_CUBE_MAP_POSITIVE_X&&st<=i.TEXTURE_CUBE_MAP_NEGATIVE_Z)&&i.framebufferTexture2D(i.FRAMEBUFFER,at,st,I.__webglTexture,ut),e.bindFramebuffer(i.FRAMEBUFFER,null)}function re(R,M,G){if(i.bindRenderbuffer(i.RENDERBUFFER,R),M.depthBuffer){let at=M.depthTexture,st=at&&at.isDepthTexture?at.type:null,ut=v(M.stencilBuffer,st),yt=M.stencilBuffer?i.DEPTH_STENCIL_ATTACHMENT:i.DEPTH_ATTACHMENT;Mt(M)?o.renderbufferStorageMultisampleEXT(i.RENDERBUFFER,Me(M),ut,M.width,M.height):G?i.renderbufferStorageMultisample(i.RENDERBUFFER,Me(M),ut,M.width,M.height):i.renderbufferStorage(i.RENDERBUFFER,ut,M.width,M.height),i.framebufferRenderbuffer(i.FRAMEBUFFER,yt,i.RENDERBUFFER,R)}else{let at=M.textures;for(let st=0;st<at.length;st++){let ut=at[st],yt=r.convert(ut.format,ut.colorSpace),j=r.convert(ut.type),tt=C(ut.internalFormat,yt,j,ut.normalized,ut.colorSpace);Mt(M)?o.renderbufferStorageMultisampleEXT(i.RENDERBUFFER,Me(M),tt,M.width,M.height):G?i.renderbufferStorageMultisample(i.RENDERBUFFER,Me(M),tt,M.width,M.height):i.renderbufferStorage(i.RENDERBUFFER,tt,M.width,M.height)}}i.bindRenderbuffer(i.RENDERBUFFER,null)}function Pe(R,M,G){let at=M.isWebGLCubeRenderTarget===!0;if(e.bindFramebuffer(i.FRAMEBUFFER,R),!(M.depthTexture&&M.depthTexture.isDepthTexture))throw new Error("THREE.WebGLTextures: renderTarget.depthTexture must be an instance of THREE.DepthTexture.");let st=n.get(M.depthTexture);st.__renderTarget=M;let ut=at?M.depthTexture.image[0]:M.depthTexture.image;(!st.__webglTexture||ut.width!==M.width||ut.height!==M.height)&&(ut.width=M.width,ut.height=M.height,M.depthTexture.needsUpdate=!0),at?lt(M.depthTexture,0):pt(M.depthTexture,0);let yt=st.__webglTexture,j=Me(M),tt=at?i.TEXTURE_CUBE_MAP_POSITIVE_X+G:i.TEXTURE_2D,ft=M.depthTexture.format===Oi?i.DEPTH_STENCIL_ATTACHMENT:i.DEPTH_ATTACHMENT;if(M.depthTexture.format===Ri)Mt(M)?o.framebufferTexture2DMultisampleEXT(i.FRAMEBUFFER,ft,tt,yt,0,j):i.framebufferTexture2D(i.FRAMEBUFFER,ft,tt,yt,0);else if(M.depthTexture.format===Oi)Mt(M)?o.framebufferTexture2DMultisampleEXT(i.FRAMEBUFFER,ft,tt,yt,0,j):i.framebufferTexture2D(i.FRAMEBUFFER,ft,tt,yt,0);else throw new Error("THREE.WebGLTextures: Unknown depthTexture format.")}function gn(R){let M=n.get(R),G=R.isWebGLCubeRenderTarget===!0;if(M.__boundDepthTexture!==R.depthTexture){let at=R.depthTexture;if(M.__depthDisposeCallback&&M.__depthDisposeCallback(),at){let st=()=>{delete M.__boundDepthTexture,delete M.__depthDisposeCallback,at.removeEventListener("dispose",st)};at.addEventListener("dispose",st),M.__depthDisposeCallback=st}M.__boundDepthTexture=at}if(R.depthTexture&&!M.__autoAllocateDepthBuffer)if(G)for(let at=0;at<6;at++)Pe(M.__webglFramebuffer[at],R,at);else R.texture.mipmaps.length>0?Pe(M.__webglFramebuffer[0],R,0):Pe(M.__webglFramebuffer,R,0);else if(G){M.__webglDepthbuffer=[];for(let at=0;at<6;at++)if(e.bindFramebuffer(i.FRAMEBUFFER,M.__webglFramebuffer[at]),M.__webglDepthbuffer[at]===void 0)M.__webglDepthbuffer[at]=i.createRenderbuffer(),re(M.__webglDepthbuffer[at],R,!1);else{let st=R.stencilBuffer?i.DEPTH_STENCIL_ATTACHMENT:i.DEPTH_ATTACHMENT,ut=M.__webglDepthbuffer[at];i.bindRenderbuffer(i.RENDERBUFFER,ut),i.framebufferRenderbuffer(i.FRAMEBUFFER,st,i.RENDERBUFFER,ut)}}else if(R.texture.mipmaps.length>0?e.bindFramebuffer(i.FRAMEBUFFER,M.__webglFramebuffer[0]):e.bindFramebuffer(i.FRAMEBUFFER,M.__webglFramebuffer),M.__webglDepthbuffer===void 0)M.__webglDepthbuffer=i.createRenderbuffer(),re(M.__webglDepthbuffer,R,!1);else{let st=R.stencilBuffer?i.DEPTH_STENCIL_ATTACHMENT:i.DEPTH_ATTACHMENT,ut=M.__webglDepthbuffer;i.bindRenderbuffer(i.RENDERBUFFER,ut),i.framebufferRenderbuffer(i.FRAMEBUFFER,st,i.RENDERBUFFER,ut)}e.bindFramebuffer(i.FRAMEBUFFER,null)}function an(R,M,G){let at=n.get(R);M!==void 0&&ge(at.__webglFramebuffer,R,R.texture,i.COLOR_ATTACHMENT0,i.TEXTURE_2D,0),G!==void 0&&gn(R)}function Le(R){let M=R.texture,G=n.get(R),at=n.get(M);R.addEventListener("dispose",H),F(R);let st=R.textures,ut=R.isWebGLCubeRenderTarget===!0,yt=st.length>1;if(yt||(at.__webglTexture===void 0&&(at.__webglTexture=i.createTexture()),at.__version=M.version,a.memory.textures++),ut){G.__webglFramebuffer=[];for(let j=0;j<6;j++)if(M.mipmaps.length>0){G.__webglFramebuffer[j]=[];for(let tt=0;tt<M.mipmaps.length;tt++)G.__webglFramebuffer[j][tt]=i.createFramebuffer()}else G.__webglFramebuffer[j]=i.createFramebuffer()}else{if(M.mipmaps.length>0){G.__webglFramebuffer=[];for(let j=0;j<M.mipmaps.length;j++)G.__webglFramebuffer[j]=i.createFramebuffer()}else G.__webglFramebuffer=i.createFramebuffer();if(yt)for(let j=0,tt=st.length;j<tt;j++){let ft=n.get(st[j]);ft.__webglTexture===void 0&&(ft.__webglTexture=i.createTexture(),a.memory.textures++)}if(R.samples>0&&Mt(R)===!1){G.__webglMultisampledFramebuffer=i.createFramebuffer(),G.__webglColorRenderbuffer=[],e.bindFramebuffer(i.FRAMEBUFFER,G.__webglMultisampledFramebuffer);for(let j=0;j<st.length;j++){let tt=st[j];G.__webglColorRenderbuffer[j]=i.createRenderbuffer(),i.bindRenderbuffer(i.RENDERBUFFER,G.__webglColorRenderbuffer[j]);let ft=r.convert(tt.format,tt.colorSpace),I=r.convert(tt.type),nt=C(tt.internalFormat,ft,I,tt.normalized,tt.colorSpace,R.isXRRenderTarget===!0),Z=Me(R);i.renderbufferStorageMultisample(i.RENDERBUFFER,Z,nt,R.width,R.height),i.framebufferRenderbuffer(i.FRAMEBUFFER,i.COLOR_ATTACHMENT0+j,i.RENDERBUFFER,G.__webglColorRenderbuffer[j])}i.bindRenderbuffer(i.RENDERBUFFER,null),R.depthBuffer&&(G.__webglDepthRenderbuffer=i.createRenderbuffer(),re(G.__webglDepthRenderbuffer,R,!0)),e.bindFramebuffer(i.FRAMEBUFFER,null)}}if(ut){e.bindTexture(i.TEXTURE_CUBE_MAP,at.__webglTexture),Qt(i.TEXTURE_CUBE_MAP,M);for(let j=0;j<6;j++)if(M.mipmaps.length>0)for(let tt=0;tt<M.mipmaps.length;tt++)ge(G.__webglFramebuffer[j][tt],R,M,i.COLOR_ATTACHMENT0,i.TEXTURE_CUBE_MAP_POSITIVE_X+j,tt);else ge(G.__webglFramebuffer[j],R,M,i.COLOR_ATTACHMENT0,i.TEXTURE_CUBE_MAP_POSITIVE_X+j,0);b(M)?w(i.TEXTURE_CUBE_MAP):M.mipmaps.length>0&&i.texParameteri(i.TEXTURE_CUBE_MAP,i.TEXTURE_MAX_LEVEL,M.mipmaps.length-1),e.unbindTexture()}else if(yt){for(let j=0,tt=st.length;j<tt;j++){let ft=st[j],I=n.get(ft),nt=i.TEXTURE_2D;(R.isWebGL3DRenderTarget||R.isWebGLArrayRenderTarget)&&(nt=R.isWebGL3DRenderTarget?i.TEXTURE_3D:i.TEXTURE_2D_ARRAY),e.bindTexture(nt,I.__webglTexture),Qt(nt,ft),ge(G.__webglFramebuffer,R,ft,i.COLOR_ATTACHMENT0+j,nt,0),b(ft)&&w(nt)}e.unbindTexture()}else{let j=i.TEXTURE_2D;if((R.isWebGL3DRenderTarget||R.isWebGLArrayRenderTarget)&&(j=R.isWebGL3DRenderTarget?i.TEXTURE_3D:i.TEXTURE_2D_ARRAY),e.bindTexture(j,at.__webglTexture),Qt(j,M),M.mipmaps.length>0)for(let tt=0;tt<M.mipmaps.length;tt++)ge(G.__webglFramebuffer[tt],R,M,i.COLOR_ATTACHMENT0,j,tt);else ge(G.__webglFramebuffer,R,M,i.COLOR_ATTACHMENT0,j,0);b(M)?w(j):M.mipmaps.length>0&&i.texParameteri(j,i.TEXTURE_MAX_LEVEL,M.mipmaps.length-1),e.unbindTexture()}R.depthBuffer&&gn(R)}function O(R){let M=R.textures;for(let G=0,at=M.length;G<at;G++){let st=M[G];if(b(st)&&st.mipmapsAutoUpdate===!0){let ut=A(R),yt=n.get(st).__webglTexture;e.bindTexture(ut,yt),w(ut),e.unbindTexture()}}}let _n=[];function ue(R){if(R.samples>0){if(Mt(R)===!1){let M=R.textures,G=R.width,at=R.height,st=i.COLOR_BUFFER_BIT,ut=R.stencilBuffer?i.DEPTH_STENCIL_ATTACHMENT:i.DEPTH_ATTACHMENT,yt=n.get(R),j=M.length>1;if(j)for(let ft=0;ft<M.length;ft++)e.bindFramebuffer(i.FRAMEBUFFER,yt.__webglMultisampledFramebuffer),i.framebufferRenderbuffer(i.FRAMEBUFFER,i.COLOR_ATTACHMENT0+ft,i.RENDERBUFFER,null),e.bindFramebuffer(i.FRAMEBUFFER,yt.__webglFramebuffer),i.framebufferTexture2D(i.DRAW_FRAMEBUFFER,i.COLOR_ATTACHMENT0+ft,i.TEXTURE_2D,null,0);e.bindFramebuffer(i.READ_FRAMEBUFFER,yt.__webglMultisampledFramebuffer),R.texture.mipmaps.length>0?e.bindFramebuffer(i.DRAW_FRAMEBUFFER,yt.__webglFramebuffer[0]):e.bindFramebuffer(i.DRAW_FRAMEBUFFER,yt.__webglFramebuffer);for(let ft=0;ft<M.length;ft++){if(R.resolveDepthBuffer&&(R.depthBuffer&&(st|=i.DEPTH_BUFFER_BIT),R.stencilBuffer&&R.resolveStencilBuffer&&(st|=i.STENCIL_BUFFER_BIT)),j){i.framebufferRenderbuffer(i.READ_FRAMEBUFFER,i.COLOR_ATTACHMENT0,i.RENDERBUFFER,yt.__webglColorRenderbuffer[ft]);let I=n.get(M[ft]).__webglTexture;i.framebufferTexture2D(i.DRAW_FRAMEBUFFER,i.COLOR_ATTACHMENT0,i.TEXTURE_2D,I,0)}i.blitFramebuffer(0,0,G,at,0,0,G,at,st,i.NEAREST),c===!0&&(_n.length=0,_n.push(i.COLOR_ATTACHMENT0+ft),R.depthBuffer&&R.storeMultisampledDepthBuffer===!1&&_n.push(ut),i.invalidateFramebuffer(i.READ_FRAMEBUFFER,_n))}if(e.bindFramebuffer(i.READ_FRAMEBUFFER,null),e.bindFramebuffer(i.DRAW_FRAMEBUFFER,null),j)for(let ft=0;ft<M.length;ft++){e.bindFramebuffer(i.FRAMEBUFFER,yt.__webglMultisampledFramebuffer),i.framebufferRenderbuffer(i.FRAMEBUFFER,i.COLOR_ATTACHMENT0+ft,i.RENDERBUFFER,yt.__webglColorRenderbuffer[ft]);let I=n.get(M[ft]).__webglTexture;e.bindFramebuffer(i.FRAMEBUFFER,yt.__webglFramebuffer),i.framebufferTexture2D(i.DRAW_FRAMEBUFFER,i.COLOR_ATTACHMENT0+ft,i.TEXTURE_2D,I,0)}e.bindFramebuffer(i.DRAW_FRAMEBUFFER,yt.__webglMultisampledFramebuffer)}else if(R.depthBuffer&&R.storeMultisampledDepthBuffer===!1&&c){let M=R.stencilBuffer?i.DEPTH_STENCIL_ATTACHMENT:i.DEPTH_ATTACHMENT;i.invalidateFramebuffer(i.DRAW_FRAMEBUFFER,[M])}}}function Me(R){return Math.min(s.maxSamples,R.samples)}function Mt(R){let M=n.get(R);return R.samples>0&&t.has("WEBGL_multisampled_render_to_texture")===!0&&M.__useRenderToTexture!==!1}function Ie(R){let M=a.render.frame;h.get(R)!==M&&(h.set(R,M),R.update())}function Ut(R,M){let G=R.colorSpace,at=R.format,st=R.type;return R.isCompressedTexture===!0||R.isVideoTexture===!0||G!==da&&G!==Ui&&(oe.getTransfer(G)===ye?(at!==qn||st!==Rn)&&Dt("WebGLTextures: sRGB encoded textures have to use RGBAFormat and UnsignedByteType."):Ht("WebGLTextures: Unsupported texture color space:",G)),M}function Gt(R){return typeof HTMLImageElement<"u"&&R instanceof HTMLImageElement?(l.width=R.naturalWidth||R.width,l.height=R.naturalHeight||R.height):typeof VideoFrame<"u"&&R instanceof VideoFrame?(l.width=R.displayWidth,l.height=R.displayHeight):(l.width=R.width,l.height=R.height),l}this.allocateTextureUnit=Bt,this.resetTextureUnits=k,this.getTextureUnits=it,this.setTextureUnits=Tt,this.setTexture2D=pt,this.setTexture2DArray=_t,this.setTexture3D=It,this.setTextureCube=lt,this.rebindTextures=an,this.setupRenderTarget=Le,this.updateRenderTargetMipmap=O,this.updateMultisampleRenderTarget=ue,this.setupDepthRenderbuffer=gn,this.setupFrameBufferTexture=ge,this.useMultisampledRTT=Mt,this.dispose=q}function Gw(i,t){function e(n,s=Ui){let r,a=oe.getTransfer(s);if(n===Rn)return i.UNSIGNED_BYTE;if(n===Kl)return i.UNSIGNED_SHORT_4_4_4_4;if(n===jl)return i.UNSIGNED_SHORT_5_5_5_1;if(n===lf)return i.UNSIGNED_INT_5_9_9_9_REV;if(n===cf)return i.UNSIGNED_INT_10F_11F_11F_REV;if(n===af)return i.BYTE;if(n===of)return i.SHORT;if(n===Cr)return i.UNSIGNED_SHORT;if(n===Jl)return i.INT;if(n===ii)return i.UNSIGNED_INT;if(n===Xn)return i.FLOAT;if(n===si)return i.HALF_FLOAT;if(n===hf)return i.ALPHA;if(n===uf)return i.RGB;if(n===qn)return i.RGBA;if(n===Ri)return i.DEPTH_COMPONENT;if(n===Oi)return i.DEPTH_STENCIL;if(n===ff)return i.RED;if(n===Ql)return i.RED_INTEGER;if(n===ss)return i.RG;if(n===tc)return i.RG_INTEGER;if(n===ec)return i.RGBA_INTEGER;if(n===za||n===Ga||n===Va||n===Ha)if(a===ye)if(r=t.get("WEBGL_compressed_texture_s3tc_srgb"),r!==null){if(n===za)return r.COMPRESSED_SRGB_S3TC_DXT1_EXT;if(n===Ga)return r.COMPRESSED_SRGB_ALPHA_S3TC_DXT1_EXT;if(n===Va)return r.COMPRESSED_SRGB_ALPHA_S3TC_DXT3_EXT;if(n===Ha)return r.COMPRESSED_SRGB_ALPHA_S3TC_DXT5_EXT}else return null;else if(r=t.get("WEBGL_compressed_texture_s3tc"),r!==null){if(n===za)return r.COMPRESSED_RGB_S3TC_DXT1_EXT;if(n===Ga)return r.COMPRESSED_RGBA_S3TC_DXT1_EXT;if(n===Va)return r.COMPRESSED_RGBA_S3TC_DXT3_EXT;if(n===Ha)return r.COMPRESSED_RGBA_S3TC_DXT5_EXT}else return null;if(n===nc||n===ic||n===sc||n===rc)if(r=t.get("WEBGL_compressed_texture_pvrtc"),r!==null){if(n===nc)return r.COMPRESSED_RGB_PVRTC_4BPPV1_IMG;if(n===ic)return r.COMPRESSED_RGB_PVRTC_2BPPV1_IMG;if(n===sc)return r.COMPRESSED_RGBA_PVRTC_4BPPV1_IMG;if(n===rc)return r.COMPRESSED_RGBA_PVRTC_2BPPV1_IMG}else return null;if(n===ac||n===oc||n===lc||n===cc||n===hc||n===Wa||n===uc)if(r=t.get("WEBGL_compressed_texture_etc"),r!==null){if(n===ac||n===oc)return a===ye?r.COMPRESSED_SRGB8_ETC2:r.COMPRESSED_RGB8_ETC2;if(n===lc)return a===ye?r.COMPRESSED_SRGB8_ALPHA8_ETC2_EAC:r.COMPRESSED_RGBA8_ETC2_EAC;if(n===cc)return r.COMPRESSED_R11_EAC;if(n===hc)return r.COMPRESSED_SIGNED_R11_EAC;if(n===Wa)return r.COMPRESSED_RG11_EAC;if(n===uc)return r.COMPRESSED_SIGNED_RG11_EAC}else return null;if(n===fc||n===dc||n===pc||n===mc||n===gc||n===_c||n===yc||n===xc||n===vc||n===Mc||n===Sc||n===bc||n===wc||n===Ec)if(r=t.get("WEBGL_compressed_texture_astc"),r!==null){if(n===fc)return a===ye?r.COMPRESSED_SRGB8_ALPHA8_ASTC_4x4_KHR:r.COMPRESSED_RGBA_ASTC_4x4_KHR;if(n===dc)return a===ye?r.COMPRESSED_SRGB8_ALPHA8_ASTC_5x4_KHR:r.COMPRESSED_RGBA_ASTC_5x4_KHR;if(n===pc)return a===ye?r.COMPRESSED_SRGB8_ALPHA8_ASTC_5x5_KHR:r.COMPRESSED_RGBA_ASTC_5x5_KHR;if(n===mc)return a===ye?r.COMPRESSED_SRGB8_ALPHA8_ASTC_6x5_KHR:r.COMPRESSED_RGBA_ASTC_6x5_KHR;if(n===gc)return a===ye?r.COMPRESSED_SRGB8_ALPHA8_ASTC_6x6_KHR:r.COMPRESSED_RGBA_ASTC_6x6_KHR;if(n===_c)return a===ye?r.COMPRESSED_SRGB8_ALPHA8_ASTC_8x5_KHR:r.COMPRESSED_RGBA_ASTC_8x5_KHR;if(n===yc)return a===ye?r.COMPRESSED_SRGB8_ALPHA8_ASTC_8x6_KHR:r.COMPRESSED_RGBA_ASTC_8x6_KHR;if(n===xc)return a===ye?r.COMPRESSED_SRGB8_ALPHA8_ASTC_8x8_KHR:r.COMPRESSED_RGBA_ASTC_8x8_KHR;if(n===vc)return a===ye?r.COMPRESSED_SRGB8_ALPHA8_ASTC_10x5_KHR:r.COMPRESSED_RGBA_ASTC_10x5_KHR;if(n===Mc)return a===ye?r.COMPRESSED_SRGB8_ALPHA8_ASTC_10x6_KHR:r.COMPRESSED_RGBA_ASTC_10x6_KHR;if(n===Sc)return a===ye?r.COMPRESSED_SRGB8_ALPHA8_ASTC_10x8_KHR:r.COMPRESSED_RGBA_ASTC_10x8_KHR;if(n===bc)return a===ye?r.COMPRESSED_SRGB8_ALPHA8_ASTC_10x10_KHR:r.COMPRESSED_RGBA_ASTC_10x10_KHR;if(n===wc)return a===ye?r.COMPRESSED_SRGB8_ALPHA8_ASTC_12x10_KHR:r.COMPRESSED_RGBA_ASTC_12x10_KHR;if(n===Ec)return a===ye?r.COMPRESSED_SRGB8_ALPHA8_ASTC_12x12_KHR:r.COMPRESSED_RGBA_ASTC_12x12_KHR}else return null;if(n===Tc||n===Ac||n===Rc)if(r=t.get("EXT_texture_compression_bptc"),r!==null){if(n===Tc)return a===ye?r.COMPRESSED_SRGB_ALPHA_BPTC_UNORM_EXT:r.COMPRESSED_RGBA_BPTC_UNORM_EXT;if(n===Ac)return r.COMPRESSED_RGB_BPTC_SIGNED_FLOAT_EXT;if(n===Rc)return r.COMPRESSED_RGB_BPTC_UNSIGNED_FLOAT_EXT}else return null;if(n===Cc||n===Pc||n===Xa||n===Ic)if(r=t.get("EXT_texture_compression_rgtc"),r!==null){if(n===Cc)return r.COMPRESSED_RED_RGTC1_EXT;if(n===Pc)return r.COMPRESSED_SIGNED_RED_RGTC1_EXT;if(n===Xa)return r.COMPRESSED_RED_GREEN_RGTC2_EXT;if(n===Ic)return r.COMPRESSED_SIGNED_RED_GREEN_RGTC2_EXT}else return null;return n===Ds?i.UNSIGNED_INT_24_8:i[n]!==void 0?i[n]:null}return{convert:e}}var Vw=`
+void main() {
+
+	gl_Position = vec4( position, 1.0 );
+
+}`,Hw=`
+uniform sampler2DArray depthColor;
+uniform float depthWidth;
+uniform float depthHeight;
+
+void main() {
+
+	vec2 coord = vec2( gl_FragCoord.x / depthWidth, gl_FragCoord.y / depthHeight );
+
+	if ( coord.x >= 1.0 ) {
+
+		gl_FragDepth = texture( depthColor, vec3( coord.x - 1.0, coord.y, 1 ) ).r;
+
+	} else {
+
+		gl_FragDepth = texture( depthColor, vec3( coord.x, coord.y, 0 ) ).r;
+
+	}
+
+}`,Df=class{constructor(){this.texture=null,this.mesh=null,this.depthNear=0,this.depthFar=0}init(t,e){if(this.texture===null){let n=new Ta(t.texture);(t.depthNear!==e.depthNear||t.depthFar!==e.depthFar)&&(this.depthNear=t.depthNear,this.depthFar=t.depthFar),this.texture=n}}getMesh(t){if(this.texture!==null&&this.mesh===null){let e=t.cameras[0].viewport,n=new di({vertexShader:Vw,fragmentShader:Hw,uniforms:{depthColor:{value:this.texture},depthWidth:{value:e.z},depthHeight:{value:e.w}}});this.mesh=new An(new Cs(20,20),n)}return this.mesh}reset(){this.texture=null,this.mesh=null}getDepthTexture(){return this.texture}},Of=class extends ni{constructor(t,e){super();let n=this,s=null,r=1,a=null,o="local-floor",c=1,l=null,h=null,u=null,f=null,d=null,p=null,_=typeof XRWebGLBinding<"u",g=new Df,m={},x=e.getContextAttributes(),b=null,w=null,A=[],C=[],v=new kt,E=null,F=null,N=new Sn;N.viewport=new ve;let D=new Sn;D.viewport=new ve;let H=[N,D],J=new Xl,P=null,q=null;this.cameraAutoUpdate=!0,this.enabled=!1,this.isPresenting=!1,this.getController=function(et){let pt=A[et];return pt===void 0&&(pt=new yr,A[et]=pt),pt.getTargetRaySpace()},this.getControllerGrip=function(et){let pt=A[et];return pt===void 0&&(pt=new yr,A[et]=pt),pt.getGripSpace()},this.getHand=function(et){let pt=A[et];return pt===void 0&&(pt=new yr,A[et]=pt),pt.getHandSpace()};function Q(et){let pt=C.indexOf(et.inputSource);if(pt===-1)return;let _t=A[pt];_t!==void 0&&(_t.update(et.inputSource,et.frame,l||a),_t.dispatchEvent({type:et.type,data:et.inputSource}))}function X(){s.removeEventListener("select",Q),s.removeEventListener("selectstart",Q),s.removeEventListener("selectend",Q),s.removeEventListener("squeeze",Q),s.removeEventListener("squeezestart",Q),s.removeEventListener("squeezeend",Q),s.removeEventListener("end",X),s.removeEventListener("inputsourceschange",rt);for(let et=0;et<A.length;et++){let pt=C[et];pt!==null&&(C[et]=null,A[et].disconnect(pt))}P=null,q=null,g.reset();for(let et in m)delete m[et];if(t.setRenderTarget(b),d=null,f=null,u=null,s=null,w=null,Bt.stop(),n.isPresenting=!1,t.setPixelRatio(E),t.setSize(v.width,v.height,!1),F!==null){let et=F.camera;et.fov=F.fov,et.zoom=F.zoom,et.updateProjectionMatrix(),F=null}n.dispatchEvent({type:"sessionend"})}this.setFramebufferScaleFactor=function(et){r=et,n.isPresenting===!0&&Dt("WebXRManager: Cannot change framebuffer scale while presenting.")},this.setReferenceSpaceType=function(et){o=et,n.isPresenting===!0&&Dt("WebXRManager: Cannot change reference space type while presenting.")},this.getReferenceSpace=function(){return l||a},this.setReferenceSpace=function(et){l=et},this.getBaseLayer=function(){return f!==null?f:d},this.getBinding=function(){return u===null&&_&&(u=new XRWebGLBinding(s,e)),u},this.getFrame=function(){return p},this.getSession=function(){return s},this.setSession=async function(et){if(s=et,s!==null){if(b=t.getRenderTarget(),s.addEventListener("select",Q),s.addEventListener("selectstart",Q),s.addEventListener("selectend",Q),s.addEventListener("squeeze",Q),s.addEventListener("squeezestart",Q),s.addEventListener("squeezeend",Q),s.addEventListener("end",X),s.addEventListener("inputsourceschange",rt),x.xrCompatible!==!0&&await e.makeXRCompatible(),E=t.getPixelRatio(),t.getSize(v),_&&"createProjectionLayer"in XRWebGLBinding.prototype){let _t=null,It=null,lt=null;x.depth&&(lt=x.stencil?e.DEPTH24_STENCIL8:e.DEPTH_COMPONENT24,_t=x.stencil?Oi:Ri,It=x.stencil?Ds:ii);let Et={colorFormat:e.RGBA8,depthFormat:lt,scaleFactor:r};u=this.getBinding(),f=u.createProjectionLayer(Et),s.updateRenderState({layers:[f]}),t.setPixelRatio(1),t.setSize(f.textureWidth,f.textureHeight,!1),w=new Un(f.textureWidth,f.textureHeight,{format:qn,type:Rn,depthTexture:new Ni(f.textureWidth,f.textureHeight,It,void 0,void 0,void 0,void 0,void 0,void 0,_t),stencilBuffer:x.stencil,colorSpace:t.outputColorSpace,samples:x.antialias?4:0,resolveDepthBuffer:f.ignoreDepthValues===!1,resolveStencilBuffer:f.ignoreDepthValues===!1,storeMultisampledDepthBuffer:f.ignoreDepthValues===!1,storeMultisampledStencilBuffer:f.ignoreDepthValues===!1})}else{let _t={antialias:x.antialias,alpha:!0,depth:x.depth,stencil:x.stencil,framebufferScaleFactor:r};d=new XRWebGLLayer(s,e,_t),s.updateRenderState({baseLayer:d}),t.setPixelRatio(1),t.setSize(d.framebufferWidth,d.framebufferHeight,!1),w=new Un(d.framebufferWidth,d.framebufferHeight,{format:qn,type:Rn,colorSpace:t.outputColorSpace,stencilBuffer:x.stencil,resolveDepthBuffer:d.ignoreDepthValues===!1,resolveStencilBuffer:d.ignoreDepthValues===!1,storeMultisampledDepthBuffer:d.ignoreDepthValues===!1,storeMultisampledStencilBuffer:d.ignoreDepthValues===!1})}w.isXRRenderTarget=!0,this.setFoveation(c),l=null,a=await s.requestReferenceSpace(o),Bt.setContext(s),Bt.start(),n.isPresenting=!0,n.dispatchEvent({type:"sessionstart"})}},this.getEnvironmentBlendMode=function(){if(s!==null)return s.environmentBlendMode},this.getDepthTexture=function(){return g.getDepthTexture()};function rt(et){for(let pt=0;pt<et.removed.length;pt++){let _t=et.removed[pt],It=C.indexOf(_t);It>=0&&(C[It]=null,A[It].disconnect(_t))}for(let pt=0;pt<et.added.length;pt++){let _t=et.added[pt],It=C.indexOf(_t);if(It===-1){for(let Et=0;Et<A.length;Et++)if(Et>=C.length){C.push(_t),It=Et;break}else if(C[Et]===null){C[Et]=_t,It=Et;break}if(It===-1)break}let lt=A[It];lt&&lt.connect(_t)}}function W(et,pt){pt===null?et.matrixWorld.copy(et.matrix):et.matrixWorld.multiplyMatrices(pt.matrixWorld,et.matrix),et.matrixWorldInverse.copy(et.matrixWorld).invert()}this.updateCamera=function(et){if(s===null)return;let pt=et.near,_t=et.far;g.texture!==null&&(g.depthNear>0&&(pt=g.depthNear),g.depthFar>0&&(_t=g.depthFar)),J.near=D.near=N.near=pt,J.far=D.far=N.far=_t,(P!==J.near||q!==J.far)&&(s.updateRenderState({depthNear:J.near,depthFar:J.far}),P=J.near,q=J.far),J.layers.mask=et.layers.mask|6,N.layers.mask=J.layers.mask&-5,D.layers.mask=J.layers.mask&-3;let It=et.parent,lt=J.cameras;W(J,It);for(let Et=0;Et<lt.length;Et++)W(lt[Et],It);J.projectionMatrix.copy(N.projectionMatrix),J.projectionMatrixInverse.copy(N.projectionMatrixInverse),F===null&&et.isPerspectiveCamera&&(F={camera:et,fov:et.fov,zoom:et.zoom}),k(et,J,It)};function k(et,pt,_t){_t===null?et.matrix.copy(pt.matrixWorld):(et.matrix.copy(_t.matrixWorld),et.matrix.invert(),et.matrix.multiply(pt.matrixWorld)),et.matrix.decompose(et.position,et.quaternion,et.scale),et.updateMatrixWorld(!0),et.projectionMatrix.copy(pt.projectionMatrix),et.projectionMatrixInverse.copy(pt.projectionMatrixInverse),et.isPerspectiveCamera&&(et.fov=mr*2*Math.atan(1/et.projectionMatrix.elements[5]),et.zoom=1)}this.getCamera=function(){return J},this.getFoveation=function(){if(!(f===null&&d===null))return c},this.setFoveation=function(et){c=et,f!==null&&(f.fixedFoveation=et),d!==null&&d.fixedFoveation!==void 0&&(d.fixedFoveation=et)},this.hasDepthSensing=function(){return g.texture!==null},this.getDepthSensingMesh=function(){return g.getMesh(J)},this.getCameraTexture=function(et){return m[et]};let it=null;function Tt(et,pt){if(h=pt.getViewerPose(l||a),p=pt,h!==null){let _t=h.views;d!==null&&(t.setRenderTargetFramebuffer(w,d.framebuffer),t.setRenderTarget(w));let It=!1;_t.length!==J.cameras.length&&(J.cameras.length=0,It=!0);for(let Ot=0;Ot<_t.length;Ot++){let Qt=_t[Ot],me=null;if(d!==null)me=d.getViewport(Qt);else{let Ne=u.getViewSubImage(f,Qt);me=Ne.viewport,Ot===0&&(t.setRenderTargetTextures(w,Ne.colorTexture,Ne.depthStencilTexture),t.setRenderTarget(w))}let Jt=H[Ot];Jt===void 0&&(Jt=new Sn,Jt.layers.enable(Ot),Jt.viewport=new ve,H[Ot]=Jt),Jt.matrix.fromArray(Qt.transform.matrix),Jt.matrix.decompose(Jt.position,Jt.quaternion,Jt.scale),Jt.projectionMatrix.fromArray(Qt.projectionMatrix),Jt.projectionMatrixInverse.copy(Jt.projectionMatrix).invert(),Jt.viewport.set(me.x,me.y,me.width,me.height),Ot===0&&(J.matrix.copy(Jt.matrix),J.matrix.decompose(J.position,J.quaternion,J.scale)),It===!0&&J.cameras.push(Jt)}let lt=s.enabledFeatures;if(lt&&lt.includes("depth-sensing")&&s.depthUsage=="gpu-optimized"&&_){u=n.getBinding();let Ot=u.getDepthInformation(_t[0]);Ot&&Ot.isValid&&Ot.texture&&g.init(Ot,s.renderState)}if(lt&&lt.includes("camera-access")&&_){t.state.unbindTexture(),u=n.getBinding();for(let Ot=0;Ot<_t.length;Ot++){let Qt=_t[Ot].camera;if(Qt){let me=m[Qt];me||(me=new Ta,m[Qt]=me);let Jt=u.getCameraImage(Qt);me.sourceTexture=Jt}}}}for(let _t=0;_t<A.length;_t++){let It=C[_t],lt=A[_t];It!==null&&lt!==void 0&&lt.update(It,pt,l||a)}it&&it(et,pt),pt.detectedPlanes&&n.dispatchEvent({type:"planesdetected",data:pt}),p=null}let Bt=new l0;Bt.setAnimationLoop(Tt),this.setAnimationLoop=function(et){it=et},this.dispose=function(){}}},Ww=new ie,y0=new qt;y0.set(-1,0,0,0,1,0,0,0,1);function Xw(i,t){function e(g,m){g.matrixAutoUpdate===!0&&g.updateMatrix(),m.value.copy(g.matrix)}function n(g,m){m.color.getRGB(g.fogColor.value,Sf(i)),m.isFog?(g.fogNear.value=m.near,g.fogFar.value=m.far):m.isFogExp2&&(g.fogDensity.value=m.density)}function s(g,m,x,b,w){m.isNodeMaterial?m.uniformsNeedUpdate=!1:m.isMeshBasicMaterial?r(g,m):m.isMeshLambertMaterial?(r(g,m),m.envMap&&(g.envMapIntensity.value=m.envMapIntensity)):m.isMeshToonMaterial?(r(g,m),u(g,m)):m.isMeshPhongMaterial?(r(g,m),h(g,m),m.envMap&&(g.envMapIntensity.value=m.envMapIntensity)):m.isMeshStandardMaterial?(r(g,m),f(g,m),m.isMeshPhysicalMaterial&&d(g,m,w)):m.isMeshMatcapMaterial?(r(g,m),p(g,m)):m.isMeshDepthMaterial?r(g,m):m.isMeshDistanceMaterial?(r(g,m),_(g,m)):m.isMeshNormalMaterial?r(g,m):m.isLineBasicMaterial?(a(g,m),m.isLineDashedMaterial&&o(g,m)):m.isPointsMaterial?c(g,m,x,b):m.isSpriteMaterial?l(g,m):m.isShadowMaterial?(g.color.value.copy(m.color),g.opacity.value=m.opacity):m.isShaderMaterial&&(m.uniformsNeedUpdate=!1)}function r(g,m){g.opacity.value=m.opacity,m.color&&g.diffuse.value.copy(m.color),m.emissive&&g.emissive.value.copy(m.emissive).multiplyScalar(m.emissiveIntensity),m.map&&(g.map.value=m.map,e(m.map,g.mapTransform)),m.alphaMap&&(g.alphaMap.value=m.alphaMap,e(m.alphaMap,g.alphaMapTransform)),m.bumpMap&&(g.bumpMap.value=m.bumpMap,e(m.bumpMap,g.bumpMapTransform),g.bumpScale.value=m.bumpScale,m.side===En&&(g.bumpScale.value*=-1)),m.normalMap&&(g.normalMap.value=m.normalMap,e(m.normalMap,g.normalMapTransform),g.normalScale.value.copy(m.normalScale),m.side===En&&g.normalScale.value.negate()),m.displacementMap&&(g.displacementMap.value=m.displacementMap,e(m.displacementMap,g.displacementMapTransform),g.displacementScale.value=m.displacementScale,g.displacementBias.value=m.displacementBias),m.emissiveMap&&(g.emissiveMap.value=m.emissiveMap,e(m.emissiveMap,g.emissiveMapTransform)),m.specularMap&&(g.specularMap.value=m.specularMap,e(m.specularMap,g.specularMapTransform)),m.alphaTest>0&&(g.alphaTest.value=m.alphaTest);let x=t.get(m),b=x.envMap,w=x.envMapRotation;b&&(g.envMap.value=b,g.envMapRotation.value.setFromMatrix4(Ww.makeRotationFromEuler(w)).transpose(),b.isCubeTexture&&b.isRenderTargetTexture===!1&&g.envMapRotation.value.premultiply(y0),g.reflectivity.value=m.reflectivity,g.ior.value=m.ior,g.refractionRatio.value=m.refractionRatio),m.lightMap&&(g.lightMap.value=m.lightMap,g.lightMapIntensity.value=m.lightMapIntensity,e(m.lightMap,g.lightMapTransform)),m.aoMap&&(g.aoMap.value=m.aoMap,g.aoMapIntensity.value=m.aoMapIntensity,e(m.aoMap,g.aoMapTransform))}function a(g,m){g.diffuse.value.copy(m.color),g.opacity.value=m.opacity,m.map&&(g.map.value=m.map,e(m.map,g.mapTransform))}function o(g,m){g.dashSize.value=m.dashSize,g.totalSize.value=m.dashSize+m.gapSize,g.scale.value=m.scale}function c(g,m,x,b){g.diffuse.value.copy(m.color),g.opacity.value=m.opacity,g.size.value=m.size*x,g.scale.value=b*.5,m.map&&(g.map.value=m.map,e(m.map,g.uvTransform)),m.alphaMap&&(g.alphaMap.value=m.alphaMap,e(m.alphaMap,g.alphaMapTransform)),m.alphaTest>0&&(g.alphaTest.value=m.alphaTest)}function l(g,m){g.diffuse.value.copy(m.color),g.opacity.value=m.opacity,g.rotation.value=m.rotation,m.map&&(g.map.value=m.map,e(m.map,g.mapTransform)),m.alphaMap&&(g.alphaMap.value=m.alphaMap,e(m.alphaMap,g.alphaMapTransform)),m.alphaTest>0&&(g.alphaTest.value=m.alphaTest)}function h(g,m){g.specular.value.copy(m.specular),g.shininess.value=Math.max(m.shininess,1e-4)}function u(g,m){m.gradientMap&&(g.gradientMap.value=m.gradientMap)}function f(g,m){g.metalness.value=m.metalness,m.metalnessMap&&(g.metalnessMap.value=m.metalnessMap,e(m.metalnessMap,g.metalnessMapTransform)),g.roughness.value=m.roughness,m.roughnessMap&&(g.roughnessMap.value=m.roughnessMap,e(m.roughnessMap,g.roughnessMapTransform)),m.envMap&&(g.envMapIntensity.value=m.envMapIntensity)}function d(g,m,x){g.ior.value=m.ior,m.diffuseRoughness>0&&(g.diffuseRoughness.value=m.diffuseRoughness,m.diffuseRoughnessMap&&(g.diffuseRoughnessMap.value=m.diffuseRoughnessMap,e(m.diffuseRoughnessMap,g.diffuseRoughnessMapTransform))),m.sheen>0&&(g.sheenColor.value.copy(m.sheenColor).multiplyScalar(m.sheen),g.sheenRoughness.value=m.sheenRoughness,m.sheenColorMap&&(g.sheenColorMap.value=m.sheenColorMap,e(m.sheenColorMap,g.sheenColorMapTransform)),m.sheenRoughnessMap&&(g.sheenRoughnessMap.value=m.sheenRoughnessMap,e(m.sheenRoughnessMap,g.sheenRoughnessMapTransform))),m.clearcoat>0&&(g.clearcoat.value=m.clearcoat,g.clearcoatRoughness.value=m.clearcoatRoughness,m.clearcoatMap&&(g.clearcoatMap.value=m.clearcoatMap,e(m.clearcoatMap,g.clearcoatMapTransform)),m.clearcoatRoughnessMap&&(g.clearcoatRoughnessMap.value=m.clearcoatRoughnessMap,e(m.clearcoatRoughnessMap,g.clearcoatRoughnessMapTransform)),m.clearcoatNormalMap&&(g.clearcoatNormalMap.value=m.clearcoatNormalMap,e(m.clearcoatNormalMap,g.clearcoatNormalMapTransform),g.clearcoatNormalScale.value.copy(m.clearcoatNormalScale),m.side===En&&g.clearcoatNormalScale.value.negate())),m.dispersion>0&&(g.dispersion.value=m.dispersion),m.retroreflectivity>0&&(g.retroreflectivity.value=m.retroreflectivity),m.iridescence>0&&(g.iridescence.value=m.iridescence,g.iridescenceIOR.value=m.iridescenceIOR,g.iridescenceThicknessMinimum.value=m.iridescenceThicknessMinimum,g.iridescenceThicknessMaximum.value=m.iridescenceThicknessMaximum,m.iridescenceMap&&(g.iridescenceMap.value=m.iridescenceMap,e(m.iridescenceMap,g.iridescenceMapTransform)),m.iridescenceThicknessMap&&(g.iridescenceThicknessMap.value=m.iridescenceThicknessMap,e(m.iridescenceThicknessMap,g.iridescenceThicknessMapTransform))),m.transmission>0&&(g.transmission.value=m.transmission,g.transmissionSamplerMap.value=x.texture,g.transmissionSamplerSize.value.set(x.width,x.height),m.transmissionMap&&(g.transmissionMap.value=m.transmissionMap,e(m.transmissionMap,g.transmissionMapTransform)),g.thickness.value=m.thickness,m.thicknessMap&&(g.thicknessMap.value=m.thicknessMap,e(m.thicknessMap,g.thicknessMapTransform)),g.attenuationDistance.value=m.attenuationDistance,g.attenuationColor.value.copy(m.attenuationColor)),m.anisotropy>0&&(g.anisotropyVector.value.set(m.anisotropy*Math.cos(m.anisotropyRotation),m.anisotropy*Math.sin(m.anisotropyRotation)),m.anisotropyMap&&(g.anisotropyMap.value=m.anisotropyMap,e(m.anisotropyMap,g.anisotropyMapTransform))),g.specularIntensity.value=m.specularIntensity,g.specularColor.value.copy(m.specularColor),m.specularColorMap&&(g.specularColorMap.value=m.specularColorMap,e(m.specularColorMap,g.specularColorMapTransform)),m.specularIntensityMap&&(g.specularIntensityMap.value=m.specularIntensityMap,e(m.specularIntensityMap,g.specularIntensityMapTransform))}function p(g,m){m.matcap&&(g.matcap.value=m.matcap)}function _(g,m){let x=t.get(m).light;g.referencePosition.value.setFromMatrixPosition(x.matrixWorld),g.nearDistance.value=x.shadow.camera.near,g.farDistance.value=x.shadow.camera.far}return{refreshFogUniforms:n,refreshMaterialUniforms:s}}function qw(i,t,e,n){let s={},r={};function a(x,b){let w=b.program;n.uniformBlockBinding(x,w,s[x.id])}function o(x,b){let w=s[x.id];w===void 0&&(p(x),w=c(x),s[x.id]=w,x.addEventListener("dispose",g));let A=b.program;n.updateUBOMapping(x,A);let C=t.render.frame;r[x.id]!==C&&(l(x),r[x.id]=C)}function c(x){let b=i.createBuffer(),w=x.__size,A=x.usage;return i.bindBuffer(i.UNIFORM_BUFFER,b),i.bufferData(i.UNIFORM_BUFFER,w,A),i.bindBuffer(i.UNIFORM_BUFFER,null),b}function l(x){let b=s[x.id],w=x.uniforms,A=x.__cache;i.bindBuffer(i.UNIFORM_BUFFER,b);for(let C=0,v=w.length;C<v;C++){let E=w[C];if(Array.isArray(E))for(let F=0,N=E.length;F<N;F++)h(E[F],C,F,A);else h(E,C,0,A)}i.bindBuffer(i.UNIFORM_BUFFER,null)}function h(x,b,w,A){if(f(x,b,w,A)===!0){let C=x.__offset,v=x.value;if(Array.isArray(v)){let E=0;for(let F=0;F<v.length;F++){let N=v[F],D=_(N,!0);u(N,x.__data,E),E+=D.storage/Float32Array.BYTES_PER_ELEMENT}}else u(v,x.__data,0);i.bufferSubData(i.UNIFORM_BUFFER,C,x.__data)}}function u(x,b,w){typeof x=="number"||typeof x=="boolean"?b[w]=x:x.isMatrix3?(b[w]=x.elements[0],b[w+1]=x.elements[1],b[w+2]=x.elements[2],b[w+3]=0,b[w+4]=x.elements[3],b[w+5]=x.elements[4],b[w+6]=x.elements[5],b[w+7]=0,b[w+8]=x.elements[6],b[w+9]=x.elements[7],b[w+10]=x.elements[8],b[w+11]=0):ArrayBuffer.isView(x)?b.set(x.subarray(0,b.length-w),w):x.toArray(b,w)}function f(x,b,w,A){let C=x.value,v=b+"_"+w;if(Array.isArray(C)){A[v]===void 0&&(A[v]=[]);let E=A[v],F=!1;for(let N=0;N<C.length;N++)d(C[N],E,N)===!0&&(F=!0);return F}return d(C,A,v)}function d(x,b,w){if(b[w]===void 0)return typeof x=="number"||typeof x=="boolean"?b[w]=x:ArrayBuffer.isView(x)?b[w]=x.slice():b[w]=x.clone(),!0;{let A=b[w];if(typeof x=="number"||typeof x=="boolean"){if(A!==x)return b[w]=x,!0}else{if(ArrayBuffer.isView(x))return!0;if(A.equals(x)===!1)return A.copy(x),!0}}return!1}function p(x){let b=x.uniforms,w=0,A=16;for(let v=0,E=b.length;v<E;v++){let F=Array.isArray(b[v])?b[v]:[b[v]];for(let N=0,D=F.length;N<D;N++){let H=F[N],J=Array.isArray(H.value)?H.value:[H.value],P=Array.isArray(b[v])||Array.isArray(H.value),q=w;for(let X=0,rt=J.length;X<rt;X++){let W=J[X],k=_(W,P),it=w%A,Tt=it%k.boundary,Bt=it+Tt;w+=Tt,Bt!==0&&A-Bt<k.storage&&(w+=A-Bt),X===0&&(q=w),w+=k.storage}let Q=H.type==="int"?Int32Array:H.type==="uint"?Uint32Array:Float32Array;H.__data=new Q((w-q)/Float32Array.BYTES_PER_ELEMENT),H.__offset=q}}let C=w%A;return C>0&&(w+=A-C),x.__size=w,x.__cache={},this}function _(x,b){let w={boundary:0,storage:0};return typeof x=="number"||typeof x=="boolean"?(w.boundary=4,w.storage=4):x.isVector2?(w.boundary=8,w.storage=8):x.isVector3||x.isColor?(w.boundary=16,w.storage=12):x.isVector4?(w.boundary=16,w.storage=16):x.isMatrix3?(w.boundary=16,w.storage=48):x.isMatrix4?(w.boundary=16,w.storage=64):x.isTexture?Dt("WebGLRenderer: Texture samplers can not be part of an uniforms group."):ArrayBuffer.isView(x)?(w.boundary=16,w.storage=x.byteLength):Dt("WebGLRenderer: Unsupported uniform value type.",x),b===!0&&(w.boundary=16,w.storage=Math.ceil(w.storage/16)*16),w}function g(x){let b=x.target;b.removeEventListener("dispose",g),i.deleteBuffer(s[b.id]),delete s[b.id],delete r[b.id]}function m(){for(let x in s)i.deleteBuffer(s[x]);s={},r={}}return{bind:a,update:o,dispose:m}}var Yw=new Uint16Array([12469,15057,12620,14925,13266,14620,13807,14376,14323,13990,14545,13625,14713,13328,14840,12882,14931,12528,14996,12233,15039,11829,15066,11525,15080,11295,15085,10976,15082,10705,15073,10495,13880,14564,13898,14542,13977,14430,14158,14124,14393,13732,14556,13410,14702,12996,14814,12596,14891,12291,14937,11834,14957,11489,14958,11194,14943,10803,14921,10506,14893,10278,14858,9960,14484,14039,14487,14025,14499,13941,14524,13740,14574,13468,14654,13106,14743,12678,14818,12344,14867,11893,14889,11509,14893,11180,14881,10751,14852,10428,14812,10128,14765,9754,14712,9466,14764,13480,14764,13475,14766,13440,14766,13347,14769,13070,14786,12713,14816,12387,14844,11957,14860,11549,14868,11215,14855,10751,14825,10403,14782,10044,14729,9651,14666,9352,14599,9029,14967,12835,14966,12831,14963,12804,14954,12723,14936,12564,14917,12347,14900,11958,14886,11569,14878,11247,14859,10765,14828,10401,14784,10011,14727,9600,14660,9289,14586,8893,14508,8533,15111,12234,15110,12234,15104,12216,15092,12156,15067,12010,15028,11776,14981,11500,14942,11205,14902,10752,14861,10393,14812,9991,14752,9570,14682,9252,14603,8808,14519,8445,14431,8145,15209,11449,15208,11451,15202,11451,15190,11438,15163,11384,15117,11274,15055,10979,14994,10648,14932,10343,14871,9936,14803,9532,14729,9218,14645,8742,14556,8381,14461,8020,14365,7603,15273,10603,15272,10607,15267,10619,15256,10631,15231,10614,15182,10535,15118,10389,15042,10167,14963,9787,14883,9447,14800,9115,14710,8665,14615,8318,14514,7911,14411,7507,14279,7198,15314,9675,15313,9683,15309,9712,15298,9759,15277,9797,15229,9773,15166,9668,15084,9487,14995,9274,14898,8910,14800,8539,14697,8234,14590,7790,14479,7409,14367,7067,14178,6621,15337,8619,15337,8631,15333,8677,15325,8769,15305,8871,15264,8940,15202,8909,15119,8775,15022,8565,14916,8328,14804,8009,14688,7614,14569,7287,14448,6888,14321,6483,14088,6171,15350,7402,15350,7419,15347,7480,15340,7613,15322,7804,15287,7973,15229,8057,15148,8012,15046,7846,14933,7611,14810,7357,14682,7069,14552,6656,14421,6316,14251,5948,14007,5528,15356,5942,15356,5977,15353,6119,15348,6294,15332,6551,15302,6824,15249,7044,15171,7122,15070,7050,14949,6861,14818,6611,14679,6349,14538,6067,14398,5651,14189,5311,13935,4958,15359,4123,15359,4153,15356,4296,15353,4646,15338,5160,15311,5508,15263,5829,15188,6042,15088,6094,14966,6001,14826,5796,14678,5543,14527,5287,14377,4985,14133,4586,13869,4257,15360,1563,15360,1642,15358,2076,15354,2636,15341,3350,15317,4019,15273,4429,15203,4732,15105,4911,14981,4932,14836,4818,14679,4621,14517,4386,14359,4156,14083,3795,13808,3437,15360,122,15360,137,15358,285,15355,636,15344,1274,15322,2177,15281,2765,15215,3223,15120,3451,14995,3569,14846,3567,14681,3466,14511,3305,14344,3121,14037,2800,13753,2467,15360,0,15360,1,15359,21,15355,89,15346,253,15325,479,15287,796,15225,1148,15133,1492,15008,1749,14856,1882,14685,1886,14506,1783,14324,1608,13996,1398,13702,1183]),gi=null;function $w(){return gi===null&&(gi=new Sa(Yw,16,16,ss,si),gi.name="DFG_LUT",gi.minFilter=bn,gi.magFilter=bn,gi.wrapS=ui,gi.wrapT=ui,gi.generateMipmaps=!1,gi.needsUpdate=!0),gi}var Uc=class{constructor(t={}){let{canvas:e=Ig(),context:n=null,depth:s=!0,stencil:r=!1,alpha:a=!1,antialias:o=!1,premultipliedAlpha:c=!0,preserveDrawingBuffer:l=!1,powerPreference:h="default",failIfMajorPerformanceCaveat:u=!1,reversedDepthBuffer:f=!1,outputBufferType:d=Rn}=t;this.isWebGLRenderer=!0;let p;if(n!==null){if(typeof WebGLRenderingContext<"u"&&n instanceof WebGLRenderingContext)throw new Error("THREE.WebGLRenderer: WebGL 1 is not supported since r163.");p=n.getContextAttributes().alpha}else p=a;let _=d,g=new Set([ec,tc,Ql]),m=new Set([Rn,ii,Cr,Ds,Kl,jl]),x=new Uint32Array(4),b=new Int32Array(4),w={textures:[],min:[],max:[],resolution:[]},A=null,C=null,v=[],E=[],F=null;this.domElement=e,this.debug={checkShaderErrors:!0,diagnostics:{keywords:!1},onShaderError:null},this.autoClear=!0,this.autoClearColor=!0,this.autoClearDepth=!0,this.autoClearStencil=!0,this.sortObjects=!0,this.clippingPlanes=[],this.localClippingEnabled=!1,this.toneMapping=mi,this.toneMappingExposure=1,this.transmissionResolutionScale=1;let N=this,D=!1,H=null,J=null,P=null,q=null;this._outputColorSpace=dn;let Q=0,X=0,rt=null,W=-1,k=null,it=new ve,Tt=new ve,Bt=null,et=new Yt(0),pt=0,_t=e.width,It=e.height,lt=1,Et=null,se=null,Ot=new ve(0,0,_t,It),Qt=new ve(0,0,_t,It),me=!1,Jt=new Ki,Ne=new Al,Re=!1,en=!1,ge=new ie,re=new B,Pe=new ve,gn={background:null,fog:null,environment:null,overrideMaterial:null,isScene:!0},an=!1;function Le(){return rt===null?lt:1}let O=n;function _n(S,L){return e.getContext(S,L)}let ue,Me,Mt,Ie,Ut,Gt,R,M,G,at,st,ut,yt,j,tt,ft,I,nt,Z,mt,ht,dt,Lt;try{let S={alpha:!0,depth:s,stencil:r,antialias:o,premultipliedAlpha:c,preserveDrawingBuffer:l,powerPreference:h,failIfMajorPerformanceCaveat:u};if("setAttribute"in e&&e.setAttribute("data-engine",`three.js r${"187"}`),e.addEventListener("webglcontextlost",Nt,!1),e.addEventListener("webglcontextrestored",$t,!1),e.addEventListener("webglcontextcreationerror",St,!1),O===null){let L="webgl2";if(O=_n(L,S),O===null)throw _n(L)?new Error("THREE.WebGLRenderer: Error creating WebGL context with your selected attributes."):new Error("THREE.WebGLRenderer: Error creating WebGL context.")}Zt()}catch(S){throw e.removeEventListener("webglcontextlost",Nt,!1),e.removeEventListener("webglcontextrestored",$t,!1),e.removeEventListener("webglcontextcreationerror",St,!1),Ht("WebGLRenderer: "+S.message),S}function Zt(){ue=new rb(O),ue.init(),ht=new Gw(O,ue),Me=new $S(O,ue,t,ht),Mt=new kw(O,ue),Me.reversedDepthBuffer&&f&&Mt.buffers.depth.setReversed(!0),J=O.createFramebuffer(),P=O.createFramebuffer(),q=O.createFramebuffer(),Ie=new lb(O),Ut=new Ew,Gt=new zw(O,ue,Mt,Ut,Me,ht,Ie),R=new sb(N),M=new hv(O),dt=new qS(O,M),G=new ab(O,M,Ie,dt),at=new hb(O,G,M,dt,Ie),nt=new cb(O,Me,Gt),tt=new ZS(Ut),st=new ww(N,R,ue,Me,dt,tt),ut=new Xw(N,Ut),yt=new Aw,j=new Nw(ue),I=new XS(N,R,Mt,at,p,c),ft=new Bw(N,at,Me),Lt=new qw(O,Ie,Me,Mt),Z=new YS(O,ue,Ie),mt=new ob(O,ue,Ie),Ie.programs=st.programs,N.capabilities=Me,N.extensions=ue,N.properties=Ut,N.renderLists=yt,N.shadowMap=ft,N.state=Mt,N.info=Ie}_!==Rn&&(F=new fb(_,e.width,e.height,o,s,r));let ct=new Of(N,O);this.xr=ct,this.getContext=function(){return O},this.getContextAttributes=function(){return O.getContextAttributes()},this.forceContextLoss=function(){let S=ue.get("WEBGL_lose_context");S&&S.loseContext()},this.forceContextRestore=function(){let S=ue.get("WEBGL_lose_context");S&&S.restoreContext()},this.getPixelRatio=function(){return lt},this.setPixelRatio=function(S){S!==void 0&&(lt=S,this.setSize(_t,It,!1))},this.getSize=function(S){return S.set(_t,It)},this.setSize=function(S,L,Y=!0){if(ct.isPresenting){Dt("WebGLRenderer: Can't change size while VR device is presenting.");return}_t=S,It=L,e.width=Math.floor(S*lt),e.height=Math.floor(L*lt),Y===!0&&(e.style.width=S+"px",e.style.height=L+"px"),F!==null&&F.setSize(e.width,e.height),this.setViewport(0,0,S,L)},this.getDrawingBufferSize=function(S){return S.set(_t*lt,It*lt).floor()},this.setDrawingBufferSize=function(S,L,Y){_t=S,It=L,lt=Y,e.width=Math.floor(S*Y),e.height=Math.floor(L*Y),this.setViewport(0,0,S,L)},this.setEffects=function(S){if(_===Rn){Ht("WebGLRenderer: setEffects() requires outputBufferType set to HalfFloatType or FloatType.");return}if(S){for(let L=0;L<S.length;L++)if(S[L].isOutputPass===!0){Dt("WebGLRenderer: OutputPass is not needed in setEffects(). Tone mapping and color space conversion are applied automatically.");break}}F.setEffects(S||[])},this.getCurrentViewport=function(S){return S.copy(it)},this.getViewport=function(S){return S.copy(Ot)},this.setViewport=function(S,L,Y,z){S.isVector4?Ot.set(S.x,S.y,S.z,S.w):Ot.set(S,L,Y,z),Mt.viewport(it.copy(Ot).multiplyScalar(Le()).round())},this.getScissor=function(S){return S.copy(Qt)},this.setScissor=function(S,L,Y,z){S.isVector4?Qt.set(S.x,S.y,S.z,S.w):Qt.set(S,L,Y,z),Mt.scissor(Tt.copy(Qt).multiplyScalar(Le()).round())},this.getScissorTest=function(){return me},this.setScissorTest=function(S){Mt.setScissorTest(me=S)},this.setOpaqueSort=function(S){Et=S},this.setTransparentSort=function(S){se=S},this.getClearColor=function(S){return S.copy(I.getClearColor())},this.setClearColor=function(){I.setClearColor(...arguments)},this.getClearAlpha=function(){return I.getClearAlpha()},this.setClearAlpha=function(){I.setClearAlpha(...arguments)},this.clear=function(S=!0,L=!0,Y=!0){let z=0;if(S){let V=!1;if(rt!==null){let gt=rt.texture.format;V=g.has(gt)}if(V){let gt=rt.texture.type,At=m.has(gt),xt=I.getClearColor(),bt=I.getClearAlpha(),Pt=xt.r,Xt=xt.g,te=xt.b;At?(x[0]=Pt,x[1]=Xt,x[2]=te,x[3]=bt,O.clearBufferuiv(O.COLOR,0,x)):(b[0]=Pt,b[1]=Xt,b[2]=te,b[3]=bt,O.clearBufferiv(O.COLOR,0,b))}else z|=O.COLOR_BUFFER_BIT}L&&(z|=O.DEPTH_BUFFER_BIT,this.state.buffers.depth.setMask(!0)),Y&&(z|=O.STENCIL_BUFFER_BIT,this.state.buffers.stencil.setMask(4294967295)),z!==0&&O.clear(z)},this.clearColor=function(){this.clear(!0,!1,!1)},this.clearDepth=function(){this.clear(!1,!0,!1)},this.clearStencil=function(){this.clear(!1,!1,!0)},this.setNodesHandler=function(S){S.setRenderer(this),H=S},this.dispose=function(){e.removeEventListener("webglcontextlost",Nt,!1),e.removeEventListener("webglcontextrestored",$t,!1),e.removeEventListener("webglcontextcreationerror",St,!1),I.dispose(),yt.dispose(),j.dispose(),Gt.dispose(),Ut.dispose(),R.dispose(),at.dispose(),G.dispose(),dt.dispose(),Lt.dispose(),st.dispose(),ct.dispose(),ct.removeEventListener("sessionstart",Ja),ct.removeEventListener("sessionend",Bs),yi.stop()};function Nt(S){S.preventDefault(),_f("WebGLRenderer: Context Lost."),D=!0}function $t(){_f("WebGLRenderer: Context Restored."),D=!1;let S=Ie.autoReset,L=ft.enabled,Y=ft.autoUpdate,z=ft.needsUpdate,V=ft.type;Zt(),Ie.autoReset=S,ft.enabled=L,ft.autoUpdate=Y,ft.needsUpdate=z,ft.type=V}function St(S){Ht("WebGLRenderer: A WebGL context could not be created. Reason: ",S.statusMessage)}function fe(S){let L=S.target;L.removeEventListener("dispose",fe),De(L)}function De(S){ri(S),Ut.remove(S)}function ri(S){let L=Ut.get(S).programs;L!==void 0&&(L.forEach(function(Y){st.releaseProgram(Y)}),S.isShaderMaterial&&st.releaseShaderCache(S))}this.renderBufferDirect=function(S,L,Y,z,V,gt){L===null&&(L=gn);let At=V.isMesh&&V.matrixWorld.determinantAffine()<0,xt=to(S,L,Y,z,V);Mt.setMaterial(z,At);let bt=Y.index,Pt=1;if(z.wireframe===!0){if(bt=G.getWireframeAttribute(Y),bt===void 0)return;Pt=2}let Xt=Y.drawRange,te=Y.attributes.position,Rt=Xt.start*Pt,ee=(Xt.start+Xt.count)*Pt;gt!==null&&(Rt=Math.max(Rt,gt.start*Pt),ee=Math.min(ee,(gt.start+gt.count)*Pt)),bt!==null?(Rt=Math.max(Rt,0),ee=Math.min(ee,bt.count)):te!=null&&(Rt=Math.max(Rt,0),ee=Math.min(ee,te.count));let Ee=ee-Rt;if(Ee<0||Ee===1/0)return;dt.setup(V,z,xt,Y,bt);let ce,_e=Z;if(bt!==null&&(ce=M.get(bt),_e=mt,_e.setIndex(ce)),V.isMesh)z.wireframe===!0?(Mt.setLineWidth(z.wireframeLinewidth*Le()),_e.setMode(O.LINES)):_e.setMode(O.TRIANGLES);else if(V.isLine){let $e=z.linewidth;$e===void 0&&($e=1),Mt.setLineWidth($e*Le()),V.isLineSegments?_e.setMode(O.LINES):V.isLineLoop?_e.setMode(O.LINE_LOOP):_e.setMode(O.LINE_STRIP)}else V.isPoints?_e.setMode(O.POINTS):V.isSprite&&_e.setMode(O.TRIANGLES);if(V.isBatchedMesh)if(ue.get("WEBGL_multi_draw"))_e.renderMultiDraw(V._multiDrawStarts,V._multiDrawCounts,V._multiDrawCount);else{let $e=V._multiDrawStarts,Ct=V._multiDrawCounts,ze=V._multiDrawCount,le=bt?M.get(bt).bytesPerElement:1,ai=Ut.get(z).currentProgram.getUniforms();for(let Ge=0;Ge<ze;Ge++)ai.setValue(O,"_gl_DrawID",Ge),_e.render($e[Ge]/le,Ct[Ge])}else if(V.isInstancedMesh)_e.renderInstances(Rt,Ee,V.count);else if(Y.isInstancedBufferGeometry){let $e=Y._maxInstanceCount!==void 0?Y._maxInstanceCount:1/0,Ct=Math.min(Y.instanceCount,$e);_e.renderInstances(Rt,Ee,Ct)}else _e.render(Rt,Ee)};function Lr(S,L,Y,z){H!==null&&S.isNodeMaterial&&H.setObject(z,S),Re===!0&&tt.setState(S,Y,!1),S.transparent===!0&&S.side===pi&&S.forceSinglePass===!1?(S.side=En,S.needsUpdate=!0,Fi(S,L,z),S.side=is,S.needsUpdate=!0,Fi(S,L,z),S.side=pi):Fi(S,L,z)}this.compile=function(S,L,Y=null){Y===null&&(Y=S),H!==null&&H.renderStart(S,L,Y),C=j.get(Y),C.init(L),E.push(C),Y.traverseVisible(function(V){V.isLight&&V.layers.test(L.layers)&&(C.pushLight(V),V.castShadow&&C.pushShadow(V))}),S!==Y&&S.traverseVisible(function(V){V.isLight&&V.layers.test(L.layers)&&(C.pushLight(V),V.castShadow&&C.pushShadow(V))}),C.setupLights(),H!==null&&H.updateLights(C.state.lightsArray),en=this.localClippingEnabled,Re=tt.init(this.clippingPlanes,en),Re===!0&&tt.setGlobalState(this.clippingPlanes,L),H!==null&&ft.render(C.state.shadowsArray,Y,L);let z=new Set;return S.traverse(function(V){if(!(V.isMesh||V.isPoints||V.isLine||V.isSprite))return;let gt=V.material;if(gt)if(Array.isArray(gt))for(let At=0;At<gt.length;At++){let xt=gt[At];Lr(xt,Y,L,V),z.add(xt)}else Lr(gt,Y,L,V),z.add(gt)}),C=E.pop(),H!==null&&H.renderEnd(),z},this.compileAsync=function(S,L,Y=null){let z=this.compile(S,L,Y);return new Promise(V=>{function gt(){if(z.forEach(function(At){let bt=Ut.get(At).currentProgram;(bt===void 0||bt.isReady())&&z.delete(At)}),z.size===0){V(S);return}setTimeout(gt,10)}ue.get("KHR_parallel_shader_compile")!==null?gt():setTimeout(gt,10)})};let rs=null;function Fs(S){rs&&rs(S)}function Ja(){yi.stop()}function Bs(){yi.start()}let yi=new l0;yi.setAnimationLoop(Fs),typeof self<"u"&&yi.setContext(self),this.setAnimationLoop=function(S){rs=S,ct.setAnimationLoop(S),S===null?yi.stop():yi.start()},ct.addEventListener("sessionstart",Ja),ct.addEventListener("sessionend",Bs),this.render=function(S,L){if(L!==void 0&&L.isCamera!==!0){Ht("WebGLRenderer.render: camera is not an instance of THREE.Camera.");return}if(D===!0)return;H!==null&&H.renderStart(S,L);let Y=ct.enabled===!0&&ct.isPresenting===!0,z=F!==null&&(rt===null||Y)&&F.begin(N,rt);if(S.matrixWorldAutoUpdate===!0&&S.updateMatrixWorld(),L.parent===null&&L.matrixWorldAutoUpdate===!0&&L.updateMatrixWorld(),ct.enabled===!0&&ct.isPresenting===!0&&(F===null||F.isCompositing()===!1)&&(ct.cameraAutoUpdate===!0&&ct.updateCamera(L),L=ct.getCamera()),S.isScene===!0&&S.onBeforeRender(N,S,L,rt),C=j.get(S,E.length),C.init(L),C.state.textureUnits=Gt.getTextureUnits(),E.push(C),ge.multiplyMatrices(L.projectionMatrix,L.matrixWorldInverse),L.isArrayCamera?Ne.setFromArrayCamera(L):Jt.setFromProjectionMatrix(ge,Wn,L.reversedDepth),en=this.localClippingEnabled,Re=tt.init(this.clippingPlanes,en),A=yt.get(S,v.length),A.init(),v.push(A),this.info.render.frame++,ct.enabled===!0&&ct.isPresenting===!0){let At=N.xr.getDepthSensingMesh();At!==null&&Nr(At,L,-1/0,N.sortObjects)}Nr(S,L,0,N.sortObjects),A.finish(),H!==null&&H.updateLights(C.state.lightsArray),N.sortObjects===!0&&A.sort(Et,se),an=ct.enabled===!1||ct.isPresenting===!1||ct.hasDepthSensing()===!1,an&&I.addToRenderList(A,S),this.info.autoReset===!0&&this.info.reset(),Re===!0&&tt.beginShadows();let V=C.state.shadowsArray;if(ft.render(V,S,L),Re===!0&&tt.endShadows(),(z&&F.hasRenderPass())===!1){let At=A.opaque,xt=A.transmissive;if(C.setupLights(),L.isArrayCamera){let bt=L.cameras;if(xt.length>0)for(let Pt=0,Xt=bt.length;Pt<Xt;Pt++){let te=bt[Pt];ja(At,xt,S,te)}an&&I.render(S);for(let Pt=0,Xt=bt.length;Pt<Xt;Pt++){let te=bt[Pt];Ka(A,S,te,te.viewport)}}else xt.length>0&&ja(At,xt,S,L),an&&I.render(S),Ka(A,S,L)}rt!==null&&X===0&&(Gt.updateMultisampleRenderTarget(rt),Gt.updateRenderTargetMipmap(rt)),z&&F.end(N),S.isScene===!0&&S.onAfterRender(N,S,L),dt.resetDefaultState(),W=-1,k=null,E.pop(),E.length>0?(C=E[E.length-1],Gt.setTextureUnits(C.state.textureUnits),Re===!0&&tt.setGlobalState(N.clippingPlanes,C.state.camera)):C=null,v.pop(),v.length>0?A=v[v.length-1]:A=null,H!==null&&H.renderEnd()};function Nr(S,L,Y,z){if(S.visible===!1)return;if(S.layers.test(L.layers)){if(S.isGroup)Y=S.renderOrder;else if(S.isLOD)S.autoUpdate===!0&&S.update(L);else if(S.isLight)C.pushLight(S),S.castShadow&&C.pushShadow(S);else if(S.isSprite){let At=L.isArrayCamera?Ne:Jt;if(!S.frustumCulled||S.intersectsFrustum(At)){z&&Pe.setFromMatrixPosition(S.matrixWorld).applyMatrix4(ge);let xt=at.update(S),bt=S.material;bt.visible&&A.push(S,xt,bt,Y,Pe.z,null,L)}}else if(S.isMesh||S.isLine||S.isPoints){let At=L.isArrayCamera?Ne:Jt;if(!S.frustumCulled||S.intersectsFrustum(At)){let xt=at.update(S),bt=S.material;if(z&&(S.boundingSphere!==void 0?(S.boundingSphere===null&&S.computeBoundingSphere(),Pe.copy(S.boundingSphere.center)):(xt.boundingSphere===null&&xt.computeBoundingSphere(),Pe.copy(xt.boundingSphere.center)),Pe.applyMatrix4(S.matrixWorld).applyMatrix4(ge)),Array.isArray(bt)){let Pt=xt.groups;for(let Xt=0,te=Pt.length;Xt<te;Xt++){let Rt=Pt[Xt],ee=bt[Rt.materialIndex];ee&&ee.visible&&A.push(S,xt,ee,Y,Pe.z,Rt,L)}}else bt.visible&&A.push(S,xt,bt,Y,Pe.z,null,L)}}}let gt=S.children;for(let At=0,xt=gt.length;At<xt;At++)Nr(gt[At],L,Y,z)}function Ka(S,L,Y,z){let{opaque:V,transmissive:gt,transparent:At}=S;C.setupLightsView(Y),Re===!0&&tt.setGlobalState(N.clippingPlanes,Y),z&&Mt.viewport(it.copy(z)),V.length>0&&ks(V,L,Y),gt.length>0&&ks(gt,L,Y),At.length>0&&ks(At,L,Y),Mt.buffers.depth.setTest(!0),Mt.buffers.depth.setMask(!0),Mt.buffers.color.setMask(!0),Mt.setPolygonOffset(!1)}function ja(S,L,Y,z){if((Y.isScene===!0?Y.overrideMaterial:null)!==null)return;if(C.state.transmissionRenderTarget[z.id]===void 0){let Rt=ue.has("EXT_color_buffer_half_float")||ue.has("EXT_color_buffer_float");C.state.transmissionRenderTarget[z.id]=new Un(1,1,{generateMipmaps:!0,type:Rt?si:Rn,minFilter:Di,samples:Math.max(4,Me.samples),stencilBuffer:r,resolveDepthBuffer:!1,resolveStencilBuffer:!1,storeMultisampledDepthBuffer:!1,storeMultisampledStencilBuffer:!1,colorSpace:oe.workingColorSpace})}let gt=C.state.transmissionRenderTarget[z.id],At=z.viewport||it;gt.setSize(At.z*N.transmissionResolutionScale,At.w*N.transmissionResolutionScale);let xt=N.getRenderTarget(),bt=N.getActiveCubeFace(),Pt=N.getActiveMipmapLevel();N.setRenderTarget(gt),N.getClearColor(et),pt=N.getClearAlpha(),pt<1&&N.setClearColor(16777215,.5),N.clear(),an&&I.render(Y);let Xt=N.toneMapping;N.toneMapping=mi;let te=z.viewport;if(z.viewport!==void 0&&(z.viewport=void 0),C.setupLightsView(z),Re===!0&&tt.setGlobalState(N.clippingPlanes,z),ks(S,Y,z),Gt.updateMultisampleRenderTarget(gt),Gt.updateRenderTargetMipmap(gt),ue.has("WEBGL_multisampled_render_to_texture")===!1){let Rt=!1;for(let ee=0,Ee=L.length;ee<Ee;ee++){let ce=L[ee],{object:_e,geometry:$e,material:Ct,group:ze}=ce;if(Ct.side===pi&&_e.layers.test(z.layers)){let le=Ct.side;Ct.side=En,Ct.needsUpdate=!0,Dr(_e,Y,z,$e,Ct,ze),Ct.side=le,Ct.needsUpdate=!0,Rt=!0}}Rt===!0&&(Gt.updateMultisampleRenderTarget(gt),Gt.updateRenderTargetMipmap(gt))}N.setRenderTarget(xt,bt,Pt),N.setClearColor(et,pt),te!==void 0&&(z.viewport=te),N.toneMapping=Xt}function ks(S,L,Y){let z=L.isScene===!0?L.overrideMaterial:null;for(let V=0,gt=S.length;V<gt;V++){let At=S[V],{object:xt,geometry:bt,group:Pt}=At,Xt=At.material;Xt.allowOverride===!0&&z!==null&&(Xt=z),xt.layers.test(Y.layers)&&Dr(xt,L,Y,bt,Xt,Pt)}}function Dr(S,L,Y,z,V,gt){H!==null&&V.isNodeMaterial&&H.setObject(S,V),S.onBeforeRender(N,L,Y,z,V,gt),S.modelViewMatrix.multiplyMatrices(Y.matrixWorldInverse,S.matrixWorld),S.normalMatrix.getNormalMatrix(S.modelViewMatrix),V.onBeforeRender(N,L,Y,z,S,gt),V.transparent===!0&&V.side===pi&&V.forceSinglePass===!1?(V.side=En,V.needsUpdate=!0,N.renderBufferDirect(Y,L,z,V,S,gt),V.side=is,V.needsUpdate=!0,N.renderBufferDirect(Y,L,z,V,S,gt),V.side=pi):N.renderBufferDirect(Y,L,z,V,S,gt),S.onAfterRender(N,L,Y,z,V,gt)}function Or(S){let L=0;for(let Y of S)Y.texture!==null&&L++;return L}function Fi(S,L,Y){L.isScene!==!0&&(L=gn);let z=Ut.get(S),V=C.state.lights,gt=C.state.shadowsArray,At=V.state.version,xt=st.getParameters(S,V.state,gt,L,Y,C.state.lightProbeGridArray),bt=st.getProgramCacheKey(xt),Pt=z.programs;z.environment=S.isMeshStandardMaterial||S.isMeshLambertMaterial||S.isMeshPhongMaterial?L.environment:null,z.fog=L.fog;let Xt=S.isMeshStandardMaterial||S.isMeshLambertMaterial&&!S.envMap||S.isMeshPhongMaterial&&!S.envMap;z.envMap=R.get(S.envMap||z.environment,Xt),z.envMapRotation=z.environment!==null&&S.envMap===null?L.environmentRotation:S.envMapRotation,Pt===void 0&&(S.addEventListener("dispose",fe),Pt=new Map,z.programs=Pt,z.programVariants=new Map);let te=Pt.get(bt);if(te!==void 0){if(z.currentProgram===te&&z.lightsStateVersion===At)return Ur(S,xt),te}else xt.uniforms=st.getUniforms(S),H!==null&&S.isNodeMaterial&&H.build(S,Y,xt),S.onBeforeCompile(xt,N),te=st.acquireProgram(xt,bt),Pt.set(bt,te),z.uniforms=xt.uniforms;let Rt=z.uniforms;return(!S.isShaderMaterial&&!S.isRawShaderMaterial||S.clipping===!0)&&(Rt.clippingPlanes=tt.uniform),Ur(S,xt),z.needsLights=Wc(S),z.lightsStateVersion=At,z.needsLights&&(Rt.ambientLightColor.value=V.state.ambient,Rt.lightProbe.value=V.state.probe,Rt.sunLights.value=V.state.sun,Rt.sunLightShadows.value=V.state.sunShadow,Rt.directionalLights.value=V.state.directional,Rt.directionalLightShadows.value=V.state.directionalShadow,Rt.spotLights.value=V.state.spot,Rt.spotLightShadows.value=V.state.spotShadow,Rt.rectAreaLights.value=V.state.rectArea,Rt.ltc_1.value=V.state.rectAreaLTC1,Rt.ltc_2.value=V.state.rectAreaLTC2,Rt.pointLights.value=V.state.point,Rt.pointLightShadows.value=V.state.pointShadow,Rt.hemisphereLights.value=V.state.hemi,Rt.sunShadowMatrix.value=V.state.sunShadowMatrix,Rt.sunShadowCascade.value=V.state.sunShadowCascade,Rt.directionalShadowMatrix.value=V.state.directionalShadowMatrix,Rt.spotLightMatrix.value=V.state.spotLightMatrix,Rt.spotLightMap.value=V.state.spotLightMap,Rt.pointShadowMatrix.value=V.state.pointShadowMatrix),z.numLightProbeGrids=Or(C.state.lightProbeGridArray),z.currentProgram=te,z.uniformsList=null,te}function Hc(S,L,Y,z,V){let gt=Ut.get(S),At=gt.currentProgram.id+","+z+","+V,xt=gt.programVariants.get(At);return xt===void 0?(xt=Fi(S,L,Y),gt.programVariants.set(At,xt)):(gt.currentProgram=xt,gt.uniformsList=null,gt.outputColorSpace=z,gt.toneMapping=V),xt}function Qa(S){if(S.uniformsList===null){let L=S.currentProgram.getUniforms();S.uniformsList=Pr.seqWithValue(L.seq,S.uniforms)}return S.uniformsList}function Ur(S,L){let Y=Ut.get(S);Y.outputColorSpace=L.outputColorSpace,Y.batching=L.batching,Y.batchingColor=L.batchingColor,Y.instancing=L.instancing,Y.instancingColor=L.instancingColor,Y.instancingMorph=L.instancingMorph,Y.skinning=L.skinning,Y.morphTargets=L.morphTargets,Y.morphNormals=L.morphNormals,Y.morphColors=L.morphColors,Y.morphTargetsCount=L.morphTargetsCount,Y.numClippingPlanes=L.numClippingPlanes,Y.numIntersection=L.numClipIntersection,Y.vertexAlphas=L.vertexAlphas,Y.vertexTangents=L.vertexTangents,Y.toneMapping=L.toneMapping}function to(S,L,Y,z,V){L.isScene!==!0&&(L=gn),Gt.resetTextureUnits();let gt=L.fog,At=z.isMeshStandardMaterial||z.isMeshLambertMaterial||z.isMeshPhongMaterial?L.environment:null,xt=rt===null?N.outputColorSpace:rt.isXRRenderTarget===!0?rt.texture.colorSpace:oe.workingColorSpace,bt=z.isMeshStandardMaterial||z.isMeshLambertMaterial&&!z.envMap||z.isMeshPhongMaterial&&!z.envMap,Pt=R.get(z.envMap||At,bt),Xt=z.vertexColors===!0&&!!Y.attributes.color&&Y.attributes.color.itemSize===4,te=!!Y.attributes.tangent&&(!!z.normalMap||z.anisotropy>0),Rt=!!Y.morphAttributes.position,ee=!!Y.morphAttributes.normal,Ee=!!Y.morphAttributes.color,ce=mi;z.toneMapped&&(rt===null||rt.isXRRenderTarget===!0)&&(ce=N.toneMapping);let _e=Y.morphAttributes.position||Y.morphAttributes.normal||Y.morphAttributes.color,$e=_e!==void 0?_e.length:0,Ct=Ut.get(z),ze=C.state.lights;if(Re===!0&&(en===!0||S!==k)){let we=S===k&&z.id===W;tt.setState(z,S,we)}let le=!1,ai=!1;z.version===Ct.__version?Ct.needsLights&&Ct.lightsStateVersion!==ze.state.version||V.isBatchedMesh&&Ct.batching===!1||!V.isBatchedMesh&&Ct.batching===!0||V.isBatchedMesh&&Ct.batchingColor===!0&&V._colorsTexture===null||V.isBatchedMesh&&Ct.batchingColor===!1&&V._colorsTexture!==null||V.isInstancedMesh&&Ct.instancing===!1||!V.isInstancedMesh&&Ct.instancing===!0||V.isSkinnedMesh&&Ct.skinning===!1||!V.isSkinnedMesh&&Ct.skinning===!0||V.isInstancedMesh&&Ct.instancingColor===!0&&V.instanceColor===null||V.isInstancedMesh&&Ct.instancingColor===!1&&V.instanceColor!==null||V.isInstancedMesh&&Ct.instancingMorph===!0&&V.morphTexture===null||V.isInstancedMesh&&Ct.instancingMorph===!1&&V.morphTexture!==null||Ct.envMap!==Pt||z.fog===!0&&Ct.fog!==gt||Ct.numClippingPlanes!==void 0&&(Ct.numClippingPlanes!==tt.numPlanes||Ct.numIntersection!==tt.numIntersection)||Ct.vertexAlphas!==Xt||Ct.vertexTangents!==te||Ct.morphTargets!==Rt||Ct.morphNormals!==ee||Ct.morphColors!==Ee||Ct.morphTargetsCount!==$e||Ct.numLightProbeGrids!==Or(C.state.lightProbeGridArray)?le=!0:(Ct.outputColorSpace!==xt||Ct.toneMapping!==ce)&&(ai=!0):(le=!0,Ct.__version=z.version);let Ge=Ct.currentProgram;(le===!0||ai===!0)&&(Ge=ai===!0?Hc(z,L,V,xt,ce):Fi(z,L,V),H&&z.isNodeMaterial&&H.onUpdateProgram(z,Ge,Ct));let os=!1,Yn=!1,oi=!1,ae=Ge.getUniforms(),Oe=Ct.uniforms;if(Mt.useProgram(Ge.program)&&(os=!0,Yn=!0,oi=!0),z.id!==W&&(W=z.id,Yn=!0),os||k!==S){Mt.buffers.depth.getReversed()&&S.reversedDepth!==!0&&(S._reversedDepth=!0,S.updateProjectionMatrix()),ae.setValue(O,"projectionMatrix",S.projectionMatrix),ae.setValue(O,"viewMatrix",S.matrixWorldInverse);let Ue=ae.map.cameraPosition;Ue!==void 0&&Ue.setValue(O,re.setFromMatrixPosition(S.matrixWorld)),Me.logarithmicDepthBuffer&&ae.setValue(O,"logDepthBufFC",2/(Math.log(S.far+1)/Math.LN2)),(z.isMeshPhongMaterial||z.isMeshToonMaterial||z.isMeshLambertMaterial||z.isMeshBasicMaterial||z.isMeshStandardMaterial||z.isShaderMaterial)&&ae.setValue(O,"isOrthographic",S.isOrthographicCamera===!0),k!==S&&(k=S,Yn=!0,oi=!0)}if(Ct.needsLights&&(ze.state.sunShadowMap.length>0&&ae.setValue(O,"sunShadowMap",ze.state.sunShadowMap,Gt),ze.state.directionalShadowMap.length>0&&ae.setValue(O,"directionalShadowMap",ze.state.directionalShadowMap,Gt),ze.state.spotShadowMap.length>0&&ae.setValue(O,"spotShadowMap",ze.state.spotShadowMap,Gt),ze.state.pointShadowMap.length>0&&ae.setValue(O,"pointShadowMap",ze.state.pointShadowMap,Gt)),V.isSkinnedMesh){ae.setOptional(O,V,"bindMatrix"),ae.setOptional(O,V,"bindMatrixInverse");let we=V.skeleton;we&&(we.boneTexture===null&&we.computeBoneTexture(),ae.setValue(O,"boneTexture",we.boneTexture,Gt))}V.isBatchedMesh&&(ae.setOptional(O,V,"batchingTexture"),ae.setValue(O,"batchingTexture",V._matricesTexture,Gt),ae.setOptional(O,V,"batchingIdTexture"),ae.setValue(O,"batchingIdTexture",V._indirectTexture,Gt),ae.setOptional(O,V,"batchingColorTexture"),V._colorsTexture!==null&&ae.setValue(O,"batchingColorTexture",V._colorsTexture,Gt));let Pn=Y.morphAttributes;if((Pn.position!==void 0||Pn.normal!==void 0||Pn.color!==void 0)&&nt.update(V,Y,Ge),(Yn||Ct.receiveShadow!==V.receiveShadow)&&(Ct.receiveShadow=V.receiveShadow,ae.setValue(O,"receiveShadow",V.receiveShadow)),(z.isMeshStandardMaterial||z.isMeshLambertMaterial||z.isMeshPhongMaterial)&&z.envMap===null&&L.environment!==null&&(Oe.envMapIntensity.value=L.environmentIntensity),Oe.dfgLUT!==void 0&&(Oe.dfgLUT.value=$w()),Yn){if(ae.setValue(O,"toneMappingExposure",N.toneMappingExposure),Ct.needsLights&&as(Oe,oi),gt&&z.fog===!0&&ut.refreshFogUniforms(Oe,gt),ut.refreshMaterialUniforms(Oe,z,lt,It,C.state.transmissionRenderTarget[S.id]),Ct.needsLights&&Ct.numLightProbeGrids>0){let we=w,Ue=0;for(let Bn of C.state.lightProbeGridArray)Bn.texture!==null&&(we.textures[Ue]=Bn.texture,we.min[Ue]=Bn.boundingBox.min,we.max[Ue]=Bn.boundingBox.max,we.resolution[Ue]=Bn.resolution,Ue++);for(let Bn in we)we[Bn].length=Ue;Oe.probesSH.value=we.textures,Oe.probesMin.value=we.min,Oe.probesMax.value=we.max,Oe.probesResolution.value=we.resolution}Pr.upload(O,Qa(Ct),Oe,Gt)}if(z.isShaderMaterial&&z.uniformsNeedUpdate===!0&&(Pr.upload(O,Qa(Ct),Oe,Gt),z.uniformsNeedUpdate=!1),z.isSpriteMaterial&&ae.setValue(O,"center",V.center),ae.setValue(O,"modelViewMatrix",V.modelViewMatrix),ae.setValue(O,"normalMatrix",V.normalMatrix),ae.setValue(O,"modelMatrix",V.matrixWorld),z.uniformsGroups!==void 0){let we=z.uniformsGroups;for(let Ue=0,Bn=we.length;Ue<Bn;Ue++){let eo=we[Ue];Lt.update(eo,Ge),Lt.bind(eo,Ge)}}return Ge}function as(S,L){S.ambientLightColor.needsUpdate=L,S.lightProbe.needsUpdate=L,S.sunLights.needsUpdate=L,S.sunLightShadows.needsUpdate=L,S.directionalLights.needsUpdate=L,S.directionalLightShadows.needsUpdate=L,S.pointLights.needsUpdate=L,S.pointLightShadows.needsUpdate=L,S.spotLights.needsUpdate=L,S.spotLightShadows.needsUpdate=L,S.rectAreaLights.needsUpdate=L,S.hemisphereLights.needsUpdate=L}function Wc(S){return S.isMeshLambertMaterial||S.isMeshToonMaterial||S.isMeshPhongMaterial||S.isMeshStandardMaterial||S.isShadowMaterial||S.isShaderMaterial&&S.lights===!0}this.getActiveCubeFace=function(){return Q},this.getActiveMipmapLevel=function(){return X},this.getRenderTarget=function(){return rt},this.setRenderTargetTextures=function(S,L,Y){let z=Ut.get(S);z.__autoAllocateDepthBuffer=S.resolveDepthBuffer===!1,z.__autoAllocateDepthBuffer===!1&&(z.__useRenderToTexture=!1),Ut.get(S.texture).__webglTexture=L,Ut.get(S.depthTexture).__webglTexture=z.__autoAllocateDepthBuffer?void 0:Y,z.__hasExternalTextures=!0},this.setRenderTargetFramebuffer=function(S,L){let Y=Ut.get(S);Y.__webglFramebuffer=L,Y.__useDefaultFramebuffer=L===void 0},this.setRenderTarget=function(S,L=0,Y=0){rt=S,Q=L,X=Y;let z=null,V=!1,gt=!1;if(S){let xt=Ut.get(S);if(xt.__useDefaultFramebuffer!==void 0){Mt.bindFramebuffer(O.FRAMEBUFFER,xt.__webglFramebuffer),it.copy(S.viewport),Tt.copy(S.scissor),Bt=S.scissorTest,Mt.viewport(it),Mt.scissor(Tt),Mt.setScissorTest(Bt),W=-1;return}else if(xt.__webglFramebuffer===void 0)Gt.setupRenderTarget(S);else if(xt.__hasExternalTextures)Gt.rebindTextures(S,Ut.get(S.texture).__webglTexture,Ut.get(S.depthTexture).__webglTexture);else if(S.depthBuffer){let Xt=S.depthTexture;if(xt.__boundDepthTexture!==Xt){if(Xt!==null&&Ut.has(Xt)&&(S.width!==Xt.image.width||S.height!==Xt.image.height))throw new Error("THREE.WebGLRenderer: Attached DepthTexture is initialized to the incorrect size.");Gt.setupDepthRenderbuffer(S)}}let bt=S.texture;(bt.isData3DTexture||bt.isDataArrayTexture||bt.isCompressedArrayTexture)&&(gt=!0);let Pt=Ut.get(S).__webglFramebuffer;S.isWebGLCubeRenderTarget?(Array.isArray(Pt[L])?z=Pt[L][Y]:z=Pt[L],V=!0):S.samples>0&&Gt.useMultisampledRTT(S)===!1?z=Ut.get(S).__webglMultisampledFramebuffer:Array.isArray(Pt)?z=Pt[Y]:z=Pt,it.copy(S.viewport),Tt.copy(S.scissor),Bt=S.scissorTest}else it.copy(Ot).multiplyScalar(lt).floor(),Tt.copy(Qt).multiplyScalar(lt).floor(),Bt=me;if(Y!==0&&(z=J),Mt.bindFramebuffer(O.FRAMEBUFFER,z)&&Mt.drawBuffers(S,z),Mt.viewport(it),Mt.scissor(Tt),Mt.setScissorTest(Bt),V){let xt=Ut.get(S.texture);O.framebufferTexture2D(O.FRAMEBUFFER,O.COLOR_ATTACHMENT0,O.TEXTURE_CUBE_MAP_POSITIVE_X+L,xt.__webglTexture,Y)}else if(gt){let xt=L;for(let bt=0;bt<S.textures.length;bt++){let Pt=Ut.get(S.textures[bt]);O.framebufferTextureLayer(O.FRAMEBUFFER,O.COLOR_ATTACHMENT0+bt,Pt.__webglTexture,Y,xt)}}else if(S!==null&&Y!==0){let xt=Ut.get(S.texture);O.framebufferTexture2D(O.FRAMEBUFFER,O.COLOR_ATTACHMENT0,O.TEXTURE_2D,xt.__webglTexture,Y)}W=-1};function Fr(S){let L=Ut.get(S);return(L.__readFormat!==S.format||L.__readType!==S.type)&&(L.__readFormat=S.format,L.__readType=S.type,L.__formatReadable=Me.textureFormatReadable(S.format),L.__typeReadable=Me.textureTypeReadable(S.type)),L}this.readRenderTargetPixels=function(S,L,Y,z,V,gt,At,xt=0){if(!(S&&S.isWebGLRenderTarget)){Ht("WebGLRenderer.readRenderTargetPixels: renderTarget is not THREE.WebGLRenderTarget.");return}let bt=Ut.get(S).__webglFramebuffer;if(S.isWebGLCubeRenderTarget&&At!==void 0&&(bt=bt[At],Array.isArray(bt)&&(bt=bt[0])),bt){Mt.bindFramebuffer(O.FRAMEBUFFER,bt);try{let Pt=S.textures[xt],Xt=Pt.format,te=Pt.type;S.textures.length>1&&O.readBuffer(O.COLOR_ATTACHMENT0+xt);let Rt=Fr(Pt);if(Rt.__formatReadable===!1){Ht("WebGLRenderer.readRenderTargetPixels: renderTarget is not in RGBA or implementation defined format.");return}if(Rt.__typeReadable===!1){Ht("WebGLRenderer.readRenderTargetPixels: renderTarget is not in UnsignedByteType or implementation defined type.");return}L>=0&&L<=S.width-z&&Y>=0&&Y<=S.height-V&&O.readPixels(L,Y,z,V,ht.convert(Xt),ht.convert(te),gt)}finally{let Pt=rt!==null?Ut.get(rt).__webglFramebuffer:null;Mt.bindFramebuffer(O.FRAMEBUFFER,Pt)}}},this.readRenderTargetPixelsAsync=async function(S,L,Y,z,V,gt,At,xt=0){if(!(S&&S.isWebGLRenderTarget))throw new Error("THREE.WebGLRenderer.readRenderTargetPixels: renderTarget is not THREE.WebGLRenderTarget.");let bt=Ut.get(S).__webglFramebuffer;if(S.isWebGLCubeRenderTarget&&At!==void 0&&(bt=bt[At],Array.isArray(bt)&&(bt=bt[0])),bt)if(L>=0&&L<=S.width-z&&Y>=0&&Y<=S.height-V){Mt.bindFramebuffer(O.FRAMEBUFFER,bt);let Pt=S.textures[xt],Xt=Pt.format,te=Pt.type;S.textures.length>1&&O.readBuffer(O.COLOR_ATTACHMENT0+xt);let Rt=Fr(Pt);if(Rt.__formatReadable===!1)throw new Error("THREE.WebGLRenderer.readRenderTargetPixelsAsync: renderTarget is not in RGBA or implementation defined format.");if(Rt.__typeReadable===!1)throw new Error("THREE.WebGLRenderer.readRenderTargetPixelsAsync: renderTarget is not in UnsignedByteType or implementation defined type.");let ee=O.createBuffer();O.bindBuffer(O.PIXEL_PACK_BUFFER,ee),O.bufferData(O.PIXEL_PACK_BUFFER,gt.byteLength,O.STREAM_READ),O.readPixels(L,Y,z,V,ht.convert(Xt),ht.convert(te),0),O.bindBuffer(O.PIXEL_PACK_BUFFER,null);let Ee=rt!==null?Ut.get(rt).__webglFramebuffer:null;Mt.bindFramebuffer(O.FRAMEBUFFER,Ee);let ce=O.fenceSync(O.SYNC_GPU_COMMANDS_COMPLETE,0);return O.flush(),await Ng(O,ce,4),O.bindBuffer(O.PIXEL_PACK_BUFFER,ee),O.getBufferSubData(O.PIXEL_PACK_BUFFER,0,gt),O.bindBuffer(O.PIXEL_PACK_BUFFER,null),O.deleteBuffer(ee),O.deleteSync(ce),gt}else throw new Error("THREE.WebGLRenderer.readRenderTargetPixelsAsync: requested read bounds are out of range.")},this.copyFramebufferToTexture=function(S,L=null,Y=0){let z=Math.pow(2,-Y),V=Math.floor(S.image.width*z),gt=Math.floor(S.image.height*z),At=L!==null?L.x:0,xt=L!==null?L.y:0;Gt.setTexture2D(S,0),O.copyTexSubImage2D(O.TEXTURE_2D,Y,0,0,At,xt,V,gt),Mt.unbindTexture()},this.copyTextureToTexture=function(S,L,Y=null,z=null,V=0,gt=0){let At,xt,bt,Pt,Xt,te,Rt,ee,Ee,ce=S.isCompressedTexture?S.mipmaps[gt]:S.image;if(Y!==null)At=Y.max.x-Y.min.x,xt=Y.max.y-Y.min.y,bt=Y.isBox3?Y.max.z-Y.min.z:1,Pt=Y.min.x,Xt=Y.min.y,te=Y.isBox3?Y.min.z:0;else{let ae=Math.pow(2,-V);At=Math.floor(ce.width*ae),xt=Math.floor(ce.height*ae),S.isDataArrayTexture?bt=ce.depth:S.isData3DTexture?bt=Math.floor(ce.depth*ae):bt=1,Pt=0,Xt=0,te=0}z!==null?(Rt=z.x,ee=z.y,Ee=z.z):(Rt=0,ee=0,Ee=0);let _e=ht.convert(L.format),$e=ht.convert(L.type),Ct;L.isData3DTexture?(Gt.setTexture3D(L,0),Ct=O.TEXTURE_3D):L.isDataArrayTexture||L.isCompressedArrayTexture?(Gt.setTexture2DArray(L,0),Ct=O.TEXTURE_2D_ARRAY):(Gt.setTexture2D(L,0),Ct=O.TEXTURE_2D),Mt.activeTexture(O.TEXTURE0),Mt.pixelStorei(O.UNPACK_FLIP_Y_WEBGL,L.flipY),Mt.pixelStorei(O.UNPACK_PREMULTIPLY_ALPHA_WEBGL,L.premultiplyAlpha),Mt.pixelStorei(O.UNPACK_ALIGNMENT,L.unpackAlignment);let ze=Mt.getParameter(O.UNPACK_ROW_LENGTH),le=Mt.getParameter(O.UNPACK_IMAGE_HEIGHT),ai=Mt.getParameter(O.UNPACK_SKIP_PIXELS),Ge=Mt.getParameter(O.UNPACK_SKIP_ROWS),os=Mt.getParameter(O.UNPACK_SKIP_IMAGES);Mt.pixelStorei(O.UNPACK_ROW_LENGTH,ce.width),Mt.pixelStorei(O.UNPACK_IMAGE_HEIGHT,ce.height),Mt.pixelStorei(O.UNPACK_SKIP_PIXELS,Pt),Mt.pixelStorei(O.UNPACK_SKIP_ROWS,Xt),Mt.pixelStorei(O.UNPACK_SKIP_IMAGES,te);let Yn=S.isDataArrayTexture||S.isData3DTexture,oi=L.isDataArrayTexture||L.isData3DTexture;if(S.isDepthTexture){let ae=Ut.get(S),Oe=Ut.get(L),Pn=Ut.get(ae.__renderTarget),we=Ut.get(Oe.__renderTarget);Mt.bindFramebuffer(O.READ_FRAMEBUFFER,Pn.__webglFramebuffer),Mt.bindFramebuffer(O.DRAW_FRAMEBUFFER,we.__webglFramebuffer);for(let Ue=0;Ue<bt;Ue++)Yn&&(O.framebufferTextureLayer(O.READ_FRAMEBUFFER,O.COLOR_ATTACHMENT0,Ut.get(S).__webglTexture,V,te+Ue),O.framebufferTextureLayer(O.DRAW_FRAMEBUFFER,O.COLOR_ATTACHMENT0,Ut.get(L).__webglTexture,gt,Ee+Ue)),O.blitFramebuffer(Pt,Xt,Pt+At,Xt+xt,Rt,ee,Rt+At,ee+xt,O.DEPTH_BUFFER_BIT,O.NEAREST);Mt.bindFramebuffer(O.READ_FRAMEBUFFER,null),Mt.bindFramebuffer(O.DRAW_FRAMEBUFFER,null)}else if(V!==0||S.isRenderTargetTexture||Ut.has(S)){let ae=Ut.get(S),Oe=Ut.get(L);Mt.bindFramebuffer(O.READ_FRAMEBUFFER,P),Mt.bindFramebuffer(O.DRAW_FRAMEBUFFER,q);for(let Pn=0;Pn<bt;Pn++)Yn?O.framebufferTextureLayer(O.READ_FRAMEBUFFER,O.COLOR_ATTACHMENT0,ae.__webglTexture,V,te+Pn):O.framebufferTexture2D(O.READ_FRAMEBUFFER,O.COLOR_ATTACHMENT0,O.TEXTURE_2D,ae.__webglTexture,V),oi?O.framebufferTextureLayer(O.DRAW_FRAMEBUFFER,O.COLOR_ATTACHMENT0,Oe.__webglTexture,gt,Ee+Pn):O.framebufferTexture2D(O.DRAW_FRAMEBUFFER,O.COLOR_ATTACHMENT0,O.TEXTURE_2D,Oe.__webglTexture,gt),V!==0?O.blitFramebuffer(Pt,Xt,Pt+At,Xt+xt,Rt,ee,Rt+At,ee+xt,O.COLOR_BUFFER_BIT,O.NEAREST):oi?O.copyTexSubImage3D(Ct,gt,Rt,ee,Ee+Pn,Pt,Xt,At,xt):O.copyTexSubImage2D(Ct,gt,Rt,ee,Pt,Xt,At,xt);Mt.bindFramebuffer(O.READ_FRAMEBUFFER,null),Mt.bindFramebuffer(O.DRAW_FRAMEBUFFER,null)}else oi?S.isDataTexture||S.isData3DTexture?O.texSubImage3D(Ct,gt,Rt,ee,Ee,At,xt,bt,_e,$e,ce.data):L.isCompressedArrayTexture?O.compressedTexSubImage3D(Ct,gt,Rt,ee,Ee,At,xt,bt,_e,ce.data):O.texSubImage3D(Ct,gt,Rt,ee,Ee,At,xt,bt,_e,$e,ce):S.isDataTexture?O.texSubImage2D(O.TEXTURE_2D,gt,Rt,ee,At,xt,_e,$e,ce.data):S.isCompressedTexture?O.compressedTexSubImage2D(O.TEXTURE_2D,gt,Rt,ee,ce.width,ce.height,_e,ce.data):O.texSubImage2D(O.TEXTURE_2D,gt,Rt,ee,At,xt,_e,$e,ce);Mt.pixelStorei(O.UNPACK_ROW_LENGTH,ze),Mt.pixelStorei(O.UNPACK_IMAGE_HEIGHT,le),Mt.pixelStorei(O.UNPACK_SKIP_PIXELS,ai),Mt.pixelStorei(O.UNPACK_SKIP_ROWS,Ge),Mt.pixelStorei(O.UNPACK_SKIP_IMAGES,os),gt===0&&L.generateMipmaps===!0&&L.mipmapsAutoUpdate===!0&&O.generateMipmap(Ct),Mt.unbindTexture()},this.initRenderTarget=function(S){Ut.get(S).__webglFramebuffer===void 0&&Gt.setupRenderTarget(S)},this.initTexture=function(S){S.isCubeTexture?Gt.setTextureCube(S,0):S.isData3DTexture?Gt.setTexture3D(S,0):S.isDataArrayTexture||S.isCompressedArrayTexture?Gt.setTexture2DArray(S,0):Gt.setTexture2D(S,0),Mt.unbindTexture()},this.resetState=function(){Q=0,X=0,rt=null,Mt.reset(),dt.reset()},typeof __THREE_DEVTOOLS__<"u"&&__THREE_DEVTOOLS__.dispatchEvent(new CustomEvent("observe",{detail:this}))}get coordinateSystem(){return Wn}get outputColorSpace(){return this._outputColorSpace}set outputColorSpace(t){this._outputColorSpace=t;let e=this.getContext();e.drawingBufferColorSpace=oe._getDrawingBufferColorSpace(t),e.unpackColorSpace=oe._getUnpackColorSpace()}};var x0={type:"change"},Ff={type:"start"},M0={type:"end"},kc=new Li,v0=new Mn,Zw=Math.cos(70*Mf.DEG2RAD),Ye=new B,Cn=2*Math.PI,pe={NONE:-1,ROTATE:0,DOLLY:1,PAN:2,TOUCH_ROTATE:3,TOUCH_PAN:4,TOUCH_DOLLY_PAN:5,TOUCH_DOLLY_ROTATE:6},Uf=1e-6,zc=class extends Ba{constructor(t,e=null){super(t,e),this.state=pe.NONE,this.target=new B,this.cursor=new B,this.minDistance=0,this.maxDistance=1/0,this.minZoom=0,this.maxZoom=1/0,this.minTargetRadius=0,this.maxTargetRadius=1/0,this.minPolarAngle=0,this.maxPolarAngle=Math.PI,this.minAzimuthAngle=-1/0,this.maxAzimuthAngle=1/0,this.enableDamping=!1,this.dampingFactor=.05,this.enableZoom=!0,this.zoomSpeed=1,this.enableRotate=!0,this.rotateSpeed=1,this.keyRotateSpeed=1,this.enablePan=!0,this.panSpeed=1,this.screenSpacePanning=!0,this.keyPanSpeed=7,this.zoomToCursor=!1,this.autoRotate=!1,this.autoRotateSpeed=2,this.keys={LEFT:"ArrowLeft",UP:"ArrowUp",RIGHT:"ArrowRight",BOTTOM:"ArrowDown"},this.mouseButtons={LEFT:es.ROTATE,MIDDLE:es.DOLLY,RIGHT:es.PAN},this.touches={ONE:ns.ROTATE,TWO:ns.DOLLY_PAN},this.target0=this.target.clone(),this.position0=this.object.position.clone(),this.zoom0=this.object.zoom,this._cursorStyle="auto",this._domElementKeyEvents=null,this._lastPosition=new B,this._lastQuaternion=new pn,this._lastTargetPosition=new B,this._quat=new pn().setFromUnitVectors(t.up,new B(0,1,0)),this._quatInverse=this._quat.clone().invert(),this._spherical=new Er,this._sphericalDelta=new Er,this._scale=1,this._panOffset=new B,this._rotateStart=new kt,this._rotateEnd=new kt,this._rotateDelta=new kt,this._panStart=new kt,this._panEnd=new kt,this._panDelta=new kt,this._dollyStart=new kt,this._dollyEnd=new kt,this._dollyDelta=new kt,this._dollyDirection=new B,this._mouse=new kt,this._performCursorZoom=!1,this._pointers=[],this._pointerPositions={},this._controlActive=!1,this._onPointerMove=Kw.bind(this),this._onPointerDown=Jw.bind(this),this._onPointerUp=jw.bind(this),this._onContextMenu=rE.bind(this),this._onMouseWheel=eE.bind(this),this._onKeyDown=nE.bind(this),this._onTouchStart=iE.bind(this),this._onTouchMove=sE.bind(this),this._onMouseDown=Qw.bind(this),this._onMouseMove=tE.bind(this),this._interceptControlDown=aE.bind(this),this._interceptControlUp=oE.bind(this),this.domElement!==null&&this.connect(this.domElement),this.update()}set cursorStyle(t){this._cursorStyle=t,t==="grab"?this.domElement.style.cursor="grab":this.domElement.style.cursor="auto"}get cursorStyle(){return this._cursorStyle}connect(t){super.connect(t),this.domElement.addEventListener("pointerdown",this._onPointerDown),this.domElement.addEventListener("pointercancel",this._onPointerUp),this.domElement.addEventListener("contextmenu",this._onContextMenu),this.domElement.addEventListener("wheel",this._onMouseWheel,{passive:!1}),this.domElement.ownerDocument.addEventListener("keydown",this._interceptControlDown,{passive:!0,capture:!0}),this.domElement.style.touchAction="none"}disconnect(){this.state=pe.NONE,this.domElement.removeEventListener("pointerdown",this._onPointerDown),this.domElement.ownerDocument.removeEventListener("pointermove",this._onPointerMove),this.domElement.ownerDocument.removeEventListener("pointerup",this._onPointerUp),this.domElement.removeEventListener("pointercancel",this._onPointerUp),this.domElement.removeEventListener("wheel",this._onMouseWheel),this.domElement.removeEventListener("contextmenu",this._onContextMenu),this.stopListenToKeyEvents(),this.domElement.ownerDocument.removeEventListener("keydown",this._interceptControlDown,{capture:!0}),this.domElement.ownerDocument.removeEventListener("keyup",this._interceptControlUp,{capture:!0}),this._controlActive=!1,this._pointers.length=0,this._pointerPositions={},this.domElement.style.touchAction="",this.domElement.style.cursor="auto"}dispose(){this.disconnect()}getPolarAngle(){return this._spherical.phi}getAzimuthalAngle(){return this._spherical.theta}getDistance(){return this.object.position.distanceTo(this.target)}listenToKeyEvents(t){t.addEventListener("keydown",this._onKeyDown),this._domElementKeyEvents=t}stopListenToKeyEvents(){this._domElementKeyEvents!==null&&(this._domElementKeyEvents.removeEventListener("keydown",this._onKeyDown),this._domElementKeyEvents=null)}saveState(){this.target0.copy(this.target),this.position0.copy(this.object.position),this.zoom0=this.object.zoom}reset(){this.target.copy(this.target0),this.object.position.copy(this.position0),this.object.zoom=this.zoom0,this.object.updateProjectionMatrix(),this.dispatchEvent(x0),this.update(),this.state=pe.NONE}pan(t,e){this._pan(t,e),this.update()}dollyIn(t){this._dollyIn(t),this.update()}dollyOut(t){this._dollyOut(t),this.update()}rotateLeft(t){this._rotateLeft(t),this.update()}rotateUp(t){this._rotateUp(t),this.update()}update(t=null){let e=this.object.position;Ye.copy(e).sub(this.target),Ye.applyQuaternion(this._quat),this._spherical.setFromVector3(Ye),this.autoRotate&&this.state===pe.NONE&&this._rotateLeft(this._getAutoRotationAngle(t)),this.enableDamping?(this._spherical.theta+=this._sphericalDelta.theta*this.dampingFactor,this._spherical.phi+=this._sphericalDelta.phi*this.dampingFactor):(this._spherical.theta+=this._sphericalDelta.theta,this._spherical.phi+=this._sphericalDelta.phi);let n=this.minAzimuthAngle,s=this.maxAzimuthAngle;isFinite(n)&&isFinite(s)&&(n<-Math.PI?n+=Cn:n>Math.PI&&(n-=Cn),s<-Math.PI?s+=Cn:s>Math.PI&&(s-=Cn),n<=s?this._spherical.theta=Math.max(n,Math.min(s,this._spherical.theta)):this._spherical.theta=this._spherical.theta>(n+s)/2?Math.max(n,this._spherical.theta):Math.min(s,this._spherical.theta)),this._spherical.phi=Math.max(this.minPolarAngle,Math.min(this.maxPolarAngle,this._spherical.phi)),this._spherical.makeSafe(),this.enableDamping===!0?this.target.addScaledVector(this._panOffset,this.dampingFactor):this.target.add(this._panOffset),this.target.sub(this.cursor),this.target.clampLength(this.minTargetRadius,this.maxTargetRadius),this.target.add(this.cursor);let r=!1;if(this.zoomToCursor&&this._performCursorZoom||this.object.isOrthographicCamera)this._spherical.radius=this._clampDistance(this._spherical.radius);else{let a=this._spherical.radius;this._spherical.radius=this._clampDistance(this._spherical.radius*this._scale),r=a!=this._spherical.radius}if(Ye.setFromSpherical(this._spherical),Ye.applyQuaternion(this._quatInverse),e.copy(this.target).add(Ye),this.object.lookAt(this.target),this.enableDamping===!0?(this._sphericalDelta.theta*=1-this.dampingFactor,this._sphericalDelta.phi*=1-this.dampingFactor,this._panOffset.multiplyScalar(1-this.dampingFactor)):(this._sphericalDelta.set(0,0,0),this._panOffset.set(0,0,0)),this.zoomToCursor&&this._performCursorZoom){let a=null;if(this.object.isPerspectiveCamera){let o=Ye.length();a=this._clampDistance(o*this._scale);let c=o-a;this.object.position.addScaledVector(this._dollyDirection,c),this.object.updateMatrixWorld(),r=!!c}else if(this.object.isOrthographicCamera){let o=new B(this._mouse.x,this._mouse.y,0);o.unproject(this.object);let c=this.object.zoom;this.object.zoom=Math.max(this.minZoom,Math.min(this.maxZoom,this.object.zoom/this._scale)),this.object.updateProjectionMatrix(),r=c!==this.object.zoom;let l=new B(this._mouse.x,this._mouse.y,0);l.unproject(this.object),this.object.position.sub(l).add(o),this.object.updateMatrixWorld(),a=Ye.length()}else console.warn("WARNING: OrbitControls.js encountered an unknown camera type - zoom to cursor disabled."),this.zoomToCursor=!1;a!==null&&(this.screenSpacePanning?this.target.set(0,0,-1).transformDirection(this.object.matrix).multiplyScalar(a).add(this.object.position):(kc.origin.copy(this.object.position),kc.direction.set(0,0,-1).transformDirection(this.object.matrix),Math.abs(this.object.up.dot(kc.direction))<Zw?this.object.lookAt(this.target):(v0.setFromNormalAndCoplanarPoint(this.object.up,this.target),kc.intersectPlane(v0,this.target))))}else if(this.object.isOrthographicCamera){let a=this.object.zoom;this.object.zoom=Math.max(this.minZoom,Math.min(this.maxZoom,this.object.zoom/this._scale)),a!==this.object.zoom&&(this.object.updateProjectionMatrix(),r=!0)}return this._scale=1,this._performCursorZoom=!1,r||this._lastPosition.distanceToSquared(this.object.position)>Uf||8*(1-this._lastQuaternion.dot(this.object.quaternion))>Uf||this._lastTargetPosition.distanceToSquared(this.target)>Uf?(this.dispatchEvent(x0),this._lastPosition.copy(this.object.position),this._lastQuaternion.copy(this.object.quaternion),this._lastTargetPosition.copy(this.target),!0):!1}_getAutoRotationAngle(t){return t!==null?Cn/60*this.autoRotateSpeed*t:Cn/60/60*this.autoRotateSpeed}_getZoomScale(t){let e=Math.abs(t*.01);return Math.pow(.95,this.zoomSpeed*e)}_rotateLeft(t){this._sphericalDelta.theta-=t}_rotateUp(t){this._sphericalDelta.phi-=t}_panLeft(t,e){Ye.setFromMatrixColumn(e,0),Ye.multiplyScalar(-t),this._panOffset.add(Ye)}_panUp(t,e){this.screenSpacePanning===!0?Ye.setFromMatrixColumn(e,1):(Ye.setFromMatrixColumn(e,0),Ye.crossVectors(this.object.up,Ye)),Ye.multiplyScalar(t),this._panOffset.add(Ye)}_pan(t,e){let n=this.domElement;if(this.object.isPerspectiveCamera){let s=this.object.position;Ye.copy(s).sub(this.target);let r=Ye.length();r*=Math.tan(this.object.fov/2*Math.PI/180),this._panLeft(2*t*r/n.clientHeight,this.object.matrix),this._panUp(2*e*r/n.clientHeight,this.object.matrix)}else this.object.isOrthographicCamera?(this._panLeft(t*(this.object.right-this.object.left)/this.object.zoom/n.clientWidth,this.object.matrix),this._panUp(e*(this.object.top-this.object.bottom)/this.object.zoom/n.clientHeight,this.object.matrix)):(console.warn("WARNING: OrbitControls.js encountered an unknown camera type - pan disabled."),this.enablePan=!1)}_dollyOut(t){this.object.isPerspectiveCamera||this.object.isOrthographicCamera?this._scale/=t:(console.warn("WARNING: OrbitControls.js encountered an unknown camera type - dolly/zoom disabled."),this.enableZoom=!1)}_dollyIn(t){this.object.isPerspectiveCamera||this.object.isOrthographicCamera?this._scale*=t:(console.warn("WARNING: OrbitControls.js encountered an unknown camera type - dolly/zoom disabled."),this.enableZoom=!1)}_updateZoomParameters(t,e){if(!this.zoomToCursor)return;this._performCursorZoom=!0;let n=this.domElement.getBoundingClientRect(),s=t-n.left,r=e-n.top,a=n.width,o=n.height;this._mouse.x=s/a*2-1,this._mouse.y=-(r/o)*2+1,this._dollyDirection.set(this._mouse.x,this._mouse.y,1).unproject(this.object).sub(this.object.position).normalize()}_clampDistance(t){return Math.max(this.minDistance,Math.min(this.maxDistance,t))}_handleMouseDownRotate(t){this._rotateStart.set(t.clientX,t.clientY)}_handleMouseDownDolly(t){this._updateZoomParameters(t.clientX,t.clientY),this._dollyStart.set(t.clientX,t.clientY)}_handleMouseDownPan(t){this._panStart.set(t.clientX,t.clientY)}_handleMouseMoveRotate(t){this._rotateEnd.set(t.clientX,t.clientY),this._rotateDelta.subVectors(this._rotateEnd,this._rotateStart).multiplyScalar(this.rotateSpeed);let e=this.domElement;this._rotateLeft(Cn*this._rotateDelta.x/e.clientHeight),this._rotateUp(Cn*this._rotateDelta.y/e.clientHeight),this._rotateStart.copy(this._rotateEnd),this.update()}_handleMouseMoveDolly(t){this._dollyEnd.set(t.clientX,t.clientY),this._dollyDelta.subVectors(this._dollyEnd,this._dollyStart),this._dollyDelta.y>0?this._dollyOut(this._getZoomScale(this._dollyDelta.y)):this._dollyDelta.y<0&&this._dollyIn(this._getZoomScale(this._dollyDelta.y)),this._dollyStart.copy(this._dollyEnd),this.zoomToCursor&&(this._performCursorZoom=!0,this._dollyDirection.set(this._mouse.x,this._mouse.y,1).unproject(this.object).sub(this.object.position).normalize()),this.update()}_handleMouseMovePan(t){this._panEnd.set(t.clientX,t.clientY),this._panDelta.subVectors(this._panEnd,this._panStart).multiplyScalar(this.panSpeed),this._pan(this._panDelta.x,this._panDelta.y),this._panStart.copy(this._panEnd),this.update()}_handleMouseWheel(t){this._updateZoomParameters(t.clientX,t.clientY),t.deltaY<0?this._dollyIn(this._getZoomScale(t.deltaY)):t.deltaY>0&&this._dollyOut(this._getZoomScale(t.deltaY)),this.update()}_handleKeyDown(t){let e=!1;switch(t.code){case this.keys.UP:t.ctrlKey||t.metaKey||t.shiftKey?this.enableRotate&&this._rotateUp(Cn*this.keyRotateSpeed/this.domElement.clientHeight):this.enablePan&&this._pan(0,this.keyPanSpeed),e=!0;break;case this.keys.BOTTOM:t.ctrlKey||t.metaKey||t.shiftKey?this.enableRotate&&this._rotateUp(-Cn*this.keyRotateSpeed/this.domElement.clientHeight):this.enablePan&&this._pan(0,-this.keyPanSpeed),e=!0;break;case this.keys.LEFT:t.ctrlKey||t.metaKey||t.shiftKey?this.enableRotate&&this._rotateLeft(Cn*this.keyRotateSpeed/this.domElement.clientHeight):this.enablePan&&this._pan(this.keyPanSpeed,0),e=!0;break;case this.keys.RIGHT:t.ctrlKey||t.metaKey||t.shiftKey?this.enableRotate&&this._rotateLeft(-Cn*this.keyRotateSpeed/this.domElement.clientHeight):this.enablePan&&this._pan(-this.keyPanSpeed,0),e=!0;break}e&&(t.preventDefault(),this.update())}_handleTouchStartRotate(t){if(this._pointers.length===1)this._rotateStart.set(t.pageX,t.pageY);else{let e=this._getSecondPointerPosition(t),n=.5*(t.pageX+e.x),s=.5*(t.pageY+e.y);this._rotateStart.set(n,s)}}_handleTouchStartPan(t){if(this._pointers.length===1)this._panStart.set(t.pageX,t.pageY);else{let e=this._getSecondPointerPosition(t),n=.5*(t.pageX+e.x),s=.5*(t.pageY+e.y);this._panStart.set(n,s)}}_handleTouchStartDolly(t){let e=this._getSecondPointerPosition(t),n=t.pageX-e.x,s=t.pageY-e.y,r=Math.sqrt(n*n+s*s);this._dollyStart.set(0,r)}_handleTouchStartDollyPan(t){this.enableZoom&&this._handleTouchStartDolly(t),this.enablePan&&this._handleTouchStartPan(t)}_handleTouchStartDollyRotate(t){this.enableZoom&&this._handleTouchStartDolly(t),this.enableRotate&&this._handleTouchStartRotate(t)}_handleTouchMoveRotate(t){if(this._pointers.length==1)this._rotateEnd.set(t.pageX,t.pageY);else{let n=this._getSecondPointerPosition(t),s=.5*(t.pageX+n.x),r=.5*(t.pageY+n.y);this._rotateEnd.set(s,r)}this._rotateDelta.subVectors(this._rotateEnd,this._rotateStart).multiplyScalar(this.rotateSpeed);let e=this.domElement;this._rotateLeft(Cn*this._rotateDelta.x/e.clientHeight),this._rotateUp(Cn*this._rotateDelta.y/e.clientHeight),this._rotateStart.copy(this._rotateEnd)}_handleTouchMovePan(t){if(this._pointers.length===1)this._panEnd.set(t.pageX,t.pageY);else{let e=this._getSecondPointerPosition(t),n=.5*(t.pageX+e.x),s=.5*(t.pageY+e.y);this._panEnd.set(n,s)}this._panDelta.subVectors(this._panEnd,this._panStart).multiplyScalar(this.panSpeed),this._pan(this._panDelta.x,this._panDelta.y),this._panStart.copy(this._panEnd)}_handleTouchMoveDolly(t){let e=this._getSecondPointerPosition(t),n=t.pageX-e.x,s=t.pageY-e.y,r=Math.sqrt(n*n+s*s);this._dollyEnd.set(0,r),this._dollyDelta.set(0,Math.pow(this._dollyEnd.y/this._dollyStart.y,this.zoomSpeed)),this._dollyOut(this._dollyDelta.y),this._dollyStart.copy(this._dollyEnd);let a=(t.pageX+e.x)*.5,o=(t.pageY+e.y)*.5;this._updateZoomParameters(a,o)}_handleTouchMoveDollyPan(t){this.enableZoom&&this._handleTouchMoveDolly(t),this.enablePan&&this._handleTouchMovePan(t)}_handleTouchMoveDollyRotate(t){this.enableZoom&&this._handleTouchMoveDolly(t),this.enableRotate&&this._handleTouchMoveRotate(t)}_addPointer(t){this._pointers.push(t.pointerId)}_removePointer(t){delete this._pointerPositions[t.pointerId];for(let e=0;e<this._pointers.length;e++)if(this._pointers[e]==t.pointerId){this._pointers.splice(e,1);return}}_isTrackingPointer(t){for(let e=0;e<this._pointers.length;e++)if(this._pointers[e]==t.pointerId)return!0;return!1}_trackPointer(t){let e=this._pointerPositions[t.pointerId];e===void 0&&(e=new kt,this._pointerPositions[t.pointerId]=e),e.set(t.pageX,t.pageY)}_getSecondPointerPosition(t){let e=t.pointerId===this._pointers[0]?this._pointers[1]:this._pointers[0];return this._pointerPositions[e]}_customWheelEvent(t){let e=t.deltaMode,n={clientX:t.clientX,clientY:t.clientY,deltaY:t.deltaY};switch(e){case 1:n.deltaY*=16;break;case 2:n.deltaY*=100;break}return t.ctrlKey&&!this._controlActive&&(n.deltaY*=10),n}};function Jw(i){this.enabled!==!1&&(this._pointers.length===0&&(this.domElement.setPointerCapture(i.pointerId),this.domElement.ownerDocument.addEventListener("pointermove",this._onPointerMove),this.domElement.ownerDocument.addEventListener("pointerup",this._onPointerUp)),!this._isTrackingPointer(i)&&(this._addPointer(i),i.pointerType==="touch"?this._onTouchStart(i):this._onMouseDown(i),this._cursorStyle==="grab"&&(this.domElement.style.cursor="grabbing")))}function Kw(i){this.enabled!==!1&&(i.pointerType==="touch"?this._onTouchMove(i):this._onMouseMove(i))}function jw(i){switch(this._removePointer(i),this._pointers.length){case 0:this.domElement.releasePointerCapture(i.pointerId),this.domElement.ownerDocument.removeEventListener("pointermove",this._onPointerMove),this.domElement.ownerDocument.removeEventListener("pointerup",this._onPointerUp),this.dispatchEvent(M0),this.state=pe.NONE,this._cursorStyle==="grab"&&(this.domElement.style.cursor="grab");break;case 1:let t=this._pointers[0],e=this._pointerPositions[t];this._onTouchStart({pointerId:t,pageX:e.x,pageY:e.y});break}}function Qw(i){let t;switch(i.button){case 0:t=this.mouseButtons.LEFT;break;case 1:t=this.mouseButtons.MIDDLE;break;case 2:t=this.mouseButtons.RIGHT;break;default:t=-1}switch(t){case es.DOLLY:if(this.enableZoom===!1)return;this._handleMouseDownDolly(i),this.state=pe.DOLLY;break;case es.ROTATE:if(i.ctrlKey||i.metaKey||i.shiftKey){if(this.enablePan===!1)return;this._handleMouseDownPan(i),this.state=pe.PAN}else{if(this.enableRotate===!1)return;this._handleMouseDownRotate(i),this.state=pe.ROTATE}break;case es.PAN:if(i.ctrlKey||i.metaKey||i.shiftKey){if(this.enableRotate===!1)return;this._handleMouseDownRotate(i),this.state=pe.ROTATE}else{if(this.enablePan===!1)return;this._handleMouseDownPan(i),this.state=pe.PAN}break;default:this.state=pe.NONE}this.state!==pe.NONE&&this.dispatchEvent(Ff)}function tE(i){switch(this.state){case pe.ROTATE:if(this.enableRotate===!1)return;this._handleMouseMoveRotate(i);break;case pe.DOLLY:if(this.enableZoom===!1)return;this._handleMouseMoveDolly(i);break;case pe.PAN:if(this.enablePan===!1)return;this._handleMouseMovePan(i);break}}function eE(i){this.enabled===!1||this.enableZoom===!1||this.state!==pe.NONE||(i.preventDefault(),this.dispatchEvent(Ff),this._handleMouseWheel(this._customWheelEvent(i)),this.dispatchEvent(M0))}function nE(i){this.enabled!==!1&&this._handleKeyDown(i)}function iE(i){switch(this._trackPointer(i),this._pointers.length){case 1:switch(this.touches.ONE){case ns.ROTATE:if(this.enableRotate===!1){this.state=pe.NONE;break}this._handleTouchStartRotate(i),this.state=pe.TOUCH_ROTATE;break;case ns.PAN:if(this.enablePan===!1){this.state=pe.NONE;break}this._handleTouchStartPan(i),this.state=pe.TOUCH_PAN;break;default:this.state=pe.NONE}break;case 2:switch(this.touches.TWO){case ns.DOLLY_PAN:if(this.enableZoom===!1&&this.enablePan===!1)return;this._handleTouchStartDollyPan(i),this.state=pe.TOUCH_DOLLY_PAN;break;case ns.DOLLY_ROTATE:if(this.enableZoom===!1&&this.enableRotate===!1)return;this._handleTouchStartDollyRotate(i),this.state=pe.TOUCH_DOLLY_ROTATE;break;default:this.state=pe.NONE}break;default:this.state=pe.NONE}this.state!==pe.NONE&&this.dispatchEvent(Ff)}function sE(i){switch(this._trackPointer(i),this.state){case pe.TOUCH_ROTATE:if(this.enableRotate===!1)return;this._handleTouchMoveRotate(i),this.update();break;case pe.TOUCH_PAN:if(this.enablePan===!1)return;this._handleTouchMovePan(i),this.update();break;case pe.TOUCH_DOLLY_PAN:if(this.enableZoom===!1&&this.enablePan===!1)return;this._handleTouchMoveDollyPan(i),this.update();break;case pe.TOUCH_DOLLY_ROTATE:if(this.enableZoom===!1&&this.enableRotate===!1)return;this._handleTouchMoveDollyRotate(i),this.update();break;default:this.state=pe.NONE}}function rE(i){this.enabled!==!1&&i.preventDefault()}function aE(i){i.key==="Control"&&(this._controlActive=!0,this.domElement.ownerDocument.addEventListener("keyup",this._interceptControlUp,{passive:!0,capture:!0}))}function oE(i){i.key==="Control"&&(this._controlActive=!1,this.domElement.ownerDocument.removeEventListener("keyup",this._interceptControlUp,{passive:!0,capture:!0}))}var lE=1.7,Bf=22,Gc=class{constructor(t,e){this.canvas=t,this.body=e;let n=t.getContext("webgl2",{antialias:!0,alpha:!1});if(!n)throw new Error("no WebGL");this.renderer=new Uc({canvas:t,context:n}),this.renderer.shadowMap.enabled=!0,this.renderer.shadowMap.type=Ps,this.renderer.outputColorSpace=dn,this.scene=new ya,this.scene.background=new Yt(15659509),this.scene.fog=new _a(15659509,8,26),this.camera=new Sn(38,1,.05,200),this.controls=new zc(this.camera,t),Object.assign(this.controls,{enableDamping:!0,dampingFactor:.12,maxPolarAngle:1.53,minDistance:1,maxDistance:30}),this.bodies=[],this.shared=cE(e),this.addRoom(),this.resetView(),this.time=0}addRoom(){this.scene.add(new Ia(16777215,12897238,1.9),new Oa(16777215,.35)),this.sun=new Da(16777215,1.7),this.sun.castShadow=!0,this.sun.shadow.mapSize.set(1024,1024),Object.assign(this.sun.shadow.camera,{left:-6,right:6,top:6,bottom:-6,near:.5,far:20}),this.sun.shadow.radius=4,this.scene.add(this.sun,this.sun.target);let t=new An(new Cs(200,200),new Ra({color:1844272,opacity:.22}));t.rotation.x=-Math.PI/2,t.receiveShadow=!0;let e=new Fa(60,60,11450566,13884132);e.position.y=.002,this.scene.add(t,e),this.line=new Mr(new wn,new Rs({color:13649212})),this.line.frustumCulled=!1,this.scene.add(this.line),this.ring=new An(new Aa(.34,.4,48),new xr({color:3108816,transparent:!0,opacity:.8})),this.ring.rotation.x=-Math.PI/2,this.ring.position.y=.006,this.scene.add(this.ring)}show(t,e){for(;this.bodies.length>t.length;)this.scene.remove(this.bodies.pop().mesh);for(;this.bodies.length<t.length;)this.bodies.push(this.newBody());this.motions=t,this.chosen=e,this.offsets=t.map((n,s)=>(s-(t.length-1)/2)*lE),this.placeAt(this.time)}newBody(){let{geometry:t,parents:e,offsets:n,colours:s}=this.shared,r=e.map((c,l)=>{let h=new vr;return h.position.fromArray(n[l]),h});e.forEach((c,l)=>{c>=0&&r[c].add(r[l])});let a=new Ma(t,new Ca({vertexColors:!0}));a.castShadow=!0,a.frustumCulled=!1,a.add(r[0]);let o=this.body.skeleton.rest.map(([c,l,h])=>new ie().makeTranslation(-c,-l,-h));return a.bind(new ba(r,o),new ie),this.scene.add(a),{mesh:a,bones:r,colours:s}}get seconds(){return Math.max(0,...(this.motions??[]).map(({frames:t,fps:e})=>(t-1)/e))}placeAt(t){this.time=t;let e=new pn,n=new pn;this.bodies.forEach(({mesh:s,bones:r},a)=>{let{frames:o,fps:c,quaternions:l,root:h}=this.motions[a],u=Math.min(Math.max(t*c,0),o-1),f=Math.floor(u),d=Math.min(f+1,o-1),p=u-f;for(let x=0;x<Bf;x++){let[b,w]=[(f*Bf+x)*4,(d*Bf+x)*4];e.set(l[b+1],l[b+2],l[b+3],l[b]),n.set(l[w+1],l[w+2],l[w+3],l[w]),r[x].quaternion.slerpQuaternions(e,n,p)}let[_,g,m]=[0,1,2].map(x=>h[f*3+x]+p*(h[d*3+x]-h[f*3+x]));r[0].position.set(_,g,m),s.position.x=this.offsets[a],a===this.chosen&&(this.ring.position.set(_+this.offsets[a],.006,m),this.focus=new B(_+this.offsets[a],0,m))}),this.ring.visible=this.bodies.length>1}showPath(t){let e=(t??[]).map(([n,s])=>new B(n+(this.offsets?.[this.chosen]??0),.01,s));this.line.geometry.dispose(),this.line.geometry=new wn().setFromPoints(e),this.line.visible=e.length>1}floorAt(t){let e=this.canvas.getBoundingClientRect(),n=new kt((t.clientX-e.left)/e.width*2-1,1-(t.clientY-e.top)/e.height*2),s=new Ua;s.setFromCamera(n,this.camera);let r=s.ray.intersectPlane(new Mn(new B(0,1,0)),new B);return r&&r.length()<60?[r.x-(this.offsets?.[this.chosen]??0),r.z]:null}takeAt(t){let e=this.canvas.getBoundingClientRect(),n=null,s=.07*e.width;return this.bodies.forEach(({bones:r},a)=>{let o=r[9].getWorldPosition(new B).project(this.camera),c=Math.hypot((o.x+1)/2*e.width+e.left-t.clientX,(1-o.y)/2*e.height+e.top-t.clientY);c<s&&(s=c,n=a)}),n}resetView(t=!1){let e=1+.35*Math.max(0,(this.bodies?.length??1)-1),n=this.focus?this.focus.clone().setY(.85):new B(0,.85,0);this.bodies?.length>1&&(n.x=0),this.controls.target.copy(n),t?this.camera.position.set(n.x,11,n.z-3):this.camera.position.copy(n).add(new B(1.6,1,3.6).multiplyScalar(e)),this.controls.update()}draw(t,e){if(t&&this.focus){let r=this.focus.clone();this.bodies.length>1&&(r.x=this.controls.target.x);let a=r.setY(this.controls.target.y).sub(this.controls.target).multiplyScalar(1-Math.exp(-4*e));this.controls.target.add(a),this.camera.position.add(a)}let{x:n,z:s}=this.controls.target;this.sun.target.position.set(n,0,s),this.sun.position.set(n+2.5,6,s+3),this.controls.update(),this.renderer.render(this.scene,this.camera)}resize(){let{clientWidth:t,clientHeight:e}=this.canvas.parentElement;!t||!e||(this.renderer.setPixelRatio(Math.min(window.devicePixelRatio,2)),this.renderer.setSize(t,e,!1),this.camera.aspect=t/e,this.camera.updateProjectionMatrix())}};function cE({skeleton:i,mesh:t,colours:e}){let n=(p,_)=>{let g=atob(p);return new _(Uint8Array.from(g,m=>m.charCodeAt(0)).buffer)},s=Float32Array.from(n(t.positions,Int16Array),p=>p*1e-4),r=Float32Array.from(n(t.normals,Int8Array),p=>p/127),a=n(t.joints,Uint8Array),o=n(t.weights,Uint8Array),c=new Float32Array(s.length),l=new Yt,[h,u,f]=["left","right","centre"].map(p=>new Yt().setRGB(...e[p],dn));for(let p=0;p<s.length/3;p++){let _=0;for(let g=0;g<4;g++)_+=o[p*4+g]/255*i.sides[a[p*4+g]];l.copy(f).lerp(_>0?h:u,Math.abs(_)).toArray(c,p*3)}let d=new wn;return d.setAttribute("position",new rn(s,3)),d.setAttribute("normal",new rn(r,3)),d.setAttribute("color",new rn(c,3)),d.setAttribute("skinIndex",new rn(Uint16Array.from(a),4)),d.setAttribute("skinWeight",new rn(Float32Array.from(o,p=>p/255),4)),d.setIndex(new rn(n(t.triangles,Uint16Array),1)),{geometry:d,parents:i.parents,offsets:i.offsets,colours:e}}var hE=.5,Vc=class{constructor(t,e){this.root=t,this.page=e,this.list=document.createElement("ol"),this.head=document.createElement("div"),this.head.className="playhead",t.append(this.list,this.head)}get seconds(){return this.page.scene.blocks.reduce((t,e)=>t+e.seconds,0)}show(){let{blocks:t}=this.page.scene,{selected:e}=this.page,n=this.root.contains(document.activeElement);this.list.replaceChildren(...t.map((s,r)=>this.item(s,r,e))),n&&this.list.children[e]?.querySelector("button").focus()}item({text:t,seconds:e},n,s){let r=document.createElement("li"),a=document.createElement("button"),o=document.createElement("span");r.style.flexGrow=e,r.classList.toggle("selected",n===s),a.type="button",a.textContent=t||"…",a.title="Drag to move; arrow keys select, Alt moves, Shift stretches, Delete removes",a.setAttribute("aria-label",`Sentence ${n+1}: ${t||"empty"}, ${e} seconds`),a.setAttribute("aria-current",String(n===s));let c=document.createElement("small");return c.textContent=`${e} s`,o.className="handle",r.append(a,c,o),a.addEventListener("click",()=>this.page.select(n)),a.addEventListener("keydown",l=>this.key(l,n)),a.addEventListener("pointerdown",l=>this.drag(l,n,a)),o.addEventListener("pointerdown",l=>this.stretch(l,n)),r}key(t,e){let n={ArrowLeft:-1,ArrowRight:1}[t.key],{blocks:s}=this.page.scene;if(n&&t.altKey)this.page.moveBlock(e,e+n);else if(n&&t.shiftKey)this.page.stretchBlock(e,s[e].seconds+n*hE,`stretch${e}`);else if(n&&s[e+n])this.page.select(e+n);else if(t.key==="Delete")this.page.removeBlock();else return;t.preventDefault()}drag(t,e,n){if(t.button)return;let s=t.clientX,r=!1,c=S0(({clientX:l})=>{r||=Math.abs(l-s)>6,r&&(n.parentElement.classList.add("dragged"),n.parentElement.style.transform=`translateX(${l-s}px)`)},({clientX:l})=>{if(c(),!r)return;let u=[...this.list.children].map((f,d)=>{let p=f.getBoundingClientRect();return d===e?null:(p.left+p.right)/2}).filter(f=>f!==null&&f<l).length;u===e?this.show():this.page.moveBlock(e,u)},()=>this.show())}stretch(t,e){t.preventDefault();let n=t.clientX,{seconds:s}=this.page.scene.blocks[e],r=this.seconds/this.list.clientWidth,a=S0(({clientX:o})=>{let c=Math.min(Math.max(s+(o-n)*r,hn.seconds[0]),hn.seconds[1]);this.page.stretchBlock(e,c,`stretch${e}`)},()=>{a(),this.page.history.rest()},()=>{})}showPlayhead(t){this.head.style.left=`${100*t}%`}};function S0(i,t,e){let n=()=>{removeEventListener("pointermove",i),removeEventListener("pointerup",t),removeEventListener("pointercancel",s)},s=()=>{n(),e()};return addEventListener("pointermove",i),addEventListener("pointerup",t),addEventListener("pointercancel",s),n}var ot=i=>document.getElementById(i),uE=24;function w0(){globalThis.studio=new kf,globalThis.studio.open().catch(i=>{ot("status").textContent=`The studio could not start: ${i.message}`,document.body.classList.add("failed")})}var kf=class{async open(){this.started=performance.now(),this.settings=JSON.parse(ot("settings").textContent),vo(this.settings.skeleton),this.motions=new Map,this.selected=0,this.time=0,this.playing=!matchMedia("(prefers-reduced-motion: reduce)").matches,this.history=new Vo(fu(location.hash)??dm,()=>this.changed()),this.openStage(),this.timeline=new Vc(ot("timeline"),this),this.bind(),this.changed();let t=ot("script").textContent;this.tell("Loading the model …");let e=await hm(document);({glb:this.glb,licences:this.licences}=e),this.client=await Go.open(t,this.settings,e),this.timings={loaded:performance.now()-this.started},document.body.classList.add("ready"),ot("make").disabled=!1,await this.warn(),await this.make(),this.timings.first=performance.now()-this.started}get scene(){return this.history.now}openStage(){try{this.stage=new Gc(ot("stage"),this.settings.body)}catch{this.tell("This browser draws no 3D (WebGL is off). Motions can be made and saved all the same.","warning");return}new ResizeObserver(()=>this.stage.resize()).observe(ot("stage").parentElement),this.stage.resize();let t=performance.now(),e=n=>{let s=(n-t)/1e3;t=n,this.shown&&this.playing&&this.stage.seconds>0&&this.seek((this.time+Math.min(s,.25))%(this.stage.seconds+.5)),this.stage.draw(ot("follow").checked&&!this.drawing,s),requestAnimationFrame(e)};requestAnimationFrame(e)}bind(){let t=ot("text");t.addEventListener("input",()=>{this.editBlock({text:t.value},"text"),this.warnSoon()}),t.addEventListener("blur",()=>this.history.rest()),t.addEventListener("keydown",e=>{e.key==="Enter"&&!e.shiftKey&&!e.isComposing&&(e.preventDefault(),this.make())}),ot("seconds").addEventListener("change",()=>this.editBlock({seconds:ot("seconds").valueAsNumber})),ot("seed").addEventListener("change",()=>this.history.change({seed:ot("seed").valueAsNumber})),ot("takes").addEventListener("change",()=>this.history.change({takes:ot("takes").value,chosen:0})),ot("dice").addEventListener("click",()=>{this.history.change({seed:Math.floor(Math.random()*1e5)}),this.make()}),ot("make").addEventListener("click",()=>this.make()),ot("add").addEventListener("click",()=>this.addBlock()),ot("cut").addEventListener("click",()=>this.cutBlock()),ot("earlier").addEventListener("click",()=>this.moveBlock(this.selected,this.selected-1)),ot("later").addEventListener("click",()=>this.moveBlock(this.selected,this.selected+1)),ot("remove").addEventListener("click",()=>this.removeBlock()),ot("undo").addEventListener("click",()=>this.history.undo()),ot("redo").addEventListener("click",()=>this.history.redo()),ot("play").addEventListener("click",()=>this.setPlaying(!this.playing)),ot("scrub").addEventListener("input",()=>{this.setPlaying(!1),this.seek(ot("scrub").valueAsNumber)}),ot("view").addEventListener("click",()=>this.stage?.resetView()),ot("link").addEventListener("click",()=>this.copyLink()),ot("save-bvh").addEventListener("click",()=>this.save("bvh")),ot("save-glb").addEventListener("click",()=>this.save("glb")),ot("save-film").addEventListener("click",()=>this.film());for(let[e,n]of Object.entries(na))ot("path").add(new Option(n.label,e));ot("path").addEventListener("change",()=>this.choosePath(ot("path").value));for(let{language:e,prompt:n}of fm(this.settings.languages))ot("examples").add(new Option(`${e}: ${n}`,n));ot("examples").addEventListener("change",()=>{ot("examples").value&&(this.editBlock({text:ot("examples").value}),this.make()),ot("examples").value=""}),addEventListener("keydown",e=>this.key(e)),addEventListener("hashchange",()=>{let e=fu(location.hash);e&&(this.history.change(e),this.make())}),this.bindStage(),this.bindClips(),ot("licences").addEventListener("click",()=>{ot("notices").querySelector("pre").textContent=this.licences?new TextDecoder().decode(this.licences):"",ot("notices").showModal()}),ot("about").textContent=`Model ${this.settings.name}: ${this.settings.licence}.`}key(t){let e=/^(INPUT|TEXTAREA|SELECT)$/.test(t.target.tagName),n=t.ctrlKey||t.metaKey;n&&t.key.toLowerCase()==="z"&&!e?(t.preventDefault(),t.shiftKey?this.history.redo():this.history.undo()):n&&t.key.toLowerCase()==="y"&&!e?(t.preventDefault(),this.history.redo()):t.key===" "&&!e&&t.target.tagName!=="BUTTON"?(t.preventDefault(),this.setPlaying(!this.playing)):t.key==="Escape"&&this.drawing&&this.stopDrawing()}editBlock(t,e=null){let n=this.scene.blocks.map((s,r)=>r===this.selected?{...s,...t}:s);this.history.change({blocks:n},e&&`${e}${this.selected}`)}stretchBlock(t,e,n=null){this.history.change({blocks:this.scene.blocks.map((s,r)=>r===t?{...s,seconds:e}:s)},n)}addBlock(){if(this.scene.blocks.length>=hn.blocks)return;let t=[...this.scene.blocks];t.splice(this.selected+1,0,{text:"",seconds:3}),this.selected++,this.history.change({blocks:t}),ot("text").focus()}cutBlock(){let t=0;for(let[e,{text:n,seconds:s}]of this.scene.blocks.entries()){let r=Math.round((this.time-t)*10)/10,a=Math.round((s-r)*10)/10;if(this.time<t+s){if(r<hn.seconds[0]||a<hn.seconds[0])break;let o=[...this.scene.blocks];o.splice(e,1,{text:n,seconds:r},{text:n,seconds:a}),this.selected=e+1,this.history.change({blocks:o});return}t+=s}this.tell(`Move the playhead to where a sentence is to be cut; each part takes ${hn.seconds[0]} seconds or more.`,"warning")}moveBlock(t,e){if(e<0||e>=this.scene.blocks.length||t===e)return;let n=[...this.scene.blocks],[s]=n.splice(t,1);n.splice(e,0,s),this.selected=e,this.history.change({blocks:n})}removeBlock(){this.scene.blocks.length<2||this.history.change({blocks:this.scene.blocks.filter((t,e)=>e!==this.selected)})}select(t){this.selected=t,this.history.rest(),this.changed()}changed(){let{blocks:t,seed:e,takes:n,chosen:s,path:r}=this.scene;this.selected=Math.min(this.selected,t.length-1);let a=t[this.selected];ot("text").value!==a.text&&(ot("text").value=a.text),ot("which").textContent=t.length>1?`Sentence ${this.selected+1} of ${t.length}`:"Sentence",ot("seconds").value=a.seconds,ot("seed").value=e,ot("takes").value=n,ot("remove").disabled=t.length<2,ot("earlier").disabled=this.selected===0,ot("later").disabled=this.selected===t.length-1,ot("undo").disabled=!this.history.past.length,ot("redo").disabled=!this.history.future.length,this.drawing||(ot("path").value=r?Object.keys(na).find(o=>JSON.stringify(na[o].points)===JSON.stringify(r))??"drawn":"none"),this.timeline?.show(),history.replaceState(null,"",`#${mm(this.scene)}`),this.showMotions(s),this.stage?.showPath(r),this.warnSoon()}keyOf(t){let{blocks:e,path:n,seed:s}=this.scene;return JSON.stringify([e,n,this.clip?this.clipChoice():null,s+t])}async make(){if(!this.client)return;if(this.making){this.again=!0;return}let{blocks:t,takes:e,seed:n,path:s}=this.scene,r=t.findIndex(({text:o})=>!o.trim());if(r>=0&&!this.clip){this.select(r),this.tell("Say in a few words what the body does.","warning"),ot("text").focus();return}this.making=!0,document.body.classList.add("making"),ot("make").setAttribute("aria-busy","true");let a=performance.now();try{for(let o=0;o<e;o++){let c=this.keyOf(o);if(this.motions.has(c))continue;this.tell(e>1?`Making take ${o+1} of ${e} …`:"Making the motion …");let l={blocks:t,path:s,clip:this.clip?this.clipChoice(!0):null},h=await this.client.call("make",{scene:l,seed:n+o});this.motions.set(c,h),this.motions.size>uE&&this.motions.delete(this.motions.keys().next().value),this.timings.motion=performance.now()-a,o===0&&(this.timings.firstTake=performance.now()-a),this.showMotions()}this.tell(e>1?`${e} takes, in ${((performance.now()-a)/1e3).toFixed(1)} s. Click one to choose it.`:`Made in ${((performance.now()-a)/1e3).toFixed(1)} s.`),await this.warn()}catch(o){this.tell(o.message,"error")}finally{this.making=!1,document.body.classList.remove("making"),ot("make").removeAttribute("aria-busy"),this.again&&(this.again=!1,this.make())}}showMotions(){let{takes:t,chosen:e}=this.scene,n=Array.from({length:t},(r,a)=>this.motions.get(this.keyOf(a))),s=n.slice(0,n.includes(void 0)?n.indexOf(void 0):t);if(document.body.classList.toggle("stale",!!this.shown&&!s.length),s.length){let r=this.shown;this.shown=s,this.choice=Math.min(e,s.length-1),this.stage?.show(s,this.choice),this.stage?.showPath(this.scene.path),(!r||r.length!==s.length)&&this.stage?.resetView();let a=Math.max(...s.map(({frames:o,fps:c})=>(o-1)/c));ot("scrub").max=a,this.time>a&&this.seek(0)}this.showTakes();for(let r of["save-bvh","save-glb","save-film"])ot(r).disabled=!this.shown}showTakes(){let{takes:t}=this.scene;ot("take-list").replaceChildren(...t<2?[]:Array.from({length:t},(n,s)=>{let r=document.createElement("label"),a=document.createElement("input");return Object.assign(a,{type:"radio",name:"take",value:s,checked:s===this.scene.chosen,disabled:!this.motions.has(this.keyOf(s))}),a.addEventListener("change",()=>this.choose(s)),r.append(a,`Take ${s+1}`),r}))}choose(t){t<(this.shown?.length??0)&&this.history.change({chosen:t},"chosen")}setPlaying(t){this.playing=t,ot("play").textContent=t?"Pause":"Play",ot("play").setAttribute("aria-pressed",String(t))}seek(t){this.time=t,this.stage?.placeAt(t);let e=this.stage?.seconds??0,n=Math.min(t,e);ot("scrub").value=n,ot("scrub").setAttribute("aria-valuetext",`${n.toFixed(1)} seconds`),ot("clock").textContent=`${n.toFixed(2)} / ${e.toFixed(2)} s`,this.timeline?.showPlayhead(n/Math.max(e,.1))}tell(t,e="note"){ot("status").textContent=t,ot("status").className=e}warnSoon(){clearTimeout(this.warnTimer),this.warnTimer=setTimeout(()=>this.warn(),400)}async warn(){if(!this.client)return;let t=[...new Set(this.scene.blocks.map(({text:r})=>r).filter(r=>r.trim()))],e=await Promise.all(t.map(r=>this.client.call("warning",{text:r}))),n=ot("warnings"),s=e.filter(Boolean);JSON.stringify(s)!==n.dataset.lines&&(n.dataset.lines=JSON.stringify(s),n.replaceChildren(...s.map(r=>{let a=document.createElement("li");return a.textContent=r,a})))}bindStage(){let t=ot("stage"),e=null;t.addEventListener("pointerdown",n=>{if(e=[n.clientX,n.clientY],!this.drawing)return;t.setPointerCapture(n.pointerId);let s=this.stage.floorAt(n);this.line=s?[s]:[]}),t.addEventListener("pointermove",n=>{if(!this.drawing||!this.line?.length)return;let s=this.stage.floorAt(n),r=this.line[this.line.length-1];s&&Math.hypot(s[0]-r[0],s[1]-r[1])>.12&&(this.line.push(s),this.stage.showPath(this.line))}),t.addEventListener("pointerup",n=>{if(this.drawing&&this.line?.length){let s=this.line;this.stopDrawing(),s.length>2?(this.history.change({path:s}),this.make()):this.tell("Draw a longer line on the floor.","warning")}else if(e&&Math.hypot(n.clientX-e[0],n.clientY-e[1])<5){let s=this.stage?.takeAt(n);s!=null&&this.choose(s)}e=null})}choosePath(t){if(t==="draw"){if(!this.stage)return;this.drawing=!0,this.setPlaying(!1),this.stage.controls.enabled=!1,this.stage.resetView(!0),document.body.classList.add("drawing"),this.tell("Draw the way on the floor with one stroke. Escape stops.");return}this.stopDrawing(),t!=="drawn"&&(this.history.change({path:na[t].points}),this.make())}stopDrawing(){this.drawing&&(this.drawing=!1,this.line=null,this.stage.controls.enabled=!0,this.stage.resetView(),this.stage.showPath(this.scene.path),document.body.classList.remove("drawing"),this.setPlaying(!0),this.changed())}bindClips(){ot("open").addEventListener("click",()=>ot("file").click()),ot("file").addEventListener("change",()=>{ot("file").files[0]&&this.openClip(ot("file").files[0]),ot("file").value=""}),addEventListener("dragover",t=>{t.preventDefault(),document.body.classList.add("dropping")}),addEventListener("dragleave",t=>{t.relatedTarget||document.body.classList.remove("dropping")}),addEventListener("drop",t=>{t.preventDefault(),document.body.classList.remove("dropping"),t.dataTransfer.files[0]&&this.openClip(t.dataTransfer.files[0])});for(let t of["mode","from","until","keep","joints"])ot(t).addEventListener("change",()=>{this.showClip(),this.showMotions()});ot("use-motion").addEventListener("click",()=>this.takeClip(this.shown[this.choice],"this motion")),ot("close-clip").addEventListener("click",()=>{this.clip=null,this.showClip(),this.showMotions()});for(let t of Object.keys(this.settings.skeleton.groups))ot("joints").add(new Option(t.replace("-"," "),t));this.showClip()}async openClip(t){try{if(t.size>64<<20)throw new Error("The file is larger than 64 MB.");this.takeClip(am(t.name,new Uint8Array(await t.arrayBuffer())),t.name),this.tell(`${t.name}: ${(this.clip.motion.frames/Ft).toFixed(2)} seconds. Choose what is to be done with it, then make.`)}catch(e){this.tell(`${t.name}: ${e.message}`,"error")}}takeClip(t,e){this.clips=(this.clips??0)+1,this.clip={motion:t,name:e,number:this.clips};let n=t.frames/Ft;ot("until").value=Math.min(n,2).toFixed(1),ot("from").value=Math.min(1,n/3).toFixed(1),this.showClip(),this.showMotions()}clipChoice(t=!1){let e=ot("joints").value==="all"?[]:[ot("joints").value],n={mode:ot("mode").value,from:ot("from").valueAsNumber||0,until:ot("until").valueAsNumber||0,keep:ot("keep").valueAsNumber||1,joints:e};return t?{...n,motion:this.clip.motion}:{...n,number:this.clip.number}}showClip(){document.body.classList.toggle("with-clip",!!this.clip),ot("clip-name").textContent=this.clip?`${this.clip.name}, ${(this.clip.motion.frames/Ft).toFixed(1)} s`:"";let t=ot("mode").value==="redo";for(let e of["from","until","joints"])ot(e).closest("label").hidden=!t;ot("keep").closest("label").hidden=t}fileName(t){return`${this.shown[this.choice].text.normalize("NFKC").replace(/[^\p{L}\p{N}]+/gu,"-").replace(/^-+|-+$/g,"").slice(0,48)||"motion"}.${t}`}bytes(t){let e=this.shown[this.choice];return t==="bvh"?new TextEncoder().encode(tm(e)):im(e,this.glb)}save(t){b0(new Blob([this.bytes(t)],{type:t==="bvh"?"text/plain":"model/gltf-binary"}),this.fileName(t)),this.tell(`Saved ${this.fileName(t)}.`)}async film(){if(!this.stage)return;let t=this.playing;this.setPlaying(!1),ot("save-film").disabled=!0,this.tell("Filming in real time …");try{let{blob:e,kind:n}=await cm(ot("stage"),this.stage.seconds,s=>this.seek(s));b0(e,this.fileName(n)),this.tell(`Saved ${this.fileName(n)}.`)}catch(e){this.tell(e.message,"error")}ot("save-film").disabled=!1,this.setPlaying(t)}async copyLink(){let t=this.clip?" The clip is not in it.":"";try{await navigator.clipboard.writeText(location.href),this.tell(`The link that carries this scene is copied.${t}`)}catch{this.tell(`The link in the address bar carries this scene.${t}`)}}};function b0(i,t){let e=document.createElement("a");e.href=URL.createObjectURL(i),e.download=t,e.click(),setTimeout(()=>URL.revokeObjectURL(e.href),6e4)}typeof document>"u"?Qp(self):w0();})();

@@ -1,0 +1,32 @@
+// Builds what ships in src/shared/studio/shell: one classic script, onnxruntime's WebAssembly, the
+// licences of both libraries. `npm ci && npm run build`.
+
+import { build } from "esbuild";
+import { readFileSync, writeFileSync } from "node:fs";
+import { gzipSync } from "node:zlib";
+
+const shell = new URL("../src/shared/studio/shell/", import.meta.url);
+const modules = new URL("node_modules/", import.meta.url);
+const result = await build({
+  entryPoints: ["src/main.js"],
+  bundle: true,
+  write: false,
+  minify: true,
+  format: "iife",
+  target: "es2022",
+  charset: "utf8",
+  legalComments: "none",
+  // onnxruntime takes the glue code that it was bundled with where it comes from the page's own
+  // origin, and makes up the address of a file that it never asks for. A page from a disk and a
+  // worker made of text have neither, so both are given here.
+  banner: { js: 'var studioAddress="studio://page/studio.js",studioOrigin="null";' },
+  define: { "import.meta.url": "studioAddress", "location.origin": "studioOrigin" },
+});
+const script = result.outputFiles[0].text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
+writeFileSync(new URL("studio.js", shell), script);
+const wasm = readFileSync(new URL("onnxruntime-web/dist/ort-wasm-simd-threaded.wasm", modules));
+writeFileSync(new URL("onnxruntime.wasm.gz", shell), gzipSync(wasm, { level: 9 }));
+const notices = ["three/LICENSE", "../licences/onnxruntime.txt"].map((name) => readFileSync(new URL(name, modules), "utf8"));
+const licences = `three.js\n\n${notices[0]}\n\nonnxruntime\n\n${notices[1]}`;
+writeFileSync(new URL("licences.txt.gz", shell), gzipSync(licences, { level: 9 }));
+console.log(`studio.js ${script.length} bytes, onnxruntime ${wasm.length} bytes`);

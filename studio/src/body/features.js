@@ -1,0 +1,104 @@
+// Features [T, 23, 6] <-> motions: src/shared/motion/features.py. `Features` are flat
+// Float32Arrays; a motion is { frames, quaternions [T,22,4], root [T,3], contacts [T,2], fps, text }.
+
+import {
+  apply, clamp, continuous, headingAngle, matrixOf, matrixOf6d, multiply, quaternionOf, unwrap,
+  write6d, yawMatrix,
+} from "./rotations.js";
+import { FPS, JOINTS } from "./skeleton.js";
+
+export const ROWS = 23;
+export const WIDTH = ROWS * 6; // numbers a frame
+export const ROOT = 22 * 6; // where the root row begins
+export const [FORWARD, LATERAL, HEIGHT, YAW_RATE, LEFT_CONTACT] = [0, 1, 2, 3, 4];
+export const ORIGIN = { x: 0, z: 0, heading: 0 };
+
+export const framesOf = (features) => features.length / WIDTH;
+export const cut = (features, start, stop) => features.slice(start * WIDTH, stop * WIDTH);
+
+export function joinArrays(parts, Kind = Float32Array) {
+  const whole = new Kind(parts.reduce((sum, part) => sum + part.length, 0));
+  let at = 0;
+  for (const part of parts) { whole.set(part, at); at += part.length; }
+  return whole;
+}
+
+/** Pelvis path [T,3] and heading [T] of the root rows, from a place on. */
+export function integrateRoot(features, place = ORIGIN, fps = FPS, rate = (t, c) => features[t * WIDTH + ROOT + c], frames = framesOf(features)) {
+  const path = new Float64Array(frames * 3), heading = new Float64Array(frames);
+  let { x, z, heading: angle } = place;
+  for (let t = 0; t < frames; t++) {
+    path.set([x, rate(t, HEIGHT), z], t * 3);
+    heading[t] = angle;
+    const [sine, cosine] = [Math.sin(angle), Math.cos(angle)];
+    const [forward, lateral] = [rate(t, FORWARD), rate(t, LATERAL)];
+    x += (forward * sine + lateral * cosine) / fps;
+    z += (forward * cosine - lateral * sine) / fps;
+    angle += rate(t, YAW_RATE) / fps;
+  }
+  return { path, heading, end: { x, z, heading: angle } };
+}
+
+export function decodeFeatures(features, place = ORIGIN, text = "", fps = FPS) {
+  const frames = framesOf(features);
+  const { path, heading } = integrateRoot(features, place, fps);
+  const quaternions = new Float32Array(frames * JOINTS * 4), contacts = new Float32Array(frames * 2);
+  for (let t = 0; t < frames; t++) {
+    for (let joint = 0; joint < JOINTS; joint++) {
+      let matrix = matrixOf6d(features, t * WIDTH + joint * 6);
+      if (joint === 0) matrix = multiply(yawMatrix(heading[t]), matrix);
+      quaternions.set(quaternionOf(matrix), (t * JOINTS + joint) * 4);
+    }
+    for (const side of [0, 1]) contacts[t * 2 + side] = clamp(features[t * WIDTH + ROOT + LEFT_CONTACT + side], 0, 1);
+  }
+  continuous(quaternions, JOINTS * 4);
+  return { frames, quaternions, root: Float32Array.from(path), contacts, fps, text };
+}
+
+/** Unwrapped heading [T] of a motion's pelvis. */
+export function headingsOf(motion) {
+  const angles = new Float64Array(motion.frames);
+  for (let t = 0; t < motion.frames; t++) angles[t] = headingAngle(matrixOf(motion.quaternions, t * JOINTS * 4));
+  return unwrap(angles);
+}
+
+export function placeOf(motion, t) {
+  return { x: motion.root[t * 3], z: motion.root[t * 3 + 2], heading: headingsOf(motion)[t] };
+}
+
+export function encodeFeatures(motion) {
+  const { frames, fps } = motion;
+  const features = new Float32Array(frames * WIDTH), heading = headingsOf(motion);
+  for (let t = 0; t < frames; t++) {
+    const level = yawMatrix(-heading[t]);
+    for (let joint = 0; joint < JOINTS; joint++) {
+      const matrix = matrixOf(motion.quaternions, (t * JOINTS + joint) * 4);
+      write6d(joint === 0 ? multiply(level, matrix) : matrix, features, t * WIDTH + joint * 6);
+    }
+    const root = t * WIDTH + ROOT;
+    const u = Math.max(Math.min(t, frames - 2), 0); // the last difference repeats
+    const step = frames < 2 ? [0, 0, 0] : [0, 1, 2].map((i) => (motion.root[(u + 1) * 3 + i] - motion.root[u * 3 + i]) * fps);
+    const [lateral, , forward] = apply(level, step);
+    const turn = frames < 2 ? 0 : (heading[u + 1] - heading[u]) * fps;
+    features.set([forward, lateral, motion.root[t * 3 + 1], turn, motion.contacts[t * 2], motion.contacts[t * 2 + 1]], root);
+  }
+  return features;
+}
+
+/** Frames [start, stop) of a motion. */
+export const framesBetween = (motion, start, stop) => ({
+  ...motion,
+  frames: stop - start,
+  quaternions: motion.quaternions.slice(start * JOINTS * 4, stop * JOINTS * 4),
+  root: motion.root.slice(start * 3, stop * 3),
+  contacts: motion.contacts.slice(start * 2, stop * 2),
+});
+
+/** Two motions one after the other; quaternion signs go on. */
+export const joined = (first, second) => ({
+  ...first,
+  frames: first.frames + second.frames,
+  quaternions: continuous(joinArrays([first.quaternions, second.quaternions]), JOINTS * 4),
+  root: joinArrays([first.root, second.root]),
+  contacts: joinArrays([first.contacts, second.contacts]),
+});

@@ -1,0 +1,41 @@
+// All that computes, without the page: runs in a worker, or in the page where there are none.
+
+import { useSkeleton } from "./body/skeleton.js";
+import { Denoiser } from "./model/denoiser.js";
+import { Director } from "./model/director.js";
+import { Sampler } from "./model/sampler.js";
+import { Scope } from "./model/scope.js";
+import { TextTower } from "./model/tower.js";
+import { Tokenizer } from "./model/tokenizer.js";
+import { Weights } from "./model/safetensors.js";
+
+export class Engine {
+  /** @param {object} settings of the page @param {Object<string, Uint8Array>} parts unpacked */
+  static async open(settings, parts) {
+    useSkeleton(settings.skeleton);
+    const weights = new Weights(parts.weights);
+    const tower = new TextTower(weights, new Tokenizer(parts.tokenizer, settings.maxTokens));
+    const denoiser = await Denoiser.open(parts.wasm, parts.graph, parts.weights);
+    const model = {
+      ...settings,
+      mean: weights.floats("statistics.mean"),
+      std: weights.floats("statistics.std"),
+      nullText: weights.floats("denoiser.null_pooled"),
+    };
+    const scope = new Scope(settings.scope, new Weights(parts.scope), tower);
+    return new Engine(new Director(new Sampler(denoiser, tower, model), scope, model));
+  }
+
+  constructor(director) {
+    this.director = director;
+  }
+
+  /** Motion of a scene with a seed; `told` hears of frames that are done. */
+  make({ scene, seed }, told) {
+    return this.director.make(scene, seed, told);
+  }
+
+  warning({ text }) {
+    return this.director.warning(text);
+  }
+}

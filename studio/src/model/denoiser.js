@@ -1,0 +1,60 @@
+// The denoiser in onnxruntime: one thread of WebAssembly, its code and weights given as bytes.
+
+import * as ort from "onnxruntime-web/wasm";
+
+export class Denoiser {
+  /**
+   * @param {Uint8Array} wasm onnxruntime's
+   * @param {Uint8Array} graph without weights
+   * @param {Uint8Array} weights the safetensors file it reads them from
+   */
+  static async open(wasm, graph, weights) {
+    ort.env.wasm.numThreads = 1;
+    ort.env.wasm.wasmBinary = wasm.buffer;
+    ort.env.logLevel = "error";
+    const session = await ort.InferenceSession.create(graph, {
+      externalData: [{ path: "model.safetensors", data: weights }],
+      graphOptimizationLevel: "all",
+    });
+    return new Denoiser(session);
+  }
+
+  constructor(session) {
+    this.session = session;
+    this.helper = null; // predicts as this one does, elsewhere and at the same time
+  }
+
+  /**
+   * One prediction for a batch of one length.
+   * @param {Float32Array[]} batch noisy motions [T,R,C]
+   * @param {number} step of the diffusion
+   * @param {Float32Array[]} texts an embedding each
+   * @param {number} tag
+   * @param {Uint8Array} shown entries [T,R,C] that are clean
+   * @returns {Promise<Float32Array[]>}
+   */
+  async predict(batch, step, texts, tag, shown) {
+    if (this.helper && batch.length > 1) {
+      const half = batch.length >> 1;
+      const there = this.helper(batch.slice(half), step, texts.slice(half), tag, shown);
+      const here = await this.predict(batch.slice(0, half), step, texts.slice(0, half), tag, shown);
+      return [...here, ...(await there)];
+    }
+    const number = batch.length, size = batch[0].length, frames = size / 138;
+    const all = (rows, Kind = Float32Array) => {
+      const whole = new Kind(rows.length * rows[0].length);
+      rows.forEach((row, i) => whole.set(row, i * row.length));
+      return whole;
+    };
+    const shape = [number, frames, 23, 6];
+    const { prediction } = await this.session.run({
+      x: new ort.Tensor("float32", all(batch), shape),
+      t: new ort.Tensor("int64", new BigInt64Array(number).fill(BigInt(step)), [number]),
+      pooled: new ort.Tensor("float32", all(texts), [number, texts[0].length]),
+      tag: new ort.Tensor("int64", new BigInt64Array(number).fill(BigInt(tag)), [number]),
+      mask: new ort.Tensor("bool", new Uint8Array(number * frames).fill(1), [number, frames]),
+      known: new ort.Tensor("bool", all(batch.map(() => shown), Uint8Array), shape),
+    });
+    return batch.map((_, i) => prediction.data.slice(i * size, (i + 1) * size));
+  }
+}

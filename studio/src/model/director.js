@@ -1,0 +1,225 @@
+// All that the page can ask for: a sentence, a timeline, a path, clips
+// (src/shared/pipelines/text.py, timeline.py, path.py, edit.py).
+
+import { decodeFeatures, framesOf, ROOT, WIDTH, YAW_RATE } from "../body/features.js";
+import { round } from "../body/curves.js";
+import { ACTIONS, endsAtRest, measure, repetitions, sideCheck } from "../body/measurements.js";
+import { FPS } from "../body/skeleton.js";
+import { postProcess, restToRest, streamed } from "../body/whole.js";
+import { allBut, chosenJoints, fill, fillFree, keepEnds, NO_TEXT, redo } from "./edit.js";
+import { naturalGait, pathConstraint, timePath } from "./path.js";
+import { isPlain, SentenceReader } from "./sentence.js";
+import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, WINDOW } from "./stream.js";
+
+const MIN_FRAMES = 8, TURN_SPEED = 75, TURN_REST = 0.5, ONCE = [2, 3], LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
+
+export class Director {
+  /** @param {Sampler} sampler @param {Scope} scope @param {object} settings of the model */
+  constructor(sampler, scope, settings) {
+    Object.assign(this, { sampler, scope, settings });
+    const nearest = (text) => (text ? this.scope.check(text) : null);
+    this.reader = new SentenceReader(
+      settings.measures,
+      (text) => { const found = nearest(text); return found?.known ? found.nearest[0] : null; },
+      (text) => this.scope.meta.arms.includes(nearest(text)?.nearest[0]),
+    );
+  }
+
+  /** Lines about sentences that the model hardly knows; null where all is well. */
+  warning(prompt) {
+    const parts = this.reader.clauses(prompt);
+    let texts = parts.flatMap(({ text, meanwhile }) => [text, meanwhile]).filter(Boolean);
+    if (texts.length === 1) texts = [prompt];
+    return texts.map((text) => this.scope.warning(text)).find(Boolean) ?? null;
+  }
+
+  /**
+   * A motion of a scene.
+   * @param {{blocks: {text: string, seconds: number}[], path: number[][]|null, clip: object|null}} scene
+   * @param {bigint|number} seed
+   */
+  async make(scene, seed, told) {
+    const options = { told };
+    if (scene.clip) return this.edited(scene, seed, options);
+    if (scene.path) return this.alongPath(scene, seed, options);
+    if (scene.blocks.length === 1) return this.sentence(scene.blocks[0].text, scene.blocks[0].seconds, seed, options);
+    const passages = this.passages(scene.blocks);
+    const features = await streamFeatures(this.sampler, passages, seed, options);
+    return streamed(features, this.settings.post, { text: passages.map(({ text }) => text).join(", then ") });
+  }
+
+  passages(blocks) {
+    let end = 0, before = 0;
+    return blocks.map(({ text, seconds }) => {
+      end += seconds;
+      const frames = round(end * FPS) - before;
+      before += frames;
+      return { text, frames };
+    });
+  }
+
+  // ---------------------------------------------------------------- a sentence
+
+  async sentence(prompt, seconds, seed, options) {
+    const parts = this.reader.clauses(prompt), frames = round(seconds * FPS);
+    if (frames < MIN_FRAMES) throw new Error(`${seconds} seconds are too short; ask for ${(MIN_FRAMES / FPS).toFixed(2)} or more.`);
+    const longest = this.settings.maxSeconds;
+    if (parts.length > 1 || !isPlain(parts[0]) || (longest !== null && frames > round(longest * FPS)))
+      return this.clausesOf(prompt, parts, seconds, seed, options);
+    let best = null;
+    for (const trial of retrySeeds(seed)) {
+      const features = await this.sampler.sample(prompt, frames, trial);
+      const motion = this.rested(postProcess(features, this.settings.post, { text: prompt }), prompt);
+      options.told?.(frames);
+      const does = this.does(prompt, motion);
+      if (best === null || does) best = motion;
+      if (does) break;
+    }
+    return best;
+  }
+
+  async clausesOf(prompt, parts, seconds, seed, options) {
+    const stretches = [];
+    for (const part of parts) stretches.push(await this.stretch(part, part.seconds ?? seconds, seed));
+    const passages = stretches.map(({ passage }) => passage), led = stretches.some(({ given }) => given);
+    const given = freeConstraint(passages.reduce((sum, { frames }) => sum + frames, 0)), starts = [];
+    let at = 0;
+    for (const stretch of stretches) {
+      starts.push(at);
+      if (stretch.given) {
+        given.values.set(stretch.given.values, at * WIDTH);
+        given.known.set(stretch.given.known, at * WIDTH);
+      }
+      at += stretch.passage.frames;
+    }
+    const longest = this.settings.maxSeconds ?? WINDOW / FPS;
+    let features = await streamFeatures(this.sampler, passages, seed, {
+      ...options,
+      constraint: led ? given : null,
+      window: Math.min(WINDOW, Math.max(2 * OVERLAP, round(longest * FPS))),
+      overlap: parts.some(({ count }) => count > 1) ? REPEATED_OVERLAP : OVERLAP,
+    });
+    for (const [i, part] of parts.entries())
+      if (part.meanwhile) {
+        const joints = chosenJoints([part.side === "both" ? "arms" : `${part.side}-arm`]);
+        const rest = allBut(features, starts[i], starts[i] + passages[i].frames, joints);
+        features = await fillFree(this.sampler, part.meanwhile, rest, seed);
+      }
+    const motion = streamed(features, this.settings.post, { text: prompt });
+    return { ...this.rested(motion, parts[0].text, parts[parts.length - 1].text), text: prompt };
+  }
+
+  async stretch(clause, seconds, seed) {
+    const { text, count } = clause;
+    if (clause.degrees !== null) {
+      const given = turned(clause.degrees);
+      return { passage: { text, frames: framesOf(given.values) }, given };
+    }
+    if (clause.metres !== null) {
+      const gait = await naturalGait(this.sampler, text, seed);
+      const given = pathConstraint(timePath([[0, 0], [0, clause.metres]], { ...gait, seconds: clause.seconds }));
+      return { passage: { text, frames: framesOf(given.values) }, given };
+    }
+    if (count > 1) {
+      const once = round(Math.min(Math.max(seconds / count, ONCE[0]), ONCE[1]) * FPS), frames = once * count;
+      return { passage: { text, frames, window: once + REPEATED_OVERLAP, miss: this.miss(clause, frames) } };
+    }
+    const frames = Math.max(1, round(seconds * FPS));
+    return { passage: { text, frames, miss: this.miss(clause, frames) } };
+  }
+
+  nearest(text) {
+    return text ? (this.scope.check(text).nearest[0] ?? null) : null;
+  }
+
+  rested(motion, ...texts) {
+    return texts.some((text) => this.scope.meta.gestures.includes(this.nearest(text))) ? restToRest(motion) : motion;
+  }
+
+  wanted(text) {
+    const action = this.nearest(text), { checked, arms } = this.scope.meta;
+    if (action === null) return null;
+    const side = sideCheck(action, this.reader.sideOf(text), arms.includes(action));
+    const seen = [...(checked.includes(action) ? [ACTIONS[action]] : []), ...(side ? [side] : [])];
+    return seen.length ? (m) => seen.every((check) => check(m)) : null;
+  }
+
+  does(prompt, motion) {
+    const wanted = this.wanted(prompt);
+    return wanted === null || motion.frames / FPS < LEAST || wanted(measure(motion));
+  }
+
+  /** How far a passage of so many frames is from showing what its clause asks for. */
+  miss(clause, frames) {
+    const wanted = this.wanted(clause.text), action = this.nearest(clause.text), side = this.reader.sideOf(clause.text);
+    if (action === null || frames < LEAST * FPS) return null;
+    const rests = this.scope.meta.gestures.includes(action);
+    if (wanted === null && !rests) return null;
+    return (features) => {
+      const motion = decodeFeatures(features), seen = measure(motion), made = framesOf(features);
+      const count = clause.count > 1 ? repetitions(action, seen, side) : null;
+      let found = Number(wanted !== null && !wanted(seen));
+      if (count !== null) found = Math.abs(count - round((clause.count * made) / frames));
+      return found + UNEASY * Number(rests && made >= frames && !endsAtRest(motion));
+    };
+  }
+
+  // ---------------------------------------------------------------- a path, clips
+
+  async alongPath({ blocks, path }, seed, options) {
+    const alone = blocks.length === 1, passages = this.passages(blocks);
+    const gait = await naturalGait(this.sampler, blocks[0].text, seed);
+    const total = passages.reduce((sum, { frames }) => sum + frames, 0);
+    const timed = timePath(path, { ...gait, seconds: alone ? blocks[0].seconds : (total - 1) / FPS });
+    const given = pathConstraint(timed), frames = timed.points.length;
+    // Rounding may make a path a frame longer or shorter than its sentences: the last one gives way.
+    passages[passages.length - 1].frames += frames - total;
+    const features = await streamFeatures(this.sampler, passages, seed, { ...options, constraint: given });
+    return postProcess(features, this.settings.post, {
+      known: given.known,
+      text: passages.map(({ text }) => text).join(", then "),
+      place: { x: timed.points[0][0], z: timed.points[0][1], heading: timed.headings[0] },
+      carried: true,
+    });
+  }
+
+  /** `clip`: { motion, mode: continue | between | redo, from, until, keep, joints } in seconds. */
+  async edited({ blocks, clip }, seed, options) {
+    const text = blocks.map((block) => block.text).join(", then "), { motion, mode } = clip;
+    const seconds = blocks.reduce((sum, block) => sum + block.seconds, 0), kept = round(clip.keep * FPS);
+    let given;
+    if (mode === "redo") {
+      const start = round(clip.from * FPS), stop = Math.min(round(clip.until * FPS), motion.frames);
+      if (!(start >= 0 && start < stop)) throw new Error(`The clip lasts ${(motion.frames / FPS).toFixed(2)} seconds; choose a span of it.`);
+      given = redo(motion, start, stop, clip.joints.length ? chosenJoints(clip.joints) : null);
+    } else {
+      const ends = mode === "between" ? 2 : 1, frames = round(seconds * FPS) + ends * kept;
+      if (motion.frames < kept) throw new Error(`The clip lasts ${(motion.frames / FPS).toFixed(2)} seconds, less than the ${clip.keep} to be kept.`);
+      const own = mode === "between" ? motion : lastFrames(motion, kept);
+      given = keepEnds(own, mode === "between" ? (clip.second ?? motion) : null, kept, frames, mode === "between" && !clip.second);
+    }
+    const { features, known } = await fill(this.sampler, text || NO_TEXT, given, seed, { ...options, ...(text ? {} : { guidance: 0 }) });
+    return postProcess(features, this.settings.post, { known, text, place: given.place });
+  }
+}
+
+const lastFrames = (motion, frames) => ({
+  ...motion,
+  frames,
+  quaternions: motion.quaternions.slice((motion.frames - frames) * 88),
+  root: motion.root.slice((motion.frames - frames) * 3),
+  contacts: motion.contacts.slice((motion.frames - frames) * 2),
+});
+
+/** A heading that turns by so many degrees, positive to the left, from rest to rest. */
+function turned(degrees) {
+  const moving = round(Math.max(Math.abs(degrees) / TURN_SPEED, 1) * FPS), rest = round(TURN_REST * FPS);
+  const given = freeConstraint(moving + 2 * rest);
+  const heading = (i) => ((degrees * Math.PI) / 180) * (3 * (i / moving) ** 2 - 2 * (i / moving) ** 3);
+  for (let t = 0; t < moving + 2 * rest; t++) {
+    const i = t - rest, at = t * WIDTH + ROOT + YAW_RATE;
+    if (i >= 0 && i < moving) given.values[at] = (heading(i + 1) - heading(i)) * FPS;
+    given.known[at] = 1;
+  }
+  return given;
+}

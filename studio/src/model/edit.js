@@ -1,0 +1,103 @@
+// What of given clips is kept, and the rest made anew (src/shared/pipelines/edit.py).
+
+import { turnAboutY } from "../body/rotations.js";
+import {
+  cut, encodeFeatures, FORWARD, framesOf, integrateRoot, joinArrays, LATERAL, LEFT_CONTACT, ORIGIN,
+  placeOf, ROOT, WIDTH, YAW_RATE,
+} from "../body/features.js";
+import { FPS, GROUPS, INDEX } from "../body/skeleton.js";
+import { freeConstraint, OVERLAP, streamFeatures, windowOf } from "./stream.js";
+
+export const NO_TEXT = "a person moves";
+
+export const chosenJoints = (names) => new Set(names.flatMap((name) => GROUPS[name] ?? (name in INDEX ? [name] : [])));
+
+/** Features are known but for some joints (null: everything) in frames [start, stop). */
+export function allBut(features, start, stop, joints) {
+  const known = new Uint8Array(features.length).fill(1);
+  const shown = new Uint8Array(features.length).fill(joints === null ? 1 : 0);
+  const legs = new Set([...GROUPS["left-leg"], ...GROUPS["right-leg"]]);
+  for (let t = start; t < stop; t++) {
+    const at = t * WIDTH;
+    if (joints === null) { known.fill(0, at, at + WIDTH); continue; }
+    for (const name of joints) known.fill(0, at + INDEX[name] * 6, at + INDEX[name] * 6 + 6);
+    if ([...joints].some((name) => legs.has(name))) known.fill(0, at + ROOT + LEFT_CONTACT, at + WIDTH);
+  }
+  return { values: features, known, shown };
+}
+
+/** A clip of which frames [start, stop) are made anew: { constraint, place, rejoin }. */
+export function redo(clip, start, stop, joints) {
+  const open = joints !== null || stop >= clip.frames;
+  return {
+    constraint: allBut(encodeFeatures(clip), start, stop, joints),
+    place: placeOf(clip, 0),
+    rejoin: open ? null : { stop, place: placeOf(clip, stop) },
+  };
+}
+
+/** A motion that begins as one clip begins, or ends as one ends. */
+export function keepEnds(start, end, kept, frames, rejoin = false) {
+  const constraint = freeConstraint(frames);
+  const keep = (clip, from, to) => {
+    constraint.values.set(cut(encodeFeatures(clip), from, from + kept), to * WIDTH);
+    constraint.known.fill(1, to * WIDTH, (to + kept) * WIDTH);
+  };
+  if (start) keep(start, 0, 0);
+  if (end) keep(end, end.frames - kept, frames - kept);
+  return {
+    constraint,
+    place: start ? placeOf(start, 0) : ORIGIN,
+    rejoin: end && rejoin ? { stop: frames - kept, place: placeOf(end, end.frames - kept) } : null,
+  };
+}
+
+/** Raw features with everything that is not known made anew, and what was known in the end. */
+export async function fill(sampler, text, given, seed, options) {
+  const features = await fillFree(sampler, text, given.constraint, seed, options);
+  if (!given.rejoin) return { features, known: given.constraint.known };
+  const bent = bendBack(features, given);
+  return { features: await fillFree(sampler, text, bent, seed, options), known: bent.known };
+}
+
+/** Only the frames around what is not known go through the network. */
+export async function fillFree(sampler, text, constraint, seed, options = {}) {
+  const frames = framesOf(constraint.values), free = [];
+  for (let t = 0; t < frames; t++) if (cut(constraint.known, t, t + 1).includes(0)) free.push(t);
+  if (!free.length) return constraint.values;
+  const start = Math.max(0, free[0] - OVERLAP), stop = Math.min(frames, free[free.length - 1] + 1 + OVERLAP);
+  const made = await streamFeatures(sampler, [{ text, frames: stop - start }], seed, {
+    ...options,
+    constraint: windowOf(constraint, start, stop),
+  });
+  return joinArrays([cut(constraint.values, 0, start), made, cut(constraint.values, stop, frames)]);
+}
+
+/** A path through the free frames that leads to the place at their end. */
+function bendBack(features, { constraint, place, rejoin: { stop, place: target } }) {
+  let start = 0;
+  while (constraint.known[start * WIDTH + ROOT + FORWARD]) start++;
+  const rates = Float64Array.from(cut(features, 0, stop + 1));
+  const ease = Array.from({ length: stop + 1 }, (_, t) => {
+    const x = t < start ? 0 : (t - start) / (stop - start);
+    return x ** 3 * (x * (6 * x - 15) + 10);
+  });
+  const heading = integrateRoot(rates, place).heading;
+  const away = target.heading - heading[stop] + Math.PI, whole = 2 * Math.PI;
+  const turn = ((away % whole) + whole) % whole - Math.PI;
+  for (let t = 0; t < stop; t++) rates[t * WIDTH + ROOT + YAW_RATE] += turn * (ease[t + 1] - ease[t]) * FPS;
+  const bent = integrateRoot(rates, place);
+  const miss = [target.x - bent.path[stop * 3], target.z - bent.path[stop * 3 + 2]];
+  const values = constraint.values.slice(), known = constraint.known.slice();
+  for (let t = start; t < stop; t++) {
+    const step = [0, 2].map((axis, i) =>
+      (bent.path[(t + 1) * 3 + axis] - bent.path[t * 3 + axis] + (ease[t + 1] - ease[t]) * miss[i]) * FPS);
+    const [lateral, , forward] = turnAboutY([step[0], 0, step[1]], -bent.heading[t]);
+    const at = t * WIDTH + ROOT;
+    values[at + FORWARD] = forward;
+    values[at + LATERAL] = lateral;
+    values[at + YAW_RATE] = rates[at + YAW_RATE];
+    known[at + FORWARD] = known[at + LATERAL] = known[at + YAW_RATE] = 1;
+  }
+  return { ...constraint, values, known };
+}

@@ -1,0 +1,47 @@
+// Weights as they ship: safetensors, float16, and int8 with a scale a row.
+
+export class Weights {
+  /** @param {Uint8Array} bytes a whole safetensors file */
+  constructor(bytes) {
+    const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+    const length = Number(view.getBigUint64(0, true));
+    this.entries = JSON.parse(new TextDecoder().decode(bytes.subarray(8, 8 + length)));
+    this.data = bytes.subarray(8 + length);
+  }
+
+  has(name) {
+    return name in this.entries;
+  }
+
+  shape(name) {
+    return this.entries[name].shape;
+  }
+
+  /** The stored bytes, copied: typed arrays must begin at a multiple of their width. */
+  raw(name, Kind) {
+    const [start, stop] = this.entries[name].data_offsets;
+    return new Kind(this.data.slice(start, stop).buffer);
+  }
+
+  scales(name) {
+    return this.floats(`${name}.int8_scale`);
+  }
+
+  /** A tensor as float32, whatever it is stored as. */
+  floats(name) {
+    const { dtype } = this.entries[name];
+    if (dtype === "F32") return this.raw(name, Float32Array);
+    if (dtype === "F16") return Float32Array.from(this.raw(name, Uint16Array), half);
+    if (dtype !== "I8") throw new Error(`${name} is stored as ${dtype}`);
+    const scales = this.scales(name), values = Float32Array.from(this.raw(name, Int8Array));
+    const width = values.length / scales.length;
+    for (let row = 0, at = 0; row < scales.length; row++)
+      for (const end = at + width; at < end; at++) values[at] *= scales[row];
+    return values;
+  }
+}
+
+function half(bits) {
+  const sign = bits >> 15 ? -1 : 1, exponent = (bits >> 10) & 31, fraction = bits & 1023;
+  return exponent === 0 ? sign * fraction * 2 ** -24 : sign * (1 + fraction / 1024) * 2 ** (exponent - 15);
+}

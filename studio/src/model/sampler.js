@@ -1,0 +1,69 @@
+// Prompts to features: noise, guided DDIM, known entries (src/shared/model/diffusion.py and
+// generation/motion_generator.py).
+
+import { WIDTH } from "../body/features.js";
+import { noise } from "./noise.js";
+
+export class Sampler {
+  /**
+   * @param {Denoiser} denoiser
+   * @param {TextTower} tower
+   * @param {object} settings of the model: mean, std [R*C], null_text, tags, schedule [[t, alpha bar]],
+   *     guidance, clip, prediction
+   */
+  constructor(denoiser, tower, settings) {
+    Object.assign(this, { denoiser, tower, settings });
+  }
+
+  /**
+   * Raw features [T,R,C].
+   * @param {string} prompt
+   * @param {number} frames
+   * @param {bigint|number} seed
+   * @param {{known: Uint8Array, shown: Uint8Array, values: Float32Array}|null} given
+   * @param {number} guidance
+   */
+  async sample(prompt, frames, seed, given = null, guidance = this.settings.guidance) {
+    const { mean, std, schedule, nullText, tags } = this.settings;
+    const size = frames * WIDTH, start = noise(seed, prompt, size), nothing = new Uint8Array(size);
+    const shown = given ? given.shown.map((is, i) => is && given.known[i]) : nothing;
+    const values = new Float32Array(size);
+    if (given) for (let i = 0; i < size; i++) if (given.known[i]) values[i] = (given.values[i] - mean[i % WIDTH]) / std[i % WIDTH];
+    const text = this.tower.encode(prompt);
+    let x = start.slice();
+    for (let i = 0; i < schedule.length; i++) {
+      const [step, alphaBar] = schedule[i], next = i + 1 < schedule.length ? schedule[i + 1][1] : 1;
+      const a = Math.sqrt(alphaBar), s = Math.sqrt(1 - alphaBar);
+      let input = x;
+      if (given) {
+        input = x.slice();
+        for (let j = 0; j < size; j++) if (given.known[j]) input[j] = shown[j] ? values[j] : a * values[j] + s * start[j];
+      }
+      const output = await this.guided(input, step, text, nullText, tags, shown, guidance);
+      x = this.follow(x, output, a, s, next, given?.known, values);
+    }
+    const features = new Float32Array(size);
+    for (let i = 0; i < size; i++) features[i] = given?.known[i] ? given.values[i] : x[i] * std[i % WIDTH] + mean[i % WIDTH];
+    return features;
+  }
+
+  async guided(x, step, text, nullText, tags, shown, guidance) {
+    if (guidance === 1 || guidance === 0)
+      return (await this.denoiser.predict([x], step, [guidance ? text : nullText], tags, shown))[0];
+    const [own, none] = await this.denoiser.predict([x, x], step, [text, nullText], tags, shown);
+    return own.map((value, i) => none[i] + guidance * (value - none[i]));
+  }
+
+  /** One step of DDIM (Song et al. 2021, eq. 12, eta 0) to the next alpha bar. */
+  follow(x, output, a, s, next, known, values) {
+    const { clip, prediction } = this.settings, direction = Math.sqrt(1 - next), signal = Math.sqrt(next);
+    return x.map((value, i) => {
+      let clean = output[i];
+      if (known?.[i]) clean = values[i];
+      else if (prediction === "epsilon") clean = (value - s * output[i]) / a;
+      else if (prediction === "v") clean = a * value - s * output[i];
+      if (clip !== null) clean = Math.min(Math.max(clean, -clip), clip);
+      return signal * clean + (direction * (value - a * clean)) / s;
+    });
+  }
+}

@@ -1,0 +1,82 @@
+// Motion of any length: windows that begin with the last frames before them
+// (src/shared/pipelines/stream.py).
+
+import { cut, framesOf, joinArrays, WIDTH } from "../body/features.js";
+import { blendBoundaries } from "../body/whole.js";
+import { derivedSeed } from "./noise.js";
+
+export const WINDOW = 150, OVERLAP = 30, SHORTEST = 48, TRIES = 8;
+
+export const freeConstraint = (frames) => ({
+  values: new Float32Array(frames * WIDTH),
+  known: new Uint8Array(frames * WIDTH),
+  shown: new Uint8Array(frames * WIDTH).fill(1),
+});
+
+export const windowOf = (given, start, stop) => ({
+  values: cut(given.values, start, stop),
+  known: cut(given.known, start, stop),
+  shown: cut(given.shown, start, stop),
+});
+
+function lengthened(given, frames) {
+  const spare = frames - framesOf(given.values);
+  if (spare <= 0) return given;
+  const free = freeConstraint(spare);
+  return {
+    values: joinArrays([given.values, free.values]),
+    known: joinArrays([given.known, free.known], Uint8Array),
+    shown: joinArrays([given.shown, free.shown], Uint8Array),
+  };
+}
+
+/** New frames of each window of a passage: as few as do, nearly alike in length. */
+export function windowLengths(frames, known, window, overlap) {
+  const number = 1 + Math.max(0, Math.ceil((frames + known - window) / (window - overlap)));
+  const total = frames + known + (number - 1) * overlap;
+  const at = (index) => Math.floor((total * index) / number);
+  return Array.from({ length: number }, (_, i) => at(i + 1) - at(i) - (i ? overlap : known));
+}
+
+export const retrySeeds = (seed) => Array.from({ length: TRIES }, (_, number) => derivedSeed(seed, number));
+
+/**
+ * Raw features of passages { text, frames, window?, miss? } one after another.
+ * @param {Sampler} sampler
+ * @param {object[]} passages
+ * @param {bigint|number} seed
+ * @param {{constraint?: object, window?: number, overlap?: number, guidance?: number, told?: function}} options
+ *     constraint: of all frames; told: called with the frames that are done
+ */
+export async function streamFeatures(sampler, passages, seed, options = {}) {
+  const { constraint = null, window = WINDOW, overlap = OVERLAP, guidance, told } = options;
+  let before = new Float32Array(), made = 0, number = 0;
+  const pieces = [];
+  for (const passage of passages) {
+    let own = new Float32Array();
+    for (const length of windowLengths(passage.frames, framesOf(before), Math.min(window, passage.window ?? window), overlap)) {
+      const kept = framesOf(before), start = made - kept;
+      const known = constraint ? windowOf(constraint, start, made + length) : freeConstraint(kept + length);
+      known.values.set(before);
+      known.known.fill(1, 0, before.length);
+      known.shown.fill(1, 0, before.length);
+      const longer = lengthened(known, SHORTEST);
+      const somethingKnown = before.length > 0 || constraint;
+      let best = null, least = Infinity;
+      for (const trial of retrySeeds(derivedSeed(seed, number))) {
+        const features = await sampler.sample(passage.text, framesOf(longer.values), trial, somethingKnown ? longer : null, guidance);
+        const piece = cut(blendBoundaries(cut(features, 0, kept + length), known.known), kept, kept + length);
+        const found = passage.miss ? passage.miss(joinArrays([own, piece])) : 0;
+        if (found < least) { least = found; best = piece; }
+        if (least <= 0) break;
+      }
+      before = cut(joinArrays([before, best]), Math.max(0, kept + length - overlap), kept + length);
+      own = joinArrays([own, best]);
+      made += length;
+      number++;
+      pieces.push(best);
+      told?.(made);
+    }
+  }
+  return joinArrays(pieces);
+}

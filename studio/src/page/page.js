@@ -1,0 +1,504 @@
+// The page: what is typed and drawn becomes a scene, the scene motions, the motions files.
+
+import { writeBvh } from "../files/bvh.js";
+import { readClip } from "../files/clip.js";
+import { recordFilm } from "../files/film.js";
+import { writeGlb } from "../files/glb.js";
+import { FPS, useSkeleton } from "../body/skeleton.js";
+import { Client } from "./client.js";
+import { readParts } from "./parts.js";
+import { examples, PATHS } from "./presets.js";
+import { fromLink, History, LIMITS, START, toLink } from "./scene.js";
+import { Stage } from "./stage.js";
+import { Timeline } from "./timeline.js";
+
+const $ = (id) => document.getElementById(id);
+const REMEMBERED = 24; // motions
+
+export function openPage() {
+  globalThis.studio = new Page(); // for scripts and tests
+  globalThis.studio.open().catch((error) => {
+    $("status").textContent = `The studio could not start: ${error.message}`;
+    document.body.classList.add("failed");
+  });
+}
+
+class Page {
+  async open() {
+    this.started = performance.now();
+    this.settings = JSON.parse($("settings").textContent);
+    useSkeleton(this.settings.skeleton);
+    this.motions = new Map();
+    this.selected = 0;
+    this.time = 0;
+    this.playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.history = new History(fromLink(location.hash) ?? START, () => this.changed());
+    this.openStage();
+    this.timeline = new Timeline($("timeline"), this);
+    this.bind();
+    this.changed();
+    const script = $("script").textContent;
+    this.tell("Loading the model …");
+    const parts = await readParts(document);
+    ({ glb: this.glb, licences: this.licences } = parts);
+    this.client = await Client.open(script, this.settings, parts);
+    this.timings = { loaded: performance.now() - this.started };
+    document.body.classList.add("ready");
+    $("make").disabled = false;
+    await this.warn();
+    await this.make();
+    this.timings.first = performance.now() - this.started;
+  }
+
+  get scene() {
+    return this.history.now;
+  }
+
+  openStage() {
+    try {
+      this.stage = new Stage($("stage"), this.settings.body);
+    } catch {
+      this.tell("This browser draws no 3D (WebGL is off). Motions can be made and saved all the same.", "warning");
+      return;
+    }
+    new ResizeObserver(() => this.stage.resize()).observe($("stage").parentElement);
+    this.stage.resize();
+    let last = performance.now();
+    const frame = (now) => {
+      const step = (now - last) / 1000;
+      last = now;
+      if (this.shown && this.playing && this.stage.seconds > 0) this.seek((this.time + Math.min(step, 0.25)) % (this.stage.seconds + 0.5));
+      this.stage.draw($("follow").checked && !this.drawing, step);
+      requestAnimationFrame(frame);
+    };
+    requestAnimationFrame(frame);
+  }
+
+  // ---------------------------------------------------------------- what is typed
+
+  bind() {
+    const text = $("text");
+    text.addEventListener("input", () => { this.editBlock({ text: text.value }, "text"); this.warnSoon(); });
+    text.addEventListener("blur", () => this.history.rest());
+    text.addEventListener("keydown", (event) => {
+      if (event.key === "Enter" && !event.shiftKey && !event.isComposing) { event.preventDefault(); this.make(); }
+    });
+    $("seconds").addEventListener("change", () => this.editBlock({ seconds: $("seconds").valueAsNumber }));
+    $("seed").addEventListener("change", () => this.history.change({ seed: $("seed").valueAsNumber }));
+    $("takes").addEventListener("change", () => this.history.change({ takes: $("takes").value, chosen: 0 }));
+    $("dice").addEventListener("click", () => { this.history.change({ seed: Math.floor(Math.random() * 100000) }); this.make(); });
+    $("make").addEventListener("click", () => this.make());
+    $("add").addEventListener("click", () => this.addBlock());
+    $("cut").addEventListener("click", () => this.cutBlock());
+    $("earlier").addEventListener("click", () => this.moveBlock(this.selected, this.selected - 1));
+    $("later").addEventListener("click", () => this.moveBlock(this.selected, this.selected + 1));
+    $("remove").addEventListener("click", () => this.removeBlock());
+    $("undo").addEventListener("click", () => this.history.undo());
+    $("redo").addEventListener("click", () => this.history.redo());
+    $("play").addEventListener("click", () => this.setPlaying(!this.playing));
+    $("scrub").addEventListener("input", () => { this.setPlaying(false); this.seek($("scrub").valueAsNumber); });
+    $("view").addEventListener("click", () => this.stage?.resetView());
+    $("link").addEventListener("click", () => this.copyLink());
+    $("save-bvh").addEventListener("click", () => this.save("bvh"));
+    $("save-glb").addEventListener("click", () => this.save("glb"));
+    $("save-film").addEventListener("click", () => this.film());
+    for (const [name, label] of Object.entries(PATHS)) $("path").add(new Option(label.label, name));
+    $("path").addEventListener("change", () => this.choosePath($("path").value));
+    for (const { language, prompt } of examples(this.settings.languages)) $("examples").add(new Option(`${language}: ${prompt}`, prompt));
+    $("examples").addEventListener("change", () => {
+      if ($("examples").value) { this.editBlock({ text: $("examples").value }); this.make(); }
+      $("examples").value = "";
+    });
+    addEventListener("keydown", (event) => this.key(event));
+    addEventListener("hashchange", () => {
+      const scene = fromLink(location.hash);
+      if (scene) { this.history.change(scene); this.make(); }
+    });
+    this.bindStage();
+    this.bindClips();
+    $("licences").addEventListener("click", () => {
+      $("notices").querySelector("pre").textContent = this.licences ? new TextDecoder().decode(this.licences) : "";
+      $("notices").showModal();
+    });
+    $("about").textContent = `Model ${this.settings.name}: ${this.settings.licence}.`;
+  }
+
+  key(event) {
+    const typing = /^(INPUT|TEXTAREA|SELECT)$/.test(event.target.tagName);
+    const control = event.ctrlKey || event.metaKey;
+    if (control && event.key.toLowerCase() === "z" && !typing) { event.preventDefault(); if (event.shiftKey) this.history.redo(); else this.history.undo(); }
+    else if (control && event.key.toLowerCase() === "y" && !typing) { event.preventDefault(); this.history.redo(); }
+    else if (event.key === " " && !typing && event.target.tagName !== "BUTTON") { event.preventDefault(); this.setPlaying(!this.playing); }
+    else if (event.key === "Escape" && this.drawing) this.stopDrawing();
+  }
+
+  editBlock(update, kind = null) {
+    const blocks = this.scene.blocks.map((block, i) => (i === this.selected ? { ...block, ...update } : block));
+    this.history.change({ blocks }, kind && `${kind}${this.selected}`);
+  }
+
+  stretchBlock(index, seconds, kind = null) {
+    this.history.change({ blocks: this.scene.blocks.map((block, i) => (i === index ? { ...block, seconds } : block)) }, kind);
+  }
+
+  addBlock() {
+    if (this.scene.blocks.length >= LIMITS.blocks) return;
+    const blocks = [...this.scene.blocks];
+    blocks.splice(this.selected + 1, 0, { text: "", seconds: 3 });
+    this.selected++;
+    this.history.change({ blocks });
+    $("text").focus();
+  }
+
+  /** The block under the playhead becomes two. */
+  cutBlock() {
+    let start = 0;
+    for (const [i, { text, seconds }] of this.scene.blocks.entries()) {
+      const first = Math.round((this.time - start) * 10) / 10, second = Math.round((seconds - first) * 10) / 10;
+      if (this.time < start + seconds) {
+        if (first < LIMITS.seconds[0] || second < LIMITS.seconds[0]) break;
+        const blocks = [...this.scene.blocks];
+        blocks.splice(i, 1, { text, seconds: first }, { text, seconds: second });
+        this.selected = i + 1;
+        this.history.change({ blocks });
+        return;
+      }
+      start += seconds;
+    }
+    this.tell(`Move the playhead to where a sentence is to be cut; each part takes ${LIMITS.seconds[0]} seconds or more.`, "warning");
+  }
+
+  moveBlock(from, to) {
+    if (to < 0 || to >= this.scene.blocks.length || from === to) return;
+    const blocks = [...this.scene.blocks], [block] = blocks.splice(from, 1);
+    blocks.splice(to, 0, block);
+    this.selected = to;
+    this.history.change({ blocks });
+  }
+
+  removeBlock() {
+    if (this.scene.blocks.length < 2) return;
+    this.history.change({ blocks: this.scene.blocks.filter((_, i) => i !== this.selected) });
+  }
+
+  select(index) {
+    this.selected = index;
+    this.history.rest();
+    this.changed();
+  }
+
+  /** Show the scene in all controls. */
+  changed() {
+    const { blocks, seed, takes, chosen, path } = this.scene;
+    this.selected = Math.min(this.selected, blocks.length - 1);
+    const block = blocks[this.selected];
+    if ($("text").value !== block.text) $("text").value = block.text;
+    $("which").textContent = blocks.length > 1 ? `Sentence ${this.selected + 1} of ${blocks.length}` : "Sentence";
+    $("seconds").value = block.seconds;
+    $("seed").value = seed;
+    $("takes").value = takes;
+    $("remove").disabled = blocks.length < 2;
+    $("earlier").disabled = this.selected === 0;
+    $("later").disabled = this.selected === blocks.length - 1;
+    $("undo").disabled = !this.history.past.length;
+    $("redo").disabled = !this.history.future.length;
+    if (!this.drawing) $("path").value = path ? (Object.keys(PATHS).find((name) => JSON.stringify(PATHS[name].points) === JSON.stringify(path)) ?? "drawn") : "none";
+    this.timeline?.show();
+    history.replaceState(null, "", `#${toLink(this.scene)}`);
+    this.showMotions(chosen);
+    this.stage?.showPath(path);
+    this.warnSoon();
+  }
+
+  // ---------------------------------------------------------------- motions
+
+  /** What a take depends on. */
+  keyOf(take) {
+    const { blocks, path, seed } = this.scene;
+    return JSON.stringify([blocks, path, this.clip ? this.clipChoice() : null, seed + take]);
+  }
+
+  async make() {
+    if (!this.client) return;
+    if (this.making) { this.again = true; return; }
+    const { blocks, takes, seed, path } = this.scene;
+    const empty = blocks.findIndex(({ text }) => !text.trim());
+    if (empty >= 0 && !this.clip) {
+      this.select(empty);
+      this.tell("Say in a few words what the body does.", "warning");
+      $("text").focus();
+      return;
+    }
+    this.making = true;
+    document.body.classList.add("making");
+    $("make").setAttribute("aria-busy", "true");
+    const began = performance.now();
+    try {
+      for (let take = 0; take < takes; take++) {
+        const key = this.keyOf(take);
+        if (this.motions.has(key)) continue;
+        this.tell(takes > 1 ? `Making take ${take + 1} of ${takes} …` : "Making the motion …");
+        const scene = { blocks, path, clip: this.clip ? this.clipChoice(true) : null };
+        const motion = await this.client.call("make", { scene, seed: seed + take });
+        this.motions.set(key, motion);
+        if (this.motions.size > REMEMBERED) this.motions.delete(this.motions.keys().next().value);
+        this.timings.motion = performance.now() - began;
+        if (take === 0) this.timings.firstTake = performance.now() - began;
+        this.showMotions();
+      }
+      this.tell(takes > 1 ? `${takes} takes, in ${((performance.now() - began) / 1000).toFixed(1)} s. Click one to choose it.` : `Made in ${((performance.now() - began) / 1000).toFixed(1)} s.`);
+      await this.warn();
+    } catch (error) {
+      this.tell(error.message, "error");
+    } finally {
+      this.making = false;
+      document.body.classList.remove("making");
+      $("make").removeAttribute("aria-busy");
+      if (this.again) { this.again = false; this.make(); }
+    }
+  }
+
+  /** The motions of the scene that are there; those of before, told stale, where none is. */
+  showMotions() {
+    const { takes, chosen } = this.scene;
+    const all = Array.from({ length: takes }, (_, take) => this.motions.get(this.keyOf(take)));
+    const found = all.slice(0, all.includes(undefined) ? all.indexOf(undefined) : takes);
+    document.body.classList.toggle("stale", Boolean(this.shown) && !found.length);
+    if (found.length) {
+      const before = this.shown;
+      this.shown = found;
+      this.choice = Math.min(chosen, found.length - 1);
+      this.stage?.show(found, this.choice);
+      this.stage?.showPath(this.scene.path);
+      if (!before || before.length !== found.length) this.stage?.resetView();
+      const seconds = Math.max(...found.map(({ frames, fps }) => (frames - 1) / fps));
+      $("scrub").max = seconds;
+      if (this.time > seconds) this.seek(0);
+    }
+    this.showTakes();
+    for (const id of ["save-bvh", "save-glb", "save-film"]) $(id).disabled = !this.shown;
+  }
+
+  showTakes() {
+    const { takes } = this.scene, list = $("take-list");
+    list.replaceChildren(...(takes < 2 ? [] : Array.from({ length: takes }, (_, take) => {
+      const label = document.createElement("label"), input = document.createElement("input");
+      Object.assign(input, { type: "radio", name: "take", value: take, checked: take === this.scene.chosen, disabled: !this.motions.has(this.keyOf(take)) });
+      input.addEventListener("change", () => this.choose(take));
+      label.append(input, `Take ${take + 1}`);
+      return label;
+    })));
+  }
+
+  choose(take) {
+    if (take < (this.shown?.length ?? 0)) this.history.change({ chosen: take }, "chosen");
+  }
+
+  setPlaying(playing) {
+    this.playing = playing;
+    $("play").textContent = playing ? "Pause" : "Play";
+    $("play").setAttribute("aria-pressed", String(playing));
+  }
+
+  seek(time) {
+    this.time = time;
+    this.stage?.placeAt(time);
+    const seconds = this.stage?.seconds ?? 0, now = Math.min(time, seconds);
+    $("scrub").value = now;
+    $("scrub").setAttribute("aria-valuetext", `${now.toFixed(1)} seconds`);
+    $("clock").textContent = `${now.toFixed(2)} / ${seconds.toFixed(2)} s`;
+    this.timeline?.showPlayhead(now / Math.max(seconds, 0.1));
+  }
+
+  tell(message, kind = "note") {
+    $("status").textContent = message;
+    $("status").className = kind;
+  }
+
+  warnSoon() {
+    clearTimeout(this.warnTimer);
+    this.warnTimer = setTimeout(() => this.warn(), 400);
+  }
+
+  /** Says which sentences the model hardly knows. */
+  async warn() {
+    if (!this.client) return;
+    const texts = [...new Set(this.scene.blocks.map(({ text }) => text).filter((text) => text.trim()))];
+    const found = await Promise.all(texts.map((text) => this.client.call("warning", { text })));
+    const list = $("warnings");
+    const lines = found.filter(Boolean);
+    if (JSON.stringify(lines) === list.dataset.lines) return;
+    list.dataset.lines = JSON.stringify(lines);
+    list.replaceChildren(...lines.map((line) => {
+      const item = document.createElement("li");
+      item.textContent = line;
+      return item;
+    }));
+  }
+
+  // ---------------------------------------------------------------- path
+
+  bindStage() {
+    const canvas = $("stage");
+    let pressed = null;
+    canvas.addEventListener("pointerdown", (event) => {
+      pressed = [event.clientX, event.clientY];
+      if (!this.drawing) return;
+      canvas.setPointerCapture(event.pointerId);
+      const place = this.stage.floorAt(event);
+      this.line = place ? [place] : [];
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      if (!this.drawing || !this.line?.length) return;
+      const place = this.stage.floorAt(event), last = this.line[this.line.length - 1];
+      if (place && Math.hypot(place[0] - last[0], place[1] - last[1]) > 0.12) { this.line.push(place); this.stage.showPath(this.line); }
+    });
+    canvas.addEventListener("pointerup", (event) => {
+      if (this.drawing && this.line?.length) {
+        const line = this.line;
+        this.stopDrawing();
+        if (line.length > 2) { this.history.change({ path: line }); this.make(); }
+        else this.tell("Draw a longer line on the floor.", "warning");
+      } else if (pressed && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) < 5) {
+        const take = this.stage?.takeAt(event);
+        if (take !== null && take !== undefined) this.choose(take);
+      }
+      pressed = null;
+    });
+  }
+
+  choosePath(name) {
+    if (name === "draw") {
+      if (!this.stage) return;
+      this.drawing = true;
+      this.setPlaying(false);
+      this.stage.controls.enabled = false;
+      this.stage.resetView(true);
+      document.body.classList.add("drawing");
+      this.tell("Draw the way on the floor with one stroke. Escape stops.");
+      return;
+    }
+    this.stopDrawing();
+    if (name === "drawn") return;
+    this.history.change({ path: PATHS[name].points });
+    this.make();
+  }
+
+  stopDrawing() {
+    if (!this.drawing) return;
+    this.drawing = false;
+    this.line = null;
+    this.stage.controls.enabled = true;
+    this.stage.resetView();
+    this.stage.showPath(this.scene.path);
+    document.body.classList.remove("drawing");
+    this.setPlaying(true);
+    this.changed();
+  }
+
+  // ---------------------------------------------------------------- clips in
+
+  bindClips() {
+    $("open").addEventListener("click", () => $("file").click());
+    $("file").addEventListener("change", () => { if ($("file").files[0]) this.openClip($("file").files[0]); $("file").value = ""; });
+    addEventListener("dragover", (event) => { event.preventDefault(); document.body.classList.add("dropping"); });
+    addEventListener("dragleave", (event) => { if (!event.relatedTarget) document.body.classList.remove("dropping"); });
+    addEventListener("drop", (event) => {
+      event.preventDefault();
+      document.body.classList.remove("dropping");
+      if (event.dataTransfer.files[0]) this.openClip(event.dataTransfer.files[0]);
+    });
+    for (const id of ["mode", "from", "until", "keep", "joints"]) $(id).addEventListener("change", () => { this.showClip(); this.showMotions(); });
+    $("use-motion").addEventListener("click", () => this.takeClip(this.shown[this.choice], "this motion"));
+    $("close-clip").addEventListener("click", () => { this.clip = null; this.showClip(); this.showMotions(); });
+    for (const name of Object.keys(this.settings.skeleton.groups)) $("joints").add(new Option(name.replace("-", " "), name));
+    this.showClip();
+  }
+
+  async openClip(file) {
+    try {
+      if (file.size > 64 << 20) throw new Error("The file is larger than 64 MB.");
+      this.takeClip(readClip(file.name, new Uint8Array(await file.arrayBuffer())), file.name);
+      this.tell(`${file.name}: ${(this.clip.motion.frames / FPS).toFixed(2)} seconds. Choose what is to be done with it, then make.`);
+    } catch (error) {
+      this.tell(`${file.name}: ${error.message}`, "error");
+    }
+  }
+
+  takeClip(motion, name) {
+    this.clips = (this.clips ?? 0) + 1;
+    this.clip = { motion, name, number: this.clips };
+    const seconds = motion.frames / FPS;
+    $("until").value = Math.min(seconds, 2).toFixed(1);
+    $("from").value = Math.min(1, seconds / 3).toFixed(1);
+    this.showClip();
+    this.showMotions();
+  }
+
+  clipChoice(whole = false) {
+    const joints = $("joints").value === "all" ? [] : [$("joints").value];
+    const choice = { mode: $("mode").value, from: $("from").valueAsNumber || 0, until: $("until").valueAsNumber || 0, keep: $("keep").valueAsNumber || 1, joints };
+    return whole ? { ...choice, motion: this.clip.motion } : { ...choice, number: this.clip.number };
+  }
+
+  showClip() {
+    document.body.classList.toggle("with-clip", Boolean(this.clip));
+    $("clip-name").textContent = this.clip ? `${this.clip.name}, ${(this.clip.motion.frames / FPS).toFixed(1)} s` : "";
+    const redo = $("mode").value === "redo";
+    for (const id of ["from", "until", "joints"]) $(id).closest("label").hidden = !redo;
+    $("keep").closest("label").hidden = redo;
+  }
+
+  // ---------------------------------------------------------------- files out
+
+  fileName(kind) {
+    const words = this.shown[this.choice].text.normalize("NFKC").replace(/[^\p{L}\p{N}]+/gu, "-").replace(/^-+|-+$/g, "").slice(0, 48);
+    return `${words || "motion"}.${kind}`;
+  }
+
+  /** The chosen motion as a file. */
+  bytes(kind) {
+    const motion = this.shown[this.choice];
+    return kind === "bvh" ? new TextEncoder().encode(writeBvh(motion)) : writeGlb(motion, this.glb);
+  }
+
+  save(kind) {
+    download(new Blob([this.bytes(kind)], { type: kind === "bvh" ? "text/plain" : "model/gltf-binary" }), this.fileName(kind));
+    this.tell(`Saved ${this.fileName(kind)}.`);
+  }
+
+  async film() {
+    if (!this.stage) return;
+    const before = this.playing;
+    this.setPlaying(false);
+    $("save-film").disabled = true;
+    this.tell("Filming in real time …");
+    try {
+      const { blob, kind } = await recordFilm($("stage"), this.stage.seconds, (time) => this.seek(time));
+      download(blob, this.fileName(kind));
+      this.tell(`Saved ${this.fileName(kind)}.`);
+    } catch (error) {
+      this.tell(error.message, "error");
+    }
+    $("save-film").disabled = false;
+    this.setPlaying(before);
+  }
+
+  async copyLink() {
+    const note = this.clip ? " The clip is not in it." : "";
+    try {
+      await navigator.clipboard.writeText(location.href);
+      this.tell(`The link that carries this scene is copied.${note}`);
+    } catch {
+      this.tell(`The link in the address bar carries this scene.${note}`);
+    }
+  }
+}
+
+function download(blob, name) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+}

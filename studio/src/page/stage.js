@@ -1,0 +1,208 @@
+// The floor, the bodies on it, the path, the camera.
+
+import {
+  AmbientLight, Bone, BufferAttribute, BufferGeometry, Color, DirectionalLight, Fog,
+  GridHelper, HemisphereLight, Line, LineBasicMaterial, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial,
+  PerspectiveCamera, Plane, PlaneGeometry, Quaternion, Raycaster, RingGeometry, Scene, ShadowMaterial, Skeleton, SkinnedMesh, Vector2,
+  Vector3, WebGLRenderer, PCFShadowMap, SRGBColorSpace,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+
+const SPACING = 1.7; // metres between takes
+const JOINTS = 22;
+
+export class Stage {
+  /** @param {HTMLCanvasElement} canvas @param {object} body of the settings: skeleton, mesh, colours */
+  constructor(canvas, body) {
+    this.canvas = canvas;
+    this.body = body;
+    const context = canvas.getContext("webgl2", { antialias: true, alpha: false });
+    if (!context) throw new Error("no WebGL");
+    this.renderer = new WebGLRenderer({ canvas, context });
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = PCFShadowMap;
+    this.renderer.outputColorSpace = SRGBColorSpace;
+    this.scene = new Scene();
+    this.scene.background = new Color(0xeef1f5);
+    this.scene.fog = new Fog(0xeef1f5, 8, 26);
+    this.camera = new PerspectiveCamera(38, 1, 0.05, 200);
+    this.controls = new OrbitControls(this.camera, canvas);
+    Object.assign(this.controls, { enableDamping: true, dampingFactor: 0.12, maxPolarAngle: 1.53, minDistance: 1, maxDistance: 30 });
+    this.bodies = [];
+    this.shared = meshOf(body);
+    this.addRoom();
+    this.resetView();
+    this.time = 0;
+  }
+
+  addRoom() {
+    this.scene.add(new HemisphereLight(0xffffff, 0xc4cbd6, 1.9), new AmbientLight(0xffffff, 0.35));
+    this.sun = new DirectionalLight(0xffffff, 1.7);
+    this.sun.castShadow = true;
+    this.sun.shadow.mapSize.set(1024, 1024);
+    Object.assign(this.sun.shadow.camera, { left: -6, right: 6, top: 6, bottom: -6, near: 0.5, far: 20 });
+    this.sun.shadow.radius = 4;
+    this.scene.add(this.sun, this.sun.target);
+    const floor = new Mesh(new PlaneGeometry(200, 200), new ShadowMaterial({ color: 0x1c2430, opacity: 0.22 }));
+    floor.rotation.x = -Math.PI / 2;
+    floor.receiveShadow = true;
+    const grid = new GridHelper(60, 60, 0xaeb8c6, 0xd3dae4);
+    grid.position.y = 0.002;
+    this.scene.add(floor, grid);
+    this.line = new Line(new BufferGeometry(), new LineBasicMaterial({ color: 0xd0453c }));
+    this.line.frustumCulled = false;
+    this.scene.add(this.line);
+    this.ring = new Mesh(new RingGeometry(0.34, 0.4, 48), new MeshBasicMaterial({ color: 0x2f6fd0, transparent: true, opacity: 0.8 }));
+    this.ring.rotation.x = -Math.PI / 2;
+    this.ring.position.y = 0.006;
+    this.scene.add(this.ring);
+  }
+
+  /** Show motions side by side, one of them chosen. */
+  show(motions, chosen) {
+    while (this.bodies.length > motions.length) this.scene.remove(this.bodies.pop().mesh);
+    while (this.bodies.length < motions.length) this.bodies.push(this.newBody());
+    this.motions = motions;
+    this.chosen = chosen;
+    this.offsets = motions.map((_, i) => (i - (motions.length - 1) / 2) * SPACING);
+    this.placeAt(this.time);
+  }
+
+  newBody() {
+    const { geometry, parents, offsets, colours } = this.shared;
+    const bones = parents.map((_, joint) => {
+      const bone = new Bone();
+      bone.position.fromArray(offsets[joint]);
+      return bone;
+    });
+    parents.forEach((parent, joint) => { if (parent >= 0) bones[parent].add(bones[joint]); });
+    const mesh = new SkinnedMesh(geometry, new MeshLambertMaterial({ vertexColors: true }));
+    mesh.castShadow = true;
+    mesh.frustumCulled = false;
+    mesh.add(bones[0]);
+    const inverses = this.body.skeleton.rest.map(([x, y, z]) => new Matrix4().makeTranslation(-x, -y, -z));
+    mesh.bind(new Skeleton(bones, inverses), new Matrix4());
+    this.scene.add(mesh);
+    return { mesh, bones, colours };
+  }
+
+  /** Seconds of the longest motion. */
+  get seconds() {
+    return Math.max(0, ...(this.motions ?? []).map(({ frames, fps }) => (frames - 1) / fps));
+  }
+
+  /** Put every body where it is at a time. */
+  placeAt(time) {
+    this.time = time;
+    const a = new Quaternion(), b = new Quaternion();
+    this.bodies.forEach(({ mesh, bones }, i) => {
+      const { frames, fps, quaternions, root } = this.motions[i];
+      const at = Math.min(Math.max(time * fps, 0), frames - 1), first = Math.floor(at), second = Math.min(first + 1, frames - 1);
+      const share = at - first;
+      for (let joint = 0; joint < JOINTS; joint++) {
+        const [p, q] = [(first * JOINTS + joint) * 4, (second * JOINTS + joint) * 4];
+        a.set(quaternions[p + 1], quaternions[p + 2], quaternions[p + 3], quaternions[p]);
+        b.set(quaternions[q + 1], quaternions[q + 2], quaternions[q + 3], quaternions[q]);
+        bones[joint].quaternion.slerpQuaternions(a, b, share);
+      }
+      const [x, y, z] = [0, 1, 2].map((k) => root[first * 3 + k] + share * (root[second * 3 + k] - root[first * 3 + k]));
+      bones[0].position.set(x, y, z);
+      mesh.position.x = this.offsets[i];
+      if (i === this.chosen) {
+        this.ring.position.set(x + this.offsets[i], 0.006, z);
+        this.focus = new Vector3(x + this.offsets[i], 0, z);
+      }
+    });
+    this.ring.visible = this.bodies.length > 1;
+  }
+
+  showPath(points) {
+    const places = (points ?? []).map(([x, z]) => new Vector3(x + (this.offsets?.[this.chosen] ?? 0), 0.01, z));
+    this.line.geometry.dispose();
+    this.line.geometry = new BufferGeometry().setFromPoints(places);
+    this.line.visible = places.length > 1;
+  }
+
+  /** Where on the floor a pointer is, [x, z] without the chosen take's offset; null beyond it. */
+  floorAt(event) {
+    const box = this.canvas.getBoundingClientRect();
+    const pointer = new Vector2(((event.clientX - box.left) / box.width) * 2 - 1, 1 - ((event.clientY - box.top) / box.height) * 2);
+    const caster = new Raycaster();
+    caster.setFromCamera(pointer, this.camera);
+    const place = caster.ray.intersectPlane(new Plane(new Vector3(0, 1, 0)), new Vector3());
+    return place && place.length() < 60 ? [place.x - (this.offsets?.[this.chosen] ?? 0), place.z] : null;
+  }
+
+  /** Which take a click is nearest to; null where none is near. */
+  takeAt(event) {
+    const box = this.canvas.getBoundingClientRect();
+    let best = null, least = 0.07 * box.width;
+    this.bodies.forEach(({ bones }, i) => {
+      const place = bones[9].getWorldPosition(new Vector3()).project(this.camera);
+      const away = Math.hypot(((place.x + 1) / 2) * box.width + box.left - event.clientX, ((1 - place.y) / 2) * box.height + box.top - event.clientY);
+      if (away < least) { least = away; best = i; }
+    });
+    return best;
+  }
+
+  resetView(fromAbove = false) {
+    const wide = 1 + 0.35 * Math.max(0, (this.bodies?.length ?? 1) - 1);
+    const target = this.focus ? this.focus.clone().setY(0.85) : new Vector3(0, 0.85, 0);
+    if (this.bodies?.length > 1) target.x = 0;
+    this.controls.target.copy(target);
+    if (fromAbove) this.camera.position.set(target.x, 11, target.z - 3);
+    else this.camera.position.copy(target).add(new Vector3(1.6, 1.0, 3.6).multiplyScalar(wide));
+    this.controls.update();
+  }
+
+  /** Draw; the camera goes along with the chosen body. */
+  draw(follow, step) {
+    if (follow && this.focus) {
+      const aim = this.focus.clone();
+      if (this.bodies.length > 1) aim.x = this.controls.target.x;
+      const way = aim.setY(this.controls.target.y).sub(this.controls.target).multiplyScalar(1 - Math.exp(-4 * step));
+      this.controls.target.add(way);
+      this.camera.position.add(way);
+    }
+    const { x, z } = this.controls.target;
+    this.sun.target.position.set(x, 0, z);
+    this.sun.position.set(x + 2.5, 6, z + 3);
+    this.controls.update();
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
+    if (!width || !height) return;
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+  }
+}
+
+/** The mannequin's geometry, coloured by the side of its limbs. */
+function meshOf({ skeleton, mesh, colours }) {
+  const array = (text, Kind) => {
+    const binary = atob(text);
+    return new Kind(Uint8Array.from(binary, (sign) => sign.charCodeAt(0)).buffer);
+  };
+  const positions = Float32Array.from(array(mesh.positions, Int16Array), (v) => v * 1e-4);
+  const normals = Float32Array.from(array(mesh.normals, Int8Array), (v) => v / 127);
+  const joints = array(mesh.joints, Uint8Array), weights = array(mesh.weights, Uint8Array);
+  const tint = new Float32Array(positions.length), mixed = new Color();
+  const [left, right, centre] = ["left", "right", "centre"].map((side) => new Color().setRGB(...colours[side], SRGBColorSpace));
+  for (let v = 0; v < positions.length / 3; v++) {
+    let side = 0;
+    for (let i = 0; i < 4; i++) side += (weights[v * 4 + i] / 255) * skeleton.sides[joints[v * 4 + i]];
+    mixed.copy(centre).lerp(side > 0 ? left : right, Math.abs(side)).toArray(tint, v * 3);
+  }
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(positions, 3));
+  geometry.setAttribute("normal", new BufferAttribute(normals, 3));
+  geometry.setAttribute("color", new BufferAttribute(tint, 3));
+  geometry.setAttribute("skinIndex", new BufferAttribute(Uint16Array.from(joints), 4));
+  geometry.setAttribute("skinWeight", new BufferAttribute(Float32Array.from(weights, (w) => w / 255), 4));
+  geometry.setIndex(new BufferAttribute(array(mesh.triangles, Uint16Array), 1));
+  return { geometry, parents: skeleton.parents, offsets: skeleton.offsets, colours };
+}

@@ -1,0 +1,111 @@
+// The sentences over time: drag one to move it, its end to stretch it; keys do the same.
+
+import { LIMITS } from "./scene.js";
+
+const STEP = 0.5; // seconds a key press
+
+export class Timeline {
+  /** @param {HTMLElement} root @param {object} page what has the scene */
+  constructor(root, page) {
+    this.root = root;
+    this.page = page;
+    this.list = document.createElement("ol");
+    this.head = document.createElement("div");
+    this.head.className = "playhead";
+    root.append(this.list, this.head);
+  }
+
+  get seconds() {
+    return this.page.scene.blocks.reduce((sum, block) => sum + block.seconds, 0);
+  }
+
+  show() {
+    const { blocks } = this.page.scene, { selected } = this.page, focused = this.root.contains(document.activeElement);
+    this.list.replaceChildren(...blocks.map((block, index) => this.item(block, index, selected)));
+    if (focused) this.list.children[selected]?.querySelector("button").focus();
+  }
+
+  item({ text, seconds }, index, selected) {
+    const item = document.createElement("li"), button = document.createElement("button"), handle = document.createElement("span");
+    item.style.flexGrow = seconds;
+    item.classList.toggle("selected", index === selected);
+    button.type = "button";
+    button.textContent = text || "…";
+    button.title = "Drag to move; arrow keys select, Alt moves, Shift stretches, Delete removes";
+    button.setAttribute("aria-label", `Sentence ${index + 1}: ${text || "empty"}, ${seconds} seconds`);
+    button.setAttribute("aria-current", String(index === selected));
+    const length = document.createElement("small");
+    length.textContent = `${seconds} s`;
+    handle.className = "handle";
+    item.append(button, length, handle);
+    button.addEventListener("click", () => this.page.select(index));
+    button.addEventListener("keydown", (event) => this.key(event, index));
+    button.addEventListener("pointerdown", (event) => this.drag(event, index, button));
+    handle.addEventListener("pointerdown", (event) => this.stretch(event, index));
+    return item;
+  }
+
+  key(event, index) {
+    const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    const { blocks } = this.page.scene;
+    if (step && event.altKey) this.page.moveBlock(index, index + step);
+    else if (step && event.shiftKey) this.page.stretchBlock(index, blocks[index].seconds + step * STEP, `stretch${index}`);
+    else if (step && blocks[index + step]) this.page.select(index + step);
+    else if (event.key === "Delete") this.page.removeBlock();
+    else return;
+    event.preventDefault();
+  }
+
+  /** To another place: where the pointer is when it is let go. */
+  drag(event, index, button) {
+    if (event.button) return;
+    const from = event.clientX;
+    let moved = false;
+    const move = ({ clientX }) => {
+      moved ||= Math.abs(clientX - from) > 6;
+      if (moved) { button.parentElement.classList.add("dragged"); button.parentElement.style.transform = `translateX(${clientX - from}px)`; }
+    };
+    const up = ({ clientX }) => {
+      stop();
+      if (!moved) return;
+      const places = [...this.list.children].map((item, i) => { const box = item.getBoundingClientRect(); return i === index ? null : (box.left + box.right) / 2; });
+      const to = places.filter((place) => place !== null && place < clientX).length;
+      if (to === index) this.show();
+      else this.page.moveBlock(index, to);
+    };
+    const stop = follow(move, up, () => this.show());
+  }
+
+  stretch(event, index) {
+    event.preventDefault();
+    const from = event.clientX, { seconds } = this.page.scene.blocks[index];
+    const perPixel = this.seconds / this.list.clientWidth;
+    const stop = follow(
+      ({ clientX }) => {
+        const wanted = Math.min(Math.max(seconds + (clientX - from) * perPixel, LIMITS.seconds[0]), LIMITS.seconds[1]);
+        this.page.stretchBlock(index, wanted, `stretch${index}`);
+      },
+      () => { stop(); this.page.history.rest(); },
+      () => {},
+    );
+  }
+
+  /** @param {number} share of the time that has gone, 0 to 1 */
+  showPlayhead(share) {
+    this.head.style.left = `${100 * share}%`;
+  }
+}
+
+/** Listen until `up`; the function that stops it. */
+function follow(move, up, cancel) {
+  const stop = () => {
+    removeEventListener("pointermove", move);
+    removeEventListener("pointerup", up);
+    removeEventListener("pointercancel", cancelled);
+  };
+  const cancelled = () => { stop(); cancel(); };
+  addEventListener("pointermove", move);
+  addEventListener("pointerup", up);
+  addEventListener("pointercancel", cancelled);
+  return stop;
+}

@@ -1,0 +1,243 @@
+"""The studio's page: nothing from elsewhere, and motions that are the command line's."""
+
+import base64
+import json
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from src.shared.data.retarget.read_motion import read_motion
+from src.shared.errors import UserError
+from src.shared.formats.writers.bvh import write_bvh
+from src.shared.model.diffusion import Sampling
+from src.shared.motion.motion import Motion
+from src.shared.pipelines.edit import chosen_joints, continue_clips, edit_clip
+from src.shared.pipelines.motion_generator import MotionGenerator
+from src.shared.pipelines.path import DrawnPath
+from src.shared.pipelines.stream import Passage
+from src.shared.pipelines.timeline import Timeline
+from src.shared.studio.page import write_studio
+from tests.shared.formats.chromium_pipe import Browser, chromium
+from tests.shared.formats.pages import HOSTILE, Page
+
+BROWSER = pytest.mark.skipif(not chromium(), reason="no Chromium is installed")
+PROMPTS = {
+    "en": "a person walks forward",
+    "es": "una persona salta dos veces",
+    "fr": "une personne salue de la main",
+    "de": "eine Person rennt",
+    "ja": "人が右手を振る",
+    "zh": "一个人向前走",
+}
+MOST = 40e6  # bytes
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_studio(tmp_path_factory.mktemp("studio"))
+
+
+@pytest.fixture(scope="module")
+def browser(page: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
+    """The page with its model loaded; one take at a time."""
+    profile = tmp_path_factory.mktemp("profile")
+    with Browser(page.as_uri(), profile, ready="typeof studio === 'object'") as opened:
+        opened.wait("studio.timings?.first !== undefined", 180)
+        opened.evaluate("studio.history.change({ takes: 1 })")
+        yield opened
+
+
+@pytest.fixture(scope="module")
+def generator() -> MotionGenerator:
+    return MotionGenerator("starter", device="cpu")
+
+
+def made(browser: Browser, scene: str, clip: str = "") -> None:
+    """Make a scene that is written in JavaScript, and wait for it."""
+    browser.evaluate(f"studio.history.change({{ takes: 1, path: null, ...{scene} }}); {clip}")
+    browser.wait("!studio.making")
+    browser.evaluate("studio.make()")
+    browser.wait("!studio.making", 180)
+    assert browser.evaluate("document.getElementById('status').className") == "note"
+
+
+def exported(browser: Browser, folder: Path, kind: str = "bvh") -> Motion:
+    """What the page saves, read by our own reader."""
+    text = browser.evaluate(
+        f"btoa(Array.from(studio.bytes('{kind}'), (b) => String.fromCharCode(b)).join(''))"
+    )
+    path = folder / f"page.{kind}"
+    path.write_bytes(base64.b64decode(text))
+    return read_motion(path)
+
+
+def assert_same(page: Motion, command: Motion) -> None:
+    np.testing.assert_allclose(page.positions(), command.positions(), atol=1e-4)
+
+
+def test_the_page_needs_nothing_from_elsewhere(page: Path) -> None:
+    assert page.name == "index.html" and page.stat().st_size < MOST
+    parsed = Page(page)
+    sources = {
+        name: value
+        for _, attributes in parsed.tags
+        for name, value in attributes.items()
+        if name in ("src", "href")
+    }
+    assert sources == {"href": "data:,"}
+    text = page.read_text("utf-8")
+    (policy,) = re.findall(r'content="(default-src.*?)"', text)
+    assert "default-src 'none'" in policy and "connect-src" not in policy and "http" not in policy
+
+
+def test_models_that_it_cannot_run_are_refused(tmp_path: Path) -> None:
+    for name, line in (("starter-free", "text-model pairs"), ("starter-audio", "starter-audio")):
+        with pytest.raises(UserError, match=line):
+            write_studio(tmp_path / "a.html", name)
+    assert not list(tmp_path.iterdir())
+
+
+@BROWSER
+@pytest.mark.parametrize("language", PROMPTS)
+def test_a_sentence_gives_what_the_command_line_gives(
+    language: str, browser: Browser, generator: MotionGenerator, tmp_path: Path
+) -> None:
+    prompt, seed = PROMPTS[language], list(PROMPTS).index(language)
+    made(browser, f"{{ blocks: [{{ text: '{prompt}', seconds: 2 }}], seed: {seed} }}")
+    [wanted] = generator.generate([prompt], seconds=2.0, sampling=Sampling(seed=seed))
+    assert_same(exported(browser, tmp_path), read_motion(write_bvh(wanted, tmp_path / "a.bvh")))
+    if language == "en":
+        assert_same(exported(browser, tmp_path, "glb"), wanted)
+    warned = browser.evaluate("document.querySelectorAll('#warnings li').length > 0")
+    assert warned == (generator.sentences.scope_warnings([prompt]) != [None])
+    assert browser.problems == []
+    assert all(url.startswith(("file:", "blob:", "data:")) for url in browser.requests)
+
+
+@BROWSER
+def test_timelines_and_paths_are_those_of_the_command_line(
+    browser: Browser, generator: MotionGenerator, tmp_path: Path
+) -> None:
+    texts = ("a person walks forward", "a person waves")
+    blocks = ", ".join(f"{{ text: '{text}', seconds: 2 }}" for text in texts)
+    timeline = Timeline(tuple(Passage(text, 60) for text in texts))
+    made(browser, f"{{ blocks: [{blocks}], seed: 3 }}")
+    wanted = generator.timeline(timeline, sampling=Sampling(seed=3)).motion
+    assert_same(exported(browser, tmp_path), wanted)
+    alone = f"[{{ text: '{texts[0]}', seconds: 3 }}]"
+    made(browser, f"{{ blocks: {alone}, seed: 3, path: [[0, 0], [1, 1], [1, 2]] }}")
+    path = DrawnPath(np.array([[0.0, 0.0], [1.0, 1.0], [1.0, 2.0]]))
+    walk = Timeline((Passage(texts[0], 90),))
+    wanted = generator.timeline(walk, path=path, seconds=3.0, sampling=Sampling(seed=3)).motion
+    assert_same(exported(browser, tmp_path), wanted)
+
+
+def opened(browser: Browser, name: str, data: bytes) -> str:
+    """Drop a file; what the page says."""
+    coded = base64.b64encode(data).decode()
+    bytes_ = f"Uint8Array.from(atob('{coded}'), (sign) => sign.charCodeAt(0))"
+    browser.evaluate(f"studio.openClip(new File([{bytes_}], {json.dumps(name)}))")
+    return str(browser.evaluate("document.getElementById('status').textContent"))
+
+
+def with_blocks(browser: Browser, *blocks: tuple[str, float]) -> None:
+    """Put sentences into the timeline."""
+    rows = [{"text": text, "seconds": seconds} for text, seconds in blocks]
+    browser.evaluate(f"studio.history.change({{ blocks: {json.dumps(rows)}, path: null }})")
+
+
+BVH = """HIERARCHY
+ROOT {}
+{{
+OFFSET 0 0 0
+CHANNELS 3 Xrotation Yrotation Zrotation
+}}
+MOTION
+Frames: 1
+Frame Time: 0.03
+0 0 0
+"""
+
+
+@BROWSER
+def test_a_clip_is_done_again_and_continued_as_on_the_command_line(
+    browser: Browser, generator: MotionGenerator, tmp_path: Path
+) -> None:
+    [walk] = generator.generate(["a person walks forward"], seconds=3.0)
+    path = write_bvh(walk, tmp_path / "walk.bvh")
+    clip = read_motion(path)
+    assert "3.00 seconds" in opened(browser, "walk.bvh", path.read_bytes())
+    scene = "{ blocks: [{ text: 'a person waves', seconds: 2 }], seed: 1 }"
+
+    def form(**values: Any) -> str:
+        rows = (f"document.getElementById('{id}').value = '{v}'" for id, v in values.items())
+        return "; ".join(rows)
+
+    cases: list[tuple[dict[str, Any], Any]] = [
+        ({"mode": "redo", "from": 1, "until": 2, "joints": "all"}, edit_clip(clip, 1.0, 2.0)),
+        (
+            {"mode": "redo", "from": 1, "until": 2, "joints": "right-arm"},
+            edit_clip(clip, 1.0, 2.0, chosen_joints(["right-arm"])),
+        ),
+        (
+            {"mode": "continue", "keep": 1, "joints": "all"},
+            continue_clips(clip.frames(60, 90), seconds=3.0),
+        ),
+        (
+            {"mode": "between", "keep": 1, "joints": "all"},
+            continue_clips(clip, clip, seconds=4.0, rejoin=True),
+        ),
+    ]
+    for choice, given in cases:
+        made(browser, scene, form(**choice))
+        wanted = generator.edit(given, "a person waves", sampling=Sampling(seed=1)).motion
+        assert_same(exported(browser, tmp_path), wanted)
+    browser.evaluate("document.getElementById('close-clip').click()")
+
+
+@BROWSER
+def test_hostile_words_do_nothing(browser: Browser, tmp_path: Path) -> None:
+    before = browser.evaluate("document.querySelectorAll('*').length")
+    for text in HOSTILE:
+        with_blocks(browser, (text, 1))
+        browser.evaluate("studio.warn()")
+        bvh = BVH.format(text.replace(" ", ""))
+        said = opened(browser, f"{text}.bvh", bvh.encode("utf-8", "replace"))
+        assert "not the studio" in said or "BVH" in said
+    with_blocks(browser, ("", 1))
+    browser.evaluate("studio.warn()")
+    assert browser.evaluate("document.querySelectorAll('*').length") == before
+    assert browser.evaluate("globalThis.hacked") is None
+    strange = b'{"blocks":[{"text":5,"seconds":"x"}],"path":[[1]],"seed":-3}'
+    for link in ("#{}", "#bm90IGpzb24", "#" + base64.b64encode(strange).decode()):
+        browser.evaluate(f"location.hash = {link!r}")
+    browser.wait("!studio.making", 60)
+    assert browser.evaluate("studio.scene.seed") == 0
+    assert browser.problems == []
+
+
+@BROWSER
+def test_the_timeline_is_edited_undone_and_carried_in_a_link(browser: Browser) -> None:
+    click = "document.getElementById('{}').click()".format
+    with_blocks(browser, ("a person waves", 4))
+    browser.evaluate("studio.seek(0); studio.time = 1.5")
+    browser.evaluate(click("cut"))
+    seconds = "studio.scene.blocks.map((block) => block.seconds)"
+    assert browser.evaluate(seconds) == [1.5, 2.5]
+    browser.evaluate(click("earlier"))
+    assert browser.evaluate(seconds) == [2.5, 1.5]
+    browser.evaluate(click("add"))
+    browser.evaluate("document.querySelector('#timeline li:nth-child(2) button').focus()")
+    key = "{ key: 'ArrowRight', shiftKey: true, bubbles: true }"
+    browser.evaluate(f"document.activeElement.dispatchEvent(new KeyboardEvent('keydown', {key}))")
+    assert browser.evaluate("studio.scene.blocks.length") == 3
+    link = browser.evaluate("location.hash")
+    for _ in range(3):
+        browser.evaluate(click("undo"))
+    assert browser.evaluate(seconds) == [1.5, 2.5]
+    browser.evaluate(f"location.hash = {link!r}")
+    browser.wait("studio.scene.blocks.length === 3")
