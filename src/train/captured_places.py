@@ -8,7 +8,7 @@ those whose captions sound alike: it gets a direction of its own.
 """
 
 from collections import defaultdict
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 
 import torch
 from torch import Tensor
@@ -31,6 +31,15 @@ def with_unstyled(labels: dict[str, Labels]) -> dict[str, Labels]:
             plain = {key: value for key, value in each.items() if key != "style"}
             found.setdefault(group_of(plain), plain)
     return found
+
+
+def with_sentences(labels: dict[str, Labels], combinations: Iterable[Labels]) -> dict[str, Labels]:
+    """`labels` of each group, and those `combinations` of known actions and values that no clip
+    shows: who has seen walks, and happy runs, has a place for a happy walk."""
+    known = {pair for each in labels.values() for pair in each.items()}
+    spoken = [spoken_labels(each) for each in labels.values()]
+    new = (each for each in combinations if each not in spoken and known >= each.items())
+    return labels | {group_of(each): each for each in new}
 
 
 def nearest_styles(data: PreparedData, labels: dict[str, Labels]) -> dict[str, str]:

@@ -47,7 +47,7 @@ from ..shared.model.clip.pretrained import KIND, ClipBundle, encode_captions, lo
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.generation.motion_generator import KIND as GENERATOR
 from ..shared.model.generation.motion_generator import TextToMotion
-from .captured_places import apart, nearest_styles, with_unstyled
+from .captured_places import apart, nearest_styles, with_sentences, with_unstyled
 from .launch import Stage
 from .task import Part, Task, numpy_generator
 from .text_stages import (
@@ -143,6 +143,8 @@ class TextTask(Task):
             )
         if config.unstyled_as_captured:
             self.labels = with_unstyled(self.labels)
+        if bundle is not None and config.tower == PAIRS:
+            self.labels = with_sentences(self.labels, packaged_book().combinations())
         self.groups = sorted(self.labels)
         self.shares = self._shares()
         self.fresh = self._captions(HELD_BACK_SEED + 1, config.captions_per_group)
