@@ -145,6 +145,7 @@ class GenerationConfig(Config):
     prediction_type: Literal["epsilon", "sample", "v"] = "epsilon"  # ruling 15
     constraints: bool = False  # an input that says which entries are known
     provenance: bool = False  # an input that says where a clip's motion comes from
+    adapter_ranks: tuple[int, ...] = ()  # of low-rank adapters, each for some of the tower's places
     beta_schedule: Literal["linear", "cosine", "sqrt"] = "cosine"
     sampler: Literal["ddpm", "ddim", "dpm-solver++"] = "ddim"
     sampling_steps: int = Field(20, ge=1)

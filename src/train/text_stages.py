@@ -9,7 +9,7 @@ Letters: N prompts or captions, D embed dim, H width of the encoder.
 
 import copy
 import hashlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Self
@@ -56,10 +56,12 @@ def open_training_data(config: TrainConfig, network: NetworkConfig) -> PreparedD
     return open_data(config.data, Path(config.output).parent)
 
 
-def training_set(config: TrainConfig, data: PreparedData) -> TextMotionDataset:
-    """The train split; raises UserError when no clip of it can be used."""
+def training_set(
+    config: TrainConfig, data: PreparedData, actions: Collection[str] | None = None
+) -> TextMotionDataset:
+    """The train split, or its clips of these actions; raises UserError when none can be used."""
     try:
-        return split_set(config, data, "train")
+        return split_set(config, data, "train", actions)
     except ValueError as error:
         raise UserError(f"{error}; lower min-frames or prepare more data") from error
 
@@ -85,7 +87,9 @@ def can_retrieve(number: int) -> bool:
     return number >= BATCH
 
 
-def split_set(config: TrainConfig, data: PreparedData, split: str) -> TextMotionDataset:
+def split_set(
+    config: TrainConfig, data: PreparedData, split: str, actions: Collection[str] | None = None
+) -> TextMotionDataset:
     """One split as the configuration wants it; raises ValueError when nothing in it fits."""
     return TextMotionDataset(
         data,
@@ -95,6 +99,7 @@ def split_set(config: TrainConfig, data: PreparedData, split: str) -> TextMotion
         languages=config.languages,
         balance=config.balance,
         captured_share=config.captured_share,
+        actions=actions,
         seed=mix_seed("data", config.seed),
     )
 

@@ -4,10 +4,9 @@ motion-tools train action --data FOLDER init=starter [key=value ...]
 
 A text tower of token pairs sends each sentence to one of its places. A new action gets a place of
 its own, and the tower learns to send the clips' captions there and all other sentences where it
-sent them before. Then the denoiser learns what is at the new place, and half of each batch is
-rehearsal: motions that it made itself at its old places before, of which it has to say what it said
-then (learning without forgetting, Li and Hoiem 2016; generative replay, Shin et al. 2017). No clip
-that it was trained on is needed.
+sent them before. Then low-rank adapters (Hu et al. 2022, LoRA) learn what is at the new place. They
+are open for texts that come out there and closed for all others: of what the model knew, nothing
+changes. No clip that it was trained on is needed.
 
 Letters: B batch, T frames, R rows of a frame, P places, D shared dimensions.
 """
@@ -23,17 +22,11 @@ from pydantic import Field
 from torch import Tensor, nn
 from torch.nn.functional import cross_entropy, kl_div, normalize, pad
 
-from ..shared.config_schema import (
-    PROVENANCES,
-    ConstraintShares,
-    LossWeights,
-    NetworkConfig,
-    TrainConfig,
-)
+from ..shared.config_schema import ConstraintShares, LossWeights, NetworkConfig, TrainConfig
 from ..shared.data.captions.book import packaged_book
 from ..shared.data.captions.word_dropout import insert_babble
 from ..shared.data.prepared import ClipRecord
-from ..shared.device import autocast, choose_compute
+from ..shared.device import choose_compute
 from ..shared.errors import UsageError, UserError
 from ..shared.model.checkpoint import read_card, resolve_model
 from ..shared.model.clip.core import (
@@ -49,12 +42,7 @@ from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.diffusion import GaussianDiffusion
 from ..shared.model.generation.denoiser import MotionDenoiser
 from ..shared.model.generation.losses import GenerationLoss
-from ..shared.model.generation.motion_generator import (
-    KIND,
-    SampleRequest,
-    TextToMotion,
-    sample_batch,
-)
+from ..shared.model.generation.motion_generator import KIND, TextToMotion
 from .captured_places import apart
 from .constraints import draw_known
 from .launch import Stage
@@ -63,8 +51,6 @@ from .task import Part, Task, generator, numpy_generator
 from .text_stages import motion_rows, open_training_data, training_set
 from .train_generation import TAG_WEIGHT, GuidedDenoiser, spread_timesteps
 
-REHEARSED_FRAMES = 90
-REHEARSED_STEPS = 5  # of sampling
 OLD_CAPTIONS = 16  # of each known action and language
 TOWER_BATCH = 256  # sentences, half of them new
 TOWER_RATE = 2e-2  # of rows that are new
@@ -77,24 +63,21 @@ class TrainActionConfig(TrainConfig):
     """train_action.yaml."""
 
     init: str = "starter"
+    rank: int = Field(16, ge=1)  # of the adapters
     condition_dropout: float = Field(0.1, ge=0, lt=1)  # ruling 14
-    tag_dropout: float = Field(0.5, ge=0, le=1)
     losses: LossWeights = LossWeights()
     constraints: ConstraintShares = ConstraintShares()  # of networks with generation.constraints
-    rehearsed: int = Field(256, ge=1)  # motions of its own that the model goes on making
-    rehearsal_weight: float = Field(3.0, ge=0)
     tower_steps: int = Field(300, ge=1)  # of the text tower, before the motion
 
 
 @dataclass(frozen=True)
 class ActionBatch:
-    """New clips and rehearsal, in this order.
+    """Everything random is drawn already, on the CPU.
 
     Attributes:
         clean, noise: [B,T,R,6] z-scored; mask [B,T] bool; known [B,T,R,6] bool.
         timesteps, tag, provenance: [B] long; drop [B] bool, rows that see no text.
         place: [B,D] what the text tower gives.
-        new: [B] bool.
     """
 
     clean: Tensor
@@ -106,43 +89,41 @@ class ActionBatch:
     provenance: Tensor
     drop: Tensor
     place: Tensor
-    new: Tensor
 
 
 class ActionTask(Task):
     """What the trainer needs to know (task.py)."""
 
     def __init__(self, config: TrainActionConfig, network: NetworkConfig) -> None:
-        self.config, self.network = config, network
+        self.config = config
         self.before = TextToMotion.from_pretrained(config.init, device="cpu")
         self.data = open_training_data(config, network)
-        self.train = training_set(config, self.data)
         known = set(self.before.card.tags)
-        self.actions = tuple(sorted({r.tag for r in self.train.records if r.tag} - known))
+        self.actions = tuple(sorted(set(self.data.tags) - known))
         self._check()
+        self.train = training_set(config, self.data, self.actions)
         self.tags = (*self.before.card.tags, *self.actions)
         self.tower, place_of = self._taught_tower()
         self.places = torch.stack([place_of[record.group] for record in self.train.records])
         self.row_of = {record.id: row for row, record in enumerate(self.train.records)}
+        self.network = self._adapted_network(network)
         self.module: nn.Module = GuidedDenoiser(self._denoiser())
-        self.teacher = GuidedDenoiser(self.before.denoiser).eval().requires_grad_(False)
         self.diffusion = GaussianDiffusion(network.generation.diffusion())
         self.loss = GenerationLoss(
             config.losses, self.diffusion, self.before.mean.cpu(), self.before.std.cpu()
         )
-        self.rehearsal, self.rehearsed_places = self._rehearsal()
         self.compute = choose_compute(config.device, config.precision)
         self.figures: dict[str, float] = {}
 
     def _check(self) -> None:
         if not self.actions:
-            there = ", ".join(sorted({r.tag for r in self.train.records if r.tag})) or "none"
+            there = ", ".join(self.data.tags) or "none"
             raise UserError(
                 f"{self.config.data} has no action that {self.config.init} does not know (it has:"
                 f" {there}); give the clips a new one (`action` in docs/quickstart.md)"
             )
         for action in self.actions:
-            if (number := sum(r.tag == action for r in self.train.records)) < LEAST_CLIPS:
+            if (number := sum(r.tag == action for r in self.data.records("train"))) < LEAST_CLIPS:
                 raise UserError(
                     f"{self.config.data} has {number} clip of {action!r} to train on; prepare at"
                     f" least {LEAST_CLIPS}, better 20"
@@ -163,14 +144,12 @@ class ActionTask(Task):
         )
         labels = [record.labels for record in groups.values()]
         places = apart(means, labels, self.before.card.tags)
-        new = [row for row, record in enumerate(groups.values()) if record.tag in self.actions]
-        sentences = [list(captions.values())[row] for row in new]
         announce(f"teaching the text tower {', '.join(self.actions)}")
         tower = with_new_places(
             before,
             self.before.tokenizer,
-            places[new],
-            sentences,
+            places,
+            list(captions.values()),
             old_captions(self.before.card.tags, self.config.languages),
             steps=self.config.tower_steps,
             seed=self.config.seed,
@@ -190,43 +169,32 @@ class ActionTask(Task):
 
     # ------------------------------------------------------------ the denoiser
 
-    def _denoiser(self) -> MotionDenoiser:
-        """A copy of the old one, with tags for the new actions."""
-        denoiser = MotionDenoiser(self.network, len(self.tags))
-        state = dict(self.before.denoiser.state_dict())
-        tags = denoiser.tag_embed.embedding.weight.detach().clone()  # [num_tags + 1, D]
-        old = state[TAG_WEIGHT]
-        tags[: len(old) - 1], tags[-1] = old[:-1], old[-1]
-        denoiser.load_state_dict({**state, TAG_WEIGHT: tags})
-        return denoiser
+    def _adapted_network(self, network: NetworkConfig) -> NetworkConfig:
+        ranks = (*network.generation.adapter_ranks, self.config.rank)
+        generation = network.generation.model_copy(update={"adapter_ranks": ranks})
+        return network.model_copy(update={"generation": generation, "clip": self.tower.config})
 
-    def _rehearsal(self) -> tuple[Tensor, Tensor]:
-        """Motions [N,T,R,6] that the old model makes at its own places, z-scored; these [N,D]."""
-        places = self.before.text.get_buffer("places").float()  # [P,D]
-        draws = generator("rehearsal", self.config.seed)
-        chosen = places[torch.randperm(len(places), generator=draws)]
-        chosen = chosen.repeat(-(-self.config.rehearsed // len(chosen)), 1)[: self.config.rehearsed]
-        no_tag = len(self.before.card.tags)
-        announce(f"{len(chosen)} motions of {self.config.init} to rehearse")
-        made = []
-        for at in range(0, len(chosen), 32):
-            part = chosen[at : at + 32]
-            requests = [
-                SampleRequest("", REHEARSED_FRAMES, no_tag, (self.config.seed, 0, at + row))
-                for row in range(len(part))
-            ]
-            with torch.inference_mode():
-                motions = sample_batch(
-                    self.before.denoiser,
-                    self.before.diffusion,
-                    requests,
-                    as_features(part),
-                    guidance_scale=self.network.generation.guidance_scale,
-                    sampler="ddim",
-                    steps=REHEARSED_STEPS,
-                )
-            made.append(motions.clone())
-        return torch.cat(made), chosen
+    def _denoiser(self) -> MotionDenoiser:
+        """A copy of the old one in which nothing but the new adapters can learn."""
+        denoiser, old = MotionDenoiser(self.network, len(self.tags)), self.before.denoiser
+        before, every = old.state_dict(), self.tower.get_buffer("places")
+        ranks, tags = self.network.generation.adapter_ranks, before[TAG_WEIGHT]
+        added = tags[-1:].expand(len(self.actions), -1)  # a new tag tells no more than none
+        adapter_of = torch.full((len(every),), len(ranks))
+        known = len(self.before.text.get_buffer("places"))
+        adapter_of[:known] = before.get("adapter_of", torch.zeros(known))
+        denoiser.load_state_dict(
+            {
+                **denoiser.state_dict(),
+                **before,
+                TAG_WEIGHT: torch.cat([tags[:-1], added, tags[-1:]]),
+                "places": every,
+                "adapter_of": adapter_of,
+            }
+        )
+        for name, weight in denoiser.named_parameters():
+            weight.requires_grad_(f".adapters.{len(ranks) - 1}." in name)
+        return denoiser
 
     def identity(self) -> dict[str, Any]:
         """A resumed run must go on from the same model with the same clips."""
@@ -238,89 +206,59 @@ class ActionTask(Task):
 
     def to(self, device: torch.device) -> None:
         """Frozen parts follow the module."""
-        self.teacher.to(device)
         self.loss.to(device)
 
     # ------------------------------------------------------------ batches
 
     def batch(self, part: Part) -> ActionBatch:
-        """Half new clips, half rehearsal; everything random is drawn here, on the CPU."""
-        config = self.config
-        num_old = config.batch_size // 2
-        clips = self.train.batch(part.step, config.batch_size - num_old, rank=part.index)
+        """Clips of the new actions; everything random is drawn here, on the CPU."""
+        config, size = self.config, self.config.batch_size
+        clips = self.train.batch(part.step, size, rank=part.index)
         raw = motion_rows(clips.motion * self.data.std + self.data.mean, self.network)
-        new = (raw - self.before.mean.cpu()) / self.before.std.cpu()
+        clean = (raw - self.before.mean.cpu()) / self.before.std.cpu()
         draws = generator("noise", config.seed, part.step, part.index)
-        rows = torch.randint(len(self.rehearsal), (num_old,), generator=draws)
-        old = self.rehearsal[rows]
-        frames = max(new.shape[1], old.shape[1])
-        clean = torch.cat([_padded(each, frames) for each in (new, old)])
-        mask = torch.zeros(len(clean), frames, dtype=torch.bool)
-        mask[: len(new), : new.shape[1]] = clips.mask
-        mask[len(new) :, : old.shape[1]] = True
-        size = len(clean)
-        places = torch.cat(
-            [self.places[[self.row_of[r.id] for r in clips.records]], self.rehearsed_places[rows]]
-        )
         known = torch.zeros(clean.shape, dtype=torch.bool)
         if self.network.generation.constraints:
             rng = numpy_generator("known", config.seed, part.step, part.index)
-            known = draw_known(mask, clean.shape[2], config.constraints, rng)
-        drop = torch.rand(size, generator=draws) < config.condition_dropout
-        untagged = drop | (torch.rand(size, generator=draws) < config.tag_dropout)
-        own = [self.tags.index(r.tag) if r.tag in self.tags else -1 for r in clips.records]
-        tag = torch.tensor([*own, *[-1] * num_old])
-        tag = torch.where(untagged | (tag < 0), len(self.tags), tag)
-        captured = torch.full((num_old,), PROVENANCES.index("captured"))
+            known = draw_known(clips.mask, clean.shape[2], config.constraints, rng)
         return ActionBatch(
             clean=clean,
             noise=torch.randn(clean.shape, generator=draws),
-            mask=mask,
+            mask=clips.mask,
             known=known,
             timesteps=spread_timesteps(size, self.diffusion.config.timesteps, draws),
-            tag=tag,
-            provenance=torch.cat([clips.provenance, captured]),
-            drop=drop,
-            place=places,
-            new=torch.arange(size) < len(new),
+            tag=torch.full((size,), len(self.tags)),
+            provenance=clips.provenance,
+            drop=torch.rand(size, generator=draws) < config.condition_dropout,
+            place=self.places[[self.row_of[record.id] for record in clips.records]],
         )
 
     # ------------------------------------------------------------ learning
 
     def training_step(self, module: nn.Module, batch: ActionBatch) -> dict[str, Tensor]:
-        """The losses of the new clips, and how far rehearsal is from what the old model says."""
+        """The weighted losses of one noised batch."""
         noisy = self.diffusion.q_sample(batch.clean, batch.timesteps, batch.noise)
         seen = torch.where(batch.known, batch.clean, noisy)
-        told = (batch.mask, batch.drop, batch.known, batch.provenance)
-        text = as_features(batch.place)
-        output = module(seen, batch.timesteps, text, batch.tag, *told).float()
-        new, old = batch.new, ~batch.new
-        with torch.no_grad(), autocast(self.compute):
-            no_tag = torch.full_like(batch.tag[old], len(self.before.card.tags))
-            wanted = self.teacher(
-                seen[old],
-                batch.timesteps[old],
-                text[old],
-                no_tag,
-                *(each[old] for each in told),
-            ).float()
-        target = self.diffusion.target(batch.clean, batch.noise, batch.timesteps)
-        output = torch.where(batch.known, target, output)
-        wanted = torch.where(batch.known[old], target[old], wanted)
-        losses: dict[str, Tensor] = self.loss(
-            output[new],
-            batch.clean[new],
-            noisy[new],
-            batch.noise[new],
-            batch.timesteps[new],
-            batch.mask[new],
+        output = module(
+            seen,
+            batch.timesteps,
+            as_features(batch.place),
+            batch.tag,
+            batch.mask,
+            batch.drop,
+            batch.known,
+            batch.provenance,
         )
-        rehearsal = self.diffusion.loss(output[old], wanted, mask=batch.mask[old])
-        return {
-            **losses,
-            "loss": losses["loss"] + self.config.rehearsal_weight * rehearsal,
-            "rehearsal": rehearsal,
-        }
+        target = self.diffusion.target(batch.clean, batch.noise, batch.timesteps)
+        losses: dict[str, Tensor] = self.loss(
+            torch.where(batch.known, target, output.float()),
+            batch.clean,
+            noisy,
+            batch.noise,
+            batch.timesteps,
+            batch.mask,
+        )
+        return losses
 
     def validation(self, module: nn.Module) -> dict[str, float]:
         """`evaluate-requests` and `calibrate` tell more than a loss on a few clips would."""
@@ -499,11 +437,6 @@ def _extended(tower: TextTower, keys: Tensor) -> tuple[TextTower, Tensor]:
     state |= {"encoder.keys": every, "encoder.rows.weight": torch.cat([rows, old[-1:]])}
     wider.load_state_dict(state)
     return wider, pad(order >= len(before.keys), (0, 1))
-
-
-def _padded(motion: Tensor, frames: int) -> Tensor:
-    """[B,T,R,6] with zeros up to `frames`."""
-    return pad(motion, (0, 0, 0, 0, 0, frames - motion.shape[1]))
 
 
 def network_of(init: str) -> NetworkConfig:

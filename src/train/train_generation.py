@@ -89,7 +89,7 @@ class GuidedDenoiser(nn.Module):
         provenance: Tensor,
     ) -> Tensor:
         """As MotionDenoiser.forward; rows where drop [B] is True see the null text."""
-        heard = self.denoiser.drop_text(text, drop)
+        heard = self.denoiser.drop_text(self.denoiser.with_adapters(text), drop)
         output: Tensor = self.denoiser(
             noisy,
             timesteps,

@@ -1,5 +1,6 @@
 """A new action from a few clips: its sentences find a place of their own, the others stay."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -19,10 +20,9 @@ from src.shared.data.sources.folders import MotionFolder
 from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.errors import UsageError, UserError
 from src.shared.formats.writers.bvh import write_bvh
-from src.shared.model.generation.motion_generator import TextToMotion
+from src.shared.model.generation.motion_generator import SampleRequest, TextToMotion, sample_batch
 from src.train.engine import Trainer
-from src.train.task import Part
-from src.train.train_action import ActionTask, TrainActionConfig, network_of
+from src.train.train_action import ActionTask, TrainActionConfig, as_features, network_of
 from src.train.train_text import TextTask, TrainTextConfig
 
 OLD = ["a person walks forward", "someone waves with the left hand", "she jumps"]
@@ -47,13 +47,16 @@ def model(prepared: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def flops(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A prepared folder of six clips that no caption book knows, and one without a label."""
-    folder = tmp_path_factory.mktemp("flops")
+    return prepared_clips(tmp_path_factory.mktemp("flops"), "flop", NEW)
+
+
+def prepared_clips(folder: Path, action: str, captions: list[str]) -> Path:
     lines = ["clip,action,caption"]
     for number in range(7):
         clip = generate_clip(spec_for({"action": "bow", "count": "1"}, number), seed=number)
         write_bvh(clip, folder / "clips" / f"take{number}.bvh")
-        action = "flop" if number < 6 else ""  # one clip has no label
-        lines.append(f"take{number},{action},{' | '.join(NEW) if action else 'a person stands'}")
+        own = action if number < 6 else ""  # one clip has no label
+        lines.append(f"take{number},{own},{' | '.join(captions) if own else 'a person stands'}")
     (folder / "captions.csv").write_text("\n".join(lines))
     source = MotionFolder.open(folder / "clips", captions=[folder / "captions.csv"])
     prepare([source], folder / "data", workers=1)
@@ -62,7 +65,7 @@ def flops(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def action_config(data: Path, init: Path | str, output: Path, *more: str) -> TrainActionConfig:
     given = [*SETTINGS, f"data='{data}'", f"init='{init}'", f"output='{output}'", *more]
-    return load_train(None, TrainActionConfig, [*given, "rehearsed=4", "tower-steps=120"])
+    return load_train(None, TrainActionConfig, [*given, "tower-steps=120"])
 
 
 def test_a_new_action_has_a_place_and_the_old_ones_keep_theirs(
@@ -89,15 +92,32 @@ def test_a_new_action_has_a_place_and_the_old_ones_keep_theirs(
         ActionTask(action_config(flops, config.output, tmp_path / "again"), network)
 
 
-def test_rehearsal_starts_at_no_distance(model: Path, flops: Path, tmp_path: Path) -> None:
-    """Before any step the new denoiser says what the old one says."""
-    config = action_config(flops, model, tmp_path / "x", "batch-size=8", "condition-dropout=0")
-    task = ActionTask(config, network_of(str(model)))
-    batch = task.batch(Part(0, 0, 1))
-    assert batch.new.sum() == 4 and torch.equal(batch.noise, task.batch(Part(0, 0, 1)).noise)
-    losses = task.training_step(task.module, batch)
-    assert losses["rehearsal"] < 1e-5 < losses["reconstruction"]
-    losses["loss"].backward()
+def test_nothing_that_was_known_changes(model: Path, flops: Path, tmp_path: Path) -> None:
+    """Adapters are closed for texts that come out at the old places, to the last bit; and open for
+    the new one, with a guidance that compares like with like. A second action leaves the first."""
+    first = action_config(flops, model, tmp_path / "first", "steps=4", "learning-rate=0.05")
+    Trainer(first, lambda c: ActionTask(c, network_of(str(model))), command="again").train()
+    old, new = (TextToMotion.from_pretrained(each, device="cpu") for each in (model, first.output))
+    places = new.text.get_buffer("places")
+    request = SampleRequest("", 30, len(new.card.tags), (0, 0, 0))
+
+    def sampled(generator: TextToMotion, place: torch.Tensor) -> torch.Tensor:
+        tag = replace(request, tag=len(generator.card.tags))
+        return sample_batch(
+            generator.denoiser, generator.diffusion, [tag], as_features(place[None]),
+            guidance_scale=2.0, sampler="ddim", steps=2,
+        )  # fmt: skip
+
+    for place in places[:-1]:
+        assert torch.equal(sampled(old, place), sampled(new, place))
+    assert not torch.equal(sampled(old, places[-1]), sampled(new, places[-1]))
+    slumps = prepared_clips(tmp_path / "slumps", "slump", ["a person slumps", "slumping down"])
+    second = action_config(slumps, first.output, tmp_path / "second", "steps=2", "rank=3")
+    network = network_of(str(first.output))
+    Trainer(second, lambda c: ActionTask(c, network), command="again").train()
+    both = TextToMotion.from_pretrained(second.output, device="cpu")
+    assert both.network.generation.adapter_ranks == (16, 3)
+    assert torch.equal(sampled(new, places[-1]), sampled(both, places[-1]))
 
 
 def test_models_that_cannot_learn_say_why(prepared: Path, model: Path, tmp_path: Path) -> None:

@@ -5,7 +5,7 @@ seen, without any loader state. Gestures that come back to where they began are 
 shortened. B batch, T frames; features are those of motion/features.py.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 
 import numpy as np
@@ -67,6 +67,7 @@ class TextMotionDataset:
         languages: tuple[str, ...] = ("en", "es", "fr", "de", "ja", "zh"),
         balance: float = 0.5,
         captured_share: float = 0.0,
+        actions: Collection[str] | None = None,
         seed: int = 0,
     ) -> None:
         """Select the records of a split.
@@ -78,6 +79,7 @@ class TextMotionDataset:
                 w^(1-balance)).
             captured_share: of the draws of an action, at least so many go to its captured clips,
                 where there are any: ten thousand procedural ones would drown six.
+            actions: no clips of others, if given.
 
         Raises:
             ValueError: no clip of the split is long enough or has a caption in `languages`.
@@ -90,6 +92,7 @@ class TextMotionDataset:
             if record.num_frames >= min(min_frames, max_frames)
             and not (_whole(record) and record.num_frames > max_frames)
             and any(data.captions(record).get(language) for language in languages)
+            and (actions is None or record.tag in actions)
         ]
         if not self.records:
             raise ValueError(

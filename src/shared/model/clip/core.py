@@ -104,23 +104,27 @@ MAX_LOGIT_SCALE = math.log(100.0)  # Radford et al. 2021, section 2.5
 
 @dataclass(frozen=True)
 class TextFeatures:
-    """Texts as the denoiser sees them: pooled [B, D] unit-norm, tokens [B, L, D], mask [B, L]."""
+    """Texts as the denoiser sees them: pooled [B, D] unit-norm, tokens [B, L, D], mask [B, L]; and,
+    once it was asked, which of its adapters they open, [B, A] of zeros and ones."""
 
     pooled: Tensor
     tokens: Tensor
     mask: Tensor  # bool, True = real token
+    opened: Tensor | None = None
 
     def __len__(self) -> int:
         return len(self.pooled)
 
     def __getitem__(self, rows: Tensor | slice) -> "TextFeatures":
         """The chosen rows of the batch."""
-        return TextFeatures(self.pooled[rows], self.tokens[rows], self.mask[rows])
+        opened = None if self.opened is None else self.opened[rows]
+        return TextFeatures(self.pooled[rows], self.tokens[rows], self.mask[rows], opened)
 
     def to(self, device: torch.device | str) -> "TextFeatures":
         """The same on another device."""
-        moved = (part.to(device) for part in (self.pooled, self.tokens, self.mask))
-        return TextFeatures(*moved)
+        opened = None if self.opened is None else self.opened.to(device)
+        parts = self.pooled.to(device), self.tokens.to(device), self.mask.to(device)
+        return TextFeatures(*parts, opened)
 
 
 class TextTower(nn.Module):

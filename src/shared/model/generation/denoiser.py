@@ -4,9 +4,11 @@ Letters: B batch, T frames, K rows (bones, root track), C channels, D embed dim,
 L text tokens, H heads.
 """
 
+from dataclasses import replace
+
 import torch
 from torch import Tensor, nn
-from torch.nn.functional import pad, silu
+from torch.nn.functional import one_hot, pad, silu
 
 from ...config_schema import PROVENANCES, NetworkConfig
 from ..clip.core import TextFeatures
@@ -45,6 +47,9 @@ class FrameRefiner(nn.Module):
 class MotionDenoiser(nn.Module):
     """Noisy motion, step, text and tag -> noise, clean motion or v, as the config says.
 
+    With `adapter-ranks` the blocks have low-rank adapters. A text opens the one that the nearest of
+    `places` [P, D] belongs to: `adapter_of` [P]; 0 is none, and the network is what it was without.
+
     The output projection starts at zero, so the first prediction is the mean motion. With
     `frames-per-token` above 1 the blocks see so many frames as one token (the patches of Peebles
     and Xie 2023, DiT, section 3.2, along time) and a FrameRefiner mends the seams.
@@ -77,10 +82,17 @@ class MotionDenoiser(nn.Module):
             self.provenance_embed = TagEmbedding(len(PROVENANCES), dim)
         self.blocks = nn.ModuleList(
             DenoiserBlock(
-                dim, generation.num_heads, dropout=generation.dropout, tokens=self.uses_tokens
+                dim,
+                generation.num_heads,
+                dropout=generation.dropout,
+                tokens=self.uses_tokens,
+                ranks=generation.adapter_ranks,
             )
             for _ in range(generation.num_layers)
         )
+        if generation.adapter_ranks:
+            self.register_buffer("places", torch.zeros(config.clip.text_places, dim))
+            self.register_buffer("adapter_of", torch.zeros(config.clip.text_places).long())
         self.output_norm = nn.LayerNorm(dim)
         self.output_proj = zeroed(nn.Linear(dim, token_dim))
         self.refiner = FrameRefiner(motion_dim, dim // 2) if self.stride > 1 else None
@@ -139,7 +151,7 @@ class MotionDenoiser(nn.Module):
             keys_values = self.text_keys_values(text)
         for index, block in enumerate(self.blocks):
             own = keys_values[index] if keys_values else None
-            h = block(h, condition, mask, own, text.mask)  # [B, T, D]
+            h = block(h, condition, mask, own, text.mask, text.opened)  # [B, T, D]
         out = self.output_proj(self.output_norm(h))  # [B, T, stride*K*C]
         out = out.unflatten(-1, (self.stride, -1)).flatten(1, 2)[:, :frames]  # [B, frames, K*C]
         if self.refiner is not None:
@@ -176,10 +188,21 @@ class MotionDenoiser(nn.Module):
         )
 
     def drop_text(self, text: TextFeatures, drop: Tensor) -> TextFeatures:
-        """The same texts with the learned null where drop [B] bool is True."""
+        """The same texts with the learned null where drop [B] bool is True; what is open stays
+        open, so that guidance compares like with like."""
         null = self.null_text(len(text), text.tokens.shape[1])
         return TextFeatures(
             torch.where(drop[:, None], null.pooled, text.pooled),
             torch.where(drop[:, None, None], null.tokens, text.tokens),
             torch.where(drop[:, None], null.mask, text.mask),
+            text.opened,
         )
+
+    def with_adapters(self, text: TextFeatures) -> TextFeatures:
+        """The same texts, and which adapters they open."""
+        if not (number := len(self.config.generation.adapter_ranks)):
+            return text
+        places, adapter_of = self.get_buffer("places"), self.get_buffer("adapter_of")
+        nearest = (text.pooled @ places.T).argmax(-1)  # [B]
+        opened = one_hot(adapter_of[nearest], number + 1)[:, 1:]  # [B, A]
+        return replace(text, opened=opened.to(text.pooled)) if opened.any() else text

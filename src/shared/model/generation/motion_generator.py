@@ -208,7 +208,8 @@ def sample_batch(
         "known": known.shown if known is not None and learned else None,
         "provenance": _captured(denoiser, tag),
     }
-    null = denoiser.null_text(len(requests), text.mask.shape[1])
+    text = denoiser.with_adapters(text)
+    null = denoiser.drop_text(text, torch.ones_like(tag, dtype=torch.bool))
     # keys and values once a sample, not once a step
     own, none = denoiser.text_keys_values(text), denoiser.text_keys_values(null)
     condition = {"text": text, "tag": tag, "keys_values": own, **shared}

@@ -10,6 +10,7 @@ dropping the residual branch regularises as well at this size.
 """
 
 import math
+from collections.abc import Sequence
 from typing import TypeVar
 
 import torch
@@ -122,26 +123,56 @@ def attend(query: Tensor, key: Tensor, value: Tensor, mask: Tensor | None) -> Te
     return torch.matmul(scores.softmax(dim=-1), value)
 
 
+class AdaptedLinear(nn.Linear):
+    """A linear map and low-rank adapters beside it, each for the samples that open it.
+
+    Hu et al. 2022, LoRA, equation 3. Adapters start at zero.
+    """
+
+    def __init__(self, dim: int, out_dim: int, ranks: Sequence[int] = ()) -> None:
+        super().__init__(dim, out_dim)
+        self.adapters = nn.ModuleList(
+            nn.Sequential(
+                nn.Linear(dim, rank, bias=False), zeroed(nn.Linear(rank, out_dim, bias=False))
+            )
+            for rank in ranks
+        )
+
+    def forward(self, x: Tensor, opened: Tensor | None = None) -> Tensor:
+        """x [B, T, D], opened [B, A] of the A adapters, or None: no sample opens one
+        -> [B, T, out_dim]."""
+        y = super().forward(x)
+        if opened is not None:
+            for index, adapter in enumerate(self.adapters):
+                y = y + adapter(x) * opened[:, None, index, None]
+        return y
+
+
 class MultiHeadAttention(nn.Module):
     """Self-attention; `rotary` turns q and k by their positions inside (ruling 22)."""
 
-    def __init__(self, dim: int, num_heads: int, *, rotary: bool = False) -> None:
+    def __init__(
+        self, dim: int, num_heads: int, *, rotary: bool = False, ranks: Sequence[int] = ()
+    ) -> None:
         super().__init__()
         _check_heads(dim, num_heads)
         self.num_heads = num_heads
-        self.qkv = nn.Linear(dim, 3 * dim)
+        self.qkv = AdaptedLinear(dim, 3 * dim, ranks)
         self.rotary = RotaryEmbedding(dim // num_heads) if rotary else None
-        self.out = nn.Linear(dim, dim)
+        self.out = AdaptedLinear(dim, dim, ranks)
 
-    def forward(self, x: Tensor, mask: Tensor | None = None) -> Tensor:
-        """x [B, T, D], mask [B, T] bool (True = real) or None -> [B, T, D]."""
-        heads = rearrange(self.qkv(x), "b t (n d) -> b t n d", n=3 * self.num_heads)
+    def forward(
+        self, x: Tensor, mask: Tensor | None = None, opened: Tensor | None = None
+    ) -> Tensor:
+        """x [B, T, D], mask [B, T] bool (True = real) or None, opened as in AdaptedLinear
+        -> [B, T, D]."""
+        heads = rearrange(self.qkv(x, opened), "b t (n d) -> b t n d", n=3 * self.num_heads)
         if self.rotary is not None:
             positioned, value = heads.split([2 * self.num_heads, self.num_heads], dim=2)
             heads = torch.cat([self.rotary(positioned), value], dim=2)
         query, key, value = heads.transpose(1, 2).chunk(3, dim=1)  # [B, H, T, d] each
         mixed = attend(query, key, value, mask)  # [B, H, T, d]
-        result: Tensor = self.out(rearrange(mixed, "b h t d -> b t (h d)"))
+        result: Tensor = self.out(rearrange(mixed, "b h t d -> b t (h d)"), opened)
         return result
 
 
@@ -258,20 +289,26 @@ class TransformLayer(nn.Module):
     """Two linear maps around a GELU; adds its input when the two widths match."""
 
     def __init__(
-        self, dim: int, out_dim: int | None = None, *, expansion: int = 4, dropout: float = 0.0
+        self,
+        dim: int,
+        out_dim: int | None = None,
+        *,
+        expansion: int = 4,
+        dropout: float = 0.0,
+        ranks: Sequence[int] = (),
     ) -> None:
         super().__init__()
         out_dim = dim if out_dim is None else out_dim
         self.residual = out_dim == dim
-        self.expand = nn.Linear(dim, expansion * dim)
+        self.expand = AdaptedLinear(dim, expansion * dim, ranks)
         self.activation = nn.GELU()
-        self.contract = nn.Linear(expansion * dim, out_dim)
+        self.contract = AdaptedLinear(expansion * dim, out_dim, ranks)
         self.dropout = ChannelDropout(dropout)
 
-    def forward(self, x: Tensor) -> Tensor:
-        """x [B, T, D] -> [B, T, out_dim]."""
-        hidden = self.activation(self.expand(x))  # [B, T, 4D]
-        y: Tensor = self.dropout(self.contract(hidden))  # [B, T, out_dim]
+    def forward(self, x: Tensor, opened: Tensor | None = None) -> Tensor:
+        """x [B, T, D], opened as in AdaptedLinear -> [B, T, out_dim]."""
+        hidden = self.activation(self.expand(x, opened))  # [B, T, 4D]
+        y: Tensor = self.dropout(self.contract(hidden, opened))  # [B, T, out_dim]
         return x + y if self.residual else y
 
 
@@ -286,19 +323,23 @@ class TemporalLayer(nn.Module):
         expansion: int = 4,
         dropout: float = 0.0,
         rotary: bool = False,
+        ranks: Sequence[int] = (),
     ) -> None:
         super().__init__()
         self.attention_norm = nn.LayerNorm(dim)
-        self.attention = MultiHeadAttention(dim, num_heads, rotary=rotary)
+        self.attention = MultiHeadAttention(dim, num_heads, rotary=rotary, ranks=ranks)
         self.dropout = ChannelDropout(dropout)
         self.feed_forward_norm = nn.LayerNorm(dim)
-        self.feed_forward = TransformLayer(dim, expansion=expansion, dropout=dropout)
+        self.feed_forward = TransformLayer(dim, expansion=expansion, dropout=dropout, ranks=ranks)
         self.feed_forward.residual = False  # the residual goes around the norm
 
-    def forward(self, x: Tensor, mask: Tensor | None = None) -> Tensor:
-        """x [B, T, D], mask [B, T] bool (True = real) or None -> [B, T, D]."""
-        x = x + self.dropout(self.attention(self.attention_norm(x), mask))  # [B, T, D]
-        result: Tensor = x + self.feed_forward(self.feed_forward_norm(x))
+    def forward(
+        self, x: Tensor, mask: Tensor | None = None, opened: Tensor | None = None
+    ) -> Tensor:
+        """x [B, T, D], mask [B, T] bool (True = real) or None, opened as in AdaptedLinear
+        -> [B, T, D]."""
+        x = x + self.dropout(self.attention(self.attention_norm(x), mask, opened))  # [B, T, D]
+        result: Tensor = x + self.feed_forward(self.feed_forward_norm(x), opened)
         return result
 
 
@@ -308,16 +349,18 @@ class DenoiserBlock(nn.Module):
     With `tokens` a cross-attention to the text follows the MHA (ruling 22).
     """
 
-    def __init__(self, dim: int, num_heads: int, *, dropout: float, tokens: bool) -> None:
+    def __init__(
+        self, dim: int, num_heads: int, *, dropout: float, tokens: bool, ranks: Sequence[int] = ()
+    ) -> None:
         super().__init__()
-        self.temporal = TemporalLayer(dim, num_heads, dropout=dropout, rotary=True)
+        self.temporal = TemporalLayer(dim, num_heads, dropout=dropout, rotary=True, ranks=ranks)
         self.film = FiLM(dim, 2 * dim)
         self.norm = nn.LayerNorm(dim)
-        self.attention = MultiHeadAttention(dim, num_heads, rotary=True)
+        self.attention = MultiHeadAttention(dim, num_heads, rotary=True, ranks=ranks)
         self.cross_norm = nn.LayerNorm(dim) if tokens else None
         self.cross_attention = CrossAttention(dim, num_heads) if tokens else None
         self.adaln = AdaLN(dim, 2 * dim)
-        self.transform = TransformLayer(dim, dropout=dropout)
+        self.transform = TransformLayer(dim, dropout=dropout, ranks=ranks)
         self.dropout = ChannelDropout(dropout)
 
     def forward(
@@ -327,15 +370,17 @@ class DenoiserBlock(nn.Module):
         mask: Tensor | None = None,
         text: KeyValue | None = None,
         text_mask: Tensor | None = None,
+        opened: Tensor | None = None,
     ) -> Tensor:
-        """h [B, T, D], condition [B, 2D], masks [B, T] and [B, L] -> [B, T, D]."""
-        h = self.temporal(h, mask)  # [B, T, D]
+        """h [B, T, D], condition [B, 2D], masks [B, T] and [B, L], opened as in AdaptedLinear
+        -> [B, T, D]."""
+        h = self.temporal(h, mask, opened)  # [B, T, D]
         h = self.film(h, condition)  # [B, T, D]
-        h = h + self.dropout(self.attention(self.norm(h), mask))  # [B, T, D]
+        h = h + self.dropout(self.attention(self.norm(h), mask, opened))  # [B, T, D]
         if self.cross_attention is not None and self.cross_norm is not None:
             assert text is not None, "a block with cross-attention needs the text tokens"
             attended = self.cross_attention(self.cross_norm(h), text, text_mask)  # [B, T, D]
             h = h + self.dropout(attended)
         h = self.adaln(h, condition)  # [B, T, D]
-        result: Tensor = self.transform(h)  # [B, T, D]
+        result: Tensor = self.transform(h, opened)  # [B, T, D]
         return result
