@@ -45,7 +45,7 @@ def python(*arguments: str, threads: int | None = None) -> int:
 
 
 def demo(arguments: list[str]) -> int:
-    """Generate a few motions, in three languages, and one to a song, into outputs/demo."""
+    """Generate a few motions, in three languages, one to a song, and the studio's page."""
     setup.main([])
     generate = ("-m", "src.cli.tools", "generate", "--out", DEMO)
     prompts = [word for prompt in PROMPTS for word in ("--prompt", prompt)]
@@ -54,6 +54,7 @@ def demo(arguments: list[str]) -> int:
         python(*generate, *prompts, *options, *arguments)
         or python("-c", SONG)
         or python(*generate, "--audio", f"{DEMO}/song.wav", "--format", "npz,glb,html")
+        or python("-m", "src.cli.tools", "studio", "--out", f"{DEMO}/studio.html", "--no-open")
     )
 
 

@@ -147,9 +147,10 @@ def test_demo_makes_a_song_and_moves_to_it(monkeypatch: pytest.MonkeyPatch, tmp_
     called: list[tuple[str, ...]] = []
     monkeypatch.setattr(tasks, "python", lambda *words: called.append(words) or 0)
     assert tasks.demo(["--device", "cpu"]) == 0
-    prompts, song, audio = called
+    prompts, song, audio, studio = called
     assert "--prompt" in prompts and prompts[-2:] == ("--device", "cpu")
     assert audio[audio.index("--audio") + 1] == "outputs/demo/song.wav"
+    assert studio[-4:] == ("studio", "--out", "outputs/demo/studio.html", "--no-open")
     done = subprocess.run([sys.executable, "-c", song[1].replace(tasks.DEMO, str(tmp_path / "x"))],
                           cwd=ROOT, check=True)  # fmt: skip
     assert done.returncode == 0

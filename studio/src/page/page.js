@@ -5,6 +5,7 @@ import { readClip } from "../files/clip.js";
 import { recordFilm } from "../files/film.js";
 import { writeGlb } from "../files/glb.js";
 import { FPS, useSkeleton } from "../body/skeleton.js";
+import { lengthOf } from "../model/path.js";
 import { Client } from "./client.js";
 import { readParts } from "./parts.js";
 import { examples, PATHS } from "./presets.js";
@@ -14,6 +15,7 @@ import { Timeline } from "./timeline.js";
 
 const $ = (id) => document.getElementById(id);
 const REMEMBERED = 24; // motions
+const WALK = 1.1; // m/s
 
 export function openPage() {
   globalThis.studio = new Page(); // for scripts and tests
@@ -25,7 +27,6 @@ export function openPage() {
 
 class Page {
   async open() {
-    this.started = performance.now();
     this.settings = JSON.parse($("settings").textContent);
     useSkeleton(this.settings.skeleton);
     this.motions = new Map();
@@ -39,15 +40,17 @@ class Page {
     this.changed();
     const script = $("script").textContent;
     this.tell("Loading the model …");
+    this.timings = { page: performance.now() };
     const parts = await readParts(document);
+    this.timings.parts = performance.now();
     ({ glb: this.glb, licences: this.licences } = parts);
     this.client = await Client.open(script, this.settings, parts);
-    this.timings = { loaded: performance.now() - this.started };
+    this.timings.loaded = performance.now();
     document.body.classList.add("ready");
     $("make").disabled = false;
     await this.warn();
     await this.make();
-    this.timings.first = performance.now() - this.started;
+    this.timings.first = performance.now();
   }
 
   get scene() {
@@ -204,7 +207,8 @@ class Page {
     $("redo").disabled = !this.history.future.length;
     if (!this.drawing) $("path").value = path ? (Object.keys(PATHS).find((name) => JSON.stringify(PATHS[name].points) === JSON.stringify(path)) ?? "drawn") : "none";
     this.timeline?.show();
-    history.replaceState(null, "", `#${toLink(this.scene)}`);
+    clearTimeout(this.linkTimer); // browsers count how often an address changes
+    this.linkTimer = setTimeout(() => history.replaceState(null, "", this.link()), 300);
     this.showMotions(chosen);
     this.stage?.showPath(path);
     this.warnSoon();
@@ -237,13 +241,14 @@ class Page {
       for (let take = 0; take < takes; take++) {
         const key = this.keyOf(take);
         if (this.motions.has(key)) continue;
-        this.tell(takes > 1 ? `Making take ${take + 1} of ${takes} …` : "Making the motion …");
+        const what = takes > 1 ? `Making take ${take + 1} of ${takes} …` : "Making the motion …";
+        this.tell(what);
         const scene = { blocks, path, clip: this.clip ? this.clipChoice(true) : null };
-        const motion = await this.client.call("make", { scene, seed: seed + take });
+        const start = performance.now();
+        const motion = await this.client.call("make", { scene, seed: seed + take }, [], (frames) => this.tell(`${what} ${(frames / FPS).toFixed(1)} s`));
         this.motions.set(key, motion);
         if (this.motions.size > REMEMBERED) this.motions.delete(this.motions.keys().next().value);
-        this.timings.motion = performance.now() - began;
-        if (take === 0) this.timings.firstTake = performance.now() - began;
+        this.timings.motion = performance.now() - start;
         this.showMotions();
       }
       this.tell(takes > 1 ? `${takes} takes, in ${((performance.now() - began) / 1000).toFixed(1)} s. Click one to choose it.` : `Made in ${((performance.now() - began) / 1000).toFixed(1)} s.`);
@@ -263,13 +268,16 @@ class Page {
     const { takes, chosen } = this.scene;
     const all = Array.from({ length: takes }, (_, take) => this.motions.get(this.keyOf(take)));
     const found = all.slice(0, all.includes(undefined) ? all.indexOf(undefined) : takes);
-    document.body.classList.toggle("stale", Boolean(this.shown) && !found.length);
+    const stale = Boolean(this.shown) && !found.length;
+    document.body.classList.toggle("stale", stale);
+    if (stale && !this.making && !this.drawing) this.tell("Changed: Enter or Make makes it.");
     if (found.length) {
       const before = this.shown;
       this.shown = found;
       this.choice = Math.min(chosen, found.length - 1);
       this.stage?.show(found, this.choice);
       this.stage?.showPath(this.scene.path);
+      $("stage").setAttribute("aria-label", `${found.length > 1 ? `${found.length} bodies; take ${this.choice + 1} is chosen` : "A body"}: ${found[this.choice].text}`);
       if (!before || before.length !== found.length) this.stage?.resetView();
       const seconds = Math.max(...found.map(({ frames, fps }) => (frames - 1) / fps));
       $("scrub").max = seconds;
@@ -357,7 +365,7 @@ class Page {
       if (this.drawing && this.line?.length) {
         const line = this.line;
         this.stopDrawing();
-        if (line.length > 2) { this.history.change({ path: line }); this.make(); }
+        if (line.length > 2) this.takePath(line);
         else this.tell("Draw a longer line on the floor.", "warning");
       } else if (pressed && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) < 5) {
         const take = this.stage?.takeAt(event);
@@ -380,7 +388,16 @@ class Page {
     }
     this.stopDrawing();
     if (name === "drawn") return;
-    this.history.change({ path: PATHS[name].points });
+    this.takePath(PATHS[name].points);
+  }
+
+  /** A way on the floor; a sentence alone gets the seconds that it takes at a walk. */
+  takePath(path) {
+    const { blocks } = this.scene;
+    if (path && blocks.length === 1) {
+      const seconds = Math.ceil(lengthOf(path) / WALK + 1);
+      this.history.change({ path, blocks: [{ ...blocks[0], seconds }] });
+    } else this.history.change({ path });
     this.make();
   }
 
@@ -484,10 +501,15 @@ class Page {
     this.setPlaying(before);
   }
 
+  /** The address that carries the scene. */
+  link() {
+    return `${location.href.split("#")[0]}#${toLink(this.scene)}`;
+  }
+
   async copyLink() {
     const note = this.clip ? " The clip is not in it." : "";
     try {
-      await navigator.clipboard.writeText(location.href);
+      await navigator.clipboard.writeText(this.link());
       this.tell(`The link that carries this scene is copied.${note}`);
     } catch {
       this.tell(`The link in the address bar carries this scene.${note}`);

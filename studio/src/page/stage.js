@@ -24,7 +24,7 @@ export class Stage {
     this.renderer.outputColorSpace = SRGBColorSpace;
     this.scene = new Scene();
     this.scene.background = new Color(0xeef1f5);
-    this.scene.fog = new Fog(0xeef1f5, 8, 26);
+    this.scene.fog = new Fog(0xeef1f5, 9, 34);
     this.camera = new PerspectiveCamera(38, 1, 0.05, 200);
     this.controls = new OrbitControls(this.camera, canvas);
     Object.assign(this.controls, { enableDamping: true, dampingFactor: 0.12, maxPolarAngle: 1.53, minDistance: 1, maxDistance: 30 });
@@ -46,7 +46,7 @@ export class Stage {
     const floor = new Mesh(new PlaneGeometry(200, 200), new ShadowMaterial({ color: 0x1c2430, opacity: 0.22 }));
     floor.rotation.x = -Math.PI / 2;
     floor.receiveShadow = true;
-    const grid = new GridHelper(60, 60, 0xaeb8c6, 0xd3dae4);
+    const grid = new GridHelper(60, 60, 0x9eaaba, 0xc6cfdb);
     grid.position.y = 0.002;
     this.scene.add(floor, grid);
     this.line = new Line(new BufferGeometry(), new LineBasicMaterial({ color: 0xd0453c }));
@@ -55,6 +55,7 @@ export class Stage {
     this.ring = new Mesh(new RingGeometry(0.34, 0.4, 48), new MeshBasicMaterial({ color: 0x2f6fd0, transparent: true, opacity: 0.8 }));
     this.ring.rotation.x = -Math.PI / 2;
     this.ring.position.y = 0.006;
+    this.ring.visible = false;
     this.scene.add(this.ring);
   }
 
@@ -127,6 +128,7 @@ export class Stage {
   floorAt(event) {
     const box = this.canvas.getBoundingClientRect();
     const pointer = new Vector2(((event.clientX - box.left) / box.width) * 2 - 1, 1 - ((event.clientY - box.top) / box.height) * 2);
+    this.camera.updateMatrixWorld();
     const caster = new Raycaster();
     caster.setFromCamera(pointer, this.camera);
     const place = caster.ray.intersectPlane(new Plane(new Vector3(0, 1, 0)), new Vector3());
@@ -146,12 +148,12 @@ export class Stage {
   }
 
   resetView(fromAbove = false) {
-    const wide = 1 + 0.35 * Math.max(0, (this.bodies?.length ?? 1) - 1);
+    const more = Math.max(0, (this.bodies?.length ?? 1) - 1);
     const target = this.focus ? this.focus.clone().setY(0.85) : new Vector3(0, 0.85, 0);
     if (this.bodies?.length > 1) target.x = 0;
     this.controls.target.copy(target);
     if (fromAbove) this.camera.position.set(target.x, 11, target.z - 3);
-    else this.camera.position.copy(target).add(new Vector3(1.6, 1.0, 3.6).multiplyScalar(wide));
+    else this.camera.position.copy(target).add(new Vector3(1.6 / (1 + more), 0.9, 3.7).multiplyScalar(1 + 0.3 * more));
     this.controls.update();
   }
 
@@ -169,12 +171,23 @@ export class Stage {
     this.sun.position.set(x + 2.5, 6, z + 3);
     this.controls.update();
     this.renderer.render(this.scene, this.camera);
+    this.keepPace(step);
+  }
+
+  /** Where frames take long, draw less: first no shadows, then fewer pixels. */
+  keepPace(step) {
+    this.late = step > 0.045 ? (this.late ?? 0) + 1 : 0;
+    if (this.late < 12 || this.lean === 2) return;
+    this.late = 0;
+    this.lean = (this.lean ?? 0) + 1;
+    this.sun.castShadow = false;
+    this.resize();
   }
 
   resize() {
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
     if (!width || !height) return;
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, this.lean === 2 ? 0.6 : this.lean ? 1 : 2));
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();

@@ -13,6 +13,7 @@ import pytest
 from src.shared.data.retarget.read_motion import read_motion
 from src.shared.errors import UserError
 from src.shared.formats.writers.bvh import write_bvh
+from src.shared.formats.writers.glb import write_glb
 from src.shared.model.diffusion import Sampling
 from src.shared.motion.motion import Motion
 from src.shared.pipelines.edit import chosen_joints, continue_clips, edit_clip
@@ -196,6 +197,11 @@ def test_a_clip_is_done_again_and_continued_as_on_the_command_line(
         made(browser, scene, form(**choice))
         wanted = generator.edit(given, "a person waves", sampling=Sampling(seed=1)).motion
         assert_same(exported(browser, tmp_path), wanted)
+    assert "3.00 seconds" in opened(
+        browser, "walk.glb", write_glb(walk, tmp_path / "a.glb").read_bytes()
+    )
+    root = np.reshape(browser.evaluate("[...studio.clip.motion.root]"), (-1, 3))
+    np.testing.assert_allclose(root, walk.root_position, atol=1e-5)
     browser.evaluate("document.getElementById('close-clip').click()")
 
 
@@ -235,7 +241,7 @@ def test_the_timeline_is_edited_undone_and_carried_in_a_link(browser: Browser) -
     key = "{ key: 'ArrowRight', shiftKey: true, bubbles: true }"
     browser.evaluate(f"document.activeElement.dispatchEvent(new KeyboardEvent('keydown', {key}))")
     assert browser.evaluate("studio.scene.blocks.length") == 3
-    link = browser.evaluate("location.hash")
+    link = browser.evaluate("studio.link()").partition("#")[2]
     for _ in range(3):
         browser.evaluate(click("undo"))
     assert browser.evaluate(seconds) == [1.5, 2.5]
