@@ -140,7 +140,9 @@ def generate(
     ] = None,
     runtime: Annotated[
         str | None,
-        typer.Option(help="For a song: torch; or onnx, --model being a folder of export-onnx."),
+        typer.Option(
+            help="torch; onnx, for a model that ships or a folder of export-onnx; or auto."
+        ),
     ] = None,
     device: options.Device = "auto",
     threads: options.Threads = None,

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from ..shared.pipelines.motion_generator import MotionGenerator
     from ..shared.pipelines.ranking import ScoreTable
 
-RUNTIMES = ("torch", "onnx")
 STAGES = {"path": "frames of the path", "body": "frames of the body"}
 
 
@@ -108,12 +107,22 @@ class Request:
             self.text_model,
             self.audio_model,
             device=self.device,
-            runtime=self.runtime or "torch",
+            runtime=self.runtime or "auto",
             memory=self.memory,
             judge=self.judge,
             post_processing=[] if self.path_alone else self.post_processing,
             path_post_processing=self.post_processing if self.path_alone else [],
         )
+
+    def keep_light(self) -> None:
+        """Leave PyTorch unimported where onnxruntime does all that is asked."""
+        from ..shared.light import compute_without_torch
+        from ..shared.model.onnx_card import chosen_runtime
+
+        alone = self.audio is None and self.num_samples == 1  # songs and judges are PyTorch's
+        runtime = self.runtime or "auto"
+        if alone and chosen_runtime(runtime, self.text_model, self.device) == "onnx":
+            compute_without_torch()
 
     def body_formats(self) -> list[str]:
         """Formats of a body's files."""
@@ -130,6 +139,8 @@ def produce(request: Request) -> dict[str, Any]:
         UsageError: options that do not go together.
         UserError: as the model, the song or the files.
     """
+    check_runtime(request)
+    request.keep_light()
     if request.audio is not None:
         replace(request.directions, path=None).refuse("--audio")
         made = song_path if request.path_alone else dance
@@ -230,7 +241,6 @@ def song_path(request: Request, audio: Path) -> dict[str, Any]:
     if request.follow_path:
         raise UsageError('--follow-path is about a body: add --prompt "a person dances", or --body')
     files.check_path_formats(request.format or "")
-    check_runtime(request)
     from ..shared.formats.registry import TRAJECTORY_EXPORTERS
 
     formats = files.checked_formats(request.format or "npz,glb,html", TRAJECTORY_EXPORTERS)
@@ -255,12 +265,10 @@ def song_path(request: Request, audio: Path) -> dict[str, Any]:
 def dance(request: Request, audio: Path) -> dict[str, Any]:
     """A body that dances to a song."""
     drawn = request.directions.path
-    check_runtime(request)
     if drawn is not None and request.follow_path:
         raise UsageError("--path does not go with --follow-path; leave one out")
     if not request.follow_path:
-        of_paths = {name: getattr(request, name) for name in ("style", "runtime")}
-        refuse_with("a dance that follows no path (--follow-path)", **of_paths)
+        refuse_with("a dance that follows no path (--follow-path)", style=request.style)
         check_figures(request)
     elif not request.figures:
         raise UsageError(
@@ -414,6 +422,8 @@ def only_song(paths: list[Path] | None) -> Path | None:
 
 def check_runtime(request: Request) -> None:
     """Refuse an unknown runtime, a device or memory that it has not, and what is no memory."""
+    from ..shared.model.onnx_card import RUNTIMES
+
     runtime, device, memory = request.runtime, request.device, request.memory
     if runtime not in (None, *RUNTIMES):
         raise UsageError(f"--runtime {runtime} is unknown; choose from {', '.join(RUNTIMES)}")
@@ -463,7 +473,7 @@ def checked_tags(tags: list[str] | None, num_prompts: int) -> list[str | None] |
 
 def refuse_music(request: Request, flag: str) -> None:
     """Refuse what only a song can use."""
-    names = ("style", "meter", "memory", "runtime")
+    names = ("style", "meter", "memory")
     refuse_with(flag, **{name: getattr(request, name) for name in names})
 
 

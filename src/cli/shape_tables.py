@@ -18,7 +18,8 @@ from ..shared.config_schema import ClipConfig, NetworkConfig
 from ..shared.model.audio.conditioning import CONDITION_ROWS
 from ..shared.model.audio.decoder import create_motion_decoder
 from ..shared.model.audio.unet import UNet1D
-from ..shared.model.clip.core import MotionClip, TextFeatures
+from ..shared.model.clip.core import MotionClip
+from ..shared.model.clip.features import TextFeatures
 from ..shared.model.generation.denoiser import MotionDenoiser
 from ..shared.motion.postprocess.whole import clamp_velocity, smooth_features
 from ..shared.motion.rotations import matrix_to_quaternion, rotation_6d_to_matrix

@@ -4,16 +4,19 @@ Every choice comes with its reason, which the caller prints.
 """
 
 import os
+import shutil
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
-
-import torch
+from typing import TYPE_CHECKING, Literal
 
 from .environment import DEVICE, variable
 from .errors import UsageError
+
+if TYPE_CHECKING:
+    import torch
 
 DeviceName = Literal["cuda", "mps", "cpu"]
 READINGS = 3  # of the idle cores: what runs for an instant only takes none
@@ -42,14 +45,16 @@ def choose_device(requested: str = "auto") -> tuple[DeviceName, str]:
     Raises:
         UsageError: the requested device does not exist here.
     """
+    from .tensors import torch, torch_is_here
+
     reason = "as requested"
     if requested == "auto" and (named := variable(DEVICE)):
         requested, reason = named, f"as {DEVICE} says"
-    available = {
-        "cuda": torch.cuda.is_available(),
-        "mps": torch.backends.mps.is_available(),
-        "cpu": True,
-    }
+    if not torch_is_here:
+        available = {"cuda": False, "mps": False, "cpu": True}
+    else:
+        cuda, mps = torch.cuda.is_available(), torch.backends.mps.is_available()
+        available = {"cuda": cuda, "mps": mps, "cpu": True}
     if requested == "auto":
         if available["cuda"]:
             return "cuda", torch.cuda.get_device_name()
@@ -62,8 +67,20 @@ def choose_device(requested: str = "auto") -> tuple[DeviceName, str]:
     return requested, reason  # type: ignore[return-value]
 
 
+def computes_on_cpu(requested: str = "auto") -> bool:
+    """Whether `choose_device` will say cpu, without asking PyTorch: by the drivers."""
+    named = variable(DEVICE) if requested == "auto" else requested
+    if named:
+        return named == "cpu"
+    apple = sys.platform == "darwin" and os.uname().machine == "arm64"
+    nvidia = Path("/dev/nvidiactl").exists() or shutil.which("nvidia-smi") is not None
+    return not (apple or nvidia)
+
+
 def _native_bf16(device: DeviceName) -> tuple[bool, str]:
     """Whether bf16 products run in hardware, in words."""
+    from .tensors import torch
+
     if device == "cuda":
         major, minor = torch.cuda.get_device_capability()
         return major >= 8, f"compute capability {major}.{minor}"
@@ -114,19 +131,31 @@ def choose_compute(device: str = "auto", precision: str = "auto") -> ComputeChoi
     return ComputeChoice(name, reason, precision, why)  # type: ignore[arg-type]
 
 
+_named = os.environ.get("OMP_NUM_THREADS", "").partition(",")[0]
+_chosen_threads: int | None = int(_named) if _named.isdigit() else None
+
+
 def set_threads(threads: int | None) -> int:
-    """Set torch's CPU threads and return how many there are.
+    """Set the CPU threads and return how many there are.
 
     On a machine that others use too, one thread can be faster than two.
     """
-    global _threads_are_chosen
+    from .tensors import torch, torch_is_here
+
+    global _chosen_threads
     if threads is not None:
-        torch.set_num_threads(threads)
-        _threads_are_chosen = True
-    return torch.get_num_threads()
+        _chosen_threads = threads
+        if torch_is_here:
+            torch.set_num_threads(threads)
+    return _num_threads()
 
 
-_threads_are_chosen = "OMP_NUM_THREADS" in os.environ
+def _num_threads() -> int:
+    from .tensors import torch, torch_is_here
+
+    if torch_is_here:
+        return torch.get_num_threads()
+    return _chosen_threads or os.cpu_count() or 1
 
 
 @contextmanager
@@ -136,14 +165,22 @@ def idle_threads() -> Iterator[None]:
     Threads that share out small operations wait for each other by spinning: one that has lost its
     core to another process makes all of them twenty times slower (docs/experiments.md, section 6).
     """
-    before = torch.get_num_threads()
-    if not _threads_are_chosen:
+    from .tensors import torch, torch_is_here
+
+    before = _num_threads()
+    if torch_is_here and _chosen_threads is None:
         idle = max(idle_cores() for _ in range(READINGS))
         torch.set_num_threads(max(1, min(before, idle)))
     try:
         yield
     finally:
-        torch.set_num_threads(before)
+        if torch_is_here:
+            torch.set_num_threads(before)
+
+
+def sampling_threads() -> int:
+    """Threads for a network that keeps those it starts with; see `idle_threads`."""
+    return _chosen_threads or max(1, min(_num_threads(), idle_cores()))
 
 
 def idle_cores() -> int:
@@ -158,7 +195,9 @@ def idle_cores() -> int:
     return cores - (running - states.count("R"))
 
 
-def autocast(compute: ComputeChoice) -> torch.autocast:
+def autocast(compute: ComputeChoice) -> "torch.autocast":
     """A context in which a frozen model computes in the chosen precision."""
+    from .tensors import torch
+
     dtype = {"no": torch.float32, "bf16": torch.bfloat16, "fp16": torch.float16}[compute.precision]
     return torch.autocast(compute.device, dtype, enabled=compute.precision != "no")

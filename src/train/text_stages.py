@@ -30,7 +30,8 @@ from ..shared.io.files import atomic_write
 from ..shared.metrics.retrieval import BATCH
 from ..shared.model.clip.core import OWN, TextTower
 from ..shared.model.clip.out_of_domain import OutOfDomainDetector, words_of
-from ..shared.model.clip.pretrained import StyleMap, encode_captions, tower_hash
+from ..shared.model.clip.pretrained import encode_captions, tower_hash
+from ..shared.model.clip.style_map import StyleMap
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.layers.transformer import masked_mean
 from ..shared.motion.features import decode_features

@@ -32,11 +32,11 @@ from ..shared.model.checkpoint import read_card, resolve_model
 from ..shared.model.clip.core import (
     PAIRS,
     PLACE_SCALE,
-    TextFeatures,
     TextTower,
     TokenPairEncoder,
     shared_keys,
 )
+from ..shared.model.clip.features import TextFeatures
 from ..shared.model.clip.pretrained import encode_captions, tower_hash
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.diffusion import GaussianDiffusion

@@ -22,7 +22,7 @@ from ..shared.data.text_motion import TextMotionBatch
 from ..shared.device import autocast, choose_compute
 from ..shared.errors import UsageError
 from ..shared.model.checkpoint import ModelCard
-from ..shared.model.clip.core import TextFeatures
+from ..shared.model.clip.features import TextFeatures
 from ..shared.model.clip.pretrained import load_text_tower, tower_hash
 from ..shared.model.diffusion import GaussianDiffusion
 from ..shared.model.generation.denoiser import MotionDenoiser

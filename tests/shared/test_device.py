@@ -96,7 +96,7 @@ def test_what_the_launcher_asks_for(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_sampling_leaves_busy_cores_to_others(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(device_module, "_threads_are_chosen", False)
+    monkeypatch.setattr(device_module, "_chosen_threads", None)
     before = torch.get_num_threads()
     torch.set_num_threads(2)
     try:

@@ -17,7 +17,6 @@ few centimetres elsewhere. Legend: T frames."""
 from pathlib import Path
 
 import numpy as np
-import torch
 from scipy.spatial.transform import Rotation
 
 from ..errors import UserError
@@ -25,6 +24,7 @@ from ..io.arrays import write_arrays
 from ..motion.motion import Motion
 from ..motion.rotations import matrix_to_quaternion, quaternion_log
 from ..motion.skeleton import NUM_JOINTS, canonical_skeleton
+from ..tensors import torch
 from .limits import FRAME_RATES, check_numbers, read_arrays
 from .rig import JointClip, quaternions_to_matrices
 

@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-import torch
 
 from ..errors import UserError
 from ..io.files import atomic_write
@@ -24,6 +23,7 @@ from ..motion.rotations import (
 )
 from ..motion.skeleton import JOINT_NAMES, NUM_JOINTS, PARENTS
 from ..motion.trajectory import MotionTrajectory
+from ..tensors import torch
 from .arrays import COLUMNS, checked_trajectory
 from .limits import FRAME_RATES, MAX_FRAMES, MAX_VALUE, check_plausible, check_size, readable
 from .rig import continuous, matrices_to_quaternions

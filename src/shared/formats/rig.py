@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 from typing import Protocol, Self
 
 import numpy as np
-import torch
 
 from ..errors import UsageError
 from ..motion.motion import Motion
@@ -21,6 +20,7 @@ from ..motion.skeleton import (
     REST_PELVIS_HEIGHT,
     canonical_skeleton,
 )
+from ..tensors import torch
 
 ALL = slice(None)
 

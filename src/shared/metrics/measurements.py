@@ -12,12 +12,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import torch
 
 from ..motion.features import headings
 from ..motion.motion import Motion
 from ..motion.rotations import quaternion_to_matrix
 from ..motion.skeleton import JOINT_INDEX, REST_PELVIS_HEIGHT, canonical_skeleton
+from ..tensors import torch
 
 Array = np.ndarray
 Pair = tuple[float, float]

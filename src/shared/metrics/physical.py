@@ -10,13 +10,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import torch
 
 from ..motion.features import headings
 from ..motion.motion import Motion
 from ..motion.postprocess.contacts import detect_contacts
 from ..motion.rotations import quaternion_to_matrix
 from ..motion.skeleton import FOOT_JOINTS, JOINT_INDEX, REST_FOOT_HEIGHT
+from ..tensors import torch
 
 BALLS = [ball for _, ball in FOOT_JOINTS]
 

@@ -9,7 +9,6 @@ Letters: T frames, K joints, A principal axes.
 from dataclasses import dataclass
 
 import numpy as np
-import torch
 from scipy.ndimage import gaussian_filter1d
 
 from ..motion.features import headings
@@ -17,6 +16,7 @@ from ..motion.motion import Motion
 from ..motion.postprocess.contacts import contact_runs
 from ..motion.rotations import quaternion_to_matrix, turn_about_y
 from ..motion.skeleton import REST_FOOT_HEIGHT
+from ..tensors import torch
 from .physical import BALLS, SUPPORT_HEIGHT, ground_speed
 
 SWAY = 0.25  # seconds, standard deviation: a sway within a step is no way

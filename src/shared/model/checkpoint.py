@@ -136,16 +136,12 @@ def write_checkpoint(
     return card
 
 
-def read_tensors(folder: Path, card: ModelCard) -> dict[str, "Tensor"]:
-    """The weights of a model folder in float32 on the CPU.
+def check_weights(folder: Path, card: ModelCard) -> Path:
+    """The weights file of a model folder.
 
     Raises:
-        UserError: the file is missing, truncated, not the one the card vouches for, or holds
-            numbers that are not finite.
+        UserError: it is missing, truncated, or not the one the card vouches for.
     """
-    from safetensors import SafetensorError
-    from safetensors.torch import load_file
-
     path = Path(folder) / WEIGHTS_FILE
     if card.weights is None or not path.is_file():
         raise UserError(f"{folder} holds no weights; train it, or copy {WEIGHTS_FILE} there too")
@@ -160,6 +156,20 @@ def read_tensors(folder: Path, card: ModelCard) -> dict[str, "Tensor"]:
             f"{path} does not match the SHA-256 in {CARD_FILE}: it is damaged or another file;"
             " copy the model folder again"
         )
+    return path
+
+
+def read_tensors(folder: Path, card: ModelCard) -> dict[str, "Tensor"]:
+    """The weights of a model folder in float32 on the CPU.
+
+    Raises:
+        UserError: the file is missing, truncated, not the one the card vouches for, or holds
+            numbers that are not finite.
+    """
+    from safetensors import SafetensorError
+    from safetensors.torch import load_file
+
+    path = check_weights(folder, card)
     try:
         tensors = load_file(path)
     except SafetensorError as error:

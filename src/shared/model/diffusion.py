@@ -16,13 +16,10 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
-import torch
-from torch import Tensor, nn
-from torch.nn import functional as F
-
 from ..config_schema import DiffusionConfig
 from ..device import idle_threads
 from ..errors import UsageError
+from ..tensors import F, Tensor, nn, torch
 from .noise import Generators, NoiseSchedule, sampling_timesteps, standard_normal
 
 Model = Callable[..., Tensor]  # model(x_t, t [B], ...) -> model output, shaped like x_t

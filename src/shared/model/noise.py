@@ -10,12 +10,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
-from torch import Tensor
 
 from ..config_schema import DiffusionConfig
 from ..errors import UsageError
+from ..tensors import Tensor, torch
 
 Array = NDArray[np.float64]
 

@@ -7,19 +7,24 @@ that make float32 of them, which onnxruntime folds away on loading. docs/onnx.md
 
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
+import numpy as np
 from pydantic import ValidationError
 
 from ..config_audio import AudioNetworkConfig
 from ..config_schema import Config, DiffusionConfig, PostProcessingConfig
+from ..device import computes_on_cpu
 from ..errors import UserError, first_fault
 from ..io.files import load_json, sha256_file
 from .checkpoint import WEIGHTS_FILE, read_card, resolve_model
 
+if TYPE_CHECKING:
+    from torch import Tensor
+
 ONNX_CARD = "onnx.json"
 OPSET = 18
-EXPORTED = ("motion-generator", "audio-motion")  # kinds of model that `export-onnx` knows
+TEXT_KIND, AUDIO_KIND = EXPORTED = "motion-generator", "audio-motion"  # models it is made of
 
 
 class ValueInfo(Config):
@@ -167,6 +172,8 @@ def read_onnx_card(folder: str | Path, kind: type[CardT]) -> CardT:
         raise UserError(f"{path}: {first_fault(error)}; export the model again") from error
     except (OSError, ValueError) as error:
         raise UserError(f"{path} cannot be read ({error}); export the model again") from error
+    if card.model != read_card(Path(folder)).content_hash:
+        raise UserError(f"{path} was made from other weights than these; export the model again")
     for name, graph in card.graphs.items():
         file = path.with_name(name)
         if not file.is_file() or sha256_file(file) != graph.sha256:
@@ -205,3 +212,32 @@ def open_graph(folder: Path, name: str, threads: int) -> Any:
         raise UserError(
             f"onnxruntime cannot load {folder / name} ({reason}); update it, or export again"
         ) from error
+
+
+def run(session: Any, **inputs: "Tensor") -> "list[Tensor]":
+    """All outputs of a session, by the names of its inputs."""
+    from ..tensors import torch
+
+    arrays = {name: np.ascontiguousarray(tensor.numpy()) for name, tensor in inputs.items()}
+    return [torch.from_numpy(array) for array in session.run(None, arrays)]
+
+
+RUNTIMES = ("auto", "torch", "onnx")
+
+
+def chosen_runtime(runtime: str, model: str | Path, device: str = "auto") -> str:
+    """Torch or onnx: auto is onnx on a CPU where onnxruntime is installed and the model exported.
+
+    Args:
+        runtime: one of RUNTIMES.
+        model: a name or folder.
+        device: auto, cuda, mps or cpu.
+    """
+    if runtime != "auto":
+        return runtime
+    if find_spec("onnxruntime") is None or not computes_on_cpu(device):
+        return "torch"
+    try:
+        return "onnx" if (resolve_model(model) / ONNX_CARD).is_file() else "torch"
+    except UserError:
+        return "torch"  # which says what is wrong with the name

@@ -8,9 +8,8 @@ left and right contact. Differences are forward (ruling 6); the last frame repea
 from dataclasses import dataclass
 
 import numpy as np
-import torch
-from torch import Tensor
 
+from ..tensors import Tensor, torch
 from .motion import Motion
 from .rotations import (
     forward_difference,

@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
-import torch
 
+from ..tensors import torch
 from .rotations import (
     forward_kinematics,
     quaternion_continuous,

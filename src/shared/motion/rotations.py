@@ -10,9 +10,7 @@ Letters: T frames, K joints, C channels.
 from collections.abc import Sequence
 from functools import cache
 
-import torch
-from torch import Tensor
-from torch.nn import functional as F
+from ..tensors import F, Tensor, torch
 
 _EPSILON = 1e-6
 

@@ -13,10 +13,9 @@ Letters: T frames.
 import math
 
 import numpy as np
-import torch
 from scipy.ndimage import gaussian_filter1d
-from torch import Tensor
 
+from ..tensors import Tensor, torch
 from .features import FORWARD, LATERAL, YAW_RATE
 
 LAG = 1.0  # seconds over which place and heading are averaged: a sway and a spin are left alone

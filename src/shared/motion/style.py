@@ -19,9 +19,9 @@ import difflib
 import re
 
 import numpy as np
-import torch
 
 from ..errors import UsageError
+from ..tensors import torch
 from .rotations import forward_difference
 from .trajectory import MotionTrajectory
 

@@ -15,9 +15,8 @@ Letters: N windows, 25 columns, of a window rows, see the slices; T frames, S sh
 from dataclasses import dataclass
 
 import numpy as np
-import torch
-from torch import Tensor
 
+from ..tensors import Tensor, torch
 from .features import FORWARD, HEIGHT, LATERAL, YAW_RATE
 from .motion import Motion
 from .rotations import (

@@ -13,8 +13,6 @@ from itertools import chain
 from typing import Any
 
 import numpy as np
-import torch
-from torch import Tensor
 
 from ..config_loader import nearest
 from ..errors import UsageError, UserError
@@ -36,6 +34,7 @@ from ..motion.motion import Motion
 from ..motion.postprocess.stitching import place_of
 from ..motion.rotations import turn_about_y
 from ..motion.skeleton import JOINT_INDEX, LIMBS
+from ..tensors import Tensor, torch
 from .stream import OVERLAP, Passage, stream_features
 
 KEEP = 1.0  # seconds of a clip that are kept
@@ -307,7 +306,7 @@ def bend_back(features: Tensor, given: Given, *, fps: float) -> Constraint:
     assert given.rejoin is not None, "only a motion with an end can miss it"
     stop, target = given.rejoin
     free = ~given.constraint.known[:stop, ROOT_ROW, FORWARD]
-    start = int(torch.nonzero(free)[0])
+    start = int(torch.nonzero(free)[0, 0])
     root = features[: stop + 1, ROOT_ROW].double()
     x = torch.linspace(0, 1, stop - start + 1, dtype=torch.float64)
     ease = torch.zeros(stop + 1, dtype=torch.float64)

@@ -7,43 +7,43 @@
 Letters: N candidates, T frames.
 """
 
-from collections.abc import Iterable, Sequence
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..audio.song import Song, analyse
 from ..config_loader import ConfigT, dump_config, load_config
 from ..environment import TEXT_MODEL, default_audio_model
-from ..memory.figures import SHIPPED, FigureMemory, is_figure_memory
-from ..model.audio.audio_motion_model import KIND as AUDIO_KIND
 from ..model.checkpoint import read_card, resolve_model
 from ..model.diffusion import Sampling
 from ..model.generation.motion_generator import Progress, TextToMotion
+from ..model.onnx_card import AUDIO_KIND, chosen_runtime
 from ..motion.motion import Motion
-from ..motion.trajectory import FPS, MotionTrajectory
-from .body import Performer, PerformerSettings
-from .choreography import Choreographer
-from .dance import DancePrompter, Dances, SongPerformer
 from .edit import ControlledMotion, Given, edited
 from .path import DrawnPath, TimedPath, along_path, time_path
 from .ranking import PerformanceJudge, TextJudge, load_tower, own_tower
-from .song import (
-    SongCondition,
-    SongGenerator,
-    SongMotions,
-    Stage,
-    finished,
-    silently,
-    styled,
-)
-from .song_memory import SongMemory
-from .song_sampler import SongSampling
 from .stream import DEFAULT_SAMPLING, MotionStream, Passage
 from .text import PromptResult, PromptSampler, SentenceGenerator
 from .timeline import Timeline, by_timeline, in_a_loop
+
+if TYPE_CHECKING:  # who asks for a sentence waits for nothing that songs need
+    from ..audio.song import Song
+    from ..motion.trajectory import MotionTrajectory
+    from .choreography import Choreographer
+    from .dance import DancePrompter, Dances
+    from .song import SongCondition, SongGenerator, SongMotions
+
+Stage = Callable[[str], AbstractContextManager[Progress]]
+
+
+def silently(stage: str) -> AbstractContextManager[Progress]:
+    """For a `Stage`: nobody is told how far it is."""
+    return nullcontext(lambda done, total: None)
 
 
 class MotionGenerator:
@@ -53,10 +53,11 @@ class MotionGenerator:
 
     Args:
         text: makes bodies: a model, or the name or folder of one.
-        audio: makes the paths of songs, likewise; for the runtime onnx, a folder of `export-onnx`;
-            None = what MOTIONGEN_DIFFUSION_CHECKPOINT names, else what is shipped.
+        audio: makes the paths of songs, likewise; None = what MOTIONGEN_DIFFUSION_CHECKPOINT names,
+            else what is shipped.
         device: auto, cuda, mps or cpu.
-        runtime: of the audio model: torch or onnx.
+        runtime: torch; onnx, for models whose folders hold an export; or auto, which is onnx on a
+            CPU where onnxruntime is installed and the text model holds one, and torch for songs.
         memory: folder of `memory build`: of figures that are danced (None = the shipped ones), or
             of phrases, for an audio model that hears them.
         judge: folder of `train_clip` that holds candidates against their prompt; None = what
@@ -74,7 +75,7 @@ class MotionGenerator:
         audio: SongGenerator[Any] | str | Path | None = None,
         *,
         device: str = "auto",
-        runtime: str = "torch",
+        runtime: str = "auto",
         memory: str | Path | None = None,
         judge: str | Path | None = None,
         post_processing: Sequence[str] = (),
@@ -85,7 +86,7 @@ class MotionGenerator:
         self._device, self._runtime, self._memory, self._judge = device, runtime, memory, judge
 
     @classmethod
-    def from_pretrained(cls, name_or_folder: str | Path, **options: Any) -> "MotionGenerator":
+    def from_pretrained(cls, name_or_folder: str | Path, **options: Any) -> MotionGenerator:
         """With a text model or an audio model, and the shipped one of the other kind.
 
         Args:
@@ -110,7 +111,8 @@ class MotionGenerator:
         """The text model."""
         model = self._text
         if not isinstance(model, TextToMotion):
-            model = TextToMotion.from_pretrained(model, device=self._device)
+            runtime = chosen_runtime(self._runtime, model, self._device)
+            model = TextToMotion.from_pretrained(model, device=self._device, runtime=runtime)
         if self._body:
             settings = _changed(model.network.generation.post_processing, self._body)
             update = {"post_processing": settings}
@@ -121,12 +123,17 @@ class MotionGenerator:
     @cached_property
     def audio(self) -> SongGenerator[Any]:
         """The audio model, with its memory."""
+        from ..memory.figures import is_figure_memory
+        from .song import SongGenerator
+        from .song_memory import SongMemory
+
         model: SongGenerator[Any] | str | Path = self._audio
         if not isinstance(model, SongGenerator):
             remembers = self._memory is not None and not is_figure_memory(self._memory)
             memory = SongMemory.open(str(self._memory)) if remembers else None
+            runtime = "torch" if self._runtime == "auto" else self._runtime
             model = SongGenerator.from_pretrained(
-                model, device=self._device, runtime=self._runtime, memory=memory
+                model, device=self._device, runtime=runtime, memory=memory
             )
         if self._path:
             model.post_processing = _changed(model.post_processing, self._path)
@@ -147,12 +154,17 @@ class MotionGenerator:
     @cached_property
     def choreographer(self) -> Choreographer:
         """Chooses recorded figures: of the memory, if it has figures, else the shipped ones."""
+        from ..memory.figures import SHIPPED, FigureMemory, is_figure_memory
+        from .choreography import Choreographer
+
         own = self._memory is not None and is_figure_memory(self._memory)
         return Choreographer(FigureMemory.open(str(self._memory) if own else SHIPPED))
 
     @cached_property
     def prompter(self) -> DancePrompter:
         """Finds prompts in music."""
+        from .dance import DancePrompter
+
         return DancePrompter.beside(self.text)
 
     # ------------------------------------------------------------ text
@@ -239,6 +251,9 @@ class MotionGenerator:
         Raises:
             UserError: the file cannot be used.
         """
+        from .song import styled
+        from .song_sampler import SongSampling
+
         song = _analysed(audio, meter)
         style = styled(style) if isinstance(style, str) else style
         settings = SongSampling(num_samples, **vars(sampling))
@@ -283,6 +298,10 @@ class MotionGenerator:
         Raises:
             UserError: the file cannot be used, or the path is too long for the song.
         """
+        from .body import Performer, PerformerSettings
+        from .dance import SongPerformer
+        from .song import SongCondition, finished
+
         song = SongCondition.of(_analysed(audio, meter), seconds)
         judge = None
         if num_samples > 1:
@@ -317,6 +336,9 @@ class MotionGenerator:
         stage: Stage,
     ) -> list[MotionTrajectory]:
         """Candidates of the audio model, as its decoder gave them."""
+        from .song import styled
+        from .song_sampler import SongSampling
+
         own = styled(style) if isinstance(style, str) else style
         if own is None and prompt is not None:
             own = self.text.style_of(prompt)
@@ -381,11 +403,15 @@ def load(name_or_folder: str | Path = TEXT_MODEL, **options: Any) -> MotionGener
 
 
 def _analysed(audio: Song | str | Path, meter: int | None) -> Song:
+    from ..audio.song import Song, analyse
+
     return audio if isinstance(audio, Song) else analyse(audio, meter=meter)
 
 
 def _drawn(path: DrawnPath, song: SongCondition) -> MotionTrajectory:
     """A drawn path in the time of a song, at most as long as it."""
+    from ..motion.trajectory import FPS
+
     frames = song.condition.shape[1]
     seconds = None if path.times is not None else (frames - 1) / FPS
     timed = time_path(path, fps=FPS, seconds=seconds)

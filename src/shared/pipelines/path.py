@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import torch
 from scipy.ndimage import gaussian_filter1d
 
 from ..config_loader import parse_yaml
@@ -30,6 +29,7 @@ from ..motion.motion import Motion
 from ..motion.rotations import yaw_quaternion
 from ..motion.skeleton import REST_PELVIS_HEIGHT
 from ..motion.trajectory import MotionTrajectory, to_root
+from ..tensors import torch
 from .edit import ControlledMotion
 from .stream import Passage, stream_features
 from .timeline import Timeline, make_timeline

@@ -23,12 +23,10 @@ Letters: N candidates, T frames, J points, K joints or rows, D width of the shar
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import torch
 from pydantic import Field
-from torch import Tensor
 
 from ..config_schema import Config
 from ..errors import UserError
@@ -36,16 +34,16 @@ from ..metrics.bands import Bands
 from ..metrics.physical import contact_slide, mean_jerk, penetration
 from ..metrics.rhythm import Alignment, alignment, chance_alignment, motion_beats
 from ..metrics.sanity import SanityChecker, mean_margin, share
-from ..model.audio import shared_space
-from ..model.audio.shared_space import MotionTower, SharedSpace
 from ..model.checkpoint import list_models, read_card, resolve_model
-from ..model.clip import pretrained
-from ..model.clip.core import TextTower
-from ..model.clip.pretrained import ClipBundle, tower_hash
 from ..motion.features import encode_features
 from ..motion.motion import Motion
 from ..motion.trajectory import MotionTrajectory
-from .body import Performance
+from ..tensors import Tensor, torch
+
+if TYPE_CHECKING:
+    from ..model.audio.shared_space import MotionTower
+    from ..model.clip.core import TextTower
+    from .body import Performance
 
 FAILURE = 2.0  # what each failed check costs
 MAX_FRAMES = 256  # of a candidate that its distance to others looks at, evenly spread
@@ -227,7 +225,7 @@ def _margin(value: float, bounds: tuple[float, float]) -> float:
     return share(value, bounds[1], bounds[0])
 
 
-def load_tower(name_or_folder: str | Path, text: TextTower) -> MotionTower:
+def load_tower(name_or_folder: str | Path, text: "TextTower") -> "MotionTower":
     """The motion tower of a folder that `train_clip`, `train_text` or `train_audio_tower` wrote.
 
     Args:
@@ -237,6 +235,11 @@ def load_tower(name_or_folder: str | Path, text: TextTower) -> MotionTower:
     Raises:
         UserError: no such model, another kind, damaged, or trained with another text tower.
     """
+    from ..model.audio import shared_space
+    from ..model.audio.shared_space import MotionTower, SharedSpace
+    from ..model.clip import pretrained
+    from ..model.clip.pretrained import ClipBundle, tower_hash
+
     folder = resolve_model(name_or_folder)
     kind = read_card(folder).kind
     if kind == shared_space.KIND:
@@ -258,11 +261,14 @@ def load_tower(name_or_folder: str | Path, text: TextTower) -> MotionTower:
     return tower
 
 
-def own_tower(text: TextTower) -> MotionTower | None:
+def own_tower(text: "TextTower") -> "MotionTower | None":
     """The motion tower of the first listed shared space that a text tower belongs to, or None."""
+    from ..model.audio.shared_space import KIND, SharedSpace
+    from ..model.clip.pretrained import tower_hash
+
     own = tower_hash(text)
     for row in list_models():
-        if row["kind"] == shared_space.KIND:
+        if row["kind"] == KIND:
             space = SharedSpace.from_pretrained(row["name"])
             if space.card.text_tower == own:
                 return space.motion
@@ -340,7 +346,7 @@ class PerformanceJudge:
 
     def judge(
         self,
-        candidates: Sequence[Performance],
+        candidates: "Sequence[Performance]",
         prompts: Sequence[Tensor],
         beats: np.ndarray | None = None,
         *,
@@ -394,7 +400,7 @@ def beat_report(motion: Motion, beats: np.ndarray) -> dict[str, float]:
 
 
 @torch.inference_mode()
-def _similarity(tower: Tower, performance: Performance, prompts: Tensor) -> float:
+def _similarity(tower: Tower, performance: "Performance", prompts: Tensor) -> float:
     """Mean over windows of the cosine of what is seen and what was asked, not below 0."""
     features = encode_features(performance.motion)
     ends = np.cumsum([passage.frames for passage in performance.passages])

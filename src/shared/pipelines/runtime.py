@@ -1,4 +1,4 @@
-"""What SongSampler needs of a model, whoever computes it: PyTorch or onnxruntime.
+"""PyTorch or onnxruntime: what SongSampler needs of a model, whoever computes it.
 
 Letters: B samples, T frames.
 """
@@ -10,15 +10,16 @@ import torch
 from torch import Tensor
 
 from ..config_audio import AudioNetworkConfig
-from ..device import choose_compute
+from ..device import choose_compute, sampling_threads
 from ..environment import DECODER_CHECKPOINT, variable
 from ..errors import UserError
 from ..model.audio.audio_motion_model import AudioMotionModel, load_decoder
 from ..model.audio.conditioning import MemoryCondition, with_phase_rows
 from ..model.audio.decoder import Decoded
 from ..model.audio.unet import sampling_copy
+from ..model.checkpoint import resolve_model
 from ..model.diffusion import GaussianDiffusion, ModelFn, guided
-from ..model.onnx_card import AudioOnnxCard, open_graph, read_onnx_card
+from ..model.onnx_card import AudioOnnxCard, open_graph, read_onnx_card, run
 
 
 class Runtime(Protocol):
@@ -118,7 +119,7 @@ class OnnxRuntime:
         Raises:
             UserError: the package is missing, or the folder holds no whole export.
         """
-        folder, threads = Path(folder), torch.get_num_threads()
+        folder, threads = resolve_model(folder), sampling_threads()
         card = read_onnx_card(folder, AudioOnnxCard)
         unet, decoder = (
             open_graph(folder, f"{name}.onnx", threads) for name in ("unet", "decoder")
@@ -153,9 +154,3 @@ class OnnxRuntime:
     def _predict(self, x: Tensor, t: Tensor, condition: Tensor) -> Tensor:
         (prediction,) = run(self._unet, x=x, t=t, condition=condition)
         return prediction
-
-
-def run(session: Any, **inputs: Tensor) -> list[Tensor]:
-    """All outputs of a session, by the names of its inputs."""
-    arrays = {name: tensor.contiguous().numpy() for name, tensor in inputs.items()}
-    return [torch.from_numpy(array) for array in session.run(None, arrays)]

@@ -3,8 +3,7 @@
 Letters: T frames, M beats.
 """
 
-from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Generic, Self, TypeVar
@@ -33,12 +32,6 @@ from .song_sampler import Progress, SongSampler, SongSampling
 
 STYLE_MODEL = "starter"  # reads a style that is a sentence
 ModelT = TypeVar("ModelT", bound=Runtime)
-Stage = Callable[[str], AbstractContextManager[Progress]]
-
-
-def silently(stage: str) -> AbstractContextManager[Progress]:
-    """For a `Stage`: nobody is told how far it is."""
-    return nullcontext(lambda done, total: None)
 
 
 @dataclass(frozen=True, eq=False)

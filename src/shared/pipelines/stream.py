@@ -12,9 +12,6 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-import torch
-from torch import Tensor
-
 from ..errors import UsageError
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
@@ -24,6 +21,7 @@ from ..motion.features import Place
 from ..motion.motion import Motion
 from ..motion.postprocess.stitching import blend_boundaries
 from ..motion.postprocess.streaming import StreamingPostProcessor
+from ..tensors import Tensor, torch
 
 WINDOW, OVERLAP = 150, 30  # frames
 DEFAULT_SAMPLING = Sampling()

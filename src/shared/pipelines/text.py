@@ -17,13 +17,11 @@ from itertools import accumulate, islice
 from typing import Any
 
 import numpy as np
-import torch
-from torch import Tensor
 
 from ..device import idle_threads
 from ..errors import UserError
 from ..metrics.measurements import ACTIONS, Check, ends_at_rest, measure, repetitions, side_check
-from ..model.clip.core import TextFeatures
+from ..model.clip.features import TextFeatures
 from ..model.clip.out_of_domain import ScopeResult
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
@@ -33,6 +31,7 @@ from ..motion.features import ROOT_ROW, YAW_RATE, decode_features
 from ..motion.motion import Motion
 from ..motion.postprocess.streaming import streamed
 from ..motion.postprocess.whole import rest_to_rest
+from ..tensors import Tensor, torch
 from .edit import all_but, chosen_joints, fill_free
 from .path import DrawnPath, natural_gait, time_path
 from .ranking import ScoreTable, TextJudge, unranked

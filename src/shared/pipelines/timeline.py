@@ -14,8 +14,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import torch
-from torch import Tensor
 
 from ..config_loader import nearest, parse_yaml
 from ..errors import UsageError, UserError
@@ -27,6 +25,7 @@ from ..motion.features import Place
 from ..motion.motion import Motion
 from ..motion.postprocess.stitching import moved_to, place_of
 from ..motion.postprocess.streaming import streamed
+from ..tensors import Tensor, torch
 from .edit import ControlledMotion, all_but, chosen_joints, fill_free
 from .stream import OVERLAP, WINDOW, ConstraintOf, Passage, stream_features
 

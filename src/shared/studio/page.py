@@ -24,8 +24,7 @@ from ..model.checkpoint import WEIGHTS_FILE, ModelCard, read_card, resolve_model
 from ..model.clip.core import PAIRS
 from ..model.clip.out_of_domain import META_FILE as SCOPE_FILE
 from ..model.clip.out_of_domain import TABLE_FILE
-from ..model.clip.pretrained import TOKENIZER_FOLDER
-from ..model.clip.tokenizer import META_FILE, MODEL_FILE
+from ..model.clip.tokenizer import META_FILE, MODEL_FILE, TOKENIZER_FOLDER
 from ..model.generation.motion_generator import KIND
 from ..model.noise import NoiseSchedule, sampling_timesteps
 from ..motion.skeleton import JOINT_NAMES, LIMBS
@@ -108,7 +107,8 @@ def graph_of(folder: Path, card: ModelCard) -> bytes:
     shell = files(__package__).joinpath("shell")
     if json.loads(shell.joinpath(GRAPH_CARD).read_text("utf-8"))["model"] == card.content_hash:
         return shell.joinpath(GRAPH).read_bytes()
-    from ..model.generation.onnx import DENOISER_GRAPH, export_text
+    from ..model.generation.onnx import export_text
+    from ..model.generation.onnx_networks import DENOISER_GRAPH
     from ..model.onnx_card import require_packages
 
     if (folder / DENOISER_GRAPH).is_file():
@@ -162,7 +162,8 @@ def settings(folder: Path, card: ModelCard) -> dict[str, Any]:
 
 def write_graph() -> None:
     """Export the graph of the shipped model into the shell, after its weights have changed."""
-    from ..model.generation.onnx import DENOISER_GRAPH, export_text
+    from ..model.generation.onnx import export_text
+    from ..model.generation.onnx_networks import DENOISER_GRAPH
 
     shell = Path(__file__).with_name("shell")
     with TemporaryDirectory() as scratch:

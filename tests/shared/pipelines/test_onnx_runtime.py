@@ -19,8 +19,8 @@ from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.audio.onnx import DECODER_GRAPH, UNET_GRAPH
 from src.shared.model.checkpoint import WEIGHTS_FILE, ModelCard
 from src.shared.model.onnx_card import ONNX_CARD as CARD_FILE
-from src.shared.model.onnx_card import AudioOnnxCard, read_onnx_card
-from src.shared.pipelines.runtime import OnnxRuntime, run
+from src.shared.model.onnx_card import AudioOnnxCard, read_onnx_card, run
+from src.shared.pipelines.runtime import OnnxRuntime
 from src.shared.pipelines.song_sampler import SongSampler, SongSampling
 from tests.shared.model.audio.tiny_audio import awake, network_config, unet_config, walk
 
@@ -232,7 +232,7 @@ def test_missing_package_names_the_extra(
     [
         (["--audio", "SONG", "--runtime", "tensorrt"], "--runtime tensorrt"),
         (["--audio", "SONG", "--runtime", "onnx", "--device", "cuda"], "--device cuda"),
-        (["--prompt", "a person waves", "--runtime", "onnx"], "--runtime does not go"),
+        (["--prompt", "a person waves", "--runtime", "onnx", "--device", "cuda"], "--device cuda"),
     ],
 )
 def test_wrong_usage(tmp_path: Path, arguments: list[str], words: str) -> None:

@@ -8,7 +8,6 @@ from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
-import torch
 
 from ...formats.rig import SourceClip
 from ...motion.motion import Motion, resample_motion
@@ -29,6 +28,7 @@ from ...motion.skeleton import (
     REST_FOOT_HEIGHT,
     canonical_skeleton,
 )
+from ...tensors import torch
 from .autodetection import calibrated_axes, joint_indices, rest_frame, upright
 from .mapping import SkeletonMapping
 

@@ -10,7 +10,6 @@ pairs N rows, H width.
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
@@ -23,6 +22,7 @@ from ...config_schema import ClipConfig, NetworkConfig
 from ...errors import UserError
 from ..layers.temporal_unet import TemporalUNet
 from ..layers.transformer import masked_mean
+from .features import TextFeatures
 
 PAIRS = "pairs"  # text-model name of such a tower
 BASE = 1 << 15  # token ids stay below, so that keys are int32
@@ -100,31 +100,6 @@ OWN = (SMALL, PAIRS)  # made here, with a tokenizer of our own; any other is a p
 PLACE_SCALE = 30.0  # factor on cosines to places, in training of them, too
 INITIAL_TEMPERATURE = 0.1  # TMR's value
 MAX_LOGIT_SCALE = math.log(100.0)  # Radford et al. 2021, section 2.5
-
-
-@dataclass(frozen=True)
-class TextFeatures:
-    """Texts as the denoiser sees them: pooled [B, D] unit-norm, tokens [B, L, D], mask [B, L]; and,
-    once it was asked, which of its adapters they open, [B, A] of zeros and ones."""
-
-    pooled: Tensor
-    tokens: Tensor
-    mask: Tensor  # bool, True = real token
-    opened: Tensor | None = None
-
-    def __len__(self) -> int:
-        return len(self.pooled)
-
-    def __getitem__(self, rows: Tensor | slice) -> "TextFeatures":
-        """The chosen rows of the batch."""
-        opened = None if self.opened is None else self.opened[rows]
-        return TextFeatures(self.pooled[rows], self.tokens[rows], self.mask[rows], opened)
-
-    def to(self, device: torch.device | str) -> "TextFeatures":
-        """The same on another device."""
-        opened = None if self.opened is None else self.opened.to(device)
-        parts = self.pooled.to(device), self.tokens.to(device), self.mask.to(device)
-        return TextFeatures(*parts, opened)
 
 
 class TextTower(nn.Module):

@@ -11,15 +11,14 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, Protocol, Self
 
-import torch
-from torch import Tensor
-
 from ...errors import UserError
 from ...io.files import atomic_write, load_json, write_json
+from ...tensors import Tensor, torch
 
 BOS, PAD, EOS, UNK = 0, 1, 2, 3
 MODEL_FILE = "sentencepiece.bpe.model"
 META_FILE = "prompt_tokenizer.json"
+TOKENIZER_FOLDER = "tokenizer"  # of a model folder
 BYTES_AND_SPECIALS = 256 + 4
 CHARACTER_SHARE = 0.75  # of the other pieces may be single characters; rarer ones become bytes
 

@@ -21,11 +21,10 @@ from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
-import torch
-from torch import Tensor
 
 from ...motion.features import world_joints
 from ...motion.rotations import gaussian_smooth
+from ...tensors import Tensor, torch
 
 STEP = 0.02  # root mean square of one move, in standard deviations of the data
 MOVES = 3  # a prediction

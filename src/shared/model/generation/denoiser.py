@@ -11,7 +11,7 @@ from torch import Tensor, nn
 from torch.nn.functional import one_hot, pad, silu
 
 from ...config_schema import PROVENANCES, NetworkConfig
-from ..clip.core import TextFeatures
+from ..clip.features import TextFeatures
 from ..layers.transformer import (
     CrossAttention,
     DenoiserBlock,
@@ -159,6 +159,11 @@ class MotionDenoiser(nn.Module):
         result: Tensor = out.view_as(noisy)  # [B, frames, K, C]
         return result
 
+    @property
+    def shows_known(self) -> bool:
+        """Whether known entries are an input."""
+        return self.known_proj is not None
+
     def _tokens(self, values: Tensor) -> Tensor:
         """Rows of `stride` frames side by side: [B, frames, N] -> [B, T, stride * N]."""
         if self.stride == 1:
@@ -200,9 +205,14 @@ class MotionDenoiser(nn.Module):
 
     def with_adapters(self, text: TextFeatures) -> TextFeatures:
         """The same texts, and which adapters they open."""
-        if not (number := len(self.config.generation.adapter_ranks)):
+        if not self.config.generation.adapter_ranks:
             return text
+        opened = self.opened(text.pooled)
+        return replace(text, opened=opened) if opened.any() else text
+
+    def opened(self, pooled: Tensor) -> Tensor:
+        """Which of the A adapters texts [B, D] open: [B, A] of zeros and ones."""
         places, adapter_of = self.get_buffer("places"), self.get_buffer("adapter_of")
-        nearest = (text.pooled @ places.T).argmax(-1)  # [B]
-        opened = one_hot(adapter_of[nearest], number + 1)[:, 1:]  # [B, A]
-        return replace(text, opened=opened.to(text.pooled)) if opened.any() else text
+        nearest = (pooled @ places.T).argmax(-1)  # [B]
+        number = len(self.config.generation.adapter_ranks)
+        return one_hot(adapter_of[nearest], number + 1)[:, 1:].to(pooled)

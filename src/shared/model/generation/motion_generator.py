@@ -4,26 +4,21 @@ Letters: B batch, T frames, K rows (bones, root track), C channels, D embed dim,
 """
 
 import logging
-import math
-import zlib
-from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
-import torch
-from torch import Tensor
 
-from ...config_loader import nearest
 from ...config_schema import PROVENANCES
-from ...device import choose_device, idle_threads
+from ...device import choose_device, idle_threads, sampling_threads
 from ...errors import UsageError, UserError
 from ...motion.motion import Motion
 from ...motion.postprocess.whole import MotionPostProcessor
+from ...tensors import Tensor, torch
 from ..checkpoint import (
     ModelCard,
+    check_weights,
     load_state,
     read_card,
     read_tensors,
@@ -32,141 +27,23 @@ from ..checkpoint import (
     write_checkpoint,
     wrong_kind,
 )
-from ..clip.core import TextFeatures, TextTower
+from ..clip.features import TextFeatures, check_embed_dims
 from ..clip.out_of_domain import OutOfDomainDetector
-from ..clip.pretrained import TOKENIZER_FOLDER, StyleMap, check_embed_dims
-from ..clip.tokenizer import PromptTokenizer
+from ..clip.style_map import StyleMap
+from ..clip.tokenizer import TOKENIZER_FOLDER, PromptTokenizer
 from ..diffusion import GaussianDiffusion, guided
-from ..noise import NoiseStream
 from .constraint import Constraint, KnownBatch
-from .denoiser import MotionDenoiser
+from .requests import SampleRequest, batches, make_requests
 
-MIN_FRAMES = 8
-
-
-@dataclass(frozen=True)
-class SampleRequest:
-    """One motion to be made.
-
-    Attributes:
-        prompt: what it shows.
-        frames: its length.
-        tag: index of the action label; the number of tags where there is none.
-        stream: what its noise depends on: seed, prompt, and which sample of that prompt it is;
-            never what else is in the batch.
-    """
-
-    prompt: str
-    frames: int
-    tag: int
-    stream: tuple[int, int, int]
-
-    def noise(self) -> NoiseStream:
-        """Its noise, from the first draw on; the same on every device and runtime."""
-        return NoiseStream(*self.stream)
-
-
-def make_requests(
-    prompts: Sequence[str],
-    *,
-    seconds: float | Sequence[float],
-    tags: Sequence[str | None] | None,
-    known_tags: Sequence[str],
-    num_samples: int,
-    seed: int,
-    fps: float,
-) -> list[SampleRequest]:
-    """Requests in prompt-major order.
-
-    Raises:
-        UserError: no or empty prompts, lists of unequal length, an unknown tag, a length that is
-            no number or too short, a negative seed.
-    """
-    if isinstance(prompts, str):
-        raise UserError("prompts is a string; give a list of prompts, e.g. ['a person walks']")
-    if not prompts:
-        raise UserError("no prompt given; describe a motion, e.g. 'a person walks forward'")
-    if num_samples < 1:
-        raise UserError(f"num-samples {num_samples} must be at least 1")
-    if seed < 0:
-        raise UserError(f"seed {seed} must be 0 or more")
-    lengths = _each(seconds, len(prompts), "seconds")
-    labels = _each(tags, len(prompts), "tags")
-    count: Counter[str] = Counter()
-    requests = []
-    for prompt, length, label in zip(prompts, lengths, labels, strict=True):
-        frames, tag = _frames(length, fps), _tag_index(label, known_tags)
-        text = zlib.crc32(prompt.encode())
-        for _ in range(num_samples):
-            requests.append(SampleRequest(prompt, frames, tag, (seed, text, count[prompt])))
-            count[prompt] += 1
-    return requests
-
-
-def batches(
-    requests: Sequence[SampleRequest], size: int, *, equal_lengths: bool
-) -> Iterator[list[int]]:
-    """Indices of at most `size` requests of like length, the shortest first.
-
-    Args:
-        equal_lengths: never two lengths in one batch. Samplers that draw noise on the way need
-            it, or the padding would shift the streams.
-    """
-    batch: list[int] = []
-    for index in sorted(range(len(requests)), key=lambda i: requests[i].frames):
-        other_length = bool(batch) and requests[batch[-1]].frames != requests[index].frames
-        if len(batch) == size or (equal_lengths and other_length):
-            yield batch
-            batch = []
-        batch.append(index)
-    if batch:
-        yield batch
-
-
-def _each(value: Any, count: int, name: str) -> list[Any]:
-    if value is None or isinstance(value, str | int | float):
-        return [value] * count
-    values = list(value)
-    if len(values) != count:
-        raise UserError(
-            f"{name} has {len(values)} entries for {count} prompts; give one for all or one each"
-        )
-    return values
-
-
-def _frames(seconds: float | None, fps: float) -> int:
-    if not isinstance(seconds, int | float) or not math.isfinite(seconds):
-        raise UserError(f"seconds {seconds!r} is not a number; give one, such as 4")
-    frames = round(seconds * fps)
-    if frames < MIN_FRAMES:
-        raise UserError(f"seconds {seconds:g} is too short; ask for {MIN_FRAMES / fps:.2f} or more")
-    return frames
-
-
-def _check_lengths(constraints: Sequence[Constraint | None], frames: Sequence[int]) -> None:
-    """Raises UsageError where a constraint is not as long as its motion."""
-    for constraint, length in zip(constraints, frames, strict=True):
-        if constraint is not None and len(constraint.values) != length:
-            raise UsageError(
-                f"a constraint of {len(constraint.values)} frames for a motion of {length}"
-                "; give both the same length"
-            )
-
-
-def _tag_index(tag: str | None, known: Sequence[str]) -> int:
-    if tag is None:
-        return len(known)
-    if tag not in known:
-        hint = f"; did you mean {nearest(tag, known)!r}? known: {', '.join(known)}" if known else ""
-        raise UserError(f"tag {tag!r} is not one this model was trained with{hint}")
-    return list(known).index(tag)
-
+if TYPE_CHECKING:
+    from ..clip.core import TextTower
+    from .denoiser import MotionDenoiser
 
 # ---------------------------------------------------------------- one batch
 
 
 def sample_batch(
-    denoiser: MotionDenoiser,
+    denoiser: "MotionDenoiser",
     diffusion: GaussianDiffusion,
     requests: Sequence[SampleRequest],
     text: TextFeatures,
@@ -202,7 +79,7 @@ def sample_batch(
 
     tag = torch.tensor([request.tag for request in requests], device=device)
     no_tag = torch.full_like(tag, denoiser.num_tags)
-    learned = denoiser.known_proj is not None
+    learned = denoiser.shows_known
     shared = {
         "mask": mask,
         "known": known.shown if known is not None and learned else None,
@@ -235,7 +112,7 @@ def sample_batch(
     )
 
 
-def _captured(denoiser: MotionDenoiser, like: Tensor) -> Tensor | None:
+def _captured(denoiser: "MotionDenoiser", like: Tensor) -> Tensor | None:
     """Sampled motion is to look captured: procedural clips are there to teach, not to answer."""
     if denoiser.provenance_embed is None:
         return None
@@ -243,6 +120,16 @@ def _captured(denoiser: MotionDenoiser, like: Tensor) -> Tensor | None:
 
 
 # ---------------------------------------------------------------- TextToMotion
+
+
+def _check_lengths(constraints: Sequence[Constraint | None], frames: Sequence[int]) -> None:
+    """Raises UsageError where a constraint is not as long as its motion."""
+    for constraint, length in zip(constraints, frames, strict=True):
+        if constraint is not None and len(constraint.values) != length:
+            raise UsageError(
+                f"a constraint of {len(constraint.values)} frames for a motion of {length}"
+                "; give both the same length"
+            )
 
 
 KIND = "motion-generator"
@@ -273,8 +160,8 @@ class TextToMotion:
 
     def __init__(
         self,
-        denoiser: MotionDenoiser,
-        text: TextTower,
+        denoiser: "MotionDenoiser",
+        text: "TextTower",
         tokenizer: PromptTokenizer,
         *,
         mean: Tensor,
@@ -528,8 +415,15 @@ class TextToMotion:
         self.card = write_checkpoint(folder, card, tensors, half=half, int8=int8)
 
     @classmethod
-    def from_pretrained(cls, name_or_folder: str | Path, *, device: str | None = None) -> Self:
+    def from_pretrained(
+        cls, name_or_folder: str | Path, *, device: str | None = None, runtime: str = "torch"
+    ) -> Self:
         """A generator by the name of a shipped model, or from a folder.
+
+        Args:
+            name_or_folder: as `resolve_model` takes it.
+            device: auto, cuda, mps or cpu.
+            runtime: torch; or onnx for a folder that holds an export, on the CPU.
 
         Raises:
             UserError: no such model, another kind, or damaged or unfitting weights.
@@ -538,28 +432,55 @@ class TextToMotion:
         card = read_card(folder)
         if card.kind != KIND:
             raise wrong_kind(folder, card.kind, KIND)
-        tensors = read_tensors(folder, card)
-        _check_widths(tensors, folder)
-        denoiser = MotionDenoiser(card.network, len(card.tags))
-        load_state(denoiser, tensors, "denoiser", folder)
-        text = TextTower(
-            card.network.clip, card.network.embed_dim, encoder_config=card.text_encoder
-        )
-        load_state(text, tensors, "text", folder)
+        load = _from_export if runtime == "onnx" else _from_weights
+        denoiser, text, mean, std = load(folder, card)
         scope = OutOfDomainDetector.from_pretrained(folder)
         if scope is None:
             log.warning("%s has no scope.json: far-off prompts get no warning", folder)
         return cls(
             denoiser,
-            text.freeze(),
+            text,
             PromptTokenizer.from_pretrained(folder / TOKENIZER_FOLDER),
-            mean=tensors["statistics.mean"],
-            std=tensors["statistics.std"],
+            mean=mean,
+            std=std,
             card=card,
             scope=scope,
             style_map=StyleMap.from_pretrained(folder),
-            device=device,
+            device="cpu" if runtime == "onnx" else device,
         )
+
+
+Loaded = tuple[Any, Any, Tensor, Tensor]  # denoiser, text tower, mean and std [K, C]
+
+
+def _from_weights(folder: Path, card: ModelCard) -> Loaded:
+    """PyTorch's networks."""
+    from ..clip.core import TextTower
+    from .denoiser import MotionDenoiser
+
+    tensors = read_tensors(folder, card)
+    _check_widths(tensors, folder)
+    denoiser = MotionDenoiser(card.network, len(card.tags))
+    load_state(denoiser, tensors, "denoiser", folder)
+    text = TextTower(card.network.clip, card.network.embed_dim, encoder_config=card.text_encoder)
+    load_state(text, tensors, "text", folder)
+    return denoiser, text.freeze(), tensors["statistics.mean"], tensors["statistics.std"]
+
+
+def _from_export(folder: Path, card: ModelCard) -> Loaded:
+    """The networks of `export-onnx`."""
+    from ..onnx_card import TextOnnxCard, read_onnx_card
+    from .onnx_networks import OnnxDenoiser, OnnxTextTower
+
+    export = read_onnx_card(folder, TextOnnxCard)
+    check_weights(folder, card)
+    threads = sampling_threads()
+    return (
+        OnnxDenoiser(folder, card.network, export, threads),
+        OnnxTextTower(folder, card, threads),
+        torch.tensor(export.mean),
+        torch.tensor(export.std),
+    )
 
 
 def _check_widths(tensors: dict[str, Tensor], folder: Path) -> None:

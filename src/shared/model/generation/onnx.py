@@ -1,12 +1,15 @@
 """Text tower and denoiser as ONNX graphs for any batch, any text and any length.
 
-text.onnx: input_ids and attention_mask [B, L] int64 -> pooled [B, D], and tokens [B, L, D] for a
-network that hears them. denoiser.onnx: x [B, T, K, C] z-scores, t [B], the text, tag [B], mask
-[B, T] (true = a real frame), known [B, T, K, C] (true = the entry is given) -> prediction.
+text.onnx: input_ids and attention_mask [B, L] int64 -> pooled [B, D]; tokens [B, L, D] for a
+network that hears them, opened [B, A] for one with adapters. denoiser.onnx: x [B, T, K, C]
+z-scores, t [B], the text, tag [B], mask [B, T] (true = a real frame), known [B, T, K, C] (true =
+the entry is given) -> prediction.
 
 Letters: B batch, L tokens, T frames, K rows, C channels, D embed dim.
 """
 
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import torch
@@ -14,11 +17,12 @@ from torch import Tensor, nn
 
 from ...config_schema import PROVENANCES
 from ..checkpoint import CARD_FILE, WEIGHTS_FILE, resolve_model
-from ..clip.core import SPECIAL, TextFeatures, TextTower, TokenPairEncoder
+from ..clip.core import SPECIAL, TextTower, TokenPairEncoder
+from ..clip.features import TextFeatures
 from ..clip.out_of_domain import META_FILE as SCOPE_FILE
 from ..clip.out_of_domain import TABLE_FILE
-from ..clip.pretrained import STYLE_FILE, TOKENIZER_FOLDER
-from ..clip.tokenizer import META_FILE, MODEL_FILE
+from ..clip.style_map import STYLE_FILE
+from ..clip.tokenizer import META_FILE, MODEL_FILE, TOKENIZER_FOLDER
 from ..onnx_card import ONNX_CARD, TextOnnxCard, TokenizerInfo
 from ..onnx_export import (
     EXAMPLE_FRAMES,
@@ -30,9 +34,10 @@ from ..onnx_export import (
     write_graph,
 )
 from .denoiser import MotionDenoiser
-from .motion_generator import MIN_FRAMES, TextToMotion
+from .motion_generator import TextToMotion
+from .onnx_networks import DENOISER_GRAPH, TEXT_GRAPH
+from .requests import MIN_FRAMES
 
-TEXT_GRAPH, DENOISER_GRAPH = "text.onnx", "denoiser.onnx"
 FILES = (
     CARD_FILE,
     WEIGHTS_FILE,
@@ -60,23 +65,32 @@ class SymbolicPairs(TokenPairEncoder):
 class TextGraph(nn.Module):
     """A text tower that gives what its denoiser hears."""
 
-    def __init__(self, tower: TextTower, *, tokens: bool) -> None:
+    def __init__(self, tower: TextTower, denoiser: MotionDenoiser) -> None:
         super().__init__()
         self.tower = symbolic(tower, {TokenPairEncoder: SymbolicPairs})
-        self.tokens = tokens
+        self.denoiser = denoiser
+        self.outputs = ["pooled"] + ["tokens"] * denoiser.uses_tokens
+        self.outputs += ["opened"] * bool(denoiser.config.generation.adapter_ranks)
 
     def forward(self, input_ids: Tensor, attention_mask: Tensor) -> tuple[Tensor, ...]:
-        """Ids and mask [B, L] -> pooled [B, D], and tokens [B, L, D]."""
+        """Ids and mask [B, L] -> pooled [B, D], tokens [B, L, D], opened [B, A]."""
         features = self.tower(input_ids, attention_mask)
-        return (features.pooled, features.tokens) if self.tokens else (features.pooled,)
+        if "opened" in self.outputs:
+            features = replace(features, opened=self.denoiser.opened(features.pooled))
+        return tuple(getattr(features, name) for name in self.outputs)
 
 
 class DenoiserGraph(nn.Module):
-    """A denoiser whose inputs are tensors all; motion is to look captured."""
+    """A denoiser whose inputs are tensors all; motion is to look captured.
 
-    def __init__(self, denoiser: MotionDenoiser) -> None:
+    Args:
+        denoiser: trained.
+        more: names of its last inputs, of tokens, token_mask and opened.
+    """
+
+    def __init__(self, denoiser: MotionDenoiser, more: Sequence[str]) -> None:
         super().__init__()
-        self.denoiser = symbolic(denoiser)
+        self.denoiser, self.more = symbolic(denoiser), more
 
     def forward(
         self,
@@ -86,10 +100,13 @@ class DenoiserGraph(nn.Module):
         tag: Tensor,
         mask: Tensor,
         known: Tensor,
-        tokens: Tensor | None = None,
-        token_mask: Tensor | None = None,
+        first: Tensor | None = None,
+        second: Tensor | None = None,
+        third: Tensor | None = None,
     ) -> Tensor:
         """See this module's head."""
+        more = dict(zip(self.more, (first, second, third), strict=False))
+        tokens, token_mask = more.get("tokens"), more.get("token_mask")
         if tokens is None or token_mask is None:
             tokens = pooled[:, None]
             token_mask = torch.ones_like(pooled[:, :1], dtype=torch.bool)
@@ -99,10 +116,10 @@ class DenoiserGraph(nn.Module):
         result: Tensor = self.denoiser(
             x,
             t,
-            TextFeatures(pooled, tokens, token_mask),
+            TextFeatures(pooled, tokens, token_mask, more.get("opened")),
             tag,
             mask,
-            known=known if self.denoiser.known_proj is not None else None,
+            known=known if self.denoiser.shows_known else None,
             provenance=provenance,
         )
         return result
@@ -126,18 +143,21 @@ def export_text(model: str | Path, folder: str | Path) -> TextOnnxCard:
     batch, whole = {0: "batch"}, {0: "batch", 1: "frames"}
     ids = torch.randint(SPECIAL, 64, (2, 7))
     words = {0: "batch", 1: "tokens"}
+    tower = TextGraph(generator.text, denoiser)
     text = traced(
-        TextGraph(generator.text, tokens=tokens),
+        tower,
         {"input_ids": (ids, words), "attention_mask": (torch.ones_like(ids), words)},
-        ("pooled", "tokens") if tokens else ("pooled",),
+        tower.outputs,
     )
     shape = (2, frames, rows, channels)
-    heard = {
-        "tokens": (torch.randn(2, 7, dim), words),
-        "token_mask": (torch.ones(2, 7, dtype=torch.bool), words),
-    }
+    more: dict[str, tuple[Tensor, dict[int, str]]] = {}
+    if tokens:
+        more["tokens"] = (torch.randn(2, 7, dim), words)
+        more["token_mask"] = (torch.ones(2, 7, dtype=torch.bool), words)
+    if adapters := len(config.generation.adapter_ranks):
+        more["opened"] = (torch.zeros(2, adapters), batch)
     network = traced(
-        DenoiserGraph(denoiser),
+        DenoiserGraph(denoiser, list(more)),
         {
             "x": (torch.randn(shape), whole),
             "t": (torch.tensor([1, 2]), batch),
@@ -145,7 +165,7 @@ def export_text(model: str | Path, folder: str | Path) -> TextOnnxCard:
             "tag": (torch.tensor([0, 0]), batch),
             "mask": (torch.ones(shape[:2], dtype=torch.bool), whole),
             "known": (torch.zeros(shape, dtype=torch.bool), whole),
-            **(heard if tokens else {}),
+            **more,
         },
         ("prediction",),
     )
@@ -172,7 +192,7 @@ def export_text(model: str | Path, folder: str | Path) -> TextOnnxCard:
         tags=card.tags,
         no_tag=denoiser.num_tags,
         languages=card.languages,
-        shown=denoiser.known_proj is not None,
+        shown=denoiser.shows_known,
         max_seconds=card.max_seconds,
         min_frames=MIN_FRAMES,
         tokenizer=TokenizerInfo(

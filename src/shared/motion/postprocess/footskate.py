@@ -12,11 +12,9 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
-import torch
 from scipy.ndimage import distance_transform_edt, gaussian_filter1d
-from torch import Tensor
-from torch.nn import functional as F
 
+from ...tensors import F, Tensor, torch
 from ..motion import Motion
 from ..rotations import (
     axis_turn,

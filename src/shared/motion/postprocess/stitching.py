@@ -9,10 +9,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-import torch
 from scipy.ndimage import gaussian_filter1d
-from torch import Tensor
 
+from ...tensors import Tensor, torch
 from ..features import LEFT_CONTACT, ROOT_ROW, Place, headings
 from ..motion import Motion
 from ..rotations import (

@@ -11,9 +11,8 @@ from dataclasses import replace
 from functools import reduce
 
 import numpy as np
-import torch
-from torch import Tensor
 
+from ...tensors import Tensor, torch
 from ..features import ORIGIN, ROOT_ROW, Place, decode_features, integrate_root
 from ..motion import Motion
 from ..rotations import (

@@ -9,11 +9,9 @@ Letters: B batch, T frames, 25 columns.
 import math
 
 import numpy as np
-import torch
-from torch import Tensor
-from torch.nn import functional as F
 
 from ...config_audio import PostProcessConfig
+from ...tensors import F, Tensor, torch
 from ..rotations import forward_difference, quaternion_continuous, smooth
 from ..trajectory import (
     ACCELERATION,

@@ -11,11 +11,9 @@ import math
 from dataclasses import replace
 
 import numpy as np
-import torch
-from torch import Tensor, nn
-from torch.nn import functional as F
 
 from ...config_schema import PostProcessingConfig
+from ...tensors import F, Tensor, nn, torch
 from ..features import LEFT_CONTACT, ORIGIN, ROOT_ROW, Place, decode_features, headings
 from ..motion import Motion
 from ..rotations import (

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from src.shared.errors import UserError
-from src.shared.model.clip.pretrained import STYLE_FILE, StyleMap
+from src.shared.model.clip.style_map import STYLE_FILE, StyleMap
 from src.shared.motion.style import style_values
 
 

@@ -6,7 +6,7 @@ import pytest
 import torch
 from torch.nn.functional import normalize
 
-from src.shared.model.clip.core import TextFeatures
+from src.shared.model.clip.features import TextFeatures
 from src.shared.model.generation.denoiser import MotionDenoiser
 from src.shared.model.layers.transformer import DenoiserBlock
 

@@ -38,7 +38,7 @@ def with_pairs(generator: TextToMotion) -> TextToMotion:
 @pytest.mark.parametrize(
     ("pairs", "settings"),
     [
-        (True, {"constraints": True}),
+        (True, {"constraints": True, "adapter_ranks": (2, 3)}),
         pytest.param(
             False,
             {"text_conditioning": "tokens", "provenance": True, "frames_per_token": 2},
@@ -53,6 +53,10 @@ def test_graphs_compute_what_the_networks_do(
     generator = make_generator(**settings)
     if pairs:
         generator = with_pairs(generator)
+        for parameter in generator.denoiser.parameters():
+            parameter.add_(0.05 * torch.randn_like(parameter))  # adapters start at zero
+        generator.denoiser.places = torch.randn(3, 32)
+        generator.denoiser.adapter_of = torch.tensor([2, 2, 1])
     generator.save_pretrained(tmp_path / "model", int8=True)
     generator = TextToMotion.from_pretrained(tmp_path / "model", device="cpu")
     export_text(tmp_path / "model", tmp_path / "onnx")
@@ -77,8 +81,12 @@ def test_graphs_compute_what_the_networks_do(
         known = torch.rand(x.shape) < 0.1
         t, tag = torch.tensor([0, 20, 49]), torch.tensor([0, 1, 2])
         feed = {"x": x, "t": t, "tag": tag, "mask": mask, "pooled": text.pooled, "known": known}
-        if len(outputs) > 1:
+        if settings.get("text_conditioning"):
             feed |= {"tokens": torch.as_tensor(outputs[1]), "token_mask": words.bool()}
+        if settings.get("adapter_ranks"):
+            text = generator.denoiser.with_adapters(text)
+            np.testing.assert_array_equal(outputs[1], text.opened)
+            feed["opened"] = text.opened
         assert feed.keys() == card.graphs[DENOISER_GRAPH].inputs.keys()
         (found,) = session.run(None, {name: value.numpy() for name, value in feed.items()})
         wanted = generator.denoiser(

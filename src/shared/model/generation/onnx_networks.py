@@ -1,0 +1,121 @@
+"""The text tower and the denoiser of an export, computed by onnxruntime, where PyTorch's stand.
+
+Letters: B batch, L tokens, T frames, K rows, C channels, D embed dim.
+"""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from ...config_schema import ClipConfig, NetworkConfig
+from ...tensors import Tensor, nn, torch
+from ..checkpoint import ModelCard, read_tensors
+from ..clip.features import TextFeatures
+from ..onnx_card import TextOnnxCard, open_graph, run
+
+TEXT_GRAPH, DENOISER_GRAPH = "text.onnx", "denoiser.onnx"
+
+
+class OnnxTextTower(nn.Module):
+    """What `TextTower` gives, from a graph.
+
+    Args:
+        folder: of the export.
+        card: of its weights.
+        threads: of the CPU.
+    """
+
+    def __init__(self, folder: Path, card: ModelCard, threads: int) -> None:
+        super().__init__()
+        self.config: ClipConfig = card.network.clip
+        self.embed_dim = card.network.embed_dim
+        self._folder, self._card = folder, card
+        self._session = open_graph(folder, TEXT_GRAPH, threads)
+        self._outputs = [each.name for each in self._session.get_outputs()]
+
+    def forward(self, input_ids: Tensor, attention_mask: Tensor) -> TextFeatures:
+        """Ids and mask [B, L] -> TextFeatures."""
+        outputs = run(self._session, input_ids=input_ids, attention_mask=attention_mask)
+        found = dict(zip(self._outputs, outputs, strict=True))
+        mask = attention_mask.bool()
+        pooled = found["pooled"]
+        alike = pooled[:, None].expand(*mask.shape, self.embed_dim)  # which nobody will hear
+        return TextFeatures(pooled, found.get("tokens", alike), mask, found.get("opened"))
+
+    def state_dict(self, *_: Any, **__: Any) -> dict[str, Tensor]:  # type: ignore[override]
+        """The weights, as of PyTorch's tower."""
+        tensors = read_tensors(self._folder, self._card)
+        return {
+            name[len("text.") :]: each for name, each in tensors.items() if name.startswith("text.")
+        }
+
+
+class OnnxDenoiser(nn.Module):
+    """What `MotionDenoiser` predicts, from a graph; called as that is.
+
+    Args:
+        folder: of the export.
+        config: of the network.
+        card: of the export.
+        threads: of the CPU.
+    """
+
+    def __init__(
+        self, folder: Path, config: NetworkConfig, card: TextOnnxCard, threads: int
+    ) -> None:
+        super().__init__()
+        self.config, self.num_tags = config, card.no_tag
+        self.shows_known, self.provenance_embed = card.shown, None
+        self._pooled = torch.tensor(card.null_pooled)
+        self._token = None if card.null_token is None else torch.tensor(card.null_token)
+        self._session = open_graph(folder, DENOISER_GRAPH, threads)
+
+    def forward(
+        self,
+        noisy: Tensor,
+        timesteps: Tensor,
+        text: TextFeatures,
+        tag: Tensor,
+        mask: Tensor | None = None,
+        *,
+        known: Tensor | None = None,
+        provenance: Tensor | None = None,
+        keys_values: object = None,
+    ) -> Tensor:
+        """As `MotionDenoiser.forward`; provenance and keys are the graph's own."""
+        heard = {} if self._token is None else {"tokens": text.tokens, "token_mask": text.mask}
+        if text.opened is not None:
+            heard["opened"] = text.opened
+        (prediction,) = run(
+            self._session,
+            x=noisy,
+            t=timesteps,
+            pooled=text.pooled,
+            tag=tag,
+            mask=torch.ones(noisy.shape[:2], dtype=torch.bool) if mask is None else mask,
+            known=torch.zeros(noisy.shape, dtype=torch.bool) if known is None else known,
+            **heard,
+        )
+        return prediction
+
+    def text_keys_values(self, text: TextFeatures) -> list[Any]:
+        """None: the graph makes them."""
+        return []
+
+    def with_adapters(self, text: TextFeatures) -> TextFeatures:
+        """See `MotionDenoiser.with_adapters`: the text's graph has told."""
+        return text
+
+    def drop_text(self, text: TextFeatures, drop: Tensor) -> TextFeatures:
+        """See `MotionDenoiser.drop_text`; all of them are dropped."""
+        return replace(self.null_text(len(text), text.mask.shape[1]), opened=text.opened)
+
+    def null_text(self, batch_size: int, num_tokens: int = 1) -> TextFeatures:
+        """See `MotionDenoiser.null_text`."""
+        dim = len(self._pooled)
+        token = torch.zeros(dim) if self._token is None else self._token
+        mask = torch.zeros(batch_size, num_tokens, dtype=torch.bool)
+        mask[:, 0] = True
+        return TextFeatures(
+            self._pooled.expand(batch_size, dim), token.expand(batch_size, num_tokens, dim), mask
+        )
