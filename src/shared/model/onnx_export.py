@@ -130,7 +130,8 @@ def link_weights(model: Any, folder: Path) -> None:
     """Let the initializers of a graph be what lies in a folder's model.safetensors, where it does.
 
     They are recognised by their content, as it is or transposed. What is stored as int8 or float16
-    becomes float32 in the graph: onnxruntime folds those nodes away on loading.
+    becomes float32 in the graph: onnxruntime folds those nodes away on loading. Of a table of which
+    rows are looked up, only those rows do.
     """
     from onnx import helper, numpy_helper
 
@@ -141,66 +142,83 @@ def link_weights(model: Any, folder: Path) -> None:
         known[_digest(value)] = (name, False)
         if value.ndim == 2:
             known.setdefault(_digest(value.T), (name, True))
-    graph = model.graph
-    inside = [(each, known.get(_digest(numpy_helper.to_array(each)))) for each in graph.initializer]
-    initializers = [each for each, found in inside if found is None]
-    nodes: list[Any] = []
-    for name in sorted({found[0] for _, found in inside if found is not None}):
-        parts, making = _stored(name, header)
-        initializers += parts
-        nodes += making
-    for each, found in inside:
-        if found is not None:
-            kind = "Transpose" if found[1] else "Identity"
-            nodes.append(helper.make_node(kind, [_called(found[0])], [each.name]))
-    nodes += list(graph.node)
+    graph, outside, nodes = model.graph, dict[str, Any](), list[Any]()
+    rest, inside = list(graph.node), list[Any]()
+    for each in graph.initializer:
+        found = known.get(_digest(numpy_helper.to_array(each)))
+        if found is None:
+            inside.append(each)
+            continue
+        name, turned = found
+        lookups = [node for node in rest if each.name in node.input]
+        if not turned and all(_looks_up(node, each.name) for node in lookups):
+            for node in lookups:
+                at = rest.index(node)
+                rest[at : at + 1] = _stored(name, node.output[0], header, outside, node.input[1])
+            continue
+        plain = f"{each.name}/turned" if turned else each.name
+        nodes += _stored(name, plain, header, outside)
+        if turned:
+            nodes.append(helper.make_node("Transpose", [plain], [each.name]))
     graph.ClearField("initializer")
     graph.ClearField("node")
-    graph.initializer.extend(initializers)
-    graph.node.extend(nodes)
+    graph.initializer.extend([*inside, *outside.values()])
+    graph.node.extend([*nodes, *rest])
 
 
-def _stored(name: str, header: Mapping[str, Any]) -> tuple[list[Any], list[Any]]:
-    """What a graph needs for the value of a stored tensor: initializers, and nodes."""
+def _looks_up(node: Any, table: str) -> bool:
+    """Whether a node does nothing with a table but to take rows of it."""
+    axis = next((each.i for each in node.attribute if each.name == "axis"), 0)
+    return bool(node.op_type == "Gather" and node.input[0] == table and axis == 0)
+
+
+def _stored(
+    name: str,
+    value: str,
+    header: Mapping[str, Any],
+    outside: dict[str, Any],
+    rows: str | None = None,
+) -> list[Any]:
+    """The nodes that make a value of a stored tensor, or of those rows of it that are looked up.
+
+    Args:
+        name: of the tensor in its file.
+        value: what it is called in the graph.
+        header: of the file.
+        outside: initializers by name, to which those that it needs are added.
+        rows: the value that says which rows; None = all.
+    """
     from onnx import TensorProto, helper
 
     types = {"F32": TensorProto.FLOAT, "F16": TensorProto.FLOAT16, "I8": TensorProto.INT8,
              "I32": TensorProto.INT32, "I64": TensorProto.INT64}  # fmt: skip
+    nodes = []
 
-    def outside(stored: str, called: str, more: int = 0) -> Any:
-        entry = header[stored]
-        tensor = TensorProto(name=called, data_type=types[entry["dtype"]])
+    def made(stored: str, called: str, more: int = 0) -> None:
+        entry, source = header[stored], f"stored/{stored}"
+        tensor = TensorProto(name=source, data_type=types[entry["dtype"]])
         tensor.dims.extend([*entry["shape"], *[1] * more])
         tensor.data_location = TensorProto.EXTERNAL
         start, stop = entry["data_offsets"]
         where = {"location": WEIGHTS_FILE, "offset": start + header[_START], "length": stop - start}
-        for key, value in where.items():
-            tensor.external_data.add(key=key, value=str(value))
-        return tensor
+        for key, each in where.items():
+            tensor.external_data.add(key=key, value=str(each))
+        outside[source] = tensor
+        if rows is not None:
+            nodes.append(helper.make_node("Gather", [source, rows], [f"{called}/rows"], axis=0))
+            source = f"{called}/rows"
+        if entry["dtype"] in ("F16", "I8"):
+            nodes.append(helper.make_node("Cast", [source], [called], to=TensorProto.FLOAT))
+        else:
+            nodes.append(helper.make_node("Identity", [source], [called]))
 
-    parts, nodes = [], []
-
-    def float32(stored: str, called: str, more: int = 0) -> None:
-        if header[stored]["dtype"] not in ("F16", "I8"):
-            parts.append(outside(stored, called, more))
-            return
-        parts.append(outside(stored, f"{called}/low", more))
-        nodes.append(helper.make_node("Cast", [f"{called}/low"], [called], to=TensorProto.FLOAT))
-
-    scale = name + INT8_SCALE
-    if scale not in header:
-        float32(name, _called(name))
+    if (scale := name + INT8_SCALE) not in header:
+        made(name, value)
     else:
-        rounded, factor = f"{_called(name)}/rounded", _called(scale)
-        float32(name, rounded)
-        float32(scale, factor, len(header[name]["shape"]) - 1)  # [R, 1, ...]
-        nodes.append(helper.make_node("Mul", [rounded, factor], [_called(name)]))
-    return parts, nodes
-
-
-def _called(name: str) -> str:
-    """What a stored tensor is called in a graph, where its own name may be taken."""
-    return f"stored/{name}"
+        made(name, f"{value}/rounded")
+        made(scale, f"{value}/scale", len(header[name]["shape"]) - 1)  # [R, 1, ...]
+        nodes.append(helper.make_node("Mul", [f"{value}/rounded", f"{value}/scale"], [value]))
+    return nodes
 
 
 _START = ""  # in a header, where the data begins; no tensor has such a name

@@ -265,7 +265,8 @@ def _lead() -> str:
 
 def _any(words: Sequence[str] | dict[str, Any]) -> str:
     """One of the words, whole where the writing parts words; never empty."""
-    ordered = map(_whole, sorted(words, key=len, reverse=True))
+    longest_first = map(_whole, sorted(words, key=len, reverse=True))
+    ordered = sorted(longest_first, key=lambda parts: (parts[0], parts[2]))
     alike = groupby(ordered, key=lambda parts: (parts[0], parts[2]))
     runs = [f"{before}(?:{'|'.join(word for _, word, _ in run)}){after}"
             for (before, after), run in alike]  # fmt: skip

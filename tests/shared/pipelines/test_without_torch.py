@@ -1,6 +1,7 @@
 """Same seed, same motion: PyTorch, and onnxruntime with NumPy, in every mode without gradients."""
 
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
@@ -79,6 +80,14 @@ def test_auto_is_onnx_where_it_can_be(tmp_path: Path, monkeypatch: pytest.Monkey
     assert chosen_runtime("auto", "starter", "cpu") == "torch"
 
 
-def test_a_model_without_graphs_says_how_to_make_them() -> None:
-    with pytest.raises(UserError, match=r"evaluator holds|export-onnx"):
-        _ = MotionGenerator("starter-space", device="cpu", runtime="onnx").text
+def test_a_model_without_graphs_says_how_to_make_them(tmp_path: Path) -> None:
+    shutil.copy(PRETRAINED / "starter" / "config.json", tmp_path)
+    with pytest.raises(UserError, match=f"`export-onnx --model {tmp_path} --out DIR`"):
+        _ = MotionGenerator(tmp_path, device="cpu", runtime="onnx").text
+
+
+def test_graphs_of_other_weights_are_refused(tmp_path: Path) -> None:
+    shutil.copytree(PRETRAINED / "starter", tmp_path / "model")
+    shutil.copy(PRETRAINED / "starter-free" / ONNX_CARD, tmp_path / "model")
+    with pytest.raises(UserError, match="other weights"):
+        _ = MotionGenerator(tmp_path / "model", device="cpu", runtime="onnx").text

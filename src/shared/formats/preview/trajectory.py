@@ -7,13 +7,16 @@ reach the floor. Legend: T frames."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from ...motion.motion import Motion
 from ...motion.skeleton import JOINT_INDEX, LEG_LENGTH, canonical_skeleton
 from ...motion.trajectory import MotionTrajectory, to_motion
+
+if TYPE_CHECKING:
+    from scipy.spatial.transform import Rotation
 
 PATH = (200, 60, 90)  # colour of the way over the ground
 
@@ -107,6 +110,8 @@ def proxy_body(trajectory: MotionTrajectory, title: str = "") -> Motion:
 
     Contacts are zero: a trajectory has no feet.
     """
+    from scipy.spatial.transform import Rotation  # its import takes longer than a prompt
+
     motion = to_motion(trajectory, text=title)
     quaternions = motion.quaternions.copy()
     for name, (axis, angle) in ARMS.items():
@@ -125,19 +130,21 @@ def proxy_body(trajectory: MotionTrajectory, title: str = "") -> Motion:
     return replace(motion, quaternions=quaternions)
 
 
-def _upright(pelvis: Rotation) -> Rotation:
+def _upright(pelvis: "Rotation") -> "Rotation":
     """Rotations [T] in the pelvis' frame that take its lean back, up to `MAX_LEAN`."""
     up = pelvis.inv().apply(np.array([0.0, 1.0, 0.0]))  # world's up, in the pelvis' frame
     axis = np.stack((up[:, 2], np.zeros(len(up)), -up[:, 0]), -1)  # +Y × up
     sine = np.linalg.norm(axis, axis=-1, keepdims=True)
     angle = np.arctan2(sine, up[:, 1:2])
-    return Rotation.from_rotvec(axis / np.maximum(sine, 1e-9) * np.minimum(angle, MAX_LEAN))
+    return type(pelvis).from_rotvec(axis / np.maximum(sine, 1e-9) * np.minimum(angle, MAX_LEAN))
 
 
-def _pitch(angle: np.ndarray) -> Rotation:
+def _pitch(angle: np.ndarray) -> "Rotation":
     """Turns [T] about +X."""
+    from scipy.spatial.transform import Rotation
+
     return Rotation.from_rotvec(angle[:, None] * np.array([1.0, 0.0, 0.0]))
 
 
-def _wxyz(rotation: Rotation) -> np.ndarray:
+def _wxyz(rotation: "Rotation") -> np.ndarray:
     return np.asarray(rotation.as_quat()[..., [3, 0, 1, 2]], dtype=np.float32)
