@@ -129,7 +129,7 @@ class SongGenerator(Generic[ModelT]):
                 memory and one is given.
         """
         model: Any = load_runtime(runtime, name_or_folder, device or "auto")
-        bands = shipped_bands(name_or_folder) if runtime == "torch" else None
+        bands = shipped_bands(name_or_folder)
         return cls(model, device=device, bands=bands, memory=memory)
 
     def sample(
