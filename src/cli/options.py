@@ -89,6 +89,7 @@ ReportFile = Annotated[Path | None, typer.Option(help="Report file: .json, or .m
 
 RANGES = {
     "--seconds": (0.3, 60.0),
+    "--window": (0.1, 4.0),
     "--song-seconds": (1.0, 7200.0),
     "--keep": (0.1, 60.0),
     "--from": (0.0, 7200.0),

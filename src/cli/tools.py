@@ -28,6 +28,7 @@ from .options import Command, SuiteCommand
 from .prepare import prepare, prepare_audio
 from .report import compare, plot, report
 from .shape_check import shape_check
+from .stream import stream
 from .studio import studio
 from .train import train
 
@@ -87,6 +88,7 @@ for command in (
     plot,
     export_onnx,
     studio,
+    stream,
 ):
     kind = SuiteCommand if command is evaluate else Command
     app.command(cls=kind)(with_quiet(guarded(command)))

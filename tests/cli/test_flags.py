@@ -79,6 +79,11 @@ FLAGS = {
         " --out --quick --replications --row --seed --steps --threads A B"
     ),
     "export-onnx": "--json --model --out",
+    "stream": (
+        "--device --foot-lock --guidance-scale --json --model --no-foot-lock --no-real-time"
+        " --prompt --real-time --sampler --seconds --seed --steps --threads --vmc --websocket"
+        " --window"
+    ),
     "studio": "--json --model --no-open --out",
     "memory build": "--bars --figures --json --out --space --split --takes --threads DATA",
     "memory query": "--json --memory --meter --model --space --threads --top-k ASK",

@@ -265,7 +265,8 @@ class MotionStream:
             window=window,
             overlap=overlap,
         )
-        self._text, self._made, self._window = "", 0, window - overlap
+        self._texts: list[tuple[int, str]] = []  # first frames of passages
+        self._made, self._shown, self._window = 0, 0, window - overlap
         self._first: float | None = None
         self._spent, self._given = 0.0, 0  # since the first piece: seconds, frames
 
@@ -292,11 +293,19 @@ class MotionStream:
             piece = self._post_processor.add(features, None if given is None else given.known)
             if piece is not None:
                 self._count(time.perf_counter() - started, piece.num_frames)
-                yield replace(piece, text=self._text)
+                yield self._labelled(piece)
                 started = time.perf_counter()
         piece = self._post_processor.finish()
         if piece is not None:
-            yield replace(piece, text=self._text)
+            yield self._labelled(piece)
+
+    def text_at(self, frame: int) -> str:
+        """What a frame shows, counted from the first one; "" before there is any."""
+        return next((text for start, text in reversed(self._texts) if start <= frame), "")
+
+    def _labelled(self, piece: Motion) -> Motion:
+        start, self._shown = self._shown, self._shown + piece.num_frames
+        return replace(piece, text=self.text_at(start))
 
     @property
     def latency(self) -> Latency:
@@ -309,10 +318,11 @@ class MotionStream:
     def _passages(self) -> Iterator[Passage]:
         for prompt in self._prompts:
             passage = Passage(prompt, self._frames) if isinstance(prompt, str) else prompt
-            self._text = passage.text
+            self._texts.append((self._made, passage.text))
             yield passage
         while self._now is not None:
-            self._text = self._now.text
+            if self.text_at(self._made) != self._now.text:
+                self._texts.append((self._made, self._now.text))
             yield self._now
 
     def _count(self, seconds: float, frames: int) -> None:

@@ -1,0 +1,140 @@
+"""`stream`: a body that moves while sentences are typed, out to whoever listens."""
+
+import socket
+import sys
+import threading
+from contextlib import ExitStack
+from typing import Annotated
+
+import typer
+
+from ..shared.environment import TEXT_MODEL
+from ..shared.errors import UsageError, UserError
+from . import options
+from .console import complain, tell
+
+AFTER = 4.0  # seconds of motion after the last sentence of a pipe
+VMC_PORT = 39539
+
+
+def stream(
+    prompt: Annotated[str, typer.Option(help="What it does at first.")] = "a person stands",
+    seconds: Annotated[
+        float | None,
+        typer.Option(help="Of motion; without it, 4 s more than there are sentences."),
+    ] = None,
+    websocket: Annotated[
+        int | None,
+        typer.Option(help="Port on this machine: frames out, sentences in; 0 is any."),
+    ] = None,
+    vmc: Annotated[
+        str | None,
+        typer.Option(help="[HOST:]PORT of an avatar program that speaks VMC; its port is 39539."),
+    ] = None,
+    real_time: Annotated[
+        bool, typer.Option("--real-time/--no-real-time", help="At their time, or at once.")
+    ] = True,
+    window: Annotated[
+        float, typer.Option(help="Seconds made at a time: fewer hear sooner, more are cheaper.")
+    ] = 0.6,
+    model: Annotated[
+        str, typer.Option(help="A name that `models` lists, or a folder from training.")
+    ] = TEXT_MODEL,
+    seed: Annotated[int, typer.Option(help="Same seed and sentences, same motion.")] = 0,
+    steps: options.Steps = None,
+    sampler: options.Sampler = None,
+    guidance_scale: options.GuidanceScale = None,
+    foot_lock: Annotated[
+        bool | None,
+        typer.Option(
+            "--foot-lock/--no-foot-lock", help="Hold feet still, which takes 0.9 s of foresight."
+        ),
+    ] = None,
+    device: options.Device = "auto",
+    threads: options.Threads = None,
+    json: options.Json = False,
+) -> None:
+    """Move on and on; each line typed or piped in is what the body does next.
+
+    Frames are lines of JSON on stdout, or go to --websocket or --vmc; with --json to stdout as
+    well.
+
+    \b
+    Examples:
+      motion-tools stream
+      motion-tools stream --vmc 39539 --prompt "a person walks in a circle"
+      (sleep 5; echo "a person waves") | motion-tools stream --websocket 8765
+    """
+    options.check_ranges(
+        seconds=seconds, seed=seed, steps=steps, guidance_scale=guidance_scale, threads=threads,
+        window=window,
+    )  # fmt: skip
+    if not prompt.strip():
+        raise UsageError("--prompt is empty; say what the body does at first")
+    if websocket is not None and not 0 <= websocket < 65536:
+        raise UsageError(f"--websocket {websocket} is no port; give one from 0 to 65535")
+    from ..shared.light import compute_without_torch
+    from ..shared.model.onnx_card import chosen_runtime
+
+    if chosen_runtime("auto", model, device) == "onnx":
+        compute_without_torch()
+    from ..shared.device import set_threads
+    from ..shared.formats.live import Frame, json_line, vmc_bundle
+    from ..shared.model.diffusion import Sampling
+    from ..shared.pipelines.live import LiveBody, parse_address
+    from ..shared.pipelines.motion_generator import MotionGenerator
+
+    set_threads(threads)
+    to = None if vmc is None else parse_address(vmc, VMC_PORT)
+    sampling = Sampling(seed=seed, steps=steps, sampler=sampler, guidance_scale=guidance_scale)
+    generator = MotionGenerator(model, device=device)
+    body = LiveBody(
+        generator, prompt, sampling=sampling, window=window, foot_lock=foot_lock,
+        real_time=real_time,
+    )  # fmt: skip
+
+    def say(line: str) -> None:
+        text = " ".join(line.split())
+        if text:
+            for warning in filter(None, generator.text.scope_warnings([text], again=False)):
+                complain(f"warning: {warning}")
+            body.say(text)
+
+    def listen() -> None:
+        try:
+            for line in sys.stdin:
+                say(line)
+        except (OSError, ValueError):  # closed while it was read
+            pass
+        if seconds is None and websocket is None:
+            body.stop(AFTER)
+
+    with ExitStack() as held:
+        sinks = []
+        if websocket is not None:
+            from ..shared.io.websocket import HOST, WebSocketServer
+
+            server = held.enter_context(WebSocketServer(websocket, say))
+            tell(f"listening at ws://{HOST}:{server.port}")
+            sinks.append(lambda frame: server.send(json_line(frame)))
+        if to is not None:
+            channel = held.enter_context(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
+
+            def send(frame: Frame) -> None:
+                try:
+                    channel.sendto(vmc_bundle(frame), to)
+                except ConnectionRefusedError:
+                    pass  # nobody listens yet
+                except OSError as error:
+                    raise UserError(
+                        f"--vmc {vmc}: {error.strerror or error}; name an address of this network"
+                    ) from error
+
+            sinks.append(send)
+        if json or not sinks:
+            sinks.append(lambda frame: print(json_line(frame), flush=True))
+        threading.Thread(target=listen, daemon=True).start()
+        figures = body.play(sinks, seconds=seconds)
+    late = figures.latencies
+    heard = f", a sentence seen after {max(late):.2f} s at most" if late else ""
+    tell(f"{figures.frames} frames, made {figures.speed:.1f} times as fast as they pass{heard}")

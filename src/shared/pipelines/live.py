@@ -1,0 +1,182 @@
+"""A body that goes on moving while sentences come in: frames at their time, to whoever listens.
+
+Windows are short and made just before they are due, so that a sentence is soon seen: it waits for
+the window that is being made, and for the frames that the foot lock looks ahead.
+"""
+
+import queue
+import threading
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from ..errors import UsageError
+from ..formats.live import Frame
+from ..model.diffusion import Sampling
+from ..motion.motion import Motion
+from .motion_generator import MotionGenerator
+from .stream import DEFAULT_SAMPLING
+
+WINDOW = 0.6  # seconds of new motion at a time
+WAITING = 6  # frames that are made before they are due
+
+Sink = Callable[[Frame], None]
+
+
+@dataclass
+class LiveFigures:
+    """How it went.
+
+    Attributes:
+        frames: given out.
+        busy: seconds of computing.
+        fps: of the frames.
+        latencies: seconds from each sentence to the first frame that shows it.
+    """
+
+    frames: int = 0
+    busy: float = 0.0
+    fps: float = 30.0
+    latencies: list[float] = field(default_factory=list)
+
+    @property
+    def speed(self) -> float:
+        """Seconds of motion made in a second of computing."""
+        return self.frames / self.fps / self.busy if self.busy else 0.0
+
+
+class LiveBody:
+    """Frames until it is told to stop.
+
+    Args:
+        generator: its text model.
+        text: the first sentence.
+        sampling: seed, steps, sampler, guidance.
+        window: seconds made at a time; the shorter, the sooner a sentence is heard.
+        foot_lock: hold standing feet; None = the model's own setting. Without it, frames settle
+            0.9 s sooner.
+        real_time: frames come when they are due; False: as soon as they are made.
+    """
+
+    def __init__(
+        self,
+        generator: MotionGenerator,
+        text: str,
+        *,
+        sampling: Sampling = DEFAULT_SAMPLING,
+        window: float = WINDOW,
+        foot_lock: bool | None = None,
+        real_time: bool = True,
+    ) -> None:
+        self.fps = generator.text.card.fps
+        self.figures = LiveFigures(fps=self.fps)
+        self._stream = generator.stream(
+            text, seconds=window, sampling=sampling, foot_lock=foot_lock
+        )
+        self._real_time = real_time
+        self._said: dict[str, float] = {}  # sentences not yet seen, and when they came
+        self._ended = threading.Event()
+        self._limit: int | None = None
+
+    def say(self, text: str) -> None:
+        """What is shown as soon as possible.
+
+        Raises:
+            UsageError: no text.
+        """
+        self._stream.say(text)
+        self._said[text] = time.perf_counter()
+
+    def stop(self, seconds: float = 0.0) -> None:
+        """No more frames, but for so many seconds of them."""
+        self._limit = self.figures.frames + round(seconds * self.fps)
+
+    def play(self, sinks: Sequence[Sink], *, seconds: float | None = None) -> LiveFigures:
+        """Give frames to all sinks until `stop`, or for so many seconds of motion."""
+        if seconds is not None:
+            self._limit = round(seconds * self.fps)
+        began: float | None = None
+        for frame in self._frames():
+            if self._limit is not None and frame.number >= self._limit:
+                break
+            if began is None:
+                began = time.perf_counter()
+            if self._real_time:
+                due = began + frame.seconds - time.perf_counter()
+                time.sleep(max(0.0, due))
+            if (since := self._said.pop(frame.text, None)) is not None:
+                self.figures.latencies.append(time.perf_counter() - since)
+            for sink in sinks:
+                sink(frame)
+            self.figures.frames += 1
+        self._ended.set()
+        return self.figures
+
+    def _frames(self) -> Iterator[Frame]:
+        """Made in a thread of their own, `WAITING` of them ahead of who takes them."""
+        made: queue.Queue[Frame | BaseException | None] = queue.Queue(WAITING)
+
+        def make() -> None:
+            last: BaseException | None = None
+            try:
+                for frame in _counted(self._timed(), self._stream.text_at, self.fps):
+                    while not self._ended.is_set():
+                        try:
+                            made.put(frame, timeout=0.1)
+                            break
+                        except queue.Full:
+                            continue
+                    if self._ended.is_set():
+                        return
+            except BaseException as error:
+                last = error
+            made.put(last)
+
+        threading.Thread(target=make, daemon=True).start()
+        while not self._ended.is_set():
+            try:
+                frame = made.get(timeout=0.1)
+            except queue.Empty:
+                continue
+            if isinstance(frame, BaseException):
+                raise frame
+            if frame is None:
+                return
+            yield frame
+
+    def _timed(self) -> Iterator[Motion]:
+        """Pieces, while the time that they take is counted."""
+        pieces = iter(self._stream)
+        while True:
+            started = time.perf_counter()
+            piece = next(pieces, None)
+            self.figures.busy += time.perf_counter() - started
+            if piece is None:
+                return
+            yield piece
+
+
+def _counted(
+    pieces: Iterator[Motion], text_at: Callable[[int], str], fps: float
+) -> Iterator[Frame]:
+    number = 0
+    for piece in pieces:
+        rows: Any = zip(piece.root_position, piece.quaternions, piece.contacts, strict=True)
+        for root, quaternions, contacts in rows:
+            yield Frame(number, number / fps, text_at(number), root, quaternions, contacts)
+            number += 1
+
+
+def parse_address(text: str, port: int) -> tuple[str, int]:
+    """Host and port of "HOST", "PORT" or "HOST:PORT".
+
+    Raises:
+        UsageError: it is none of them.
+    """
+    host, _, number = text.rpartition(":")
+    if text and not host and not number.isdigit():
+        host, number = text, str(port)
+    if not number.isdigit() or not 0 < int(number) < 65536:
+        raise UsageError(f"{text!r} is no address; give HOST, PORT or HOST:PORT")
+    return host or "127.0.0.1", int(number)

@@ -1,0 +1,48 @@
+"""`stream`: sentences piped in, frames out, on stdout and by VMC."""
+
+import json
+import os
+import socket
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from src.cli.tools import app
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_sentences_from_a_pipe() -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as listener:
+        listener.bind(("127.0.0.1", 0))
+        listener.settimeout(60)
+        port = listener.getsockname()[1]
+        command = ["-m", "src.cli.tools", "stream", "--seconds", "2", "--no-real-time", "--json"]
+        result = subprocess.run(
+            [sys.executable, *command, "--steps", "2", "--vmc", str(port)],
+            input="a person waves\n\n", capture_output=True, text=True, cwd=ROOT,
+            env={**os.environ, "PYTHONPATH": str(ROOT)},
+        )  # fmt: skip
+        assert result.returncode == 0, result.stderr
+        assert listener.recv(65536).startswith(b"#bundle\0")
+    frames = [json.loads(line) for line in result.stdout.splitlines()]
+    assert [frame["frame"] for frame in frames] == list(range(60))
+    assert frames[-1]["text"] == "a person waves"
+    assert "60 frames" in result.stderr and "torch" not in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--prompt", " "], "--prompt is empty"),
+        (["--websocket", "70000"], "--websocket 70000"),
+        (["--vmc", "here:there"], "is no address"),
+        (["--window", "9"], "--window 9"),
+    ],
+)
+def test_wrong_usage(arguments: list[str], words: str) -> None:
+    result = CliRunner().invoke(app, ["stream", *arguments])
+    assert result.exit_code == 2 and words in result.stderr

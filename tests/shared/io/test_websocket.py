@@ -1,0 +1,96 @@
+"""A WebSocket on the loopback address: handshake, both ways, and who is refused."""
+
+import socket
+import time
+from collections.abc import Iterator
+
+import pytest
+
+from src.shared.errors import UserError
+from src.shared.io.websocket import WebSocketServer
+
+KEY = "dGhlIHNhbXBsZSBub25jZQ=="  # RFC 6455, section 1.2, with the answer that it prints
+ANSWER = "s3pPLMBiTxaQ9kYGzzhZRbK+xOo="
+
+
+@pytest.fixture
+def heard() -> list[str]:
+    return []
+
+
+@pytest.fixture
+def server(heard: list[str]) -> Iterator[WebSocketServer]:
+    with WebSocketServer(0, heard.append) as running:
+        yield running
+
+
+def request(server: WebSocketServer, *lines: str) -> tuple[socket.socket, str]:
+    client = socket.create_connection(("127.0.0.1", server.port), timeout=5)
+    head = ("GET / HTTP/1.1", "Host: localhost", "Upgrade: websocket", *lines, "", "")
+    client.sendall("\r\n".join(head).encode())
+    answer = b""
+    while b"\r\n\r\n" not in answer and (more := client.recv(1024)):
+        answer += more
+    return client, answer.decode()
+
+
+def joined(server: WebSocketServer) -> socket.socket:
+    client, answer = request(server, f"Sec-WebSocket-Key: {KEY}")
+    assert answer.startswith("HTTP/1.1 101") and ANSWER in answer
+    until(lambda: bool(server._clients))
+    return client
+
+
+def until(true) -> None:
+    for _ in range(100):
+        if true():
+            return
+        time.sleep(0.02)
+    raise AssertionError("waited in vain")
+
+
+def masked(kind: int, data: bytes) -> bytes:
+    mask = b"\x01\x02\x03\x04"
+    size = bytes([0x80 | len(data)]) if len(data) < 126 else b"\xfe" + len(data).to_bytes(2, "big")
+    return bytes([0x80 | kind]) + size + mask + bytes(b ^ mask[i % 4] for i, b in enumerate(data))
+
+
+def test_both_ways(server: WebSocketServer, heard: list[str]) -> None:
+    client = joined(server)
+    server.send("a" * 300)
+    got = b""
+    while len(got) < 304:
+        got += client.recv(1024)
+    assert got == b"\x81\x7e\x01\x2c" + b"a" * 300
+    client.sendall(masked(1, "一个人挥手".encode()))
+    until(lambda: heard == ["一个人挥手"])
+    client.sendall(masked(9, b"hi"))
+    assert client.recv(64) == b"\x8a\x02hi"
+    client.sendall(masked(8, b""))
+    until(lambda: not server._clients)
+
+
+@pytest.mark.parametrize(
+    "data", [b"\x81\x02ab", masked(1, b"x" * 5000), b"\x01\x80abcd", b"\xff\xff\xff\xff\xff"]
+)
+def test_what_is_no_frame_of_ours_ends_it(server: WebSocketServer, data: bytes) -> None:
+    client = joined(server)
+    client.sendall(data)
+    until(lambda: not server._clients)
+    other = joined(server)
+    server.send("still here")
+    assert other.recv(64).endswith(b"still here")
+
+
+def test_foreign_pages_are_refused(server: WebSocketServer) -> None:
+    key = f"Sec-WebSocket-Key: {KEY}"
+    for origin in ("https://example.com", "http://localhost.example.com"):
+        assert request(server, key, f"Origin: {origin}")[1].startswith("HTTP/1.1 403")
+    for origin in ("http://localhost:8000", "http://127.0.0.1", "null"):
+        assert request(server, key, f"Origin: {origin}")[1].startswith("HTTP/1.1 101")
+    assert request(server)[1].startswith("HTTP/1.1 400")
+
+
+def test_a_taken_port_is_one_line(server: WebSocketServer) -> None:
+    with pytest.raises(UserError, match=f"--websocket {server.port}: .*choose another"):
+        WebSocketServer(server.port, print)

@@ -1,0 +1,94 @@
+"""A live body: frames in order, sentences seen, an end."""
+
+import numpy as np
+import pytest
+
+from src.shared.errors import UsageError
+from src.shared.formats.live import Frame
+from src.shared.model.diffusion import Sampling
+from src.shared.model.generation.motion_generator import TextToMotion
+from src.shared.pipelines.live import LiveBody, parse_address
+from src.shared.pipelines.motion_generator import MotionGenerator
+from tests.shared.model.conftest import tiny_generator
+
+
+@pytest.fixture(scope="module")
+def generator() -> MotionGenerator:
+    made: TextToMotion = tiny_generator(constraints=True)
+    return MotionGenerator(made)
+
+
+def body(generator: MotionGenerator, **options: object) -> LiveBody:
+    settings = {"sampling": Sampling(seed=1, steps=2), "window": 0.4, "real_time": False}
+    return LiveBody(generator, "a person walks forward", **(settings | options))
+
+
+def test_frames_are_those_of_the_stream(generator: MotionGenerator) -> None:
+    frames: list[Frame] = []
+    figures = body(generator).play([frames.append], seconds=2.0)
+    assert [frame.number for frame in frames] == list(range(60)) and figures.frames == 60
+    stream = generator.stream(
+        "a person walks forward", seconds=0.4, sampling=Sampling(seed=1, steps=2)
+    )
+    wanted: list[np.ndarray] = []
+    for piece in stream:
+        wanted.extend(piece.quaternions)
+        if len(wanted) >= 60:
+            break
+    np.testing.assert_array_equal([frame.quaternions for frame in frames], wanted[:60])
+    assert figures.speed > 0
+
+
+def test_a_sentence_is_seen_and_its_delay_told(generator: MotionGenerator) -> None:
+    live, texts = body(generator), []
+
+    def sink(frame: Frame) -> None:
+        texts.append(frame.text)
+        if frame.number == 20:
+            live.say("somebody jumps twice")
+
+    figures = live.play([sink], seconds=4.0)
+    assert texts[0] == "a person walks forward" and texts[-1] == "somebody jumps twice"
+    assert texts == sorted(texts, key=["a person walks forward", "somebody jumps twice"].index)
+    assert len(figures.latencies) == 1 and 0 < figures.latencies[0] < 60
+
+
+def test_it_ends_so_many_seconds_later(generator: MotionGenerator) -> None:
+    live, seen = body(generator), []
+
+    def sink(frame: Frame) -> None:
+        seen.append(frame.number)
+        if frame.number == 9:
+            live.stop(0.5)
+
+    live.play([sink])
+    assert 20 <= len(seen) <= 26
+
+
+def test_real_time_is_kept(generator: MotionGenerator) -> None:
+    import time
+
+    live, times = body(generator, real_time=True), []
+    live.play([lambda frame: times.append(time.perf_counter())], seconds=0.5)
+    assert times[-1] - times[0] >= 0.45
+
+
+def test_faults_reach_who_listens(generator: MotionGenerator) -> None:
+    with pytest.raises(UsageError, match="sampler"):
+        body(generator, sampling=Sampling(sampler="euler")).play([print], seconds=1.0)
+    with pytest.raises(UsageError, match="no text"):
+        body(generator).say("  ")
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [("39540", ("127.0.0.1", 39540)), ("pc", ("pc", 39539)), ("10.0.0.2:1", ("10.0.0.2", 1))],
+)
+def test_addresses(text: str, wanted: tuple[str, int]) -> None:
+    assert parse_address(text, 39539) == wanted
+
+
+@pytest.mark.parametrize("text", ["70000", "pc:x", "0", ""])
+def test_wrong_addresses(text: str) -> None:
+    with pytest.raises(UsageError, match="no address"):
+        parse_address(text, 39539)
