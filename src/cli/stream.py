@@ -36,7 +36,7 @@ def stream(
     ] = True,
     window: Annotated[
         float, typer.Option(help="Seconds made at a time: fewer hear sooner, more are cheaper.")
-    ] = 0.6,
+    ] = 0.5,
     model: Annotated[
         str, typer.Option(help="A name that `models` lists, or a folder from training.")
     ] = TEXT_MODEL,

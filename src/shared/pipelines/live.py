@@ -18,8 +18,8 @@ from ..motion.motion import Motion
 from .motion_generator import MotionGenerator
 from .stream import DEFAULT_SAMPLING
 
-WINDOW = 0.6  # seconds of new motion at a time
-WAITING = 6  # frames that are made before they are due
+WINDOW = 0.5  # seconds of new motion at a time
+WAITING = 5  # frames that are made before they are due
 
 Sink = Callable[[Frame], None]
 
