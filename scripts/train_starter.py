@@ -62,11 +62,13 @@ def stages(options: argparse.Namespace) -> list[list[str]]:
 def ship(trained: Path, name: str, licence: str, description: str) -> None:
     """Write a generator, in fp16, where `from_pretrained` finds it."""
     from src.shared.model.generation.motion_generator import TextToMotion
+    from src.shared.model.generation.onnx import export_text
 
     generator = TextToMotion.from_pretrained(trained)
     about = {"name": name, "licence": licence, "description": description}
     generator.card = generator.card.model_copy(update=about)
     generator.save_pretrained(SHIPPED / name, half=True)
+    export_text(SHIPPED / name, SHIPPED / name)  # graphs belong to their weights
 
 
 def ship_judge(trained: Path) -> None:

@@ -16,7 +16,7 @@ from src.shared.pipelines.song import SongGenerator
 from src.shared.pipelines.song_sampler import SongSampler, SongSampling
 from tests.shared.model.audio.tiny_audio import awake, network_config, unet_config
 
-SETTINGS = SongSampling(steps=2, window=60, overlap=15)
+SETTINGS = SongSampling(steps=2, window=60, overlap=15, seed=2)
 
 
 def saved(folder: Path, *, trained: bool) -> AudioMotionModel:
