@@ -6,7 +6,6 @@ the same weights and the same result.
 
 import copy
 import hashlib
-import json
 import logging
 import shutil
 import warnings
@@ -19,7 +18,7 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from ..io.files import atomic_write, sha256_file, write_json
+from ..io.files import atomic_write, parse_json, sha256_file, write_json
 from .checkpoint import INT8_SCALE, WEIGHTS_FILE, read_card, read_tensors
 from .diffusion import GaussianDiffusion
 from .layers.transformer import RotaryEmbedding
@@ -228,7 +227,7 @@ def _header(path: Path) -> dict[str, Any]:
     """What a safetensors file says of its tensors, and the byte at which they begin."""
     with path.open("rb") as stream:
         length = int.from_bytes(stream.read(8), "little")
-        found: dict[str, Any] = json.loads(stream.read(length))
+        found: dict[str, Any] = parse_json(stream.read(length))
     return found | {_START: 8 + length}
 
 

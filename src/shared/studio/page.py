@@ -7,7 +7,6 @@ that no browser runs. The page refuses the network by its own Content-Security-P
 
 import base64
 import gzip
-import json
 import re
 from importlib.resources import files
 from pathlib import Path
@@ -19,7 +18,7 @@ from ..errors import UserError
 from ..formats.preview.html import body_data, script_safe_json
 from ..formats.rig import END_SITES
 from ..formats.writers.glb import rest_glb
-from ..io.files import atomic_write, load_json, write_json
+from ..io.files import atomic_write, load_json, parse_json, write_json
 from ..model.checkpoint import WEIGHTS_FILE, ModelCard, read_card, resolve_model, wrong_kind
 from ..model.clip.core import PAIRS
 from ..model.clip.out_of_domain import META_FILE as SCOPE_FILE
@@ -105,7 +104,7 @@ def _check(card: ModelCard, folder: Path) -> None:
 def graph_of(folder: Path, card: ModelCard) -> bytes:
     """The denoiser's graph without its weights: the shipped one where it fits, else exported."""
     shell = files(__package__).joinpath("shell")
-    if json.loads(shell.joinpath(GRAPH_CARD).read_text("utf-8"))["model"] == card.content_hash:
+    if parse_json(shell.joinpath(GRAPH_CARD).read_bytes())["model"] == card.content_hash:
         return shell.joinpath(GRAPH).read_bytes()
     from ..model.generation.onnx import export_text
     from ..model.generation.onnx_networks import DENOISER_GRAPH
