@@ -3,30 +3,45 @@
     "walks three metres, then waves twice" -> Clause("walks", metres=3), Clause("waves", count=2)
 
 The words are those of src/configs/measures.yaml, all languages at once: a sentence need not say
-which one it is in. What a clause asks to be done is left to the text tower.
+which one it is in. What a clause asks to be done is left to the text tower; how sure that is of it
+decides where no word does.
 """
 
+import math
 import re
 import unicodedata
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from functools import cache
-from itertools import groupby
-from typing import Any
+from itertools import pairwise
+from typing import Any, NamedTuple
 
-from ..config_loader import load_yaml, packaged_config
+from .sentence_words import CJK_SIGN, EDGES, MAX_COUNT, MOST, bare
+from .sentence_words import words as _words
 
-MAX_COUNT, MAX_METRES, MAX_DEGREES, MAX_SECONDS = 20, 100.0, 720.0, 600.0
-_CJK = "\u3040-\u30ff\u3400-\u9fff"
-# Classes without case: re would spell out every character of their ranges, seconds in all.
-_CJK_SIGN = f"(?-i:[{_CJK}])"
-_LETTER, _SIGN = rf"(?-i:[^\W\d{_CJK}])", rf"(?-i:[^\W{_CJK}])"  # of words; or a digit
-_COMMAS = r"[,;、，；]"
-_EDGES = " \t,;.!?。、，；！？"
-_DIGITS = r"\d+(?:[.,]\d+)?"
+# How sure it must be what each part asks for where they are parted by a comma or "and"; by a word
+# that says "at once"; by a comma beside such a word; by a participle or "with" alone.
+SURE, SURE_AT_MARK, SURE_IF_SAID, SURE_AT_ONCE = 0.0, -14.0, -2.0, 1.0
+MOST_PIECES = 8  # between commas, that may be one part
 
-Known = Callable[[str], str | None]  # the action that a clause alone tells of, None if of none
-Arms = Callable[[str], bool]  # whether what a clause asks for is done with the arms alone
+
+class Reading(NamedTuple):
+    """What a text alone asks for.
+
+    Attributes:
+        action: None where nobody can say.
+        certainty: log odds that this is it.
+        arms: whether the arms alone do it.
+    """
+
+    action: str | None = None
+    certainty: float = -math.inf
+    arms: bool = False
+
+
+Read = Callable[[str], Reading]
+Span = tuple[int, int]
+_Last = tuple[str | None, str]
+_SIDES = {"left", "right"}
 
 
 @dataclass(frozen=True)
@@ -57,38 +72,37 @@ class Clause:
         return self == Clause(self.text)
 
 
-def clauses(
-    sentence: str, known: Known = lambda text: None, arms: Arms = lambda text: False
-) -> list[Clause]:
+def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
     """The clauses of a sentence in the order in which they are to be done; at least one.
 
-    Where no word tells of an order, a comma or an "and" parts two clauses only if `known` finds an
+    Where no word tells of an order, a comma or an "and" parts two clauses only if `read` finds an
     action of its own in each: "walks forward and waves", but not "jumps up and down". "Walks while
-    waving" and "raises the left hand and waves with the right one" are one clause, with what the
-    arms do meanwhile.
+    waving", "walks with one hand up" and "raises the left hand and waves with the right one" are
+    one clause, with what the arms do meanwhile.
     """
     text = unicodedata.normalize("NFKC", " ".join(sentence.split()))
     found: list[Clause] = []
-    for whole in _ordered(text):
-        both = _together(whole, known, arms)
-        found += [both] if both else map(_measured, _joined(whole, known))
+    for whole in _ordered(text, read):
+        pieces = _joined(whole, read)
+        while pieces:
+            first, *others = pieces
+            pair = _at_once(first, others[0], read) if others else None
+            found.append(pair or _parted(first, read) or _measured(first))
+            pieces = others[1:] if pair else others
     return [clause for clause in found if clause.text] or [Clause(sentence)]
 
 
 # ---------------------------------------------------------------- order
 
 
-def _ordered(text: str) -> list[str]:
+def _ordered(text: str, read: Read) -> list[str]:
     """Parts that words of order part, first things first."""
     words = _words()
-    if head := words.head_after.match(text):
-        first, comma, second = text[head.end() :].partition(",")
-        if comma and second.strip(_EDGES):
-            return [*_ordered(first), *_ordered(second)]
-    if head := words.head_before.match(text):
-        second, comma, first = text[head.end() :].partition(",")
-        if comma and first.strip(_EDGES):
-            return [*_ordered(first), *_ordered(second)]
+    found: tuple[str, str] | None = None
+    if match := words.after.match(text):
+        found = _subordinate(text[match.end() :], read)
+    elif (match := words.before.match(text)) and (parts := _subordinate(text[match.end() :], read)):
+        found = (parts[1], parts[0])
     for pattern, swapped in (
         (words.then, False),
         (words.earlier, False),
@@ -96,58 +110,187 @@ def _ordered(text: str) -> list[str]:
         (words.before, False),
         (words.after, True),
     ):
-        for match in pattern.finditer(text):
+        for match in () if found else pattern.finditer(text):
             left, right = text[: match.start()], text[match.end() :]
-            if pattern is words.then:
-                left, right = _around(left, right)
-            if left.strip(_EDGES) and right.strip(_EDGES):
-                parts = (right, left) if swapped else (left, right)
-                return [part for each in parts for part in _ordered(each)]
+            if pattern is words.then and match[0].lstrip()[:1].isalpha():
+                left, right = _around(left, right, read)
+            if left.strip(EDGES) and right.strip(EDGES):
+                found = (right, left) if swapped else (left, right)
+                break
+    if found:
+        return [part for each in found for part in _ordered(each, read)]
     return [_trimmed(words.then.sub(" ", text) if words.then.match(text) else text)]
 
 
-def _around(left: str, right: str) -> tuple[str, str]:
+def _subordinate(text: str, read: Read) -> tuple[str, str] | None:
+    """A clause at the head of a sentence and the rest: parted at the comma, or the blank, that
+    leaves two actions, else at the first comma."""
+    commas = [match.span() for match in _words().comma.finditer(text)]
+    for cuts in (commas, _blanks(text)):
+        if found := _best(text, cuts, read):
+            return found
+    halves = (text[: commas[0][0]], text[commas[0][1] :]) if commas else ("", "")
+    return halves if all(half.strip(EDGES) for half in halves) else None
+
+
+def _around(left: str, right: str, read: Read) -> tuple[str, str]:
     """Clauses on both sides of a word of order; where it stands late in its own clause ("und winkt
     dann"), that begins at the conjunction or comma before it."""
     borders = list(_words().joint.finditer(left))
     own = left[borders[-1].end() :] if borders else ""
-    if borders and own.strip(_EDGES) and (len(own.split()) <= 3 or not right.strip(_EDGES)):
-        return left[: borders[-1].start()], f"{own.rstrip()} {right.lstrip()}"
-    return left, right
+    if not own.strip(EDGES):
+        return left, right
+    if right.strip(EDGES):  # "walks in, waves then bows" is three, "und dreht sich dann um" one
+        two = _differ(read(_trimmed(own)), read(_trimmed(right)))
+        if two or len(own.split()) > 3 or re.search(CJK_SIGN, own):
+            return left, right
+    return left[: borders[-1].start()], f"{own.rstrip()} {right.lstrip()}"
 
 
-def _joined(text: str, known: Known) -> list[str]:
-    """The text parted at commas and "and" where each part is an action of its own."""
-    pieces = [piece for piece in map(_trimmed, _words().joint.split(text)) if piece]
-    if len(pieces) < 2:
-        return [text]
-    actions = [known(_measured(piece).text) for piece in pieces]
-    if None in actions or len(set(actions)) < len(actions):
-        return [text]
-    return pieces
+def _joined(text: str, read: Read) -> list[str]:
+    """The text parted at stops and "and" into as many parts as tell of actions of their own; what
+    does not, stays with what stands beside it."""
+    borders = [match.span() for match in _words().joint.finditer(text)]
+    pieces = [
+        (start, stop)
+        for (_, start), (stop, _) in pairwise([(0, 0), *borders, (len(text), len(text))])
+        if text[start:stop].strip(EDGES)
+    ]
+    # The best ways up to a piece, one for each action and side of their last part.
+    ways: list[dict[_Last, _Way]] = [{(None, "both"): _Way()}]
+    for stop in range(1, len(pieces) + 1):
+        here = {last: way._replace(passed=way.passed + 1) for last, way in ways[-1].items()}
+        for start in range(max(0, stop - MOST_PIECES), stop):
+            part = _trimmed(text[pieces[start][0] : pieces[stop - 1][1]])
+            reading, side = read(_measured(part).text), side_of(part)
+            last = reading.action, side
+            before = [
+                way
+                for (action, other), way in ways[start].items()
+                if action != reading.action or {other, side} == _SIDES
+            ]
+            if before and reading.certainty > SURE:
+                way = max(before, key=_Way.rank).further(part, reading.certainty)
+                here[last] = max(way, here.get(last, way), key=_Way.rank)
+        ways.append(here)
+    best = max(ways[-1].values(), key=_Way.rank).parts
+    return list(best) if len(best) > 1 else [text]
 
 
-def _together(text: str, known: Known, arms: Arms) -> Clause | None:
-    """A clause and what the arms do meanwhile; None where that is not what a text says."""
+class _Way(NamedTuple):
+    """A parting of the first pieces of a sentence, and how many of them no part holds."""
+
+    parts: tuple[str, ...] = ()
+    passed: int = 0
+    certainty: float = 0.0
+
+    def rank(self) -> tuple[int, int, float]:
+        return len(self.parts), -self.passed, self.certainty
+
+    def further(self, part: str, certainty: float) -> "_Way":
+        return _Way((*self.parts, part), self.passed, self.certainty + certainty)
+
+
+def _differ(first: Reading, second: Reading, sure: float = SURE) -> bool:
+    """Whether both are understood, as two actions."""
+    return min(first.certainty, second.certainty) > sure and first.action != second.action
+
+
+def _best(text: str, cuts: Iterable[Span], read: Read) -> tuple[str, str] | None:
+    """The halves of a text that tell most surely of two actions, None where none do."""
+    best, sure = None, SURE
+    for stop, start in cuts:
+        left, right = _trimmed(text[:stop]), _trimmed(text[start:])
+        first, second = (read(_measured(half).text) for half in (left, right))
+        if _differ(first, second, sure):
+            best, sure = (left, right), min(first.certainty, second.certainty)
+    return best
+
+
+def _blanks(text: str) -> list[Span]:
+    """Where words meet, in writing without blanks all places."""
+    return [match.span() for match in re.finditer(rf"\s+|(?<={CJK_SIGN})(?={CJK_SIGN})", text)]
+
+
+# ---------------------------------------------------------------- at once
+
+
+def _at_once(first: str, second: str, read: Read) -> Clause | None:
+    """A clause and what the arms do meanwhile, if a word says so, a participle or "with" begins the
+    second one, or one arm does the one and the other arm the other; else None."""
     words = _words()
-    parts = [part for part in map(_trimmed, words.meanwhile.split(text)) if part]
-    at_once = words.meanwhile.search(text) is not None
-    if len(parts) == 1:
-        parts = [part for part in map(_trimmed, words.joint.split(parts[0])) if part]
-    sides = [side_of(part) for part in parts]
-    if len(parts) != 2 or not (at_once or set(sides) == {"left", "right"}):
-        return None
-    if not all(map(known, parts)) or not any(map(arms, parts)):
-        return None
-    (body, _), (other, side) = sorted(zip(parts, sides, strict=True), key=lambda p: arms(p[0]))
-    if at_once or all(map(arms, parts)):
-        return replace(_measured(body), meanwhile=other, side=side)
+    said = any(
+        pattern.search(each)
+        for each in (first, second)
+        for pattern in (words.meanwhile, words.throughout)
+    )
+    if pair := _pair(first, second, read, SURE_IF_SAID if said else SURE):
+        sign = pair.certainty > SURE_AT_ONCE and words.sign.match(second)
+        manner = words.manner.search(first) and pair.clause.meanwhile == first
+        if said or pair.one_arm_each or (not pair.arms_alone and (sign or manner)):
+            return pair.clause
     return None
+
+
+def _parted(text: str, read: Read) -> Clause | None:
+    """A clause that tells of two things done at once, as `_at_once`."""
+    words = _words()
+    marks = [match.span() for match in words.meanwhile.finditer(text)]
+    joints = [match.span() for match in words.joint.finditer(text)]
+    signs = [(match.start(), match.start()) for match in words.sign.finditer(text)]
+    said = bool(marks or words.throughout.search(text))
+    for cuts, sure in (
+        (marks, SURE_AT_MARK),
+        (joints, SURE_IF_SAID),
+        (signs + (_blanks(text) if said else []), SURE_AT_ONCE),
+    ):
+        pairs = [_pair(text[:stop], text[start:], read, sure) for stop, start in cuts]
+        found = [
+            pair
+            for pair in pairs
+            if pair and (said or pair.one_arm_each or (cuts == signs and not pair.arms_alone))
+        ]
+        if found:
+            return max(found, key=lambda pair: pair.certainty).clause
+    return None
+
+
+@dataclass(frozen=True)
+class _Pair:
+    """A clause of two things done at once, how surely each is one of its own, and whether the arms
+    do both, or each arm one."""
+
+    clause: Clause
+    certainty: float
+    arms_alone: bool
+    one_arm_each: bool
+
+
+def _pair(left: str, right: str, read: Read, sure: float) -> _Pair | None:
+    """Two halves as one clause; None where they are not two actions, or the arms do neither."""
+    words = _words()
+    halves = [
+        _trimmed(words.meanwhile.sub(" ", words.throughout.sub(" ", half)))
+        for half in (left, right)
+    ]
+    first, second = [read(_measured(half).text) for half in halves]
+    if not (first.arms or second.arms) or not _differ(first, second, sure):
+        return None
+    body, other = (1, 0) if first.arms and not second.arms else (0, 1)
+    sides, alone = [side_of(half) for half in halves], first.arms and second.arms
+    return _Pair(
+        replace(_measured(halves[body]), meanwhile=halves[other], side=sides[other]),
+        min(first.certainty, second.certainty),
+        alone,
+        alone and set(sides) == _SIDES,
+    )
 
 
 def side_of(text: str) -> str:
     """left, right, or both where a text names neither or both."""
-    left, right = (bool(side.search(text)) for side in (_words().left, _words().right))
+    words = _words()
+    said = words.no_side.sub(" ", text)
+    left, right = (bool(side.search(said)) for side in (words.left, words.right))
     return "both" if left == right else "left" if left else "right"
 
 
@@ -167,12 +310,12 @@ def _measured(text: str) -> Clause:
         # Japanese counts and turns with one word: a few 度 are times, many are degrees.
         if name == "degrees" and value < 15:
             continue
-        if not 0 < value <= _MOST[name]:
+        if not 0 < value <= MOST[name]:
             continue
         found: dict[str, Any] = {"text": _without(clause.text, match), name: value}
         clause = replace(clause, **found)
     if clause.degrees is None and (match := words.angle.search(clause.text)) and side != "both":
-        clause = replace(clause, degrees=words.angles[match[0].casefold()])
+        clause = replace(clause, degrees=words.angles[bare(match[0])])
     if clause.degrees is not None:
         sign = -1.0 if side == "right" else 1.0
         return replace(clause, degrees=sign * clause.degrees)
@@ -185,7 +328,7 @@ def _counted(clause: Clause) -> Clause:
     """Times, or a bare number before what is done: "twice", "3 times", "x4", "two jumps"."""
     words = _words()
     if match := words.often.search(clause.text):
-        number = words.adverbs[match[0].casefold()]
+        number = words.adverbs[bare(match[0])]
     elif match := words.times.search(clause.text) or words.bare.search(clause.text):
         number = int(_value(next(filter(None, match.groups()))))
     else:
@@ -196,11 +339,8 @@ def _counted(clause: Clause) -> Clause:
     return replace(clause, text=rest, count=number) if rest else clause
 
 
-_MOST = {"metres": MAX_METRES, "degrees": MAX_DEGREES, "seconds": MAX_SECONDS}
-
-
 def _value(text: str) -> float:
-    number = _words().numbers.get(text.casefold())
+    number = _words().numbers.get(bare(text))
     return float(text.replace(",", ".")) if number is None else float(number)
 
 
@@ -209,119 +349,4 @@ def _without(text: str, match: re.Match[str]) -> str:
 
 
 def _trimmed(text: str) -> str:
-    return _words().loose.sub("", text.strip(_EDGES)).strip(_EDGES)
-
-
-# ---------------------------------------------------------------- words
-
-
-class _Words:
-    """The patterns of all languages."""
-
-    def __init__(self, tables: Sequence[dict[str, Any]]) -> None:
-        def all_of(key: str) -> list[str]:
-            return [word for table in tables for word in table.get(key, [])]
-
-        self.numbers: dict[str, int] = {}
-        self.adverbs: dict[str, int] = {}
-        self.angles: dict[str, float] = {}
-        for table in tables:
-            self.numbers |= {w.casefold(): i for i, w in enumerate(table["numbers"], 1)}
-            self.numbers |= {w.casefold(): i for w, i in table["more_numbers"].items()}
-            self.adverbs |= {w.casefold(): i for i, w in enumerate(table.get("often", []), 1)}
-            self.angles |= {w.casefold(): float(i) for w, i in table["angles"].items()}
-        joints = all_of("and")
-        self.joint = re.compile(rf"\s*{_COMMAS}\s*(?:{_any(joints)}\s)?|{_any(joints)}", re.I)
-        self.then = re.compile(rf"{_COMMAS}?\s*{_any(all_of('then'))}{_COMMAS}?", re.I)
-        self.earlier = re.compile(_any(all_of("earlier")) + _COMMAS + "?", re.I)
-        self.later = re.compile(_any(all_of("later")) + _COMMAS + "?", re.I)
-        self.meanwhile = re.compile(rf"{_COMMAS}?\s*{_any(all_of('meanwhile'))}\s*", re.I)
-        self.before = re.compile(rf"{_COMMAS}?\s*{_any(all_of('before'))}\s*", re.I)
-        self.after = re.compile(rf"{_COMMAS}?\s*{_any(all_of('after'))}\s*", re.I)
-        self.head_before = re.compile(rf"{_any(all_of('before'))}\s*", re.I)
-        self.head_after = re.compile(rf"{_any(all_of('after'))}\s*", re.I)
-        self.left, self.right = (re.compile(_any(all_of(side)), re.I) for side in ("left", "right"))
-        self.angle = re.compile(_any(self.angles), re.I)
-        self.often = re.compile(_any(self.adverbs), re.I)
-        number = rf"(?P<number>{_DIGITS}|{_any(self.numbers)})"
-        ready = rf"(?:(?<![\w.,])|(?<={_CJK_SIGN}))"
-        self.units = {
-            name: re.compile(rf"{_lead()}{ready}{number}[\s-]*{_any(all_of(name))}", re.I)
-            for name in ("degrees", "metres", "seconds")
-        }
-        others = rf"(?![\s-]*{_any(all_of('uncounted'))})"
-        times = rf"{_any(all_of('times'))}|(?:{_any(all_of('pieces'))}|[x×](?!\w)){others}"
-        self.times = re.compile(rf"{ready}(?:{number}\s*(?:{times})|[x×]\s*(?P<after>\d+))", re.I)
-        # A bare number counts what follows it; "one" is mostly somebody, "a" nothing at all.
-        several = [word for word, value in self.numbers.items() if value > 1]
-        self.bare = re.compile(rf"{ready}(?P<number>\d+|{_any(several)}){others}(?=[\s-]+\w)", re.I)
-        self.loose = re.compile(rf"^(?:{_any(joints)})\s+|\s+(?:{_any(joints)})$", re.I)
-
-
-def _lead() -> str:
-    """Words before a measure that mean nothing without it."""
-    return r"(?:(?<!\w)(?:for|during|by|durante|por|pendant|de|für|um|von|about)\s+)?"
-
-
-def _any(words: Sequence[str] | dict[str, Any]) -> str:
-    """One of the words, whole where the writing parts words; never empty."""
-    longest_first = map(_whole, sorted(words, key=len, reverse=True))
-    ordered = sorted(longest_first, key=lambda parts: (parts[0], parts[2]))
-    alike = groupby(ordered, key=lambda parts: (parts[0], parts[2]))
-    runs = [f"{before}(?:{'|'.join(word for _, word, _ in run)}){after}"
-            for (before, after), run in alike]  # fmt: skip
-    return "(?:" + "|".join(runs) + ")" if runs else r"(?!)"
-
-
-def _whole(word: str) -> tuple[str, str, str]:
-    """A word's pattern, and what must stand before and behind it."""
-    stays, bar, word = word.rpartition("|")
-    if bar:
-        return f"(?<={stays})", word, ""
-    pattern = re.escape(word).replace(r"\ ", r"\s+")
-    if re.search(f"[{_CJK}°]", word):
-        return "", pattern, ""
-    return f"(?<!{_LETTER})", pattern, "" if word.endswith("'") else f"(?!{_SIGN})"
-
-
-@cache
-def _words() -> _Words:
-    return _Words(list(_tables()))
-
-
-def _tables() -> Iterator[dict[str, Any]]:
-    yield from load_yaml(packaged_config("measures.yaml")).values()
-
-
-# ---------------------------------------------------------------- the same in a browser
-
-_WORD = r"\p{L}\p{N}_"  # what \w is here
-_JAVASCRIPT = (
-    (_LETTER, rf"(?![\p{{Nd}}{_CJK}])[{_WORD}]"),
-    (_SIGN, rf"(?![{_CJK}])[{_WORD}]"),
-    ("(?-i:", "(?:"),
-    ("(?P<", "(?<"),
-    (r"[\w", f"[{_WORD}"),
-    (r"\w", f"[{_WORD}]"),
-    (r"\d", r"\p{Nd}"),
-    (r"\-", "-"),
-)
-
-
-def javascript_patterns() -> dict[str, Any]:
-    """The patterns as JavaScript reads them, with the flags i and u, and what their words say."""
-    words, found = _words(), dict[str, str]()
-    for name, value in vars(words).items():
-        patterns = value if name == "units" else {name: value}
-        found |= {key: _translated(p.pattern) for key, p in patterns.items() if name not in _SAID}
-    said = {name: getattr(words, name) for name in _SAID}
-    return {"patterns": found, "most": _MOST, "maxCount": MAX_COUNT} | said
-
-
-_SAID = ("numbers", "adverbs", "angles")
-
-
-def _translated(pattern: str) -> str:
-    for ours, theirs in _JAVASCRIPT:
-        pattern = pattern.replace(ours, theirs)
-    return pattern
+    return _words().loose.sub("", text.strip(EDGES)).strip(EDGES)

@@ -22,7 +22,7 @@ from ..device import idle_threads
 from ..errors import UserError
 from ..metrics.measurements import ACTIONS, Check, ends_at_rest, measure, repetitions, side_check
 from ..model.clip.features import TextFeatures
-from ..model.clip.out_of_domain import ScopeResult
+from ..model.clip.out_of_domain import TWINS, ScopeResult
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import Progress, TextToMotion
@@ -35,7 +35,7 @@ from ..tensors import Tensor, torch
 from .edit import all_but, chosen_joints, fill_free
 from .path import DrawnPath, natural_gait, time_path
 from .ranking import ScoreTable, TextJudge, unranked
-from .sentence import Clause, clauses, side_of
+from .sentence import Clause, Reading, clauses, side_of
 from .stream import (
     OVERLAP,
     WINDOW,
@@ -70,7 +70,7 @@ class SentenceGenerator:
     def clauses(self, prompt: str) -> list[Clause]:
         """What a prompt asks for, in order."""
         if prompt not in self._read:
-            self._read[prompt] = clauses(prompt, self._action, self._arms)
+            self._read[prompt] = clauses(prompt, self._reading)
         return self._read[prompt]
 
     def generate(
@@ -182,11 +182,6 @@ class SentenceGenerator:
             seen.append(side)
         return (lambda m: all(check(m) for check in seen)) if seen else None
 
-    def _arms(self, text: str) -> bool:
-        """Whether a text asks for what the arms alone do."""
-        scope = self.generator.scope
-        return scope is not None and self._nearest(text) in scope.arms
-
     def _does(self, prompt: str, motion: Motion) -> bool:
         """Whether a motion shows the action of its prompt; True where nobody can say."""
         wanted = self._wanted(prompt)
@@ -218,10 +213,14 @@ class SentenceGenerator:
 
         return miss
 
-    def _action(self, text: str) -> str | None:
-        """The action that a text alone tells of."""
-        found = self._scope_result(text)
-        return found.nearest[0] if found and found.known and found.nearest else None
+    def _reading(self, text: str) -> Reading:
+        """What a text alone asks for, even where it seldom comes out."""
+        found, scope = self._scope_result(text), self.generator.scope
+        if found is None or scope is None or not found.nearest:
+            return Reading()
+        action = found.nearest[0]
+        one = next((min(twins) for twins in TWINS if action in twins), action)
+        return Reading(one, found.certainty, action in scope.arms)
 
     def _nearest(self, text: str) -> str | None:
         """The action that is nearest to a text, whether or not it is what the text tells of."""

@@ -28,7 +28,7 @@ from ..model.generation.motion_generator import KIND
 from ..model.noise import NoiseSchedule, sampling_timesteps
 from ..motion.skeleton import JOINT_NAMES, LIMBS
 from ..pipelines.edit import GROUPS
-from ..pipelines.sentence import javascript_patterns
+from ..pipelines.sentence_words import javascript_patterns
 
 GRAPH, GRAPH_CARD, WASM = "denoiser.onnx.gz", "graph.json", "onnxruntime.wasm.gz"
 SCRIPT, TEMPLATE = "studio.js", "studio.html"

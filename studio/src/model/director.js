@@ -17,12 +17,14 @@ export class Director {
   /** @param {Sampler} sampler @param {Scope} scope @param {object} settings of the model */
   constructor(sampler, scope, settings) {
     Object.assign(this, { sampler, scope, settings });
-    const nearest = (text) => (text ? this.scope.check(text) : null);
-    this.reader = new SentenceReader(
-      settings.measures,
-      (text) => { const found = nearest(text); return found?.known ? found.nearest[0] : null; },
-      (text) => this.scope.meta.arms.includes(nearest(text)?.nearest[0]),
-    );
+    this.reader = new SentenceReader(settings.measures, (text) => this.reading(text));
+  }
+
+  /** What a text alone asks for, even where it seldom comes out. */
+  reading(text) {
+    if (!text) return { action: null, certainty: -Infinity, arms: false };
+    const { nearest: [action], certainty } = this.scope.check(text);
+    return { action: this.scope.twins(action)[0], certainty, arms: this.scope.meta.arms.includes(action) };
   }
 
   /** Lines about sentences that the model hardly knows; null where all is well. */

@@ -4,6 +4,7 @@
 import { unit } from "./tower.js";
 
 const SAME_STEM = 0.65, MIN_STEM = 4, MIN_SEEN = 0.5, NEAREST = 3, RELIABLE = 0.5;
+const TWINS = [["bye", "wave"]]; // one gesture under two names
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u, HAN = /[\u3400-\u9fff]/gu;
 const RUNS = /[\u3040-\u30ff\u3400-\u9fff]+|(?:(?![\u3040-\u30ff\u3400-\u9fff])[\p{L}\p{N}_])+/gu;
 
@@ -30,7 +31,12 @@ export class Scope {
     this.checkedTexts = new Map();
   }
 
-  /** { known, nearest, unreliable } of a text. */
+  /** The actions that are the same motion as one, itself among them. */
+  twins(action) {
+    return TWINS.find((twins) => twins.includes(action)) ?? [action];
+  }
+
+  /** { known, nearest, unreliable, certainty } of a text. */
   check(text) {
     let found = this.checkedTexts.get(text);
     if (!found) {
@@ -46,18 +52,19 @@ export class Scope {
     const { actions, weights, reliability = {} } = this.meta;
     const ranked = cosines.map((_, row) => row).sort((a, b) => cosines[b] - cosines[a]).filter((row) => actions[row]);
     const words = wordsOf(text);
-    let known;
-    if (weights) known = this.evidence(words, cosines, ranked).reduce((sum, x, i) => sum + x * weights[i], 0) > 0;
-    else known = this.familiar(words);
-    if (this.meta["min-cosine"] != null) known ||= Math.max(...cosines) >= this.meta["min-cosine"];
+    let certainty = this.familiar(words) ? 1 : -1;
+    if (weights) certainty = this.evidence(words, cosines, ranked).reduce((sum, x, i) => sum + x * weights[i], 0);
+    if (this.meta["min-cosine"] != null && Math.max(...cosines) >= this.meta["min-cosine"]) certainty = Math.max(certainty, 1);
+    const known = certainty > 0;
     const nearest = ranked.slice(0, NEAREST).map((row) => actions[row]);
     if (known && nearest.length && (reliability[nearest[0]] ?? 1) < RELIABLE)
-      return { known: false, nearest, unreliable: nearest[0] };
-    return { known, nearest, unreliable: null };
+      return { known: false, nearest, unreliable: nearest[0], certainty };
+    return { known, nearest, unreliable: null, certainty };
   }
 
   evidence(words, cosines, ranked) {
-    const [first, second = first] = ranked, named = new Set();
+    const { actions } = this.meta, [first, ...others] = ranked, named = new Set();
+    const same = this.twins(actions[first]), second = others.find((row) => !same.includes(actions[row])) ?? first;
     let seen = 0, onlyFillers = true;
     for (const word of words) {
       const own = this.keyWords.get(word);
@@ -66,7 +73,7 @@ export class Scope {
       if (this.words.has(word)) seen++;
       if (!this.fillers.has(word)) onlyFillers = false;
     }
-    const agreement = named.size === 0 ? 0 : named.has(first) ? 1 : -1;
+    const agreement = named.size === 0 ? 0 : [...named].some((row) => row === first || same.includes(actions[row])) ? 1 : -1;
     return [cosines[first], cosines[first] - cosines[second], seen / Math.max(words.size, 1), agreement, Number(onlyFillers), 1];
   }
 

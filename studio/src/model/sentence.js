@@ -1,7 +1,10 @@
 // What a sentence says of order and measure (src/shared/pipelines/sentence.py, whose patterns come
 // with the model): clauses { text, count, degrees, metres, seconds, meanwhile, side }.
 
-const EDGES = " \t,;.!?。、，；！？";
+const EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-";
+const SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, SURE_AT_ONCE = 1, MOST_PIECES = 8;
+const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
+const BLANKS = /\s+|(?<=[\u3040-\u30ff\u3400-\u9fff])(?=[\u3040-\u30ff\u3400-\u9fff])/gu;
 const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, meanwhile: "", side: "both" });
 
 export const isPlain = (clause) =>
@@ -15,11 +18,29 @@ function strip(text, characters = EDGES) {
   return text.slice(start, stop);
 }
 
+const bare = (word) => word.toLowerCase().replaceAll("ß", "ss").normalize("NFD").replace(/\p{M}/gu, "");
+const spans = (text, pattern) => [...text.matchAll(pattern)].map((match) => [match.index, match.index + match[0].length]);
+
+/** Whether both are understood, as two actions. */
+const differ = (first, second, sure = SURE) =>
+  Math.min(first.certainty, second.certainty) > sure && first.action !== second.action;
+
+const opposite = (one, other) => one !== other && one !== "both" && other !== "both";
+
+/** Of two partings, is the first one at least as good? */
+function asGood(one, other) {
+  const [a, b] = [one, other].map(({ parts, passed, certainty }) => [parts.length, -passed, certainty]);
+  const at = a.findIndex((value, i) => value !== b[i]);
+  return at < 0 || a[at] > b[at];
+}
+
+const best = (ways) => ways.reduce((found, way) => (asGood(found, way) ? found : way));
+
 export class SentenceReader {
-  /** @param {object} measures patterns and words @param {function} known action of a text, or null
-   *  @param {function} arms whether a text asks for the arms alone */
-  constructor({ patterns, numbers, adverbs, angles, most, maxCount }, known, arms) {
-    Object.assign(this, { numbers, adverbs, angles, most, maxCount, known, arms });
+  /** @param {object} measures patterns and words @param {function} read what a text alone asks for:
+   *  { action, certainty, arms } */
+  constructor({ patterns, numbers, adverbs, angles, most, maxCount }, read) {
+    Object.assign(this, { numbers, adverbs, angles, most, maxCount, read });
     this.first = {}; this.each = {}; this.head = {};
     for (const [name, pattern] of Object.entries(patterns)) {
       this.first[name] = new RegExp(pattern, "iu");
@@ -30,64 +51,138 @@ export class SentenceReader {
 
   clauses(sentence) {
     const text = sentence.trim().split(/\s+/u).join(" ").normalize("NFKC"), found = [];
-    for (const whole of this.ordered(text)) {
-      const both = this.together(whole);
-      if (both) found.push(both);
-      else found.push(...this.joined(whole).map((part) => this.measured(part)));
-    }
+    for (const whole of this.ordered(text))
+      for (let pieces = this.joined(whole); pieces.length;) {
+        const [first, ...others] = pieces;
+        const pair = others.length ? this.atOnce(first, others[0]) : null;
+        found.push(pair ?? this.parted(first) ?? this.measured(first));
+        pieces = pair ? others.slice(1) : others;
+      }
     const real = found.filter((clause) => clause.text);
     return real.length ? real : [plainClause(sentence)];
   }
 
   ordered(text) {
-    for (const [name, swapped] of [["head_after", false], ["head_before", true]]) {
-      const head = this.head[name].exec(text);
-      const comma = head ? text.indexOf(",", head[0].length) : -1;
-      if (!head) continue;
-      const first = comma < 0 ? text.slice(head[0].length) : text.slice(head[0].length, comma);
-      const second = comma < 0 ? "" : text.slice(comma + 1);
-      const parts = swapped ? [second, first] : [first, second];
-      if (comma >= 0 && strip(parts[1])) return parts.flatMap((part) => this.ordered(part));
-    }
+    const after = this.head.after.exec(text), before = after ? null : this.head.before.exec(text);
+    let found = null;
+    if (after) found = this.subordinate(text.slice(after[0].length));
+    else if (before) found = this.subordinate(text.slice(before[0].length))?.reverse();
     for (const [name, swapped] of [["then", false], ["earlier", false], ["later", true], ["before", false], ["after", true]])
-      for (const match of text.matchAll(this.each[name])) {
-        let left = text.slice(0, match.index), right = text.slice(match.index + match[0].length);
-        if (name === "then") [left, right] = this.around(left, right);
-        if (strip(left) && strip(right)) return (swapped ? [right, left] : [left, right]).flatMap((part) => this.ordered(part));
+      for (const [start, stop] of found ? [] : spans(text, this.each[name])) {
+        let left = text.slice(0, start), right = text.slice(stop);
+        if (name === "then" && /^\s*\p{L}/u.test(text.slice(start, stop))) [left, right] = this.around(left, right);
+        if (!strip(left) || !strip(right)) continue;
+        found = swapped ? [right, left] : [left, right];
+        break;
       }
+    if (found) return found.flatMap((part) => this.ordered(part));
     return [this.trimmed(this.head.then.test(text) ? text.replace(this.each.then, " ") : text)];
   }
 
+  subordinate(text) {
+    const commas = spans(text, this.each.comma);
+    for (const cuts of [commas, spans(text, BLANKS)]) {
+      const found = this.best(text, cuts);
+      if (found) return found;
+    }
+    const halves = commas.length ? [text.slice(0, commas[0][0]), text.slice(commas[0][1])] : [""];
+    return halves.every((half) => strip(half)) ? halves : null;
+  }
+
   around(left, right) {
-    const borders = [...left.matchAll(this.each.joint)], last = borders[borders.length - 1];
-    const own = last ? left.slice(last.index + last[0].length) : "";
-    if (last && strip(own) && (own.trim().split(/\s+/u).length <= 3 || !strip(right)))
-      return [left.slice(0, last.index), `${own.trimEnd()} ${right.trimStart()}`];
-    return [left, right];
+    const last = spans(left, this.each.joint).at(-1), own = last ? left.slice(last[1]) : "";
+    if (!strip(own)) return [left, right];
+    if (strip(right)) {
+      const two = differ(this.read(this.trimmed(own)), this.read(this.trimmed(right)));
+      if (two || own.trim().split(/\s+/u).length > 3 || CJK.test(own)) return [left, right];
+    }
+    return [left.slice(0, last[0]), `${own.trimEnd()} ${right.trimStart()}`];
   }
 
   joined(text) {
-    const pieces = text.split(this.first.joint).map((piece) => this.trimmed(piece)).filter(Boolean);
-    if (pieces.length < 2) return [text];
-    const actions = pieces.map((piece) => this.known(this.measured(piece).text));
-    return actions.includes(null) || new Set(actions).size < actions.length ? [text] : pieces;
+    const borders = [[0, 0], ...spans(text, this.each.joint), [text.length, text.length]];
+    const pieces = borders.slice(1)
+      .map(([stop], i) => [borders[i][1], stop])
+      .filter(([start, stop]) => strip(text.slice(start, stop)));
+    // The best ways up to a piece, one for each action and side of their last part.
+    const ways = [new Map([["", { parts: [], passed: 0, certainty: 0, action: null, side: "both" }]])];
+    for (let stop = 1; stop <= pieces.length; stop++) {
+      const here = new Map([...ways[stop - 1]].map(([last, way]) => [last, { ...way, passed: way.passed + 1 }]));
+      for (let start = Math.max(0, stop - MOST_PIECES); start < stop; start++) {
+        const part = this.trimmed(text.slice(pieces[start][0], pieces[stop - 1][1]));
+        const { action, certainty } = this.reading(part), side = this.sideOf(part), last = `${action} ${side}`;
+        const before = [...ways[start].values()].filter((way) => way.action !== action || opposite(way.side, side));
+        if (!before.length || certainty <= SURE) continue;
+        const { parts, passed, certainty: sum } = best(before);
+        const way = { parts: [...parts, part], passed, certainty: sum + certainty, action, side };
+        if (!here.has(last) || asGood(way, here.get(last))) here.set(last, way);
+      }
+      ways.push(here);
+    }
+    const { parts } = best([...ways.at(-1).values()]);
+    return parts.length > 1 ? parts : [text];
   }
 
-  together(text) {
-    let parts = text.split(this.first.meanwhile).map((part) => this.trimmed(part)).filter(Boolean);
-    const atOnce = this.first.meanwhile.test(text);
-    if (parts.length === 1) parts = parts[0].split(this.first.joint).map((part) => this.trimmed(part)).filter(Boolean);
-    const sides = parts.map((part) => this.sideOf(part));
-    if (parts.length !== 2 || !(atOnce || (sides.includes("left") && sides.includes("right")))) return null;
-    const arms = parts.map((part) => this.arms(part));
-    if (!parts.every((part) => this.known(part)) || !arms.some(Boolean)) return null;
-    const [body, other] = arms[0] && !arms[1] ? [1, 0] : [0, 1];
-    if (!atOnce && !arms.every(Boolean)) return null;
-    return { ...this.measured(parts[body]), meanwhile: parts[other], side: sides[other] };
+  /** The halves of a text that tell most surely of two actions, null where none do. */
+  best(text, cuts) {
+    let found = null, sure = SURE;
+    for (const [stop, start] of cuts) {
+      const halves = [text.slice(0, stop), text.slice(start)].map((half) => this.trimmed(half));
+      const [first, second] = halves.map((half) => this.reading(half));
+      if (differ(first, second, sure)) [found, sure] = [halves, Math.min(first.certainty, second.certainty)];
+    }
+    return found;
+  }
+
+  atOnce(first, second) {
+    const said = [first, second].some((each) => this.first.meanwhile.test(each) || this.first.throughout.test(each));
+    const pair = this.pair(first, second, said ? SURE_IF_SAID : SURE);
+    if (!pair) return null;
+    const sign = pair.certainty > SURE_AT_ONCE && this.head.sign.test(second);
+    const manner = this.first.manner.test(first) && pair.clause.meanwhile === first;
+    return said || pair.oneArmEach || (!pair.armsAlone && (sign || manner)) ? pair.clause : null;
+  }
+
+  parted(text) {
+    const [marks, joints, signs] = ["meanwhile", "joint", "sign"].map((name) => spans(text, this.each[name]));
+    const said = marks.length > 0 || this.first.throughout.test(text);
+    const last = [...signs.map(([start]) => [start, start]), ...(said ? spans(text, BLANKS) : [])];
+    for (const [cuts, sure] of [[marks, SURE_AT_MARK], [joints, SURE_IF_SAID], [last, SURE_AT_ONCE]]) {
+      let found = null;
+      for (const [stop, start] of cuts) {
+        const pair = this.pair(text.slice(0, stop), text.slice(start), sure);
+        if (!pair || !(said || pair.oneArmEach || (cuts === last && !pair.armsAlone))) continue;
+        if (!found || pair.certainty > found.certainty) found = pair;
+      }
+      if (found) return found.clause;
+    }
+    return null;
+  }
+
+  /** Two halves as one clause; null where they are not two actions, or the arms do neither. */
+  pair(left, right, sure) {
+    const halves = [left, right].map((half) =>
+      this.trimmed(half.replace(this.each.throughout, " ").replace(this.each.meanwhile, " ")));
+    const [first, second] = halves.map((half) => this.reading(half));
+    if (!(first.arms || second.arms) || !differ(first, second, sure)) return null;
+    const [body, other] = first.arms && !second.arms ? [1, 0] : [0, 1];
+    const sides = halves.map((half) => this.sideOf(half)), armsAlone = first.arms && second.arms;
+    return {
+      clause: { ...this.measured(halves[body]), meanwhile: halves[other], side: sides[other] },
+      certainty: Math.min(first.certainty, second.certainty),
+      armsAlone,
+      oneArmEach: armsAlone && opposite(...sides),
+    };
+  }
+
+  /** What a part asks for, without its measures. */
+  reading(part) {
+    return this.read(this.measured(part).text);
   }
 
   sideOf(text) {
-    const [left, right] = [this.first.left.test(text), this.first.right.test(text)];
+    const said = text.replace(this.each.no_side, " ");
+    const [left, right] = [this.first.left.test(said), this.first.right.test(said)];
     return left === right ? "both" : left ? "left" : "right";
   }
 
@@ -102,14 +197,14 @@ export class SentenceReader {
       clause = { ...clause, text: this.without(clause.text, match), [name]: value };
     }
     const angle = clause.degrees === null && side !== "both" && this.first.angle.exec(clause.text);
-    if (angle) clause = { ...clause, degrees: this.angles[angle[0].toLowerCase()] };
+    if (angle) clause = { ...clause, degrees: this.angles[bare(angle[0])] };
     if (clause.degrees !== null) return { ...clause, degrees: (side === "right" ? -1 : 1) * clause.degrees };
     return clause.metres === null && clause.seconds === null ? this.counted(clause) : clause;
   }
 
   counted(clause) {
     let match = this.first.often.exec(clause.text), number;
-    if (match) number = this.adverbs[match[0].toLowerCase()];
+    if (match) number = this.adverbs[bare(match[0])];
     else {
       match = this.first.times.exec(clause.text) ?? this.first.bare.exec(clause.text);
       if (!match) return clause;
@@ -121,7 +216,7 @@ export class SentenceReader {
   }
 
   value(text) {
-    return this.numbers[text.toLowerCase()] ?? Number(text.replace(",", "."));
+    return this.numbers[bare(text)] ?? Number(text.replace(",", "."));
   }
 
   without(text, match) {

@@ -4,20 +4,27 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.pipelines.sentence import Clause, clauses
+from src.shared.pipelines.sentence import Clause, Reading, clauses, side_of
 
 ACTIONS = {
-    "walk": ("walk", "camina", "marche", "geht", "歩", "走路"),
-    "wave": ("wav", "saluda", "salue", "winkt", "手を振", "挥手"),
-    "jump": ("jump",),
-    "turn": ("turn",),
-    "bow": ("bow",),
+    "walk": ("walk", "camina", "march", "geht", "geh", "lauf", "歩", "走"),
+    "wave": ("wav", "salud", "salue", "saluant", "wink", "手を振", "挥手"),
+    "jump": ("jump", "leap", "saut", "salta", "spring", "跳"),
+    "turn": ("turn", "gira", "tourn", "dreh", "转"),
+    "bow": ("bow", "reverencia", "inclin", "verbeug", "お辞儀", "鞠躬"),
+    "clap": ("clap", "klatsch", "拍手"),
+    "raise": ("rais", "arms up", "in the air", "alzad", "levé", "erhoben", "上げ", "举"),
+    "stand": ("stands",),
 }
+ARMS = ("wave", "clap", "raise")
 
 
-def known(text: str) -> str | None:
+def read(text: str) -> Reading:
+    """A reading by words alone, less sure of itself where several actions are named, or "about"."""
     found = [name for name, words in ACTIONS.items() if any(word in text for word in words)]
-    return found[0] if len(found) == 1 else None
+    if not found:
+        return Reading()
+    return Reading(found[0], 3.0 / (len(found) ** 2 + text.count("about")), found[0] in ARMS)
 
 
 ORDERS = [
@@ -38,6 +45,16 @@ ORDERS = [
     ("一个人走路然后挥手", ["一个人走路", "挥手"]),
     ("挥手之前走路", ["走路", "挥手"]),
     ("走路之后挥手", ["走路", "挥手"]),
+    ("walk -> jump => bow", ["walk", "jump", "bow"]),
+    ("a short walk finishing with a bow", ["a short walk", "a bow"]),
+    ("he walks, ending on a bow", ["he walks", "a bow"]),
+    ("he bows as soon as he has jumped", ["he has jumped", "he bows"]),
+    ("camina y despues salta", ["camina", "salta"]),
+    ("camina, acto seguido salta y al final saluda", ["camina", "salta", "saluda"]),
+    ("il marche et pour finir il saute", ["il marche", "il saute"]),
+    ("geht umher und zum Schluss ein Sprung", ["geht umher", "ein Sprung"]),
+    ("歩いて、最後にお辞儀", ["歩いて", "お辞儀"]),
+    ("走路，其次挥手，最后鞠躬", ["走路", "挥手", "鞠躬"]),
 ]  # fmt: skip
 
 
@@ -54,12 +71,24 @@ def test_words_of_order_part_clauses(sentence: str, parts: list[str]):
         ("un homme marche et salue", ["un homme marche", "salue"]),
         ("jumps up and down", ["jumps up and down"]),
         ("walks and walks", ["walks and walks"]),
+        ("walks, turns, walks back", ["walks", "turns", "walks back"]),
+        ("walk. turn; jump: bow", ["walk", "turn", "jump", "bow"]),
+        ("1. walk 2. jump", ["walk", "jump"]),
+        ("first a walk, second a jump", ["a walk", "a jump"]),
+        ("walks in the rain, in the dark, bows", ["walks in the rain, in the dark", "bows"]),
+        ("SCENE TWO. He walks, bows", ["SCENE TWO. He walks", "bows"]),
+        ("kicks, walks, kicks until he jumps", ["kicks, walks, kicks", "he jumps"]),
+        ("camina hasta que salta", ["camina", "salta"]),
+        ("lauf bis zur Tür, spring", ["lauf bis zur Tür", "spring"]),
+        ("歩いてお辞儀", ["歩いて", "お辞儀"]),
+        ("走两步鞠躬", ["走两步", "鞠躬"]),
+        ("先走再跳", ["走", "跳"]),
         ("left up, right down", ["left up, right down"]),
         ("walk slowly, sadly", ["walk slowly, sadly"]),
     ],
 )
 def test_commas_part_only_actions_of_their_own(sentence: str, parts: list[str]):
-    assert [clause.text for clause in clauses(sentence, known)] == parts
+    assert [clause.text for clause in clauses(sentence, read)] == parts
 
 
 @pytest.mark.parametrize(
@@ -111,6 +140,9 @@ def test_other_words_are_left_alone(sentence: str):
         ("a double kick", Clause("a kick", count=2)),
         ("3回手をたたく", Clause("手をたたく", count=3)),
         ("三连踢", Clause("踢", count=3)),
+        ("打两拳", Clause("打 拳", count=2)),
+        ("saute à deux reprises", Clause("saute à", count=2)),
+        ("二度お辞儀する", Clause("お辞儀する", count=2)),
         ("walk three metres", Clause("walk", metres=3)),
         ("walk forward 2.5 m", Clause("walk forward", metres=2.5)),
         ("camina dos metros", Clause("camina", metres=2)),
@@ -146,15 +178,6 @@ def test_any_text_has_a_clause(text: str):
     assert all(clause.text or not text.strip() for clause in found)
 
 
-def actions_of(text: str) -> str | None:
-    names = ("walk", "wav", "rais", "jump", "turn", "走", "挥", "歩", "振", "camina", "salud")
-    return next((name for name in names if name in text), None)
-
-
-def done_with_arms(text: str) -> bool:
-    return actions_of(text) in ("wav", "rais", "挥", "振", "salud")
-
-
 @pytest.mark.parametrize(
     ("sentence", "clause"),
     [
@@ -174,14 +197,62 @@ def done_with_arms(text: str) -> bool:
         ("camina mientras saluda", Clause("camina", meanwhile="saluda")),
         ("歩きながら右手を振る", Clause("歩き", meanwhile="右手を振る", side="right")),
         ("一边走一边挥手", Clause("走", meanwhile="挥手")),
+        ("边走边挥手", Clause("走", meanwhile="挥手")),
+        ("she claps as she walks", Clause("walks", meanwhile="she claps")),
+        ("jumps clapping the whole time", Clause("jumps", meanwhile="clapping")),
+        ("walks with both arms raised", Clause("walks", meanwhile="with both arms raised")),
+        ("walks, both hands in the air", Clause("walks", meanwhile="both hands in the air")),
+        ("la niña camina saludando", Clause("la niña camina", meanwhile="saludando")),
+        ("elle marche en saluant", Clause("elle marche", meanwhile="en saluant")),
+        ("er geht und winkt dabei", Clause("er geht", meanwhile="winkt")),
+        ("両手を上げて歩く", Clause("歩く", meanwhile="両手を上げて")),
+        (
+            "brazo izquierdo alzado, la derecha saluda",
+            Clause("brazo izquierdo alzado", meanwhile="la derecha saluda", side="right"),
+        ),
     ],
 )
 def test_what_the_arms_do_meanwhile(sentence: str, clause: Clause):
-    assert clauses(sentence, actions_of, done_with_arms) == [clause]
+    assert clauses(sentence, read) == [clause]
 
 
 @pytest.mark.parametrize(
-    "sentence", ["walks for a while", "turns left and walks right", "jumps while turning"]
+    "sentence",
+    [
+        "walks for a while",
+        "turns left and walks right",
+        "jumps while turning",
+        "walks with her hands about about about in the air",
+        "waves with the left hand raised",
+        "左边请走",
+    ],
 )
 def test_what_takes_more_than_arms_is_not_done_meanwhile(sentence: str):
-    assert not any(each.meanwhile for each in clauses(sentence, actions_of, done_with_arms))
+    assert not any(each.meanwhile for each in clauses(sentence, read))
+
+
+def test_clauses_may_hold_two_things_at_once():
+    assert clauses("he walks in waving, bows, then jumps clapping", read) == [
+        Clause("he walks in", meanwhile="waving"),
+        Clause("bows"),
+        Clause("jumps", meanwhile="clapping"),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "side"),
+    [
+        ("left jab", "left"),
+        ("turn rihgt", "right"),
+        ("gira a la izqierda", "left"),
+        ("un crochet du droit", "right"),
+        ("con la diestra", "right"),
+        ("ein Linkshaken", "left"),
+        ("run right away", "both"),
+        ("marche tout droit", "both"),
+        ("let it go", "both"),
+        ("left and right", "both"),
+    ],
+)
+def test_a_side_is_told_from_words_that_look_like_one(text: str, side: str):
+    assert side_of(text) == side

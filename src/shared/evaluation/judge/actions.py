@@ -20,6 +20,7 @@ import numpy as np
 from ...data.prepared import ClipRecord, PreparedData
 from ...errors import UserError
 from ...metrics.measurements import ACTIONS, CHECKS, heading_frame, measure
+from ...model.clip.out_of_domain import TWINS
 from ...motion.features import decode_features, headings
 from ...motion.motion import Motion
 from ...motion.rotations import quaternion_to_matrix
@@ -36,7 +37,6 @@ FLOOR = 0.02  # least deviation of a feature, in its own unit
 JUDGING_CLIPS = 2_400
 SECONDS = 4.0
 SENTENCES = 32  # at once
-TWINS = ({"wave", "bye"},)  # one gesture under two names
 MIN_FRAMES = 24
 MEASURES = ("count", "angle")  # how well they are kept tells nothing of the action
 FOLDS = 5  # of takes, to see what the discriminant makes of a take that it has not seen

@@ -42,6 +42,7 @@ SAME_STEM = 0.65  # share of the longer word that two forms of one word begin al
 MIN_STEM = 4  # letters
 MIN_SEEN = 0.5  # share of words seen in training that a likeness to a key word needs around it
 NUM_NEAREST = 3
+TWINS = ({"wave", "bye"},)  # one gesture under two names
 RELIABLE = 0.5  # share of tries in which an action has to come out to be known
 SCALE, FIT_STEPS = 20.0, 60  # of the cosines in the classifier of actions; of its optimizer
 FALSE_WARNINGS = 0.03  # share of the prompts it calibrates on that are understood, and warned of
@@ -62,11 +63,13 @@ class ScopeResult:
         known: near what was trained, and to an action that comes out.
         nearest: known actions, nearest first.
         unreliable: the action that was understood and seldom comes out, if that is why.
+        certainty: log odds that the nearest action is what it asks for; by words alone, 1 or -1.
     """
 
     known: bool
     nearest: list[str]
     unreliable: str | None = None
+    certainty: float = 0.0
 
 
 def words_of(text: str) -> list[str]:
@@ -186,15 +189,16 @@ class OutOfDomainDetector:
         """Judge one prompt by its words and its pooled text embedding [D]."""
         cosines = self.means @ _unit(embedding)
         if self.weights is not None:
-            known = float(self.evidence(prompt, cosines) @ self.weights) > 0
+            certainty = float(self.evidence(prompt, cosines) @ self.weights)
         else:
-            known = self.familiar(prompt)
-        if self.min_cosine is not None:
-            known = known or float(cosines.max()) >= self.min_cosine
+            certainty = 1.0 if self.familiar(prompt) else -1.0
+        if self.min_cosine is not None and float(cosines.max()) >= self.min_cosine:
+            certainty = max(certainty, 1.0)
+        known = certainty > 0
         nearest = [self.actions[index] for index in self.ranked(cosines)[:NUM_NEAREST]]
         if known and nearest and self.reliability.get(nearest[0], 1.0) < RELIABLE:
-            return ScopeResult(False, nearest, unreliable=nearest[0])
-        return ScopeResult(known, nearest)
+            return ScopeResult(False, nearest, nearest[0], certainty)
+        return ScopeResult(known, nearest, certainty=certainty)
 
     def ranked(self, cosines: np.ndarray) -> list[int]:
         """Indices of the actions by their cosines [A], nearest first; without that of clips that
@@ -204,6 +208,11 @@ class OutOfDomainDetector:
     def familiar(self, prompt: str) -> bool:
         """Whether the words of a prompt are those of training, whatever it asks for."""
         return _known(frozenset(words_of(prompt)), self.key_words, self.words, self.fillers)
+
+    def _twins(self, row: int) -> set[int]:
+        """The rows of the actions that are the same motion as one row's, that row among them."""
+        names = set[str]().union(*(twins for twins in TWINS if self.actions[row] in twins))
+        return {row} | {self.actions.index(name) for name in names.intersection(self.actions)}
 
     @cached_property
     def _by_stem(self) -> dict[str, list[str]]:
@@ -216,14 +225,16 @@ class OutOfDomainDetector:
     def evidence(self, prompt: str, cosines: np.ndarray) -> np.ndarray:
         """What speaks for a prompt [6], its cosines with the A actions given; the last is 1."""
         words = frozenset(words_of(prompt))
-        first, second = (self.ranked(cosines) * 2)[:2]  # of one action alone: twice the same
+        first, *others = self.ranked(cosines)
+        same = self._twins(first)
+        second = next((row for row in others if row not in same), first)
         named = {action for word in words for action in self.key_words.get(word, ())}
         for word in words - self.key_words.keys():
             for key in self._by_stem.get(word[:MIN_STEM], ()):
                 if _same_stem(word, key):
                     named.update(self.key_words[key])
         seen = len(words & self.words) / max(len(words), 1)
-        agreement = 0.0 if not named else 1.0 if first in named else -1.0
+        agreement = 0.0 if not named else 1.0 if same & named else -1.0
         only_fillers = float(words <= self.fillers)
         margin = float(cosines[first] - cosines[second])
         return np.array([float(cosines[first]), margin, seen, agreement, only_fillers, 1.0])

@@ -199,3 +199,17 @@ def test_an_action_that_seldom_comes_out_is_warned_of(scope: OutOfDomainDetector
     measured.save_pretrained(tmp_path)
     loaded = OutOfDomainDetector.from_pretrained(tmp_path)
     assert loaded is not None and loaded.reliability == measured.reliability
+
+
+def test_one_gesture_under_two_names_is_no_rival_of_itself():
+    texts = ["bye now", "wave now", "walk now"] * 4
+    names = ["bye", "wave", "walk"] * 4
+    places = np.array([[1.0, 0.3], [1.0, 0.2], [0.0, 1.0]] * 4)
+    scope = OutOfDomainDetector.fit(texts, names, places)
+    weighed = replace(scope, weights=(0.0, 1.0, 0.0, 1.0, 0.0, -0.5))  # margin and agreement
+    between = np.array([1.0, 0.25])
+    for word in ("bye", "wave"):
+        found = weighed.check(word, between)
+        assert set(found.nearest[:2]) == {"bye", "wave"}
+        assert found.known and found.certainty > 0.9
+    assert weighed.check("walk", between).certainty < 0
