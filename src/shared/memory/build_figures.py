@@ -1,7 +1,8 @@
 """From motion files to a memory of figures: takes of dance, each with its kind, source and licence.
 
 A table (CSV) names the files: `file,kind,source,licence,repeat`, all but the first optional; a
-short loop is repeated so often. Without a table every motion file of the folder is a take.
+short loop is repeated so often. A line `steps` stands for the steps that are made by code. Without
+a table every motion file of the folder is a take.
 """
 
 import csv
@@ -17,10 +18,12 @@ from ..errors import UserError
 from ..io.files import read_text
 from ..motion.motion import Motion
 from .figures import FigureMemory, Take
+from .steps import made_takes
 
 COLUMNS = ("file", "kind", "source", "licence", "repeat")
 DANCE = "dance"  # a kind that nobody named
 MAX_REPEAT = 20
+MADE = "steps"  # stands for a file: the takes that `steps.py` makes
 
 Progress = Callable[[int, int], None]  # (takes done, takes in all)
 
@@ -58,7 +61,7 @@ def read_takes(table: Path, folder: Path) -> list[TakeRow]:
         if not repeat.isdigit() or not 1 <= int(repeat) <= MAX_REPEAT:
             raise UserError(f"{table}: line {line}: repeat is {repeat!r}; give 1 to {MAX_REPEAT}")
         file = folder / values["file"]
-        if not file.is_file():
+        if values["file"] != MADE and not file.is_file():
             raise UserError(f"{table}: line {line}: {file} is no file; mend the name or the folder")
         kind = values.get("kind") or DANCE
         own = values.get("source", ""), values.get("licence", "")
@@ -88,8 +91,13 @@ def build_figures(
     Raises:
         UserError: none can.
     """
-    takes, left_out = [], {}
+    takes: list[Take] = []
+    left_out: dict[str, str] = {}
     for done, row in enumerate(rows, start=1):
+        if row.file.name == MADE:
+            takes += made_takes()
+            progress(done, len(rows))
+            continue
         try:
             motion = repeated(read_motion(row.file), row.repeat)
             take = Take.of(motion, row.file.stem, row.kind, row.source, row.licence)

@@ -50,6 +50,7 @@ FPS = 30.0
 TURN_STEPS, PLACE_STEPS = 4096.0, 5000.0  # of a quaternion's parts, and of a metre or a radian
 SLOW = 0.55  # seconds; longer counts are read as two as well
 FLOOR_SECONDS, FLOOR_SHARE = 3.0, 20  # in which somebody stands for that percentage
+HOVERS = 0.75 * HOVER_SECONDS * FPS  # frames: a song may be slower than the take
 MIN_COUNTS = 5  # of a take
 STILL = 0.12  # m/s, mean of all joints over half a second: nobody dances
 WEIGHTS = np.ones(NUM_JOINTS)  # of joints in the cost of a join
@@ -66,6 +67,7 @@ class Take:
         source, licence: whose it is, and what may be done with it.
         motion: T frames at 30 a second.
         counts: seconds [C].
+        meter: counts of a bar, which the first of all opens; 0 = nobody knows.
     """
 
     name: str
@@ -74,6 +76,7 @@ class Take:
     licence: str
     motion: Motion
     counts: np.ndarray
+    meter: int = 0
 
     @classmethod
     def of(cls, motion: Motion, name: str, kind: str, source: str = "", licence: str = "") -> Self:
@@ -96,10 +99,12 @@ class Figures:
         times: seconds of the counts in the frames of all takes [N,n+1].
         mirrored: bool [N].
         number: which count of which reading it begins with [N]; neighbours differ by 1.
+        meter: counts of a bar, which it begins with [N]; 0 = nobody knows.
         energy: mean speed of the joints, m/s [N].
         clear: how well what it shows falls on its counts, 0 to 1 [N]; `rhythm`'s F.
         extent: mean distance of the joints from where they are on average, metres [N].
         low: lowest height of the pelvis, metres [N].
+        back: metres gone backward [N].
         travel, far: where it ends, and gets furthest, to the left and forward of the heading at
             entry, metres [N,2].
         turn: radians to the left [N].
@@ -110,10 +115,12 @@ class Figures:
     times: np.ndarray
     mirrored: np.ndarray
     number: np.ndarray
+    meter: np.ndarray
     energy: np.ndarray
     clear: np.ndarray
     extent: np.ndarray
     low: np.ndarray
+    back: np.ndarray
     travel: np.ndarray
     far: np.ndarray
     turn: np.ndarray
@@ -174,7 +181,7 @@ class FigureMemory:
     def _aloft(self) -> list[tuple[int, int]]:
         """Where nothing of a body is near the floor for long."""
         runs = aloft(self._joints)
-        return [run for run in runs if run[1] - run[0] > HOVER_SECONDS * FPS]
+        return [run for run in runs if run[1] - run[0] > HOVERS]
 
     @cached_property
     def speed(self) -> np.ndarray:
@@ -194,6 +201,14 @@ class FigureMemory:
             facing.append(heading.numpy())
         return np.concatenate(places), np.concatenate(facing)
 
+    @cached_property
+    def _back(self) -> np.ndarray:
+        """Metres gone backward from each frame to the next [F]."""
+        places, heading = self._path
+        step = np.diff(places, axis=0, append=places[-1:])
+        step[self.offsets[1:] - 1] = 0.0
+        return np.asarray(np.maximum(-_seen_from(step, heading)[:, 1], 0.0))
+
     def bounds(self, take: int) -> tuple[int, int]:
         """First and past-the-last frame of a take."""
         return int(self.offsets[take]), int(self.offsets[take + 1])
@@ -206,7 +221,7 @@ class FigureMemory:
         for number, take in enumerate(self.takes):
             counts = take.counts + self.offsets[number] / FPS
             found.append((number, counts))
-            if np.median(np.diff(counts)) > SLOW:
+            if not take.meter and np.median(np.diff(counts)) > SLOW:
                 halves = np.sort(np.concatenate((counts, (counts[1:] + counts[:-1]) / 2)))
                 found.append((number, halves))
         return found
@@ -215,7 +230,7 @@ class FigureMemory:
         """All phrases of so many counts in which somebody dances, and their mirror images."""
         rows, take, number, before = [], [], [], 0
         for which, moments in self.readings():
-            for begin in range(len(moments) - counts):
+            for begin in range(0, len(moments) - counts, self.takes[which].meter or 1):
                 rows.append(moments[begin : begin + counts + 1])
                 take.append(which)
                 number.append(before + begin)
@@ -235,10 +250,12 @@ class FigureMemory:
             times=times,
             mirrored=np.zeros(len(takes), dtype=bool),
             number=np.array(number, dtype=int),
+            meter=np.array([take.meter for take in self.takes])[takes],
             energy=np.array([self.speed[a:b].mean() for a, b in spans]),
             clear=self._clear(takes, times),
             extent=np.array([self._extent(a, b) for a, b in spans]),
             low=np.array(low),
+            back=np.array([self._back[a:b].sum() for a, b in spans]),
             travel=ends,
             far=furthest,
             turn=heading[last] - heading[first],
@@ -265,9 +282,8 @@ class FigureMemory:
 
     def _dances(self, first: int, last: int) -> bool:
         """Whether nobody stands still for half a second, or is off the floor for as long."""
-        hovers = HOVER_SECONDS * FPS
         if last - first < 10 or any(
-            min(stop, last) - max(start, first) > hovers for start, stop in self._aloft
+            min(stop, last) - max(start, first) > HOVERS for start, stop in self._aloft
         ):
             return False
         window = np.convolve(self.speed[first:last], np.ones(15) / 15, "valid")
@@ -310,7 +326,7 @@ class FigureMemory:
         }
         write_arrays(arrays, folder / TAKES, compressed=True)
         about = [
-            {name: getattr(take, name) for name in ("name", "kind", "source", "licence")}
+            {name: getattr(take, name) for name in ("name", "kind", "source", "licence", "meter")}
             for take in self.takes
         ]
         write_json(folder / CARD, {"kind": KIND, "version": 1, "takes": about})

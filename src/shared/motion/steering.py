@@ -16,7 +16,7 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
 from ..tensors import Tensor, torch
-from .features import FORWARD, LATERAL, YAW_RATE
+from .features import FORWARD, LATERAL, YAW_RATE, integrate_root
 
 LAG = 1.0  # seconds over which place and heading are averaged: a sway and a spin are left alone
 PULL, NEAR = 0.12, 0.8  # m/s at most, and metres from the middle at which 0.7 of it is reached
@@ -24,6 +24,10 @@ TURN = 0.3  # rad/s at most, for a body that has its side to the front
 SWAY = 0.5  # seconds, standard deviation: quicker steps backward stay
 STEADY, STROLL = 1.0, 0.12  # seconds, standard deviation, and m/s: a faster way is a walk,
 ROUND = 0.55  # metres, radius of the circle that it is bent to
+ROOM, PULLS = (
+    1.1,
+    (PULL, 0.3, 0.6, 1.2),
+)  # metres from the middle; pulls that are tried until it stays
 BACKWARD = 0.8  # share of the way backward that is left out
 
 
@@ -42,6 +46,17 @@ def circling(root: Tensor, fps: float) -> Tensor:
     bend = side * np.maximum(speed - STROLL, 0) / ROUND
     rows[:, YAW_RATE] += torch.from_numpy(bend)
     return rows.to(root.dtype)
+
+
+def staged(root: Tensor, fps: float) -> Tensor:
+    """Root rows [T,6] that `steered` leaves within `ROOM`, by a stronger pull if it has to be."""
+    rows = root
+    for pull in PULLS:
+        rows = steered(root, fps, pull=pull)
+        path = integrate_root(rows.double(), fps)[0].numpy()[:, [0, 2]]
+        if np.linalg.norm(path - path.mean(0), axis=1).max() <= ROOM:
+            break
+    return rows
 
 
 def steered(root: Tensor, fps: float, *, pull: float = PULL, turn: float = TURN) -> Tensor:

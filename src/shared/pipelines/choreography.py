@@ -13,7 +13,7 @@ Letters: T frames, M beats, S slots, N figures, C candidates of a slot, n counts
 import re
 import unicodedata
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from itertools import pairwise
 
@@ -26,12 +26,16 @@ from .body import beats_beyond
 
 PACE = 0.5  # seconds of a count, about; a beat counts half, one or two of them
 WARP = 0.2  # of the tempo, at most
-UPRIGHT = 0.6  # metres; a lower pelvis is asked for, by its kind
+UPRIGHT = 0.6  # metres; a lower pelvis is asked for, by a kind that is mostly danced so
 CANDIDATES = 400  # figures of a slot, by what they cost alone
 # What a unit of each costs; the first is a metre of pose, all joints and channels together.
-JOIN, TEMPO, ENERGY, CLEAR, EXTENT, STAGE, FRONT = 1.0, 30.0, 1.0, 1.0, 7.0, 4.0, 0.3
+JOIN, TEMPO, ENERGY, CLEAR, EXTENT, STAGE, FRONT = 1.0, 30.0, 1.0, 1.0, 8.0, 4.0, 0.3
 # Gain of a repetition; cost of an unasked one, of each earlier figure of the same take; the seed's.
-REPEAT, AGAIN, SAME_TAKE, NOISE = 2.0, 0.8, 1.0, 0.4
+REPEAT, AGAIN, SAME_TAKE, NOISE = 3.0, 0.8, 2.0, 0.4
+BACK = 0.5  # of a metre gone backward
+# Cost of steps made by code, which join well and fill any dance; gain of those in threes where the
+# song is in threes.
+MADE, THREES = 3.0, 6.0
 FREE = 0.35  # metres from the middle that cost nothing, twice that on the way
 ALIKE = 0.9  # cosine of what two phrases of a song sound like, from which one is the other again
 
@@ -58,12 +62,14 @@ class Slot:
         loudness: rank among the phrases, 0 to 1.
         same: the earlier phrase that it is to repeat; None = none.
         part: letter of the form.
+        meter: counts of a bar, where the phrase opens one; 0 = it does not.
     """
 
     counts: np.ndarray
     loudness: float = 0.5
     same: int | None = None
     part: str = "a"
+    meter: int = 0
 
 
 # ---------------------------------------------------------------- the song
@@ -92,23 +98,36 @@ def song_slots(
     alive = (counts >= 0) & (counts <= seconds + 1e-6) & ~silent[frame]
     edges = np.flatnonzero(np.diff(alive.astype(int), prepend=0, append=0)).reshape(-1, 2)
     per_phrase, bars_of_phrase = _phrase(bars)
+    opening = counts[np.isclose(bars % 1, 0)]
     found: list[np.ndarray] = []
     for first, stop in edges.tolist():
         opens = first + np.flatnonzero(np.isclose(bars[first:stop] % bars_of_phrase, 0))
         cuts = sorted({first, stop - 1, *opens.tolist()})
         found += _merged([counts[start : end + 1] for start, end in pairwise(cuts)], per_phrase)
-    return _formed(found, condition)
+    meter = _danced_meter(bars)
+    return [
+        replace(slot, meter=meter if np.isclose(opening, slot.counts[0]).any() else 0)
+        for slot in _formed(found, condition)
+    ]
+
+
+def _danced_meter(bars: np.ndarray) -> int:
+    """Three or four counts, as steps are counted; 0 of bars that are neither."""
+    per_bar = round(1 / float(np.median(np.diff(bars))))
+    return 3 if per_bar % 3 == 0 else 4 if per_bar in (2, 4, 8) else 0
 
 
 def _counts(beats: np.ndarray, phase: np.ndarray, seconds: float) -> tuple[np.ndarray, np.ndarray]:
     """Counts and the bar [C] that each falls in, from before 0 to the end."""
     beats = beats_beyond(beats, seconds)
     period = float(np.median(np.diff(beats)))
-    share = min((0.5, 1.0, 2.0), key=lambda s: abs(np.log(period * s / PACE)))
-    if share == 0.5:
-        beats = np.sort(np.concatenate((beats, (beats[1:] + beats[:-1]) / 2)))
     times = np.arange(len(phase)) / FPS
     slope = (phase[-1] - phase[0]) / max(times[-1], 1e-6)
+    in_threes = round(1 / max(slope * period, 1e-6)) % 3 == 0
+    shares = (0.5, 1.0) if in_threes else (0.5, 1.0, 2.0)
+    share = min(shares, key=lambda s: abs(np.log(period * s / PACE)))
+    if share == 0.5:
+        beats = np.sort(np.concatenate((beats, (beats[1:] + beats[:-1]) / 2)))
     bars = np.interp(beats, times, phase)
     bars += slope * (np.minimum(beats, 0) + np.maximum(beats - times[-1], 0))
     per_bar = max(1, round(1 / float(np.median(np.diff(bars)))))
@@ -187,6 +206,8 @@ class Choreographer:
     def __init__(self, memory: FigureMemory) -> None:
         self.memory = memory
         self._figures: dict[int, Figures] = {}
+        names = [take.name.rpartition("-")[0] if take.meter else take.name for take in memory.takes]
+        self._own = np.array([names.index(name) for name in names])  # one for all tempi of a step
 
     @property
     def kinds(self) -> frozenset[str]:
@@ -223,7 +244,7 @@ class Choreographer:
                 cost += JOIN * _joins(options[-1], found)
                 cost += self._repeats(slot, found, history, mirrored)
                 if slot.same is None:
-                    cost += SAME_TAKE * (taken[:, None] == found.take[:, None]).sum(-1)
+                    cost += SAME_TAKE * (taken[:, None] == self._own[found.take][:, None]).sum(-1)
             ends, furthest = (_places(place, way, found.turn) for way in (found.travel, found.far))
             for at, free in ((ends, FREE), (furthest, 2 * FREE)):
                 cost += STAGE * np.maximum(np.linalg.norm(at[..., :2], axis=-1) - free, 0)
@@ -232,7 +253,8 @@ class Choreographer:
             column = np.arange(len(found))
             value, place = cost[best, column], ends[best, column]
             history = np.concatenate((history[best], found.number[:, None]), 1)
-            taken = np.concatenate((taken[best], found.take[:, None]), 1)
+            anew = self._own[found.take] if slot.same is None else np.full(len(found), -1)
+            taken = np.concatenate((taken[best], anew[:, None]), 1)
             mirrored = np.concatenate((mirrored[best], found.mirrored[:, None]), 1)
             options.append(found)
             back.append(best)
@@ -248,14 +270,14 @@ class Choreographer:
         for slot in slots:
             counts = len(slot.counts) - 1
             period = float(slot.counts[-1] - slot.counts[0]) / counts
-            fits, _ = self.allowed(counts, wish, period)
+            fits, _ = self.allowed(counts, wish, period, slot.meter)
             if not len(fits):
                 return None
             found.append(fits.rows(rng.integers(len(fits), size=1)))
         return found
 
     def allowed(
-        self, counts: int, wish: Wish, period: float | None = None
+        self, counts: int, wish: Wish, period: float | None = None, meter: int = 0
     ) -> tuple[Figures, np.ndarray]:
         """Figures of so many counts that a wish allows, and their ranks by energy [N], 0 to 1.
 
@@ -266,7 +288,15 @@ class Choreographer:
         """
         figures = self.figures(counts)
         kinds = np.array([take.kind for take in self.memory.takes])[figures.take]
-        fits = figures.low > UPRIGHT if not wish.kinds else np.isin(kinds, sorted(wish.kinds))
+        upright = figures.low > UPRIGHT
+        if wish.kinds:
+            fits = np.isin(kinds, sorted(wish.kinds))
+            if 2 * np.count_nonzero(upright[fits]) > np.count_nonzero(
+                fits
+            ):  # drops to the floor are of dances that live there
+                fits &= upright
+        else:
+            fits = upright & np.isin(figures.meter, (0, meter))
         if period is not None:
             fits = fits & (np.abs(figures.count / period - 1) < WARP)
         rows = np.flatnonzero(fits)
@@ -282,9 +312,11 @@ class Choreographer:
         counts = len(slot.counts) - 1
         noise = rng.gumbel(size=len(self.figures(counts)))  # as many draws whatever fits
         period = float(slot.counts[-1] - slot.counts[0]) / counts
-        found, rank = self.allowed(counts, wish, period)
+        found, rank = self.allowed(counts, wish, period, slot.meter)
         cost = TEMPO * np.log(found.count / period) ** 2 + ENERGY * (rank - slot.loudness) ** 2
         cost -= CLEAR * found.clear + EXTENT * found.extent + NOISE * noise[: len(found)]
+        cost += BACK * found.back + MADE * (found.meter > 0)
+        cost -= THREES * ((found.meter == 3) & (slot.meter == 3))
         kept = np.argsort(cost)[:CANDIDATES]
         return found.rows(kept), cost[kept]
 

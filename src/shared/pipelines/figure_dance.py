@@ -23,7 +23,14 @@ from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.features import FORWARD, LATERAL, LEFT_CONTACT, ROOT_ROW, YAW_RATE, mirror_features
 from ..motion.motion import Motion
-from ..motion.steering import steered
+from ..motion.rotations import (
+    matrix_to_quaternion,
+    matrix_to_rotation_6d,
+    quaternion_to_matrix,
+    rotation_6d_to_matrix,
+)
+from ..motion.skeleton import NUM_JOINTS
+from ..motion.steering import staged
 from .choreography import Choreographer, Slot, Wish, song_slots
 from .edit import fill_free
 from .song import SongCondition
@@ -96,7 +103,7 @@ class FigureDancer:
         memory = self.choreographer.memory
         features, danced = lay(memory, slots, chosen, len(song.phase))
         features = self._standing(features, danced, sampling)
-        features[:, ROOT_ROW] = steered(features[:, ROOT_ROW], FPS)
+        features[:, ROOT_ROW] = staged(features[:, ROOT_ROW], FPS)
         motion = self.generator.post_processor(features, None, text=text, foot_lock=foot_lock)
         return motion, told(self.choreographer, slots, chosen)
 
@@ -182,7 +189,8 @@ def lay(
         the nearest one at rest.
     """
     time = torch.arange(frames, dtype=torch.float64) / FPS
-    total = torch.zeros(frames, ROOT_ROW + 1, 6)
+    root = torch.zeros(frames, 6)
+    turns = torch.zeros(frames, NUM_JOINTS, 4)  # halfway between far poses 6D rows all but vanish
     weights, contacts = torch.zeros(frames), torch.zeros(frames, 2)
     danced = torch.zeros(frames, dtype=torch.bool)
     for index, (slot, figure) in enumerate(zip(slots, chosen, strict=True)):
@@ -201,14 +209,20 @@ def lay(
             continue
         features = _warped(memory, figure, slot.counts, time[own].numpy())
         part = weight[own].float()
-        total[own] += part[:, None, None] * features
+        root[own] += part[:, None] * features[:, ROOT_ROW]
+        quaternions = matrix_to_quaternion(rotation_6d_to_matrix(features[:, :NUM_JOINTS]))
+        other = (quaternions * turns[own]).sum(-1, keepdim=True) < 0
+        turns[own] += part[:, None, None] * torch.where(other, -quaternions, quaternions)
         foremost = part >= 0.5  # a foot stands or not
         contacts[own[foremost]] = features[foremost, ROOT_ROW, LEFT_CONTACT:]
         weights[own] += part
         danced[own] = True
-    total = total / weights.clamp_min(1e-6)[:, None, None]
-    total[:, ROOT_ROW, LEFT_CONTACT:] = contacts
-    return _held(total, danced), danced
+    root = root / weights.clamp_min(1e-6)[:, None]
+    root[:, LEFT_CONTACT:] = contacts
+    turns[~danced, :, 0] = 1.0
+    rotations = quaternion_to_matrix(torch.nn.functional.normalize(turns, dim=-1))
+    features = torch.cat((matrix_to_rotation_6d(rotations), root[:, None]), 1)
+    return _held(features, danced), danced
 
 
 def _warped(memory: FigureMemory, figure: Figures, counts: np.ndarray, time: np.ndarray) -> Tensor:

@@ -29,6 +29,14 @@ def test_a_table_names_takes_and_loops_are_repeated(folder: Path) -> None:
     assert not left_out and memory.takes[1].motion.num_frames == 240
 
 
+def test_a_line_stands_for_the_steps_made_by_code(folder: Path) -> None:
+    table = folder / "takes.csv"
+    table.write_text("file\nlong.npz\nsteps\n")
+    memory, _ = build_figures(read_takes(table, folder))
+    assert memory.takes[0].name == "long"
+    assert {"waltz", "step touch", "grapevine"} <= {take.kind for take in memory.takes[1:]}
+
+
 def test_without_a_table_every_file_is_a_take(folder: Path) -> None:
     memory, left_out = build_figures(every_file(folder))
     assert [take.name for take in memory.takes] == ["long"]

@@ -1,5 +1,6 @@
 """Figures: cut at counts, mirrored, kept in files, and those that are shipped."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ from src.shared.memory.figures import (
     find_counts,
     is_figure_memory,
 )
+from src.shared.memory.steps import LICENCE, STEPS, made_take
 from src.shared.motion.skeleton import REST_FOOT_HEIGHT
 from tests.shared.evaluation.dancers import hopping, swinging_arms
 from tests.shared.memory.tiny_figures import stepping, tiny_figures
@@ -75,13 +77,33 @@ def test_a_damaged_memory_and_one_without_dance_are_refused(tmp_path: Path) -> N
 
 
 def test_the_shipped_figures_are_free_small_and_of_several_kinds() -> None:
-    assert sum(path.stat().st_size for path in SHIPPED.iterdir()) < 2_000_000
+    assert sum(path.stat().st_size for path in SHIPPED.iterdir()) < 3_500_000
     memory = FigureMemory.open()
     assert {"salsa", "breakdance", "indian dance", "modern dance"} <= {t.kind for t in memory.takes}
-    assert {take.licence for take in memory.takes} <= {"free for all uses", "CC0", "MIT"}
+    assert {take.licence for take in memory.takes} <= {"free for all uses", "CC0", LICENCE}
     assert all(take.source for take in memory.takes)
     assert "mocap.cs.cmu.edu" in (SHIPPED / "README.md").read_text()
     assert len(memory.figures(8)) > 1000
+    assert {take.meter for take in memory.takes if take.kind == "waltz"} == {3}
+
+
+def test_steps_begin_with_bars_and_are_counted_as_they_are() -> None:
+    memory = FigureMemory([made_take(STEPS[0], 0.6), Take.of(swinging_arms(), "arms", "dance")])
+    assert [which for which, _ in memory.readings()] == [0, 1]
+    figures = memory.figures(4)
+    own = figures.rows(np.flatnonzero(figures.take == 0))
+    assert set(own.meter.tolist()) == {4} and set((own.number % 4).tolist()) == {0}
+    assert set(figures.meter.tolist()) == {0, 4}
+
+
+def test_metres_gone_backward_are_counted() -> None:
+    motion = stepping(0.5)
+    place = motion.root_position.copy()
+    place[:, 2] -= 0.01 * np.arange(len(place))
+    memory = FigureMemory([Take.of(replace(motion, root_position=place), "back", "dance")])
+    figures = memory.figures(4)
+    spans = figures.times[:, -1] - figures.times[:, 0]
+    np.testing.assert_allclose(figures.back, 0.3 * spans, atol=0.06)
 
 
 @pytest.mark.parametrize("period", [0.4, 0.5, 0.6])

@@ -4,7 +4,7 @@ import numpy as np
 import torch
 
 from src.shared.motion.features import FORWARD, HEIGHT, LATERAL, YAW_RATE, integrate_root
-from src.shared.motion.steering import PULL, TURN, circling, steered
+from src.shared.motion.steering import PULL, ROOM, TURN, circling, staged, steered
 
 
 def root(frames: int = 900, **rates: float) -> torch.Tensor:
@@ -24,6 +24,13 @@ def furthest(rows: torch.Tensor) -> float:
 def test_who_wanders_off_stays_near() -> None:
     for way in ({"forward": 0.08}, {"left": 0.08}, {"left": -0.08}):
         assert furthest(root(**way)) > 2.3 and furthest(steered(root(**way), 30.0)) < 1.0
+
+
+def test_who_walks_off_all_the_same_is_pulled_harder() -> None:
+    off = root(left=0.25)
+    assert furthest(steered(off, 30.0)) > 2 * ROOM and furthest(staged(off, 30.0)) < 2 * ROOM
+    near = root(left=0.05)
+    assert torch.equal(staged(near, 30.0), steered(near, 30.0))
 
 
 def test_a_way_backward_is_mostly_left_out_and_quick_steps_stay() -> None:

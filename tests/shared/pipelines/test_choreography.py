@@ -1,5 +1,6 @@
 """Phrases of songs, and the figures that are chosen for them."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -7,6 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from src.shared.memory.figures import FigureMemory, Take
+from src.shared.memory.steps import STEPS, made_take
 from src.shared.pipelines.choreography import (
     CALM,
     LIVELY,
@@ -17,7 +20,7 @@ from src.shared.pipelines.choreography import (
     song_slots,
     wish_of,
 )
-from tests.shared.memory.tiny_figures import tiny_figures
+from tests.shared.memory.tiny_figures import stepping, tiny_figures
 
 
 def song(tempo: float = 120.0, seconds: float = 20.0, meter: int = 4) -> tuple[np.ndarray, ...]:
@@ -39,7 +42,7 @@ def test_phrases_follow_each_other_at_a_pace_that_is_danced(
     assert all(a[1] == pytest.approx(b[0]) for a, b in pairwise(edges))
     assert edges[0][0] < 3 and edges[-1][1] > seconds - 3
     for slot in slots:
-        assert 0.3 < np.diff(slot.counts).mean() < 0.75 and 2 <= len(slot.counts) - 1 <= 16
+        assert 0.28 < np.diff(slot.counts).mean() < 0.75 and 2 <= len(slot.counts) - 1 <= 16
         assert slot.same is None or len(slots[slot.same].counts) == len(slot.counts)
 
 
@@ -52,6 +55,27 @@ def test_phrases_begin_with_bars_and_have_a_form() -> None:
     assert [slot.part for slot in slots[:4]] == ["a", "a'", "b", "a'"]
     assert slots[1].same == 0 and slots[3].same == 1 and slots[2].same is None
     assert slots[-1].loudness > slots[0].loudness
+
+
+@pytest.mark.parametrize(("meter", "danced"), [(3, 3), (4, 4)])
+def test_a_song_is_danced_in_steps_of_its_bars(meter: int, danced: int) -> None:
+    takes = [made_take(STEPS[number], 0.5, number) for number in (0, 9)]
+    assert [take.meter for take in takes] == [4, 3]
+    slots = song_slots(*song(meter=meter))
+    opens = [slot for slot in slots if slot.meter]
+    assert len(opens) > 2 and {slot.meter for slot in opens} == {danced}
+    chosen = Choreographer(FigureMemory(takes)).choose(opens, Wish(), 0)
+    assert chosen is not None and {int(figure.meter[0]) for figure in chosen} == {danced}
+
+
+def test_who_asks_for_a_kind_is_not_thrown_to_the_floor() -> None:
+    bent = stepping(0.5, bend=0.5)
+    low = replace(Take.of(bent, "low", "salsa"), motion=bent)
+    takes = [*tiny_figures().takes, low]
+    found, _ = Choreographer(FigureMemory(takes)).allowed(4, Wish(frozenset({"salsa"})))
+    assert len(found) and 3 not in found.take
+    alone, _ = Choreographer(FigureMemory([low])).allowed(4, Wish(frozenset({"salsa"})))
+    assert len(alone)
 
 
 def test_nobody_dances_in_a_gap() -> None:
