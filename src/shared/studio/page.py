@@ -13,6 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from ..data.retarget.mapping import load_mappings
 from ..environment import TEXT_MODEL
 from ..errors import UserError
 from ..formats.preview.html import body_data, script_safe_json
@@ -155,6 +156,14 @@ def settings(folder: Path, card: ModelCard) -> dict[str, Any]:
             "limbs": LIMBS,
             "groups": GROUPS,
         },
+        "profiles": [
+            {
+                "name": profile.name,
+                "joints": profile.joints,
+                "axes": {joint: profile.axes_of(joint).ravel().tolist() for joint in profile.axes},
+            }
+            for profile in load_mappings()
+        ],
         "body": body,
     }
 

@@ -435,7 +435,7 @@ class Page {
   async openClip(file) {
     try {
       if (file.size > 64 << 20) throw new Error("The file is larger than 64 MB.");
-      this.takeClip(readClip(file.name, new Uint8Array(await file.arrayBuffer())), file.name);
+      this.takeClip(readClip(file.name, new Uint8Array(await file.arrayBuffer()), this.settings.profiles), file.name);
       this.tell(`${file.name}: ${(this.clip.motion.frames / FPS).toFixed(2)} seconds. Choose what is to be done with it, then make.`);
     } catch (error) {
       this.tell(`${file.name}: ${error.message}`, "error");

@@ -4,6 +4,7 @@ import base64
 import json
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,8 +13,9 @@ import pytest
 
 from src.shared.data.retarget.read_motion import read_motion
 from src.shared.errors import UserError
-from src.shared.formats.writers.bvh import write_bvh
-from src.shared.formats.writers.glb import write_glb
+from src.shared.formats.rig import motion_clip
+from src.shared.formats.writers.bvh import write_bvh, write_bvh_clip
+from src.shared.formats.writers.glb import write_glb, write_glb_clip
 from src.shared.model.diffusion import Sampling
 from src.shared.motion.motion import Motion
 from src.shared.pipelines.edit import chosen_joints, continue_clips, edit_clip
@@ -206,6 +208,29 @@ def test_a_clip_is_done_again_and_continued_as_on_the_command_line(
 
 
 @BROWSER
+def test_a_clip_of_another_skeleton_is_brought_onto_ours(browser: Browser, tmp_path: Path) -> None:
+    rng = np.random.default_rng(0)
+    turns = np.zeros((40, 22, 4), np.float32)
+    turns[:] = np.cumsum(rng.normal(scale=0.01, size=turns.shape), 0) + (1, 0, 0, 0)
+    turns /= np.linalg.norm(turns, axis=-1, keepdims=True)
+    root = np.cumsum(rng.normal(scale=0.01, size=(40, 3)), 0) + (0, 0.95, 0)
+    motion = Motion(turns, root.astype(np.float32), np.zeros((40, 2), np.float32), 60.0)
+    clip = motion_clip(motion, "mixamo")
+    longer = 1 + 0.3 * rng.uniform(size=(22, 1))
+    rig = replace(clip.rig, offsets=clip.rig.offsets * longer)
+    clip = replace(clip, rig=rig, translations=clip.translations * longer)
+    for kind, write in (("bvh", write_bvh_clip), ("glb", write_glb_clip)):
+        path = write(clip, tmp_path / f"other.{kind}")
+        assert "seconds" in opened(browser, path.name, path.read_bytes())
+        wanted = read_motion(path)
+        root = np.reshape(browser.evaluate("[...studio.clip.motion.root]"), (-1, 3))
+        turns = np.reshape(browser.evaluate("[...studio.clip.motion.quaternions]"), (-1, 22, 4))
+        read = replace(wanted, quaternions=turns, root_position=root.astype(np.float32))
+        assert_same(read, wanted)
+    browser.evaluate("document.getElementById('close-clip').click()")
+
+
+@BROWSER
 def test_hostile_words_do_nothing(browser: Browser, tmp_path: Path) -> None:
     before = browser.evaluate("document.querySelectorAll('*').length")
     for text in HOSTILE:
@@ -213,7 +238,7 @@ def test_hostile_words_do_nothing(browser: Browser, tmp_path: Path) -> None:
         browser.evaluate("studio.warn()")
         bvh = BVH.format(text.replace(" ", ""))
         said = opened(browser, f"{text}.bvh", bvh.encode("utf-8", "replace"))
-        assert "not the studio" in said or "BVH" in said
+        assert "does not know" in said or "BVH" in said
     with_blocks(browser, ("", 1))
     browser.evaluate("studio.warn()")
     assert browser.evaluate("document.querySelectorAll('*').length") == before
