@@ -1,7 +1,7 @@
 """The studio: one page with a text model inside that makes motions in a browser, without a server.
 
-The shell (scripts, onnxruntime's WebAssembly, the denoiser's graph without weights) is built from
-`studio/` and ships; the model goes in here as it is stored. Each part is a `<script>` of base64
+The shell (scripts, onnxruntime's WebAssembly) is built from `studio/` and ships; the model and its
+graph go in here as they are stored. Each part is a `<script>` of base64
 that no browser runs. The page refuses the network by its own Content-Security-Policy.
 """
 
@@ -19,20 +19,20 @@ from ..errors import UserError
 from ..formats.preview.html import body_data, script_safe_json
 from ..formats.rig import END_SITES
 from ..formats.writers.glb import rest_glb
-from ..io.files import atomic_write, load_json, parse_json, write_json
+from ..io.files import atomic_write, load_json
 from ..model.checkpoint import WEIGHTS_FILE, ModelCard, read_card, resolve_model, wrong_kind
 from ..model.clip.core import PAIRS
 from ..model.clip.out_of_domain import META_FILE as SCOPE_FILE
 from ..model.clip.out_of_domain import TABLE_FILE
 from ..model.clip.tokenizer import META_FILE, MODEL_FILE, TOKENIZER_FOLDER
 from ..model.generation.motion_generator import KIND
+from ..model.generation.onnx_networks import DENOISER_GRAPH
 from ..model.noise import NoiseSchedule, sampling_timesteps
 from ..motion.skeleton import JOINT_NAMES, LIMBS
 from ..pipelines.edit import GROUPS
 from ..pipelines.sentence_words import javascript_patterns
 
-GRAPH, GRAPH_CARD, WASM = "denoiser.onnx.gz", "graph.json", "onnxruntime.wasm.gz"
-SCRIPT, TEMPLATE = "studio.js", "studio.html"
+WASM, SCRIPT, TEMPLATE = "onnxruntime.wasm.gz", "studio.js", "studio.html"
 LICENCES = "licences.txt.gz"
 
 
@@ -52,7 +52,7 @@ def write_studio(out: Path, model: str = TEXT_MODEL) -> Path:
     _check(card, folder)
     parts = {
         "wasm": shell.joinpath(WASM).read_bytes(),
-        "graph": graph_of(folder, card),
+        "graph": graph_of(folder),
         "weights": (folder / WEIGHTS_FILE).read_bytes(),
         "tokenizer": (folder / TOKENIZER_FOLDER / MODEL_FILE).read_bytes(),
         "scope": (folder / TABLE_FILE).read_bytes(),
@@ -102,17 +102,13 @@ def _check(card: ModelCard, folder: Path) -> None:
         )
 
 
-def graph_of(folder: Path, card: ModelCard) -> bytes:
-    """The denoiser's graph without its weights: the shipped one where it fits, else exported."""
-    shell = files(__package__).joinpath("shell")
-    if parse_json(shell.joinpath(GRAPH_CARD).read_bytes())["model"] == card.content_hash:
-        return shell.joinpath(GRAPH).read_bytes()
-    from ..model.generation.onnx import export_text
-    from ..model.generation.onnx_networks import DENOISER_GRAPH
-    from ..model.onnx_card import require_packages
-
+def graph_of(folder: Path) -> bytes:
+    """The denoiser's graph without its weights: the folder's own, else exported here."""
     if (folder / DENOISER_GRAPH).is_file():
         return (folder / DENOISER_GRAPH).read_bytes()
+    from ..model.generation.onnx import export_text
+    from ..model.onnx_card import require_packages
+
     require_packages("onnx", "onnxscript")
     with TemporaryDirectory() as scratch:
         export_text(folder, scratch)
@@ -166,20 +162,3 @@ def settings(folder: Path, card: ModelCard) -> dict[str, Any]:
         ],
         "body": body,
     }
-
-
-def write_graph() -> None:
-    """Export the graph of the shipped model into the shell, after its weights have changed."""
-    from ..model.generation.onnx import export_text
-    from ..model.generation.onnx_networks import DENOISER_GRAPH
-
-    shell = Path(__file__).with_name("shell")
-    with TemporaryDirectory() as scratch:
-        card = export_text(TEXT_MODEL, scratch)
-        graph = (Path(scratch) / DENOISER_GRAPH).read_bytes()
-    (shell / GRAPH).write_bytes(_packed(graph))
-    write_json(shell / GRAPH_CARD, {"model": card.model})
-
-
-if __name__ == "__main__":
-    write_graph()
