@@ -142,7 +142,10 @@ def produce(request: Request) -> dict[str, Any]:
     check_runtime(request)
     request.keep_light()
     if request.audio is not None:
+        from ..shared.audio.sound import check_sound
+
         replace(request.directions, path=None).refuse("--audio")
+        check_sound(request.audio)
         made = song_path if request.path_alone else dance
         result = made(request, request.audio)
         if result["tempo"] == 0:
@@ -414,9 +417,6 @@ def only_song(paths: list[Path] | None) -> Path | None:
         raise UsageError(f"--audio {path} is a folder; name a wav, flac, ogg or mp3 file in it")
     if not path.is_file():
         raise UsageError(f"--audio {path}: no such file; name a wav, flac, ogg or mp3 file")
-    from ..shared.audio.sound import check_sound
-
-    check_sound(path)
     return path
 
 
