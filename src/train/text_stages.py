@@ -121,14 +121,17 @@ def fit_scope(
     languages: tuple[str, ...],
     tower: TextTower,
     tokenizer: PromptTokenizer,
+    without: Collection[str] = (),
 ) -> OutOfDomainDetector:
     """The scope of a tower that was trained on the captions of `data`, calibrated on them too.
 
     Sentences of known actions kept out of training make a worse calibration: the detector then
-    trusts words that nobody knows (docs/experiments.md, section 23).
+    trusts words that nobody knows (docs/experiments.md, section 23). Actions `without` are unknown.
     """
     action_of: dict[str, str] = {}
     for record in {record.group: record for record in data.records("train")}.values():
+        if record.tag in without:
+            continue
         captions = data.captions(record)
         for language in languages:
             for text in captions.get(language, []):
@@ -151,6 +154,7 @@ def _calibrated(
     actions: list[str],
     tower: TextTower,
     tokenizer: PromptTokenizer,
+    without: Collection[str] = (),
 ) -> OutOfDomainDetector:
     """Texts as they are, with made-up words in them, and with made-up words for what tells."""
     rng = np.random.default_rng(0)

@@ -40,7 +40,7 @@ from ..shared.model.clip.features import TextFeatures
 from ..shared.model.clip.pretrained import encode_captions, tower_hash
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.diffusion import GaussianDiffusion
-from ..shared.model.generation.denoiser import MotionDenoiser
+from ..shared.model.generation.denoiser import TAG_WEIGHT, MotionDenoiser
 from ..shared.model.generation.losses import GenerationLoss
 from ..shared.model.generation.motion_generator import KIND, TextToMotion
 from .captured_places import apart
@@ -49,7 +49,7 @@ from .launch import Stage
 from .run_log import announce
 from .task import Part, Task, generator, numpy_generator
 from .text_stages import motion_rows, open_training_data, training_set
-from .train_generation import TAG_WEIGHT, GuidedDenoiser, spread_timesteps
+from .train_generation import GuidedDenoiser, spread_timesteps
 
 OLD_CAPTIONS = 16  # of each known action and language
 TOWER_BATCH = 256  # sentences, half of them new

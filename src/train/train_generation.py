@@ -25,7 +25,7 @@ from ..shared.model.checkpoint import ModelCard
 from ..shared.model.clip.features import TextFeatures
 from ..shared.model.clip.pretrained import load_text_tower, tower_hash
 from ..shared.model.diffusion import GaussianDiffusion
-from ..shared.model.generation.denoiser import MotionDenoiser
+from ..shared.model.generation.denoiser import TAG_WEIGHT, MotionDenoiser
 from ..shared.model.generation.losses import GenerationLoss
 from ..shared.model.generation.motion_generator import KIND, TextToMotion
 from .constraints import draw_known
@@ -41,7 +41,6 @@ from .text_stages import (
 )
 
 SAMPLE_SECONDS = 4.0
-TAG_WEIGHT = "tag_embed.embedding.weight"
 NOISE_LEVELS = ("low", "middle", "high")  # thirds of the diffusion steps, in validation
 
 

@@ -45,6 +45,7 @@ from ..shared.model.clip.core import (
 )
 from ..shared.model.clip.pretrained import KIND, ClipBundle, encode_captions, load_text_tower
 from ..shared.model.clip.tokenizer import PromptTokenizer
+from ..shared.model.generation.denoiser import TAG_WEIGHT, MotionDenoiser
 from ..shared.model.generation.motion_generator import KIND as GENERATOR
 from ..shared.model.generation.motion_generator import TextToMotion
 from .captured_places import apart, nearest_styles, with_sentences, with_unstyled
@@ -65,6 +66,7 @@ from .text_stages import (
 OLD_CAPTIONS = 8  # of each combination and language, whose mean is its place
 PAIR_WIDTH = 64  # of the hidden states of a tower of token pairs
 HEADS = 0.3  # weight of the labels beside the place, from nothing
+SAME_PLACE = 0.9999  # cosine of two unit places that are one
 HELD_BACK_SEED = 1  # of the captions that validation reads; training reads those of seed 2
 
 
@@ -81,6 +83,7 @@ class TrainTextConfig(TrainTowerConfig):
     tower: Literal["same", "pairs"] = "same"  # "pairs": a new one of token pairs, the same places
     least_captions: int = Field(3, ge=1)  # of a token or pair that such a tower knows
     choice_weight: float = Field(0.1, gt=0)  # of the classification term when hardening
+    without: tuple[str, ...] = ()  # actions of the clips that it is not taught
 
 
 class LabelledTower(nn.Module):
@@ -135,7 +138,11 @@ class TextTask(Task):
             config = config.model_copy(update={"generator": config.generator or config.clip})
             self.config = config
         self.data = open_training_data(config, bundle.clip.config if bundle else network)
-        records = self.data.records("train")
+        self.receiver = TextToMotion.from_pretrained(config.generator) if config.generator else None
+        left_out = set(config.without)
+        if unknown := sorted(left_out - set(self.data.tags)):
+            raise UserError(f"without={','.join(unknown)}: {config.data} has no such action")
+        records = [r for r in self.data.records("train") if r.tag not in left_out]
         self.labels = {record.group: record.labels for record in records if record.labels}
         if not self.labels:
             raise UserError(
@@ -244,7 +251,21 @@ class TextTask(Task):
             found = nearest_styles(self.data, self.labels)
             rows, taken = ([index[g] for g in each] for each in (found, found.values()))
             places[rows] = places[taken]
+        if self.receiver is not None and self.receiver.network.generation.adapter_ranks:
+            self._adapted(self.receiver, places)
         return places
+
+    def _adapted(self, receiver: TextToMotion, places: Tensor) -> None:
+        """Put combinations of actions that adapters of `receiver` learned where these open: at the
+        place that most of its own captions are sent to."""
+        denoiser = receiver.denoiser
+        opening = denoiser.get_buffer("places")[denoiser.get_buffer("adapter_of") > 0].float()
+        learned = set(receiver.card.tags) - set(self.bundle.card.tags)
+        for row, group in enumerate(self.groups):
+            if self.labels[group].get("action") in learned:
+                texts = [text for some in self.fresh[row].values() for text in some]
+                nearest = encode_captions(receiver.text, receiver.tokenizer, texts) @ opening.T
+                places[row] = opening[nearest.argmax(-1).mode().values]
 
     def identity(self) -> dict[str, Any]:
         """A resumed run must start from the same tower and see the same labels."""
@@ -368,11 +389,16 @@ class TextTask(Task):
             return
         generator = TextToMotion.from_pretrained(self.config.generator)
         generator.text = tower
-        generator.scope = fit_scope(self.data, self.config.languages, tower, self.tokenizer)
-        generator.style_map = fit_style_map(self.data, self.config.languages, tower, self.tokenizer)
+        languages, without = self.config.languages, self.config.without
+        generator.scope = fit_scope(self.data, languages, tower, self.tokenizer, without)
+        generator.style_map = fit_style_map(self.data, languages, tower, self.tokenizer)
         clip = self.bundle.clip.config.clip
         generator.network = generator.network.model_copy(update={"clip": clip})
         generator.card = _noted(generator.card, hardened)
+        if generator.network.generation.adapter_ranks:
+            kept = [tag for tag in generator.card.tags if tag not in without]
+            generator.denoiser = with_tower(generator, kept)
+            generator.card = generator.card.model_copy(update={"tags": tuple(kept)})
         generator.save_pretrained(folder)
 
 
@@ -382,6 +408,21 @@ def with_places(tower: TextTower, places: Tensor) -> TextTower:
     placed = TextTower(config, tower.embed_dim)
     placed.load_state_dict({**tower.state_dict(), "places": places})
     return placed.freeze()
+
+
+def with_tower(generator: TextToMotion, tags: Sequence[str]) -> MotionDenoiser:
+    """Its denoiser with these of its tags, opening its adapters at the places of its text tower
+    [P,D] where it did before it had that tower."""
+    state = generator.denoiser.state_dict()
+    places = generator.text.get_buffer("places").float()
+    alike = places @ state["places"].float().T  # [P, P of before]
+    moved = torch.where(alike.amax(-1) > SAME_PLACE, state["adapter_of"][alike.argmax(-1)], 0)
+    rows = [generator.card.tags.index(tag) for tag in tags] + [-1]  # the last stands for none
+    changed = MotionDenoiser(generator.network, len(tags))
+    changed.load_state_dict(
+        {**state, "places": places, "adapter_of": moved, TAG_WEIGHT: state[TAG_WEIGHT][rows]}
+    )
+    return changed.eval()
 
 
 def with_pairs(network: NetworkConfig, number: int) -> NetworkConfig:

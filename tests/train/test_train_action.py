@@ -50,13 +50,14 @@ def flops(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return prepared_clips(tmp_path_factory.mktemp("flops"), "flop", NEW)
 
 
-def prepared_clips(folder: Path, action: str, captions: list[str]) -> Path:
+def prepared_clips(folder: Path, action: str, captions: list[str], last: str = "") -> Path:
     lines = ["clip,action,caption"]
     for number in range(7):
         clip = generate_clip(spec_for({"action": "bow", "count": "1"}, number), seed=number)
         write_bvh(clip, folder / "clips" / f"take{number}.bvh")
-        own = action if number < 6 else ""  # one clip has no label
-        lines.append(f"take{number},{own},{' | '.join(captions) if own else 'a person stands'}")
+        own = action if number < 6 else last  # one clip has no label
+        said = captions if own == action else ["a person stands"]
+        lines.append(f"take{number},{own},{' | '.join(said)}")
     (folder / "captions.csv").write_text("\n".join(lines))
     source = MotionFolder.open(folder / "clips", captions=[folder / "captions.csv"])
     prepare([source], folder / "data", workers=1)
@@ -118,6 +119,37 @@ def test_nothing_that_was_known_changes(model: Path, flops: Path, tmp_path: Path
     both = TextToMotion.from_pretrained(second.output, device="cpu")
     assert both.network.generation.adapter_ranks == (16, 3)
     assert torch.equal(sampled(new, places[-1]), sampled(both, places[-1]))
+
+
+def test_a_tower_taught_anew_opens_the_adapters(model: Path, tmp_path: Path) -> None:
+    """The combinations that adapters learned lie where these open; an action that the new tower is
+    not taught is gone."""
+    data = prepared_clips(tmp_path, "karate", ["she does karate", "karate"], last="bow")
+    first = action_config(data, model, tmp_path / "first", "steps=4", "learning-rate=0.05")
+    Trainer(first, lambda c: ActionTask(c, network_of(str(model))), command="again").train()
+    settings = ("tower=pairs", "choice-weight=2", "least-captions=2", "captions-per-group=24")
+    given = [*SETTINGS, f"data='{data}'", f"clip='{model}'", f"generator='{first.output}'"]
+    given += [*settings, "steps=60", "batch-size=64", "learning-rate=0.03"]
+
+    def taught(name: str, *more: str) -> TextToMotion:
+        folder = tmp_path / name
+        config = load_train(None, TrainTextConfig, [*given, f"output='{folder}'", *more])
+        Trainer(config, lambda c: TextTask(c, tiny_network()), command="again").train()
+        return TextToMotion.from_pretrained(folder, device="cpu")
+
+    before, new = TextToMotion.from_pretrained(first.output, device="cpu"), taught("anew")
+    assert torch.equal(new.denoiser.get_buffer("places"), new.text.get_buffer("places"))
+    opened = [
+        each.denoiser.opened(each.encode_prompts(["she does karate", "a person bows"]).pooled)
+        for each in (before, new)
+    ]
+    assert opened[0].tolist() == opened[1].tolist() == [[1.0], [0.0]]
+    assert new.card.tags == before.card.tags
+    less = taught("less", "without=[karate]")
+    assert "karate" not in less.card.tags and not less.denoiser.get_buffer("adapter_of").any()
+    assert less.generate(["a person bows"], seconds=1.0, steps=2)[0].num_frames == 30
+    with pytest.raises(UserError, match="has no such action"):
+        taught("none", "without=[kung-fu]")
 
 
 def test_models_that_cannot_learn_say_why(prepared: Path, model: Path, tmp_path: Path) -> None:

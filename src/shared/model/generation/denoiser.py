@@ -22,6 +22,8 @@ from ..layers.transformer import (
     zeroed,
 )
 
+TAG_WEIGHT = "tag_embed.embedding.weight"  # [tags + 1, D]; the last stands for none
+
 
 class FrameRefiner(nn.Module):
     """What tokens of several frames leave out: two convolutions over the frames themselves.
