@@ -29,6 +29,11 @@ Skeleton = Annotated[
     Path | None, typer.Option(help="ASF skeleton of AMC files; the one beside each.")
 ]
 Threads = Annotated[int | None, typer.Option(help="CPU threads to use.")]
+Workers = Annotated[int | None, typer.Option(help="Processes; one a core.")]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(help="Of a Dask cluster that does the work, tcp://HOST:8786; local: one here."),
+]
 Json = Annotated[bool, typer.Option("--json", help="The result as JSON on stdout.")]
 Steps = Annotated[int | None, typer.Option(help="Sampling steps; the model's own.")]
 Sampler = Annotated[str | None, typer.Option(help="ddim, ddpm or dpm-solver++; the model's own.")]

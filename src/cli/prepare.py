@@ -48,7 +48,8 @@ def prepare(
         bool, typer.Option("--mirror/--no-mirror", help="Add mirror images, captions too.")
     ] = True,
     seed: Annotated[int, typer.Option(help="Of splits, captions and synthetic motions.")] = 0,
-    workers: Annotated[int | None, typer.Option(help="Processes; one a core.")] = None,
+    workers: options.Workers = None,
+    scheduler: options.Scheduler = None,
     json: options.Json = False,
 ) -> None:
     """Turn motion capture into a training set.
@@ -107,6 +108,7 @@ def prepare(
             mirror=mirror,
             seed=seed,
             workers=workers,
+            scheduler=scheduler,
             progress=progress,
         )
     if unmatched := report["unmatched_captions"]:

@@ -26,8 +26,8 @@ FLAGS = {
     "inspect": ("--json --mapping --skeleton --source-fps --unit --up --write-mapping FILE"),
     "features": "--cache --cache-dir --chroma --json --meter --no-cache --out --plot SONG",
     "prepare": (
-        "--captions --json --labels --mapping --mirror --no-mirror --only-gaps --out --seed"
-        " --skeleton --source-fps --synthetic --templates --unit --up --workers SOURCE"
+        "--captions --json --labels --mapping --mirror --no-mirror --only-gaps --out --scheduler"
+        " --seed --skeleton --source-fps --synthetic --templates --unit --up --workers SOURCE"
     ),
     "prepare-audio": (
         "--json --max-seconds --meter --min-seconds --motion --music --no-synthetic-clips --out"

@@ -9,41 +9,35 @@ The folder that `prepare` writes:
     statistics.safetensors  mean, std [23,6] over the training clips and their mirror images
     report.json             what was skipped and why, counts by source and split
 
-Work is done a shard at a time by worker processes. A finished shard is kept beside its record
-(shards/NNNNN.json) under a key made of all that went into it, so that a second run, or a run
-after an interruption, does only what is missing.
+Work is done a shard at a time by worker processes, here or on a cluster (`run_jobs`). A finished
+shard is kept beside its record (shards/NNNNN.json) under a key made of all that went into it, so
+that a second run, or a run after an interruption, does only what is missing.
 """
 
 import hashlib
 import json
-import multiprocessing
-import os
-import signal
-import threading
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from concurrent.futures.process import BrokenProcessPool
-from contextlib import suppress
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from multiprocessing.connection import Connection
+from itertools import groupby
+from operator import itemgetter
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import torch
 from safetensors.torch import load_file, save_file
 
 from ..errors import UsageError, UserError
-from ..io.concurrency import answered
 from ..io.files import (
     atomic_write,
+    clear_unfinished,
     is_whole,
-    load_json,
     sha256_file,
     sole_writer,
     write_json,
     write_text,
 )
+from ..io.jobs import finished_record, run_jobs
 from ..motion.features import encode_features, mirror_features
 from .captions.book import CaptionBook
 from .captions.language import mirror_labels
@@ -62,6 +56,7 @@ from .prepared import (
 from .sources.folders import MotionFolder, Skipped, Source, SyntheticSource
 
 CLIPS_PER_SHARD = 128
+TABLES = ("clips.jsonl", "captions.json", "statistics.safetensors")  # beside the shards
 CAPTIONS_PER_GROUP = 24  # and language
 COVERING_CLIPS = 3  # captured ones that make procedural ones of the same labels superfluous
 _DEGREES = frozenset(("speed", "style", "count", "angle"))
@@ -72,10 +67,15 @@ Progress = Callable[[int, int], None]  # (clips done, clips in all)
 
 @dataclass(frozen=True)
 class _Job:
-    sources: tuple[Source, ...]
-    items: tuple[tuple[int, str], ...]
+    """One shard: the items of each source, which holds no more than they need."""
+
+    parts: tuple[tuple[Source, tuple[str, ...]], ...]
     path: Path
     key: str
+
+    @property
+    def num_items(self) -> int:
+        return sum(len(items) for _, items in self.parts)
 
 
 def prepare(
@@ -87,6 +87,7 @@ def prepare(
     mirror: bool = True,
     seed: int = 0,
     workers: int | None = None,
+    scheduler: str | None = None,
     progress: Progress = lambda done, total: None,
 ) -> dict[str, Any]:
     """Prepare all clips of `sources` into the folder `out`; returns the report.
@@ -96,7 +97,7 @@ def prepare(
         only_gaps: keep procedural clips only of what no captured clip shows (`fill_gaps`).
         mirror: add the mirror image of each clip, with left and right swapped in its captions.
         seed: of splits and captions.
-        workers: processes; default: one a CPU core.
+        workers, scheduler: who does it, as `run_jobs` has them.
         progress: called after each shard.
 
     Raises:
@@ -115,7 +116,7 @@ def prepare(
         _check_languages(sources, book)
     items = [(index, item) for index, source in enumerate(sources) for item in source.items()]
     jobs = _jobs(sources, items, out)
-    _run(jobs, workers or os.cpu_count() or 1, progress, len(items))
+    _run(jobs, workers, scheduler, progress)
 
     clips, skipped = _collect(jobs)
     if only_gaps:
@@ -135,7 +136,7 @@ def prepare(
     _remove_stale_shards(out, jobs)
     report = _report(records, skipped) | {"unmatched_captions": _unmatched(sources)}
     write_json(out / "report.json", report)
-    write_json(out / "manifest.json", _manifest(out, jobs, records, seed=seed, mirror=mirror))
+    write_json(out / "manifest.json", _manifest(out, sources, jobs, records, seed, mirror))
     return report
 
 
@@ -178,14 +179,18 @@ def open_data(data: str, cache: Path, *, synthetic_clips: int = SYNTHETIC_CLIPS)
 def _jobs(sources: tuple[Source, ...], items: list[tuple[int, str]], out: Path) -> list[_Job]:
     jobs = []
     for number, start in enumerate(range(0, len(items), CLIPS_PER_SHARD)):
-        part = tuple(items[start : start + CLIPS_PER_SHARD])
-        digest = hashlib.sha256(f"{VERSION}".encode())
-        for index, item in part:
-            digest.update(f"{sources[index].name}:{sources[index].fingerprint(item)}".encode())
-        # Everything else a source is made of (rules, captions, mapping) shapes the clip too.
-        digest.update(repr([sources[index] for index in sorted({i for i, _ in part})]).encode())
-        path = out / "shards" / f"{number:05d}.safetensors"
-        jobs.append(_Job(sources, part, path, digest.hexdigest()))
+        own = items[start : start + CLIPS_PER_SHARD]
+        digest, parts = hashlib.sha256(f"{VERSION}".encode()), []
+        for index, group in groupby(own, key=itemgetter(0)):
+            source, names = sources[index], tuple(item for _, item in group)
+            for item in names:
+                digest.update(f"{source.name}:{source.fingerprint(item)}".encode())
+            part = source.part(names) if isinstance(source, MotionFolder) else source
+            # Everything else a source is made of (rules, captions, mapping) shapes the clip too.
+            digest.update(repr(part).encode())
+            parts.append((part, names))
+        path = out.absolute() / "shards" / f"{number:05d}.safetensors"
+        jobs.append(_Job(tuple(parts), path, digest.hexdigest()))
     return jobs
 
 
@@ -194,19 +199,21 @@ def _finished(job: _Job) -> bool:
     return content is not None and is_whole(job.path, str(content.get("sha256")))
 
 
-def _run(jobs: list[_Job], workers: int, progress: Progress, total: int) -> None:
+def _run(jobs: list[_Job], workers: int | None, scheduler: str | None, progress: Progress) -> None:
     todo = [job for job in jobs if not _finished(job)]
-    done = total - sum(len(job.items) for job in todo)
+    total = sum(job.num_items for job in jobs)
+    done = total - sum(job.num_items for job in todo)
     progress(done, total)
-    for job, _ in run_jobs(_make_shard, todo, workers):
-        progress(done := done + len(job.items), total)
+    for job, _ in run_jobs(_make_shard, todo, workers, scheduler):
+        progress(done := done + job.num_items, total)
 
 
 def _make_shard(job: _Job) -> None:
     """Read the clips of one shard; a clip that cannot be read is recorded, not fatal."""
+    if _finished(job):  # by a worker that was lost before it could tell
+        return
     features, clips, skipped, offset = [], [], [], 0
-    for index, item in job.items:
-        source = job.sources[index]
+    for source, item in ((source, item) for source, items in job.parts for item in items):
         try:
             clip = source.read(item)
             values = encode_features(clip.motion)
@@ -244,7 +251,9 @@ def _collect(jobs: list[_Job]) -> tuple[list[dict[str, Any]], list[dict[str, str
     clips: list[dict[str, Any]] = []
     skipped: list[dict[str, str]] = []
     for job in jobs:
-        content = load_json(job.path.with_suffix(".json"))
+        content = finished_record(job.path.with_suffix(".json"), job.key)
+        if content is None:
+            raise UserError(f"{job.path} was changed by another run; run this one again")
         clips += content["clips"]
         skipped += content["skipped"]
     return clips, skipped
@@ -275,7 +284,8 @@ def fill_gaps(clips: list[dict[str, Any]], *, mirror: bool) -> list[dict[str, An
 
 
 def _remove_stale_shards(out: Path, jobs: list[_Job]) -> None:
-    """Shards of an earlier, larger run."""
+    """Shards of an earlier, larger run, and what a worker that died left of one."""
+    clear_unfinished(out / "shards")
     wanted = {job.path.stem for job in jobs}
     for path in (out / "shards").iterdir():
         if path.stem not in wanted and not path.name.startswith("."):
@@ -366,84 +376,20 @@ def _report(records: list[ClipRecord], skipped: list[dict[str, str]]) -> dict[st
 
 
 def _manifest(
-    out: Path, jobs: list[_Job], records: list[ClipRecord], *, seed: int, mirror: bool
+    out: Path,
+    sources: tuple[Source, ...],
+    jobs: list[_Job],
+    records: list[ClipRecord],
+    seed: int,
+    mirror: bool,
 ) -> dict[str, Any]:
+    shards = [f"shards/{job.path.name}" for job in jobs]
     return {
         "version": VERSION,
         "fps": 30.0,
         "seed": seed,
         "mirror": mirror,
-        "sources": [source.name for source in jobs[0].sources],
+        "sources": [source.name for source in sources],
         "tags": sorted({record.tag for record in records if record.tag}),
-        "files": {
-            path.relative_to(out).as_posix(): sha256_file(path)
-            for path in (
-                *(job.path for job in jobs),
-                out / "clips.jsonl",
-                out / "captions.json",
-                out / "statistics.safetensors",
-            )
-        },
+        "files": {name: sha256_file(out / name) for name in (*shards, *TABLES)},
     }
-
-
-Job = TypeVar("Job")
-Result = TypeVar("Result")
-
-
-def finished_record(path: Path, key: str) -> dict[str, Any] | None:
-    """What was written of a finished job; None if nothing is there, damaged, or of another key."""
-    try:
-        content = load_json(path)
-    except (OSError, ValueError):
-        return None
-    return content if isinstance(content, dict) and content.get("key") == key else None
-
-
-def run_jobs(
-    function: Callable[[Job], Result], jobs: Sequence[Job], workers: int
-) -> Iterator[tuple[Job, Result]]:
-    """Yield (job, `function(job)`) as they finish; what a job raises is raised here.
-
-    Args:
-        function: of a module, so that processes can be handed it.
-        jobs: each is sent to one process.
-        workers: processes; one works in this process.
-
-    Raises:
-        UserError: a worker was killed.
-    """
-    if workers == 1 or len(jobs) <= 1:
-        for job in jobs:
-            yield job, function(job)
-        return
-    context = multiprocessing.get_context("spawn")  # forking a process with torch threads hangs
-    parent, lifeline = context.Pipe(duplex=False)
-    pool = ProcessPoolExecutor(min(workers, len(jobs)), context, _start_worker, (parent,))
-    with parent, lifeline, pool:
-        with answered(signal.SIGINT, signal.SIG_IGN):
-            pending = {pool.submit(function, job): job for job in jobs}
-        try:
-            for future in as_completed(pending):
-                yield pending[future], future.result()
-        except BaseException as error:
-            pool.shutdown(wait=False, cancel_futures=True)
-            lifeline.close()
-            if isinstance(error, BrokenProcessPool):
-                raise UserError(
-                    "a worker process was killed, most likely because memory ran out; give fewer"
-                    " --workers and run again: what is finished is kept"
-                ) from error
-            raise
-
-
-def _start_worker(parent: Connection) -> None:
-    torch.set_num_threads(1)
-    threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
-
-
-def _end_with(parent: Connection) -> None:
-    """End this process when the other end of the pipe is closed, by the parent or its death."""
-    with suppress(EOFError, OSError):
-        parent.recv_bytes()
-    os._exit(1)

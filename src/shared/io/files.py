@@ -219,14 +219,14 @@ def sole_writer(folder: str | Path, *, wait: bool = False) -> Iterator[None]:
             raise UserError(f"cannot write {folder}: {reason}; name another folder") from error
         try:
             if killed:
-                _clear(folder)
+                clear_unfinished(folder)
             yield
         finally:
             with suppress(OSError):  # still held: whoever waits will make another one
                 (folder / LOCK).unlink()
 
 
-def _clear(folder: Path) -> None:
+def clear_unfinished(folder: Path) -> None:
     """Remove what has the name of something unfinished, but where another run writes or wrote."""
     for place, folders, files in os.walk(folder):
         own = [name for name in folders if is_unfinished(Path(place, name))]

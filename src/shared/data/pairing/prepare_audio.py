@@ -33,11 +33,12 @@ import numpy as np
 from ...errors import UserError
 from ...io.arrays import load_array, load_arrays
 from ...io.files import inside, is_whole, load_json, write_json
+from ...io.jobs import finished_record, run_jobs
 from ...metrics.rhythm import motion_beats
 from ...motion.style import measure_style
 from ...motion.trajectory import STYLE, MotionTrajectory, encode_window
 from ..phrases.layout import PhraseRecord, features_path, trajectory_path, write_phrase
-from ..prepare import finished_record, prepare, run_jobs
+from ..prepare import prepare
 from ..prepared import PreparedData
 from ..sources.caption_tables import Piece
 from ..sources.folders import MotionFolder

@@ -142,12 +142,13 @@ class MotionFolder:
         table: the pieces of each file that has some.
         from_names: files without words of their own have those of their names as English captions.
         shared_stems: file names that several folders hold; their takes are told apart by folder.
+        listed: the files, where they are known.
         captions_files: where the captions come from.
         reading: what the files do not say of themselves.
         caption_rows: clips that the file names, and whether a file was found for each.
     """
 
-    root: Path
+    root: Path = field(repr=False)
     name: str
     table: Table
     rules: LabelRules
@@ -155,6 +156,7 @@ class MotionFolder:
     reading: Reading = Reading()
     shared_stems: tuple[str, ...] = ()
     from_names: bool = False
+    listed: tuple[str, ...] | None = None
     captions_files: tuple[Path, ...] = field(default=(), repr=False)
     caption_rows: Mapping[str, bool] = field(default_factory=dict, repr=False)
 
@@ -229,8 +231,25 @@ class MotionFolder:
                 found[item] = (file, piece)
         return found
 
+    def part(self, items: Sequence[str]) -> "MotionFolder":
+        """These clips alone, as light as can be and wherever one stands: for a job elsewhere."""
+        files = tuple(dict.fromkeys(self._pieces[item][0] for item in items))
+        stems = {Path(file).stem for file in files}
+        skeleton = self.reading.skeleton
+        return replace(
+            self,
+            root=self.root.absolute(),
+            table={file: self.table[file] for file in files if file in self.table},
+            reading=replace(self.reading, skeleton=skeleton and skeleton.absolute()),
+            shared_stems=tuple(stem for stem in self.shared_stems if stem in stems),
+            listed=files,
+            caption_rows={},
+        )
+
     def files(self) -> list[str]:
         """The motion files, below the root."""
+        if self.listed is not None:
+            return list(self.listed)
         if self.root.is_file():
             return [self.root.name]
         best: dict[Path, Path] = {}
@@ -289,9 +308,10 @@ _LAST: list[tuple[tuple[Reading, Path], Motion]] = []  # the file that was read 
 
 def _last_read(reading: Reading, path: Path, mappings: tuple[SkeletonMapping, ...]) -> Motion:
     """`Reading.read`, once for all pieces of a file."""
-    if not _LAST or _LAST[0][0] != (reading, path):
-        _LAST[:] = [((reading, path), reading.read(path, mappings))]
-    return _LAST[0][1]
+    last = _LAST[0] if _LAST else None  # one look: other threads put theirs there, too
+    if last is None or last[0] != (reading, path):
+        _LAST[:] = [last := ((reading, path), reading.read(path, mappings))]
+    return last[1]
 
 
 def cut(motion: Motion, piece: Piece) -> Motion:
