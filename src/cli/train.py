@@ -13,6 +13,7 @@ STAGES = {
     "evaluator": ("train_evaluator", "The independent judge that `evaluate` asks."),
     "text": ("train_text", "A text tower that bears wordings it never saw."),
     "action": ("train_action", "A new action for a trained text model, from a few clips."),
+    "distill": ("train_distill", "A text model of one or a few steps, from one of many."),
     "audio": ("train_audio", "Paths from music."),
     "decoder": ("train_decoder", "The decoder behind `audio`."),
     "finetune-e2e": ("finetune_e2e", "`audio` and `decoder` through the sampler, as one."),

@@ -12,7 +12,7 @@ import hashlib
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 import torch
@@ -28,11 +28,14 @@ from ..shared.data.text_motion import TextMotionDataset, arm_actions, gestures
 from ..shared.errors import UsageError, UserError
 from ..shared.io.files import atomic_write
 from ..shared.metrics.retrieval import BATCH
+from ..shared.model.checkpoint import read_card, resolve_model
 from ..shared.model.clip.core import OWN, TextTower
+from ..shared.model.clip.features import TextFeatures
 from ..shared.model.clip.out_of_domain import OutOfDomainDetector, words_of
 from ..shared.model.clip.pretrained import encode_captions, tower_hash
 from ..shared.model.clip.style_map import StyleMap
 from ..shared.model.clip.tokenizer import PromptTokenizer
+from ..shared.model.generation.motion_generator import KIND, TextToMotion
 from ..shared.model.layers.transformer import masked_mean
 from ..shared.motion.features import decode_features
 from ..shared.motion.skeleton import NUM_JOINTS
@@ -108,6 +111,41 @@ def split_set(
 def motion_rows(motion: torch.Tensor, network: NetworkConfig) -> torch.Tensor:
     """Features [..., 23, 6] without the root track where the profile has none."""
     return motion[..., : network.motion_rows, :]
+
+
+def z_scored_for(model: TextToMotion, motion: Tensor, data: PreparedData) -> Tensor:
+    """Motion [...,23,6] in the z-scores of `data`, in those of a trained model, on the CPU."""
+    raw = motion_rows(motion * data.std + data.mean, model.network)
+    return (raw - model.mean.cpu()) / model.std.cpu()
+
+
+def as_features(places: Tensor) -> TextFeatures:
+    """What a tower would give for texts that lie at these places [B,D]."""
+    mask = torch.ones(len(places), 1, dtype=torch.bool, device=places.device)
+    return TextFeatures(places, torch.zeros_like(places)[:, None], mask)
+
+
+def network_of_model(init: str) -> NetworkConfig:
+    """The network of a trained text model; raises UserError when there is no such model."""
+    card = read_card(resolve_model(init))
+    if card.kind != KIND:
+        raise UserError(
+            f"init {init} is a {card.kind}; name a text model, see `motion-tools models`"
+        )
+    return card.network
+
+
+def own_network(
+    network_of: Callable[[str], NetworkConfig],
+) -> Callable[[Any, Sequence[str]], NetworkConfig]:
+    """For a Stage that goes on from `init`: that model's network, which no override changes."""
+
+    def network(config: Any, overrides: Sequence[str]) -> NetworkConfig:
+        if overrides:
+            raise UsageError(f"{overrides[0]}: the network is that of init; leave it out")
+        return network_of(config.init)
+
+    return network
 
 
 SCOPE_CAPTIONS = 20_000  # at most so many captions teach OutOfDomainDetector

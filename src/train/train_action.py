@@ -28,7 +28,6 @@ from ..shared.data.captions.word_dropout import insert_babble
 from ..shared.data.prepared import ClipRecord
 from ..shared.device import choose_compute
 from ..shared.errors import UsageError, UserError
-from ..shared.model.checkpoint import read_card, resolve_model
 from ..shared.model.clip.core import (
     PAIRS,
     PLACE_SCALE,
@@ -36,19 +35,25 @@ from ..shared.model.clip.core import (
     TokenPairEncoder,
     shared_keys,
 )
-from ..shared.model.clip.features import TextFeatures
 from ..shared.model.clip.pretrained import encode_captions, tower_hash
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.diffusion import GaussianDiffusion
 from ..shared.model.generation.denoiser import TAG_WEIGHT, MotionDenoiser
 from ..shared.model.generation.losses import GenerationLoss
-from ..shared.model.generation.motion_generator import KIND, TextToMotion
+from ..shared.model.generation.motion_generator import TextToMotion
 from .captured_places import apart
 from .constraints import draw_known
 from .launch import Stage
 from .run_log import announce
 from .task import Part, Task, generator, numpy_generator
-from .text_stages import motion_rows, open_training_data, training_set
+from .text_stages import (
+    as_features,
+    network_of_model,
+    open_training_data,
+    own_network,
+    training_set,
+    z_scored_for,
+)
 from .train_generation import GuidedDenoiser, spread_timesteps
 
 OLD_CAPTIONS = 16  # of each known action and language
@@ -214,8 +219,7 @@ class ActionTask(Task):
         """Clips of the new actions; everything random is drawn here, on the CPU."""
         config, size = self.config, self.config.batch_size
         clips = self.train.batch(part.step, size, rank=part.index)
-        raw = motion_rows(clips.motion * self.data.std + self.data.mean, self.network)
-        clean = (raw - self.before.mean.cpu()) / self.before.std.cpu()
+        clean = z_scored_for(self.before, clips.motion, self.data)
         draws = generator("noise", config.seed, part.step, part.index)
         known = torch.zeros(clean.shape, dtype=torch.bool)
         if self.network.generation.constraints:
@@ -319,12 +323,6 @@ class ActionTask(Task):
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """A folder that `generate --model` reads."""
         self._generator(module).save_pretrained(folder)
-
-
-def as_features(places: Tensor) -> TextFeatures:
-    """What a tower would give for texts that lie at these places [B,D]."""
-    mask = torch.ones(len(places), 1, dtype=torch.bool, device=places.device)
-    return TextFeatures(places, torch.zeros_like(places)[:, None], mask)
 
 
 def old_captions(actions: Sequence[str], languages: Sequence[str]) -> list[str]:
@@ -446,24 +444,14 @@ def network_of(init: str) -> NetworkConfig:
         UserError: no such model, or of another kind.
         UsageError: its text tower has no places.
     """
-    card = read_card(resolve_model(init))
-    if card.kind != KIND:
-        raise UserError(
-            f"init {init} is a {card.kind}; name a text model, see `motion-tools models`"
-        )
-    clip = card.network.clip
+    network = network_of_model(init)
+    clip = network.clip
     if clip.text_model != PAIRS or not clip.text_places:
         raise UsageError(
             f"init {init} has a text tower without places; give it one with"
             " `motion-tools train text clip=... tower=pairs`, or name another model"
         )
-    return card.network
-
-
-def _network(config: TrainActionConfig, overrides: Sequence[str]) -> NetworkConfig:
-    if overrides:
-        raise UsageError(f"{overrides[0]}: the network is that of init; leave it out")
-    return network_of(config.init)
+    return network
 
 
 app = Stage(
@@ -471,7 +459,7 @@ app = Stage(
     ActionTask,
     "train_action",
     "Teach a trained text model a new action from a few clips; the old ones stay.",
-    network=_network,
+    network=own_network(network_of),
     flags={"init": "the model that learns"},
     example="--data data/mine --init starter --output runs/mine",
 ).app()

@@ -15,6 +15,7 @@ COMMON = {"--config", "--data", "--output", "--num-processes", "--resume"}
 NETWORK = {"--network-profile", "--network-file"}
 OWN = {
     "action": {"--init"},
+    "distill": {"--init"},
     "decoder": {"--audio"},
     "memory": {"--audio", "--memory", "--space"},
     "finetune-e2e": {

@@ -22,7 +22,8 @@ from src.shared.errors import UsageError, UserError
 from src.shared.formats.writers.bvh import write_bvh
 from src.shared.model.generation.motion_generator import SampleRequest, TextToMotion, sample_batch
 from src.train.engine import Trainer
-from src.train.train_action import ActionTask, TrainActionConfig, as_features, network_of
+from src.train.text_stages import as_features
+from src.train.train_action import ActionTask, TrainActionConfig, network_of
 from src.train.train_text import TextTask, TrainTextConfig
 
 OLD = ["a person walks forward", "someone waves with the left hand", "she jumps"]

@@ -83,7 +83,7 @@ def sample_batch(
     shared = {
         "mask": mask,
         "known": known.shown if known is not None and learned else None,
-        "provenance": _captured(denoiser, tag),
+        "provenance": as_captured(denoiser, tag),
     }
     text = denoiser.with_adapters(text)
     null = denoiser.drop_text(text, torch.ones_like(tag, dtype=torch.bool))
@@ -112,7 +112,7 @@ def sample_batch(
     )
 
 
-def _captured(denoiser: "MotionDenoiser", like: Tensor) -> Tensor | None:
+def as_captured(denoiser: "MotionDenoiser", like: Tensor) -> Tensor | None:
     """Sampled motion is to look captured: procedural clips are there to teach, not to answer."""
     if denoiser.provenance_embed is None:
         return None

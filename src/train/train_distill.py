@@ -1,0 +1,386 @@
+"""A text model of one or a few steps, from one of many: guidance folded in, constraints heard.
+
+motion-tools train distill init=starter [key=value ...]
+
+First the teacher samples, as `generate` has it sample, with guidance, and with known entries as in
+its own training (constraints.py). What it starts from and passes through, and where it ends, is
+kept in the output folder. Then the student, which begins with the teacher's weights, learns to go
+from each of these states to the end at once, by the text alone: the end of the deterministic path
+from noise (Luhman and Luhman 2021, knowledge distillation), and from the steps that it will visit
+on the way (consistency, Song et al. 2023, with targets that do not move).
+
+Letters: B batch, T frames, R rows of a frame, D shared dimensions, N student steps.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import torch
+from pydantic import Field
+from safetensors import safe_open
+from safetensors.torch import save_file
+from torch import Tensor, nn
+
+from ..shared.config_schema import ConstraintShares, LossWeights, NetworkConfig, TrainConfig
+from ..shared.data.text_motion import TextMotionBatch
+from ..shared.device import autocast, choose_compute
+from ..shared.errors import UsageError
+from ..shared.io.files import atomic_write
+from ..shared.model.clip.pretrained import encode_captions, tower_hash
+from ..shared.model.diffusion import GaussianDiffusion, guided, make_sampler
+from ..shared.model.generation.denoiser import MotionDenoiser
+from ..shared.model.generation.losses import GenerationLoss
+from ..shared.model.generation.motion_generator import TextToMotion, as_captured
+from ..shared.model.noise import sampling_timesteps
+from .constraints import draw_known
+from .launch import Stage
+from .run_log import announce
+from .task import Part, Task, generator, mix_seed, numpy_generator
+from .text_stages import (
+    as_features,
+    network_of_model,
+    open_training_data,
+    own_network,
+    training_set,
+    validation_set,
+    z_scored_for,
+)
+from .train_generation import GuidedDenoiser
+
+PAIRS_FOLDER = "pairs"  # in the output folder: a resumed run reads it
+TOLD_EVERY = 20  # files of pairs
+
+
+class TrainDistillConfig(TrainConfig):
+    """train_distill.yaml."""
+
+    init: str = "starter"  # the teacher
+    teacher_steps: int = Field(8, ge=1)
+    student_steps: int = Field(2, ge=1)  # it can take fewer, too
+    pair_batches: int = Field(200, ge=1)  # of batch-size motions that the teacher samples
+    first_share: float = Field(0.5, ge=0, le=1)  # of the pairs that begin with noise alone
+    condition_dropout: float = Field(0.05, ge=0, lt=1)  # motions of no text, which edits ask for
+    tag_dropout: float = Field(0.8, ge=0, le=1)
+    losses: LossWeights = LossWeights()
+    constraints: ConstraintShares = ConstraintShares()  # of networks with generation.constraints
+
+
+@dataclass(frozen=True)
+class Pairs:
+    """B motions that the teacher sampled.
+
+    Attributes:
+        states: [B,N,T,R,6] z-scored, where it was at the student's steps; noise first.
+        end: [B,T,R,6] what came of it, known entries in it.
+        mask: [B,T] bool; known: [B,T,R,6] bool, entries that it was told.
+        place: [B,D] of the text; tag [B] long; drop [B] bool, rows that heard no text.
+    """
+
+    states: Tensor
+    end: Tensor
+    mask: Tensor
+    known: Tensor
+    place: Tensor
+    tag: Tensor
+    drop: Tensor
+
+
+@dataclass(frozen=True)
+class DistillBatch:
+    """One of the states of each motion, and where it leads.
+
+    Attributes:
+        seen: [B,T,R,6] with the known entries in it; timesteps [B] long.
+        end, mask, known, place, tag, drop: see Pairs.
+    """
+
+    seen: Tensor
+    timesteps: Tensor
+    end: Tensor
+    mask: Tensor
+    known: Tensor
+    place: Tensor
+    tag: Tensor
+    drop: Tensor
+
+
+class DistillTask(Task):
+    """What the trainer needs to know (task.py)."""
+
+    def __init__(self, config: TrainDistillConfig, network: NetworkConfig) -> None:
+        self.config, self.network = config, network
+        self.compute = choose_compute(config.device, config.precision)
+        self.teacher = TextToMotion.from_pretrained(config.init, device=self.compute.device)
+        self.diffusion = GaussianDiffusion(network.generation.diffusion()).to(self.teacher.device)
+        self.steps = self._student_timesteps()
+        self.data = open_training_data(config, network)
+        self.train = training_set(config, self.data)
+        self.held_back = validation_set(config, self.data)
+        self.folder = Path(config.output) / PAIRS_FOLDER
+        self._make_pairs()
+        self.num_held_back = len(list(self.folder.glob("held-*.safetensors")))
+        student = MotionDenoiser(network, len(self.teacher.card.tags))
+        student.load_state_dict(self.teacher.denoiser.state_dict())
+        self.module: nn.Module = GuidedDenoiser(student)
+        self.loss = GenerationLoss(
+            config.losses, self.diffusion, self.teacher.mean, self.teacher.std
+        )
+        self.figures: dict[str, float] = {}
+
+    def _student_timesteps(self) -> tuple[int, ...]:
+        """Steps of the process that the student visits, the noisiest first."""
+        config, process = self.config, self.diffusion.config
+        of_teacher, own = (
+            sampling_timesteps(process.timesteps, number, process.timestep_spacing)
+            for number in (config.teacher_steps, config.student_steps)
+        )
+        if missing := set(own) - set(of_teacher):
+            raise UsageError(
+                f"teacher-steps {config.teacher_steps} leave out step {min(missing)}, which the"
+                f" student visits; choose a multiple of student-steps {config.student_steps}"
+            )
+        return own
+
+    def identity(self) -> dict[str, Any]:
+        """A resumed run must go on from the same teacher with the same clips."""
+        return {
+            "teacher": self.teacher.card.content_hash,
+            "data-hash": self.data.manifest_hash,
+            "tower-hash": tower_hash(self.teacher.text),
+        }
+
+    def to(self, device: torch.device) -> None:
+        """Frozen parts follow the module."""
+        self.loss.to(device)
+
+    # ------------------------------------------------------------ what the teacher does
+
+    def _make_pairs(self) -> None:
+        """Write the files of pairs that are not there yet."""
+        config, size = self.config, self.config.batch_size
+        kept = {"seed", "teacher_steps", "student_steps", "batch_size", "condition_dropout",
+                "tag_dropout", "constraints", "min_frames", "max_frames", "balance",
+                "captured_share", "languages"}  # fmt: skip
+        made_of = {**self.identity(), **config.model_dump(mode="json", include=kept)}
+        made = {"made-of": f"{mix_seed(str(sorted(made_of.items()))):x}"}
+        for number in range(config.pair_batches):
+            file = self._file("train", number)
+            if not _is_made(file, made):
+                clips = self.train.batch(number + 1, size)
+                _write(file, self._sampled(clips, "pairs", config.seed, number), made)
+                if number % TOLD_EVERY == 0:
+                    announce(f"the teacher samples: {number} of {config.pair_batches} batches")
+        if self.held_back is not None:
+            batches = self.held_back.fixed_batches(size, config.validation_batches)
+            for number, clips in enumerate(batches):
+                file = self._file("held", number)
+                if not _is_made(file, made):
+                    _write(file, self._sampled(clips, "held", number), made)
+
+    def _file(self, split: str, number: int) -> Path:
+        return self.folder / f"{split}-{number:05d}.safetensors"
+
+    @torch.no_grad()
+    def _sampled(self, clips: TextMotionBatch, *seed: int | str) -> Pairs:
+        """What the teacher makes of these captions and what it is told of these clips."""
+        config, teacher = self.config, self.teacher
+        draws, size = generator("noise", *seed), len(clips)
+        clean = z_scored_for(teacher, clips.motion, self.data)
+        noise = torch.randn(clean.shape, generator=draws)
+        drop = torch.rand(size, generator=draws) < config.condition_dropout
+        untagged = drop | (torch.rand(size, generator=draws) < config.tag_dropout)
+        tags = teacher.card.tags
+        index = [tags.index(r.tag) if r.tag in tags else len(tags) for r in clips.records]
+        tag = torch.tensor(index).masked_fill(untagged, len(tags))
+        known = torch.zeros(clean.shape, dtype=torch.bool)
+        if self.network.generation.constraints:
+            rng = numpy_generator("known", *seed)
+            known = draw_known(clips.mask, clean.shape[2], config.constraints, rng)
+        free = ~known.flatten(1).any(1)
+        mask = clips.mask | free[:, None]  # no clip limits the length of what is told nothing
+        place = encode_captions(teacher.text, teacher.tokenizer, clips.captions)
+        device = teacher.device
+        clean, noise, mask, known, place, tag, drop = (
+            each.to(device) for each in (clean, noise, mask, known, place, tag, drop)
+        )
+        denoiser = teacher.denoiser
+        text = denoiser.with_adapters(as_features(place))
+        nothing = denoiser.drop_text(text, torch.ones_like(drop))
+        shared = {
+            "mask": mask,
+            "known": known if denoiser.shows_known else None,
+            "provenance": as_captured(denoiser, tag),
+        }
+        own = {"text": denoiser.drop_text(text, drop), "tag": tag, **shared}
+        none = {"text": nothing, "tag": torch.full_like(tag, len(tags)), **shared}
+        scale = self.teacher.network.generation.guidance_scale
+        model_fn = self.diffusion.held(
+            guided(denoiser, own, none, scale), known, clean, noise, shown=known
+        )
+        states: list[Tensor] = []
+
+        def watched(x_t: Tensor, t: Tensor) -> Tensor:
+            if int(t[0]) in self.steps:
+                states.append(torch.where(known, clean, x_t))
+            return model_fn(x_t, t).float()
+
+        sampler = make_sampler(self.diffusion, "ddim", config.teacher_steps)
+        with autocast(self.compute):
+            end = sampler.run(watched, noise)
+        return Pairs(torch.stack(states, dim=1), end, mask, known, place, tag, drop)
+
+    # ------------------------------------------------------------ batches
+
+    def batch(self, part: Part) -> DistillBatch:
+        """A file of pairs, one state of each; every file once before any twice."""
+        config = self.config
+        number = (part.step - 1) * part.count + part.index
+        turn, place = divmod(number, config.pair_batches)
+        order = numpy_generator("order", config.seed, turn).permutation(config.pair_batches)
+        pairs = _read(self._file("train", int(order[place])))
+        draws = generator("states", config.seed, part.step, part.index)
+        size = len(pairs.end)
+        later = torch.randint(1, max(2, len(self.steps)), (size,), generator=draws)
+        first = torch.rand(size, generator=draws) < config.first_share
+        return self._at(pairs, later.masked_fill(first | (len(self.steps) == 1), 0))
+
+    def _at(self, pairs: Pairs, chosen: Tensor) -> DistillBatch:
+        """The states with these numbers [B]."""
+        return DistillBatch(
+            pairs.states[torch.arange(len(chosen)), chosen],
+            torch.tensor(self.steps)[chosen],
+            *(pairs.end, pairs.mask, pairs.known, pairs.place, pairs.tag, pairs.drop),
+        )
+
+    # ------------------------------------------------------------ learning
+
+    def training_step(self, module: nn.Module, batch: DistillBatch) -> dict[str, Tensor]:
+        """The weighted losses of one batch."""
+        denoiser = self.teacher.denoiser
+        output = module(
+            batch.seen,
+            batch.timesteps,
+            as_features(batch.place),
+            batch.tag,
+            batch.mask,
+            batch.drop,
+            batch.known,
+            as_captured(denoiser, batch.tag),
+        ).float()
+        made = torch.where(batch.known, batch.end, output)  # sampling puts the known entries back
+        rest = batch.seen, batch.seen, batch.timesteps, batch.mask  # noise says nothing of x_0
+        losses: dict[str, Tensor] = self.loss(made, batch.end, *rest)
+        return losses
+
+    def validation(self, module: nn.Module) -> dict[str, float]:
+        """Losses on held-back clips, one a step of the student."""
+        device = next(module.parameters()).device
+        sums: dict[str, list[float]] = {}
+        for number in range(self.num_held_back):
+            pairs = _read(self._file("held", number))
+            for place, step in enumerate(self.steps):
+                batch = self._at(pairs, torch.full((len(pairs.end),), place))
+                batch = DistillBatch(*(value.to(device) for value in vars(batch).values()))
+                loss = self.training_step(module, batch)["loss"].item()
+                sums.setdefault(f"loss-{step}", []).append(loss)
+        self.figures = {key: sum(values) / len(values) for key, values in sums.items()}
+        return self.figures
+
+    # ------------------------------------------------------------ results
+
+    def _student(self, module: nn.Module) -> TextToMotion:
+        assert isinstance(module, GuidedDenoiser)
+        before, config = self.teacher, self.config
+        generation = before.network.generation.model_copy(
+            update={
+                "guidance_scale": 1.0,
+                "sampling_steps": config.student_steps,
+                "sampler": "ddpm",  # new noise after each step, as consistency models want it
+            }
+        )
+        learned = {
+            "from": before.card.name,
+            "steps": config.steps,
+            "teacher-steps": config.teacher_steps,
+            "guidance": before.network.generation.guidance_scale,
+            "validation": self.figures,
+        }
+        network = before.network.model_copy(update={"generation": generation})
+        update = {
+            "name": Path(config.output).name,
+            "network": network,
+            "training": {**before.card.training, "distilled": learned},
+        }
+        student = MotionDenoiser(network, len(before.card.tags))
+        student.load_state_dict(module.denoiser.state_dict())
+        return TextToMotion(
+            student,
+            before.text,
+            before.tokenizer,
+            mean=before.mean,
+            std=before.std,
+            card=before.card.model_copy(update=update),
+            scope=before.scope,
+            style_map=before.style_map,
+            device=next(module.parameters()).device.type,
+        )
+
+    def save_pretrained(self, module: nn.Module, folder: Path) -> None:
+        """A folder that `generate --model` reads."""
+        self._student(module).save_pretrained(folder)
+
+
+def _is_made(file: Path, made_of: dict[str, str]) -> bool:
+    if not file.is_file():
+        return False
+    with safe_open(file, "pt") as stored:
+        return bool(stored.metadata() == made_of)
+
+
+def _write(file: Path, pairs: Pairs, made_of: dict[str, str]) -> None:
+    tensors = {key: value.cpu().contiguous() for key, value in vars(pairs).items()}
+    half = {key: tensors[key].half() for key in ("states", "end")}
+    with atomic_write(file) as temporary:
+        save_file({**tensors, **half}, temporary, metadata=made_of)
+
+
+def _read(file: Path) -> Pairs:
+    with safe_open(file, "pt") as stored:
+        tensors = {key: stored.get_tensor(key) for key in stored.keys()}  # noqa: SIM118
+    return Pairs(**{k: v.float() if v.dtype == torch.float16 else v for k, v in tensors.items()})
+
+
+def network_of(init: str) -> NetworkConfig:
+    """The network of a model that can be distilled.
+
+    Raises:
+        UserError: no such model, or of another kind.
+        UsageError: it hears the tokens of a text, or does not predict clean motion.
+    """
+    network = network_of_model(init)
+    if (kind := network.generation.prediction_type) != "sample":
+        raise UsageError(
+            f"init {init} predicts {kind}, of which a single step from noise makes no motion; name"
+            " a model with prediction-type: sample"
+        )
+    if network.generation.text_conditioning != "pooled":
+        raise UsageError(
+            f"init {init} hears the tokens of a text, and pairs hold one vector a text; name a"
+            " model with text-conditioning: pooled"
+        )
+    return network
+
+
+app = Stage(
+    TrainDistillConfig,
+    DistillTask,
+    "train_distill",
+    "Teach a copy of a text model to sample in one or a few steps, without guidance.",
+    network=own_network(network_of),
+    flags={"init": "the teacher"},
+    example="--data data/mine --init starter --output runs/quick",
+).app()
+
+if __name__ == "__main__":
+    app()
