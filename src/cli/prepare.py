@@ -161,6 +161,7 @@ def prepare_audio(
     ] = False,
     seed: Annotated[int, typer.Option(help="Of every choice.")] = 0,
     workers: Annotated[int, typer.Option(help="Processes.")] = 1,
+    scheduler: options.Scheduler = None,
     json: options.Json = False,
 ) -> None:
     """Pair motions with music so that motion beats fall on music beats.
@@ -191,7 +192,7 @@ def prepare_audio(
     sources = open_music(music, seed=seed, meter=meter)
     synthetic = synthetic_clips or motion == "synthetic"
     with sole_writer(out):
-        data = open_motion(motion, out)
+        data = open_motion(motion, out, workers, scheduler)
         with progress_bar("songs") as progress:
             report = pair_all(
                 data,
@@ -199,6 +200,7 @@ def prepare_audio(
                 out,
                 options=PairOptions(min_seconds, max_seconds, passes, synthetic, seed),
                 workers=workers,
+                scheduler=scheduler,
                 progress=progress,
             )
         write_bands(out)
@@ -208,7 +210,7 @@ def prepare_audio(
         print_pairs(report, out)
 
 
-def open_motion(motion: str, out: Path) -> "PreparedData":
+def open_motion(motion: str, out: Path, workers: int, scheduler: str | None) -> "PreparedData":
     """A prepared folder; BVH files and synthetic motions are prepared beside the pairs, once."""
     from ..shared.data.prepare import open_data
     from ..shared.data.prepared import PreparedData
@@ -222,7 +224,8 @@ def open_motion(motion: str, out: Path) -> "PreparedData":
     from ..shared.data.pairing.prepare_audio import prepare_unlabelled
 
     tell(f"preparing the motion files of {folder} ...")
-    return prepare_unlabelled(folder, out / ".motion" / "bvh")
+    place = out / ".motion" / "bvh"
+    return prepare_unlabelled(folder, place, workers=workers, scheduler=scheduler)
 
 
 def write_bands(out: Path) -> None:

@@ -31,7 +31,7 @@ FLAGS = {
     ),
     "prepare-audio": (
         "--json --max-seconds --meter --min-seconds --motion --music --no-synthetic-clips --out"
-        " --passes --seed --synthetic-clips --workers"
+        " --passes --scheduler --seed --synthetic-clips --workers"
     ),
     "shape-check": (
         "--device --full --json --model --network-file --network-profile --no-root-track"

@@ -165,6 +165,11 @@ class PreparedData:
         assert split is None or split in SPLITS
         return [r for r in self._all_records if split is None or r.split == split]
 
+    @cached_property
+    def records_by_id(self) -> dict[str, ClipRecord]:
+        """Every record by its id."""
+        return {record.id: record for record in self._all_records}
+
     def features(self, record: ClipRecord) -> Tensor:
         """Raw features [T,23,6] float32 of a record, mirrored where it says so.
 

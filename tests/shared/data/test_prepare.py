@@ -21,6 +21,7 @@ from src.shared.errors import UsageError, UserError
 from src.shared.formats.writers.bvh import write_bvh
 from src.shared.motion.features import ROOT_ROW, YAW_RATE, encode_features, mirror_features
 from tests.deadly_source import DeadlySource
+from tests.files import files_of
 from tests.full_disk import full_disk
 
 
@@ -164,14 +165,6 @@ def test_a_cluster_and_a_killed_worker_do_not_change_the_result(
     prepare([source], tmp_path / "one", workers=1)
     cluster, one = (files_of(tmp_path / name) for name in ("cluster", "one"))
     assert cluster == one and len(one) == 5 + 2 * 8
-
-
-def files_of(folder: Path) -> dict[str, bytes]:
-    return {
-        path.relative_to(folder).as_posix(): path.read_bytes()
-        for path in folder.rglob("*")
-        if path.is_file()
-    }
 
 
 def test_what_is_skipped_is_named_with_its_reason(tmp_path: Path) -> None:

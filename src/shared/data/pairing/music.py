@@ -198,5 +198,5 @@ def open_music(
         elif not Path(name).is_dir():
             raise UsageError(f"--music {name} is no folder; name one, or synthetic:N")
         else:
-            sources.append(FolderMusic(Path(name), meter, seed))
+            sources.append(FolderMusic(Path(name).absolute(), meter, seed))
     return sources

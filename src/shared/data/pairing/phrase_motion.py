@@ -334,24 +334,30 @@ def lay(
 Entry = dict[str, Any]
 
 
-def add_bodies(out: Path, entries: Sequence[Entry], data: PreparedData) -> None:
-    """Write the bodies that are missing, and put each into its phrase's record.
+def add_body(out: Path, entry: Entry, data: PreparedData) -> None:
+    """Write the body of a phrase; its entry, as `pair_song` makes them, learns of it.
 
     Args:
-        out: folder of the pairs; the marks in its `phrases` learn of the body.
-        entries: of phrases, as `pair_song` returns them; `record` gets `body`, `tag`,
-            `caption` and `clips`.
+        out: folder of the pairs.
         data: the clips.
     """
-    records = {record.id: record for record in data.records()}
+    pieces, warp = read_pair(entry["pair"])
+    records = data.records_by_id
+    features = phrase_body(
+        pieces, warp, entry["pair"]["frames"], lambda name: data.features(records[name])
+    )
+    entry["body"] = write_body(out, entry["id"], features.numpy()).model_dump()
+
+
+def describe(out: Path, entries: Sequence[Entry], data: PreparedData) -> None:
+    """Put body, tag, caption and clips of phrases into their records; bodies that are missing
+    are made, as in folders of before.
+    """
+    records = data.records_by_id
     for entry in entries:
         stored = StoredObject(**entry["body"]) if "body" in entry else None
         if stored is None or not is_whole(out / stored.path, stored.sha256):
-            pieces, warp = read_pair(entry["pair"])
-            frames = entry["pair"]["frames"]
-            features = phrase_body(pieces, warp, frames, lambda n: data.features(records[n]))
-            stored = write_body(out, entry["id"], features.numpy())
-            entry["body"] = stored.model_dump()
+            add_body(out, entry, data)
             write_json(out / "phrases" / f"{entry['id']}.json", entry)
         parts = entry["pair"]["pieces"]
         longest = max(parts, key=lambda piece: piece["last"] - piece["first"])
@@ -359,7 +365,7 @@ def add_bodies(out: Path, entries: Sequence[Entry], data: PreparedData) -> None:
         captions = data.captions(shown)
         spoken = captions.get("en") or next(iter(captions.values()), [])
         entry["record"] |= {
-            "body": stored.model_dump(),
+            "body": entry["body"],
             "tag": shown.tag,
             "caption": _one_of(spoken, entry["id"]),
             "clips": sorted({part["clip"].removesuffix(MIRRORED) for part in parts}),

@@ -14,7 +14,8 @@ The folder that `prepare-audio` writes:
     bands.json                        what real motions measure, for the sanity suite
     report.json                       alignment before and after, warps, seams, what was left out
 
-A test phrase has a song and clips that occur in no other split. Work is done a song at a time;
+A test phrase has a song and clips that occur in no other split. Work is done a song at a time, by
+processes here or on a cluster (`run_jobs`);
 `phrases/{id}.json` marks a finished phrase under a key made of all that went into it, so that a
 second run, or a run after an interruption, does only what is missing.
 """
@@ -22,6 +23,7 @@ second run, or a run after an interruption, does only what is missing.
 import hashlib
 import json
 import shutil
+import threading
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
@@ -32,7 +34,7 @@ import numpy as np
 
 from ...errors import UserError
 from ...io.arrays import load_array, load_arrays
-from ...io.files import inside, is_whole, load_json, write_json
+from ...io.files import clear_unfinished, inside, is_whole, load_json, write_json
 from ...io.jobs import finished_record, run_jobs
 from ...metrics.rhythm import motion_beats
 from ...motion.style import measure_style
@@ -42,10 +44,10 @@ from ..prepare import prepare
 from ..prepared import PreparedData
 from ..sources.caption_tables import Piece
 from ..sources.folders import MotionFolder
-from .clip_library import FPS, MARGIN, Clip, ClipLibrary, open_library
+from .clip_library import FPS, MARGIN, ClipLibrary, open_library
 from .music import Music, MusicSource, SongEntry
 from .pair import MIN_SCORE, PhrasePair, pair_phrase
-from .phrase_motion import KNOT_SECONDS, SPARE, add_bodies
+from .phrase_motion import KNOT_SECONDS, SPARE, add_body, describe
 
 WINDOW_FRAMES = 120  # TECH §6.1's target length
 STD_FLOOR = 1e-4  # a row that does not vary is not blown up
@@ -218,13 +220,45 @@ class PairOptions:
     seed: int = 0
 
 
+@dataclass(frozen=True)
+class Motions:
+    """The clips that a job takes its motion from, by name: each process reads them once."""
+
+    folder: Path
+    manifest_hash: str
+    synthetic: bool
+    seed: int
+
+    def open(self, data: PreparedData | None = None) -> tuple[PreparedData, ClipLibrary]:
+        """The folder and its usable clips.
+
+        Args:
+            data: the folder, where it is open already.
+
+        Raises:
+            UserError: the folder is damaged, or was written anew.
+        """
+        with _OPENING:
+            if self not in _OPENED:
+                data = data or PreparedData(self.folder, verify=False)
+                if data.manifest_hash != self.manifest_hash:
+                    raise UserError(f"{self.folder} has changed meanwhile; run prepare-audio again")
+                _OPENED.clear()
+                _OPENED[self] = data, open_library(data, synthetic=self.synthetic, seed=self.seed)
+            return _OPENED[self]
+
+
+_OPENED: dict[Motions, tuple[PreparedData, ClipLibrary]] = {}  # the last
+_OPENING = threading.Lock()
+
+
 @dataclass(frozen=True, eq=False)
 class SongJob:
     """What one song's phrases are made of; `key` changes when any of it does."""
 
     source: MusicSource
     entry: SongEntry
-    clips: tuple[Clip, ...]
+    motions: Motions
     out: Path
     options: PairOptions
     key: str
@@ -232,6 +266,8 @@ class SongJob:
 
 def pair_song(job: SongJob) -> list[dict[str, Any]]:
     """Make the phrases of one song that are missing; what cannot be made is recorded."""
+    if done := finished_song(job):  # by a worker that was lost before it could tell
+        return done
     try:
         music = job.source.read(job.entry)
     except UserError as error:
@@ -273,7 +309,8 @@ def _cuts(num_frames: int, job: SongJob) -> list[tuple[int, int]]:
 def _pair(job: SongJob, name: str, music: Music, start: int, stop: int) -> dict[str, Any]:
     begin, seconds = start / FPS, (stop - start) / FPS
     beats = music.beats_around(begin, begin + seconds)
-    pair = pair_phrase(job.clips, beats, stop - start, _rng(job, name))
+    data, library = job.motions.open()
+    pair = pair_phrase(library.of_split(job.entry.split), beats, stop - start, _rng(job, name))
     if pair is None:
         return _mark(job, {"id": name, "reason": "no beat, or no clip fits the tempo"})
     if pair.score < MIN_SCORE:
@@ -301,7 +338,9 @@ def _pair(job: SongJob, name: str, music: Music, start: int, stop: int) -> dict[
         song=job.entry.id,
         tempo=tempo,
     )
-    return _mark(job, _entry(name, record, pair, start))
+    entry = _entry(name, record, pair, start)
+    add_body(job.out, entry, data)
+    return _mark(job, entry)
 
 
 def _inside(times: np.ndarray, begin: float, seconds: float) -> np.ndarray:
@@ -381,15 +420,20 @@ def finished_song(job: SongJob) -> list[dict[str, Any]] | None:
 CAPTION = {"en": ["a person moves"]}  # what keeps `prepare` from skipping an unlabelled clip
 
 
-def prepare_unlabelled(source: Path, out: Path) -> PreparedData:
+def prepare_unlabelled(
+    source: Path, out: Path, *, workers: int | None = 1, scheduler: str | None = None
+) -> PreparedData:
     """Prepare every motion file of a folder, labelled or not, once; then open it.
+
+    Args:
+        workers, scheduler: who does it, as `run_jobs` has them.
 
     Raises:
         UserError: no motion file, or none can be used.
     """
     folder = MotionFolder.open(source)
     folder = replace(folder, table=dict.fromkeys(folder.files(), (Piece(captions=CAPTION),)))
-    prepare([folder], out, workers=1)
+    prepare([folder], out, workers=workers, scheduler=scheduler)
     return PreparedData.open(out)
 
 
@@ -404,7 +448,8 @@ def prepare_audio(
     out: Path,
     *,
     options: PairOptions,
-    workers: int = 1,
+    workers: int | None = 1,
+    scheduler: str | None = None,
     progress: Progress = lambda done, total: None,
 ) -> dict[str, Any]:
     """Pair the motions of a prepared folder with music; returns the report.
@@ -414,20 +459,25 @@ def prepare_audio(
         sources: of music.
         out: folder of the pairs.
         options: see `PairOptions`.
-        workers: processes.
+        workers, scheduler: who does it, as `run_jobs` has them.
         progress: called after each song.
 
     Raises:
         UserError: no clip moves enough, or no phrase at all could be made.
     """
-    library = open_library(data, synthetic=options.synthetic_clips, seed=options.seed)
+    motions = Motions(
+        data.folder.absolute(), data.manifest_hash, options.synthetic_clips, options.seed
+    )
+    _, library = motions.open(data)
     if not library.clips:
         raise UserError(
             f"{data.folder}: no clip can be used ({_counts(library.left_out)}); give motions that"
             " travel or step, or add the synthetic ones"
         )
-    jobs = _jobs(data, library, sources, out, options)
-    made = _run(jobs, workers, progress)
+    jobs = _jobs(motions, library, sources, out.absolute(), options)
+    made = _run(jobs, workers, scheduler, progress)
+    if scheduler is not None:
+        clear_unfinished(out)  # what workers that died left
     phrases = sorted((e for e in made if "record" in e), key=lambda e: e["id"])
     left_out = sorted((e for e in made if "record" not in e), key=lambda e: e["id"])
     if not phrases:
@@ -436,7 +486,7 @@ def prepare_audio(
             f"no phrase could be made of {len(jobs)} songs{example}"
             "; give longer songs or more clips"
         )
-    add_bodies(out, phrases, data)
+    describe(out, phrases, data)
     _remove_stale(out, {entry["id"] for entry in made})
     write_json(out / "manifest.json", _manifest(phrases, data, options))
     write_statistics(out, phrases)
@@ -450,7 +500,7 @@ def _counts(left_out: dict[str, int]) -> str:
 
 
 def _jobs(
-    data: PreparedData,
+    motions: Motions,
     library: ClipLibrary,
     sources: Sequence[MusicSource],
     out: Path,
@@ -459,23 +509,24 @@ def _jobs(
     jobs: dict[str, SongJob] = {}  # a song that two sources hold is taken once
     for source in sources:
         for entry in source.entries():
-            clips = tuple(library.of_split(entry.split))
-            if not clips:  # too few were there to hold any back for this split
-                entry, clips = replace(entry, split="train"), tuple(library.of_split("train"))
+            if not library.of_split(entry.split):  # too few to hold any back for this split
+                entry = replace(entry, split="train")
             made_of = (entry.id, entry.split, entry.fingerprint, asdict(options))
-            text = json.dumps([VERSION, data.manifest_hash, *made_of])
+            text = json.dumps([VERSION, motions.manifest_hash, *made_of])
             key = hashlib.sha256(text.encode()).hexdigest()
-            jobs.setdefault(entry.id, SongJob(source, entry, clips, out, options, key))
+            jobs.setdefault(entry.id, SongJob(source, entry, motions, out, options, key))
     return list(jobs.values())
 
 
-def _run(jobs: list[SongJob], workers: int, progress: Progress) -> list[dict[str, Any]]:
+def _run(
+    jobs: list[SongJob], workers: int | None, scheduler: str | None, progress: Progress
+) -> list[dict[str, Any]]:
     finished = [finished_song(job) for job in jobs]
     made = [entry for found in finished if found is not None for entry in found]
     todo = [job for job, found in zip(jobs, finished, strict=True) if found is None]
     done = len(jobs) - len(todo)
     progress(done, len(jobs))
-    for _, entries in run_jobs(pair_song, todo, workers):
+    for _, entries in run_jobs(pair_song, todo, workers, scheduler):
         made += entries
         progress(done := done + 1, len(jobs))
     return made

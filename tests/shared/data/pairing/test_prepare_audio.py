@@ -24,6 +24,7 @@ from src.shared.data.sources.folders import RawClip
 from src.shared.errors import UsageError, UserError
 from src.shared.io.files import sha256_file
 from src.shared.motion.motion import Motion
+from tests.files import files_of
 
 OPTIONS = PairOptions(min_seconds=4.0, max_seconds=7.0)
 MUSIC = SyntheticMusic(4, seed=3, seconds=12.0)
@@ -98,6 +99,17 @@ def test_alignment_rises_far_above_chance(made: tuple[Path, Any]) -> None:
     assert rates["p5"] >= 0.85 and rates["p95"] <= 1.15
     assert sum(report["warp"]["share"]) == pytest.approx(1, abs=0.01)
     assert report["clips"]["left_out"]["the pelvis hardly moves"] == 2
+
+
+def test_processes_and_a_cluster_do_not_change_the_result(
+    made: tuple[Path, Any], walks: PreparedData, tmp_path: Path, scheduler: str
+) -> None:
+    prepare_audio(walks, [MUSIC], tmp_path / "two", options=OPTIONS, workers=2)
+    prepare_audio(walks, [MUSIC], tmp_path / "cluster", options=OPTIONS, scheduler=scheduler)
+    one, two, cluster = (
+        files_of(path) for path in (made[0], tmp_path / "two", tmp_path / "cluster")
+    )
+    assert one == two == cluster
 
 
 def test_songs_and_clips_of_a_split_are_unseen_elsewhere(made: tuple[Path, Any]) -> None:
