@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from .src.shared.model.checkpoint import list_models as models
     from .src.shared.model.diffusion import Sampling
     from .src.shared.model.generation.constraint import Constraint
+    from .src.shared.model.hub import pull, push_to_hub
     from .src.shared.motion.motion import Motion
     from .src.shared.motion.trajectory import MotionTrajectory as Trajectory
     from .src.shared.pipelines.motion_generator import MotionGenerator, load
@@ -35,6 +36,8 @@ __all__ = [
     "load",
     "models",
     "prepare",
+    "pull",
+    "push_to_hub",
     "read_motion",
     "save",
 ]
@@ -49,6 +52,8 @@ _PLACES = {
     "load": "shared.pipelines.motion_generator",
     "models": "shared.model.checkpoint:list_models",
     "prepare": "shared.data.prepare",
+    "pull": "shared.model.hub",
+    "push_to_hub": "shared.model.hub",
     "read_motion": "shared.data.retarget.read_motion",
     "save": "shared.formats.registry:write_motion",
 }

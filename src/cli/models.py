@@ -1,4 +1,5 @@
-"""What can be named in `--model`: `models` lists, `calibrate` tries, `export-onnx` writes ONNX."""
+"""What can be named in `--model`: `models` lists it and exchanges it with a hub, `calibrate` tries
+it, `export-onnx` writes it as ONNX."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -10,18 +11,25 @@ import typer
 from ..shared import environment
 from ..shared.errors import UsageError, UserError
 from . import options
-from .console import print_columns, print_json, tell
+from .console import guarded, print_columns, print_json, tell, with_quiet
 
 COLUMNS = ("name", "kind", "trained", "licence", "size", "languages", "description")
 
 
-def models(json: options.Json = False) -> None:
-    """List shipped and trained models.
+models = typer.Typer(invoke_without_command=True, rich_markup_mode=None)
+
+
+def list_all(context: typer.Context, json: options.Json = False) -> None:
+    """List shipped and trained models; push one to a hub, pull one from there.
 
     \b
-    Example:
+    Examples:
       motion-tools models
+      motion-tools models pull user/model
     """
+    if context.invoked_subcommand is not None:
+        return
+
     from ..shared.model.checkpoint import list_models
 
     rows = list_models()
@@ -32,6 +40,94 @@ def models(json: options.Json = False) -> None:
         print("no models: none are shipped, and runs/ holds none; train one (see README.md)")
         return
     print_columns(COLUMNS, [[str(row[column]) for column in COLUMNS] for row in rows])
+
+
+def pull(
+    name: Annotated[str, typer.Argument(help="user/model, or user/model@REVISION.")],
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for a copy of one's own; else the cache alone.")
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Fetch again what is cached.")] = False,
+    json: options.Json = False,
+) -> None:
+    """Fetch a model from a hub and check every file; its name does wherever a model is named.
+
+    HF_ENDPOINT, HF_HUB_CACHE, HF_TOKEN and HF_HUB_OFFLINE are heard; docs/hub.md tells more.
+
+    \b
+    Examples:
+      motion-tools models pull user/model
+      motion-tools models pull user/model@v1 --out my-model
+      motion-tools generate --model user/model@v1 --prompt "a person waves"
+    """
+    if out is not None:
+        options.check_folder("--out", out)
+
+    from ..shared.model.hub import copy_files, parsed
+    from ..shared.model.hub import pull as fetch
+
+    folder = fetch(name, force=force)
+    if out is not None:
+        copy_files(folder, out)
+    if json:
+        found = {"model": parsed(name)[0], "revision": folder.name, "folder": str(out or folder)}
+        print_json(found)
+    else:
+        print(out or folder)
+
+
+def push(
+    model: Annotated[str, typer.Argument(help="A name that `models` lists, or a trained folder.")],
+    repo: Annotated[str, typer.Argument(help="user/model, or user/model@BRANCH.")],
+    licence: Annotated[
+        str | None, typer.Option(help="As the hub calls it, cc-by-4.0 say; else the model's own.")
+    ] = None,
+    dataset: Annotated[
+        list[str] | None, typer.Option(help="What it learned from; may be repeated.")
+    ] = None,
+    private: Annotated[
+        bool, typer.Option("--private", help="If the repository is not there, make a private one.")
+    ] = False,
+    message: Annotated[str | None, typer.Option(help="Of the commit.")] = None,
+    dry_run: Annotated[
+        bool, typer.Option("--dry-run", help="Print the card and the files, push nothing.")
+    ] = False,
+    json: options.Json = False,
+) -> None:
+    """Publish a model on a hub, with a model card, in one commit.
+
+    The card is README.md of the folder, or is made of what config.json says.
+
+    \b
+    Examples:
+      motion-tools models push runs/mine user/model --licence cc-by-4.0 --dry-run
+      motion-tools models push runs/mine user/model --licence cc-by-4.0 --dataset my-mocap
+    """
+    from ..shared.model.checkpoint import resolve_model
+    from ..shared.model.hub import model_files, parsed, push_to_hub, render_card
+
+    name, datasets = parsed(repo)[0], dataset or ()
+    if dry_run:
+        folder = resolve_model(model)
+        card = render_card(folder, name, licence=licence, datasets=datasets)
+        files = model_files(folder)
+        if json:
+            print_json({"card": card, "files": files})
+        else:
+            print(card, *files, sep="\n")
+        return
+    commit = push_to_hub(
+        model, repo, licence=licence, datasets=datasets, private=private, message=message
+    )
+    if json:
+        print_json({"model": name, "commit": commit})
+    else:
+        print(commit)
+
+
+models.callback()(with_quiet(guarded(list_all)))
+for command in (pull, push):
+    models.command(cls=options.Command)(with_quiet(guarded(command)))
 
 
 def export_onnx(

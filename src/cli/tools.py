@@ -84,7 +84,6 @@ for command in (
     calibrate,
     report,
     compare,
-    models,
     plot,
     export_onnx,
     studio,
@@ -93,6 +92,7 @@ for command in (
     kind = SuiteCommand if command is evaluate else Command
     app.command(cls=kind)(with_quiet(guarded(command)))
 app.add_typer(memory, name="memory")
+app.add_typer(models, name="models")
 app.add_typer(train, name="train")
 
 

@@ -88,6 +88,8 @@ FLAGS = {
     "memory build": "--bars --figures --json --out --space --split --takes --threads DATA",
     "memory query": "--json --memory --meter --model --space --threads --top-k ASK",
     "models": "--json",
+    "models pull": "--force --json --out NAME",
+    "models push": "--dataset --dry-run --json --licence --message --private MODEL REPO",
     "plot": "--out FILE",
 }
 
@@ -96,7 +98,9 @@ def all_commands(app: typer.Typer) -> dict[str, Any]:
     """Every command by name; those of a group as `group command`."""
     found = {}
     for name, command in get_command(app).commands.items():  # type: ignore[attr-defined]
-        inner = getattr(command, "commands", {"": command})
+        inner = {**getattr(command, "commands", {})}
+        if not inner or command.invoke_without_command:
+            inner[""] = command
         found |= {f"{name} {part}".strip(): one for part, one in inner.items()}
     return found
 

@@ -126,32 +126,39 @@ def write_checkpoint(
         # One entry only: safetensors writes several in an order of its own at each call, and the
         # same weights would hash differently. What they are is the card's to say.
         save_file(stored, temporary, metadata={"format": "pt"})
-    weights = WeightsInfo(
-        sha256=sha256_file(path),
-        bytes=path.stat().st_size,
-        dtype="int8" if int8 else "float16" if half else "float32",
-    )
+    weights = weights_info(path, "int8" if int8 else "float16" if half else "float32")
     card = card.model_copy(update={"weights": weights})
     write_json(folder / CARD_FILE, card.model_dump(mode="json", by_alias=True))
     return card
 
 
-def check_weights(folder: Path, card: ModelCard) -> Path:
+def weights_info(
+    path: Path, dtype: Literal["float32", "float16", "int8"] = "float16"
+) -> WeightsInfo:
+    """What a card says of a weights file that was just written."""
+    return WeightsInfo(sha256=sha256_file(path), bytes=path.stat().st_size, dtype=dtype)
+
+
+def check_weights(folder: Path, weights: WeightsInfo | None) -> Path:
     """The weights file of a model folder.
+
+    Args:
+        folder: of the model.
+        weights: what its card says of them.
 
     Raises:
         UserError: it is missing, truncated, or not the one the card vouches for.
     """
     path = Path(folder) / WEIGHTS_FILE
-    if card.weights is None or not path.is_file():
+    if weights is None or not path.is_file():
         raise UserError(f"{folder} holds no weights; train it, or copy {WEIGHTS_FILE} there too")
     size = path.stat().st_size
-    if size != card.weights.bytes:
+    if size != weights.bytes:
         raise UserError(
-            f"{path} has {size} bytes, {CARD_FILE} says {card.weights.bytes}: the file is cut off"
+            f"{path} has {size} bytes, {CARD_FILE} says {weights.bytes}: the file is cut off"
             " or another one; copy the model folder again"
         )
-    if sha256_file(path) != card.weights.sha256:
+    if sha256_file(path) != weights.sha256:
         raise UserError(
             f"{path} does not match the SHA-256 in {CARD_FILE}: it is damaged or another file;"
             " copy the model folder again"
@@ -169,7 +176,7 @@ def read_tensors(folder: Path, card: ModelCard) -> dict[str, "Tensor"]:
     from safetensors import SafetensorError
     from safetensors.torch import load_file
 
-    path = check_weights(folder, card)
+    path = check_weights(folder, card.weights)
     try:
         tensors = load_file(path)
     except SafetensorError as error:
@@ -313,10 +320,10 @@ def _a(noun: str) -> str:
 
 
 def resolve_model(name_or_folder: str | Path) -> Path:
-    """The folder of a model: a folder that holds one, or a shipped name.
+    """The folder of a model: one that holds it, a shipped name, or `user/model` on a hub.
 
     Raises:
-        UserError: neither; an untrained profile says how to train it.
+        UserError: none of them; an untrained profile says how to train it.
     """
     folder = Path(name_or_folder)
     for place in (folder, run_folder(folder)):
@@ -325,6 +332,8 @@ def resolve_model(name_or_folder: str | Path) -> Path:
     name = str(name_or_folder)
     if folder.name == name and (PRETRAINED / name / CARD_FILE).is_file():
         return PRETRAINED / name
+    if (fetched := from_hub(name_or_folder)) is not None:
+        return fetched
     shipped = sorted(path.parent.name for path in PRETRAINED.glob(f"*/{CARD_FILE}"))
     if name in profile_names():
         use = f", or use --model {shipped[0]}" if shipped else ""
@@ -340,3 +349,16 @@ def resolve_model(name_or_folder: str | Path) -> Path:
         )
     hint = f"; did you mean {nearest(name, shipped)!r}? `models` lists all" if shipped else ""
     raise UserError(f"no model named {name!r}, and no such folder{hint}")
+
+
+def from_hub(name: str | Path) -> Path | None:
+    """The folder of a model on a hub; None where the name is not `user/model[@revision]`.
+
+    Raises:
+        UserError: as of `hub.pull`.
+    """
+    if not isinstance(name, str) or "/" not in name:
+        return None
+    from .hub import hub_name, pull
+
+    return pull(name) if hub_name(name) else None

@@ -90,7 +90,8 @@ class MotionGenerator:
         """With a text model or an audio model, and the shipped one of the other kind.
 
         Args:
-            name_or_folder: a name that `models` lists, or a folder that training wrote.
+            name_or_folder: a name that `models` lists, a folder that training wrote, or
+                `user/model[@revision]` on a hub.
             options: as of the class.
 
         Raises:
@@ -397,8 +398,36 @@ class MotionGenerator:
         return MotionStream(self.text, prompts, **options)
 
 
-def load(name_or_folder: str | Path = TEXT_MODEL, **options: Any) -> MotionGenerator:
-    """See `MotionGenerator.from_pretrained`."""
+def load(
+    name_or_folder: str | Path = TEXT_MODEL,
+    *,
+    revision: str | None = None,
+    cache_dir: str | Path | None = None,
+    local_files_only: bool = False,
+    endpoint: str | None = None,
+    **options: Any,
+) -> MotionGenerator:
+    """See `MotionGenerator.from_pretrained`; of `user/model` on a hub more can be said.
+
+    Args:
+        name_or_folder: a name that `models` lists, a folder, or `user/model[@revision]`.
+        revision, cache_dir, local_files_only, endpoint: as of `hub.pull`; of a hub's model alone.
+        options: as of `MotionGenerator`.
+
+    Raises:
+        UsageError: they are given for what is no name on a hub.
+        UserError: no such model, damaged, or not to be had.
+    """
+    if revision or cache_dir or local_files_only or endpoint:
+        from ..model.hub import pull
+
+        name_or_folder = pull(
+            str(name_or_folder),
+            revision=revision,
+            cache_dir=cache_dir,
+            local_files_only=local_files_only,
+            endpoint=endpoint,
+        )
     return MotionGenerator.from_pretrained(name_or_folder, **options)
 
 

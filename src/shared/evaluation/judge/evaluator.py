@@ -30,7 +30,14 @@ from ...config_schema import Config
 from ...errors import UserError
 from ...io.files import atomic_write, load_json, sha256_file, write_json
 from ...metrics.retrieval import NUM_BUCKETS, caption_buckets
-from ...model.checkpoint import PRETRAINED, of_another_version
+from ...model.checkpoint import (
+    PRETRAINED,
+    WeightsInfo,
+    check_weights,
+    from_hub,
+    of_another_version,
+    weights_info,
+)
 from ...motion.features import FORWARD, HEIGHT, LATERAL, YAW_RATE, encode_features
 from ...motion.motion import Motion
 from ...motion.rotations import forward_kinematics, rotation_6d_to_matrix
@@ -218,7 +225,9 @@ class Evaluator(nn.Module):
         }
         with atomic_write(folder / WEIGHTS) as path:
             save_file(state, path)
-        content = {"kind": "evaluator", "evaluator": self.config.model_dump(), **(notes or {})}
+        vouched = {"weights": weights_info(folder / WEIGHTS).model_dump()}
+        config = {"kind": "evaluator", "evaluator": self.config.model_dump()}
+        content = {**config, **(notes or {}), **vouched}
         write_json(folder / "config.json", content)
 
     @classmethod
@@ -241,6 +250,8 @@ class Evaluator(nn.Module):
             )
         try:
             content = dict(load_json(folder / "config.json"))
+            if vouched := content.pop("weights", None):  # older ones have none
+                check_weights(folder, WeightsInfo.model_validate(vouched))
             weights = load_file(folder / WEIGHTS)
         except (OSError, ValueError, TypeError, SafetensorError) as error:
             raise UserError(
@@ -270,8 +281,8 @@ class Evaluator(nn.Module):
 
 
 def evaluator_folder(name: Path | str) -> Path:
-    """That of a shipped evaluator, or the one named."""
-    return Path(name) if Path(name).is_dir() else PRETRAINED / str(name)
+    """That of a shipped evaluator, the one named, or one from a hub."""
+    return Path(name) if Path(name).is_dir() else from_hub(name) or PRETRAINED / str(name)
 
 
 # ---------------------------------------------------------------- what it sees of a motion

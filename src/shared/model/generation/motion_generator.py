@@ -473,7 +473,7 @@ def _from_export(folder: Path, card: ModelCard) -> Loaded:
     from .onnx_networks import OnnxDenoiser, OnnxTextTower
 
     export = read_onnx_card(folder, TextOnnxCard)
-    check_weights(folder, card)
+    check_weights(folder, card.weights)
     threads = sampling_threads()
     return (
         OnnxDenoiser(folder, card.network, export, threads),
