@@ -6,7 +6,8 @@ A text tower of token pairs sends each sentence to one of its places. A new acti
 its own, and the tower learns to send the clips' captions there and all other sentences where it
 sent them before. Then low-rank adapters (Hu et al. 2022, LoRA) learn what is at the new place. They
 are open for texts that come out there and closed for all others: of what the model knew, nothing
-changes. No clip that it was trained on is needed.
+changes. No clip that it was trained on is needed. With `actions=` it is known actions that are
+learned better, in adapters at the places that they have.
 
 Letters: B batch, T frames, R rows of a frame, P places, D shared dimensions.
 """
@@ -73,6 +74,7 @@ class TrainActionConfig(TrainConfig):
     losses: LossWeights = LossWeights()
     constraints: ConstraintShares = ConstraintShares()  # of networks with generation.constraints
     tower_steps: int = Field(300, ge=1)  # of the text tower, before the motion
+    actions: tuple[str, ...] = ()  # known ones, to be learned better; none: what is new
 
 
 @dataclass(frozen=True)
@@ -104,11 +106,13 @@ class ActionTask(Task):
         self.before = TextToMotion.from_pretrained(config.init, device="cpu")
         self.data = open_training_data(config, network)
         known = set(self.before.card.tags)
-        self.actions = tuple(sorted(set(self.data.tags) - known))
+        self.actions = config.actions or tuple(sorted(set(self.data.tags) - known))
         self._check()
         self.train = training_set(config, self.data, self.actions)
-        self.tags = (*self.before.card.tags, *self.actions)
-        self.tower, place_of = self._taught_tower()
+        self.tags = (
+            self.before.card.tags if config.actions else (*self.before.card.tags, *self.actions)
+        )
+        self.tower, place_of = self._known_tower() if config.actions else self._taught_tower()
         self.places = torch.stack([place_of[record.group] for record in self.train.records])
         self.row_of = {record.id: row for row, record in enumerate(self.train.records)}
         self.network = self._adapted_network(network)
@@ -121,6 +125,11 @@ class ActionTask(Task):
         self.figures: dict[str, float] = {}
 
     def _check(self) -> None:
+        if unknown := sorted(set(self.config.actions) - set(self.before.card.tags)):
+            raise UserError(
+                f"actions={','.join(unknown)}: {self.config.init} does not know that action; leave"
+                " `actions` out, and it learns what is new in the data"
+            )
         if not self.actions:
             there = ", ".join(self.data.tags) or "none"
             raise UserError(
@@ -161,6 +170,17 @@ class ActionTask(Task):
         )
         return tower, dict(zip(groups, places, strict=True))
 
+    def _known_tower(self) -> tuple[TextTower, dict[str, Tensor]]:
+        """The tower as it is; and for every group the place [D] that most of its captions go to."""
+        before = self.before.text
+        places = before.get_buffer("places").float()
+        found = {}
+        for record in {r.group: r for r in self.train.records}.values():
+            texts = self._captions(record)
+            nearest = encode_captions(before, self.before.tokenizer, texts) @ places.T
+            found[record.group] = places[nearest.argmax(-1).mode().values]
+        return before, found
+
     def _captions(self, record: ClipRecord) -> list[str]:
         """Of every clip of its group, in every language."""
         texts = {
@@ -184,10 +204,12 @@ class ActionTask(Task):
         denoiser, old = MotionDenoiser(self.network, len(self.tags)), self.before.denoiser
         before, every = old.state_dict(), self.tower.get_buffer("places")
         ranks, tags = self.network.generation.adapter_ranks, before[TAG_WEIGHT]
-        added = tags[-1:].expand(len(self.actions), -1)  # a new tag tells no more than none
-        adapter_of = torch.full((len(every),), len(ranks))
+        number = len(self.tags) - len(self.before.card.tags)
+        added = tags[-1:].expand(number, -1)  # a new tag tells no more than none
+        adapter_of = torch.zeros(len(every)).long()
         known = len(self.before.text.get_buffer("places"))
-        adapter_of[:known] = before.get("adapter_of", torch.zeros(known))
+        adapter_of[:known] = before.get("adapter_of", adapter_of[:known])
+        adapter_of[(every.float() @ self.places.unique(dim=0).T).argmax(0)] = len(ranks)
         denoiser.load_state_dict(
             {
                 **denoiser.state_dict(),
@@ -278,11 +300,12 @@ class ActionTask(Task):
         update = {
             "name": Path(self.config.output).name,
             "tags": self.tags,
-            "description": f"{before.card.description}; and {', '.join(self.actions)}",
+            "description": before.card.description
+            + ("" if self.config.actions else f"; and {', '.join(self.actions)}"),
             "training": {**before.card.training, "actions": learned},
         }
         scope = before.scope
-        if scope is not None:
+        if scope is not None and not self.config.actions:
             for action in self.actions:
                 texts = [
                     text

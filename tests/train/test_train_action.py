@@ -122,6 +122,28 @@ def test_nothing_that_was_known_changes(model: Path, flops: Path, tmp_path: Path
     assert torch.equal(sampled(new, places[-1]), sampled(both, places[-1]))
 
 
+def test_a_known_action_is_learned_better_where_it_is(model: Path, tmp_path: Path) -> None:
+    """The tower stays, and adapters open for that action alone."""
+    data = prepared_clips(tmp_path, "bow", ["a person bows", "someone takes a bow"])
+    config = action_config(data, model, tmp_path / "better", "steps=4", "actions=[bow]")
+    Trainer(config, lambda c: ActionTask(c, network_of(str(model))), command="again").train()
+    old, new = (TextToMotion.from_pretrained(each, device="cpu") for each in (model, config.output))
+    for key, value in old.text.state_dict().items():
+        assert torch.equal(value, new.text.state_dict()[key])
+    texts = ["a person bows", "someone takes a bow", *OLD]
+    opened = new.denoiser.opened(new.encode_prompts(texts).pooled)[:, 0] > 0
+    assert new.denoiser.get_buffer("adapter_of").sum() == 1 and not opened.all()
+    assert new.card.tags == old.card.tags
+    both = [each.generate(texts, seconds=1.0, steps=2) for each in (old, new)]
+    for before, after, better in zip(*both, opened, strict=True):
+        if not better:
+            torch.testing.assert_close(before.quaternions, after.quaternions)
+    with pytest.raises(UserError, match="does not know that action"):
+        ActionTask(
+            action_config(data, model, tmp_path / "x", "actions=[sing]"), network_of(str(model))
+        )
+
+
 def test_a_tower_taught_anew_opens_the_adapters(model: Path, tmp_path: Path) -> None:
     """The combinations that adapters learned lie where these open; an action that the new tower is
     not taught is gone."""
