@@ -1,7 +1,9 @@
 """`convert`: any motion file in, any format out; `inspect`: what is in one, and how it is read."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, fields, is_dataclass, replace
+from functools import lru_cache
+from operator import itemgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -10,18 +12,11 @@ import typer
 from ..shared.errors import UsageError, UserError
 from ..shared.io.files import same_place
 from . import options
-from .console import complain, counted, note_replaced, tell
-
-if TYPE_CHECKING:
-    from ..shared.motion.motion import Motion
-
-from dataclasses import asdict
-from typing import TYPE_CHECKING
-
-from .console import print_json
+from .console import complain, counted, note_replaced, print_json, tell
 
 if TYPE_CHECKING:
     from ..shared.data.retarget.read_motion import Inspection
+    from ..shared.motion.motion import Motion
 
 
 ROOTS = ("on", "in-place")
@@ -30,10 +25,10 @@ READABLE = (".bvh", ".amc", ".glb", ".npz", ".npy", ".csv")
 
 @dataclass(frozen=True)
 class Job:
-    """One file to read and those to write from it, by format."""
+    """One file to read and those to write from it, each with its format."""
 
     source: Path
-    targets: dict[str, Path]
+    targets: tuple[tuple[str, Path], ...]
 
 
 def convert(
@@ -69,6 +64,8 @@ def convert(
     resume: Annotated[
         bool, typer.Option("--resume", help="Into a folder: skip files newer than their IN.")
     ] = False,
+    workers: Annotated[int, typer.Option(help="Processes.")] = 1,
+    scheduler: options.Scheduler = None,
     json: options.Json = False,
 ) -> None:
     """Convert motion files: any mocap in, any tool out.
@@ -80,33 +77,40 @@ def convert(
       motion-tools convert mocap/ converted/ --format glb,amass
     """
     from ..shared.formats.rig import joint_names
+    from ..shared.io.jobs import run_jobs
 
     if root not in ROOTS:
         raise UsageError(f"--root {root!r} is unknown; choose from {', '.join(ROOTS)}")
-    options.check_ranges(fps=fps, source_fps=source_fps)
+    options.check_ranges(fps=fps, source_fps=source_fps, workers=workers)
     joint_names(names)
     jobs = list(plan(files, format))
-    formats = list(dict.fromkeys(name for job in jobs for name in job.targets))
+    formats = list(dict.fromkeys(name for job in jobs for name, _ in job.targets))
     check_rigged(formats, names, skeleton)
     check_sources(jobs, asf, skeleton)
     kept = {job.source for job in jobs if resume and is_done(job)}
     jobs = [job for job in jobs if job.source not in kept]
     folder = files[-1] if format else files[-1].parent
-    note_replaced((path for job in jobs for path in job.targets.values()), folder)
-    write = writer(skeleton, mapping, names)
+    note_replaced((path for job in jobs for _, path in job.targets), folder)
     reading = {"mapping": mapping, "unit": unit, "up": up, "fps": fps, "skeleton": asf}
-    rows, faults = [], []
-    for job in jobs:
-        try:
-            rows.append(one(job, reading | {"source_fps": source_fps}, root, write))
-        except UserError as error:
+    how = How(reading | {"source_fps": source_fps}, root, names, skeleton, mapping)
+    tasks = {anchored(job) if scheduler else job: job for job in jobs}
+    how = anchored(how) if scheduler else how
+    done, faults = {}, []
+    todo = [(task, how) for task in tasks]
+    for (task, _), (length, error) in run_jobs(attempt, todo, workers, scheduler):
+        job = tasks[task]
+        if error is not None:
             if len(jobs) + len(kept) == 1 or isinstance(error, UsageError):
-                raise
+                raise error
             complain(f"error: {error}")
             faults.append({"file": str(job.source), "error": str(error)})
             continue
+        made = {name: str(path) for name, path in job.targets}
+        done[job] = {"source": str(job.source)} | length | {"files": made}
         if not json:
-            print(*rows[-1]["files"].values(), sep="\n", flush=True)
+            print(*made.values(), sep="\n", flush=True)
+    rows = [done[job] for job in jobs if job in done]
+    faults.sort(key=itemgetter("file"))
     report(rows, faults, sorted(map(str, kept)), json=json)
     if faults:
         raise UserError(
@@ -135,7 +139,7 @@ def plan(files: list[Path], format: str | None) -> Iterator[Job]:
         name = format_of(out)
         check_apart(sources[0], out)
         options.check_file("OUT", out)
-        yield Job(sources[0], {name: out})
+        yield Job(sources[0], ((name, out),))
         return
     formats = list(
         dict.fromkeys(part.strip().lower() for part in format.split(",") if part.strip())
@@ -147,8 +151,8 @@ def plan(files: list[Path], format: str | None) -> Iterator[Job]:
     options.check_folder("OUT", out)
     taken: dict[Path, Path] = {}
     for source, place in found(sources):
-        targets = {name: out / f"{place}.{ending(name)}" for name in formats}
-        for target in targets.values():
+        targets = tuple((name, out / f"{place}.{ending(name)}") for name in formats)
+        for _, target in targets:
             check_apart(source, target)
             if target in taken:
                 raise UsageError(f"{taken[target]} and {source} would both become {target}; "
@@ -186,7 +190,7 @@ def check_sources(jobs: list[Job], asf: Path | None, skeleton: Path | None) -> N
     if asf is not None and not any(job.source.suffix.lower() == ".amc" for job in jobs):
         raise UsageError(f"--asf {asf} is the skeleton of an .amc, and IN is none; leave it out")
     for job in jobs:
-        for target in job.targets.values():
+        for _, target in job.targets:
             if skeleton is not None and same_place(skeleton, target):
                 raise UsageError(f"{target} is the skeleton's own file; name another OUT")
 
@@ -218,35 +222,58 @@ def is_done(job: Job) -> bool:
     if not job.source.exists():  # a link to nowhere: reading tells
         return False
     when = job.source.stat().st_mtime
-    return all(path.exists() and path.stat().st_mtime >= when for path in job.targets.values())
+    return all(path.exists() and path.stat().st_mtime >= when for _, path in job.targets)
 
 
 # ---------------------------------------------------------------- doing it
 
 
-def one(
-    job: Job, reading: dict[str, Any], root: str, write: "Callable[[Motion, Path], Path]"
-) -> dict[str, Any]:
-    """Read one file and write its targets; what was done."""
+@dataclass(frozen=True)
+class How:
+    """What all files of a command have in common."""
+
+    reading: dict[str, Any]
+    root: str
+    names: str
+    skeleton: Path | None
+    mapping: Path | None
+
+
+def anchored(value: Any) -> Any:
+    """The same with paths that lead there from anywhere, for workers of a cluster."""
+    if isinstance(value, Path):
+        return value.absolute()
+    if isinstance(value, dict):
+        return {name: anchored(one) for name, one in value.items()}
+    if isinstance(value, tuple):
+        return tuple(map(anchored, value))
+    if is_dataclass(value) and not isinstance(value, type):
+        return replace(value, **{f.name: anchored(getattr(value, f.name)) for f in fields(value)})
+    return value
+
+
+def attempt(task: tuple[Job, How]) -> tuple[dict[str, Any], UserError | None]:
+    """Read one file and write its targets; how long it is, or the fault."""
     from ..shared.data.retarget.read_motion import read_motion
     from ..shared.motion.motion import in_place
 
-    motion = read_motion(job.source, **reading)
-    motion = in_place(motion) if root == "in-place" else motion
-    for path in job.targets.values():
-        write(motion, path)
-    return {
-        "source": str(job.source),
-        "frames": motion.num_frames,
-        "fps": motion.fps,
-        "files": {name: str(path) for name, path in job.targets.items()},
-    }
+    job, how = task
+    try:
+        motion = read_motion(job.source, **how.reading)
+        motion = in_place(motion) if how.root == "in-place" else motion
+        write = writer(how.skeleton, how.mapping, how.names)
+        for _, path in job.targets:
+            write(motion, path)
+    except UserError as error:
+        return {}, error
+    return {"frames": motion.num_frames, "fps": motion.fps}, None
 
 
+@lru_cache(maxsize=1)
 def writer(
     skeleton: Path | None, mapping: Path | None, names: str
 ) -> "Callable[[Motion, Path], Path]":
-    """What writes a motion: on our skeleton, or on the user's, which is read once."""
+    """What writes a motion: on our skeleton, or on the user's, which is read once a process."""
     from ..shared.formats.registry import write_motion
 
     if skeleton is None:

@@ -52,6 +52,8 @@ def build(
         str | None, typer.Option(help="Of the data: train, val or test; train.")
     ] = None,
     bars: Annotated[int | None, typer.Option(help="Length of a phrase; 2.")] = None,
+    workers: Annotated[int, typer.Option(help="Processes.")] = 1,
+    scheduler: options.Scheduler = None,
     threads: options.Threads = None,
     json: options.Json = False,
 ) -> None:
@@ -64,10 +66,10 @@ def build(
       motion-tools memory build data/pairs --out data/memory
       motion-tools memory build my-dances --figures --takes takes.csv --out data/figures
     """
-    options.check_ranges(threads=threads)
+    options.check_ranges(threads=threads, workers=workers)
     options.check_folder("--out", out)
     if figures:
-        refuse_with("--figures", space=space, split=split, bars=bars)
+        refuse_with("--figures", space=space, split=split, bars=bars, scheduler=scheduler)
         remember_figures(Path(data), takes, out, json=json)
         return
     refuse_with("a memory of phrases (--figures makes one of figures)", takes=takes)
@@ -89,6 +91,8 @@ def build(
             out,
             config=config,
             split=split,
+            workers=workers,
+            scheduler=scheduler,
             progress=progress,
             space_name=space if not Path(space).is_dir() else str(Path(space).resolve()),
         )

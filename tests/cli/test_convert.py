@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,7 @@ from src.shared.formats.readers.bvh import read_bvh
 from src.shared.formats.readers.glb import read_glb_skeleton
 from src.shared.formats.registry import write_motion
 from src.shared.motion.motion import Motion
+from tests.files import files_of
 from tests.shared.data.retarget.test_round_trips import differences
 
 
@@ -117,6 +119,27 @@ def test_links_that_lead_nowhere_do_not_stop_the_rest(
     assert [path.name for path in (tmp_path / "out").iterdir()] == ["walk.csv"]
 
 
+def test_a_cluster_writes_what_one_process_does(
+    walk: Path, tmp_path: Path, scheduler: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With relative paths, which a worker would look for elsewhere."""
+    source = tmp_path / "in"
+    for number in range(3):
+        write_motion(stroll(20 + number), source / f"{number}/walk.npz")
+    (source / "broken.npz").write_bytes(b"no motion")
+    monkeypatch.chdir(tmp_path)
+    told = []
+    for options in ([], ["--scheduler", scheduler]):
+        result = run("in", "out", "--format", "bvh,csv", "--json", *options)
+        assert result.exit_code == 1 and "1 file of 4 could not be converted" in result.stderr
+        told.append((json.loads(result.stdout), files_of(tmp_path / "out")))
+        shutil.rmtree("out")
+    one, cluster = told
+    assert len(one[1]) == 6 and one[1] == cluster[1]
+    assert one[0]["converted"] == cluster[0]["converted"]
+    assert [Path(fault["file"]).name for fault in cluster[0]["failed"]] == ["broken.npz"]
+
+
 def test_resume_skips_what_is_newer(walk: Path, tmp_path: Path) -> None:
     source = write_motion(stroll(5), tmp_path / "a.npz")
     arguments = (source, walk, tmp_path / "out", "--format", "bvh", "--resume", "--json")
@@ -164,7 +187,7 @@ def test_missing_files_are_named(walk: Path, tmp_path: Path) -> None:
     (tmp_path / "empty").mkdir()
     result = run(tmp_path / "empty", tmp_path / "out", "--format", "glb")
     assert (result.exit_code, "holds no motion file" in result.stderr) == (1, True)
-    result = run(walk, tmp_path / ("a" * 240 + ".glb"))
+    result = run(walk, tmp_path / ("a" * 248 + ".glb"))
     assert (result.exit_code, "shorten its name" in result.stderr) == (2, True)
     result = run(walk, tmp_path / "a.glb", "--skeleton", tmp_path / "hero.glb")
     assert (result.exit_code, "hero.glb" in result.stderr) == (1, True)

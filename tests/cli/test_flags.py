@@ -20,8 +20,8 @@ FLAGS = {
         " --steps --style --tag --then --threads --timeline --to"
     ),
     "convert": (
-        "--asf --format --fps --json --mapping --names --resume --root --skeleton --source-fps"
-        " --unit --up FILES"
+        "--asf --format --fps --json --mapping --names --resume --root --scheduler --skeleton"
+        " --source-fps --unit --up --workers FILES"
     ),
     "inspect": ("--json --mapping --skeleton --source-fps --unit --up --write-mapping FILE"),
     "features": "--cache --cache-dir --chroma --json --meter --no-cache --out --plot SONG",
@@ -85,7 +85,9 @@ FLAGS = {
         " --window"
     ),
     "studio": "--json --model --no-open --out",
-    "memory build": "--bars --figures --json --out --space --split --takes --threads DATA",
+    "memory build": (
+        "--bars --figures --json --out --scheduler --space --split --takes --threads --workers DATA"
+    ),
     "memory query": "--json --memory --meter --model --space --threads --top-k ASK",
     "models": "--json",
     "models pull": "--force --json --out NAME",

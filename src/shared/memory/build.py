@@ -6,12 +6,15 @@ What is done is kept in parts/ until the memory is whole, so that a stopped buil
 Letters: B pieces at a time, C = 163 or 167 rows of sound, T frames, D width of the space.
 """
 
+import copy
 import hashlib
 import json
+import os
 import shutil
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import islice
 from pathlib import Path
 from typing import Any, Protocol
@@ -26,6 +29,7 @@ from ..data.phrases.layout import BadContent, PhraseRecord
 from ..data.phrases.store import Backoff, PhraseStore, Remote, Unreachable
 from ..errors import UserError
 from ..io.files import parse_json
+from ..io.jobs import run_jobs
 from ..motion.features import LEFT_CONTACT, ROOT_ROW
 from ..motion.trajectory import FPS, encode_window, place_window
 from .index import MANIFEST, MemoryConfig, MemoryIndex, Phrase
@@ -98,6 +102,7 @@ class Source:
 
     Attributes:
         records: with bodies.
+        total: how many these are, or are a part of.
         bad: phrases that could not be used, with the reason.
 
     Raises:
@@ -106,7 +111,7 @@ class Source:
 
     def __init__(self, root: str, split: str) -> None:
         self.root = root
-        remote = Remote(root, backoff=Backoff())
+        remote = Remote(root if "://" in root else os.path.abspath(root), backoff=Backoff())
         self.store = PhraseStore(remote, None)
         everything = remote.phrases()
         self.records = [record for record in everything if record.split == split]
@@ -120,6 +125,7 @@ class Source:
                 f"{root}: {len(bare)} of {len(self.records)} phrases have no body.npz (e.g."
                 f" {bare[0]}), which a memory of motion needs; {AGAIN}"
             )
+        self.total = len(self.records)
         self._pairs = _pairs(remote)
         self._captions = {
             _longest(self._pairs[record.id]): record.caption
@@ -127,27 +133,38 @@ class Source:
             if record.id in self._pairs and record.caption
         }
 
-    def pieces(
-        self, config: MemoryConfig, progress: Progress, *, first: int = 0, last: int | None = None
-    ) -> Iterator[Piece]:
-        """The phrases from `first` to before `last`, cut at bars.
+    def part(self, first: int, last: int) -> "Source":
+        """The phrases from `first` to before `last`, as light as can be: for a job elsewhere."""
+        part = copy.copy(self)
+        part.records, part.bad = self.records[first:last], {}
+        part._pairs = {r.id: self._pairs[r.id] for r in part.records if r.id in self._pairs}
+        clips = {piece["clip"] for pair in part._pairs.values() for piece in pair["pieces"]}
+        part._captions = {clip: self._captions[clip] for clip in clips & self._captions.keys()}
+        return part
+
+    def pieces(self, config: MemoryConfig) -> Iterator[Piece]:
+        """The phrases, cut at bars.
 
         Raises:
             UserError: too many are bad.
         """
-        for done, record in enumerate(self.records[first:last], first + 1):
+        for record in self.records:
             try:
                 yield from self._cut(record, config)
             except (BadContent, Unreachable) as error:
-                self._leave_out(record, str(error))
-            progress(done, len(self.records))
+                self.leave_out({record.id: str(error)})
 
-    def _leave_out(self, record: PhraseRecord, reason: str) -> None:
-        self.bad[record.id] = reason
-        if len(self.bad) > MAX_BAD_FRACTION * len(self.records):
+    def leave_out(self, reasons: dict[str, str]) -> None:
+        """Phrases, with the reason of each.
+
+        Raises:
+            UserError: too many are bad.
+        """
+        self.bad |= reasons
+        if len(self.bad) > MAX_BAD_FRACTION * self.total:
             named = "; ".join(f"{name}: {why}" for name, why in islice(self.bad.items(), 3))
             raise UserError(
-                f"{self.root}: more than {MAX_BAD_FRACTION:.0%} of {len(self.records)} phrases"
+                f"{self.root}: more than {MAX_BAD_FRACTION:.0%} of {self.total} phrases"
                 f" cannot be used ({named}); {AGAIN}; prepare the data again"
             )
 
@@ -222,7 +239,6 @@ class Space(Protocol):
         """Raw features [B,T,23,6], mask [B,T] → unit [B,D]."""
 
 
-@torch.no_grad()
 def build_memory(
     data: str | Path,
     space: Space,
@@ -230,6 +246,8 @@ def build_memory(
     *,
     config: MemoryConfig | None = None,
     split: str = "train",
+    workers: int | None = 1,
+    scheduler: str | None = None,
     progress: Progress = lambda done, total: None,
     space_name: str = "",
 ) -> MemoryIndex:
@@ -244,8 +262,9 @@ def build_memory(
         config: `bars` and `min_frames` of a phrase; above `library_above` the index library's
             tables are made too, if it is installed.
         split: of the data.
-        progress: called after each phrase of the data.
-        space_name: name or folder, for whoever opens the memory.
+        workers, scheduler: who does it, as `run_jobs` has them.
+        progress: called after each part of the data.
+        space_name: name or folder, for whoever opens the memory, and for workers.
 
     Raises:
         UserError: no such data, no bodies in it, more than 5% of it unusable, or `out` cannot be
@@ -255,13 +274,13 @@ def build_memory(
     source = Source(str(data), split)
     made_of, out = _made_of(source.records, space, config), Path(out)
     if _opened(out, made_of):
-        progress(len(source.records), len(source.records))
+        progress(source.total, source.total)
     else:
-        parts = [
-            part
-            for first in range(0, len(source.records), CHUNK)
-            if (part := _part(source, first, space, config, out / PARTS, made_of, progress))
-        ]
+        here = scheduler is None and workers == 1
+        jobs = _jobs(source, space if here or not space_name else space_name,
+                     space.fingerprint, config, out.absolute() / PARTS, made_of)  # fmt: skip
+        _run(jobs, source, workers, scheduler, progress)
+        parts = [part for job in jobs if (part := _opened(job.folder, made_of))]
         if not parts:
             raise UserError(
                 f"{source.root}: no phrase is long enough to be cut at bars; lower min-frames"
@@ -304,33 +323,75 @@ def _opened(folder: Path, made_of: str) -> MemoryIndex | None:
 # ---------------------------------------------------------------- parts
 
 
-def _part(
+@dataclass(frozen=True, eq=False)
+class _Job:
+    """A part of the phrases, kept as a memory of its own; `space` itself, or its name."""
+
+    source: Source
+    space: Space | str
+    fingerprint: str
+    config: MemoryConfig
+    folder: Path
+    made_of: str
+
+
+def _jobs(
     source: Source,
-    first: int,
-    space: Space,
+    space: Space | str,
+    fingerprint: str,
     config: MemoryConfig,
     folder: Path,
     made_of: str,
-    progress: Progress,
-) -> MemoryIndex | None:
-    """The pieces of `CHUNK` phrases from `first` on; None where all are too short.
+) -> list[_Job]:
+    return [
+        _Job(source.part(first, first + CHUNK), space, fingerprint, config,
+             folder / f"{first:08d}", made_of)
+        for first in range(0, source.total, CHUNK)
+    ]  # fmt: skip
 
-    Kept as a memory of its own. One that leaves a phrase out is not kept: the phrase may be better
-    next time.
-    """
-    last = min(first + CHUNK, len(source.records))
-    folder = folder / f"{first:08d}"
-    if part := _opened(folder, made_of):
-        progress(last, len(source.records))
-        return part
-    bad = len(source.bad)
-    phrases = _embedded(list(source.pieces(config, progress, first=first, last=last)), space)
-    if not phrases:
-        return None
-    part = MemoryIndex.from_phrases(phrases, made_of=made_of)
-    if len(source.bad) == bad:
-        part.save(folder)
-    return part
+
+def _run(
+    jobs: list[_Job],
+    source: Source,
+    workers: int | None,
+    scheduler: str | None,
+    progress: Progress,
+) -> None:
+    """Make the parts that are missing. One that left a phrase out is: it may be better now."""
+    todo = [job for job in jobs if not _whole(job)]
+    done = source.total - sum(len(job.source.records) for job in todo)
+    progress(done, source.total)
+    for job, bad in run_jobs(_make_part, todo, workers, scheduler):
+        source.leave_out(bad)
+        progress(done := done + len(job.source.records), source.total)
+
+
+def _whole(job: _Job) -> bool:
+    part = _opened(job.folder, job.made_of)
+    return part is not None and not part.about["left_out"]
+
+
+@torch.no_grad()
+def _make_part(job: _Job) -> dict[str, str]:
+    """Write a part, if any of its phrases is long enough; which were left out, and why."""
+    if _whole(job):  # by a worker that was lost before it could tell
+        return {}
+    space = _named(job.space) if isinstance(job.space, str) else job.space
+    if space.fingerprint != job.fingerprint:
+        raise UserError(f"{job.space} is another space on a worker; install the same version there")
+    phrases = _embedded(list(job.source.pieces(job.config)), space)
+    if phrases:
+        about = {"made_of": job.made_of, "left_out": job.source.bad}
+        MemoryIndex.from_phrases(phrases, **about).save(job.folder)
+    return job.source.bad
+
+
+@lru_cache(maxsize=1)
+def _named(name: str) -> Space:
+    """A space by name or folder, read once a process."""
+    from ..model.audio.shared_space import SharedSpace
+
+    return SharedSpace.from_pretrained(name)
 
 
 def _joined(parts: Sequence[MemoryIndex], **about: Any) -> MemoryIndex:

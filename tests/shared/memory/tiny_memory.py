@@ -70,6 +70,8 @@ class LinearSpace:
         generator = torch.Generator().manual_seed(seed)
         self.audio = torch.randn(167, self.embed_dim, generator=generator)
         self.motion = torch.randn(23 * 6, self.embed_dim, generator=generator)
+        for weights in (self.audio, self.motion):
+            weights.requires_grad_()
         self.fingerprint = hashlib.sha256(str(seed).encode()).hexdigest()
 
     def embed_audio(self, condition: Tensor, mask: Tensor | None = None) -> Tensor:
