@@ -409,9 +409,7 @@ SELECTION_LIMITS = {"num_subjects": (2, 10_000), "num_candidates": (2, 256)}
 
 def evaluate_selection(
     branch: Annotated[str, typer.Option(help="text, or audio.")] = "text",
-    model: Annotated[
-        str | None, typer.Option(help="A name that `models` lists, or a folder from training.")
-    ] = None,
+    model: Annotated[str | None, typer.Option(help=options.NAMED)] = None,
     judge: Annotated[
         str | None, typer.Option(help="Text: a folder of train_clip; starter has its own.")
     ] = None,

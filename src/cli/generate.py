@@ -132,9 +132,7 @@ def generate(
     out: Annotated[
         Path, typer.Option(envvar=environment.OUTPUT_DIR, help="Folder for the files.")
     ] = Path("outputs"),
-    model: Annotated[
-        str | None, typer.Option(help="A name that `models` lists, or a folder from training.")
-    ] = None,
+    model: Annotated[str | None, typer.Option(help=options.NAMED)] = None,
     body_model: Annotated[
         str | None, typer.Option(help="The same for the body that dances to a song; starter.")
     ] = None,

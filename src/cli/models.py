@@ -134,9 +134,7 @@ def export_onnx(
     out: Annotated[
         Path, typer.Option(help="Folder for the model with its graphs; may be the model's own.")
     ],
-    model: Annotated[
-        str | None, typer.Option(help="A name that `models` lists, or a folder from training.")
-    ] = None,
+    model: Annotated[str | None, typer.Option(help=options.NAMED)] = None,
     json: options.Json = False,
 ) -> None:
     """Write a model for onnxruntime, in Python or a browser: any text, any length, any batch.

@@ -15,7 +15,8 @@ from ..shared.errors import UsageError
 from ..shared.io.files import made_folder, unfinished
 from .console import complain
 
-Model = Annotated[str, typer.Option(help="A name that `models` lists, or a folder from training.")]
+NAMED = "A name that `models` lists, a folder from training, or user/model[@revision] on a hub."
+Model = Annotated[str, typer.Option(help=NAMED)]
 Device = Annotated[str, typer.Option(envvar=environment.DEVICE, help="auto, cpu, cuda or mps.")]
 Mapping = Annotated[Path | None, typer.Option(help="YAML that names your skeleton's joints.")]
 Unit = Annotated[
@@ -69,7 +70,7 @@ AudioModel = Annotated[
         "--model",
         "--diffusion-checkpoint",
         envvar=environment.DIFFUSION_CHECKPOINT,
-        help="A name that `models` lists, or a folder from training; it holds UNet and decoder.",
+        help=NAMED,
     ),
 ]
 OutputDir = Annotated[

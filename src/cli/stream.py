@@ -37,9 +37,7 @@ def stream(
     window: Annotated[
         float, typer.Option(help="Seconds made at a time: fewer hear sooner, more are cheaper.")
     ] = 0.5,
-    model: Annotated[
-        str, typer.Option(help="A name that `models` lists, or a folder from training.")
-    ] = TEXT_MODEL,
+    model: Annotated[str, typer.Option(help=options.NAMED)] = TEXT_MODEL,
     seed: Annotated[int, typer.Option(help="Same seed and sentences, same motion.")] = 0,
     steps: options.Steps = None,
     sampler: options.Sampler = None,

@@ -14,9 +14,7 @@ def studio(
     out: Annotated[
         Path, typer.Option(help="The page: an .html file, or a folder for its index.html.")
     ] = Path("outputs/studio.html"),
-    model: Annotated[
-        str, typer.Option(help="A name that `models` lists, or a folder from training.")
-    ] = environment.TEXT_MODEL,
+    model: Annotated[str, typer.Option(help=options.NAMED)] = environment.TEXT_MODEL,
     no_open: Annotated[bool, typer.Option("--no-open", help="Only write it.")] = False,
     json: options.Json = False,
 ) -> None:

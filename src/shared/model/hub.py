@@ -6,6 +6,7 @@ Cache, token, endpoint and offline mode are those of `huggingface_hub`: HF_HUB_C
 HF_ENDPOINT, HF_HUB_OFFLINE.
 """
 
+import logging
 import re
 import shutil
 import sys
@@ -207,6 +208,7 @@ def _told(repo: str, revision: str | None, endpoint: str | None, local: bool) ->
     name = f"{repo}@{revision}" if revision else repo
     offline = local or constants.is_offline_mode()
     log_in = "log in with `hf auth login`, or set HF_TOKEN"
+    logging.getLogger("huggingface_hub").propagate = False  # it writes to stderr by itself
     if not sys.stderr.isatty():
         utils.disable_progress_bars()
     try:
@@ -253,7 +255,8 @@ def _told(repo: str, revision: str | None, endpoint: str | None, local: bool) ->
     except OSError as error:
         reason = why_not_written(error)
         raise UserError(
-            f"cannot keep {name} in the cache: {reason}; free space, or set HF_HUB_CACHE"
+            f"cannot keep {name} in the cache, {constants.HF_HUB_CACHE}: {reason}; free space, or"
+            " set HF_HUB_CACHE to another folder"
         ) from error
 
 
