@@ -21,6 +21,11 @@ export class Engine {
       mean: weights.floats("statistics.mean"),
       std: weights.floats("statistics.std"),
       nullText: weights.floats("denoiser.null_pooled"),
+      adapters: settings.adapters && {
+        places: weights.floats("denoiser.places"),
+        adapterOf: weights.raw("denoiser.adapter_of", BigInt64Array),
+        number: settings.adapters,
+      },
     };
     const scope = new Scope(settings.scope, new Weights(parts.scope), tower);
     return new Engine(new Director(new Sampler(denoiser, tower, model), scope, model));

@@ -133,6 +133,7 @@ def settings(folder: Path, card: ModelCard) -> dict[str, Any]:
         "maxSeconds": card.max_seconds,
         "maxTokens": tokenizer["max-tokens"],
         "tags": len(card.tags),
+        "adapters": len(generation.adapter_ranks),
         "schedule": [[step, float(alpha_bar[step])] for step in steps],
         "guidance": generation.guidance_scale,
         "clip": generation.clip_sigma,

@@ -31,13 +31,14 @@ export class Denoiser {
    * @param {Float32Array[]} texts an embedding each
    * @param {number} tag
    * @param {Uint8Array} shown entries [T,R,C] that are clean
+   * @param {Float32Array|null} opened adapters, ones and zeros, the same for the whole batch
    * @returns {Promise<Float32Array[]>}
    */
-  async predict(batch, step, texts, tag, shown) {
+  async predict(batch, step, texts, tag, shown, opened = null) {
     if (this.helper && batch.length > 1) {
       const half = batch.length >> 1;
-      const there = this.helper(batch.slice(half), step, texts.slice(half), tag, shown);
-      const here = await this.predict(batch.slice(0, half), step, texts.slice(0, half), tag, shown);
+      const there = this.helper(batch.slice(half), step, texts.slice(half), tag, shown, opened);
+      const here = await this.predict(batch.slice(0, half), step, texts.slice(0, half), tag, shown, opened);
       return [...here, ...(await there)];
     }
     const number = batch.length, size = batch[0].length, frames = size / 138;
@@ -47,6 +48,7 @@ export class Denoiser {
       return whole;
     };
     const shape = [number, frames, 23, 6];
+    const heard = opened && { opened: new ort.Tensor("float32", all(batch.map(() => opened)), [number, opened.length]) };
     const { prediction } = await this.session.run({
       x: new ort.Tensor("float32", all(batch), shape),
       t: new ort.Tensor("int64", new BigInt64Array(number).fill(BigInt(step)), [number]),
@@ -54,6 +56,7 @@ export class Denoiser {
       tag: new ort.Tensor("int64", new BigInt64Array(number).fill(BigInt(tag)), [number]),
       mask: new ort.Tensor("bool", new Uint8Array(number * frames).fill(1), [number, frames]),
       known: new ort.Tensor("bool", all(batch.map(() => shown), Uint8Array), shape),
+      ...heard,
     });
     return batch.map((_, i) => prediction.data.slice(i * size, (i + 1) * size));
   }

@@ -9,7 +9,7 @@ export class Sampler {
    * @param {Denoiser} denoiser
    * @param {TextTower} tower
    * @param {object} settings of the model: mean, std [R*C], null_text, tags, schedule [[t, alpha bar]],
-   *     guidance, clip, prediction
+   *     guidance, clip, prediction, adapters {places [P*D], adapterOf [P], number} or null
    */
   constructor(denoiser, tower, settings) {
     Object.assign(this, { denoiser, tower, settings });
@@ -29,7 +29,7 @@ export class Sampler {
     const shown = given ? given.shown.map((is, i) => is && given.known[i]) : nothing;
     const values = new Float32Array(size);
     if (given) for (let i = 0; i < size; i++) if (given.known[i]) values[i] = (given.values[i] - mean[i % WIDTH]) / std[i % WIDTH];
-    const text = this.tower.encode(prompt);
+    const text = this.tower.encode(prompt), opened = this.opened(text);
     let x = start.slice();
     for (let i = 0; i < schedule.length; i++) {
       const [step, alphaBar] = schedule[i], next = i + 1 < schedule.length ? schedule[i + 1][1] : 1;
@@ -39,7 +39,7 @@ export class Sampler {
         input = x.slice();
         for (let j = 0; j < size; j++) if (given.known[j]) input[j] = shown[j] ? values[j] : a * values[j] + s * start[j];
       }
-      const output = await this.guided(input, step, text, nullText, tags, shown, guidance);
+      const output = await this.guided(input, step, text, nullText, tags, shown, guidance, opened);
       x = this.follow(x, output, a, s, next, given?.known, values);
     }
     const features = new Float32Array(size);
@@ -47,10 +47,24 @@ export class Sampler {
     return features;
   }
 
-  async guided(x, step, text, nullText, tags, shown, guidance) {
+  /** Which adapters a text opens, as the nearest place does; null for a model without. */
+  opened(text) {
+    const { adapters } = this.settings;
+    if (!adapters) return null;
+    const { places, adapterOf, number } = adapters, dim = text.length;
+    let nearest = 0, most = -Infinity;
+    for (let row = 0; row < adapterOf.length; row++) {
+      let cosine = 0;
+      for (let i = 0; i < dim; i++) cosine += places[row * dim + i] * text[i];
+      if (cosine > most) [nearest, most] = [row, cosine];
+    }
+    return Float32Array.from({ length: number }, (_, i) => Number(Number(adapterOf[nearest]) === i + 1));
+  }
+
+  async guided(x, step, text, nullText, tags, shown, guidance, opened) {
     if (guidance === 1 || guidance === 0)
-      return (await this.denoiser.predict([x], step, [guidance ? text : nullText], tags, shown))[0];
-    const [own, none] = await this.denoiser.predict([x, x], step, [text, nullText], tags, shown);
+      return (await this.denoiser.predict([x], step, [guidance ? text : nullText], tags, shown, opened))[0];
+    const [own, none] = await this.denoiser.predict([x, x], step, [text, nullText], tags, shown, opened);
     return own.map((value, i) => none[i] + guidance * (value - none[i]));
   }
 

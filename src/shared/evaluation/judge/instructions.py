@@ -1,5 +1,6 @@
 """Did the motion do what its labels say? The checks of `metrics/measurements.py`, by labels."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
@@ -7,6 +8,8 @@ from itertools import pairwise
 from ...data.synthetic.clips import SPEED_METRES, SPEEDS
 from ...metrics.measurements import CHECKS, Check, Measurements, credible, measure, repetitions
 from ...motion.motion import Motion
+
+ANGLE_WITHIN = 20.0  # degrees
 
 
 def faster(fast: Measurements, slow: Measurements) -> bool:
@@ -47,7 +50,7 @@ def check(labels: dict[str, str], motion: Motion | Measurements) -> dict[str, bo
     """What the labels ask for → whether the motion does it.
 
     Besides the names in `CHECKS` the answer may hold "count" (the named number of repetitions,
-    exactly), "speed" (the named speed class) and "angle" (within 30°).
+    exactly), "speed" (the named speed class) and "angle" (within 20°).
     Labels that cannot be measured (style, unknown actions) ask for nothing.
     """
     m = motion if isinstance(motion, Measurements) else measure(motion)
@@ -58,8 +61,8 @@ def check(labels: dict[str, str], motion: Motion | Measurements) -> dict[str, bo
     if "speed" in labels and (speed := speed_class(labels, m)) is not None:
         answers["speed"] = credible(m) and speed == labels["speed"]
     if "angle" in labels:
-        wanted = float(labels["angle"]) * 3.14159265 / 180
-        answers["angle"] = credible(m) and abs(abs(m.yaw) - wanted) < 0.52
+        off = abs(math.degrees(m.yaw)) - float(labels["angle"])
+        answers["angle"] = credible(m) and abs(off) < ANGLE_WITHIN
     return answers
 
 

@@ -434,7 +434,7 @@ def _exactness(yardstick: Yardstick, model: Model, requests: Sequence[Request], 
         Column("real", "captured clips", 2),
     )
     note = (
-        "Shares of hand-written sentences of all languages whose number, angle within 30°, length,"
+        "Shares of hand-written sentences of all languages whose number, angle within 20°, length,"
         " side or order is shown, beside the action itself. A body that never moves is at rest too:"
         " read the gestures that are obeyed."
     )
