@@ -12,6 +12,7 @@ HEAVY = {
     "torch",
     "numpy",
     "transformers",
+    "huggingface_hub",
     "scipy",
     "librosa",
     "yaml",

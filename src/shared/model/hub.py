@@ -363,11 +363,11 @@ def render_card(
     from huggingface_hub import ModelCard, ModelCardData
 
     content, path = _content(folder, str(folder)), folder / README
-    text = read_text(path, "a model card") if path.is_file() else _facts(content, repo)
+    text = whole = read_text(path, "a model card") if path.is_file() else _facts(content, repo)
     given: dict[str, Any] = {}
     try:
         if text.startswith("---"):
-            own = ModelCard(text)
+            own = ModelCard(whole)
             given, text = own.data.to_dict(), own.text
         asked = {"license": licence, "datasets": list(datasets)}
         said = given | {key: value for key, value in asked.items() if value}
@@ -385,7 +385,7 @@ def render_card(
             f"{folder} says nothing of its licence; give --licence, one of {', '.join(LICENCES)},"
             " or another that the hub knows"
         )
-    return f"---\n{head.strip()}\n---\n\n{text.lstrip()}"
+    return whole if merged == given else f"---\n{head.strip()}\n---\n\n{text.lstrip()}"
 
 
 def _metadata(content: Mapping[str, Any], repo: str) -> dict[str, Any]:

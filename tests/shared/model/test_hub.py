@@ -337,4 +337,4 @@ def test_shipped_cards_have_their_metadata(folder: Path):
     assert data.license == ("apache-2.0" if free else "cc-by-nc-4.0")
     assert data.library_name == "motionsuite" and data.pipeline_tag == TASKS[kind][0]
     assert TASKS[kind][1] in data.tags and data.datasets and data.eval_results
-    assert ModelCard(render_card(folder, REPO)).data.to_dict() == data.to_dict(), "nothing to add"
+    assert render_card(folder, REPO) == (folder / "README.md").read_text("utf-8"), "nothing to add"
