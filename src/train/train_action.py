@@ -209,7 +209,7 @@ class ActionTask(Task):
         adapter_of = torch.zeros(len(every)).long()
         known = len(self.before.text.get_buffer("places"))
         adapter_of[:known] = before.get("adapter_of", adapter_of[:known])
-        adapter_of[(every.float() @ self.places.unique(dim=0).T).argmax(0)] = len(ranks)
+        adapter_of[(every.float() @ torch.unique(self.places, dim=0).T).argmax(0)] = len(ranks)
         denoiser.load_state_dict(
             {
                 **denoiser.state_dict(),

@@ -141,7 +141,9 @@ class TextTask(Task):
         self.receiver = TextToMotion.from_pretrained(config.generator) if config.generator else None
         left_out = set(config.without)
         if unknown := sorted(left_out - set(self.data.tags)):
-            raise UserError(f"without={','.join(unknown)}: {config.data} has no such action")
+            raise UserError(
+                f"without={','.join(unknown)}: {config.data} has no such action; leave it out"
+            )
         records = [r for r in self.data.records("train") if r.tag not in left_out]
         self.labels = {record.group: record.labels for record in records if record.labels}
         if not self.labels:
