@@ -63,6 +63,7 @@ TOWER_RATE = 2e-2  # of rows that are new
 OLD_ROW_RATE = 0.1  # times that, of the others
 BABBLE = 0.3  # share of new captions with made-up words in them
 LEAST_CLIPS = 2
+MOST = 0.5  # share of a combination's captions that have to agree on its place
 
 
 class TrainActionConfig(TrainConfig):
@@ -171,14 +172,23 @@ class ActionTask(Task):
         return tower, dict(zip(groups, places, strict=True))
 
     def _known_tower(self) -> tuple[TextTower, dict[str, Tensor]]:
-        """The tower as it is; and for every group the place [D] that most of its captions go to."""
+        """The tower as it is; and for every group the place [D] that most of its captions go to, or
+        else most of its action's."""
         before = self.before.text
         places = before.get_buffer("places").float()
+        groups = {record.group: record for record in self.train.records}
+        nearest = {
+            group: (
+                encode_captions(before, self.before.tokenizer, self._captions(record)) @ places.T
+            ).argmax(-1)
+            for group, record in groups.items()
+        }
         found = {}
-        for record in {r.group: r for r in self.train.records}.values():
-            texts = self._captions(record)
-            nearest = encode_captions(before, self.before.tokenizer, texts) @ places.T
-            found[record.group] = places[nearest.argmax(-1).mode().values]
+        for group, record in groups.items():
+            own = nearest[group]
+            if (own == own.mode().values).float().mean() < MOST:
+                own = torch.cat([nearest[g] for g, r in groups.items() if r.tag == record.tag])
+            found[group] = places[own.mode().values]
         return before, found
 
     def _captions(self, record: ClipRecord) -> list[str]:

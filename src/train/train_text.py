@@ -48,7 +48,7 @@ from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.generation.denoiser import TAG_WEIGHT, MotionDenoiser
 from ..shared.model.generation.motion_generator import KIND as GENERATOR
 from ..shared.model.generation.motion_generator import TextToMotion
-from .captured_places import apart, nearest_styles, with_sentences, with_unstyled
+from .captured_places import apart, fuller_sides, nearest_styles, with_sentences, with_unstyled
 from .launch import Stage
 from .task import Part, Task, numpy_generator
 from .text_stages import (
@@ -250,7 +250,7 @@ class TextTask(Task):
             places = apart(places, labels, self.bundle.card.tags)
         if self.config.unstyled_as_captured:
             index = {group: row for row, group in enumerate(self.groups)}
-            found = nearest_styles(self.data, self.labels)
+            found = nearest_styles(self.data, self.labels) | fuller_sides(self.data, self.labels)
             rows, taken = ([index[g] for g in each] for each in (found, found.values()))
             places[rows] = places[taken]
         if self.receiver is not None and self.receiver.network.generation.adapter_ranks:
@@ -417,7 +417,8 @@ def with_tower(generator: TextToMotion, tags: Sequence[str]) -> MotionDenoiser:
     [P,D] where it did before it had that tower."""
     state = generator.denoiser.state_dict()
     places = generator.text.get_buffer("places").float()
-    alike = places @ state["places"].float().T  # [P, P of before]
+    known = normalize(state["places"].float(), dim=-1)  # weights in int8 are no longer unit
+    alike = normalize(places, dim=-1) @ known.T  # [P, P of before]
     moved = torch.where(alike.amax(-1) > SAME_PLACE, state["adapter_of"][alike.argmax(-1)], 0)
     rows = [generator.card.tags.index(tag) for tag in tags] + [-1]  # the last stands for none
     changed = MotionDenoiser(generator.network, len(tags))

@@ -13,7 +13,7 @@ from torch.nn.functional import normalize
 from src.shared.data.prepared import PreparedData
 from src.shared.model.generation.motion_generator import KIND as GENERATOR
 from src.train import train_text
-from src.train.captured_places import apart, nearest_styles, with_unstyled
+from src.train.captured_places import apart, fuller_sides, nearest_styles, with_unstyled
 from src.train.train_text import TextTask, open_tower
 
 
@@ -22,7 +22,8 @@ class Record:
     group: str
     labels: dict[str, str]
     provenance: str
-    level: float
+    level: float = 0.0
+    take: str = ""
 
 
 class Clips:
@@ -58,6 +59,22 @@ def test_the_style_nearest_to_none_stands_for_none() -> None:
     labels = {record.group: record.labels for record in clips.all}
     found = nearest_styles(cast(PreparedData, clips), labels)
     assert found == {"plain": "proud", "once": "proud", "bow": "bow-c"}
+
+
+def test_the_right_side_stands_for_none_where_it_is_shown_more_often() -> None:
+    kick, wave = {"action": "kick"}, {"action": "wave"}
+    sided = {"side": "right", "count": "1"}
+    clips = Clips(
+        Record("kick", kick, "captured", take="a"),
+        Record("kick", kick, "captured", take="a"),  # its mirror image
+        *(Record("kick-r", kick | sided, "procedural", take=take) for take in "bc"),
+        *(Record("kick-l", kick | {"side": "left"}, "procedural", take=take) for take in "def"),
+        *(Record("wave", wave, "captured", take=take) for take in "ghi"),
+        *(Record("wave-r", wave | sided, "captured", take=take) for take in "jk"),
+        Record("old", kick | {"style": "old"}, "captured", take="l"),
+    )
+    labels = {record.group: record.labels for record in clips.all}
+    assert fuller_sides(cast(PreparedData, clips), labels) == {"kick": "kick-r"}
 
 
 def test_what_is_only_there_in_styles_is_asked_for_without() -> None:
