@@ -1,11 +1,12 @@
 """How fast is sampling? Ours against an MDM-sized yardstick timed in the same run, and the command.
 
-python -m benchmarks.sampling [--model starter | --profile lightweight] [--threads 2] [--json OUT]
+python -m benchmarks.sampling [--model starter | --profile lightweight] [--runtime onnx]
+    [--steps N] [--threads 2] [--json OUT]
 
 The yardstick is a plain transformer encoder of MDM's size (Tevet et al. 2023: 8 layers, 512 wide,
 FFN 1024, 4 heads) with random weights, 50 guided steps, 120 frames. Ours is the whole of
-`TextToMotion.generate` for one prompt of 4 s with the model's own steps and guidance, from text
-to finished motion. The two alternate, so that both see the same machine.
+`TextToMotion.generate` for one prompt of 4 s with the model's own steps (or --steps) and guidance,
+from text to finished motion. The two alternate, so that both see the same machine.
 
 Letters: B batch, T frames, D width.
 """
@@ -28,6 +29,8 @@ PROMPT = "a person walks forward and waves with the left hand"
 MARK = "@seconds "
 
 if TYPE_CHECKING:
+    import torch
+
     from src.shared.model.generation.motion_generator import TextToMotion
 
 
@@ -54,12 +57,12 @@ def yardstick(steps: int = 50) -> Callable[[], None]:
     return sample
 
 
-def load_generator(model: str | None, profile: str) -> "TextToMotion":
+def load_generator(model: str | None, profile: str, runtime: str = "torch") -> "TextToMotion":
     """A trained model, or random weights of a profile: speed does not depend on training."""
     from src.shared.model.generation.motion_generator import TextToMotion
 
     if model:
-        return TextToMotion.from_pretrained(model, device="cpu")
+        return TextToMotion.from_pretrained(model, device="cpu", runtime=runtime)
     import torch
 
     from src.shared.config_loader import load_network
@@ -89,10 +92,10 @@ def timed(run: Callable[[], object]) -> float:
     return time.perf_counter() - start
 
 
-def compare(generator: "TextToMotion", repeats: int) -> dict[str, Any]:
+def compare(generator: "TextToMotion", repeats: int, steps: int | None) -> dict[str, Any]:
     """Seconds of ours and of the yardstick, alternating; the order changes every round."""
     runs: dict[str, Callable[[], object]] = {
-        "ours": lambda: generator.generate([PROMPT], seconds=SECONDS),
+        "ours": lambda: generator.generate([PROMPT], seconds=SECONDS, steps=steps),
         "yardstick": yardstick(),
     }
     for run in runs.values():  # first calls allocate and choose kernels
@@ -108,19 +111,23 @@ def compare(generator: "TextToMotion", repeats: int) -> dict[str, Any]:
         "seconds": medians,
         "all": times,
         "times_faster": medians["yardstick"] / medians["ours"],
-        "steps": settings.sampling_steps,
+        "steps": steps or settings.sampling_steps,
         "sampler": settings.sampler,
         "guidance_scale": settings.guidance_scale,
         "parameters": sum(p.numel() for p in generator.denoiser.parameters()),
     }
 
 
-def parts(generator: "TextToMotion", repeats: int) -> dict[str, float]:
+def parts(generator: "TextToMotion", repeats: int, steps: int | None) -> dict[str, float]:
     """Median seconds of the parts of `generate`: text, denoising, finishing."""
-    sample = generator.sample_features([PROMPT], seconds=SECONDS)[0]
+
+    def sampled() -> "list[torch.Tensor]":
+        return generator.sample_features([PROMPT], seconds=SECONDS, steps=steps)
+
+    sample = sampled()[0]
     calls: dict[str, Callable[[], object]] = {
         "text": lambda: generator.encode_prompts([PROMPT]),
-        "text and denoising": lambda: generator.sample_features([PROMPT], seconds=SECONDS),
+        "text and denoising": sampled,
         "post-processing": lambda: generator.post_processor(sample, text=PROMPT),
     }
     found = {
@@ -225,6 +232,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--model", help="shipped name or folder; left out: random weights")
     parser.add_argument("--profile", default="lightweight", help="of the random weights")
+    parser.add_argument("--runtime", choices=("torch", "onnx"), default="torch", help="of --model")
+    parser.add_argument("--steps", type=int, help="of sampling; left out: the model's own")
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument("--no-command", action="store_true", help="time sampling only")
@@ -234,13 +243,14 @@ def main() -> None:
     from src.shared.device import set_threads
 
     set_threads(arguments.threads)
-    generator = load_generator(arguments.model, arguments.profile)
+    generator = load_generator(arguments.model, arguments.profile, arguments.runtime)
     result: dict[str, Any] = {
         "threads": arguments.threads,
         "repeats": arguments.repeats,
         "model": arguments.model or f"random weights, profile {arguments.profile}",
-        "sampling": compare(generator, arguments.repeats),
-        "parts": parts(generator, arguments.repeats),
+        "runtime": arguments.runtime,
+        "sampling": compare(generator, arguments.repeats, arguments.steps),
+        "parts": parts(generator, arguments.repeats, arguments.steps),
     }
     if arguments.model and not arguments.no_command:
         result["command"] = command_times(arguments.model, arguments.threads, arguments.repeats)

@@ -56,6 +56,7 @@ class TrainDistillConfig(TrainConfig):
     """train_distill.yaml."""
 
     init: str = "starter"  # the teacher
+    student: str | None = None  # taught before, to go on from; None = it begins as the teacher
     teacher_steps: int = Field(8, ge=1)
     student_steps: int = Field(2, ge=1)  # it can take fewer, too
     pair_batches: int = Field(200, ge=1)  # of batch-size motions that the teacher samples
@@ -120,13 +121,25 @@ class DistillTask(Task):
         self.folder = Path(config.output) / PAIRS_FOLDER
         self._make_pairs()
         self.num_held_back = len(list(self.folder.glob("held-*.safetensors")))
-        student = MotionDenoiser(network, len(self.teacher.card.tags))
-        student.load_state_dict(self.teacher.denoiser.state_dict())
-        self.module: nn.Module = GuidedDenoiser(student)
+        self.module: nn.Module = GuidedDenoiser(self._beginning())
         self.loss = GenerationLoss(
             config.losses, self.diffusion, self.teacher.mean, self.teacher.std
         )
         self.figures: dict[str, float] = {}
+
+    def _beginning(self) -> MotionDenoiser:
+        """A copy of the teacher's denoiser, or of a student's that was taught before."""
+        before = self.teacher
+        if self.config.student is not None:
+            before = TextToMotion.from_pretrained(self.config.student, device="cpu")
+            if tower_hash(before.text) != tower_hash(self.teacher.text):
+                raise UsageError(
+                    f"student {self.config.student} is not of init {self.config.init}: it has"
+                    " another text tower; name its own teacher"
+                )
+        student = MotionDenoiser(self.network, len(self.teacher.card.tags))
+        student.load_state_dict(before.denoiser.state_dict())
+        return student
 
     def _student_timesteps(self) -> tuple[int, ...]:
         """Steps of the process that the student visits, the noisiest first."""
@@ -296,7 +309,6 @@ class DistillTask(Task):
             update={
                 "guidance_scale": 1.0,
                 "sampling_steps": config.student_steps,
-                "sampler": "ddpm",  # new noise after each step, as consistency models want it
             }
         )
         learned = {

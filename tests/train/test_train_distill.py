@@ -66,6 +66,9 @@ def test_a_student_learns_where_its_teacher_ends(
     before, after = (missed(task) for task in (untaught, taught))
     assert after < 0.8 * before
 
+    more = (f"student='{tmp_path / 'taught'}'", "steps=1", "learning-rate=1e-9", "ema-decay=0")
+    assert missed(distill(prepared, teacher, tmp_path / "on", *more)) < 0.8 * before
+
     student = TextToMotion.from_pretrained(tmp_path / "taught", device="cpu")
     generation = student.network.generation
     assert (generation.guidance_scale, generation.sampling_steps) == (1.0, 2)
@@ -123,6 +126,8 @@ def test_a_stopped_run_goes_on_with_its_pairs(
 def test_what_cannot_be_distilled_says_why(prepared: Path, teacher: Path, tmp_path: Path) -> None:
     with pytest.raises(UserError, match="starter-audio is a"):
         network_of("starter-audio")
+    with pytest.raises(UsageError, match="is not of init"):
+        distill(prepared, teacher, tmp_path / "y", "student=starter", "steps=1")
     with pytest.raises(UsageError, match="choose a multiple of student-steps 3"):
         distill(prepared, teacher, tmp_path / "x", "student-steps=3")
     assert not (tmp_path / "x").exists()
