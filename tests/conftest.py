@@ -3,6 +3,7 @@
 import logging
 import os
 from collections.abc import Iterator
+from pathlib import Path
 
 # Before torch and transformers are imported anywhere.
 os.environ.setdefault("OMP_NUM_THREADS", "1")
@@ -33,3 +34,18 @@ def scheduler() -> Iterator[str]:
         ) as cluster,
     ):  # fmt: skip
         yield cluster.scheduler_address
+
+
+@pytest.fixture
+def bucket(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
+    """gs:// address of an empty bucket of a real emulator, which any process finds."""
+    pytest.importorskip("gcp_storage_emulator")
+    from tests.shared.data.phrases.gcs_proxy import BUCKET, emulator  # sets a switch of gcsfs
+
+    gcsfs, fsspec = pytest.importorskip("gcsfs"), pytest.importorskip("fsspec")
+    with emulator(tmp_path / "emulator.log") as address:
+        for name, value in {"endpoint_url": address, "token": "anon"}.items():
+            monkeypatch.setenv(f"FSSPEC_GS_{name.upper()}", value)
+            monkeypatch.setitem(fsspec.config.conf.setdefault("gs", {}), name, value)
+        yield f"gs://{BUCKET}"
+        gcsfs.GCSFileSystem.clear_instance_cache()

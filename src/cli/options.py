@@ -13,6 +13,7 @@ from typer.core import TyperCommand
 from ..shared import environment
 from ..shared.errors import UsageError
 from ..shared.io.files import made_folder, unfinished
+from ..shared.io.storage import Address, Place, place
 from .console import complain
 
 NAMED = "A name that `models` lists, a folder from training, or user/model[@revision] on a hub."
@@ -131,12 +132,18 @@ def check_ranges(**values: float | None) -> None:
             raise UsageError(f"{flag} {value:g} is out of range; choose from {low:g} to {high:g}")
 
 
-def check_folder(flag: str, folder: Path) -> None:
+def check_folder(flag: str, folder: Place) -> None:
     """Refuse a path that cannot become a folder, before anything slow starts.
 
     Raises:
         UsageError: a file stands in the way, or it cannot be made or written to.
+        UserError: an address of a store that nothing can be written to.
     """
+    if isinstance(folder, Address):
+        trial = folder / ".trial"
+        trial.write_bytes(b"")
+        trial.unlink()
+        return
     for part in (folder, *folder.parents):
         if part.exists():
             if not part.is_dir():
@@ -193,7 +200,7 @@ def check_data(data: str) -> None:
     Raises:
         UsageError: neither `synthetic` nor a folder that `prepare` finished.
     """
-    if data != "synthetic" and not (Path(data) / "manifest.json").is_file():
+    if data != "synthetic" and not (place(data) / "manifest.json").is_file():
         raise UsageError(
             f"--data {data} is not prepared data (no manifest.json); name a folder that"
             " `prepare` wrote, or synthetic"

@@ -7,6 +7,7 @@ import typer
 
 from ..shared.errors import UsageError
 from ..shared.io.files import same_place
+from ..shared.io.storage import Place, place
 from . import options
 from .console import complain, print_json, progress_bar, tell
 
@@ -15,9 +16,11 @@ if TYPE_CHECKING:
 
 
 def prepare(
-    out: Annotated[Path, typer.Option(help="Folder for the training set.")],
+    out: Annotated[
+        str, typer.Option(metavar="PATH", help="Folder or address for the training set.")
+    ],
     source: Annotated[
-        list[Path] | None,
+        list[str] | None,
         typer.Argument(
             metavar="[SOURCE]...",
             help="Folders of motion files (bvh, amc, glb, npz, npy), or single files.",
@@ -72,8 +75,9 @@ def prepare(
     if only_gaps and not synthetic:
         raise UsageError("--only-gaps without --synthetic N; add it, or leave out --only-gaps")
     options.check_ranges(synthetic=synthetic, workers=workers, seed=seed, source_fps=source_fps)
-    options.check_folder("--out", out)
-    if any(same_place(out, root) for root in source or []):
+    target, roots = place(out), list(map(place, source or []))
+    options.check_folder("--out", target)
+    if any(same_place(target, root) for root in roots):
         raise UsageError(f"--out {out} is a SOURCE, whose files it would mix with; name another")
 
     from ..shared.data.prepare import prepare as prepare_folder
@@ -87,7 +91,7 @@ def prepare(
             check(value)  # before any clip is read
     reading = Reading(unit, up, skeleton, source_fps)
     folders = MotionFolder.open_all(
-        source or [], captions=captions or (), labels=labels, mapping=mapping, reading=reading
+        roots, captions=captions or (), labels=labels, mapping=mapping, reading=reading
     )
     for folder in folders:
         if folder.from_names and (wordless := folder.wordless()):
@@ -99,10 +103,10 @@ def prepare(
     sources: list[Source] = [*folders]
     if synthetic:
         sources.append(SyntheticSource(synthetic, seed))
-    with sole_writer(out), progress_bar("clips") as progress:
+    with sole_writer(target), progress_bar("clips") as progress:
         report = prepare_folder(
             sources,
-            out,
+            target,
             templates=templates,
             only_gaps=only_gaps,
             mirror=mirror,
@@ -115,15 +119,15 @@ def prepare(
         tables = ", ".join(map(str, captions or []))
         complain(
             f"warning: {len(unmatched)} clips in {tables} match no file, e.g."
-            f" {', '.join(unmatched[:3])}; {out / 'report.json'} lists them"
+            f" {', '.join(unmatched[:3])}; {target / 'report.json'} lists them"
         )
     if json:
         print_json(report)
     else:
-        print_summary(report, out)
+        print_summary(report, target)
 
 
-def print_summary(report: dict[str, Any], out: Path) -> None:
+def print_summary(report: dict[str, Any], out: Place) -> None:
     """What was made, what was left out, and what to do next."""
     minutes = report["seconds"] / 60
     print(f"{report['clips']} clips, {minutes:.1f} minutes, {report['groups']} label groups: {out}")
@@ -138,7 +142,7 @@ def print_summary(report: dict[str, Any], out: Path) -> None:
 
 def prepare_audio(
     motion: Annotated[
-        str, typer.Option(help="Folder from `prepare`, a folder of BVH files, or synthetic.")
+        str, typer.Option(help="Folder or address from `prepare`, or of BVH files; or synthetic.")
     ],
     music: Annotated[
         list[str], typer.Option(help="Folder of sound files, or synthetic:N; several if you like.")
@@ -180,7 +184,7 @@ def prepare_audio(
             f"--min-seconds {min_seconds:g} and --max-seconds {max_seconds:g}: choose"
             " 2 <= min <= max <= 120"
         )
-    if motion != "synthetic" and not Path(motion).is_dir():
+    if motion != "synthetic" and not place(motion).is_dir():
         raise UsageError(f"--motion {motion} is no folder; name one, or synthetic")
     options.check_folder("--out", out)
 
@@ -217,15 +221,15 @@ def open_motion(motion: str, out: Path, workers: int, scheduler: str | None) -> 
 
     if motion == "synthetic":
         return open_data(motion, out / ".motion")
-    folder = Path(motion)
+    folder = place(motion)
     if (folder / "manifest.json").exists():
         return PreparedData.open(folder)
 
     from ..shared.data.pairing.prepare_audio import prepare_unlabelled
 
     tell(f"preparing the motion files of {folder} ...")
-    place = out / ".motion" / "bvh"
-    return prepare_unlabelled(folder, place, workers=workers, scheduler=scheduler)
+    beside = out / ".motion" / "bvh"
+    return prepare_unlabelled(folder, beside, workers=workers, scheduler=scheduler)
 
 
 def write_bands(out: Path) -> None:

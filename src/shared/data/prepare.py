@@ -38,6 +38,7 @@ from ..io.files import (
     write_text,
 )
 from ..io.jobs import finished_record, run_jobs
+from ..io.storage import Place, fetched
 from ..motion.features import encode_features, mirror_features
 from .captions.book import CaptionBook
 from .captions.language import mirror_labels
@@ -70,7 +71,7 @@ class _Job:
     """One shard: the items of each source, which holds no more than they need."""
 
     parts: tuple[tuple[Source, tuple[str, ...]], ...]
-    path: Path
+    path: Place
     key: str
 
     @property
@@ -80,7 +81,7 @@ class _Job:
 
 def prepare(
     sources: Sequence[Source],
-    out: Path,
+    out: Place,
     *,
     templates: Path | None = None,
     only_gaps: bool = False,
@@ -90,7 +91,7 @@ def prepare(
     scheduler: str | None = None,
     progress: Progress = lambda done, total: None,
 ) -> dict[str, Any]:
-    """Prepare all clips of `sources` into the folder `out`; returns the report.
+    """Prepare all clips of `sources` into the folder or address `out`; returns the report.
 
     Args:
         templates: caption templates of the user's own (see src/configs/captions).
@@ -176,7 +177,7 @@ def open_data(data: str, cache: Path, *, synthetic_clips: int = SYNTHETIC_CLIPS)
 # ---------------------------------------------------------------- shards
 
 
-def _jobs(sources: tuple[Source, ...], items: list[tuple[int, str]], out: Path) -> list[_Job]:
+def _jobs(sources: tuple[Source, ...], items: list[tuple[int, str]], out: Place) -> list[_Job]:
     jobs = []
     for number, start in enumerate(range(0, len(items), CLIPS_PER_SHARD)):
         own = items[start : start + CLIPS_PER_SHARD]
@@ -243,7 +244,8 @@ def _make_shard(job: _Job) -> None:
     stacked = torch.cat(features) if features else torch.zeros(0, 23, 6)
     with atomic_write(job.path) as temporary:
         save_file({"features": stacked}, temporary)
-    sidecar = {"key": job.key, "sha256": sha256_file(job.path), "clips": clips, "skipped": skipped}
+        digest = sha256_file(temporary)
+    sidecar = {"key": job.key, "sha256": digest, "clips": clips, "skipped": skipped}
     write_json(job.path.with_suffix(".json"), sidecar)
 
 
@@ -283,7 +285,7 @@ def fill_gaps(clips: list[dict[str, Any]], *, mirror: bool) -> list[dict[str, An
     ]
 
 
-def _remove_stale_shards(out: Path, jobs: list[_Job]) -> None:
+def _remove_stale_shards(out: Place, jobs: list[_Job]) -> None:
     """Shards of an earlier, larger run, and what a worker that died left of one."""
     clear_unfinished(out / "shards")
     wanted = {job.path.stem for job in jobs}
@@ -340,14 +342,15 @@ def _group_captions(
     }
 
 
-def _write_statistics(out: Path, records: list[ClipRecord]) -> None:
+def _write_statistics(out: Place, records: list[ClipRecord]) -> None:
     """Mean and standard deviation per channel, over training clips and their mirror images."""
     shards: dict[str, torch.Tensor] = {}
     count, total, squares = 0, torch.zeros(23, 6), torch.zeros(23, 6)
     wanted = [r for r in records if r.split == "train"] or records
     for record in sorted(wanted, key=lambda r: (r.shard, r.offset)):
         if record.shard not in shards:
-            shards = {record.shard: load_file(out / "shards" / record.shard)["features"]}
+            with fetched(out / "shards" / record.shard) as path:
+                shards = {record.shard: load_file(path)["features"]}
         values = shards[record.shard][record.offset : record.offset + record.num_frames]
         if record.mirrored:
             values = mirror_features(values)
@@ -376,7 +379,7 @@ def _report(records: list[ClipRecord], skipped: list[dict[str, str]]) -> dict[st
 
 
 def _manifest(
-    out: Path,
+    out: Place,
     sources: tuple[Source, ...],
     jobs: list[_Job],
     records: list[ClipRecord],

@@ -10,7 +10,6 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
-from pathlib import Path
 from typing import Any
 
 import torch
@@ -22,6 +21,7 @@ from torch import Tensor
 from ..config_schema import Provenance
 from ..errors import UserError, first_fault
 from ..io.files import inside, is_whole, load_json, sha256_file
+from ..io.storage import Address, Place, fetched, place
 from ..motion.features import mirror_features
 from .captions.language import mirror_labels
 from .captions.schema import Labels
@@ -69,7 +69,7 @@ _RECORD = TypeAdapter(ClipRecord)
 
 
 @contextmanager
-def damaged(path: Path) -> Iterator[None]:
+def damaged(path: Place) -> Iterator[None]:
     """What fails inside is the fault of this file of a prepared folder.
 
     Raises:
@@ -96,7 +96,7 @@ def _checked(values: Tensor, shape: tuple[int, ...]) -> Tensor:
 class PreparedData:
     """A folder written by `prepare`, held in memory (an hour of motion is 60 MB)."""
 
-    def __init__(self, folder: Path, *, verify: bool = True) -> None:
+    def __init__(self, folder: Place, *, verify: bool = True) -> None:
         """Open a prepared folder.
 
         Args:
@@ -106,7 +106,7 @@ class PreparedData:
         Raises:
             UserError: not a prepared folder, or a file is missing or damaged.
         """
-        self.folder = Path(folder)
+        self.folder = folder
         path = self.folder / "manifest.json"
         if not path.exists():
             raise UserError(f"{folder} is not prepared data: no manifest.json; run `prepare` first")
@@ -125,8 +125,8 @@ class PreparedData:
         if verify:
             self._verify(files)
         path = self.folder / "statistics.safetensors"
-        with damaged(path):
-            statistics = load_file(path)
+        with damaged(path), fetched(path) as local:
+            statistics = load_file(local)
             self.mean: Tensor = _checked(statistics["mean"], ROWS)  # 23 6
             self.std: Tensor = _checked(statistics["std"], ROWS)  # 23 6
         path = self.folder / "captions.json"
@@ -134,13 +134,14 @@ class PreparedData:
             self._captions = _CAPTIONS.validate_python(load_json(path))
 
     @classmethod
-    def open(cls, folder: str | Path) -> "PreparedData":
-        """Open a prepared folder; see `PreparedData`."""
-        return cls(Path(folder))
+    def open(cls, folder: str | Place) -> "PreparedData":
+        """Open a prepared folder, or an address; see `PreparedData`."""
+        return cls(place(folder))
 
     def _verify(self, files: dict[str, str]) -> None:
         for name, digest in files.items():
-            path = inside(self.folder, name)
+            folder = self.folder
+            path = folder / name if isinstance(folder, Address) else inside(folder, name)
             if not is_whole(path, digest):
                 state = "is damaged" if path.exists() else "is missing"
                 raise UserError(f"{path} {state}; run `prepare` again with the same options")
@@ -148,15 +149,18 @@ class PreparedData:
     @cached_property
     def _all_records(self) -> list[ClipRecord]:
         path = self.folder / "clips.jsonl"
-        with damaged(path), path.open(encoding="utf-8") as stream:
+        with damaged(path), path.open("rb") as stream:
             return [_RECORD.validate_json(line) for line in stream]
 
     @cached_property
     def _shards(self) -> dict[str, Tensor]:
         shards = {}
-        for path in sorted((self.folder / "shards").glob("*.safetensors")):
-            with damaged(path):
-                features = load_file(path)["features"]
+        names = (path.name for path in (self.folder / "shards").iterdir())
+        for path in (self.folder / "shards" / name for name in sorted(names)):
+            if path.suffix != ".safetensors" or path.name.startswith("."):
+                continue
+            with damaged(path), fetched(path) as local:
+                features = load_file(local)["features"]
                 shards[path.name] = _checked(features, (len(features), *ROWS))
         return shards
 

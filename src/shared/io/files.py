@@ -7,12 +7,14 @@ import json
 import os
 import re
 import shutil
+import tempfile
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
 from ..errors import UserError
+from .storage import Address, Place, place
 
 MAX_JSON = 256 << 20  # bytes
 MAX_TEXT = 64 << 20
@@ -25,12 +27,21 @@ _FULL = (
 
 
 @contextmanager
-def atomic_write(path: Path) -> Iterator[Path]:
+def atomic_write(path: Place) -> Iterator[Path]:
     """Yield a temporary path in the same folder that replaces `path` when the block succeeds.
+
+    For an address it lies on this machine, and is put there.
 
     Raises:
         UserError: the folder or file cannot be written (no permission, disk full, name too long).
     """
+    if isinstance(path, Address):
+        with tempfile.TemporaryDirectory(prefix="motionsuite-") as folder:
+            local = Path(folder, path.name)
+            with atomic_write(local) as temporary:
+                yield temporary
+            path.write_bytes(local.read_bytes())
+        return
     path = Path(path)
     temporary = unfinished(path)
     try:
@@ -90,13 +101,13 @@ def made_folder(folder: Path) -> Iterator[None]:
                 part.rmdir()
 
 
-def write_text(path: Path, text: str) -> None:
+def write_text(path: Place, text: str) -> None:
     """Write UTF-8 text whole or not at all."""
     with atomic_write(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
 
 
-def write_json(path: Path, value: Any) -> None:
+def write_json(path: Place, value: Any) -> None:
     """Write JSON with stable key order, whole or not at all."""
     write_text(path, json.dumps(value, indent=1, ensure_ascii=False, sort_keys=True) + "\n")
 
@@ -126,14 +137,14 @@ def read_text(path: Path, wanted: str, *, max_bytes: int = MAX_TEXT) -> str:
     raise UserError(f"{path}: cannot be read ({reason}); give {wanted}")
 
 
-def load_json(path: str | Path, *, max_bytes: int = MAX_JSON) -> Any:
+def load_json(path: str | Place, *, max_bytes: int = MAX_JSON) -> Any:
     """The value in a JSON file.
 
     Raises:
         OSError: missing or unreadable.
         ValueError: too large, not UTF-8, not JSON, or nested too deeply.
     """
-    with Path(path).open("rb") as stream:
+    with place(path).open("rb") as stream:
         data = stream.read(max_bytes + 1)
     if len(data) > max_bytes:
         raise ValueError(f"larger than {max_bytes >> 20} MB")
@@ -152,8 +163,10 @@ def parse_json(data: str | bytes) -> Any:
         raise ValueError("nested too deeply") from None
 
 
-def same_place(one: Path, other: Path) -> bool:
+def same_place(one: Place, other: Place) -> bool:
     """Whether two paths lead to one place, through links; a loop of links is its own place."""
+    if isinstance(one, Address) or isinstance(other, Address):
+        return one == other
     return os.path.realpath(one) == os.path.realpath(other)  # `Path.resolve` may raise at a loop
 
 
@@ -171,29 +184,33 @@ def inside(folder: Path, name: str) -> Path:
     return path
 
 
-def sha256_file(path: Path) -> str:
+def sha256_file(path: Place) -> str:
     """Hex SHA-256 of a file, read in chunks."""
     digest = hashlib.sha256()
-    with Path(path).open("rb") as stream:
+    with place(path).open("rb") as stream:
         while chunk := stream.read(1 << 20):
             digest.update(chunk)
     return digest.hexdigest()
 
 
-def is_whole(path: Path, sha256: str) -> bool:
+def is_whole(path: Place, sha256: str) -> bool:
     """Whether a file is there with that content."""
-    return path.exists() and sha256_file(path) == sha256
+    try:
+        return sha256_file(path) == sha256
+    except (FileNotFoundError, NotADirectoryError):
+        return False
 
 
 LOCK = ".lock"
 
 
 @contextmanager
-def sole_writer(folder: str | Path, *, wait: bool = False) -> Iterator[None]:
+def sole_writer(folder: str | Place, *, wait: bool = False) -> Iterator[None]:
     """Hold `folder` against other processes, and clear what a killed one left half-written.
 
     The lock is of the operating system: however its holder ends, the next one gets it. That one
-    was killed here is told by its lock file, which stays; nothing is cleared without it.
+    was killed here is told by its lock file, which stays; nothing is cleared without it. An address
+    knows no locks, and there is nothing half-written: it is not held.
 
     Args:
         wait: for the other process to finish, rather than refuse.
@@ -201,6 +218,9 @@ def sole_writer(folder: str | Path, *, wait: bool = False) -> Iterator[None]:
     Raises:
         UserError: another process writes there, or the folder cannot be written.
     """
+    if isinstance(folder, Address):
+        yield
+        return
     from filelock import FileLock, Timeout
 
     folder = Path(folder)
@@ -226,15 +246,17 @@ def sole_writer(folder: str | Path, *, wait: bool = False) -> Iterator[None]:
                 (folder / LOCK).unlink()
 
 
-def clear_unfinished(folder: Path) -> None:
+def clear_unfinished(folder: Place) -> None:
     """Remove what has the name of something unfinished, but where another run writes or wrote."""
-    for place, folders, files in os.walk(folder):
-        own = [name for name in folders if is_unfinished(Path(place, name))]
+    if isinstance(folder, Address):
+        return
+    for where, folders, files in os.walk(folder):
+        own = [name for name in folders if is_unfinished(Path(where, name))]
         for name in own:
-            shutil.rmtree(Path(place, name), ignore_errors=True)
+            shutil.rmtree(Path(where, name), ignore_errors=True)
         folders[:] = [
-            name for name in folders if name not in own and not Path(place, name, LOCK).exists()
+            name for name in folders if name not in own and not Path(where, name, LOCK).exists()
         ]
         for name in files:
-            if is_unfinished(Path(place, name)):
-                Path(place, name).unlink(missing_ok=True)
+            if is_unfinished(Path(where, name)):
+                Path(where, name).unlink(missing_ok=True)

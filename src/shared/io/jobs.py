@@ -17,12 +17,12 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import ExitStack, suppress
 from itertools import islice
 from multiprocessing.connection import Connection
-from pathlib import Path
 from typing import Any, TypeVar
 
 from ..errors import UsageError, UserError
 from .concurrency import answered
 from .files import load_json
+from .storage import Place
 
 Job = TypeVar("Job")
 Result = TypeVar("Result")
@@ -33,7 +33,7 @@ AHEAD = 10_000  # jobs that a scheduler is told of before their turn
 REACH = 30.0  # seconds to find a scheduler
 
 
-def finished_record(path: Path, key: str) -> dict[str, Any] | None:
+def finished_record(path: Place, key: str) -> dict[str, Any] | None:
     """What was written of a finished job; None if nothing is there, damaged, or of another key."""
     try:
         content = load_json(path)

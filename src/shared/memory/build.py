@@ -26,10 +26,11 @@ from torch import Tensor
 from ..data.phrases.dataset import read_phrase
 from ..data.phrases.layout import MANIFEST as PAIRS_MANIFEST
 from ..data.phrases.layout import BadContent, PhraseRecord
-from ..data.phrases.store import Backoff, PhraseStore, Remote, Unreachable
+from ..data.phrases.store import PhraseStore, Remote
 from ..errors import UserError
 from ..io.files import parse_json
 from ..io.jobs import run_jobs
+from ..io.storage import Backoff, Unreachable
 from ..motion.features import LEFT_CONTACT, ROOT_ROW
 from ..motion.trajectory import FPS, encode_window, place_window
 from .index import MANIFEST, MemoryConfig, MemoryIndex, Phrase

@@ -19,6 +19,7 @@ from src.shared.data.synthetic.clips import generate_clip, sample_specs
 from src.shared.data.text_motion import TextMotionDataset
 from src.shared.errors import UsageError, UserError
 from src.shared.formats.writers.bvh import write_bvh
+from src.shared.io.storage import place
 from src.shared.motion.features import ROOT_ROW, YAW_RATE, encode_features, mirror_features
 from tests.deadly_source import DeadlySource
 from tests.files import files_of
@@ -165,6 +166,39 @@ def test_a_cluster_and_a_killed_worker_do_not_change_the_result(
     prepare([source], tmp_path / "one", workers=1)
     cluster, one = (files_of(tmp_path / name) for name in ("cluster", "one"))
     assert cluster == one and len(one) == 5 + 2 * 8
+
+
+def test_a_bucket_holds_what_a_folder_does(tmp_path: Path, bucket: str) -> None:
+    """Read from a bucket and written to one, by two processes; then by one into a folder."""
+    root = bvh_folder(tmp_path / "in")
+    (root / "broken.bvh").write_text("HIERARCHY\nROOT x\n{")
+    for path in root.iterdir():
+        (place(bucket) / "in" / path.name).write_bytes(path.read_bytes())
+    table = [root / "captions.csv"]
+    sources = [MotionFolder.open(place(f"{bucket}/in"), captions=table), SyntheticSource(140)]
+    out = place(f"{bucket}/out")
+    assert prepare(sources, out, workers=2)["clips"] == 146
+    prepare(sources, tmp_path / "out", workers=1)
+    stored = {path.url.removeprefix(f"{out}/"): path.read_bytes() for path in out.iterdir()}
+    assert stored == files_of(tmp_path / "out")
+    assert f"{bucket}/in/broken.bvh" in json.loads(stored["report.json"])["skipped"][0]["reason"]
+    data = PreparedData.open(out)
+    assert len(data.records()) == 2 * 146
+    assert torch.equal(
+        data.features(data.records()[7]),
+        PreparedData.open(tmp_path / "out").features(data.records()[7]),
+    )
+
+
+def test_a_bucket_is_prepared_once(
+    tmp_path: Path, bucket: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    source, out = SyntheticSource(6), place(f"{bucket}/out")
+    prepare([SyntheticSource(200)], out, workers=1)
+    prepare([source], out, workers=1)
+    assert not (out / "shards" / "00001.json").exists(), "of the larger run"
+    monkeypatch.setattr(prepare_module, "_make_shard", lambda job: pytest.fail("made again"))
+    prepare([source], out, workers=1)
 
 
 def test_what_is_skipped_is_named_with_its_reason(tmp_path: Path) -> None:

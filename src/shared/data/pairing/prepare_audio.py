@@ -36,6 +36,7 @@ from ...errors import UserError
 from ...io.arrays import load_array, load_arrays
 from ...io.files import clear_unfinished, inside, is_whole, load_json, write_json
 from ...io.jobs import finished_record, run_jobs
+from ...io.storage import Place
 from ...metrics.rhythm import motion_beats
 from ...motion.style import measure_style
 from ...motion.trajectory import STYLE, MotionTrajectory, encode_window
@@ -224,7 +225,7 @@ class PairOptions:
 class Motions:
     """The clips that a job takes its motion from, by name: each process reads them once."""
 
-    folder: Path
+    folder: Place
     manifest_hash: str
     synthetic: bool
     seed: int
@@ -421,7 +422,7 @@ CAPTION = {"en": ["a person moves"]}  # what keeps `prepare` from skipping an un
 
 
 def prepare_unlabelled(
-    source: Path, out: Path, *, workers: int | None = 1, scheduler: str | None = None
+    source: Place, out: Path, *, workers: int | None = 1, scheduler: str | None = None
 ) -> PreparedData:
     """Prepare every motion file of a folder, labelled or not, once; then open it.
 

@@ -15,6 +15,7 @@ from torch import Tensor
 
 from ...errors import UsageError, UserError
 from ...io.concurrency import prefetch
+from ...io.storage import Backoff, Unreachable
 from ...motion.trajectory import encode_window
 from .layout import (
     BadContent,
@@ -25,7 +26,7 @@ from .layout import (
     decode_trajectory,
     phase_rows,
 )
-from .store import Backoff, ObjectCache, PhraseStore, Quarantine, Remote, Unreachable, default_cache
+from .store import ObjectCache, PhraseStore, Quarantine, Remote, default_cache
 
 _PHASE = 16  # column of a trajectory: bars modulo 1
 

@@ -6,11 +6,11 @@ file names and from the words of captions, by YAML rules.
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
-from pathlib import Path
+from pathlib import Path, PurePath, PurePosixPath
 from typing import Any
 
 import numpy as np
@@ -20,6 +20,7 @@ from ...config_schema import Provenance
 from ...errors import UsageError, UserError
 from ...formats.readers.acclaim import find_skeleton
 from ...formats.readers.bvh import check_head
+from ...io.storage import Address, Place, fetched, version_of
 from ...motion.motion import Motion
 from ..captions.schema import Labels
 from ..retarget.mapping import SkeletonMapping, load_mappings, load_table, words
@@ -148,7 +149,7 @@ class MotionFolder:
         caption_rows: clips that the file names, and whether a file was found for each.
     """
 
-    root: Path = field(repr=False)
+    root: Place = field(repr=False)
     name: str
     table: Table
     rules: LabelRules
@@ -161,14 +162,14 @@ class MotionFolder:
     caption_rows: Mapping[str, bool] = field(default_factory=dict, repr=False)
 
     @classmethod
-    def open(cls, root: Path, **tables: Any) -> "MotionFolder":
+    def open(cls, root: Place, **tables: Any) -> "MotionFolder":
         """One folder or file; see `open_all`."""
         return cls.open_all([root], **tables)[0]
 
     @classmethod
     def open_all(
         cls,
-        roots: Sequence[Path],
+        roots: Sequence[Place],
         *,
         captions: Sequence[Path] = (),
         labels: Path | None = None,
@@ -250,20 +251,50 @@ class MotionFolder:
         """The motion files, below the root."""
         if self.listed is not None:
             return list(self.listed)
-        if self.root.is_file():
+        if self._is_file:
             return [self.root.name]
-        best: dict[Path, Path] = {}
-        for path in sorted(self.root.rglob("*"), key=_rank):
-            if path.suffix.lower() in FOLDER_ENDINGS and path.is_file():
+        best: dict[PurePath, PurePath] = {}
+        for path in sorted(map(PurePosixPath, self._below()), key=_rank):
+            if path.suffix.lower() in FOLDER_ENDINGS:
                 best.setdefault(path.with_suffix(""), path)
-        return sorted(path.relative_to(self.root).as_posix() for path in best.values())
+        return sorted(path.as_posix() for path in best.values())
 
-    def _path(self, item: str) -> Path:
-        return self.root if self.root.is_file() else self.root / item
+    def _below(self) -> Iterable[str]:
+        """Every file below the root, by relative path."""
+        if isinstance(self.root, Address):
+            return self._stored
+        found = (path for path in self.root.rglob("*") if path.suffix.lower() in FOLDER_ENDINGS)
+        return [path.relative_to(self.root).as_posix() for path in found if path.is_file()]
+
+    @cached_property
+    def _stored(self) -> dict[str, dict[str, Any]]:
+        """What the store tells of each file, of an address."""
+        assert isinstance(self.root, Address)
+        return self.root.find()
+
+    @cached_property
+    def _skeletons(self) -> list[str]:
+        return sorted(name for name in self._stored if name.lower().endswith(".asf"))
+
+    @cached_property
+    def _is_file(self) -> bool:
+        return self.root.is_file()
+
+    def _path(self, item: str) -> Place:
+        return self.root if self._is_file else self.root / item
 
     def fingerprint(self, item: str) -> str:
         """Changes when the clip behind the item changes."""
-        path = self._path(self._pieces[item][0])
+        file = self._pieces[item][0]
+        if isinstance(self.root, Address):
+            names = [file if file in self._stored else ""]  # "": the root is the file
+            if file.lower().endswith(".amc"):
+                above = PurePosixPath(file).parent
+                names += [name for name in self._skeletons if PurePosixPath(name).parent == above]
+            told = [self._stored[name] for name in names]
+            marks = (f"{info['size']}:{version_of(info)}" for info in told)
+            return ":".join([item, *marks])
+        path = self.root if self._is_file else self.root / file
         parts = [path]
         if path.suffix.lower() == ".amc":
             with suppress(UserError):  # none: reading tells
@@ -294,7 +325,8 @@ class MotionFolder:
             labels = self.rules.of_caption(caption) | labels
         if not labels and not captions:
             if path.suffix.lower() == ".bvh":
-                check_head(path)  # a broken file is told as such
+                with _on_this_machine(path) as local:
+                    check_head(local)  # a broken file is told as such
             raise Skipped("no caption and no label; add it to --captions or write a --labels rule")
         motion = cut(_last_read(self.reading, path, self.mappings), piece)
         if motion.num_frames < MIN_FRAMES:
@@ -303,15 +335,28 @@ class MotionFolder:
         return RawClip(item, take, motion, labels, captions, piece.provenance)
 
 
-_LAST: list[tuple[tuple[Reading, Path], Motion]] = []  # the file that was read last
+_LAST: list[tuple[tuple[Reading, Place], Motion]] = []  # the file that was read last
 
 
-def _last_read(reading: Reading, path: Path, mappings: tuple[SkeletonMapping, ...]) -> Motion:
+def _last_read(reading: Reading, path: Place, mappings: tuple[SkeletonMapping, ...]) -> Motion:
     """`Reading.read`, once for all pieces of a file."""
     last = _LAST[0] if _LAST else None  # one look: other threads put theirs there, too
     if last is None or last[0] != (reading, path):
-        _LAST[:] = [last := ((reading, path), reading.read(path, mappings))]
+        with _on_this_machine(path) as local:
+            _LAST[:] = [last := ((reading, path), reading.read(local, mappings))]
     return last[1]
+
+
+@contextmanager
+def _on_this_machine(path: Place) -> Iterator[Path]:
+    """`fetched`; what is said of the copy is said of the file."""
+    with fetched(path) as local:
+        try:
+            yield local
+        except (UserError, ValueError) as error:
+            if local is path:
+                raise
+            raise UserError(str(error).replace(str(local), str(path))) from error
 
 
 def cut(motion: Motion, piece: Piece) -> Motion:
@@ -338,13 +383,17 @@ def cut(motion: Motion, piece: Piece) -> Motion:
     return on_floor(Motion(quaternions, root, contacts, motion.fps))
 
 
-def distinct_names(roots: Sequence[Path]) -> list[str]:
+def distinct_names(roots: Sequence[Place]) -> list[str]:
     """The name of each folder or file, with the folders above it that tell it from the others.
 
     Raises:
         UsageError: one is within another, so that its clips would be taken twice.
     """
-    paths = [root.resolve().with_suffix("") if root.is_file() else root.resolve() for root in roots]
+    paths = [PurePath(*root.resolve().parts) for root in roots]
+    paths = [
+        path.with_suffix("") if root.is_file() else path
+        for path, root in zip(paths, roots, strict=True)
+    ]
     for number, path in enumerate(paths):
         for other in (*paths[:number], *paths[number + 1 :]):
             if path.is_relative_to(other):
@@ -363,7 +412,7 @@ def _repeated(names: Iterable[str]) -> tuple[str, ...]:
     return tuple(sorted(name for name, count in Counter(names).items() if count > 1))
 
 
-def _rank(path: Path) -> tuple[int, Path]:
+def _rank(path: PurePath) -> tuple[int, PurePath]:
     ending = path.suffix.lower()
     return (FOLDER_ENDINGS.index(ending) if ending in FOLDER_ENDINGS else len(FOLDER_ENDINGS), path)
 

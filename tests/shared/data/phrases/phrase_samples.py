@@ -9,7 +9,7 @@ from fsspec import register_implementation
 from fsspec.implementations.memory import MemoryFileSystem
 
 from src.shared.data.phrases.layout import PhraseRecord, write_manifest, write_phrase
-from src.shared.data.phrases.store import Backoff
+from src.shared.io.storage import Backoff
 
 ROWS = {"mel": 128, "chroma": 12, "mfcc": 20}
 

@@ -12,8 +12,9 @@ import pytest
 
 from src.shared.data.phrases.dataset import MotionPhraseDataset
 from src.shared.data.phrases.layout import StoredObject, features_path, trajectory_path
-from src.shared.data.phrases.store import Backoff, ObjectCache, Remote, Unreachable
+from src.shared.data.phrases.store import ObjectCache, Remote
 from src.shared.errors import UserError
+from src.shared.io.storage import Backoff, Unreachable
 from tests.shared.data.phrases.phrase_samples import (
     FlakyFileSystem,
     flip_bit,
