@@ -6,6 +6,9 @@ import pytest
 from typer.testing import CliRunner
 
 from src.cli.tools import app
+from src.shared.data.synthetic.clips import generate_clip, sample_specs
+from src.shared.formats.writers.bvh import write_bvh
+from src.shared.io.storage import place
 
 
 @pytest.mark.parametrize("flag", ["--captions", "--mapping", "--labels"])
@@ -20,3 +23,27 @@ def test_what_is_read_is_not_written_into(tmp_path: Path) -> None:
     result = CliRunner().invoke(app, ["prepare", str(tmp_path), "--out", f"{tmp_path}/."])
     assert result.exit_code == 2 and "is a SOURCE" in result.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["walk.bvh"]
+
+
+def test_addresses_are_read_and_written(tmp_path: Path) -> None:
+    clip = write_bvh(generate_clip(sample_specs(1, seed=1)[0], seed=0), tmp_path / "walk.bvh")
+    source = place("memory://mocap/takes")
+    (source / "a person walks.bvh").write_bytes(clip.read_bytes())
+    command = ["prepare", str(source), "--out", "memory://prepared", "--workers", "1"]
+    result = CliRunner().invoke(app, command)
+    assert result.exit_code == 0, result.output
+    assert "next: motion-tools train clip --data memory://prepared" in result.stdout
+    assert (place("memory://prepared") / "manifest.json").is_file()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "told"),
+    [
+        (["memory://nothing", "--out", "memory://prepared"], 1, "does not exist"),
+        (["memory://mocap", "--out", "memory://mocap/"], 2, "is a SOURCE"),
+        (["--synthetic", "2", "--out", "nonsense://x"], 2, "give a folder, gs:// or s3://"),
+    ],
+)
+def test_addresses_that_do_not_serve(arguments: list[str], code: int, told: str) -> None:
+    result = CliRunner().invoke(app, ["prepare", *arguments])
+    assert (result.exit_code, told in result.stderr) == (code, True), result.output

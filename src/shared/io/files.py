@@ -5,9 +5,11 @@ import errno
 import hashlib
 import json
 import os
+import platform
 import re
 import shutil
 import tempfile
+import zlib
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
@@ -19,6 +21,7 @@ from .storage import Address, Place, place
 MAX_JSON = 256 << 20  # bytes
 MAX_TEXT = 64 << 20
 _UNFINISHED, _SAFETENSORS = re.compile(r"\..+\.\d+\.part"), re.compile(r"\.tmp[A-Za-z0-9]{6}")
+_MACHINE = zlib.crc32(platform.node().encode()) % 100_000
 # What systems say of a full disk. Libraries in C++ and Rust quote it in errors of their own.
 _FULL = (
     *map(os.strerror, (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)),
@@ -66,8 +69,11 @@ def atomic_write(path: Place) -> Iterator[Path]:
 
 
 def unfinished(path: Path) -> Path:
-    """Where a file or folder is written before it takes its name; see `is_unfinished`."""
-    return path.with_name(f".{path.name}.{os.getpid()}.part")
+    """Where a file or folder is written before it takes its name; see `is_unfinished`.
+
+    Processes have names of their own, also those of machines that share the folder.
+    """
+    return path.with_name(f".{path.name}.{os.getpid()}{_MACHINE:05d}.part")
 
 
 def is_unfinished(path: Path) -> bool:
