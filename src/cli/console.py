@@ -13,13 +13,13 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from io import TextIOWrapper
-from pathlib import Path
 from typing import Annotated, Any, ParamSpec
 
 import typer
 
 from ..shared.errors import UsageError, UserError, printable
 from ..shared.io.concurrency import orderly_termination
+from ..shared.io.storage import Place
 
 Parameters = ParamSpec("Parameters")
 INTERRUPTED = 130
@@ -211,7 +211,7 @@ def print_columns(
         print("  ".join(cells).rstrip())
 
 
-def note_replaced(paths: Iterable[Path], folder: Path) -> None:
+def note_replaced(paths: Iterable[Place], folder: Place) -> None:
     """Before writing: say how many of these files an earlier run has left in the folder."""
     if found := sum(path.exists() for path in paths):
         verb = "is" if found == 1 else "are"

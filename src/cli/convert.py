@@ -1,16 +1,19 @@
 """`convert`: any motion file in, any format out; `inspect`: what is in one, and how it is read."""
 
+import tempfile
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass, fields, is_dataclass, replace
 from functools import lru_cache
 from operator import itemgetter
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ..shared.errors import UsageError, UserError
 from ..shared.io.files import same_place
+from ..shared.io.storage import Address, Place, fetched, place
 from . import options
 from .console import complain, counted, note_replaced, print_json, tell
 
@@ -27,13 +30,13 @@ READABLE = (".bvh", ".amc", ".glb", ".npz", ".npy", ".csv")
 class Job:
     """One file to read and those to write from it, each with its format."""
 
-    source: Path
-    targets: tuple[tuple[str, Path], ...]
+    source: Place
+    targets: tuple[tuple[str, Place], ...]
 
 
 def convert(
     files: Annotated[
-        list[Path],
+        list[str],
         typer.Argument(
             metavar="IN... OUT",
             help="Motion files or folders of them, then a file, or a folder with --format.",
@@ -83,13 +86,14 @@ def convert(
         raise UsageError(f"--root {root!r} is unknown; choose from {', '.join(ROOTS)}")
     options.check_ranges(fps=fps, source_fps=source_fps, workers=workers)
     joint_names(names)
-    jobs = list(plan(files, format))
+    named = list(map(place, files))
+    jobs = list(plan(named, format))
     formats = list(dict.fromkeys(name for job in jobs for name, _ in job.targets))
     check_rigged(formats, names, skeleton)
     check_sources(jobs, asf, skeleton)
     kept = {job.source for job in jobs if resume and is_done(job)}
     jobs = [job for job in jobs if job.source not in kept]
-    folder = files[-1] if format else files[-1].parent
+    folder = named[-1] if format else named[-1].parent
     note_replaced((path for job in jobs for _, path in job.targets), folder)
     reading = {"mapping": mapping, "unit": unit, "up": up, "fps": fps, "skeleton": asf}
     how = How(reading | {"source_fps": source_fps}, root, names, skeleton, mapping)
@@ -122,7 +126,7 @@ def convert(
 # ---------------------------------------------------------------- what to do
 
 
-def plan(files: list[Path], format: str | None) -> Iterator[Job]:
+def plan(files: list[Place], format: str | None) -> Iterator[Job]:
     """Which files are read and written; everything the flags get wrong is said here."""
     from ..shared.formats.registry import EXPORTERS, ending, find_writer, format_of
 
@@ -136,9 +140,10 @@ def plan(files: list[Path], format: str | None) -> Iterator[Job]:
         if len(sources) > 1 or sources[0].is_dir() or out.is_dir():
             raise UsageError(f"{out}: with a folder, --format says what to write; give one, e.g. "
                              "--format glb")  # fmt: skip
-        name = format_of(out)
+        name = format_of(Path(out.name))
         check_apart(sources[0], out)
-        options.check_file("OUT", out)
+        if isinstance(out, Path):
+            options.check_file("OUT", out)
         yield Job(sources[0], ((name, out),))
         return
     formats = list(
@@ -149,9 +154,9 @@ def plan(files: list[Path], format: str | None) -> Iterator[Job]:
     for name in formats:
         find_writer(EXPORTERS, name, f"--format {format}")
     options.check_folder("OUT", out)
-    taken: dict[Path, Path] = {}
-    for source, place in found(sources):
-        targets = tuple((name, out / f"{place}.{ending(name)}") for name in formats)
+    taken: dict[Place, Place] = {}
+    for source, below in found(sources):
+        targets = tuple((name, out / f"{below}.{ending(name)}") for name in formats)
         for _, target in targets:
             check_apart(source, target)
             if target in taken:
@@ -161,15 +166,20 @@ def plan(files: list[Path], format: str | None) -> Iterator[Job]:
         yield Job(source, targets)
 
 
-def found(sources: list[Path]) -> Iterator[tuple[Path, str]]:
+def found(sources: list[Place]) -> Iterator[tuple[Place, str]]:
     """Every file to read, and its path in the output folder without the ending."""
     for source in sources:
         if source.is_dir():
-            inside = sorted(p for p in source.rglob("*") if p.suffix.lower() in READABLE)
+            if isinstance(source, Address):
+                names = sorted(source.find())
+            else:
+                paths = sorted(source.rglob("*"))
+                names = [path.relative_to(source).as_posix() for path in paths]
+            inside = [name for name in names if PurePosixPath(name).suffix.lower() in READABLE]
             if not inside:
                 raise UserError(f"{source} holds no motion file; known are {', '.join(READABLE)}")
-            for path in inside:
-                yield path, stem(path.relative_to(source).as_posix())
+            for name in inside:
+                yield source / name, stem(name)
         else:
             yield source, stem(source.name)
 
@@ -179,7 +189,7 @@ def stem(name: str) -> str:
     return name.removesuffix(Path(name).suffix).removesuffix(".amass")
 
 
-def check_apart(source: Path, target: Path) -> None:
+def check_apart(source: Place, target: Place) -> None:
     """Refuse to write over what is read."""
     if same_place(source, target):
         raise UsageError(f"{target} would be written over itself; name another OUT")
@@ -218,11 +228,16 @@ def check_rigged(formats: list[str], names: str, skeleton: Path | None) -> None:
 
 
 def is_done(job: Job) -> bool:
-    """Whether all targets are there and newer than the source."""
+    """Whether all targets are there and newer than the source; of addresses, there."""
+    places = (job.source, *(target for _, target in job.targets))
+    if any(isinstance(one, Address) for one in places):
+        return all(target.exists() for _, target in job.targets)
+    assert isinstance(job.source, Path)
     if not job.source.exists():  # a link to nowhere: reading tells
         return False
     when = job.source.stat().st_mtime
-    return all(path.exists() and path.stat().st_mtime >= when for _, path in job.targets)
+    paths = [Path(str(path)) for _, path in job.targets]
+    return all(path.exists() and path.stat().st_mtime >= when for path in paths)
 
 
 # ---------------------------------------------------------------- doing it
@@ -259,14 +274,27 @@ def attempt(task: tuple[Job, How]) -> tuple[dict[str, Any], UserError | None]:
 
     job, how = task
     try:
-        motion = read_motion(job.source, **how.reading)
+        with fetched(job.source) as local:
+            motion = read_motion(local, **how.reading)
         motion = in_place(motion) if how.root == "in-place" else motion
         write = writer(how.skeleton, how.mapping, how.names)
         for _, path in job.targets:
-            write(motion, path)
+            with delivered(path) as local:
+                write(motion, local)
     except UserError as error:
         return {}, error
     return {"frames": motion.num_frames, "fps": motion.fps}, None
+
+
+@contextmanager
+def delivered(path: Place) -> Iterator[Path]:
+    """The file to write: itself, or one that is put to the address in the end."""
+    if isinstance(path, Path):
+        yield path
+        return
+    with tempfile.TemporaryDirectory(prefix="motionsuite-") as folder:
+        yield (local := Path(folder, path.name))
+        path.write_bytes(local.read_bytes())
 
 
 @lru_cache(maxsize=1)

@@ -14,6 +14,7 @@ from src.shared.data.retarget.read_motion import read_motion
 from src.shared.formats.readers.bvh import read_bvh
 from src.shared.formats.readers.glb import read_glb_skeleton
 from src.shared.formats.registry import write_motion
+from src.shared.io.storage import place
 from src.shared.motion.motion import Motion
 from tests.files import files_of
 from tests.shared.data.retarget.test_round_trips import differences
@@ -138,6 +139,19 @@ def test_a_cluster_writes_what_one_process_does(
     assert len(one[1]) == 6 and one[1] == cluster[1]
     assert one[0]["converted"] == cluster[0]["converted"]
     assert [Path(fault["file"]).name for fault in cluster[0]["failed"]] == ["broken.npz"]
+
+
+def test_addresses_are_read_and_written(walk: Path, tmp_path: Path) -> None:
+    source, out = place("memory://walks"), place("memory://converted")
+    (source / "deep" / "walk.npz").write_bytes(walk.read_bytes())
+    assert run(source, out, "--format", "bvh,csv").exit_code == 0
+    assert run(walk, tmp_path / "walk.bvh").exit_code == 0
+    made = out / "deep" / "walk.bvh"
+    assert made.read_bytes() == (tmp_path / "walk.bvh").read_bytes()
+    result = run(source, out, "--format", "bvh,csv", "--resume")
+    assert result.exit_code == 0 and "1 file skipped" in result.stderr
+    assert run(made, "memory://converted/walk.glb").exit_code == 0
+    assert (out / "walk.glb").is_file()
 
 
 def test_resume_skips_what_is_newer(walk: Path, tmp_path: Path) -> None:
