@@ -41,7 +41,8 @@ class Passage:
         text: what it shows.
         frames: its length; 1 or more.
         tag: action label beside the text.
-        window: frames of its windows at most, if fewer than those of others.
+        window: frames of its windows at most, if fewer than those of others: each repeats what
+            the one before showed, and tries its noise first.
         miss: of its frames so far; a window is sampled again, TRIES times at most, while they are
             not what is wanted.
     """
@@ -103,32 +104,37 @@ def stream_features(
 
     for passage in passages:
         own = before[:0]  # what there is of the passage
+        lucky: list[int] = []  # the seed of the repetition before
         widest = min(window, passage.window or window)
         for length in window_lengths(passage.frames, len(before), widest, overlap):
             start = made - len(before)
             given = None if constraint is None else constraint(start, made + length)
             known = carried_on(before, given, len(before) + length)
-            seeds = retry_seeds(derived_seed(sampling.seed, number))
+            seeds = [*lucky, *retry_seeds(derived_seed(sampling.seed, number))]
             tries = (sampled(passage, known, seed)[len(before) :] for seed in seeds)
-            piece = nearest_to_wanted(tries, own, passage.miss)
+            piece, best = nearest_to_wanted(tries, own, passage.miss)
+            lucky = [seeds[best]] if passage.window else []
             before = torch.cat((before, piece))[-overlap:]
             own = torch.cat((own, piece))
             made, number = made + length, number + 1
             yield piece
 
 
-def nearest_to_wanted(tries: Iterator[Tensor], own: Tensor, miss: Miss | None) -> Tensor:
-    """The first piece [t, R, 6] that, after `own`, is what is wanted, or else the nearest to it."""
+def nearest_to_wanted(
+    tries: Iterator[Tensor], own: Tensor, miss: Miss | None
+) -> tuple[Tensor, int]:
+    """The first piece [t, R, 6] that, after `own`, is what is wanted, or else the nearest to it;
+    and which of the tries that was."""
     if miss is None:
-        return next(tries)
-    least, best = float("inf"), own
-    for piece in tries:
+        return next(tries), 0
+    least, best, chosen = float("inf"), own, 0
+    for place, piece in enumerate(tries):
         found = miss(torch.cat((own, piece)))
         if found < least:
-            least, best = found, piece
+            least, best, chosen = found, piece, place
         if least <= 0:
             break
-    return best
+    return best, chosen
 
 
 def retry_seeds(seed: int) -> Iterator[int]:

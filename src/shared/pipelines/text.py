@@ -46,7 +46,7 @@ from .stream import (
 )
 
 TURN_SPEED, TURN_REST = 75.0, 0.5  # degrees a second; seconds before and after a turn
-ONCE = (2.0, 3.0)  # seconds of one repetition, from … to
+ONCE = (2.5, 3.0)  # seconds of one repetition, from … to
 LEAST = 1.0  # seconds in which an action can be seen
 UNEASY = 0.5  # what it counts that a gesture does not end at rest; 1: that it is not there
 REPEATED_OVERLAP = 10  # frames: a repetition begins as the one before it ended, at rest

@@ -11,7 +11,7 @@ import { naturalGait, pathConstraint, timePath } from "./path.js";
 import { isPlain, SentenceReader } from "./sentence.js";
 import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, WINDOW } from "./stream.js";
 
-const MIN_FRAMES = 8, TURN_SPEED = 75, TURN_REST = 0.5, ONCE = [2, 3], LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
+const MIN_FRAMES = 8, TURN_SPEED = 75, TURN_REST = 0.5, ONCE = [2.5, 3], LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
 
 export class Director {
   /** @param {Sampler} sampler @param {Scope} scope @param {object} settings of the model */

@@ -53,7 +53,7 @@ export async function streamFeatures(sampler, passages, seed, options = {}) {
   let before = new Float32Array(), made = 0, number = 0;
   const pieces = [];
   for (const passage of passages) {
-    let own = new Float32Array();
+    let own = new Float32Array(), lucky = []; // the seed of the repetition before
     for (const length of windowLengths(passage.frames, framesOf(before), Math.min(window, passage.window ?? window), overlap)) {
       const kept = framesOf(before), start = made - kept;
       const known = constraint ? windowOf(constraint, start, made + length) : freeConstraint(kept + length);
@@ -62,16 +62,17 @@ export async function streamFeatures(sampler, passages, seed, options = {}) {
       known.shown.fill(1, 0, before.length);
       const longer = lengthened(known, SHORTEST);
       const somethingKnown = before.length > 0 || constraint;
-      let best = null, least = Infinity;
-      for (const trial of retrySeeds(derivedSeed(seed, number))) {
+      let best = null, least = Infinity, chosen = null;
+      for (const trial of [...lucky, ...retrySeeds(derivedSeed(seed, number))]) {
         const features = await sampler.sample(passage.text, framesOf(longer.values), trial, somethingKnown ? longer : null, guidance);
         const piece = cut(blendBoundaries(cut(features, 0, kept + length), known.known), kept, kept + length);
         const found = passage.miss ? passage.miss(joinArrays([own, piece])) : 0;
-        if (found < least) { least = found; best = piece; }
+        if (found < least) { least = found; best = piece; chosen = trial; }
         if (least <= 0) break;
       }
       before = cut(joinArrays([before, best]), Math.max(0, kept + length - overlap), kept + length);
       own = joinArrays([own, best]);
+      lucky = passage.window ? [chosen] : [];
       made += length;
       number++;
       pieces.push(best);

@@ -203,8 +203,8 @@ def test_a_window_is_sampled_again_until_it_is_what_is_wanted():
         asked.append(len(features))
         return float(features[-1].item())
 
-    assert nearest_to_wanted(iter(tries), own, None) is tries[0]
-    assert nearest_to_wanted(iter(tries), own, miss) is tries[3] and asked == [5] * 4
-    assert nearest_to_wanted(iter(tries[:3]), own, miss) is tries[2]
+    assert nearest_to_wanted(iter(tries), own, None) == (tries[0], 0)
+    assert nearest_to_wanted(iter(tries), own, miss) == (tries[3], 3) and asked == [5] * 4
+    assert nearest_to_wanted(iter(tries[:3]), own, miss) == (tries[2], 2)
     seeds = list(retry_seeds(7))
     assert seeds[0] == 7 and len(set(seeds)) == TRIES

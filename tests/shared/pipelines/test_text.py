@@ -44,7 +44,7 @@ def test_a_plain_sentence_is_one_sample(generator: TextToMotion, sentences: Sent
 
 def test_clauses_follow_each_other(sentences: SentenceGenerator):
     (motion,) = sentences.generate(["a person walks, then jumps three times"], seconds=2.0)
-    assert motion.num_frames == 60 + 3 * 60
+    assert motion.num_frames == 60 + 3 * 75
     assert motion.text == "a person walks, then jumps three times"
 
 
