@@ -30,7 +30,7 @@ def scheduler() -> Iterator[str]:
         dask.config.set({"distributed.scheduler.allowed-failures": 1}),
         distributed.LocalCluster(
             n_workers=2, threads_per_worker=1, dashboard_address=None,
-            silence_logs=logging.CRITICAL,
+            silence_logs=logging.CRITICAL, scheduler_kwargs={"dashboard_address": ":0"},
         ) as cluster,
     ):  # fmt: skip
         yield cluster.scheduler_address

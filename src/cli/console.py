@@ -92,14 +92,16 @@ def with_quiet(command: Callable[..., None]) -> Callable[..., None]:
 def check_texts(arguments: Mapping[str, Any]) -> None:
     """Refuse text whose bytes are not UTF-8, which Python hands over as half characters.
 
-    Paths are left as they are: a file may be called by any bytes.
+    Paths are left as they are, and text that names what is there (where it may be an address, too):
+    a file may be called by any bytes.
 
     Raises:
         UsageError: quoting the text.
     """
     for value in arguments.values():
         for text in value if isinstance(value, list) else [value]:
-            if isinstance(text, str) and any("\ud800" <= char <= "\udfff" for char in text):
+            half = isinstance(text, str) and any("\ud800" <= char <= "\udfff" for char in text)
+            if half and not os.path.lexists(text):
                 raise UsageError(f"{text!r} is not UTF-8 text; set the terminal to UTF-8")
 
 

@@ -171,7 +171,7 @@ def _client(held: ExitStack, workers: int, scheduler: str) -> Any:
         with answered(signal.SIGINT, signal.SIG_IGN):
             cluster = LocalCluster(
                 n_workers=workers, threads_per_worker=1, dashboard_address=None,
-                silence_logs=logging.CRITICAL,
+                silence_logs=logging.CRITICAL, scheduler_kwargs={"dashboard_address": ":0"},
             )  # fmt: skip
             held.enter_context(cluster)
             return Client(cluster, set_as_default=False)

@@ -61,7 +61,7 @@ function setSpeed(speed) {
 if (song) {
   song.addEventListener("pause", () => {
     // The event may come late: at a loop the song ends, and plays again before it is told.
-    if (song.paused && !song.ended && state.playing) setPlaying(false);
+    if (song.paused && !song.ended && !song.error && state.playing) setPlaying(false);
   });
   song.addEventListener("play", () => { if (!state.playing) setPlaying(true); });
   song.addEventListener("error", () => {
