@@ -50,7 +50,6 @@ class Page {
     $("make").disabled = false;
     await this.warn();
     await this.make();
-    this.timings.first = performance.now();
   }
 
   get scene() {
@@ -237,6 +236,7 @@ class Page {
     document.body.classList.add("making");
     $("make").setAttribute("aria-busy", "true");
     const began = performance.now();
+    let made = 0;
     try {
       for (let take = 0; take < takes; take++) {
         const key = this.keyOf(take);
@@ -248,10 +248,13 @@ class Page {
         const motion = await this.client.call("make", { scene, seed: seed + take }, [], (frames) => this.tell(`${what} ${(frames / FPS).toFixed(1)} s`));
         this.motions.set(key, motion);
         if (this.motions.size > REMEMBERED) this.motions.delete(this.motions.keys().next().value);
+        made++;
         this.timings.motion = performance.now() - start;
         this.showMotions();
+        this.timings.first ??= performance.now();
       }
-      this.tell(takes > 1 ? `${takes} takes, in ${((performance.now() - began) / 1000).toFixed(1)} s. Click one to choose it.` : `Made in ${((performance.now() - began) / 1000).toFixed(1)} s.`);
+      const choose = takes > 1 ? " Click a take to choose it." : "";
+      this.tell((made ? `Made in ${((performance.now() - began) / 1000).toFixed(1)} s.` : "Nothing has changed since it was made.") + choose);
       await this.warn();
     } catch (error) {
       this.tell(error.message, "error");
@@ -281,7 +284,7 @@ class Page {
       if (!before || before.length !== found.length) this.stage?.resetView();
       const seconds = Math.max(...found.map(({ frames, fps }) => (frames - 1) / fps));
       $("scrub").max = seconds;
-      if (this.time > seconds) this.seek(0);
+      this.seek(this.time > seconds ? 0 : this.time);
     }
     this.showTakes();
     for (const id of ["save-bvh", "save-glb", "save-film"]) $(id).disabled = !this.shown;

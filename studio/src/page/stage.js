@@ -2,7 +2,7 @@
 
 import {
   AmbientLight, Bone, BufferAttribute, BufferGeometry, Color, DirectionalLight, Fog,
-  GridHelper, HemisphereLight, Line, LineBasicMaterial, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial,
+  HemisphereLight, Line, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial,
   PerspectiveCamera, Plane, PlaneGeometry, Quaternion, Raycaster, RingGeometry, Scene, ShadowMaterial, Skeleton, SkinnedMesh, Vector2,
   Vector3, WebGLRenderer, PCFShadowMap, SRGBColorSpace,
 } from "three";
@@ -46,9 +46,7 @@ export class Stage {
     const floor = new Mesh(new PlaneGeometry(200, 200), new ShadowMaterial({ color: 0x1c2430, opacity: 0.22 }));
     floor.rotation.x = -Math.PI / 2;
     floor.receiveShadow = true;
-    const grid = new GridHelper(60, 60, 0x9eaaba, 0xc6cfdb);
-    grid.position.y = 0.002;
-    this.scene.add(floor, grid);
+    this.scene.add(floor, gridOf(30));
     this.line = new Line(new BufferGeometry(), new LineBasicMaterial({ color: 0xd0453c }));
     this.line.frustumCulled = false;
     this.scene.add(this.line);
@@ -153,7 +151,10 @@ export class Stage {
     if (this.bodies?.length > 1) target.x = 0;
     this.controls.target.copy(target);
     if (fromAbove) this.camera.position.set(target.x, 11, target.z - 3);
-    else this.camera.position.copy(target).add(new Vector3(1.6 / (1 + more), 0.9, 3.7).multiplyScalar(1 + 0.3 * more));
+    else {
+      const half = more * SPACING / 2 + 0.9, away = half / (Math.tan((this.camera.fov * Math.PI) / 360) * this.camera.aspect);
+      this.camera.position.copy(target).add(new Vector3(1.6 / (1 + more), 0.9, 3.7).setLength(Math.max(4.1, away)));
+    }
     this.controls.update();
   }
 
@@ -192,6 +193,17 @@ export class Stage {
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
   }
+}
+
+/** A square of lines, a metre apart, `reach` metres to each side; in pieces, as some renderers drop lines that pass the camera. */
+function gridOf(reach) {
+  const points = [];
+  for (let i = -reach; i <= reach; i++)
+    for (let j = -reach; j < reach; j++) points.push(i, 0, j, i, 0, j + 1, j, 0, i, j + 1, 0, i);
+  const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(points), 3));
+  const grid = new LineSegments(geometry, new LineBasicMaterial({ color: 0xb9c3d1 }));
+  grid.position.y = 0.002;
+  return grid;
 }
 
 /** The mannequin's geometry, coloured by the side of its limbs. */
