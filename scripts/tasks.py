@@ -27,7 +27,7 @@ from src.shared.audio.synthetic_songs import SongSpec, render_song
 
 path = Path("{DEMO}/song.wav")
 path.parent.mkdir(parents=True, exist_ok=True)
-render_song(SongSpec(seconds=8.0, tempo=112.0, seed=1)).write_wav(path)
+render_song(SongSpec(seconds=16.0, tempo=112.0, seed=1)).write_wav(path)
 """
 
 
@@ -45,7 +45,7 @@ def python(*arguments: str, threads: int | None = None) -> int:
 
 
 def demo(arguments: list[str]) -> int:
-    """Generate a few motions, in three languages, one to a song, and the studio's page."""
+    """Generate a few motions, in three languages, one dance to a song, and the studio's page."""
     setup.main([])
     generate = ("-m", "src.cli.tools", "generate", "--out", DEMO)
     prompts = [word for prompt in PROMPTS for word in ("--prompt", prompt)]
@@ -53,7 +53,7 @@ def demo(arguments: list[str]) -> int:
     return (
         python(*generate, *prompts, *options, *arguments)
         or python("-c", SONG)
-        or python(*generate, "--audio", f"{DEMO}/song.wav", "--format", "npz,glb,html")
+        or python(*generate, "--audio", f"{DEMO}/song.wav", "--body", "--format", "glb,html")
         or python("-m", "src.cli.tools", "studio", "--out", f"{DEMO}/studio.html", "--no-open")
     )
 

@@ -150,8 +150,9 @@ def test_demo_makes_a_song_and_moves_to_it(monkeypatch: pytest.MonkeyPatch, tmp_
     prompts, song, audio, studio = called
     assert "--prompt" in prompts and prompts[-2:] == ("--device", "cpu")
     assert audio[audio.index("--audio") + 1] == "outputs/demo/song.wav"
+    assert "--body" in audio
     assert studio[-4:] == ("studio", "--out", "outputs/demo/studio.html", "--no-open")
     done = subprocess.run([sys.executable, "-c", song[1].replace(tasks.DEMO, str(tmp_path / "x"))],
                           cwd=ROOT, check=True)  # fmt: skip
     assert done.returncode == 0
-    assert (tmp_path / "x" / "song.wav").stat().st_size == pytest.approx(8 * 88_200, abs=100)
+    assert (tmp_path / "x" / "song.wav").stat().st_size == pytest.approx(16 * 88_200, abs=100)

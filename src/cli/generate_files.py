@@ -194,14 +194,17 @@ def write_dances(
     places = [int(place) for each in found for place in each.table.order[:kept]]
     rows = []
     for at, (dance, stem, place) in enumerate(zip(dances, names, places, strict=True)):
-        paths = export_dance(dance.motion, dance.trajectory, out, stem, alone, track)
+        own = (dance.motion, dance.trajectory, out, stem, alone, track)
+        paths = export_dance(*own, None if dance.error else dance.figures)
         rows.append(
             _told_of_dance(dance, song)
             | {"files": {name: str(path) for name, path in paths.items()}}
             | {"sample": place, "rank": at % kept + 1}
         )
     if page is not None:
-        write_dance_page([d.motion for d in dances], [d.trajectory for d in dances], page, track)
+        motions, paths_shown = zip(*((d.motion, d.trajectory) for d in dances), strict=True)
+        shown = [None if d.error else d.figures for d in dances]
+        write_dance_page(motions, paths_shown, page, track, shown)
     return rows, None if page is None else str(page)
 
 

@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..errors import UsageError, UserError
+from ..motion.danced import Danced
 from ..motion.motion import Motion
 from ..motion.trajectory import MotionTrajectory, from_motion
 from .preview.trajectory import SongTrack
@@ -291,21 +292,43 @@ def export_dance(
     stem: str,
     formats: Sequence[str],
     song: SongTrack,
+    figures: Sequence[Danced] | None = None,
 ) -> dict[str, Path]:
-    """Write one dance as `folder/stem.<format>` for each format, its page with the song; the paths.
+    """Write one dance as `folder/stem.<format>` for each format, page and film with the song.
+
+    Args:
+        motion: the body.
+        trajectory: its path, as many frames.
+        folder: where to; it is made where it is missing.
+        stem: the files' name.
+        formats: of `EXPORTERS`.
+        song: that it belongs to.
+        figures: what it dances on a stage, seen from the front; None = it follows a path.
+
+    Returns:
+        The path of each format.
 
     Raises:
         UsageError: an unknown format; nothing has been written then.
         UserError: as `write_motion`, or the song cannot be read.
     """
-    paths = export_motion(motion, folder, stem, [name for name in formats if name != "html"])
+    paths = export_motion(motion, folder, stem, [n for n in formats if n not in ("html", "mp4")])
     if "html" in formats:
-        paths["html"] = write_dance_page([motion], [trajectory], folder / f"{stem}.html", song)
+        page = folder / f"{stem}.html"
+        paths["html"] = write_dance_page([motion], [trajectory], page, song, [figures])
+    if "mp4" in formats:
+        check_motion(motion, folder / f"{stem}.mp4")
+        film = EXPORTERS["mp4"](motion, folder / f"{stem}.mp4", song.path, figures)
+        paths["mp4"] = film
     return {name: paths[name] for name in formats}
 
 
 def write_dance_page(
-    motions: Sequence[Motion], trajectories: Sequence[MotionTrajectory], path: Path, song: SongTrack
+    motions: Sequence[Motion],
+    trajectories: Sequence[MotionTrajectory],
+    path: Path,
+    song: SongTrack,
+    figures: Sequence[Sequence[Danced] | None] = (),
 ) -> Path:
     """One page that plays the song with its dances side by side, offline.
 
@@ -315,4 +338,4 @@ def write_dance_page(
     for motion in motions:
         check_motion(motion, path)
     titles = [motion.text for motion in motions]
-    return Path(_trajectory_html(trajectories, path, song, titles, motions))
+    return Path(_trajectory_html(trajectories, path, song, titles, motions, figures))

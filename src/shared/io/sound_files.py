@@ -237,6 +237,20 @@ class SoundReader:
                     raise too_long(self.path, max(self.seconds, self.claimed))
                 yield self._mender.mend(samples)
 
+    def beginning(self, seconds: float, count: int) -> Iterator[np.ndarray]:
+        """Yield the first seconds as `blocks` does, of one or two channels: more become one.
+
+        Raises:
+            UserError: as `blocks`.
+        """
+        left = round(seconds * self.rate)
+        for block in self.blocks(count):
+            block = block[:left]
+            left -= len(block)
+            yield block.mean(1, keepdims=True) if self.channels > 2 else block
+            if not left:
+                break
+
     def notes(self) -> Iterator[str]:
         """What was wrong with the file, once it is read.
 

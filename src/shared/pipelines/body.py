@@ -15,7 +15,6 @@ Letters: T frames, R rows (bones, root track), M beats, S steps.
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import accumulate
-from typing import TYPE_CHECKING
 
 import numpy as np
 import torch
@@ -27,6 +26,7 @@ from ..errors import UsageError
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
+from ..motion.danced import Danced
 from ..motion.features import LEFT_CONTACT, ROOT_ROW, Place
 from ..motion.motion import Motion
 from ..motion.postprocess.stitching import blend_cuts
@@ -41,9 +41,6 @@ from ..motion.steering import circling, steered
 from ..motion.trajectory import MotionTrajectory, from_motion, to_root
 from .song_sampler import Progress
 from .stream import Passage, stream_features
-
-if TYPE_CHECKING:
-    from .figure_dance import Danced
 
 QUICK = 0.45  # seconds; beats closer than this are too fast for a step each
 BOTH_STAND = 0.2  # of a step, both feet are on the ground
@@ -257,7 +254,7 @@ class Performance:
     trajectory: MotionTrajectory
     passages: tuple[Passage, ...]
     error: RootError | None = None
-    figures: tuple["Danced", ...] = ()
+    figures: tuple[Danced, ...] = ()
 
 
 class Performer:

@@ -9,7 +9,6 @@ Letters: T frames, S slots.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -21,6 +20,7 @@ from ..memory.figures import FPS, FigureMemory, Figures
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
+from ..motion.danced import Danced
 from ..motion.features import FORWARD, LATERAL, LEFT_CONTACT, ROOT_ROW, YAW_RATE, mirror_features
 from ..motion.motion import Motion
 from ..motion.rotations import (
@@ -38,24 +38,6 @@ from .song import SongCondition
 BLEND = 0.3  # seconds either side of a seam
 STAND = "a person stands still"  # where nobody dances
 LONG = 10  # frames; for less the pose is held
-
-
-@dataclass(frozen=True)
-class Danced:
-    """A figure in a dance: what it shows, from when to when, as which part of the form."""
-
-    name: str
-    kind: str
-    start: float
-    stop: float
-    counts: int
-    mirrored: bool
-    part: str
-
-    def told(self) -> dict[str, Any]:
-        """As plain values."""
-        rounded = {"start": round(self.start, 3), "stop": round(self.stop, 3)}
-        return vars(self) | rounded
 
 
 class FigureDancer:
@@ -157,9 +139,7 @@ def told(
             Danced(
                 name=named(memory, figure),
                 kind=take.kind,
-                start=float(slot.counts[0]),
-                stop=float(slot.counts[-1]),
-                counts=len(slot.counts) - 1,
+                times=tuple(slot.counts.tolist()),
                 mirrored=bool(figure.mirrored[0]),
                 part=slot.part,
             )

@@ -1,10 +1,12 @@
 """The files of a dance: any motion's formats, and a page in which the song drives the body."""
 
+import json
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+import soundfile
 
 from src.shared.audio.synthetic_score import SongSpec
 from src.shared.audio.synthetic_songs import render_song
@@ -12,6 +14,7 @@ from src.shared.errors import UserError
 from src.shared.formats.arrays import read_npz
 from src.shared.formats.preview.trajectory import SongTrack
 from src.shared.formats.registry import export_dance, write_dance_page
+from src.shared.motion.danced import Danced
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import JOINT_INDEX
 from src.shared.motion.trajectory import MotionTrajectory, to_motion
@@ -20,6 +23,10 @@ from tests.shared.formats.chromium_pipe import Browser, chromium
 from tests.shared.formats.pages import Page, array
 
 FRAMES = 90
+FIGURES = (
+    Danced("box@0.5", "waltz", (0.25, 0.75, 1.25), False, "a"),
+    Danced("box@0.5", "waltz", (1.25, 1.75, 2.25, 2.75), True, "a'"),
+)
 
 
 @pytest.fixture
@@ -90,3 +97,52 @@ def test_the_song_drives_the_body(tmp_path: Path, track: SongTrack) -> None:
         np.testing.assert_allclose(place, expected, atol=0.01)
         assert abs(browser.evaluate("song.currentTime") - now) < 0.25
         assert browser.problems == []
+
+
+@pytest.mark.skipif(not chromium(), reason="no Chromium is installed")
+def test_a_stage_shows_the_figures_and_their_counts(tmp_path: Path, track: SongTrack) -> None:
+    motion, path = dance()
+    page = write_dance_page([motion], [path], tmp_path / "dance.html", track, [FIGURES])
+    texts = "[...document.querySelectorAll('.figures button')].map((b) => b.innerText)"
+    with Browser(page.as_uri() + "#t=1.3", tmp_path / "profile") as browser:
+        assert browser.evaluate("[state.yaw, state.follow]") == [0, False]
+        first, second = browser.evaluate(texts)
+        assert first.split() == ["waltz", "0:00", "a", "·", "box@0.5"] and "⇄" in second
+        counted = browser.evaluate("[0, 0.3, 1.3, 2.3, 2.8].map((t) => danced(MOTIONS[0], t))")
+        assert counted == [[-1, 0], [0, 1], [1, 1], [1, 3], [-1, 0]]
+        browser.wait("document.querySelector('[aria-current]')?.innerText.includes('⇄')")
+        browser.evaluate("document.querySelector('.figures button').click()")
+        browser.wait("document.querySelector('[aria-current]')?.innerText.startsWith('waltz\\n')")
+        assert browser.evaluate("state.time") == 0.25 and browser.problems == []
+
+
+def test_a_path_has_no_stage(tmp_path: Path, track: SongTrack) -> None:
+    motion, path = dance()
+    shown = [FIGURES, None]
+    page = Page(write_dance_page([motion] * 2, [path] * 2, tmp_path / "i.html", track, shown))
+    staged, led = page.data["motions"]
+    assert [figure["times"] for figure in staged["figures"]] == [list(f.times) for f in FIGURES]
+    assert "figures" not in led and json.dumps(staged["figures"][1]).count("true") == 1
+
+
+@pytest.mark.parametrize("figures", [None, (), FIGURES])
+def test_the_film_has_the_song(
+    tmp_path: Path, track: SongTrack, figures: tuple[Danced, ...] | None
+) -> None:
+    av = pytest.importorskip("av")
+    motion, path = dance()
+    short = replace(
+        motion,
+        quaternions=motion.quaternions[:24],
+        root_position=motion.root_position[:24],
+        contacts=motion.contacts[:24],
+    )
+    files = export_dance(short, path, tmp_path, "dance", ("mp4",), track, figures)
+    with av.open(str(files["mp4"])) as film:
+        assert [stream.type for stream in film.streams] == ["video", "audio"]
+        assert film.streams.video[0].frames == 24
+        heard = np.concatenate([f.to_ndarray()[0] for f in film.decode(audio=0)])
+    assert track.path is not None
+    song, rate = soundfile.read(track.path, frames=int(0.8 * 44100), always_2d=True)
+    assert rate == 44100 and 0 <= len(heard) - len(song) <= 2048
+    assert np.corrcoef(heard[: len(song)], song[:, 0])[0, 1] > 0.9

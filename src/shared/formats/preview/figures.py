@@ -8,16 +8,20 @@ the motion's own and plays in real time. MP4 (H.264, plays anywhere) needs PyAV.
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from PIL import Image, ImageDraw, ImageFilter
 
 from ...errors import UserError
 from ...io.files import atomic_write
+from ...io.sound_files import SoundReader
+from ...motion.danced import Danced
 from ...motion.motion import Motion, resample_motion
 from ...motion.skeleton import FOOT_JOINTS
 from ..mannequin import CONTACT, Mannequin, mannequin, side_colours
 from .drawing import (
+    BACKGROUND,
     FLOOR,
     GRID,
     INK,
@@ -95,6 +99,8 @@ def draw_pose(
     azimuth: float = AZIMUTH,
     *,
     target: np.ndarray | None = None,
+    width: float = 0.0,
+    tail: int | None = None,
 ) -> Image.Image:
     """One pose, with the floor, the shadow and the path.
 
@@ -106,17 +112,20 @@ def draw_pose(
         size: width and height in (doubled) pixels.
         azimuth: camera angle in radians.
         target: the point of the floor [3] that the camera looks at; under the pelvis by default.
+        width: metres that must fit into the picture.
+        tail: so many frames of the path until now are drawn; None = all of it.
     """
     under = motion.root_position[frame] * (1.0, 0.0, 1.0)
     target = under if target is None else target
     top = max(1.85, float(positions[:, :, 1].max()) + 0.35)
-    camera = Camera(
-        azimuth, ELEVATION, size[1] / (top + 0.55), target, (size[0] / 2, size[1] * 0.84)
-    )
+    scale = min(size[1] / (top + 0.55), size[0] / max(width, 1e-6))
+    camera = Camera(azimuth, ELEVATION, scale, target, (size[0] / 2, size[1] * 0.84))
     image = Image.new("RGB", size, FLOOR)
     draw = ImageDraw.Draw(image)
     _draw_grid(draw, camera, target)
-    path = camera.project(motion.root_position * (1.0, 0.0, 1.0))[:, :2]
+    way = motion.root_position
+    way = way if tail is None else way[max(0, frame - tail) : frame + 1]
+    path = camera.project(way * (1.0, 0.0, 1.0))[:, :2]
     if len(path) > 1:
         draw.line([tuple(p) for p in path], PATH, 2 * OVERSAMPLE, joint="curve")
     _draw_arrow(draw, camera, under, rotations[frame, 0, :, 2])
@@ -124,11 +133,14 @@ def draw_pose(
     body = mannequin()
     vertices, normals = body.pose(positions[frame], rotations[frame])
     ground = camera.project(vertices * (1.0, 0.0, 1.0))[:, :2]
-    shadow = Image.new("L", size, 0)
+    blur = 3 * OVERSAMPLE
+    corner = np.floor(ground.min(0)) - 3 * blur
+    shadow = Image.new("L", tuple(np.ceil(ground.max(0) - corner).astype(int) + 3 * blur), 0)
     pen = ImageDraw.Draw(shadow)
-    for triangle in ground[body.triangles[::2]].reshape(-1, 6).astype(np.float32):
+    for triangle in (ground - corner)[body.triangles[::2]].reshape(-1, 6).astype(np.float32):
         pen.polygon(triangle, 95)
-    image.paste((70, 76, 90), (0, 0), shadow.filter(ImageFilter.GaussianBlur(3 * OVERSAMPLE)))
+    place = (int(corner[0]), int(corner[1]))
+    image.paste((70, 76, 90), place, shadow.filter(ImageFilter.GaussianBlur(blur)))
     colours = vertex_colours(body, motion.contacts[frame])
     draw_mesh(draw, camera, vertices, normals, body.triangles, colours)
     label = f"{frame / motion.fps:.2f} s"
@@ -186,7 +198,12 @@ def _draw_map(
 
 
 SIZE = (480, 480)  # pixels; even numbers, as video wants them
+STAGE_SIZE = (720, 720)  # of a dance
+STAGE_TAIL = 2.0  # seconds of path
+GLOW = 0.25  # seconds that a count lights up
+ACCENT = (47, 111, 208)
 MAX_FPS = 30.0  # pictures a second; more cost time and show nothing
+SOUND_BLOCK = 16_384  # samples
 FOLLOW = 1.0  # seconds over which the camera's path is smoothed
 GIF_COLOURS = 128  # of a GIF
 GREENS = 32  # rows of the shades of a foot on the ground, for the palette
@@ -229,11 +246,23 @@ def _palette(first: Image.Image) -> Image.Image:
     return sheet.quantize(GIF_COLOURS, dither=Image.Dither.NONE)
 
 
-def write_mp4(motion: Motion, path: str | Path) -> Path:
+def write_mp4(
+    motion: Motion,
+    path: str | Path,
+    song: Path | None = None,
+    figures: Sequence[Danced] | None = None,
+) -> Path:
     """Write an MP4 film at the motion's own rate, at most 30 pictures a second.
 
+    Args:
+        motion: T frames.
+        path: the film to write.
+        song: the sound file that is heard from its start; None = a silent film.
+        figures: what is danced on a stage, which is seen from the front; None = the camera follows.
+
     Raises:
-        UserError: PyAV is not installed, too long, or the file cannot be written.
+        UserError: PyAV is not installed, too long, the song cannot be read, or the file cannot be
+            written.
     """
     try:
         import av
@@ -244,7 +273,7 @@ def write_mp4(motion: Motion, path: str | Path) -> Path:
     _check(motion, path, "mp4")
     with atomic_write(Path(path)) as temporary:
         try:
-            _film(motion, temporary)
+            _film(motion, temporary, song, figures)
         except av.FFmpegError as error:
             if isinstance(error, OSError):  # the disk's fault, not the film's
                 raise
@@ -252,19 +281,45 @@ def write_mp4(motion: Motion, path: str | Path) -> Path:
     return Path(path)
 
 
-def _film(motion: Motion, path: Path) -> None:
-    """Encode every picture; the index goes in front, so that browsers start at once."""
+def _film(motion: Motion, path: Path, song: Path | None, figures: Sequence[Danced] | None) -> None:
+    """Encode every picture and what is heard; the index goes in front, so that browsers start at
+    once."""
     import av
 
     rate = Fraction(motion.fps).limit_denominator(1001)
     with av.open(str(path), "w", format="mp4", options={"movflags": "faststart"}) as out:
         stream = out.add_stream("libx264", rate=rate)
-        stream.width, stream.height = SIZE
+        stream.width, stream.height = SIZE if figures is None else STAGE_SIZE
         stream.pix_fmt = "yuv420p"
         stream.options = {"crf": "20", "preset": "veryfast"}
-        for picture in frames(motion):
+        heard: Iterator[float] = iter(())
+        if song is not None:
+            heard = _heard(out, SoundReader(song), motion.seconds)
+        pictures = frames(motion) if figures is None else stage_frames(motion, figures)
+        until = next(heard, np.inf)  # every stream is known before the first picture is written
+        for number, picture in enumerate(pictures):
             out.mux(stream.encode(av.VideoFrame.from_image(picture)))
+            while until <= number / motion.fps:
+                until = next(heard, np.inf)
         out.mux(stream.encode())
+        for _ in heard:
+            pass
+
+
+def _heard(out: Any, song: SoundReader, seconds: float) -> Iterator[float]:
+    """Puts a song's beginning into a film, piece by piece; yields the second that is reached."""
+    import av
+
+    stream, done = out.add_stream("aac", rate=48_000 if song.rate == 48_000 else 44_100), 0
+    stream.layout = "mono" if song.channels == 1 else "stereo"
+    for block in song.beginning(seconds, SOUND_BLOCK):
+        layout = "mono" if block.shape[1] == 1 else "stereo"
+        frame = av.AudioFrame.from_ndarray(np.ascontiguousarray(block.T), "fltp", layout)
+        frame.sample_rate, frame.pts = song.rate, done
+        out.mux(stream.encode(frame))
+        done += len(block)
+        yield done / song.rate
+    out.mux(stream.encode())
 
 
 def gif_rate(fps: float) -> float:
@@ -285,6 +340,39 @@ def frames(motion: Motion, size: tuple[int, int] = SIZE) -> Iterator[Image.Image
         place = (10 * OVERSAMPLE, 8 * OVERSAMPLE)
         ImageDraw.Draw(picture).text(place, motion.text, INK, title)
         yield picture.resize(size, Image.Resampling.BOX)
+
+
+def stage_frames(motion: Motion, figures: Sequence[Danced]) -> Iterator[Image.Image]:
+    """The pictures of a dance: the whole stage from the front, the figure and its counts."""
+    positions, rotations = motion.positions(), motion.global_rotations()
+    low, high = positions.min((0, 1)), positions.max((0, 1))
+    middle = (low + high) / 2 * (1.0, 0.0, 1.0)
+    width = float(high[0] - low[0]) + 0.4
+    large = (STAGE_SIZE[0] * OVERSAMPLE, STAGE_SIZE[1] * OVERSAMPLE)
+    title, small, big = (
+        font(20 * OVERSAMPLE, motion.text),
+        font(16 * OVERSAMPLE),
+        font(48 * OVERSAMPLE),
+    )
+    tail = round(STAGE_TAIL * motion.fps)
+    x, y, radius = large[0] - 56 * OVERSAMPLE, 56 * OVERSAMPLE, 40 * OVERSAMPLE
+    for frame in range(motion.num_frames):
+        picture = draw_pose(
+            motion, positions, rotations, frame, large, 0.0, target=middle, width=width, tail=tail
+        )
+        pen, now = ImageDraw.Draw(picture), frame / motion.fps
+        pen.text((16 * OVERSAMPLE, 12 * OVERSAMPLE), motion.text, INK, title)
+        for figure in figures:
+            if figure.start <= now < figure.stop:
+                count = int(np.searchsorted(figure.times, now, side="right")) - 1
+                glow = max(0.0, 1 - (now - figure.times[count]) / GLOW)
+                between = np.array(BACKGROUND) * (1 - 0.8 * glow) + np.array(ACCENT) * 0.8 * glow
+                colour = tuple(between.astype(int).tolist())
+                pen.ellipse((x - radius, y - radius, x + radius, y + radius), colour)
+                pen.text((x, y), str(count + 1), INK, big, anchor="mm")
+                named = figure.kind + ", mirrored" * figure.mirrored
+                pen.text((16 * OVERSAMPLE, 42 * OVERSAMPLE), named, INK, small)
+        yield picture.resize(STAGE_SIZE, Image.Resampling.BOX)
 
 
 def _smooth(path: np.ndarray, fps: float) -> np.ndarray:

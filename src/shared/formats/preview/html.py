@@ -25,6 +25,7 @@ import numpy as np
 from ...errors import UserError
 from ...io.files import write_text
 from ...io.sound_files import SoundReader
+from ...motion.danced import Danced
 from ...motion.motion import Motion
 from ...motion.skeleton import FOOT_JOINTS, canonical_skeleton
 from ...motion.style import PAIRS, style_values
@@ -180,19 +181,12 @@ def _vorbis(song: SoundReader, longest: float) -> bytes:
     stream = io.BytesIO()
     step = -(-song.rate // VORBIS_RATE)  # 96 or 192 kHz: every second or fourth sample
     channels = song.channels if song.channels <= 2 else 1
-    left = round(longest * song.rate)
     with soundfile.SoundFile(
         stream, "w", song.rate // step, channels, "VORBIS", format="OGG"
     ) as out:
-        for block in song.blocks(BLOCK * step):
-            block = block[:left]
-            left -= len(block)
-            if song.channels > 2:
-                block = block.mean(1, keepdims=True)
+        for block in song.beginning(longest, BLOCK * step):
             whole = len(block) // step * step
             out.write(block[:whole].reshape(-1, step, channels).mean(1).clip(-1, 1))
-            if not left:
-                break
     return stream.getvalue()
 
 
@@ -207,6 +201,9 @@ PATH_HINT = """the bars are the style, the strip is the speed. Only the pelvis i
     rest of the body stands in."""
 BODY_HINT = """the bars are the path's style, the strip is the mean speed of all joints. A foot on
     the ground turns green."""
+STAGE_HINT = """The stage is seen from the front. The dial counts the figure, its hand goes round
+    once a bar; the strip is the mean speed of all joints; below are the figures: click one to see
+    it. A foot on the ground turns green."""
 TOP_SPEED = 65.0  # m/s; the page stores 16-bit millimetres a second
 
 
@@ -216,6 +213,7 @@ def write_trajectory_html(
     song: SongTrack | None = None,
     titles: Sequence[str] = (),
     bodies: Sequence[Motion] = (),
+    figures: Sequence[Sequence[Danced] | None] = (),
 ) -> Path:
     """Write one self-contained page; titles are captions and cannot act as markup.
 
@@ -225,6 +223,7 @@ def write_trajectory_html(
         song: its file is put into the page, cut to the longest trajectory.
         titles: one caption a trajectory; a body's own text where there is none.
         bodies: one a trajectory, frame by frame on it; none = the proxy body.
+        figures: of each body what it dances on a stage; None = it follows a path.
 
     Raises:
         UserError: no trajectory, a song that cannot be read, or the page cannot be written.
@@ -238,22 +237,31 @@ def write_trajectory_html(
         uri = song_uri(song.path, max(trajectory.seconds for trajectory in shown))
         media = f'<audio id="song" preload="auto" src="{html.escape(uri)}"></audio>'
     cards = [
-        _card(trajectory, body, song, title)
-        for trajectory, body, title in zip_longest(shown, bodies, titles)
+        _card(trajectory, body, song, title, danced)
+        for trajectory, body, title, danced in zip_longest(shown, bodies, titles, figures)
     ]
     colours = [PATH] if song.beatless else phase_palette()
     palette = ["#" + bytes(colour).hex() for colour in colours]
     data = {"motions": cards, "palette": palette, "pairs": PAIRS}
     hint = BEATLESS_HINT if song.beatless else MUSIC_HINT
-    return write_page(data, path, hint=f"{hint} {BODY_HINT if bodies else PATH_HINT}", media=media)
+    hint = f"{hint} {BODY_HINT if bodies else PATH_HINT}"
+    if figures and all(danced is not None for danced in figures):
+        hint = STAGE_HINT
+    return write_page(data, path, hint=hint, media=media)
 
 
 def _card(
-    trajectory: MotionTrajectory, body: Motion | None, song: SongTrack, title: str | None
+    trajectory: MotionTrajectory,
+    body: Motion | None,
+    song: SongTrack,
+    title: str | None,
+    figures: Sequence[Danced] | None,
 ) -> dict[str, Any]:
     """The motion of a body, or of the proxy body, and what dial, path and strip show."""
     card = motion_data(body or proxy_body(trajectory, title or ""))
     card |= {"text": title} if title else {}
+    if figures is not None:
+        card["figures"] = [figure.told() | {"times": figure.times} for figure in figures]
     marks = beat_marks(trajectory, song)
     if not len(marks.times) and np.ptp(trajectory.phase) == 0:
         return card  # no music: no dial

@@ -1,9 +1,13 @@
 // The preview's page: one card a motion, one clock and one camera for all of them.
 
-const START = { yaw: 0.5, pitch: DATA.palette ? 0.42 : 0.2, zoom: 1 }; // a path is seen from higher
+const STAGE = MOTIONS.every((motion) => motion.figures); // seen from the front, as a whole
+const HIGH = DATA.palette && !STAGE; // a path is seen from higher
+const START = { yaw: STAGE ? 0 : 0.5, pitch: HIGH ? 0.42 : 0.2, zoom: 1 };
 const DISTANCE = 4.9, MIDDLE = 0.95; // metres to the body, height that the camera looks at
+const ARM = 0.7; // metres from the pelvis's way that a stage shows, at least
 const FRAME = 1 / Math.max(...MOTIONS.map((motion) => motion.fps));
-Object.assign(state, START, { follow: true });
+Object.assign(state, START, { follow: !STAGE });
+find("follow").checked = state.follow;
 const board = document.querySelector("main");
 const scrub = find("scrub");
 const SLOW = 300; // milliseconds for one picture of all cards
@@ -16,6 +20,7 @@ const cards = MOTIONS.map((motion, index) => {
   const make = (tag, parent) => parent.appendChild(document.createElement(tag));
   const figure = make("figure", board), canvas = make("canvas", figure);
   const strip = motion.phase ? make("canvas", figure).getContext("2d") : null;
+  const buttons = motion.figures?.length ? makeFigures(make("ol", figure), motion) : [];
   const caption = make("figcaption", figure), text = make("span", caption);
   text.textContent = motion.text || `motion ${index + 1}`;
   text.dir = "auto";
@@ -30,9 +35,10 @@ const cards = MOTIONS.map((motion, index) => {
   });
   const middle = [(low[0] + high[0]) / 2, MIDDLE, (low[1] + high[1]) / 2];
   const span = Math.hypot(high[0] - low[0], high[1] - low[1]);
+  const side = (high[0] - low[0]) / 2 + ARM;
   steer(canvas);
   if (strip) makeStrip(strip.canvas, motion);
-  return { motion, middle, span, strip, context: canvas.getContext("2d") };
+  return { motion, middle, span, side, strip, buttons, figure: -1, context: canvas.getContext("2d") };
 });
 document.title = `${cards[0].context.canvas.getAttribute("aria-label")} – motion preview`;
 
@@ -60,9 +66,11 @@ function fit(canvas, pixel) {
   return [width, height];
 }
 
-function draw({ motion, context, strip, middle, span }) {
+function draw(card) {
+  const { motion, context, strip, middle, span, side } = card;
   const pixel = Math.min(devicePixelRatio || 1, 2), size = fit(context.canvas, pixel);
   const stripSize = strip && fit(strip.canvas, pixel);
+  if (card.buttons.length) markFigure(card, state.time);
   if (stripSize) drawStrip(strip, motion, Math.min(state.time, motion.seconds), ...stripSize, pixel);
   if (!size) return;
   const [width, height] = size;
@@ -70,14 +78,17 @@ function draw({ motion, context, strip, middle, span }) {
   const [x, , z] = pose.positions[0];
   const target = state.follow ? [x, MIDDLE, z] : middle;
   const narrow = Math.max(1, (0.7 * height) / width);
-  const distance = (DISTANCE * narrow + (state.follow ? 0 : 1.2 * span)) / state.zoom;
+  const wide = (side * height) / width / Math.tan(FIELD_OF_VIEW / 2) + span / 2;
+  const away = motion.figures ? Math.max(DISTANCE + span / 2, wide) : DISTANCE * narrow + 1.2 * span;
+  const distance = (state.follow ? DISTANCE * narrow : away) / state.zoom;
   const view = makeView(state.yaw, state.pitch, distance, target, width, height);
   drawFloor(context, view, pixel);
+  if (motion.figures) drawStage(context, view, middle, Math.max(1, span / 2 + 0.3), pixel);
   drawTrail(context, view, motion, state.time, pixel);
   paintBody(context, view, pose);
   if (!motion.phase) return;
   if (motion.meter) drawDial(context, view, motion, Math.min(state.time, motion.seconds), pixel);
-  drawStyle(context, view, motion, Math.min(state.time, motion.seconds), pixel);
+  if (!motion.figures) drawStyle(context, view, motion, Math.min(state.time, motion.seconds), pixel);
 }
 
 // ---------------------------------------------------------------- time

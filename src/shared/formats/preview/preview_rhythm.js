@@ -13,6 +13,7 @@ for (const motion of MOTIONS) {
   motion.phase = decode(motion.phase, Uint16Array);
   motion.speed = decode(motion.speed, Uint16Array);
   motion.style = decode(motion.style, Uint8Array);
+  motion.times = (motion.figures || []).map((figure) => figure.times);
   motion.fastest = Math.max(1, motion.speed.reduce((most, x) => Math.max(most, x), 0) / 1000);
 }
 
@@ -39,6 +40,12 @@ function beatAfter({ beats }, time) {
   return low;
 }
 
+/** Number of the figure that is danced at a time, -1 where none is, and which of its counts. */
+function danced({ times }, time) {
+  const at = times.findIndex((counts) => counts[0] <= time && time < counts[counts.length - 1]);
+  return [at, at < 0 ? 0 : times[at].findIndex((count) => count > time)];
+}
+
 /** The walked path in the colours of the bar, with a dot on the floor at each beat. */
 function drawBeatTrail(context, view, motion, start, now, pixel) {
   for (let frame = start; frame < now; frame++) {
@@ -47,7 +54,7 @@ function drawBeatTrail(context, view, motion, start, now, pixel) {
     addPath(context, view, motion, frame, Math.min(frame + 1, now), 1);
     context.stroke();
   }
-  const last = now / motion.fps + AHEAD;
+  const last = now / motion.fps + (motion.figures ? 0 : AHEAD);
   for (let i = beatAfter(motion, start / motion.fps); motion.beats[i] <= last; i++) {
     const frame = motion.beats[i] * motion.fps;
     const [x, y, depth, scale] = view.project(floorAt(motion, frame));
@@ -105,7 +112,8 @@ function drawDial(context, view, motion, time, pixel) {
   context.font = `600 ${Math.round(radius * 0.46)}px system-ui, sans-serif`;
   context.textAlign = "center";
   context.textBaseline = "middle";
-  context.fillText(String(Math.floor(phase * motion.meter) + 1), x, y);
+  const [figure, count] = danced(motion, time);
+  context.fillText(String(figure < 0 ? Math.floor(phase * motion.meter) + 1 : count), x, y);
 }
 
 /** Under the dial: how much of each named pair the style has, 0 to 1, a mark at the middle. */
@@ -173,6 +181,17 @@ function drawStrip(context, motion, time, width, height, pixel) {
     context.fillStyle = strong ? "#343a44" : "#9aa2ae";
     context.fillRect(across(motion.beats[i]), 0, (strong ? 2 : 1) * pixel, (strong ? 12 : 7) * pixel);
   }
+  context.font = `${10 * pixel}px system-ui, sans-serif`;
+  context.textAlign = "center";
+  context.textBaseline = "top";
+  for (const counts of motion.times) {
+    if (counts[counts.length - 1] < start || counts[0] > end) continue;
+    context.fillStyle = "#2f6fd0";
+    context.fillRect(across(counts[0]), 0, pixel, height);
+    counts.slice(0, -1).forEach((count, i) => {
+      context.fillText(String(i + 1), across(count) + 6 * pixel, 1.5 * pixel);
+    });
+  }
   context.fillStyle = "#c83c5a";
   context.fillRect(across(time) - pixel, 0, 2 * pixel, height);
   const now = Math.min(motion.frames - 1, Math.round(time * motion.fps));
@@ -181,6 +200,41 @@ function drawStrip(context, motion, time, width, height, pixel) {
   context.textAlign = "left";
   context.textBaseline = "bottom";
   context.fillText(`${(motion.speed[now] / 1000).toFixed(2)} m/s`, 6 * pixel, height - 4 * pixel);
+}
+
+/** The figures of a dance in a row that scrolls, each a button that goes to its beginning. */
+function makeFigures(row, motion) {
+  row.className = "figures";
+  row.setAttribute("aria-label", "Figures");
+  return motion.figures.map(({ kind, mirrored, name, part, start }) => {
+    const make = (tag, parent, text) => {
+      const made = parent.appendChild(document.createElement(tag));
+      made.textContent = text;
+      return made;
+    };
+    const item = row.appendChild(document.createElement("li"));
+    const button = make("button", item, "");
+    button.type = "button";
+    if (mirrored) button.title = "left and right swapped";
+    make("b", button, `${kind}${mirrored ? " ⇄" : ""}`);
+    const seconds = String(Math.floor(start % 60)).padStart(2, "0");
+    const when = `${Math.floor(start / 60)}:${seconds}`;
+    make("small", button, `${when} ${part.replace("'", "′")} · ${name}`);
+    button.addEventListener("click", () => seek(start));
+    return button;
+  });
+}
+
+/** Mark the button of the figure that is danced now, and keep it in sight. */
+function markFigure(card, time) {
+  const [now] = danced(card.motion, time);
+  if (now === card.figure) return;
+  card.buttons[card.figure]?.removeAttribute("aria-current");
+  card.figure = now;
+  if (now < 0) return;
+  const button = card.buttons[now], row = button.closest(".figures");
+  button.setAttribute("aria-current", "true");
+  row.scrollLeft = button.offsetLeft - (row.clientWidth - button.offsetWidth) / 2;
 }
 
 /** A strip under the picture; a click goes to its time. */

@@ -169,6 +169,31 @@ function drawFloor(context, view, pixel) {
   }
 }
 
+/** A round stage on the floor, with a mark towards the audience. */
+function drawStage(context, view, [x, , z], radius, pixel) {
+  const at = (angle, r) => [x + r * Math.sin(angle), 0, z + r * Math.cos(angle)];
+  const steps = 72;
+  context.beginPath();
+  for (let i = 0; i < steps; i++) {
+    const [px, py] = view.project(at((2 * Math.PI * i) / steps, radius));
+    context.lineTo(px, py);
+  }
+  context.closePath();
+  context.fillStyle = "rgba(255, 255, 255, 0.6)";
+  context.fill();
+  context.lineWidth = 1.5 * pixel;
+  context.strokeStyle = "#b9c0cb";
+  context.stroke();
+  context.beginPath();
+  for (const [angle, r] of [[-0.05, 1.03], [0, 1.12], [0.05, 1.03]]) {
+    const [px, py] = view.project(at(angle, r * radius));
+    context.lineTo(px, py);
+  }
+  context.fillStyle = "#8b93a0";
+  context.fill();
+}
+
+const STAGE_TAIL = 2; // seconds of path that are drawn on a stage
 const TAIL = 10; // seconds of path that are drawn strongly and in full
 const OUTLINE = 1500; // points of the pale path, however long it is
 
@@ -180,9 +205,11 @@ function drawTrail(context, view, motion, time, pixel) {
   context.lineWidth = 2.5 * pixel;
   context.strokeStyle = "rgba(200, 60, 90, 0.25)";
   context.beginPath();
-  addPath(context, view, motion, 0, frames - 1, Math.max(1, Math.floor(frames / OUTLINE)));
+  const stride = Math.max(1, Math.floor(frames / OUTLINE));
+  if (!motion.figures) addPath(context, view, motion, 0, frames - 1, stride);
   context.stroke();
-  const start = Math.max(0, Math.floor(now - TAIL * fps));
+  const tail = motion.figures ? STAGE_TAIL : TAIL;
+  const start = Math.max(0, Math.floor(now - tail * fps));
   if (motion.phase) return drawBeatTrail(context, view, motion, start, now, pixel);
   context.strokeStyle = "#c83c5a";
   context.beginPath();
