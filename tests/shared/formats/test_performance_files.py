@@ -104,7 +104,7 @@ def test_a_stage_shows_the_figures_and_their_counts(tmp_path: Path, track: SongT
     motion, path = dance()
     page = write_dance_page([motion], [path], tmp_path / "dance.html", track, [FIGURES])
     texts = "[...document.querySelectorAll('.figures button')].map((b) => b.innerText)"
-    with Browser(page.as_uri() + "#t=1.3", tmp_path / "profile") as browser:
+    with Browser(page.as_uri() + "#t=1.3", tmp_path / "profile", (900, 700)) as browser:
         assert browser.evaluate("[state.yaw, state.follow]") == [0, False]
         first, second = browser.evaluate(texts)
         assert first.split() == ["waltz", "0:00", "a", "·", "box@0.5"] and "⇄" in second

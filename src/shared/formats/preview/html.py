@@ -201,9 +201,9 @@ PATH_HINT = """the bars are the style, the strip is the speed. Only the pelvis i
     rest of the body stands in."""
 BODY_HINT = """the bars are the path's style, the strip is the mean speed of all joints. A foot on
     the ground turns green."""
-STAGE_HINT = """The stage is seen from the front. The dial counts the figure, its hand goes round
-    once a bar; the strip is the mean speed of all joints; below are the figures: click one to see
-    it. A foot on the ground turns green."""
+STAGE_HINT = """The stage is seen from the front. The dial's hand goes round once a bar; the strip
+    is the mean speed of all joints. A foot on the ground turns green."""
+FIGURES_HINT = "Dial and strip count the figures, which are named below: click one to see it."
 TOP_SPEED = 65.0  # m/s; the page stores 16-bit millimetres a second
 
 
@@ -246,7 +246,7 @@ def write_trajectory_html(
     hint = BEATLESS_HINT if song.beatless else MUSIC_HINT
     hint = f"{hint} {BODY_HINT if bodies else PATH_HINT}"
     if figures and all(danced is not None for danced in figures):
-        hint = STAGE_HINT
+        hint = f"{STAGE_HINT} {FIGURES_HINT if any(figures) else ''}"
     return write_page(data, path, hint=hint, media=media)
 
 
