@@ -286,6 +286,7 @@ class TrainTowerConfig(TrainConfig):
 class TrainClipConfig(TrainTowerConfig):
     """train_clip.yaml: aligning text and motion (ruling 20)."""
 
+    stream: bool = False  # read shards as they are needed; every clip once an epoch, no balance
     text: str | None = None  # folder of train_text, whose tower stays as it is
     temperature: float = Field(0.1, gt=0)
     cosine_weight: float = Field(0.2, ge=0)
@@ -319,6 +320,7 @@ class ConstraintShares(Config):
 class TrainGenerationConfig(TrainConfig):
     """train_generation.yaml: the denoiser with a frozen text tower."""
 
+    stream: bool = False  # read shards as they are needed; every clip once an epoch, no balance
     clip: str | None = None  # train_clip's folder, or a generator; None: init, or runs/clip
     init: str | None = None  # a trained generator to go on from (fine-tuning); None = from nothing
     other_tower: bool = False  # go on from init behind a tower that is not its own

@@ -9,7 +9,8 @@ Letters: N prompts or captions, D embed dim, H width of the encoder.
 
 import copy
 import hashlib
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Self
@@ -24,7 +25,13 @@ from ..shared.config_schema import ClipConfig, NetworkConfig, TrainConfig
 from ..shared.data.captions.word_dropout import insert_babble
 from ..shared.data.prepare import open_data
 from ..shared.data.prepared import PreparedData
-from ..shared.data.text_motion import TextMotionDataset, arm_actions, gestures
+from ..shared.data.streamed import StreamedData, StreamedSet
+from ..shared.data.text_motion import (
+    CaptionedWindows,
+    TextMotionDataset,
+    arm_actions,
+    gestures,
+)
 from ..shared.errors import UsageError, UserError
 from ..shared.io.files import atomic_write
 from ..shared.metrics.retrieval import BATCH
@@ -45,8 +52,13 @@ from .run_log import announce
 from .task import mix_seed
 
 
-def open_training_data(config: TrainConfig, network: NetworkConfig) -> PreparedData:
+def open_training_data(
+    config: TrainConfig, network: NetworkConfig, *, stream: bool = False
+) -> PreparedData:
     """The data of a stage; synthetic data is made once beside the run's folder.
+
+    Args:
+        stream: leave the shards where they are (`StreamedData`).
 
     Raises:
         UsageError: the network has another number of bones than the data.
@@ -57,17 +69,38 @@ def open_training_data(config: TrainConfig, network: NetworkConfig) -> PreparedD
             f"generation.num-bones {network.generation.num_bones} does not fit the data, which"
             f" has {NUM_JOINTS}; set it to {NUM_JOINTS}"
         )
-    return open_data(config.data, Path(config.output).parent)
+    kind = StreamedData if stream else PreparedData
+    return open_data(config.data, Path(config.output).parent, kind=kind)
+
+
+@contextmanager
+def _enough() -> Iterator[None]:
+    try:
+        yield
+    except ValueError as error:
+        raise UserError(f"{error}; lower min-frames or prepare more data") from error
 
 
 def training_set(
     config: TrainConfig, data: PreparedData, actions: Collection[str] | None = None
 ) -> TextMotionDataset:
     """The train split, or its clips of these actions; raises UserError when none can be used."""
-    try:
+    with _enough():
         return split_set(config, data, "train", actions)
-    except ValueError as error:
-        raise UserError(f"{error}; lower min-frames or prepare more data") from error
+
+
+def training_clips(config: TrainConfig, data: PreparedData) -> CaptionedWindows:
+    """The train split, streamed where the data is; raises UserError when none can be used."""
+    if not isinstance(data, StreamedData):
+        return training_set(config, data)
+    with _enough():
+        return StreamedSet(
+            data,
+            min_frames=config.min_frames,
+            max_frames=config.max_frames,
+            languages=config.languages,
+            seed=mix_seed("data", config.seed),
+        )
 
 
 def validation_set(config: TrainConfig, data: PreparedData) -> TextMotionDataset | None:

@@ -34,7 +34,7 @@ from .text_stages import (
     motion_rows,
     new_tokenizer,
     open_training_data,
-    training_set,
+    training_clips,
     validation_set,
 )
 
@@ -96,8 +96,8 @@ class ClipTask(Task):
 
     def __init__(self, config: TrainClipConfig, network: NetworkConfig) -> None:
         self.config, self.network = config, network
-        self.data = open_training_data(config, network)
-        self.train = training_set(config, self.data)
+        self.data = open_training_data(config, network, stream=config.stream)
+        self.train = training_clips(config, self.data)
         self.held_back = validation_set(config, self.data)
         self.retrieves = self.held_back is not None and can_retrieve(len(self.held_back))
         if config.text is None and network.clip.text_model == PAIRS:
@@ -128,7 +128,9 @@ class ClipTask(Task):
 
     def batch(self, part: Part) -> ClipBatch:
         """Clips with shortened captions."""
-        clips = self.train.batch(part.step, self.config.batch_size, rank=part.index)
+        clips = self.train.batch(
+            part.step, self.config.batch_size, rank=part.index, count=part.count
+        )
         rng = numpy_generator("words", self.config.seed, part.step, part.index)
         share = self.config.word_dropout
         return self._tokenized(clips, [drop_words(text, share, rng) for text in clips.captions])

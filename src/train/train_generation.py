@@ -36,7 +36,7 @@ from .text_stages import (
     fit_style_map,
     motion_rows,
     open_training_data,
-    training_set,
+    training_clips,
     validation_set,
 )
 
@@ -117,8 +117,8 @@ class GenerationTask(Task):
         self.config, self.network = config, network
         source = config.clip or config.init or "runs/clip"
         self.tower, self.tokenizer = load_text_tower(source, network.embed_dim)
-        self.data = open_training_data(config, network)
-        self.train = training_set(config, self.data)
+        self.data = open_training_data(config, network, stream=config.stream)
+        self.train = training_clips(config, self.data)
         self.held_back = validation_set(config, self.data)
         self.mean = motion_rows(self.data.mean, network)
         self.std = motion_rows(self.data.std, network)
@@ -178,7 +178,7 @@ class GenerationTask(Task):
     def batch(self, part: Part) -> DenoiserBatch:
         """Clips with captions, noise, steps and what is dropped."""
         config, size = self.config, self.config.batch_size
-        clips = self.train.batch(part.step, size, rank=part.index)
+        clips = self.train.batch(part.step, size, rank=part.index, count=part.count)
         rng = numpy_generator("words", config.seed, part.step, part.index)
         captions = [drop_words(text, config.word_dropout, rng) for text in clips.captions]
         draws = generator("noise", config.seed, part.step, part.index)

@@ -139,3 +139,15 @@ def test_two_processes_have_the_gradient_of_one(tmp_path: Path) -> None:
     _loss(text @ weight, motion, groups).backward()
     for rank in range(2):
         torch.testing.assert_close(torch.load(tmp_path / f"{rank}.pt"), weight.grad)
+
+
+def test_streamed_shards_train_and_go_on(prepared: Path, tmp_path: Path) -> None:
+    settings = ("steps=4", "save-every=2", "stream=true", "lr-schedule=constant")
+    train_clip(clip_config(prepared, tmp_path / "whole", *settings))
+    train_clip(clip_config(prepared, tmp_path / "halves", *settings, "steps=2"))
+    train_clip(clip_config(prepared, tmp_path / "halves", *settings), resume=True)
+    whole, halves = (
+        load_file(tmp_path / name / "checkpoints" / "step-00000004" / "model.safetensors")
+        for name in ("whole", "halves")
+    )
+    assert all(torch.equal(whole[key], halves[key]) for key in whole)

@@ -164,14 +164,20 @@ def _unmatched(sources: tuple[Source, ...]) -> list[str]:
     return sorted(named - {name for found in rows for name, matched in found.items() if matched})
 
 
-def open_data(data: str, cache: Path, *, synthetic_clips: int = SYNTHETIC_CLIPS) -> PreparedData:
+def open_data(
+    data: str,
+    cache: Path,
+    *,
+    synthetic_clips: int = SYNTHETIC_CLIPS,
+    kind: type[PreparedData] = PreparedData,
+) -> PreparedData:
     """Open a prepared folder; "synthetic" is prepared on the spot into `cache`, once."""
     if data != SYNTHETIC:
-        return PreparedData.open(data)
+        return kind.open(data)
     folder = cache / f"synthetic-{synthetic_clips}"
     with sole_writer(folder, wait=True):
         prepare([SyntheticSource(synthetic_clips)], folder)
-    return PreparedData.open(folder)
+    return kind.open(folder)
 
 
 # ---------------------------------------------------------------- shards

@@ -84,13 +84,18 @@ def damaged(path: Place) -> Iterator[None]:
         raise UserError(f"{path} is damaged ({error!s:.300}); run `prepare` again") from None
 
 
-def _checked(values: Tensor, shape: tuple[int, ...]) -> Tensor:
+def checked(values: Tensor, shape: tuple[int, ...]) -> Tensor:
     """The tensor, if it has this shape and finite numbers; ValueError if not."""
     if tuple(values.shape) != shape or not values.is_floating_point():
         raise ValueError(f"{values.dtype} {list(values.shape)} instead of numbers {list(shape)}")
     if not values.isfinite().all():
         raise ValueError("numbers that are not finite")
     return values
+
+
+def parse_record(line: bytes) -> ClipRecord:
+    """The record of a line of clips.jsonl; raises ValidationError."""
+    return _RECORD.validate_json(line)
 
 
 class PreparedData:
@@ -127,8 +132,8 @@ class PreparedData:
         path = self.folder / "statistics.safetensors"
         with damaged(path), fetched(path) as local:
             statistics = load_file(local)
-            self.mean: Tensor = _checked(statistics["mean"], ROWS)  # 23 6
-            self.std: Tensor = _checked(statistics["std"], ROWS)  # 23 6
+            self.mean: Tensor = checked(statistics["mean"], ROWS)  # 23 6
+            self.std: Tensor = checked(statistics["std"], ROWS)  # 23 6
         path = self.folder / "captions.json"
         with damaged(path):
             self._captions = _CAPTIONS.validate_python(load_json(path))
@@ -150,7 +155,7 @@ class PreparedData:
     def _all_records(self) -> list[ClipRecord]:
         path = self.folder / "clips.jsonl"
         with damaged(path), path.open("rb") as stream:
-            return [_RECORD.validate_json(line) for line in stream]
+            return [parse_record(line) for line in stream]
 
     @cached_property
     def _shards(self) -> dict[str, Tensor]:
@@ -161,7 +166,7 @@ class PreparedData:
                 continue
             with damaged(path), fetched(path) as local:
                 features = load_file(local)["features"]
-                shards[path.name] = _checked(features, (len(features), *ROWS))
+                shards[path.name] = checked(features, (len(features), *ROWS))
         return shards
 
     def records(self, split: str | None = None) -> list[ClipRecord]:

@@ -5,6 +5,7 @@ seen, without any loader state. Gestures that come back to where they began are 
 shortened. B batch, T frames; features are those of motion/features.py.
 """
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
 
@@ -54,7 +55,120 @@ class TextMotionBatch:
         return len(self.captions)
 
 
-class TextMotionDataset:
+class CaptionedWindows(ABC):
+    """Windows of clips with one caption each, as batches.
+
+    Args:
+        data: where the clips come from.
+        seed: another one draws other windows and captions.
+    """
+
+    def __init__(
+        self,
+        data: PreparedData,
+        *,
+        min_frames: int = 32,
+        max_frames: int = 128,
+        languages: tuple[str, ...] = ("en", "es", "fr", "de", "ja", "zh"),
+        seed: int = 0,
+    ) -> None:
+        self.data, self.seed = data, seed
+        self.min_frames, self.max_frames, self.languages = min_frames, max_frames, languages
+        self._tag_index = {name: index for index, name in enumerate(data.tags)}
+
+    @abstractmethod
+    def __len__(self) -> int:
+        """Clips in all."""
+
+    @abstractmethod
+    def batch(self, step: int, size: int, *, rank: int = 0, count: int = 1) -> TextMotionBatch:
+        """Part `rank` of `count` parts of `size` clips of a step: a function of these alone."""
+
+    @abstractmethod
+    def _features(self, record: ClipRecord) -> Tensor:
+        """Raw features [T,23,6] of a clip."""
+
+    @abstractmethod
+    def _comes_back(self, record: ClipRecord) -> bool:
+        """Whether a clip is a gesture, which is not cut off."""
+
+    @abstractmethod
+    def _group(self, record: ClipRecord) -> int:
+        """A number that clips of one label combination share."""
+
+    def _is_usable(self, record: ClipRecord) -> bool:
+        """Whether a clip is long enough, can be shown whole if it must, and has a caption."""
+        return (
+            record.num_frames >= min(self.min_frames, self.max_frames)
+            and not (_whole(record) and record.num_frames > self.max_frames)
+            and any(self.data.captions(record).get(language) for language in self.languages)
+        )
+
+    def _caption(self, record: ClipRecord, rng: np.random.Generator) -> tuple[str, str]:
+        captions = self.data.captions(record)
+        available = [language for language in self.languages if captions.get(language)]
+        language = available[rng.integers(len(available))]
+        texts = captions[language]
+        return texts[rng.integers(len(texts))], language
+
+    def _fewest_frames(self, record: ClipRecord) -> int:
+        """The shortest batch that a clip takes part in."""
+        if _whole(record):
+            return record.num_frames
+        if self._comes_back(record):
+            shortest = max(self.min_frames, round(record.num_frames * SHORTEST_SHARE))
+            return min(record.num_frames, shortest)
+        return 0
+
+    def window(self, record: ClipRecord, frames: int, rng: np.random.Generator) -> Tensor:
+        """A window [≤frames,23,6] of raw features, anywhere in the clip.
+
+        A gesture that comes back to where it began is not cut off: where it is too long, its
+        middle is left out, if two moments of it are alike enough to be joined.
+
+        Where the labels tell of a turn, the window of several that turns most is taken: a crop
+        without the turn would contradict its caption.
+        """
+        values = self._features(record)
+        spare = len(values) - frames
+        if spare <= 0:
+            return values
+        if self._comes_back(record) and (whole := shorten(values, frames)) is not None:
+            return whole
+        if "turn" not in record.labels and record.labels.get("action") != "turn":
+            start = int(rng.integers(spare + 1))
+            return values[start : start + frames]
+        yaw = torch.nn.functional.pad(values[:, ROOT_ROW, YAW_RATE].cumsum(0), (1, 0))
+        starts = rng.integers(spare + 1, size=_TURN_TRIES)
+        start = int(max(starts, key=lambda s: abs(float(yaw[s + frames] - yaw[s]))))
+        return values[start : start + frames]
+
+    def collate(
+        self, records: list[ClipRecord], frames: int, rng: np.random.Generator
+    ) -> TextMotionBatch:
+        """Windows of at most `frames` of these records as one batch."""
+        windows = [self.window(record, frames, rng) for record in records]
+        longest = max(len(window) for window in windows)
+        motion = torch.zeros(len(records), longest, *self.data.mean.shape)
+        mask = torch.zeros(len(records), longest, dtype=torch.bool)
+        for row, window in enumerate(windows):
+            motion[row, : len(window)] = (window - self.data.mean) / self.data.std
+            mask[row, : len(window)] = True
+        captions, languages = zip(*(self._caption(r, rng) for r in records), strict=True)
+        none = len(self._tag_index)
+        return TextMotionBatch(
+            motion=motion,
+            mask=mask,
+            captions=list(captions),
+            languages=list(languages),
+            tag=torch.tensor([self._tag_index.get(r.tag, none) for r in records]),
+            group=torch.tensor([self._group(r) for r in records]),
+            provenance=torch.tensor([PROVENANCES.index(r.provenance) for r in records]),
+            records=records,
+        )
+
+
+class TextMotionDataset(CaptionedWindows):
     """Windows of one split with one caption each."""
 
     def __init__(
@@ -84,15 +198,13 @@ class TextMotionDataset:
         Raises:
             ValueError: no clip of the split is long enough or has a caption in `languages`.
         """
-        self.data, self.seed = data, seed
-        self.min_frames, self.max_frames, self.languages = min_frames, max_frames, languages
+        super().__init__(
+            data, min_frames=min_frames, max_frames=max_frames, languages=languages, seed=seed
+        )
         self.records = [
             record
             for record in data.records(split)
-            if record.num_frames >= min(min_frames, max_frames)
-            and not (_whole(record) and record.num_frames > max_frames)
-            and any(data.captions(record).get(language) for language in languages)
-            and (actions is None or record.tag in actions)
+            if self._is_usable(record) and (actions is None or record.tag in actions)
         ]
         if not self.records:
             raise ValueError(
@@ -101,7 +213,6 @@ class TextMotionDataset:
             )
         groups = sorted({record.group for record in self.records})
         self._group_index = {name: index for index, name in enumerate(groups)}
-        self._tag_index = {name: index for index, name in enumerate(data.tags)}
         counts = np.bincount([self._group_index[r.group] for r in self.records])
         weights = np.array(
             [counts[self._group_index[r.group]] ** -balance for r in self.records], np.float64
@@ -122,47 +233,17 @@ class TextMotionDataset:
     def __len__(self) -> int:
         return len(self.records)
 
-    def _caption(self, record: ClipRecord, rng: np.random.Generator) -> tuple[str, str]:
-        captions = self.data.captions(record)
-        available = [language for language in self.languages if captions.get(language)]
-        language = available[rng.integers(len(available))]
-        texts = captions[language]
-        return texts[rng.integers(len(texts))], language
+    def _features(self, record: ClipRecord) -> Tensor:
+        return self.data.features(record)
 
-    def _fewest_frames(self, record: ClipRecord) -> int:
-        """The shortest batch that a clip takes part in."""
-        if _whole(record):
-            return record.num_frames
-        if record.id in self._gestures:
-            shortest = max(self.min_frames, round(record.num_frames * SHORTEST_SHARE))
-            return min(record.num_frames, shortest)
-        return 0
+    def _comes_back(self, record: ClipRecord) -> bool:
+        return record.id in self._gestures
 
-    def window(self, record: ClipRecord, frames: int, rng: np.random.Generator) -> Tensor:
-        """A window [≤frames,23,6] of raw features, anywhere in the clip.
+    def _group(self, record: ClipRecord) -> int:
+        return self._group_index[record.group]
 
-        A gesture that comes back to where it began is not cut off: where it is too long, its
-        middle is left out, if two moments of it are alike enough to be joined.
-
-        Where the labels tell of a turn, the window of several that turns most is taken: a crop
-        without the turn would contradict its caption.
-        """
-        values = self.data.features(record)
-        spare = len(values) - frames
-        if spare <= 0:
-            return values
-        if record.id in self._gestures and (whole := shorten(values, frames)) is not None:
-            return whole
-        if "turn" not in record.labels and record.labels.get("action") != "turn":
-            start = int(rng.integers(spare + 1))
-            return values[start : start + frames]
-        yaw = torch.nn.functional.pad(values[:, ROOT_ROW, YAW_RATE].cumsum(0), (1, 0))
-        starts = rng.integers(spare + 1, size=_TURN_TRIES)
-        start = int(max(starts, key=lambda s: abs(float(yaw[s + frames] - yaw[s]))))
-        return values[start : start + frames]
-
-    def batch(self, step: int, size: int, *, rank: int = 0) -> TextMotionBatch:
-        """The batch of one step; all its windows share one target length.
+    def batch(self, step: int, size: int, *, rank: int = 0, count: int = 1) -> TextMotionBatch:
+        """Clips drawn for a part of one step; all windows of a step share one target length.
 
         One length a batch keeps padding small; lengths are spread evenly over the steps. Clips
         that are not to be cut (a counted action) take part in the batches that hold them whole.
@@ -175,30 +256,6 @@ class TextMotionDataset:
             weights, longest = self._weights, self.max_frames
         chosen = rng.choice(len(self.records), size=size, p=weights / weights.sum())
         return self.collate([self.records[i] for i in chosen], longest, rng)
-
-    def collate(
-        self, records: list[ClipRecord], frames: int, rng: np.random.Generator
-    ) -> TextMotionBatch:
-        """Windows of at most `frames` of these records as one batch."""
-        windows = [self.window(record, frames, rng) for record in records]
-        longest = max(len(window) for window in windows)
-        motion = torch.zeros(len(records), longest, *self.data.mean.shape)
-        mask = torch.zeros(len(records), longest, dtype=torch.bool)
-        for row, window in enumerate(windows):
-            motion[row, : len(window)] = (window - self.data.mean) / self.data.std
-            mask[row, : len(window)] = True
-        captions, languages = zip(*(self._caption(r, rng) for r in records), strict=True)
-        none = len(self._tag_index)
-        return TextMotionBatch(
-            motion=motion,
-            mask=mask,
-            captions=list(captions),
-            languages=list(languages),
-            tag=torch.tensor([self._tag_index.get(r.tag, none) for r in records]),
-            group=torch.tensor([self._group_index[r.group] for r in records]),
-            provenance=torch.tensor([PROVENANCES.index(r.provenance) for r in records]),
-            records=records,
-        )
 
     def fixed_batches(self, size: int, num: int) -> list[TextMotionBatch]:
         """The same batches every time, each record at most once while they last."""

@@ -27,6 +27,9 @@ _VERSION_MARKS = ("generation", "etag", "ETag", "md5Hash", "mtime", "created", "
 _PACKAGES = {"gs": "gcsfs", "gcs": "gcsfs", "s3": "s3fs", "s3a": "s3fs"}
 
 
+BLOCK = 4 << 20  # bytes of long files that are read at a time
+
+
 class Unreachable(Exception):
     """Not allowed, or the network failed too often; the object itself may be fine."""
 
@@ -124,8 +127,8 @@ class Storage:
     def __getstate__(self) -> dict[str, Any]:
         return self.__dict__ | {"_opened": None}
 
-    def read(self, path: str) -> bytes:
-        """One object.
+    def read(self, path: str, start: int | None = None, stop: int | None = None) -> bytes:
+        """One object, or its bytes from `start` to `stop`.
 
         Raises:
             FileNotFoundError: it does not exist.
@@ -138,9 +141,10 @@ class Storage:
 
         def attempt() -> bytes:
             if fs.async_impl:
-                found = sync(fs.loop, fs._cat_file, full, timeout=self.backoff.timeout)
+                read, timeout = fs._cat_file, self.backoff.timeout
+                found = sync(fs.loop, read, full, start=start, end=stop, timeout=timeout)
             else:
-                found = fs.cat_file(full)
+                found = fs.cat_file(full, start=start, end=stop)
             return bytes(found)
 
         return self.backoff.run(attempt, path or self.root)
@@ -155,7 +159,7 @@ class Storage:
         """What the store itself says now: size and hex MD5 ("" where it tells none)."""
         fs, base = self._open()
         fs.invalidate_cache()
-        info = self.backoff.run(lambda: fs.info(f"{base}/{path}"), path)
+        info = self.backoff.run(lambda: fs.info(f"{base}/{path}".rstrip("/")), path or self.root)
         return info["size"], md5_of(info)
 
     def write(self, data: bytes) -> None:
@@ -276,6 +280,14 @@ class Address:
     def read_bytes(self) -> bytes:
         return self._ask(lambda store: store.read(""))
 
+    def read_range(self, start: int, stop: int) -> bytes:
+        """Its bytes from `start` to `stop`."""
+        return self._ask(lambda store: store.read("", start, stop))
+
+    def size(self) -> int:
+        """Bytes of the object."""
+        return self._ask(lambda store: store.stored("")[0])
+
     def write_bytes(self, data: bytes) -> None:
         self._ask(lambda store: store.write(data))
 
@@ -306,6 +318,21 @@ def place(name: str | Path | Address) -> Place:
         return Path(name)
     rest = str(name)[match.end() :].rstrip("/")
     return Path("/" + rest) if match[1] in ("file", "local") else Address(f"{match[1]}://{rest}")
+
+
+def read_range(path: Place, start: int, stop: int) -> bytes:
+    """Bytes of a file from `start` to `stop`."""
+    if isinstance(path, Address):
+        return path.read_range(start, stop)
+    with path.open("rb") as stream:
+        stream.seek(start)
+        return stream.read(stop - start)
+
+
+def read_blocks(path: Place) -> Iterator[bytes]:
+    """A file of any length in blocks, so that memory stays bounded."""
+    total = path.size() if isinstance(path, Address) else path.stat().st_size
+    return (read_range(path, at, min(at + BLOCK, total)) for at in range(0, total, BLOCK))
 
 
 @contextmanager

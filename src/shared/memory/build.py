@@ -27,6 +27,7 @@ from ..data.phrases.dataset import read_phrase
 from ..data.phrases.layout import MANIFEST as PAIRS_MANIFEST
 from ..data.phrases.layout import BadContent, PhraseRecord
 from ..data.phrases.store import PhraseStore, Remote
+from ..data.phrases.table import PhraseTable
 from ..errors import UserError
 from ..io.files import parse_json
 from ..io.jobs import run_jobs
@@ -114,7 +115,7 @@ class Source:
         self.root = root
         remote = Remote(root if "://" in root else os.path.abspath(root), backoff=Backoff())
         self.store = PhraseStore(remote, None)
-        everything = remote.phrases()
+        everything = PhraseTable(remote.phrases(), None, root)
         self.records = [record for record in everything if record.split == split]
         self.bad: dict[str, str] = {}
         if not self.records:

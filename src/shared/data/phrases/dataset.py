@@ -4,7 +4,9 @@ B batch, T frames (30 a second), C = 163 rows of sound, or 167 with beat and bar
 """
 
 import hashlib
-from collections.abc import Callable, Iterator, Sequence
+import threading
+from collections import OrderedDict
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -26,7 +28,8 @@ from .layout import (
     decode_trajectory,
     phase_rows,
 )
-from .store import ObjectCache, PhraseStore, Quarantine, Remote, default_cache
+from .store import CACHE_BYTES, ObjectCache, PhraseStore, Quarantine, Remote, default_cache
+from .table import PhraseTable
 
 _PHASE = 16  # column of a trajectory: bars modulo 1
 
@@ -46,6 +49,44 @@ class DecodedPhrase:
     phase: np.ndarray
     audio: np.ndarray
     body: np.ndarray | None
+
+    @property
+    def num_bytes(self) -> int:
+        arrays = (self.trajectory, self.phase, self.audio, self.body)
+        return sum(array.nbytes for array in arrays if array is not None)
+
+
+MEMORY_BYTES = 128 << 20  # an hour and a half of trajectories and sound
+
+
+class MemoryCache:
+    """Decoded phrases by name, up to so many bytes: what was not used for longest goes first."""
+
+    def __init__(self, limit: int) -> None:
+        self._limit, self._bytes = limit, 0
+        self._phrases: OrderedDict[str, DecodedPhrase] = OrderedDict()
+        self._lock = threading.Lock()
+
+    def get(self, name: str) -> DecodedPhrase | None:
+        with self._lock:
+            if name in self._phrases:
+                self._phrases.move_to_end(name)
+            return self._phrases.get(name)
+
+    def put(self, name: str, phrase: DecodedPhrase) -> None:
+        with self._lock:
+            if name in self._phrases:  # another thread was faster
+                return
+            self._phrases[name] = phrase
+            self._bytes += phrase.num_bytes
+            while self._bytes > self._limit:
+                self._bytes -= self._phrases.popitem(last=False)[1].num_bytes
+
+    def __getstate__(self) -> dict[str, object]:
+        return {"_limit": self._limit}
+
+    def __setstate__(self, state: dict[str, int]) -> None:
+        self.__init__(state["_limit"])  # type: ignore[misc]
 
 
 def read_phrase(
@@ -82,6 +123,16 @@ def _read_body(store: PhraseStore, record: PhraseRecord, frames: int) -> np.ndar
 
 class EmptySplit(UserError):
     """There are phrases, none of them of the split that was asked for."""
+
+
+def _of_split(
+    phrases: Iterable[PhraseRecord], split: str | None, splits: set[str]
+) -> Iterator[PhraseRecord]:
+    """Those of a split, or all; collects in `splits` which ones there are."""
+    for phrase in phrases:
+        splits.add(phrase.split)
+        if split in (None, phrase.split):
+            yield phrase
 
 
 Encode = Callable[[np.ndarray, np.ndarray], np.ndarray]
@@ -125,14 +176,15 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
         root: folder or URL; without it `gs://{gcs_bucket}/{gcs_prefix}` (TECH's spelling).
         num_phrases: take only the first so many.
         target_frames: T; shorter phrases are padded with zeros, longer ones give a window.
-        cache_in_memory: keep decoded phrases.
+        cache_in_memory: keep decoded phrases, the last used in `memory_bytes`.
         split: of the manifest; None is all.
         beat_phase: add the four rows of beat and bar phase where features.npz holds `phase`
             (unwrapped bars) and `meter`; `collate` fills zeros, "unknown", where others do not.
         bodies: read the whole body of each phrase too.
         encode: trajectory [T,25] and unwrapped bars [T] -> window [25,T]; `encode_window`.
         cache_dir: for downloads and the quarantine list; default `~/.cache/motionsuite/phrases`.
-        cache_bytes: limit of the downloads kept; None keeps all.
+        cache_bytes: limit of the downloads kept on disk; None keeps all.
+        memory_bytes: limit of the decoded phrases kept.
         threads: downloads at a time; 0 fetches on demand.
         storage_options: for fsspec (credentials, endpoint).
 
@@ -156,7 +208,8 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
         bodies: bool = False,
         encode: Encode | None = None,
         cache_dir: Path | None = None,
-        cache_bytes: int | None = None,
+        cache_bytes: int | None = CACHE_BYTES,
+        memory_bytes: int = MEMORY_BYTES,
         threads: int = 8,
         max_bad_fraction: float = 0.05,
         storage_options: dict[str, Any] | None = None,
@@ -172,17 +225,18 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
         cache_dir = cache_dir or default_cache()
         cache = None if remote.local else ObjectCache(cache_dir, max_bytes=cache_bytes)
         self.store = PhraseStore(remote, cache)
-        everything = remote.phrases()
-        self.phrases = [p for p in everything if split in (None, p.split)][:num_phrases]
-        if not everything:
+        splits: set[str] = set()
+        chosen = _of_split(remote.phrases(), split, splits)
+        self.phrases = PhraseTable(chosen, num_phrases, self.root)
+        if not splits:
             raise UserError(
                 f"{self.root} has no phrases; it needs audio_features/ID/features.npz and"
                 " motion/ID/trajectory.npy: make them with prepare-audio"
             )
         if not self.phrases:
-            splits = ", ".join(sorted({phrase.split for phrase in everything}))
+            known = ", ".join(sorted(splits))
             raise EmptySplit(
-                f"{self.root} has no phrases of split {split} (splits: {splits}); name one of"
+                f"{self.root} has no phrases of split {split} (splits: {known}); name one of"
                 " these, or prepare more songs and clips"
             )
         if bodies and any(phrase.body is None for phrase in self.phrases):
@@ -194,7 +248,7 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
         self.quarantine = Quarantine(
             cache_dir / "quarantine" / f"{name}.json", self.root, self.phrases, max_bad_fraction
         )
-        self._memory: dict[str, DecodedPhrase] | None = {} if cache_in_memory else None
+        self._memory = MemoryCache(memory_bytes if cache_in_memory else 0)
         self._order = (-1, np.empty(0, np.int64))
         self.epoch_number = 0
         self.beat_phase, self.bodies = beat_phase, bodies
@@ -206,8 +260,7 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
     @property
     def fingerprint(self) -> str:
         """Changes when any phrase's content or the selection of phrases does."""
-        keys = "".join(f"{phrase.id} {phrase.key}\n" for phrase in self.phrases)
-        return hashlib.sha256(keys.encode()).hexdigest()
+        return self.phrases.fingerprint
 
     # ------------------------------------------------------------ one item
 
@@ -271,8 +324,8 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
     def _load(self, record: PhraseRecord) -> DecodedPhrase | None:
         if record.id in self.quarantine:
             return None
-        if self._memory is not None and record.id in self._memory:
-            return self._memory[record.id]
+        if (kept := self._memory.get(record.id)) is not None:
+            return kept
         try:
             phrase = read_phrase(self.store, record, beat_phase=self.beat_phase, body=self.bodies)
         except BadContent as error:
@@ -281,8 +334,7 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
         except Unreachable as error:  # no fault of the object: another process may try again
             self.quarantine.add(record, f"unreachable: {error}", keep=False)
             return None
-        if self._memory is not None:
-            self._memory[record.id] = phrase
+        self._memory.put(record.id, phrase)
         return phrase
 
     # ------------------------------------------------------------ epochs and batches

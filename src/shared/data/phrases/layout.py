@@ -7,7 +7,10 @@ before lack: `features` [T,23,6] float16 of the whole body (motion/features.py).
 """
 
 import hashlib
-from collections.abc import Iterable, Mapping
+import json
+import re
+from codecs import getincrementaldecoder
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -35,14 +38,14 @@ class StoredObject(BaseModel, frozen=True):
 
     Attributes:
         path: relative to the root of the data.
-        size: bytes.
+        size: bytes; 0 where only the hash is known.
         sha256: hex digest from the manifest; empty where there is no manifest.
         version: without a manifest, the store's own mark of this version (an etag, say).
         md5: without a manifest, hex digest that the store tells, if it does.
     """
 
     path: str
-    size: int
+    size: int = 0
     sha256: str = ""
     version: str = ""
     md5: str = ""
@@ -170,22 +173,53 @@ def write_manifest(root: Path, phrases: Iterable[PhraseRecord]) -> Path:
     return root / MANIFEST
 
 
-def parse_manifest(text: bytes, where: str) -> list[PhraseRecord]:
-    """The phrases of a manifest.
+_BEGIN = re.compile(r'"phrases"\s*:\s*\[')
+_BETWEEN = re.compile(r"[\s,]*")
+_JSON = json.JSONDecoder()
+
+
+def parse_manifest(blocks: Iterable[bytes], where: str) -> Iterator[PhraseRecord]:
+    """The phrases of a manifest of any length, in its order; one block is kept at a time.
 
     Raises:
-        UserError: it is not a manifest, or names a phrase twice.
+        UserError: it is not a manifest.
     """
+    decode, more = getincrementaldecoder("utf-8")().decode, iter(blocks)
+    text, begin, number = "", None, 0
     try:
-        phrases = Manifest.model_validate_json(text).phrases
-    except ValidationError as error:
+        while begin is None and (block := next(more, None)) is not None:
+            text += decode(block)
+            begin = _BEGIN.search(text)
+        if begin is None:
+            Manifest.model_validate_json(text)  # which it is not
+            return
+        head, text, at = text[: begin.end()], text[begin.end() :], 0
+        while True:
+            between = _BETWEEN.match(text, at)
+            at = between.end() if between else at
+            try:
+                if text[at : at + 1] == "]":
+                    break
+                phrase, end = _JSON.raw_decode(text, at)
+            except ValueError:
+                if (block := next(more, None)) is None:
+                    raise
+                text, at = text[at:] + decode(block), 0
+                continue
+            at = end
+            yield PhraseRecord.model_validate(phrase)
+            number += 1
+        rest = text[at:] + "".join(decode(block) for block in more)
+        Manifest.model_validate_json(head + rest)
+    except (ValueError, RecursionError) as error:  # pydantic's is a ValueError
+        told = str(error)
+        if isinstance(error, ValidationError):
+            of_phrase = error.title == PhraseRecord.__name__
+            told = of_phrase * f"phrases.{number}." + first_fault(error)
         raise UserError(
-            f"{where} is not a manifest: {first_fault(error)}; write it again with"
+            f"{where} is not a manifest: {told}; write it again with"
             " prepare-audio, or remove it to read the folder without checksums"
         ) from error
-    if len({phrase.id for phrase in phrases}) < len(phrases):
-        raise UserError(f"{where} names a phrase twice; write it again with prepare-audio")
-    return phrases
 
 
 def phrases_of_listing(objects: Mapping[str, StoredObject]) -> list[PhraseRecord]:

@@ -11,7 +11,7 @@ import os
 import threading
 import time
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, suppress
 from pathlib import Path
 from typing import TypeVar
@@ -20,7 +20,7 @@ from filelock import FileLock
 
 from ...errors import UserError
 from ...io.files import atomic_write, load_json, write_json
-from ...io.storage import Storage, Unreachable, md5_of, version_of
+from ...io.storage import BLOCK, Storage, Unreachable, md5_of, version_of
 from .layout import (
     MANIFEST,
     BadContent,
@@ -29,6 +29,7 @@ from .layout import (
     parse_manifest,
     phrases_of_listing,
 )
+from .table import PhraseTable
 
 
 class Remote(Storage):
@@ -43,25 +44,30 @@ class Remote(Storage):
             for path, info in self.find().items()
         }
 
-    def phrases(self) -> list[PhraseRecord]:
-        """Phrases of the manifest, or of the listing where there is none, sorted by name.
+    def phrases(self) -> Iterator[PhraseRecord]:
+        """Phrases of the manifest, read as they are needed, or, without one, of the listing.
 
         Raises:
             UserError: the manifest is broken, or nothing can be read.
         """
         try:
             try:
-                found = parse_manifest(self.read(MANIFEST), f"{self.root}/{MANIFEST}")
+                size = self.stored(MANIFEST)[0]
             except FileNotFoundError:
-                found = phrases_of_listing(self.listing())
+                yield from phrases_of_listing(self.listing())
+                return
+            blocks = (
+                self.read(MANIFEST, at, min(at + BLOCK, size)) for at in range(0, size, BLOCK)
+            )
+            yield from parse_manifest(blocks, f"{self.root}/{MANIFEST}")
         except (FileNotFoundError, Unreachable) as error:
             raise UserError(
                 f"cannot read {self.root}: {error}; check the address and your credentials"
                 " (GOOGLE_APPLICATION_CREDENTIALS for gs://)"
             ) from error
-        return sorted(found, key=lambda phrase: phrase.id)
 
 
+CACHE_BYTES = 20 << 30  # of downloads that are kept, if nobody says otherwise
 _STALE_SECONDS = 3600.0  # an unfinished file that old was left by a killed process
 
 
@@ -78,7 +84,7 @@ class ObjectCache:
         max_bytes: evict what was not used for longest beyond this; None keeps everything.
     """
 
-    def __init__(self, folder: Path, *, max_bytes: int | None = None) -> None:
+    def __init__(self, folder: Path, *, max_bytes: int | None = CACHE_BYTES) -> None:
         self.folder, self.max_bytes = Path(folder), max_bytes
         self._written = 0
         for part in self.folder.glob("objects/*/.*.part"):
@@ -210,16 +216,17 @@ class PhraseStore:
 
     def _verify(self, obj: StoredObject, data: bytes) -> None:
         """Compare with the manifest, or the listing; if unequal, ask the store what it has."""
-        right = len(data) == obj.size and (not obj.md5 or _md5(data) == obj.md5)
         if obj.sha256:
-            right = right and hashlib.sha256(data).hexdigest() == obj.sha256
+            right = hashlib.sha256(data).hexdigest() == obj.sha256
+        else:
+            right = len(data) == obj.size and (not obj.md5 or _md5(data) == obj.md5)
         if right:
             return
         known = "the manifest" if obj.sha256 else "the listing"
         size, md5 = self.remote.stored(obj.path)
         if len(data) < size:
             raise BadContent(f"truncated: {len(data)} of {size} bytes")
-        if md5 == _md5(data) or size != obj.size:
+        if md5 == _md5(data) or (obj.size and size != obj.size):
             raise BadContent(f"overwritten: {size} bytes that {known} does not describe")
         if md5:
             raise BadContent(f"damaged on the way: not the content that {known} describes")
@@ -253,10 +260,10 @@ class Quarantine:
     """
 
     def __init__(
-        self, path: Path, root: str, phrases: Iterable[PhraseRecord], max_bad_fraction: float
+        self, path: Path, root: str, phrases: PhraseTable, max_bad_fraction: float
     ) -> None:
         self.path, self.root, self.max_bad_fraction = path, root, max_bad_fraction
-        self._keys = {phrase.id: phrase.key for phrase in phrases}
+        self._phrases = phrases
         self._lock = threading.Lock()
         self.reasons: dict[str, str] = {}
         self._learn(self._read())
@@ -293,11 +300,12 @@ class Quarantine:
 
     def _learn(self, entries: dict[str, dict[str, str]]) -> None:
         for phrase, entry in entries.items():
-            if self._keys.get(phrase) == entry["key"]:
+            known = self._phrases.named(phrase)
+            if known is not None and known.key == entry["key"]:
                 self.reasons[phrase] = entry["reason"]
 
     def _require_few(self) -> None:
-        bad, total = sorted(self.reasons.items()), len(self._keys)
+        bad, total = sorted(self.reasons.items()), len(self._phrases)
         if len(bad) <= self.max_bad_fraction * total:
             return
         named = "; ".join(f"{phrase}: {reason}" for phrase, reason in bad[:_NAMED])

@@ -71,7 +71,7 @@ def test_seams_turn_one_pose_smoothly_into_the_next(data: PreparedData) -> None:
 
 
 def test_every_phrase_has_a_body_whose_pelvis_is_the_trajectorys(pairs: Path) -> None:
-    phrases = parse_manifest((pairs / "manifest.json").read_bytes(), "here")
+    phrases = list(parse_manifest([(pairs / "manifest.json").read_bytes()], "here"))
     assert len(phrases) >= 3
     for phrase in phrases:
         assert phrase.body is not None

@@ -70,7 +70,7 @@ def made(walks: PreparedData, tmp_path_factory: pytest.TempPathFactory) -> tuple
 
 def test_the_layout_is_what_the_phrase_set_reads(made: tuple[Path, Any]) -> None:
     out, report = made
-    phrases = parse_manifest((out / "manifest.json").read_bytes(), "here")
+    phrases = list(parse_manifest([(out / "manifest.json").read_bytes()], "here"))
     assert len(phrases) == report["phrases"] >= 5
     for phrase in phrases:
         trajectory = decode_trajectory((out / phrase.motion.path).read_bytes())

@@ -39,7 +39,7 @@ SETTINGS = DanceSettings(
 def pairs_with_bodies(root: Path) -> str:
     """Ten phrases whose bodies swing their arms."""
     write_pairs(root)
-    records = parse_manifest((root / "manifest.json").read_bytes(), "tiny")
+    records = list(parse_manifest([(root / "manifest.json").read_bytes()], "tiny"))
     body = encode_features(swinging_arms(frames=150)).numpy()
     write_manifest(
         root,

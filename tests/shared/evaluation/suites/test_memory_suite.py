@@ -170,7 +170,7 @@ def test_the_same_report_twice_with_every_row(pairs: Path, model: AudioMotionMod
 def test_the_command(pairs: Path, model: AudioMotionModel, tmp_path: Path) -> None:
     model.save_pretrained(tmp_path / "model")
     save_memory(tmp_path / "memory", save_space(tmp_path / "space"), tmp_path / "space")
-    assert parse_manifest((pairs / "manifest.json").read_bytes(), "")
+    assert list(parse_manifest([(pairs / "manifest.json").read_bytes()], ""))
     command = ["evaluate-memory", "--model", tmp_path / "model", "--memory", tmp_path / "memory"]
     command += ["--data", pairs, "--splits", "test", "--num-phrases", 2, "--num-songs", 2]
     command += ["--song-seconds", 4, "--shares", "", "--top-k", "", "--steps", 2]
