@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 ROOTS = ("on", "in-place")
-READABLE = (".bvh", ".amc", ".glb", ".npz", ".npy", ".csv")
+READABLE = (".bvh", ".amc", ".glb", ".vrma", ".npz", ".npy", ".csv")
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ def convert(
         str, typer.Option(help="Joint names in bvh, glb, usd: canonical, mixamo, unity, unreal.")
     ] = "canonical",
     skeleton: Annotated[
-        Path | None, typer.Option(help="Move this character instead of ours: a .bvh or .glb.")
+        Path | None, typer.Option(help="Move this character instead of ours: a .bvh, .glb or .vrm.")
     ] = None,
     mapping: Annotated[
         Path | None, typer.Option(help="YAML: which joints of IN and --skeleton are which of ours.")
@@ -218,9 +218,9 @@ def check_rigged(formats: list[str], names: str, skeleton: Path | None) -> None:
             )
         if other := sorted(set(formats) - set(rigged)):
             raise UsageError(f"--skeleton does not go with {other[0]}; choose from {known}")
-        if skeleton.suffix.lower() not in (".bvh", ".glb"):
+        if skeleton.suffix.lower() not in (".bvh", ".glb", ".vrm"):
             raise UsageError(
-                f"--skeleton {skeleton} is no .bvh or .glb file"
+                f"--skeleton {skeleton} is no .bvh, .glb or .vrm file"
                 "; export the character as one of them"
             )
     elif names != "canonical" and not rigged:

@@ -30,7 +30,7 @@ export function handler() {
 }
 
 async function help({ parts, port }) {
-  const denoiser = await Denoiser.open(parts.wasm, parts.graph, parts.weights);
+  const denoiser = await Denoiser.open(parts);
   port.onmessage = async ({ data: { id, args } }) => {
     try { port.postMessage({ id, result: await denoiser.predict(...args) }); }
     catch (error) { port.postMessage({ id, error: String(error) }); }

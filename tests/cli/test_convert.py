@@ -182,7 +182,7 @@ def test_wrong_usage_is_said_before_anything_is_read(walk: Path, tmp_path: Path)
         "'daz' names no joints": (walk, out, "--names", "daz"),
         "--names unity goes with bvh": (walk, tmp_path / "a.csv", "--names", "unity"),
         "--skeleton does not go with csv": (walk, tmp_path / "a.csv", "--skeleton", "x.bvh"),
-        "--skeleton x.fbx is no .bvh or .glb": (walk, out, "--skeleton", "x.fbx"),
+        "--skeleton x.fbx is no .bvh, .glb or .vrm": (walk, out, "--skeleton", "x.fbx"),
         "--names does not go with": (walk, out, "--names", "unity", "--skeleton", "x.bvh"),
         "written over itself": (walk, walk),
         "would both become": (walk, walk, tmp_path / "out", "--format", "bvh"),

@@ -34,6 +34,7 @@ EXPORTERS: dict[str, Callable[..., Path]] = {
     "bvh": _lazy("writers.bvh", "write_bvh"),
     "glb": _lazy("writers.glb", "write_glb"),
     **dict.fromkeys(("usd", "usda", "usdc"), _lazy("writers.usd", "write_usd")),
+    "vrma": _lazy("writers.glb", "write_vrma"),
     "npz": _lazy("arrays", "write_npz"),
     "amass": _lazy("amass", "write_amass"),
     "csv": _lazy("csv_files", "write_motion_csv"),

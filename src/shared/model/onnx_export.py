@@ -194,7 +194,9 @@ def _stored(
     nodes = []
 
     def made(stored: str, called: str, more: int = 0) -> None:
-        entry, source = header[stored], f"stored/{stored}"
+        entry = header[stored]
+        plain = rows is None and entry["dtype"] not in ("F16", "I8")
+        source = called if plain else f"stored/{stored}"
         tensor = TensorProto(name=source, data_type=types[entry["dtype"]])
         tensor.dims.extend([*entry["shape"], *[1] * more])
         tensor.data_location = TensorProto.EXTERNAL
@@ -203,6 +205,8 @@ def _stored(
         for key, each in where.items():
             tensor.external_data.add(key=key, value=str(each))
         outside[source] = tensor
+        if plain:
+            return
         if rows is not None:
             nodes.append(helper.make_node("Gather", [source, rows], [f"{called}/rows"], axis=0))
             source = f"{called}/rows"

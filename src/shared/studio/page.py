@@ -18,7 +18,7 @@ from ..environment import TEXT_MODEL
 from ..errors import UserError
 from ..formats.preview.html import body_data, script_safe_json
 from ..formats.rig import END_SITES
-from ..formats.writers.glb import rest_glb
+from ..formats.writers.glb import rest_files
 from ..io.files import atomic_write, load_json
 from ..model.checkpoint import WEIGHTS_FILE, ModelCard, read_card, resolve_model, wrong_kind
 from ..model.clip.core import PAIRS
@@ -26,7 +26,7 @@ from ..model.clip.out_of_domain import META_FILE as SCOPE_FILE
 from ..model.clip.out_of_domain import TABLE_FILE
 from ..model.clip.tokenizer import META_FILE, MODEL_FILE, TOKENIZER_FOLDER
 from ..model.generation.motion_generator import KIND
-from ..model.generation.onnx_networks import DENOISER_GRAPH
+from ..model.generation.onnx_networks import ADAPTED_GRAPH, DENOISER_GRAPH
 from ..model.noise import NoiseSchedule, sampling_timesteps
 from ..motion.skeleton import JOINT_NAMES, LIMBS
 from ..pipelines.edit import GROUPS
@@ -52,11 +52,11 @@ def write_studio(out: Path, model: str = TEXT_MODEL) -> Path:
     _check(card, folder)
     parts = {
         "wasm": shell.joinpath(WASM).read_bytes(),
-        "graph": graph_of(folder),
+        **graphs_of(folder),
         "weights": (folder / WEIGHTS_FILE).read_bytes(),
         "tokenizer": (folder / TOKENIZER_FOLDER / MODEL_FILE).read_bytes(),
         "scope": (folder / TABLE_FILE).read_bytes(),
-        "glb": rest_glb(),
+        **rest_files(),
         "licences": shell.joinpath(LICENCES).read_bytes(),
     }
     blobs = "\n".join(
@@ -102,17 +102,19 @@ def _check(card: ModelCard, folder: Path) -> None:
         )
 
 
-def graph_of(folder: Path) -> bytes:
-    """The denoiser's graph without its weights: the folder's own, else exported here."""
+def graphs_of(folder: Path) -> dict[str, bytes]:
+    """The denoiser's graphs without their weights, "graph" and, of a model with adapters,
+    "adapted": the folder's own, else exported here."""
     if (folder / DENOISER_GRAPH).is_file():
-        return (folder / DENOISER_GRAPH).read_bytes()
+        found = {"graph": folder / DENOISER_GRAPH, "adapted": folder / ADAPTED_GRAPH}
+        return {name: path.read_bytes() for name, path in found.items() if path.is_file()}
     from ..model.generation.onnx import export_text
     from ..model.onnx_card import require_packages
 
     require_packages("onnx", "onnxscript")
     with TemporaryDirectory() as scratch:
         export_text(folder, scratch)
-        return (Path(scratch) / DENOISER_GRAPH).read_bytes()
+        return graphs_of(Path(scratch))
 
 
 def settings(folder: Path, card: ModelCard) -> dict[str, Any]:

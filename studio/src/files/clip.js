@@ -1,4 +1,4 @@
-// A clip in: BVH or GLB, on our skeleton or on one that a profile knows.
+// A clip in: BVH, GLB or VRMA, on our skeleton or on one that a profile knows.
 
 import { apply, matrixOf, multiply, quaternionOf, slerp, transposed } from "../body/rotations.js";
 import { FPS } from "../body/skeleton.js";
@@ -10,9 +10,9 @@ const READ = "This animation is stored in a way the studio does not read.";
 
 /** A motion of a file. @param {object[]} profiles names of joints, see configs/skeletons.yaml */
 export function readClip(name, bytes, profiles) {
-  if (/\.glb$/i.test(name)) return retarget(glbClip(bytes), profiles);
+  if (/\.(glb|vrma)$/i.test(name)) return retarget(glbClip(bytes), profiles);
   if (/\.bvh$/i.test(name)) return retarget(bvhClip(new TextDecoder().decode(bytes)), profiles);
-  throw new Error("Only .bvh and .glb can be opened.");
+  throw new Error("Only .bvh, .glb and .vrma can be opened.");
 }
 
 function bvhClip(text) {
@@ -67,6 +67,8 @@ function glbClip(bytes) {
   const visit = (node) => { order.push(node); (nodes[node].children ?? []).forEach(visit); };
   above.forEach((parent, node) => { if (parent < 0) visit(node); });
   const tracks = tracksOf(document, data, animations[0]);
+  const named = document.extensions?.VRMC_vrm_animation?.humanoid?.humanBones ?? {};
+  const bones = new Map(Object.entries(named).map(([bone, { node }]) => [node, bone]));
   const place = new Map(order.map((node, index) => [node, index])), rest = [], sizes = [];
   const local = (node) => { const [x, y, z, w] = nodes[node].rotation ?? [0, 0, 0, 1]; return matrixOf([w, x, y, z]); };
   const parents = order.map((node) => (above[node] < 0 ? -1 : place.get(above[node])));
@@ -81,7 +83,7 @@ function glbClip(bytes) {
   const inWorld = (index, vector) => apply(frame(index), vector).map((x) => x * size(index));
   const last = Math.max(...[...tracks.values()].map(({ times }) => times[times.length - 1]));
   return {
-    names: order.map((node) => nodes[node].name ?? ""),
+    names: order.map((node) => bones.get(node) ?? nodes[node].name ?? ""),
     parents,
     offsets: order.map((node, index) => inWorld(index, nodes[node].translation ?? [0, 0, 0])),
     frames: Math.round(last * FPS) + 1,

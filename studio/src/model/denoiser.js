@@ -4,24 +4,31 @@ import * as ort from "onnxruntime-web/wasm";
 
 export class Denoiser {
   /**
-   * @param {Uint8Array} wasm onnxruntime's
-   * @param {Uint8Array} graph without weights
-   * @param {Uint8Array} weights the safetensors file it reads them from
+   * @param {object} parts bytes: wasm of onnxruntime; graph, and adapted for a model with adapters,
+   *     without weights; weights, the safetensors file they read them from
    */
-  static async open(wasm, graph, weights) {
+  static async open(parts) {
     ort.env.wasm.numThreads = 1;
-    ort.env.wasm.wasmBinary = wasm.buffer;
+    ort.env.wasm.wasmBinary = parts.wasm.buffer;
     ort.env.logLevel = "error";
-    const session = await ort.InferenceSession.create(graph, {
-      externalData: [{ path: "model.safetensors", data: weights }],
-      graphOptimizationLevel: "all",
-    });
-    return new Denoiser(session);
+    const denoiser = new Denoiser(parts);
+    await denoiser.session("graph");
+    return denoiser;
   }
 
-  constructor(session) {
-    this.session = session;
+  constructor(parts) {
+    this.parts = parts;
+    this.sessions = {};
     this.helper = null; // predicts as this one does, elsewhere and at the same time
+  }
+
+  /** Of a graph: opened when it is first needed. */
+  session(graph) {
+    this.sessions[graph] ??= ort.InferenceSession.create(this.parts[graph], {
+      externalData: [{ path: "model.safetensors", data: this.parts.weights }],
+      graphOptimizationLevel: "all",
+    });
+    return this.sessions[graph];
   }
 
   /**
@@ -31,7 +38,7 @@ export class Denoiser {
    * @param {Float32Array[]} texts an embedding each
    * @param {number} tag
    * @param {Uint8Array} shown entries [T,R,C] that are clean
-   * @param {Float32Array|null} opened adapters, ones and zeros, the same for the whole batch
+   * @param {Float32Array|null} opened adapters, ones and zeros, the same for the whole batch; null where none is
    * @returns {Promise<Float32Array[]>}
    */
   async predict(batch, step, texts, tag, shown, opened = null) {
@@ -49,7 +56,7 @@ export class Denoiser {
     };
     const shape = [number, frames, 23, 6];
     const heard = opened && { opened: new ort.Tensor("float32", all(batch.map(() => opened)), [number, opened.length]) };
-    const { prediction } = await this.session.run({
+    const { prediction } = await (await this.session(opened ? "adapted" : "graph")).run({
       x: new ort.Tensor("float32", all(batch), shape),
       t: new ort.Tensor("int64", new BigInt64Array(number).fill(BigInt(step)), [number]),
       pooled: new ort.Tensor("float32", all(texts), [number, texts[0].length]),

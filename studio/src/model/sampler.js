@@ -47,7 +47,7 @@ export class Sampler {
     return features;
   }
 
-  /** Which adapters a text opens, as the nearest place does; null for a model without. */
+  /** Which adapters a text opens, as the nearest place does; null for none. */
   opened(text) {
     const { adapters } = this.settings;
     if (!adapters) return null;
@@ -58,7 +58,8 @@ export class Sampler {
       for (let i = 0; i < dim; i++) cosine += places[row * dim + i] * text[i];
       if (cosine > most) [nearest, most] = [row, cosine];
     }
-    return Float32Array.from({ length: number }, (_, i) => Number(Number(adapterOf[nearest]) === i + 1));
+    const own = Number(adapterOf[nearest]);
+    return own ? Float32Array.from({ length: number }, (_, i) => Number(own === i + 1)) : null;
   }
 
   async guided(x, step, text, nullText, tags, shown, guidance, opened) {

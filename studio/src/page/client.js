@@ -12,10 +12,10 @@ export class Client {
       client.worker = new Worker(address);
       client.worker.onmessage = ({ data }) => client.heard(data);
       const failed = new Promise((_, reject) => { client.worker.onerror = (event) => reject(new Error(event.message || "no worker")); });
-      const { wasm, graph, weights } = parts;
+      const { wasm, graph, adapted, weights } = parts;
       const opened = Promise.race([client.call("open", { settings, parts }), failed]);
       const helped = navigator.hardwareConcurrency > 1 && (navigator.deviceMemory ?? 8) >= 4
-        ? client.getHelp(address, { parts: { wasm, graph, weights } }).catch(() => null)
+        ? client.getHelp(address, { parts: { wasm, graph, adapted, weights } }).catch(() => null)
         : null;
       await opened;
       helped?.then((port) => port && client.call("helper", { port }, [port]));

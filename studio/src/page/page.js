@@ -43,7 +43,8 @@ class Page {
     this.timings = { page: performance.now() };
     const parts = await readParts(document);
     this.timings.parts = performance.now();
-    ({ glb: this.glb, licences: this.licences } = parts);
+    this.rest = { glb: parts.glb, vrma: parts.vrma };
+    this.licences = parts.licences;
     this.client = await Client.open(script, this.settings, parts);
     this.timings.loaded = performance.now();
     document.body.classList.add("ready");
@@ -101,8 +102,7 @@ class Page {
     $("scrub").addEventListener("input", () => { this.setPlaying(false); this.seek($("scrub").valueAsNumber); });
     $("view").addEventListener("click", () => this.stage?.resetView());
     $("link").addEventListener("click", () => this.copyLink());
-    $("save-bvh").addEventListener("click", () => this.save("bvh"));
-    $("save-glb").addEventListener("click", () => this.save("glb"));
+    for (const kind of ["bvh", "glb", "vrma"]) $(`save-${kind}`).addEventListener("click", () => this.save(kind));
     $("save-film").addEventListener("click", () => this.film());
     for (const [name, label] of Object.entries(PATHS)) $("path").add(new Option(label.label, name));
     $("path").addEventListener("change", () => this.choosePath($("path").value));
@@ -287,7 +287,7 @@ class Page {
       this.seek(this.time > seconds ? 0 : this.time);
     }
     this.showTakes();
-    for (const id of ["save-bvh", "save-glb", "save-film"]) $(id).disabled = !this.shown;
+    for (const id of ["save-bvh", "save-glb", "save-vrma", "save-film"]) $(id).disabled = !this.shown;
   }
 
   showTakes() {
@@ -479,7 +479,7 @@ class Page {
   /** The chosen motion as a file. */
   bytes(kind) {
     const motion = this.shown[this.choice];
-    return kind === "bvh" ? new TextEncoder().encode(writeBvh(motion)) : writeGlb(motion, this.glb);
+    return kind === "bvh" ? new TextEncoder().encode(writeBvh(motion)) : writeGlb(motion, this.rest[kind]);
   }
 
   save(kind) {

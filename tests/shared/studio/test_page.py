@@ -13,9 +13,10 @@ import pytest
 
 from src.shared.data.retarget.read_motion import read_motion
 from src.shared.errors import UserError
+from src.shared.formats.readers.glb import GlbFile
 from src.shared.formats.rig import motion_clip
 from src.shared.formats.writers.bvh import write_bvh, write_bvh_clip
-from src.shared.formats.writers.glb import write_glb, write_glb_clip
+from src.shared.formats.writers.glb import write_glb, write_glb_clip, write_vrma
 from src.shared.model.diffusion import Sampling
 from src.shared.motion.motion import Motion
 from src.shared.pipelines.edit import chosen_joints, continue_clips, edit_clip
@@ -115,6 +116,14 @@ def test_a_sentence_gives_what_the_command_line_gives(
     assert_same(exported(browser, tmp_path), read_motion(write_bvh(wanted, tmp_path / "a.bvh")))
     if language == "en":
         assert_same(exported(browser, tmp_path, "glb"), wanted)
+        assert_same(exported(browser, tmp_path, "vrma"), wanted)
+        page = GlbFile.read(tmp_path / "page.vrma").document
+        command = GlbFile.read(write_vrma(wanted, tmp_path / "command.vrma")).document
+        assert page["extensions"] == command["extensions"] and page["nodes"] == command["nodes"]
+        opened(browser, "a.vrma", (tmp_path / "page.vrma").read_bytes())
+        root = np.reshape(browser.evaluate("[...studio.clip.motion.root]"), (-1, 3))
+        np.testing.assert_allclose(root, wanted.root_position, atol=1e-4)
+        browser.evaluate("document.getElementById('close-clip').click()")
     warned = browser.evaluate("document.querySelectorAll('#warnings li').length > 0")
     assert warned == (generator.sentences.scope_warnings([prompt]) != [None])
     assert browser.problems == []

@@ -29,8 +29,8 @@ from .autodetection import (
 from .mapping import GUESSED, SkeletonMapping, load_mappings, mapping_of
 from .to_canonical import leg_length, retarget
 
-FOLDER_ENDINGS = (".bvh", ".amc", ".npz", ".glb", ".npy")  # a folder's .csv may hold captions
-ENDINGS = (*FOLDER_ENDINGS, ".csv")
+FOLDER_ENDINGS = (".bvh", ".amc", ".npz", ".glb", ".vrma", ".npy")
+ENDINGS = (*FOLDER_ENDINGS, ".csv")  # in a folder it may hold captions
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,9 +73,9 @@ def open_recording(
     ending = path.suffix.lower()
     if ending == ".bvh":
         return Recording("BVH", clip=read_bvh(path))
-    if ending == ".glb":
+    if ending in (".glb", ".vrma"):
         clip = read_glb(path)
-        return Recording("GLB", clip=clip, up="Y", metres=1.0, text=clip.text)
+        return Recording(ending[1:].upper(), clip=clip, up="Y", metres=1.0, text=clip.text)
     if ending == ".csv":
         return Recording("CSV of this project", motion=read_motion_csv(path))
     if ending == ".amc":

@@ -183,7 +183,7 @@ class Target:
 
 
 def read_target(path: str | Path, *, mapping: Path | None = None) -> Target:
-    """A skeleton to move, from a BVH or GLB file.
+    """A skeleton to move, from a BVH, GLB or VRM file.
 
     Its own motion only tells which way is up and, where the rest pose does not, its axes.
 
@@ -195,7 +195,7 @@ def read_target(path: str | Path, *, mapping: Path | None = None) -> Target:
         UserError: missing, damaged, with several roots, or with joints that no profile maps.
     """
     path, profiles = Path(path), load_mappings(mapping)
-    if path.suffix.lower() == ".glb":
+    if path.suffix.lower() in (".glb", ".vrm"):
         character = read_glb_skeleton(path)
         rig = character.rig
         rest = rest_clip(rig)

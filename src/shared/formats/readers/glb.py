@@ -1,8 +1,9 @@
 """GLB files in: the skeleton of a character and, where there is one, its first animation.
 
-Joints are the nodes of the largest skin, or all nodes of a file without skins; nodes between
-them count as joints too. The default pose of the nodes is the rest pose. Legend: T frames, S keys,
-N joints, M nodes that matter (joints and everything above them)."""
+Joints are the bones that a VRM avatar or animation names, else the nodes of the largest skin, or
+all nodes of a file without skins; nodes between them count as joints too. The default pose of the
+nodes is the rest pose. Legend: T frames, S keys, N joints, M nodes that matter (joints and
+everything above them)."""
 
 import json
 import struct
@@ -358,8 +359,8 @@ def _faults(path: Path) -> Iterator[None]:
 
 def _skeleton(file: GlbFile) -> GlbSkeleton:
     nodes: list[dict[str, Any]] = file.document.get("nodes", [])
-    parents = _parents(nodes)
-    joints = _joints(file.document, nodes, parents)
+    parents, bones = _parents(nodes), _bones(file.document)
+    joints = _joints(file.document, nodes, parents, list(bones))
     index = {node: joint for joint, node in enumerate(joints)}
     poses = {node: rest_matrix(nodes[node]) for node in _with_ancestors(joints, parents)}
     world: dict[int, np.ndarray] = {}
@@ -376,7 +377,7 @@ def _skeleton(file: GlbFile) -> GlbSkeleton:
     root = parents[joints[0]]
     base = world[root] if root >= 0 else np.eye(4)
     base_size = _split(base[None, :3, :3])[1]
-    names = _names(nodes, joints)
+    names = _names(nodes, joints, bones)
     leaves = sorted(set(range(len(joints))) - set(above))
     tips = tuple((j, tuple((0.5 * offsets[j]).tolist())) for j in leaves if above[j] >= 0)
     rig = Rig(names, tuple(above), offsets, tips, frames, ("ZXY",) * len(joints))
@@ -397,10 +398,23 @@ def _parents(nodes: list[dict[str, Any]]) -> list[int]:
     return parents
 
 
-def _joints(document: dict[str, Any], nodes: list[dict[str, Any]], parents: list[int]) -> list[int]:
+def _bones(document: dict[str, Any]) -> dict[int, str]:
+    """What VRM calls nodes (avatars of 0.x and 1.0, animations); of other files nothing."""
+    extensions = document.get("extensions", {})
+    for name in ("VRMC_vrm", "VRMC_vrm_animation", "VRM"):
+        if name in extensions:
+            bones = extensions[name]["humanoid"]["humanBones"]
+            rows = bones if name == "VRM" else [{"bone": key} | bones[key] for key in bones]
+            return {row["node"]: row["bone"] for row in rows}
+    return {}
+
+
+def _joints(
+    document: dict[str, Any], nodes: list[dict[str, Any]], parents: list[int], bones: list[int]
+) -> list[int]:
     """Nodes of the skeleton, parents first, of which the first is the only root."""
     skins = document.get("skins", [])
-    chosen: list[int] = max((skin["joints"] for skin in skins), key=len, default=[])
+    chosen = bones or max((skin["joints"] for skin in skins), key=len, default=[])
     if not chosen:
         chosen = [n for n, entry in enumerate(nodes) if not {"mesh", "camera"} & set(entry)]
     if not chosen:
@@ -441,11 +455,14 @@ def _with_ancestors(joints: list[int], parents: list[int]) -> list[int]:
     return [*_line(joints[0], parents)[:-1], *joints]
 
 
-def _names(nodes: list[dict[str, Any]], joints: list[int]) -> tuple[str, ...]:
+def _names(
+    nodes: list[dict[str, Any]], joints: list[int], bones: dict[int, str]
+) -> tuple[str, ...]:
     """Names on one line, printable; numbered where two joints share one."""
     names: list[str] = []
     for node in joints:
-        name = printable(" ".join(str(nodes[node].get("name", "")).split())) or f"node {node}"
+        given = str(bones.get(node, nodes[node].get("name", "")))
+        name = printable(" ".join(given.split())) or f"node {node}"
         names.append(name if name not in names else f"{name} {node}")
     return tuple(names)
 

@@ -16,8 +16,9 @@ import numpy as np
 from PIL import Image
 
 from ...motion.motion import Motion
-from ...motion.skeleton import NUM_JOINTS
+from ...motion.skeleton import JOINT_NAMES, NUM_JOINTS
 from ...motion.trajectory import MotionTrajectory
+from ..live import VMC_BONES
 from ..mannequin import Mannequin, mannequin, side_colours, whole_shares
 from ..preview.trajectory import proxy_body
 from ..readers.glb import INDEX_DATA, VERTEX_DATA, GlbFile, GlbSkeleton
@@ -59,33 +60,70 @@ def write_glb_clip(clip: RigClip, path: str | Path) -> Path:
     return _write(clip, bone_mesh(clip.rig, clip.moving()), path)
 
 
-def rest_glb() -> bytes:
-    """A file of `write_glb` with two keys a channel, to be replaced by those of a motion."""
+def write_vrma(motion: Motion, path: str | Path) -> Path:
+    """Write one motion as a VRM animation: the T-pose, whose bones VRM names, and no mesh.
+
+    Raises:
+        UserError: the file cannot be written.
+    """
+    return _vrma(motion).write(Path(path))
+
+
+def _vrma(motion: Motion) -> GlbFile:
+    file = _file(motion_clip(motion))
+    bones = {
+        VMC_BONES[name][0].lower() + VMC_BONES[name][1:]: {"node": joint}
+        for joint, name in enumerate(JOINT_NAMES)
+    }
+    extension = {"specVersion": "1.0", "humanoid": {"humanBones": bones}}
+    file.document |= {
+        "extensionsUsed": ["VRMC_vrm_animation"],
+        "extensions": {"VRMC_vrm_animation": extension},
+    }
+    return file
+
+
+def rest_files() -> dict[str, bytes]:
+    """Files of `write_glb` and `write_vrma` with two keys a channel, to be replaced by those of a
+    motion."""
     turned = np.zeros((2, NUM_JOINTS, 4), np.float32)
     turned[..., 0] = 1.0
     turned[1, :, :2] = np.sqrt(0.5)  # every joint turns, so that each has a key in every frame
     motion = Motion(turned, np.zeros((2, 3), np.float32), np.zeros((2, 2), np.float32))
-    return _file(motion_clip(motion), mannequin()).to_bytes()
+    body = _file(motion_clip(motion), mannequin())
+    return {"glb": body.to_bytes(), "vrma": _vrma(motion).to_bytes()}
 
 
 def _write(clip: RigClip, body: Mannequin, path: str | Path) -> Path:
     return _file(clip, body).write(Path(path))
 
 
-def _file(clip: RigClip, body: Mannequin) -> GlbFile:
+def _file(clip: RigClip, body: Mannequin | None = None) -> GlbFile:
     file = GlbFile()
     name = clip.text or "motion"
     joints = len(clip.names)
-    document = {
+    document: dict[str, Any] = {
         "asset": {"version": "2.0", "generator": "motion-tools"},
         "scene": 0,
-        "scenes": [{"name": name, "nodes": [0, joints], "extras": {"text": clip.text}}],
+        "scenes": [{"name": name, "nodes": [0], "extras": {"text": clip.text}}],
         "nodes": _nodes(clip.rig),
         "animations": [
             animation(clip, file, list(range(joints)), clip.rig.frames) | {"name": name}
         ],
+    }
+    if body:
+        document |= _skinned(clip.rig, body, file)
+        document["nodes"].append({"name": "mannequin", "mesh": 0, "skin": 0})
+        document["scenes"][0]["nodes"].append(joints)
+    file.document |= document
+    return file
+
+
+def _skinned(rig: Rig, body: Mannequin, file: GlbFile) -> dict[str, Any]:
+    """What draws a body: mesh, skin, material."""
+    return {
         "meshes": [_mesh(body, file)],
-        "skins": [_skin(clip.rig, file)],
+        "skins": [_skin(rig, file)],
         "materials": [
             {
                 "name": "mannequin",
@@ -100,12 +138,10 @@ def _file(clip: RigClip, body: Mannequin) -> GlbFile:
         "samplers": [{"magFilter": 9729, "minFilter": 9729, "wrapS": 33071, "wrapT": 33071}],
         "images": [{"name": "sides", "mimeType": "image/png", "bufferView": file.view(_palette())}],
     }
-    file.document |= document
-    return file
 
 
 def _nodes(rig: Rig) -> list[dict[str, Any]]:
-    """The joints in the rest pose, then the mesh."""
+    """The joints in the rest pose."""
     nodes: list[dict[str, Any]] = []
     above = parent_frames(rig, rig.frames)
     turns = matrices_to_quaternions(above.swapaxes(-1, -2) @ rig.frames)[:, [1, 2, 3, 0]]
@@ -117,7 +153,7 @@ def _nodes(rig: Rig) -> list[dict[str, Any]]:
         if children := rig.children(joint):
             node["children"] = children
         nodes.append(node)
-    return [*nodes, {"name": "mannequin", "mesh": 0, "skin": 0}]
+    return nodes
 
 
 def _mesh(body: Mannequin, file: GlbFile) -> dict[str, Any]:

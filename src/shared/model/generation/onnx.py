@@ -3,7 +3,8 @@
 text.onnx: input_ids and attention_mask [B, L] int64 -> pooled [B, D]; tokens [B, L, D] for a
 network that hears them, opened [B, A] for one with adapters. denoiser.onnx: x [B, T, K, C]
 z-scores, t [B], the text, tag [B], mask [B, T] (true = a real frame), known [B, T, K, C] (true =
-the entry is given) -> prediction.
+the entry is given) -> prediction. adapted.onnx hears opened as well; denoiser.onnx is the same
+network where no text opens an adapter, which takes less time.
 
 Letters: B batch, L tokens, T frames, K rows, C channels, D embed dim.
 """
@@ -35,7 +36,7 @@ from ..onnx_export import (
 )
 from .denoiser import MotionDenoiser
 from .motion_generator import TextToMotion
-from .onnx_networks import DENOISER_GRAPH, TEXT_GRAPH
+from .onnx_networks import ADAPTED_GRAPH, DENOISER_GRAPH, TEXT_GRAPH
 from .requests import MIN_FRAMES
 
 FILES = (
@@ -154,26 +155,30 @@ def export_text(model: str | Path, folder: str | Path) -> TextOnnxCard:
     if tokens:
         more["tokens"] = (torch.randn(2, 7, dim), words)
         more["token_mask"] = (torch.ones(2, 7, dtype=torch.bool), words)
+    variants = {DENOISER_GRAPH: more}
     if adapters := len(config.generation.adapter_ranks):
-        more["opened"] = (torch.zeros(2, adapters), batch)
-    network = traced(
-        DenoiserGraph(denoiser, list(more)),
-        {
-            "x": (torch.randn(shape), whole),
-            "t": (torch.tensor([1, 2]), batch),
-            "pooled": (torch.randn(2, dim), batch),
-            "tag": (torch.tensor([0, 0]), batch),
-            "mask": (torch.ones(shape[:2], dtype=torch.bool), whole),
-            "known": (torch.zeros(shape, dtype=torch.bool), whole),
-            **more,
-        },
-        ("prediction",),
-    )
+        variants[ADAPTED_GRAPH] = more | {"opened": (torch.zeros(2, adapters), batch)}
+    networks = {
+        graph: traced(
+            DenoiserGraph(denoiser, list(heard)),
+            {
+                "x": (torch.randn(shape), whole),
+                "t": (torch.tensor([1, 2]), batch),
+                "pooled": (torch.randn(2, dim), batch),
+                "tag": (torch.tensor([0, 0]), batch),
+                "mask": (torch.ones(shape[:2], dtype=torch.bool), whole),
+                "known": (torch.zeros(shape, dtype=torch.bool), whole),
+                **heard,
+            },
+            ("prediction",),
+        )
+        for graph, heard in variants.items()
+    }
     # Written only now: who stops the slow part leaves no folder behind.
     copy_model(source, folder, FILES)
     graphs = {
-        TEXT_GRAPH: write_graph(text, folder / TEXT_GRAPH),
-        DENOISER_GRAPH: write_graph(network, folder / DENOISER_GRAPH),
+        name: write_graph(graph, folder / name)
+        for name, graph in {TEXT_GRAPH: text, **networks}.items()
     }
     card, tokenizer = generator.card, generator.tokenizer
     result = TextOnnxCard(

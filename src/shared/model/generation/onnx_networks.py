@@ -4,6 +4,7 @@ Letters: B batch, L tokens, T frames, K rows, C channels, D embed dim.
 """
 
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from ..clip.features import TextFeatures
 from ..onnx_card import TextOnnxCard, open_graph, run
 
 TEXT_GRAPH, DENOISER_GRAPH = "text.onnx", "denoiser.onnx"
+ADAPTED_GRAPH = "adapted.onnx"  # the denoiser with its adapters, for texts that open one
 
 
 class OnnxTextTower(nn.Module):
@@ -68,7 +70,8 @@ class OnnxDenoiser(nn.Module):
         self.shows_known, self.provenance_embed = card.shown, None
         self._pooled = torch.tensor(card.null_pooled)
         self._token = None if card.null_token is None else torch.tensor(card.null_token)
-        self._session = open_graph(folder, DENOISER_GRAPH, threads)
+        self._session = cache(lambda graph: open_graph(folder, graph, threads))
+        self._session(DENOISER_GRAPH)  # says now what it lacks
 
     def forward(
         self,
@@ -87,7 +90,7 @@ class OnnxDenoiser(nn.Module):
         if text.opened is not None:
             heard["opened"] = text.opened
         (prediction,) = run(
-            self._session,
+            self._session(DENOISER_GRAPH if text.opened is None else ADAPTED_GRAPH),
             x=noisy,
             t=timesteps,
             pooled=text.pooled,
@@ -104,7 +107,7 @@ class OnnxDenoiser(nn.Module):
 
     def with_adapters(self, text: TextFeatures) -> TextFeatures:
         """See `MotionDenoiser.with_adapters`: the text's graph has told."""
-        return text
+        return text if text.opened is None or text.opened.any() else replace(text, opened=None)
 
     def drop_text(self, text: TextFeatures, drop: Tensor) -> TextFeatures:
         """See `MotionDenoiser.drop_text`; all of them are dropped."""

@@ -11,7 +11,10 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation, Slerp
 
+from src.shared.data.retarget.read_motion import read_motion
+from src.shared.data.retarget.to_rig import read_target
 from src.shared.errors import UserError
+from src.shared.formats.live import VMC_BONES
 from src.shared.formats.readers.glb import GlbFile, read_glb, read_glb_skeleton
 from src.shared.formats.writers.glb import write_glb, write_glb_clip
 from tests.shared.formats.rigs import random_clip
@@ -52,6 +55,28 @@ def test_steps_hold_and_splines_bend(tmp_path: Path) -> None:
     spline = animated(a_file(tmp_path), keys, triples, "CUBICSPLINE", "translation")
     clip = read_glb(spline.write(tmp_path / "c.glb"))
     np.testing.assert_allclose(clip.translations[:, 1], places, atol=1e-6)
+
+
+@pytest.mark.parametrize("version", ["VRM", "VRMC_vrm"])
+def test_joints_of_a_vrm_avatar_are_those_it_names(version: str, tmp_path: Path) -> None:
+    file = GlbFile.read(write_glb(random_motion(2), tmp_path / "a.glb"))
+    nodes = file.document["nodes"]
+    names = {VMC_BONES[node["name"]]: index for index, node in enumerate(nodes[:22])}
+    for node in nodes:
+        node["name"] = "J_Bip"
+    nodes[15]["children"] = [len(nodes)]  # hair, which no humanoid has
+    nodes.append({"name": "hair"})
+    rows = [{"bone": name[0].lower() + name[1:], "node": node} for name, node in names.items()]
+    bones = rows if version == "VRM" else {row["bone"]: {"node": row["node"]} for row in rows}
+    file.document["extensions"] = {version: {"humanoid": {"humanBones": bones}}}
+    target = read_target(file.write(tmp_path / "a.vrm"))
+    assert target.rig.names[0] == "hips" and "hair" not in target.rig.names
+    walk = random_motion(5)
+    moved = read_motion(target.write(walk, tmp_path / "moved.glb"))
+    np.testing.assert_allclose(moved.positions(), walk.positions(), atol=1e-3)
+    file.document["extensions"][version]["humanoid"] = {"humanBones": [{"bone": "hips"}]}
+    with pytest.raises(UserError, match="glTF"):
+        read_target(file.write(tmp_path / "b.vrm"))
 
 
 def test_names_are_printable_and_tell_joints_apart(tmp_path: Path) -> None:

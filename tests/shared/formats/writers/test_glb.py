@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from src.shared.data.retarget.read_motion import read_motion
 from src.shared.errors import UserError
 from src.shared.formats.mannequin import mannequin, whole_shares
 from src.shared.formats.rig import continuous
-from src.shared.formats.writers.glb import write_glb
+from src.shared.formats.writers.glb import write_glb, write_vrma
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import JOINT_NAMES
 from tests.shared.formats.glb_reader import Glb
@@ -51,6 +52,25 @@ def test_keys_are_frames_and_quaternions_unit_and_continuous(glb: Glb) -> None:
         values = glb.read(animation["samplers"][channel["sampler"]]["output"]).astype(np.float64)
         np.testing.assert_allclose(np.linalg.norm(values, axis=-1), 1, atol=1e-6)
         assert ((values[1:] * values[:-1]).sum(-1) > 0).all()
+
+
+def test_a_vrm_animation_names_bones_and_moves_them_as_the_motion_does(tmp_path: Path) -> None:
+    motion = a_motion()
+    glb = Glb(write_vrma(motion, tmp_path / "a.vrma"))
+    positions, _ = glb.world(12)
+    np.testing.assert_allclose(positions, motion.positions()[12], atol=1e-4)
+    assert glb.json["extensionsUsed"] == list(glb.json["extensions"]) == ["VRMC_vrm_animation"]
+    bones = glb.json["extensions"]["VRMC_vrm_animation"]["humanoid"]["humanBones"]
+    assert bones["hips"] == {"node": 0} and len(bones) == 22
+    for side in ("left", "right"):  # those that VRM 1.0 asks for
+        for bone in ("UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot"):
+            assert side + bone in bones
+    moved = [c["target"] for c in glb.json["animations"][0]["channels"]]
+    assert [t["node"] for t in moved if t["path"] != "rotation"] == [0]
+    assert "meshes" not in glb.json and "rotation" not in glb.json["nodes"][0]
+    assert glb.json["nodes"][0]["translation"][1] > 0.9  # by which players scale its path
+    again = read_motion(tmp_path / "a.vrma")
+    np.testing.assert_allclose(again.positions(), motion.positions(), atol=1e-4)
 
 
 def test_the_skin_binds_the_mesh_where_it_stands(glb: Glb) -> None:

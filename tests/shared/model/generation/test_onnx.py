@@ -1,5 +1,6 @@
 """The exported tower and denoiser give what PyTorch's give, from the weights beside them."""
 
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,12 @@ from src.shared.io.files import sha256_file
 from src.shared.model.checkpoint import WEIGHTS_FILE
 from src.shared.model.clip.core import TextTower
 from src.shared.model.generation.motion_generator import TextToMotion
-from src.shared.model.generation.onnx import DENOISER_GRAPH, TEXT_GRAPH, export_text
+from src.shared.model.generation.onnx import (
+    ADAPTED_GRAPH,
+    DENOISER_GRAPH,
+    TEXT_GRAPH,
+    export_text,
+)
 from src.shared.model.onnx_card import TextOnnxCard, open_graph, read_onnx_card
 
 pytest.importorskip("onnxruntime")
@@ -74,8 +80,12 @@ def test_graphs_compute_what_the_networks_do(
     outputs = session.run(None, {"input_ids": ids.numpy(), "attention_mask": words.numpy()})
     np.testing.assert_allclose(outputs[0], text.pooled, atol=1e-5)
 
-    session = open_graph(tmp_path / "onnx", DENOISER_GRAPH, 1)
-    for frames in (8, 61):
+    graphs = {DENOISER_GRAPH: text}
+    if settings.get("adapter_ranks"):
+        graphs[ADAPTED_GRAPH] = generator.denoiser.with_adapters(text)
+    assert card.graphs.keys() == {TEXT_GRAPH, *graphs}
+    for (graph, heard), frames in product(graphs.items(), (8, 61)):
+        session = open_graph(tmp_path / "onnx", graph, 1)
         x = torch.randn(3, frames, 23, 6)
         mask = torch.arange(frames) < torch.tensor([frames, frames, frames - 3])[:, None]
         known = torch.rand(x.shape) < 0.1
@@ -83,16 +93,15 @@ def test_graphs_compute_what_the_networks_do(
         feed = {"x": x, "t": t, "tag": tag, "mask": mask, "pooled": text.pooled, "known": known}
         if settings.get("text_conditioning"):
             feed |= {"tokens": torch.as_tensor(outputs[1]), "token_mask": words.bool()}
-        if settings.get("adapter_ranks"):
-            text = generator.denoiser.with_adapters(text)
-            np.testing.assert_array_equal(outputs[1], text.opened)
-            feed["opened"] = text.opened
-        assert feed.keys() == card.graphs[DENOISER_GRAPH].inputs.keys()
+        if heard.opened is not None:
+            np.testing.assert_array_equal(outputs[1], heard.opened)
+            feed["opened"] = heard.opened
+        assert feed.keys() == card.graphs[graph].inputs.keys()
         (found,) = session.run(None, {name: value.numpy() for name, value in feed.items()})
         wanted = generator.denoiser(
             x,
             t,
-            text,
+            heard,
             tag,
             mask,
             known=known if settings.get("constraints") else None,
