@@ -52,6 +52,8 @@ SLOW = 0.55  # seconds; longer counts are read as two as well
 FLOOR_SECONDS, FLOOR_SHARE = 3.0, 20  # in which somebody stands for that percentage
 HOVERS = 0.75 * HOVER_SECONDS * FPS  # frames: a song may be slower than the take
 MIN_COUNTS = 5  # of a take
+TORN = 350.0  # m/s² of a joint: a leg that was captured wrongly jumps for a frame
+BESIDE = 9  # frames around a figure that are seen while it fades
 STILL = 0.12  # m/s, mean of all joints over half a second: nobody dances
 WEIGHTS = np.ones(NUM_JOINTS)  # of joints in the cost of a join
 WEIGHTS[[JOINT_INDEX[f"{side}_{name}"] for side in "lr" for name in ("ankle", "foot", "wrist")]] = 2
@@ -184,6 +186,13 @@ class FigureMemory:
         return [run for run in runs if run[1] - run[0] > HOVERS]
 
     @cached_property
+    def _torn(self) -> np.ndarray:
+        """Frames [G] in which a joint jumps."""
+        worst = np.linalg.norm(np.diff(self._joints, 2, axis=0), axis=-1).max(1) * FPS**2
+        worst[np.r_[self.offsets[1:-1] - 2, self.offsets[1:-1] - 1]] = 0.0  # from take to take
+        return np.asarray(np.flatnonzero(worst > TORN) + 1)
+
+    @cached_property
     def speed(self) -> np.ndarray:
         """Mean speed of the joints in the world, m/s [F]; 0 in the last frame of a take."""
         steps = np.linalg.norm(np.diff(self._joints, axis=0, append=self._joints[-1:]), axis=-1)
@@ -281,9 +290,13 @@ class FigureMemory:
         return float(np.linalg.norm(own - own.mean(0), axis=-1).mean())
 
     def _dances(self, first: int, last: int) -> bool:
-        """Whether nobody stands still for half a second, or is off the floor for as long."""
-        if last - first < 10 or any(
-            min(stop, last) - max(start, first) > HOVERS for start, stop in self._aloft
+        """Whether no joint jumps, nobody stands still for half a second, or is off the floor for
+        as long."""
+        torn = np.searchsorted(self._torn, (first - BESIDE, last + BESIDE))
+        if (
+            torn[1] > torn[0]
+            or last - first < 10
+            or any(min(stop, last) - max(start, first) > HOVERS for start, stop in self._aloft)
         ):
             return False
         window = np.convolve(self.speed[first:last], np.ones(15) / 15, "valid")

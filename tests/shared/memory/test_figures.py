@@ -17,7 +17,7 @@ from src.shared.memory.figures import (
     is_figure_memory,
 )
 from src.shared.memory.steps import LICENCE, STEPS, made_take
-from src.shared.motion.skeleton import REST_FOOT_HEIGHT
+from src.shared.motion.skeleton import JOINT_INDEX, REST_FOOT_HEIGHT
 from tests.shared.evaluation.dancers import hopping, swinging_arms
 from tests.shared.memory.tiny_figures import stepping, tiny_figures
 
@@ -104,6 +104,17 @@ def test_metres_gone_backward_are_counted() -> None:
     figures = memory.figures(4)
     spans = figures.times[:, -1] - figures.times[:, 0]
     np.testing.assert_allclose(figures.back, 0.3 * spans, atol=0.06)
+
+
+def test_where_a_joint_jumps_for_a_frame_there_is_no_figure() -> None:
+    whole = Take.of(stepping(0.5), "step", "salsa")
+    turns = whole.motion.quaternions.copy()
+    turns[300, JOINT_INDEX["l_hip"]] = np.sqrt(0.5), np.sqrt(0.5), 0, 0
+    torn = replace(whole, motion=replace(whole.motion, quaternions=turns))
+    kept = FigureMemory([torn]).figures(8)
+    beside = (kept.times[:, 0] < 10.3) & (kept.times[:, -1] > 9.7)
+    assert len(kept) and not beside.any()
+    assert len(kept) < len(FigureMemory([whole]).figures(8))
 
 
 @pytest.mark.parametrize("period", [0.4, 0.5, 0.6])
