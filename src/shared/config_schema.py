@@ -256,6 +256,7 @@ class TrainConfig(Config):
     device: Literal["auto", "cuda", "mps", "cpu"] = "auto"
     threads: int | None = Field(None, ge=1)  # CPU threads; None = torch's own choice
     processes: int | None = Field(None, ge=1)  # started if no launcher has; None = as launched
+    fsdp_version: Literal[2] | None = None  # shard weights and optimizer over processes; None: DDP
     num_workers: int = Field(0, ge=0)  # batches made ahead of time, in as many threads
     tensorboard: bool = True
     log_every: int = Field(20, ge=1)

@@ -7,6 +7,7 @@ the settings, data and network that it had before.
 """
 
 import json
+import math
 import os
 import shutil
 import sys
@@ -17,12 +18,13 @@ from typing import Any
 import torch
 from safetensors import SafetensorError
 from safetensors.torch import load_file, save_file
-from torch import Tensor, nn
+from torch import Tensor
 
 from ..shared.config_loader import dump_config
 from ..shared.config_schema import TrainConfig
 from ..shared.errors import UsageError, UserError
 from ..shared.io.files import sha256_file, unfinished, why_not_written, write_json
+from .sharding import placed_as, whole
 
 _FILES = ("model", "ema", "optimizer")
 
@@ -45,10 +47,10 @@ class Checkpoint:
 
 
 def optimizer_tensors(optimizer: torch.optim.Optimizer) -> dict[str, Tensor]:
-    """The optimizer's state as a flat mapping `parameter number.name`."""
+    """The optimizer's state as a flat mapping `parameter number.name`, shards put together."""
     state = optimizer.state_dict()["state"]
     return {
-        f"{index}.{name}": value
+        f"{index}.{name}": whole(value)
         for index, values in state.items()
         for name, value in values.items()
         if isinstance(value, Tensor)
@@ -58,9 +60,10 @@ def optimizer_tensors(optimizer: torch.optim.Optimizer) -> dict[str, Tensor]:
 def load_optimizer(optimizer: torch.optim.Optimizer, tensors: dict[str, Tensor]) -> None:
     """Inverse of `optimizer_tensors`; hyper-parameters stay those of the configuration."""
     state: dict[int, dict[str, Tensor]] = {}
+    weights = [weight for group in optimizer.param_groups for weight in group["params"]]
     for key, value in tensors.items():
         index, name = key.split(".", 1)
-        state.setdefault(int(index), {})[name] = value
+        state.setdefault(int(index), {})[name] = placed_as(value, weights[int(index)])
     groups = optimizer.state_dict()["param_groups"]
     optimizer.load_state_dict({"state": state, "param_groups": groups})
 
@@ -73,9 +76,9 @@ def _contiguous(tensors: dict[str, Tensor]) -> dict[str, Tensor]:
 def save_checkpoint(
     root: Path,
     *,
-    model: nn.Module,
-    ema: nn.Module,
-    optimizer: torch.optim.Optimizer,
+    model: dict[str, Tensor],
+    ema: dict[str, Tensor],
+    optimizer: dict[str, Tensor],
     state: dict[str, Any],
     keep: int,
 ) -> Path:
@@ -86,7 +89,7 @@ def save_checkpoint(
     """
     target = root / f"step-{state['step']:08d}"
     partial = unfinished(target)
-    contents = (model.state_dict(), ema.state_dict(), optimizer_tensors(optimizer))
+    contents = (model, ema, optimizer)
     try:
         partial.mkdir(parents=True)
         for name, tensors in zip(_FILES, contents, strict=True):
@@ -159,9 +162,12 @@ MAY_CHANGE = frozenset(
         "device",
         "threads",
         "num-workers",
+        "fsdp-version",
         "tensorboard",
     }
 )
+# Their product may not change, each of them may: the same clips make a step.
+BATCH = ("batch-size", "gradient-accumulation", "processes")
 
 
 def run_identity(config: TrainConfig, task: dict[str, Any], processes: int) -> dict[str, Any]:
@@ -180,10 +186,20 @@ def refuse_to_overwrite(output: Path, *, resume: bool) -> None:
 
 def require_same_run(checkpoint: Checkpoint, identity: dict[str, Any]) -> None:
     """Raises UsageError naming the first setting in which the checkpoint differs."""
-    before = checkpoint.state["identity"]
+    before, identity = (
+        _with_global_batch(checkpoint.state["identity"]),
+        _with_global_batch(identity),
+    )
     for key in sorted({*before, *identity}):
         if before.get(key) != identity.get(key):
             raise UsageError(
                 f"cannot resume {checkpoint.folder}: {key} was {before.get(key)!r} and is now"
                 f" {identity.get(key)!r}; give the old value or choose another --output"
             )
+
+
+def _with_global_batch(identity: dict[str, Any]) -> dict[str, Any]:
+    """The clips of a step as one number, for those of a part, parts and processes."""
+    rest = {key: value for key, value in identity.items() if key not in BATCH}
+    product = math.prod(identity[key] for key in BATCH)
+    return rest | {f"global batch ({' x '.join(BATCH)})": product}

@@ -29,6 +29,7 @@ from .checkpoint import (
     Checkpoint,
     latest_checkpoint,
     load_optimizer,
+    optimizer_tensors,
     refuse_to_overwrite,
     require_same_run,
     run_identity,
@@ -36,6 +37,7 @@ from .checkpoint import (
 )
 from .processes import Interrupted, InterruptGuard
 from .run_log import VALIDATION, RunLog, console
+from .sharding import is_asked_for, local, placed_as, shard, whole
 from .task import Part, Task, mix_seed, to_device
 
 
@@ -58,23 +60,42 @@ class ExponentialMovingAverage:
 
     The decay d warms up as min(decay, (1 + n) / (10 + n)) over the number n of updates, so that
     a short training is not averaged with its random start. Buffers are copied.
+
+    Args:
+        module: that it trails; may be in shards, and then the average is.
+        decay: d.
+        start: a copy of the module before it was sharded, which becomes the average.
     """
 
-    def __init__(self, module: nn.Module, decay: float) -> None:
+    def __init__(self, module: nn.Module, decay: float, start: nn.Module | None = None) -> None:
         self.decay = decay
-        self.module = copy.deepcopy(module).eval().requires_grad_(False)
-        trained = [name for name, weight in module.named_parameters() if weight.requires_grad]
-        self._average: list[Tensor] = [self.module.get_parameter(name) for name in trained]
-        self._current: list[Tensor] = [module.get_parameter(name) for name in trained]
+        self.module = (start or copy.deepcopy(module)).eval().requires_grad_(False)
+        self._trained = [name for name, weight in module.named_parameters() if weight.requires_grad]
+        self._current: list[Tensor] = [module.get_parameter(name) for name in self._trained]
         self._buffers = list(zip(self.module.buffers(), module.buffers(), strict=True))
+        self.scatter()
+
+    def scatter(self) -> None:
+        """Take up what the frozen copy holds."""
+        wholes = [self.module.get_parameter(name) for name in self._trained]
+        pairs = zip(wholes, self._current, strict=True)
+        self._average = [placed_as(average, current) for average, current in pairs]
+
+    @torch.no_grad()
+    def gather(self) -> None:
+        """Bring the frozen copy up to date where the average is in shards; every process must."""
+        for name, average in zip(self._trained, self._average, strict=True):
+            if (kept := self.module.get_parameter(name)) is not average:
+                kept.copy_(whole(average))
 
     @torch.no_grad()
     def update(self, updates: int) -> None:
         """Move towards the module's present weights; `updates` counts the calls before this."""
         decay = min(self.decay, (1 + updates) / (10 + updates))
-        torch._foreach_lerp_(self._average, self._current, 1 - decay)
-        for average, current in self._buffers:
-            average.copy_(current)
+        average, current = map(local, self._average), map(local, self._current)
+        torch._foreach_lerp_(list(average), list(current), 1 - decay)
+        for old, new in self._buffers:
+            old.copy_(new)
 
 
 def make_accelerator(config: TrainConfig, compute: ComputeChoice) -> Accelerator:
@@ -172,6 +193,7 @@ class Trainer(Generic[ConfigT]):
         refuse_to_overwrite(self.output, resume=resume)
         compute = choose_compute(config.device, config.precision)
         threads = set_threads(config.threads)
+        sharded = is_asked_for(config.fsdp_version)
         self.accelerator = make_accelerator(config, compute)
         processes = self.accelerator.num_processes
         self._say(f"computing on {compute}; {threads} CPU threads; {processes} process(es)")
@@ -180,10 +202,18 @@ class Trainer(Generic[ConfigT]):
             self.task = build(config)
         self.module = self.task.module.to(self.accelerator.device)
         self.task.to(self.accelerator.device)
-        self.ema = ExponentialMovingAverage(self.module, config.ema_decay)
+        start = copy.deepcopy(self.module)
+        if sharded and processes > 1:
+            self._say(f"FSDP2: weights, gradients and optimizer in {processes} shards")
+            shard(self.module, self.accelerator.device)
+        self.ema = ExponentialMovingAverage(self.module, config.ema_decay, start)
         rates = self.task.learning_rates
         optimizer = make_optimizer(self.module, config, self.accelerator.device.type, rates)
-        self.wrapped, self.optimizer = self.accelerator.prepare(self.module, optimizer)
+        # shards need no DDP around them; both get the precision
+        self.wrapped = self.accelerator.prepare_model(
+            self.module, evaluation_mode=sharded and processes > 1
+        )
+        self.optimizer = self.accelerator.prepare_optimizer(optimizer)
         self._sums: dict[str, Tensor] = {}
 
     # ------------------------------------------------------------ the loop
@@ -246,14 +276,15 @@ class Trainer(Generic[ConfigT]):
     def _optimize(self, step: int, batches: Iterator[Any]) -> None:
         """One optimizer step."""
         config, accelerator = self.config, self.accelerator
-        # dropout draws from torch's own generator: start it anew for each step and process
-        torch.manual_seed(mix_seed("step", config.seed, step, accelerator.process_index))
         factor = learning_rate_factor(
             step - 1, steps=config.steps, warmup=config.warmup_steps, schedule=config.lr_schedule
         )
         for group in self.optimizer.param_groups:
             group["lr"] = group["initial_lr"] * factor
-        for _ in range(config.gradient_accumulation):
+        for number in range(config.gradient_accumulation):
+            # dropout draws from torch's own generator: start it anew for each part of a step
+            part = accelerator.process_index + number * accelerator.num_processes
+            torch.manual_seed(mix_seed("step", config.seed, step, part))
             batch = to_device(next(batches), accelerator.device)
             with accelerator.accumulate(self.wrapped):
                 metrics = self.task.training_step(self.wrapped, batch)
@@ -264,7 +295,7 @@ class Trainer(Generic[ConfigT]):
                 self.optimizer.step()
                 self.optimizer.zero_grad()
             self._add(metrics)
-        self._add({"grad-norm": norm})
+        self._add({"grad-norm": whole(norm)})
         self.ema.update(step - 1)
 
     # ------------------------------------------------------------ figures
@@ -324,6 +355,7 @@ class Trainer(Generic[ConfigT]):
 
     def _validate(self, step: int, log: RunLog) -> None:
         """Figures and samples of the averaged weights, on the main process."""
+        self.ema.gather()
         if self.accelerator.is_main_process:
             torch.manual_seed(mix_seed("validation", self.config.seed))
             with torch.no_grad():
@@ -349,6 +381,9 @@ class Trainer(Generic[ConfigT]):
         sums = self._totals()
         if "loss" in sums:
             self._require_finite(sums["loss"][0], step)
+        self.ema.gather()
+        model = {name: whole(value) for name, value in self.module.state_dict().items()}
+        optimizer = optimizer_tensors(self.optimizer.optimizer)
         if self.accelerator.is_main_process:
             state: dict[str, Any] = {"step": step, "identity": self._identity()}
             state["sums"] = list(sums.items())  # in their order, which JSON objects here lose
@@ -356,9 +391,9 @@ class Trainer(Generic[ConfigT]):
                 state["scaler"] = self.accelerator.scaler.state_dict()
             save_checkpoint(
                 self.output / "checkpoints",
-                model=self.module,
-                ema=self.ema.module,
-                optimizer=self.optimizer.optimizer,
+                model=model,
+                ema=self.ema.module.state_dict(),
+                optimizer=optimizer,
                 state=state,
                 keep=self.config.keep_checkpoints,
             )
@@ -397,8 +432,10 @@ class Trainer(Generic[ConfigT]):
         return bool(done["steps"] == step and done.get("planned", step) == self.config.steps)
 
     def _load(self, checkpoint: Checkpoint) -> None:
-        self.module.load_state_dict(checkpoint.tensors("model"))
+        own, saved = self.module.state_dict(), checkpoint.tensors("model")
+        self.module.load_state_dict({n: placed_as(saved[n], own[n]) for n in saved})
         self.ema.module.load_state_dict(checkpoint.tensors("ema"))
+        self.ema.scatter()
         load_optimizer(self.optimizer.optimizer, checkpoint.tensors("optimizer"))
         share = float(self.accelerator.is_main_process)  # it goes on with what all have summed
         self._sums = {
@@ -416,6 +453,7 @@ class Trainer(Generic[ConfigT]):
 
     def _finish(self, step: int) -> None:
         """Write the pretrained folder and mark the run as finished."""
+        self.ema.gather()
         if self.accelerator.is_main_process:
             self.task.save_pretrained(self.ema.module, self.output)
             done = {"steps": step, "planned": self.config.steps}

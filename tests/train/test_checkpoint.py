@@ -3,7 +3,6 @@
 from pathlib import Path
 
 import pytest
-import torch
 from torch import nn
 
 from src.shared.errors import UserError
@@ -13,7 +12,7 @@ from tests.full_disk import full_disk
 
 def test_a_full_disk_is_one_line_and_keeps_the_checkpoint_before(tmp_path: Path) -> None:
     model = nn.Linear(30, 30)
-    parts = {"model": model, "ema": model, "optimizer": torch.optim.AdamW(model.parameters())}
+    parts = {name: model.state_dict() for name in ("model", "ema", "optimizer")}
     save_checkpoint(tmp_path, **parts, state={"step": 1}, keep=2)
     with full_disk(), pytest.raises(UserError) as caught:
         save_checkpoint(tmp_path, **parts, state={"step": 2}, keep=2)

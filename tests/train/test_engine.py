@@ -101,7 +101,7 @@ def test_a_folder_with_a_run_is_never_overwritten(tmp_path: Path) -> None:
 
 def test_resuming_with_other_settings_names_the_setting(tmp_path: Path) -> None:
     run(tmp_path)
-    with pytest.raises(UsageError, match=r"batch-size was 4 and is now 8"):
+    with pytest.raises(UsageError, match=r"was 4 and is now 8"):
         run(tmp_path, resume=True, batch_size=8)
 
 

@@ -1,0 +1,70 @@
+"""Two processes on the CPU, as DDP and as FSDP2: what one process does with the whole batch."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import torch
+from safetensors.torch import load_file
+from tiny_audio_stage import ROOT, assert_close_runs, audio_config, train_audio
+from two_processes import EVERY
+
+from src.train.sharding import is_asked_for
+
+ONE = (*EVERY, "gradient-accumulation=2")  # the parts of a step that two processes share
+PROGRAM = """
+import sys
+from src.train.processes import is_one_of_several, run_processes
+if not is_one_of_several():
+    sys.exit(run_processes(2))
+"""
+
+
+def losses(output: Path) -> list[float]:
+    lines = [json.loads(line) for line in (output / "log.jsonl").read_text().splitlines()]
+    return [line["loss"] for line in lines if "loss" in line]
+
+
+def test_ddp_and_fsdp2_are_one_process_with_the_whole_batch(circles: Path, tmp_path: Path) -> None:
+    """Loss curves, weights, and runs that go on in another number of processes."""
+    one, half = tmp_path / "one", tmp_path / "one-half-ddp"
+    train_audio(audio_config(circles, one, *ONE))
+    train_audio(audio_config(circles, half, *ONE, "steps=4"))
+    shutil.copytree(half, tmp_path / "one-half-fsdp")
+    program = tmp_path / "program.py"
+    program.write_text(PROGRAM + Path(__file__).with_name("two_processes.py").read_text())
+    done = subprocess.run(
+        [sys.executable, str(program), str(circles), str(tmp_path)],
+        env={
+            **os.environ,
+            "PYTHONPATH": os.pathsep.join((str(ROOT), str(Path(__file__).parent))),
+            "ACCELERATE_USE_CPU": "true",
+            "OMP_NUM_THREADS": "1",
+        },
+        stderr=subprocess.PIPE,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stderr.count("FSDP2: weights, gradients and optimizer in 2 shards") == 3
+    for name in ("ddp", "fsdp"):
+        go_on = tmp_path / f"{name}-half"
+        train_audio(audio_config(circles, go_on, *ONE), resume=True)
+        for other in (tmp_path / name, go_on, tmp_path / f"one-half-{name}"):
+            assert losses(other) == pytest.approx(losses(one), rel=1e-4)
+            assert_close_runs(one, other)
+            merged, whole = (load_file(o / "model.safetensors") for o in (other, one))
+            assert merged.keys() == whole.keys()
+            assert all(torch.allclose(merged[key], whole[key], atol=1e-5) for key in whole)
+
+
+def test_accelerates_own_configuration_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ACCELERATE_USE_FSDP", "true")
+    monkeypatch.setenv("FSDP_VERSION", "2")
+    assert is_asked_for(None) and "ACCELERATE_USE_FSDP" not in os.environ
+    assert is_asked_for(2) and not is_asked_for(None)
