@@ -104,6 +104,24 @@ def benchmark(arguments: list[str]) -> int:
     return python("-m", "benchmarks.sampling", "--model", "starter", *arguments)
 
 
+def gpu_check(arguments: list[str]) -> int:
+    """What only a GPU can tell: tests marked gpu, then training steps by batch into docs/gpu.md."""
+    setup.main(["--dev"])
+    if python("-c", "import sys, torch; sys.exit(not torch.cuda.is_available())"):
+        print("gpu-check: no CUDA device here; nothing was checked", file=sys.stderr)
+        return 1
+    steps = ("-m", "benchmarks.training_steps", "--device", "cuda", "--batches")
+    batches = "16,32,64,128,256,512,1024,2048"
+    table = (*steps, batches, "--write", "docs/gpu.md", *arguments)
+    compiled = (*steps, "64,256", "--precisions", "bf16", "--compile", *arguments)
+    return max(
+        python("-m", "pytest", "-q", "-m", "gpu"),
+        python(*table),
+        python(*compiled, "--write", "docs/gpu-compiled.md"),
+        python("-m", "benchmarks.sampling", "--model", "starter"),
+    )
+
+
 def train_small(arguments: list[str]) -> int:
     """Train both stages on the built-in synthetic motions, small, into runs/small."""
     setup.main([])
@@ -127,7 +145,7 @@ def clean(_arguments: list[str]) -> int:
 
 TASKS: dict[str, Callable[[list[str]], int]] = {
     task.__name__.replace("_", "-"): task
-    for task in (demo, test, test_slow, lint, format, benchmark, train_small, clean)
+    for task in (demo, test, test_slow, lint, format, benchmark, gpu_check, train_small, clean)
 }
 
 

@@ -156,3 +156,14 @@ def test_demo_makes_a_song_and_moves_to_it(monkeypatch: pytest.MonkeyPatch, tmp_
                           cwd=ROOT, check=True)  # fmt: skip
     assert done.returncode == 0
     assert (tmp_path / "x" / "song.wav").stat().st_size == pytest.approx(16 * 88_200, abs=100)
+
+
+def test_gpu_check_says_when_there_is_none(
+    setup: ModuleType, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    tasks = load("tasks")
+    ran: list[tuple[str, ...]] = []
+    monkeypatch.setattr(tasks.setup, "main", lambda arguments: None)
+    monkeypatch.setattr(tasks, "python", lambda *words, **_: ran.append(words) or 1)
+    assert tasks.gpu_check([]) == 1
+    assert len(ran) == 1 and "no CUDA device here; nothing was checked" in capfd.readouterr().err

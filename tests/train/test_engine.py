@@ -347,3 +347,16 @@ def test_a_new_run_forgets_the_log_of_an_old_one(tmp_path: Path) -> None:
     (tmp_path / "log.jsonl").write_text('{"step": 0, "loss": 9.0}\n')
     run(tmp_path, steps=4)
     assert "9.0" not in (tmp_path / "log.jsonl").read_text()
+
+
+@pytest.mark.gpu
+@pytest.mark.skipif(not torch.cuda.is_available(), reason="no CUDA device")
+def test_a_gpu_follows_the_cpu_and_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TINY_DROPOUT", "0")
+    run(tmp_path / "cpu", lr_schedule="constant")
+    run(tmp_path / "gpu", device="cuda", lr_schedule="constant", steps=8)
+    run(tmp_path / "gpu", device="cuda", lr_schedule="constant", resume=True)
+    assert all(
+        torch.allclose(value, final(tmp_path / "gpu")[name], atol=1e-3)
+        for name, value in final(tmp_path / "cpu").items()
+    )
