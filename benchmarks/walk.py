@@ -4,13 +4,16 @@
     python benchmarks/walk.py -- convert in.bvh out.glb
 
 Every call of a function of src/ is counted; what runs while a module of src/ is imported is not. A
-change of file is a call whose file is another one than that of the call before it.
+change of file is a call whose file is another one than that of the call before it. Each request
+runs in a process of its own, as commands do: what the first one chose (NumPy in place of PyTorch)
+would else bind the second.
 """
 
 import argparse
 import contextlib
 import inspect
 import io
+import multiprocessing
 import sys
 import tempfile
 import threading
@@ -77,13 +80,18 @@ def _is_import(frame: FrameType | None) -> bool:
 
 
 def walk(arguments: list[str]) -> Walk:
-    """Run one command of motion-tools."""
+    """Run one command of motion-tools.
+
+    Raises:
+        RuntimeError: it failed; what it did until then is no walk.
+    """
     from src.cli.tools import app
 
-    found = Walk()
-    shown = (contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()))
-    with shown[0], shown[1], found:
-        app(arguments, standalone_mode=False)
+    found, said = Walk(), io.StringIO()
+    with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said), found:
+        code = app(arguments, standalone_mode=False)
+    if code:
+        raise RuntimeError(f"{' '.join(arguments)} ended with {code}: {said.getvalue()}")
     return found
 
 
@@ -98,7 +106,8 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as place:
         commands = {" ".join(options.command): options.command} if options.command else asked(place)
         for name, arguments in commands.items():
-            found = walk(arguments)
+            with multiprocessing.get_context("spawn").Pool(1) as fresh:
+                found = fresh.apply(walk, (arguments,))
             print(
                 f"{name}: {len(found.files)} files, {len(found.calls)} functions,"
                 f" {found.changes} changes of file"

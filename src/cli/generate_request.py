@@ -116,7 +116,7 @@ class Request:
 
     def keep_light(self) -> None:
         """Leave PyTorch unimported where onnxruntime does all that is asked."""
-        from ..shared.light import compute_without_torch
+        from ..shared.environment import compute_without_torch
         from ..shared.model.onnx_card import chosen_runtime
 
         alone = self.audio is None and self.num_samples == 1  # songs and judges are PyTorch's

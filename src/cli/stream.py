@@ -71,7 +71,7 @@ def stream(
         raise UsageError("--prompt is empty; say what the body does at first")
     if websocket is not None and not 0 <= websocket < 65536:
         raise UsageError(f"--websocket {websocket} is no port; give one from 0 to 65535")
-    from ..shared.light import compute_without_torch
+    from ..shared.environment import compute_without_torch
     from ..shared.model.onnx_card import chosen_runtime
 
     if chosen_runtime("auto", model, device) == "onnx":

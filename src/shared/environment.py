@@ -1,4 +1,6 @@
-"""Defaults and MOTIONGEN_* variables (TECH 11.2): the same for commands, library and training.
+"""What holds for a whole process: MOTIONGEN_* variables and defaults, and whether NumPy computes.
+
+The same for commands, library and training (TECH 11.2).
 
 What counts is the flag, the argument or the key that is given, else the variable, else the default.
 A variable that is set but empty counts as not set. An option of a command names its variable with
@@ -36,3 +38,15 @@ def run_folder(folder: str | Path) -> Path:
     if runs is None or path.parts[:1] != ("runs",):
         return path
     return Path(runs, *path.parts[1:])
+
+
+torch_unwanted = False  # `tensors` looks here once
+
+
+def compute_without_torch() -> None:
+    """Let NumPy stand in for PyTorch, which takes seconds to import, wherever nothing is learned.
+
+    Asked for before anything of motions is imported, and for the whole process.
+    """
+    global torch_unwanted
+    torch_unwanted = True

@@ -140,12 +140,10 @@ def count_peaks(values: Array, high: float, low: float) -> int:
 
 
 def _tracks(motion: Motion) -> _Tracks:
-    joints = motion.positions().astype(np.float64)
-    window = round(0.1 * motion.fps)
-    rotations = motion.global_rotations().astype(np.float64)
+    joints, rotations = (each.astype(np.float64) for each in motion.kinematics())
     pelvis = quaternion_to_matrix(torch.as_tensor(motion.quaternions[:, 0]))
     heading = smooth(headings(pelvis).numpy().astype(np.float64), round(0.5 * motion.fps))
-    joints = smooth(joints, window)
+    joints = smooth(joints, round(0.1 * motion.fps))
     chest = rotations[:, JOINT_INDEX["spine3"]]
     return _Tracks(motion.fps, joints, heading, chest, heading_frame(joints, heading))
 

@@ -117,7 +117,7 @@ def guided(model: Model, condition: Any, null_condition: Any, scale: float) -> M
 
     def guided_model(x_t: Tensor, t: Tensor) -> Tensor:
         output = both(torch.cat((x_t, x_t)), torch.cat((t, t)))
-        conditional, null = output.chunk(2)
+        conditional, null = output[: len(x_t)], output[len(x_t) :]
         return null + scale * (conditional - null)
 
     return guided_model
@@ -211,7 +211,7 @@ class GaussianDiffusion(nn.Module):
         else:
             x_0 = signal_scale * x_t - noise_scale * model_output
         limit = self.config.clip_sigma
-        return x_0.clamp(-limit, limit) if clip and limit is not None else x_0
+        return x_0.clip(-limit, limit) if clip and limit is not None else x_0
 
     def output_for(self, x_0: Tensor, x_t: Tensor, t: Tensor) -> Tensor:
         """The model output at x_t [B, ...] that stands for this x_0: the inverse of predict_x0."""
@@ -449,12 +449,12 @@ class Sampler(ABC):
         """
         self._earlier = None
         x_t = x_T
-        for done, t in enumerate(self.timesteps[start:], start=start + 1):
-            t_batch = torch.full((len(x_t),), t, dtype=torch.long, device=x_t.device)
-            model_output = model_fn(x_t, t_batch).to(x_t.dtype)  # the path stays float32
-            x_t = self.step(model_output, t, x_t, generator=generator)
+        batches = torch.tensor(self.timesteps, device=x_T.device)[:, None].expand(-1, len(x_T))
+        for at in range(start, len(self.timesteps)):
+            model_output = model_fn(x_t, batches[at]).to(x_t.dtype)  # the path stays float32
+            x_t = self.step(model_output, self.timesteps[at], x_t, generator=generator)
             if callback is not None:
-                callback(done, len(self.timesteps))
+                callback(at + 1, len(self.timesteps))
         return x_t
 
     @torch.no_grad()

@@ -6,7 +6,7 @@ Letters: S training steps, N sampling steps. Timestep t runs from 0 (almost clea
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -175,6 +175,14 @@ def derived_seed(seed: int, number: int) -> int:
         return seed
     low, high, *_ = philox((number, 0, 0, _NO_SAMPLE), seed)
     return int(low) + (int(high) >> 1 << 32)
+
+
+TRIES = 8  # samples at most of what is sampled again until it is right
+
+
+def retry_seeds(seed: int) -> Iterator[int]:
+    """The seeds of TRIES samples, the first one `seed` itself."""
+    return (derived_seed(seed, number) for number in range(TRIES))
 
 
 def sample_generators(seed: int, num_samples: int, start: int = 0) -> list[NoiseStream]:

@@ -214,11 +214,11 @@ def open_graph(folder: Path, name: str, threads: int) -> Any:
         ) from error
 
 
-def run(session: Any, **inputs: "Tensor") -> "list[Tensor]":
+def run(session: Any, **inputs: "Tensor | np.ndarray") -> "list[Tensor]":
     """All outputs of a session, by the names of its inputs."""
     from ..tensors import torch
 
-    arrays = {name: np.ascontiguousarray(tensor.numpy()) for name, tensor in inputs.items()}
+    arrays = {name: np.ascontiguousarray(values) for name, values in inputs.items()}
     return [torch.from_numpy(array) for array in session.run(None, arrays)]
 
 

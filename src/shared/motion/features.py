@@ -159,7 +159,7 @@ def decode_features(
     local, path = world_pose(features, fps, place)
     contacts = torch.zeros(len(features), 2)
     if features.shape[1] > ROOT_ROW:
-        contacts = features[:, ROOT_ROW, LEFT_CONTACT:].clamp(0, 1)
+        contacts = features[:, ROOT_ROW, LEFT_CONTACT:].clip(0, 1)
     quaternions = quaternion_continuous(matrix_to_quaternion(local), dim=0)
     return Motion(quaternions.numpy(), path.numpy(), contacts.numpy(), fps=fps, text=text)
 

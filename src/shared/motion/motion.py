@@ -54,21 +54,23 @@ class Motion:
             contacts=self.contacts[own],
         )
 
-    def _kinematics(self) -> tuple[torch.Tensor, torch.Tensor]:
-        return forward_kinematics(
+    def kinematics(self) -> tuple[np.ndarray, np.ndarray]:
+        """World joint positions [T,22,3] in metres and rotations [T,22,3,3], float32."""
+        positions, rotations = forward_kinematics(
             quaternion_to_matrix(torch.as_tensor(self.quaternions)),
             torch.as_tensor(self.root_position),
             torch.as_tensor(canonical_skeleton().offsets),
             PARENTS,
         )
+        return positions.numpy(), rotations.numpy()
 
     def positions(self) -> np.ndarray:
         """World joint positions [T,22,3] float32, metres."""
-        return np.asarray(self._kinematics()[0].numpy())
+        return self.kinematics()[0]
 
     def global_rotations(self) -> np.ndarray:
         """World joint rotations [T,22,3,3] float32."""
-        return np.asarray(self._kinematics()[1].numpy())
+        return self.kinematics()[1]
 
 
 def in_place(motion: Motion) -> Motion:

@@ -31,12 +31,12 @@ def rotation_6d_to_matrix(d6: Tensor) -> Tensor:
     spare = spare - (b1 * spare).sum(-1, keepdim=True) * b1
     b2 = F.normalize(torch.where(degenerate, spare, b2), dim=-1, eps=_EPSILON)
     b3 = torch.linalg.cross(b1, b2)
-    return torch.stack((b1, b2, b3), dim=-1)
+    return torch.stack((b1, b2, b3), -1)
 
 
 def matrix_to_rotation_6d(matrix: Tensor) -> Tensor:
     """[...,3,3] → [...,6]: the first two columns."""
-    return matrix[..., :2].transpose(-1, -2).flatten(-2)
+    return matrix[..., :2].swapaxes(-1, -2).flatten(-2)
 
 
 def matrix_to_quaternion(matrix: Tensor) -> Tensor:
@@ -76,13 +76,13 @@ def matrix_to_quaternion(matrix: Tensor) -> Tensor:
 
 def quaternion_to_matrix(q: Tensor) -> Tensor:
     """Quaternions [...,4] of any length > 0 → [...,3,3]."""
-    w, x, y, z = F.normalize(q, dim=-1).unbind(-1)
+    w, x, y, z = torch.moveaxis(F.normalize(q, dim=-1), -1, 0)
     rows = (
-        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
-        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
+        torch.stack((1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)), -1),
+        torch.stack((2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)), -1),
+        torch.stack((2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)), -1),
     )
-    return torch.stack([torch.stack(row, -1) for row in rows], -2)
+    return torch.stack(rows, -2)
 
 
 def rotation_6d_to_quaternion(d6: Tensor) -> Tensor:
@@ -92,8 +92,8 @@ def rotation_6d_to_quaternion(d6: Tensor) -> Tensor:
 
 def quaternion_multiply(a: Tensor, b: Tensor) -> Tensor:
     """Hamilton product [...,4] × [...,4]: first `b`, then `a`."""
-    aw, ax, ay, az = a.unbind(-1)
-    bw, bx, by, bz = b.unbind(-1)
+    aw, ax, ay, az = torch.moveaxis(a, -1, 0)
+    bw, bx, by, bz = torch.moveaxis(b, -1, 0)
     return torch.stack(
         (
             aw * bw - ax * bx - ay * by - az * bz,
@@ -115,11 +115,11 @@ def quaternion_continuous(q: Tensor, dim: int = 0) -> Tensor:
 
     The first element gets w ≥ 0, then continuity wins.
     """
-    q = q.movedim(dim, 0)
+    q = torch.moveaxis(q, dim, 0)
     turns = (q[1:] * q[:-1]).sum(-1, keepdim=True) < 0
     flips = torch.cat((q[:1, ..., :1] < 0, turns)).cumsum(0)  # ONNX has no product of this kind
     signs = (1 - 2 * (flips % 2)).to(q.dtype)
-    return (q * signs).movedim(0, dim)
+    return torch.moveaxis(q * signs, 0, dim)
 
 
 def quaternion_log(q: Tensor) -> Tensor:
@@ -127,13 +127,13 @@ def quaternion_log(q: Tensor) -> Tensor:
     q = torch.where(q[..., :1] < 0, -q, q)
     sine = q[..., 1:].norm(dim=-1, keepdim=True)
     angle = 2 * torch.atan2(sine, q[..., :1])
-    return q[..., 1:] * torch.where(sine > _EPSILON, angle / sine.clamp_min(_EPSILON), 2.0)
+    return q[..., 1:] * torch.where(sine > _EPSILON, angle / sine.clip(min=_EPSILON), 2.0)
 
 
 def quaternion_exp(vector: Tensor) -> Tensor:
     """Rotation vectors [...,3] in radians → unit quaternions [...,4]."""
     angle = vector.norm(dim=-1, keepdim=True)
-    scale = torch.where(angle > _EPSILON, torch.sin(angle / 2) / angle.clamp_min(_EPSILON), 0.5)
+    scale = torch.where(angle > _EPSILON, torch.sin(angle / 2) / angle.clip(min=_EPSILON), 0.5)
     return torch.cat((torch.cos(angle / 2), vector * scale), -1)
 
 
@@ -194,7 +194,7 @@ def turn_about_y(vectors: Tensor, angle: Tensor | float) -> Tensor:
     """Vectors [...,3] turned about +Y by `angle` radians, a number or a tensor over [...]."""
     angle = torch.as_tensor(angle, dtype=vectors.dtype, device=vectors.device)
     sine, cosine = torch.sin(angle), torch.cos(angle)
-    x, y, z = vectors.unbind(-1)
+    x, y, z = torch.moveaxis(vectors, -1, 0)
     return torch.stack((cosine * x + sine * z, y, cosine * z - sine * x), -1)
 
 
@@ -224,7 +224,7 @@ def local_to_global(local: Tensor, parents: Sequence[int]) -> Tensor:
 def global_to_local(world: Tensor, parents: Sequence[int]) -> Tensor:
     """World rotations [...,K,3,3] → local rotations [...,K,3,3]."""
     above = world[..., list(parents[1:]), :, :]
-    local = above.transpose(-1, -2) @ world[..., 1:, :, :]
+    local = above.swapaxes(-1, -2) @ world[..., 1:, :, :]
     return torch.cat((world[..., :1, :, :], local), -3)
 
 
@@ -298,7 +298,7 @@ def smooth(values: Tensor, weights: Tensor) -> Tensor:
         weights: [W], W odd, sum 1.
     """
     half, last = len(weights) // 2, values.shape[-2] - 1
-    reach = torch.arange(1, half + 1, device=values.device).clamp(max=last)
+    reach = torch.arange(1, half + 1, device=values.device).clip(max=last)
     head = 2 * values[..., :1, :] - values[..., reach.flip(0), :]
     tail = 2 * values[..., -1:, :] - values[..., last - reach, :]
     padded = torch.cat((head, values, tail), -2)
@@ -311,7 +311,7 @@ def gaussian_smooth(series: Tensor, deviation: float) -> Tensor:
     kernel = torch.exp(
         -0.5 * (torch.arange(-reach, reach + 1, device=series.device) / deviation) ** 2
     )
-    rows = series.flatten(2).transpose(1, 2)  # B K*C T
+    rows = series.flatten(2).swapaxes(1, 2)  # B K*C T
     padded = F.pad(rows, (reach, reach), mode="replicate")
     smooth = F.conv1d(padded.flatten(0, 1)[:, None], (kernel / kernel.sum())[None, None])
-    return smooth.view(rows.shape).transpose(1, 2).view_as(series)
+    return smooth.view(rows.shape).swapaxes(1, 2).view_as(series)

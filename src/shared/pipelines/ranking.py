@@ -208,7 +208,7 @@ class TextJudge:
             features = torch.stack([encode_features(motion) for motion in candidates])
             with torch.inference_mode():
                 cosine = self.tower(features).cpu() @ prompt.detach().float().cpu()
-            terms = {"similarity": cosine.clamp(0, 1).numpy().astype(np.float64)} | terms
+            terms = {"similarity": cosine.clip(0, 1).numpy().astype(np.float64)} | terms
         failed = ~np.isfinite(points).all((1, 2, 3))
         return rank(terms, failed.astype(int), distances(points, SCALE), self.config)
 

@@ -16,7 +16,7 @@ from ..errors import UsageError
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
-from ..model.noise import derived_seed
+from ..model.noise import derived_seed, retry_seeds
 from ..motion.features import Place
 from ..motion.motion import Motion
 from ..motion.postprocess.stitching import blend_boundaries
@@ -26,8 +26,6 @@ from ..tensors import Tensor, torch
 WINDOW, OVERLAP = 150, 30  # frames
 DEFAULT_SAMPLING = Sampling()
 SHORTEST = 48  # frames; a shorter window is made as long as this and cut: training saw few
-
-TRIES = 8  # samples of one window at most
 
 ConstraintOf = Callable[[int, int], Constraint | None]  # what is known of frames [start, stop)
 Miss = Callable[[Tensor], float]  # raw features [t, R, 6]: how far from what is wanted, 0 = there
@@ -135,11 +133,6 @@ def nearest_to_wanted(
         if least <= 0:
             break
     return best, chosen
-
-
-def retry_seeds(seed: int) -> Iterator[int]:
-    """The seeds of TRIES samples, the first one `seed` itself."""
-    return (derived_seed(seed, number) for number in range(TRIES))
 
 
 def window_lengths(frames: int, known: int, window: int, overlap: int) -> list[int]:

@@ -13,7 +13,7 @@ import logging
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import accumulate, islice
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -26,7 +26,7 @@ from ..model.clip.out_of_domain import TWINS, ScopeResult
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import Progress, TextToMotion
-from ..model.noise import derived_seed
+from ..model.noise import derived_seed, retry_seeds
 from ..motion.features import ROOT_ROW, YAW_RATE, decode_features
 from ..motion.motion import Motion
 from ..motion.postprocess.streaming import streamed
@@ -41,7 +41,6 @@ from .stream import (
     WINDOW,
     Miss,
     Passage,
-    retry_seeds,
     stream_features,
 )
 
@@ -125,15 +124,13 @@ class SentenceGenerator:
                 for index, own in zip(rows, several, strict=True)
             }
 
-        if plain:
-            made |= sampled(plain, seed)
-            for again in islice(retry_seeds(seed), 1, None):
-                missed = [i for i in plain if not all(self._does(prompts[i], m) for m in made[i])]
-                if not missed:
-                    break
-                for index, others in sampled(missed, again).items():
-                    pairs = zip(made[index], others, strict=True)
-                    made[index] = [self._better(prompts[index], *pair) for pair in pairs]
+        for again in retry_seeds(seed):
+            if not plain:
+                break
+            for index, others in sampled(plain, again).items():
+                pairs = zip(made.get(index, others), others, strict=True)
+                made[index] = [self._better(prompts[index], *pair) for pair in pairs]
+            plain = [i for i in plain if not all(self._does(prompts[i], m) for m in made[i])]
         for index, prompt in enumerate(prompts):
             if not whole[index]:
                 for warning in filter(None, self._warnings(prompt, again=False)):
@@ -188,7 +185,8 @@ class SentenceGenerator:
         return wanted is None or motion.seconds < LEAST or wanted(measure(motion))
 
     def _better(self, prompt: str, old: Motion, new: Motion) -> Motion:
-        return new if self._does(prompt, new) and not self._does(prompt, old) else old
+        gained = new is not old and self._does(prompt, new) and not self._does(prompt, old)
+        return new if gained else old
 
     def _miss(self, clause: Clause, frames: int) -> Miss | None:
         """How far a passage of so many frames is from showing what its clause asks for, and, where

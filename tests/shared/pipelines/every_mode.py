@@ -70,7 +70,7 @@ def modes(generator: Any) -> dict[str, Callable[[], list[Any]]]:
 
 def main(folder: Path) -> None:
     """Write what each mode makes without PyTorch, and what it took to be imported."""
-    from src.shared.light import compute_without_torch
+    from src.shared.environment import compute_without_torch
 
     compute_without_torch()
     from src.shared.pipelines.motion_generator import MotionGenerator

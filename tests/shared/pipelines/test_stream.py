@@ -14,16 +14,15 @@ from src.shared.errors import UsageError, UserError
 from src.shared.model.diffusion import Sampling
 from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import TextToMotion
+from src.shared.model.noise import TRIES, retry_seeds
 from src.shared.motion.features import FORWARD, ROOT_ROW
 from src.shared.motion.postprocess.stitching import joined
 from src.shared.motion.postprocess.streaming import streamed
 from src.shared.pipelines import stream as motion_stream
 from src.shared.pipelines.stream import (
-    TRIES,
     MotionStream,
     Passage,
     nearest_to_wanted,
-    retry_seeds,
     stream_features,
     window_lengths,
 )

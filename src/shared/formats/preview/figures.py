@@ -71,7 +71,7 @@ def render_strip(
         title = motion.text or f"motion {row + 1}"
         draw.text((8 * OVERSAMPLE, top + 5 * OVERSAMPLE), title, INK, font(14 * OVERSAMPLE, title))
         picks = np.linspace(0, motion.num_frames - 1, frames).round().astype(int)
-        positions, rotations = motion.positions(), motion.global_rotations()
+        positions, rotations = motion.kinematics()
         for column, frame in enumerate(picks):
             pose = draw_pose(motion, positions, rotations, int(frame), size, azimuth)
             sheet.paste(pose, (column * size[0], top + header))
@@ -329,7 +329,7 @@ def gif_rate(fps: float) -> float:
 
 def frames(motion: Motion, size: tuple[int, int] = SIZE) -> Iterator[Image.Image]:
     """The pictures of a motion, one a frame; the camera follows the pelvis smoothly."""
-    positions, rotations = motion.positions(), motion.global_rotations()
+    positions, rotations = motion.kinematics()
     targets = _smooth(motion.root_position * (1.0, 0.0, 1.0), motion.fps)
     large = (size[0] * OVERSAMPLE, size[1] * OVERSAMPLE)
     title = font(14 * OVERSAMPLE, motion.text)

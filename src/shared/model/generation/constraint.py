@@ -75,7 +75,7 @@ class RhythmGuidance:
                 (gradient,) = torch.autograd.grad(energy, leaf)
             gradient = gaussian_smooth(gradient.detach(), SMOOTHING) * free
             size = gradient.square().mean((1, 2, 3), keepdim=True).sqrt()
-            x_0 = x_0 - STEP * gradient / size.clamp_min(1e-12)
+            x_0 = x_0 - STEP * gradient / size.clip(min=1e-12)
         return x_0
 
 

@@ -35,9 +35,8 @@ from ..onnx_export import (
     write_graph,
 )
 from .denoiser import MotionDenoiser
-from .motion_generator import TextToMotion
+from .motion_generator import MIN_FRAMES, TextToMotion
 from .onnx_networks import ADAPTED_GRAPH, DENOISER_GRAPH, TEXT_GRAPH
-from .requests import MIN_FRAMES
 
 FILES = (
     CARD_FILE,

@@ -8,6 +8,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ...config_schema import ClipConfig, NetworkConfig
 from ...tensors import Tensor, nn, torch
 from ..checkpoint import ModelCard, read_tensors
@@ -95,8 +97,8 @@ class OnnxDenoiser(nn.Module):
             t=timesteps,
             pooled=text.pooled,
             tag=tag,
-            mask=torch.ones(noisy.shape[:2], dtype=torch.bool) if mask is None else mask,
-            known=torch.zeros(noisy.shape, dtype=torch.bool) if known is None else known,
+            mask=np.ones(noisy.shape[:2], dtype=bool) if mask is None else mask,
+            known=np.zeros(noisy.shape, dtype=bool) if known is None else known,
             **heard,
         )
         return prediction

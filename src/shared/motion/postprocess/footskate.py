@@ -9,7 +9,6 @@ Letters: T frames, J joints, `...` any leading dimensions, mostly frames.
 """
 
 from dataclasses import replace
-from itertools import pairwise
 
 import numpy as np
 from scipy.ndimage import distance_transform_edt, gaussian_filter1d
@@ -61,53 +60,53 @@ def lock_feet(motion: Motion, *, kept: np.ndarray | None = None) -> Motion:
         positions[:, balls].numpy(), positions[:, hips].numpy(), motion.contacts, motion.fps, kept
     )
     locked = motion.quaternions.copy()
-    for side, shift in enumerate(shifts.transpose(1, 0, 2)):
-        moved = np.flatnonzero(np.linalg.norm(shift, axis=-1) > MIN_CORRECTION)
-        if len(moved):
-            at = torch.as_tensor(moved)
-            legs = _move_leg(side, positions[at], world[at], offsets, torch.as_tensor(shift[moved]))
-            for joint, solved in legs.items():
-                before = quaternions[at, joint]
-                sign = torch.where((solved * before).sum(-1, keepdim=True) < 0, -1.0, 1.0)
-                locked[moved, joint] = (solved * sign).float().numpy()
+    at, side = np.nonzero(np.linalg.norm(shifts, axis=-1) > MIN_CORRECTION)  # of N legs to move
+    if len(at):
+        joints = np.array(LEGS)[side]  # N 4
+        solved = _move_legs(
+            joints, positions[at], world[at], offsets, torch.as_tensor(shifts[at, side])
+        )
+        before = quaternions[at[:, None], joints]
+        sign = torch.where((solved * before).sum(-1, keepdim=True) < 0, -1.0, 1.0)
+        locked[at[:, None], joints] = (solved * sign).float().numpy()
     contacts = held.astype(np.float32)
     if kept is not None:
         contacts = np.where(kept, motion.contacts, contacts)
     return replace(motion, quaternions=locked, contacts=contacts)
 
 
-def _move_leg(
-    side: int, positions: Tensor, world: Tensor, offsets: Tensor, shift: Tensor
-) -> dict[int, Tensor]:
-    """Local quaternions [T,4] of the joints of a leg whose ball moves by `shift` [T,3].
+def _move_legs(
+    joints: np.ndarray, positions: Tensor, world: Tensor, offsets: Tensor, shift: Tensor
+) -> Tensor:
+    """Local quaternions [N,4,4] of the joints of legs whose balls move by `shift` [N,3].
 
     Args:
-        side: 0 left, 1 right.
-        positions: world joint positions [T,22,3].
-        world: world joint rotations [T,22,3,3].
-        offsets: of the skeleton [22,3].
+        joints: hip, knee, ankle and ball of each leg [N,4].
+        positions: world joint positions [N,22,3].
+        world: world joint rotations [N,22,3,3].
+        offsets: of the skeleton [22,3]; its legs are alike.
         shift: metres.
     """
-    ankle, ball = FOOT_JOINTS[side]
-    knee = PARENTS[ankle]
-    hip = PARENTS[knee]
-    target = positions[:, ball] + shift
-    lever = positions[:, ankle] - positions[:, ball]
-    longest = longest_reach((positions[:, ankle] - positions[:, hip]).norm(dim=-1))
-    rise = heel_rise(positions[:, hip], target, lever, longest)
+    legs = torch.as_tensor(np.arange(len(joints)))[:, None], torch.as_tensor(joints)
+    hip, _, ankle, ball = positions[legs].unbind(1)
+    turned_hip, turned_knee, turned_ankle, turned_ball = world[legs].unbind(1)
+    target = ball + shift
+    lever = ankle - ball
+    longest = longest_reach((ankle - hip).norm(dim=-1))
+    rise = heel_rise(hip, target, lever, longest)
+    _, knee, foot, _ = LEGS[0]
     thigh, shin = two_bone_ik(
-        positions[:, hip],
-        world[:, hip],
-        world[:, knee],
+        hip,
+        turned_hip,
+        turned_knee,
         offsets[knee],
-        offsets[ankle],
+        offsets[foot],
         target + (rise @ lever[..., None]).squeeze(-1),
     )
-    chain = (world[:, PARENTS[hip]], thigh, shin, rise @ world[:, ankle], world[:, ball])
-    legs = {}
-    for joint, (parent, child) in zip((hip, knee, ankle, ball), pairwise(chain), strict=True):
-        legs[joint] = matrix_to_quaternion(parent.transpose(-1, -2) @ child)
-    return legs
+    pelvis = world[:, PARENTS[LEGS[0][0]]]
+    above = torch.stack((pelvis, thigh, shin, rise @ turned_ankle), 1)
+    below = torch.stack((thigh, shin, rise @ turned_ankle, turned_ball), 1)
+    return matrix_to_quaternion(above.swapaxes(-1, -2) @ below)
 
 
 def lock_carried_feet(motion: Motion, *, kept: np.ndarray | None = None) -> Motion:
@@ -156,7 +155,7 @@ def ease_from_kept(loose: Motion, locked: Motion, kept: np.ndarray) -> Motion:
 
 def longest_reach(length: Tensor) -> Tensor:
     """How far an ankle may be from its hip [...] with its heel down, `length` [...] away now."""
-    return length.clamp_min(RISE_AT * LEG_LENGTH)
+    return length.clip(min=RISE_AT * LEG_LENGTH)
 
 
 def heel_rise(hip: Tensor, ball: Tensor, lever: Tensor, longest: Tensor) -> Tensor:
@@ -176,7 +175,7 @@ def heel_rise(hip: Tensor, ball: Tensor, lever: Tensor, longest: Tensor) -> Tens
     cosine = (arm**2 + distance**2 - longest**2) / (2 * arm * distance)
     axis = torch.linalg.cross(lever, up)
     angle = torch.atan2(axis.norm(dim=-1), (lever * up).sum(-1))
-    excess = (angle - torch.acos(cosine.clamp(-1, 1))).clamp(0, MAX_RISE)
+    excess = (angle - torch.acos(cosine.clip(-1, 1))).clip(0, MAX_RISE)
     return axis_turn(F.normalize(axis, dim=-1), excess)
 
 
@@ -198,7 +197,7 @@ def two_bone_ik(
     """
     length_upper, length_lower = upper.norm(), lower.norm()
     before = (thigh @ upper + shin @ lower).norm(dim=-1)
-    longest = before.clamp_min(MAX_STRETCH * LEG_LENGTH)
+    longest = before.clip(min=MAX_STRETCH * LEG_LENGTH)
     shortest = 1.05 * (length_upper - length_lower).abs() + 0.05
     wanted = (target - hip).norm(dim=-1)
     reach = wanted.minimum(longest).maximum(before.minimum(shortest))
@@ -213,7 +212,8 @@ def two_bone_ik(
         at_knee = _corner(length_upper, length_lower, reach) - _corner(
             length_upper, length_lower, length
         )
-        thigh, shin = axis_turn(axis, at_hip) @ thigh, axis_turn(axis, at_hip + at_knee) @ shin
+        turns = axis_turn(axis, torch.stack((at_hip, at_hip + at_knee)))
+        thigh, shin = turns[0] @ thigh, turns[1] @ shin
         swing = shortest_turn(thigh @ upper + shin @ lower, target - hip)
         thigh, shin = swing @ thigh, swing @ shin
     return thigh, shin
@@ -221,7 +221,7 @@ def two_bone_ik(
 
 def _corner(a: Tensor, b: Tensor, opposite: Tensor) -> Tensor:
     """Angle between sides a and b of a triangle, radians (law of cosines)."""
-    return torch.acos(((a**2 + b**2 - opposite**2) / (2 * a * b)).clamp(-1, 1))
+    return torch.acos(((a**2 + b**2 - opposite**2) / (2 * a * b)).clip(-1, 1))
 
 
 def _knee_axis(to_ankle: Tensor, to_knee: Tensor, thigh: Tensor) -> Tensor:
@@ -233,8 +233,8 @@ def _knee_axis(to_ankle: Tensor, to_knee: Tensor, thigh: Tensor) -> Tensor:
     normal = torch.linalg.cross(to_ankle, to_knee)
     sine = normal.norm(dim=-1, keepdim=True) / (
         to_ankle.norm(dim=-1, keepdim=True) * to_knee.norm(dim=-1, keepdim=True)
-    ).clamp_min(1e-9)
-    own = ((sine - STRAIGHT) / (BENT - STRAIGHT)).clamp(0, 1)
+    ).clip(min=1e-9)
+    own = ((sine - STRAIGHT) / (BENT - STRAIGHT)).clip(0, 1)
     along = F.normalize(to_ankle, dim=-1)
     hinge = -thigh[..., :, 0]
     hinge = hinge - (hinge * along).sum(-1, keepdim=True) * along

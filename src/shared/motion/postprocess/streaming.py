@@ -144,8 +144,8 @@ def _faded(raw: Tensor, corrected: Tensor, before: Tensor, legs: np.ndarray) -> 
     Known legs [T,2] end it at once: they are not to be touched.
     """
     miss = quaternion_multiply(quaternion_conjugate(before), corrected)
-    x = torch.arange(1, len(raw) + 1) / (FADE + 1)
-    share = (1 - x.clamp(0, 1) ** 2 * (3 - 2 * x.clamp(0, 1))) * ~torch.as_tensor(legs.any(1))
+    x = torch.arange(1, len(raw) + 1).float() / (FADE + 1)
+    share = (1 - x.clip(0, 1) ** 2 * (3 - 2 * x.clip(0, 1))) * ~torch.as_tensor(legs.any(1))
     still = torch.zeros_like(raw)
     still[..., 0] = 1.0
     turns = quaternion_slerp(still, miss.expand_as(raw), share[:, None, None])

@@ -58,11 +58,11 @@ class MotionPostProcessorTorch(_Processor):
 
     def process(self, motion: Tensor) -> Tensor:
         """The processed motion, same shape."""
-        return _process(motion.transpose(-1, -2), self.config).transpose(-1, -2)
+        return _process(motion.swapaxes(-1, -2), self.config).swapaxes(-1, -2)
 
     def count_clamped(self, motion: Tensor) -> dict[str, int]:
         """Values that `process` limits, by name; see `count_clamped`."""
-        return count_clamped(motion.transpose(-1, -2), self.config)
+        return count_clamped(motion.swapaxes(-1, -2), self.config)
 
 
 def count_clamped(motion: Tensor, config: PostProcessConfig) -> dict[str, int]:
@@ -88,7 +88,7 @@ def _from_numpy(motion: np.ndarray) -> Tensor:
 def _process(motion: Tensor, config: PostProcessConfig) -> Tensor:
     """[...,T,25] in TECH §9.2's order."""
     position, velocity, acceleration, turning = (
-        motion[..., columns].clamp(-bound, bound) if config.clamp_values else motion[..., columns]
+        motion[..., columns].clip(-bound, bound) if config.clamp_values else motion[..., columns]
         for columns, bound in limits(config).values()
     )
     quaternions = _quaternions(motion[..., QUATERNION], config)
@@ -110,7 +110,7 @@ def _quaternions(quaternions: Tensor, config: PostProcessConfig) -> Tensor:
         identity = torch.zeros_like(quaternions)
         identity[..., 0] = 1
         norm = quaternions.norm(dim=-1, keepdim=True)
-        unit = quaternions / norm.clamp_min(config.quat_eps)
+        unit = quaternions / norm.clip(min=config.quat_eps)
         quaternions = quaternion_continuous(
             torch.where(norm < config.quat_eps, identity, unit), dim=-2
         )

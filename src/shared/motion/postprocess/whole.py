@@ -47,11 +47,11 @@ def smooth_features(features: Tensor, kernel_size: int) -> Tensor:
     weights = features.new_tensor(
         [math.comb(kernel_size - 1, k) / 2 ** (kernel_size - 1) for k in range(kernel_size)]
     )
-    series = features.reshape(-1, frames, rows * channels).transpose(1, 2)  # B R*C T
+    series = features.reshape(-1, frames, rows * channels).swapaxes(1, 2)  # B R*C T
     padded = F.pad(series, (kernel_size // 2, kernel_size // 2), mode="replicate")
     depthwise = weights.expand(rows * channels, 1, kernel_size)
     smooth = F.conv1d(padded, depthwise, groups=rows * channels)
-    smooth = smooth.transpose(1, 2).reshape(features.shape)
+    smooth = smooth.swapaxes(1, 2).reshape(features.shape)
     if rows > ROOT_ROW:
         smooth[..., ROOT_ROW, LEFT_CONTACT:] = features[..., ROOT_ROW, LEFT_CONTACT:]
     return smooth
@@ -76,7 +76,7 @@ def clamp_velocity(quaternions: Tensor, max_velocity: float | None, fps: float) 
     for target in wanted[1:]:
         step = quaternion_log(quaternion_multiply(quaternion_conjugate(path[-1]), target))
         angle = step.norm(dim=-1, keepdim=True)
-        reachable = step * (limit / angle.clamp_min(limit))
+        reachable = step * (limit / angle.clip(min=limit))
         limited = quaternion_multiply(path[-1], quaternion_exp(reachable))
         path.append(torch.where(angle > limit, limited, target))
     return quaternion_continuous(torch.stack(path, -3), dim=-3)
@@ -167,16 +167,18 @@ def rest_to_rest(motion: Motion) -> Motion:
     quaternions = motion.quaternions.copy()
     way = np.linspace(1.0, 0.0, frames + 1)[:-1]  # from an end inwards
     weights = way**3 * (10 - 15 * way + 6 * way**2)  # [frames], the minimum-jerk profile
-    for end, rows in ((0, np.arange(frames)), (-1, np.arange(-1, -frames - 1, -1))):
-        for letter, side in (("l", 1.0), ("r", -1.0)):
-            if heights[end, JOINT_INDEX[f"{letter}_wrist"]] < heights[end, 0]:
-                continue
-            for joint, turn in _HANGING.items():
-                row = JOINT_INDEX[f"{letter}_{joint}"]
-                rest = torch.tensor(turn) * torch.tensor((1.0, side, side))
-                now = torch.as_tensor(quaternions[rows, row]).float()
-                hung = quaternion_exp(rest).expand_as(now)
-                moved = quaternion_slerp(now, hung, torch.as_tensor(weights).float()[:, None])
-                quaternions[rows, row] = moved.numpy()
+    raised = [
+        (rows, JOINT_INDEX[f"{letter}_{joint}"], np.multiply(turn, (1.0, side, side)))
+        for end, rows in ((0, np.arange(frames)), (-1, np.arange(-1, -frames - 1, -1)))
+        for letter, side in (("l", 1.0), ("r", -1.0))
+        if heights[end, JOINT_INDEX[f"{letter}_wrist"]] >= heights[end, 0]
+        for joint, turn in _HANGING.items()
+    ]
+    if raised:
+        at, joints, turns = map(np.stack, zip(*raised, strict=True))
+        now = torch.as_tensor(quaternions[at, joints[:, None]]).float()  # joints, frames, 4
+        hung = quaternion_exp(torch.as_tensor(turns, dtype=torch.float32))[:, None].expand_as(now)
+        moved = quaternion_slerp(now, hung, torch.as_tensor(weights).float()[:, None])
+        quaternions[at, joints[:, None]] = moved.numpy()
     signed = quaternion_continuous(torch.as_tensor(quaternions), dim=0).numpy()
     return replace(motion, quaternions=signed)
