@@ -8,6 +8,7 @@ moving. Slow takes are counted twice as fast as well: a reading more.
 Letters: F frames of all takes, T frames, N figures, K joints, C counts.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -166,7 +167,7 @@ class FigureMemory:
     @cached_property
     def features(self) -> Tensor:
         """Raw features [F,23,6]."""
-        return torch.cat([encode_features(take.motion) for take in self.takes])
+        return encode_features(*(take.motion for take in self.takes))
 
     @cached_property
     def poses(self) -> np.ndarray:
@@ -177,7 +178,12 @@ class FigureMemory:
     @cached_property
     def _joints(self) -> np.ndarray:
         """Joints in the world [F,K,3], metres."""
-        return np.concatenate([take.motion.positions() for take in self.takes])
+        motions = [take.motion for take in self.takes]
+        quaternions, roots = (
+            np.concatenate([getattr(each, name) for each in motions])
+            for name in ("quaternions", "root_position")
+        )
+        return Motion(quaternions, roots, np.zeros((len(roots), 2), np.float32)).positions()
 
     @cached_property
     def _aloft(self) -> list[tuple[int, int]]:
@@ -358,14 +364,12 @@ class FigureMemory:
         try:
             about: Any = load_json(folder / CARD)["takes"]
             arrays = load_arrays(folder / TAKES)
-            edges = arrays["offsets"].tolist()
-            counted = np.concatenate(([0], np.cumsum(arrays["counted"])))
-            takes = []
-            for number, row in enumerate(about):
-                part = slice(edges[number], edges[number + 1])
-                motion = _unpacked(*(arrays[n][part] for n in ("turns", "places", "contacts")))
-                counts = arrays["counts"][counted[number] : counted[number + 1]]
-                takes.append(Take(**row, motion=motion, counts=counts))
+            motions = _unpacked(arrays)
+            counts = np.split(arrays["counts"], np.cumsum(arrays["counted"])[:-1])
+            takes = [
+                Take(**row, motion=motion, counts=own)
+                for row, motion, own in zip(about, motions, counts, strict=True)
+            ]
             return cls(takes)
         except (BadArray, KeyError, TypeError, ValueError, IndexError, OSError) as error:
             raise UserError(f"{folder} is damaged ({error}); build the figures again") from error
@@ -437,20 +441,23 @@ def _packed(motion: Motion) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     )
 
 
-def _unpacked(turns: np.ndarray, places: np.ndarray, contacts: np.ndarray) -> Motion:
-    """The inverse of `_packed`."""
-    parts = torch.from_numpy(turns.cumsum(0, dtype=np.int64) / TURN_STEPS)
+def _unpacked(arrays: Mapping[str, np.ndarray]) -> list[Motion]:
+    """The inverse of `_packed`, of takes one after another."""
+    cuts = arrays["offsets"][1:-1]
+
+    def summed(name: str) -> np.ndarray:
+        parts = np.split(arrays[name], cuts)
+        return np.concatenate([part.cumsum(0, dtype=np.int64) for part in parts])
+
+    parts = torch.from_numpy(summed("turns") / TURN_STEPS)
     scalar = (1 - (parts**2).sum(-1, keepdim=True)).clamp_min(0).sqrt()
     quaternions = torch.nn.functional.normalize(torch.cat((scalar, parts), -1), dim=-1)
-    place = places.cumsum(0, dtype=np.int64) / PLACE_STEPS
+    place = summed("places") / PLACE_STEPS
     yaw = yaw_quaternion(torch.from_numpy(place[:, 3]))
     quaternions[:, 0] = quaternion_multiply(yaw, quaternions[:, 0])
-    return Motion(
-        quaternions.float().numpy(),
-        place[:, :3].astype(np.float32),
-        contacts.astype(np.float32),
-        fps=FPS,
-    )
+    whole = (quaternions.float().numpy(), place[:, :3], arrays["contacts"])
+    each = (np.split(values.astype(np.float32), cuts) for values in whole)
+    return [Motion(*own, fps=FPS) for own in zip(*each, strict=True)]
 
 
 # ---------------------------------------------------------------- where the counts fall

@@ -15,7 +15,6 @@ import numpy as np
 
 from ..motion.features import headings
 from ..motion.motion import Motion
-from ..motion.rotations import quaternion_to_matrix
 from ..motion.skeleton import JOINT_INDEX, REST_PELVIS_HEIGHT, canonical_skeleton
 from ..tensors import torch
 
@@ -140,11 +139,11 @@ def count_peaks(values: Array, high: float, low: float) -> int:
 
 
 def _tracks(motion: Motion) -> _Tracks:
-    joints, rotations = (each.astype(np.float64) for each in motion.kinematics())
-    pelvis = quaternion_to_matrix(torch.as_tensor(motion.quaternions[:, 0]))
-    heading = smooth(headings(pelvis).numpy().astype(np.float64), round(0.5 * motion.fps))
-    joints = smooth(joints, round(0.1 * motion.fps))
-    chest = rotations[:, JOINT_INDEX["spine3"]]
+    positions, rotations = motion.kinematics()
+    heading = headings(torch.as_tensor(rotations[:, 0])).numpy().astype(np.float64)
+    heading = smooth(heading, round(0.5 * motion.fps))
+    joints = smooth(positions.astype(np.float64), round(0.1 * motion.fps))
+    chest = rotations[:, JOINT_INDEX["spine3"]].astype(np.float64)
     return _Tracks(motion.fps, joints, heading, chest, heading_frame(joints, heading))
 
 

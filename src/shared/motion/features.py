@@ -5,6 +5,7 @@ positive to the character's left), pelvis height (m), yaw rate (rad/s, positive 
 left and right contact. Differences are forward (ruling 6); the last frame repeats its neighbour.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -44,26 +45,42 @@ ORIGIN = Place()
 
 def headings(matrices: Tensor) -> Tensor:
     """Unwrapped heading [T] in radians of pelvis rotations [T,3,3]."""
-    angle = heading_angle(matrices)
-    return torch.as_tensor(np.unwrap(angle.numpy()), dtype=matrices.dtype)
+    return _unwrapped(heading_angle(matrices), [slice(None)])
 
 
-def encode_features(motion: Motion) -> Tensor:
-    """Features [T,23,6] float32 of a motion; where it stands and faces at first is dropped."""
-    local = quaternion_to_matrix(torch.as_tensor(motion.quaternions))  # T K 3 3
-    position = torch.as_tensor(motion.root_position)  # T 3
-    heading = headings(local[:, 0])  # T
+def _unwrapped(angles: Tensor, spans: Sequence[slice]) -> Tensor:
+    """Angles [T] without jumps of 2π within each span."""
+    whole = [np.unwrap(angles[span].numpy()) for span in spans]
+    return torch.as_tensor(np.concatenate(whole), dtype=angles.dtype)
+
+
+def encode_features(motion: Motion, *others: Motion) -> Tensor:
+    """Features [T,23,6] float32 of a motion; where it stands and faces at first is dropped.
+
+    Of several, at one frame rate, one after another.
+    """
+    motions = (motion, *others)
+    ends = np.cumsum([each.num_frames for each in motions])
+    spans = [slice(end - each.num_frames, end) for each, end in zip(motions, ends, strict=True)]
+
+    def joined(name: str) -> Tensor:
+        return torch.as_tensor(np.concatenate([getattr(each, name) for each in motions]))
+
+    def rate(values: Tensor) -> Tensor:
+        return torch.cat([forward_difference(values[span], motion.fps) for span in spans])
+
+    local, position = quaternion_to_matrix(joined("quaternions")), joined("root_position")
+    heading = _unwrapped(heading_angle(local[:, 0]), spans)  # T
     to_heading = yaw_to_matrix(-heading)  # T 3 3
     local = torch.cat(((to_heading @ local[:, 0])[:, None], local[:, 1:]), 1)
-    velocity = forward_difference(position, motion.fps)
-    velocity = (to_heading @ velocity[..., None]).squeeze(-1)
+    velocity = (to_heading @ rate(position)[..., None]).squeeze(-1)
     root = torch.cat(
         (
             velocity[:, [2]],
             velocity[:, [0]],
             position[:, [1]],
-            forward_difference(heading[:, None], motion.fps),
-            torch.as_tensor(motion.contacts),
+            rate(heading[:, None]),
+            joined("contacts"),
         ),
         1,
     )  # T 6

@@ -186,16 +186,15 @@ def sample_batch(
     """
     device = text.pooled.device
     rows, channels = denoiser.config.motion_rows, denoiser.config.generation.motion_channels
-    lengths = torch.tensor([request.frames for request in requests])
-    longest = int(lengths.max())
+    lengths, tags = [request.frames for request in requests], [request.tag for request in requests]
+    streams, longest = [request.noise() for request in requests], max(lengths)
     noise = torch.zeros(len(requests), longest, rows, channels)  # [B, T, K, C]
-    streams = [request.noise() for request in requests]
-    for row, request, stream in zip(noise, requests, streams, strict=True):
-        row[: request.frames] = stream.normal((request.frames, rows, channels))
-    padded = bool((lengths < longest).any())
-    mask = (torch.arange(longest) < lengths[:, None]).to(device) if padded else None
-
-    tag = torch.tensor([request.tag for request in requests], device=device)
+    for row, frames, stream in zip(noise, lengths, streams, strict=True):
+        row[:frames] = stream.normal((frames, rows, channels))
+    mask = None  # where all are of one length
+    if min(lengths) < longest:
+        mask = (torch.arange(longest) < torch.tensor(lengths)[:, None]).to(device)
+    tag = torch.tensor(tags, device=device)
     no_tag = torch.full_like(tag, denoiser.num_tags)
     learned = denoiser.shows_known
     shared = {
