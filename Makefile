@@ -2,7 +2,7 @@
 PYTHON ?= python3
 ARGS ?=
 
-.PHONY: help setup demo test test-slow lint format benchmark gpu-check train-small clean
+.PHONY: help setup demo test test-slow lint format benchmark gpu-check release train-small clean
 
 help:
 	@$(PYTHON) scripts/tasks.py; true
@@ -10,5 +10,5 @@ help:
 setup:
 	@$(PYTHON) scripts/setup.py --dev
 
-demo test test-slow lint format benchmark gpu-check train-small clean:
+demo test test-slow lint format benchmark gpu-check release train-small clean:
 	@$(PYTHON) scripts/tasks.py $@ $(ARGS)

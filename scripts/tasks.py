@@ -122,6 +122,11 @@ def gpu_check(arguments: list[str]) -> int:
     )
 
 
+def release(arguments: list[str]) -> int:
+    """Version, changelog, wheel and its trial: ARGS="0.2.0", see scripts/release.py."""
+    return subprocess.call([sys.executable, str(setup.ROOT / "scripts" / "release.py"), *arguments])
+
+
 def train_small(arguments: list[str]) -> int:
     """Train both stages on the built-in synthetic motions, small, into runs/small."""
     setup.main([])
@@ -145,7 +150,18 @@ def clean(_arguments: list[str]) -> int:
 
 TASKS: dict[str, Callable[[list[str]], int]] = {
     task.__name__.replace("_", "-"): task
-    for task in (demo, test, test_slow, lint, format, benchmark, gpu_check, train_small, clean)
+    for task in (
+        demo,
+        test,
+        test_slow,
+        lint,
+        format,
+        benchmark,
+        gpu_check,
+        release,
+        train_small,
+        clean,
+    )
 }
 
 

@@ -167,3 +167,18 @@ def test_gpu_check_says_when_there_is_none(
     monkeypatch.setattr(tasks, "python", lambda *words, **_: ran.append(words) or 1)
     assert tasks.gpu_check([]) == 1
     assert len(ran) == 1 and "no CUDA device here; nothing was checked" in capfd.readouterr().err
+
+
+def test_a_release_is_numbered_and_dated(tmp_path: Path) -> None:
+    release = load("release")
+    for name in ("pyproject.toml", "CITATION.cff"):
+        (tmp_path / name).write_text((ROOT / name).read_text())
+    (tmp_path / "CHANGELOG.md").write_text("## [Unreleased]\n\n### Added\n\n- More.\n")
+    release.number(tmp_path, "1.2.0")
+    assert 'version = "1.2.0"' in (tmp_path / "pyproject.toml").read_text()
+    assert "\nversion: 1.2.0\n" in (tmp_path / "CITATION.cff").read_text()
+    log = (tmp_path / "CHANGELOG.md").read_text()
+    assert re.match(r"## \[Unreleased\]\n\n## \[1\.2\.0\] - \d{4}-\d\d-\d\d\n\n### Added", log)
+    for version, told in (("1.2.0", "nothing under"), ("next", "no 1.2.3")):
+        with pytest.raises(SystemExit, match=told):
+            release.number(tmp_path, version)
