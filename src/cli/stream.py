@@ -35,7 +35,8 @@ def stream(
         bool, typer.Option("--real-time/--no-real-time", help="At their time, or at once.")
     ] = True,
     window: Annotated[
-        float, typer.Option(help="Seconds made at a time: fewer hear sooner, more are cheaper.")
+        float,
+        typer.Option(help="Seconds after which another sentence may begin."),
     ] = 0.5,
     model: Annotated[str, typer.Option(help=options.NAMED)] = TEXT_MODEL,
     seed: Annotated[int, typer.Option(help="Same seed and sentences, same motion.")] = 0,

@@ -1,7 +1,8 @@
 """A body that goes on moving while sentences come in: frames at their time, to whoever listens.
 
-Windows are short and made just before they are due, so that a sentence is soon seen: it waits for
-the window that is being made, and for the frames that the foot lock looks ahead.
+Windows are given out in short pieces just before they are due, so that a sentence is soon seen: it
+waits for the piece that is being given out, and for the frames that the foot lock looks ahead. The
+rest of the window, made for the sentence before, is dropped.
 """
 
 import queue
@@ -18,7 +19,8 @@ from ..motion.motion import Motion
 from .motion_generator import MotionGenerator
 from .stream import DEFAULT_SAMPLING
 
-WINDOW = 0.5  # seconds of new motion at a time
+WINDOW = 0.5  # seconds after which another sentence may begin
+AHEAD = 1.0  # seconds made beyond them, to be gone on with while none comes
 WAITING = 5  # frames that are made before they are due
 
 Sink = Callable[[Frame], None]
@@ -53,7 +55,7 @@ class LiveBody:
         generator: its text model.
         text: the first sentence.
         sampling: seed, steps, sampler, guidance.
-        window: seconds made at a time; the shorter, the sooner a sentence is heard.
+        window: seconds after which another sentence may begin.
         foot_lock: hold standing feet; None = the model's own setting. Without it, frames settle
             0.9 s sooner.
         real_time: frames come when they are due; False: as soon as they are made.
@@ -72,7 +74,7 @@ class LiveBody:
         self.fps = generator.text.card.fps
         self.figures = LiveFigures(fps=self.fps)
         self._stream = generator.stream(
-            text, seconds=window, sampling=sampling, foot_lock=foot_lock
+            text, seconds=window, ahead=AHEAD, sampling=sampling, foot_lock=foot_lock
         )
         self._real_time = real_time
         self._said: dict[str, float] = {}  # sentences not yet seen, and when they came

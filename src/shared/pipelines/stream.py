@@ -64,6 +64,7 @@ def stream_features(
     constraint: ConstraintOf | None = None,
     window: int = WINDOW,
     overlap: int = OVERLAP,
+    ahead: int = 0,
 ) -> Iterator[Tensor]:
     """Raw features [t, R, 6] in pieces that follow each other and never change again.
 
@@ -77,6 +78,8 @@ def stream_features(
             nothing is.
         window: frames at most, the shared ones among them.
         overlap: frames O that a window shares with the one before.
+        ahead: frames made beyond a passage: the next one begins with them if it has the same text;
+            else they are dropped. Not for passages with a constraint or a `miss`.
 
     Raises:
         UsageError: the overlap does not fit the window, or a constraint is not as long as asked.
@@ -84,7 +87,8 @@ def stream_features(
     """
     if not 1 <= overlap <= window // 2:
         raise UsageError(f"overlap {overlap} must lie between 1 and half the window ({window})")
-    before = torch.zeros(0, generator.network.motion_rows, 6)
+    before = spare = torch.zeros(0, generator.network.motion_rows, 6)
+    shows: tuple[str, str | None] | None = None  # the spare frames
     made, number = 0, 0
 
     def sampled(passage: Passage, known: Constraint, seed: int) -> Tensor:
@@ -102,16 +106,24 @@ def stream_features(
 
     for passage in passages:
         own = before[:0]  # what there is of the passage
+        if shows == (passage.text, passage.tag) and len(spare) >= passage.frames:
+            piece, spare = spare[: passage.frames], spare[passage.frames :]
+            before = torch.cat((before, piece))[-overlap:]
+            made += len(piece)
+            yield piece
+            continue
         lucky: list[int] = []  # the seed of the repetition before
+        beyond = ahead if constraint is None and passage.miss is None else 0
         widest = min(window, passage.window or window)
         for length in window_lengths(passage.frames, len(before), widest, overlap):
             start = made - len(before)
             given = None if constraint is None else constraint(start, made + length)
-            known = carried_on(before, given, len(before) + length)
+            known = carried_on(before, given, len(before) + length + beyond)
             seeds = [*lucky, *retry_seeds(derived_seed(sampling.seed, number))]
             tries = (sampled(passage, known, seed)[len(before) :] for seed in seeds)
             piece, best = nearest_to_wanted(tries, own, passage.miss)
             lucky = [seeds[best]] if passage.window else []
+            piece, spare, shows = piece[:length], piece[length:], (passage.text, passage.tag)
             before = torch.cat((before, piece))[-overlap:]
             own = torch.cat((own, piece))
             made, number = made + length, number + 1
@@ -228,6 +240,7 @@ class MotionStream:
         constraint: see `stream_features`.
         place: of the first frame; None = the origin, facing +Z.
         window, overlap: see `stream_features`.
+        ahead: seconds made beyond that, which a new text drops.
         sampling: see `stream_features`.
         foot_lock: hold standing feet; None = the model's own setting.
 
@@ -245,6 +258,7 @@ class MotionStream:
         place: Place | None = None,
         window: int = WINDOW,
         overlap: int = OVERLAP,
+        ahead: float = 0.0,
         sampling: Sampling = DEFAULT_SAMPLING,
         foot_lock: bool | None = None,
     ) -> None:
@@ -263,6 +277,7 @@ class MotionStream:
             constraint=constraint,
             window=window,
             overlap=overlap,
+            ahead=round(ahead * self._fps),
         )
         self._texts: list[tuple[int, str]] = []  # first frames of passages
         self._made, self._shown, self._window = 0, 0, window - overlap

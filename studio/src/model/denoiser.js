@@ -26,7 +26,7 @@ export class Denoiser {
   session(graph) {
     this.sessions[graph] ??= ort.InferenceSession.create(this.parts[graph], {
       externalData: [{ path: "model.safetensors", data: this.parts.weights }],
-      graphOptimizationLevel: "all",
+      graphOptimizationLevel: "extended", // "all" opens 0.1 s later and predicts no faster
     });
     return this.sessions[graph];
   }

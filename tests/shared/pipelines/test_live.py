@@ -7,7 +7,7 @@ from src.shared.errors import UsageError
 from src.shared.formats.live import Frame
 from src.shared.model.diffusion import Sampling
 from src.shared.model.generation.motion_generator import TextToMotion
-from src.shared.pipelines.live import LiveBody, parse_address
+from src.shared.pipelines.live import AHEAD, LiveBody, parse_address
 from src.shared.pipelines.motion_generator import MotionGenerator
 from tests.shared.model.conftest import tiny_generator
 
@@ -28,7 +28,7 @@ def test_frames_are_those_of_the_stream(generator: MotionGenerator) -> None:
     figures = body(generator).play([frames.append], seconds=2.0)
     assert [frame.number for frame in frames] == list(range(60)) and figures.frames == 60
     stream = generator.stream(
-        "a person walks forward", seconds=0.4, sampling=Sampling(seed=1, steps=2)
+        "a person walks forward", seconds=0.4, ahead=AHEAD, sampling=Sampling(seed=1, steps=2)
     )
     wanted: list[np.ndarray] = []
     for piece in stream:

@@ -86,6 +86,18 @@ def test_passages_are_taken_one_by_one(generator: TextToMotion) -> None:
     assert len(taken) == 3
 
 
+def test_frames_made_ahead_are_gone_on_with_while_the_text_stays(generator: TextToMotion) -> None:
+    """Three pieces of one window; then what is left of the next one is dropped for another text."""
+    walk, wave = Passage("a person walks", 8), Passage("a person waves", 8)
+    whole = made(generator, Passage("a person walks", 24))
+    pieces = made(generator, *[walk] * 4, wave, ahead=16)
+    torch.testing.assert_close(pieces[:24], whole, rtol=0, atol=0)
+    assert pieces.shape == (40, 23, 6)
+    torch.testing.assert_close(made(generator, *[walk] * 4, ahead=16), pieces[:32], rtol=0, atol=0)
+    alone = made(generator, walk, wave, ahead=16)
+    assert not torch.allclose(alone[8:], whole[8:16])
+
+
 def test_what_is_given_comes_out(generator: TextToMotion) -> None:
     """Across windows, a path along the whole motion and a pose at its end."""
     asked = []
