@@ -53,9 +53,9 @@ def number(root: Path, version: str) -> None:
         path.write_text(path.read_text(encoding="utf-8").replace(line[0], new, 1), encoding="utf-8")
 
 
-def python_of(folder: Path) -> Path:
+def python_of(folder: Path) -> str:
     """The interpreter of an environment."""
-    return folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+    return str(folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python"))
 
 
 def build(folder: Path) -> tuple[Path, Path]:
@@ -75,7 +75,7 @@ def try_out(wheel: Path, folder: Path, site: str | None) -> None:
     """Install the wheel into a fresh environment and use it, far from this checkout."""
     venv.create(folder, with_pip=True)
     python = python_of(folder)
-    install = [python, "-m", "pip", "install", "-q", wheel]
+    install = [python, "-m", "pip", "install", "-q", str(wheel)]
     if site is not None:
         packages = subprocess.run(
             [python, "-c", "import site; print(site.getsitepackages()[0])"],

@@ -6,7 +6,9 @@
 SOURCES are folders of motion files: for `starter` bandai-namco, cmu, cmu-more, o3de-locomotion,
 cc0-handmade and fair-mit, for `starter-free` (with `--free`) all but the first. The whole of CMU's
 2,500 files is one folder, too: `CMU --captions cmu_index.tsv --free`. Captions come from
-scripts/starter_clips.tsv, which cuts and labels takes, and from FILEs.
+scripts/starter_clips.tsv, which cuts and labels takes, and from FILEs: those of CMU are its own
+descriptions (scripts/cmu_captions.py). Bandai's labels are in its file names, all other words in
+src/configs.
 
 The text tower is taught from captions alone, the denoiser learns behind it, the tower reads more
 captions, and a motion tower learns to meet it. Every stage resumes, and does nothing when it is

@@ -182,3 +182,18 @@ def test_a_release_is_numbered_and_dated(tmp_path: Path) -> None:
     for version, told in (("1.2.0", "nothing under"), ("next", "no 1.2.3")):
         with pytest.raises(SystemExit, match=told):
             release.number(tmp_path, version)
+
+
+def test_cmus_own_index_becomes_captions() -> None:
+    text = [
+        "Subject #1 (climb, swing)",
+        "01_01\tplayground - jumps,  turn",
+        "",
+        "Subject #133 (infant)",
+    ]
+    text += ["133_14.bvh  Walk Left"]
+    found = list(load("cmu_captions").rows(text))
+    assert found[1:] == [
+        "01_01\tplayground - jumps, turn\tclimb, swing",
+        "133_14\tWalk Left\tinfant",
+    ]
