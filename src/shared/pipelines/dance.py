@@ -296,6 +296,11 @@ class SongPerformer:
             foot_lock=own.settings.foot_lock,
         )
         if found is None:
+            if wish.kinds and len(song.beats):
+                named = " or ".join(sorted(wish.kinds))
+                log.warning(
+                    "no figure of %s fits the tempo of this song: the model dances alone", named
+                )
             return None
         motion, figures = found
         if progress is not None:

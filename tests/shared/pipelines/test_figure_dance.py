@@ -26,8 +26,8 @@ def choreographer() -> Choreographer:
     return Choreographer(tiny_figures())
 
 
-def condition(silent: tuple[int, int] | None = None) -> SongCondition:
-    beats, phase, rows = song(110.0, 12.0)
+def condition(silent: tuple[int, int] | None = None, tempo: float = 110.0) -> SongCondition:
+    beats, phase, rows = song(tempo, 12.0)
     rows[160] = 1.0
     if silent is not None:
         rows[160, slice(*silent)] = 0.0
@@ -88,3 +88,13 @@ def test_figures_where_they_show_it_and_the_generator_where_not(
     assert not free.ranked[0].figures
     both = dancers.dance(condition(), "a person dances", num_samples=2, seed=1)
     assert len(both.ranked) == 2 and "beats" in both.table.terms
+
+
+def test_who_asks_for_a_kind_that_no_tempo_fits_is_told(
+    choreographer: Choreographer, caplog: pytest.LogCaptureFixture
+) -> None:
+    performer = Performer(tiny_generator(), PerformerSettings(steps=2))
+    dancers = SongPerformer(performer, choreographer=choreographer)
+    slow = dancers.dance(condition(tempo=78.0), "a person dances polka")
+    assert not slow.ranked[0].figures
+    assert "no figure of polka fits the tempo" in caplog.text
