@@ -67,6 +67,15 @@ def guarded(command: Callable[Parameters, None]) -> Callable[Parameters, None]:
         except UserError as error:
             complain(f"error: {error}")
             raise typer.Exit(error.exit_code) from None
+        except ModuleNotFoundError as error:
+            package = (error.name or "").partition(".")[0]
+            if package in ("", "src", "motionsuite"):
+                raise
+            complain(
+                f"error: this needs the package {package}, which is not installed"
+                "; `pip install motionsuite` brings all of them"
+            )
+            raise typer.Exit(1) from None
         except KeyboardInterrupt:
             complain("interrupted: files already reported are whole")
             raise typer.Exit(INTERRUPTED) from None

@@ -167,6 +167,9 @@ class GenerationConfig(Config):
         )
 
 
+PAIRS = "pairs"  # text-model name of a tower of tokens and pairs of them
+
+
 class ClipConfig(Config):
     """The text tower and the motion tower that share one space (TEXT, CLIP alignment)."""
 

@@ -13,6 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from ..config_schema import PAIRS
 from ..data.retarget.mapping import load_mappings
 from ..environment import TEXT_MODEL
 from ..errors import UserError
@@ -21,7 +22,6 @@ from ..formats.rig import END_SITES
 from ..formats.writers.glb import rest_files
 from ..io.files import atomic_write, load_json
 from ..model.checkpoint import WEIGHTS_FILE, ModelCard, read_card, resolve_model, wrong_kind
-from ..model.clip.core import PAIRS
 from ..model.clip.out_of_domain import META_FILE as SCOPE_FILE
 from ..model.clip.out_of_domain import TABLE_FILE
 from ..model.clip.tokenizer import META_FILE, MODEL_FILE, TOKENIZER_FOLDER

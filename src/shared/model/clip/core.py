@@ -18,13 +18,12 @@ import torch
 from torch import Tensor, nn
 from torch.nn.functional import normalize, softplus
 
-from ...config_schema import ClipConfig, NetworkConfig
+from ...config_schema import PAIRS, ClipConfig, NetworkConfig
 from ...errors import UserError
 from ..layers.temporal_unet import TemporalUNet
 from ..layers.transformer import masked_mean
 from .features import TextFeatures
 
-PAIRS = "pairs"  # text-model name of such a tower
 BASE = 1 << 15  # token ids stay below, so that keys are int32
 SPECIAL = 3  # ids below are bos, pad and eos
 ENTRY_DROPOUT = 0.3  # of tokens and pairs, in training
