@@ -147,7 +147,7 @@ def main() -> None:
         if path is None:
             import soundfile
 
-            from src.shared.audio.synthetic_songs import SongSpec, render_song
+            from src.shared.audio.synthetic import SongSpec, render_song
 
             song = render_song(SongSpec(tempo=116.0, seconds=arguments.seconds, seed=1))
             path = Path(folder) / "synthetic.wav"

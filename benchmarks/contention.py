@@ -133,7 +133,7 @@ def main() -> None:
         work(options.worker, options.seconds)
         return
 
-    from src.shared.audio.synthetic_songs import SongSpec, render_song
+    from src.shared.audio.synthetic import SongSpec, render_song
 
     with tempfile.TemporaryDirectory() as folder:
         song = Path(folder) / "song.wav"

@@ -22,7 +22,7 @@ from torch import Tensor
 
 from src.shared.audio.song import analyse_sound
 from src.shared.audio.sound import sound_from_samples
-from src.shared.audio.synthetic_songs import SongSpec, render_song
+from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.memory.build import cut_at_bars
 from src.shared.memory.index import MemoryConfig, MemoryIndex
 from src.shared.memory.query import BEATLESS, retrieve

@@ -99,7 +99,7 @@ def measure(count: int, dim: int, threads: int, method: str) -> dict[str, Any]:
     if method == "faiss":
         import faiss  # type: ignore[import-untyped,import-not-found,unused-ignore]
 
-        from src.shared.memory.search import LibraryIndex, make_table
+        from src.shared.memory.index import LibraryIndex, make_table
 
         faiss.omp_set_num_threads(threads)
         index = LibraryIndex.of(index, {"audio": make_table(index, "audio")})

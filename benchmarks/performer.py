@@ -29,7 +29,7 @@ PROMPT = "a person dances"
 
 def dance_command(seconds: float, threads: int, model: str) -> dict[str, Any]:
     """Seconds of the whole command for a song, from start to the last file."""
-    from src.shared.audio.synthetic_songs import SongSpec, render_song
+    from src.shared.audio.synthetic import SongSpec, render_song
 
     with tempfile.TemporaryDirectory() as folder:
         song = Path(folder) / "song.wav"

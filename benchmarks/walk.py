@@ -122,8 +122,7 @@ def main() -> None:
 
 def asked(place: str) -> dict[str, list[str]]:
     """The two requests of the issue."""
-    from src.shared.audio.synthetic_score import SongSpec
-    from src.shared.audio.synthetic_songs import render_song
+    from src.shared.audio.synthetic import SongSpec, render_song
 
     song = Path(place) / "song.wav"
     render_song(SongSpec(seconds=6.0, seed=1)).write_wav(song)

@@ -27,8 +27,8 @@ MADE = "made/wave/01-a-person-waves-with-the-left-hand"
 INPUTS = """
 import sys
 from pathlib import Path
-from src.shared.audio.synthetic_score import SongSpec
-from src.shared.audio.synthetic_songs import render_song
+from src.shared.audio.synthetic import SongSpec
+from src.shared.audio.synthetic import render_song
 render_song(SongSpec(seconds=6.0, seed=1)).write_wav(Path("song.wav"))
 Path("path.csv").write_text("x,z\\n0,0\\n0,2\\n1,3\\n")
 Path("timeline.json").write_text('[{"text": "a person walks forward", "start": 0, "end": 3},'

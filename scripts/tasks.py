@@ -23,7 +23,7 @@ PROMPTS = (
 DEMO = "outputs/demo"
 SONG = f"""
 from pathlib import Path
-from src.shared.audio.synthetic_songs import SongSpec, render_song
+from src.shared.audio.synthetic import SongSpec, render_song
 
 path = Path("{DEMO}/song.wav")
 path.parent.mkdir(parents=True, exist_ok=True)

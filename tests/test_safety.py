@@ -44,7 +44,7 @@ ONLY_IN: dict[str, tuple[str, ...]] = {
     "json.load": (),
     # a GLB's chunk is bounded before; what a training wrote for itself is its own
     "json.loads": ("shared/io/files.py", "shared/formats/readers/glb.py", "train/"),
-    "faiss.read_index": ("shared/memory/search.py",),  # after its checksum
+    "faiss.read_index": ("shared/memory/index.py",),  # after its checksum
 }
 
 

@@ -236,9 +236,9 @@ def run_performer(
     Raises:
         UserError: no such model, or data that cannot be used.
     """
-    from ..shared.evaluation.held_out import open_held_out
     from ..shared.evaluation.judge.evaluator import Evaluator
     from ..shared.evaluation.report.pages import save_report
+    from ..shared.evaluation.samples import open_held_out
     from ..shared.evaluation.suites.dance import DanceContext, DanceSettings
     from ..shared.evaluation.suites.dance import evaluate_performer as evaluate
     from ..shared.evaluation.suites.editing import EditContext, EditSettings

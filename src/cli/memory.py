@@ -185,7 +185,7 @@ def remember_figures(data: Path, table: Path | None, out: Path, *, json: bool) -
         UserError: as `build_figures`.
     """
     from ..shared.io.files import sole_writer
-    from ..shared.memory.build_figures import build_figures, every_file, read_takes
+    from ..shared.memory.build import build_figures, every_file, read_takes
     from .console import progress_bar
 
     if not data.is_dir():

@@ -11,7 +11,7 @@ import typer
 
 from .console import guarded, results_on_stdout, with_quiet
 from .convert import convert, inspect
-from .evaluate import evaluate, evaluate_audio
+from .evaluate import compare, evaluate, evaluate_audio, plot, report
 from .evaluate_suites import (
     evaluate_memory,
     evaluate_performer,
@@ -26,7 +26,6 @@ from .memory import memory
 from .models import calibrate, export_onnx, models
 from .options import Command, SuiteCommand
 from .prepare import prepare, prepare_audio
-from .report import compare, plot, report
 from .shape_check import shape_check
 from .stream import stream
 from .studio import studio

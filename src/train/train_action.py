@@ -326,15 +326,11 @@ class ActionTask(Task):
                 ]
                 embeddings = encode_captions(self.tower, before.tokenizer, texts).numpy()
                 scope = scope.with_action(action, texts, embeddings)
-        return TextToMotion(
+        return before.with_denoiser(
             module.denoiser,
-            self.tower,
-            before.tokenizer,
-            mean=before.mean,
-            std=before.std,
+            text=self.tower,
             card=before.card.model_copy(update=update),
             scope=scope,
-            style_map=before.style_map,
             device=next(module.parameters()).device.type,
         )
 

@@ -12,7 +12,7 @@ on the way (consistency, Song et al. 2023, with targets that do not move).
 Letters: B batch, T frames, R rows of a frame, D shared dimensions, N student steps.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -68,17 +68,15 @@ class TrainDistillConfig(TrainConfig):
 
 
 @dataclass(frozen=True)
-class Pairs:
+class Sampled:
     """B motions that the teacher sampled.
 
     Attributes:
-        states: [B,N,T,R,6] z-scored, where it was at the student's steps; noise first.
-        end: [B,T,R,6] what came of it, known entries in it.
+        end: [B,T,R,6] z-scored, what came of it, known entries in it.
         mask: [B,T] bool; known: [B,T,R,6] bool, entries that it was told.
         place: [B,D] of the text; tag [B] long; drop [B] bool, rows that heard no text.
     """
 
-    states: Tensor
     end: Tensor
     mask: Tensor
     known: Tensor
@@ -88,22 +86,18 @@ class Pairs:
 
 
 @dataclass(frozen=True)
-class DistillBatch:
-    """One of the states of each motion, and where it leads.
+class Pairs(Sampled):
+    """With all states [B,N,T,R,6] that it was in at the student's steps; noise first."""
 
-    Attributes:
-        seen: [B,T,R,6] with the known entries in it; timesteps [B] long.
-        end, mask, known, place, tag, drop: see Pairs.
-    """
+    states: Tensor
+
+
+@dataclass(frozen=True)
+class DistillBatch(Sampled):
+    """With one of the states of each, known entries in it: seen [B,T,R,6] at timesteps [B] long."""
 
     seen: Tensor
     timesteps: Tensor
-    end: Tensor
-    mask: Tensor
-    known: Tensor
-    place: Tensor
-    tag: Tensor
-    drop: Tensor
 
 
 class DistillTask(Task):
@@ -241,7 +235,7 @@ class DistillTask(Task):
         sampler = make_sampler(self.diffusion, "ddim", config.teacher_steps)
         with autocast(self.compute):
             end = sampler.run(watched, noise)
-        return Pairs(torch.stack(states, dim=1), end, mask, known, place, tag, drop)
+        return Pairs(end, mask, known, place, tag, drop, torch.stack(states, dim=1))
 
     # ------------------------------------------------------------ batches
 
@@ -260,11 +254,9 @@ class DistillTask(Task):
 
     def _at(self, pairs: Pairs, chosen: Tensor) -> DistillBatch:
         """The states with these numbers [B]."""
-        return DistillBatch(
-            pairs.states[torch.arange(len(chosen)), chosen],
-            torch.tensor(self.steps)[chosen],
-            *(pairs.end, pairs.mask, pairs.known, pairs.place, pairs.tag, pairs.drop),
-        )
+        seen = pairs.states[torch.arange(len(chosen)), chosen]
+        kept = (getattr(pairs, field.name) for field in fields(Sampled))
+        return DistillBatch(*kept, seen, torch.tensor(self.steps)[chosen])
 
     # ------------------------------------------------------------ learning
 
@@ -326,17 +318,9 @@ class DistillTask(Task):
         }
         student = MotionDenoiser(network, len(before.card.tags))
         student.load_state_dict(module.denoiser.state_dict())
-        return TextToMotion(
-            student,
-            before.text,
-            before.tokenizer,
-            mean=before.mean,
-            std=before.std,
-            card=before.card.model_copy(update=update),
-            scope=before.scope,
-            style_map=before.style_map,
-            device=next(module.parameters()).device.type,
-        )
+        card = before.card.model_copy(update=update)
+        device = next(module.parameters()).device.type
+        return before.with_denoiser(student, card=card, device=device)
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """A folder that `generate --model` reads."""

@@ -9,7 +9,7 @@ import soundfile
 from typer.testing import CliRunner
 
 from src.cli.tools import app
-from src.shared.audio.synthetic_songs import SongSpec, render_song
+from src.shared.audio.synthetic import SongSpec, render_song
 
 run = CliRunner().invoke
 

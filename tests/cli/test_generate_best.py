@@ -10,8 +10,7 @@ import torch
 from typer.testing import CliRunner
 
 from src.cli.tools import app
-from src.shared.audio.synthetic_score import SongSpec
-from src.shared.audio.synthetic_songs import render_song
+from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.formats.arrays import read_npz, read_trajectory_npz
 from src.shared.model.checkpoint import ModelCard
 from src.shared.model.clip.core import MotionClip

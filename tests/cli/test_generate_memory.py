@@ -9,8 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from src.cli.tools import app
-from src.shared.audio.synthetic_score import SongSpec
-from src.shared.audio.synthetic_songs import render_song
+from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.formats.arrays import read_trajectory_npz
 from tests.shared.evaluation.tiny_pairs import tiny_model
 from tests.shared.pipelines.tiny_recall import remember, save_memory, save_space

@@ -12,8 +12,7 @@ from typer.testing import CliRunner
 
 from src.cli.generate_files import dance_stems
 from src.cli.tools import app
-from src.shared.audio.synthetic_score import SongSpec
-from src.shared.audio.synthetic_songs import render_song
+from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.formats.arrays import read_trajectory_npz
 from src.shared.motion.trajectory import VELOCITY
 from tests.shared.evaluation.tiny_pairs import tiny_model

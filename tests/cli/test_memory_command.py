@@ -11,7 +11,7 @@ import torch
 from typer.testing import CliRunner
 
 from src.cli.tools import app
-from src.shared.audio.synthetic_songs import SongSpec, render_song
+from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.config_audio import AudioTowerConfig
 from src.shared.formats.arrays import write_npz
 from src.shared.memory.index import MemoryIndex

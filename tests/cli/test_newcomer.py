@@ -16,8 +16,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from src.shared.audio.synthetic_score import SongSpec
-from src.shared.audio.synthetic_songs import render_song
+from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.formats.arrays import read_npz, read_trajectory_npz
 from src.shared.formats.writers.bvh import write_bvh

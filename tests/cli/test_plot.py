@@ -6,8 +6,7 @@ import pytest
 from typer.testing import CliRunner
 
 from src.cli.tools import app
-from src.shared.audio.synthetic_score import SongSpec
-from src.shared.audio.synthetic_songs import render_song
+from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.formats.csv_files import write_trajectory_csv
 from tests.shared.motion.trajectories import smooth_trajectory
 

@@ -8,7 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 from src.cli.tools import app
-from src.shared.audio.synthetic_songs import SongSpec, render_song
+from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.formats.writers.bvh import write_bvh
 from src.shared.motion.motion import Motion
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from src.cli.generate import generate
-from src.shared.audio.synthetic_songs import SongSpec, render_song
+from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.motion.skeleton import JOINT_NAMES
 from tests.integrations.blender_run import blender_python, run_in_blender
 

@@ -15,8 +15,7 @@ from ..metrics.stage import stage
 from ..motion.motion import Motion
 from ..pipelines.body import root_error
 from .engine import MetricFamily
-from .families_audio import ABOVE, SCORES
-from .families_text import BODY_KINETICS, body_kinetics
+from .families import ABOVE, BODY_KINETICS, SCORES, body_kinetics
 from .report.tables import Column
 from .samples import Bodies, Dance
 
@@ -196,4 +195,4 @@ KINETICS: MetricFamily[Bodies] = MetricFamily(
     body_kinetics,
     distance=True,
 )
-FAMILIES = (BODY_RHYTHM, ON_STAGE, KINETICS, ON_THE_PATH, FEET)
+DANCE_FAMILIES = (BODY_RHYTHM, ON_STAGE, KINETICS, ON_THE_PATH, FEET)

@@ -59,21 +59,12 @@ def drawn_from(seed: int) -> Iterator[None]:
 def untrained(generator: "TextToMotion", seed: int) -> "TextToMotion":
     """The same denoiser with fresh weights, text tower and statistics of the trained one."""
     from ..model.generation.denoiser import MotionDenoiser
-    from ..model.generation.motion_generator import TextToMotion
 
     with drawn_from(seed):
         fresh = MotionDenoiser(generator.network, generator.denoiser.num_tags)
         # As training begins the last layer is zero, and every motion the mean one.
         torch.nn.init.xavier_uniform_(fresh.output_proj.weight)
-    return TextToMotion(
-        fresh,
-        generator.text,
-        generator.tokenizer,
-        mean=generator.mean,
-        std=generator.std,
-        card=generator.card,
-        device=str(generator.device),
-    )
+    return generator.with_denoiser(fresh, scope=None, style_map=None)
 
 
 def untrained_audio_model(model: "AudioMotionModel", seed: int) -> "AudioMotionModel":

@@ -19,9 +19,8 @@ import torch
 from torch import Tensor
 
 from ..errors import UsageError
-from .index import MemoryConfig, MemoryIndex
+from .index import MemoryConfig, MemoryIndex, open_index
 from .query import Memory, null_memory, query_bars, retrieve
-from .search import open_index
 
 log = logging.getLogger(__name__)
 

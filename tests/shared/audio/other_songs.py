@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from src.shared.audio.synthetic_songs import SAMPLE_RATE, drum, tone
+from src.shared.audio.synthetic import SAMPLE_RATE, drum, tone
 
 PROGRESSION = (0, 5, 7, 5)
 BASSES = (

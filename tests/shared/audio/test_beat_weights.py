@@ -14,7 +14,7 @@ import pytest
 from src.shared.audio import beats as tracking
 from src.shared.audio.beats import _novelty
 from src.shared.audio.onsets import Onsets, detect_onsets
-from src.shared.audio.synthetic_songs import (
+from src.shared.audio.synthetic import (
     SAMPLE_RATE,
     SyntheticSong,
     render_song,

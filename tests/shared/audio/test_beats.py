@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from src.shared.audio.beats import DEFAULT_TEMPO, Beats, _numbers, bar_phase, track_beats
 from src.shared.audio.onsets import detect_onsets, mel_filters
-from src.shared.audio.synthetic_songs import (
+from src.shared.audio.synthetic import (
     SAMPLE_RATE,
     SongSpec,
     SyntheticSong,

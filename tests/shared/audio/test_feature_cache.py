@@ -18,7 +18,7 @@ from src.shared.audio.song import (
     cache_folder,
 )
 from src.shared.audio.sound import SAMPLE_RATE, load_sound
-from src.shared.audio.synthetic_songs import SongSpec, render_song
+from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.errors import UserError
 
 

@@ -9,13 +9,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from src.shared.audio.synthetic_score import TempoMap
-from src.shared.audio.synthetic_songs import (
+from src.shared.audio.synthetic import (
     HELD_OUT_TEMPI,
     SAMPLE_RATE,
     TIMBRES,
     TRAIN_TEMPI,
     SongSpec,
+    TempoMap,
     render_song,
     sample_song_specs,
     song_beats,

@@ -2,9 +2,8 @@
 
 import pytest
 
-from src.shared.evaluation.suites.audio import FAMILIES as AUDIO_FAMILIES
-from src.shared.evaluation.suites.dance import FAMILIES as DANCE_FAMILIES
-from src.shared.evaluation.suites.text import FAMILIES as TEXT_FAMILIES
+from src.shared.evaluation.families import AUDIO_FAMILIES, TEXT_FAMILIES
+from src.shared.evaluation.families_dance import DANCE_FAMILIES
 
 
 @pytest.mark.parametrize("families", [TEXT_FAMILIES, AUDIO_FAMILIES, DANCE_FAMILIES])

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 import soundfile
 
-from src.shared.audio.synthetic_score import SongSpec
-from src.shared.audio.synthetic_songs import render_song
+from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.errors import UserError
 from src.shared.formats.arrays import read_npz
 from src.shared.formats.preview.trajectory import SongTrack

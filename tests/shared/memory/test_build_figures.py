@@ -7,7 +7,7 @@ import pytest
 
 from src.shared.errors import UserError
 from src.shared.formats.arrays import write_npz
-from src.shared.memory.build_figures import build_figures, every_file, read_takes, repeated
+from src.shared.memory.build import build_figures, every_file, read_takes, repeated
 from tests.shared.evaluation.dancers import swinging_arms
 from tests.shared.memory.tiny_figures import stepping
 

@@ -7,9 +7,8 @@ import torch
 from torch.nn.functional import normalize
 
 from src.shared.errors import UserError
-from src.shared.memory.index import MemoryIndex
+from src.shared.memory.index import LibraryIndex, MemoryIndex, add_library, make_table, open_index
 from src.shared.memory.query import retrieve
-from src.shared.memory.search import LibraryIndex, add_library, make_table, open_index
 from tests.shared.memory.tiny_memory import make_index, random_index
 
 pytest.importorskip("faiss", reason="the extra `index` is not installed")

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from src.shared.evaluation.families_text import CONTACT
+from src.shared.evaluation.families import CONTACT
 from src.shared.evaluation.samples import Clips, MotionSample
 from src.shared.metrics.physical import (
     Contact,

@@ -8,8 +8,7 @@ import scipy.linalg
 import torch
 from torchmetrics.image.fid import FrechetInceptionDistance
 
-from src.shared.evaluation.families_audio import ROOT_KINETICS
-from src.shared.evaluation.families_text import BODY_KINETICS
+from src.shared.evaluation.families import BODY_KINETICS, ROOT_KINETICS
 from src.shared.evaluation.samples import Clips, Dance, DanceSample, MotionSample
 from src.shared.metrics.frechet import Projection, frechet_distance
 from src.shared.metrics.kinetic import (

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from torchmetrics.functional.retrieval import retrieval_hit_rate
 from torchmetrics.functional.retrieval import retrieval_reciprocal_rank as reciprocal
 
-from src.shared.evaluation.families_text import TMR
+from src.shared.evaluation.families import TMR
 from src.shared.evaluation.samples import Clips, MotionSample
 from src.shared.metrics.retrieval import (
     PROTOCOLS,

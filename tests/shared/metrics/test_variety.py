@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from src.shared.evaluation.families_text import MULTIMODALITY
+from src.shared.evaluation.families import MULTIMODALITY
 from src.shared.evaluation.samples import Clips, MotionSample
 from src.shared.metrics.frechet import within_prompts
 from src.shared.motion.motion import Motion

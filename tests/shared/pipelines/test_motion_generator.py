@@ -10,8 +10,7 @@ from typer.testing import CliRunner
 
 from src.cli.tools import app
 from src.shared.audio.song import analyse
-from src.shared.audio.synthetic_score import SongSpec
-from src.shared.audio.synthetic_songs import render_song
+from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.data.retarget.read_motion import read_motion
 from src.shared.formats.registry import write_motion, write_trajectory
 from src.shared.model.diffusion import Sampling

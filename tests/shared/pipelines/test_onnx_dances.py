@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from src.shared.audio.song import Song, analyse
-from src.shared.audio.synthetic_songs import SongSpec, render_song
+from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.model.diffusion import Sampling
 from src.shared.pipelines.motion_generator import MotionGenerator
 from src.shared.pipelines.path import DrawnPath

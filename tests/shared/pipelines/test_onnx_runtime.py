@@ -12,7 +12,7 @@ import torch
 from typer.testing import CliRunner
 
 from src.cli.tools import app
-from src.shared.audio.synthetic_songs import SongSpec, render_song
+from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.errors import UserError
 from src.shared.model import onnx_card
 from src.shared.model.audio.audio_motion_model import AudioMotionModel

@@ -14,8 +14,7 @@ import numpy as np
 from ...audio.features import AudioFeatures, extract_features
 from ...audio.song import analyse
 from ...audio.sound import sound_from_samples
-from ...audio.synthetic_score import SongSpec
-from ...audio.synthetic_songs import render_song, sample_song_specs
+from ...audio.synthetic import SongSpec, render_song, sample_song_specs
 from ...errors import UsageError, UserError
 from ...io.files import sha256_file
 from ..prepared import assign_alike

@@ -26,7 +26,7 @@ from ...motion.motion import Motion
 from ...motion.rotations import quaternion_to_matrix
 from ...motion.skeleton import JOINT_INDEX
 from ..engine import Progress
-from ..held_out import choose_caption, spread_over_groups
+from ..samples import choose_caption, spread_over_groups
 from .instructions import check
 
 PARTS = 3  # beginning, middle, end: a wave is not a raise that stays up

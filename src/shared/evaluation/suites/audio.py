@@ -1,9 +1,9 @@
 """The audio suite: does the music matter, and does the motion hold together?
 
 Motions are made for held-out synthetic songs whose beats are known exactly. Every family of
-`FAMILIES` is measured on them, on the same motions under another song, on frozen and untrained
-ones, and on real paired motion, replication by replication. Then phase, alignment and seams, and
-sound files.
+`AUDIO_FAMILIES` is measured on them, on the same motions under another song, on frozen and
+untrained ones, and on real paired motion, replication by replication. Then phase, alignment and
+seams, and sound files.
 
 Letters: T frames, N songs.
 """
@@ -19,7 +19,7 @@ from zlib import crc32
 
 import numpy as np
 
-from ...audio.synthetic_songs import render_song
+from ...audio.synthetic import render_song
 from ...data.phrases.dataset import MotionPhraseDataset
 from ...errors import UserError
 from ...formats.arrays import write_trajectory_npz
@@ -32,7 +32,7 @@ from ...motion.trajectory import FPS, MotionTrajectory
 from ...pipelines.song import SongGenerator, own_noise
 from ...pipelines.song_sampler import SPARE, SongSampling, spans
 from ..engine import Bench, Progress, Row, Suite, run_suite
-from ..families_audio import FAMILIES, beats_of
+from ..families import AUDIO_FAMILIES, beats_of
 from ..floors import untrained_audio_model
 from ..manifest import Part, Parts, Sources, model_hashes, song_hashes
 from ..report.tables import Column, Grid, GridRow
@@ -465,7 +465,7 @@ def song_bench(context: AudioContext) -> Bench[Trajectories]:
             Row("generated", context.generated),
             Row("untrained", context.untrained, limit=context.settings.untrained),
         ],
-        FAMILIES,
+        AUDIO_FAMILIES,
         write=partial(_write, context),
         worst=context.settings.worst,
     )

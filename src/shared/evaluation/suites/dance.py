@@ -41,7 +41,7 @@ from ...pipelines.song import SongCondition, SongGenerator, finished, own_noise
 from ...pipelines.song_sampler import SongSampling
 from ...pipelines.stream import OVERLAP, WINDOW, Passage, window_lengths
 from ..engine import Bench, Progress, Row, Suite, run_suite
-from ..families_dance import FAMILIES, MOMENTS
+from ..families_dance import DANCE_FAMILIES, MOMENTS
 from ..floors import held_still, untrained
 from ..judge.evaluator import Evaluator
 from ..manifest import Parts, Sources, model_hashes, song_hashes
@@ -552,7 +552,7 @@ def dance_bench(context: DanceContext) -> Bench[Bodies]:
             ),
             Row("untrained", partial(context.danced, "untrained"), limit=few),
         ],
-        FAMILIES,
+        DANCE_FAMILIES,
         write=write_body,
         worst=context.settings.worst,
     )

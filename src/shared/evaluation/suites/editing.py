@@ -23,10 +23,9 @@ from ...pipelines.stream import Passage
 from ...pipelines.timeline import Timeline, by_timeline
 from ..engine import Progress
 from ..floors import held_still, untrained
-from ..held_out import HeldOut, real_clips
 from ..judge.evaluator import Evaluator
 from ..report.tables import Cell, Column, Grid, GridRow
-from ..samples import Clips
+from ..samples import Clips, HeldOut, real_clips
 from ..stats import bootstrap_mean
 
 MIN_FRAMES, MAX_FRAMES = 90, 150  # of a clip that is edited

@@ -30,7 +30,7 @@ from ...motion.trajectory import MotionTrajectory, place_window
 from ...pipelines.song_memory import as_condition, bars_of_sound, bars_of_window
 from ...pipelines.song_sampler import SPARE, SongSampler, SongSampling
 from ..engine import Progress
-from ..families_audio import BEAT_ALIGNMENT, TRAJECTORY_SANITY
+from ..families import BEAT_ALIGNMENT, TRAJECTORY_SANITY
 from ..report.tables import Column, Grid, GridRow, plain, report_data
 from ..samples import DanceSample
 from ..stats import MIN_PAIRS, bootstrap_mean, paired_bootstrap

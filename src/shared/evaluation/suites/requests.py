@@ -32,7 +32,6 @@ from ...motion.features import decode_features
 from ...motion.motion import Motion
 from ..engine import Progress
 from ..floors import frozen_pose
-from ..held_out import spread_over_groups
 from ..judge.actions import (
     MIN_FRAMES,
     ActionJudge,
@@ -44,6 +43,7 @@ from ..judge.actions import (
     shown_together,
 )
 from ..report.tables import Cell, Column, Grid, GridRow, Report, report_data
+from ..samples import spread_over_groups
 from ..stats import Estimate, bootstrap_mean, share_of
 from .text import LANGUAGES, errors_only
 

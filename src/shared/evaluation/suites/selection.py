@@ -40,11 +40,10 @@ from ...pipelines.song import AudioCondition, SongGenerator
 from ...pipelines.song_sampler import SongSampling
 from ...pipelines.text import PromptSampler
 from ..engine import Progress
-from ..held_out import open_held_out, real_clips
 from ..judge.evaluator import Evaluator
 from ..judge.instructions import check
 from ..report.tables import Column, Grid, GridRow, Report, report_data
-from ..samples import Clips
+from ..samples import Clips, open_held_out, real_clips
 from ..stats import Estimate, bootstrap_mean, replicated
 from .songs import Piece, held_out_songs, open_split, phrases
 

@@ -17,9 +17,9 @@ from torch import Tensor
 
 from ...audio.song import analyse, analyse_sound
 from ...audio.sound import sound_from_samples
-from ...audio.synthetic_score import SongSpec
-from ...audio.synthetic_songs import (
+from ...audio.synthetic import (
     HELD_OUT_TEMPI,
+    SongSpec,
     render_song,
     sample_song_specs,
     song_beats,

@@ -24,13 +24,12 @@ from ...metrics.retrieval import BATCH, normalised_score
 from ...motion.motion import Motion
 from .. import manifest
 from ..engine import Bench, Progress, Row, Suite, run_suite
-from ..families_text import FAMILIES, r_precision
+from ..families import TEXT_FAMILIES, r_precision
 from ..floors import frozen_pose, untrained
-from ..held_out import HeldOut, open_held_out, real_clips
 from ..judge.evaluator import Evaluator, evaluator_folder
 from ..manifest import Part, Parts, Sources
 from ..report.tables import Column, Grid, GridRow, Report, plain
-from ..samples import Clips, MotionSample, Sampler
+from ..samples import Clips, HeldOut, MotionSample, Sampler, open_held_out, real_clips
 from ..stats import bootstrap_mean
 from .control import control_grid, control_table
 
@@ -183,7 +182,7 @@ class Split:
             limit = settings.untrained if label == UNTRAINED else None
             rows.append(Row(label, partial(self.generated, sampler), limit=limit))
         return Bench(
-            name, f"{name} label combinations", lambda: self.reference, rows, FAMILIES,
+            name, f"{name} label combinations", lambda: self.reference, rows, TEXT_FAMILIES,
             main=next(iter(samplers)), write=write_motion, worst=settings.worst, optional=True,
             summary=lambda grids: score_grid(name, grids, [*samplers, "frozen pose"]),
         )  # fmt: skip

@@ -34,8 +34,9 @@ from ..onnx_export import (
     write_card,
     write_graph,
 )
+from .constraint import MIN_FRAMES
 from .denoiser import MotionDenoiser
-from .motion_generator import MIN_FRAMES, TextToMotion
+from .motion_generator import TextToMotion
 from .onnx_networks import ADAPTED_GRAPH, DENOISER_GRAPH, TEXT_GRAPH
 
 FILES = (

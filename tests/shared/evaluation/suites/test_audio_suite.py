@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from src.shared.audio.synthetic_songs import SongSpec, render_song
+from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.evaluation.report.pages import save_report
 from src.shared.evaluation.report.tables import Grid, grids, markdown, tables
 from src.shared.evaluation.suites.audio import AudioContext, AudioSettings, evaluate_audio

@@ -12,10 +12,10 @@ from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
 from src.shared.data.sources.folders import SyntheticSource
 from src.shared.errors import UserError
-from src.shared.evaluation.held_out import HeldOut
 from src.shared.evaluation.judge.evaluator import Evaluator
 from src.shared.evaluation.report.pages import save_report
 from src.shared.evaluation.report.tables import Grid, grids, markdown
+from src.shared.evaluation.samples import HeldOut
 from src.shared.evaluation.suites.dance import (
     DanceContext,
     DanceSettings,

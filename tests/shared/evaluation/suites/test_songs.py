@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import soundfile
 
-from src.shared.audio.synthetic_songs import HELD_OUT_TEMPI, SongSpec, render_song
+from src.shared.audio.synthetic import HELD_OUT_TEMPI, SongSpec, render_song
 from src.shared.errors import UserError
 from src.shared.evaluation.suites.songs import (
     conditions_of_songs,

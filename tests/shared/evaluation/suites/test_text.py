@@ -16,10 +16,9 @@ from src.shared.data.prepare import open_data
 from src.shared.data.prepared import PreparedData
 from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.errors import UserError
-from src.shared.evaluation.held_out import HeldOut
 from src.shared.evaluation.judge.evaluator import Evaluator, EvaluatorConfig
 from src.shared.evaluation.report.tables import draw, grids, heading, markdown, printed, tables
-from src.shared.evaluation.samples import Sampler
+from src.shared.evaluation.samples import HeldOut, Sampler
 from src.shared.evaluation.suites import control as control
 from src.shared.evaluation.suites.control import control_grid
 from src.shared.evaluation.suites.text import (
@@ -73,7 +72,7 @@ def judge(data: PreparedData) -> Evaluator:
 
 def copying_sampler(held_out: HeldOut, *, deaf: bool) -> Sampler:
     """Returns real clips: those of the caption asked for, or any."""
-    from src.shared.evaluation.held_out import real_clips
+    from src.shared.evaluation.samples import real_clips
 
     clips = real_clips(held_out.data, held_out.records["seen"], num=999, max_frames=64)
     by_caption: dict[str, list[Motion]] = {}
@@ -193,7 +192,7 @@ def test_an_obedient_sampler_passes_the_control_tasks() -> None:
 def test_held_out_synthetic_clips_are_told_apart_by_what_was_trained_on(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from src.shared.evaluation import held_out as module
+    from src.shared.evaluation import samples as module
 
     monkeypatch.setattr(module, "FRESH_CLIPS", 12)
     first = module.open_held_out("synthetic", tmp_path, frozenset())

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from src.shared.errors import UserError
-from src.shared.model.generation.motion_generator import SampleRequest, batches, make_requests
+from src.shared.model.generation.constraint import SampleRequest, batches, make_requests
 
 DEFAULTS = {
     "seconds": 1.0,
