@@ -18,7 +18,7 @@ import numpy as np
 bool = np.bool_
 int32, int64, long, uint8 = np.int32, np.int64, np.int64, np.uint8
 float32, float64 = np.float32, np.float64
-nan, inf, pi = math.nan, math.inf, math.pi
+inf, pi = math.inf, math.pi
 
 Generator = type("Generator", (), {})  # nobody makes one: noise here is counted, not drawn
 
@@ -82,12 +82,6 @@ class Tensor(np.ndarray):
     def bool(self) -> Any:
         return self.to(np.bool_)
 
-    def long(self) -> Any:
-        return self.to(np.int64)
-
-    def int(self) -> Any:
-        return self.to(np.int32)
-
     def numel(self) -> Any:
         return np.ndarray.size.__get__(self)
 
@@ -107,9 +101,6 @@ class Tensor(np.ndarray):
     def reshape(self, *shape: Any, **_: Any) -> Any:
         wanted = shape[0] if len(shape) == 1 and not isinstance(shape[0], int_types) else shape
         return np.ndarray.reshape(self, tuple(wanted))
-
-    def movedim(self, source: Any, target: Any) -> Any:
-        return np.moveaxis(self, source, target)
 
     def flatten(self, start_dim: Any = 0, end_dim: Any = -1) -> Any:
         start, end = start_dim % self.ndim, end_dim % self.ndim
@@ -132,9 +123,6 @@ class Tensor(np.ndarray):
 
     def unbind(self, dim: Any = 0) -> Any:
         return tuple(np.moveaxis(self, dim, 0))
-
-    def chunk(self, chunks: Any, dim: Any = 0) -> Any:
-        return tuple(np.array_split(self, chunks, dim))
 
     def flip(self, *dims: Any) -> Any:
         return np.flip(self, dims)
@@ -163,32 +151,11 @@ class Tensor(np.ndarray):
     def exp(self) -> Any:
         return np.exp(self)
 
-    def log(self) -> Any:
-        return np.log(self)
-
-    def sin(self) -> Any:
-        return np.sin(self)
-
-    def cos(self) -> Any:
-        return np.cos(self)
-
-    def acos(self) -> Any:
-        return np.arccos(self)
-
-    def sign(self) -> Any:
-        return np.sign(self)
-
     def isfinite(self) -> Any:
         return np.isfinite(self)
 
-    def isnan(self) -> Any:
-        return np.isnan(self)
-
     def masked_fill(self, mask: Any, value: Any) -> Any:
         return where(mask, value, self)
-
-    def lerp(self, end: Any, weight: Any) -> Any:
-        return lerp(self, end, weight)
 
     # along a dimension
 
@@ -289,10 +256,6 @@ def where(condition: Any, one: Any, other: Any) -> Any:
 def nonzero(values: Any) -> Any:
     """Indices [N, D] of what is not zero."""
     return _wrapped(np.argwhere(values))
-
-
-def searchsorted(ordered: Any, values: Any) -> Any:
-    return _wrapped(np.searchsorted(ordered, values))
 
 
 def lerp(start: Any, end: Any, weight: Any) -> Any:
