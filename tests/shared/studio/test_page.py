@@ -3,9 +3,12 @@
 import base64
 import json
 import re
+import time
 from collections.abc import Iterator
 from dataclasses import replace
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
+from threading import Thread
 from typing import Any
 
 import numpy as np
@@ -162,6 +165,11 @@ def with_blocks(browser: Browser, *blocks: tuple[str, float]) -> None:
     browser.evaluate(f"studio.history.change({{ blocks: {json.dumps(rows)}, path: null }})")
 
 
+PAYLOADS = (
+    "<img src=x onerror=globalThis.hacked=1>",
+    '"><svg/onload=globalThis.hacked=1>',
+    "javascript:globalThis.hacked=1//../../etc",
+)
 BVH = """HIERARCHY
 ROOT {}
 {{
@@ -242,12 +250,17 @@ def test_a_clip_of_another_skeleton_is_brought_onto_ours(browser: Browser, tmp_p
 @BROWSER
 def test_hostile_words_do_nothing(browser: Browser, tmp_path: Path) -> None:
     before = browser.evaluate("document.querySelectorAll('*').length")
-    for text in HOSTILE:
+    for text in (*HOSTILE, *PAYLOADS):
         with_blocks(browser, (text, 1))
         browser.evaluate("studio.warn()")
         bvh = BVH.format(text.replace(" ", ""))
         said = opened(browser, f"{text}.bvh", bvh.encode("utf-8", "replace"))
         assert "does not know" in said or "BVH" in said
+    made(browser, f"{{ blocks: [{{ text: {json.dumps(PAYLOADS[0])}, seconds: 1 }}], seed: 0 }}")
+    said = browser.evaluate("document.getElementById('stage').getAttribute('aria-label')")
+    assert PAYLOADS[0] in said
+    name = browser.evaluate("studio.fileName('bvh')")
+    assert re.fullmatch(r"[\w-]+\.bvh", name)
     with_blocks(browser, ("", 1))
     browser.evaluate("studio.warn()")
     assert browser.evaluate("document.querySelectorAll('*').length") == before
@@ -258,6 +271,39 @@ def test_hostile_words_do_nothing(browser: Browser, tmp_path: Path) -> None:
     browser.wait("!studio.making", 60)
     assert browser.evaluate("studio.scene.seed") == 0
     assert browser.problems == []
+
+
+@BROWSER
+def test_the_browser_refuses_whatever_the_page_would_send(browser: Browser) -> None:
+    heard: list[str] = []
+
+    class Listener(BaseHTTPRequestHandler):
+        def do_GET(self) -> None:
+            heard.append(self.path)
+            self.send_error(404)
+
+        do_POST = do_GET
+
+    with ThreadingHTTPServer(("127.0.0.1", 0), Listener) as server:
+        Thread(target=server.serve_forever, daemon=True).start()
+        place = f"127.0.0.1:{server.server_port}"
+        browser.evaluate(f"""(async () => {{
+            const tried = [fetch("http://{place}/fetch", {{ mode: "no-cors" }})];
+            navigator.sendBeacon("http://{place}/beacon", "x");
+            new Image().src = "http://{place}/image";
+            try {{ new WebSocket("ws://{place}/socket"); }} catch {{}}
+            const address = '"http://{place}/worker", {{ mode: "no-cors" }}';
+            const text = `fetch(${{address}}).finally(() => postMessage(0))`;
+            const worker = new Worker(URL.createObjectURL(new Blob([text])));
+            tried.push(new Promise((done) => {{ worker.onmessage = worker.onerror = done; }}));
+            await Promise.allSettled(tried);
+        }})()""")
+        time.sleep(0.5)
+        server.shutdown()
+    assert heard == []
+    refused = " ".join(browser.problems)
+    assert "Content Security Policy" in refused and place in refused
+    browser.problems.clear()
 
 
 @BROWSER
