@@ -8,6 +8,7 @@ import io
 import math
 import zipfile
 from collections.abc import Iterable, Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import IO
 
@@ -135,16 +136,28 @@ def _member(
         return _array(stream, info.file_size, f"array {name!r}", max_values)
 
 
+_READERS = {
+    (1, 0): np.lib.format.read_array_header_1_0,
+    (2, 0): np.lib.format.read_array_header_2_0,
+}
+
+
+@lru_cache(
+    256
+)  # arrays of one kind are described alike, and reading that takes a third of the time
+def _described(version: tuple[int, int], header: bytes) -> tuple[tuple[int, ...], bool, np.dtype]:
+    """Shape, order and type of the numbers of an array."""
+    return _READERS[version](io.BytesIO(header), max_header_size=_MAX_HEADER)
+
+
 def _array(stream: IO[bytes], size: int, what: str, max_values: int) -> np.ndarray:
     """An array in NPY form of `size` bytes, header included."""
     version = np.lib.format.read_magic(stream)
-    reader = {
-        (1, 0): np.lib.format.read_array_header_1_0,
-        (2, 0): np.lib.format.read_array_header_2_0,
-    }.get(version)
-    if reader is None:
+    if version not in _READERS:
         raise BadArray(f"{what} has version {version} of the NPY form")
-    shape, fortran, dtype = reader(stream, max_header_size=_MAX_HEADER)
+    length = stream.read(2 * version[0])
+    header = stream.read(min(int.from_bytes(length, "little"), _MAX_HEADER + 1))
+    shape, fortran, dtype = _described(version, length + header)
     if dtype.hasobject or dtype.kind not in "biufUS":
         raise BadArray(
             f"{what} holds Python objects ({dtype}), which are never loaded: they can run code;"
