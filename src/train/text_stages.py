@@ -24,7 +24,7 @@ from torch import Tensor
 from ..shared.config_schema import ClipConfig, NetworkConfig, TrainConfig
 from ..shared.data.captions.word_dropout import insert_babble
 from ..shared.data.prepare import open_data
-from ..shared.data.prepared import PreparedData
+from ..shared.data.prepared import ClipRecord, PreparedData
 from ..shared.data.streamed import StreamedData, StreamedSet
 from ..shared.data.text_motion import (
     CaptionedWindows,
@@ -82,11 +82,11 @@ def _enough() -> Iterator[None]:
 
 
 def training_set(
-    config: TrainConfig, data: PreparedData, actions: Collection[str] | None = None
+    config: TrainConfig, data: PreparedData, only: Callable[[ClipRecord], bool] | None = None
 ) -> TextMotionDataset:
-    """The train split, or its clips of these actions; raises UserError when none can be used."""
+    """The clips of the train split (that `only` admits); raises UserError when none can be used."""
     with _enough():
-        return split_set(config, data, "train", actions)
+        return split_set(config, data, "train", only)
 
 
 def training_clips(config: TrainConfig, data: PreparedData) -> CaptionedWindows:
@@ -125,7 +125,10 @@ def can_retrieve(number: int) -> bool:
 
 
 def split_set(
-    config: TrainConfig, data: PreparedData, split: str, actions: Collection[str] | None = None
+    config: TrainConfig,
+    data: PreparedData,
+    split: str,
+    only: Callable[[ClipRecord], bool] | None = None,
 ) -> TextMotionDataset:
     """One split as the configuration wants it; raises ValueError when nothing in it fits."""
     return TextMotionDataset(
@@ -136,7 +139,7 @@ def split_set(
         languages=config.languages,
         balance=config.balance,
         captured_share=config.captured_share,
-        actions=actions,
+        only=only,
         seed=mix_seed("data", config.seed),
     )
 

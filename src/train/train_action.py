@@ -7,13 +7,14 @@ its own, and the tower learns to send the clips' captions there and all other se
 sent them before. Then low-rank adapters (Hu et al. 2022, LoRA) learn what is at the new place. They
 are open for texts that come out there and closed for all others: of what the model knew, nothing
 changes. No clip that it was trained on is needed. With `actions=` it is known actions that are
-learned better, in adapters at the places that they have.
+learned better, in adapters at the places that they have; with `styles=` those of their clips in
+these styles, at places where nothing else comes out.
 
 Letters: B batch, T frames, R rows of a frame, P places, D shared dimensions.
 """
 
 import copy
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -76,6 +77,7 @@ class TrainActionConfig(TrainConfig):
     constraints: ConstraintShares = ConstraintShares()  # of networks with generation.constraints
     tower_steps: int = Field(300, ge=1)  # of the text tower, before the motion
     actions: tuple[str, ...] = ()  # known ones, to be learned better; none: what is new
+    styles: tuple[str, ...] = ()  # of those actions, to be learned better; none: all
 
 
 @dataclass(frozen=True)
@@ -109,7 +111,7 @@ class ActionTask(Task):
         known = set(self.before.card.tags)
         self.actions = config.actions or tuple(sorted(set(self.data.tags) - known))
         self._check()
-        self.train = training_set(config, self.data, self.actions)
+        self.train = training_set(config, self.data, self._learns)
         self.tags = (
             self.before.card.tags if config.actions else (*self.before.card.tags, *self.actions)
         )
@@ -124,6 +126,12 @@ class ActionTask(Task):
         )
         self.compute = choose_compute(config.device, config.precision)
         self.figures: dict[str, float] = {}
+
+    def _learns(self, record: ClipRecord) -> bool:
+        """Whether this clip is to be learned."""
+        if record.tag not in self.actions:
+            return False
+        return not self.config.styles or record.labels.get("style") in self.config.styles
 
     def _check(self) -> None:
         if unknown := sorted(set(self.config.actions) - set(self.before.card.tags)):
@@ -173,29 +181,48 @@ class ActionTask(Task):
 
     def _known_tower(self) -> tuple[TextTower, dict[str, Tensor]]:
         """The tower as it is; and for every group the place [D] that most of its captions go to, or
-        else most of its action's."""
+        else most of its action's. With `styles` groups that share theirs with others are left out.
+
+        Raises:
+            UserError: none is left.
+        """
         before = self.before.text
         places = before.get_buffer("places").float()
-        groups = {record.group: record for record in self.train.records}
-        nearest = {
-            group: (
-                encode_captions(before, self.before.tokenizer, self._captions(record)) @ places.T
-            ).argmax(-1)
-            for group, record in groups.items()
-        }
+
+        def nearest(records: Iterable[ClipRecord]) -> dict[str, Tensor]:
+            groups = {record.group: record for record in records}
+            return {
+                group: (
+                    encode_captions(before, self.before.tokenizer, self._captions(record))
+                    @ places.T
+                ).argmax(-1)
+                for group, record in groups.items()
+            }
+
+        mine = nearest(self.train.records)
+        tags = {record.group: record.tag for record in self.train.records}
         found = {}
-        for group, record in groups.items():
-            own = nearest[group]
+        for group, own in mine.items():
             if (own == own.mode().values).float().mean() < MOST:
-                own = torch.cat([nearest[g] for g, r in groups.items() if r.tag == record.tag])
-            found[group] = places[own.mode().values]
-        return before, found
+                own = torch.cat([mine[g] for g, tag in tags.items() if tag == tags[group]])
+            found[group] = int(own.mode().values)
+        if self.config.styles:
+            others = (r for r in self.data.records("train") if r.labels and r.group not in found)
+            found = unshared(found, nearest(others).values())
+            if not found:
+                raise UserError(
+                    f"styles={','.join(self.config.styles)}: no clip of {', '.join(self.actions)}"
+                    f" in {self.config.data} has them at a place of its own"
+                )
+            announce(f"learning {', '.join(sorted(found))}")
+            self.train = training_set(self.config, self.data, lambda r: r.group in found)
+        return before, {group: places[place] for group, place in found.items()}
 
     def _captions(self, record: ClipRecord) -> list[str]:
         """Of every clip of its group, in every language."""
         texts = {
             text
-            for other in self.train.records
+            for other in self.data.records("train")
             if other.group == record.group
             for some in self.data.captions(other).values()
             for text in some
@@ -352,6 +379,12 @@ class ActionTask(Task):
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """A folder that `generate --model` reads."""
         self._generator(module).save_pretrained(folder)
+
+
+def unshared(places: dict[str, int], others: Iterable[Tensor]) -> dict[str, int]:
+    """The groups to whose place most captions of none of `others` (nearest places [N]) go."""
+    taken = {int(each.mode().values) for each in others}
+    return {group: place for group, place in places.items() if place not in taken}
 
 
 def old_captions(actions: Sequence[str], languages: Sequence[str]) -> list[str]:

@@ -65,6 +65,7 @@ from .text_stages import (
 
 OLD_CAPTIONS = 8  # of each combination and language, whose mean is its place
 PAIR_WIDTH = 64  # of the hidden states of a tower of token pairs
+WRITTEN = 0.5  # of the draws of a combination, at least, are hand-written where there are some
 HEADS = 0.3  # weight of the labels beside the place, from nothing
 SAME_PLACE = 0.9999  # cosine of two unit places that are one
 HELD_BACK_SEED = 1  # of the captions that validation reads; training reads those of seed 2
@@ -155,6 +156,11 @@ class TextTask(Task):
         if bundle is not None and config.tower == PAIRS:
             self.labels = with_sentences(self.labels, packaged_book().combinations())
         self.groups = sorted(self.labels)
+        book = packaged_book()
+        self.sentences = [
+            {code: book.language(code).sentences(self.labels[group]) for code in config.languages}
+            for group in self.groups
+        ]
         self.shares = self._shares()
         self.fresh = self._captions(HELD_BACK_SEED + 1, config.captions_per_group)
         self.held_back = self._captions(HELD_BACK_SEED, 2)
@@ -219,10 +225,14 @@ class TextTask(Task):
         bundle.clip.text, bundle.clip.config = tower, network
 
     def _shares(self) -> np.ndarray:
-        """How often a combination is drawn [G]: an action of n combinations weighs sqrt(n)."""
+        """How often a combination is drawn [G]: an action of n combinations weighs sqrt(n), and in
+        it one of m hand-written sentences sqrt(1 + m)."""
         actions = [self.labels[group].get("action") for group in self.groups]
-        number = Counter(actions)
-        weights = np.array([number[action] ** -0.5 for action in actions])
+        written = np.array([1 + sum(map(len, each.values())) for each in self.sentences]) ** 0.5
+        weights = np.zeros(len(actions))
+        for action, number in Counter(actions).items():
+            own = np.array([each == action for each in actions])
+            weights[own] = number**0.5 * written[own] / written[own].sum()
         return np.asarray(weights / weights.sum())
 
     def _captions(self, seed: int, num: int, *, whole: bool = True) -> list[dict[str, list[str]]]:
@@ -308,6 +318,8 @@ class TextTask(Task):
         for group in chosen:
             by_language = self.fresh[group]
             language = config.languages[rng.integers(len(config.languages))]
+            if rng.random() < WRITTEN and self.sentences[group][language]:
+                by_language = self.sentences[group]
             if not by_language.get(language):
                 language = next(iter(by_language))
             if self.read_once:

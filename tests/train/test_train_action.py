@@ -23,7 +23,7 @@ from src.shared.formats.writers.bvh import write_bvh
 from src.shared.model.generation.motion_generator import SampleRequest, TextToMotion, sample_batch
 from src.train.engine import Trainer
 from src.train.text_stages import as_features
-from src.train.train_action import ActionTask, TrainActionConfig, network_of
+from src.train.train_action import ActionTask, TrainActionConfig, network_of, unshared
 from src.train.train_text import TextTask, TrainTextConfig
 
 OLD = ["a person walks forward", "someone waves with the left hand", "she jumps"]
@@ -142,6 +142,23 @@ def test_a_known_action_is_learned_better_where_it_is(model: Path, tmp_path: Pat
         ActionTask(
             action_config(data, model, tmp_path / "x", "actions=[sing]"), network_of(str(model))
         )
+
+
+def test_a_style_is_learned_better_where_nothing_else_comes_out(
+    model: Path, tmp_path: Path
+) -> None:
+    """Refused where the same words ask for another style."""
+    others = [torch.tensor([4, 4, 7]), torch.tensor([2])]
+    assert unshared({"sad": 7, "angry": 4, "proud": 2}, others) == {"sad": 7}
+    prepared_clips(tmp_path, "bow", ["a person bows"])
+    rows = [f"take{n},bow,{'sad' if n < 3 else ''},a person bows" for n in range(6)]
+    (tmp_path / "captions.csv").write_text("\n".join(["clip,action,style,caption", *rows]))
+    source = MotionFolder.open(tmp_path / "clips", captions=[tmp_path / "captions.csv"])
+    prepare([source], tmp_path / "both", workers=1)
+    wanted = ("actions=[bow]", "styles=[sad]")
+    config = action_config(tmp_path / "both", model, tmp_path / "x", *wanted)
+    with pytest.raises(UserError, match="place of its own"):
+        ActionTask(config, network_of(str(model)))
 
 
 def test_a_tower_taught_anew_opens_the_adapters(model: Path, tmp_path: Path) -> None:

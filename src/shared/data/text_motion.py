@@ -6,7 +6,7 @@ shortened. B batch, T frames; features are those of motion/features.py.
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -181,7 +181,7 @@ class TextMotionDataset(CaptionedWindows):
         languages: tuple[str, ...] = ("en", "es", "fr", "de", "ja", "zh"),
         balance: float = 0.5,
         captured_share: float = 0.0,
-        actions: Collection[str] | None = None,
+        only: Callable[[ClipRecord], bool] | None = None,
         seed: int = 0,
     ) -> None:
         """Select the records of a split.
@@ -193,7 +193,7 @@ class TextMotionDataset(CaptionedWindows):
                 w^(1-balance)).
             captured_share: of the draws of an action, at least so many go to its captured clips,
                 where there are any: ten thousand procedural ones would drown six.
-            actions: no clips of others, if given.
+            only: clips that it says no to are left out, if given.
 
         Raises:
             ValueError: no clip of the split is long enough or has a caption in `languages`.
@@ -204,7 +204,7 @@ class TextMotionDataset(CaptionedWindows):
         self.records = [
             record
             for record in data.records(split)
-            if self._is_usable(record) and (actions is None or record.tag in actions)
+            if self._is_usable(record) and (only is None or only(record))
         ]
         if not self.records:
             raise ValueError(

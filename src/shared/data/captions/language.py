@@ -114,7 +114,7 @@ class CaptionLanguage:
         these labels. The hand-written requests that models are measured by are never among them.
         """
         plan = self._plan(self._key(labels))
-        whole = self._sentences.get(self._key(spoken_labels(labels)), [])
+        whole = self.sentences(labels)
         whole = rng.sample(whole, min(len(whole), num // 2 if whole_sentences else 0))
         found = {normalised(text): text for text in whole}
         for _ in range(30 * num):
@@ -124,6 +124,10 @@ class CaptionLanguage:
             if normalised(text) not in requested(self.code):
                 found.setdefault(normalised(text), text)
         return list(found.values())
+
+    def sentences(self, labels: Labels) -> list[str]:
+        """The hand-written training sentences of these labels, and mirror images of others."""
+        return self._sentences.get(self._key(spoken_labels(labels)), [])
 
     def sentence_keys(self) -> list[tuple[tuple[str, str], ...]]:
         """Label sets that have whole sentences, as sorted pairs."""
