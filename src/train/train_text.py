@@ -65,7 +65,6 @@ from .text_stages import (
 
 OLD_CAPTIONS = 8  # of each combination and language, whose mean is its place
 PAIR_WIDTH = 64  # of the hidden states of a tower of token pairs
-WRITTEN = 0.5  # of the draws of a combination, at least, are hand-written where there are some
 HEADS = 0.3  # weight of the labels beside the place, from nothing
 SAME_PLACE = 0.9999  # cosine of two unit places that are one
 HELD_BACK_SEED = 1  # of the captions that validation reads; training reads those of seed 2
@@ -78,6 +77,9 @@ class TrainTextConfig(TrainTowerConfig):
     generator: str | None = None  # a generator that gets the hardened tower in the output
     captions_per_group: int = Field(64, ge=1)  # fresh ones, of each combination and language
     word_dropout: float = Field(0.05, ge=0, lt=1)
+    written: float = Field(
+        0.5, ge=0, le=1
+    )  # least share of hand-written sentences, where there are
     babble: float = Field(0.6, ge=0, le=1)  # share of captions with made-up words in them
     scale: float = Field(15.0, gt=0)  # factor on the cosines of the classification term
     unstyled_as_captured: bool = False  # plain words ask for what captured clips show in styles
@@ -159,6 +161,8 @@ class TextTask(Task):
         book = packaged_book()
         self.sentences = [
             {code: book.language(code).sentences(self.labels[group]) for code in config.languages}
+            if config.written
+            else {}
             for group in self.groups
         ]
         self.shares = self._shares()
@@ -318,7 +322,7 @@ class TextTask(Task):
         for group in chosen:
             by_language = self.fresh[group]
             language = config.languages[rng.integers(len(config.languages))]
-            if rng.random() < WRITTEN and self.sentences[group][language]:
+            if rng.random() < config.written and self.sentences[group].get(language):
                 by_language = self.sentences[group]
             if not by_language.get(language):
                 language = next(iter(by_language))

@@ -39,7 +39,13 @@ def test_more_captions_land_on_their_place(prepared: Path, tmp_path: Path) -> No
     clip = tmp_path / "clip"
     train_clip(clip_config(prepared, clip, "steps=30"))
     config = text_config(
-        prepared, clip, tmp_path / "hard", "steps=150", "batch-size=32", "learning-rate=0.003"
+        prepared,
+        clip,
+        tmp_path / "hard",
+        "steps=150",
+        "batch-size=32",
+        "learning-rate=0.003",
+        "written=0",
     )
     before = TextTask(config, tiny_network())
     first = before.validation(before.module)["right"]
@@ -71,7 +77,7 @@ def test_a_generator_gets_a_tower_of_token_pairs(prepared: Path, tmp_path: Path)
     train_clip(clip_config(prepared, clip, "steps=30"))
     train_generation(generation_config(prepared, clip, made, "steps=2"))
     settings = ("tower=pairs", "choice-weight=2", "least-captions=2", "captions-per-group=24")
-    size = ("steps=80", "batch-size=64", "learning-rate=0.03")
+    size = ("steps=80", "batch-size=64", "learning-rate=0.03", "written=0")
     config = text_config(prepared, made, hard, *settings, *size)
     before = TextTask(config, tiny_network())
     first = before.validation(before.module)["right"]
@@ -144,3 +150,8 @@ def test_actions_of_few_combinations_are_drawn_as_often(prepared: Path, tmp_path
     most, least = max(numbers, key=numbers.__getitem__), min(numbers, key=numbers.__getitem__)
     ratio = numbers[most] / numbers[least]
     assert shares[most] / shares[least] == pytest.approx(ratio**0.5)
+    written = [1 + sum(map(len, some.values())) for some in task.sentences]
+    rows = [i for i, v in enumerate(task.labels[g] for g in task.groups) if v["action"] == "walk"]
+    few, many = (choose(rows, key=written.__getitem__) for choose in (min, max))
+    odds = (written[many] / written[few]) ** 0.5
+    assert odds > 1 and task.shares[many] / task.shares[few] == pytest.approx(odds)

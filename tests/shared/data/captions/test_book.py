@@ -154,3 +154,4 @@ def test_whole_sentences_are_half_of_the_captions(tmp_path: Path) -> None:
     assert not any("palm" in text for text in both)
     once = {"action": "wave", "side": "left", "count": "1", "speed": "normal"}
     assert "left palm up and shake" in english.captions(once, 6, random.Random(0))
+    assert len(english.sentences(once)) == 3 and english.sentences({"action": "sing"}) == []
