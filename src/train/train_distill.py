@@ -255,8 +255,8 @@ class DistillTask(Task):
     def _at(self, pairs: Pairs, chosen: Tensor) -> DistillBatch:
         """The states with these numbers [B]."""
         seen = pairs.states[torch.arange(len(chosen)), chosen]
-        kept = (getattr(pairs, field.name) for field in fields(Sampled))
-        return DistillBatch(*kept, seen, torch.tensor(self.steps)[chosen])
+        kept = {field.name: getattr(pairs, field.name) for field in fields(Sampled)}
+        return DistillBatch(**kept, seen=seen, timesteps=torch.tensor(self.steps)[chosen])
 
     # ------------------------------------------------------------ learning
 

@@ -457,7 +457,7 @@ def _unpacked(arrays: Mapping[str, np.ndarray]) -> list[Motion]:
     quaternions[:, 0] = quaternion_multiply(yaw, quaternions[:, 0])
     whole = (quaternions.float().numpy(), place[:, :3], arrays["contacts"])
     each = (np.split(values.astype(np.float32), cuts) for values in whole)
-    return [Motion(*own, FPS) for own in zip(*each, strict=True)]
+    return [Motion(q, p, c, fps=FPS) for q, p, c in zip(*each, strict=True)]
 
 
 # ---------------------------------------------------------------- where the counts fall
