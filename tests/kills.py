@@ -1,6 +1,6 @@
 """kill -9 at random moments: is what goes on afterwards the very bytes of an uninterrupted run?
 
-python -m tests.kills [--kills 20] [--seed 0] [--only NAME]
+python -m tests.kills [--kills 20] [--seed 0] [--workers 1] [--only NAME]
 
 Each subject works in a process forked from this one, which has imported everything, so that a
 random moment falls into the work. It is killed, with whatever it started, at a random moment and
@@ -36,8 +36,12 @@ from tiny_stage import clip_config, generation_config, train_clip, train_generat
 Subject = Callable[[Path], object]
 
 
-def subjects(folder: Path) -> dict[str, Subject]:
-    """What is killed, by name; what they read is made first."""
+def subjects(folder: Path, workers: int) -> dict[str, Subject]:
+    """What is killed, by name; what they read is made first.
+
+    Args:
+        workers: of prepare; several take seconds to start, in which there is little to spoil.
+    """
     preparation.CLIPS_PER_SHARD, build.CHUNK = 12, 8
     data, clip = folder / "data", folder / "clip"
     preparation.prepare([SyntheticSource(120)], data, workers=1)
@@ -47,7 +51,7 @@ def subjects(folder: Path) -> dict[str, Subject]:
     more = ("steps=24", "log-every=2", "save-every=3", "validate-every=8")
     stream = (*more, "stream=true")
     return {
-        "prepare": lambda out: preparation.prepare([SyntheticSource(120)], out, workers=2),
+        "prepare": lambda out: preparation.prepare([SyntheticSource(120)], out, workers=workers),
         "train clip": lambda out: train_clip(clip_config(data, out, *more), resume=True),
         "train clip, streamed": lambda out: train_clip(
             clip_config(data, out, *stream), resume=True
@@ -141,10 +145,11 @@ def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--kills", type=int, default=20, help="of each subject")
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--workers", type=int, default=1, help="of prepare")
     parser.add_argument("--only", help="one subject")
     given = parser.parse_args(arguments)
     with tempfile.TemporaryDirectory(prefix="kills-") as name:
-        found = subjects(Path(name))
+        found = subjects(Path(name), given.workers)
         for subject, work in found.items():
             if given.only in (None, subject):
                 folder = Path(name, subject.replace(" ", "-") + "-runs")
