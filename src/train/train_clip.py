@@ -18,13 +18,13 @@ import torch
 import torch.distributed
 from torch import Tensor, nn
 
-from ..shared.config_schema import NetworkConfig, TrainClipConfig
+from ..shared.config_schema import PAIRS, NetworkConfig, TrainClipConfig
 from ..shared.data.captions.word_dropout import drop_words
 from ..shared.data.text_motion import TextMotionBatch
 from ..shared.errors import UsageError
 from ..shared.metrics.retrieval import BATCH, TOP, guo_retrieval
 from ..shared.model.checkpoint import ModelCard
-from ..shared.model.clip.core import PAIRS, MotionClip, clip_loss
+from ..shared.model.clip.core import MotionClip, clip_loss
 from ..shared.model.clip.pretrained import KIND, ClipBundle, load_text_tower, tower_hash
 from .launch import Stage
 from .task import Part, Task, numpy_generator

@@ -29,7 +29,7 @@ from pydantic import Field
 from torch import Tensor, nn
 from torch.nn.functional import cross_entropy, normalize
 
-from ..shared.config_schema import NetworkConfig, TrainTowerConfig
+from ..shared.config_schema import PAIRS, NetworkConfig, TrainTowerConfig
 from ..shared.data.captions.book import packaged_book
 from ..shared.data.captions.schema import Labels
 from ..shared.data.captions.word_dropout import drop_words, insert_babble
@@ -37,7 +37,6 @@ from ..shared.errors import UserError
 from ..shared.io.files import sha256_file
 from ..shared.model.checkpoint import WEIGHTS_FILE, ModelCard, read_card, resolve_model
 from ..shared.model.clip.core import (
-    PAIRS,
     MotionClip,
     TextTower,
     TokenPairEncoder,

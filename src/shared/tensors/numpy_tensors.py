@@ -45,7 +45,7 @@ class Tensor(np.ndarray):
     """An array that answers to the methods of `torch.Tensor`."""
 
     __array_priority__ = 1.0  # what is joined of these is one, too
-    device = CPU
+    device = CPU  # type: ignore[assignment]
 
     def __hash__(self) -> int:
         return id(self)
@@ -295,7 +295,7 @@ class Module:
     """Something that is called; it has nothing to learn, and is where it is."""
 
     def __init_subclass__(cls) -> None:
-        cls.__call__ = getattr(cls, "forward", None)  # type: ignore[attr-defined]
+        cls.__call__ = getattr(cls, "forward", None)  # type: ignore[method-assign, assignment]
 
     def register_buffer(self, name: str, value: Any, persistent: Any = True) -> None:
         setattr(self, name, value)
