@@ -24,14 +24,13 @@ from pydantic import Field
 from torch import Tensor, nn
 from torch.nn.functional import cross_entropy, kl_div, normalize, pad
 
-from ..shared.config_schema import ConstraintShares, LossWeights, NetworkConfig, TrainConfig
+from ..shared.config_schema import PAIRS, ConstraintShares, LossWeights, NetworkConfig, TrainConfig
 from ..shared.data.captions.book import packaged_book
 from ..shared.data.captions.word_dropout import insert_babble
 from ..shared.data.prepared import ClipRecord
 from ..shared.device import choose_compute
 from ..shared.errors import UsageError, UserError
 from ..shared.model.clip.core import (
-    PAIRS,
     PLACE_SCALE,
     TextTower,
     TokenPairEncoder,
@@ -64,6 +63,7 @@ TOWER_RATE = 2e-2  # of rows that are new
 OLD_ROW_RATE = 0.1  # times that, of the others
 BABBLE = 0.3  # share of new captions with made-up words in them
 LEAST_CLIPS = 2
+SHARED = 0.1  # share of another combination's captions that makes a place theirs, too
 MOST = 0.5  # share of a combination's captions that have to agree on its place
 
 
@@ -333,13 +333,15 @@ class ActionTask(Task):
         assert isinstance(module, GuidedDenoiser)
         before = self.before
         learned = {"from": before.card.name, "actions": list(self.actions),
-                   "steps": self.config.steps, "data": self.data.manifest_hash}  # fmt: skip
+                   "styles": list(self.config.styles), "steps": self.config.steps,
+                   "data": self.data.manifest_hash}  # fmt: skip
+        history = [*before.card.training.get("actions", []), learned]
         update = {
             "name": Path(self.config.output).name,
             "tags": self.tags,
             "description": before.card.description
             + ("" if self.config.actions else f"; and {', '.join(self.actions)}"),
-            "training": {**before.card.training, "actions": learned},
+            "training": {**before.card.training, "actions": history},
         }
         scope = before.scope
         if scope is not None and not self.config.actions:
@@ -382,9 +384,13 @@ class ActionTask(Task):
 
 
 def unshared(places: dict[str, int], others: Iterable[Tensor]) -> dict[str, int]:
-    """The groups to whose place most captions of none of `others` (nearest places [N]) go."""
-    taken = {int(each.mode().values) for each in others}
-    return {group: place for group, place in places.items() if place not in taken}
+    """The groups to whose place few captions of each of `others` (nearest places [N]) go."""
+    others = list(others)
+    return {
+        group: place
+        for group, place in places.items()
+        if all((each == place).float().mean() < SHARED for each in others)
+    }
 
 
 def old_captions(actions: Sequence[str], languages: Sequence[str]) -> list[str]:
