@@ -212,7 +212,7 @@ class ActionTask(Task):
             if not found:
                 raise UserError(
                     f"styles={','.join(self.config.styles)}: no clip of {', '.join(self.actions)}"
-                    f" in {self.config.data} has them at a place of its own"
+                    f" in {self.config.data} has them at a place of its own; name other styles"
                 )
             announce(f"learning {', '.join(sorted(found))}")
             self.train = training_set(self.config, self.data, lambda r: r.group in found)

@@ -31,7 +31,7 @@ def test_the_page_is_written_and_opened(tmp_path: Path, monkeypatch: pytest.Monk
 
 
 def test_other_models_are_refused_with_a_way_on(tmp_path: Path) -> None:
-    for model in ("starter-free", "starter-audio", "nothing"):
+    for model in ("starter-audio", "nothing"):
         result = CliRunner().invoke(
             app, ["studio", "--model", model, "--out", str(tmp_path / "a.html")]
         )

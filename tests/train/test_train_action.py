@@ -27,6 +27,13 @@ from src.train.train_action import ActionTask, TrainActionConfig, network_of, un
 from src.train.train_text import TextTask, TrainTextConfig
 
 OLD = ["a person walks forward", "someone waves with the left hand", "she jumps"]
+PAIRED = (
+    "tower=pairs",
+    "choice-weight=2",
+    "least-captions=2",
+    "captions-per-group=24",
+    "written=0",
+)
 NEW = ["a person flops", "flopping about", "someone flops down"]
 
 
@@ -37,14 +44,7 @@ def model(prepared: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     clip, made, paired = folder / "clip", folder / "made", folder / "paired"
     train_clip(clip_config(prepared, clip, "steps=20"))
     train_generation(generation_config(prepared, clip, made, "steps=2"))
-    settings = (
-        "tower=pairs",
-        "choice-weight=2",
-        "least-captions=2",
-        "captions-per-group=24",
-        "written=0",
-    )
-    given = [*SETTINGS, f"data='{prepared}'", f"clip='{made}'", f"output='{paired}'", *settings]
+    given = [*SETTINGS, f"data='{prepared}'", f"clip='{made}'", f"output='{paired}'", *PAIRED]
     given += ["steps=80", "batch-size=64", "learning-rate=0.03"]
     config = load_train(None, TrainTextConfig, given)
     Trainer(config, lambda c: TextTask(c, tiny_network()), command="again").train()
@@ -173,15 +173,8 @@ def test_a_tower_taught_anew_opens_the_adapters(model: Path, tmp_path: Path) -> 
     data = prepared_clips(tmp_path, "karate", ["she does karate", "karate"], last="bow")
     first = action_config(data, model, tmp_path / "first", "steps=4", "learning-rate=0.05")
     Trainer(first, lambda c: ActionTask(c, network_of(str(model))), command="again").train()
-    settings = (
-        "tower=pairs",
-        "choice-weight=2",
-        "least-captions=2",
-        "captions-per-group=24",
-        "written=0",
-    )
     given = [*SETTINGS, f"data='{data}'", f"clip='{model}'", f"generator='{first.output}'"]
-    given += [*settings, "steps=60", "batch-size=64", "learning-rate=0.03"]
+    given += [*PAIRED, "steps=60", "batch-size=64", "learning-rate=0.03"]
 
     def taught(name: str, *more: str) -> TextToMotion:
         folder = tmp_path / name
@@ -208,6 +201,6 @@ def test_models_that_cannot_learn_say_why(prepared: Path, model: Path, tmp_path:
     with pytest.raises(UserError, match="starter-audio is a"):
         network_of("starter-audio")
     with pytest.raises(UsageError, match="text tower without places"):
-        network_of("starter-free")
+        network_of(str(model.parent / "made"))
     with pytest.raises(UserError, match=r"no action that .* does not know"):
         ActionTask(action_config(prepared, model, tmp_path / "x"), network_of(str(model)))

@@ -9,7 +9,6 @@ Memory holds some shards, the sample, and a few numbers of every shard.
 """
 
 import hashlib
-import json
 import threading
 from collections import OrderedDict
 from collections.abc import Iterator
@@ -22,6 +21,7 @@ from safetensors.torch import load
 from torch import Tensor
 
 from ..errors import UserError
+from ..io.files import parse_json
 from ..io.storage import Backoff, Place, Unreachable, read_blocks, read_range
 from ..motion.features import mirror_features
 from .phrases.layout import BadContent, StoredObject
@@ -88,7 +88,7 @@ class StreamedData(PreparedData):
         at, begun, last, seen = 0, 0, "", set()
         with damaged(self.folder / "clips.jsonl"):
             for line in self.lines():
-                about = json.loads(line)
+                about = parse_json(line)
                 if about["shard"] != last:
                     if about["shard"] in seen:
                         raise ValueError(f"the clips of {about['shard']} are not together")
@@ -147,7 +147,7 @@ class StreamedData(PreparedData):
         """Where the frames begin in a shard: after the header of safetensors."""
         if path.name not in self._starts:
             length = int.from_bytes(read_range(path, 0, 8), "little")
-            about = json.loads(read_range(path, 8, 8 + length))["features"]
+            about = parse_json(read_range(path, 8, 8 + length))["features"]
             if about["dtype"] != "F32":
                 raise ValueError(f"{about['dtype']} instead of F32")
             self._starts[path.name] = 8 + length + about["data_offsets"][0]

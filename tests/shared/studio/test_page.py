@@ -20,6 +20,7 @@ from src.shared.formats.readers.glb import GlbFile
 from src.shared.formats.rig import motion_clip
 from src.shared.formats.writers.bvh import write_bvh, write_bvh_clip
 from src.shared.formats.writers.glb import write_glb, write_glb_clip, write_vrma
+from src.shared.model.checkpoint import resolve_model
 from src.shared.model.diffusion import Sampling
 from src.shared.motion.motion import Motion
 from src.shared.pipelines.edit import chosen_joints, continue_clips, edit_clip
@@ -102,10 +103,16 @@ def test_the_page_needs_nothing_from_elsewhere(page: Path) -> None:
 
 
 def test_models_that_it_cannot_run_are_refused(tmp_path: Path) -> None:
-    for name, line in (("starter-free", "text-model pairs"), ("starter-audio", "starter-audio")):
+    card = (resolve_model("starter-free") / "config.json").read_text()
+    other = tmp_path / "other"
+    other.mkdir()
+    (other / "config.json").write_text(
+        card.replace('"text-model": "pairs"', '"text-model": "small"')
+    )
+    for name, line in ((str(other), "text-model pairs"), ("starter-audio", "starter-audio")):
         with pytest.raises(UserError, match=line):
             write_studio(tmp_path / "a.html", name)
-    assert not list(tmp_path.iterdir())
+    assert list(tmp_path.iterdir()) == [other]
 
 
 @BROWSER
