@@ -77,7 +77,7 @@ class TrainActionConfig(TrainConfig):
     constraints: ConstraintShares = ConstraintShares()  # of networks with generation.constraints
     tower_steps: int = Field(300, ge=1)  # of the text tower, before the motion
     actions: tuple[str, ...] = ()  # known ones, to be learned better; none: what is new
-    styles: tuple[str, ...] = ()  # of those actions, to be learned better; none: all
+    styles: tuple[str, ...] = ()  # of `actions`, to be learned better; none: all
 
 
 @dataclass(frozen=True)
@@ -134,6 +134,19 @@ class ActionTask(Task):
         return not self.config.styles or record.labels.get("style") in self.config.styles
 
     def _check(self) -> None:
+        styles = self.config.styles
+        if styles and not self.config.actions:
+            raise UsageError(
+                f"styles={','.join(styles)} are styles of actions that are known: name them, as in"
+                f" actions=walk styles={styles[0]}"
+            )
+        there = {r.labels.get("style") for r in self.data.records("train") if r.tag in self.actions}
+        if unknown := sorted(set(styles) - there):
+            raise UserError(
+                f"styles={','.join(unknown)}: {self.config.data} has no clip of"
+                f" {', '.join(self.actions)} in that style; it has"
+                f" {', '.join(sorted(filter(None, there))) or 'none'}"
+            )
         if unknown := sorted(set(self.config.actions) - set(self.before.card.tags)):
             raise UserError(
                 f"actions={','.join(unknown)}: {self.config.init} does not know that action; leave"

@@ -64,6 +64,7 @@ from .text_stages import (
 
 OLD_CAPTIONS = 8  # of each combination and language, whose mean is its place
 PAIR_WIDTH = 64  # of the hidden states of a tower of token pairs
+PLAIN = 4.0  # how much more often combinations without a style are drawn
 HEADS = 0.3  # weight of the labels beside the place, from nothing
 SAME_PLACE = 0.9999  # cosine of two unit places that are one
 HELD_BACK_SEED = 1  # of the captions that validation reads; training reads those of seed 2
@@ -181,7 +182,7 @@ class TextTask(Task):
         prefix = "tower." if bundle is None else ""
         self.learning_rates = encoder_rates(tower, prefix, config.encoder_learning_rate)
         self.read_once = bundle is None and 0.0 in self.learning_rates.values()
-        self.rows: dict[tuple[int, str], list[int]] = {}  # of `means`, by combination and language
+        self.rows: dict[tuple[bool, int, str], range] = {}  # of `means`: hand-written, group, code
         self.means = torch.zeros(0)  # z-scored
         self.z_scores: ZScores | None = None
         self.figures: dict[str, float] = {}
@@ -229,9 +230,11 @@ class TextTask(Task):
 
     def _shares(self) -> np.ndarray:
         """How often a combination is drawn [G]: an action of n combinations weighs sqrt(n), and in
-        it one of m hand-written sentences sqrt(1 + m)."""
+        it one of m hand-written sentences sqrt(1 + m), PLAIN times that without a style: the words
+        of plain ones stand in all others, too, and would ask for the middle of the styles."""
         actions = [self.labels[group].get("action") for group in self.groups]
         written = np.array([1 + sum(map(len, each.values())) for each in self.sentences]) ** 0.5
+        written *= [1.0 if "style" in self.labels[group] else PLAIN for group in self.groups]
         weights = np.zeros(len(actions))
         for action, number in Counter(actions).items():
             own = np.array([each == action for each in actions])
@@ -302,14 +305,16 @@ class TextTask(Task):
             self.means = self.z_scores(self.means).half()
 
     def _captions_to_read(self) -> list[str]:
-        """Every fresh caption, as it is and damaged once; fills `rows`."""
+        """Each fresh caption and hand-written sentence, as it is and damaged; fills `rows`."""
         rng = numpy_generator("text", self.config.seed, 0, 0)
         captions: list[str] = []
-        for index, group in enumerate(self.fresh):
-            for language, texts in group.items():
-                both = texts + [self._damaged(text, language, rng) for text in texts]
-                self.rows[index, language] = list(range(len(captions), len(captions) + len(both)))
-                captions += both
+        for written, groups in enumerate((self.fresh, self.sentences)):
+            for index, group in enumerate(groups):
+                for language, texts in group.items():
+                    first = len(captions)
+                    captions += texts
+                    captions += [self._damaged(text, language, rng) for text in texts]
+                    self.rows[bool(written), index, language] = range(first, len(captions))
         return captions
 
     def batch(self, part: Part) -> TextBatch:
@@ -319,14 +324,14 @@ class TextTask(Task):
         chosen = rng.choice(len(self.groups), size=config.batch_size, p=self.shares)
         captions, rows = [], []
         for group in chosen:
-            by_language = self.fresh[group]
             language = config.languages[rng.integers(len(config.languages))]
-            if rng.random() < config.written and self.sentences[group].get(language):
-                by_language = self.sentences[group]
+            draws = rng.random() < config.written
+            written = draws and bool(self.sentences[group].get(language))
+            by_language = (self.sentences if written else self.fresh)[group]
             if not by_language.get(language):
                 language = next(iter(by_language))
             if self.read_once:
-                known = self.rows[int(group), language]
+                known = self.rows[written, int(group), language]
                 rows.append(known[rng.integers(len(known))])
             else:
                 texts = by_language[language]

@@ -165,6 +165,13 @@ def test_a_style_is_learned_better_where_nothing_else_comes_out(
     config = action_config(tmp_path / "both", model, tmp_path / "x", *wanted)
     with pytest.raises(UserError, match="place of its own"):
         ActionTask(config, network_of(str(model)))
+    for given, error, told in (
+        (wanted[1:], UsageError, "actions=walk styles=sad"),
+        ((wanted[0], "styles=[sda]"), UserError, "styles=sda: .* it has sad"),
+    ):
+        config = action_config(tmp_path / "both", model, tmp_path / "y", *given)
+        with pytest.raises(error, match=told):
+            ActionTask(config, network_of(str(model)))
 
 
 def test_a_tower_taught_anew_opens_the_adapters(model: Path, tmp_path: Path) -> None:

@@ -20,7 +20,7 @@ from src.shared.model.clip.pretrained import ClipBundle
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.train.engine import Trainer
 from src.train.task import Part
-from src.train.train_text import TextTask, TrainTextConfig
+from src.train.train_text import PLAIN, TextTask, TrainTextConfig
 
 
 def text_config(data: Path, clip: Path, output: Path, *overrides: str) -> TrainTextConfig:
@@ -151,7 +151,12 @@ def test_actions_of_few_combinations_are_drawn_as_often(prepared: Path, tmp_path
     ratio = numbers[most] / numbers[least]
     assert shares[most] / shares[least] == pytest.approx(ratio**0.5)
     written = [1 + sum(map(len, some.values())) for some in task.sentences]
-    rows = [i for i, v in enumerate(task.labels[g] for g in task.groups) if v["action"] == "walk"]
-    few, many = (choose(rows, key=written.__getitem__) for choose in (min, max))
+    labels = [task.labels[group] for group in task.groups]
+    walks = [row for row, each in enumerate(labels) if each["action"] == "walk"]
+    plain = [row for row in walks if "style" not in labels[row]]
+    few, many = (choose(plain, key=written.__getitem__) for choose in (min, max))
     odds = (written[many] / written[few]) ** 0.5
     assert odds > 1 and task.shares[many] / task.shares[few] == pytest.approx(odds)
+    for row in set(walks) - set(plain):
+        odds = PLAIN * (written[many] / written[row]) ** 0.5
+        assert task.shares[many] / task.shares[row] == pytest.approx(odds)
