@@ -22,6 +22,7 @@ from safetensors.torch import save_file
 from torch import Tensor
 
 from ..shared.config_schema import ClipConfig, NetworkConfig, TrainConfig
+from ..shared.data.captions.book import kept_to_calibrate, packaged_book
 from ..shared.data.captions.word_dropout import insert_babble
 from ..shared.data.prepare import open_data
 from ..shared.data.prepared import ClipRecord, PreparedData
@@ -39,7 +40,7 @@ from ..shared.model.checkpoint import read_card, resolve_model
 from ..shared.model.clip.core import OWN, TextTower
 from ..shared.model.clip.features import TextFeatures
 from ..shared.model.clip.out_of_domain import OutOfDomainDetector, words_of
-from ..shared.model.clip.pretrained import encode_captions, tower_hash
+from ..shared.model.clip.pretrained import encode_captions, place_captions, tower_hash
 from ..shared.model.clip.style_map import StyleMap
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.generation.motion_generator import KIND, TextToMotion
@@ -219,16 +220,16 @@ def fit_scope(
     scope = replace(scope, gestures=gestures(data), arms=arm_actions(data))
     if len(set(scope.actions) - {""}) < 2:  # nothing to take one for another
         return scope
-    return _calibrated(scope, texts, actions, tower, tokenizer)
+    return _calibrated(scope, texts, actions, languages, tower, tokenizer)
 
 
 def _calibrated(
     scope: OutOfDomainDetector,
     texts: list[str],
     actions: list[str],
+    languages: tuple[str, ...],
     tower: TextTower,
     tokenizer: PromptTokenizer,
-    without: Collection[str] = (),
 ) -> OutOfDomainDetector:
     """Texts as they are, with made-up words in them, and with made-up words for what tells."""
     rng = np.random.default_rng(0)
@@ -242,7 +243,33 @@ def _calibrated(
     nearest = [scope.actions[scope.ranked(row)[0]] for row in embeddings @ scope.means.T]
     wanted = [actions[row] for row in chosen] * 2
     right = [is_near == wish for is_near, wish in zip(nearest, wanted, strict=False)]
-    return scope.calibrated(prompts, embeddings, right + [False] * len(empty))
+    scope = scope.calibrated(prompts, embeddings, right + [False] * len(empty))
+    return _warning(scope, languages, tower, tokenizer)
+
+
+def _warning(
+    scope: OutOfDomainDetector,
+    languages: tuple[str, ...],
+    tower: TextTower,
+    tokenizer: PromptTokenizer,
+) -> OutOfDomainDetector:
+    """By the hand-written sentences that no tower trains on, of known actions and of others."""
+    book = packaged_book()
+    wanted: dict[str, str] = {}
+    for code in languages:
+        language = book.language(code)
+        for labels in book.combinations():
+            if (action := labels.get("action", "")) in scope.actions:
+                wanted |= dict.fromkeys(language.sentences(labels), action)
+        wanted |= dict.fromkeys(book.outside(scope.actions, code), "")
+    wanted = {text: action for text, action in wanted.items() if kept_to_calibrate(text)}
+    texts = list(wanted)
+    embeddings, closeness = place_captions(tower, tokenizer, texts)
+    if closeness is None or not any(wanted.values()) or all(wanted.values()):
+        return scope
+    nearest = [scope.actions[scope.ranked(row)[0]] for row in embeddings.numpy() @ scope.means.T]
+    right = [near == action for near, action in zip(nearest, wanted.values(), strict=True)]
+    return scope.with_warnings(texts, embeddings.numpy(), closeness.numpy(), right)
 
 
 def _without_key_words(text: str, scope: OutOfDomainDetector, rng: np.random.Generator) -> str:

@@ -140,13 +140,6 @@ class ActionTask(Task):
                 f"styles={','.join(styles)} are styles of actions that are known: name them, as in"
                 f" actions=walk styles={styles[0]}"
             )
-        there = {r.labels.get("style") for r in self.data.records("train") if r.tag in self.actions}
-        if unknown := sorted(set(styles) - there):
-            raise UserError(
-                f"styles={','.join(unknown)}: {self.config.data} has no clip of"
-                f" {', '.join(self.actions)} in that style; it has"
-                f" {', '.join(sorted(filter(None, there))) or 'none'}"
-            )
         if unknown := sorted(set(self.config.actions) - set(self.before.card.tags)):
             raise UserError(
                 f"actions={','.join(unknown)}: {self.config.init} does not know that action; leave"
@@ -164,6 +157,14 @@ class ActionTask(Task):
                     f"{self.config.data} has {number} clip of {action!r} to train on; prepare at"
                     f" least {LEAST_CLIPS}, better 20"
                 )
+        clips = [r for r in self.data.records("train") if r.tag in self.actions]
+        shown = {r.labels["style"] for r in clips if "style" in r.labels}
+        if unknown := sorted(set(styles) - shown):
+            raise UserError(
+                f"styles={','.join(unknown)}: {self.config.data} has no clip of"
+                f" {', '.join(self.actions)} in that style; it has"
+                f" {', '.join(sorted(shown)) or 'none'}"
+            )
 
     # ------------------------------------------------------------ the text tower
 

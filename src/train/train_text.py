@@ -30,7 +30,7 @@ from torch import Tensor, nn
 from torch.nn.functional import cross_entropy, normalize
 
 from ..shared.config_schema import PAIRS, NetworkConfig, TrainTowerConfig
-from ..shared.data.captions.book import packaged_book
+from ..shared.data.captions.book import kept_to_calibrate, packaged_book
 from ..shared.data.captions.schema import Labels
 from ..shared.data.captions.word_dropout import drop_words, insert_babble
 from ..shared.errors import UserError
@@ -65,6 +65,7 @@ from .text_stages import (
 OLD_CAPTIONS = 8  # of each combination and language, whose mean is its place
 PAIR_WIDTH = 64  # of the hidden states of a tower of token pairs
 PLAIN = 4.0  # how much more often combinations without a style are drawn
+NOWHERE = 0.5  # cosine of the place of what asks for nothing that is known
 HEADS = 0.3  # weight of the labels beside the place, from nothing
 SAME_PLACE = 0.9999  # cosine of two unit places that are one
 HELD_BACK_SEED = 1  # of the captions that validation reads; training reads those of seed 2
@@ -80,6 +81,7 @@ class TrainTextConfig(TrainTowerConfig):
     written: float = Field(
         0.5, ge=0, le=1
     )  # least share of hand-written sentences, where there are
+    outside: float = Field(0.1, ge=0, lt=1)  # share of draws that ask for nothing it knows
     babble: float = Field(0.6, ge=0, le=1)  # share of captions with made-up words in them
     scale: float = Field(15.0, gt=0)  # factor on the cosines of the classification term
     unstyled_as_captured: bool = False  # plain words ask for what captured clips show in styles
@@ -122,8 +124,8 @@ class LabelledTower(nn.Module):
 
 @dataclass(frozen=True)
 class TextBatch:
-    """input_ids, attention_mask [B,L]; group [B] index of the right place; mean [B,H] where a
-    frozen encoder has read the captions already, which then have no ids."""
+    """input_ids, attention_mask [B,L]; group [B] index of the right place, G = none of them; mean
+    [B,H] where a frozen encoder has read the captions already, which then have no ids."""
 
     input_ids: Tensor
     attention_mask: Tensor
@@ -158,13 +160,16 @@ class TextTask(Task):
         if bundle is not None and config.tower == PAIRS:
             self.labels = with_sentences(self.labels, packaged_book().combinations())
         self.groups = sorted(self.labels)
-        book = packaged_book()
+        book, codes = packaged_book(), config.languages
         self.sentences = [
-            {code: book.language(code).sentences(self.labels[group]) for code in config.languages}
+            {code: _taught(book.language(code).sentences(self.labels[group])) for code in codes}
             if config.written
             else {}
             for group in self.groups
         ]
+        known = {labels.get("action", "") for labels in self.labels.values()}
+        told = codes if bundle is not None and config.outside else ()
+        self.outside = {code: _taught(book.outside(known, code)) for code in told}
         self.shares = self._shares()
         self.fresh = self._captions(HELD_BACK_SEED + 1, config.captions_per_group)
         self.held_back = self._captions(HELD_BACK_SEED, 2)
@@ -210,8 +215,9 @@ class TextTask(Task):
         return ClipBundle(clip, tokenizer, mean, std, card)
 
     def _texts(self) -> list[str]:
-        """Every fresh caption."""
-        return [text for group in self.fresh for some in group.values() for text in some]
+        """Every fresh caption, and what asks for something else."""
+        groups = (*self.fresh, self.outside)
+        return [text for group in groups for some in group.values() for text in some]
 
     def _shared_keys(self, tokenizer: PromptTokenizer) -> Tensor:
         """Tokens and pairs of them that enough captions share [N]."""
@@ -248,7 +254,7 @@ class TextTask(Task):
             book.captions(self.labels[group], num=num, seed=seed, whole_sentences=whole)
             for group in self.groups
         )
-        return [{k: v for k, v in captions.items() if k in kept} for captions in found]
+        return [{k: _taught(v) for k, v in captions.items() if k in kept} for captions in found]
 
     def _places(self) -> Tensor:
         """Unit mean [G,D] of each combination's captions under the old tower.
@@ -323,8 +329,13 @@ class TextTask(Task):
         rng = numpy_generator("text", config.seed, part.step, part.index)
         chosen = rng.choice(len(self.groups), size=config.batch_size, p=self.shares)
         captions, rows = [], []
-        for group in chosen:
+        for row, group in enumerate(chosen):
             language = config.languages[rng.integers(len(config.languages))]
+            if self.outside.get(language) and rng.random() < config.outside:
+                chosen[row] = len(self.groups)
+                texts = self.outside[language]
+                captions.append(self._damaged(texts[rng.integers(len(texts))], language, rng))
+                continue
             draws = rng.random() < config.written
             written = draws and bool(self.sentences[group].get(language))
             by_language = (self.sentences if written else self.fresh)[group]
@@ -359,8 +370,12 @@ class TextTask(Task):
             choice, label = module(batch, scale)
             return {"loss": choice + HEADS * label, "choice": choice, "labels": label}
         pooled = module(batch.input_ids, batch.attention_mask).pooled  # [B, D]
-        cosine = 1 - (pooled * self.places[batch.group]).sum(-1).mean()
-        choice = cross_entropy(scale * pooled @ self.places.T, batch.group)
+        cosines = pooled @ self.places.T  # [B, G]
+        outside = batch.group == len(self.places)
+        nowhere = torch.full_like(cosines[:, :1], NOWHERE if self.outside else -torch.inf)
+        choice = cross_entropy(scale * torch.cat((cosines, nowhere), -1), batch.group)
+        own = cosines[~outside].gather(-1, batch.group[~outside, None])
+        cosine = 1 - own.mean()
         loss = cosine + self.config.choice_weight * choice
         return {"loss": loss, "cosine": cosine, "choice": choice}
 
@@ -422,6 +437,11 @@ class TextTask(Task):
             generator.denoiser = with_tower(generator, kept)
             generator.card = generator.card.model_copy(update={"tags": tuple(kept)})
         generator.save_pretrained(folder)
+
+
+def _taught(texts: list[str]) -> list[str]:
+    """Those that training reads; all of them, where none were left."""
+    return [text for text in texts if not kept_to_calibrate(text)] or texts
 
 
 def with_places(tower: TextTower, places: Tensor) -> TextTower:

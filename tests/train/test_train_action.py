@@ -33,6 +33,7 @@ PAIRED = (
     "least-captions=2",
     "captions-per-group=24",
     "written=0",
+    "outside=0",
 )
 NEW = ["a person flops", "flopping about", "someone flops down"]
 

@@ -16,7 +16,8 @@ from tiny_stage import (
 )
 
 from src.shared.config_loader import load_train
-from src.shared.model.clip.pretrained import ClipBundle
+from src.shared.data.captions.book import kept_to_calibrate
+from src.shared.model.clip.pretrained import ClipBundle, place_captions
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.train.engine import Trainer
 from src.train.task import Part
@@ -25,7 +26,9 @@ from src.train.train_text import PLAIN, TextTask, TrainTextConfig
 
 def text_config(data: Path, clip: Path, output: Path, *overrides: str) -> TrainTextConfig:
     settings = [*SETTINGS, f"data='{data}'", f"clip='{clip}'", f"output='{output}'"]
-    return load_train(None, TrainTextConfig, [*settings, "captions-per-group=4", *overrides])
+    return load_train(
+        None, TrainTextConfig, [*settings, "captions-per-group=4", "outside=0", *overrides]
+    )
 
 
 def harden(config: TrainTextConfig) -> TextTask:
@@ -160,3 +163,20 @@ def test_actions_of_few_combinations_are_drawn_as_often(prepared: Path, tmp_path
     for row in set(walks) - set(plain):
         odds = PLAIN * (written[many] / written[row]) ** 0.5
         assert task.shares[many] / task.shares[row] == pytest.approx(odds)
+
+
+def test_sentences_of_other_things_come_near_no_place(prepared: Path, tmp_path: Path) -> None:
+    clip = tmp_path / "clip"
+    train_clip(clip_config(prepared, clip, "steps=3"))
+    size = ("steps=60", "batch-size=64", "learning-rate=0.05", "written=0", "tower=pairs")
+    more = ("outside=0.3", "languages=[en]")
+    task = harden(text_config(prepared, clip, tmp_path / "text", *size, *more))
+    told = task.outside["en"]
+    assert told and not any(map(kept_to_calibrate, told))
+    bundle = ClipBundle.from_pretrained(tmp_path / "text")
+    known = [text for group in task.held_back for text in group.get("en", [])]
+    near, far = (
+        place_captions(bundle.clip.text, bundle.tokenizer, texts)[1] for texts in (known, told)
+    )
+    assert near is not None and far is not None
+    assert near.median() > far.median() + 0.1

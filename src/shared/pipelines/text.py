@@ -229,8 +229,8 @@ class SentenceGenerator:
         if self.generator.scope is None or not text:
             return None
         if text not in self._scoped:
-            embedding = self.generator.encode_prompts([text]).pooled[0].cpu().numpy()
-            self._scoped[text] = self.generator.scope.check(text, embedding)
+            [row] = self.generator.encode_prompts([text]).rows()
+            self._scoped[text] = self.generator.scope.check(text, *row)
         return self._scoped[text]
 
     def _is_whole(self, prompt: str, seconds: float) -> bool:

@@ -47,15 +47,15 @@ export class Scope {
   }
 
   judged(text) {
-    const place = unit(Array.from(this.tower.encode(text)));
+    const { place: embedding, closeness } = this.tower.read(text), place = unit(Array.from(embedding));
     const cosines = this.means.map((mean) => mean.reduce((sum, x, i) => sum + x * place[i], 0));
     const { actions, weights, reliability = {} } = this.meta;
     const ranked = cosines.map((_, row) => row).sort((a, b) => cosines[b] - cosines[a]).filter((row) => actions[row]);
     const words = wordsOf(text);
-    let certainty = this.familiar(words) ? 1 : -1;
-    if (weights) certainty = this.evidence(words, cosines, ranked).reduce((sum, x, i) => sum + x * weights[i], 0);
+    const evidence = this.evidence(words, cosines, ranked), told = this.meta["warning-weights"];
+    let certainty = weights ? dot(evidence, weights) : this.familiar(words) ? 1 : -1;
     if (this.meta["min-cosine"] != null && Math.max(...cosines) >= this.meta["min-cosine"]) certainty = Math.max(certainty, 1);
-    const known = certainty > 0;
+    const known = (told && closeness != null ? dot([closeness, ...evidence], told) : certainty) > 0;
     const nearest = ranked.slice(0, NEAREST).map((row) => actions[row]);
     if (known && nearest.length && (reliability[nearest[0]] ?? 1) < RELIABLE)
       return { known: false, nearest, unreliable: nearest[0], certainty };
@@ -96,6 +96,10 @@ export class Scope {
     }
     return `“${text}” is far from anything this model was trained on; nearest known actions: ${nearest.join(", ")}.`;
   }
+}
+
+function dot(values, weights) {
+  return values.reduce((sum, x, i) => sum + x * weights[i], 0);
 }
 
 function sameStem(first, second) {

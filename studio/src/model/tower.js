@@ -21,6 +21,11 @@ export class TextTower {
 
   /** The embedding of a prompt, unit length. */
   encode(prompt) {
+    return this.read(prompt).place;
+  }
+
+  /** { place, closeness } of a prompt: its embedding, and the cosine with the nearest place before places were mixed. */
+  read(prompt) {
     let found = this.remembered.get(prompt);
     if (!found) {
       found = this.pool(this.mean(this.tokenizer.encode(prompt)));
@@ -57,7 +62,7 @@ export class TextTower {
       for (let i = 0; i < this.width; i++) sum += this.weight[row * this.width + i] * mean[i];
       return sum;
     }));
-    if (!this.places) return Float32Array.from(pooled);
+    if (!this.places) return { place: Float32Array.from(pooled), closeness: null };
     const dim = pooled.length, shares = [];
     for (let at = 0; at < this.places.length; at += dim) {
       let cosine = 0;
@@ -70,7 +75,7 @@ export class TextTower {
     weights.forEach((weight, row) => {
       for (let i = 0; i < dim; i++) place[i] += (weight / total) * this.places[row * dim + i];
     });
-    return Float32Array.from(unit(place));
+    return { place: Float32Array.from(unit(place)), closeness: most / PLACE_SCALE };
   }
 }
 

@@ -1,7 +1,8 @@
 """Captions from labels, in every language that has a caption file, and their mirror image."""
 
 import random
-from collections.abc import Iterable
+import zlib
+from collections.abc import Collection, Iterable
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,15 @@ from ...errors import UserError
 from .language import CaptionLanguage
 from .schema import Labels, validate_language
 
+KEPT = 20
+KIND_OF = {
+    "jog": "run", "hop": "jump", "jump-turn": "jump", "jumping-jacks": "jump", "pivot": "turn",
+    "whirl": "spin", "circle": "walk", "zigzag": "walk", "zombie": "walk", "crouch": "squat",
+    "roundhouse-kick": "kick", "soccer-kick": "kick", "karate": "kick", "stab": "slash",
+    "salsa": "dance", "breakdance": "dance", "indian-dance": "dance", "charleston": "dance",
+    "jackson-dance": "dance", "body-roll": "dance", "fist-pump": "raise", "reach": "raise",
+    "direct-traffic": "guide", "fight-stance": "punch", "taunt": "call", "listen": "respond",
+}  # fmt: skip
 HOW_TO_ADD = (
     "add a caption file with 'language: {code}' and a 'mirror:' table "
     "(the format is described in src/configs/captions/en.yaml)"
@@ -126,6 +136,16 @@ class CaptionBook:
         keys = {key for language in self._languages.values() for key in language.sentence_keys()}
         return [dict(key) for key in sorted(keys)]
 
+    def outside(self, actions: Collection[str], lang: str) -> list[str]:
+        """Hand-written sentences of a language that ask for none of these actions, nor for a kind
+        of one."""
+        language, found = self.language(lang), []
+        for labels in self.combinations():
+            action = labels.get("action", "")
+            if action not in actions and KIND_OF.get(action) not in actions:
+                found += language.sentences(labels)
+        return found
+
     def mirror_text(self, text: str, lang: str) -> str:
         """Text of the mirrored motion: left and right exchanged in all their forms.
 
@@ -133,6 +153,11 @@ class CaptionBook:
             UserError: the language has no mirror table.
         """
         return self.language(lang).mirror(text)
+
+
+def kept_to_calibrate(text: str) -> bool:
+    """One caption in twenty, that a text tower does not train on and its detector learns from."""
+    return zlib.crc32(text.encode()) % KEPT == 0
 
 
 @lru_cache(maxsize=1)

@@ -149,7 +149,8 @@ class TextTower(nn.Module):
             input_ids=input_ids, attention_mask=attention_mask
         ).last_hidden_state  # [B, L, H_text]
         tokens = self.text_proj(hidden)  # [B, L, D]
-        return TextFeatures(self.pool(masked_mean(hidden, mask)), tokens, mask)
+        mean = masked_mean(hidden, mask)
+        return TextFeatures(self.pool(mean), tokens, mask, closeness=self.closeness(mean))
 
     def pool(self, mean: Tensor) -> Tensor:
         """The encoder's mean over a text's tokens [B, H_text] -> [B, D] unit-norm.
@@ -157,12 +158,22 @@ class TextTower(nn.Module):
         With places [P, D], their mean by the probability of each: a denoiser that has learned
         what lies there is never asked for what lies between.
         """
-        pooled = normalize(self.text_proj(mean).float(), dim=-1)
+        pooled = self._embedding(mean)
         if not self.config.text_places or self.training:
             return pooled
         places = self.get_buffer("places").float()
         shares = (PLACE_SCALE * pooled @ places.T).softmax(-1)  # [B, P]
         return normalize(shares @ places, dim=-1)
+
+    def closeness(self, mean: Tensor) -> Tensor | None:
+        """Cosine [B] of the encoder's mean [B, H_text] with the nearest place, before places are
+        mixed; None without places."""
+        if not self.config.text_places or self.training:
+            return None
+        return (self._embedding(mean) @ self.get_buffer("places").float().T).amax(-1)
+
+    def _embedding(self, mean: Tensor) -> Tensor:
+        return normalize(self.text_proj(mean).float(), dim=-1)
 
     def freeze(self) -> "TextTower":
         """Fix the weights and switch dropout off for good (generation training)."""

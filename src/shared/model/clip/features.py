@@ -3,7 +3,10 @@
 Letters: B batch, L tokens, D embed dim.
 """
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+
+import numpy as np
 
 from ...errors import UserError
 from ...tensors import Tensor, torch
@@ -11,27 +14,35 @@ from ...tensors import Tensor, torch
 
 @dataclass(frozen=True)
 class TextFeatures:
-    """Texts as the denoiser sees them: pooled [B, D] unit-norm, tokens [B, L, D], mask [B, L]; and,
-    once it was asked, which of its adapters they open, [B, A] of zeros and ones."""
+    """Texts as the denoiser sees them: pooled [B, D] unit-norm, tokens [B, L, D], mask [B, L]; once
+    it was asked, which of its adapters they open, [B, A] of zeros and ones; and, of a tower with
+    places, their cosine with the nearest one, [B]."""
 
     pooled: Tensor
     tokens: Tensor
     mask: Tensor  # bool, True = real token
     opened: Tensor | None = None
+    closeness: Tensor | None = None
 
     def __len__(self) -> int:
         return len(self.pooled)
 
     def __getitem__(self, rows: Tensor | slice) -> "TextFeatures":
         """The chosen rows of the batch."""
-        opened = None if self.opened is None else self.opened[rows]
-        return TextFeatures(self.pooled[rows], self.tokens[rows], self.mask[rows], opened)
+        return self._each(lambda values: values[rows])
 
     def to(self, device: torch.device | str) -> "TextFeatures":
         """The same on another device."""
-        opened = None if self.opened is None else self.opened.to(device)
-        parts = self.pooled.to(device), self.tokens.to(device), self.mask.to(device)
-        return TextFeatures(*parts, opened)
+        return self._each(lambda values: values.to(device))
+
+    def rows(self) -> Iterator[tuple[np.ndarray, float | None]]:
+        """Of each text its embedding [D] and its closeness, on the CPU."""
+        closeness = [None] * len(self) if self.closeness is None else self.closeness.tolist()
+        yield from zip(self.pooled.cpu().numpy(), closeness, strict=True)
+
+    def _each(self, change: Callable[[Tensor], Tensor]) -> "TextFeatures":
+        parts = (None if each is None else change(each) for each in vars(self).values())
+        return TextFeatures(*parts)  # type: ignore[arg-type]
 
 
 def check_embed_dims(text_dim: int, denoiser_dim: int, where: str) -> None:

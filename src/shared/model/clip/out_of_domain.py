@@ -3,10 +3,14 @@
 What tells is its evidence: how near it lies to an action and how much nearer than to the next one,
 how many of its words training saw, and whether its key words agree with the place it lies at. A
 logistic model of these (`calibrated`) was fitted to prompts whose right action is known: sentences
-that the tower never saw, with words in them that nobody knows, and without their key words, which
-ask for nothing. Without one (older folders) a prompt is known when it has a key word of some
-action, or nothing but trained words that are not all fillers. And an action that a model seldom
-shows when asked is not known, however well the words are understood (`reliability`).
+with words in them that nobody knows, and without their key words, which ask for nothing. Its log
+odds tell how sure an action is, and by them sentences are parted. Whether to warn is told by a
+second one (`with_warnings`), which also sees how near the text came to any place before places were
+mixed: in a tower that trained on sentences of other things too, those come near none (outlier
+exposure, Hendrycks et al. 2019). Where that is not known the first one decides; without any (older
+folders) a prompt is known when it has a key word of some action, or nothing but trained words that
+are not all fillers. And an action that a model seldom shows when asked is not known, however well
+the words are understood (`reliability`).
 
 The key words of an action are a small set of telling words that covers its training captions
 (greedy set cover), so "turn" is one and the "make" of "make a turn" is not. A text tower trained
@@ -45,7 +49,8 @@ NUM_NEAREST = 3
 TWINS = ({"wave", "bye"},)  # one gesture under two names
 RELIABLE = 0.5  # share of tries in which an action has to come out to be known
 SCALE, FIT_STEPS = 20.0, 60  # of the cosines in the classifier of actions; of its optimizer
-FALSE_WARNINGS = 0.03  # share of the prompts it calibrates on that are understood, and warned of
+FALSE_ALARMS = 0.03  # share of the prompts it calibrates on that are understood, and doubted
+FALSE_WARNINGS = 0.05  # of the sentences kept from training that are understood, and warned of
 NEWTON_STEPS, RIDGE = 30, 1e-2
 
 _CJK = re.compile(r"[\u3040-\u30ff\u3400-\u9fff]")
@@ -99,8 +104,10 @@ class OutOfDomainDetector:
         means: [A, D] float32 unit-norm places of the actions among text embeddings.
         false_alarms: share of held-out captions it called unknown.
         min_cosine: for a pretrained text tower, enough on its own; None otherwise.
-        weights: of the evidence, the last one the bias: known where the sum is positive. None =
+        weights: of the evidence, the last one the bias: certain where the sum is positive. None =
             the rule of words alone.
+        warning_weights: of the closeness and of the evidence: known where the sum is positive.
+            None = as certain.
         reliability: share of tries in which each action came out, where that was measured.
         gestures: actions done in place, from hanging arms to hanging arms.
         arms: actions done with the arms alone.
@@ -115,6 +122,7 @@ class OutOfDomainDetector:
     false_alarms: float = 0.0
     min_cosine: float | None = None
     weights: tuple[float, ...] | None = None
+    warning_weights: tuple[float, ...] | None = None
     reliability: Mapping[str, float] = field(default_factory=dict)
     gestures: tuple[str, ...] = ()
     arms: tuple[str, ...] = ()
@@ -185,16 +193,22 @@ class OutOfDomainDetector:
             means=np.concatenate((self.means, place)),
         )
 
-    def check(self, prompt: str, embedding: np.ndarray) -> ScopeResult:
-        """Judge one prompt by its words and its pooled text embedding [D]."""
+    def check(
+        self, prompt: str, embedding: np.ndarray, closeness: float | None = None
+    ) -> ScopeResult:
+        """Judge one prompt by its words, its pooled text embedding [D], and the cosine with the
+        nearest place before places were mixed."""
         cosines = self.means @ _unit(embedding)
+        evidence = self.evidence(prompt, cosines)
         if self.weights is not None:
-            certainty = float(self.evidence(prompt, cosines) @ self.weights)
+            certainty = float(evidence @ self.weights)
         else:
             certainty = 1.0 if self.familiar(prompt) else -1.0
         if self.min_cosine is not None and float(cosines.max()) >= self.min_cosine:
             certainty = max(certainty, 1.0)
         known = certainty > 0
+        if self.warning_weights is not None and closeness is not None:
+            known = float(np.array([closeness, *evidence]) @ self.warning_weights) > 0
         nearest = [self.actions[index] for index in self.ranked(cosines)[:NUM_NEAREST]]
         if known and nearest and self.reliability.get(nearest[0], 1.0) < RELIABLE:
             return ScopeResult(False, nearest, nearest[0], certainty)
@@ -249,22 +263,30 @@ class OutOfDomainDetector:
             embeddings: [N, D].
             right: whether the place of each is that of the action it asks for.
         """
-        cosines = _unit(embeddings) @ self.means.T
-        rows = np.stack([self.evidence(*each) for each in zip(prompts, cosines, strict=True)])
-        wanted = np.asarray(right, float)
-        weights = np.zeros(rows.shape[1])
-        for _ in range(NEWTON_STEPS):
-            chance = 1 / (1 + np.exp(-(rows @ weights).clip(-30, 30)))
-            slope = rows.T @ (wanted - chance) - RIDGE * weights
-            curve = (rows * (chance * (1 - chance))[:, None]).T @ rows
-            weights += np.linalg.solve(curve + RIDGE * np.eye(len(weights)), slope)
-        if wanted.any():
-            weights[-1] -= np.quantile(rows[wanted > 0] @ weights, FALSE_WARNINGS)
-        return replace(self, weights=tuple(weights.tolist()))
+        rows = self._evidence(prompts, embeddings)
+        return replace(self, weights=_logistic(rows, np.asarray(right, float), FALSE_ALARMS))
 
-    def warning(self, prompt: str, embedding: np.ndarray) -> str | None:
+    def with_warnings(
+        self,
+        prompts: Sequence[str],
+        embeddings: np.ndarray,
+        closeness: np.ndarray,
+        right: Sequence[bool],
+    ) -> Self:
+        """The same scope, that warns by closeness [N], too; the rest as of `calibrated`."""
+        rows = np.concatenate((closeness[:, None], self._evidence(prompts, embeddings)), axis=1)
+        weights = _logistic(rows, np.asarray(right, float), FALSE_WARNINGS)
+        return replace(self, warning_weights=weights)
+
+    def _evidence(self, prompts: Sequence[str], embeddings: np.ndarray) -> np.ndarray:
+        cosines = _unit(embeddings) @ self.means.T
+        return np.stack([self.evidence(*each) for each in zip(prompts, cosines, strict=True)])
+
+    def warning(
+        self, prompt: str, embedding: np.ndarray, closeness: float | None = None
+    ) -> str | None:
         """A line for the user when the prompt is far from anything trained, else None."""
-        result = self.check(prompt, embedding)
+        result = self.check(prompt, embedding, closeness)
         if result.known:
             return None
         if result.unreliable is not None:
@@ -341,10 +363,25 @@ class _Meta(BaseModel):
     false_alarms: float
     min_cosine: float | None
     weights: tuple[float, ...] | None = None
+    warning_weights: tuple[float, ...] | None = None
     reliability: dict[str, float] = Field({})
     gestures: tuple[str, ...] = ()
     arms: tuple[str, ...] = ()
     checked: tuple[str, ...] = ()
+
+
+def _logistic(rows: np.ndarray, wanted: np.ndarray, false: float) -> tuple[float, ...]:
+    """Weights [E] of rows [N, E], the last of them 1, whose sum is negative for a share `false` of
+    those that are wanted [N]."""
+    weights = np.zeros(rows.shape[1])
+    for _ in range(NEWTON_STEPS):
+        chance = 1 / (1 + np.exp(-(rows @ weights).clip(-30, 30)))
+        slope = rows.T @ (wanted - chance) - RIDGE * weights
+        curve = (rows * (chance * (1 - chance))[:, None]).T @ rows
+        weights += np.linalg.solve(curve + RIDGE * np.eye(len(weights)), slope)
+    if wanted.any():
+        weights[-1] -= np.quantile(rows[wanted > 0] @ weights, false)
+    return tuple(weights.tolist())
 
 
 def _unit(vectors: np.ndarray) -> np.ndarray:

@@ -22,7 +22,7 @@ from ..checkpoint import (
     wrong_kind,
 )
 from .core import MotionClip, TextTower
-from .features import check_embed_dims
+from .features import TextFeatures, check_embed_dims
 from .tokenizer import TOKENIZER_FOLDER, PromptTokenizer
 
 KIND = "motion-clip"
@@ -118,9 +118,20 @@ def encode_captions(
     tower: TextTower, tokenizer: PromptTokenizer, captions: list[str], *, batch_size: int = 256
 ) -> Tensor:
     """Pooled embeddings [N, D] unit-norm of many captions, float32 on the CPU."""
+    return place_captions(tower, tokenizer, captions, batch_size=batch_size)[0]
+
+
+@torch.no_grad()
+def place_captions(
+    tower: TextTower, tokenizer: PromptTokenizer, captions: list[str], *, batch_size: int = 256
+) -> tuple[Tensor, Tensor | None]:
+    """`encode_captions`, and their cosines with the nearest place [N]; None without places."""
     device = next(tower.parameters()).device
-    parts = []
+    pooled, closeness = [torch.zeros(0, tower.embed_dim)], [torch.zeros(0)]
     for start in range(0, len(captions), batch_size):
         ids, mask = tokenizer(captions[start : start + batch_size])
-        parts.append(tower(ids.to(device), mask.to(device)).pooled.cpu())
-    return torch.cat(parts) if parts else torch.zeros(0, tower.embed_dim)
+        found: TextFeatures = tower(ids.to(device), mask.to(device))
+        pooled.append(found.pooled.cpu())
+        if found.closeness is not None:
+            closeness.append(found.closeness.cpu())
+    return torch.cat(pooled), torch.cat(closeness) if len(closeness) == len(pooled) else None

@@ -198,11 +198,11 @@ class MotionDenoiser(nn.Module):
         """The same texts with the learned null where drop [B] bool is True; what is open stays
         open, so that guidance compares like with like."""
         null = self.null_text(len(text), text.tokens.shape[1])
-        return TextFeatures(
-            torch.where(drop[:, None], null.pooled, text.pooled),
-            torch.where(drop[:, None, None], null.tokens, text.tokens),
-            torch.where(drop[:, None], null.mask, text.mask),
-            text.opened,
+        return replace(
+            text,
+            pooled=torch.where(drop[:, None], null.pooled, text.pooled),
+            tokens=torch.where(drop[:, None, None], null.tokens, text.tokens),
+            mask=torch.where(drop[:, None], null.mask, text.mask),
         )
 
     def with_adapters(self, text: TextFeatures) -> TextFeatures:

@@ -349,9 +349,8 @@ class TextToMotion:
         fresh = [prompt for prompt in dict.fromkeys(prompts) if again or prompt not in self._told]
         if self.scope is None or not fresh:
             return [None] * len(prompts)
-        embeddings = self.encode_prompts(fresh).pooled.cpu().numpy()
-        found = map(self.scope.warning, fresh, embeddings)
-        warnings = dict(zip(fresh, found, strict=True))
+        rows = zip(fresh, self.encode_prompts(fresh).rows(), strict=True)
+        warnings = {prompt: self.scope.warning(prompt, *row) for prompt, row in rows}
         self._told.update(prompts)
         return [warnings.get(prompt) for prompt in prompts]
 

@@ -72,9 +72,10 @@ class TextGraph(nn.Module):
         self.denoiser = denoiser
         self.outputs = ["pooled"] + ["tokens"] * denoiser.uses_tokens
         self.outputs += ["opened"] * bool(denoiser.config.generation.adapter_ranks)
+        self.outputs += ["closeness"] * bool(tower.config.text_places)
 
     def forward(self, input_ids: Tensor, attention_mask: Tensor) -> tuple[Tensor, ...]:
-        """Ids and mask [B, L] -> pooled [B, D], tokens [B, L, D], opened [B, A]."""
+        """Ids and mask [B, L] -> pooled [B, D], tokens [B, L, D], opened [B, A], closeness [B]."""
         features = self.tower(input_ids, attention_mask)
         if "opened" in self.outputs:
             features = replace(features, opened=self.denoiser.opened(features.pooled))

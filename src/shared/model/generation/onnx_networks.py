@@ -44,7 +44,8 @@ class OnnxTextTower(nn.Module):
         mask = attention_mask.bool()
         pooled = found["pooled"]
         alike = pooled[:, None].expand(*mask.shape, self.embed_dim)  # which nobody will hear
-        return TextFeatures(pooled, found.get("tokens", alike), mask, found.get("opened"))
+        tokens, closeness = found.get("tokens", alike), found.get("closeness")
+        return TextFeatures(pooled, tokens, mask, found.get("opened"), closeness)
 
     def state_dict(self, *_: Any, **__: Any) -> dict[str, Tensor]:  # type: ignore[override]
         """The weights, as of PyTorch's tower."""
@@ -113,7 +114,8 @@ class OnnxDenoiser(nn.Module):
 
     def drop_text(self, text: TextFeatures, drop: Tensor) -> TextFeatures:
         """See `MotionDenoiser.drop_text`; all of them are dropped."""
-        return replace(self.null_text(len(text), text.mask.shape[1]), opened=text.opened)
+        null = self.null_text(len(text), text.mask.shape[1])
+        return replace(null, opened=text.opened, closeness=text.closeness)
 
     def null_text(self, batch_size: int, num_tokens: int = 1) -> TextFeatures:
         """See `MotionDenoiser.null_text`."""

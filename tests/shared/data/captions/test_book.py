@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.data.captions.book import CaptionBook
+from src.shared.data.captions.book import CaptionBook, kept_to_calibrate
 from src.shared.data.captions.schema import parse, tidy
 from src.shared.errors import UserError
 
@@ -155,3 +155,21 @@ def test_whole_sentences_are_half_of_the_captions(tmp_path: Path) -> None:
     once = {"action": "wave", "side": "left", "count": "1", "speed": "normal"}
     assert "left palm up and shake" in english.captions(once, 6, random.Random(0))
     assert len(english.sentences(once)) == 3 and english.sentences({"action": "sing"}) == []
+
+
+def test_sentences_of_other_actions_are_outside_unless_they_are_a_kind_of_one(
+    tmp_path: Path,
+) -> None:
+    entries = ((action, f"please {action} now") for action in ("walk", "jog", "swim", "other"))
+    texts = (f"  - labels: {{action: {action}}}\n    text: [{text}]\n" for action, text in entries)
+    (tmp_path / "en.yaml").write_text("language: en\nsentences:\n" + "".join(texts))
+    book = CaptionBook.load(tmp_path)
+    assert book.outside({"walk"}, "en") == [
+        "please jog now", "please other now", "please swim now"
+    ]  # fmt: skip
+    assert book.outside({"walk", "run"}, "en") == ["please other now", "please swim now"]
+
+
+def test_one_sentence_in_twenty_calibrates() -> None:
+    kept = sum(kept_to_calibrate(f"sentence {number}") for number in range(2000))
+    assert 60 < kept < 140

@@ -177,12 +177,35 @@ def test_evidence_is_weighed_where_right_answers_are_known():
     assert not weighed.check("a person jumps", np.array([0.55, 0.5, 0.5])).known
 
 
+def test_what_comes_near_no_place_is_warned_of(scope: OutOfDomainDetector):
+    """Whatever its words; how sure its action is does not change by it."""
+    rng = np.random.default_rng(0)
+    walk = np.eye(len(scope.actions))[scope.actions.index("walk")]
+    texts = ["a person walks"] * 100
+    closeness = np.concatenate((rng.uniform(0.7, 1, 50), rng.uniform(0, 0.5, 50)))
+    right = [True] * 50 + [False] * 50
+    warning = scope.with_warnings(texts, np.tile(walk, (100, 1)), closeness, right)
+    near, far = (warning.check(texts[0], walk, each) for each in (0.9, 0.2))
+    assert (
+        near.known
+        and not far.known
+        and "far from anything" in (warning.warning(texts[0], walk, 0.2) or "")
+    )
+    assert near.certainty == far.certainty == scope.check(texts[0], walk).certainty
+    assert warning.check(texts[0], walk).known  # a tower without places
+    alarms = [not warning.check(t, walk, c).known for t, c in zip(texts, closeness, strict=True)]
+    assert sum(alarms[:50]) <= 3 and all(alarms[50:])
+
+
 def test_weights_survive_saving(scope: OutOfDomainDetector, tmp_path):
-    weighed = scope.calibrated(["walks", "flies"], np.eye(len(scope.means))[:2], [True, False])
+    asked = ["walks", "flies"], np.eye(len(scope.means))[:2]
+    weighed = scope.calibrated(*asked, [True, False])
+    weighed = weighed.with_warnings(*asked, np.array([0.9, 0.1]), [True, False])
     weighed.save_pretrained(tmp_path)
     loaded = OutOfDomainDetector.from_pretrained(tmp_path)
     assert loaded is not None
     assert loaded.weights == weighed.weights
+    assert loaded.warning_weights == weighed.warning_weights
 
 
 def test_an_action_that_seldom_comes_out_is_warned_of(scope: OutOfDomainDetector, tmp_path):

@@ -79,6 +79,8 @@ def test_graphs_compute_what_the_networks_do(
     session = open_graph(tmp_path / "onnx", TEXT_GRAPH, 1)
     outputs = session.run(None, {"input_ids": ids.numpy(), "attention_mask": words.numpy()})
     np.testing.assert_allclose(outputs[0], text.pooled, atol=1e-5)
+    if text.closeness is not None:
+        np.testing.assert_allclose(outputs[-1], text.closeness, atol=1e-5)
 
     graphs = {DENOISER_GRAPH: text}
     if settings.get("adapter_ranks"):
