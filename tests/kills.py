@@ -67,9 +67,9 @@ def subjects(folder: Path, workers: int) -> dict[str, Subject]:
 def start(work: Subject, out: Path, log: Path) -> int:
     """A process that does the work in `out`; its id, which is that of its group."""
     pid = os.fork()
+    os.setpgid(pid, pid)  # in both: it may be killed before it comes to it
     if pid:
         return pid
-    os.setsid()
     with log.open("ab") as stream:
         for number in (1, 2):
             os.dup2(stream.fileno(), number)

@@ -398,20 +398,50 @@ def load_train(
 
     What neither the user's file nor an override says, a MOTIONGEN_* variable may.
 
+    Args:
+        path: a file of settings, or the name of a recipe, which lies on top of what ships.
+        model_class: the configuration to make.
+        overrides: `key=value`.
+
     Raises:
-        UsageError: as `load_config`.
+        UsageError: as `load_config`; a recipe that says nothing for this stage.
     """
-    given: dict[str, Any] = {} if path is None else _normalise(load_yaml(path), str(path))
-    if path is None:
-        stem = _kebab(model_class.__name__.removesuffix("Config")).replace("-", "_")
-        path = packaged_config(f"{stem}.yaml")
-    values = given or load_yaml(path)
+    source, given = str(path), {} if path is None else _recipe(path, model_class)
+    if given is None:
+        given = values = _normalise(load_yaml(source), source)
+    else:
+        source = str(packaged_config(f"{_stage(model_class)}.yaml")) if path is None else source
+        given.pop("network", None)
+        values = load_yaml(packaged_config(f"{_stage(model_class)}.yaml")) | given
     for key, name in model_class.variables.items():
         if key not in given and (value := variable(name)):
             values[key] = value
     if "output" in values and "output" not in given:
         values["output"] = str(run_folder(values["output"]))
-    return load_config(model_class, values, str(path), overrides)
+    return load_config(model_class, values, source, overrides)
+
+
+def recipe_network(path: Path | str | None, model_class: type[TrainConfig]) -> list[str]:
+    """Overrides `network.key=value` of the recipe of that name, if `path` is one."""
+    recipe = {} if path is None else _recipe(path, model_class) or {}
+    changes: dict[str, Any] = recipe.get("network", {})
+    return [f"{NETWORK_PREFIX}{key}={json.dumps(value)}" for key, value in changes.items()]
+
+
+def _recipe(path: Path | str, model_class: type[TrainConfig]) -> dict[str, Any] | None:
+    """What the recipe of that profile says for a stage; None where `path` names a file."""
+    recipes = load_yaml(packaged_config("recipes.yaml"))
+    recipe, stage = recipes.get(str(path)), _stage(model_class)
+    if recipe is None or Path(path).is_file():
+        return None
+    if stage not in recipe:
+        raise UsageError(f"recipe {path} says nothing for {stage}; there is {', '.join(recipe)}")
+    return {"profile": str(path), **_normalise(recipe[stage], f"recipe {path}")}
+
+
+def _stage(model_class: type[TrainConfig]) -> str:
+    """Name of the packaged file of a stage's settings."""
+    return _kebab(model_class.__name__.removesuffix("Config")).replace("-", "_")
 
 
 def dump_config(config: Config) -> dict[str, Any]:

@@ -16,6 +16,7 @@ from ..shared.config_loader import (
     load_audio_network,
     load_network,
     load_train,
+    recipe_network,
     split_network_overrides,
 )
 from ..shared.config_schema import Config, TrainConfig
@@ -75,7 +76,7 @@ class Stage(Generic[ConfigT]):
 
         Args:
             overrides: `key=value`, those of the network as `network.key=value`.
-            file: YAML of settings; None = what ships.
+            file: YAML of settings, or the name of a recipe; None = what ships.
             network_file: another network.yaml or audio_network.yaml.
             resume: continue the run in the output folder.
 
@@ -83,8 +84,9 @@ class Stage(Generic[ConfigT]):
             UserError, Interrupted: see `Trainer`.
             typer.Exit: one of several processes failed, and has said why.
         """
-        own, network_overrides = split_network_overrides(overrides)
+        own, given = split_network_overrides(overrides)
         settings = load_train(file, self.config, own)
+        network_overrides = [*recipe_network(file, self.config), *given]
         if self.network is not None:
             network = self.network(settings, network_overrides)
         else:
@@ -127,7 +129,11 @@ class Stage(Generic[ConfigT]):
         settings = typer.Argument(metavar="KEY=VALUE", help="settings to change")
         parameters = [
             _parameter("overrides", list[str] | None, settings),
-            _parameter("config", Path | None, typer.Option(help="YAML file of settings")),
+            _parameter(
+                "config",
+                Path | None,
+                typer.Option(help="YAML file of settings, or recipe: default, spark"),
+            ),
         ]
         for name, key in keys.items():
             named = flags[key]

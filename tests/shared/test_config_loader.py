@@ -19,6 +19,7 @@ from src.shared.config_loader import (
     load_yaml,
     parse_overrides,
     profile_names,
+    recipe_network,
     split_network_overrides,
 )
 from src.shared.config_schema import (
@@ -54,6 +55,34 @@ def test_every_profile_round_trips(profile: str) -> None:
 def test_training_files_load_and_round_trip(model_class: type[TrainConfig]) -> None:
     config = load_train(None, model_class)
     assert load_config(model_class, dump_config(config), "copy") == config
+
+
+@pytest.mark.parametrize("name", ["default", "spark"])
+def test_a_recipe_names_what_it_changes_of_its_profile(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    config = load_train(name, TrainGenerationConfig, ["steps=7"])
+    assert (config.profile, config.steps, config.losses.velocity) == (name, 7, 1.0)
+    assert load_train(name, TrainClipConfig).encoder_learning_rate == 0
+    changes = [
+        line.removeprefix("network.") for line in recipe_network(name, TrainGenerationConfig)
+    ]
+    network = load_network(name, overrides=changes)
+    assert network.generation.prediction_type == "sample"
+    told = {"prediction_type": load_network(name).generation.prediction_type}
+    generation = network.generation.model_copy(update=told)
+    assert network.model_copy(update={"generation": generation}) == load_network(name)
+
+    class TrainOtherConfig(TrainConfig):
+        pass
+
+    with pytest.raises(UsageError, match=f"recipe {name} says nothing for train_other; there is"):
+        load_train(name, TrainOtherConfig)
+
+    monkeypatch.chdir(tmp_path)
+    Path(name).write_text("steps: 9\n")  # a file of that name is what was meant
+    assert load_train(name, TrainGenerationConfig).profile == "lightweight"
+    assert not recipe_network(name, TrainGenerationConfig)
 
 
 @pytest.mark.parametrize(

@@ -4,14 +4,17 @@ from pathlib import Path
 
 import pytest
 import torch
-from tiny_stage import SETTINGS, generation_config, tiny_network, train_generation
+from tiny_stage import NETWORK, SETTINGS, generation_config, tiny_network, train_generation
+from typer.testing import CliRunner
 
 from src.shared.config_loader import load_train
 from src.shared.config_schema import NetworkConfig
 from src.shared.data.captions.book import packaged_book
 from src.shared.model.clip.core import small_text_config
 from src.shared.model.clip.pretrained import ClipBundle
-from src.train import text_stages
+from src.shared.model.generation.motion_generator import TextToMotion
+from src.train import text_stages, train_clip, train_text
+from src.train import train_generation as generation
 from src.train.engine import Trainer
 from src.train.text_stages import MEANS_FILE
 from src.train.train_text import LabelledTower, TextTask, TrainTextConfig
@@ -119,3 +122,24 @@ def test_a_pretrained_encoder_learns_at_its_own_rate(
             continue
         wanted = 1e-5 if name.startswith("tower.encoder.") else config.learning_rate
         assert rates[id(weight)] == wanted, name
+
+
+def test_the_recipe_of_default_from_xlm_r_to_motions(
+    prepared: Path, tmp_path: Path, network: NetworkConfig
+) -> None:
+    """Its three stages as commands; sizes and lengths alone are smaller."""
+    sizes = [f"network.{size}" for size in NETWORK]
+    common = ["--config", "default", "--data", str(prepared), *SETTINGS, *sizes, "steps=2"]
+    common += [f"network.clip.text-model='{network.clip.text_model}'", "languages=[en]"]
+    for stage, name, given in (
+        (train_text, "text", ["captions-per-group=2"]),
+        (train_clip, "clip", [f"text='{tmp_path / 'text'}'"]),
+        (generation, "made", [f"clip='{tmp_path / 'clip'}'"]),
+    ):
+        done = CliRunner().invoke(stage.app, [*common, *given, "--output", str(tmp_path / name)])
+        assert done.exit_code == 0, done.output
+    model = TextToMotion.from_pretrained(tmp_path / "made")
+    assert model.network.generation.prediction_type == "sample"
+    pretrained = ClipBundle.from_pretrained(tmp_path / "text").clip.text.encoder.state_dict()
+    kept = model.text.encoder.state_dict()
+    assert all(torch.equal(value, kept[key]) for key, value in pretrained.items())
