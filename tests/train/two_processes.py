@@ -1,4 +1,4 @@
-"""One of two processes: runs the audio stage as DDP, as FSDP2, and half of each; see the test."""
+"""One of two processes: the audio stage as DDP and as FSDP2, and halves of runs; see the test."""
 
 import sys
 from pathlib import Path
@@ -7,11 +7,10 @@ from tiny_audio_stage import audio_config, train_audio
 
 
 def main(circles: Path, folder: Path) -> None:
-    """Runs that one process goes on from, and one that goes on from one process."""
+    """Two whole runs, and two that go on from one process."""
     for name, version in (("ddp", "null"), ("fsdp", "2")):
         kind = f"fsdp-version={version}"
         train_audio(audio_config(circles, folder / name, *EVERY, kind))
-        train_audio(audio_config(circles, folder / f"{name}-half", *EVERY, kind, "steps=4"))
         half = folder / f"one-half-{name}"
         train_audio(audio_config(circles, half, *EVERY, kind), resume=True)
 
