@@ -64,7 +64,7 @@ from .text_stages import (
 
 OLD_CAPTIONS = 8  # of each combination and language, whose mean is its place
 PAIR_WIDTH = 64  # of the hidden states of a tower of token pairs
-PLAIN = 4.0  # how much more often combinations without a style are drawn
+PLAIN = 2.0  # how much more often combinations without a style are drawn
 NOWHERE = 0.5  # cosine of the place of what asks for nothing that is known
 HEADS = 0.3  # weight of the labels beside the place, from nothing
 SAME_PLACE = 0.9999  # cosine of two unit places that are one
@@ -235,7 +235,7 @@ class TextTask(Task):
         bundle.clip.text, bundle.clip.config = tower, network
 
     def _shares(self) -> np.ndarray:
-        """How often a combination is drawn [G]: an action of n combinations weighs sqrt(n), and in
+        """How often a combination is drawn [G]: an action of n combinations weighs n^0.75, and in
         it one of m hand-written sentences sqrt(1 + m), PLAIN times that without a style: the words
         of plain ones stand in all others, too, and would ask for the middle of the styles."""
         actions = [self.labels[group].get("action") for group in self.groups]
@@ -244,7 +244,7 @@ class TextTask(Task):
         weights = np.zeros(len(actions))
         for action, number in Counter(actions).items():
             own = np.array([each == action for each in actions])
-            weights[own] = number**0.5 * written[own] / written[own].sum()
+            weights[own] = number**0.75 * written[own] / written[own].sum()
         return np.asarray(weights / weights.sum())
 
     def _captions(self, seed: int, num: int, *, whole: bool = True) -> list[dict[str, list[str]]]:
@@ -254,7 +254,8 @@ class TextTask(Task):
             book.captions(self.labels[group], num=num, seed=seed, whole_sentences=whole)
             for group in self.groups
         )
-        return [{k: _taught(v) for k, v in captions.items() if k in kept} for captions in found]
+        taught = _taught if whole else list
+        return [{k: taught(v) for k, v in captions.items() if k in kept} for captions in found]
 
     def _places(self) -> Tensor:
         """Unit mean [G,D] of each combination's captions under the old tower.

@@ -152,7 +152,7 @@ def test_actions_of_few_combinations_are_drawn_as_often(prepared: Path, tmp_path
     numbers = {a: sum(v["action"] == a for v in task.labels.values()) for a in shares}
     most, least = max(numbers, key=numbers.__getitem__), min(numbers, key=numbers.__getitem__)
     ratio = numbers[most] / numbers[least]
-    assert shares[most] / shares[least] == pytest.approx(ratio**0.5)
+    assert shares[most] / shares[least] == pytest.approx(ratio**0.75)
     written = [1 + sum(map(len, some.values())) for some in task.sentences]
     labels = [task.labels[group] for group in task.groups]
     walks = [row for row, each in enumerate(labels) if each["action"] == "walk"]
