@@ -23,7 +23,7 @@ from ..errors import UserError
 from ..io.arrays import BadArray, load_arrays, write_arrays
 from ..io.files import load_json, write_json
 from ..metrics.rhythm import body_beats, landings, motion_beats, rhythm
-from ..metrics.stage import HOVER_SECONDS, aloft
+from ..metrics.stage import HOVER_SECONDS, aloft, sliding
 from ..motion.features import (
     HEIGHT,
     LEFT_CONTACT,
@@ -56,6 +56,12 @@ MIN_COUNTS = 5  # of a take
 TORN = 350.0  # m/s² of a joint: a leg that was captured wrongly jumps for a frame
 BESIDE = 9  # frames around a figure that are seen while it fades
 STILL = 0.12  # m/s, mean of all joints over half a second: nobody dances
+SNAP_PART, APART = (
+    0.3,
+    0.6,
+)  # of a count: how far it moves to a beat of the motion, and least length
+AXES = 16  # of poses, along which the dimensions of a dance are counted
+SIGHTS, EVERY = 800, 15  # typical poses, and frames between those that are looked at for them
 WEIGHTS = np.ones(NUM_JOINTS)  # of joints in the cost of a join
 WEIGHTS[[JOINT_INDEX[f"{side}_{name}"] for side in "lr" for name in ("ankle", "foot", "wrist")]] = 2
 
@@ -105,12 +111,16 @@ class Figures:
         meter: counts of a bar, which it begins with [N]; 0 = nobody knows.
         energy: mean speed of the joints, m/s [N].
         clear: how well what it shows falls on its counts, 0 to 1 [N]; `rhythm`'s F.
-        extent: mean distance of the joints from where they are on average, metres [N].
+        clear_beats: the same on every second count, from the first [N].
         low: lowest height of the pelvis, metres [N].
+        slide: share of the time in which both feet slide [N].
         back: metres gone backward [N].
         travel, far: where it ends, and gets furthest, to the left and forward of the heading at
             entry, metres [N,2].
         turn: radians to the left [N].
+        shown: which of the memory's typical poses it shows, bool [N,V].
+        spread: sums over its frames of products of what its poses are along the memory's main
+            axes, and 1 [N,A+1,A+1].
         entry, leave: poses and velocities at the first and the last count [N,E].
     """
 
@@ -121,12 +131,15 @@ class Figures:
     meter: np.ndarray
     energy: np.ndarray
     clear: np.ndarray
-    extent: np.ndarray
+    clear_beats: np.ndarray
     low: np.ndarray
+    slide: np.ndarray
     back: np.ndarray
     travel: np.ndarray
     far: np.ndarray
     turn: np.ndarray
+    shown: np.ndarray
+    spread: np.ndarray
     entry: np.ndarray
     leave: np.ndarray
 
@@ -186,6 +199,30 @@ class FigureMemory:
         return Motion(quaternions, roots, np.zeros((len(roots), 2), np.float32)).positions()
 
     @cached_property
+    def _along(self) -> np.ndarray:
+        """Poses and their mirror images along the main axes of all of them, and 1 [2,F,A+1]."""
+        poses = self.poses.astype(np.float32)
+        both = np.stack((poses, poses[:, list(MIRROR)] * np.array([-1, 1, 1], np.float32)))
+        sides = both.reshape(2, len(poses), -1)
+        some = sides[:, ::EVERY].reshape(-1, sides.shape[-1])
+        axes = np.linalg.svd(some - some.mean(0), full_matrices=False)[2][:AXES]
+        along = (sides - some.mean(0)) @ axes.T
+        return np.concatenate((along, np.ones((*along.shape[:2], 1), np.float32)), -1)
+
+    @cached_property
+    def _typical(self) -> np.ndarray:
+        """The typical pose that each pose and its mirror image is nearest to [2,F]: each typical
+        one is the furthest from all before it."""
+        sides = self._along[..., :-1]
+        some = sides[:, ::EVERY].reshape(-1, AXES)
+        away, chosen = np.full(len(some), np.inf, np.float32), [0]
+        for _ in range(min(SIGHTS, len(some)) - 1):
+            away = np.minimum(away, ((some - some[chosen[-1]]) ** 2).sum(1))
+            chosen.append(int(away.argmax()))
+        typical = some[chosen]
+        return np.asarray(((typical**2).sum(1) - 2 * sides @ typical.T).argmin(-1))
+
+    @cached_property
     def _aloft(self) -> list[tuple[int, int]]:
         """Where nothing of a body is near the floor for long."""
         runs = aloft(self._joints)
@@ -231,15 +268,34 @@ class FigureMemory:
     # ------------------------------------------------------------ figures
 
     def readings(self) -> list[tuple[int, np.ndarray]]:
-        """Takes and seconds of their counts from the first frame of all."""
+        """Takes and seconds of their counts from the first frame of all.
+
+        Slow ones are counted twice as fast as well, and short ones, which hold few counts of any
+        pace, at several: so some of them fits any song.
+        """
         found = []
         for number, take in enumerate(self.takes):
-            counts = take.counts + self.offsets[number] / FPS
-            found.append((number, counts))
-            if not take.meter and np.median(np.diff(counts)) > SLOW:
-                halves = np.sort(np.concatenate((counts, (counts[1:] + counts[:-1]) / 2)))
-                found.append((number, halves))
+            start, paces = self.offsets[number] / FPS, [take.counts]
+            if not take.meter:
+                if np.median(np.diff(take.counts)) > SLOW:
+                    middles = (take.counts[1:] + take.counts[:-1]) / 2
+                    paces.append(np.sort(np.concatenate((take.counts, middles))))
+                if take.motion.seconds < SHORT:
+                    evidence = _evidence(self._beats[number], landings(take.motion), take.motion)
+                    known = [float(np.median(np.diff(counts))) for counts in paces]
+                    for pace in PACES:
+                        if np.abs(np.log(np.divide(known, pace))).min() > 0.1:
+                            paces.append(_chain(evidence, pace * GRID) / GRID)
+                paces = [_snapped(each, self._beats[number]) for each in paces]
+            found += [(number, counts + start) for counts in paces]
         return found
+
+    @cached_property
+    def _beats(self) -> list[np.ndarray]:
+        """Beats of the motion of each take, seconds: as prominent in all of them."""
+        beats, offsets = motion_beats(self._joints, FPS).times, self.offsets / FPS
+        parts = np.split(beats, np.searchsorted(beats, offsets[1:-1]))
+        return [part - start for part, start in zip(parts, offsets, strict=False)]
 
     def figures(self, counts: int) -> Figures:
         """All phrases of so many counts in which somebody dances, and their mirror images."""
@@ -260,6 +316,7 @@ class FigureMemory:
             _seen_from(places[to] - places[first], heading[first]) for to in (last, first + away)
         )
         low = [float(self.features[a:b, ROOT_ROW, HEIGHT].min()) for a, b in spans]
+        slides = sliding(self._joints, FPS)
         own = Figures(
             take=takes,
             times=times,
@@ -268,32 +325,45 @@ class FigureMemory:
             meter=np.array([take.meter for take in self.takes])[takes],
             energy=np.array([self.speed[a:b].mean() for a, b in spans]),
             clear=self._clear(takes, times),
-            extent=np.array([self._extent(a, b) for a, b in spans]),
+            clear_beats=self._clear(takes, times, 2),
             low=np.array(low),
+            slide=np.array([slides[a:b].mean() for a, b in spans]),
             back=np.array([self._back[a:b].sum() for a, b in spans]),
             travel=ends,
             far=furthest,
             turn=heading[last] - heading[first],
+            shown=self._shown(self._typical[0], spans),
+            spread=self._spread(self._along[0], spans),
             entry=self._seen(first),
             leave=self._seen(last),
         )
         dances = [row for row, (start, stop) in enumerate(spans) if self._dances(start, stop)]
-        return _with_mirrors(own.rows(np.array(dances, dtype=int)))
+        danced = [spans[row] for row in dances]
+        shown = self._shown(self._typical[1], danced)
+        own = own.rows(np.array(dances, dtype=int))
+        return _with_mirrors(own, shown, self._spread(self._along[1], danced))
 
-    def _clear(self, take: np.ndarray, times: np.ndarray) -> np.ndarray:
-        """F of the motion's beats on the counts of each figure [N]."""
-        spans = [slice(*self.bounds(number)) for number in range(len(self.takes))]
-        beats = [motion_beats(self._joints[span], FPS).times for span in spans]
+    def _clear(self, take: np.ndarray, times: np.ndarray, every: int = 1) -> np.ndarray:
+        """F of the motion's beats on the counts of each figure [N], or on each so many-th."""
         found = []
         for which, counts in zip(take, times, strict=True):
             start, stop = float(counts[0]), float(counts[-1])
-            own = beats[which] + self.offsets[which] / FPS - start
-            found.append(rhythm(own, counts - start, stop - start).f)
+            own = self._beats[which] + self.offsets[which] / FPS - start
+            found.append(rhythm(own, counts[::every] - start, stop - start).f)
         return np.array(found)
 
-    def _extent(self, first: int, last: int) -> float:
-        own = self.poses[first : last + 1]
-        return float(np.linalg.norm(own - own.mean(0), axis=-1).mean())
+    @staticmethod
+    def _shown(typical: np.ndarray, spans: list[tuple[int, int]]) -> np.ndarray:
+        found = np.zeros((len(spans), SIGHTS), dtype=bool)
+        for row, (first, last) in enumerate(spans):
+            found[row, typical[first : last + 1]] = True
+        return found
+
+    @staticmethod
+    def _spread(along: np.ndarray, spans: list[tuple[int, int]]) -> np.ndarray:
+        width = along.shape[-1]
+        found = [along[a : b + 1].T @ along[a : b + 1] for a, b in spans]
+        return np.array(found).reshape(-1, width, width)
 
     def _dances(self, first: int, last: int) -> bool:
         """Whether no joint jumps, nobody stands still for half a second, or is off the floor for
@@ -401,8 +471,8 @@ def _seen_from(way: np.ndarray, heading: np.ndarray) -> np.ndarray:
     return np.stack([left, way[:, 0] * sine + way[:, 1] * cosine], 1)
 
 
-def _with_mirrors(own: Figures) -> Figures:
-    """The figures, then their mirror images."""
+def _with_mirrors(own: Figures, shown: np.ndarray, spread: np.ndarray) -> Figures:
+    """The figures, then their mirror images, which show this."""
     pose = NUM_JOINTS * 3
     signs = np.array([-1.0, 1.0, 1.0])
 
@@ -417,12 +487,26 @@ def _with_mirrors(own: Figures) -> Figures:
         "travel": own.travel * np.array([-1.0, 1.0]),
         "far": own.far * np.array([-1.0, 1.0]),
         "turn": -own.turn,
+        "shown": shown,
+        "spread": spread,
         "entry": mirrored(own.entry),
         "leave": mirrored(own.leave),
     }
     return Figures(
         **{name: np.concatenate((values, other[name])) for name, values in vars(own).items()}
     )
+
+
+def _snapped(counts: np.ndarray, beats: np.ndarray) -> np.ndarray:
+    """Counts [C] moved to the beats [B] that they mean, none much shorter than its neighbours."""
+    if not len(beats):
+        return counts
+    near = beats[np.abs(beats[:, None] - counts).argmin(0)]
+    period = float(np.median(np.diff(counts)))
+    found = np.where(np.abs(near - counts) < SNAP_PART * period, near, counts)
+    for number in range(1, len(found)):
+        found[number] = max(found[number], found[number - 1] + APART * period)
+    return np.asarray(found)
 
 
 def _packed(motion: Motion) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -462,6 +546,8 @@ def _unpacked(arrays: Mapping[str, np.ndarray]) -> list[Motion]:
 
 # ---------------------------------------------------------------- where the counts fall
 
+SHORT = 12.0  # seconds; of a shorter take other paces are read as well
+PACES = (0.36, 0.43, 0.51, 0.61)  # seconds a count
 PERIODS = np.arange(0.34, 0.76, 0.02)  # seconds a count
 GRID = 60.0  # frames a second in which counts are sought
 WIDTH = 0.05  # seconds, standard deviation of a moment's evidence
@@ -473,13 +559,9 @@ SNAP = 0.06  # seconds by which a count moves to the moment that it means
 def find_counts(motion: Motion) -> np.ndarray:
     """Seconds [N] of the counts, ascending; none in a motion of under two seconds."""
     slow, down = body_beats(motion), landings(motion)
-    frames = round(motion.seconds * GRID)
     if motion.seconds < 2 or not len(slow):
         return np.zeros(0)
-    evidence = np.zeros(frames + 1)
-    np.add.at(evidence, np.rint(slow * GRID).astype(int).clip(0, frames), 1.0)
-    np.add.at(evidence, np.rint(down * GRID).astype(int).clip(0, frames), LANDING)
-    evidence = gaussian_filter1d(evidence, WIDTH * GRID) * WIDTH * GRID * np.sqrt(2 * np.pi)
+    evidence = _evidence(slow, down, motion)
     chains = [_chain(evidence, period * GRID) for period in PERIODS]
     # A count earns what it meets; where nothing is, it costs: else the fastest chain meets all.
     worth = [(evidence[chain] - evidence.mean()).sum() / np.sqrt(len(chain)) for chain in chains]
@@ -487,6 +569,16 @@ def find_counts(motion: Motion) -> np.ndarray:
     moments = np.sort(np.concatenate((slow, down)))
     nearest = moments[np.abs(moments[:, None] - counts).argmin(0)]
     return np.asarray(np.where(np.abs(nearest - counts) < SNAP, nearest, counts))
+
+
+def _evidence(slow: np.ndarray, down: np.ndarray, motion: Motion) -> np.ndarray:
+    """How much speaks for a count in each frame [G], by slow moments and landings in seconds."""
+    frames = round(motion.seconds * GRID)
+    evidence = np.zeros(frames + 1)
+    np.add.at(evidence, np.rint(slow * GRID).astype(int).clip(0, frames), 1.0)
+    np.add.at(evidence, np.rint(down * GRID).astype(int).clip(0, frames), LANDING)
+    evidence = gaussian_filter1d(evidence, WIDTH * GRID) * WIDTH * GRID * np.sqrt(2 * np.pi)
+    return np.asarray(evidence)
 
 
 def _chain(evidence: np.ndarray, period: float) -> np.ndarray:

@@ -178,7 +178,7 @@ STEPS = (
         "waltz", 3,
         _cycle(("L", 0.09, 0.32), ("R", -0.24, 0.32), ("L", -0.07, 0.32),
                ("R", -0.24, 0), ("L", 0.09, 0), ("R", -0.09, 0)),
-        ("flow", "bloom", "frame", "fan"), bounce=0.02, rise=0.035, hips=3.0, sway=8.0,
+        ("flow", "bloom", "waist", "fan"), bounce=0.02, rise=0.035, hips=3.0, sway=8.0,
     ),
     Steps(
         "waltz", 3,
@@ -188,7 +188,7 @@ STEPS = (
         dips=(0.02, 0.22, 0.14), leans=(0, 22, 10), sway=10.0,
     ),
     Steps(
-        "waltz", 3, _round_waltz(), ("frame", "bloom", "fan"),
+        "waltz", 3, _round_waltz(), ("waist", "bloom", "fan"),
         bounce=0.015, rise=0.03, turned=360.0, hips=3.0,
     ),
     Steps(
@@ -208,7 +208,7 @@ STEPS = (
         "waltz", 3,
         _cycle(("L", -0.16, 0.2), ("R", -0.3, 0.04), ("L", -0.12, 0.0),
                ("R", 0.16, 0.2), ("L", 0.3, 0.04), ("R", 0.12, 0.0)),
-        ("flow", "gather", "frame", "sweep"), bounce=0.02, rise=0.03, hips=4.0, sway=12.0,
+        ("flow", "gather", "waist", "sweep"), bounce=0.02, rise=0.03, hips=4.0, sway=12.0,
         dips=(0.1, 0.0, 0.0),
     ),
     Steps(
@@ -472,23 +472,23 @@ def _flow(time: Array, side: Array, up: Array) -> Array:
 
     def arm(sign: float) -> Angles:
         return {
-            "flex": 22 - 26 * sign * side, "abduct": 44 + 26 * up + 20 * sign * side,
-            "elbow": 26 - 8 * up, "twist": 15.0, "wrist": -14 * up,
+            "flex": 26 - 26 * sign * side, "abduct": 34 + 20 * up + 18 * sign * side,
+            "elbow": 58 - 12 * up - 14 * sign * side, "twist": 15.0, "wrist": -14 * up,
         }  # fmt: skip
 
     return _arms(time, arm(1.0), arm(-1.0))
 
 
-def _frame(time: Array, side: Array, up: Array) -> Array:
-    """The hold of a couple, without the other one."""
-    left: Angles = {"flex": 28.0 + 6 * up, "abduct": 74.0 + 5 * side, "elbow": 52.0, "twist": 45.0}
-    right: Angles = {
-        "flex": 46.0,
-        "abduct": 52.0 - 5 * side,
-        "elbow": 92.0 - 6 * up,
-        "twist": -10.0,
-    }
-    return _arms(time, left, right)
+def _waist(time: Array, side: Array, up: Array) -> Array:
+    """Hands at the waist, one elbow forward and the other back with the weight."""
+
+    def arm(sign: float) -> Angles:
+        return {
+            "flex": 4 - 16 * sign * side, "abduct": 40 + 8 * up, "elbow": 98 - 8 * up,
+            "twist": -36.0,
+        }  # fmt: skip
+
+    return _arms(time, arm(1.0), arm(-1.0))
 
 
 def _gather(time: Array, side: Array, up: Array) -> Array:
@@ -498,8 +498,8 @@ def _gather(time: Array, side: Array, up: Array) -> Array:
     def arm(sign: float) -> Angles:
         return {
             "flex": 62 - 40 * wide,
-            "abduct": -8 + 128 * wide,
-            "elbow": 70 - 56 * wide,
+            "abduct": -8 + 108 * wide,
+            "elbow": 84 - 44 * wide,
             "twist": -30 + 70 * wide,
             "wrist": 20 - 30 * wide,
         }
@@ -514,8 +514,8 @@ def _fan(time: Array, side: Array, up: Array) -> Array:
         rises = 0.5 - 0.5 * _wave(time, 6, lag)
         ahead = 0.5 + 0.5 * np.sin(2 * np.pi * (time - lag) / 6)
         return {
-            "flex": 10 + 135 * rises * ahead, "abduct": 15 + 118 * rises * (1 - ahead),
-            "elbow": 34 - 16 * rises, "twist": 40 * rises,
+            "flex": 10 + 135 * rises * ahead, "abduct": 15 + 96 * rises * (1 - ahead),
+            "elbow": 66 - 30 * rises, "twist": 40 * rises,
         }  # fmt: skip
 
     return _arms(time, arm(0.0), arm(3.0))
@@ -529,7 +529,7 @@ def _bloom(time: Array, side: Array, up: Array) -> Array:
     def arm(sign: float) -> Angles:
         return {
             "flex": 22 + 118 * rises, "abduct": 14 + 34 * out + 10 * sign * side,
-            "elbow": 40 - 8 * rises, "twist": 5 + 25 * rises, "wrist": 10 - 24 * out,
+            "elbow": 76 - 22 * rises, "twist": 5 + 25 * rises, "wrist": 10 - 24 * out,
         }  # fmt: skip
 
     return _arms(time, arm(1.0), arm(-1.0))
@@ -541,7 +541,7 @@ def _sweep(time: Array, side: Array, up: Array) -> Array:
     def arm(sign: float) -> Angles:
         high = min_jerk(0.5 + 0.5 * sign * side)
         return {
-            "flex": -12 + 50 * high, "abduct": 30 + 104 * high, "elbow": 30 - 14 * high,
+            "flex": -12 + 50 * high, "abduct": 30 + 84 * high, "elbow": 70 - 38 * high,
             "twist": 40 * high, "wrist": -12 + 20 * high,
         }  # fmt: skip
 
@@ -550,6 +550,6 @@ def _sweep(time: Array, side: Array, up: Array) -> Array:
 
 ARMS: dict[str, Arms] = {
     "swing": _swing, "open": _open, "reach": _reach, "circle": _circle, "high": _high,
-    "push": _push, "flow": _flow, "frame": _frame, "bloom": _bloom, "sweep": _sweep,
+    "push": _push, "flow": _flow, "waist": _waist, "bloom": _bloom, "sweep": _sweep,
     "gather": _gather, "fan": _fan,
 }  # fmt: skip

@@ -136,6 +136,11 @@ def aloft(positions: np.ndarray) -> list[tuple[int, int]]:
 
 def both_slide(positions: np.ndarray, fps: float) -> float:
     """Share of the frames of [T, 22, 3] in which both feet are near the floor and neither rests."""
+    return float(sliding(positions, fps).mean())
+
+
+def sliding(positions: np.ndarray, fps: float) -> np.ndarray:
+    """Between which frames of [T, 22, 3] both feet slide near the floor, bool [T-1]."""
     balls = positions[:, BALLS]  # T 2 3
     near = balls[:-1, :, 1].max(1) < REST_FOOT_HEIGHT + SUPPORT_HEIGHT
-    return float((near & (ground_speed(balls, fps).min(1) > SLIDING)).mean())
+    return np.asarray(near & (ground_speed(balls, fps).min(1) > SLIDING))

@@ -16,12 +16,14 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from scipy.spatial.distance import cdist
 
 from ..config_loader import load_yaml, packaged_config
-from ..memory.figures import FPS, FigureMemory, Figures
+from ..memory.figures import AXES, FPS, FigureMemory, Figures
+from ..motion.manner import PLAIN, Manner
 from .body import beats_beyond
 
 PACE = 0.5  # seconds of a count, about; a beat counts half, one or two of them
@@ -29,13 +31,16 @@ WARP = 0.2  # of the tempo, at most
 UPRIGHT = 0.6  # metres; a lower pelvis is asked for, by a kind that is mostly danced so
 CANDIDATES = 400  # figures of a slot, by what they cost alone
 # What a unit of each costs; the first is a metre of pose, all joints and channels together.
-JOIN, TEMPO, ENERGY, CLEAR, EXTENT, STAGE, FRONT = 1.0, 30.0, 1.0, 1.0, 8.0, 4.0, 0.3
+JOIN, TEMPO, ENERGY, CLEAR, STAGE, FRONT = 1.0, 30.0, 1.0, 4.0, 7.0, 0.3
 # Gain of a repetition; cost of an unasked one, of each earlier figure of the same take; the seed's.
-REPEAT, AGAIN, SAME_TAKE, NOISE = 3.0, 0.8, 2.0, 0.4
-BACK = 0.5  # of a metre gone backward
+REPEAT, AGAIN, SAME_TAKE, NOISE = 2.0, 0.8, 2.0, 0.4
+NEW, MANY = 0.35, 16  # gain of a typical pose that was not yet seen, and of how many at most
+WIDE = 1.5  # gain of a dimension of the poses
+SLIDE, BACK = 18.0, 0.5  # of both feet sliding all the time; of a metre gone backward
 # Cost of steps made by code, which join well and fill any dance; gain of those in threes where the
 # song is in threes.
 MADE, THREES = 3.0, 6.0
+OTHER = 6.0  # cost of a kind that stands in for the one that is asked for, but in a part b
 FREE = 0.35  # metres from the middle that cost nothing, twice that on the way
 ALIKE = 0.9  # cosine of what two phrases of a song sound like, from which one is the other again
 
@@ -47,10 +52,12 @@ class Wish:
     Attributes:
         kinds: only of these; empty = of any that stay on their feet.
         energy: the share of figures, by energy, to take: (0, 0.4) is calm.
+        manner: how they are carried.
     """
 
     kinds: frozenset[str] = frozenset()
     energy: tuple[float, float] = (0.0, 1.0)
+    manner: Manner = PLAIN
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,6 +70,7 @@ class Slot:
         same: the earlier phrase that it is to repeat; None = none.
         part: letter of the form.
         meter: counts of a bar, where the phrase opens one; 0 = it does not.
+        halved: two counts are a beat.
     """
 
     counts: np.ndarray
@@ -70,6 +78,7 @@ class Slot:
     same: int | None = None
     part: str = "a"
     meter: int = 0
+    halved: bool = False
 
 
 # ---------------------------------------------------------------- the song
@@ -90,7 +99,7 @@ def song_slots(
         waits: frames [start, stop) in which nobody dances.
     """
     seconds = len(phase) / FPS
-    counts, bars = _counts(beats, phase, seconds)
+    counts, bars, halved = _counts(beats, phase, seconds)
     silent = np.zeros(len(phase) + 1, dtype=bool)
     for start, stop in waits:
         silent[start:stop] = True
@@ -106,7 +115,9 @@ def song_slots(
         found += _merged([counts[start : end + 1] for start, end in pairwise(cuts)], per_phrase)
     meter = _danced_meter(bars)
     return [
-        replace(slot, meter=meter if np.isclose(opening, slot.counts[0]).any() else 0)
+        replace(
+            slot, meter=meter if np.isclose(opening, slot.counts[0]).any() else 0, halved=halved
+        )
         for slot in _formed(found, condition)
     ]
 
@@ -117,8 +128,11 @@ def _danced_meter(bars: np.ndarray) -> int:
     return 3 if per_bar % 3 == 0 else 4 if per_bar in (2, 4, 8) else 0
 
 
-def _counts(beats: np.ndarray, phase: np.ndarray, seconds: float) -> tuple[np.ndarray, np.ndarray]:
-    """Counts and the bar [C] that each falls in, from before 0 to the end."""
+def _counts(
+    beats: np.ndarray, phase: np.ndarray, seconds: float
+) -> tuple[np.ndarray, np.ndarray, bool]:
+    """Counts and the bar [C] that each falls in, from before 0 to the end, and whether two of them
+    are a beat."""
     beats = beats_beyond(beats, seconds)
     period = float(np.median(np.diff(beats)))
     times = np.arange(len(phase)) / FPS
@@ -135,7 +149,7 @@ def _counts(beats: np.ndarray, phase: np.ndarray, seconds: float) -> tuple[np.nd
     if share == 2.0:  # every second beat, the downbeats among them
         first = int(np.flatnonzero(np.isclose(bars % 1, 0))[:1].sum()) % 2
         beats, bars = beats[first::2], bars[first::2]
-    return beats, bars
+    return beats, bars, share == 0.5
 
 
 def _phrase(bars: np.ndarray) -> tuple[int, int]:
@@ -206,6 +220,7 @@ class Choreographer:
     def __init__(self, memory: FigureMemory) -> None:
         self.memory = memory
         self._figures: dict[int, Figures] = {}
+        self._kinds = np.array([take.kind for take in memory.takes])
         names = [take.name.rpartition("-")[0] if take.meter else take.name for take in memory.takes]
         self._own = np.array([names.index(name) for name in names])  # one for all tempi of a step
 
@@ -235,11 +250,21 @@ class Choreographer:
         place = np.zeros((1, 3))  # left, forward and heading, seen from the front
         history, taken = (np.zeros((1, 0), dtype=int) for _ in range(2))
         mirrored = np.zeros((1, 0), dtype=bool)
+        seen = np.zeros((1, 1), dtype=np.float32)
+        spread, before = np.zeros((1, AXES**2), dtype=np.float32), np.zeros(1)
         for index, slot in enumerate(slots):
             found, alone = self._candidates(slot, wish, rng)
             if not len(found):
                 return None
-            cost = np.repeat(value[:, None], len(found), 1) + alone
+            shown = found.shown.astype(np.float32)
+            if not index:
+                middle = found.spread[:, :-1, -1].sum(0) / found.spread[:, -1, -1].sum()
+            own = _about(found.spread, middle)
+            cost = value[:, None] + alone
+            fresh = (1 - seen) @ shown.T if index else shown.sum(1)[None]
+            cost -= NEW * np.minimum(fresh, MANY)
+            dimensions = _dimensions(spread, own)
+            cost -= WIDE * (dimensions - before[:, None])
             if index:
                 cost += JOIN * _joins(options[-1], found)
                 cost += self._repeats(slot, found, history, mirrored)
@@ -256,6 +281,8 @@ class Choreographer:
             anew = self._own[found.take] if slot.same is None else np.full(len(found), -1)
             taken = np.concatenate((taken[best], anew[:, None]), 1)
             mirrored = np.concatenate((mirrored[best], found.mirrored[:, None]), 1)
+            seen = np.maximum(seen[best], shown)
+            spread, before = spread[best] + own, dimensions[best, column]
             options.append(found)
             back.append(best)
         at_end = int(value.argmin())
@@ -277,7 +304,13 @@ class Choreographer:
         return found
 
     def allowed(
-        self, counts: int, wish: Wish, period: float | None = None, meter: int = 0
+        self,
+        counts: int,
+        wish: Wish,
+        period: float | None = None,
+        meter: int = 0,
+        *,
+        beside: bool = False,
     ) -> tuple[Figures, np.ndarray]:
         """Figures of so many counts that a wish allows, and their ranks by energy [N], 0 to 1.
 
@@ -285,18 +318,23 @@ class Choreographer:
             counts: n.
             wish: of the sentence.
             period: seconds of a count that they are to be warped to; None = no matter.
+            meter: counts of a bar of the song; 0 = neither three nor four.
+            beside: also those of other kinds that may stand in.
         """
         figures = self.figures(counts)
-        kinds = np.array([take.kind for take in self.memory.takes])[figures.take]
+        kinds = self._kinds[figures.take]
         upright = figures.low > UPRIGHT
+        usual = upright & np.isin(figures.meter, (0, meter))
         if wish.kinds:
             fits = np.isin(kinds, sorted(wish.kinds))
             if 2 * np.count_nonzero(upright[fits]) > np.count_nonzero(
                 fits
             ):  # drops to the floor are of dances that live there
                 fits &= upright
+            if beside:
+                fits |= usual & np.isin(kinds, sorted(_beside(wish.kinds)))
         else:
-            fits = upright & np.isin(figures.meter, (0, meter))
+            fits = usual
         if period is not None:
             fits = fits & (np.abs(figures.count / period - 1) < WARP)
         rows = np.flatnonzero(fits)
@@ -312,10 +350,13 @@ class Choreographer:
         counts = len(slot.counts) - 1
         noise = rng.gumbel(size=len(self.figures(counts)))  # as many draws whatever fits
         period = float(slot.counts[-1] - slot.counts[0]) / counts
-        found, rank = self.allowed(counts, wish, period, slot.meter)
+        found, rank = self.allowed(counts, wish, period, slot.meter, beside=True)
         cost = TEMPO * np.log(found.count / period) ** 2 + ENERGY * (rank - slot.loudness) ** 2
-        cost -= CLEAR * found.clear + EXTENT * found.extent + NOISE * noise[: len(found)]
-        cost += BACK * found.back + MADE * (found.meter > 0)
+        clear = 2 * found.clear_beats if slot.halved else found.clear
+        cost -= CLEAR * clear + NOISE * noise[: len(found)]
+        cost += SLIDE * found.slide + BACK * found.back + MADE * (found.meter > 0)
+        if wish.kinds and not slot.part.startswith("b"):
+            cost += OTHER * ~np.isin(self._kinds[found.take], sorted(wish.kinds))
         cost -= THREES * ((found.meter == 3) & (slot.meter == 3))
         kept = np.argsort(cost)[:CANDIDATES]
         return found.rows(kept), cost[kept]
@@ -340,6 +381,20 @@ def _joins(before: Figures, after: Figures) -> np.ndarray:
     return np.asarray(cdist(before.leave, after.entry))
 
 
+def _about(spread: np.ndarray, middle: np.ndarray) -> np.ndarray:
+    """Products [C,A+1,A+1] about a pose [A]: [C,A*A]."""
+    to = np.concatenate((np.eye(len(middle)), -middle[:, None]), 1).astype(np.float32)
+    return np.asarray(to @ spread @ to.T).reshape(len(spread), -1)
+
+
+def _dimensions(before: np.ndarray, own: np.ndarray) -> np.ndarray:
+    """Participation ratio of the poses of each dance so far [H,A*A] with each figure [C,A*A]."""
+    trace = [each.reshape(len(each), AXES, AXES).trace(axis1=1, axis2=2) for each in (before, own)]
+    square = [(each**2).sum(1) for each in (before, own)]
+    norm = square[0][:, None] + 2 * before @ own.T + square[1]
+    return np.asarray((trace[0][:, None] + trace[1]) ** 2 / norm)
+
+
 def _places(place: np.ndarray, way: np.ndarray, turn: np.ndarray) -> np.ndarray:
     """Where ways [C,2] and turns [C] lead from each place [H,3]: [H,C,3]."""
     sine, cosine = np.sin(place[:, 2, None]), np.cos(place[:, 2, None])
@@ -351,6 +406,7 @@ def _places(place: np.ndarray, way: np.ndarray, turn: np.ndarray) -> np.ndarray:
 # ---------------------------------------------------------------- what a sentence asks
 
 CALM, LIVELY = (0.0, 0.4), (0.5, 1.0)  # shares of the figures by their energy
+ENERGY_OF = {"calm": CALM, "lively": LIVELY}
 _WORD = re.compile(r"[^\W\d_]")
 
 
@@ -362,9 +418,9 @@ def wish_of(sentence: str, kinds: Collection[str]) -> Wish | None:
         kinds: of the figures that there are; their own names are understood, too.
     """
     rest = unicodedata.normalize("NFC", sentence).casefold()
-    dances, energy, wanted = False, (0.0, 1.0), set()
+    dances, wish, wanted = False, Wish(), set()
     names = {name.casefold(): ("kinds", name) for name in kinds}
-    for word, (about, kind) in sorted(
+    for word, (about, what) in sorted(
         (_words() | names).items(), key=lambda item: len(item[0]), reverse=True
     ):
         left, found = _pattern(word).subn(" ", rest)
@@ -372,24 +428,50 @@ def wish_of(sentence: str, kinds: Collection[str]) -> Wish | None:
             continue
         rest = left
         dances |= about in ("dance", "kinds")
-        energy = {"calm": CALM, "lively": LIVELY}.get(about, energy)
         if about == "kinds":
-            wanted.add(kind)
+            wanted.add(what)
+        elif about == "manners":
+            manner, energy = _manners()[what]
+            wish = replace(wish, manner=wish.manner & manner, energy=energy or wish.energy)
+        elif about in ENERGY_OF:
+            wish = replace(wish, energy=ENERGY_OF[about])
     if not dances or _WORD.search(rest) or not wanted <= set(kinds):
         return None
-    return Wish(frozenset(wanted), energy)
+    return replace(wish, kinds=frozenset(wanted))
 
 
 @cache
 def _words() -> dict[str, tuple[str, str]]:
-    """Each word with what it is about and, of a kind, which."""
+    """Each word with what it is about and, of a kind or a manner, which."""
     found: dict[str, tuple[str, str]] = {}
-    for table in load_yaml(packaged_config("dances.yaml")).values():
+    for table in _dances()["words"].values():
         for about in ("plain", "calm", "lively", "dance"):
             found |= {word.casefold(): (about, "") for word in table[about]}
-        for kind, words in table["kinds"].items():
-            found |= {word.casefold(): ("kinds", kind) for word in words}
+        for about in ("manners", "kinds"):
+            for what, words in table[about].items():
+                found |= {word.casefold(): (about, what) for word in words}
     return found
+
+
+@cache
+def _manners() -> dict[str, tuple[Manner, tuple[float, float] | None]]:
+    """Each manner, and the share of the figures by energy that it takes."""
+    found = {}
+    for name, row in _dances()["manners"].items():
+        energy = row.get("energy")
+        carried = {what: value for what, value in row.items() if what != "energy"}
+        found[name] = Manner(**carried), energy and (energy[0], energy[1])
+    return found
+
+
+def _beside(kinds: Collection[str]) -> set[str]:
+    """Kinds that may stand in for some."""
+    return {other for kind in kinds for other in _dances()["beside"].get(kind, ())}
+
+
+@cache
+def _dances() -> dict[str, Any]:
+    return load_yaml(packaged_config("dances.yaml"))
 
 
 @cache

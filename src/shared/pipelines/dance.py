@@ -303,6 +303,12 @@ class SongPerformer:
                 )
             return None
         motion, figures = found
+        if wish.kinds and not wish.kinds & {figure.kind for figure in figures}:
+            log.warning(
+                "no figure of %s fits the tempo of this song: %s is danced instead",
+                " or ".join(sorted(wish.kinds)),
+                ", ".join(sorted({figure.kind for figure in figures})),
+            )
         if progress is not None:
             progress(motion.num_frames, motion.num_frames)
         passages = (Passage(motion.text, motion.num_frames),)

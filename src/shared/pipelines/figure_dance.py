@@ -17,11 +17,21 @@ from scipy.interpolate import PchipInterpolator
 from torch import Tensor
 
 from ..memory.figures import FPS, FigureMemory, Figures
+from ..metrics.rhythm import motion_beats
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.danced import Danced
-from ..motion.features import FORWARD, LATERAL, LEFT_CONTACT, ROOT_ROW, YAW_RATE, mirror_features
+from ..motion.features import (
+    FORWARD,
+    LATERAL,
+    LEFT_CONTACT,
+    ROOT_ROW,
+    YAW_RATE,
+    mirror_features,
+    world_joints,
+)
+from ..motion.manner import carried
 from ..motion.motion import Motion
 from ..motion.rotations import (
     matrix_to_quaternion,
@@ -37,6 +47,7 @@ from .song import SongCondition
 
 BLEND = 0.3  # seconds either side of a seam
 STAND = "a person stands still"  # where nobody dances
+REACH, HASTE = 0.2, 0.45  # seconds by which a beat of the body is moved; of the pace, for that
 LONG = 10  # frames; for less the pose is held
 
 
@@ -84,7 +95,9 @@ class FigureDancer:
             return None
         memory = self.choreographer.memory
         features, danced = lay(memory, slots, chosen, len(song.phase))
-        features = self._standing(features, danced, sampling)
+        for _ in range(2):  # what is moved shows other beats
+            features = on_beats(features, song.beats)
+        features = self._standing(carried(features, wish.manner, FPS), danced, sampling)
         features[:, ROOT_ROW] = staged(features[:, ROOT_ROW], FPS)
         motion = self.generator.post_processor(features, None, text=text, foot_lock=foot_lock)
         return motion, told(self.choreographer, slots, chosen)
@@ -217,15 +230,45 @@ def _warped(memory: FigureMemory, figure: Figures, counts: np.ndarray, time: np.
     rate = speed(inside)
     frame = at * FPS
     held = np.clip(frame, first, last - 2)
-    rate = np.where(held == frame, rate, 0.0)
-    low = np.floor(held).astype(int)
-    share = torch.from_numpy(held - low).float()[:, None, None]
-    features = torch.lerp(memory.features[low], memory.features[low + 1], share)
-    near = memory.features[np.rint(held).astype(int), ROOT_ROW, LEFT_CONTACT:]
-    features[:, ROOT_ROW, LEFT_CONTACT:] = near
-    way = [FORWARD, LATERAL, YAW_RATE]
-    features[:, ROOT_ROW, way] *= torch.from_numpy(rate).float()[:, None]
+    features = _sampled(memory.features, held, np.where(held == frame, rate, 0.0))
     return mirror_features(features) if figure.mirrored[0] else features
+
+
+def _sampled(features: Tensor, frame: np.ndarray, rate: np.ndarray) -> Tensor:
+    """Features [t,23,6] at frames [t] of some [F,23,6], gone through at rates [t]."""
+    low = np.clip(np.floor(frame).astype(int), 0, len(features) - 2)
+    share = torch.from_numpy(frame - low).float()[:, None, None]
+    found = torch.lerp(features[low], features[low + 1], share)
+    near = features[np.rint(frame).astype(int), ROOT_ROW, LEFT_CONTACT:]
+    found[:, ROOT_ROW, LEFT_CONTACT:] = near
+    way = [FORWARD, LATERAL, YAW_RATE]
+    found[:, ROOT_ROW, way] *= torch.from_numpy(rate).float()[:, None]
+    return found
+
+
+def on_beats(features: Tensor, beats: np.ndarray) -> Tensor:
+    """Features [T,23,6] whose motion is a little earlier or later, where that brings its own beats
+    to those of the song.
+
+    Args:
+        features: of a dance.
+        beats: seconds [M] of the song, ascending, M ≥ 1.
+    """
+    own, end = motion_beats(world_joints(features, FPS).numpy(), FPS).times, len(features) - 1.0
+    wanted = beats[np.abs(own[:, None] - beats).argmin(1)]
+    near = np.abs(own - wanted) < REACH
+    knots = [(0.0, 0.0), *zip(wanted[near] * FPS, own[near] * FPS, strict=True), (end, end)]
+    while True:
+        to, at = np.array(knots).T
+        rates = np.diff(at) / np.maximum(np.diff(to), 1e-6)
+        wrong = np.flatnonzero(np.abs(np.log(rates)) > np.log(1 + HASTE))
+        if not len(wrong):
+            break
+        pair = [knot for knot in (wrong[0], wrong[0] + 1) if 0 < knot < len(knots) - 1]
+        del knots[max(pair, key=lambda knot: abs(to[knot] - at[knot]))]
+    warp = PchipInterpolator(to, at)
+    time = np.arange(len(features))
+    return _sampled(features, np.clip(warp(time), 0, end), warp.derivative()(time))
 
 
 def _held(features: Tensor, danced: Tensor) -> Tensor:

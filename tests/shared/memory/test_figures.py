@@ -43,6 +43,12 @@ def test_slow_takes_are_counted_twice_as_fast_too() -> None:
     assert paces.max() == pytest.approx(0.7, abs=0.03)
 
 
+def test_short_takes_are_counted_at_several_paces() -> None:
+    memory = FigureMemory([Take.of(stepping(0.5, 300), "short", "dance")])
+    paces = [np.median(np.diff(counts)) for _, counts in memory.readings()]
+    assert len(paces) > 2 and min(paces) < 0.45 and max(paces) >= 0.5
+
+
 def test_who_floats_is_brought_down() -> None:
     lifted = stepping(0.5, bend=-0.12)
     take = Take.of(lifted, "x", "y")
@@ -89,7 +95,7 @@ def test_the_shipped_figures_are_free_small_and_of_several_kinds() -> None:
 
 def test_steps_begin_with_bars_and_are_counted_as_they_are() -> None:
     memory = FigureMemory([made_take(STEPS[0], 0.6), Take.of(swinging_arms(), "arms", "dance")])
-    assert [which for which, _ in memory.readings()] == [0, 1]
+    assert [which for which, _ in memory.readings()].count(0) == 1
     figures = memory.figures(4)
     own = figures.rows(np.flatnonzero(figures.take == 0))
     assert set(own.meter.tolist()) == {4} and set((own.number % 4).tolist()) == {0}

@@ -78,6 +78,40 @@ def test_who_asks_for_a_kind_is_not_thrown_to_the_floor() -> None:
     assert len(alone)
 
 
+def test_other_kinds_stand_in_where_one_has_too_little() -> None:
+    takes = tiny_figures().takes
+    party = replace(Take.of(stepping(0.5, sway=0.2), "party", "party dance"))
+    choreographer = Choreographer(FigureMemory([*takes, party]))
+    salsa, slots = Wish(frozenset({"salsa"})), song_slots(*song())
+    assert 3 not in choreographer.allowed(8, salsa)[0].take
+    assert 3 in choreographer.allowed(8, salsa, beside=True)[0].take
+    chosen = choreographer.choose(slots, salsa, 0)
+    assert chosen is not None
+    other = {slot.part[0] for slot, each in zip(slots, chosen, strict=True) if each.take[0] == 3}
+    assert other <= {"b"}
+    alone = Choreographer(FigureMemory([takes[1], party])).choose(slots, salsa, 0)
+    assert alone is not None and {int(each.take[0]) for each in alone} == {1}
+
+
+def test_a_dance_shows_more_poses_than_figures_drawn() -> None:
+    takes = [
+        made_take(steps, 0.5, number) for number, steps in enumerate(STEPS) if steps.meter == 4
+    ]
+    choreographer = Choreographer(FigureMemory(takes))
+    slots = song_slots(*song(seconds=40))
+    chosen, drawn = (
+        np.mean([np.any([each.shown[0] for each in make(slots, Wish(), seed) or ()], 0).sum()
+                 for seed in range(3)])
+        for make in (choreographer.choose, choreographer.draw)
+    )  # fmt: skip
+    assert chosen > drawn
+
+
+def test_slow_beats_are_halved() -> None:
+    assert {slot.halved for slot in song_slots(*song(60.0))} == {True}
+    assert {slot.halved for slot in song_slots(*song(120.0))} == {False}
+
+
 def test_nobody_dances_in_a_gap() -> None:
     slots = song_slots(*song(), waits=[(240, 360)])
     for slot in slots:
@@ -160,8 +194,22 @@ def test_kinds_and_energy(sentence: str, kind: str, energy: tuple[float, float])
 
 @pytest.mark.parametrize(
     "sentence",
-    ["an old man dances", "a person walks", "a person dances tango", "", "person",
-     "a person dances ballet", "ein alter Mann tanzt"],
+    ["an old man dances", "ein alter Mann tanzt", "un homme âgé danse", "老人在跳舞",
+     "una mujer anciana baila", "老人が踊っている"],
+)  # fmt: skip
+def test_who_dances_carries_it(sentence: str) -> None:
+    wish = wish_of(sentence, KINDS)
+    assert wish is not None and wish.manner.stoop > 10 and wish.manner.knees > 5
+    assert not wish.kinds and wish.energy[1] < 1
+    proud = wish_of("a proud old man dances salsa", KINDS)
+    assert proud is not None and proud.kinds == {"salsa"}
+    assert 0 < proud.manner.stoop < wish.manner.stoop and proud.energy == wish.energy
+
+
+@pytest.mark.parametrize(
+    "sentence",
+    ["a robot dances", "an old man walks", "a person dances tango", "", "person",
+     "a person dances ballet", "ein Roboter tanzt"],
 )  # fmt: skip
 def test_what_no_figure_shows_is_left_to_the_generator(sentence: str) -> None:
     assert wish_of(sentence, KINDS) is None

@@ -10,11 +10,11 @@ from src.shared.memory.figures import FPS
 from src.shared.metrics.rhythm import body_beats, rhythm
 from src.shared.metrics.seams import body_quantities
 from src.shared.model.diffusion import Sampling
-from src.shared.motion.features import LEFT_CONTACT, ROOT_ROW, decode_features
+from src.shared.motion.features import LEFT_CONTACT, ROOT_ROW, decode_features, encode_features
 from src.shared.pipelines.body import Performer, PerformerSettings
 from src.shared.pipelines.choreography import Choreographer, Wish, song_slots
 from src.shared.pipelines.dance import SongPerformer
-from src.shared.pipelines.figure_dance import BLEND, FigureDancer, lay, listed
+from src.shared.pipelines.figure_dance import BLEND, FigureDancer, lay, listed, on_beats
 from src.shared.pipelines.song import SongCondition
 from tests.shared.memory.tiny_figures import tiny_figures
 from tests.shared.model.conftest import tiny_generator
@@ -51,6 +51,19 @@ def test_counts_fall_on_beats_and_seams_are_not_seen(choreographer: Choreographe
         for each in (motion, hard)
     ]
     assert worst[0] <= worst[1] + 1e-6 and BLEND > 0.1
+
+
+def test_a_body_a_little_late_is_brought_to_the_beats() -> None:
+    motion = tiny_figures().takes[0].motion
+    beats = body_beats(motion)[2:-2] - 0.1
+    features = encode_features(motion)
+    before, after = (
+        rhythm(body_beats(decode_features(each)), beats, motion.seconds).f
+        for each in (features, on_beats(features, beats))
+    )
+    assert before < 0.4 and after > 0.8
+    far = on_beats(features, beats[:1] - 30.0)  # no beat is near
+    assert torch.allclose(far, features, atol=1e-5)
 
 
 def test_it_says_what_it_danced(choreographer: Choreographer) -> None:
