@@ -314,7 +314,7 @@ def evaluate_requests(
     options.check_folder("--out", out)
 
     from ..shared.data.prepared import PreparedData
-    from ..shared.evaluation.floors import untrained
+    from ..shared.evaluation.samples import untrained
     from ..shared.evaluation.suites.requests import RequestSettings, evaluate_requests
     from ..shared.model.generation.motion_generator import TextToMotion
     from ..shared.pipelines.text import SentenceGenerator

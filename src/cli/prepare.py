@@ -235,7 +235,7 @@ def open_motion(motion: str, out: Path, workers: int, scheduler: str | None) -> 
 def write_bands(out: Path) -> None:
     """What the training phrases measure, in bands.json: the sanity suite compares with it."""
     from ..shared.data.pairing.prepare_audio import training_trajectories
-    from ..shared.metrics.bands import Bands
+    from ..shared.metrics.sanity import Bands
 
     Bands.of(training_trajectories(out)).save(out / "bands.json")
 

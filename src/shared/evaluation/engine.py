@@ -63,6 +63,7 @@ class MetricFamily(Generic[Judged]):
             be computed is left out. Or the figures of each motion, by column key, a mapping each.
         distance: the figures are distances from the reference. The real row is then measured
             between two disjoint halves of the real motions, since a sample is at 0 from itself.
+        least: motions of the sample and of the reference below which there are no figures.
     """
 
     name: str
@@ -70,9 +71,12 @@ class MetricFamily(Generic[Judged]):
     definition: str
     figures: Callable[[Judged, Judged, int], Mapping[str, Value] | Sequence[Mapping[str, float]]]
     distance: bool = False
+    least: int = 0
 
     def compute(self, sample: Judged, reference: Judged, *, seed: int) -> Mapping[str, Value]:
         """What `figures` finds, by column key."""
+        if self.least and min(len(sample), len(reference)) < self.least:
+            return {}
         found = self.figures(sample, reference, seed)
         if not isinstance(found, Sequence):
             return found

@@ -1,14 +1,14 @@
-"""The text branch's families: retrieval, Fréchet distances, variety, kinetics, physics, obedience.
+"""The text and audio branches' families of metrics: what each table is made of.
 
 Letters: N motions.
 """
 
 from dataclasses import asdict
+from typing import Any
 
 import numpy as np
 from scipy.spatial.distance import pdist
 
-from ..metrics.bands import MEASURES, UNITS
 from ..metrics.frechet import (
     JointFrechet,
     diversity,
@@ -37,10 +37,10 @@ from ..metrics.rhythm import (
     motion_beats,
     song_phase,
 )
-from ..metrics.sanity import SEVEN, SanityChecker
+from ..metrics.sanity import MEASURES, SEVEN, UNITS, SanityChecker
 from ..motion.trajectory import MotionTrajectory
 from .engine import MetricFamily, Value
-from .judge.instructions import check
+from .judge.actions import check
 from .report.tables import Column
 from .samples import Bodies, MotionSample, Trajectories
 
@@ -92,9 +92,6 @@ GUO = MetricFamily(
 
 
 def _frechet(sample: MotionSample, reference: MotionSample, seed: int) -> dict[str, Value]:
-    """Nothing for fewer than two motions on either side."""
-    if min(len(sample), len(reference)) < MIN_SAMPLE:
-        return {}
     axes = min(JOINT_AXES, reference.motion.shape[1])
     joint = reference.memo.once(
         "joint FD", lambda: JointFrechet(reference.text, reference.motion, num_axes=axes)
@@ -129,6 +126,7 @@ FRECHET = MetricFamily(
     " never beside a figure of another judge or another N.",
     _frechet,
     distance=True,
+    least=MIN_SAMPLE,
 )
 
 PHYSICS: MetricFamily[MotionSample] = MetricFamily(
@@ -211,12 +209,10 @@ KINETIC_WARNING = (
 )
 
 
-def body_kinetics(
+def _body_kinetics(
     sample: MotionSample | Bodies, reference: MotionSample | Bodies, seed: int
 ) -> dict[str, float]:
-    """Nothing for fewer than two motions on either side; no random choice."""
-    if min(len(sample), len(reference)) < MIN_SAMPLE:
-        return {}
+    """No random choice."""
     own, real, whole = (
         stacked(each.each("body features", body_features))
         for each in (sample, reference, reference.whole or reference)
@@ -224,7 +220,7 @@ def body_kinetics(
     return kinetic_columns(own, real, kinds=3, units_of=whole)
 
 
-BODY_KINETICS: MetricFamily[MotionSample] = MetricFamily(
+BODY_KINETICS: MetricFamily[Any] = MetricFamily(
     "kinetic and geometric features",
     (
         Column("fid_k", "FID_k, 66-d", 2, "low"),
@@ -240,8 +236,9 @@ BODY_KINETICS: MetricFamily[MotionSample] = MetricFamily(
     "(Müller et al. 2005); as in AIST++ (Li et al. 2021). FID: Fréchet distance to the real "
     "motions, also along the 16 directions in which these vary most: the one to read below "
     "a thousand motions. Div: mean distance over all pairs. " + KINETIC_WARNING,
-    body_kinetics,
+    _body_kinetics,
     distance=True,
+    least=MIN_SAMPLE,
 )
 
 CONTACT: MetricFamily[MotionSample] = MetricFamily(
@@ -472,9 +469,7 @@ TRAJECTORY_SANITY = MetricFamily(
 
 
 def _root_kinetics(sample: Trajectories, reference: Trajectories, seed: int) -> dict[str, float]:
-    """Nothing for fewer than two motions on either side; no random choice."""
-    if min(len(sample), len(reference)) < MIN_SAMPLE:
-        return {}
+    """No random choice."""
     own, real, whole = (
         stacked([piece for pieces in each.each("root features", root_features) for piece in pieces])
         for each in (sample, reference, reference.whole or reference)
@@ -499,6 +494,7 @@ ROOT_KINETICS = MetricFamily(
     "a mean over a longer motion varies less. " + KINETIC_WARNING,
     _root_kinetics,
     distance=True,
+    least=MIN_SAMPLE,
 )
 AUDIO_FAMILIES: tuple[MetricFamily[Trajectories], ...] = (
     BEAT_ALIGNMENT, BAR_PHASE, TRAJECTORY_SANITY, ROOT_KINETICS,

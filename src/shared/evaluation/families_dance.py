@@ -15,7 +15,7 @@ from ..metrics.stage import stage
 from ..motion.motion import Motion
 from ..pipelines.body import root_error
 from .engine import MetricFamily
-from .families import ABOVE, BODY_KINETICS, SCORES, body_kinetics
+from .families import ABOVE, BODY_KINETICS, SCORES
 from .report.tables import Column
 from .samples import Bodies, Dance
 
@@ -188,11 +188,6 @@ ON_STAGE: MetricFamily[Bodies] = MetricFamily(
         for found in sample.each("stage", stage)
     ],
 )
-KINETICS: MetricFamily[Bodies] = MetricFamily(
-    BODY_KINETICS.name,
-    BODY_KINETICS.columns,
-    BODY_KINETICS.definition,
-    body_kinetics,
-    distance=True,
-)
-DANCE_FAMILIES = (BODY_RHYTHM, ON_STAGE, KINETICS, ON_THE_PATH, FEET)
+DANCE_FAMILIES: tuple[MetricFamily[Bodies], ...] = (
+    BODY_RHYTHM, ON_STAGE, BODY_KINETICS, ON_THE_PATH, FEET,
+)  # fmt: skip

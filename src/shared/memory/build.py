@@ -27,9 +27,8 @@ from torch import Tensor
 
 from ..data.phrases.dataset import read_phrase
 from ..data.phrases.layout import MANIFEST as PAIRS_MANIFEST
-from ..data.phrases.layout import BadContent, PhraseRecord
+from ..data.phrases.layout import BadContent, PhraseRecord, PhraseTable
 from ..data.phrases.store import PhraseStore, Remote
-from ..data.phrases.table import PhraseTable
 from ..data.retarget.read_motion import FOLDER_ENDINGS, read_motion
 from ..errors import UserError
 from ..io.files import parse_json, read_text

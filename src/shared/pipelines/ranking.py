@@ -30,10 +30,9 @@ from pydantic import Field
 
 from ..config_schema import Config
 from ..errors import UserError
-from ..metrics.bands import Bands
 from ..metrics.physical import contact_slide, mean_jerk, penetration
 from ..metrics.rhythm import Alignment, alignment, chance_alignment, motion_beats
-from ..metrics.sanity import SanityChecker, mean_margin, share
+from ..metrics.sanity import Bands, SanityChecker, mean_margin, share
 from ..model.checkpoint import list_models, read_card, resolve_model
 from ..motion.features import encode_features
 from ..motion.motion import Motion

@@ -17,7 +17,7 @@ from ..audio.song import Song, analyse
 from ..config_audio import PostProcessConfig
 from ..data.phrases.layout import phase_rows
 from ..device import choose_device
-from ..metrics.bands import Bands
+from ..metrics.sanity import Bands
 from ..model.audio.audio_motion_model import AudioMotionModel
 from ..model.audio.conditioning import BEAT, CHROMA, CONDITION_ROWS, ENERGY, FEATURE_ROWS
 from ..model.checkpoint import resolve_model

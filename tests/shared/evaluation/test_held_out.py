@@ -8,8 +8,7 @@ import pytest
 from src.shared.data.prepare import open_data
 from src.shared.data.prepared import ClipRecord, PreparedData
 from src.shared.errors import UserError
-from src.shared.evaluation.floors import frozen
-from src.shared.evaluation.samples import choose_caption, real_clips, spread_over_groups
+from src.shared.evaluation.samples import choose_caption, frozen, real_clips, spread_over_groups
 from src.shared.motion.features import ROOT_ROW, decode_features
 
 

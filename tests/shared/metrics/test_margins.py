@@ -5,8 +5,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.metrics.bands import Band, Bands
-from src.shared.metrics.sanity import CheckResult, SanityChecker, margin, mean_margin, share
+from src.shared.metrics.sanity import (
+    Band,
+    Bands,
+    CheckResult,
+    SanityChecker,
+    margin,
+    mean_margin,
+    share,
+)
 from src.shared.motion.trajectory import MotionTrajectory
 
 

@@ -8,8 +8,15 @@ import numpy as np
 import pytest
 
 from src.shared.errors import UserError
-from src.shared.metrics.bands import Band, Bands
-from src.shared.metrics.sanity import SEVEN, SanityChecker, SanityThresholds, frozen, sanity_row
+from src.shared.metrics.sanity import (
+    SEVEN,
+    Band,
+    Bands,
+    SanityChecker,
+    SanityThresholds,
+    frozen,
+    sanity_row,
+)
 from src.shared.motion.trajectory import PHASE, MotionTrajectory
 from tests.shared.motion.trajectories import smooth_trajectory
 

@@ -22,6 +22,7 @@ from ...motion.trajectory import encode_window
 from .layout import (
     BadContent,
     PhraseRecord,
+    PhraseTable,
     common_length,
     decode_body,
     decode_features,
@@ -29,7 +30,6 @@ from .layout import (
     phase_rows,
 )
 from .store import CACHE_BYTES, ObjectCache, PhraseStore, Quarantine, Remote, default_cache
-from .table import PhraseTable
 
 _PHASE = 16  # column of a trajectory: bars modulo 1
 

@@ -25,11 +25,11 @@ from .layout import (
     MANIFEST,
     BadContent,
     PhraseRecord,
+    PhraseTable,
     StoredObject,
     parse_manifest,
     phrases_of_listing,
 )
-from .table import PhraseTable
 
 
 class Remote(Storage):

@@ -33,10 +33,9 @@ from ...pipelines.song import SongGenerator, own_noise
 from ...pipelines.song_sampler import SPARE, SongSampling, spans
 from ..engine import Bench, Progress, Row, Suite, run_suite
 from ..families import AUDIO_FAMILIES, beats_of
-from ..floors import untrained_audio_model
 from ..manifest import Part, Parts, Sources, model_hashes, song_hashes
 from ..report.tables import Column, Grid, GridRow
-from ..samples import Dance, DanceSample, Trajectories
+from ..samples import Dance, DanceSample, Trajectories, untrained_audio_model
 from .alignment import (
     Danced,
     alignment_grids,

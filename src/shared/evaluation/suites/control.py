@@ -14,12 +14,11 @@ from typing import Any
 
 from ...data.captions.book import CaptionBook
 from ...metrics.measurements import Measurements, measure
-from ..floors import frozen_pose
-from ..judge.instructions import CONTROL_TASKS, ControlTask
+from ..judge.actions import CONTROL_TASKS, ControlTask
 from ..manifest import Part
 from ..report.tables import Cell as TableCell
 from ..report.tables import Column, Grid, GridRow
-from ..samples import Clips, Sampler
+from ..samples import Clips, Sampler, frozen_pose
 from ..stats import Estimate, share_of, success_rate
 
 Labels = dict[str, str]

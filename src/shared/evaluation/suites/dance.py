@@ -42,11 +42,10 @@ from ...pipelines.song_sampler import SongSampling
 from ...pipelines.stream import OVERLAP, WINDOW, Passage, window_lengths
 from ..engine import Bench, Progress, Row, Suite, run_suite
 from ..families_dance import DANCE_FAMILIES, MOMENTS
-from ..floors import held_still, untrained
 from ..judge.evaluator import Evaluator
 from ..manifest import Parts, Sources, model_hashes, song_hashes
 from ..report.tables import Column, Grid, GridRow
-from ..samples import Bodies, Dance, DanceSample
+from ..samples import Bodies, Dance, DanceSample, held_still, untrained
 from ..stats import bootstrap_mean
 from .alignment import alignment_grids, alignment_rows, danced
 from .dance_seams import hard_cuts, seam_grid

@@ -22,10 +22,9 @@ from ...pipelines.path import DrawnPath, along_path, distances_to_line, natural_
 from ...pipelines.stream import Passage
 from ...pipelines.timeline import Timeline, by_timeline
 from ..engine import Progress
-from ..floors import held_still, untrained
 from ..judge.evaluator import Evaluator
 from ..report.tables import Cell, Column, Grid, GridRow
-from ..samples import Clips, HeldOut, real_clips
+from ..samples import Clips, HeldOut, held_still, real_clips, untrained
 from ..stats import bootstrap_mean
 
 MIN_FRAMES, MAX_FRAMES = 90, 150  # of a clip that is edited

@@ -31,7 +31,6 @@ from ...metrics.physical import support_slide
 from ...motion.features import decode_features
 from ...motion.motion import Motion
 from ..engine import Progress
-from ..floors import frozen_pose
 from ..judge.actions import (
     MIN_FRAMES,
     ActionJudge,
@@ -43,7 +42,7 @@ from ..judge.actions import (
     shown_together,
 )
 from ..report.tables import Cell, Column, Grid, GridRow, Report, report_data
-from ..samples import spread_over_groups
+from ..samples import frozen_pose, spread_over_groups
 from ..stats import Estimate, bootstrap_mean, share_of
 from .text import LANGUAGES, errors_only
 

@@ -16,15 +16,14 @@ from typing import Any
 import numpy as np
 
 from ...errors import UserError
-from ...metrics.bands import MEASURES, UNITS, Bands
-from ...metrics.sanity import SEVEN, SanityChecker, frozen, sanity_row
+from ...metrics.sanity import MEASURES, SEVEN, UNITS, Bands, SanityChecker, frozen, sanity_row
 from ...model.audio.audio_motion_model import AudioMotionModel
 from ...motion.trajectory import MotionTrajectory
 from ...pipelines.song import SongCondition, SongGenerator, finished
 from ...pipelines.song_sampler import SongSampling
-from ..floors import untrained_audio_model
 from ..report.plots import new_figure, save_figure
 from ..report.tables import Column, Grid, GridRow, Report, number, report_data
+from ..samples import untrained_audio_model
 from ..stats import success_rate
 from .songs import TEMPI, conditions_of_songs, open_split, phrases
 

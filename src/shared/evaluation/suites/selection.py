@@ -21,7 +21,6 @@ from typing import Any, Literal
 import numpy as np
 
 from ...errors import UserError
-from ...metrics.bands import Bands
 from ...metrics.kinetic import (
     Features,
     kinetic_columns,
@@ -32,6 +31,7 @@ from ...metrics.kinetic import (
 from ...metrics.physical import physics, travel, travel_error
 from ...metrics.retrieval import BATCH, TOP, best_ranks, pair_distances
 from ...metrics.rhythm import against_chance, motion_beats, rhythm
+from ...metrics.sanity import Bands
 from ...model.generation.motion_generator import TextToMotion
 from ...motion.motion import Motion
 from ...motion.trajectory import FPS, MotionTrajectory
@@ -40,8 +40,8 @@ from ...pipelines.song import AudioCondition, SongGenerator
 from ...pipelines.song_sampler import SongSampling
 from ...pipelines.text import PromptSampler
 from ..engine import Progress
+from ..judge.actions import check
 from ..judge.evaluator import Evaluator
-from ..judge.instructions import check
 from ..report.tables import Column, Grid, GridRow, Report, report_data
 from ..samples import Clips, open_held_out, real_clips
 from ..stats import Estimate, bootstrap_mean, replicated

@@ -25,8 +25,8 @@ from ...model.audio.shared_space import SharedSpace
 from ...model.clip.core import TextTower
 from ...model.clip.tokenizer import PromptTokenizer
 from ...motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
-from ..floors import untrained_audio_tower, untrained_motion_tower
 from ..report.tables import Column, Grid, GridRow, report_data
+from ..samples import untrained_audio_tower, untrained_motion_tower
 from ..stats import Estimate
 
 Embed = Callable[[Tensor, Tensor], Tensor]

@@ -25,11 +25,19 @@ from ...motion.motion import Motion
 from .. import manifest
 from ..engine import Bench, Progress, Row, Suite, run_suite
 from ..families import TEXT_FAMILIES, r_precision
-from ..floors import frozen_pose, untrained
 from ..judge.evaluator import Evaluator, evaluator_folder
 from ..manifest import Part, Parts, Sources
 from ..report.tables import Column, Grid, GridRow, Report, plain
-from ..samples import Clips, HeldOut, MotionSample, Sampler, open_held_out, real_clips
+from ..samples import (
+    Clips,
+    HeldOut,
+    MotionSample,
+    Sampler,
+    frozen_pose,
+    open_held_out,
+    real_clips,
+    untrained,
+)
 from ..stats import bootstrap_mean
 from .control import control_grid, control_table
 

@@ -5,7 +5,6 @@ import pytest
 
 from src.shared.data.prepared import ClipRecord
 from src.shared.data.synthetic.clips import generate_clip, spec_for
-from src.shared.evaluation.floors import frozen, frozen_pose
 from src.shared.evaluation.judge.actions import (
     ActionJudge,
     ActionRecognizer,
@@ -13,6 +12,7 @@ from src.shared.evaluation.judge.actions import (
     shown,
     shown_together,
 )
+from src.shared.evaluation.samples import frozen, frozen_pose
 from src.shared.metrics.measurements import ACTIONS
 from src.shared.motion.features import decode_features, encode_features
 

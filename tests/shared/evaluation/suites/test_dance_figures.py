@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from src.shared.evaluation.families_dance import BODY_RHYTHM, FEET, ON_THE_PATH
-from src.shared.evaluation.floors import held_still
-from src.shared.evaluation.samples import Dance, DanceSample
+from src.shared.evaluation.samples import Dance, DanceSample, held_still
 from src.shared.evaluation.suites.dance import PromptDances, effect, near_seams
 from src.shared.evaluation.suites.dance_seams import (
     hard_cuts,

@@ -8,8 +8,8 @@ import pytest
 import torch
 
 from src.shared.data.phrases.dataset import MotionPhraseDataset
-from src.shared.evaluation.floors import untrained_audio_tower
 from src.shared.evaluation.report.tables import Grid, markdown
+from src.shared.evaluation.samples import untrained_audio_tower
 from src.shared.evaluation.suites.space import (
     CHANCE,
     SPACE,
