@@ -4,9 +4,10 @@
     python benchmarks/walk.py -- convert in.bvh out.glb
 
 Every call of a function of src/ is counted; what runs while a module of src/ is imported is not. A
-change of file is a call whose file is another one than that of the call before it. Each request
-runs in a process of its own, as commands do: what the first one chose (NumPy in place of PyTorch)
-would else bind the second.
+change of file is a call whose file is another one than that of the call before it. The NumPy that
+stands in for PyTorch (src/shared/tensors) is counted as well, and told apart: who reads a walk
+through PyTorch itself does not enter that either. Each request runs in a process of its own, as
+commands do: what the first one chose (NumPy in place of PyTorch) would else bind the second.
 """
 
 import argparse
@@ -24,6 +25,7 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
 SOURCE = str(ROOT / "src")
+STAND_IN = str(ROOT / "src" / "shared" / "tensors")
 
 
 class Walk:
@@ -32,7 +34,8 @@ class Walk:
     def __init__(self) -> None:
         self.calls: Counter[tuple[str, str]] = Counter()
         self.edges: Counter[tuple[str, str]] = Counter()
-        self._last = ""
+        self.changes_but_tensors = 0
+        self._last = self._last_but_tensors = ""
 
     def __enter__(self) -> "Walk":
         threading.setprofile(self._event)
@@ -52,6 +55,9 @@ class Walk:
             if self._last:
                 self.edges[self._last, code.co_filename] += 1
             self._last = code.co_filename
+        if not code.co_filename.startswith(STAND_IN) and code.co_filename != self._last_but_tensors:
+            self.changes_but_tensors += bool(self._last_but_tensors)
+            self._last_but_tensors = code.co_filename
 
     @property
     def changes(self) -> int:
@@ -111,6 +117,7 @@ def main() -> None:
             print(
                 f"{name}: {len(found.files)} files, {len(found.calls)} functions,"
                 f" {found.changes} changes of file"
+                f" ({found.changes_but_tensors} but for the stand-in of PyTorch)"
             )
             if options.files:
                 print(*(f"  {file}" for file in found.files), sep="\n")

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import UserError
-from .storage import Address, Place, place
+from .storage import Address, Place
 
 MAX_JSON = 256 << 20  # bytes
 MAX_TEXT = 64 << 20
@@ -143,14 +143,14 @@ def read_text(path: Path, wanted: str, *, max_bytes: int = MAX_TEXT) -> str:
     raise UserError(f"{path}: cannot be read ({reason}); give {wanted}")
 
 
-def load_json(path: str | Place, *, max_bytes: int = MAX_JSON) -> Any:
+def load_json(path: Place, *, max_bytes: int = MAX_JSON) -> Any:
     """The value in a JSON file.
 
     Raises:
         OSError: missing or unreadable.
         ValueError: too large, not UTF-8, not JSON, or nested too deeply.
     """
-    with place(path).open("rb") as stream:
+    with path.open("rb") as stream:
         data = stream.read(max_bytes + 1)
     if len(data) > max_bytes:
         raise ValueError(f"larger than {max_bytes >> 20} MB")
@@ -193,7 +193,7 @@ def inside(folder: Path, name: str) -> Path:
 def sha256_file(path: Place) -> str:
     """Hex SHA-256 of a file, read in chunks."""
     digest = hashlib.sha256()
-    with place(path).open("rb") as stream:
+    with path.open("rb") as stream:
         while chunk := stream.read(1 << 20):
             digest.update(chunk)
     return digest.hexdigest()

@@ -29,6 +29,7 @@ import numpy as np
 
 from ..errors import UserError
 from ..io.files import load_json, write_json
+from ..io.storage import place
 from ..motion.trajectory import (
     ACCELERATION,
     PHASE,
@@ -264,7 +265,7 @@ class Bands:
             UserError: the file is missing, damaged or not ours.
         """
         try:
-            content = load_json(path)
+            content = load_json(place(path))
             bands = {name: _band(cells) for name, cells in content["bands"].items()}
             return cls(bands, int(content["motions"]))
         except OSError as error:
