@@ -36,7 +36,7 @@ JOIN, TEMPO, ENERGY, CLEAR, STAGE, FRONT = 1.0, 30.0, 1.0, 4.0, 7.0, 0.3
 REPEAT, AGAIN, SAME_TAKE, NOISE = 2.0, 0.8, 2.0, 0.4
 NEW, MANY = 0.35, 16  # gain of a typical pose that was not yet seen, and of how many at most
 WIDE = 1.5  # gain of a dimension of the poses
-SLIDE, BACK = 18.0, 0.5  # of both feet sliding all the time; of a metre gone backward
+SLIDE, BACK = 26.0, 0.5  # of both feet sliding all the time; of a metre gone backward
 # Cost of steps made by code, which join well and fill any dance; gain of those in threes where the
 # song is in threes.
 MADE, THREES = 3.0, 6.0
