@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from src.shared.memory.figures import FigureMemory, Take
 from src.shared.memory.steps import STEPS, made_take
+from src.shared.pipelines import choreography
 from src.shared.pipelines.choreography import (
     CALM,
     LIVELY,
@@ -153,7 +154,11 @@ def test_calm_is_calmer_than_lively() -> None:
     assert calm.max() <= lively.min()
 
 
-def test_a_repetition_is_danced_again() -> None:
+def test_where_nothing_new_counts_a_repetition_is_danced_again(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(choreography, "NEW", 0.0)
+    monkeypatch.setattr(choreography, "WIDE", 0.0)
     slots = song_slots(*song(seconds=40))
     chosen = Choreographer(tiny_figures()).choose(slots, Wish(), 0)
     assert chosen is not None
