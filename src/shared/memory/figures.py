@@ -56,10 +56,7 @@ MIN_COUNTS = 5  # of a take
 TORN = 350.0  # m/s² of a joint: a leg that was captured wrongly jumps for a frame
 BESIDE = 9  # frames around a figure that are seen while it fades
 STILL = 0.12  # m/s, mean of all joints over half a second: nobody dances
-SNAP_PART, APART = (
-    0.3,
-    0.6,
-)  # of a count: how far it moves to a beat of the motion, and least length
+SNAP_PART, APART = 0.3, 0.6  # of a count: to a beat of the motion at most, and its least length
 AXES = 16  # of poses, along which the dimensions of a dance are counted
 SIGHTS, EVERY = 800, 15  # typical poses, and frames between those that are looked at for them
 WEIGHTS = np.ones(NUM_JOINTS)  # of joints in the cost of a join

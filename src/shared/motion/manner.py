@@ -1,6 +1,6 @@
 """How somebody carries what they do: bent trunk, bowed head, bent knees, small or wide arms.
 
-What is danced stays what it is; who dances it changes. Runs on the CPU.
+What is danced stays what it is; who dances it changes. Runs on the CPU in float64.
 
 Letters: T frames.
 """
