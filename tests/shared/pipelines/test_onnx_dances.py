@@ -58,7 +58,7 @@ def test_same_seed_same_dance(
 def test_same_seed_same_dance_along_the_path_of_the_song(
     generators: dict[str, MotionGenerator], song: Song, stepping: bool
 ) -> None:
-    """Where feet would slide they step, in whole frames: paths that are 2 mm apart after 8 m may
+    """Where feet would slide they step, in whole frames: paths that are 3 mm apart may
     put a step a frame later. Nothing but legs may differ for it."""
     wanted, found = (
         each.dance(song, "a person walks", sampling=FEW, follow_path=True, foot_lock=stepping)
@@ -66,7 +66,7 @@ def test_same_seed_same_dance_along_the_path_of_the_song(
         .motion
         for each in generators.values()
     )
-    np.testing.assert_allclose(found.root_position, wanted.root_position, atol=2e-3)
+    np.testing.assert_allclose(found.root_position, wanted.root_position, atol=5e-3)
     still = np.setdiff1d(np.arange(22), np.ravel(LEGS)) if stepping else np.arange(22)
     np.testing.assert_allclose(found.quaternions[:, still], wanted.quaternions[:, still], atol=1e-3)
     for (first, last), (begin, end) in zip(*map(stances, (found, wanted)), strict=True):

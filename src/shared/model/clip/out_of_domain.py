@@ -50,7 +50,7 @@ TWINS = ({"wave", "bye"},)  # one gesture under two names
 RELIABLE = 0.5  # share of tries in which an action has to come out to be known
 SCALE, FIT_STEPS = 20.0, 60  # of the cosines in the classifier of actions; of its optimizer
 FALSE_ALARMS = 0.03  # share of the prompts it calibrates on that are understood, and doubted
-FALSE_WARNINGS = 0.1  # of the sentences kept from training that are understood, and warned of
+FALSE_WARNINGS = 0.25  # of the sentences kept from training that are understood, and warned of
 NEWTON_STEPS, RIDGE = 30, 1e-2
 
 _CJK = re.compile(r"[\u3040-\u30ff\u3400-\u9fff]")
