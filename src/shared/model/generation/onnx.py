@@ -1,7 +1,8 @@
 """Text tower and denoiser as ONNX graphs for any batch, any text and any length.
 
 text.onnx: input_ids and attention_mask [B, L] int64 -> pooled [B, D]; tokens [B, L, D] for a
-network that hears them, opened [B, A] for one with adapters. denoiser.onnx: x [B, T, K, C]
+network that hears them, opened [B, A] for one with adapters, closeness [B] of a tower with places.
+denoiser.onnx: x [B, T, K, C]
 z-scores, t [B], the text, tag [B], mask [B, T] (true = a real frame), known [B, T, K, C] (true =
 the entry is given) -> prediction. adapted.onnx hears opened as well; denoiser.onnx is the same
 network where no text opens an adapter, which takes less time.
