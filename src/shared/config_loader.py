@@ -435,7 +435,8 @@ def _recipe(path: Path | str, model_class: type[TrainConfig]) -> dict[str, Any] 
     if recipe is None or Path(path).is_file():
         return None
     if stage not in recipe:
-        raise UsageError(f"recipe {path} says nothing for {stage}; there is {', '.join(recipe)}")
+        known = ", ".join(recipe)
+        raise UsageError(f"recipe {path} says nothing for {stage}; leave it out, it is for {known}")
     return {"profile": str(path), **_normalise(recipe[stage], f"recipe {path}")}
 
 

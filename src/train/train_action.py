@@ -162,7 +162,7 @@ class ActionTask(Task):
         if unknown := sorted(set(styles) - shown):
             raise UserError(
                 f"styles={','.join(unknown)}: {self.config.data} has no clip of"
-                f" {', '.join(self.actions)} in that style; it has"
+                f" {', '.join(self.actions)} in that style; name one of"
                 f" {', '.join(sorted(shown)) or 'none'}"
             )
 

@@ -76,7 +76,7 @@ def test_a_recipe_names_what_it_changes_of_its_profile(
     class TrainOtherConfig(TrainConfig):
         pass
 
-    with pytest.raises(UsageError, match=f"recipe {name} says nothing for train_other; there is"):
+    with pytest.raises(UsageError, match=f"recipe {name} says nothing for train_other; leave"):
         load_train(name, TrainOtherConfig)
 
     monkeypatch.chdir(tmp_path)

@@ -168,7 +168,7 @@ def test_a_style_is_learned_better_where_nothing_else_comes_out(
         ActionTask(config, network_of(str(model)))
     for given, error, told in (
         (wanted[1:], UsageError, "actions=walk styles=sad"),
-        ((wanted[0], "styles=[sda]"), UserError, "styles=sda: .* it has sad"),
+        ((wanted[0], "styles=[sda]"), UserError, "styles=sda: .* name one of sad"),
     ):
         config = action_config(tmp_path / "both", model, tmp_path / "y", *given)
         with pytest.raises(error, match=told):
