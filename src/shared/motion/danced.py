@@ -13,7 +13,8 @@ class Danced:
         kind: of dance.
         times: seconds of its n counts, and of its end [n+1].
         mirrored: left and right swapped.
-        part: of the dance's form: a, a', b.
+        part: a letter for each phrase of a take, in the order that they are first danced; a' is the
+            mirror image of a.
     """
 
     name: str

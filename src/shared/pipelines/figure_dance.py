@@ -9,6 +9,7 @@ Letters: T frames, S slots.
 """
 
 from collections.abc import Sequence
+from string import ascii_lowercase
 from typing import Any
 
 import numpy as np
@@ -144,17 +145,22 @@ def listed(choreographer: Choreographer, wish: Wish, counts: int = 8) -> list[di
 def told(
     choreographer: Choreographer, slots: Sequence[Slot], chosen: Sequence[Figures]
 ) -> tuple[Danced, ...]:
-    """What is danced when."""
-    found, memory = [], choreographer.memory
+    """What is danced when. Its letters are those of what came, not of the form that was wished."""
+    found: list[Danced] = []
+    first: dict[str, tuple[str, bool]] = {}  # letter of a phrase, and whether it was mirrored
     for slot, figure in zip(slots, chosen, strict=True):
-        take = memory.takes[int(figure.take[0])]
+        name, mirrored = named(choreographer.memory, figure), bool(figure.mirrored[0])
+        again, number = divmod(len(first), len(ascii_lowercase))
+        letter, side = first.setdefault(
+            name, (ascii_lowercase[number] + str(again or ""), mirrored)
+        )
         found.append(
             Danced(
-                name=named(memory, figure),
-                kind=take.kind,
+                name=name,
+                kind=choreographer.memory.takes[int(figure.take[0])].kind,
                 times=tuple(slot.counts.tolist()),
-                mirrored=bool(figure.mirrored[0]),
-                part=slot.part,
+                mirrored=mirrored,
+                part=letter + "'" * (mirrored != side),
             )
         )
     return tuple(found)

@@ -75,6 +75,11 @@ def test_it_says_what_it_danced(choreographer: Choreographer) -> None:
     assert {figure.kind for figure in figures} == {"polka"}
     assert all(a.stop == pytest.approx(b.start) for a, b in pairwise(figures))
     assert figures[0].told()["name"].startswith("sway@")
+    phrase = {each.part.rstrip("'"): each.name for each in figures}
+    sides = {each.part: each.mirrored for each in figures}
+    assert figures[0].part == "a" and len(set(phrase.values())) == len(phrase)
+    assert all(phrase[e.part.rstrip("'")] == e.name for e in figures)
+    assert all(sides[each.part] == each.mirrored for each in figures)
     assert listed(choreographer, Wish())[0]["licence"] == "CC0"
     silent = SongCondition(torch.zeros(167, 90), None, np.zeros(0))
     assert dancer.dance(silent, Wish(), sampling=Sampling(steps=2)) is None

@@ -199,16 +199,15 @@ class OutOfDomainDetector:
         """Judge one prompt by its words, its pooled text embedding [D], and the cosine with the
         nearest place before places were mixed."""
         cosines = self.means @ _unit(embedding)
-        evidence = self.evidence(prompt, cosines)
+        certainty = 1.0 if self.familiar(prompt) else -1.0
         if self.weights is not None:
-            certainty = float(evidence @ self.weights)
-        else:
-            certainty = 1.0 if self.familiar(prompt) else -1.0
+            certainty = float(self.evidence(prompt, cosines) @ self.weights)
         if self.min_cosine is not None and float(cosines.max()) >= self.min_cosine:
             certainty = max(certainty, 1.0)
         known = certainty > 0
         if self.warning_weights is not None and closeness is not None:
-            known = float(np.array([closeness, *evidence]) @ self.warning_weights) > 0
+            evidence = np.array([closeness, *self.evidence(prompt, cosines)])
+            known = float(evidence @ self.warning_weights) > 0
         nearest = [self.actions[index] for index in self.ranked(cosines)[:NUM_NEAREST]]
         if known and nearest and self.reliability.get(nearest[0], 1.0) < RELIABLE:
             return ScopeResult(False, nearest, nearest[0], certainty)

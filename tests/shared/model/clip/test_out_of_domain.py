@@ -130,6 +130,11 @@ def test_words_of_six_scripts():
     assert words_of("") == []
 
 
+def test_clips_that_nobody_labelled_are_judged_by_their_words():
+    scope = OutOfDomainDetector.fit(["clip one", "clip two"], ["", ""], np.eye(2))
+    assert scope.check("clip one", np.eye(2)[0], 0.9).nearest == []
+
+
 def test_saving_keeps_the_verdicts(scope: OutOfDomainDetector, tmp_path):
     scope.save_pretrained(tmp_path)
     loaded = OutOfDomainDetector.from_pretrained(tmp_path)
