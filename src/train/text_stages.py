@@ -253,7 +253,10 @@ def _warning(
     tower: TextTower,
     tokenizer: PromptTokenizer,
 ) -> OutOfDomainDetector:
-    """By the hand-written sentences that no tower trains on, of known actions and of others."""
+    """By the hand-written sentences that no tower trains on, of known actions and of others; as it
+    is behind a tower without places."""
+    if not tower.config.text_places:
+        return scope
     book = packaged_book()
     wanted: dict[str, str] = {}
     for code in languages:

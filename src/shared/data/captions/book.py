@@ -12,8 +12,8 @@ from ...errors import UserError
 from .language import CaptionLanguage
 from .schema import Labels, validate_language
 
-KEPT = 20
-KIND_OF = {
+KEPT = 20  # of so many sentences one calibrates
+KIND_OF = {  # actions whose sentences are not outside where this one is known
     "jog": "run", "hop": "jump", "jump-turn": "jump", "jumping-jacks": "jump", "pivot": "turn",
     "whirl": "spin", "circle": "walk", "zigzag": "walk", "zombie": "walk", "crouch": "squat",
     "roundhouse-kick": "kick", "soccer-kick": "kick", "karate": "kick", "stab": "slash",

@@ -50,7 +50,7 @@ TWINS = ({"wave", "bye"},)  # one gesture under two names
 RELIABLE = 0.5  # share of tries in which an action has to come out to be known
 SCALE, FIT_STEPS = 20.0, 60  # of the cosines in the classifier of actions; of its optimizer
 FALSE_ALARMS = 0.03  # share of the prompts it calibrates on that are understood, and doubted
-FALSE_WARNINGS = 0.25  # of the sentences kept from training that are understood, and warned of
+FALSE_WARNINGS = 0.25  # of the understood sentences kept from training; chosen on the requests
 NEWTON_STEPS, RIDGE = 30, 1e-2
 
 _CJK = re.compile(r"[\u3040-\u30ff\u3400-\u9fff]")
@@ -199,15 +199,18 @@ class OutOfDomainDetector:
         """Judge one prompt by its words, its pooled text embedding [D], and the cosine with the
         nearest place before places were mixed."""
         cosines = self.means @ _unit(embedding)
-        certainty = 1.0 if self.familiar(prompt) else -1.0
+        evidence = np.zeros(0)
+        if self.weights is not None or self.warning_weights is not None:
+            evidence = self.evidence(prompt, cosines)
         if self.weights is not None:
-            certainty = float(self.evidence(prompt, cosines) @ self.weights)
+            certainty = float(evidence @ self.weights)
+        else:
+            certainty = 1.0 if self.familiar(prompt) else -1.0
         if self.min_cosine is not None and float(cosines.max()) >= self.min_cosine:
             certainty = max(certainty, 1.0)
         known = certainty > 0
         if self.warning_weights is not None and closeness is not None:
-            evidence = np.array([closeness, *self.evidence(prompt, cosines)])
-            known = float(evidence @ self.warning_weights) > 0
+            known = float(np.array([closeness, *evidence]) @ self.warning_weights) > 0
         nearest = [self.actions[index] for index in self.ranked(cosines)[:NUM_NEAREST]]
         if known and nearest and self.reliability.get(nearest[0], 1.0) < RELIABLE:
             return ScopeResult(False, nearest, nearest[0], certainty)
