@@ -22,7 +22,7 @@ from safetensors.torch import save_file
 from torch import Tensor
 
 from ..shared.config_schema import ClipConfig, NetworkConfig, TrainConfig
-from ..shared.data.captions.book import kept_to_calibrate, packaged_book
+from ..shared.data.captions.book import packaged_book
 from ..shared.data.captions.word_dropout import insert_babble
 from ..shared.data.prepare import open_data
 from ..shared.data.prepared import ClipRecord, PreparedData
@@ -260,12 +260,12 @@ def _warning(
     book = packaged_book()
     wanted: dict[str, str] = {}
     for code in languages:
-        language = book.language(code)
+        language, told = book.language(code), dict[str, str]()
         for labels in book.combinations():
             if (action := labels.get("action", "")) in scope.actions:
-                wanted |= dict.fromkeys(language.sentences(labels), action)
-        wanted |= dict.fromkeys(book.outside(scope.actions, code), "")
-    wanted = {text: action for text, action in wanted.items() if kept_to_calibrate(text)}
+                told |= dict.fromkeys(language.sentences(labels), action)
+        told |= dict.fromkeys(book.outside(scope.actions, code), "")
+        wanted |= {text: told[text] for text in told if book.kept_to_calibrate(text, code)}
     texts = list(wanted)
     embeddings, closeness = place_captions(tower, tokenizer, texts)
     if closeness is None or not any(wanted.values()) or all(wanted.values()):

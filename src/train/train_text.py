@@ -30,7 +30,7 @@ from torch import Tensor, nn
 from torch.nn.functional import cross_entropy, normalize
 
 from ..shared.config_schema import PAIRS, NetworkConfig, TrainTowerConfig
-from ..shared.data.captions.book import kept_to_calibrate, packaged_book
+from ..shared.data.captions.book import packaged_book
 from ..shared.data.captions.schema import Labels
 from ..shared.data.captions.word_dropout import drop_words, insert_babble
 from ..shared.errors import UserError
@@ -164,14 +164,17 @@ class TextTask(Task):
         self.groups = sorted(self.labels)
         book, codes = packaged_book(), config.languages
         self.sentences = [
-            {code: _taught(book.language(code).sentences(self.labels[group])) for code in codes}
+            {
+                code: _taught(book.language(code).sentences(self.labels[group]), code)
+                for code in codes
+            }
             if config.written
             else {}
             for group in self.groups
         ]
         known = {labels.get("action", "") for labels in self.labels.values()}
         told = codes if bundle is not None and config.outside else ()
-        self.outside = {code: _taught(book.outside(known, code)) for code in told}
+        self.outside = {code: _taught(book.outside(known, code), code) for code in told}
         self.shares = self._shares()
         self.fresh = self._captions(HELD_BACK_SEED + 1, config.captions_per_group)
         self.held_back = self._captions(HELD_BACK_SEED, 2)
@@ -256,8 +259,10 @@ class TextTask(Task):
             book.captions(self.labels[group], num=num, seed=seed, whole_sentences=whole)
             for group in self.groups
         )
-        taught = _taught if whole else list
-        return [{k: taught(v) for k, v in captions.items() if k in kept} for captions in found]
+        return [
+            {k: _taught(v, k) if whole else v for k, v in captions.items() if k in kept}
+            for captions in found
+        ]
 
     def _places(self) -> Tensor:
         """Unit mean [G,D] of each combination's captions under the old tower.
@@ -442,9 +447,9 @@ class TextTask(Task):
         generator.save_pretrained(folder)
 
 
-def _taught(texts: list[str]) -> list[str]:
+def _taught(texts: list[str], lang: str) -> list[str]:
     """Those that training reads; all of them, where none were left."""
-    return [text for text in texts if not kept_to_calibrate(text)] or texts
+    return [text for text in texts if not packaged_book().kept_to_calibrate(text, lang)] or texts
 
 
 def with_places(tower: TextTower, places: Tensor) -> TextTower:

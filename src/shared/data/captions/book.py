@@ -154,10 +154,10 @@ class CaptionBook:
         """
         return self.language(lang).mirror(text)
 
-
-def kept_to_calibrate(text: str) -> bool:
-    """One caption in twenty, that a text tower does not train on and its detector learns from."""
-    return zlib.crc32(text.encode()) % KEPT == 0
+    def kept_to_calibrate(self, text: str, lang: str) -> bool:
+        """One caption in twenty, with its mirror image, that a text tower does not train on and its
+        detector learns from."""
+        return zlib.crc32(min(text, self.mirror_text(text, lang)).encode()) % KEPT == 0
 
 
 @lru_cache(maxsize=1)

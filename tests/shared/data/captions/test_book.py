@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.data.captions.book import CaptionBook, kept_to_calibrate
+from src.shared.data.captions.book import CaptionBook, packaged_book
 from src.shared.data.captions.schema import parse, tidy
 from src.shared.errors import UserError
 
@@ -170,6 +170,8 @@ def test_sentences_of_other_actions_are_outside_unless_they_are_a_kind_of_one(
     assert book.outside({"walk", "run"}, "en") == ["please other now", "please swim now"]
 
 
-def test_one_sentence_in_twenty_calibrates() -> None:
-    kept = sum(kept_to_calibrate(f"sentence {number}") for number in range(2000))
-    assert 60 < kept < 140
+def test_one_sentence_in_twenty_calibrates_with_its_mirror_image() -> None:
+    book = packaged_book()
+    kept = [book.kept_to_calibrate(f"the left foot, {number}", "en") for number in range(2000)]
+    images = [book.kept_to_calibrate(f"the right foot, {number}", "en") for number in range(2000)]
+    assert 60 < sum(kept) < 140 and kept == images
