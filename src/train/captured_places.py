@@ -94,13 +94,20 @@ def fuller_sides(data: PreparedData, labels: dict[str, Labels]) -> dict[str, str
     return found
 
 
-def apart(places: Tensor, labels: Sequence[Labels], known: Collection[str]) -> Tensor:
-    """Unit places [G,D] where each action outside `known` has moved in a direction of its own."""
+def apart(
+    places: Tensor, labels: Sequence[Labels], known: Collection[str], *, kept: float = 1.0
+) -> Tensor:
+    """Unit places [G,D] where each action outside `known` has moved in a direction of its own.
+
+    Args:
+        kept: how much of where its places lay together stays in them, 0 to 1.
+    """
     moved = places.clone()
     for action in sorted({each["action"] for each in labels if "action" in each} - set(known)):
         rows = [index for index, each in enumerate(labels) if each.get("action") == action]
         way = torch.randn(places.shape[1], generator=generator("place", action))
-        moved[rows] = normalize(places[rows] + normalize(way, dim=0), dim=-1)
+        left = places[rows] - (1 - kept) * places[rows].mean(0)
+        moved[rows] = normalize(left + normalize(way, dim=0), dim=-1)
     return moved
 
 

@@ -58,10 +58,12 @@ from .text_stages import (
 from .train_generation import GuidedDenoiser, spread_timesteps
 
 OLD_CAPTIONS = 16  # of each known action and language
-TOWER_BATCH = 256  # sentences, half of them new
-TOWER_RATE = 2e-2  # of rows that are new
-OLD_ROW_RATE = 0.1  # times that, of the others
+TOWER_BATCH = 256  # sentences: half of them new, a quarter each of what it knew and of neither
+TOWER_RATE = 5e-2  # of rows that are new
+OLD_ROW_RATE = 0.05  # times that, of those in sentences that it knew
+NEARNESS = 20.0  # weight of the cosines beside the choice: warnings go by how near a place lies
 BABBLE = 0.3  # share of new captions with made-up words in them
+KEPT = 0.15  # of where the tower sent new captions, which is near everything that it knew
 LEAST_CLIPS = 2
 SHARED = 0.1  # share of another combination's captions that makes a place theirs, too
 MOST = 0.5  # share of a combination's captions that have to agree on its place
@@ -75,7 +77,7 @@ class TrainActionConfig(TrainConfig):
     condition_dropout: float = Field(0.1, ge=0, lt=1)  # ruling 14
     losses: LossWeights = LossWeights()
     constraints: ConstraintShares = ConstraintShares()  # of networks with generation.constraints
-    tower_steps: int = Field(300, ge=1)  # of the text tower, before the motion
+    tower_steps: int = Field(400, ge=1)  # of the text tower, before the motion
     actions: tuple[str, ...] = ()  # known ones, to be learned better; none: what is new
     styles: tuple[str, ...] = ()  # of `actions`, to be learned better; none: all
 
@@ -180,7 +182,8 @@ class ActionTask(Task):
             ]
         )
         labels = [record.labels for record in groups.values()]
-        places = apart(means, labels, self.before.card.tags)
+        places = apart(means, labels, self.before.card.tags, kept=KEPT)
+        places = within_reach(before, places)
         announce(f"teaching the text tower {', '.join(self.actions)}")
         tower = with_new_places(
             before,
@@ -188,6 +191,11 @@ class ActionTask(Task):
             places,
             list(captions.values()),
             old_captions(self.before.card.tags, self.config.languages),
+            [
+                text
+                for code in self.config.languages
+                for text in packaged_book().outside({*self.before.card.tags, *self.actions}, code)
+            ],
             steps=self.config.tower_steps,
             seed=self.config.seed,
         )
@@ -424,73 +432,90 @@ def old_captions(actions: Sequence[str], languages: Sequence[str]) -> list[str]:
     )
 
 
+def within_reach(tower: TextTower, places: Tensor) -> Tensor:
+    """The unit vectors [N,D] nearest to places that the projection of a narrow tower can give."""
+    basis = torch.linalg.qr(tower.text_proj.weight.detach().float())[0]  # [D, H], or [D, D]
+    return normalize(places @ basis @ basis.T, dim=-1)
+
+
 def with_new_places(
     tower: TextTower,
     tokenizer: PromptTokenizer,
     places: Tensor,
     captions: Sequence[Sequence[str]],
     old: Sequence[str],
+    outside: Sequence[str],
     *,
     steps: int,
     seed: int,
 ) -> TextTower:
-    """A tower of token pairs that sends `captions[i]` to `places[i]`, and `old` as before.
+    """A tower of token pairs that sends `captions[i]` to `places[i]`, and all others as before.
 
-    The projection stays, and rows of tokens and pairs that it knew learn slowly.
+    The projection stays, and rows of tokens and pairs that known sentences have learn slowly.
 
     Args:
         tower: the old one; not changed.
         places: unit [N,D].
         captions: N lists.
-        old: sentences whose shares of the old places it keeps (distillation, Hinton et al. 2015).
+        old: sentences whose embeddings and shares of the old places it keeps (distillation, Hinton
+            et al. 2015).
+        outside: sentences of what neither knows, which it keeps away from all places likewise.
         steps: of TOWER_BATCH sentences.
     """
     own = [text for texts in captions for text in texts]
     row = torch.tensor([i for i, texts in enumerate(captions) for _ in texts])
-    old = [text for text in old if text not in set(own)]
+    mine = set(own)
+    old = [text for text in old if text not in mine]
     every = torch.cat([tower.get_buffer("places").float(), places])  # [P + N, D]
-    student, fresh = _extended(tower, shared_keys([tokenizer(own)[0]], 1))
+    student, rate = _extended(
+        tower, shared_keys([tokenizer(own)[0]], 1), shared_keys([tokenizer(old)[0]], 1)
+    )
     student.requires_grad_(False).train()
     assert isinstance(student.encoder, TokenPairEncoder)
     rows = student.encoder.rows.weight.requires_grad_(True)
-    rate = torch.where(fresh, 1.0, OLD_ROW_RATE)[:, None]
+    others = [text for text in outside if text not in mine]
+    near, far = range(len(old)), range(len(old), len(old) + len(others))
+    pools = [(range(len(own)), 2), (near or far, 1), (far or near, 1)]
+    old += others
     with torch.no_grad():
-        shares = torch.cat(
-            [
-                (PLACE_SCALE * _pooled(tower, tokenizer, old[at : at + 512]) @ every.T)[
-                    :, : len(every) - len(places)
-                ].softmax(-1)
-                for at in range(0, len(old), 512)
-            ]
-        )  # [M, P]
-    shares = pad(shares, (0, len(places)))
+        taught = torch.cat(
+            [_pooled(tower, tokenizer, old[at : at + 512]) for at in range(0, len(old), 512)]
+        )  # [M, D]
+    shares = (PLACE_SCALE * taught @ every[: -len(places)].T).softmax(-1)
+    shares = pad(shares, (0, len(places)))  # [M, P + N]
     learner = torch.optim.Adam([rows], lr=TOWER_RATE)
     rng = numpy_generator("tower", seed)
     draws = generator("tower", seed)
-    half = TOWER_BATCH // 2
+    part = TOWER_BATCH // 4
     with torch.random.fork_rng():
         torch.manual_seed(seed)
         for _ in range(steps):
-            news = torch.randint(len(own), (half,), generator=draws)
-            olds = torch.randint(len(old), (half,), generator=draws)
+            news, *kept = (
+                torch.randint(pool.start, pool.stop, (parts * part,), generator=draws)
+                for pool, parts in pools
+            )
+            olds = torch.cat(kept)
             texts = [own[i] for i in news]
             texts = [insert_babble(t, t, rng) if rng.random() < BABBLE else t for t in texts]
             pooled = _pooled(student, tokenizer, [*texts, *(old[i] for i in olds)])
             scores = PLACE_SCALE * pooled @ every.T  # [TOWER_BATCH, P + N]
             wanted = row[news] + len(every) - len(places)
-            loss = cross_entropy(scores[:half], wanted)
-            loss = loss + kl_div(scores[half:].log_softmax(-1), shares[olds], reduction="batchmean")
+            loss = cross_entropy(scores[: 2 * part], wanted)
+            loss = loss + kl_div(
+                scores[2 * part :].log_softmax(-1), shares[olds], reduction="batchmean"
+            )
+            aims = torch.cat([places[row[news]], taught[olds]])
+            loss = loss + NEARNESS * (1 - (pooled * aims).sum(-1)).mean()
             learner.zero_grad()
             loss.backward()  # type: ignore[no-untyped-call]
             before = rows.detach().clone()
             learner.step()
             with torch.no_grad():
-                rows.copy_(before + rate * (rows - before))
+                rows.copy_(before + rate[:, None] * (rows - before))
     config = student.config.model_copy(update={"text_places": len(every)})
-    taught = TextTower(config, tower.embed_dim)
-    assert isinstance(taught.encoder, TokenPairEncoder)
-    taught.load_state_dict({**student.state_dict(), "places": every})
-    return taught.freeze()
+    found = TextTower(config, tower.embed_dim)
+    found.load_state_dict({**student.state_dict(), "places": every})
+    return found.freeze()
 
 
 def _pooled(tower: TextTower, tokenizer: PromptTokenizer, texts: Sequence[str]) -> Tensor:
@@ -502,9 +527,9 @@ def _pooled(tower: TextTower, tokenizer: PromptTokenizer, texts: Sequence[str]) 
     return normalize(tower.text_proj(mean), dim=-1)
 
 
-def _extended(tower: TextTower, keys: Tensor) -> tuple[TextTower, Tensor]:
-    """A copy of the tower with a row for each of these keys that it does not know yet; which rows
-    these are [rows] bool."""
+def _extended(tower: TextTower, keys: Tensor, known: Tensor) -> tuple[TextTower, Tensor]:
+    """A copy of the tower with a row for each of these keys that it does not know yet; how fast its
+    rows learn [rows]: none but those of these keys, and slowly where they are known ones, too."""
     assert isinstance(tower.encoder, TokenPairEncoder)
     before = tower.encoder
     fresh = keys[~torch.isin(keys, before.keys)]
@@ -516,7 +541,8 @@ def _extended(tower: TextTower, keys: Tensor) -> tuple[TextTower, Tensor]:
     rows = torch.cat([old[:-1], torch.zeros(len(fresh), old.shape[1])])[order]
     state |= {"encoder.keys": every, "encoder.rows.weight": torch.cat([rows, old[-1:]])}
     wider.load_state_dict(state)
-    return wider, pad(order >= len(before.keys), (0, 1))
+    rate = torch.where(torch.isin(every, known), OLD_ROW_RATE, 1.0) * torch.isin(every, keys)
+    return wider, pad(rate, (0, 1))
 
 
 def network_of(init: str) -> NetworkConfig:

@@ -189,13 +189,17 @@ class PromptTokenizer:
         """The prompt cut into pieces, without special tokens."""
         return self._backend.pieces(prompt)
 
-    def __call__(self, prompts: Sequence[str]) -> tuple[Tensor, Tensor]:
+    def __call__(self, prompts: Sequence[str], *, warn: bool = False) -> tuple[Tensor, Tensor]:
         """Prompts -> input_ids [B, L] long and attention_mask [B, L] long, L the longest.
+
+        Args:
+            prompts: B texts; what is beyond `max_tokens` is cut.
+            warn: say which are cut.
 
         Raises:
             UserError: a prompt is empty.
         """
-        rows = [self._encode(index, prompt) for index, prompt in enumerate(prompts)]
+        rows = [self._encode(index, prompt, warn) for index, prompt in enumerate(prompts)]
         length = max(map(len, rows), default=0)
         ids = torch.full((len(rows), length), self._backend.pad_id, dtype=torch.long)
         mask = torch.zeros_like(ids)
@@ -204,18 +208,19 @@ class PromptTokenizer:
             mask[row, : len(tokens)] = 1
         return ids, mask
 
-    def _encode(self, index: int, prompt: str) -> list[int]:
+    def _encode(self, index: int, prompt: str, warn: bool) -> list[int]:
         if not prompt.strip():
             raise UserError(f"prompt {index + 1} is empty; describe the motion in a few words")
         tokens = self._backend.encode(prompt)
         if len(tokens) > self.max_tokens:
-            log.warning(
-                "prompt %d has %d tokens; only the first %d are used: %.60s",
-                index + 1,
-                len(tokens),
-                self.max_tokens,
-                prompt,
-            )
+            if warn:
+                log.warning(
+                    "prompt %d has %d tokens; only the first %d are used: %.60s",
+                    index + 1,
+                    len(tokens),
+                    self.max_tokens,
+                    prompt,
+                )
             tokens = [*tokens[: self.max_tokens - 1], tokens[-1]]
         return tokens
 

@@ -334,7 +334,7 @@ class TextToMotion:
         key = tuple(prompts)
         if key not in self._encoded:
             with idle_threads(), torch.inference_mode():
-                ids, mask = self.tokenizer(prompts)
+                ids, mask = self.tokenizer(prompts, warn=True)
                 features: TextFeatures = self.text(ids.to(self.device), mask.to(self.device))
             self._encoded = dict([*self._encoded.items(), (key, features)][-ENCODED:])
         return self._encoded[key]
