@@ -40,6 +40,7 @@ SLIDE, BACK = 26.0, 0.5  # of both feet sliding all the time; of a metre gone ba
 # Cost of steps made by code, which join well and fill any dance; gain of those in threes where the
 # song is in threes.
 MADE, THREES = 3.0, 6.0
+CHANGE = 1.5  # cost of another kind than the phrase before has, where none is asked for
 OTHER = 6.0  # cost of a kind that stands in for the one that is asked for, but in a part b
 FREE = 0.35  # metres from the middle that cost nothing, twice that on the way
 ALIKE = 0.9  # cosine of what two phrases of a song sound like, from which one is the other again
@@ -267,6 +268,9 @@ class Choreographer:
             cost -= WIDE * (dimensions - before[:, None])
             if index:
                 cost += JOIN * _joins(options[-1], found)
+                if not wish.kinds:
+                    kinds, before_them = (self._kinds[each.take] for each in (found, options[-1]))
+                    cost += CHANGE * (kinds != before_them[:, None])
                 cost += self._repeats(slot, found, history, mirrored)
                 if slot.same is None:
                     cost += SAME_TAKE * (taken[:, None] == self._own[found.take][:, None]).sum(-1)

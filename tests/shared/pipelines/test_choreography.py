@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from src.shared.memory.figures import FigureMemory, Take
 from src.shared.memory.steps import STEPS, made_take
+from src.shared.pipelines import choreography
 from src.shared.pipelines.choreography import (
     CALM,
     LIVELY,
@@ -161,6 +162,20 @@ def test_a_repetition_is_danced_again() -> None:
     again = [chosen[a].number[0] == chosen[b].number[0] for a, b in asked]
     by_chance = [chosen[a].number[0] == chosen[b].number[0] for a in (0, 2) for b in (4, 5)]
     assert np.mean(again) >= 0.5 > np.mean(by_chance)
+
+
+def test_a_change_of_kind_costs_where_none_is_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(choreography, "CHANGE", 1000.0)
+    choreographer = Choreographer(tiny_figures())
+    slots = song_slots(*song(seconds=40))
+
+    def kinds(wish: Wish) -> set[str]:
+        chosen = choreographer.choose(slots, wish, 0)
+        assert chosen is not None
+        return {choreographer.memory.takes[figure.take[0]].kind for figure in chosen}
+
+    assert len(kinds(Wish())) == 1
+    assert len(kinds(Wish(kinds=frozenset({"salsa", "polka"})))) == 2
 
 
 KINDS = {"salsa", "breakdance", "polka"}
