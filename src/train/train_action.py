@@ -77,7 +77,7 @@ class TrainActionConfig(TrainConfig):
     condition_dropout: float = Field(0.1, ge=0, lt=1)  # ruling 14
     losses: LossWeights = LossWeights()
     constraints: ConstraintShares = ConstraintShares()  # of networks with generation.constraints
-    tower_steps: int = Field(400, ge=1)  # of the text tower, before the motion
+    tower_steps: int = Field(300, ge=1)  # of the text tower, before the motion
     actions: tuple[str, ...] = ()  # known ones, to be learned better; none: what is new
     styles: tuple[str, ...] = ()  # of `actions`, to be learned better; none: all
 

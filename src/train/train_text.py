@@ -78,12 +78,8 @@ class TrainTextConfig(TrainTowerConfig):
     generator: str | None = None  # a generator that gets the hardened tower in the output
     captions_per_group: int = Field(64, ge=1)  # fresh ones, of each combination and language
     word_dropout: float = Field(0.05, ge=0, lt=1)
-    written: float = Field(
-        0.5, ge=0, le=1
-    )  # least share of hand-written sentences, where there are
-    outside: float = Field(
-        0.1, ge=0, lt=1
-    )  # share of draws when hardening that ask for nothing known
+    written: float = Field(0.5, ge=0, le=1)  # least share of hand-written ones, where there are
+    outside: float = Field(0.1, ge=0, lt=1)  # share of draws that ask for nothing known
     babble: float = Field(0.6, ge=0, le=1)  # share of captions with made-up words in them
     scale: float = Field(15.0, gt=0)  # factor on the cosines of the classification term
     unstyled_as_captured: bool = False  # plain words ask for what captured clips show in styles

@@ -463,6 +463,9 @@ def side_check(action: str, side: str, *, by_hand: bool) -> Check | None:
     return CHECKS.get(name) or (CHECKS.get(f"{side}-hand") if by_hand else None)
 
 
+COUNTED = frozenset({"bow", "clap", "jump", "kick", "punch", "squat"})  # whose repetitions are seen
+
+
 def repetitions(action: str, m: Measurements, side: str | None = None) -> int | None:
     """How often an action is seen, with either limb or the named one; None where nobody counts."""
     sides = {"left": m.kicks[:1], "right": m.kicks[1:]}.get(side or "", m.kicks)

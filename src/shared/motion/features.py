@@ -54,6 +54,13 @@ def _unwrapped(angles: Tensor, spans: Sequence[slice]) -> Tensor:
     return torch.as_tensor(np.concatenate(whole), dtype=angles.dtype)
 
 
+def facing_kept(features: Tensor) -> Tensor:
+    """Features [T,23,6] without their mean yaw rate: who stands faces at the end as at first."""
+    kept = features.clone()
+    kept[:, ROOT_ROW, YAW_RATE] -= features[:, ROOT_ROW, YAW_RATE].mean()
+    return kept
+
+
 def encode_features(motion: Motion, *others: Motion) -> Tensor:
     """Features [T,23,6] float32 of a motion; where it stands and faces at first is dropped.
 

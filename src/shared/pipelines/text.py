@@ -20,14 +20,22 @@ import numpy as np
 
 from ..device import idle_threads
 from ..errors import UserError
-from ..metrics.measurements import ACTIONS, Check, ends_at_rest, measure, repetitions, side_check
+from ..metrics.measurements import (
+    ACTIONS,
+    COUNTED,
+    Check,
+    ends_at_rest,
+    measure,
+    repetitions,
+    side_check,
+)
 from ..model.clip.features import TextFeatures
 from ..model.clip.out_of_domain import TWINS, ScopeResult
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import Progress, TextToMotion
 from ..model.noise import derived_seed, retry_seeds
-from ..motion.features import ROOT_ROW, YAW_RATE, decode_features
+from ..motion.features import ROOT_ROW, YAW_RATE, decode_features, facing_kept
 from ..motion.motion import Motion
 from ..motion.postprocess.streaming import streamed
 from ..motion.postprocess.whole import rest_to_rest
@@ -116,6 +124,7 @@ class SentenceGenerator:
                 sampler=sampler,
                 guidance_scale=guidance_scale,
                 foot_lock=foot_lock,
+                facing=[self._in_place(prompts[index]) for index in rows],
                 progress=lambda done, total: told(max(done, sum(map(len, made.values())))),
             )
             several = [found[at : at + num_samples] for at in range(0, len(found), num_samples)]
@@ -160,13 +169,14 @@ class SentenceGenerator:
 
     # ------------------------------------------------------------ one sentence
 
+    def _in_place(self, text: str) -> bool:
+        """Whether a text asks for a gesture: from hanging arms to hanging arms, facing one way."""
+        scope = self.generator.scope
+        return scope is not None and self._nearest(text) in scope.gestures
+
     def _rested(self, motion: Motion, *texts: str) -> Motion:
         """The motion from hanging arms to hanging arms, if one of the texts asks for a gesture."""
-        scope = self.generator.scope
-        if scope is None or not scope.gestures:
-            return motion
-        asked = any(self._nearest(text) in scope.gestures for text in texts)
-        return rest_to_rest(motion) if asked else motion
+        return rest_to_rest(motion) if any(map(self._in_place, texts)) else motion
 
     def _wanted(self, text: str) -> Check | None:
         """Whether a motion shows the action that is nearest to a text, on the side that it names;
@@ -277,8 +287,20 @@ class SentenceGenerator:
                 joints = chosen_joints(["arms" if part.side == "both" else f"{part.side}-arm"])
                 rest = all_but(features, start, stop, joints)
                 features = fill_free(self.generator, part.meanwhile, rest, sampling)
+        for start, stop, part in zip(starts, starts[1:], parts, strict=False):
+            if part.degrees is None and part.metres is None and self._in_place(part.text):
+                features[start:stop] = facing_kept(features[start:stop])
         motion = streamed(self.generator.post_processor, features, foot_lock=foot_lock)
-        return replace(self._rested(motion, parts[0].text, parts[-1].text), text=prompt)
+        motion = self._rested(motion, parts[0].text, parts[-1].text)
+        for start, stop, part in zip(starts, starts[1:], parts, strict=False):
+            if (
+                part.count > 1
+                and self._in_place(part.text)
+                and self._nearest(part.text) not in COUNTED
+            ):
+                # nothing but arms that hang in between tells one wave from the next
+                motion = rest_to_rest(motion, range(start, stop, (stop - start) // part.count)[1:])
+        return replace(motion, text=prompt)
 
     def _window(self) -> int:
         """Frames of a window: no more than the model has seen, where two overlaps fit in that."""

@@ -249,6 +249,8 @@ export function sideCheck(action, side, byHand) {
   return SIDES[name] ?? (byHand ? (SIDES[`${side}-hand`] ?? null) : null);
 }
 
+export const COUNTED = ["bow", "clap", "jump", "kick", "punch", "squat"]; // whose repetitions are seen
+
 export function repetitions(action, m, side) {
   const limbs = (counts) => (side === "left" ? counts[0] : side === "right" ? counts[1] : counts[0] + counts[1]);
   return { squat: m.squats, jump: m.jumps, clap: m.claps, bow: m.bows, kick: limbs(m.kicks), punch: limbs(m.punches) }[action] ?? null;

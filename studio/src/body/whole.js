@@ -70,22 +70,24 @@ const REST_FADE = 0.5;
 const HANGING = { collar: [0, 0, 0], shoulder: [0, 0, -1.37], elbow: [0, -0.38, 0], wrist: [0, 0, 0] };
 
 /** Arms that hang in the first and last frame, where they did not. */
-export function restToRest(motion) {
+export function restToRest(motion, cuts = null) {
+  const last = motion.frames - 1, ends = cuts?.map((c) => [[c - 1, -1], [c, 1]]) ?? [[[0, 1]], [[last, -1]]];
   const frames = Math.round(REST_FADE * motion.fps);
   if (motion.frames < 4 * frames) return motion;
   const quaternions = motion.quaternions.slice();
-  for (const end of [0, motion.frames - 1]) {
-    const { positions } = pose(motion, end);
+  for (const end of ends) {
+    const seen = end.map(([row]) => pose(motion, row).positions);
     for (const [letter, side] of [["l", 1], ["r", -1]]) {
-      if (positions[INDEX[`${letter}_wrist`]][1] < positions[0][1]) continue;
-      for (const [joint, turn] of Object.entries(HANGING)) {
-        const hung = expOf([turn[0], turn[1] * side, turn[2] * side]);
-        for (let i = 0; i < frames; i++) {
-          const way = 1 - i / frames, weight = way ** 3 * (10 - 15 * way + 6 * way * way);
-          const at = ((end ? end - i : i) * JOINTS + INDEX[`${letter}_${joint}`]) * 4;
-          quaternions.set(slerp(Array.from(quaternions.subarray(at, at + 4)), hung, weight), at);
+      if (seen.every((positions) => positions[INDEX[`${letter}_wrist`]][1] < positions[0][1])) continue;
+      for (const [row, way] of end)
+        for (const [joint, turn] of Object.entries(HANGING)) {
+          const hung = expOf([turn[0], turn[1] * side, turn[2] * side]);
+          for (let i = 0; i < frames; i++) {
+            const left = 1 - i / frames, weight = left ** 3 * (10 - 15 * left + 6 * left * left);
+            const at = ((row + way * i) * JOINTS + INDEX[`${letter}_${joint}`]) * 4;
+            quaternions.set(slerp(Array.from(quaternions.subarray(at, at + 4)), hung, weight), at);
+          }
         }
-      }
     }
   }
   return { ...motion, quaternions: continuous(quaternions, JOINTS * 4) };

@@ -1,9 +1,9 @@
 // All that the page can ask for: a sentence, a timeline, a path, clips
 // (src/shared/pipelines/text.py, timeline.py, path.py, edit.py).
 
-import { decodeFeatures, framesOf, ROOT, WIDTH, YAW_RATE } from "../body/features.js";
+import { decodeFeatures, framesOf, keepFacing, ROOT, WIDTH, YAW_RATE } from "../body/features.js";
 import { round } from "../body/curves.js";
-import { ACTIONS, endsAtRest, measure, repetitions, sideCheck } from "../body/measurements.js";
+import { ACTIONS, COUNTED, endsAtRest, measure, repetitions, sideCheck } from "../body/measurements.js";
 import { FPS } from "../body/skeleton.js";
 import { postProcess, restToRest, streamed } from "../body/whole.js";
 import { allBut, chosenJoints, fill, fillFree, keepEnds, NO_TEXT, redo } from "./edit.js";
@@ -71,6 +71,7 @@ export class Director {
     let best = null;
     for (const trial of retrySeeds(seed)) {
       const features = await this.sampler.sample(prompt, frames, trial);
+      if (this.inPlace(prompt)) keepFacing(features);
       const motion = this.rested(postProcess(features, this.settings.post, { text: prompt }), prompt);
       options.told?.(frames);
       const does = this.does(prompt, motion);
@@ -107,8 +108,17 @@ export class Director {
         const rest = allBut(features, starts[i], starts[i] + passages[i].frames, joints);
         features = await fillFree(this.sampler, part.meanwhile, rest, seed);
       }
+    for (const [i, part] of parts.entries())
+      if (part.degrees === null && part.metres === null && this.inPlace(part.text))
+        keepFacing(features, starts[i], starts[i] + passages[i].frames);
     const motion = streamed(features, this.settings.post, { text: prompt });
-    return { ...this.rested(motion, parts[0].text, parts[parts.length - 1].text), text: prompt };
+    let rested = this.rested(motion, parts[0].text, parts[parts.length - 1].text);
+    for (const [i, { count, text }] of parts.entries())
+      if (count > 1 && this.inPlace(text) && !COUNTED.includes(this.nearest(text))) {
+        const once = passages[i].frames / count;
+        rested = restToRest(rested, Array.from({ length: count - 1 }, (_, k) => starts[i] + (k + 1) * once));
+      }
+    return { ...rested, text: prompt };
   }
 
   async stretch(clause, seconds, seed) {
@@ -134,8 +144,12 @@ export class Director {
     return text ? (this.scope.check(text).nearest[0] ?? null) : null;
   }
 
+  inPlace(text) {
+    return this.scope.meta.gestures.includes(this.nearest(text));
+  }
+
   rested(motion, ...texts) {
-    return texts.some((text) => this.scope.meta.gestures.includes(this.nearest(text))) ? restToRest(motion) : motion;
+    return texts.some((text) => this.inPlace(text)) ? restToRest(motion) : motion;
   }
 
   wanted(text) {

@@ -8,6 +8,7 @@ Letters: B batch, T frames, R = K bones and, with a root track, one row more; C 
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -153,25 +154,36 @@ _HANGING = {"collar": (0.0, 0.0, 0.0), "shoulder": (0.0, 0.0, -1.37), "elbow": (
             "wrist": (0.0, 0.0, 0.0)}  # fmt: skip
 
 
-def rest_to_rest(motion: Motion) -> Motion:
+def rest_to_rest(motion: Motion, cuts: Sequence[int] | None = None) -> Motion:
     """The same motion with arms that hang in its first and last frame, where they did not.
 
     Within REST_FADE seconds of an end each joint of a raised arm turns towards how it hangs, with
     no speed at either side of the fade. The rest of the body is not touched, nor is a motion that
     is shorter than four fades.
+
+    Args:
+        motion: T frames.
+        cuts: instead of at the ends arms hang here: between frames c - 1 and c, at least four fades
+            from each other and from the ends.
     """
-    frames = round(REST_FADE * motion.fps)
+    frames, last = round(REST_FADE * motion.fps), motion.num_frames - 1
     if motion.num_frames < 4 * frames:
         return motion
+    ends = [[(0, 1)], [(last, -1)]] if cuts is None else [[(c - 1, -1), (c, 1)] for c in cuts]
     heights = motion.positions()[:, :, 1]
     quaternions = motion.quaternions.copy()
-    way = np.linspace(1.0, 0.0, frames + 1)[:-1]  # from an end inwards
-    weights = way**3 * (10 - 15 * way + 6 * way**2)  # [frames], the minimum-jerk profile
+    left = np.linspace(1.0, 0.0, frames + 1)[:-1]  # from an end inwards
+    weights = left**3 * (10 - 15 * left + 6 * left**2)  # [frames], the minimum-jerk profile
     raised = [
-        (rows, JOINT_INDEX[f"{letter}_{joint}"], np.multiply(turn, (1.0, side, side)))
-        for end, rows in ((0, np.arange(frames)), (-1, np.arange(-1, -frames - 1, -1)))
+        (
+            row + way * np.arange(frames),
+            JOINT_INDEX[f"{letter}_{joint}"],
+            np.multiply(turn, (1.0, side, side)),
+        )
+        for end in ends
         for letter, side in (("l", 1.0), ("r", -1.0))
-        if heights[end, JOINT_INDEX[f"{letter}_wrist"]] >= heights[end, 0]
+        if any(heights[row, JOINT_INDEX[f"{letter}_wrist"]] >= heights[row, 0] for row, _ in end)
+        for row, way in end
         for joint, turn in _HANGING.items()
     ]
     if raised:
