@@ -37,7 +37,6 @@ from ..model.generation.motion_generator import Progress, TextToMotion
 from ..model.noise import derived_seed, retry_seeds
 from ..motion.features import ROOT_ROW, YAW_RATE, decode_features, facing_kept
 from ..motion.motion import Motion
-from ..motion.postprocess.streaming import streamed
 from ..motion.postprocess.whole import rest_to_rest
 from ..tensors import Tensor, torch
 from .edit import all_but, chosen_joints, fill_free
@@ -290,7 +289,7 @@ class SentenceGenerator:
         for start, stop, part in zip(starts, starts[1:], parts, strict=False):
             if part.degrees is None and part.metres is None and self._in_place(part.text):
                 features[start:stop] = facing_kept(features[start:stop])
-        motion = streamed(self.generator.post_processor, features, foot_lock=foot_lock)
+        motion = self.generator.post_processor(features, None, foot_lock=foot_lock)
         motion = self._rested(motion, parts[0].text, parts[-1].text)
         for start, stop, part in zip(starts, starts[1:], parts, strict=False):
             if (

@@ -8,7 +8,7 @@ Letters: T frames, R rows (bones, root track), C channels.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -24,7 +24,6 @@ from ..model.generation.motion_generator import TextToMotion
 from ..motion.features import Place
 from ..motion.motion import Motion
 from ..motion.postprocess.stitching import moved_to, place_of
-from ..motion.postprocess.streaming import streamed
 from ..tensors import Tensor, torch
 from .edit import ControlledMotion, all_but, chosen_joints, fill_free
 from .stream import OVERLAP, WINDOW, ConstraintOf, Passage, stream_features
@@ -269,14 +268,14 @@ def by_timeline(
     *,
     foot_lock: bool | None = None,
 ) -> ControlledMotion:
-    """One motion with several texts; what `MotionStream` gives for them, in one piece.
+    """One motion with several texts: the features that `MotionStream` makes of them, in one piece.
 
     Returns:
         errors: none, as nothing is given.
     """
     features = make_timeline(generator, timeline, sampling)
-    motion = streamed(generator.post_processor, features, foot_lock=foot_lock)
-    return ControlledMotion(replace(motion, text=timeline.text))
+    motion = generator.post_processor(features, None, text=timeline.text, foot_lock=foot_lock)
+    return ControlledMotion(motion)
 
 
 def in_a_loop(

@@ -91,21 +91,3 @@ export function encodeFeatures(motion) {
   }
   return features;
 }
-
-/** Frames [start, stop) of a motion. */
-export const framesBetween = (motion, start, stop) => ({
-  ...motion,
-  frames: stop - start,
-  quaternions: motion.quaternions.slice(start * JOINTS * 4, stop * JOINTS * 4),
-  root: motion.root.slice(start * 3, stop * 3),
-  contacts: motion.contacts.slice(start * 2, stop * 2),
-});
-
-/** Two motions one after the other; quaternion signs go on. */
-export const joined = (first, second) => ({
-  ...first,
-  frames: first.frames + second.frames,
-  quaternions: continuous(joinArrays([first.quaternions, second.quaternions]), JOINTS * 4),
-  root: joinArrays([first.root, second.root]),
-  contacts: joinArrays([first.contacts, second.contacts]),
-});

@@ -1,13 +1,12 @@
-// From sampled features to a motion, and motions put together: ports of whole.py, stitching.py and
-// streaming.py in src/shared/motion/postprocess, which say why.
+// From sampled features to a motion, and motions put together: ports of whole.py and
+// stitching.py in src/shared/motion/postprocess, which say why.
 
 import {
-  conjugate, continuous, expOf, logOf, matrixOf6d, multiply, product, quaternionOf, headingAngle,
+  conjugate, continuous, expOf, logOf, matrixOf6d, multiply, product, headingAngle,
   slerp, turnAboutY, unwrap, write6d, yawMatrix, yawQuaternion,
 } from "./rotations.js";
 import {
-  cut, decodeFeatures, framesBetween, framesOf, integrateRoot, joinArrays, joined, LEFT_CONTACT, ORIGIN,
-  placeOf, ROOT, WIDTH,
+  decodeFeatures, framesOf, LEFT_CONTACT, ORIGIN, placeOf, ROOT, WIDTH,
 } from "./features.js";
 import { easeFromKept, keptLegs, lockCarriedFeet, lockFeet } from "./footskate.js";
 import { FPS, INDEX, JOINTS, pose } from "./skeleton.js";
@@ -135,69 +134,4 @@ export function movedTo(motion, place) {
     quaternions.set(product(yawQuaternion(turn), Array.from(quaternions.subarray(at, at + 4))), at);
   }
   return { ...motion, root, quaternions };
-}
-
-// ---------------------------------------------------------------- piece by piece
-
-const BLOCK = 15, AHEAD = 12, BEHIND = 24;
-
-/** What the pieces of a streamed motion, joined, are: the foot lock sees a little ahead only. */
-export function streamed(features, settings, { known = null, text = "" } = {}) {
-  const frames = framesOf(features), reach = settings.kernel >> 1, mask = known ?? new Uint8Array(features.length);
-  const smooth = where(mask, features, smoothFeatures(features, settings.kernel));
-  // The stream hands on what has settled, then the frames that waited.
-  const pieces = [[0, frames - reach], [Math.max(frames - reach, 0), frames]].filter(([a, b]) => b > a);
-  let place = ORIGIN, motion = null;
-  const parts = pieces.map(([start, stop]) => {
-    const part = cut(smooth, start, stop), decoded = decodeFeatures(part, place);
-    place = integrateRoot(part, place).end;
-    return decoded;
-  });
-  motion = parts.reduce(joined);
-  motion = { ...motion, text, quaternions: clampVelocity(motion.quaternions, settings.maxVelocity, FPS) };
-  return settings.footLock ? lockedInBlocks(motion, mask) : motion;
-}
-
-function lockedInBlocks(motion, known) {
-  let settled = null, unlocked = null, done = [];
-  for (let start = 0; start < motion.frames; start += BLOCK) {
-    const size = Math.min(BLOCK, motion.frames - start), stop = Math.min(motion.frames, start + BLOCK + AHEAD);
-    let wanted = framesBetween(motion, start, stop), behind = 0;
-    let legs = keptLegs(known.slice(start * WIDTH, stop * WIDTH));
-    const raw = wanted.quaternions;
-    if (settled) {
-      behind = settled.frames;
-      wanted = { ...wanted, quaternions: faded(raw, settled.quaternions.slice(-JOINTS * 4), unlocked, legs) };
-      wanted = joined(settled, wanted);
-      legs = legs.map((leg) => [...new Array(behind).fill(true), ...leg]);
-    }
-    const locked = lockFeet(wanted, legs);
-    unlocked = raw.slice((size - 1) * JOINTS * 4, size * JOINTS * 4);
-    settled = framesBetween(locked, Math.max(0, behind + size - BEHIND), behind + size);
-    done.push(framesBetween(locked, behind, behind + size));
-  }
-  const whole = {
-    ...motion,
-    quaternions: joinArrays(done.map((part) => part.quaternions)),
-    root: joinArrays(done.map((part) => part.root)),
-    contacts: joinArrays(done.map((part) => part.contacts)),
-  };
-  continuous(whole.quaternions, JOINTS * 4);
-  return whole;
-}
-
-function faded(raw, corrected, before, legs) {
-  const width = JOINTS * 4, result = raw.slice(), frames = raw.length / width;
-  const still = [1, 0, 0, 0];
-  for (let joint = 0; joint < width; joint += 4) {
-    const q = (from, at) => Array.from(from.subarray(at, at + 4));
-    const miss = product(conjugate(q(before, joint)), q(corrected, joint));
-    for (let t = 0; t < frames; t++) {
-      const x = Math.min((t + 1) / (FADE + 1), 1);
-      const share = legs[0][t] || legs[1][t] ? 0 : 1 - x * x * (3 - 2 * x);
-      const at = t * width + joint;
-      result.set(product(q(raw, at), slerp(still, miss, share)), at);
-    }
-  }
-  return continuous(result, width);
 }

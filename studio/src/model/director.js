@@ -5,7 +5,7 @@ import { decodeFeatures, framesOf, keepFacing, ROOT, WIDTH, YAW_RATE } from "../
 import { round } from "../body/curves.js";
 import { ACTIONS, COUNTED, endsAtRest, measure, repetitions, sideCheck } from "../body/measurements.js";
 import { FPS } from "../body/skeleton.js";
-import { postProcess, restToRest, streamed } from "../body/whole.js";
+import { postProcess, restToRest } from "../body/whole.js";
 import { allBut, chosenJoints, fill, fillFree, keepEnds, NO_TEXT, redo } from "./edit.js";
 import { naturalGait, pathConstraint, timePath } from "./path.js";
 import { isPlain, SentenceReader } from "./sentence.js";
@@ -47,7 +47,7 @@ export class Director {
     if (scene.blocks.length === 1) return this.sentence(scene.blocks[0].text, scene.blocks[0].seconds, seed, options);
     const passages = this.passages(scene.blocks);
     const features = await streamFeatures(this.sampler, passages, seed, options);
-    return streamed(features, this.settings.post, { text: passages.map(({ text }) => text).join(", then ") });
+    return postProcess(features, this.settings.post, { text: passages.map(({ text }) => text).join(", then ") });
   }
 
   passages(blocks) {
@@ -111,7 +111,7 @@ export class Director {
     for (const [i, part] of parts.entries())
       if (part.degrees === null && part.metres === null && this.inPlace(part.text))
         keepFacing(features, starts[i], starts[i] + passages[i].frames);
-    const motion = streamed(features, this.settings.post, { text: prompt });
+    const motion = postProcess(features, this.settings.post, { text: prompt });
     let rested = this.rested(motion, parts[0].text, parts[parts.length - 1].text);
     for (const [i, { count, text }] of parts.entries())
       if (count > 1 && this.inPlace(text) && !COUNTED.includes(this.nearest(text))) {

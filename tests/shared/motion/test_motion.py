@@ -9,9 +9,11 @@ from scipy.spatial.transform import Rotation, Slerp
 
 from src.shared.motion.features import (
     ROOT_ROW,
+    YAW_RATE,
     Place,
     decode_features,
     encode_features,
+    facing_kept,
     mirror_features,
 )
 from src.shared.motion.motion import Motion, in_place, resample_motion
@@ -182,3 +184,12 @@ def test_in_place_takes_the_travel_only() -> None:
     assert still.contacts is motion.contacts
     assert (still.fps, still.text) == (24.0, "a")
     assert still.root_position.dtype == np.float32
+
+
+def test_who_stands_faces_at_the_end_as_at_first() -> None:
+    features = torch.zeros(60, ROOT_ROW + 1, 6)
+    features[:, ROOT_ROW, YAW_RATE] = torch.linspace(-1, 2, 60)
+    kept = facing_kept(features)
+    assert features[:, ROOT_ROW, YAW_RATE].mean() == pytest.approx(0.5)
+    assert kept[:, ROOT_ROW, YAW_RATE].mean() == pytest.approx(0, abs=1e-6)
+    assert torch.equal(kept[:, :ROOT_ROW], features[:, :ROOT_ROW])

@@ -17,7 +17,7 @@ from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.model.noise import TRIES, retry_seeds
 from src.shared.motion.features import FORWARD, ROOT_ROW
 from src.shared.motion.postprocess.stitching import joined
-from src.shared.motion.postprocess.streaming import streamed
+from src.shared.motion.postprocess.streaming import StreamingPostProcessor
 from src.shared.pipelines import stream as motion_stream
 from src.shared.pipelines.stream import (
     MotionStream,
@@ -157,14 +157,16 @@ def test_what_cannot_be(generator: TextToMotion) -> None:
         made(generator, Passage(" ", 20))
 
 
-def test_a_stream_is_the_streamed_timeline(generator: TextToMotion) -> None:
+def test_a_stream_is_its_features_post_processed_in_pieces(generator: TextToMotion) -> None:
     features = made(generator, WALK, WAVE)
     sampling = Sampling(seed=3)
     stream = MotionStream(generator, [WALK, WAVE], window=40, overlap=10, sampling=sampling)
     assert stream.latency.first is None
     pieces = list(stream)
     assert {piece.text for piece in pieces} == {WALK.text, WAVE.text}
-    whole = streamed(generator.post_processor, features)
+    processor = StreamingPostProcessor(generator.post_processor)
+    settled = [processor.add(features), processor.finish()]
+    whole = reduce(joined, [piece for piece in settled if piece is not None])
     motion = reduce(joined, pieces)
     np.testing.assert_allclose(motion.positions(), whole.positions(), atol=1e-5)
     latency = stream.latency

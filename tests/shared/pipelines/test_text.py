@@ -14,6 +14,7 @@ from src.shared.metrics.measurements import ACTIONS, Check, Measurements, at_res
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.features import ROOT_ROW, YAW_RATE, encode_features
 from src.shared.motion.motion import Motion
+from src.shared.motion.skeleton import JOINT_INDEX
 from src.shared.pipelines.ranking import TextJudge
 from src.shared.pipelines.text import PromptSampler, SentenceGenerator, turned
 from tests.shared.model.conftest import tiny_generator
@@ -68,6 +69,20 @@ def test_a_gesture_begins_and_ends_with_hanging_arms():
     _, same = generator.generate(prompts, seconds=3.0)
     assert at_rest(wave)
     np.testing.assert_array_equal(walk.quaternions, same.quaternions)
+
+
+def test_a_gesture_faces_one_way_and_its_repetitions_are_told_apart():
+    sentences = SentenceGenerator(TextToMotion.from_pretrained("starter", device="cpu"))
+    prompts = [
+        "a person waves",
+        "walks two metres, then waves three times",
+        "a person waves thrice",
+    ]
+    for prompt, times, motion in zip(prompts, (1, 3, 3), sentences.generate(prompts), strict=True):
+        assert turn_of(motion) == pytest.approx(0, abs=5), prompt
+        heights = motion.positions()[:, [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]], 1]
+        raised = heights.max(1) > 1.2
+        assert np.count_nonzero(np.diff(raised.astype(int)) == 1) == times, prompt
 
 
 def test_what_kinematics_miss_is_sampled_again(monkeypatch: pytest.MonkeyPatch):

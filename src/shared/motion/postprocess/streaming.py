@@ -8,7 +8,6 @@ Letters: T frames, R rows (bones, root track), C channels.
 """
 
 from dataclasses import replace
-from functools import reduce
 
 import numpy as np
 
@@ -201,15 +200,6 @@ class StreamingPostProcessor:
         if motion is not None:
             self._before = motion.quaternions[-1]
         return motion
-
-
-def streamed(
-    whole: MotionPostProcessor, features: Tensor, *, foot_lock: bool | None = None
-) -> Motion:
-    """All of some features [T,R,6] at once: what their pieces, joined, would be."""
-    processor = StreamingPostProcessor(whole, foot_lock=foot_lock)
-    pieces = [processor.add(features), processor.finish()]
-    return reduce(joined, [piece for piece in pieces if piece is not None])
 
 
 def _following(quaternions: np.ndarray, before: np.ndarray) -> np.ndarray:

@@ -15,7 +15,7 @@ from src.shared.motion.features import LATERAL, ROOT_ROW, YAW_RATE, Place, encod
 from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess.contacts import GIVE
 from src.shared.motion.postprocess.stitching import joined
-from src.shared.motion.postprocess.streaming import StreamingPostProcessor, streamed
+from src.shared.motion.postprocess.streaming import StreamingPostProcessor
 from src.shared.motion.postprocess.whole import MotionPostProcessor
 from src.shared.motion.skeleton import FOOT_JOINTS
 from tests.shared.model.conftest import tiny_generator
@@ -110,5 +110,7 @@ def test_lookahead_is_kept(walk: torch.Tensor) -> None:
 
 def test_nothing_and_everything(walk: torch.Tensor) -> None:
     assert StreamingPostProcessor(MotionPostProcessor(LOCKED)).finish() is None
-    one = streamed(tiny_generator().post_processor, walk[:1])
+    processor = StreamingPostProcessor(tiny_generator().post_processor)
+    pieces = [processor.add(walk[:1]), processor.finish()]
+    [one] = [piece for piece in pieces if piece is not None]
     assert one.num_frames == 1 and one.root_position[0, 0] == 0

@@ -164,6 +164,16 @@ def test_raised_hands_come_down_at_both_ends_without_a_jerk() -> None:
     assert np.allclose(np.linalg.norm(whole.quaternions, axis=-1), 1.0, atol=1e-5)
 
 
+def test_raised_hands_come_down_in_between() -> None:
+    motion = waving(90)
+    cut = rest_to_rest(motion, [45])
+    height = cut.positions()[:, JOINT_INDEX["r_wrist"], 1]
+    assert height[44:46].max() < 1.0 < min(height[0], height[-1])
+    assert np.array_equal(cut.quaternions[0], motion.quaternions[0])
+    speed = np.linalg.norm(np.diff(cut.positions(), axis=0), axis=-1) * motion.fps
+    assert speed.max() < 4.0
+
+
 def test_arms_that_hang_are_left_alone() -> None:
     stand = generate_clip(spec_for({"action": "stand"}, 0), seed=0)
     assert np.array_equal(rest_to_rest(stand).quaternions, stand.quaternions)
