@@ -123,7 +123,7 @@ class SentenceGenerator:
                 sampler=sampler,
                 guidance_scale=guidance_scale,
                 foot_lock=foot_lock,
-                facing=[self._in_place(prompts[index]) for index in rows],
+                facing=[self._by_arms(prompts[index]) for index in rows],
                 progress=lambda done, total: told(max(done, sum(map(len, made.values())))),
             )
             several = [found[at : at + num_samples] for at in range(0, len(found), num_samples)]
@@ -168,14 +168,18 @@ class SentenceGenerator:
 
     # ------------------------------------------------------------ one sentence
 
-    def _in_place(self, text: str) -> bool:
-        """Whether a text asks for a gesture: from hanging arms to hanging arms, facing one way."""
+    def _by_arms(self, text: str) -> bool:
+        """Whether a text asks for what arms do while the feet stand: its motion faces one way."""
         scope = self.generator.scope
-        return scope is not None and self._nearest(text) in scope.gestures
+        return scope is not None and self._nearest(text) in scope.arms
 
     def _rested(self, motion: Motion, *texts: str) -> Motion:
         """The motion from hanging arms to hanging arms, if one of the texts asks for a gesture."""
-        return rest_to_rest(motion) if any(map(self._in_place, texts)) else motion
+        scope = self.generator.scope
+        if scope is None or not scope.gestures:
+            return motion
+        asked = any(self._nearest(text) in scope.gestures for text in texts)
+        return rest_to_rest(motion) if asked else motion
 
     def _wanted(self, text: str) -> Check | None:
         """Whether a motion shows the action that is nearest to a text, on the side that it names;
@@ -287,14 +291,14 @@ class SentenceGenerator:
                 rest = all_but(features, start, stop, joints)
                 features = fill_free(self.generator, part.meanwhile, rest, sampling)
         for start, stop, part in zip(starts, starts[1:], parts, strict=False):
-            if part.degrees is None and part.metres is None and self._in_place(part.text):
+            if part.degrees is None and part.metres is None and self._by_arms(part.text):
                 features[start:stop] = facing_kept(features[start:stop])
         motion = self.generator.post_processor(features, None, foot_lock=foot_lock)
         motion = self._rested(motion, parts[0].text, parts[-1].text)
         for start, stop, part in zip(starts, starts[1:], parts, strict=False):
             if (
                 part.count > 1
-                and self._in_place(part.text)
+                and self._by_arms(part.text)
                 and self._nearest(part.text) not in COUNTED
             ):
                 # nothing but arms that hang in between tells one wave from the next

@@ -71,7 +71,7 @@ export class Director {
     let best = null;
     for (const trial of retrySeeds(seed)) {
       const features = await this.sampler.sample(prompt, frames, trial);
-      if (this.inPlace(prompt)) keepFacing(features);
+      if (this.byArms(prompt)) keepFacing(features);
       const motion = this.rested(postProcess(features, this.settings.post, { text: prompt }), prompt);
       options.told?.(frames);
       const does = this.does(prompt, motion);
@@ -109,12 +109,12 @@ export class Director {
         features = await fillFree(this.sampler, part.meanwhile, rest, seed);
       }
     for (const [i, part] of parts.entries())
-      if (part.degrees === null && part.metres === null && this.inPlace(part.text))
+      if (part.degrees === null && part.metres === null && this.byArms(part.text))
         keepFacing(features, starts[i], starts[i] + passages[i].frames);
     const motion = postProcess(features, this.settings.post, { text: prompt });
     let rested = this.rested(motion, parts[0].text, parts[parts.length - 1].text);
     for (const [i, { count, text }] of parts.entries())
-      if (count > 1 && this.inPlace(text) && !COUNTED.includes(this.nearest(text))) {
+      if (count > 1 && this.byArms(text) && !COUNTED.includes(this.nearest(text))) {
         const once = passages[i].frames / count;
         rested = restToRest(rested, Array.from({ length: count - 1 }, (_, k) => starts[i] + (k + 1) * once));
       }
@@ -144,12 +144,12 @@ export class Director {
     return text ? (this.scope.check(text).nearest[0] ?? null) : null;
   }
 
-  inPlace(text) {
-    return this.scope.meta.gestures.includes(this.nearest(text));
+  byArms(text) {
+    return this.scope.meta.arms.includes(this.nearest(text));
   }
 
   rested(motion, ...texts) {
-    return texts.some((text) => this.inPlace(text)) ? restToRest(motion) : motion;
+    return texts.some((text) => this.scope.meta.gestures.includes(this.nearest(text))) ? restToRest(motion) : motion;
   }
 
   wanted(text) {

@@ -85,6 +85,12 @@ def test_a_gesture_faces_one_way_and_its_repetitions_are_told_apart():
         assert np.count_nonzero(np.diff(raised.astype(int)) == 1) == times, prompt
 
 
+def test_who_is_to_turn_turns():
+    sentences = SentenceGenerator(TextToMotion.from_pretrained("starter", device="cpu"))
+    turn, spin = sentences.generate(["a person turns around to the left", "a person spins"])
+    assert turn_of(turn) > 60 and abs(turn_of(spin)) > 150
+
+
 def test_what_kinematics_miss_is_sampled_again(monkeypatch: pytest.MonkeyPatch):
     generator = TextToMotion.from_pretrained("starter", device="cpu")
     assert generator.scope is not None
