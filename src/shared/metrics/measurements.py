@@ -7,7 +7,7 @@ frozen pose and noise fail every check.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -463,12 +463,21 @@ def side_check(action: str, side: str, *, by_hand: bool) -> Check | None:
     return CHECKS.get(name) or (CHECKS.get(f"{side}-hand") if by_hand else None)
 
 
-COUNTED = frozenset({"bow", "clap", "jump", "kick", "punch", "squat"})  # whose repetitions are seen
+def _of_limbs(counts: Sequence[int], side: str | None) -> int:
+    """Of the (left, right) limb that is named, or of both."""
+    return sum({"left": counts[:1], "right": counts[1:]}.get(side or "", counts))
+
+
+REPETITIONS: dict[str, Callable[[Measurements, str | None], int]] = {
+    "bow": lambda m, _: m.bows,
+    "clap": lambda m, _: m.claps,
+    "jump": lambda m, _: m.jumps,
+    "kick": lambda m, side: _of_limbs(m.kicks, side),
+    "punch": lambda m, side: _of_limbs(m.punches, side),
+    "squat": lambda m, _: m.squats,
+}  # of the actions whose repetitions are seen
 
 
 def repetitions(action: str, m: Measurements, side: str | None = None) -> int | None:
     """How often an action is seen, with either limb or the named one; None where nobody counts."""
-    sides = {"left": m.kicks[:1], "right": m.kicks[1:]}.get(side or "", m.kicks)
-    fists = {"left": m.punches[:1], "right": m.punches[1:]}.get(side or "", m.punches)
-    one = {"squat": m.squats, "jump": m.jumps, "clap": m.claps, "bow": m.bows}
-    return (one | {"kick": sum(sides), "punch": sum(fists)}).get(action)
+    return REPETITIONS[action](m, side) if action in REPETITIONS else None

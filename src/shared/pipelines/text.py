@@ -22,7 +22,7 @@ from ..device import idle_threads
 from ..errors import UserError
 from ..metrics.measurements import (
     ACTIONS,
-    COUNTED,
+    REPETITIONS,
     Check,
     ends_at_rest,
     measure,
@@ -299,7 +299,7 @@ class SentenceGenerator:
             if (
                 part.count > 1
                 and self._by_arms(part.text)
-                and self._nearest(part.text) not in COUNTED
+                and self._nearest(part.text) not in REPETITIONS
             ):
                 # nothing but arms that hang in between tells one wave from the next
                 motion = rest_to_rest(motion, range(start, stop, (stop - start) // part.count)[1:])

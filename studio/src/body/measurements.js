@@ -249,9 +249,11 @@ export function sideCheck(action, side, byHand) {
   return SIDES[name] ?? (byHand ? (SIDES[`${side}-hand`] ?? null) : null);
 }
 
-export const COUNTED = ["bow", "clap", "jump", "kick", "punch", "squat"]; // whose repetitions are seen
+const ofLimbs = ([left, right], side) => (side === "left" ? left : side === "right" ? right : left + right);
 
-export function repetitions(action, m, side) {
-  const limbs = (counts) => (side === "left" ? counts[0] : side === "right" ? counts[1] : counts[0] + counts[1]);
-  return { squat: m.squats, jump: m.jumps, clap: m.claps, bow: m.bows, kick: limbs(m.kicks), punch: limbs(m.punches) }[action] ?? null;
-}
+export const REPETITIONS = { // of the actions whose repetitions are seen
+  bow: (m) => m.bows, clap: (m) => m.claps, jump: (m) => m.jumps, squat: (m) => m.squats,
+  kick: (m, side) => ofLimbs(m.kicks, side), punch: (m, side) => ofLimbs(m.punches, side),
+};
+
+export const repetitions = (action, m, side) => REPETITIONS[action]?.(m, side) ?? null;

@@ -3,7 +3,7 @@
 
 import { decodeFeatures, framesOf, keepFacing, ROOT, WIDTH, YAW_RATE } from "../body/features.js";
 import { round } from "../body/curves.js";
-import { ACTIONS, COUNTED, endsAtRest, measure, repetitions, sideCheck } from "../body/measurements.js";
+import { ACTIONS, endsAtRest, measure, REPETITIONS, repetitions, sideCheck } from "../body/measurements.js";
 import { FPS } from "../body/skeleton.js";
 import { postProcess, restToRest } from "../body/whole.js";
 import { allBut, chosenJoints, fill, fillFree, keepEnds, NO_TEXT, redo } from "./edit.js";
@@ -114,7 +114,7 @@ export class Director {
     const motion = postProcess(features, this.settings.post, { text: prompt });
     let rested = this.rested(motion, parts[0].text, parts[parts.length - 1].text);
     for (const [i, { count, text }] of parts.entries())
-      if (count > 1 && this.byArms(text) && !COUNTED.includes(this.nearest(text))) {
+      if (count > 1 && this.byArms(text) && !(this.nearest(text) in REPETITIONS)) {
         const once = passages[i].frames / count;
         rested = restToRest(rested, Array.from({ length: count - 1 }, (_, k) => starts[i] + (k + 1) * once));
       }

@@ -138,7 +138,9 @@ class CaptionBook:
 
     def outside(self, actions: Collection[str], lang: str) -> list[str]:
         """Hand-written sentences of a language that ask for none of these actions, nor for a kind
-        of one."""
+        of one; none of a language that is not here."""
+        if lang not in self._languages:
+            return []
         language, found = self.language(lang), []
         for labels in self.combinations():
             action = labels.get("action", "")

@@ -157,6 +157,10 @@ def test_whole_sentences_are_half_of_the_captions(tmp_path: Path) -> None:
     assert len(english.sentences(once)) == 3 and english.sentences({"action": "sing"}) == []
 
 
+def test_nothing_is_outside_in_a_language_that_is_not_here() -> None:
+    assert CaptionBook.load().outside(["walk"], "tlh") == []
+
+
 def test_sentences_of_other_actions_are_outside_unless_they_are_a_kind_of_one(
     tmp_path: Path,
 ) -> None:
