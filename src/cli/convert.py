@@ -135,7 +135,7 @@ def plan(files: list[Place], format: str | None) -> Iterator[Job]:
     *sources, out = files
     for source in sources:
         if not source.exists():
-            raise UserError(f"{source} does not exist; name a motion file or a folder of them")
+            raise UsageError(f"{source} does not exist; name a motion file or a folder of them")
     if format is None:
         if len(sources) > 1 or sources[0].is_dir() or out.is_dir():
             raise UsageError(f"{out}: with a folder, --format says what to write; give one, e.g. "
@@ -352,6 +352,8 @@ def inspect(
             f"--skeleton {skeleton} is the skeleton of an .amc, and {file} is none; leave it out"
         )
     check_new_mapping(write_mapping)
+    if not file.exists():
+        raise UsageError(f"{file} does not exist; name a motion file")
     from ..shared.data.retarget.read_motion import inspect_motion
 
     found = inspect_motion(

@@ -126,10 +126,19 @@ def check_ranges(**values: float | None) -> None:
     """
     for name, value in values.items():
         flag = "--" + name.replace("_", "-")
-        low, high = RANGES[flag]
-        if value is not None and not low <= value <= high:
-            flag = flag.replace("song-", "")
-            raise UsageError(f"{flag} {value:g} is out of range; choose from {low:g} to {high:g}")
+        _check_range(flag.replace("song-", ""), value, RANGES[flag])
+
+
+def _check_range(flag: str, value: float | None, limits: tuple[float, float]) -> None:
+    low, high = limits
+    if value is not None and not low <= value <= high:
+        given, least, most = map(_digits, (value, low, high))
+        raise UsageError(f"{flag} {given} is out of range; choose from {least} to {most}")
+
+
+def _digits(value: float) -> str:
+    """All of a number: no 1e+08."""
+    return str(value) if isinstance(value, int) else f"{value:.12g}"
 
 
 def check_folder(flag: str, folder: Place) -> None:
@@ -182,10 +191,7 @@ def check_file(flag: str, path: Path) -> None:
 def check_limits(values: Map[str, float | None], limits: Map[str, tuple[float, float]]) -> None:
     """Refuse numbers out of range, naming the flag; None is left to the suite."""
     for name, value in values.items():
-        low, high = limits[name]
-        if value is not None and not low <= value <= high:
-            flag = "--" + name.replace("_", "-")
-            raise UsageError(f"{flag} {value:g} is out of range; choose from {low:g} to {high:g}")
+        _check_range("--" + name.replace("_", "-"), value, limits[name])
 
 
 def check_pairs(data: str | None) -> None:

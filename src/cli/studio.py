@@ -25,8 +25,9 @@ def studio(
       motion-tools studio
       motion-tools studio --out public/ --no-open
     """
-    from ..shared.studio.page import write_studio
+    from ..shared.studio.page import page_file, write_studio
 
+    options.check_file("--out", page_file(out))
     path = write_studio(out, model)
     if json:
         print_json({"file": str(path), "bytes": path.stat().st_size})

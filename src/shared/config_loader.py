@@ -248,6 +248,12 @@ def nearest(word: str, candidates: Sequence[str]) -> str:
     return close[0] if close else candidates[0]
 
 
+def did_you_mean(word: str, candidates: Sequence[str]) -> str:
+    """A question for a message, "did you mean 'walk'? ", where a candidate is like `word`."""
+    close = difflib.get_close_matches(word, candidates, n=1)
+    return f"did you mean {close[0]!r}? " if close else ""
+
+
 def _nearest_key(model_class: type[Config], key: str) -> str:
     """The valid key most like `key`; the right name in the wrong section comes first."""
     keys = list(config_keys(model_class))

@@ -197,7 +197,7 @@ def test_wrong_usage_is_said_before_anything_is_read(walk: Path, tmp_path: Path)
 
 def test_missing_files_are_named(walk: Path, tmp_path: Path) -> None:
     result = run(tmp_path / "no.bvh", tmp_path / "a.glb")
-    assert (result.exit_code, "no.bvh does not exist" in result.stderr) == (1, True)
+    assert (result.exit_code, "no.bvh does not exist" in result.stderr) == (2, True)
     (tmp_path / "empty").mkdir()
     result = run(tmp_path / "empty", tmp_path / "out", "--format", "glb")
     assert (result.exit_code, "holds no motion file" in result.stderr) == (1, True)

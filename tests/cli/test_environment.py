@@ -108,5 +108,5 @@ def test_wrong_arguments_are_usage_errors(arguments: list[str], message: str) ->
 def test_no_such_model_is_one_line(tmp_path: Path) -> None:
     for command, flag in (("evaluate-audio", "--out"), ("evaluate-sanity", "--output-dir")):
         result = CliRunner().invoke(app, [command, "--model", "nosuch", flag, str(tmp_path)])
-        assert result.exit_code == 1 and "no model named 'nosuch'" in result.output
+        assert result.exit_code == 2 and "no model named 'nosuch'" in result.output
     assert evaluate.MODEL == evaluate_suites.MODEL == "starter-audio"

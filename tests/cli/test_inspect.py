@@ -101,7 +101,7 @@ def test_wrong_flags(bvh: Path, flags: list[str], code: int, message: str) -> No
 
 def test_a_missing_file_is_one_line(tmp_path: Path) -> None:
     result = run(tmp_path / "none.bvh")
-    assert result.exit_code == 1 and result.stderr.count("\n") == 1
+    assert result.exit_code == 2 and result.stderr.count("\n") == 1
 
 
 def test_a_profile_is_written_over_nothing(bvh: Path, tmp_path: Path) -> None:

@@ -39,7 +39,7 @@ def test_addresses_are_read_and_written(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "code", "told"),
     [
-        (["memory://nothing", "--out", "memory://prepared"], 1, "does not exist"),
+        (["memory://nothing", "--out", "memory://prepared"], 2, "does not exist"),
         (["memory://mocap", "--out", "memory://mocap/"], 2, "is a SOURCE"),
         (["--synthetic", "2", "--out", "nonsense://x"], 2, "give a folder, gs:// or s3://"),
     ],

@@ -23,7 +23,7 @@ from typing import Literal
 
 import numpy as np
 
-from ..errors import UserError
+from ..errors import UsageError, UserError
 from ..io.arrays import BadArray, load_arrays, write_arrays
 from .sound import FPS, HOP, SAMPLE_RATE, Sound, load_sound
 
@@ -259,7 +259,7 @@ def read_arrays(path: str | Path) -> dict[str, np.ndarray]:
     try:
         return load_arrays(path, max_values=MAX_VALUES)
     except FileNotFoundError:
-        raise UserError(f"{path} does not exist; name a features file (.npz)") from None
+        raise UsageError(f"{path} does not exist; name a features file (.npz)") from None
     except (OSError, BadArray) as error:
         raise UserError(
             f"{path} is no features file, or is damaged ({error}); make it again"

@@ -50,6 +50,8 @@ def check_size(path: Path, max_bytes: int = MAX_BYTES) -> int:
     """
     try:
         size = path.stat().st_size
+    except FileNotFoundError:
+        raise UserError(f"{path} does not exist; check the name") from None
     except (OSError, ValueError) as error:  # ValueError: a zero byte in the name
         reason = getattr(error, "strerror", None) or error
         raise UserError(
@@ -81,6 +83,8 @@ def readable(path: Path, what: str = "file") -> Iterator[None]:
     """Inside, the system's refusal to read a file is a UserError that names it."""
     try:
         yield
+    except FileNotFoundError:
+        raise UserError(f"{path} does not exist; check the name") from None
     except OSError as error:
         raise UserError(
             f"{path}: cannot be read: {error.strerror or error}; name a {what} that may be read"

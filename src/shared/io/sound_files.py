@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import UserError
+from ..errors import UsageError, UserError
 
 KILOBITS = (
     (0, 32, 40, 48, 56, 64, 80, 96, 112, 128, 160, 192, 224, 256, 320, 0),  # MPEG 1
@@ -292,7 +292,7 @@ def _cut_off(path: Path) -> bool:
             stream.seek(max(0, size - 2**17))
             tail = stream.read()
     except FileNotFoundError:
-        raise UserError(f"{path} does not exist; name a sound file ({FORMATS})") from None
+        raise UsageError(f"{path} does not exist; name a sound file ({FORMATS})") from None
     except OSError as error:
         raise UserError(f"cannot read {path}: {error.strerror}; name a sound file") from None
     if not size:

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any, Literal
 from pydantic import Field, ValidationError
 
 from ..config_audio import AudioNetworkConfig, AudioTowerConfig
-from ..config_loader import nearest, profile_names
+from ..config_loader import did_you_mean, profile_names
 from ..config_schema import Config, NetworkConfig
 from ..environment import run_folder
-from ..errors import UserError, first_fault
+from ..errors import UsageError, UserError, first_fault
 from ..io.files import atomic_write, load_json, sha256_file, write_json
 
 if TYPE_CHECKING:
@@ -347,8 +347,8 @@ def resolve_model(name_or_folder: str | Path) -> Path:
             f"{folder} is no model folder: it has no {CARD_FILE}"
             "; name a folder from training, or a name that `models` lists"
         )
-    hint = f"; did you mean {nearest(name, shipped)!r}? `models` lists all" if shipped else ""
-    raise UserError(f"no model named {name!r}, and no such folder{hint}")
+    hint = did_you_mean(name, shipped)
+    raise UsageError(f"no model named {name!r}, and no such folder; {hint}`models` lists all")
 
 
 def from_hub(name: str | Path) -> Path | None:

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ..config_loader import nearest
+from ..config_loader import did_you_mean
 from ..errors import UsageError, UserError
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
@@ -79,7 +79,7 @@ def chosen_joints(names: Sequence[str]) -> set[str]:
     for name in names:
         if name not in known:
             raise UsageError(
-                f"joint {name!r} is unknown; did you mean {nearest(name, known)!r}? Groups:"
+                f"joint {name!r} is unknown; {did_you_mean(name, known)}groups:"
                 f" {', '.join(GROUPS)}; joints: {', '.join(JOINT_INDEX)}"
             )
     return set(chain.from_iterable(GROUPS.get(name, (name,)) for name in names))

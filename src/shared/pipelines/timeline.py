@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from ..config_loader import nearest, parse_yaml
+from ..config_loader import did_you_mean, parse_yaml
 from ..errors import UsageError, UserError
 from ..io.files import read_text
 from ..model.diffusion import Sampling
@@ -130,7 +130,8 @@ def _entry(row: Any, where: str) -> Entry:
     for key in row:
         if key not in KEYS:
             raise UserError(
-                f"{where}: {key!r} is unknown; did you mean {nearest(str(key), KEYS)!r}?"
+                f"{where}: {key!r} is unknown; {did_you_mean(str(key), KEYS)}the keys are"
+                f" {', '.join(KEYS)}"
             )
     text = " ".join(str(row.get("text") or "").split())
     if not text:

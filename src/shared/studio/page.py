@@ -70,11 +70,15 @@ def write_studio(out: Path, model: str = TEXT_MODEL) -> Path:
     }
     page = shell.joinpath(TEMPLATE).read_text("utf-8")
     page = re.sub("|".join(filled), lambda mark: filled[mark[0]], page)
-    single = out.suffix.lower() in (".html", ".htm")
-    path = out if single else out / "index.html"
+    path = page_file(out)
     with atomic_write(path) as temporary:
         temporary.write_text(page, "utf-8", newline="\n")
     return path
+
+
+def page_file(out: Path) -> Path:
+    """Where the page goes: an HTML file as it is, index.html in a folder."""
+    return out if out.suffix.lower() in (".html", ".htm") else out / "index.html"
 
 
 def _coded(part: bytes) -> str:

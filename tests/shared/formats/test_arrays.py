@@ -73,7 +73,7 @@ def test_foreign_arrays_are_refused(tmp_path: Path, changes: dict, message: str)
 
 
 def test_missing_file(tmp_path: Path) -> None:
-    with pytest.raises(UserError, match="cannot be read"):
+    with pytest.raises(UserError, match="does not exist"):
         read_npz(tmp_path / "none.npz")
 
 

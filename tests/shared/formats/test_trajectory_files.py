@@ -73,7 +73,7 @@ def test_what_is_no_trajectory_is_named(tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="known are npz, npy, csv"):
         read_trajectory(tmp_path / "a.bvh")
     for ending in ("npz", "npy", "csv"):
-        with pytest.raises(UserError, match="cannot be read"):
+        with pytest.raises(UserError, match="does not exist"):
             read_trajectory(tmp_path / f"none.{ending}")
     (tmp_path / "cut.npz").write_bytes(b"PK\x03\x04 cut")
     with pytest.raises(UserError, match="not a whole NPZ"):

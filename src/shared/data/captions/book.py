@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ...config_loader import load_yaml, packaged_config
-from ...errors import UserError
+from ...errors import UsageError, UserError
 from .language import CaptionLanguage
 from .schema import Labels, validate_language
 
@@ -203,5 +203,5 @@ def _caption_files(path: Path) -> list[Path]:
             )
         return found
     if not path.is_file():
-        raise UserError(f"caption file {path} does not exist; check the path")
+        raise UsageError(f"caption file {path} does not exist; check the path")
     return [path]

@@ -184,7 +184,7 @@ class MotionFolder:
         """
         for root in roots:
             if not root.exists():
-                raise UserError(f"source {root} does not exist; give a folder of motion files")
+                raise UsageError(f"source {root} does not exist; give a folder of motion files")
         rules, mappings = load_label_rules(labels), load_mappings(mapping)
         plain = [
             cls(root, name, {}, rules, mappings, reading or Reading())

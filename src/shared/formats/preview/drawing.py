@@ -3,7 +3,9 @@
 Pictures are drawn at twice their size and shrunk, which smooths every edge. The camera is
 orthographic; triangles are drawn from back to front. Legend: T frames, V vertices, F triangles."""
 
+import logging
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +20,12 @@ FLOOR = (236, 238, 242)
 GRID = (214, 218, 225)
 INK = (52, 58, 68)
 MARGIN = 8 * OVERSAMPLE
+FONTS = ("DejaVuSans.ttf", "Arial.ttf", "Helvetica.ttc")
+EASTERN_FONTS = ("NotoSansCJK-Regular.ttc", "YuGothM.ttc", "msyh.ttc", "PingFang.ttc",
+                 "Hiragino Sans GB.ttc", "DroidSansFallbackFull.ttf", "wqy-microhei.ttc",
+                 "ipaexg.ttf")  # fmt: skip
+
+log = logging.getLogger(__name__)
 
 
 def new_sheet(width: int, height: int) -> tuple[Image.Image, ImageDraw.ImageDraw]:
@@ -41,16 +49,31 @@ def save_sheet(sheet: Image.Image, path: Path) -> Path:
 
 def font(size: int, text: str = "") -> Any:
     """A font that can show the text, as far as the machine has one."""
-    names = ["DejaVuSans.ttf", "Arial.ttf", "Helvetica.ttc"]
-    if any(ord(letter) >= 0x2E80 for letter in text):  # Chinese, Japanese, Korean
-        names = ["NotoSansCJK-Regular.ttc", "YuGothM.ttc", "msyh.ttc", "PingFang.ttc",
-                 "Hiragino Sans GB.ttc", *names]  # fmt: skip
+    if any(ord(letter) >= 0x2E80 for letter in text):
+        if found := _first_font(EASTERN_FONTS, size):
+            return found
+        _tell_of_fonts()
+    return _first_font(FONTS, size) or ImageFont.load_default(size)
+
+
+@lru_cache
+def _tell_of_fonts() -> None:
+    """Once."""
+    log.warning(
+        "no font here has Chinese, Japanese or Korean letters: pictures show boxes for them;"
+        " install one, such as Noto Sans CJK"
+    )
+
+
+@lru_cache
+def _first_font(names: tuple[str, ...], size: int) -> Any:
+    """The first of these fonts that this machine has, or None."""
     for name in names:
         try:
             return ImageFont.truetype(name, size)
         except OSError:
             continue
-    return ImageFont.load_default(size)
+    return None
 
 
 class FloorMap:

@@ -25,7 +25,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from ...config_loader import nearest
+from ...config_loader import did_you_mean
 from ...errors import UserError
 from ...motion.features import world_joints
 from ...motion.rotations import gaussian_smooth
@@ -295,6 +295,6 @@ def _tag_index(tag: str | None, known: Sequence[str]) -> int:
     if tag is None:
         return len(known)
     if tag not in known:
-        hint = f"; did you mean {nearest(tag, known)!r}? known: {', '.join(known)}" if known else ""
+        hint = f"; {did_you_mean(tag, known)}known: {', '.join(known)}" if known else ""
         raise UserError(f"tag {tag!r} is not one this model was trained with{hint}")
     return list(known).index(tag)
