@@ -7,6 +7,7 @@ covers.
 Letters: N motions, T frames, K joints, F features.
 """
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
@@ -26,10 +27,11 @@ from ...data.prepared import ClipRecord, PreparedData
 from ...errors import UserError
 from ...metrics.frechet import frechet_distance
 from ...metrics.kinetic import FeatureSpace, kinetic_features
-from ...metrics.measurements import at_rest
+from ...metrics.measurements import at_rest, measure
 from ...metrics.physical import support_slide
 from ...motion.features import decode_features
 from ...motion.motion import Motion
+from ...motion.skeleton import FOOT_JOINTS
 from ..engine import Progress
 from ..judge.actions import (
     MIN_FRAMES,
@@ -410,20 +412,13 @@ def _exactness(yardstick: Yardstick, model: Model, requests: Sequence[Request], 
         chance = [order(sequences[o], motion) for o, motion in zip(others, acted, strict=True)]
         rows["one-sentence sequences"] = GridRow({"share": share_of(done)}, len(done))
         rows["the same, for another sequence"] = GridRow({"share": share_of(chance)}, len(chance))
+        jumps = [[foot_jump(m) for m in motions] for motions in (acted, yardstick.real.motions)]
+        cells = dict(zip(("share", "real"), map(bootstrap_mean, jumps), strict=True))
+        rows["sequences: largest acceleration of a foot, m/s²"] = GridRow(cells, len(acted))
     rows |= _styles(yardstick, of("styled"), make)
     gestures = drawn([r for r in of("plain") if r.action in GESTURES], 1, settings.seed)
     if gestures:
-        seen = make([r.text for r in gestures])
-        does = yardstick.obeyed([r.labels for r in gestures], seen)
-        rests = np.array([at_rest(motion) for motion in seen.motions])
-        real = zip(yardstick.records, yardstick.real.motions, yardstick.real_obeyed, strict=True)
-        whole = [(at_rest(motion), done) for record, motion, done in real
-                 if record.tag in GESTURES and record.num_frames <= yardstick.longest]  # fmt: skip
-        for name, made, theirs in (
-            ("gestures from rest to rest", rests, [rest for rest, _ in whole]),
-            ("the same, and obeyed", rests & does, [rest and done for rest, done in whole]),
-        ):
-            rows[name] = GridRow({"share": share_of(made), "real": share_of(theirs)}, len(made))
+        rows |= _gestures(yardstick, gestures, make([r.text for r in gestures]))
     rows["spread of a gesture, cm"] = _spread_row(yardstick, model, gestures)
     for seconds in LONG_WALKS:
         walk = model.generate([WALK], seconds=seconds, seed=settings.seed)[0]
@@ -435,9 +430,30 @@ def _exactness(yardstick: Yardstick, model: Model, requests: Sequence[Request], 
     note = (
         "Shares of hand-written sentences of all languages whose number, angle within 20°, length,"
         " side or order is shown, beside the action itself. A body that never moves is at rest too:"
-        " read the gestures that are obeyed."
+        " read the gestures that are obeyed. It does not turn, and its feet do not jump, either."
     )
     return Grid("exactness", "What is said exactly", columns, rows, note, head="asked for")
+
+
+def _gestures(yardstick: Yardstick, gestures: Sequence[Request], seen: Seen) -> dict[str, GridRow]:
+    """Whether arms hang at both ends, and how far the body has turned in between."""
+    does = yardstick.obeyed([r.labels for r in gestures], seen)
+    rests = np.array([at_rest(motion) for motion in seen.motions])
+    real = zip(yardstick.records, yardstick.real.motions, yardstick.real_obeyed, strict=True)
+    whole = [(motion, done) for record, motion, done in real
+             if record.tag in GESTURES and record.num_frames <= yardstick.longest]  # fmt: skip
+    theirs = [(at_rest(motion), done) for motion, done in whole]
+    turned = [bootstrap_mean([abs(math.degrees(measure(m).yaw)) for m in motions])
+              for motions in (seen.motions, [motion for motion, _ in whole])]  # fmt: skip
+    cells = {
+        "gestures from rest to rest": (share_of(rests), share_of([rest for rest, _ in theirs])),
+        "the same, and obeyed": (
+            share_of(rests & does), share_of([rest and done for rest, done in theirs])
+        ),
+        "gestures: turned by, degrees": turned,
+    }  # fmt: skip
+    return {name: GridRow({"share": made, "real": real}, len(seen))
+            for name, (made, real) in cells.items()}  # fmt: skip
 
 
 def _spread_row(yardstick: Yardstick, model: Model, gestures: Sequence[Request]) -> GridRow:
@@ -557,6 +573,13 @@ def worst_acceleration(motion: Motion) -> np.ndarray:
     """m/s² of the worst joint [T - 2]."""
     second = np.diff(motion.positions().astype(np.float64), n=2, axis=0) * motion.fps**2
     return np.asarray(np.linalg.norm(second, axis=-1).max(1))
+
+
+def foot_jump(motion: Motion) -> float:
+    """Largest acceleration of an ankle or a ball, m/s²: 180 where a foot is 20 cm away in the next
+    of 30 frames a second."""
+    feet = motion.positions()[:, np.ravel(FOOT_JOINTS)].astype(np.float64)
+    return float(np.linalg.norm(np.diff(feet, n=2, axis=0), axis=-1).max()) * motion.fps**2
 
 
 def covers(request: Request, motion: Motion) -> bool:
