@@ -145,9 +145,10 @@ def prepare_audio(
         str, typer.Option(help="Folder or address from `prepare`, or of BVH files; or synthetic.")
     ],
     music: Annotated[
-        list[str], typer.Option(help="Folder of sound files, or synthetic:N; several if you like.")
+        list[str],
+        typer.Option(help="Folder or address of sound files, or synthetic:N; several if you like."),
     ],
-    out: Annotated[Path, typer.Option(help="Folder for the pairs.")],
+    out: Annotated[str, typer.Option(help="Folder or address for the pairs.")],
     meter: Annotated[
         int | None, typer.Option(help="Beats a bar of the recordings; else 3 or 4 is heard.")
     ] = None,
@@ -186,7 +187,8 @@ def prepare_audio(
         )
     if motion != "synthetic" and not place(motion).is_dir():
         raise UsageError(f"--motion {motion} is no folder; name one, or synthetic")
-    options.check_folder("--out", out)
+    folder = place(out)
+    options.check_folder("--out", folder)
 
     from ..shared.data.pairing.music import open_music
     from ..shared.data.pairing.prepare_audio import PairOptions
@@ -195,26 +197,26 @@ def prepare_audio(
 
     sources = open_music(music, seed=seed, meter=meter)
     synthetic = synthetic_clips or motion == "synthetic"
-    with sole_writer(out):
-        data = open_motion(motion, out, workers, scheduler)
+    with sole_writer(folder):
+        data = open_motion(motion, folder, workers, scheduler)
         with progress_bar("songs") as progress:
             report = pair_all(
                 data,
                 sources,
-                out,
+                folder,
                 options=PairOptions(min_seconds, max_seconds, passes, synthetic, seed),
                 workers=workers,
                 scheduler=scheduler,
                 progress=progress,
             )
-        write_bands(out)
+        write_bands(folder)
     if json:
         print_json(report)
     else:
-        print_pairs(report, out)
+        print_pairs(report, folder)
 
 
-def open_motion(motion: str, out: Path, workers: int, scheduler: str | None) -> "PreparedData":
+def open_motion(motion: str, out: Place, workers: int, scheduler: str | None) -> "PreparedData":
     """A prepared folder; BVH files and synthetic motions are prepared beside the pairs, once."""
     from ..shared.data.prepare import open_data
     from ..shared.data.prepared import PreparedData
@@ -232,7 +234,7 @@ def open_motion(motion: str, out: Path, workers: int, scheduler: str | None) -> 
     return prepare_unlabelled(folder, beside, workers=workers, scheduler=scheduler)
 
 
-def write_bands(out: Path) -> None:
+def write_bands(out: Place) -> None:
     """What the training phrases measure, in bands.json: the sanity suite compares with it."""
     from ..shared.data.pairing.prepare_audio import training_trajectories
     from ..shared.metrics.sanity import Bands
@@ -240,7 +242,7 @@ def write_bands(out: Path) -> None:
     Bands.of(training_trajectories(out)).save(out / "bands.json")
 
 
-def print_pairs(report: dict[str, Any], out: Path) -> None:
+def print_pairs(report: dict[str, Any], out: Place) -> None:
     """What was made, how well the beats meet, and what to do next."""
     print(f"{report['phrases']} phrases, {report['hours']:.2f} h, {report['songs']} songs: {out}")
     print("  by split: ", ", ".join(f"{k} {v}" for k, v in report["by_split"].items()))

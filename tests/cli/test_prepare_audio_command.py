@@ -10,7 +10,9 @@ from typer.testing import CliRunner
 from src.cli.tools import app
 from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.formats.writers.bvh import write_bvh
+from src.shared.io.storage import place
 from src.shared.motion.motion import Motion
+from tests.files import files_of
 
 RUN = CliRunner()
 
@@ -74,3 +76,15 @@ def test_bvh_files_and_songs_become_pairs(tmp_path: Path) -> None:
 
     again = RUN.invoke(app, [part for part in command if part != "--json"])
     assert again.exit_code == 0 and "phrases" in again.stdout and "by chance" in again.stdout
+
+    songs, bucket = place("memory://songs"), place("memory://pairs")
+    for song in (tmp_path / "songs").iterdir():
+        (songs / song.name).write_bytes(song.read_bytes())
+    command = [{str(out): str(bucket), str(tmp_path / "songs"): str(songs)}.get(part, part)
+               for part in command]  # fmt: skip
+    for _ in range(2):  # the second run does nothing
+        result = RUN.invoke(app, command)
+        assert result.exit_code == 0 and json.loads(result.stdout) == report
+    stored = {name: (bucket / name).read_bytes() for name in bucket.find()}
+    assert stored == {name: files_of(out)[name] for name in stored}
+    assert len(stored) == len(files_of(out))

@@ -314,7 +314,7 @@ class AudioFeatures:
         Raises:
             UserError: the file cannot be written.
         """
-        return write_arrays(self.arrays(), path)
+        return write_arrays(self.arrays(), Path(path))
 
     @classmethod
     def load(cls, path: str | Path) -> "AudioFeatures":

@@ -130,7 +130,7 @@ class Song:
         Raises:
             UserError: the file cannot be written.
         """
-        return write_arrays(self.arrays(), path)
+        return write_arrays(self.arrays(), Path(path))
 
     @classmethod
     def from_arrays(cls, arrays: dict[str, np.ndarray], path: str | Path) -> "Song":

@@ -166,7 +166,7 @@ def _unmatched(sources: tuple[Source, ...]) -> list[str]:
 
 def open_data(
     data: str,
-    cache: Path,
+    cache: Place,
     *,
     synthetic_clips: int = SYNTHETIC_CLIPS,
     kind: type[PreparedData] = PreparedData,

@@ -132,4 +132,4 @@ def write_amass(motion: Motion, path: str | Path) -> Path:
         "dmpls": np.zeros((motion.num_frames, 8)),
         "skeleton": np.array(OURS),
     }
-    return write_arrays(arrays, path, compressed=True)
+    return write_arrays(arrays, Path(path), compressed=True)

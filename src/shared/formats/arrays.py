@@ -55,7 +55,7 @@ def write_npz(motion: Motion, path: str | Path) -> Path:
         "parents": np.array(skeleton.parents, dtype=np.int32),
         "offsets": skeleton.offsets.astype(np.float32),
     }
-    return write_arrays(arrays, path, compressed=True)
+    return write_arrays(arrays, Path(path), compressed=True)
 
 
 def read_npz(path: str | Path) -> Motion:
@@ -127,7 +127,7 @@ def write_trajectory_npz(trajectory: MotionTrajectory, path: str | Path) -> Path
         "fps": np.float32(trajectory.fps),
         "columns": np.array(COLUMNS),
     }
-    return write_arrays(arrays, path, compressed=True)
+    return write_arrays(arrays, Path(path), compressed=True)
 
 
 def read_trajectory_npz(path: str | Path) -> MotionTrajectory:

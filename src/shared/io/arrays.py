@@ -9,12 +9,14 @@ import math
 import zipfile
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
-from pathlib import Path
-from typing import IO
+from typing import IO, TypeVar
 
 import numpy as np
 
 from .files import atomic_write
+from .storage import Place, place
+
+PlaceT = TypeVar("PlaceT", bound=Place)
 
 MAX_VALUES = 16 << 20  # numbers kept of one array: 128 MB as float64
 _MAX_MEMBERS = 1000  # arrays of one archive
@@ -28,7 +30,7 @@ class BadArray(ValueError):
 
 
 def load_arrays(
-    source: str | Path | bytes,
+    source: str | Place | bytes,
     wanted: Iterable[str] | None = None,
     *,
     max_values: int = MAX_VALUES,
@@ -57,21 +59,19 @@ def load_arrays(
             raise BadArray(f"is not a whole NPZ file ({error})") from error
 
 
-def write_arrays(
-    arrays: Mapping[str, object], path: str | Path, *, compressed: bool = False
-) -> Path:
+def write_arrays(arrays: Mapping[str, object], path: PlaceT, *, compressed: bool = False) -> PlaceT:
     """Write an NPZ whole or not at all; returns its path.
 
     Raises:
         UserError: the file cannot be written.
     """
     save = np.savez_compressed if compressed else np.savez
-    with atomic_write(Path(path)) as temporary, temporary.open("wb") as stream:
+    with atomic_write(path) as temporary, temporary.open("wb") as stream:
         save(stream, **arrays)  # type: ignore[arg-type]
-    return Path(path)
+    return path
 
 
-def array_names(source: str | Path | bytes) -> tuple[str, ...]:
+def array_names(source: str | Place | bytes) -> tuple[str, ...]:
     """Names of the arrays in an NPZ.
 
     Raises:
@@ -89,7 +89,7 @@ def array_names(source: str | Path | bytes) -> tuple[str, ...]:
             raise BadArray(f"is not a whole NPZ file ({error})") from error
 
 
-def load_array(source: str | Path | bytes, *, max_values: int = MAX_VALUES) -> np.ndarray:
+def load_array(source: str | Place | bytes, *, max_values: int = MAX_VALUES) -> np.ndarray:
     """The array of an NPY.
 
     Raises:
@@ -107,8 +107,8 @@ def load_array(source: str | Path | bytes, *, max_values: int = MAX_VALUES) -> n
             raise BadArray(f"is not a whole NPY file ({error})") from error
 
 
-def _opened(source: str | Path | bytes) -> IO[bytes]:
-    return io.BytesIO(source) if isinstance(source, bytes) else Path(source).open("rb")
+def _opened(source: str | Place | bytes) -> IO[bytes]:
+    return io.BytesIO(source) if isinstance(source, bytes) else place(source).open("rb")
 
 
 def _check_directory(stream: IO[bytes]) -> None:

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import UserError
-from .storage import Address, Place
+from .storage import Address, Place, files_below
 
 MAX_JSON = 256 << 20  # bytes
 MAX_TEXT = 64 << 20
@@ -250,6 +250,15 @@ def sole_writer(folder: str | Place, *, wait: bool = False) -> Iterator[None]:
         finally:
             with suppress(OSError):  # still held: whoever waits will make another one
                 (folder / LOCK).unlink()
+
+
+def remove_folder(folder: Place) -> None:
+    """Remove a folder and what is in it, if it is there."""
+    if isinstance(folder, Address):
+        for file in files_below(folder):
+            file.unlink(missing_ok=True)
+    else:
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 def clear_unfinished(folder: Place) -> None:

@@ -329,9 +329,26 @@ def read_range(path: Place, start: int, stop: int) -> bytes:
         return stream.read(stop - start)
 
 
+def size_of(path: Place) -> int:
+    """Bytes of a file."""
+    return path.size() if isinstance(path, Address) else path.stat().st_size
+
+
+def files_below(folder: Place) -> list[Place]:
+    """All files of a folder and of those in it, sorted; none where there is no folder."""
+    if isinstance(folder, Address):
+        return sorted(folder.iterdir(), key=str) if folder.is_dir() else []
+    return [*sorted(path for path in folder.rglob("*") if path.is_file())]
+
+
+def relative_name(path: Place, folder: Place) -> str:
+    """The name of a file as seen from a folder that it lies in, with slashes."""
+    return PurePosixPath(*path.parts[len(folder.parts) :]).as_posix()
+
+
 def read_blocks(path: Place) -> Iterator[bytes]:
     """A file of any length in blocks, so that memory stays bounded."""
-    total = path.size() if isinstance(path, Address) else path.stat().st_size
+    total = size_of(path)
     return (read_range(path, at, min(at + BLOCK, total)) for at in range(0, total, BLOCK))
 
 

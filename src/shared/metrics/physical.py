@@ -51,6 +51,23 @@ def mean_jerk(positions: np.ndarray, fps: float) -> float:
     return float(np.linalg.norm(np.diff(positions, n=3, axis=0), axis=-1).mean() * fps**3)
 
 
+def worst_acceleration(motion: Motion) -> np.ndarray:
+    """m/s² of the worst joint [T - 2]."""
+    return np.asarray(_acceleration(motion).max(1))
+
+
+def foot_jump(motion: Motion) -> float:
+    """Largest acceleration of an ankle or a ball, m/s²: 180 where a foot is 20 cm away in the next
+    of 30 frames a second."""
+    return float(_acceleration(motion)[:, np.ravel(FOOT_JOINTS)].max())
+
+
+def _acceleration(motion: Motion) -> np.ndarray:
+    """Of every joint [T - 2, K], m/s²."""
+    second = np.diff(motion.positions().astype(np.float64), n=2, axis=0) * motion.fps**2
+    return np.asarray(np.linalg.norm(second, axis=-1))
+
+
 HANDS = [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]]
 SUPPORT_HEIGHT = 0.06  # metres above the rest height: higher than this, no foot carries the body
 

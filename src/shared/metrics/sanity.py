@@ -29,7 +29,7 @@ import numpy as np
 
 from ..errors import UserError
 from ..io.files import load_json, write_json
-from ..io.storage import place
+from ..io.storage import Place, place
 from ..motion.trajectory import (
     ACCELERATION,
     PHASE,
@@ -243,7 +243,7 @@ class Bands:
             {name: Band(*each) for name, each in zip(figures, limits, strict=True)}, len(rows)
         )
 
-    def save(self, path: str | Path) -> Path:
+    def save(self, path: str | Place) -> Place:
         """Write JSON.
 
         Raises:
@@ -254,8 +254,8 @@ class Bands:
             "motions": self.motions,
             "bands": {name: asdict(band) for name, band in self.bands.items()},
         }
-        write_json(Path(path), content)
-        return Path(path)
+        write_json(place(path), content)
+        return place(path)
 
     @classmethod
     def load(cls, path: str | Path) -> "Bands":

@@ -3,7 +3,14 @@
 import numpy as np
 import pytest
 
-from src.shared.metrics.physical import BALLS, contact_slide, mean_jerk, physics, support_slide
+from src.shared.metrics.physical import (
+    BALLS,
+    contact_slide,
+    foot_jump,
+    mean_jerk,
+    physics,
+    support_slide,
+)
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import REST_FOOT_HEIGHT, REST_PELVIS_HEIGHT
 
@@ -54,3 +61,10 @@ def test_jerk_of_a_cubic_is_its_third_derivative() -> None:
     positions[..., 0] = (time**3)[:, None]
     assert mean_jerk(positions, 30) == pytest.approx(6)
     assert np.isnan(mean_jerk(positions[:3], 30))
+
+
+def test_a_foot_that_changes_its_place_at_once_is_seen() -> None:
+    motion = rest_motion()
+    assert foot_jump(motion) < 1e-3
+    motion.root_position[30:, 0] += 0.2
+    assert foot_jump(motion) == pytest.approx(180, rel=1e-3)

@@ -7,7 +7,6 @@ recording they are estimated.
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from ...audio.sound import sound_from_samples
 from ...audio.synthetic import SongSpec, render_song, sample_song_specs
 from ...errors import UsageError, UserError
 from ...io.files import sha256_file
+from ...io.storage import Place, fetched, files_below, place, relative_name
 from ..prepared import assign_alike
 from .pair import MusicBeats, strong_beats
 
@@ -121,17 +121,13 @@ class SyntheticMusic:
 class FolderMusic:
     """Every sound file below a folder; beats are tracked."""
 
-    root: Path
+    root: Place
     meter: int | None = None  # 3 or 4, as each song sounds
     seed: int = 0
 
     def entries(self) -> list[SongEntry]:
         """All songs, in a stable order; raises UserError where there is none."""
-        found = sorted(
-            path
-            for path in self.root.rglob("*")
-            if path.suffix.lower() in SOUND_FILES and path.is_file()
-        )
+        found = [p for p in files_below(self.root) if p.suffix.lower() in SOUND_FILES]
         if not found:
             raise UserError(
                 f"--music {self.root} holds no sound file ({', '.join(SOUND_FILES)});"
@@ -148,14 +144,15 @@ class FolderMusic:
                     f"{_slug(path.stem)}-{digest[:8]}",
                     splits[digest],
                     f"{digest}:{self.meter}",
-                    path.relative_to(self.root).as_posix(),
+                    relative_name(path, self.root),
                 )
             )
         return entries
 
     def read(self, entry: SongEntry) -> Music:
         """One song; raises UserError where it cannot be used."""
-        song = analyse(self.root / entry.path, meter=self.meter)
+        with fetched(self.root / entry.path) as file:
+            song = analyse(file, meter=self.meter)
         beats = song.beats
         return Music(
             feature_arrays(song.features),
@@ -194,8 +191,8 @@ def open_music(
             if not number.isdecimal() or not int(number):
                 raise UsageError(f"--music {name}: say how many songs, e.g. synthetic:100")
             sources.append(SyntheticMusic(int(number), seed))
-        elif not Path(name).is_dir():
+        elif not (folder := place(name)).is_dir():
             raise UsageError(f"--music {name} is no folder; name one, or synthetic:N")
         else:
-            sources.append(FolderMusic(Path(name).absolute(), meter, seed))
+            sources.append(FolderMusic(folder.absolute(), meter, seed))
     return sources

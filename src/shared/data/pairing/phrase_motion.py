@@ -11,7 +11,6 @@ T frames of the phrase, N of its motion before the warp.
 import zlib
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,6 +20,7 @@ from scipy.optimize import lsq_linear
 from torch import Tensor
 
 from ...io.files import is_whole, write_json
+from ...io.storage import Place
 from ...motion.features import (
     FORWARD,
     HEIGHT,
@@ -334,7 +334,7 @@ def lay(
 Entry = dict[str, Any]
 
 
-def add_body(out: Path, entry: Entry, data: PreparedData) -> None:
+def add_body(out: Place, entry: Entry, data: PreparedData) -> None:
     """Write the body of a phrase; its entry, as `pair_song` makes them, learns of it.
 
     Args:
@@ -349,7 +349,7 @@ def add_body(out: Path, entry: Entry, data: PreparedData) -> None:
     entry["body"] = write_body(out, entry["id"], features.numpy()).model_dump()
 
 
-def describe(out: Path, entries: Sequence[Entry], data: PreparedData) -> None:
+def describe(out: Place, entries: Sequence[Entry], data: PreparedData) -> None:
     """Put body, tag, caption and clips of phrases into their records; bodies that are missing
     are made, as in folders of before.
     """

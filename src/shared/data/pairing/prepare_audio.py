@@ -22,21 +22,19 @@ second run, or a run after an interruption, does only what is missing.
 
 import hashlib
 import json
-import shutil
 import threading
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ...errors import UserError
 from ...io.arrays import load_array, load_arrays
-from ...io.files import clear_unfinished, inside, is_whole, load_json, write_json
+from ...io.files import clear_unfinished, is_whole, load_json, remove_folder, write_json
 from ...io.jobs import finished_record, run_jobs
-from ...io.storage import Place
+from ...io.storage import Place, files_below
 from ...metrics.rhythm import motion_beats
 from ...motion.style import measure_style
 from ...motion.trajectory import STYLE, MotionTrajectory, encode_window
@@ -57,17 +55,17 @@ RATE_EDGES = np.round(np.arange(0.85, 1.151, 0.05), 2)
 Entry = dict[str, Any]
 
 
-def load_trajectory(out: Path, entry: Entry) -> np.ndarray:
+def load_trajectory(out: Place, entry: Entry) -> np.ndarray:
     """Trajectory [T,25] of a phrase."""
     return load_array(out / entry["record"]["motion"]["path"])
 
 
-def load_phase(out: Path, entry: Entry) -> np.ndarray:
+def load_phase(out: Place, entry: Entry) -> np.ndarray:
     """Unwrapped bars [T] of a phrase."""
     return load_arrays(out / entry["record"]["features"]["path"], ["phase"])["phase"]
 
 
-def encoded_windows(out: Path, entries: Sequence[Entry]) -> Iterator[np.ndarray]:
+def encoded_windows(out: Place, entries: Sequence[Entry]) -> Iterator[np.ndarray]:
     """Windows [25,T] of phrases, half overlapping; a shorter phrase is one window."""
     for entry in entries:
         trajectory, phase = load_trajectory(out, entry), load_phase(out, entry)
@@ -76,15 +74,15 @@ def encoded_windows(out: Path, entries: Sequence[Entry]) -> Iterator[np.ndarray]
             yield encode_window(trajectory[part], phase[part])
 
 
-def training_trajectories(out: Path) -> Iterator[MotionTrajectory]:
+def training_trajectories(out: Place) -> Iterator[MotionTrajectory]:
     """Every trajectory of the training split, or of all where there is none."""
     phrases = load_json(out / "manifest.json")["phrases"]
     train = [phrase for phrase in phrases if phrase["split"] == "train"] or phrases
     for phrase in train:
-        yield MotionTrajectory(load_array(inside(out, phrase["motion"]["path"])))
+        yield MotionTrajectory(load_array(out / phrase["motion"]["path"]))
 
 
-def write_statistics(out: Path, entries: Sequence[Entry]) -> None:
+def write_statistics(out: Place, entries: Sequence[Entry]) -> None:
     """Mean and std [25] of encoded windows over the training phrases, in statistics.json."""
     train = [entry for entry in entries if entry["record"]["split"] == "train"] or entries
     rows = np.concatenate(list(encoded_windows(out, train)), 1).astype(np.float64)  # 25 N
@@ -101,7 +99,7 @@ def write_statistics(out: Path, entries: Sequence[Entry]) -> None:
 
 
 def make_report(
-    out: Path, entries: Sequence[Entry], left_out: Sequence[Entry], library: ClipLibrary
+    out: Place, entries: Sequence[Entry], left_out: Sequence[Entry], library: ClipLibrary
 ) -> dict[str, Any]:
     """The content of report.json."""
     splits = Counter(entry["record"]["split"] for entry in entries)
@@ -153,7 +151,7 @@ def _alignment(entries: Sequence[Entry]) -> dict[str, dict[str, float]]:
     }
 
 
-def _seams(out: Path, entries: Sequence[Entry]) -> dict[str, Any]:
+def _seams(out: Place, entries: Sequence[Entry]) -> dict[str, Any]:
     """Size of the acceleration in m/s² within seams, around other motion beats, elsewhere.
 
     Seams lie on motion beats, where the pelvis turns from braking to pushing in any case, so the
@@ -260,7 +258,7 @@ class SongJob:
     source: MusicSource
     entry: SongEntry
     motions: Motions
-    out: Path
+    out: Place
     options: PairOptions
     key: str
 
@@ -377,7 +375,7 @@ def _entry(name: str, record: PhraseRecord, pair: PhrasePair, start: int) -> dic
 # ---------------------------------------------------------------- what is done already
 
 
-def _phrase_path(out: Path, name: str) -> Path:
+def _phrase_path(out: Place, name: str) -> Place:
     return out / "phrases" / f"{name}.json"
 
 
@@ -422,7 +420,7 @@ CAPTION = {"en": ["a person moves"]}  # what keeps `prepare` from skipping an un
 
 
 def prepare_unlabelled(
-    source: Place, out: Path, *, workers: int | None = 1, scheduler: str | None = None
+    source: Place, out: Place, *, workers: int | None = 1, scheduler: str | None = None
 ) -> PreparedData:
     """Prepare every motion file of a folder, labelled or not, once; then open it.
 
@@ -446,7 +444,7 @@ Progress = Callable[[int, int], None]  # (songs done, songs in all)
 def prepare_audio(
     data: PreparedData,
     sources: Sequence[MusicSource],
-    out: Path,
+    out: Place,
     *,
     options: PairOptions,
     workers: int | None = 1,
@@ -504,7 +502,7 @@ def _jobs(
     motions: Motions,
     library: ClipLibrary,
     sources: Sequence[MusicSource],
-    out: Path,
+    out: Place,
     options: PairOptions,
 ) -> list[SongJob]:
     jobs: dict[str, SongJob] = {}  # a song that two sources hold is taken once
@@ -533,15 +531,15 @@ def _run(
     return made
 
 
-def _remove_stale(out: Path, wanted: set[str]) -> None:
+def _remove_stale(out: Place, wanted: set[str]) -> None:
     """Phrases of an earlier, larger run."""
-    for path in (out / "phrases").glob("*.json"):
+    for path in files_below(out / "phrases"):
         if path.stem not in wanted:
             path.unlink()
-            for folder in (features_path(path.stem), trajectory_path(path.stem)):
-                shutil.rmtree((out / folder).parent, ignore_errors=True)
+            for file in (features_path(path.stem), trajectory_path(path.stem)):
+                remove_folder((out / file).parent)
     songs = {name.rpartition("-")[0] for name in wanted} | wanted
-    for path in (out / "songs").glob("*.json"):
+    for path in files_below(out / "songs"):
         if path.stem not in songs:
             path.unlink()
 

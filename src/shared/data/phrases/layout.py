@@ -28,6 +28,7 @@ from ...audio.features import AudioFeatures
 from ...errors import UserError, first_fault
 from ...io.arrays import BadArray, load_array, load_arrays, write_arrays
 from ...io.files import atomic_write, sha256_file, write_text
+from ...io.storage import Place, size_of
 
 MANIFEST = "manifest.json"
 MIN_FRAMES = 8  # what the UNet takes at least (ruling 4)
@@ -135,20 +136,20 @@ def body_path(phrase: str) -> str:
     return f"motion/{phrase}/body.npz"
 
 
-def write_body(root: Path, phrase: str, features: np.ndarray) -> StoredObject:
+def write_body(root: Place, phrase: str, features: np.ndarray) -> StoredObject:
     """Write the body [T,23,6] of a phrase under a folder; returns what the manifest says of it."""
     arrays = {"features": np.asarray(features, np.float16)}
     write_arrays(arrays, root / body_path(phrase), compressed=True)
     return _stored(root, body_path(phrase))
 
 
-def _stored(root: Path, path: str) -> StoredObject:
+def _stored(root: Place, path: str) -> StoredObject:
     file = root / path
-    return StoredObject(path=path, size=file.stat().st_size, sha256=sha256_file(file))
+    return StoredObject(path=path, size=size_of(file), sha256=sha256_file(file))
 
 
 def write_phrase(
-    root: Path, phrase: str, trajectory: np.ndarray, features: Mapping[str, Any], **about: Any
+    root: Place, phrase: str, trajectory: np.ndarray, features: Mapping[str, Any], **about: Any
 ) -> PhraseRecord:
     """Write one phrase under a folder.
 
@@ -165,7 +166,7 @@ def write_phrase(
     return record_phrase(root, phrase, **about)
 
 
-def record_phrase(root: Path, phrase: str, **about: Any) -> PhraseRecord:
+def record_phrase(root: Place, phrase: str, **about: Any) -> PhraseRecord:
     """The record of a phrase whose files are there; `about` as for `write_phrase`."""
     motion, features = (_stored(root, f(phrase)) for f in (trajectory_path, features_path))
     body = _stored(root, body_path(phrase)) if (root / body_path(phrase)).exists() else None

@@ -28,10 +28,9 @@ from ...errors import UserError
 from ...metrics.frechet import frechet_distance
 from ...metrics.kinetic import FeatureSpace, kinetic_features
 from ...metrics.measurements import at_rest, measure
-from ...metrics.physical import support_slide
+from ...metrics.physical import foot_jump, support_slide, worst_acceleration
 from ...motion.features import decode_features
 from ...motion.motion import Motion
-from ...motion.skeleton import FOOT_JOINTS
 from ..engine import Progress
 from ..judge.actions import (
     MIN_FRAMES,
@@ -567,19 +566,6 @@ def gaits(seen: Seen, tags: Sequence[str], top_run: float) -> dict[str, Estimate
 def kinetic(seen: Seen) -> np.ndarray:
     """Kinetic features [N, 66]."""
     return np.stack([kinetic_features(m.positions(), m.fps).reshape(-1) for m in seen.motions])
-
-
-def worst_acceleration(motion: Motion) -> np.ndarray:
-    """m/s² of the worst joint [T - 2]."""
-    second = np.diff(motion.positions().astype(np.float64), n=2, axis=0) * motion.fps**2
-    return np.asarray(np.linalg.norm(second, axis=-1).max(1))
-
-
-def foot_jump(motion: Motion) -> float:
-    """Largest acceleration of an ankle or a ball, m/s²: 180 where a foot is 20 cm away in the next
-    of 30 frames a second."""
-    feet = motion.positions()[:, np.ravel(FOOT_JOINTS)].astype(np.float64)
-    return float(np.linalg.norm(np.diff(feet, n=2, axis=0), axis=-1).max()) * motion.fps**2
 
 
 def covers(request: Request, motion: Motion) -> bool:

@@ -14,8 +14,7 @@ from src.shared.data.sources.folders import SyntheticSource
 from src.shared.data.synthetic.clips import generate_clip, label_combinations, spec_for
 from src.shared.errors import UserError
 from src.shared.evaluation.report.tables import Grid
-from src.shared.evaluation.samples import frozen_pose
-from src.shared.evaluation.suites.requests import RequestSettings, evaluate_requests, foot_jump
+from src.shared.evaluation.suites.requests import RequestSettings, evaluate_requests
 from src.shared.motion.motion import Motion
 
 SETTINGS = RequestSettings(wordings=1, languages=("en",), seconds=3.0, max_clips=60)
@@ -112,14 +111,6 @@ def test_every_action_the_judge_knows_has_a_row(tables: dict[str, Grid]) -> None
     rests, gestures = "gestures from rest to rest", "the same, and obeyed"
     assert exact.value(gestures, "share") <= exact.value(rests, "share")
     assert exact.value("gestures: turned by, degrees", "share") < 45
-
-
-def test_a_foot_that_changes_its_place_at_once_is_seen() -> None:
-    still = frozen_pose(generate_clip(spec_for(label_combinations()[0], 0), 0))
-    assert foot_jump(still) < 1e-3
-    root = still.root_position.copy()
-    root[30:, 0] += 0.2
-    assert foot_jump(replace(still, root_position=root)) == pytest.approx(180, rel=1e-3)
 
 
 def test_data_without_captured_clips_is_refused(tmp_path: Path) -> None:
