@@ -20,11 +20,13 @@ from ..rotations import (
     quaternion_multiply,
     quaternion_slerp,
 )
-from .footskate import kept_legs, lock_feet
+from ..skeleton import FOOT_JOINTS
+from .footskate import ease_from_kept, kept_legs, lock_feet
 from .stitching import FADE, joined
 from .whole import MotionPostProcessor, clamp_velocity, smooth_features
 
 BLOCK, AHEAD, BEHIND = 15, 12, 24  # frames: locked at once, waited for, remembered
+JUMP = 0.04  # metres: a foot that its hold moves farther in a block's first frame gets there slowly
 
 Piece = tuple[Tensor, Tensor]  # features [t,R,6] and what is known of them, bool
 
@@ -132,9 +134,18 @@ class FootLock:
             wanted = joined(self._settled, wanted)
             legs = np.concatenate((np.ones((behind, 2), dtype=bool), legs))
         locked = lock_feet(wanted, kept=legs)
+        if behind:
+            locked = ease_from_kept(wanted, locked, legs & _jumps(wanted, locked, behind))
         self._unlocked = raw[size - 1]
         self._settled = locked.frames(max(0, behind + size - BEHIND), behind + size)
         return locked.frames(behind, behind + size)
+
+
+def _jumps(loose: Motion, locked: Motion, frame: int) -> np.ndarray:
+    """Which leg [2] bool the lock has carried away at once in this frame, the first that it may."""
+    balls = [ball for _, ball in FOOT_JOINTS]
+    moved = (each.frames(frame, frame + 1).positions()[0, balls] for each in (loose, locked))
+    return np.asarray(np.linalg.norm(np.subtract(*moved), axis=-1) > JUMP)
 
 
 def _faded(raw: Tensor, corrected: Tensor, before: Tensor, legs: np.ndarray) -> np.ndarray:

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from src.shared.config_schema import PostProcessingConfig
 from src.shared.data.synthetic.clips import generate_clip, spec_for
+from src.shared.metrics.physical import foot_jump
 from src.shared.motion.features import LATERAL, ROOT_ROW, YAW_RATE, Place, encode_features
 from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess.contacts import GIVE
@@ -22,6 +23,7 @@ from tests.shared.model.conftest import tiny_generator
 
 PLACE = Place(1.0, -2.0, 0.7)
 LABELS = {"action": "walk", "direction": "forward", "speed": "normal"}
+CROUCH = {"action": "crouch-walk", "direction": "forward", "speed": "slow"}
 SMOOTH = PostProcessingConfig(smoothing_kernel=5, max_velocity=6.0)
 LOCKED = PostProcessingConfig(smoothing_kernel=3, foot_lock=True)
 
@@ -89,6 +91,14 @@ def test_feet_are_held_across_blocks_without_a_jump(walk: torch.Tensor) -> None:
         for motion in (loose, held)
     ]
     assert sizes[1] < 2.5 * sizes[0]
+
+
+def test_a_foot_does_not_jump_to_a_hold_that_a_block_finds_late() -> None:
+    """58 m/s² where the hold was there at once, 21 of the whole."""
+    features = encode_features(generate_clip(spec_for(CROUCH, 18), 18))
+    features[:, ROOT_ROW, :3] *= 1.3  # the body goes faster than its legs
+    whole = foot_jump(MotionPostProcessor(LOCKED)(features))
+    assert foot_jump(in_pieces(features, [10] * 20, LOCKED)[0]) < 2 * whole
 
 
 def test_known_entries_and_legs_stay(walk: torch.Tensor) -> None:
