@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -76,7 +77,7 @@ def test_every_table_has_its_floors_and_says_how_much(first: Path) -> None:
     manifest = json.loads((first / "manifest.json").read_text())
     assert set(manifest["model"]) >= {"config.json", "model.safetensors"}
     assert manifest["evaluator"] and manifest["statistics"] and manifest["data"][split]
-    assert manifest["environment"]["packages"]["torch"] == torch.__version__
+    assert manifest["environment"]["packages"]["torch"] == version("torch")
     assert len(report["samples"]) >= 2 and "iframe" in (first / "report.html").read_text()
 
 
