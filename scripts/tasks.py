@@ -105,7 +105,7 @@ def benchmark(arguments: list[str]) -> int:
 
 
 def gpu_check(arguments: list[str]) -> int:
-    """What only a GPU can tell: tests marked gpu, then training steps by batch into docs/gpu.md."""
+    """Tests marked gpu, training steps by batch and an hour of `spark`, into docs/gpu*.md."""
     setup.main(["--dev"])
     if python("-c", "import sys, torch; sys.exit(not torch.cuda.is_available())"):
         print("gpu-check: no CUDA device here; nothing was checked", file=sys.stderr)
@@ -114,11 +114,16 @@ def gpu_check(arguments: list[str]) -> int:
     batches = "16,32,64,128,256,512,1024,2048"
     table = (*steps, batches, "--write", "docs/gpu.md", *arguments)
     compiled = (*steps, "64,256", "--precisions", "bf16", "--compile", *arguments)
+    data = "runs/gpu/data"
+    prepare = ("-m", "src.cli.tools", "prepare", "--synthetic", "3000", "--out", data)
+    hour = ("-m", "benchmarks.timed_training", "--profile", "spark", "--seconds", "3600", "--data",
+            data, "--work", "runs/gpu", "--write", "docs/gpu-spark.md")  # fmt: skip
     return max(
         python("-m", "pytest", "-q", "-m", "gpu"),
         python(*table),
         python(*compiled, "--write", "docs/gpu-compiled.md"),
         python("-m", "benchmarks.sampling", "--model", "starter"),
+        python(*prepare) or python(*hour),
     )
 
 
