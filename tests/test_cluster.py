@@ -1,23 +1,45 @@
 """The examples for clusters in docs/cluster: what parses them here, and what they name is there."""
 
+import os
+import shlex
 import shutil
 import subprocess
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
 import yaml
 from accelerate.commands.config.config_args import load_config_from_file
+from torch.distributed.run import parse_args
 
-from src.train.train_generation import app
+from src.shared.config_loader import load_train, split_network_overrides
+from src.shared.config_schema import TrainGenerationConfig
 
 FOLDER = Path(__file__).parents[1] / "docs" / "cluster"
 
 
 @pytest.mark.skipif(shutil.which("bash") is None, reason="needs bash")
-def test_slurm() -> None:
-    script = FOLDER / "slurm.sh"
-    subprocess.run(["bash", "-n", str(script)], check=True)
-    assert "src.train.train_generation" in script.read_text() and app
+def test_slurm(tmp_path: Path) -> None:
+    """Run with stand-ins for what SLURM and torch bring: both machines start the same training."""
+    stand_ins = {
+        "scontrol": "printf 'first\\nsecond\\n'",
+        "srun": 'for node in 1 2; do "$@"; done',
+        "torchrun": 'echo "$@"',
+    }
+    for name, does in stand_ins.items():
+        (tmp_path / name).write_text(f"#!/bin/bash\n{does}\n")
+        (tmp_path / name).chmod(0o755)
+    given = {"SLURM_JOB_NODELIST": "both", "SLURM_NNODES": "2", "SLURM_JOB_ID": "7",
+             "PATH": f"{tmp_path}:{os.environ['PATH']}"}  # fmt: skip
+    run = subprocess.run(["bash", FOLDER / "slurm.sh"], env=given, capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    one, other = (shlex.split(line) for line in run.stdout.splitlines())
+    assert one == other and "--rdzv-endpoint first:29500" in " ".join(one)
+    at = one.index("-m")
+    assert parse_args([*one[:at], "module.py"]).nnodes == "2"
+    assert find_spec(one[at + 1]) is not None
+    settings, network = split_network_overrides([word for word in one[at:] if "=" in word])
+    assert load_train(None, TrainGenerationConfig, settings).stream and not network
 
 
 def test_kubernetes() -> None:

@@ -1,14 +1,18 @@
 """Set-up without installing anything: which packages, from where, and when nothing is to do."""
 
+import importlib
 import importlib.util
 import re
 import subprocess
 import sys
+from itertools import pairwise
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 
 import pytest
 from packaging.requirements import Requirement
+
+from src.shared.config_loader import load_network, load_train, split_network_overrides
 
 ROOT = Path(__file__).parent.parent
 
@@ -182,6 +186,30 @@ def test_a_release_is_numbered_and_dated(tmp_path: Path) -> None:
     for version, told in (("1.2.0", "nothing under"), ("next", "no 1.2.3")):
         with pytest.raises(SystemExit, match=told):
             release.number(tmp_path, version)
+
+
+def test_every_stage_of_the_recipe_knows_its_settings(tmp_path: Path) -> None:
+    """And each goes on from a folder that one before it writes."""
+    recipe = load("train_starter")
+    given = SimpleNamespace(sources=["cmu"], tables=[], work=tmp_path, free=True, steps=4000,
+                            share=0.001, threads=1)  # fmt: skip
+    written = set()
+    for _, module, *words in recipe.stages(given):
+        flags = dict(pairwise(words))
+        if module == "src.cli.tools":
+            assert words[0] == "prepare" or Path(flags["--model"]) in written
+            continue
+        name = f"Train{module.rpartition('_')[2].title()}Config"
+        stage = getattr(importlib.import_module(module), name)
+        own, network = split_network_overrides([word for word in words if "=" in word])
+        settings = load_train(None, stage, own)
+        if hasattr(settings, "profile"):
+            load_network(settings.profile, None, network)
+        assert 1 <= settings.steps <= 12
+        before = (getattr(settings, name, None) for name in ("clip", "text"))
+        assert {Path(folder) for folder in before if folder} <= written
+        written.add(Path(flags["--output"]))
+    assert len(written) == 5 and {tmp_path / "starter", tmp_path / "evaluator"} <= written
 
 
 def test_cmus_own_index_becomes_captions() -> None:

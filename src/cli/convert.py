@@ -85,6 +85,7 @@ def convert(
     if root not in ROOTS:
         raise UsageError(f"--root {root!r} is unknown; choose from {', '.join(ROOTS)}")
     options.check_ranges(fps=fps, source_fps=source_fps, workers=workers)
+    options.check_scheduler(scheduler)
     joint_names(names)
     named = list(map(place, files))
     jobs = list(plan(named, format))

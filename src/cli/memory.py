@@ -67,6 +67,7 @@ def build(
       motion-tools memory build my-dances --figures --takes takes.csv --out data/figures
     """
     options.check_ranges(threads=threads, workers=workers)
+    options.check_scheduler(scheduler)
     options.check_folder("--out", out)
     if figures:
         refuse_with("--figures", space=space, split=split, bars=bars, scheduler=scheduler)

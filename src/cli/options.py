@@ -141,6 +141,14 @@ def _digits(value: float) -> str:
     return str(value) if isinstance(value, int) else f"{value:.12g}"
 
 
+def check_scheduler(scheduler: str | None) -> None:
+    """As `jobs.check_scheduler`, which is imported only where there is one to check."""
+    if scheduler is not None:
+        from ..shared.io import jobs
+
+        jobs.check_scheduler(scheduler)
+
+
 def check_folder(flag: str, folder: Place) -> None:
     """Refuse a path that cannot become a folder, before anything slow starts.
 

@@ -75,6 +75,7 @@ def prepare(
     if only_gaps and not synthetic:
         raise UsageError("--only-gaps without --synthetic N; add it, or leave out --only-gaps")
     options.check_ranges(synthetic=synthetic, workers=workers, seed=seed, source_fps=source_fps)
+    options.check_scheduler(scheduler)
     target, roots = place(out), list(map(place, source or []))
     options.check_folder("--out", target)
     if any(same_place(target, root) for root in roots):
@@ -180,6 +181,7 @@ def prepare_audio(
       motion-tools prepare-audio --motion synthetic --music synthetic:100 --out data/pairs
     """
     options.check_ranges(workers=workers, seed=seed, meter=meter, passes=passes)
+    options.check_scheduler(scheduler)
     if not 2.0 <= min_seconds <= max_seconds <= 120.0:
         raise UsageError(
             f"--min-seconds {min_seconds:g} and --max-seconds {max_seconds:g}: choose"

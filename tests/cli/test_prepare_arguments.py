@@ -40,6 +40,7 @@ def test_addresses_are_read_and_written(tmp_path: Path) -> None:
     ("arguments", "code", "told"),
     [
         (["memory://nothing", "--out", "memory://prepared"], 2, "does not exist"),
+        (["memory://nothing", "--out", "memory://x", "--scheduler", "here"], 2, "is no address"),
         (["memory://mocap", "--out", "memory://mocap/"], 2, "is a SOURCE"),
         (["--synthetic", "2", "--out", "nonsense://x"], 2, "give a folder, gs:// or s3://"),
     ],

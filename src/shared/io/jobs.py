@@ -15,6 +15,7 @@ from concurrent import futures
 from concurrent.futures import CancelledError, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import ExitStack, suppress
+from importlib.util import find_spec
 from itertools import islice
 from multiprocessing.connection import Connection
 from typing import Any, TypeVar
@@ -121,16 +122,30 @@ def _end_with(parent: Connection) -> None:
 # ---------------------------------------------------------------- cluster
 
 
+def check_scheduler(scheduler: str | None) -> None:
+    """Refuse what is no cluster, before anything is listed or started.
+
+    Raises:
+        UsageError: no address, of which Dask's client would tell after minutes.
+        UserError: Dask is not installed.
+    """
+    if scheduler is None:
+        return
+    if scheduler != LOCAL and not _ADDRESS.fullmatch(scheduler):
+        raise UsageError(f"--scheduler {scheduler} is no address; give tcp://HOST:8786, or {LOCAL}")
+    if find_spec("distributed") is None:
+        raise UserError(
+            f"--scheduler {scheduler} needs Dask; install it with: pip install distributed"
+        )
+
+
 def _on_cluster(
     function: Callable[[Job], Result], jobs: Sequence[Job], workers: int, scheduler: str
 ) -> Iterator[tuple[Job, Result]]:
-    try:
-        from distributed import KilledWorker, as_completed
-        from distributed.comm import CommClosedError
-    except ImportError as error:
-        raise UserError(
-            f"--scheduler {scheduler} needs Dask; install it with: pip install distributed"
-        ) from error
+    check_scheduler(scheduler)
+    from distributed import KilledWorker, as_completed
+    from distributed.comm import CommClosedError
+
     with ExitStack() as held:
         client = held.enter_context(_client(held, workers, scheduler))
         todo, waiting = iter(jobs), {}
@@ -175,8 +190,6 @@ def _client(held: ExitStack, workers: int, scheduler: str) -> Any:
             )  # fmt: skip
             held.enter_context(cluster)
             return Client(cluster, set_as_default=False)
-    if not _ADDRESS.fullmatch(scheduler):  # the client would say so after minutes
-        raise UsageError(f"--scheduler {scheduler} is no address; give tcp://HOST:8786, or {LOCAL}")
     try:
         return Client(scheduler, set_as_default=False, timeout=REACH)
     except (OSError, TimeoutError) as error:

@@ -77,7 +77,6 @@ def test_what_a_job_raises_on_a_cluster_is_raised_here(scheduler: str) -> None:
 
 @pytest.mark.parametrize("address", ["nonsense", "foo://bar:1", "tcp://host"])
 def test_what_is_no_address_is_refused(address: str) -> None:
-    pytest.importorskip("distributed")
     with pytest.raises(UsageError, match="is no address; give tcp"):
         list(run_jobs(fail, [1], scheduler=address))
 
