@@ -18,6 +18,7 @@ import platform
 import resource
 import time
 from collections.abc import Callable
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -165,6 +166,19 @@ def rows(given: argparse.Namespace) -> list[dict[str, Any]]:
     return found
 
 
+def of_the_roof(table: list[dict[str, Any]]) -> list[str]:
+    """From which batch each profile does half of what the device can, or how near it comes."""
+    told = []
+    for key, rows in groupby(table, lambda row: [row[name] for name in HEAD[:3]]):
+        most = max(found := list(rows), key=lambda row: row["of the roof"])
+        half = [row["batch"] for row in found if row["of the roof"] >= 0.5]
+        where = f"half of the roof from batch {half[0]}" if half else (
+            f"{most['of the roof']:.0%} of the roof at most, at batch {most['batch']}"
+        )  # fmt: skip
+        told.append(f"{' '.join(key)}: {where}")
+    return told
+
+
 def shown(value: Any) -> str:
     """A value of a table."""
     return f"{value:.3g}" if isinstance(value, float) else str(value)
@@ -196,13 +210,16 @@ def main() -> None:
     about = f"{name}, {torch.get_num_threads()} threads, torch {torch.__version__}; roof {told}"
     print(about)
     table = rows(given)
+    roofs = of_the_roof(table)
+    print("\n".join(roofs))
     if given.json:
         given.json.write_text(json.dumps({"about": about, "rows": table}, indent=1) + "\n")
     if given.write:
         lines = [" | ".join(map(shown, row.values())) for row in table]
         rule = " | ".join("---" for _ in HEAD)
         body = "\n".join(f"| {line} |" for line in (" | ".join(HEAD), rule, *lines))
-        text = f"# Training steps on {name}\n\n`make gpu-check` wrote this: {about}.\n\n{body}\n"
+        text = f"# Training steps on {name}\n\n`make gpu-check` wrote this: {about}.\n\n{body}\n\n"
+        text += "".join(f"- {line}\n" for line in roofs)
         given.write.write_text(text)
 
 

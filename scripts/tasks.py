@@ -122,7 +122,9 @@ def gpu_check(arguments: list[str]) -> int:
         python("-m", "pytest", "-q", "-m", "gpu"),
         python(*table),
         python(*compiled, "--write", "docs/gpu-compiled.md"),
-        python("-m", "benchmarks.sampling", "--model", "starter"),
+        python(
+            "-m", "benchmarks.sampling", "--model", "starter", "--json", "docs/gpu-sampling.json"
+        ),
         python(*prepare) or python(*hour),
     )
 
