@@ -534,13 +534,13 @@ def _run(
 def _remove_stale(out: Place, wanted: set[str]) -> None:
     """Phrases of an earlier, larger run."""
     for path in files_below(out / "phrases"):
-        if path.stem not in wanted:
+        if path.suffix == ".json" and path.stem not in wanted:
             path.unlink()
             for file in (features_path(path.stem), trajectory_path(path.stem)):
                 remove_folder((out / file).parent)
     songs = {name.rpartition("-")[0] for name in wanted} | wanted
     for path in files_below(out / "songs"):
-        if path.stem not in songs:
+        if path.suffix == ".json" and path.stem not in songs:
             path.unlink()
 
 
