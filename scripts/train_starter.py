@@ -7,8 +7,9 @@ SOURCES are folders of motion files: for `starter` bandai-namco and cmu, for `st
 `--free`) cmu alone; cmu-more, o3de-locomotion, cc0-handmade and fair-mit add actions of a few clips
 each. The whole of CMU's 2,500 files is one folder, too: `CMU --captions cmu_index.tsv --free`.
 Captions come from scripts/starter_clips.tsv, which cuts and labels takes, and from FILEs: those of
-CMU are its own descriptions (scripts/cmu_captions.py). Bandai's labels are in its file names, all
-other words in src/configs.
+CMU are its own descriptions, which scripts/cmu_captions.py makes a table of (the cmu_captions.tsv
+of the model cards is its 75 rows of subjects 01 to 07, word for word). Bandai's labels are in its
+file names, all other words in src/configs.
 
 The text tower is taught from captions alone, twice: the first finds a place for each combination
 of labels, the second reads hand-written sentences, too, and sends each to such a place. The

@@ -259,7 +259,9 @@ def _warning(
         return scope
     book = packaged_book()
     wanted: dict[str, str] = {}
-    for code in (code for code in languages if code in book.languages):
+    for code in languages:
+        if code not in book.languages:
+            continue
         language, told = book.language(code), dict[str, str]()
         for labels in book.combinations():
             if (action := labels.get("action", "")) in scope.actions:
