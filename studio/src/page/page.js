@@ -61,7 +61,7 @@ class Page {
     try {
       this.stage = new Stage($("stage"), this.settings.body);
     } catch {
-      this.tell("This browser draws no 3D (WebGL is off). Motions can be made and saved all the same.", "warning");
+      $("no-stage").hidden = false; // the status line tells other things soon
       return;
     }
     new ResizeObserver(() => this.stage.resize()).observe($("stage").parentElement);
