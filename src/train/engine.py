@@ -86,7 +86,7 @@ class ExponentialMovingAverage:
         """Bring the frozen copy up to date where the average is in shards; every process must."""
         for name, average in zip(self._trained, self._average, strict=True):
             if (kept := self.module.get_parameter(name)) is not average:
-                kept.copy_(whole(average))
+                kept.copy_(whole(average).reshape(kept.shape))
 
     @torch.no_grad()
     def update(self, updates: int) -> None:
@@ -304,9 +304,8 @@ class Trainer(Generic[ConfigT]):
         """Sum figures on the device: reading one would make the CPU wait for a GPU."""
         with torch.no_grad():
             for key, value in metrics.items():
-                pair = torch.stack(
-                    [value.detach().float(), torch.ones_like(value.detach().float())]
-                )
+                figure = value.detach().float().reshape(())  # [1] where it is a weight in shards
+                pair = torch.stack([figure, torch.ones_like(figure)])
                 self._sums[key] = self._sums[key] + pair if key in self._sums else pair
 
     def _totals(self) -> dict[str, list[float]]:

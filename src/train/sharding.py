@@ -38,6 +38,11 @@ def shard(module: nn.Module, device: torch.device) -> None:
     """
     # it warns of operations in place on what a UNet returns; no loss of ours has any
     warnings.filterwarnings("ignore", message="FSDP2-wrapped module")
+    for part in module.modules():
+        for name, weight in part.named_parameters(recurse=False):
+            if not weight.dim():  # a single number is divided as a vector of one
+                one = nn.Parameter(weight.detach().reshape(1), weight.requires_grad)
+                part.register_parameter(name, one)
     fully_shard(module, mesh=init_device_mesh(device.type, (torch.distributed.get_world_size(),)))
 
 
@@ -52,7 +57,12 @@ def local(tensor: Tensor) -> Tensor:
 
 
 def placed_as(tensor: Tensor, other: Tensor) -> Tensor:
-    """A whole tensor in shards where `other`, of its shape, is; every process must ask."""
+    """A whole tensor in shards where `other`, of its shape, is; every process must ask.
+
+    A single number takes the shape that `shard` gave it, or gets its own back.
+    """
+    if tensor.numel() == other.numel() == 1 and tensor.shape != other.shape:
+        tensor = tensor.reshape(other.shape)
     if not isinstance(other, DTensor) or tensor.shape != other.shape:
         return tensor
     return distribute_tensor(tensor.to(other.device), other.device_mesh, other.placements)

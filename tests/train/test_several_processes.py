@@ -10,12 +10,13 @@ from pathlib import Path
 import pytest
 import torch
 from safetensors.torch import load_file
-from tiny_audio_stage import ROOT, assert_close_runs, audio_config, train_audio
-from two_processes import EVERY
+from tiny_audio_stage import ROOT, assert_close_runs
+from tiny_stage import clip_config, train_clip
+from two_processes import runs
 
 from src.train.sharding import is_asked_for
 
-ONE = (*EVERY, "gradient-accumulation=2")  # the parts of a step that two processes share
+ONE = "gradient-accumulation=2"  # the parts of a step that two processes share
 PROGRAM = """
 import sys
 from src.train.processes import is_one_of_several, run_processes
@@ -36,16 +37,22 @@ def stopped_at_4(run: Path, target: Path) -> None:
     assert [path.name for path in (target / "checkpoints").iterdir()] == ["step-00000004"]
 
 
-def test_ddp_and_fsdp2_are_one_process_with_the_whole_batch(circles: Path, tmp_path: Path) -> None:
+def test_ddp_and_fsdp2_are_one_process_with_the_whole_batch(
+    circles: Path, prepared: Path, tmp_path: Path
+) -> None:
     """Loss curves, weights, and runs that go on in another number of processes."""
-    one = tmp_path / "one"
-    train_audio(audio_config(circles, one, *ONE))
-    for name in ("ddp", "fsdp"):
-        stopped_at_4(one, tmp_path / f"one-half-{name}")
+    clip = tmp_path / "clip"
+    train_clip(clip_config(prepared, clip, "steps=2"))
+    stages = runs(circles, prepared, clip)
+    for stage, train in stages.items():
+        one = tmp_path / stage / "one"
+        train(one, ONE)
+        for name in ("ddp", "fsdp"):
+            stopped_at_4(one, tmp_path / stage / f"one-half-{name}")
     program = tmp_path / "program.py"
     program.write_text(PROGRAM + Path(__file__).with_name("two_processes.py").read_text())
     done = subprocess.run(
-        [sys.executable, str(program), str(circles), str(tmp_path)],
+        [sys.executable, *map(str, (program, tmp_path, circles, prepared, clip))],
         env={
             **os.environ,
             "PYTHONPATH": os.pathsep.join((str(ROOT), str(Path(__file__).parent))),
@@ -58,17 +65,19 @@ def test_ddp_and_fsdp2_are_one_process_with_the_whole_batch(circles: Path, tmp_p
         check=False,
     )
     assert done.returncode == 0, done.stderr
-    assert done.stderr.count("FSDP2: weights, gradients and optimizer in 2 shards") == 2
-    for name in ("ddp", "fsdp"):
-        go_on = tmp_path / f"{name}-half"
-        stopped_at_4(tmp_path / name, go_on)
-        train_audio(audio_config(circles, go_on, *ONE), resume=True)
-        for other in (tmp_path / name, go_on, tmp_path / f"one-half-{name}"):
-            assert losses(other) == pytest.approx(losses(one), rel=1e-4)
-            assert_close_runs(one, other)
-            merged, whole = (load_file(o / "model.safetensors") for o in (other, one))
-            assert merged.keys() == whole.keys()
-            assert all(torch.allclose(merged[key], whole[key], atol=1e-5) for key in whole)
+    assert done.stderr.count("FSDP2: weights, gradients and optimizer in 2 shards") == 4
+    for stage, train in stages.items():
+        one = tmp_path / stage / "one"
+        for name in ("ddp", "fsdp"):
+            go_on = tmp_path / stage / f"{name}-half"
+            stopped_at_4(tmp_path / stage / name, go_on)
+            train(go_on, ONE, resume=True)
+            for other in (one.with_name(name), go_on, one.with_name(f"one-half-{name}")):
+                assert losses(other) == pytest.approx(losses(one), rel=1e-4)
+                assert_close_runs(one, other)
+                merged, whole = (load_file(o / "model.safetensors") for o in (other, one))
+                assert merged.keys() == whole.keys()
+                assert all(torch.allclose(merged[key], whole[key], atol=1e-5) for key in whole)
 
 
 def test_accelerates_own_configuration_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:

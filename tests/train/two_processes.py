@@ -1,21 +1,40 @@
-"""One of two processes: the audio stage as DDP and as FSDP2, and halves of runs; see the test."""
+"""One of two processes: stages as DDP and as FSDP2, and halves of runs; see the test."""
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 from tiny_audio_stage import audio_config, train_audio
+from tiny_stage import generation_config, train_generation
+
+Run = Callable[..., object]
+EVERY = ("log-every=1", "save-every=2", "lr-schedule=constant", "validate-every=100")
 
 
-def main(circles: Path, folder: Path) -> None:
-    """Two whole runs, and two that go on from one process."""
-    for name, version in (("ddp", "null"), ("fsdp", "2")):
-        kind = f"fsdp-version={version}"
-        train_audio(audio_config(circles, folder / name, *EVERY, kind))
-        half = folder / f"one-half-{name}"
-        train_audio(audio_config(circles, half, *EVERY, kind), resume=True)
+def runs(circles: Path, prepared: Path, clip: Path) -> dict[str, Run]:
+    """By name, what trains in a folder with settings: songs, and text that is streamed.
+
+    A step is of eight clips by two processes.
+    """
+    text = ("batch-size=4", "stream=true", *EVERY)
+    return {
+        "audio": lambda output, *more, resume=False: train_audio(
+            audio_config(circles, output, *EVERY, *more), resume=resume
+        ),
+        "text": lambda output, *more, resume=False: train_generation(
+            generation_config(prepared, clip, output, *text, *more), resume=resume
+        ),
+    }
 
 
-EVERY = ("log-every=1", "lr-schedule=constant", "validate-every=100")
+def main(folder: Path, *data: Path) -> None:
+    """Of each stage two whole runs, and two that go on from one process."""
+    for stage, train in runs(*data).items():
+        for name, version in (("ddp", "null"), ("fsdp", "2")):
+            kind = f"fsdp-version={version}"
+            train(folder / stage / name, kind)
+            train(folder / stage / f"one-half-{name}", kind, resume=True)
+
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), Path(sys.argv[2]))
+    main(*map(Path, sys.argv[1:]))
