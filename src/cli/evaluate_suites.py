@@ -47,7 +47,7 @@ MEMORY_LIMITS = {"num_phrases": (2, 10_000), "num_songs": (2, 10_000), "song_sec
 
 def evaluate_memory(
     model: Annotated[str, typer.Option(help="Folder of train_memory, or a shipped name.")],
-    memory: Annotated[Path, typer.Option(help="Folder that `memory build` wrote.")],
+    memory: Annotated[str, typer.Option(help="Folder or address that `memory build` wrote.")],
     data: Annotated[
         str, typer.Option(help="Folder or bucket of pairs, held back from training in part.")
     ],
@@ -106,7 +106,7 @@ def evaluate_memory(
         index,
         found_space,
         data=data,
-        config=load_settings(folder=str(memory)),
+        config=load_settings(folder=memory),
         settings=suite.MemorySettings(
             splits=tuple(splits.split(",")),
             shares=found_shares,

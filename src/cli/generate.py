@@ -7,6 +7,7 @@ import typer
 
 from ..shared import environment
 from ..shared.errors import UsageError
+from ..shared.io.storage import place
 from . import options
 from .console import counted, print_json, tell
 from .directions import Directions
@@ -47,10 +48,10 @@ def generate(
         int | None, typer.Option(help="Beats in a bar of the song; 3 or 4, as heard.")
     ] = None,
     memory: Annotated[
-        Path | None,
+        str | None,
         typer.Option(
-            help="For a song: folder of `memory build`: figures to dance, or phrases that a"
-            " --model of train_memory hears."
+            help="For a song: folder or address of `memory build`: figures to dance, or phrases"
+            " that a --model of train_memory hears."
         ),
     ] = None,
     then: Annotated[
@@ -177,9 +178,9 @@ def generate(
         Request(
             prompt or [], only_song(audio), directions, body=body, figures=figures,
             follow_path=follow_path, style=style, meter=meter,
-            memory=memory, tag=tag, seconds=seconds, num_samples=num_samples,
-            return_all=return_all, judge=judge, seed=seed, steps=steps, sampler=sampler,
-            guidance_scale=guidance_scale, foot_lock=foot_lock,
+            memory=None if memory is None else place(memory), tag=tag, seconds=seconds,
+            num_samples=num_samples, return_all=return_all, judge=judge, seed=seed, steps=steps,
+            sampler=sampler, guidance_scale=guidance_scale, foot_lock=foot_lock,
             post_processing=post_processing or [], format=format, out=out,
             model=model, body_model=body_model, runtime=runtime, device=device, threads=threads,
         )

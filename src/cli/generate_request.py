@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..shared.environment import TEXT_MODEL, default_audio_model
 from ..shared.errors import UsageError
+from ..shared.io.storage import Place
 from . import generate_files as files
 from .console import Stopwatch, complain, progress_bar, tell
 from .directions import Directions, read_given, read_timed
@@ -39,7 +40,7 @@ class Request:
     follow_path: bool
     style: str | None
     meter: int | None
-    memory: Path | None
+    memory: Place | None
     tag: list[str] | None
     seconds: float | None
     num_samples: int

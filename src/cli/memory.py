@@ -8,6 +8,7 @@ import typer
 
 from ..shared.environment import TEXT_MODEL
 from ..shared.errors import UsageError, printable
+from ..shared.io.storage import Place, place
 from . import options
 from .console import complain, guarded, print_json, tell, with_quiet
 from .generate_request import refuse_with
@@ -33,10 +34,10 @@ def build(
     data: Annotated[
         str,
         typer.Argument(
-            help="Folder that `prepare-audio` wrote, or a gs:// URL; for --figures, motion files."
+            help="Folder or address that `prepare-audio` wrote; for --figures, of motion files."
         ),
     ],
-    out: Annotated[Path, typer.Option(help="Folder for the memory.")],
+    out: Annotated[str, typer.Option(help="Folder or address for the memory.")],
     figures: Annotated[
         bool, typer.Option("--figures", help="Figures to dance, from motion files without music.")
     ] = False,
@@ -68,10 +69,11 @@ def build(
     """
     options.check_ranges(threads=threads, workers=workers)
     options.check_scheduler(scheduler)
-    options.check_folder("--out", out)
+    target = place(out)
+    options.check_folder("--out", target)
     if figures:
         refuse_with("--figures", space=space, split=split, bars=bars, scheduler=scheduler)
-        remember_figures(Path(data), takes, out, json=json)
+        remember_figures(place(data), takes, target, json=json)
         return
     refuse_with("a memory of phrases (--figures makes one of figures)", takes=takes)
     space, split = space or SPACE, split or "train"
@@ -85,11 +87,11 @@ def build(
 
     set_threads(threads)
     loaded = SharedSpace.from_pretrained(space)
-    with sole_writer(out), progress_bar("phrases") as progress:
+    with sole_writer(target), progress_bar("phrases") as progress:
         index = build_memory(
             data,
             loaded,
-            out,
+            target,
             config=config,
             split=split,
             workers=workers,
@@ -98,7 +100,7 @@ def build(
             space_name=space if not Path(space).is_dir() else str(Path(space).resolve()),
         )
     report = {
-        "memory": str(out),
+        "memory": str(target),
         "phrases": len(index),
         "songs": len(index.songs),
         "hours": round(int(index.offsets[-1]) / 30 / 3600, 4),
@@ -110,15 +112,15 @@ def build(
         return
     for name, reason in index.about["left_out"].items():
         tell(f"left out {name}: {reason}")
-    print(f"{len(index)} phrases of {len(index.songs)} songs, {report['hours']:.2f} h: {out}")
-    print(f"next: motion-tools memory query SONG --memory {out}")
+    print(f"{len(index)} phrases of {len(index.songs)} songs, {report['hours']:.2f} h: {target}")
+    print(f"next: motion-tools memory query SONG --memory {target}")
 
 
 def query(
     ask: Annotated[str, typer.Argument(help="A sound file, or words.", metavar="SONG|TEXT")],
     memory: Annotated[
-        Path,
-        typer.Option(help="Folder that `memory build` wrote; figures: the shipped figures."),
+        str,
+        typer.Option(help="Folder or address of `memory build`; figures: the shipped figures."),
     ],
     top_k: Annotated[int | None, typer.Option(help="Phrases to find; 8.")] = None,
     space: Annotated[
@@ -152,13 +154,13 @@ def query(
     from ..shared.memory.figures import SHIPPED, is_figure_memory
 
     set_threads(threads)
-    folder = SHIPPED if str(memory) == "figures" and not memory.exists() else memory
+    folder = SHIPPED if memory == "figures" and not Path(memory).exists() else place(memory)
     if is_figure_memory(folder):
         query_figures(ask, folder, is_song=is_song, top_k=top_k or 8, meter=meter, json=json)
         return
     from ..shared.pipelines.song_memory import open_memory
 
-    index, loaded = open_memory(memory, space or "")
+    index, loaded = open_memory(folder, space or "")
     config = load_settings(top_k=top_k, bars=index.about["bars"])
     if is_song:
         results = results_of_song(Path(ask), index, loaded, config, meter)
@@ -168,7 +170,7 @@ def query(
         told = {
             "query": ask,
             "kind": "song" if is_song else "text",
-            "memory": str(memory),
+            "memory": str(folder),
             "answers": [result.to_json() for result in results],
         }
         print_json(told)
@@ -179,7 +181,7 @@ def query(
         print_hits(results[0].hits)
 
 
-def remember_figures(data: Path, table: Path | None, out: Path, *, json: bool) -> None:
+def remember_figures(data: Place, table: Path | None, out: Place, *, json: bool) -> None:
     """Build and write a memory of figures.
 
     Raises:
@@ -208,7 +210,7 @@ def remember_figures(data: Path, table: Path | None, out: Path, *, json: bool) -
 
 
 def query_figures(
-    ask: str, folder: Path, *, is_song: bool, top_k: int, meter: int | None, json: bool
+    ask: str, folder: Place, *, is_song: bool, top_k: int, meter: int | None, json: bool
 ) -> None:
     """The figures that a song is danced in, or those of a kind that words ask for."""
     from ..shared.memory.figures import FigureMemory

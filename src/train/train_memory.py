@@ -1,6 +1,6 @@
 """Memory training: a trained audio model learns to hear a memory (REF's MPMS; ruling 26).
 
-motion-tools train memory [--audio FOLDER] --memory FOLDER --data DIR_OR_URL
+motion-tools train memory [--audio FOLDER] --memory FOLDER_OR_URL --data DIR_OR_URL
 [--space FOLDER] [key=value ...] [--resume]
 
 Each window asks the memory with its own sound, and never finds its own song, nor another song that
@@ -175,7 +175,7 @@ app = Stage(
     network=lambda settings, given: network_of(settings.audio, given, of="--audio; see part.*"),
     flags={
         "audio": "audio model that learns",
-        "memory.folder": ("--memory", "folder of `tools memory build`"),
+        "memory.folder": ("--memory", "folder or address of `tools memory build`"),
         "space": "shared space of the memory's keys",
     },
     example="--memory runs/memory --data pairs",

@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 from src.cli.tools import app
 from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.formats.arrays import read_trajectory_npz
+from src.shared.memory.index import MemoryIndex
 from tests.shared.evaluation.tiny_pairs import tiny_model
 from tests.shared.pipelines.tiny_recall import remember, save_memory, save_space
 
@@ -55,6 +56,17 @@ def test_a_memory_is_asked_and_heard(folder: Path, tmp_path: Path) -> None:
     assert after.shape == before.shape
     if told["answered"]:  # not on a machine that takes half a second for twelve phrases
         assert np.abs(after - before).max() > 1e-4
+
+
+def test_a_memory_at_an_address_is_asked(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    MemoryIndex.open(folder / "memory").save("memory://generate")
+    report, _ = made(generate(folder, "--out", tmp_path, "--memory", "memory://generate"))
+    assert report["memory"]["folder"] == "memory://generate"
+    nowhere = generate(folder, "--out", tmp_path, "--memory", "memory://generate-nothing")
+    assert nowhere.exit_code == 2 and "make one with `memory build`" in nowhere.stderr
 
 
 def windows(frames: int) -> int:

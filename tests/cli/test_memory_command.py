@@ -14,6 +14,7 @@ from src.cli.tools import app
 from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.config_audio import AudioTowerConfig
 from src.shared.formats.arrays import write_npz
+from src.shared.io.storage import place
 from src.shared.memory.index import MemoryIndex
 from src.shared.model.audio.shared_space import SharedSpace
 from src.shared.model.checkpoint import ModelCard
@@ -101,6 +102,25 @@ def test_build_reports_and_leaves_what_is_up_to_date(world: Path) -> None:
     assert f"{len(index)} phrases of 3 songs" in text and "memory query" in text
 
 
+def test_an_address_is_built_and_asked(
+    world: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    arguments = ("build", str(world / "pairs"), "--space", str(world / "space0"), "--out")
+    out, _ = invoke(*arguments, "memory://remembered/")
+    assert "memory query SONG --memory memory://remembered\n" in out
+    here, there = (
+        json.loads(invoke("query", str(world / "tune.ogg"), "--memory", memory, "--json")[0])
+        for memory in (str(world / "memory"), "memory://remembered")
+    )
+    assert there["memory"] == "memory://remembered" and there["answers"] == here["answers"]
+    write_npz(stepping(0.5), tmp_path / "step.npz")
+    place("memory://dances/step.npz").write_bytes((tmp_path / "step.npz").read_bytes())
+    invoke("build", "memory://dances", "--figures", "--out", "memory://danced")
+    told, _ = invoke("query", "dance", "--memory", "memory://danced", "--json")
+    assert json.loads(told)["figures"]
+
+
 def test_a_song_is_answered_bar_by_bar(world: Path) -> None:
     arguments = ("query", str(world / "tune.ogg"), "--memory", str(world / "memory"))
     told: dict[str, Any] = json.loads(invoke(*arguments, "--top-k", "3", "--json")[0])
@@ -144,6 +164,9 @@ def test_silence_is_asked_every_two_seconds(world: Path, tmp_path: Path) -> None
         (["query", "walk", "--memory", "MEMORY", "--top-k", "0"], 2, "top-k"),
         (["query", "walk", "--memory", "PAIRS"], 1, "describes no memory"),
         (["query", "walk", "--memory", "nowhere"], 1, "is no memory"),
+        (["query", "walk", "--memory", "memory://nowhere"], 1, "is no memory"),
+        (["query", "walk", "--memory", "webhdfs://x/y"], 1, "webhdfs"),
+        (["query", "walk", "--memory", "mars://x"], 2, "mars"),
         (["query", "walk", "--memory", "MEMORY", "--space", "SPACE1"], 1, "another shared space"),
         (["query", "walk", "--memory", "MEMORY", "--model", "starter"], 1, "not trained"),
         (["build", "PAIRS", "--space", "TEXT", "--out", "OUT"], 1, "not a shared-space"),

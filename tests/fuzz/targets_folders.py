@@ -86,7 +86,7 @@ def _read_model(path: Path) -> None:
 def _write_memory(folder: Path) -> None:
     import torch
 
-    from src.shared.memory.index import MemoryIndex, save_index
+    from src.shared.memory.index import MemoryIndex
 
     torch.manual_seed(0)
     keys = torch.nn.functional.normalize(torch.randn(4, 8), dim=-1)
@@ -105,7 +105,7 @@ def _write_memory(folder: Path) -> None:
         clips=(("c",),) * 4,
         about={"space": "starter-space"},
     )
-    save_index(index, folder)
+    index.save(folder)
 
 
 def _mend_memory(path: Path) -> None:

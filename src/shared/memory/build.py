@@ -12,7 +12,6 @@ import hashlib
 import io
 import json
 import os
-import shutil
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -31,15 +30,15 @@ from ..data.phrases.layout import BadContent, PhraseRecord, PhraseTable
 from ..data.phrases.store import PhraseStore, Remote
 from ..data.retarget.read_motion import FOLDER_ENDINGS, read_motion
 from ..errors import UserError
-from ..io.files import parse_json, read_text
+from ..io.files import parse_json, read_text, remove_folder
 from ..io.jobs import run_jobs
-from ..io.storage import Backoff, Unreachable
+from ..io.storage import Backoff, Place, Unreachable, fetched, files_below, place
 from ..motion.features import LEFT_CONTACT, ROOT_ROW
 from ..motion.motion import Motion
 from ..motion.trajectory import FPS, encode_window, place_window
 from .figures import FigureMemory, Take
+from .folders import MANIFEST, writable
 from .index import (
-    MANIFEST,
     MemoryConfig,
     MemoryIndex,
     Phrase,
@@ -257,7 +256,7 @@ class Space(Protocol):
 def build_memory(
     data: str | Path,
     space: Space,
-    out: str | Path,
+    out: str | Place,
     *,
     config: MemoryConfig | None = None,
     split: str = "train",
@@ -273,7 +272,8 @@ def build_memory(
     Args:
         data: what `prepare-audio` wrote, a folder or a URL.
         space: embeds sound and bodies.
-        out: folder of the memory.
+        out: folder of the memory, or an address. Parts lie there too if a cluster makes them, else
+            where the memory is built, in the cache.
         config: `bars` and `min_frames` of a phrase; above `library_above` the index library's
             tables are made too, if it is installed.
         split: of the data.
@@ -287,36 +287,39 @@ def build_memory(
     """
     config = config or MemoryConfig()
     source = Source(str(data), split)
-    made_of, out = _made_of(source.records, space, config), Path(out)
-    if _opened(out, made_of):
-        progress(source.total, source.total)
-    else:
-        here = scheduler is None and workers == 1
-        jobs = _jobs(source, space if here or not space_name else space_name,
-                     space.fingerprint, config, out.absolute() / PARTS, made_of)  # fmt: skip
-        _run(jobs, source, workers, scheduler, progress)
-        parts = [part for job in jobs if (part := _opened(job.folder, made_of))]
-        if not parts:
-            raise UserError(
-                f"{source.root}: no phrase is long enough to be cut at bars; lower min-frames"
-            )
-        _joined(
-            parts,
-            data=source.root,
-            split=split,
-            space=space.fingerprint,
-            space_name=space_name,
-            bars=config.bars,
-            made_of=made_of,
-            left_out=source.bad,
-        ).save(out)
-        del parts  # they are mapped
-        shutil.rmtree(out / PARTS, ignore_errors=True)
-    index = open_index(out, library_above=config.library_above)
-    large = len(index) > config.library_above
-    if large and library_installed() and not has_tables(out):
-        return add_library(index, out)
-    return index
+    made_of, out = _made_of(source.records, space, config), place(out)
+    with writable(out) as folder:
+        if _opened(folder, made_of):
+            progress(source.total, source.total)
+        else:
+            here = scheduler is None and workers == 1
+            parts_at = (folder if scheduler is None else out).absolute() / PARTS
+            jobs = _jobs(source, space if here or not space_name else space_name,
+                         space.fingerprint, config, parts_at, made_of)  # fmt: skip
+            _run(jobs, source, workers, scheduler, progress)
+            parts = [part for job in jobs if (part := _opened(job.folder, made_of))]
+            if not parts:
+                raise UserError(
+                    f"{source.root}: no phrase is long enough to be cut at bars; lower min-frames"
+                )
+            _joined(
+                parts,
+                data=source.root,
+                split=split,
+                space=space.fingerprint,
+                space_name=space_name,
+                bars=config.bars,
+                made_of=made_of,
+                left_out=source.bad,
+            ).save(folder)
+            del parts  # they are mapped
+            for left in {folder / PARTS, out / PARTS}:
+                remove_folder(left)
+        index = open_index(folder, library_above=config.library_above)
+        large = len(index) > config.library_above
+        if large and library_installed() and not has_tables(folder):
+            return add_library(index, folder)
+        return index
 
 
 def _made_of(records: Sequence[PhraseRecord], space: Space, config: MemoryConfig) -> str:
@@ -326,7 +329,7 @@ def _made_of(records: Sequence[PhraseRecord], space: Space, config: MemoryConfig
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def _opened(folder: Path, made_of: str) -> MemoryIndex | None:
+def _opened(folder: Place, made_of: str) -> MemoryIndex | None:
     """The memory that was made of this, if it is there and whole."""
     try:
         index = MemoryIndex.open(folder) if (folder / MANIFEST).is_file() else None
@@ -346,7 +349,7 @@ class _Job:
     space: Space | str
     fingerprint: str
     config: MemoryConfig
-    folder: Path
+    folder: Place
     made_of: str
 
 
@@ -355,7 +358,7 @@ def _jobs(
     space: Space | str,
     fingerprint: str,
     config: MemoryConfig,
-    folder: Path,
+    folder: Place,
     made_of: str,
 ) -> list[_Job]:
     return [
@@ -482,14 +485,14 @@ MADE = "steps"  # stands for a file: the takes that `steps.py` makes
 class TakeRow:
     """One line of a table; `repeat`: how often a loop is played."""
 
-    file: Path
+    file: Place
     kind: str = DANCE
     source: str = ""
     licence: str = ""
     repeat: int = 1
 
 
-def read_takes(table: Path, folder: Path) -> list[TakeRow]:
+def read_takes(table: Path, folder: Place) -> list[TakeRow]:
     """The rows of a table, their files in `folder`.
 
     Raises:
@@ -521,13 +524,13 @@ def read_takes(table: Path, folder: Path) -> list[TakeRow]:
     return rows
 
 
-def every_file(folder: Path) -> list[TakeRow]:
-    """All motion files below a folder, in order.
+def every_file(folder: Place) -> list[TakeRow]:
+    """All motion files below a folder or an address, in order.
 
     Raises:
         UserError: there is none.
     """
-    found = [path for path in sorted(folder.rglob("*")) if path.suffix.lower() in FOLDER_ENDINGS]
+    found = [path for path in files_below(folder) if path.suffix.lower() in FOLDER_ENDINGS]
     if not found:
         raise UserError(f"{folder} holds no motion files; name a folder of dances")
     return [TakeRow(path, source=folder.name) for path in found]
@@ -549,7 +552,8 @@ def build_figures(
             progress(done, len(rows))
             continue
         try:
-            motion = repeated(read_motion(row.file), row.repeat)
+            with fetched(row.file) as file:
+                motion = repeated(read_motion(file), row.repeat)
             take = Take.of(motion, row.file.stem, row.kind, row.source, row.licence)
             if take.is_dance:
                 takes.append(take)

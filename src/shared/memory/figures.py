@@ -22,6 +22,7 @@ from torch import Tensor
 from ..errors import UserError
 from ..io.arrays import BadArray, load_arrays, write_arrays
 from ..io.files import load_json, write_json
+from ..io.storage import Place, place
 from ..metrics.rhythm import body_beats, landings, motion_beats, rhythm
 from ..metrics.stage import HOVER_SECONDS, aloft, sliding
 from ..motion.features import (
@@ -388,20 +389,20 @@ class FigureMemory:
 
     # ------------------------------------------------------------ files
 
-    def save(self, folder: str | Path) -> Path:
+    def save(self, folder: str | Place) -> None:
         """Write it: rotations in steps of 1/4096, places of 0.2 mm, differences of frames.
 
         Raises:
-            UserError: the folder cannot be written.
+            UserError: the folder or address cannot be written.
         """
-        folder = Path(folder)
+        folder = place(folder)
         turns, places, contacts = [], [], []
         for take in self.takes:
             own, root, contact = _packed(take.motion)
             turns.append(own)
             places.append(root)
             contacts.append(contact)
-        folder.mkdir(parents=True, exist_ok=True)
+        (folder / CARD).unlink(missing_ok=True)  # until all is there, this is no memory
         arrays = {
             "turns": np.concatenate(turns),
             "places": np.concatenate(places),
@@ -416,16 +417,15 @@ class FigureMemory:
             for take in self.takes
         ]
         write_json(folder / CARD, {"kind": KIND, "version": 1, "takes": about})
-        return folder
 
     @classmethod
-    def open(cls, folder: str | Path = SHIPPED) -> Self:
+    def open(cls, folder: str | Place = SHIPPED) -> Self:
         """What `save` wrote; without a folder what is shipped.
 
         Raises:
             UserError: nothing there, or damaged.
         """
-        folder = Path(folder)
+        folder = place(folder)
         if not is_figure_memory(folder):
             raise UserError(f"{folder} holds no figures; make them with `memory build --figures`")
         try:
@@ -456,9 +456,9 @@ def on_floor(motion: Motion) -> Motion:
     return replace(moved, contacts=detect_contacts(moved.positions(), motion.fps))
 
 
-def is_figure_memory(folder: str | Path) -> bool:
-    """Whether a folder is a memory of figures, and not one of phrases."""
-    return (Path(folder) / CARD).is_file()
+def is_figure_memory(folder: str | Place) -> bool:
+    """Whether a folder or an address is a memory of figures, and not one of phrases."""
+    return (place(folder) / CARD).is_file()
 
 
 def _seen_from(way: np.ndarray, heading: np.ndarray) -> np.ndarray:

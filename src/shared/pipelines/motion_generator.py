@@ -33,6 +33,7 @@ from .timeline import Timeline, by_timeline, in_a_loop
 
 if TYPE_CHECKING:  # who asks for a sentence waits for nothing that songs need
     from ..audio.song import Song
+    from ..io.storage import Place
     from ..motion.trajectory import MotionTrajectory
     from .choreography import Choreographer
     from .dance import DancePrompter, Dances
@@ -58,8 +59,8 @@ class MotionGenerator:
         device: auto, cuda, mps or cpu.
         runtime: torch; onnx, for models whose folders hold an export; or auto, which is onnx on a
             CPU where onnxruntime is installed and the text model holds one, and torch for songs.
-        memory: folder of `memory build`: of figures that are danced (None = the shipped ones), or
-            of phrases, for an audio model that hears them.
+        memory: folder or address of `memory build`: of figures that are danced (None = the shipped
+            ones), or of phrases, for an audio model that hears them.
         judge: folder of `train_clip` that holds candidates against their prompt; None = what
             belongs to the text model, where it is shipped.
         post_processing: of bodies, `key=value` of `PostProcessingConfig` over the model's own.
@@ -76,7 +77,7 @@ class MotionGenerator:
         *,
         device: str = "auto",
         runtime: str = "auto",
-        memory: str | Path | None = None,
+        memory: str | Place | None = None,
         judge: str | Path | None = None,
         post_processing: Sequence[str] = (),
         path_post_processing: Sequence[str] = (),
@@ -130,8 +131,9 @@ class MotionGenerator:
 
         model: SongGenerator[Any] | str | Path = self._audio
         if not isinstance(model, SongGenerator):
-            remembers = self._memory is not None and not is_figure_memory(self._memory)
-            memory = SongMemory.open(str(self._memory)) if remembers else None
+            memory = None
+            if self._memory is not None and not is_figure_memory(self._memory):
+                memory = SongMemory.open(self._memory)
             runtime = "torch" if self._runtime == "auto" else self._runtime
             model = SongGenerator.from_pretrained(
                 model, device=self._device, runtime=runtime, memory=memory
@@ -158,8 +160,8 @@ class MotionGenerator:
         from ..memory.figures import SHIPPED, FigureMemory, is_figure_memory
         from .choreography import Choreographer
 
-        own = self._memory is not None and is_figure_memory(self._memory)
-        return Choreographer(FigureMemory.open(str(self._memory) if own else SHIPPED))
+        own = self._memory if self._memory is not None and is_figure_memory(self._memory) else None
+        return Choreographer(FigureMemory.open(SHIPPED if own is None else own))
 
     @cached_property
     def prompter(self) -> DancePrompter:

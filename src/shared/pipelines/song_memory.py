@@ -20,6 +20,7 @@ from torch import Tensor
 from ..config_audio import AudioNetworkConfig
 from ..config_loader import load_config, load_yaml, packaged_config
 from ..errors import UserError
+from ..io.storage import Place
 from ..memory.build import Space
 from ..memory.index import MemoryConfig, MemoryIndex
 from ..memory.query import Memory
@@ -39,11 +40,11 @@ class Question:
     num_frames: int
 
 
-def open_memory(folder: str | Path, space: str | Path = "") -> tuple[MemoryIndex, SharedSpace]:
+def open_memory(folder: str | Place, space: str | Path = "") -> tuple[MemoryIndex, SharedSpace]:
     """A memory and the space that made its keys.
 
     Args:
-        folder: that `memory build` wrote.
+        folder: or address, that `memory build` wrote.
         space: where the space is now; "" = where it was then.
 
     Raises:
@@ -157,8 +158,8 @@ class SongMemory:
     space: Space
 
     @classmethod
-    def open(cls, folder: str | Path) -> "SongMemory":
-        """The memory in a folder, asked as memory.yaml says.
+    def open(cls, folder: str | Place) -> "SongMemory":
+        """The memory in a folder or at an address, asked as memory.yaml says.
 
         Raises:
             UserError: it or its space is not there, damaged, or they do not belong together.

@@ -7,7 +7,10 @@ import pytest
 
 from src.shared.errors import UserError
 from src.shared.formats.arrays import write_npz
+from src.shared.io.storage import Address
 from src.shared.memory.build import build_figures, every_file, read_takes, repeated
+from src.shared.memory.figures import FigureMemory, is_figure_memory
+from tests.files import files_of
 from tests.shared.evaluation.dancers import swinging_arms
 from tests.shared.memory.tiny_figures import stepping
 
@@ -44,6 +47,23 @@ def test_without_a_table_every_file_is_a_take(folder: Path) -> None:
     with pytest.raises(UserError, match="no motion files"):
         (folder / "empty").mkdir()
         every_file(folder / "empty")
+
+
+def test_addresses_will_do(folder: Path, tmp_path: Path) -> None:
+    dances, out = Address("memory://dances"), Address("memory://figures")
+    for name, data in files_of(folder).items():
+        (dances / name).write_bytes(data)
+    (folder / "takes.csv").write_text("file,source\nlong.npz,us\n")
+    memory, _ = build_figures(read_takes(folder / "takes.csv", dances))
+    memory.save(out)
+    memory.save(tmp_path / "figures")
+    stored = {name: (out / name).read_bytes() for name in out.find()}
+    assert stored == files_of(tmp_path / "figures")
+    assert is_figure_memory(out) and not is_figure_memory(dances)
+    assert FigureMemory.open(str(out)).takes[0].source == "us"
+    memory, left_out = build_figures(every_file(dances))
+    assert [take.name for take in memory.takes] == ["long"]
+    assert list(left_out) == ["memory://dances/loop.npz"]
 
 
 @pytest.mark.parametrize(

@@ -59,7 +59,8 @@ def test_who_floats_is_brought_down() -> None:
 
 def test_files_keep_what_was_saved(tmp_path: Path) -> None:
     memory = tiny_figures()
-    again = FigureMemory.open(memory.save(tmp_path / "figures"))
+    memory.save(tmp_path / "figures")
+    again = FigureMemory.open(tmp_path / "figures")
     assert is_figure_memory(tmp_path / "figures") and not is_figure_memory(tmp_path)
     for before, after in zip(memory.takes, again.takes, strict=True):
         assert (before.name, before.kind, before.licence) == (after.name, after.kind, "CC0")
@@ -71,7 +72,8 @@ def test_files_keep_what_was_saved(tmp_path: Path) -> None:
 def test_a_damaged_memory_and_one_without_dance_are_refused(tmp_path: Path) -> None:
     with pytest.raises(UserError, match="holds no figures"):
         FigureMemory.open(tmp_path)
-    folder = tiny_figures().save(tmp_path / "figures")
+    folder = tmp_path / "figures"
+    tiny_figures().save(folder)
     (folder / TAKES).write_bytes(b"PK")
     with pytest.raises(UserError, match="damaged"):
         FigureMemory.open(folder)

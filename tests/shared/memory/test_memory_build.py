@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import fsspec
 import numpy as np
@@ -14,8 +15,10 @@ from torch import Tensor
 
 from src.shared.data.phrases.layout import MANIFEST, body_path
 from src.shared.errors import UserError
+from src.shared.io.storage import Address
 from src.shared.memory import build
 from src.shared.memory.build import build_memory
+from src.shared.memory.folders import readable, writable
 from src.shared.memory.index import MemoryConfig, MemoryIndex
 from tests.files import files_of
 from tests.shared.memory.tiny_memory import LinearSpace, write_dancers
@@ -229,3 +232,101 @@ def test_a_bucket_will_do(pairs: Path, tmp_path: Path) -> None:
         for name, root in (("here", str(pairs)), ("there", "memory://dancers"))
     )
     assert here.ids == there.ids and torch.equal(here.audio_keys, there.audio_keys)
+
+
+# ---------------------------------------------------------------- at an address
+
+
+@pytest.fixture
+def address(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Address:
+    """Nothing there yet, and nothing in the cache."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    return Address(f"memory://{tmp_path.name}/memory")
+
+
+def stored(address: Address) -> dict[str, bytes]:
+    return {name: (address / name).read_bytes() for name in address.find()}
+
+
+def test_an_address_holds_what_a_folder_does(
+    pairs: Path, tmp_path: Path, address: Address, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Up to date, on this machine or another one, nothing is done; what is asked is a copy."""
+    pytest.importorskip("faiss")
+    config = MemoryConfig(library_above=0)
+    build_memory(pairs, LinearSpace(), tmp_path / "memory", config=config)
+    index = build_memory(pairs, LinearSpace(), address, config=config)
+    assert stored(address) == files_of(tmp_path / "memory") == files_of(readable(address))
+    before = address.find()
+    for machine in ("cache", "other"):
+        monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / machine))
+        space = Counting()
+        build_memory(pairs, space, address, config=config)
+        assert space.calls == 0 and address.find() == before, "neither made nor put there again"
+    keys = readable(address) / "keys.safetensors"
+    keys.write_bytes(b"damaged")
+    assert torch.equal(MemoryIndex.open(str(address)).audio_keys, index.audio_keys), "healed"
+    build_memory(pairs, LinearSpace(1), address, config=config)
+    assert address.find()["phrases.json"] == before["phrases.json"], "the same, left as it is"
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    assert MemoryIndex.open(address).about["space"] == LinearSpace(1).fingerprint
+
+
+def test_a_stopped_build_at_an_address_goes_on(
+    pairs: Path, tmp_path: Path, address: Address, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(build, "CHUNK", 2)
+
+    class Stops(Counting):
+        def embed_audio(self, condition: Tensor, mask: Tensor | None = None) -> Tensor:
+            if self.calls == 3:
+                raise KeyboardInterrupt
+            return super().embed_audio(condition, mask)
+
+    with pytest.raises(KeyboardInterrupt):
+        build_memory(pairs, Stops(), address)
+    assert not address.exists()
+    space = Counting()
+    build_memory(pairs, space, address)
+    build_memory(pairs, LinearSpace(), tmp_path / "memory")
+    assert space.calls == 2 and stored(address) == files_of(tmp_path / "memory")
+    with writable(address), pytest.raises(UserError, match="another process is writing"):
+        build_memory(pairs, LinearSpace(), address)
+
+
+def test_the_parts_of_a_cluster_lie_at_the_address(
+    pairs: Path, tmp_path: Path, address: Address, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where every worker sees them; here this process is all of them."""
+    monkeypatch.setattr(build, "CHUNK", 2)
+    build_memory(pairs, LinearSpace(), tmp_path / "memory")
+
+    def worked(function: Any, jobs: Any, workers: Any, scheduler: Any) -> Any:
+        yield from ((job, function(job)) for job in jobs)
+        assert len(address.find()) == 5 * 4
+
+    monkeypatch.setattr(build, "run_jobs", worked)
+    build_memory(pairs, LinearSpace(), address, scheduler="tcp://far:8786")
+    assert stored(address) == files_of(tmp_path / "memory") == files_of(readable(address))
+
+
+def test_what_an_address_lacks_is_told(pairs: Path, tmp_path: Path, address: Address) -> None:
+    with pytest.raises(UserError, match=r"is no memory: .* `memory build`"):
+        MemoryIndex.open(address)
+    assert not files_of(tmp_path / "cache")
+    build_memory(pairs, LinearSpace(), tmp_path / "memory")
+    for name, data in files_of(tmp_path / "memory").items():
+        (address / name).write_bytes(data)
+    (address / "keys.safetensors").unlink()
+    with pytest.raises(UserError, match=r"keys\.safetensors is missing, or not"):
+        MemoryIndex.open(address)
+    manifest = json.loads((address / "manifest.json").read_bytes())
+    escaping = manifest | {"files": {"../../escaped": {"sha256": "", "bytes": 0}}}
+    (address / "manifest.json").write_bytes(json.dumps(escaping).encode())
+    with pytest.raises(UserError, match="leads out of"):
+        MemoryIndex.open(address)
+    (address / "manifest.json").write_bytes(json.dumps(manifest | {"files": []}).encode())
+    with pytest.raises(UserError, match="is damaged"):
+        MemoryIndex.open(address)
+    build_memory(pairs, LinearSpace(), address)
+    assert stored(address) == files_of(tmp_path / "memory"), "mended"
