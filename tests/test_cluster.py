@@ -4,6 +4,7 @@ import os
 import shlex
 import shutil
 import subprocess
+from argparse import Namespace
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -35,11 +36,17 @@ def test_slurm(tmp_path: Path) -> None:
     assert run.returncode == 0, run.stderr
     one, other = (shlex.split(line) for line in run.stdout.splitlines())
     assert one == other and "--rdzv-endpoint first:29500" in " ".join(one)
-    at = one.index("-m")
-    assert parse_args([*one[:at], "module.py"]).nnodes == "2"
-    assert find_spec(one[at + 1]) is not None
-    settings, network = split_network_overrides([word for word in one[at:] if "=" in word])
+    assert launched(one).nnodes == "2"
+
+
+def launched(words: list[str]) -> Namespace:
+    """What torchrun makes of its words; those behind -m are a stage of ours and its settings."""
+    at = words.index("-m")
+    assert find_spec(words[at + 1]) is not None
+    given = [word for word in words[at:] if "=" in word and not word.startswith("--")]
+    settings, network = split_network_overrides(given)
     assert load_train(None, TrainGenerationConfig, settings).stream and not network
+    return parse_args([*words[:at], "module.py"])
 
 
 def test_kubernetes() -> None:
@@ -47,10 +54,12 @@ def test_kubernetes() -> None:
     assert job["spec"]["completionMode"] == "Indexed"
     pod = job["spec"]["template"]["spec"]
     assert pod["subdomain"] == service["metadata"]["name"]
-    arguments = pod["containers"][0]["args"]
-    assert f"--nnodes={job['spec']['completions']}" in arguments
     host = f"{job['metadata']['name']}-0.{pod['subdomain']}"
-    assert f"--master-addr={host}" in arguments
+    for index in range(job["spec"]["completions"]):  # as Kubernetes fills them in
+        words = pod["containers"][0]["args"]
+        run = launched([word.replace("$(JOB_COMPLETION_INDEX)", str(index)) for word in words])
+        assert (int(run.nnodes), run.node_rank) == (job["spec"]["completions"], index)
+        assert run.master_addr == host
     mounts = {mount["name"] for mount in pod["containers"][0]["volumeMounts"]}
     assert mounts == {volume["name"] for volume in pod["volumes"]}
 
