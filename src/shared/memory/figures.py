@@ -24,7 +24,7 @@ from ..io.arrays import BadArray, load_arrays, write_arrays
 from ..io.files import load_json, write_json
 from ..io.storage import Place, place
 from ..metrics.rhythm import body_beats, landings, motion_beats, rhythm
-from ..metrics.stage import HOVER_SECONDS, aloft, sliding
+from ..metrics.stage import HOVER_SECONDS, aloft, sliding, torn
 from ..motion.features import (
     HEIGHT,
     LEFT_CONTACT,
@@ -54,7 +54,6 @@ SLOW = 0.55  # seconds; longer counts are read as two as well
 FLOOR_SECONDS, FLOOR_SHARE = 3.0, 20  # in which somebody stands for that percentage
 HOVERS = 0.75 * HOVER_SECONDS * FPS  # frames: a song may be slower than the take
 MIN_COUNTS = 5  # of a take
-TORN = 350.0  # m/s² of a joint: a leg that was captured wrongly jumps for a frame
 BESIDE = 9  # frames around a figure that are seen while it fades
 STILL = 0.12  # m/s, mean of all joints over half a second: nobody dances
 SNAP_PART, APART = 0.3, 0.6  # of a count: to a beat of the motion at most, and its least length
@@ -228,10 +227,10 @@ class FigureMemory:
 
     @cached_property
     def _torn(self) -> np.ndarray:
-        """Frames [G] in which a joint jumps."""
-        worst = np.linalg.norm(np.diff(self._joints, 2, axis=0), axis=-1).max(1) * FPS**2
-        worst[np.r_[self.offsets[1:-1] - 2, self.offsets[1:-1] - 1]] = 0.0  # from take to take
-        return np.asarray(np.flatnonzero(worst > TORN) + 1)
+        """Frames [G] in which a joint jumps, or goes to and fro."""
+        change = np.diff(self._joints, 2, axis=0) * FPS**2  # F-2 22 3
+        change[np.r_[self.offsets[1:-1] - 2, self.offsets[1:-1] - 1]] = 0.0  # from take to take
+        return np.flatnonzero(torn(change)) + 1
 
     @cached_property
     def speed(self) -> np.ndarray:

@@ -25,6 +25,8 @@ BEHIND = 0.75 * np.pi  # radians from where it faces, beyond which it goes backw
 POSE_APART = 0.12  # metres, mean over the joints, between poses that differ
 POSE_STEP = 0.1  # seconds between poses that are looked at
 HOVER_SECONDS = 0.45  # off the floor for longer: nobody jumps so in a dance
+TORN = 250.0  # m/s² of a joint: a leg that was captured wrongly jumps for a frame
+SHAKEN = 120.0  # m/s², one way and the other in two frames, likewise
 SLIDING = 0.2  # m/s of the slower foot while both are near the floor
 
 
@@ -132,6 +134,17 @@ def aloft(positions: np.ndarray) -> list[tuple[int, int]]:
     """First and past-the-last frame of each stretch of [T, K, 3] in which no joint is near the
     floor."""
     return contact_runs(positions[..., 1].min(1) > REST_FOOT_HEIGHT + SUPPORT_HEIGHT, 0)
+
+
+def torn(change: np.ndarray) -> np.ndarray:
+    """Frames [T] of accelerations [T, K, 3] in m/s² in which a joint jumps, or goes to and fro."""
+    size = np.linalg.norm(change, axis=-1)
+    found = (size > TORN).any(1)
+    turns = (change[1:] * change[:-1]).sum(-1) < 0
+    shaken = (turns & (np.minimum(size[1:], size[:-1]) > SHAKEN)).any(1)
+    found[1:] |= shaken
+    found[:-1] |= shaken
+    return np.asarray(found)
 
 
 def both_slide(positions: np.ndarray, fps: float) -> float:

@@ -49,6 +49,7 @@ from .song import SongCondition
 BLEND = 0.3  # seconds either side of a seam
 STAND = "a person stands still"  # where nobody dances
 REACH, HASTE = 0.2, 0.45  # seconds by which a beat of the body is moved; of the pace, for that
+ACCENT, MARKED = 0.2, 0.1  # of the pace; seconds from a beat of the body to one of the song
 LONG = 10  # frames; for less the pose is held
 
 
@@ -98,6 +99,7 @@ class FigureDancer:
         features, danced = lay(memory, slots, chosen, len(song.phase))
         for _ in range(2):  # what is moved shows other beats
             features = on_beats(features, song.beats)
+        features = accented(features, song.beats)
         features = self._standing(carried(features, wish.manner, FPS), danced, sampling)
         features[:, ROOT_ROW] = staged(features[:, ROOT_ROW], FPS)
         motion = self.generator.post_processor(features, None, text=text, foot_lock=foot_lock)
@@ -275,6 +277,26 @@ def on_beats(features: Tensor, beats: np.ndarray) -> Tensor:
     warp = PchipInterpolator(to, at)
     time = np.arange(len(features))
     return _sampled(features, np.clip(warp(time), 0, end), warp.derivative()(time))
+
+
+def accented(features: Tensor, beats: np.ndarray) -> Tensor:
+    """Features [T,23,6] that slow down on those beats of a song that nothing marks.
+
+    Args:
+        features: of a dance.
+        beats: seconds [M] of the song, ascending, M ≥ 1.
+    """
+    own = motion_beats(world_joints(features, FPS).numpy(), FPS).times
+    bare = np.abs(own[:, None] - beats).min(0, initial=np.inf) > MARKED
+    time, end = np.arange(len(features)) / FPS, len(features) - 1.0
+    late = np.zeros(len(features))  # seconds
+    for index in np.flatnonzero(bare[1:-1]) + 1:
+        before, at, after = beats[index - 1 : index + 2]
+        beat = np.where(time < at, at - before, after - at)
+        x = (time - at) / beat
+        late += np.where(np.abs(x) < 0.5, ACCENT * beat * np.sin(2 * np.pi * x) / (2 * np.pi), 0.0)
+    shown = np.clip((time - late) * FPS, 0, end)
+    return _sampled(features, shown, np.gradient(shown))
 
 
 def _held(features: Tensor, danced: Tensor) -> Tensor:

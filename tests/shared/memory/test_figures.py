@@ -114,10 +114,12 @@ def test_metres_gone_backward_are_counted() -> None:
     np.testing.assert_allclose(figures.back, 0.3 * spans, atol=0.06)
 
 
-def test_where_a_joint_jumps_for_a_frame_there_is_no_figure() -> None:
+@pytest.mark.parametrize("angles", [[np.pi / 2], [0.08, -0.08]])  # radians in frame 300, 301
+def test_where_a_joint_jumps_or_shakes_there_is_no_figure(angles: list[float]) -> None:
     whole = Take.of(stepping(0.5), "step", "salsa")
     turns = whole.motion.quaternions.copy()
-    turns[300, JOINT_INDEX["l_hip"]] = np.sqrt(0.5), np.sqrt(0.5), 0, 0
+    for frame, angle in enumerate(angles, 300):
+        turns[frame, JOINT_INDEX["l_hip"]] = np.cos(angle / 2), np.sin(angle / 2), 0, 0
     torn = replace(whole, motion=replace(whole.motion, quaternions=turns))
     kept = FigureMemory([torn]).figures(8)
     beside = (kept.times[:, 0] < 10.3) & (kept.times[:, -1] > 9.7)

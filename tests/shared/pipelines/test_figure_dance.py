@@ -14,7 +14,7 @@ from src.shared.motion.features import LEFT_CONTACT, ROOT_ROW, decode_features, 
 from src.shared.pipelines.body import Performer, PerformerSettings
 from src.shared.pipelines.choreography import Choreographer, Wish, song_slots
 from src.shared.pipelines.dance import SongPerformer
-from src.shared.pipelines.figure_dance import BLEND, FigureDancer, lay, listed, on_beats
+from src.shared.pipelines.figure_dance import BLEND, FigureDancer, accented, lay, listed, on_beats
 from src.shared.pipelines.song import SongCondition
 from tests.shared.memory.tiny_figures import tiny_figures
 from tests.shared.model.conftest import tiny_generator
@@ -64,6 +64,20 @@ def test_a_body_a_little_late_is_brought_to_the_beats() -> None:
     assert before < 0.4 and after > 0.8
     far = on_beats(features, beats[:1] - 30.0)  # no beat is near
     assert torch.allclose(far, features, atol=1e-5)
+
+
+def test_beats_that_nothing_marks_slow_the_body_down() -> None:
+    still = torch.zeros(120, 23, 6)
+    still[..., 0] = still[..., 4] = 1.0
+    angle = torch.arange(120.0) * 0.05  # of one shoulder, steadily
+    still[:, 16, 0], still[:, 16, 1] = angle.cos(), angle.sin()
+    still[:, 16, 3], still[:, 16, 4] = -angle.sin(), angle.cos()
+    turned = accented(still, np.arange(0.5, 4.0, 0.5))
+    shown = np.unwrap(torch.atan2(turned[:, 16, 1], turned[:, 16, 0]).numpy())
+    speed = np.gradient(shown) / 0.05
+    assert speed[[30, 45, 60, 75, 90]] == pytest.approx(0.8, abs=0.03)
+    assert speed[[37, 52, 67, 82]] == pytest.approx(1.2, abs=0.03)
+    assert shown[[30, 60, 90]] == pytest.approx(angle[[30, 60, 90]].numpy(), abs=1e-3)
 
 
 def test_it_says_what_it_danced(choreographer: Choreographer) -> None:
