@@ -33,7 +33,7 @@ CANDIDATES = 400  # figures of a slot, by what they cost alone
 # What a unit of each costs; the first is a metre of pose, all joints and channels together.
 JOIN, TEMPO, ENERGY, CLEAR, STAGE, FRONT = 1.0, 30.0, 1.0, 4.0, 7.0, 0.3
 # Gain of a repetition; cost of an unasked one, of each earlier figure of the same take; the seed's.
-REPEAT, AGAIN, SAME_TAKE, NOISE = 16.0, 0.8, 2.0, 0.4
+REPEAT, AGAIN, SAME_TAKE, NOISE = 16.0, 0.8, 2.0, 1.0
 NEW, MANY = 0.9, 16  # gain of a typical pose that was not yet seen, and of how many at most
 WIDE = 5.0  # gain of a dimension of the poses
 SLIDE, BACK = 26.0, 0.5  # of both feet sliding all the time; of a metre gone backward
