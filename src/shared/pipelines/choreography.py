@@ -39,7 +39,7 @@ WIDE = 5.0  # gain of a dimension of the poses
 SLIDE, BACK = 26.0, 0.5  # of both feet sliding all the time; of a metre gone backward
 # Cost of steps made by code, which join well and fill any dance; gain of those in threes where the
 # song is in threes.
-MADE, THREES = 3.0, 6.0
+MADE, THREES = 5.0, 6.0
 CHANGE = 1.5  # cost of another kind than the phrase before has, where none is asked for
 OTHER = 6.0  # cost of a kind that stands in for the one that is asked for, but in a part b
 FREE = 0.35  # metres from the middle that cost nothing, twice that on the way

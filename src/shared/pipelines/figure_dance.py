@@ -37,6 +37,7 @@ from ..motion.motion import Motion
 from ..motion.rotations import (
     matrix_to_quaternion,
     matrix_to_rotation_6d,
+    quaternion_continuous,
     quaternion_to_matrix,
     rotation_6d_to_matrix,
 )
@@ -211,9 +212,13 @@ def lay(
         features = _warped(memory, figure, slot.counts, time[own].numpy())
         part = weight[own].float()
         root[own] += part[:, None] * features[:, ROOT_ROW]
-        quaternions = matrix_to_quaternion(rotation_6d_to_matrix(features[:, :NUM_JOINTS]))
-        other = (quaternions * turns[own]).sum(-1, keepdim=True) < 0
-        turns[own] += part[:, None, None] * torch.where(other, -quaternions, quaternions)
+        quaternions = quaternion_continuous(
+            matrix_to_quaternion(rotation_6d_to_matrix(features[:, :NUM_JOINTS])), dim=0
+        )
+        # One way round for all of a seam: the nearer one may change where poses are far apart.
+        side = (quaternions * turns[own]).sum((0, -1), keepdim=True)
+        share = (part / (weights[own] + part))[:, None, None]
+        turns[own] = blended(turns[own], torch.where(side < 0, -quaternions, quaternions), share)
         foremost = part >= 0.5  # a foot stands or not
         contacts[own[foremost]] = features[foremost, ROOT_ROW, LEFT_CONTACT:]
         weights[own] += part
@@ -221,9 +226,17 @@ def lay(
     root = root / weights.clamp_min(1e-6)[:, None]
     root[:, LEFT_CONTACT:] = contacts
     turns[~danced, :, 0] = 1.0
-    rotations = quaternion_to_matrix(torch.nn.functional.normalize(turns, dim=-1))
+    rotations = quaternion_to_matrix(turns)
     features = torch.cat((matrix_to_rotation_6d(rotations), root[:, None]), 1)
     return _held(features, danced), danced
+
+
+def blended(first: Tensor, second: Tensor, share: Tensor) -> Tensor:
+    """Unit quaternions [...,4] at a share [...,1] of the arc between two, as they are signed
+    (Shoemake 1985); one of zeros gives way to the other."""
+    angle = torch.acos((first * second).sum(-1, keepdim=True).clamp(-0.9999, 0.9999))
+    mixed = torch.sin((1 - share) * angle) * first + torch.sin(share * angle) * second
+    return torch.nn.functional.normalize(mixed, dim=-1)
 
 
 def _warped(memory: FigureMemory, figure: Figures, counts: np.ndarray, time: np.ndarray) -> Tensor:

@@ -10,7 +10,7 @@ const MAX_SUPPORT = 0.08, MAX_VERTICAL = 0.5, FALL = -3.0;
 const MAX_GAP_SECONDS = 2 / 30, MIN_HOLD_SECONDS = 3 / 30, MIN_SWING_SECONDS = 8 / 30;
 const SOONER_SECONDS = 12 / 30, BLEND_SECONDS = 9 / 30, STEP_SECONDS = 8 / 30;
 const LIFT = 0.1, SLOPE = 0.1, SOFT = 0.01, GIVE = 0.05, ROLL = 0.005, MAX_DRAG = 0.22;
-const MAX_SLOPE = 2.5, UNDER = [0, 0.5, 1], MAX_REACH = 0.9;
+const MAX_SLOPE = 2.5, UNDER = [0, 0.5, 1], MAX_REACH = 0.9, SWING = 150;
 
 /** Shifts [2][T] of the balls [2][T] and whether each foot stands [2][T]. */
 export function footShifts(balls, hips, contacts, fps, kept) {
@@ -82,7 +82,7 @@ function plantSpans(balls, hips, stands, fps, kept) {
 
 class Planner {
   constructor(balls, hips, free, fps, kept) {
-    Object.assign(this, { balls, hips, free, kept, found: [[], []], until: 0, last: 0 });
+    Object.assign(this, { balls, hips, free, fps, kept, found: [[], []], until: 0, last: 0 });
     this.shortest = Math.min(round(MIN_HOLD_SECONDS * fps), balls[0].length);
     this.swing = round(MIN_SWING_SECONDS * fps);
     this.sooner = round(SOONER_SECONDS * fps);
@@ -122,10 +122,24 @@ class Planner {
       [first, last] = reached(point, hip, start, stop);
     } else if (stop - start < this.shortest) return;
     else [point, first, last] = inReach(ball, hip, start, stop, this.shortest);
+    if (!fixed.length) first = this.landing(point, first, side);
     if (last - first >= this.shortest) {
       this.found[side].push({ start: first, stop: last, point });
       if (last > this.until) { this.until = last; this.last = side; }
     }
+  }
+
+  landing(point, first, side) {
+    const before = this.found[side].at(-1);
+    if (!before) return first;
+    const away = Math.hypot(...point.map((value, axis) => value - before.point[axis]));
+    const swing = Math.ceil(Math.sqrt((6 * away) / SWING) * this.fps);
+    const leaves = Math.min(first - swing, before.stop);
+    if (leaves === before.stop) return first;
+    const kept = this.kept[side].slice(Math.max(leaves, 0), before.stop).some(Boolean);
+    if (kept || leaves - before.start < this.shortest) return before.stop + swing;
+    before.stop = leaves;
+    return first;
   }
 }
 

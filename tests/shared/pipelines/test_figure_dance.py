@@ -14,7 +14,15 @@ from src.shared.motion.features import LEFT_CONTACT, ROOT_ROW, decode_features, 
 from src.shared.pipelines.body import Performer, PerformerSettings
 from src.shared.pipelines.choreography import Choreographer, Wish, song_slots
 from src.shared.pipelines.dance import SongPerformer
-from src.shared.pipelines.figure_dance import BLEND, FigureDancer, accented, lay, listed, on_beats
+from src.shared.pipelines.figure_dance import (
+    BLEND,
+    FigureDancer,
+    accented,
+    blended,
+    lay,
+    listed,
+    on_beats,
+)
 from src.shared.pipelines.song import SongCondition
 from tests.shared.memory.tiny_figures import tiny_figures
 from tests.shared.model.conftest import tiny_generator
@@ -64,6 +72,17 @@ def test_a_body_a_little_late_is_brought_to_the_beats() -> None:
     assert before < 0.4 and after > 0.8
     far = on_beats(features, beats[:1] - 30.0)  # no beat is near
     assert torch.allclose(far, features, atol=1e-5)
+
+
+def test_far_poses_are_blended_at_an_even_pace() -> None:
+    """Of two turns 170 degrees apart, which the way through the middle passes within a frame."""
+    angle = np.radians(170) / 2
+    first = torch.tensor([1.0, 0, 0, 0]).expand(11, 4)
+    second = torch.tensor([np.cos(angle), 0, np.sin(angle), 0]).float().expand(11, 4)
+    found = blended(first, second, torch.linspace(0, 1, 11)[:, None])
+    turned = 2 * torch.atan2(found[:, 2], found[:, 0])
+    np.testing.assert_allclose(np.degrees(turned.numpy()), np.linspace(0, 170, 11), atol=0.1)
+    assert torch.equal(blended(torch.zeros(1, 4), first[:1], torch.ones(1, 1)), first[:1])
 
 
 def test_beats_that_nothing_marks_slow_the_body_down() -> None:

@@ -7,7 +7,8 @@ correction follows a cubic Hermite curve (Kovar et al. 2002, "Footskate cleanup"
 Letters: T frames, N frames of a curve.
 """
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -36,6 +37,7 @@ ROLL = 0.005  # metres that the ball of a standing foot may be above its standin
 MAX_DRAG = 0.22  # metres that a held foot may be from where it was; further off it steps
 MAX_SLOPE = 2.5  # m/s at which a correction may start from a hold
 UNDER = (0.0, 0.5, 1.0)  # shares of the way from where a foot was to below its hip
+SWING = 150.0  # m/s² with which a foot gets from one hold to the next, at most
 MAX_REACH = 0.9  # metres from the hip to the ball of a held foot, its heel up
 
 
@@ -172,7 +174,7 @@ class _Planner:
     def __init__(
         self, balls: np.ndarray, hips: np.ndarray, free: np.ndarray, fps: float, kept: np.ndarray
     ) -> None:
-        self.balls, self.hips, self.free, self.kept = balls, hips, free, kept
+        self.balls, self.hips, self.free, self.fps, self.kept = balls, hips, free, fps, kept
         self.shortest = min(round(MIN_HOLD_SECONDS * fps), len(balls))
         self.swing, self.sooner = round(MIN_SWING_SECONDS * fps), round(SOONER_SECONDS * fps)
         self.found: tuple[list[Plant], list[Plant]] = ([], [])
@@ -214,10 +216,29 @@ class _Planner:
             return
         else:
             point, first, last = _in_reach(ball, hip, start, stop, self.shortest)
+        if not len(fixed):
+            first = self._landing(point, first, side)
         if last - first >= self.shortest:
             self.found[side].append(Plant(first, last, point))
             if last > self.until:
                 self.until, self.last = last, side
+
+    def _landing(self, point: np.ndarray, first: int, side: int) -> int:
+        """When a foot that is to land in frame `first` does: it has to get there from its last
+        hold, and leaves that sooner if it can, else it lands later."""
+        if not self.found[side]:
+            return first
+        before = self.found[side][-1]
+        away = float(np.linalg.norm(point - before.point))
+        swing = math.ceil(math.sqrt(6 * away / SWING) * self.fps)
+        leaves = min(first - swing, before.stop)
+        if leaves == before.stop:
+            return first
+        kept = self.kept[max(leaves, 0) : before.stop, side].any()
+        if kept or leaves - before.start < self.shortest:
+            return before.stop + swing
+        self.found[side][-1] = replace(before, stop=leaves)
+        return first
 
 
 def _runs(

@@ -1,5 +1,7 @@
 """When and where feet stand: runs, steps, reach, and curves between holds."""
 
+import math
+
 import numpy as np
 import pytest
 import torch
@@ -10,6 +12,7 @@ from scipy.interpolate import CubicHermiteSpline
 from src.shared.motion.postprocess.contacts import (
     GIVE,
     MAX_REACH,
+    SWING,
     contact_runs,
     corrections,
     foot_shifts,
@@ -83,6 +86,22 @@ def test_a_dragged_foot_takes_steps_in_turn_with_the_other() -> None:
         np.testing.assert_allclose(speed, GIVE, atol=1e-6)
     between = slice(left[0].stop, left[1].start)
     assert moved[between, 1].max() > REST_FOOT_HEIGHT + 0.03  # a step is lifted
+
+
+@pytest.mark.parametrize("stop", [30, 3])
+def test_a_foot_has_time_to_get_to_its_next_hold(stop: int) -> None:
+    """Three frames after it stood it stands half a metre away: it leaves sooner, or lands later."""
+    path = on_floor(60)
+    path[stop + 3 :, 2] += 0.5
+    balls = np.stack((path, path + [0.2, 0, 0]), 1)
+    stands = np.zeros((60, 2), dtype=bool)
+    stands[:, 0] = True
+    stands[stop : stop + 3, 0] = False
+    kept = np.zeros((60, 2), dtype=bool)
+    one, other = plant_spans(balls, hips_over(balls), stands, FPS, kept)[0]
+    away = np.linalg.norm(other.point - one.point)
+    assert other.start - one.stop == math.ceil(math.sqrt(6 * away / SWING) * FPS) == 5
+    assert (one.stop, other.start) == ((28, 33) if stop == 30 else (3, 8))
 
 
 def test_a_body_too_fast_for_its_steps_takes_more_of_them() -> None:
