@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from .console import guarded, results_on_stdout, with_quiet
+from .console import INTERRUPTED, guarded, results_on_stdout, with_quiet
 from .convert import convert, inspect
 from .evaluate import compare, evaluate, evaluate_audio, plot, report
 from .evaluate_suites import (
@@ -97,8 +97,11 @@ app.add_typer(train, name="train")
 
 def main() -> None:
     """Entry point of the console script."""
-    with results_on_stdout():
-        app()
+    try:
+        with results_on_stdout():
+            app()
+    except KeyboardInterrupt:  # before there was a command to answer it
+        sys.exit(INTERRUPTED)
 
 
 if __name__ == "__main__":

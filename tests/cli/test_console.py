@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from src.cli.console import complain
-from src.cli.tools import app
+from src.cli.tools import app, main
 from src.shared.formats.writers.bvh import write_bvh
 from tests.shared.formats.writers.test_bvh import random_motion
 
@@ -87,3 +87,15 @@ def test_a_reader_who_has_gone_hears_nothing() -> None:
     done = subprocess.run([*TOOLS, "models"], stdout=writing, stderr=subprocess.PIPE, text=True)
     os.close(writing)
     assert (done.returncode, done.stderr) == (1, "")
+
+
+def test_ctrl_c_before_a_command_is_there_shows_no_traceback(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def interrupted() -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("src.cli.tools.app", interrupted)
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert ended.value.code == 130
