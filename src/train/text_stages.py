@@ -90,18 +90,34 @@ def training_set(
         return split_set(config, data, "train", only)
 
 
-def training_clips(config: TrainConfig, data: PreparedData) -> CaptionedWindows:
-    """The train split, streamed where the data is; raises UserError when none can be used."""
+def training_clips(
+    config: TrainConfig, data: PreparedData, only: Callable[[ClipRecord], bool] | None = None
+) -> CaptionedWindows:
+    """`training_set`, streamed where the data is; raises UserError when none can be used."""
     if not isinstance(data, StreamedData):
-        return training_set(config, data)
+        return training_set(config, data, only)
     with _enough():
         return StreamedSet(
             data,
             min_frames=config.min_frames,
             max_frames=config.max_frames,
             languages=config.languages,
+            only=only,
             seed=mix_seed("data", config.seed),
         )
+
+
+def with_labels(data: PreparedData) -> Callable[[ClipRecord], bool] | None:
+    """Which clips a text tower of places has a place for: those with labels, where any has.
+
+    Sentences without come out at the place of something else. Those of CMU's playground were
+    nearest to plain walks, which then stood still (docs/experiments.md).
+    """
+    bare = sum(not record.labels for record in data.records("train"))
+    if not 0 < bare < len(data.records("train")):
+        return None
+    announce("clips without labels are left out: this text tower knows only combinations of labels")
+    return lambda record: bool(record.labels)
 
 
 def validation_set(config: TrainConfig, data: PreparedData) -> TextMotionDataset | None:

@@ -38,6 +38,7 @@ from .text_stages import (
     open_training_data,
     training_clips,
     validation_set,
+    with_labels,
 )
 
 SAMPLE_SECONDS = 4.0
@@ -118,7 +119,8 @@ class GenerationTask(Task):
         source = config.clip or config.init or "runs/clip"
         self.tower, self.tokenizer = load_text_tower(source, network.embed_dim)
         self.data = open_training_data(config, network, stream=config.stream)
-        self.train = training_clips(config, self.data)
+        only = with_labels(self.data) if self.tower.config.text_places else None
+        self.train = training_clips(config, self.data, only)
         self.held_back = validation_set(config, self.data)
         self.mean = motion_rows(self.data.mean, network)
         self.std = motion_rows(self.data.std, network)

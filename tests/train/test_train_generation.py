@@ -1,6 +1,7 @@
 """Generation training on a little data: it learns, resumes exactly, its folder generates."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,10 +12,13 @@ from hypothesis import strategies as st
 from safetensors.torch import load_file
 from tiny_stage import clip_config, generation_config, tiny_network, train_clip, train_generation
 
+from src.shared.data.prepared import PreparedData
+from src.shared.data.text_motion import TextMotionDataset
 from src.shared.errors import UsageError, UserError
 from src.shared.model.clip.pretrained import ClipBundle, tower_hash
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.train.task import Part, generator
+from src.train.text_stages import with_labels
 from src.train.train_generation import GenerationTask, spread_timesteps
 
 
@@ -109,6 +113,22 @@ def test_resuming_is_bitwise_the_same(
         file = f"checkpoints/step-00000006/{name}.safetensors"
         first, second = load_file(whole / file), load_file(halves / file)
         assert all(torch.equal(first[key], second[key]) for key in first)
+
+
+def test_clips_without_labels_do_not_teach_what_a_place_means(prepared: Path) -> None:
+    data = PreparedData.open(prepared)
+    assert with_labels(data) is None  # all have some
+    bare = {record.id for record in data.records("train")[::3]}
+    data.__dict__["_all_records"] = [
+        replace(record, labels={}) if record.id in bare else record for record in data.records()
+    ]
+    only = with_labels(data)
+    assert only is not None
+    clips = TextMotionDataset(data, "train", max_frames=400, only=only)
+    left = {record.id for record in clips.records}
+    assert left and not left & bare
+    data.__dict__["_all_records"] = [replace(r, labels={}) for r in data.records()]
+    assert with_labels(data) is None  # captions of somebody's own, and nothing else
 
 
 def test_tokens_epsilon_and_all_losses(prepared: Path, clip: Path, tmp_path: Path) -> None:

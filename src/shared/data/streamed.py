@@ -11,7 +11,7 @@ Memory holds some shards, the sample, and a few numbers of every shard.
 import hashlib
 import threading
 from collections import OrderedDict
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -175,6 +175,7 @@ class StreamedSet(CaptionedWindows):
         min_frames: int = 32,
         max_frames: int = 128,
         languages: tuple[str, ...] = ("en", "es", "fr", "de", "ja", "zh"),
+        only: Callable[[ClipRecord], bool] | None = None,
         seed: int = 0,
     ) -> None:
         """Count the usable clips of each shard.
@@ -183,7 +184,12 @@ class StreamedSet(CaptionedWindows):
             ValueError: there is none.
         """
         super().__init__(
-            data, min_frames=min_frames, max_frames=max_frames, languages=languages, seed=seed
+            data,
+            min_frames=min_frames,
+            max_frames=max_frames,
+            languages=languages,
+            only=only,
+            seed=seed,
         )
         numbers = {shard.name: number for number, shard in enumerate(data.shards)}
         self._counts = np.zeros(len(data.shards), np.int64)

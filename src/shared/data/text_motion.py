@@ -60,6 +60,7 @@ class CaptionedWindows(ABC):
 
     Args:
         data: where the clips come from.
+        only: clips that it says no to are left out, if given.
         seed: another one draws other windows and captions.
     """
 
@@ -70,9 +71,10 @@ class CaptionedWindows(ABC):
         min_frames: int = 32,
         max_frames: int = 128,
         languages: tuple[str, ...] = ("en", "es", "fr", "de", "ja", "zh"),
+        only: Callable[[ClipRecord], bool] | None = None,
         seed: int = 0,
     ) -> None:
-        self.data, self.seed = data, seed
+        self.data, self.seed, self._only = data, seed, only
         self.min_frames, self.max_frames, self.languages = min_frames, max_frames, languages
         self._tag_index = {name: index for index, name in enumerate(data.tags)}
 
@@ -97,9 +99,10 @@ class CaptionedWindows(ABC):
         """A number that clips of one label combination share."""
 
     def _is_usable(self, record: ClipRecord) -> bool:
-        """Whether a clip is long enough, can be shown whole if it must, and has a caption."""
+        """Whether it is wanted, long enough, can be shown whole if it must, and has a caption."""
         return (
-            record.num_frames >= min(self.min_frames, self.max_frames)
+            (self._only is None or self._only(record))
+            and record.num_frames >= min(self.min_frames, self.max_frames)
             and not (_whole(record) and record.num_frames > self.max_frames)
             and any(self.data.captions(record).get(language) for language in self.languages)
         )
@@ -193,19 +196,19 @@ class TextMotionDataset(CaptionedWindows):
                 w^(1-balance)).
             captured_share: of the draws of an action, at least so many go to its captured clips,
                 where there are any: ten thousand procedural ones would drown six.
-            only: clips that it says no to are left out, if given.
 
         Raises:
             ValueError: no clip of the split is long enough or has a caption in `languages`.
         """
         super().__init__(
-            data, min_frames=min_frames, max_frames=max_frames, languages=languages, seed=seed
+            data,
+            min_frames=min_frames,
+            max_frames=max_frames,
+            languages=languages,
+            only=only,
+            seed=seed,
         )
-        self.records = [
-            record
-            for record in data.records(split)
-            if self._is_usable(record) and (only is None or only(record))
-        ]
+        self.records = [record for record in data.records(split) if self._is_usable(record)]
         if not self.records:
             raise ValueError(
                 f"split {split!r} of {data.folder} has no clip of at least {min_frames} frames"
