@@ -12,7 +12,7 @@ import torch
 from safetensors.torch import load_file
 from tiny_audio_stage import ROOT, assert_close_runs
 from tiny_stage import clip_config, train_clip
-from two_processes import runs
+from two_processes import KINDS, runs
 
 from src.train.sharding import is_asked_for
 
@@ -47,7 +47,7 @@ def test_ddp_and_fsdp2_are_one_process_with_the_whole_batch(
     for stage, train in stages.items():
         one = tmp_path / stage / "one"
         train(one, ONE)
-        for name in ("ddp", "fsdp"):
+        for name in KINDS[stage]:
             stopped_at_4(one, tmp_path / stage / f"one-half-{name}")
     program = tmp_path / "program.py"
     program.write_text(PROGRAM + Path(__file__).with_name("two_processes.py").read_text())
@@ -68,7 +68,7 @@ def test_ddp_and_fsdp2_are_one_process_with_the_whole_batch(
     assert done.stderr.count("FSDP2: weights, gradients and optimizer in 2 shards") == 4
     for stage, train in stages.items():
         one = tmp_path / stage / "one"
-        for name in ("ddp", "fsdp"):
+        for name in KINDS[stage]:
             go_on = tmp_path / stage / f"{name}-half"
             stopped_at_4(tmp_path / stage / name, go_on)
             train(go_on, ONE, resume=True)

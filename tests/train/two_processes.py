@@ -8,6 +8,7 @@ from tiny_audio_stage import audio_config, train_audio
 from tiny_stage import generation_config, train_generation
 
 Run = Callable[..., object]
+KINDS = {"audio": ("ddp", "fsdp"), "text": ("fsdp",)}
 EVERY = ("log-every=1", "save-every=2", "lr-schedule=constant", "validate-every=100")
 
 
@@ -28,10 +29,10 @@ def runs(circles: Path, prepared: Path, clip: Path) -> dict[str, Run]:
 
 
 def main(folder: Path, *data: Path) -> None:
-    """Of each stage two whole runs, and two that go on from one process."""
+    """Of each stage and kind a whole run, and one that goes on from one process."""
     for stage, train in runs(*data).items():
-        for name, version in (("ddp", "null"), ("fsdp", "2")):
-            kind = f"fsdp-version={version}"
+        for name in KINDS[stage]:
+            kind = f"fsdp-version={2 if name == 'fsdp' else 'null'}"
             train(folder / stage / name, kind)
             train(folder / stage / f"one-half-{name}", kind, resume=True)
 
