@@ -182,6 +182,7 @@ class ClipConfig(Config):
     text_vocab_size: int = Field(4000, ge=64)
     text_pairs: int = Field(0, ge=0)  # rows of "pairs": train text counts them
     text_places: int = Field(0, ge=0)  # label combinations that texts are sent to; 0 = anywhere
+    text_place_keys: bool = False  # texts are read by vectors of their own, and sent to places
     max_tokens: int = Field(48, ge=4)
 
     @model_validator(mode="after")

@@ -178,6 +178,17 @@ def as_features(places: Tensor) -> TextFeatures:
     return TextFeatures(places, torch.zeros_like(places)[:, None], mask)
 
 
+def with_places(tower: TextTower, places: Tensor, keys: Tensor | None = None) -> TextTower:
+    """The tower, frozen, sending every text to places [P,D] that are all different, or, where they
+    have keys [P,D], that those tell apart."""
+    sizes = {"text_places": len(places), "text_place_keys": keys is not None}
+    placed = TextTower(tower.config.model_copy(update=sizes), tower.embed_dim)
+    state = {name: value for name, value in tower.state_dict().items() if name != "keys"}
+    own = {"places": places} if keys is None else {"places": places, "keys": keys}
+    placed.load_state_dict({**state, **own})
+    return placed.freeze()
+
+
 def network_of_model(init: str) -> NetworkConfig:
     """The network of a trained text model; raises UserError when there is no such model."""
     card = read_card(resolve_model(init))

@@ -53,6 +53,7 @@ from .text_stages import (
     open_training_data,
     own_network,
     training_set,
+    with_places,
     z_scored_for,
 )
 from .train_generation import GuidedDenoiser, spread_timesteps
@@ -466,7 +467,7 @@ def with_new_places(
     row = torch.tensor([i for i, texts in enumerate(captions) for _ in texts])
     mine = set(own)
     old = [text for text in old if text not in mine]
-    every = torch.cat([tower.get_buffer("places").float(), places])  # [P + N, D]
+    every = torch.cat([tower.place_keys(), places])  # [P + N, D]
     student, rate = _extended(
         tower, shared_keys([tokenizer(own)[0]], 1), shared_keys([tokenizer(old)[0]], 1)
     )
@@ -512,10 +513,8 @@ def with_new_places(
             learner.step()
             with torch.no_grad():
                 rows.copy_(before + rate[:, None] * (rows - before))
-    config = student.config.model_copy(update={"text_places": len(every)})
-    found = TextTower(config, tower.embed_dim)
-    found.load_state_dict({**student.state_dict(), "places": every})
-    return found.freeze()
+    answers = torch.cat([tower.get_buffer("places").float(), places])  # [P + N, D]
+    return with_places(student, answers, every if tower.config.text_place_keys else None)
 
 
 def _pooled(tower: TextTower, tokenizer: PromptTokenizer, texts: Sequence[str]) -> Tensor:

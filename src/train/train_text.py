@@ -42,7 +42,13 @@ from ..shared.model.clip.core import (
     TokenPairEncoder,
     shared_keys,
 )
-from ..shared.model.clip.pretrained import KIND, ClipBundle, encode_captions, load_text_tower
+from ..shared.model.clip.pretrained import (
+    KIND,
+    ClipBundle,
+    encode_captions,
+    load_text_tower,
+    tower_hash,
+)
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.generation.denoiser import TAG_WEIGHT, MotionDenoiser
 from ..shared.model.generation.motion_generator import KIND as GENERATOR
@@ -60,8 +66,10 @@ from .text_stages import (
     motion_rows,
     new_tokenizer,
     open_training_data,
+    with_places,
 )
 
+VOTES = 24  # captions of each combination and language, whose place is the most frequent one
 OLD_CAPTIONS = 8  # of each combination and language, whose mean is its place
 PAIR_WIDTH = 64  # of the hidden states of a tower of token pairs
 PLAIN = 2.0  # how much more often combinations without a style are drawn
@@ -177,7 +185,10 @@ class TextTask(Task):
         self.bundle = bundle or self._from_nothing(network)
         self.tokenizer = self.bundle.tokenizer
         self.places = torch.zeros(0)  # learned with the tower
+        self.answers: Tensor | None = None  # of the receiver's denoiser, where it is not of `clip`
         if bundle is not None:
+            if self.receiver is not None and self._reads_anew(self.receiver):
+                self.answers = self._answers(self.receiver)
             self.places = self._places()
             if config.tower == PAIRS:
                 self._replace_tower(bundle)
@@ -279,9 +290,27 @@ class TextTask(Task):
             found = nearest_styles(self.data, self.labels) | fuller_sides(self.data, self.labels)
             rows, taken = ([index[g] for g in each] for each in (found, found.values()))
             places[rows] = places[taken]
-        if self.receiver is not None and self.receiver.network.generation.adapter_ranks:
+        adapted = self.receiver is not None and self.receiver.network.generation.adapter_ranks
+        if self.receiver is not None and adapted and self.answers is None:
             self._adapted(self.receiver, places)
         return places
+
+    def _reads_anew(self, receiver: TextToMotion) -> bool:
+        """Whether the receiver has places that are not those of `clip`: these are what texts are
+        read by, and those what it is asked for."""
+        new = self.config.tower == PAIRS and receiver.text.config.text_places > 0
+        return new and tower_hash(receiver.text) != tower_hash(self.bundle.clip.text)
+
+    def _answers(self, receiver: TextToMotion) -> Tensor:
+        """For each combination the place [G,D] of the receiver's own tower to which most of the
+        combination's captions go there: what its denoiser has learned to answer."""
+        places = receiver.text.get_buffer("places").float()
+        found = []
+        for captions in self._captions(0, VOTES, whole=False):
+            texts = [text for some in captions.values() for text in some]
+            nearest = encode_captions(receiver.text, receiver.tokenizer, texts) @ places.T
+            found.append(nearest.argmax(-1).mode().values)
+        return places[torch.stack(found)]
 
     def _adapted(self, receiver: TextToMotion, places: Tensor) -> None:
         """Put combinations of actions that adapters of `receiver` learned where these open: at the
@@ -412,7 +441,12 @@ class TextTask(Task):
 
     def _placed(self, tower: TextTower) -> TextTower:
         """With the places of the combinations, each once."""
-        placed = with_places(tower, torch.unique(self.places.cpu(), dim=0))
+        if self.answers is None:
+            placed = with_places(tower, torch.unique(self.places.cpu(), dim=0))
+        else:
+            both = torch.cat((self.places.cpu(), self.answers), dim=1)
+            keys, answers = torch.unique(both, dim=0).split(self.places.shape[1], dim=1)
+            placed = with_places(tower, answers, keys)
         network = self.bundle.clip.config.model_copy(update={"clip": placed.config})
         self.bundle.clip.config = network
         return placed
@@ -446,14 +480,6 @@ class TextTask(Task):
 def _taught(texts: list[str], lang: str) -> list[str]:
     """Those that training reads; all of them, where none were left."""
     return [text for text in texts if not packaged_book().kept_to_calibrate(text, lang)] or texts
-
-
-def with_places(tower: TextTower, places: Tensor) -> TextTower:
-    """The tower, frozen, sending every text to places [P,D] that are all different."""
-    config = tower.config.model_copy(update={"text_places": len(places)})
-    placed = TextTower(config, tower.embed_dim)
-    placed.load_state_dict({**tower.state_dict(), "places": places})
-    return placed.freeze()
 
 
 def with_tower(generator: TextToMotion, tags: Sequence[str]) -> MotionDenoiser:

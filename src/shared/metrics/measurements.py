@@ -169,6 +169,12 @@ def measure(motion: Motion) -> Measurements:
     )
 
 
+def hand_swings(motion: Motion) -> tuple[int, int]:
+    """Times each raised wrist changes its direction of travel: left, right."""
+    left, right = _hands(_tracks(motion))["hand_swings"]
+    return left, right
+
+
 def _credibility(motion: Motion) -> Figures:
     q = motion.quaternions.astype(np.float64)
     cosine = np.clip(np.abs((q[1:] * q[:-1]).sum(-1)), 0.0, 1.0)

@@ -21,6 +21,7 @@ import numpy as np
 
 from ...data.prepared import ClipRecord, PreparedData
 from ...data.synthetic.clips import SPEED_METRES, SPEEDS
+from ...data.text_motion import comes_back, shorten
 from ...errors import UserError
 from ...metrics.measurements import (
     ACTIONS,
@@ -28,6 +29,7 @@ from ...metrics.measurements import (
     Check,
     Measurements,
     credible,
+    hand_swings,
     heading_frame,
     measure,
     repetitions,
@@ -37,12 +39,14 @@ from ...motion.features import decode_features, headings
 from ...motion.motion import Motion
 from ...motion.rotations import quaternion_to_matrix
 from ...motion.skeleton import JOINT_INDEX
+from ...tensors import Tensor
 from ..engine import Progress
 from ..samples import choose_caption, spread_over_groups
 
 PARTS = 3  # beginning, middle, end: a wave is not a raise that stays up
 BANDS = ((0.3, 1.0), (1.0, 2.0), (2.0, 4.0), (4.0, 8.0))  # Hz
 TIPS = [JOINT_INDEX[name] for name in ("l_wrist", "r_wrist", "l_ankle", "r_ankle", "head")]
+MOST_SWINGS = 8  # of a raised hand: a wave of twenty is no more of a wave
 SHRINKAGE = 0.1  # of the covariance towards its diagonal (Friedman 1989)
 FLOOR = 0.02  # least deviation of a feature, in its own unit
 JUDGING_CLIPS = 2_400
@@ -63,7 +67,7 @@ SHOWN = frozenset(
 
 
 def descriptor(motion: Motion) -> np.ndarray:
-    """What a body does, as numbers [F]: poses over time, speeds, rhythm of the limbs, travel.
+    """What a body does, as numbers [F]: poses, speeds, rhythm of the limbs, swings, travel.
 
     Joints are seen from the pelvis in the momentary heading frame; metres, seconds, radians.
     """
@@ -95,6 +99,7 @@ def descriptor(motion: Motion) -> np.ndarray:
             np.percentile(speed, 95, axis=0),
             _rhythm(velocity[:, TIPS], motion.fps).ravel(),
             [*travel, heading[-1] - heading[0]],
+            np.minimum(hand_swings(motion), MOST_SWINGS),
         ]
     )
 
@@ -258,6 +263,28 @@ def _of_unseen_takes(features: np.ndarray, tags: Sequence[str], takes: Sequence[
 # ---------------------------------------------------------------- what counts as done
 
 
+def rested(values: Tensor, frames: int) -> Tensor | None:
+    """A gesture [T,23,6] longer than so many frames from rest to rest within them, as in training;
+    None where there is nothing to leave out."""
+    return shorten(values, frames) if len(values) > frames and comes_back(values) else None
+
+
+def examples(
+    data: PreparedData, records: Sequence[ClipRecord], frames: int
+) -> tuple[list[ClipRecord], list[Motion]]:
+    """What a judge learns from: the first frames of clips, and gestures from rest to rest, too.
+
+    Of waves that are always cut off it would learn that an arm which comes down was only raised.
+    """
+    found: list[tuple[ClipRecord, Tensor]] = []
+    for record in records:
+        values = data.features(record)
+        found.append((record, values[:frames]))
+        if (whole := rested(values, frames)) is not None:
+            found.append((record, whole))
+    return [record for record, _ in found], [decode_features(values) for _, values in found]
+
+
 def judged_by(records: Sequence[ClipRecord]) -> list[ClipRecord]:
     """The clips that tell a judge what actions look like: captured, where an action has any."""
     captured = {r.tag for r in records if r.provenance == "captured"}
@@ -308,7 +335,7 @@ def recognizer_of(
     """
     clips = spread_over_groups(judged_by(_captioned(data)), JUDGING_CLIPS, seed)
     progress(f"a judge of {len(clips)} clips")
-    seen = [decode_features(data.features(r)[: round(SECONDS * 30)]) for r in clips]
+    clips, seen = examples(data, clips, round(SECONDS * 30))
     try:
         return ActionRecognizer.fit(clips, seen, np.stack([*map(descriptor, seen)]))
     except ValueError as error:

@@ -37,7 +37,9 @@ from ..judge.actions import (
     ActionJudge,
     ActionRecognizer,
     descriptor,
+    examples,
     judged_by,
+    rested,
     same_action,
     shown,
     shown_together,
@@ -127,8 +129,9 @@ class Yardstick:
         train = [r for r in data.records("train") if r.tag and r.num_frames >= MIN_FRAMES]
         self.captured = {r.tag for r in train if r.provenance == "captured"}
         progress("descriptors of the training clips")
-        fitted = spread_over_groups(judged_by(train), 4 * settings.max_clips, settings.seed)
-        self.known = self.clips(fitted)
+        chosen = spread_over_groups(judged_by(train), 4 * settings.max_clips, settings.seed)
+        fitted, motions = examples(data, chosen, self.longest)
+        self.known = Seen.of(motions)
         self.known_tags = [record.tag for record in fitted]
         try:
             self.recognizer = ActionRecognizer.fit(fitted, self.known.motions, self.known.features)
@@ -161,8 +164,18 @@ class Yardstick:
         self.top_run = float(np.percentile(np.concatenate(runs), 99.9)) if runs else 0.0
 
     def clips(self, records: Sequence[ClipRecord]) -> Seen:
-        """The first seconds of these clips."""
-        return Seen.of([decode_features(self.data.features(r)[: self.longest]) for r in records])
+        """These clips as asked for: gestures from rest to rest, the first seconds of others."""
+        values = [self.data.features(record) for record in records]
+        whole = [rested(each, self.longest) for each in values]
+        pairs = zip(values, whole, strict=True)
+        return Seen.of([
+            decode_features(each[: self.longest] if own is None else own) for each, own in pairs
+        ])  # fmt: skip
+
+    def is_whole(self, record: ClipRecord) -> bool:
+        """Whether `clips` leaves no end of it out."""
+        fits = record.num_frames <= self.longest
+        return fits or rested(self.data.features(record), self.longest) is not None
 
     def shows(self, seen: Seen) -> list[str]:
         """The action that the judge sees in each."""
@@ -440,7 +453,7 @@ def _gestures(yardstick: Yardstick, gestures: Sequence[Request], seen: Seen) -> 
     rests = np.array([at_rest(motion) for motion in seen.motions])
     real = zip(yardstick.records, yardstick.real.motions, yardstick.real_obeyed, strict=True)
     whole = [(motion, done) for record, motion, done in real
-             if record.tag in GESTURES and record.num_frames <= yardstick.longest]  # fmt: skip
+             if record.tag in GESTURES and yardstick.is_whole(record)]  # fmt: skip
     theirs = [(at_rest(motion), done) for motion, done in whole]
     turned = [bootstrap_mean([abs(math.degrees(measure(m).yaw)) for m in motions])
               for motions in (seen.motions, [motion for motion, _ in whole])]  # fmt: skip

@@ -129,6 +129,8 @@ class TextTower(nn.Module):
         self.text_proj = nn.Linear(self.encoder.config.hidden_size, embed_dim)
         if config.text_places:
             self.register_buffer("places", torch.zeros(config.text_places, embed_dim))
+        if config.text_place_keys:
+            self.register_buffer("keys", torch.zeros(config.text_places, embed_dim))
 
     @property
     def embed_dim(self) -> int:
@@ -156,21 +158,26 @@ class TextTower(nn.Module):
         """The encoder's mean over a text's tokens [B, H_text] -> [B, D] unit-norm.
 
         With places [P, D], their mean by the probability of each: a denoiser that has learned
-        what lies there is never asked for what lies between.
+        what lies there is never asked for what lies between. Where places have keys, those are what
+        a text is compared with, as in attention (Vaswani et al. 2017, section 3.2.1): places that a
+        denoiser grew up with need not lie so that words are told apart.
         """
         pooled = self._embedding(mean)
         if not self.config.text_places or self.training:
             return pooled
-        places = self.get_buffer("places").float()
-        shares = (PLACE_SCALE * pooled @ places.T).softmax(-1)  # [B, P]
-        return normalize(shares @ places, dim=-1)
+        shares = (PLACE_SCALE * pooled @ self.place_keys().T).softmax(-1)  # [B, P]
+        return normalize(shares @ self.get_buffer("places").float(), dim=-1)
 
     def closeness(self, mean: Tensor) -> Tensor | None:
-        """Cosine [B] of the encoder's mean [B, H_text] with the nearest place, before places are
-        mixed; None without places."""
+        """Cosine [B] of the encoder's mean [B, H_text] with the nearest place's key, before places
+        are mixed; None without places."""
         if not self.config.text_places or self.training:
             return None
-        return (self._embedding(mean) @ self.get_buffer("places").float().T).amax(-1)
+        return (self._embedding(mean) @ self.place_keys().T).amax(-1)
+
+    def place_keys(self) -> Tensor:
+        """What texts are compared with [P, D]: the places themselves, unless they have keys."""
+        return self.get_buffer("keys" if self.config.text_place_keys else "places").float()
 
     def _embedding(self, mean: Tensor) -> Tensor:
         return normalize(self.text_proj(mean).float(), dim=-1)

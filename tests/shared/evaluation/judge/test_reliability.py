@@ -4,14 +4,22 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
 from src.shared.data.sources.folders import SyntheticSource
 from src.shared.data.synthetic.clips import generate_clip, spec_for
-from src.shared.evaluation.judge.actions import action_reliability, recognizer_of
+from src.shared.evaluation.judge.actions import (
+    action_reliability,
+    descriptor,
+    examples,
+    recognizer_of,
+    rested,
+)
 from src.shared.model.clip.out_of_domain import RELIABLE
+from src.shared.motion.features import decode_features
 from src.shared.motion.motion import Motion
 
 
@@ -58,3 +66,18 @@ def test_without_actions_to_tell_apart_it_says_so(data: PreparedData, tmp_path: 
     few.__dict__["_all_records"] = few.records()[:1]
     with pytest.raises(UserError, match="no judge can be fitted"):
         recognizer_of(few)
+
+
+def test_a_wave_that_comes_to_rest_in_time_is_no_raised_arm(data: PreparedData) -> None:
+    frames = 75
+    train = [r for r in data.records("train") if r.tag in ("wave", "raise")]
+    records, motions = examples(data, train, frames)
+    judge = recognizer_of(data).judge.fit(
+        np.stack([*map(descriptor, motions)]), [r.tag for r in records]
+    )
+    long = [r for r in data.records("train") if r.tag == "wave" and r.num_frames > frames]
+    whole = [rested(data.features(record), frames) for record in long]
+    waves = [decode_features(values) for values in whole if values is not None]
+    assert len(waves) >= 5
+    assert judge(np.stack([*map(descriptor, waves)])).count("wave") >= 0.8 * len(waves)
+    assert len(motions) > len(train)  # cut off, and from rest to rest
