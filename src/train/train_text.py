@@ -463,7 +463,7 @@ class TextTask(Task):
             self.bundle.save_pretrained(folder)
             return
         generator = TextToMotion.from_pretrained(self.config.generator)
-        generator.text = tower
+        generator.text, generator.tokenizer = tower, self.tokenizer
         languages, without = self.config.languages, self.config.without
         generator.scope = fit_scope(self.data, languages, tower, self.tokenizer, without)
         generator.style_map = fit_style_map(self.data, languages, tower, self.tokenizer)
