@@ -290,9 +290,6 @@ class TextTask(Task):
             found = nearest_styles(self.data, self.labels) | fuller_sides(self.data, self.labels)
             rows, taken = ([index[g] for g in each] for each in (found, found.values()))
             places[rows] = places[taken]
-        adapted = self.receiver is not None and self.receiver.network.generation.adapter_ranks
-        if self.receiver is not None and adapted and self.answers is None:
-            self._adapted(self.receiver, places)
         return places
 
     def _reads_anew(self, receiver: TextToMotion) -> bool:
@@ -311,18 +308,6 @@ class TextTask(Task):
             nearest = encode_captions(receiver.text, receiver.tokenizer, texts) @ places.T
             found.append(nearest.argmax(-1).mode().values)
         return places[torch.stack(found)]
-
-    def _adapted(self, receiver: TextToMotion, places: Tensor) -> None:
-        """Put combinations of actions that adapters of `receiver` learned where these open: at the
-        place that most of its own captions are sent to."""
-        denoiser = receiver.denoiser
-        opening = denoiser.get_buffer("places")[denoiser.get_buffer("adapter_of") > 0].float()
-        learned = set(receiver.card.tags) - set(self.bundle.card.tags)
-        for row, group in enumerate(self.groups):
-            if self.labels[group].get("action") in learned:
-                texts = [text for some in self.fresh[row].values() for text in some]
-                nearest = encode_captions(receiver.text, receiver.tokenizer, texts) @ opening.T
-                places[row] = opening[nearest.argmax(-1).mode().values]
 
     def identity(self) -> dict[str, Any]:
         """A resumed run must start from the same tower and see the same labels."""

@@ -99,6 +99,34 @@ def test_a_generator_gets_a_tower_of_token_pairs(prepared: Path, tmp_path: Path)
     assert torch.equal(behind.encode_prompts(texts).pooled, new.encode_prompts(texts).pooled)
 
 
+def test_texts_are_read_by_new_keys_and_sent_to_the_places_of_a_denoiser(
+    prepared: Path, tmp_path: Path
+) -> None:
+    clip, made, own, places, read = (tmp_path / n for n in ("clip", "made", "own", "new", "read"))
+    train_clip(clip_config(prepared, clip, "steps=30"))
+    train_generation(generation_config(prepared, clip, made, "steps=2"))
+    pairs = ("tower=pairs", "choice-weight=2", "least-captions=2", "captions-per-group=24")
+    size = ("steps=200", "batch-size=64", "learning-rate=0.02", "written=0")
+    harden(text_config(prepared, made, own, *pairs, *size))
+    network = tiny_network()
+    small = network.clip.model_copy(update={"text_model": "pairs"})
+    config = text_config(prepared, tmp_path, places, "clip=null", *size)
+    network = network.model_copy(update={"clip": small})
+    Trainer(config, lambda c: TextTask(c, network), command="again").train()
+
+    config = text_config(prepared, places, read, *pairs, *size, f"generator='{own}'")
+    assert harden(config).figures["right"] > 0.5
+    old, new = TextToMotion.from_pretrained(own), TextToMotion.from_pretrained(read)
+    there, answers = (each.text.get_buffer("places") for each in (old, new))
+    assert torch.isin(answers, there).all() and new.text.config.text_place_keys
+    assert not torch.isin(new.text.place_keys(), there).any()
+    texts = ["a person walks forward", "a person jumps"]
+    said = [each.encode_prompts(texts).pooled for each in (old, new)]
+    assert ((said[0] * said[1]).sum(-1) > 0.8).all()  # the same requests of the same denoiser
+    for key, value in old.denoiser.state_dict().items():
+        assert torch.equal(value, new.denoiser.state_dict()[key])
+
+
 def test_a_tower_of_token_pairs_from_nothing(prepared: Path, tmp_path: Path) -> None:
     network = tiny_network()
     clip = network.clip.model_copy(update={"text_model": "pairs"})

@@ -28,13 +28,14 @@ PROMPTS = ["a person walks forward", "人が前に歩く", "jump"]
 def with_pairs(generator: TextToMotion) -> TextToMotion:
     """With a tower of token pairs instead of the random-init transformer."""
     clip = generator.network.clip.model_copy(
-        update={"text_model": "pairs", "text_pairs": 300, "text_places": 3}
+        update={"text_model": "pairs", "text_pairs": 300, "text_places": 3, "text_place_keys": True}
     )
     tower = TextTower(clip, generator.network.embed_dim)
     ids, _ = generator.tokenizer(PROMPTS)
     tower.encoder.keys[:290] += 3
     tower.encoder.keys[290:] = torch.arange(10, dtype=torch.int32) + 60_000
     tower.get_buffer("places").normal_()
+    tower.get_buffer("keys").normal_()
     assert int(ids.max()) > 3
     generator.text = tower.freeze()
     generator.network = generator.network.model_copy(update={"clip": clip})
