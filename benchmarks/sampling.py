@@ -1,7 +1,7 @@
 """How fast is sampling? Ours against an MDM-sized yardstick timed in the same run, and the command.
 
 python -m benchmarks.sampling [--model starter | --profile lightweight] [--runtime onnx]
-    [--steps N] [--threads 2] [--json OUT]
+    [--steps N] [--threads 2] [--device cpu | cuda | mps] [--json OUT]
 
 The yardstick is a plain transformer encoder of MDM's size (Tevet et al. 2023: 8 layers, 512 wide,
 FFN 1024, 4 heads) with random weights, 50 guided steps, 120 frames. Ours is the whole of
@@ -34,35 +34,42 @@ if TYPE_CHECKING:
     from src.shared.model.generation.motion_generator import TextToMotion
 
 
-def yardstick(steps: int = 50) -> Callable[[], None]:
+def yardstick(device: str = "cpu", steps: int = 50) -> Callable[[], None]:
     """A sampler of MDM's size: classifier-free guidance as one doubled batch a step."""
     import torch
     from torch import nn
 
     width, features = 512, 263
     layer = nn.TransformerEncoderLayer(width, 4, 1024, activation="gelu", batch_first=True)
-    encoder = nn.TransformerEncoder(layer, 8, enable_nested_tensor=False).eval()
-    into, out = nn.Linear(features, width).eval(), nn.Linear(width, features).eval()
-    condition = torch.randn(2, 1, width)  # one token for text and step: [prompt, nothing]
+    encoder = nn.TransformerEncoder(layer, 8, enable_nested_tensor=False).eval().to(device)
+    into, out = (
+        nn.Linear(*size).eval().to(device) for size in ((features, width), (width, features))
+    )
+    condition = torch.randn(
+        2, 1, width, device=device
+    )  # one token for text and step: [prompt, nothing]
 
     @torch.inference_mode()
     def sample() -> None:
-        x = torch.randn(1, FRAMES, features)
+        x = torch.randn(1, FRAMES, features, device=device)
         for step in range(steps, 0, -1):
             tokens = torch.cat([condition, into(x.expand(2, -1, -1))], dim=1)  # [2, T + 1, D]
             told, untold = out(encoder(tokens)[:, 1:])
             clean = untold + 2.5 * (told - untold)
             x = (x * (step - 1) + clean) / step  # any cheap update: its cost does not show
+        x.cpu()  # a device computes on when the call is over
 
     return sample
 
 
-def load_generator(model: str | None, profile: str, runtime: str = "torch") -> "TextToMotion":
+def load_generator(
+    model: str | None, profile: str, runtime: str = "torch", device: str = "cpu"
+) -> "TextToMotion":
     """A trained model, or random weights of a profile: speed does not depend on training."""
     from src.shared.model.generation.motion_generator import TextToMotion
 
     if model:
-        return TextToMotion.from_pretrained(model, device="cpu", runtime=runtime)
+        return TextToMotion.from_pretrained(model, device=device, runtime=runtime)
     import torch
 
     from src.shared.config_loader import load_network
@@ -81,7 +88,7 @@ def load_generator(model: str | None, profile: str, runtime: str = "torch") -> "
         mean=torch.zeros(network.motion_rows, 6),
         std=torch.ones(network.motion_rows, 6),
         card=ModelCard(kind="motion-generator", trained=True, network=network),
-        device="cpu",
+        device=device,
     )
 
 
@@ -92,11 +99,13 @@ def timed(run: Callable[[], object]) -> float:
     return time.perf_counter() - start
 
 
-def compare(generator: "TextToMotion", repeats: int, steps: int | None) -> dict[str, Any]:
+def compare(
+    generator: "TextToMotion", repeats: int, steps: int | None, device: str = "cpu"
+) -> dict[str, Any]:
     """Seconds of ours and of the yardstick, alternating; the order changes every round."""
     runs: dict[str, Callable[[], object]] = {
         "ours": lambda: generator.generate([PROMPT], seconds=SECONDS, steps=steps),
-        "yardstick": yardstick(),
+        "yardstick": yardstick(device),
     }
     for run in runs.values():  # first calls allocate and choose kernels
         run()
@@ -155,7 +164,7 @@ from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.formats.registry import write_motion
 set_threads(int(sys.argv[2]))
 told("import-ours")
-generator = TextToMotion.from_pretrained(sys.argv[1], device="cpu")
+generator = TextToMotion.from_pretrained(sys.argv[1], device=sys.argv[5])
 told("load-model")
 motions = generator.generate([sys.argv[3]], seconds={SECONDS})
 told("sample")
@@ -166,7 +175,7 @@ for name in ("bvh", "glb", "npz", "html"):
 """
 
 
-def command_times(model: str, threads: int, repeats: int) -> dict[str, Any]:
+def command_times(model: str, threads: int, repeats: int, device: str = "cpu") -> dict[str, Any]:
     """The whole `generate` command in fresh processes: first run, then warm ones, and stages.
 
     The first run compiles every module to bytecode, as it does after an installation: the cache
@@ -177,7 +186,7 @@ def command_times(model: str, threads: int, repeats: int) -> dict[str, Any]:
         environment.pop("PYTHONDONTWRITEBYTECODE", None)  # else no run would ever be warm
         command = [sys.executable, "-m", "src.cli.tools", "generate", "--prompt", PROMPT]
         command += ["--seconds", str(SECONDS), "--model", model, "--out", folder]
-        command += ["--threads", str(threads), "--device", "cpu"]
+        command += ["--threads", str(threads), "--device", device]
 
         def run(arguments: list[str]) -> str:
             done = subprocess.run(
@@ -189,7 +198,7 @@ def command_times(model: str, threads: int, repeats: int) -> dict[str, Any]:
 
         first = timed(lambda: run(command))
         warm = [timed(lambda: run(command)) for _ in range(repeats)]
-        staged = [sys.executable, "-c", STAGES, model, str(threads), PROMPT, folder]
+        staged = [sys.executable, "-c", STAGES, model, str(threads), PROMPT, folder, device]
         run(staged)
         whole, stages = time.perf_counter(), {}
         for line in run(staged).splitlines():
@@ -208,8 +217,9 @@ def show(result: dict[str, Any]) -> None:
     console = Console()
     ours = result["sampling"]
     title = (
-        f"4 s of motion, {result['threads']} CPU threads, median of {result['repeats']}"
-        f" ({ours['sampler']}, {ours['steps']} steps, guidance {ours['guidance_scale']:g})"
+        f"4 s of motion, {result['device']}, {result['threads']} CPU threads,"
+        f" median of {result['repeats']} ({ours['sampler']}, {ours['steps']} steps,"
+        f" guidance {ours['guidance_scale']:g})"
     )
     table = Table("what", "seconds", title=title)
     for name, value in ours["seconds"].items():
@@ -235,6 +245,7 @@ def main() -> None:
     parser.add_argument("--runtime", choices=("torch", "onnx"), default="torch", help="of --model")
     parser.add_argument("--steps", type=int, help="of sampling; left out: the model's own")
     parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--device", choices=("cpu", "cuda", "mps"), default="cpu")
     parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument("--no-command", action="store_true", help="time sampling only")
     parser.add_argument("--json", type=Path, help="write the result here")
@@ -243,17 +254,19 @@ def main() -> None:
     from src.shared.device import set_threads
 
     set_threads(arguments.threads)
-    generator = load_generator(arguments.model, arguments.profile, arguments.runtime)
+    model, profile, device = arguments.model, arguments.profile, arguments.device
+    generator = load_generator(model, profile, arguments.runtime, device)
     result: dict[str, Any] = {
+        "device": device,
         "threads": arguments.threads,
         "repeats": arguments.repeats,
         "model": arguments.model or f"random weights, profile {arguments.profile}",
         "runtime": arguments.runtime,
-        "sampling": compare(generator, arguments.repeats, arguments.steps),
+        "sampling": compare(generator, arguments.repeats, arguments.steps, device),
         "parts": parts(generator, arguments.repeats, arguments.steps),
     }
     if arguments.model and not arguments.no_command:
-        result["command"] = command_times(arguments.model, arguments.threads, arguments.repeats)
+        result["command"] = command_times(model, arguments.threads, arguments.repeats, device)
     show(result)
     if arguments.json:
         arguments.json.write_text(json.dumps(result, indent=1), encoding="utf-8")

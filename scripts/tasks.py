@@ -118,13 +118,13 @@ def gpu_check(arguments: list[str]) -> int:
     prepare = ("-m", "src.cli.tools", "prepare", "--synthetic", "3000", "--out", data)
     hour = ("-m", "benchmarks.timed_training", "--profile", "spark", "--seconds", "3600", "--data",
             data, "--work", "runs/gpu", "--write", "docs/gpu-spark.md")  # fmt: skip
+    sampling = ("-m", "benchmarks.sampling", "--model", "starter", "--device", "cuda", "--json",
+                "docs/gpu-sampling.json")  # fmt: skip
     return max(
         python("-m", "pytest", "-q", "-m", "gpu"),
         python(*table),
         python(*compiled, "--write", "docs/gpu-compiled.md"),
-        python(
-            "-m", "benchmarks.sampling", "--model", "starter", "--json", "docs/gpu-sampling.json"
-        ),
+        python(*sampling),
         python(*prepare) or python(*hour),
     )
 

@@ -225,3 +225,4 @@ def test_cmus_own_index_becomes_captions() -> None:
         "01_01\tplayground - jumps, turn\tclimb, swing",
         "133_14\tWalk Left\tinfant",
     ]
+    assert list(load("cmu_captions").rows(text, ["133"])) == [found[0], found[2]]

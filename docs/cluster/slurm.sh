@@ -14,7 +14,8 @@ OUTPUT=${OUTPUT:-/shared/runs/mine}
 PROCESSES=${PROCESSES:-8} # a machine
 SETTINGS=${SETTINGS:-clip=/shared/runs/clip stream=true num-workers=2}
 
-MASTER=$(scontrol show hostnames "$SLURM_JOB_NODELIST" | head -n 1)
+HOSTS=$(scontrol show hostnames "$SLURM_JOB_NODELIST")
+MASTER=${HOSTS%%$'\n'*} # the first line; a pipe that ends early would end this script, too
 # --resume: a job that was stopped (TERM saves) or requeued goes on; a new one starts.
 # shellcheck disable=SC2086
 srun torchrun \

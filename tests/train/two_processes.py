@@ -8,7 +8,7 @@ from tiny_audio_stage import audio_config, train_audio
 from tiny_stage import generation_config, train_generation
 
 Run = Callable[..., object]
-KINDS = {"audio": ("ddp", "fsdp"), "text": ("fsdp",)}
+KINDS = {"audio": ("ddp", "fsdp"), "text": ("ddp", "fsdp")}
 EVERY = ("log-every=1", "save-every=2", "lr-schedule=constant", "validate-every=100")
 
 
