@@ -16,6 +16,7 @@ export class TextTower {
     this.weight = weights.floats("text.text_proj.weight");
     this.bias = weights.floats("text.text_proj.bias");
     this.places = weights.has("text.places") ? weights.floats("text.places") : null;
+    this.placeKeys = weights.has("text.keys") ? weights.floats("text.keys") : this.places;
     this.remembered = new Map();
   }
 
@@ -66,7 +67,7 @@ export class TextTower {
     const dim = pooled.length, shares = [];
     for (let at = 0; at < this.places.length; at += dim) {
       let cosine = 0;
-      for (let i = 0; i < dim; i++) cosine += this.places[at + i] * pooled[i];
+      for (let i = 0; i < dim; i++) cosine += this.placeKeys[at + i] * pooled[i];
       shares.push(PLACE_SCALE * cosine);
     }
     const most = Math.max(...shares), weights = shares.map((x) => Math.exp(x - most));
