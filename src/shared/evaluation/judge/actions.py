@@ -269,6 +269,13 @@ def rested(values: Tensor, frames: int) -> Tensor | None:
     return shorten(values, frames) if len(values) > frames and comes_back(values) else None
 
 
+def as_asked(values: Tensor, frames: int) -> Motion:
+    """A clip [T,23,6] as a request of so many frames asks for it: a gesture from rest to rest, the
+    first frames of all else."""
+    whole = rested(values, frames)
+    return decode_features(values[:frames] if whole is None else whole)
+
+
 def examples(
     data: PreparedData, records: Sequence[ClipRecord], frames: int
 ) -> tuple[list[ClipRecord], list[Motion]]:

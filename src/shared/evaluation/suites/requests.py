@@ -29,17 +29,16 @@ from ...metrics.frechet import frechet_distance
 from ...metrics.kinetic import FeatureSpace, kinetic_features
 from ...metrics.measurements import at_rest, measure
 from ...metrics.physical import foot_jump, support_slide, worst_acceleration
-from ...motion.features import decode_features
 from ...motion.motion import Motion
 from ..engine import Progress
 from ..judge.actions import (
     MIN_FRAMES,
     ActionJudge,
     ActionRecognizer,
+    as_asked,
     descriptor,
     examples,
     judged_by,
-    rested,
     same_action,
     shown,
     shown_together,
@@ -165,17 +164,8 @@ class Yardstick:
 
     def clips(self, records: Sequence[ClipRecord]) -> Seen:
         """These clips as asked for: gestures from rest to rest, the first seconds of others."""
-        values = [self.data.features(record) for record in records]
-        whole = [rested(each, self.longest) for each in values]
-        pairs = zip(values, whole, strict=True)
-        return Seen.of([
-            decode_features(each[: self.longest] if own is None else own) for each, own in pairs
-        ])  # fmt: skip
-
-    def is_whole(self, record: ClipRecord) -> bool:
-        """Whether `clips` leaves no end of it out."""
-        fits = record.num_frames <= self.longest
-        return fits or rested(self.data.features(record), self.longest) is not None
+        values = (self.data.features(record) for record in records)
+        return Seen.of([as_asked(each, self.longest) for each in values])
 
     def shows(self, seen: Seen) -> list[str]:
         """The action that the judge sees in each."""
@@ -183,10 +173,8 @@ class Yardstick:
 
     def obeyed(self, labels: Sequence[dict[str, str]], seen: Seen) -> np.ndarray:
         """Whether each motion does what its labels say: the action, and which way or side [N]."""
-        rows, shows = (
-            zip(labels, self.shows(seen), seen.motions, strict=True),
-            self.recognizer.shows,
-        )
+        rows = zip(labels, self.shows(seen), seen.motions, strict=True)
+        shows = self.recognizer.shows
         return np.array([shows(w.get("action", ""), f, m) and shown(w, m) for w, f, m in rows])
 
     @property
@@ -453,7 +441,7 @@ def _gestures(yardstick: Yardstick, gestures: Sequence[Request], seen: Seen) -> 
     rests = np.array([at_rest(motion) for motion in seen.motions])
     real = zip(yardstick.records, yardstick.real.motions, yardstick.real_obeyed, strict=True)
     whole = [(motion, done) for record, motion, done in real
-             if record.tag in GESTURES and yardstick.is_whole(record)]  # fmt: skip
+             if record.tag in GESTURES and motion.num_frames < yardstick.longest]  # fmt: skip
     theirs = [(at_rest(motion), done) for motion, done in whole]
     turned = [bootstrap_mean([abs(math.degrees(measure(m).yaw)) for m in motions])
               for motions in (seen.motions, [motion for motion, _ in whole])]  # fmt: skip
