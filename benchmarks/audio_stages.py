@@ -13,6 +13,7 @@ from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.audio.conditioning import CONDITION_ROWS
 from src.shared.motion.trajectory import CHANNELS
 from src.train.finetune_e2e import E2eBatch, E2eObjective, FinetuneE2eConfig
+from src.train.task import to_device
 from src.train.train_audio import AudioBatch, audio_losses
 
 LEARNING_RATE = 1e-5
@@ -33,15 +34,15 @@ def random_batch(batch: int, frames: int) -> AudioBatch:
 
 
 def training_step(
-    network: AudioNetworkConfig, batch: int, frames: int, *, bf16: bool
+    network: AudioNetworkConfig, batch: int, frames: int, *, bf16: bool, device: str = "cpu"
 ) -> Callable[[], None]:
     """Forward, backward and AdamW of the UNet."""
-    model = AudioMotionModel(network)
+    model = AudioMotionModel(network).to(device)
     optimizer = torch.optim.AdamW(model.unet.parameters(), LEARNING_RATE)
-    windows = random_batch(batch, frames)
+    windows = to_device(random_batch(batch, frames), torch.device(device))
 
     def step() -> None:
-        with torch.autocast("cpu", torch.bfloat16, enabled=bf16):
+        with torch.autocast(device, torch.bfloat16, enabled=bf16):
             losses = audio_losses(
                 model.unet.train(), windows, model.diffusion, model.std, velocity_weight=0.5
             )
@@ -51,22 +52,32 @@ def training_step(
 
 
 def e2e_step(
-    network: AudioNetworkConfig, batch: int, frames: int, steps: int, *, bf16: bool
+    network: AudioNetworkConfig,
+    batch: int,
+    frames: int,
+    steps: int,
+    *,
+    bf16: bool,
+    device: str = "cpu",
 ) -> Callable[[], None]:
     """The same of UNet, sampler and decoder together, through `steps` DDIM steps."""
     objective = E2eObjective(
         AudioMotionModel(network), FinetuneE2eConfig(ddim_steps=steps, target_frames=frames)
-    )
+    ).to(device)
     optimizer = torch.optim.AdamW(objective.parameters(), LEARNING_RATE)
-    audio = random_batch(batch, frames)
+    audio = to_device(random_batch(batch, frames), torch.device(device))
     with torch.no_grad():
         target = objective.model.decode(audio.clean).trajectory
     windows = E2eBatch(
-        audio, target, torch.rand(batch), audio.noise, objective.sampler.data_starts[0]
+        audio,
+        target,
+        torch.rand(batch, device=device),
+        audio.noise,
+        objective.sampler.data_starts[0],
     )
 
     def step() -> None:
-        with torch.autocast("cpu", torch.bfloat16, enabled=bf16):
+        with torch.autocast(device, torch.bfloat16, enabled=bf16):
             losses = objective(windows)
         _learn(objective, losses["loss"], optimizer)
 
@@ -78,3 +89,10 @@ def _learn(module: nn.Module, loss: torch.Tensor, optimizer: torch.optim.Optimiz
     nn.utils.clip_grad_norm_(module.parameters(), 1.0)
     optimizer.step()
     optimizer.zero_grad(set_to_none=True)
+    finished(loss.device.type)
+
+
+def finished(device: str) -> None:
+    """Wait until a device has done what it was given."""
+    if device != "cpu":
+        getattr(torch, device).synchronize()

@@ -1,7 +1,7 @@
 """How fast are the audio UNet's step, its samples and its training?
 
 python -m benchmarks.audio_unet [--parts step,sample,rivals,tables] [--profile default]
-    [--threads 2] [--rounds 7] [--quick] [--json OUT]
+    [--device cpu | cuda | mps] [--threads 2] [--rounds 7] [--quick] [--json OUT]
 
 step: one denoising step of 4 s, the document's literal one (literal_unet.py) and ours at equal
 weights, in float32 and with bf16 autocast. sample: the same for 20 DDIM steps. Both networks are
@@ -9,7 +9,8 @@ put together as the document draws them, with cross-attention and without positi
 copy is what `generate` runs on a CPU.
 rivals: seconds a second of motion of ours as shipped, with FiLM, rotary positions and a further
 halving, beside samplers of rivals' sizes.
-tables: the document's section 13 on this machine.
+tables: the three of the document's section 13 (training, end-to-end fine-tuning, sampling) on this
+machine, on --device with its peak of memory; all else is of the CPU.
 
 Weights are random, zero-initialised layers filled: speed does not depend on training.
 """
@@ -192,12 +193,14 @@ def rivals(profile: str, rounds: int) -> dict[str, Any]:
     }
 
 
-def tables(profile: str, rounds: int, batches: tuple[int, ...]) -> dict[str, Any]:
+def tables(
+    profile: str, rounds: int, batches: tuple[int, ...], device: str = "cpu"
+) -> dict[str, Any]:
     """TECH 13.1 to 13.3 on this machine."""
     network = load_audio_network(profile)
     training = {
         f"batch {batch}, {precision}": audio_stages.training_step(
-            network, batch, FRAMES, bf16=precision == "bf16"
+            network, batch, FRAMES, bf16=precision == "bf16", device=device
         )
         for batch in batches
         for precision in ("fp32", "bf16")
@@ -210,30 +213,34 @@ def tables(profile: str, rounds: int, batches: tuple[int, ...]) -> dict[str, Any
     batch = min(8, max(batches))  # TECH 13.2 has 8
     e2e = {
         f"batch {batch}, 5 steps, {precision}": audio_stages.e2e_step(
-            network, batch, FRAMES, 5, bf16=precision == "bf16"
+            network, batch, FRAMES, 5, bf16=precision == "bf16", device=device
         )
         for precision in ("fp32", "bf16")
     }
     found["end_to_end"] = as_rows(in_turns(e2e, rounds))
-    found["inference"] = as_rows(in_turns(inference(network), rounds))
+    found["inference"] = as_rows(in_turns(inference(network, device), rounds))
+    if device == "cuda":
+        found["device"] = torch.cuda.get_device_name()
+        found["peak_gib_of_the_device"] = torch.cuda.max_memory_allocated() / 2**30
     return found
 
 
-def inference(network: AudioNetworkConfig) -> dict[str, Callable[[], object]]:
+def inference(network: AudioNetworkConfig, device: str) -> dict[str, Callable[[], object]]:
     """4 s of motion in 5 to 50 DDIM steps; decoder and post-processing by themselves."""
-    model = filled(AudioMotionModel(network))
+    model = filled(AudioMotionModel(network)).to(device)
     fast = sampling_copy(model.unet, torch.bfloat16)
-    noise, audio = torch.randn(1, 25, FRAMES), torch.rand(1, CONDITION_ROWS, FRAMES)
+    noise = torch.randn(1, 25, FRAMES, device=device)
+    audio = torch.rand(1, CONDITION_ROWS, FRAMES, device=device)
 
     def steps(number: int, unet: UNet1D) -> Callable[[], object]:
-        return torch.no_grad()(lambda: sampled(model, unet, noise, audio, number))
+        return torch.no_grad()(lambda: sampled(model, unet, noise, audio, number).cpu())
 
     with torch.no_grad():
         rows = sampled(model, model.unet, noise, audio, 5)
-        trajectory = model.decode(rows).trajectory.numpy()
+        trajectory = model.decode(rows).trajectory.cpu().numpy()
     runs = {f"{number} steps, fp32": steps(number, model.unet) for number in (5, 10, 20, 50)}
     runs |= {f"{number} steps, sampling copy": steps(number, fast) for number in (5, 10, 20, 50)}
-    runs["decoder"] = torch.no_grad()(lambda: model.decode(rows))
+    runs["decoder"] = torch.no_grad()(lambda: model.decode(rows).trajectory.cpu())
     runs["post-processing"] = lambda: MotionPostProcessor().process(trajectory)
     return runs
 
@@ -258,6 +265,7 @@ def main() -> None:
     parser.add_argument("--profile", default="default", help="of audio_network.yaml")
     parser.add_argument("--table-profile", default="lightweight", help="of the tables")
     parser.add_argument("--batches", default="4,16,32", help="of the training table")
+    parser.add_argument("--device", choices=("cpu", "cuda", "mps"), default="cpu")
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--rounds", type=int, default=7)
     parser.add_argument("--quick", action="store_true", help="one round, small batches")
@@ -286,7 +294,7 @@ def main() -> None:
     if "rivals" in parts:
         result["rivals"] = rivals(arguments.profile, rounds)
     if "tables" in parts:
-        result["tables"] = tables(arguments.table_profile, rounds, batches)
+        result["tables"] = tables(arguments.table_profile, rounds, batches, arguments.device)
     result["peak_gib"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20
     show(result)
     if arguments.json:

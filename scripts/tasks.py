@@ -120,8 +120,11 @@ def gpu_check(arguments: list[str]) -> int:
             data, "--work", "runs/gpu", "--write", "docs/gpu-spark.md")  # fmt: skip
     sampling = ("-m", "benchmarks.sampling", "--model", "starter", "--device", "cuda", "--json",
                 "docs/gpu-sampling.json")  # fmt: skip
+    tables = ("-m", "benchmarks.audio_unet", "--parts", "tables", "--device", "cuda", "--json",
+              "docs/gpu-tables.json")  # fmt: skip
     return max(
         python("-m", "pytest", "-q", "-m", "gpu"),
+        python(*tables),
         python(*table),
         python(*compiled, "--write", "docs/gpu-compiled.md"),
         python(*sampling),
