@@ -61,7 +61,7 @@ def test_ddp_and_fsdp2_are_one_process_with_the_whole_batch(
         },
         stderr=subprocess.PIPE,
         text=True,
-        timeout=300,
+        timeout=600,
         check=False,
     )
     assert done.returncode == 0, done.stderr

@@ -94,6 +94,7 @@ class Measurements:
     kicks: tuple[int, int]  # times each foot is kicked up in front
     punches: tuple[int, int]  # times each fist shoots forward to a stretched arm
     claps: int  # times the hands meet in front of the body
+    slashes: int  # times both hands, held together, sweep far in a third of a second
     bows: int  # times the chest bends forward and comes up again
     squats: int  # times the pelvis goes deep and comes up again with the feet on the ground
     jumps: int  # times both feet leave the ground together, the pelvis above standing height
@@ -129,7 +130,7 @@ def smooth(values: Array, frames: int) -> Array:
 
 def count_peaks(values: Array, high: float, low: float) -> int:
     """Times a curve [T] rises above `high`; it must have been below `low` before each time."""
-    count, armed = 0, bool(values[0] <= high)
+    count, armed = 0, not len(values) or bool(values[0] <= high)
     for value in values:
         if armed and value > high:
             count, armed = count + 1, False
@@ -260,12 +261,17 @@ def _arms_at_work(tracks: _Tracks) -> Figures:
     middle = (tracks.seen("l_wrist") + tracks.seen("r_wrist")) / 2
     in_front = (middle[:, 2] > 0.12) & (middle[:, 1] > 0.05)
     claps = count_peaks(np.where(in_front, -gap, -1.0), -0.17, -0.24)
+    third = max(round(tracks.fps / 3), 1)
+    held = smooth((gap < 0.3).astype(float), third)[third // 2 :] > 0.99  # about the sweep's middle
+    swept = np.linalg.norm(middle[third:] - middle[:-third], axis=-1)
+    swept = np.where(held[: len(swept)], swept, 0.0)
     tilt = np.degrees(np.arcsin(np.clip((up[:, [0, 2]] * _ahead(tracks)).sum(-1), -1, 1)))
     tall = tracks.joints[:, 0, 1] > 0.83 * REST_PELVIS_HEIGHT  # else it is a squat or a jump
     tilt = np.where(tall & (_ground_speed(tracks) < 0.5), tilt, np.minimum(tilt, 25.0))
     return {
         "punches": tuple(punches),
         "claps": claps,
+        "slashes": count_peaks(swept, 0.4, 0.2),
         "bows": count_peaks(smooth(tilt, 5), 35.0, 18.0),
     }
 
@@ -454,6 +460,7 @@ _ACTIONS: dict[str, Check] = {
     "spin": lambda m: abs(m.yaw) > 4.7 and _within(m, 0.8),
     "kick": lambda m: max(m.kicks) >= 1,
     "punch": lambda m: max(m.punches) >= 1 and not _travels(m, 0.25),
+    "slash": lambda m: m.slashes >= 1,
     **dict.fromkeys(("raise", "bye"), lambda m: _hand_up(m, 0) or _hand_up(m, 1)),
     **{name: _RAW[name] for name in ("squat", "jump", "clap", "bow", "stand")},
 }

@@ -171,7 +171,11 @@ function armsAtWork({ fps, heading, joint, seen, up, ground }) {
     const degrees = (Math.asin(Math.min(Math.max(along, -1), 1)) * 180) / Math.PI;
     return pelvis[t][1] > 0.83 * REST_PELVIS_HEIGHT && ground[t] < 0.5 ? degrees : Math.min(degrees, 25);
   });
-  return { punches, claps: countPeaks(closed, -0.17, -0.24), bows: countPeaks(smooth(tilt, 5), 35, 18) };
+  const third = Math.max(round(fps / 3), 1), half = Math.floor(third / 2);
+  const held = smooth(gap.map((value) => Number(value < 0.3)), third);
+  const middle = left.map((p, t) => p.map((value, axis) => (value + right[t][axis]) / 2));
+  const swept = sizes(sub(middle.slice(third), middle.slice(0, -third))).map((value, t) => (held[t + half] > 0.99 ? value : 0));
+  return { punches, claps: countPeaks(closed, -0.17, -0.24), slashes: countPeaks(swept, 0.4, 0.2), bows: countPeaks(smooth(tilt, 5), 35, 18) };
 }
 
 function feet({ joint, seen }) {
@@ -233,7 +237,7 @@ export const ACTIONS = ofABody({
   spin: (m) => Math.abs(m.yaw) > 4.7 && within(m, 0.8),
   kick: (m) => Math.max(...m.kicks) >= 1,
   punch: (m) => Math.max(...m.punches) >= 1 && !travels(m, 0.25),
-  raise: anyHand, bye: anyHand,
+  slash: (m) => m.slashes >= 1, raise: anyHand, bye: anyHand,
   squat: (m) => m.squats >= 1, jump: (m) => m.jumps >= 1, clap: (m) => m.claps >= 1, bow: (m) => m.bows >= 1,
 });
 

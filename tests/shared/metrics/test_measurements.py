@@ -1,9 +1,14 @@
 """Kinematic definitions of actions: which limb, to which side, how often."""
 
+import math
+
+import numpy as np
 import pytest
 
 from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.metrics.measurements import ACTIONS, measure, repetitions, side_check
+from src.shared.motion.motion import Motion
+from src.shared.motion.skeleton import JOINT_INDEX, NUM_JOINTS, REST_PELVIS_HEIGHT
 
 SIDED = {
     "kick": {"action": "kick", "side": "left", "count": "2"},
@@ -32,3 +37,25 @@ def test_repetitions_are_those_of_the_limb_or_of_both(action: str) -> None:
     assert repetitions(action, seen) == repetitions(action, seen, "left") == 2
     assert repetitions(action, seen, "right") == 0
     assert repetitions("walk", seen) is None
+
+
+def swordsman(*, degrees: float, apart: bool = False) -> Motion:
+    """Arms ahead, hands together or apart; the chest turns to and fro so far, a second each way."""
+    frames = 90
+    q = np.zeros((frames, NUM_JOINTS, 4), np.float32)
+    q[..., 0] = 1
+    ahead = math.radians(60 if apart else 110) / 2
+    for name, sign in (("l_shoulder", -1), ("r_shoulder", 1)):
+        q[:, JOINT_INDEX[name], 0] = math.cos(ahead)
+        q[:, JOINT_INDEX[name], 2] = sign * math.sin(ahead)
+    turn = np.radians(degrees) * np.cos(np.pi * np.arange(frames) / 15) / 2 / 2
+    q[:, JOINT_INDEX["spine3"], 0], q[:, JOINT_INDEX["spine3"], 2] = np.cos(turn), np.sin(turn)
+    place = np.tile(np.float32([0, REST_PELVIS_HEIGHT, 0]), (frames, 1))
+    return Motion(quaternions=q, root_position=place, contacts=np.ones((frames, 2), np.float32))
+
+
+def test_a_slash_is_both_hands_together_that_sweep_far() -> None:
+    assert measure(swordsman(degrees=120)).slashes >= 2
+    assert ACTIONS["slash"](measure(swordsman(degrees=120)))
+    for other in (swordsman(degrees=20), swordsman(degrees=120, apart=True)):
+        assert measure(other).slashes == 0
