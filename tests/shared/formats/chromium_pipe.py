@@ -16,6 +16,7 @@ FLAGS = (
     "--disable-gpu",
     "--disable-3d-apis",  # without WebGL, which software makes slow
     "--disable-background-networking",
+    "--disable-dev-shm-usage",  # a container may give it too little shared memory to live on
     "--no-first-run",
     "--mute-audio",
     "--autoplay-policy=no-user-gesture-required",
@@ -36,11 +37,16 @@ def chromium() -> str | None:
     return next((path for path in map(shutil.which, NAMES) if path), None)
 
 
+class Gone(Exception):
+    """The browser ended by itself."""
+
+
 class Browser:
     """One page in a browser of its own; a context manager.
 
     `problems` collects what the page logged as an error or warning, and its exceptions; `requests`
-    the addresses that it asked for.
+    the addresses that it asked for. A browser that dies before its first word, as on
+    a busy machine, is started anew, twice at most.
     """
 
     def __init__(
@@ -54,21 +60,16 @@ class Browser:
         self.problems: list[str] = []
         self.requests: list[str] = []
         self._count = 0
-        there, self._out = os.pipe()
-        self._in, back = os.pipe()
-        command = [str(chromium()), *FLAGS, *flags, f"--window-size={size[0]},{size[1]}",
-                   f"--user-data-dir={profile}", "about:blank"]  # fmt: skip
-        shim = [sys.executable, "-c", SHIM, str(there), str(back)]
-        self._process = subprocess.Popen(
-            shim + command,
-            pass_fds=(there, back),
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
-        os.close(there)
-        os.close(back)
-        self._rest = b""
-        targets = self.call("Target.getTargets")["targetInfos"]
+        options = (*FLAGS, *flags, f"--window-size={size[0]},{size[1]}")
+        for attempt in range(3):
+            self._start(*options, f"--user-data-dir={profile / str(attempt)}")
+            try:
+                targets = self.call("Target.getTargets")["targetInfos"]
+                break
+            except (Gone, BrokenPipeError):
+                self.__exit__()
+                if attempt == 2:
+                    raise
         page = next(target["targetId"] for target in targets if target["type"] == "page")
         attached = self.call("Target.attachToTarget", targetId=page, flatten=True)
         self._session: str | None = attached["sessionId"]
@@ -76,6 +77,20 @@ class Browser:
             self.call(f"{domain}.enable")
         self.call("Page.navigate", url=url)
         self.wait(f"document.readyState === 'complete' && {ready}")
+
+    def _start(self, *options: str) -> None:
+        there, self._out = os.pipe()
+        self._in, back = os.pipe()
+        shim = [sys.executable, "-c", SHIM, str(there), str(back)]
+        self._process = subprocess.Popen(
+            [*shim, str(chromium()), *options, "about:blank"],
+            pass_fds=(there, back),
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        os.close(there)
+        os.close(back)
+        self._rest = b""
 
     _session: str | None = None
 
@@ -125,7 +140,8 @@ class Browser:
     def _read(self) -> dict[str, Any]:
         while b"\0" not in self._rest:
             piece = os.read(self._in, 1 << 16)
-            assert piece, "the browser has gone"
+            if not piece:
+                raise Gone("the browser has gone")
             self._rest += piece
         message, self._rest = self._rest.split(b"\0", 1)
         event: dict[str, Any] = json.loads(message)

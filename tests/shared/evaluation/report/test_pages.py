@@ -2,7 +2,6 @@
 
 import json
 import re
-import subprocess
 from dataclasses import replace
 from pathlib import Path
 
@@ -24,7 +23,7 @@ from src.shared.evaluation.report.tables import (
 )
 from src.shared.evaluation.stats import Difference
 from tests.shared.evaluation.toy_bench import toy_bench
-from tests.shared.formats.chromium_pipe import chromium
+from tests.shared.formats.chromium_pipe import Browser, chromium
 
 MANIFEST = {"branch": "text", "model": {"w": "1"}, "settings": {"seed": 0, "replications": 3}}
 
@@ -67,15 +66,10 @@ def test_markdown_takes_no_html_from_what_it_quotes(tmp_path: Path) -> None:
 
 @pytest.mark.skipif(chromium() is None, reason="no Chromium here")
 def test_a_browser_has_nothing_to_complain_about(tmp_path: Path) -> None:
-    folder = write(tmp_path / "report")
-    command = [
-        str(chromium()), "--headless", "--no-sandbox", "--disable-gpu", "--disable-3d-apis",
-        f"--user-data-dir={tmp_path}", "--enable-logging=stderr", "--window-size=1000,700",
-        "--virtual-time-budget=4000", "--dump-dom", (folder / "report.html").as_uri(),
-    ]  # fmt: skip
-    done = subprocess.run(command, capture_output=True, text=True, timeout=200)
-    assert "Worst first" in done.stdout
-    assert not [line for line in done.stderr.splitlines() if "CONSOLE" in line]
+    page = write(tmp_path / "report") / "report.html"
+    with Browser(page.as_uri(), tmp_path / "profile", ready="true") as browser:
+        assert "Worst first" in browser.evaluate("document.body.textContent")
+        assert not browser.problems
 
 
 def test_the_pages_can_be_made_again(tmp_path: Path) -> None:
