@@ -45,7 +45,7 @@ from ..judge.actions import (
 )
 from ..report.tables import Cell, Column, Grid, GridRow, Report, report_data
 from ..samples import frozen_pose, spread_over_groups
-from ..stats import Estimate, bootstrap_mean, share_of
+from ..stats import Estimate, bootstrap_mean, replicated, share_of
 from .text import LANGUAGES, errors_only
 
 GESTURES = ("wave", "raise", "bow", "bye", "call", "respond", "guide", "clap")
@@ -54,6 +54,8 @@ LONG_WALKS = (2.0, 10.0, 30.0, 60.0)  # seconds
 FLOOR_SHARE = 4  # every so many-th plain request is put to the floors
 PIECES, HOP = (60, 120), 15  # frames: windows in which the parts of a composition are looked for
 REAL = "captured, held out"  # name of the row
+LOOKED_UP = "captured, looked up in training"
+DRAWS = 20  # of the clips that a distance is held against
 
 
 class Model(Protocol):
@@ -72,6 +74,7 @@ class RequestSettings:
     seconds: float = 4.0
     variety_seeds: int = 8  # of the spread of gestures
     max_clips: int = 600  # captured clips of the reference
+    min_matches: int = 10  # held-out clips with a request's labels, to take part in distances
     seed: int = 0
 
 
@@ -130,8 +133,7 @@ class Yardstick:
         progress("descriptors of the training clips")
         chosen = spread_over_groups(judged_by(train), 4 * settings.max_clips, settings.seed)
         fitted, motions = examples(data, chosen, self.longest)
-        self.known = Seen.of(motions)
-        self.known_tags = [record.tag for record in fitted]
+        self.known, self.known_records = Seen.of(motions), fitted
         try:
             self.recognizer = ActionRecognizer.fit(fitted, self.known.motions, self.known.features)
         except ValueError as error:
@@ -157,7 +159,7 @@ class Yardstick:
         made = [r for r in train if r.provenance == "procedural" and r.tag in self.captured]
         made = spread_over_groups(made, settings.max_clips, settings.seed)
         self.procedural = self.clips(made) if made else None
-        self.procedural_tags = [record.tag for record in made]
+        self.procedural_records = made
         pairs = zip(self.real.motions, self.tags, strict=True)
         runs = [worst_acceleration(motion) for motion, tag in pairs if tag == "run"]
         self.top_run = float(np.percentile(np.concatenate(runs), 99.9)) if runs else 0.0
@@ -186,8 +188,9 @@ class Yardstick:
         """Whether the nearest clip of the action is one that nobody recorded; NaN without any."""
         if self.procedural is None:
             return np.full(len(seen), np.nan)
-        sources = (self.known, self.known_tags), (self.procedural, self.procedural_tags)
-        points = [(self.space(clips.features), np.array(names)) for clips, names in sources]
+        sources = (self.known, self.known_records), (self.procedural, self.procedural_records)
+        points = [(self.space(clips.features), np.array([r.tag for r in records]))
+                  for clips, records in sources]  # fmt: skip
         answers = []
         for tag, point in zip(tags, self.space(seen.features), strict=True):
             captured, made = (
@@ -196,6 +199,16 @@ class Yardstick:
             both = len(captured) and len(made)
             answers.append(float(made.min() < captured.min()) if both else np.nan)
         return np.array(answers)
+
+    def references(self, labels: dict[str, str]) -> list[int]:
+        """The held-out clips of what was asked for, none where there are hardly any."""
+        found = answering(labels, self.records)
+        return found if len(found) >= self.settings.min_matches else []
+
+
+def answering(labels: dict[str, str], records: Sequence[ClipRecord]) -> list[int]:
+    """The clips that have all these labels, whatever others they have."""
+    return [row for row, record in enumerate(records) if labels.items() <= record.labels.items()]
 
 
 def evaluate_requests(
@@ -256,7 +269,7 @@ def _obedience(yardstick: Yardstick, rows: dict[str, Asked]) -> Grid:
     languages = yardstick.settings.languages
     found = {REAL: GridRow({"all": share_of(yardstick.real_obeyed)}, len(yardstick.real))}
     if yardstick.procedural is not None:
-        tags = [{"action": tag} for tag in yardstick.procedural_tags]
+        tags = [{"action": record.tag} for record in yardstick.procedural_records]
         done = yardstick.obeyed(tags, yardstick.procedural)
         found["procedural"] = GridRow({"all": share_of(done)}, len(tags))
     for name, asked in rows.items():
@@ -327,37 +340,61 @@ def _by_action(yardstick: Yardstick, asked: Asked) -> Grid:
 
 def _realism(yardstick: Yardstick, rows: dict[str, Asked]) -> Grid:
     """Distances from captured clips of the same actions, and what a body shows of itself."""
-    tags, real, judge = yardstick.tags, yardstick.real, yardstick.judge
-    rng = np.random.default_rng(yardstick.settings.seed)
-    halves = np.array_split(rng.permutation(len(tags)), 2)
-    features = kinetic(real)
-    space = FeatureSpace.fit(features, np.arange(features.shape[1]) % 3)
+    real, held, judge = yardstick.real, yardstick.records, yardstick.judge
+    moving = kinetic(real)
+    space = FeatureSpace.fit(moving, np.arange(moving.shape[1]) % 3)
+    references = judge.embed(real.features), space(moving)
 
-    def distances(seen: Seen, wanted: Sequence[str], reference: np.ndarray) -> dict[str, Cell]:
-        """Against as many captured clips of the same actions."""
-        pool = [[i for i in reference if tags[i] == tag] for tag in wanted]
-        own = [row for row, same in enumerate(pool) if same]
-        if len(own) < 2:
+    def distances(
+        labels: Sequence[dict[str, str]], seen: Seen, records: Sequence[ClipRecord] = ()
+    ) -> dict[str, Cell]:
+        """Of a motion a request, or of a clip drawn from `records`, against a held-out clip each.
+
+        Averages over draws; a clip is not held against one of its own take.
+        """
+        own = [answering(w, records) if records else [row] for row, w in enumerate(labels)]
+        pools = [pair for w, rows in zip(labels, own, strict=True)
+                 if all(pair := (yardstick.references(w), rows))]  # fmt: skip
+        if len(pools) < 2:
             return {}
-        there = [int(rng.choice(pool[row])) for row in own]
-        a, b = seen.rows(own), real.rows(there)
-        nearer = yardstick.nearer_to_procedural([wanted[row] for row in own], a)
-        return {
-            "learned": frechet_distance(judge.embed(a.features), judge.embed(b.features)),
-            "kinematic": space.distance(kinetic(a), kinetic(b)),
-            "procedural": share_of(nearer),
-        }
+        used = sorted({row for _, rows in pools for row in rows})
+        place, seen = {row: at for at, row in enumerate(used)}, seen.rows(used)
+        points, found = (judge.embed(seen.features), space(kinetic(seen))), list[list[float]]()
+        for draw in range(DRAWS):
+            rng = np.random.default_rng([yardstick.settings.seed, draw])
+            here, there = list[int](), list[int]()
+            for pool, candidates in pools:
+                there.append(int(rng.choice(pool)))
+                if records:
+                    take = held[there[-1]].take
+                    candidates = [r for r in candidates if records[r].take != take] or candidates
+                here.append(place[int(rng.choice(candidates))])
+            pairs = zip(points, references, strict=True)
+            found.append([frechet_distance(a[here], b[there]) for a, b in pairs])
+        names = "learned", "kinematic"
+        return dict(zip(names, map(replicated, zip(*found, strict=True)), strict=True))
 
-    half, everything = halves[0].tolist(), np.arange(len(tags))
-    gait = gaits(real, tags, yardstick.top_run)
-    apart = distances(real.rows(half), [tags[i] for i in half], halves[1])
-    found = {REAL: GridRow(apart | gait, len(half))}
-    pairs = {name: (asked.seen, asked.actions) for name, asked in rows.items()}
+    known = yardstick.known_records
+    plain = [i for i, record in enumerate(known)
+             if record.provenance == "captured" and "style" not in record.labels]  # fmt: skip
+    clips = {REAL: (real, held)}
+    if plain:
+        clips[LOOKED_UP] = yardstick.known.rows(plain), [known[i] for i in plain]
     if yardstick.procedural is not None:
-        pairs = {"procedural": (yardstick.procedural, yardstick.procedural_tags)} | pairs
-    for name, (seen, wanted) in pairs.items():
-        gait = gaits(seen, wanted, yardstick.top_run)
-        found[name] = GridRow(distances(seen, wanted, everything) | gait, len(seen))
+        clips["procedural"] = yardstick.procedural, yardstick.procedural_records
+    asked, found = rows["generated"].labels, dict[str, GridRow]()
+
+    def row(seen: Seen, actions: Sequence[str], distances: dict[str, Cell]) -> GridRow:
+        nearer = share_of(yardstick.nearer_to_procedural(actions, seen))
+        gait = gaits(seen, actions, yardstick.top_run)
+        return GridRow({**distances, **gait, "procedural": nearer}, len(seen))
+
+    for name, (seen, records) in clips.items():
+        tags = [record.tag for record in records]
+        found[name] = row(seen, tags, distances(asked, seen, records))
+    for name, each in rows.items():
+        found[name] = row(each.seen, each.actions, distances(each.labels, each.seen))
+    matches = yardstick.settings.min_matches
     columns = (
         Column("learned", "FD, judge's axes", 1, "low"),
         Column("kinematic", "FID_k", 1, "low"),
@@ -369,11 +406,12 @@ def _realism(yardstick: Yardstick, rows: dict[str, Asked]) -> Grid:
     note = (
         "FD: Fréchet distance in the axes along which the judge tells captured actions apart, in"
         " deviations within an action; FID_k: of 66 kinetic features. Each motion stands against"
-        " one captured clip of its action; the first row is one half of the held-out clips against"
-        " the other. *nearer to procedural*: the nearest clip of the same action is one that nobody"
-        " recorded. *frames beyond captured*: worst joint's acceleration above the 99.9th"
-        " percentile of captured runs. A frozen pose is smooth and does not slide: read the"
-        " distances first."
+        f" one held-out clip with the labels asked for, where {matches} or more have them;"
+        f" mean of {DRAWS} draws of these. The first two rows answer the same requests with a clip"
+        " of another take, and with a plain one that was trained on. *nearer to procedural*: the"
+        " nearest clip of the same action is one that nobody recorded. *frames beyond captured*:"
+        " worst joint's acceleration above the 99.9th percentile of captured runs. A frozen pose is"
+        " smooth and does not slide: read the distances first."
     )
     return Grid("realism", "Like captured motion", columns, found, note)
 
