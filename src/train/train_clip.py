@@ -18,7 +18,7 @@ import torch
 import torch.distributed
 from torch import Tensor, nn
 
-from ..shared.config_schema import PAIRS, NetworkConfig, TrainClipConfig
+from ..shared.config_schema import PAIRS, ClipConfig, NetworkConfig, TrainClipConfig
 from ..shared.data.captions.word_dropout import drop_words
 from ..shared.data.text_motion import TextMotionBatch
 from ..shared.errors import UsageError
@@ -105,11 +105,14 @@ class ClipTask(Task):
                 f"clip.text-model {PAIRS} is made by `train text clip=null`;"
                 " give that run's folder as text=FOLDER"
             )
-        clip = MotionClip(network)
         if config.text is None:
             self.tokenizer = new_tokenizer(network.clip, self._captions)
+            clip = MotionClip(network)
         else:
-            clip.text, self.tokenizer = load_text_tower(config.text, network.embed_dim)
+            tower, self.tokenizer = load_text_tower(config.text, network.embed_dim)
+            self.network = with_text_sizes(network, tower.config)
+            clip = MotionClip(self.network, encoder_config=tower.encoder_config())
+            clip.text = tower
         nn.init.constant_(clip.logit_scale, -math.log(config.temperature))
         self.text = clip.text
         self.learning_rates = encoder_rates(clip.text, "clip.text.", config.encoder_learning_rate)
@@ -191,6 +194,13 @@ class ClipTask(Task):
         )
         mean, std = (motion_rows(v, self.network) for v in (self.data.mean, self.data.std))
         ClipBundle(module.clip, self.tokenizer, mean, std, card).save_pretrained(folder)
+
+
+def with_text_sizes(network: NetworkConfig, tower: ClipConfig) -> NetworkConfig:
+    """The network with another text tower's sizes, which only its training knows."""
+    text = {name for name in ClipConfig.model_fields if not name.startswith("motion_")}
+    sizes = tower.model_dump(include=text)
+    return network.model_copy(update={"clip": network.clip.model_copy(update=sizes)})
 
 
 def _recalls(text: Tensor, motion: Tensor, columns: list[Any]) -> tuple[float, ...]:

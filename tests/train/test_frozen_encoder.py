@@ -124,13 +124,15 @@ def test_a_pretrained_encoder_learns_at_its_own_rate(
         assert rates[id(weight)] == wanted, name
 
 
-def test_the_recipe_of_default_from_xlm_r_to_motions(
-    prepared: Path, tmp_path: Path, network: NetworkConfig
+@pytest.mark.parametrize("tower", ["xlm-r", "pairs"])
+def test_the_recipe_of_default_from_captions_to_motions(
+    prepared: Path, tmp_path: Path, network: NetworkConfig, tower: str
 ) -> None:
     """Its three stages as commands; sizes and lengths alone are smaller."""
     sizes = [f"network.{size}" for size in NETWORK]
     common = ["--config", "default", "--data", str(prepared), *SETTINGS, *sizes, "steps=2"]
-    common += [f"network.clip.text-model='{network.clip.text_model}'", "languages=[en]"]
+    model = "pairs" if tower == "pairs" else network.clip.text_model
+    common += [f"network.clip.text-model='{model}'", "languages=[en]"]
     for stage, name, given in (
         (train_text, "text", ["captions-per-group=2"]),
         (train_clip, "clip", [f"text='{tmp_path / 'text'}'"]),
