@@ -220,14 +220,13 @@ class CaptionLanguage:
 
         @cache  # many frames differ in their subject alone
         def pairs_for(form: str, framed: frozenset[str]) -> dict[int, list[Pair]]:
-            index = self.content.forms.index(form)
             by_missing: dict[int, list[Pair]] = {}
             for phrase in phrases:
                 if phrase.forms is not None and form not in phrase.forms:
                     continue
                 said = _labels(framed).union(phrase.when)
                 for verb, rest in product(phrase.verbs, phrase.rest):
-                    words = verb.split("|")[index].strip()
+                    words = self.content.verb(verb, form)
                     slots = (framed, _slots(words), _slots(rest) - said)
                     missing = _missing(slots, phrase, stated, worded)
                     if words != "-" and missing is not None:

@@ -138,6 +138,14 @@ class _Section(Config):
     model_config = ConfigDict(coerce_numbers_to_str=True)
 
 
+def compiled(pattern: str) -> re.Pattern[str]:
+    """A regular expression of a caption file; raises ValueError where it is none."""
+    try:
+        return re.compile(pattern)
+    except re.error as error:
+        raise ValueError(f"{pattern!r} is no regular expression: {error}") from error
+
+
 class Frame(_Section):
     """Sentence frames that share a verb form and its words (subject, possessive, ...)."""
 
@@ -145,6 +153,34 @@ class Frame(_Section):
     text: list[str] = Field(min_length=1)
     words: dict[str, list[str]] = Field({})
     weight: int = Field(1, ge=1)
+
+
+class Tense(_Section):
+    """A verb form made of another one: in each step the first rule that fits changes it once.
+
+    A verb that no rule of a step fits stays as it is there; one that a rule makes "-" has no such
+    form.
+    """
+
+    of: str
+    steps: list[list[tuple[str, str]]] = Field(min_length=1)
+
+    @field_validator("steps")
+    @classmethod
+    def _compile(cls, steps: list[list[tuple[str, str]]]) -> list[list[tuple[str, str]]]:
+        for pattern, _ in (rule for step in steps for rule in step):
+            compiled(pattern)
+        return steps
+
+    def __call__(self, verb: str) -> str:
+        """The form of a verb, both as templates."""
+        for step in self.steps if verb != "-" else ():
+            for pattern, replacement in step:
+                changed, times = re.subn(pattern, replacement, verb, count=1)
+                if times:
+                    verb = changed
+                    break
+        return verb
 
 
 class Phrase(_Section):
@@ -185,10 +221,7 @@ class MirrorTable(_Section):
     @classmethod
     def _compiles(cls, keep: list[str]) -> list[str]:
         for pattern in keep:
-            try:
-                re.compile(pattern)
-            except re.error as error:
-                raise ValueError(f"{pattern!r} is no regular expression: {error}") from error
+            compiled(pattern)
         return keep
 
 
@@ -198,6 +231,7 @@ class LanguageFile(_Section):
     language: str = Field(min_length=2)
     name: str
     forms: list[str] = Field(min_length=1)
+    tenses: dict[str, Tense] = Field({})
     spaces: bool = True
     sentence_end: str = "."
     contractions: list[tuple[str, str]] = Field([])
@@ -213,9 +247,12 @@ class LanguageFile(_Section):
     def _check(self) -> Self:
         if OTHER not in self.actions:
             raise ValueError(f"actions.{OTHER}: missing; it words the actions without an entry")
+        forms = list(self.forms)
+        for name, tense in self.tenses.items():  # of one that stands before it
+            _check_form(f"tenses.{name}.of", tense.of, forms)
+            forms.append(name)
         for key, form in self._named_forms():
-            if form not in self.forms:
-                raise ValueError(f"{key}: form {form!r} is not one of {', '.join(self.forms)}")
+            _check_form(key, form, forms)
         for key, verb in self._verbs():
             if len(verb.split("|")) != len(self.forms):
                 raise ValueError(
@@ -236,6 +273,12 @@ class LanguageFile(_Section):
                     f"known: {', '.join(sorted(known | more))}"
                 )
         return self
+
+    def verb(self, forms: str, form: str) -> str:
+        """A form of a verb, of which a file holds some; "-" where there is none."""
+        if tense := self.tenses.get(form):
+            return tense(self.verb(forms, tense.of))
+        return forms.split("|")[self.forms.index(form)].strip()
 
     def _named_forms(self) -> Iterator[tuple[str, str]]:
         for i, frame in enumerate(self.frames):
@@ -270,6 +313,11 @@ class LanguageFile(_Section):
             for i, phrase in enumerate(action.phrases):
                 verbs = [form for verb in phrase.verbs for form in verb.split("|")]
                 yield from _lists(f"{key}.phrases.{i}", {"verbs": verbs, "rest": phrase.rest}, own)
+
+
+def _check_form(key: str, form: str, forms: Collection[str]) -> None:
+    if form not in forms:
+        raise ValueError(f"{key}: form {form!r} is not one of {', '.join(forms)}")
 
 
 def _lists(

@@ -22,7 +22,12 @@ class CaptionMatcher:
         names = list(content.actions) if action is None else [action]
         phrases = [phrase for name in names for phrase in content.actions[name].phrases]
         self._slots: dict[str, set[str]] = {
-            "verb": {form for p in phrases for verb in p.verbs for form in verb.split("|")},
+            "verb": {
+                content.verb(verb, form)
+                for phrase in phrases
+                for verb in phrase.verbs
+                for form in (*content.forms, *content.tenses)
+            },
             "rest": {rest for phrase in phrases for rest in phrase.rest},
         }
         for words in [content.words, *(frame.words for frame in content.frames)]:
