@@ -70,7 +70,8 @@ class Words:
         self.after = re.compile(rf"{_COMMAS}?\s*{_any(all_of('after'))}\s*", re.I)
         own = _any([*all_of("own"), *all_of("left"), *all_of("right")])
         limbs = rf"(?:{own}\s*)*{_any(all_of('limbs'))}"
-        self.sign = re.compile(rf"{_any(all_of('with'))}|{limbs}", re.I)
+        # But "coup de poing" neither names a fist nor is it a gerund.
+        self.sign = re.compile(rf"(?<!de )(?:{_any(all_of('with'))}|{limbs})", re.I)
         self.manner = re.compile(rf"{_any(all_of('manner'))}$", re.I)
         self.no_side = re.compile(_any(all_of("no_side")), re.I)
         self.left, self.right = (re.compile(_any(all_of(side)), re.I) for side in ("left", "right"))

@@ -15,8 +15,10 @@ ACTIONS = {
     "clap": ("clap", "klatsch", "拍手"),
     "raise": ("rais", "arms up", "in the air", "alzad", "levé", "erhoben", "上げ", "举"),
     "stand": ("stands",),
+    "punch": ("poing",),
+    "kick": ("coup de",),
 }
-ARMS = ("wave", "clap", "raise")
+ARMS = ("wave", "clap", "raise", "punch")
 
 
 def read(text: str) -> Reading:
@@ -225,6 +227,7 @@ def test_what_the_arms_do_meanwhile(sentence: str, clause: Clause):
         "walks with her hands about about about in the air",
         "waves with the left hand raised",
         "左边请走",
+        "un coup de poing",
     ],
 )
 def test_what_takes_more_than_arms_is_not_done_meanwhile(sentence: str):
