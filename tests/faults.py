@@ -79,7 +79,7 @@ def subjects(folder: Path, workers: int) -> dict[str, Subject]:
         ],
         "train clip": train("clip", data, *words),
         "train clip, streamed": train("clip", data, *words, "stream=true"),
-        "train generation": train("generation", data, *words, f"clip={clip}"),
+        "train generation": train("generation", data, *words, f"clip={clip}", "steps=120"),
         "train audio": train("audio", circles, *sound),
         "memory build": lambda out: ["memory", "build", str(dancers), f"--out={out}"],
     }
@@ -154,6 +154,9 @@ class Trial:
         self.run(reference)
         self.seconds = time.monotonic() - begin
         self.wanted = contents(reference)
+        # What follows the steps of a training, and lets itself not be interrupted, may take longer.
+        steps = [path.stat().st_mtime for path in reference.glob("log.jsonl")]
+        self.steps = max(steps) - time.time() + self.seconds if steps else self.seconds
         files = [path for path in reference.rglob("*") if path.is_file()]
         self.size = sum(path.stat().st_size for path in files)
         self.last = max(files, key=lambda path: path.stat().st_mtime_ns).relative_to(reference)
@@ -163,9 +166,12 @@ class Trial:
         return self.checked(out, ended(start(self.subject(out), self.log), LONG), 0, *codes)
 
     def stopped(self, out: Path, number: int) -> int:
-        """Run it and send the signal at a random moment, if it still runs; its code."""
+        """Run it and send the signal at a random moment, if it still runs; its code.
+
+        Half of the moments are before the last step.
+        """
         pid = start(self.subject(out), self.log)
-        code = ended(pid, self.rng.uniform(0, self.seconds))
+        code = ended(pid, self.rng.uniform(0, self.rng.choice((self.steps, self.seconds))))
         if code is None:
             (os.kill if number == signal.SIGTERM else os.killpg)(pid, number)
             code = ended(pid, LONG)
