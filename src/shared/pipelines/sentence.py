@@ -292,13 +292,12 @@ def _ordered(text: str, read: Read) -> list[str]:
 
 
 def _subordinate(text: str, read: Read) -> tuple[str, str] | None:
-    """A clause at the head of a sentence and the rest: parted at the comma, or the blank, that
-    leaves two actions, else at the first comma."""
+    """A clause at the head of a sentence and the rest: parted at the comma that leaves two
+    actions, else at the first one; where there is none, at such a blank."""
     commas = [match.span() for match in _words().comma.finditer(text)]
-    for cuts in (commas, _blanks(text)):
-        if found := _best(text, cuts, read):
-            return found
-    halves = (text[: commas[0][0]], text[commas[0][1] :]) if commas else ("", "")
+    if not commas:
+        return _best(text, _blanks(text), read)
+    halves = _best(text, commas, read) or (text[: commas[0][0]], text[commas[0][1] :])
     return halves if all(half.strip(EDGES) for half in halves) else None
 
 

@@ -81,11 +81,8 @@ export class SentenceReader {
 
   subordinate(text) {
     const commas = spans(text, this.each.comma);
-    for (const cuts of [commas, spans(text, BLANKS)]) {
-      const found = this.best(text, cuts);
-      if (found) return found;
-    }
-    const halves = commas.length ? [text.slice(0, commas[0][0]), text.slice(commas[0][1])] : [""];
+    if (!commas.length) return this.best(text, spans(text, BLANKS));
+    const halves = this.best(text, commas) ?? [text.slice(0, commas[0][0]), text.slice(commas[0][1])];
     return halves.every((half) => strip(half)) ? halves : null;
   }
 

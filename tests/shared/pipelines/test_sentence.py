@@ -30,6 +30,12 @@ def read(text: str) -> Reading:
 
 
 ORDERS = [
+    ("saluda, no sin antes haber girado", ["girado", "saluda"]),
+    ("camina y acaba saltando", ["camina", "saltando"]),
+    ("wink erst, wenn du dich gedreht hast", ["du dich gedreht hast", "wink"]),
+    ("nachdem sie sich um gedreht hat, lauf los", ["sie sich um gedreht hat", "lauf los"]),
+    ("跳ると、手を振る", ["跳る", "手を振る"]),
+    ("拍手し次第、歩く", ["拍手し", "歩く"]),
     ("a person walks forward and then waves", ["a person walks forward", "waves"]),
     ("walks, then jumps, then bows", ["walks", "jumps", "bows"]),
     ("before bowing, he walks", ["he walks", "bowing"]),
@@ -81,6 +87,7 @@ def test_words_of_order_part_clauses(sentence: str, parts: list[str]):
         ("SCENE TWO. He walks, bows", ["SCENE TWO. He walks", "bows"]),
         ("kicks, walks, kicks until he jumps", ["kicks, walks, kicks", "he jumps"]),
         ("camina hasta que salta", ["camina", "salta"]),
+        ("elle marche jusqu'au moment où elle saute", ["elle marche", "elle saute"]),
         ("lauf bis zur Tür, spring", ["lauf bis zur Tür", "spring"]),
         ("歩いてお辞儀", ["歩いて", "お辞儀"]),
         ("走两步鞠躬", ["走两步", "鞠躬"]),
