@@ -315,7 +315,8 @@ def evaluate_requests(
 
     from ..shared.data.prepared import PreparedData
     from ..shared.evaluation.samples import untrained
-    from ..shared.evaluation.suites.requests import RequestSettings, evaluate_requests
+    from ..shared.evaluation.suites.requests import evaluate_requests
+    from ..shared.evaluation.suites.yardstick import RequestSettings
     from ..shared.model.generation.motion_generator import TextToMotion
     from ..shared.pipelines.text import SentenceGenerator
 
