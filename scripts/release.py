@@ -107,13 +107,18 @@ def main() -> None:
         if subprocess.run([*git, "status", "--porcelain"], capture_output=True).stdout:
             sys.exit("release: there are uncommitted changes; commit them first")
         number(ROOT, given.version)
-    with tempfile.TemporaryDirectory(prefix="release-") as name:
-        wheel, sdist = build(Path(name, "build"))
-        names = zipfile.ZipFile(wheel).namelist()
-        print(
-            f"{wheel.name}: {len(names)} files, {wheel.stat().st_size / 1e6:.1f} MB; {sdist.name}"
-        )
-        try_out(wheel, Path(name, "trial"), given.site)
+    try:
+        with tempfile.TemporaryDirectory(prefix="release-") as name:
+            wheel, sdist = build(Path(name, "build"))
+            files, size = len(zipfile.ZipFile(wheel).namelist()), wheel.stat().st_size / 1e6
+            print(f"{wheel.name}: {files} files, {size:.1f} MB; {sdist.name}")
+            try_out(wheel, Path(name, "trial"), given.site)
+    except BaseException as error:
+        if not given.build:  # nothing else was changed
+            subprocess.run([*git, "restore", "."], check=True)
+        if isinstance(error, subprocess.CalledProcessError):
+            sys.exit(f"release: {' '.join(map(str, error.cmd))} failed; nothing was changed")
+        raise
     if not given.build:
         subprocess.run([*git, "commit", "-qam", f"Release {given.version}"], check=True)
         subprocess.run([*git, "tag", f"v{given.version}"], check=True)

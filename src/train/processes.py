@@ -54,6 +54,8 @@ class InterruptGuard:
         if self.signal_number is not None:
             raise KeyboardInterrupt
         self.signal_number = number
+        if os.environ.get(PLACE, "0") == "0":  # no print: it may have interrupted one
+            os.write(2, b"stopping when this is finished and saved; once more to stop at once\n")
 
 
 PLACE = "RANK"  # set in every process of several, by whatever launched them
