@@ -313,8 +313,8 @@ def build_memory(
                 left_out=source.bad,
             ).save(folder)
             del parts  # they are mapped
-            for left in {folder / PARTS, out / PARTS}:
-                remove_folder(left)
+        for left in {folder / PARTS, out / PARTS}:  # also of a build that was stopped just here
+            remove_folder(left)
         index = open_index(folder, library_above=config.library_above)
         large = len(index) > config.library_above
         if large and library_installed() and not has_tables(folder):

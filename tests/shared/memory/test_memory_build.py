@@ -64,6 +64,15 @@ def test_keys_are_those_of_the_space(pairs: Path, tmp_path: Path) -> None:
         assert torch.allclose(index.motion_keys[number], motion, atol=1e-5)
 
 
+def test_what_a_build_left_that_was_stopped_at_its_very_end_goes(
+    pairs: Path, tmp_path: Path
+) -> None:
+    build_memory(pairs, LinearSpace(), tmp_path)
+    (tmp_path / build.PARTS / "00000000").mkdir(parents=True)
+    build_memory(pairs, LinearSpace(), tmp_path)
+    assert not (tmp_path / build.PARTS).exists()
+
+
 def test_an_up_to_date_memory_is_only_opened(pairs: Path, tmp_path: Path) -> None:
     build_memory(pairs, LinearSpace(), tmp_path)
     keys = tmp_path / "keys.safetensors"
