@@ -1,5 +1,6 @@
 """Threads that work ahead, and signals answered for the length of a block."""
 
+import os
 import signal
 import sys
 import threading
@@ -12,6 +13,7 @@ from typing import Any, TypeVar
 
 Key = TypeVar("Key")
 Value = TypeVar("Value")
+LATER = 0.01  # seconds
 
 
 def prefetch(
@@ -60,5 +62,17 @@ def orderly_termination() -> AbstractContextManager[None]:
     return answered(signal.SIGTERM, _leave)
 
 
-def _leave(number: int, _frame: FrameType | None) -> None:
-    sys.exit(128 + number)
+def _leave(number: int, frame: FrameType | None) -> None:
+    if _is_finalizing(frame):  # where an exception ends nothing: once more, a little later
+        again = threading.Timer(LATER, os.kill, (os.getpid(), number))
+        again.daemon = True
+        again.start()
+    else:
+        sys.exit(128 + number)
+
+
+def _is_finalizing(frame: FrameType | None) -> bool:
+    """Whether a signal has interrupted a `__del__`, or what it calls."""
+    while frame is not None and frame.f_code.co_name != "__del__":
+        frame = frame.f_back
+    return frame is not None

@@ -18,6 +18,29 @@ with orderly_termination():
         print("tidied")
 """
 
+FINALIZING = """
+import os, signal
+class Left:
+    def __del__(self):
+        os.kill(os.getpid(), signal.SIGTERM)
+        for _ in range(1000):
+            pass
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="POSIX signals")
+def test_sigterm_in_a_finalizer_is_not_lost() -> None:
+    program = PROGRAM.replace('print("started", flush=True)', "del left")
+    program = program.replace("\nwith", f"{FINALIZING}left = Left()\nwith", 1)
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        cwd=Path(__file__).parents[3],
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (128 + signal.SIGTERM, "tidied\n", "")
+
 
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX signals")
 def test_sigterm_leaves_in_order() -> None:
