@@ -243,6 +243,7 @@ def _realism(yardstick: Yardstick, rows: dict[str, Asked]) -> Grid:
     for name, each in rows.items():
         found[name] = row(each.seen, each.actions, distances(each.labels, each.seen))
     matches = yardstick.settings.min_matches
+    told = sum(bool(yardstick.references(w)) for w in asked)
     columns = (
         Column("learned", "FD, judge's axes", 1, "low"),
         Column("kinematic", "FID_k", 1, "low"),
@@ -254,7 +255,7 @@ def _realism(yardstick: Yardstick, rows: dict[str, Asked]) -> Grid:
     note = (
         "FD: Fréchet distance in the axes along which the judge tells captured actions apart, in"
         " deviations within an action; FID_k: of 66 kinetic features. Each motion stands against"
-        f" one held-out clip with the labels asked for, where {matches} or more have them;"
+        f" one held-out clip with the labels asked for, where {matches} or more have them (N {told});"
         f" mean of {DRAWS} draws of these. The first two rows answer the same requests with a clip"
         " of another take, and with a plain one that was trained on. *nearer to procedural*: the"
         " nearest clip of the same action is one that nobody recorded. *frames beyond captured*:"
