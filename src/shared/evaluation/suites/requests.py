@@ -255,8 +255,8 @@ def _realism(yardstick: Yardstick, rows: dict[str, Asked]) -> Grid:
     note = (
         "FD: Fréchet distance in the axes along which the judge tells captured actions apart, in"
         " deviations within an action; FID_k: of 66 kinetic features. Each motion stands against"
-        f" one held-out clip with the labels asked for, where {matches} or more have them: N"
-        f" {told}, mean of {DRAWS} draws of these. The first two rows answer the same requests with a clip"
+        f" one held-out clip with the labels asked for, where {matches} or more have them (N"
+        f" {told}); mean of {DRAWS} draws. The first two rows answer the same requests with a clip"
         " of another take, and with a plain one that was trained on. *nearer to procedural*: the"
         " nearest clip of the same action is one that nobody recorded. *frames beyond captured*:"
         " worst joint's acceleration above the 99.9th percentile of captured runs. A frozen pose is"
