@@ -22,11 +22,12 @@ FLAGS = (
     "--autoplay-policy=no-user-gesture-required",
     "--remote-debugging-pipe",
 )
-# The browser reads from descriptor 3 and writes to 4. High copies first: they may be in the way.
+# The browser reads from descriptor 3 and writes to 4. Either may be in the way: copies above first.
 SHIM = """
-import os, sys
-pipes = [os.dup2(int(pipe), 60 + i) for i, pipe in enumerate(sys.argv[1:3])]
-for place, pipe in zip((3, 4), pipes):
+import fcntl, os, sys
+pipes = [int(pipe) for pipe in sys.argv[1:3]]
+high = [fcntl.fcntl(pipe, fcntl.F_DUPFD, max(*pipes, 4) + 1) for pipe in pipes]
+for place, pipe in zip((3, 4), high):
     os.dup2(pipe, place)
 os.execv(sys.argv[3], sys.argv[3:])
 """
@@ -37,16 +38,11 @@ def chromium() -> str | None:
     return next((path for path in map(shutil.which, NAMES) if path), None)
 
 
-class Gone(Exception):
-    """The browser ended by itself."""
-
-
 class Browser:
     """One page in a browser of its own; a context manager.
 
     `problems` collects what the page logged as an error or warning, and its exceptions; `requests`
-    the addresses that it asked for. A browser that dies before its first word, as on
-    a busy machine, is started anew, twice at most.
+    the addresses that it asked for.
     """
 
     def __init__(
@@ -61,15 +57,8 @@ class Browser:
         self.requests: list[str] = []
         self._count = 0
         options = (*FLAGS, *flags, f"--window-size={size[0]},{size[1]}")
-        for attempt in range(3):
-            self._start(*options, f"--user-data-dir={profile / str(attempt)}")
-            try:
-                targets = self.call("Target.getTargets")["targetInfos"]
-                break
-            except (Gone, BrokenPipeError):
-                self.__exit__()
-                if attempt == 2:
-                    raise
+        self._start(*options, f"--user-data-dir={profile}")
+        targets = self.call("Target.getTargets")["targetInfos"]
         page = next(target["targetId"] for target in targets if target["type"] == "page")
         attached = self.call("Target.attachToTarget", targetId=page, flatten=True)
         self._session: str | None = attached["sessionId"]
@@ -141,7 +130,7 @@ class Browser:
         while b"\0" not in self._rest:
             piece = os.read(self._in, 1 << 16)
             if not piece:
-                raise Gone("the browser has gone")
+                raise EOFError("the browser has gone")
             self._rest += piece
         message, self._rest = self._rest.split(b"\0", 1)
         event: dict[str, Any] = json.loads(message)
