@@ -106,9 +106,13 @@ def benchmark(arguments: list[str]) -> int:
 
 def gpu_check(arguments: list[str]) -> int:
     """Tests marked gpu, training steps by batch and an hour of `spark`, into docs/gpu*.md."""
+    nothing = "gpu-check: no CUDA device here; nothing was checked"
+    if not setup.has_nvidia_card():
+        print(nothing, file=sys.stderr)
+        return 1
     setup.main(["--dev"])
     if python("-c", "import sys, torch; sys.exit(not torch.cuda.is_available())"):
-        print("gpu-check: no CUDA device here; nothing was checked", file=sys.stderr)
+        print(f"{nothing} (PyTorch sees none)", file=sys.stderr)
         return 1
     steps = ("-m", "benchmarks.training_steps", "--device", "cuda", "--batches")
     batches = "16,32,64,128,256,512,1024,2048"

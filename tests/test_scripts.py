@@ -162,15 +162,22 @@ def test_demo_makes_a_song_and_moves_to_it(monkeypatch: pytest.MonkeyPatch, tmp_
     assert (tmp_path / "x" / "song.wav").stat().st_size == pytest.approx(16 * 88_200, abs=100)
 
 
+@pytest.mark.parametrize("card", [False, True])
 def test_gpu_check_says_when_there_is_none(
-    setup: ModuleType, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+    card: bool,
+    setup: ModuleType,
+    monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
 ) -> None:
+    """Before anything is installed where there is no card; else as PyTorch sees it."""
     tasks = load("tasks")
-    ran: list[tuple[str, ...]] = []
-    monkeypatch.setattr(tasks.setup, "main", lambda arguments: None)
+    ran: list[object] = []
+    monkeypatch.setattr(tasks.setup, "has_nvidia_card", lambda: card)
+    monkeypatch.setattr(tasks.setup, "main", ran.append)
     monkeypatch.setattr(tasks, "python", lambda *words, **_: ran.append(words) or 1)
     assert tasks.gpu_check([]) == 1
-    assert len(ran) == 1 and "no CUDA device here; nothing was checked" in capfd.readouterr().err
+    assert len(ran) == (2 if card else 0)
+    assert "no CUDA device here; nothing was checked" in capfd.readouterr().err
 
 
 def test_a_release_is_numbered_and_dated(tmp_path: Path) -> None:
