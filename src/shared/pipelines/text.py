@@ -3,8 +3,9 @@
 A sentence is read as clauses (sentence.py). One plain clause that is no longer than the model's
 training clips is one sample of the network; all else is a stream of passages, one for each clause,
 with what the clause measures as a constraint: a path of so many metres, a heading that turns by so
-many degrees. Where kinematics tell whether the action is there, and how often, what misses it is
-sampled again (`metrics.measurements`). Of several candidates the judge's first choice comes first.
+many degrees, in full circles where it asks for a spin. Where kinematics tell whether the action is
+there, and how often, what misses it is sampled again (`metrics.measurements`). Of several
+candidates the judge's first choice comes first.
 
 Letters: N candidates, T frames, R rows (bones, root track).
 """
@@ -52,6 +53,7 @@ from .stream import (
 )
 
 TURN_SPEED, TURN_REST = 75.0, 0.5  # degrees a second; seconds before and after a turn
+SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to be filled
 ONCE = (2.5, 3.0)  # seconds of one repetition, from … to
 LEAST = 1.0  # seconds in which an action can be seen
 UNEASY = 0.5  # what it counts that a gesture does not end at rest; 1: that it is not there
@@ -253,7 +255,11 @@ class SentenceGenerator:
             return True  # refused there, with a clear line
         parts = self.clauses(prompt)
         fits = self.generator.length_warning(seconds) is None
-        return fits and len(parts) == 1 and parts[0].plain
+        return fits and len(parts) == 1 and parts[0].plain and not self._spins(parts[0])
+
+    def _spins(self, clause: Clause) -> bool:
+        """Whether a clause asks for full circles without an angle."""
+        return clause.degrees is None and self._nearest(clause.text) == "spin"
 
     @idle_threads()
     def _one(
@@ -316,8 +322,8 @@ class SentenceGenerator:
         """What one clause becomes, and what is known of its frames."""
         fps, text = self.card.fps, clause.text
         seconds = clause.seconds or seconds
-        if clause.degrees is not None:
-            given = turned(clause.degrees, fps)
+        if clause.degrees is not None or self._spins(clause):
+            given = self._turn(clause, seconds, sampling.seed)
             return Passage(text, len(given), tag), given
         if clause.metres is not None:
             given = self._led(Passage(text, round(seconds * fps), tag), clause, sampling)
@@ -328,6 +334,21 @@ class SentenceGenerator:
             return Passage(text, frames, tag, window, self._miss(clause, frames)), None
         frames = max(1, round(seconds * fps))
         return Passage(text, frames, tag, miss=self._miss(clause, frames)), None
+
+    def _turn(self, clause: Clause, seconds: float, seed: int) -> Constraint:
+        """By the angle that is named; else in full circles, as many as are named or as fill the
+        seconds, to the side that is named or that the seed says."""
+        fps = self.card.fps
+        if clause.degrees is not None:
+            return turned(clause.degrees, fps)
+        side, around = side_of(clause.text), 360.0 / SPIN_SPEED
+        circles = max(clause.count, 1)
+        if circles == 1:
+            circles = max(round((seconds - 2 * TURN_REST) / around), 1)
+        elif clause.seconds is None:
+            seconds = circles * around + 2 * TURN_REST
+        left = seed % 2 == 0 if side == "both" else side == "left"
+        return turned(360.0 * (circles if left else -circles), fps, seconds)
 
     def _led(self, passage: Passage, clause: Clause, sampling: Sampling) -> Constraint:
         """So many metres, at the pace and in the direction that are the clause's own."""
@@ -343,10 +364,13 @@ class SentenceGenerator:
         return path.constraint()
 
 
-def turned(degrees: float, fps: float) -> Constraint:
-    """A heading that turns by so many degrees, positive to the left, from rest to rest."""
-    moving = round(max(abs(degrees) / TURN_SPEED, 1.0) * fps)
-    rest = round(TURN_REST * fps)
+def turned(degrees: float, fps: float, seconds: float | None = None) -> Constraint:
+    """A heading that turns by so many degrees, positive to the left, from rest to rest, in so many
+    seconds or at TURN_SPEED."""
+    if seconds is None:
+        seconds = max(abs(degrees) / TURN_SPEED, 1.0) + 2 * TURN_REST
+    rest = round(min(TURN_REST, seconds / 4) * fps)
+    moving = max(round(seconds * fps) - 2 * rest, 1)
     way = np.linspace(0, 1, moving + 1)
     heading = np.radians(degrees) * (3 * way**2 - 2 * way**3)  # [moving + 1]
     given = Constraint.free(moving + 2 * rest)

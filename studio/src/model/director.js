@@ -11,7 +11,7 @@ import { naturalGait, pathConstraint, timePath } from "./path.js";
 import { isPlain, SentenceReader } from "./sentence.js";
 import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, WINDOW } from "./stream.js";
 
-const MIN_FRAMES = 8, TURN_SPEED = 75, TURN_REST = 0.5, ONCE = [2.5, 3], LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
+const MIN_FRAMES = 8, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, ONCE = [2.5, 3], LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
 
 export class Director {
   /** @param {Sampler} sampler @param {Scope} scope @param {object} settings of the model */
@@ -66,7 +66,7 @@ export class Director {
     const parts = this.reader.clauses(prompt), frames = round(seconds * FPS);
     if (frames < MIN_FRAMES) throw new Error(`${seconds} seconds are too short; ask for ${(MIN_FRAMES / FPS).toFixed(2)} or more.`);
     const longest = this.settings.maxSeconds;
-    if (parts.length > 1 || !isPlain(parts[0]) || (longest !== null && frames > round(longest * FPS)))
+    if (parts.length > 1 || !isPlain(parts[0]) || this.spins(parts[0]) || (longest !== null && frames > round(longest * FPS)))
       return this.clausesOf(prompt, parts, seconds, seed, options);
     let best = null;
     for (const trial of retrySeeds(seed)) {
@@ -123,8 +123,8 @@ export class Director {
 
   async stretch(clause, seconds, seed) {
     const { text, count } = clause;
-    if (clause.degrees !== null) {
-      const given = turned(clause.degrees);
+    if (clause.degrees !== null || this.spins(clause)) {
+      const given = this.turn(clause, seconds, seed);
       return { passage: { text, frames: framesOf(given.values) }, given };
     }
     if (clause.metres !== null) {
@@ -138,6 +138,22 @@ export class Director {
     }
     const frames = Math.max(1, round(seconds * FPS));
     return { passage: { text, frames, miss: this.miss(clause, frames) } };
+  }
+
+  /** Whether a clause asks for full circles without an angle. */
+  spins({ degrees, text }) {
+    return degrees === null && this.nearest(text) === "spin";
+  }
+
+  /** By the angle that is named; else in full circles, as many as are named or as fill the seconds. */
+  turn({ degrees, text, count, seconds: named }, seconds, seed) {
+    if (degrees !== null) return turned(degrees);
+    const side = this.reader.sideOf(text), around = 360 / SPIN_SPEED;
+    let circles = count;
+    if (circles <= 1) circles = Math.max(round((seconds - 2 * TURN_REST) / around), 1);
+    else if (named === null) seconds = circles * around + 2 * TURN_REST;
+    const left = side === "both" ? BigInt(seed) % 2n === 0n : side === "left";
+    return turned(360 * (left ? circles : -circles), seconds);
   }
 
   nearest(text) {
@@ -228,8 +244,8 @@ const lastFrames = (motion, frames) => ({
 });
 
 /** A heading that turns by so many degrees, positive to the left, from rest to rest. */
-function turned(degrees) {
-  const moving = round(Math.max(Math.abs(degrees) / TURN_SPEED, 1) * FPS), rest = round(TURN_REST * FPS);
+function turned(degrees, seconds = Math.max(Math.abs(degrees) / TURN_SPEED, 1) + 2 * TURN_REST) {
+  const rest = round(Math.min(TURN_REST, seconds / 4) * FPS), moving = Math.max(round(seconds * FPS) - 2 * rest, 1);
   const given = freeConstraint(moving + 2 * rest);
   const heading = (i) => ((degrees * Math.PI) / 180) * (3 * (i / moving) ** 2 - 2 * (i / moving) ** 3);
   for (let t = 0; t < moving + 2 * rest; t++) {

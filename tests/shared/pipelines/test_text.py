@@ -87,8 +87,18 @@ def test_a_gesture_faces_one_way_and_its_repetitions_are_told_apart():
 
 def test_who_is_to_turn_turns():
     sentences = SentenceGenerator(TextToMotion.from_pretrained("starter", device="cpu"))
-    turn, spin = sentences.generate(["a person turns around to the left", "a person spins"])
-    assert turn_of(turn) > 60 and abs(turn_of(spin)) > 150
+    prompts = [
+        "a person turns around to the left",
+        "a person spins",
+        "a person spins to the right",
+        "a dancer spins twice",
+        "a person spins",
+    ]
+    turn, *spins = sentences.generate(prompts, seconds=[4.0, 4.0, 4.0, 4.0, 7.0])
+    assert turn_of(turn) > 60
+    turned_by = [turn_of(spin) for spin in spins]
+    assert turned_by == pytest.approx([360, -360, 720, 720], abs=8)
+    assert [spin.seconds for spin in spins] == [4.0, 4.0, 7.0, 7.0]
 
 
 def test_what_kinematics_miss_is_sampled_again(monkeypatch: pytest.MonkeyPatch):
