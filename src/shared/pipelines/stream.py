@@ -1,8 +1,11 @@
 """Motion of any length: windows of a few seconds, each beginning with the last frames before it.
 
 A window has one text. Its first frames are known, the last ones of the window before, whatever
-text that had: this is how one action leads into the next. Features say nothing of place or
-heading, so windows are chained as they are. One window is in memory at a time.
+text that had: this is how one action leads into the next. Where a body stands still, and a new text
+begins so, they are not: what follows would be in the manner of what was (a wave after a clap that
+nobody recorded is one that nobody recorded). It is made as if it came first, and joined. Features
+say nothing of place or heading, so windows are chained as they are. One window is in memory at a
+time.
 
 Letters: T frames, R rows (bones, root track), C channels, O frames that neighbours share.
 """
@@ -12,19 +15,25 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
+import numpy as np
+
 from ..errors import UsageError
+from ..metrics.measurements import ends_at_rest
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
 from ..model.noise import derived_seed, retry_seeds
-from ..motion.features import Place
+from ..motion.features import Place, decode_features
 from ..motion.motion import Motion
 from ..motion.postprocess.stitching import blend_boundaries
 from ..motion.postprocess.streaming import StreamingPostProcessor
+from ..motion.skeleton import JOINT_INDEX
 from ..tensors import Tensor, torch
 
 WINDOW, OVERLAP = 150, 30  # frames
 DEFAULT_SAMPLING = Sampling()
+STILL, MOVED = 10, 0.05  # frames, and metres that feet and pelvis of a standing body move in them
+MEETING = 30  # frames until a piece that was made apart is as it was made
 SHORTEST = 48  # frames; a shorter window is made as long as this and cut: training saw few
 
 ConstraintOf = Callable[[int, int], Constraint | None]  # what is known of frames [start, stop)
@@ -89,7 +98,7 @@ def stream_features(
         raise UsageError(f"overlap {overlap} must lie between 1 and half the window ({window})")
     before = spare = torch.zeros(0, generator.network.motion_rows, 6)
     shows: tuple[str, str | None] | None = None  # the spare frames
-    made, number = 0, 0
+    made, number, said = 0, 0, ""
 
     def sampled(passage: Passage, known: Constraint, seed: int) -> Tensor:
         (features,) = generator.sample_features(
@@ -115,19 +124,41 @@ def stream_features(
         lucky: list[int] = []  # the seed of the repetition before
         beyond = ahead if constraint is None and passage.miss is None else 0
         widest = min(window, passage.window or window)
-        for length in window_lengths(passage.frames, len(before), widest, overlap):
-            start = made - len(before)
+        new, said = passage.text != said, passage.text
+        apart = new and stands(before, generator.card.fps) and generator.begins_standing(said)
+        shared = before[:0] if apart else before
+        for length in window_lengths(passage.frames, len(shared), widest, overlap):
+            start = made - len(shared)
             given = None if constraint is None else constraint(start, made + length)
-            known = carried_on(before, given, len(before) + length + beyond)
+            known = carried_on(shared, given, len(shared) + length + beyond)
             seeds = [*lucky, *retry_seeds(derived_seed(sampling.seed, number))]
-            tries = (sampled(passage, known, seed)[len(before) :] for seed in seeds)
+            tries = (sampled(passage, known, seed)[len(shared) :] for seed in seeds)
+            if not len(shared) and len(before):
+                tries = (met(before, piece, known.known) for piece in tries)
             piece, best = nearest_to_wanted(tries, own, passage.miss)
             lucky = [seeds[best]] if passage.window else []
             piece, spare, shows = piece[:length], piece[length:], (passage.text, passage.tag)
             before = torch.cat((before, piece))[-overlap:]
             own = torch.cat((own, piece))
-            made, number = made + length, number + 1
+            made, number, shared = made + length, number + 1, before
             yield piece
+
+
+def stands(before: Tensor, fps: float) -> bool:
+    """Whether these frames [t, R, 6] end with a body that stands still, hands hanging."""
+    if len(before) < STILL:
+        return False
+    motion = decode_features(before[-STILL:], fps=fps)
+    if not ends_at_rest(motion):
+        return False
+    place = motion.positions()[:, [JOINT_INDEX[name] for name in ("pelvis", "l_ankle", "r_ankle")]]
+    return float(np.ptp(place, axis=0).max()) < MOVED
+
+
+def met(before: Tensor, piece: Tensor, known: Tensor) -> Tensor:
+    """A piece [t, R, 6] that begins as the frames `before` it end; what is `known` of it stays."""
+    kept = torch.cat((torch.ones_like(before, dtype=torch.bool), known[: len(piece)]))
+    return blend_boundaries(torch.cat((before, piece)), kept, fade=MEETING)[len(before) :]
 
 
 def nearest_to_wanted(

@@ -320,20 +320,21 @@ class SentenceGenerator:
         self, clause: Clause, seconds: float, tag: str | None, sampling: Sampling
     ) -> tuple[Passage, Constraint | None]:
         """What one clause becomes, and what is known of its frames."""
-        fps, text = self.card.fps, clause.text
+        fps = self.card.fps
         seconds = clause.seconds or seconds
+        given = None
+        passage = Passage(clause.text, max(1, round(seconds * fps)), tag)
         if clause.degrees is not None or self._spins(clause):
             given = self._turn(clause, seconds, sampling.seed)
-            return Passage(text, len(given), tag), given
-        if clause.metres is not None:
-            given = self._led(Passage(text, round(seconds * fps), tag), clause, sampling)
-            return Passage(text, len(given), tag), given
-        if clause.count > 1:
-            once = float(np.clip(seconds / clause.count, *ONCE))
-            frames, window = round(once * fps) * clause.count, round(once * fps) + REPEATED_OVERLAP
-            return Passage(text, frames, tag, window, self._miss(clause, frames)), None
-        frames = max(1, round(seconds * fps))
-        return Passage(text, frames, tag, miss=self._miss(clause, frames)), None
+        elif clause.metres is not None:
+            given = self._led(passage, clause, sampling)
+        elif clause.count > 1:
+            once = round(float(np.clip(seconds / clause.count, *ONCE)) * fps)
+            frames, window = once * clause.count, once + REPEATED_OVERLAP
+            passage = replace(passage, frames=frames, window=window)
+        if given is not None:
+            return replace(passage, frames=len(given)), given
+        return replace(passage, miss=self._miss(clause, passage.frames)), None
 
     def _turn(self, clause: Clause, seconds: float, seed: int) -> Constraint:
         """By the angle that is named; else in full circles, as many as are named or as fill the

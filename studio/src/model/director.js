@@ -56,8 +56,12 @@ export class Director {
       end += seconds;
       const frames = round(end * FPS) - before;
       before += frames;
-      return { text, frames };
+      return { text, frames, afresh: this.beginsStanding(text) };
     });
+  }
+
+  beginsStanding(text) {
+    return this.scope.meta.gestures.includes(this.nearest(text));
   }
 
   // ---------------------------------------------------------------- a sentence
@@ -122,22 +126,19 @@ export class Director {
   }
 
   async stretch(clause, seconds, seed) {
-    const { text, count } = clause;
-    if (clause.degrees !== null || this.spins(clause)) {
-      const given = this.turn(clause, seconds, seed);
-      return { passage: { text, frames: framesOf(given.values) }, given };
-    }
+    const { text, count } = clause, afresh = this.beginsStanding(text);
+    const led = (given) => ({ passage: { text, frames: framesOf(given.values), afresh }, given });
+    if (clause.degrees !== null || this.spins(clause)) return led(this.turn(clause, seconds, seed));
     if (clause.metres !== null) {
       const gait = await naturalGait(this.sampler, text, seed);
-      const given = pathConstraint(timePath([[0, 0], [0, clause.metres]], { ...gait, seconds: clause.seconds }));
-      return { passage: { text, frames: framesOf(given.values) }, given };
+      return led(pathConstraint(timePath([[0, 0], [0, clause.metres]], { ...gait, seconds: clause.seconds })));
     }
     if (count > 1) {
       const once = round(Math.min(Math.max(seconds / count, ONCE[0]), ONCE[1]) * FPS), frames = once * count;
-      return { passage: { text, frames, window: once + REPEATED_OVERLAP, miss: this.miss(clause, frames) } };
+      return { passage: { text, frames, afresh, window: once + REPEATED_OVERLAP, miss: this.miss(clause, frames) } };
     }
     const frames = Math.max(1, round(seconds * FPS));
-    return { passage: { text, frames, miss: this.miss(clause, frames) } };
+    return { passage: { text, frames, afresh, miss: this.miss(clause, frames) } };
   }
 
   /** Whether a clause asks for full circles without an angle. */

@@ -11,11 +11,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from src.shared.errors import UsageError, UserError
+from src.shared.metrics.measurements import measure
 from src.shared.model.diffusion import Sampling
 from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.model.noise import TRIES, retry_seeds
-from src.shared.motion.features import FORWARD, ROOT_ROW
+from src.shared.motion.features import FORWARD, ROOT_ROW, decode_features
 from src.shared.motion.postprocess.stitching import joined
 from src.shared.motion.postprocess.streaming import StreamingPostProcessor
 from src.shared.pipelines import stream as motion_stream
@@ -196,6 +197,26 @@ def test_a_generator_of_prompts(generator: TextToMotion) -> None:
     stream = MotionStream(generator, texts, seconds=0.6)
     assert sum(piece.num_frames for piece in stream) == 36
     assert list(MotionStream(generator, [])) == []
+
+
+def test_what_a_standing_body_begins_is_as_it_is_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """After a clap, which nobody recorded, a wave is a recorded one still; no frame jumps."""
+    starter = TextToMotion.from_pretrained("starter", device="cpu")
+    passages = [Passage("a person claps", 120), Passage("a person waves", 120)]
+
+    def hand(features: torch.Tensor) -> float:
+        return max(measure(decode_features(features, fps=30.0)).hand_peak)
+
+    clap, wave = stream_features(starter, passages)
+    assert hand(wave) > 0.8
+    steps = torch.cat((clap, wave)).diff(dim=0).abs().amax((1, 2))
+    assert steps[119] < steps[120:].max()
+    monkeypatch.setattr(motion_stream, "stands", lambda before, fps: False)
+    _, carried = stream_features(starter, passages)
+    assert hand(carried) < 0.6
+    walk = next(iter(stream_features(starter, [Passage("a person walks forward", 60)])))
+    monkeypatch.undo()
+    assert motion_stream.stands(clap, 30.0) and not motion_stream.stands(walk, 30.0)
 
 
 def test_nothing_to_say_is_refused_and_the_stream_goes_on(generator: TextToMotion) -> None:

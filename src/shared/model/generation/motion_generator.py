@@ -361,6 +361,15 @@ class TextToMotion:
         self._told.update(prompts)
         return [warnings.get(prompt) for prompt in prompts]
 
+    def begins_standing(self, prompt: str) -> bool:
+        """Whether what a prompt asks for is done from a standing body to a standing one, as far as
+        captured clips say; False where the model has not learned what it knows."""
+        if self.scope is None:
+            return False
+        [row] = self.encode_prompts([prompt]).rows()
+        nearest = self.scope.check(prompt, *row).nearest
+        return bool(nearest) and nearest[0] in self.scope.gestures
+
     def style_of(self, prompt: str) -> np.ndarray | None:
         """The 8-d unit style that a sentence speaks of (ruling 11).
 
