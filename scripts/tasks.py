@@ -32,8 +32,14 @@ render_song(SongSpec(seconds=16.0, tempo=112.0, seed=1)).write_wav(path)
 
 
 def run(program: Path, *arguments: str, threads: int | None = None) -> int:
-    """Run a program of the environment in the project's folder."""
+    """Run a program of the environment in the project's folder.
+
+    Where Python is told to leave no byte code, it goes into the environment: the tests start
+    hundreds of processes, and compiling what they import takes each one seconds.
+    """
     environment = dict(os.environ)
+    if environment.pop("PYTHONDONTWRITEBYTECODE", ""):
+        environment["PYTHONPYCACHEPREFIX"] = str(setup.VENV / "pycache")
     if threads is not None:
         environment["OMP_NUM_THREADS"] = str(threads)
     return subprocess.call([str(program), *arguments], cwd=setup.ROOT, env=environment)

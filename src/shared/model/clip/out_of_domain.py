@@ -24,7 +24,7 @@ import math
 import re
 import unicodedata
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -160,16 +160,17 @@ class OutOfDomainDetector:
         kept = [text for text, out in zip(texts, held, strict=True) if not out]
         judged = [text for text, out in zip(texts, held, strict=True) if out] or texts
         fillers = _fillers(texts, labels, len(names))
+        telling, seen = _telling(kept, labels[~held], len(names)), frozenset[str]().union(*kept)
         for coverage in COVERAGES:
-            trial = _key_words(kept, labels[~held], len(names), coverage)
-            seen = frozenset[str]().union(*kept)
-            unknown = (not _known(text, trial, seen, fillers) for text in judged)
+            trial = _key_words(telling, coverage)
+            stems = _by_stem(trial)
+            unknown = (not _known(text, trial, stems, seen, fillers) for text in judged)
             false_alarms = sum(unknown) / len(judged)
             if false_alarms <= MAX_FALSE_ALARMS:
                 break
         return cls(
             actions=names,
-            key_words=_key_words(texts, labels, len(names), coverage),
+            key_words=_key_words(_telling(texts, labels, len(names)), coverage),
             words=frozenset[str]().union(*texts),
             fillers=fillers,
             means=means.astype(np.float32),
@@ -223,7 +224,8 @@ class OutOfDomainDetector:
 
     def familiar(self, prompt: str) -> bool:
         """Whether the words of a prompt are those of training, whatever it asks for."""
-        return _known(frozenset(words_of(prompt)), self.key_words, self.words, self.fillers)
+        words = frozenset(words_of(prompt))
+        return _known(words, self.key_words, self._stems, self.words, self.fillers)
 
     def _twins(self, row: int) -> set[int]:
         """The rows of the actions that are the same motion as one row's, that row among them."""
@@ -231,12 +233,8 @@ class OutOfDomainDetector:
         return {row} | {self.actions.index(name) for name in names.intersection(self.actions)}
 
     @cached_property
-    def _by_stem(self) -> dict[str, list[str]]:
-        """Key words by their first letters."""
-        found: dict[str, list[str]] = {}
-        for key in self.key_words:
-            found.setdefault(key[:MIN_STEM], []).append(key)
-        return found
+    def _stems(self) -> "Stems":
+        return _by_stem(self.key_words)
 
     def evidence(self, prompt: str, cosines: np.ndarray) -> np.ndarray:
         """What speaks for a prompt [6], its cosines with the A actions given; the last is 1."""
@@ -246,9 +244,8 @@ class OutOfDomainDetector:
         second = next((row for row in others if row not in same), first)
         named = {action for word in words for action in self.key_words.get(word, ())}
         for word in words - self.key_words.keys():
-            for key in self._by_stem.get(word[:MIN_STEM], ()):
-                if _same_stem(word, key):
-                    named.update(self.key_words[key])
+            for key in _alike(word, self._stems):
+                named.update(self.key_words[key])
         seen = len(words & self.words) / max(len(words), 1)
         agreement = 0.0 if not named else 1.0 if same & named else -1.0
         only_fillers = float(words <= self.fillers)
@@ -419,10 +416,19 @@ def _places(embeddings: np.ndarray, labels: np.ndarray) -> np.ndarray:
     return _unit(places.detach().numpy())
 
 
-def _key_words(
-    texts: Sequence[frozenset[str]], labels: np.ndarray, num_actions: int, coverage: float
-) -> KeyWords:
-    """Telling words that together cover `coverage` of each action's captions."""
+@dataclass(frozen=True)
+class _Telling:
+    """Words that tell of an action, the best first, each with how many of the action's captions
+    have none of those before it; and how many captions there are."""
+
+    words: list[tuple[str, int]]
+    captions: int
+
+
+def _telling(
+    texts: Sequence[frozenset[str]], labels: np.ndarray, num_actions: int
+) -> list[_Telling]:
+    """Of each action, as many as the largest of COVERAGES takes."""
     captions = np.bincount(labels, minlength=num_actions).clip(min=1)
     counts: dict[str, np.ndarray] = {}
     for text, label in zip(texts, labels, strict=True):
@@ -430,7 +436,7 @@ def _key_words(
             counts.setdefault(word, np.zeros(num_actions))[label] += 1
     rates = {word: row / captions for word, row in counts.items()}
     telling = MIN_TELLING * math.log(num_actions)
-    found: dict[str, list[int]] = {}
+    found = []
     for action in range(num_actions):
         evidence = {
             word: math.log(num_actions * rate[action] / rate.sum())
@@ -439,24 +445,35 @@ def _key_words(
         }
         strength = {word: value for word, value in evidence.items() if value >= telling}
         mine = [text for text, label in zip(texts, labels, strict=True) if label == action]
-        for word in _cover(mine, strength, coverage):
-            found.setdefault(word, []).append(action)
+        found.append(_Telling(_cover(mine, strength, max(COVERAGES)), len(mine)))
+    return found
+
+
+def _key_words(telling: Sequence[_Telling], coverage: float) -> KeyWords:
+    """Telling words that together cover `coverage` of each action's captions."""
+    found: dict[str, list[int]] = {}
+    for action, of in enumerate(telling):
+        for word, uncovered in of.words:
+            if uncovered > (1 - coverage) * of.captions:
+                found.setdefault(word, []).append(action)
     return {word: tuple(actions) for word, actions in sorted(found.items())}
 
 
 def _cover(
     texts: Sequence[frozenset[str]], strength: Mapping[str, float], coverage: float
-) -> list[str]:
-    """Greedy set cover: the strongest word of the most captions still uncovered, and so on."""
+) -> list[tuple[str, int]]:
+    """Greedy set cover: the strongest word of the most captions still uncovered, and so on; each
+    with how many were uncovered before it."""
     uncovered = [text & strength.keys() for text in texts]
     target = (1 - coverage) * len(uncovered)
-    chosen: list[str] = []
-    while len(uncovered) > target:
-        gains = Counter(word for text in uncovered for word in text)
-        if not gains:
-            break
+    gains = Counter(word for text in uncovered for word in text)
+    chosen: list[tuple[str, int]] = []
+    while gains and len(uncovered) > target:
         best = max(gains, key=lambda word: (gains[word] * (0.1 + strength[word]), word))
-        chosen.append(best)
+        if not gains[best]:
+            break
+        chosen.append((best, len(uncovered)))
+        gains.subtract(word for text in uncovered if best in text for word in text)
         uncovered = [text for text in uncovered if best not in text]
     return chosen
 
@@ -470,9 +487,26 @@ def _fillers(texts: Sequence[frozenset[str]], labels: np.ndarray, num: int) -> f
     return frozenset(word for word, actions in users.items() if len(actions) > num / 2)
 
 
+Stems = Mapping[str, Sequence[str]]
+
+
+def _by_stem(key_words: Iterable[str]) -> Stems:
+    """Key words by their first letters."""
+    found: dict[str, list[str]] = {}
+    for key in key_words:
+        found.setdefault(key[:MIN_STEM], []).append(key)
+    return found
+
+
+def _alike(word: str, stems: Stems) -> list[str]:
+    """Key words of which a word may be another form."""
+    return [key for key in stems.get(word[:MIN_STEM], ()) if _same_stem(word, key)]
+
+
 def _known(
     prompt: frozenset[str],
     key_words: Mapping[str, tuple[int, ...]],
+    stems: Stems,
     seen: frozenset[str],
     fillers: frozenset[str],
 ) -> bool:
@@ -483,7 +517,7 @@ def _known(
     """
     if not prompt.isdisjoint(key_words) or (prompt <= seen and not prompt <= fillers):
         return True
-    alike = {word for word in prompt if any(_same_stem(word, key) for key in key_words)}
+    alike = {word for word in prompt if _alike(word, stems)}
     return bool(alike) and len(prompt & seen | alike) >= MIN_SEEN * len(prompt)
 
 
