@@ -190,9 +190,10 @@ def prompted(request: Request) -> dict[str, Any]:
     motions = [motion for result in found for motion in result.ranked()]
     rows = files.write_motions(motions, kept, formats, request.out)
     places = [int(place) for result in found for place in result.table.order[:kept]]
-    for at, (row, place) in enumerate(zip(rows, places, strict=True)):
+    for at, (row, place, motion) in enumerate(zip(rows, places, motions, strict=True)):
+        warning = warnings[at // kept] or generator.sentences.missed(prompts[at // kept], motion)
         row |= {"sample": place, "rank": at % kept + 1}
-        row |= {"seed": request.seed, "warning": warnings[at // kept]}
+        row |= {"seed": request.seed, "warning": warning}
     paged = "html" in formats and len(motions) > 1
     index = files.write_index(motions, request.out) if paged else None
     clock.lap("write")

@@ -72,9 +72,11 @@ class Words:
         limbs = rf"(?:{own}\s*)*{_any(all_of('limbs'))}"
         # But "coup de poing" neither names a fist nor is it a gerund.
         self.sign = re.compile(rf"(?<!de )(?:{_any(all_of('with'))}|{limbs})", re.I)
+        self.limb = re.compile(rf"^{limbs}$", re.I)
         self.manner = re.compile(rf"{_any(all_of('manner'))}$", re.I)
         self.no_side = re.compile(_any(all_of("no_side")), re.I)
         self.left, self.right = (re.compile(_any(all_of(side)), re.I) for side in ("left", "right"))
+        self.other = re.compile(_any(all_of("other")), re.I)
         self.angle = re.compile(_any(angles), re.I)
         self.often = re.compile(_any(adverbs), re.I)
         number = rf"(?P<number>{_DIGITS}|{_any(numbers)})"
@@ -407,20 +409,32 @@ def _parted(text: str, read: Read) -> Clause | None:
     joints = [match.span() for match in words.joint.finditer(text)]
     signs = [(match.start(), match.start()) for match in words.sign.finditer(text)]
     said = bool(marks or words.throughout.search(text))
-    for cuts, sure in (
-        (marks, SURE_AT_MARK),
-        (joints, SURE_IF_SAID),
-        (signs + (_blanks(text) if said else []), SURE_AT_ONCE),
+    each = _names_both(text)
+    for cuts, sure, enough in (
+        (marks, SURE_AT_MARK, SURE_AT_MARK),
+        (joints, SURE_AT_MARK if each else SURE_IF_SAID, SURE_IF_SAID),
+        (signs + (_blanks(text) if said or each else []), SURE_AT_ONCE, SURE_AT_ONCE),
     ):
-        pairs = [_pair(text[:stop], text[start:], read, sure) for stop, start in cuts]
         found = [
             pair
-            for pair in pairs
-            if pair and (said or pair.one_arm_each or (cuts == signs and not pair.arms_alone))
+            for stop, start in cuts
+            if (pair := _pair(text[:stop], text[start:], read, sure))
+            and (
+                pair.one_arm_each
+                or (said and pair.certainty > enough)
+                or ((stop, start) in signs and not pair.arms_alone)
+            )
         ]
         if found:
             return max(found, key=lambda pair: pair.certainty).clause
     return None
+
+
+def _names_both(text: str) -> bool:
+    """Whether a text names the left and the right, or one of them and the other one."""
+    words = _words()
+    said = words.no_side.sub(" ", text)
+    return sum(bool(each.search(said)) for each in (words.left, words.right, words.other)) > 1
 
 
 @dataclass(frozen=True)
@@ -441,17 +455,28 @@ def _pair(left: str, right: str, read: Read, sure: float) -> _Pair | None:
         _trimmed(words.meanwhile.sub(" ", words.throughout.sub(" ", half)))
         for half in (left, right)
     ]
+    if any(words.limb.search(half) for half in halves):  # which nothing is said of
+        return None
     first, second = [read(_measured(half).text) for half in halves]
     if not (first.arms or second.arms) or not _differ(first, second, sure):
         return None
     body, other = (1, 0) if first.arms and not second.arms else (0, 1)
-    sides, alone = [side_of(half) for half in halves], first.arms and second.arms
+    sides, alone = _sides(*halves), first.arms and second.arms
     return _Pair(
         replace(_measured(halves[body]), meanwhile=halves[other], side=sides[other]),
         min(first.certainty, second.certainty),
         alone,
         alone and set(sides) == _SIDES,
     )
+
+
+def _sides(first: str, second: str) -> list[str]:
+    """Those of two halves, of which one may say "the other"."""
+    sides = [side_of(first), side_of(second)]
+    for row, half in enumerate((first, second)):
+        if sides[row] == "both" and sides[1 - row] in _SIDES and _words().other.search(half):
+            sides[row] = "left" if sides[1 - row] == "right" else "right"
+    return sides
 
 
 def side_of(text: str) -> str:

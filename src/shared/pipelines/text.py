@@ -35,7 +35,7 @@ from ..model.clip.out_of_domain import TWINS, ScopeResult
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import Progress, TextToMotion
-from ..model.noise import derived_seed, retry_seeds
+from ..model.noise import TRIES, derived_seed, retry_seeds
 from ..motion.features import ROOT_ROW, YAW_RATE, decode_features, facing_kept
 from ..motion.motion import Motion
 from ..motion.postprocess.whole import rest_to_rest
@@ -152,6 +152,10 @@ class SentenceGenerator:
                         self._one(prompt, lengths[index], labels[index], own, foot_lock)
                     )
                     told(sum(map(len, made.values())))
+        for prompt, samples in {p: made[index] for index, p in enumerate(prompts)}.items():
+            lines = [self.missed(prompt, motion) for motion in samples]
+            if lines and all(lines):
+                log.warning("%s", lines[0])
         return [motion for index in range(len(prompts)) for motion in made[index]]
 
     def encode_prompts(self, prompts: Sequence[str]) -> TextFeatures:
@@ -161,6 +165,18 @@ class SentenceGenerator:
     def scope_warnings(self, prompts: Sequence[str]) -> list[str | None]:
         """For each prompt, a line for the first of its clauses that is far from what is known."""
         return [next(filter(None, self._warnings(prompt)), None) for prompt in prompts]
+
+    def missed(self, prompt: str, motion: Motion) -> str | None:
+        """A line if a motion does not show the action of its prompt, as far as kinematics tell,
+        although it was sampled again; None where it does, and where nobody can say: of several
+        clauses, or of an action that kinematics do not see."""
+        first, *others = self.clauses(prompt)
+        if others or first.meanwhile or self._does(first.text, motion):
+            return None
+        return (
+            f"prompt {prompt!r}: none of {TRIES} samples shows {self._nearest(first.text)!r}, by"
+            " how joints move; look at the motion, and try another seed or other words"
+        )
 
     def _warnings(self, prompt: str, *, again: bool = True) -> list[str | None]:
         parts = self.clauses(prompt)

@@ -9,7 +9,7 @@ import { postProcess, restToRest } from "../body/whole.js";
 import { allBut, chosenJoints, fill, fillFree, keepEnds, NO_TEXT, redo } from "./edit.js";
 import { naturalGait, pathConstraint, timePath } from "./path.js";
 import { isPlain, SentenceReader } from "./sentence.js";
-import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, WINDOW } from "./stream.js";
+import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
 const MIN_FRAMES = 8, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, ONCE = [2.5, 3], LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
 
@@ -72,7 +72,7 @@ export class Director {
     const longest = this.settings.maxSeconds;
     if (parts.length > 1 || !isPlain(parts[0]) || this.spins(parts[0]) || (longest !== null && frames > round(longest * FPS)))
       return this.clausesOf(prompt, parts, seconds, seed, options);
-    let best = null;
+    let best = null, missed = null;
     for (const trial of retrySeeds(seed)) {
       const features = await this.sampler.sample(prompt, frames, trial);
       if (this.byArms(prompt)) keepFacing(features);
@@ -80,9 +80,10 @@ export class Director {
       options.told?.(frames);
       const does = this.does(prompt, motion);
       if (best === null || does) best = motion;
+      missed = does ? null : `“${prompt}”: none of ${TRIES} samples shows “${this.nearest(prompt)}”, by how joints move; try another seed or other words.`;
       if (does) break;
     }
-    return best;
+    return { ...best, missed };
   }
 
   async clausesOf(prompt, parts, seconds, seed, options) {

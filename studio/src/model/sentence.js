@@ -143,12 +143,18 @@ export class SentenceReader {
   parted(text) {
     const [marks, joints, signs] = ["meanwhile", "joint", "sign"].map((name) => spans(text, this.each[name]));
     const said = marks.length > 0 || this.first.throughout.test(text);
-    const last = [...signs.map(([start]) => [start, start]), ...(said ? spans(text, BLANKS) : [])];
-    for (const [cuts, sure] of [[marks, SURE_AT_MARK], [joints, SURE_IF_SAID], [last, SURE_AT_ONCE]]) {
+    const each = this.namesBoth(text), atSigns = signs.map(([start]) => [start, start]);
+    const last = [...atSigns, ...(said || each ? spans(text, BLANKS) : [])];
+    for (const [cuts, sure, enough] of [
+      [marks, SURE_AT_MARK, SURE_AT_MARK],
+      [joints, each ? SURE_AT_MARK : SURE_IF_SAID, SURE_IF_SAID],
+      [last, SURE_AT_ONCE, SURE_AT_ONCE],
+    ]) {
       let found = null;
       for (const [stop, start] of cuts) {
         const pair = this.pair(text.slice(0, stop), text.slice(start), sure);
-        if (!pair || !(said || pair.oneArmEach || (cuts === last && !pair.armsAlone))) continue;
+        const atSign = stop === start && atSigns.some(([at]) => at === stop);
+        if (!pair || !(pair.oneArmEach || (said && pair.certainty > enough) || (atSign && !pair.armsAlone))) continue;
         if (!found || pair.certainty > found.certainty) found = pair;
       }
       if (found) return found.clause;
@@ -157,13 +163,29 @@ export class SentenceReader {
   }
 
   /** Two halves as one clause; null where they are not two actions, or the arms do neither. */
+  /** Whether a text names the left and the right, or one of them and the other one. */
+  namesBoth(text) {
+    const said = text.replace(this.each.no_side, " ");
+    return [this.first.left, this.first.right, this.first.other].filter((each) => each.test(said)).length > 1;
+  }
+
+  /** Sides of two halves, of which one may say "the other". */
+  sides(halves) {
+    const found = halves.map((half) => this.sideOf(half));
+    halves.forEach((half, i) => {
+      if (found[i] === "both" && found[1 - i] !== "both" && this.first.other.test(half)) found[i] = found[1 - i] === "right" ? "left" : "right";
+    });
+    return found;
+  }
+
   pair(left, right, sure) {
     const halves = [left, right].map((half) =>
       this.trimmed(half.replace(this.each.throughout, " ").replace(this.each.meanwhile, " ")));
+    if (halves.some((half) => this.first.limb.test(half))) return null;
     const [first, second] = halves.map((half) => this.reading(half));
     if (!(first.arms || second.arms) || !differ(first, second, sure)) return null;
     const [body, other] = first.arms && !second.arms ? [1, 0] : [0, 1];
-    const sides = halves.map((half) => this.sideOf(half)), armsAlone = first.arms && second.arms;
+    const sides = this.sides(halves), armsAlone = first.arms && second.arms;
     return {
       clause: { ...this.measured(halves[body]), meanwhile: halves[other], side: sides[other] },
       certainty: Math.min(first.certainty, second.certainty),

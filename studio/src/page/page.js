@@ -331,13 +331,14 @@ class Page {
     this.warnTimer = setTimeout(() => this.warn(), 400);
   }
 
-  /** Says which sentences the model hardly knows. */
+  /** Says which sentences the model hardly knows, and which motions do not show theirs. */
   async warn() {
     if (!this.client) return;
     const texts = [...new Set(this.scene.blocks.map(({ text }) => text).filter((text) => text.trim()))];
     const found = await Promise.all(texts.map((text) => this.client.call("warning", { text })));
     const list = $("warnings");
-    const lines = found.filter(Boolean);
+    const takes = Array.from({ length: this.scene.takes }, (_, take) => this.motions.get(this.keyOf(take))?.missed);
+    const lines = [...new Set([...found, ...takes].filter(Boolean))];
     if (JSON.stringify(lines) === list.dataset.lines) return;
     list.dataset.lines = JSON.stringify(lines);
     list.replaceChildren(...lines.map((line) => {

@@ -219,6 +219,22 @@ def test_any_text_has_a_clause(text: str):
             "brazo izquierdo alzado, la derecha saluda",
             Clause("brazo izquierdo alzado", meanwhile="la derecha saluda", side="right"),
         ),
+        (
+            "left arm raised he waves with his right hand",
+            Clause("left arm raised", meanwhile="he waves with his right hand", side="right"),
+        ),
+        (
+            "raises the left hand and waves with the other",
+            Clause("raises the left hand", meanwhile="waves with the other", side="right"),
+        ),
+        (
+            "waves with the left hand and about about about about raises the right",
+            Clause(
+                "waves with the left hand",
+                meanwhile="about about about about raises the right",
+                side="right",
+            ),
+        ),
     ],
 )
 def test_what_the_arms_do_meanwhile(sentence: str, clause: Clause):
@@ -233,6 +249,7 @@ def test_what_the_arms_do_meanwhile(sentence: str, clause: Clause):
         "jumps while turning",
         "walks with her hands about about about in the air",
         "waves with the left hand raised",
+        "raises the left hand to the other person",
         "左边请走",
         "un coup de poing",
     ],

@@ -101,7 +101,9 @@ def test_who_is_to_turn_turns():
     assert [spin.seconds for spin in spins] == [4.0, 4.0, 7.0, 7.0]
 
 
-def test_what_kinematics_miss_is_sampled_again(monkeypatch: pytest.MonkeyPatch):
+def test_what_kinematics_miss_is_sampled_again(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+):
     generator = TextToMotion.from_pretrained("starter", device="cpu")
     assert generator.scope is not None
     generator.scope = replace(generator.scope, checked=("jump",))
@@ -109,8 +111,13 @@ def test_what_kinematics_miss_is_sampled_again(monkeypatch: pytest.MonkeyPatch):
     def made(check: Check) -> list[np.ndarray]:
         monkeypatch.setitem(ACTIONS, "jump", check)
         prompts = ["a person jumps", "a person walks forward"]
-        found = SentenceGenerator(generator).generate(prompts, seconds=2.0)
+        sentences = SentenceGenerator(generator)
+        found = sentences.generate(prompts, seconds=2.0)
         refused.append(measure(found[0]))
+        lines = [sentences.missed(*pair) for pair in zip(prompts, found, strict=True)]
+        assert lines[1] is None and (lines[0] is None) == check(refused[-1])
+        assert [r.getMessage() for r in caplog.records] == [line for line in lines if line]
+        caplog.clear()
         return [motion.quaternions for motion in found]
 
     refused: list[Measurements] = []

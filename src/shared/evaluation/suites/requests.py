@@ -52,18 +52,24 @@ LOOKED_UP = "captured, looked up in training"
 DRAWS = 20  # of the clips that a distance is held against
 
 
-class Model(Protocol):
-    """What is asked of a model; `SentenceGenerator` is one."""
+class Floor(Protocol):
+    """What is asked of a model that is a row of the first tables alone."""
 
     def generate(self, prompts: Sequence[str], *, seconds: float, seed: int) -> list[Motion]: ...
+
+
+class Model(Floor, Protocol):
+    """What is asked of a model; `SentenceGenerator` is one."""
+
     def scope_warnings(self, prompts: Sequence[str]) -> list[str | None]: ...
+    def missed(self, prompt: str, motion: Motion) -> str | None: ...
 
 
 def evaluate_requests(
     model: Model,
     data: PreparedData,
     *,
-    floors: dict[str, Model] | None = None,
+    floors: dict[str, Floor] | None = None,
     settings: RequestSettings | None = None,
     about: dict[str, Any] | None = None,
     progress: Progress = lambda text: None,
@@ -85,7 +91,7 @@ def evaluate_requests(
     plain = drawn([r for r in requests if r.section == "plain"], settings.wordings, settings.seed)
     plain = [r for r in plain if r.action in yardstick.judge.classes]
 
-    def make(texts: Sequence[str], by: Model = model) -> Seen:
+    def make(texts: Sequence[str], by: Floor = model) -> Seen:
         return Seen.of(by.generate(texts, seconds=settings.seconds, seed=settings.seed))
 
     with errors_only():
@@ -401,8 +407,13 @@ def _warnings(
     def warned_of(asked: Sequence[Request]) -> np.ndarray:
         return np.array([w is not None for w in model.scope_warnings([r.text for r in asked])])
 
+    def seen_to_miss(asked: Sequence[Request], seen: Seen) -> np.ndarray:
+        pairs = zip(asked, seen.motions, strict=True)
+        return np.array([model.missed(r.text, motion) is not None for r, motion in pairs])
+
     done = yardstick.obeyed([request.labels for request in plain], made)
-    warned = warned_of(plain)
+    said = warned_of(plain)
+    warned = said | seen_to_miss(plain, made)
     foreign = warned_of([r for r in requests if r.section == OUTSIDE])
     free = [r for r in requests if r.section == FREE and len(r.parts) < 2]
     told = warned_of(free)
@@ -411,9 +422,12 @@ def _warnings(
     if inside:
         seen = make([free[i].text for i in inside])
         right[inside] = yardstick.obeyed([free[i].labels for i in inside], seen)
+        told[inside] |= seen_to_miss([free[i] for i in inside], seen)
     shares = {
         "plain, missed": warned[~done],
         "plain, obeyed": warned[done],
+        "plain, missed: by the sentence alone": said[~done],
+        "plain, obeyed: by the sentence alone": said[done],
         "outside the vocabulary": foreign,
         "free prompts, right": right,
         "free prompts, wrong but warned of": ~right & told,
@@ -421,8 +435,9 @@ def _warnings(
     }
     rows = {name: GridRow({"share": share_of(each)}, len(each)) for name, each in shares.items()}
     note = (
-        "The first three rows: share that is warned of. Then the free prompts, half of which are"
-        " outside: every one is right, or wrong with or without a warning."
+        "Share that is warned of: by the sentence, or by kinematics of the motion, which the judge"
+        " asks, too. Then the free prompts, half of which are outside: every one is right, or wrong"
+        " with or without a warning; of those outside the sentence alone can warn."
     )
     title = "Knowing what it does not know"
     return Grid("warnings", title, (Column("share", "share", 2),), rows, note, head="requests")
