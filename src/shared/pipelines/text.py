@@ -55,6 +55,7 @@ from .stream import (
 TURN_SPEED, TURN_REST = 75.0, 0.5  # degrees a second; seconds before and after a turn
 SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to be filled
 ONCE = (2.5, 3.0)  # seconds of one repetition, from … to
+INSISTING = 3.0  # times the model's guidance, of what is sampled again
 LEAST = 1.0  # seconds in which an action can be seen
 UNEASY = 0.5  # what it counts that a gesture does not end at rest; 1: that it is not there
 REPEATED_OVERLAP = 10  # frames: a repetition begins as the one before it ended, at rest
@@ -114,7 +115,7 @@ class SentenceGenerator:
             if progress is not None:
                 progress(done, len(prompts) * num_samples)
 
-        def sampled(rows: list[int], seed: int) -> dict[int, list[Motion]]:
+        def sampled(rows: list[int], seed: int, scale: float | None) -> dict[int, list[Motion]]:
             found = self.generator.generate(
                 [prompts[index] for index in rows],
                 seconds=[lengths[index] for index in rows],
@@ -123,7 +124,7 @@ class SentenceGenerator:
                 seed=seed,
                 steps=steps,
                 sampler=sampler,
-                guidance_scale=guidance_scale,
+                guidance_scale=scale,
                 foot_lock=foot_lock,
                 facing=[self._by_arms(prompts[index]) for index in rows],
                 progress=lambda done, total: told(max(done, sum(map(len, made.values())))),
@@ -134,13 +135,16 @@ class SentenceGenerator:
                 for index, own in zip(rows, several, strict=True)
             }
 
+        scale = guidance_scale
         for again in retry_seeds(seed):
             if not plain:
                 break
-            for index, others in sampled(plain, again).items():
+            for index, others in sampled(plain, again, scale).items():
                 pairs = zip(made.get(index, others), others, strict=True)
                 made[index] = [self._better(prompts[index], *pair) for pair in pairs]
             plain = [i for i in plain if not all(self._does(prompts[i], m) for m in made[i])]
+            if guidance_scale is None:
+                scale = INSISTING * self.generator.network.generation.guidance_scale
         for index, prompt in enumerate(prompts):
             if not whole[index]:
                 for warning in filter(None, self._warnings(prompt, again=False)):

@@ -11,7 +11,7 @@ import { naturalGait, pathConstraint, timePath } from "./path.js";
 import { isPlain, SentenceReader } from "./sentence.js";
 import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
-const MIN_FRAMES = 8, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, ONCE = [2.5, 3], LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
+const MIN_FRAMES = 8, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
 
 export class Director {
   /** @param {Sampler} sampler @param {Scope} scope @param {object} settings of the model */
@@ -74,7 +74,8 @@ export class Director {
       return this.clausesOf(prompt, parts, seconds, seed, options);
     let best = null, missed = null;
     for (const trial of retrySeeds(seed)) {
-      const features = await this.sampler.sample(prompt, frames, trial);
+      const guidance = (best === null ? 1 : INSISTING) * this.settings.guidance;
+      const features = await this.sampler.sample(prompt, frames, trial, null, guidance);
       if (this.byArms(prompt)) keepFacing(features);
       const motion = this.rested(postProcess(features, this.settings.post, { text: prompt }), prompt);
       options.told?.(frames);
