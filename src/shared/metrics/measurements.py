@@ -439,7 +439,8 @@ def _within(m: Measurements, metres: float) -> bool:
 
 def _walks(m: Measurements) -> bool:
     slow = m.cruise < 2.0 and m.flight < 0.05 * m.seconds
-    return slow and _travels(m, 0.25) and m.stride > _MIN_STRIDE and m.pelvis_low > 0.82
+    goes = _travels(m, 0.25) or (abs(m.yaw) > _MIN_TURN and m.cruise > 0.5)  # in a circle, too
+    return slow and goes and m.stride > _MIN_STRIDE and m.pelvis_low > 0.82
 
 
 def _side_steps(m: Measurements) -> bool:

@@ -174,11 +174,14 @@ class SentenceGenerator:
         """A line if a motion does not show the action of its prompt, as far as kinematics tell,
         although it was sampled again; None where it does, and where nobody can say: of several
         clauses, or of an action that kinematics do not see."""
-        first, *others = self.clauses(prompt)
-        if others or first.meanwhile or self._does(first.text, motion):
+        (first, *others), scope = self.clauses(prompt), self.generator.scope
+        action = self._nearest(first.text)
+        if others or first.meanwhile or scope is None or action not in scope.checked:
+            return None
+        if self._does(first.text, motion):
             return None
         return (
-            f"prompt {prompt!r}: none of {TRIES} samples shows {self._nearest(first.text)!r}, by"
+            f"prompt {prompt!r}: none of {TRIES} samples shows {action!r}, by"
             " how joints move; look at the motion, and try another seed or other words"
         )
 

@@ -221,7 +221,8 @@ const runs = (m) => forward(m) && (m.cruise > 2 || (m.flight > 0.05 * m.seconds 
 const travels = (m, speed) => Math.hypot(m.forwardNet, m.lateralNet) > speed * m.seconds;
 const within = (m, metres) => Math.abs(m.forwardNet) < metres && Math.abs(m.lateralNet) < metres;
 const walks = (m) =>
-  m.cruise < 2 && m.flight < 0.05 * m.seconds && travels(m, 0.25) && m.stride > MIN_STRIDE && m.pelvisLow > 0.82;
+  m.cruise < 2 && m.flight < 0.05 * m.seconds && (travels(m, 0.25) || (Math.abs(m.yaw) > MIN_TURN && m.cruise > 0.5)) &&
+  m.stride > MIN_STRIDE && m.pelvisLow > 0.82;
 const sideSteps = (m) => (sideways(m, 1) || sideways(m, -1)) && Math.abs(m.lateralNet) > Math.abs(m.forwardNet);
 const turnsInPlace = (m) => Math.abs(m.yaw) > MIN_TURN && within(m, 0.6) && Math.max(...m.handPeak) < -0.3;
 const stands = (m) =>

@@ -81,7 +81,7 @@ export class Director {
       options.told?.(frames);
       const does = this.does(prompt, motion);
       if (best === null || does) best = motion;
-      missed = does ? null : `“${prompt}”: none of ${TRIES} samples shows “${this.nearest(prompt)}”, by how joints move; try another seed or other words.`;
+      missed = does || !this.scope.meta.checked.includes(this.nearest(prompt)) ? null : `“${prompt}”: none of ${TRIES} samples shows “${this.nearest(prompt)}”, by how joints move; try another seed or other words.`;
       if (does) break;
     }
     return { ...best, missed };
