@@ -74,7 +74,7 @@ class SentenceGenerator:
         self.generator = generator
         self.card, self.text = generator.card, generator.text
         self._read: dict[str, list[Clause]] = {}
-        self._scoped: dict[str, ScopeResult] = {}
+        self._scoped: dict[str, ScopeResult | None] = {}
 
     def clauses(self, prompt: str) -> list[Clause]:
         """What a prompt asks for, in order."""
@@ -156,9 +156,9 @@ class SentenceGenerator:
                         self._one(prompt, lengths[index], labels[index], own, foot_lock)
                     )
                     told(sum(map(len, made.values())))
-        for prompt, samples in {p: made[index] for index, p in enumerate(prompts)}.items():
-            lines = [self.missed(prompt, motion) for motion in samples]
-            if lines and all(lines):
+        for index in plain:  # what no sample helped
+            lines = [self.missed(prompts[index], motion) for motion in made[index]]
+            if all(lines):
                 log.warning("%s", lines[0])
         return [motion for index in range(len(prompts)) for motion in made[index]]
 
@@ -172,11 +172,13 @@ class SentenceGenerator:
 
     def missed(self, prompt: str, motion: Motion) -> str | None:
         """A line if a motion does not show the action of its prompt, as far as kinematics tell,
-        although it was sampled again; None where it does, and where nobody can say: of several
-        clauses, or of an action that kinematics do not see."""
+        although it was sampled again; None where it does, where nobody can say, as of an action
+        that kinematics do not see, and of sentences with clauses or measures."""
         (first, *others), scope = self.clauses(prompt), self.generator.scope
         action = self._nearest(first.text)
-        if others or first.meanwhile or scope is None or action not in scope.checked:
+        if others or not first.plain or self._spins(first):
+            return None
+        if scope is None or action not in scope.checked:
             return None
         if self._does(first.text, motion):
             return None
@@ -264,11 +266,8 @@ class SentenceGenerator:
         return found.nearest[0] if found and found.nearest else None
 
     def _scope_result(self, text: str) -> ScopeResult | None:
-        if self.generator.scope is None or not text:
-            return None
         if text not in self._scoped:
-            [row] = self.generator.encode_prompts([text]).rows()
-            self._scoped[text] = self.generator.scope.check(text, *row)
+            self._scoped[text] = self.generator.read(text)
         return self._scoped[text]
 
     def _is_whole(self, prompt: str, seconds: float) -> bool:

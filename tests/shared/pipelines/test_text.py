@@ -4,6 +4,7 @@ PromptSampler keeps the best of N for each prompt.
 """
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,11 +13,12 @@ import torch
 from src.shared.errors import UserError
 from src.shared.metrics.measurements import ACTIONS, Check, Measurements, at_rest, measure
 from src.shared.model.generation.motion_generator import TextToMotion
+from src.shared.model.noise import TRIES
 from src.shared.motion.features import ROOT_ROW, YAW_RATE, encode_features
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import JOINT_INDEX
 from src.shared.pipelines.ranking import TextJudge
-from src.shared.pipelines.text import PromptSampler, SentenceGenerator, turned
+from src.shared.pipelines.text import INSISTING, PromptSampler, SentenceGenerator, turned
 from tests.shared.model.conftest import tiny_generator
 
 
@@ -108,8 +110,18 @@ def test_what_kinematics_miss_is_sampled_again(
     assert generator.scope is not None
     generator.scope = replace(generator.scope, checked=("jump",))
 
+    scales: list[float | None] = []
+    sample = generator.generate
+
+    def listening(*given: Any, **options: Any) -> list[Motion]:
+        scales.append(options["guidance_scale"])
+        return sample(*given, **options)
+
+    monkeypatch.setattr(generator, "generate", listening)
+
     def made(check: Check) -> list[np.ndarray]:
         monkeypatch.setitem(ACTIONS, "jump", check)
+        scales.clear()
         prompts = ["a person jumps", "a person walks forward"]
         sentences = SentenceGenerator(generator)
         found = sentences.generate(prompts, seconds=2.0)
@@ -122,6 +134,8 @@ def test_what_kinematics_miss_is_sampled_again(
 
     refused: list[Measurements] = []
     first, never = made(lambda m: True), made(lambda m: False)
+    insisting = INSISTING * generator.network.generation.guidance_scale
+    assert scales == [None, *[insisting] * (TRIES - 1)]
     other = made(lambda m: m != refused[0])
     np.testing.assert_array_equal(never[0], first[0])  # where none will do the first one stays
     assert not np.array_equal(other[0], first[0])

@@ -29,7 +29,7 @@ from ..checkpoint import (
     wrong_kind,
 )
 from ..clip.features import TextFeatures, check_embed_dims
-from ..clip.out_of_domain import OutOfDomainDetector
+from ..clip.out_of_domain import OutOfDomainDetector, ScopeResult
 from ..clip.style_map import StyleMap
 from ..clip.tokenizer import TOKENIZER_FOLDER, PromptTokenizer
 from ..diffusion import GaussianDiffusion, guided
@@ -361,14 +361,17 @@ class TextToMotion:
         self._told.update(prompts)
         return [warnings.get(prompt) for prompt in prompts]
 
-    def begins_standing(self, prompt: str) -> bool:
-        """Whether what a prompt asks for is done from a standing body to a standing one, as far as
-        captured clips say; False where the model has not learned what it knows."""
-        if self.scope is None:
-            return False
+    def read(self, prompt: str) -> ScopeResult | None:
+        """What a prompt asks for, as far as the model knows; None where it has not learned that."""
+        if self.scope is None or not prompt:
+            return None
         [row] = self.encode_prompts([prompt]).rows()
-        nearest = self.scope.check(prompt, *row).nearest
-        return bool(nearest) and nearest[0] in self.scope.gestures
+        return self.scope.check(prompt, *row)
+
+    def begins_standing(self, prompt: str) -> bool:
+        """Whether what a prompt asks for is done from a standing body to a standing one."""
+        found = self.read(prompt)
+        return bool(found and self.scope and set(found.nearest[:1]) & set(self.scope.gestures))
 
     def style_of(self, prompt: str) -> np.ndarray | None:
         """The 8-d unit style that a sentence speaks of (ruling 11).
