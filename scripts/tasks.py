@@ -18,7 +18,7 @@ PROMPTS = (
     "a person walks forward",
     "una persona saluda con la mano derecha",  # waves with the right hand
     "someone runs forward quickly",
-    "人が左に曲がる",  # turns left
+    "人が左を向く",  # turns to the left
 )
 DEMO = "outputs/demo"
 SONG = f"""

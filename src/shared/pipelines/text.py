@@ -156,9 +156,10 @@ class SentenceGenerator:
                         self._one(prompt, lengths[index], labels[index], own, foot_lock)
                     )
                     told(sum(map(len, made.values())))
-        for index in plain:  # what no sample helped
+        for index in plain:  # what no sample helped, unless it is warned of already
             lines = [self.missed(prompts[index], motion) for motion in made[index]]
-            if all(lines):
+            found = self._scope_result(prompts[index])
+            if all(lines) and found is not None and found.known:
                 log.warning("%s", lines[0])
         return [motion for index in range(len(prompts)) for motion in made[index]]
 
