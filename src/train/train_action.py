@@ -8,12 +8,14 @@ sent them before. Then low-rank adapters (Hu et al. 2022, LoRA) learn what is at
 are open for texts that come out there and closed for all others: of what the model knew, nothing
 changes. No clip that it was trained on is needed. With `actions=` it is known actions that are
 learned better, in adapters at the places that they have; with `styles=` those of their clips in
-these styles, at places where nothing else comes out.
+these styles, at places where nothing else comes out, or, `styles=plain`, in none. With
+`captured-share=1` the captured clips of an action that has some are all that is learned of it.
 
 Letters: B batch, T frames, R rows of a frame, P places, D shared dimensions.
 """
 
 import copy
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -66,6 +68,7 @@ NEARNESS = 20.0  # weight of the cosines beside the choice: warnings go by how n
 BABBLE = 0.3  # share of new captions with made-up words in them
 KEPT = 0.15  # of where the tower sent new captions, which is near everything that it knew
 LEAST_CLIPS = 2
+PLAIN = "plain"  # clips without a style
 SHARED = 0.1  # share of another combination's captions that makes a place theirs, too
 MOST = 0.5  # share of a combination's captions that have to agree on its place
 
@@ -81,6 +84,7 @@ class TrainActionConfig(TrainConfig):
     tower_steps: int = Field(300, ge=1)  # of the text tower, before the motion
     actions: tuple[str, ...] = ()  # known ones, to be learned better; none: what is new
     styles: tuple[str, ...] = ()  # of `actions`, to be learned better; none: all
+    min_clips: int = Field(1, ge=1)  # of a combination of labels, to be learned
 
 
 @dataclass(frozen=True)
@@ -114,6 +118,9 @@ class ActionTask(Task):
         known = set(self.before.card.tags)
         self.actions = config.actions or tuple(sorted(set(self.data.tags) - known))
         self._check()
+        records = self.data.records("train") if config.captured_share == 1 else []
+        self.captured = {r.tag for r in records if r.provenance == "captured"}
+        self.clips = Counter(r.group for r in self.data.records("train"))
         self.train = training_set(config, self.data, self._learns)
         self.tags = (
             self.before.card.tags if config.actions else (*self.before.card.tags, *self.actions)
@@ -132,9 +139,11 @@ class ActionTask(Task):
 
     def _learns(self, record: ClipRecord) -> bool:
         """Whether this clip is to be learned."""
-        if record.tag not in self.actions:
+        if record.tag not in self.actions or self.clips[record.group] < self.config.min_clips:
             return False
-        return not self.config.styles or record.labels.get("style") in self.config.styles
+        if record.tag in self.captured and record.provenance != "captured":
+            return False
+        return not self.config.styles or record.labels.get("style", PLAIN) in self.config.styles
 
     def _check(self) -> None:
         styles = self.config.styles
@@ -161,7 +170,7 @@ class ActionTask(Task):
                     f" least {LEAST_CLIPS}, better 20"
                 )
         clips = [r for r in self.data.records("train") if r.tag in self.actions]
-        shown = {r.labels["style"] for r in clips if "style" in r.labels}
+        shown = {r.labels.get("style", PLAIN) for r in clips}
         if unknown := sorted(set(styles) - shown):
             raise UserError(
                 f"styles={','.join(unknown)}: {self.config.data} has no clip of"
@@ -204,7 +213,8 @@ class ActionTask(Task):
 
     def _known_tower(self) -> tuple[TextTower, dict[str, Tensor]]:
         """The tower as it is; and for every group the place [D] that most of its captions go to, or
-        else most of its action's. With `styles` groups that share theirs with others are left out.
+        else most of its action's. With `styles` groups in a style that share theirs with others
+        are left out.
 
         Raises:
             UserError: none is left.
@@ -231,7 +241,9 @@ class ActionTask(Task):
             found[group] = int(own.mode().values)
         if self.config.styles:
             others = (r for r in self.data.records("train") if r.labels and r.group not in found)
-            found = unshared(found, nearest(others).values())
+            plain = {r.group for r in self.train.records if "style" not in r.labels}
+            own = unshared(found, nearest(others).values())
+            found = {group: at for group, at in found.items() if group in plain or group in own}
             if not found:
                 raise UserError(
                     f"styles={','.join(self.config.styles)}: no clip of {', '.join(self.actions)}"

@@ -180,9 +180,13 @@ def test_a_style_is_learned_better_where_nothing_else_comes_out(
     config = action_config(tmp_path / "both", model, tmp_path / "x", *wanted)
     with pytest.raises(UserError, match="place of its own"):
         ActionTask(config, network_of(str(model)))
+    plain = action_config(tmp_path / "both", model, tmp_path / "z", wanted[0], "styles=[plain]")
+    learned = ActionTask(plain, network_of(str(model))).train.records
+    assert learned and all("style" not in record.labels for record in learned)
     for given, error, told in (
+        ((wanted[0], "min-clips=99"), UserError, "no clip"),
         (wanted[1:], UsageError, "actions=walk styles=sad"),
-        ((wanted[0], "styles=[sda]"), UserError, "styles=sda: .* name one of sad"),
+        ((wanted[0], "styles=[sda]"), UserError, "styles=sda: .* name one of plain, sad"),
     ):
         config = action_config(tmp_path / "both", model, tmp_path / "y", *given)
         with pytest.raises(error, match=told):

@@ -13,7 +13,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
@@ -427,7 +427,7 @@ def along_path(
             path.
     """
     fps = generator.card.fps
-    speed, facing = natural_gait(generator, timeline.passages[0], sampling)
+    speed, facing, _ = natural_gait(generator, timeline.passages[0], sampling)
     alone = len(timeline.passages) == 1 and not timeline.parts
     if not alone:
         seconds = (timeline.num_frames - 1) / fps
@@ -461,17 +461,30 @@ def along_path(
     return ControlledMotion(motion, errors | walked)
 
 
-def natural_gait(
-    generator: TextToMotion, passage: Passage, sampling: Sampling
-) -> tuple[float, float]:
-    """How fast a body goes that nobody directs, m/s, and radians from its way to its heading.
+class Gait(NamedTuple):
+    """How a body goes that nobody directs.
 
-    A prompt may say backward or sideways; the angle is a multiple of a quarter turn.
+    Attributes:
+        speed: m/s.
+        facing: radians from its way to its heading, a multiple of a quarter turn: a prompt may say
+            backward or sideways.
+        turning: radians a second, positive to the left.
     """
+
+    speed: float
+    facing: float
+    turning: float
+
+
+def natural_gait(generator: TextToMotion, passage: Passage, sampling: Sampling) -> Gait:
+    """That of a passage's text."""
     (features,) = stream_features(generator, [replace(passage, frames=90)], sampling)
-    ground = features[:, ROOT_ROW, [FORWARD, LATERAL]].numpy()  # 90 2
+    root = features[:, ROOT_ROW].numpy()  # 90 C
+    ground = root[:, [FORWARD, LATERAL]]
     speed = float(np.percentile(np.hypot(*ground.T), 75))  # it may have to start first
     forward, lateral = ground.mean(0)
+    turning = float(root[:, YAW_RATE].mean())
     if np.hypot(forward, lateral) < STANDING:
-        return NATURAL, 0.0
-    return speed, -float(np.round(np.arctan2(lateral, forward) / (np.pi / 2)) * (np.pi / 2))
+        return Gait(NATURAL, 0.0, turning)
+    way = float(np.round(np.arctan2(lateral, forward) / (np.pi / 2)) * (np.pi / 2))
+    return Gait(speed, -way, turning)

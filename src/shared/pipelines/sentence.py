@@ -35,6 +35,7 @@ _STOPS = (
 )
 _ARROWS = r"\s*(?:[-=]*>+|[→➜➔⇒▶»])"
 _DIGITS = r"\d+(?:[.,]\d+)?"
+_NUMBERED = re.compile(r"(?<![^\s,;:])(\d)\s*[.):](?!\d)\s*")  # of a list, in a line
 
 
 class Words:
@@ -66,6 +67,11 @@ class Words:
             re.compile(rf"{_COMMAS}?\s*{_any(all_of(key))}\s*", re.I)
             for key in ("meanwhile", "throughout")
         )
+        self.beforehand = re.compile(rf"{_STOPS}?\s*{_any(all_of('beforehand'))}{_COMMAS}?", re.I)
+        self.greeting = re.compile(rf"^\s*{_any(all_of('greetings'))}\s*{_STOPS}\s*(?=\S)", re.I)
+        self.closing = re.compile(rf"\s*{_STOPS}\s*{_any(all_of('closings'))}\W*$", re.I)
+        cut = "|".join(re.escape(word[:-1]) for word in all_of("short"))
+        self.short = re.compile(rf"(?<!{_SIGN})(?:{cut})\.(?=\s+{_LETTER})", re.I)
         self.before = re.compile(rf"{_COMMAS}?\s*{_any(all_of('before'))}\s*", re.I)
         self.after = re.compile(rf"{_COMMAS}?\s*{_any(all_of('after'))}\s*", re.I)
         own = _any([*all_of("own"), *all_of("left"), *all_of("right")])
@@ -74,9 +80,11 @@ class Words:
         self.sign = re.compile(rf"(?<!de )(?:{_any(all_of('with'))}|{limbs})", re.I)
         self.limb = re.compile(rf"^{limbs}$", re.I)
         self.manner = re.compile(rf"{_any(all_of('manner'))}$", re.I)
-        self.no_side = re.compile(_any(all_of("no_side")), re.I)
+        # "right at the corner", but "a right at the corner"
+        self.no_side = re.compile(rf"(?<!\ba\s){_any(all_of('no_side'))}", re.I)
         self.left, self.right = (re.compile(_any(all_of(side)), re.I) for side in ("left", "right"))
         self.other = re.compile(_any(all_of("other")), re.I)
+        self.round = re.compile(_any(all_of("round")), re.I)
         self.angle = re.compile(_any(angles), re.I)
         self.often = re.compile(_any(adverbs), re.I)
         number = rf"(?P<number>{_DIGITS}|{_any(numbers)})"
@@ -251,7 +259,7 @@ def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
     waving", "walks with one hand up" and "raises the left hand and waves with the right one" are
     one clause, with what the arms do meanwhile.
     """
-    text = unicodedata.normalize("NFKC", " ".join(sentence.split()))
+    text = _tidied(sentence)
     found: list[Clause] = []
     for whole in _ordered(text, read):
         pieces = _joined(whole, read)
@@ -266,6 +274,19 @@ def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
 # ---------------------------------------------------------------- order
 
 
+def _tidied(sentence: str) -> str:
+    """A sentence without greeting and thanks, with arrows for the numbers of a list."""
+    words = _words()
+    text = re.sub("[\u2460-\u2473\u2776-\u277f]", " → ", " ".join(sentence.split()))
+    text = words.greeting.sub("", unicodedata.normalize("NFKC", text))
+    text = words.closing.sub("", text) or text
+    text = words.short.sub(lambda cut: cut[0][:-1], text)
+    numbers = list(_NUMBERED.finditer(text))
+    if len(numbers) > 1 and [int(each[1]) for each in numbers] == list(range(1, len(numbers) + 1)):
+        text = _NUMBERED.sub(" → ", text)
+    return text
+
+
 def _ordered(text: str, read: Read) -> list[str]:
     """Parts that words of order part, first things first."""
     words = _words()
@@ -275,6 +296,7 @@ def _ordered(text: str, read: Read) -> list[str]:
     elif (match := words.before.match(text)) and (parts := _subordinate(text[match.end() :], read)):
         found = (parts[1], parts[0])
     for pattern, swapped in (
+        (words.beforehand, True),
         (words.then, False),
         (words.earlier, False),
         (words.later, True),
@@ -283,6 +305,8 @@ def _ordered(text: str, read: Read) -> list[str]:
     ):
         for match in () if found else pattern.finditer(text):
             left, right = text[: match.start()], text[match.end() :]
+            if pattern is words.then and _begins_after(text, match):
+                continue  # "después" alone, not "después de haber saltado"
             if pattern is words.then and match[0].lstrip()[:1].isalpha():
                 left, right = _around(left, right, read)
             if left.strip(EDGES) and right.strip(EDGES):
@@ -291,6 +315,13 @@ def _ordered(text: str, read: Read) -> list[str]:
     if found:
         return [part for each in found for part in _ordered(each, read)]
     return [_trimmed(words.then.sub(" ", text) if words.then.match(text) else text)]
+
+
+def _begins_after(text: str, then: re.Match[str]) -> bool:
+    """Whether a word of order is the first one of a longer phrase that says the opposite."""
+    word = then[0].lstrip(EDGES)
+    after = _words().after.match(text, then.end() - len(word))
+    return after is not None and len(after[0]) > len(word.rstrip(EDGES))
 
 
 def _subordinate(text: str, read: Read) -> tuple[str, str] | None:
@@ -485,6 +516,11 @@ def side_of(text: str) -> str:
     said = words.no_side.sub(" ", text)
     left, right = (bool(side.search(said)) for side in (words.left, words.right))
     return "both" if left == right else "left" if left else "right"
+
+
+def goes_round(text: str) -> bool:
+    """Whether a text tells of a way in a circle."""
+    return bool(_words().round.search(text))
 
 
 # ---------------------------------------------------------------- measure

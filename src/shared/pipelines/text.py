@@ -3,9 +3,9 @@
 A sentence is read as clauses (sentence.py). One plain clause that is no longer than the model's
 training clips is one sample of the network; all else is a stream of passages, one for each clause,
 with what the clause measures as a constraint: a path of so many metres, a heading that turns by so
-many degrees, in full circles where it asks for a spin. Where kinematics tell whether the action is
-there, and how often, what misses it is sampled again (`metrics.measurements`). Of several
-candidates the judge's first choice comes first.
+many degrees, in full circles where it asks for a spin or a way round, by a right angle where a walk
+is to turn. Where kinematics tell whether the action is there, and how often, what misses it is
+sampled again (`metrics.measurements`). Of several candidates the judge's first choice comes first.
 
 Letters: N candidates, T frames, R rows (bones, root track).
 """
@@ -43,7 +43,7 @@ from ..tensors import Tensor, torch
 from .edit import all_but, chosen_joints, fill_free
 from .path import DrawnPath, natural_gait, time_path
 from .ranking import ScoreTable, TextJudge, unranked
-from .sentence import Clause, Reading, clauses, side_of
+from .sentence import Clause, Reading, clauses, goes_round, side_of
 from .stream import (
     OVERLAP,
     WINDOW,
@@ -54,6 +54,9 @@ from .stream import (
 
 TURN_SPEED, TURN_REST = 75.0, 0.5  # degrees a second; seconds before and after a turn
 SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to be filled
+GOING = frozenset({"walk", "run", "crouch-walk"})
+CORNER, CORNER_SECONDS = 90.0, 3.0  # as captured walks turn
+TURNING = math.radians(20.0)  # a second: less is no turn
 ONCE = (2.5, 3.0)  # seconds of one repetition, from … to
 INSISTING = 3.0  # times the model's guidance, of what is sampled again
 LEAST = 1.0  # seconds in which an action can be seen
@@ -75,6 +78,7 @@ class SentenceGenerator:
         self.card, self.text = generator.card, generator.text
         self._read: dict[str, list[Clause]] = {}
         self._scoped: dict[str, ScopeResult | None] = {}
+        self._bent: dict[str, float] = {}
 
     def clauses(self, prompt: str) -> list[Clause]:
         """What a prompt asks for, in order."""
@@ -177,7 +181,7 @@ class SentenceGenerator:
         that kinematics do not see, and of sentences with clauses or measures."""
         (first, *others), scope = self.clauses(prompt), self.generator.scope
         action = self._nearest(first.text)
-        if others or not first.plain or self._spins(first):
+        if others or not first.plain or self._turns(first):
             return None
         if scope is None or action not in scope.checked:
             return None
@@ -278,11 +282,29 @@ class SentenceGenerator:
             return True  # refused there, with a clear line
         parts = self.clauses(prompt)
         fits = self.generator.length_warning(seconds) is None
-        return fits and len(parts) == 1 and parts[0].plain and not self._spins(parts[0])
+        return fits and len(parts) == 1 and parts[0].plain and not self._turns(parts[0])
 
-    def _spins(self, clause: Clause) -> bool:
-        """Whether a clause asks for full circles without an angle."""
-        return clause.degrees is None and self._nearest(clause.text) == "spin"
+    def _turns(self, clause: Clause) -> bool:
+        """Whether the heading of a clause is led: it names an angle, spins, or bends its way."""
+        if clause.degrees is not None or self._nearest(clause.text) == "spin":
+            return True
+        return clause.metres is None and clause.count == 1 and self._bend(clause.text) != 0
+
+    def _bend(self, text: str) -> float:
+        """Degrees, positive to the left, by which a walk or a run turns that is to turn, else 0.
+
+        Whether it is to shows in what the network makes of it, which turns and does not stop
+        turning (docs/experiments.md, section 44).
+        """
+        side, around = side_of(text), goes_round(text)
+        if self._nearest(text) not in GOING or not (around or side != "both"):
+            return 0.0
+        if text not in self._bent:
+            turning = natural_gait(self.generator, Passage(text, 1), Sampling()).turning
+            left = turning > 0 if side == "both" else side == "left"
+            angle = 0.0 if abs(turning) < TURNING else 360.0 if around else CORNER
+            self._bent[text] = angle if left else -angle
+        return self._bent[text]
 
     @idle_threads()
     def _one(
@@ -347,7 +369,7 @@ class SentenceGenerator:
         seconds = clause.seconds or seconds
         given = None
         passage = Passage(clause.text, max(1, round(seconds * fps)), tag)
-        if clause.degrees is not None or self._spins(clause):
+        if self._turns(clause):
             given = self._turn(clause, seconds, sampling.seed)
         elif clause.metres is not None:
             given = self._led(passage, clause, sampling)
@@ -360,11 +382,14 @@ class SentenceGenerator:
         return replace(passage, miss=self._miss(clause, passage.frames)), None
 
     def _turn(self, clause: Clause, seconds: float, seed: int) -> Constraint:
-        """By the angle that is named; else in full circles, as many as are named or as fill the
-        seconds, to the side that is named or that the seed says."""
+        """By the angle that is named; round a corner or in a circle; else in full circles, as many
+        as are named or as fill the seconds, to the side that is named or that the seed says."""
         fps = self.card.fps
         if clause.degrees is not None:
             return turned(clause.degrees, fps)
+        if bend := self._bend(clause.text):
+            rest = (seconds - CORNER_SECONDS) / 2 if abs(bend) == CORNER else 0.0
+            return turned(bend, fps, seconds, max(rest, TURN_REST))
         side, around = side_of(clause.text), 360.0 / SPIN_SPEED
         circles = max(clause.count, 1)
         if circles == 1:
@@ -376,7 +401,7 @@ class SentenceGenerator:
 
     def _led(self, passage: Passage, clause: Clause, sampling: Sampling) -> Constraint:
         """So many metres, at the pace and in the direction that are the clause's own."""
-        speed, facing = natural_gait(self.generator, passage, sampling)
+        speed, facing, _ = natural_gait(self.generator, passage, sampling)
         ahead = np.array([[0.0, 0.0], [0.0, clause.metres or 0.0]])
         try:
             path = time_path(
@@ -388,12 +413,14 @@ class SentenceGenerator:
         return path.constraint()
 
 
-def turned(degrees: float, fps: float, seconds: float | None = None) -> Constraint:
-    """A heading that turns by so many degrees, positive to the left, from rest to rest, in so many
-    seconds or at TURN_SPEED."""
+def turned(
+    degrees: float, fps: float, seconds: float | None = None, rest: float = TURN_REST
+) -> Constraint:
+    """A heading that turns by so many degrees, positive to the left, in so many seconds or at
+    TURN_SPEED, of which `rest` seconds before and after do not turn, or half of all."""
     if seconds is None:
-        seconds = max(abs(degrees) / TURN_SPEED, 1.0) + 2 * TURN_REST
-    rest = round(min(TURN_REST, seconds / 4) * fps)
+        seconds = max(abs(degrees) / TURN_SPEED, 1.0) + 2 * rest
+    rest = round(min(rest, seconds / 4) * fps)
     moving = max(round(seconds * fps) - 2 * rest, 1)
     way = np.linspace(0, 1, moving + 1)
     heading = np.radians(degrees) * (3 * way**2 - 2 * way**3)  # [moving + 1]

@@ -11,12 +11,13 @@ import { naturalGait, pathConstraint, timePath } from "./path.js";
 import { isPlain, SentenceReader } from "./sentence.js";
 import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
+const GOING = ["walk", "run", "crouch-walk"], CORNER = 90, CORNER_SECONDS = 3, TURNING = (20 * Math.PI) / 180;
 const MIN_FRAMES = 8, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
 
 export class Director {
   /** @param {Sampler} sampler @param {Scope} scope @param {object} settings of the model */
   constructor(sampler, scope, settings) {
-    Object.assign(this, { sampler, scope, settings });
+    Object.assign(this, { sampler, scope, settings, bent: new Map() });
     this.reader = new SentenceReader(settings.measures, (text) => this.reading(text));
   }
 
@@ -70,7 +71,8 @@ export class Director {
     const parts = this.reader.clauses(prompt), frames = round(seconds * FPS);
     if (frames < MIN_FRAMES) throw new Error(`${seconds} seconds are too short; ask for ${(MIN_FRAMES / FPS).toFixed(2)} or more.`);
     const longest = this.settings.maxSeconds;
-    if (parts.length > 1 || !isPlain(parts[0]) || this.spins(parts[0]) || (longest !== null && frames > round(longest * FPS)))
+    const long = longest !== null && frames > round(longest * FPS);
+    if (parts.length > 1 || !isPlain(parts[0]) || long || (await this.turns(parts[0])))
       return this.clausesOf(prompt, parts, seconds, seed, options);
     let best = null, missed = null;
     for (const trial of retrySeeds(seed)) {
@@ -130,7 +132,7 @@ export class Director {
   async stretch(clause, seconds, seed) {
     const { text, count } = clause, afresh = this.beginsStanding(text);
     const led = (given) => ({ passage: { text, frames: framesOf(given.values), afresh }, given });
-    if (clause.degrees !== null || this.spins(clause)) return led(this.turn(clause, seconds, seed));
+    if (await this.turns(clause)) return led(await this.turn(clause, seconds, seed));
     if (clause.metres !== null) {
       const gait = await naturalGait(this.sampler, text, seed);
       return led(pathConstraint(timePath([[0, 0], [0, clause.metres]], { ...gait, seconds: clause.seconds })));
@@ -143,14 +145,29 @@ export class Director {
     return { passage: { text, frames, afresh, miss: this.miss(clause, frames) } };
   }
 
-  /** Whether a clause asks for full circles without an angle. */
-  spins({ degrees, text }) {
-    return degrees === null && this.nearest(text) === "spin";
+  /** Whether the heading of a clause is led: it names an angle, spins, or bends its way. */
+  async turns({ degrees, metres, count, text }) {
+    if (degrees !== null || this.nearest(text) === "spin") return true;
+    return metres === null && count === 1 && (await this.bend(text)) !== 0;
   }
 
-  /** By the angle that is named; else in full circles, as many as are named or as fill the seconds. */
-  turn({ degrees, text, count, seconds: named }, seconds, seed) {
+  /** Degrees by which a walk or a run turns that is to turn, else 0: seen in what the network makes of it. */
+  async bend(text) {
+    const side = this.reader.sideOf(text), around = this.reader.goesRound(text);
+    if (!GOING.includes(this.nearest(text)) || !(around || side !== "both")) return 0;
+    if (!this.bent.has(text)) {
+      const { turning } = await naturalGait(this.sampler, text, 0), left = side === "both" ? turning > 0 : side === "left";
+      const angle = Math.abs(turning) < TURNING ? 0 : around ? 360 : CORNER;
+      this.bent.set(text, left ? angle : -angle);
+    }
+    return this.bent.get(text);
+  }
+
+  /** By the angle that is named; round a corner or in a circle; else in full circles, as many as are named or as fill the seconds. */
+  async turn({ degrees, text, count, seconds: named }, seconds, seed) {
     if (degrees !== null) return turned(degrees);
+    const bend = await this.bend(text);
+    if (bend) return turned(bend, seconds, Math.max(Math.abs(bend) === CORNER ? (seconds - CORNER_SECONDS) / 2 : 0, TURN_REST));
     const side = this.reader.sideOf(text), around = 360 / SPIN_SPEED;
     let circles = count;
     if (circles <= 1) circles = Math.max(round((seconds - 2 * TURN_REST) / around), 1);
@@ -246,9 +263,9 @@ const lastFrames = (motion, frames) => ({
   contacts: motion.contacts.slice((motion.frames - frames) * 2),
 });
 
-/** A heading that turns by so many degrees, positive to the left, from rest to rest. */
-function turned(degrees, seconds = Math.max(Math.abs(degrees) / TURN_SPEED, 1) + 2 * TURN_REST) {
-  const rest = round(Math.min(TURN_REST, seconds / 4) * FPS), moving = Math.max(round(seconds * FPS) - 2 * rest, 1);
+/** A heading that turns by so many degrees, positive to the left; not for so many seconds before and after. */
+function turned(degrees, seconds = Math.max(Math.abs(degrees) / TURN_SPEED, 1) + 2 * TURN_REST, still = TURN_REST) {
+  const rest = round(Math.min(still, seconds / 4) * FPS), moving = Math.max(round(seconds * FPS) - 2 * rest, 1);
   const given = freeConstraint(moving + 2 * rest);
   const heading = (i) => ((degrees * Math.PI) / 180) * (3 * (i / moving) ** 2 - 2 * (i / moving) ** 3);
   for (let t = 0; t < moving + 2 * rest; t++) {

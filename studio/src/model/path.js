@@ -110,16 +110,18 @@ export function pathConstraint({ points, headings }) {
   return given;
 }
 
-/** How fast a body goes that nobody directs, and radians from its way to its heading. */
+/** How fast a body goes that nobody directs, radians from its way to its heading, radians a second. */
 export async function naturalGait(sampler, text, seed, options = {}) {
   const features = await streamFeatures(sampler, [{ text, frames: 90 }], seed, options);
   const speeds = [], mean = [0, 0], frames = framesOf(features);
+  let turning = 0;
   for (let t = 0; t < frames; t++) {
     const way = [features[t * WIDTH + ROOT + FORWARD], features[t * WIDTH + ROOT + LATERAL]];
     speeds.push(Math.hypot(...way));
     way.forEach((v, i) => { mean[i] += v / frames; });
+    turning += features[t * WIDTH + ROOT + YAW_RATE] / frames;
   }
-  if (Math.hypot(...mean) < STANDING) return { speed: NATURAL, facing: 0 };
+  if (Math.hypot(...mean) < STANDING) return { speed: NATURAL, facing: 0, turning };
   const facing = -round(Math.atan2(mean[1], mean[0]) / (Math.PI / 2)) * (Math.PI / 2);
-  return { speed: percentile(speeds, 75), facing };
+  return { speed: percentile(speeds, 75), facing, turning };
 }

@@ -4,6 +4,7 @@
 const EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-";
 const SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, SURE_AT_ONCE = 1, MOST_PIECES = 8;
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
+const NUMBERED = /(?<![^\s,;:])(\p{Nd})\s*[.):](?!\p{Nd})\s*/gu;
 const BLANKS = /\s+|(?<=[\u3040-\u30ff\u3400-\u9fff])(?=[\u3040-\u30ff\u3400-\u9fff])/gu;
 const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, meanwhile: "", side: "both" });
 
@@ -18,6 +19,7 @@ function strip(text, characters = EDGES) {
   return text.slice(start, stop);
 }
 
+const stripStart = (text) => [...text].slice([...text].findIndex((c) => !EDGES.includes(c))).join("");
 const bare = (word) => word.toLowerCase().replaceAll("ß", "ss").normalize("NFD").replace(/\p{M}/gu, "");
 const spans = (text, pattern) => [...text.matchAll(pattern)].map((match) => [match.index, match.index + match[0].length]);
 
@@ -50,7 +52,7 @@ export class SentenceReader {
   }
 
   clauses(sentence) {
-    const text = sentence.trim().split(/\s+/u).join(" ").normalize("NFKC"), found = [];
+    const text = this.tidied(sentence), found = [];
     for (const whole of this.ordered(text))
       for (let pieces = this.joined(whole); pieces.length;) {
         const [first, ...others] = pieces;
@@ -62,14 +64,25 @@ export class SentenceReader {
     return real.length ? real : [plainClause(sentence)];
   }
 
+  /** Without greeting and thanks, with arrows for the numbers of a list. */
+  tidied(sentence) {
+    let text = sentence.trim().split(/\s+/u).join(" ").replace(/[\u2460-\u2473\u2776-\u277f]/gu, " → ").normalize("NFKC");
+    text = text.replace(this.first.greeting, "").replace(this.each.short, (cut) => cut.slice(0, -1));
+    text = text.replace(this.first.closing, "") || text;
+    const numbers = [...text.matchAll(NUMBERED)];
+    const listed = numbers.length > 1 && numbers.every((each, i) => Number(each[1]) === i + 1);
+    return listed ? text.replace(NUMBERED, " → ") : text;
+  }
+
   ordered(text) {
     const after = this.head.after.exec(text), before = after ? null : this.head.before.exec(text);
     let found = null;
     if (after) found = this.subordinate(text.slice(after[0].length));
     else if (before) found = this.subordinate(text.slice(before[0].length))?.reverse();
-    for (const [name, swapped] of [["then", false], ["earlier", false], ["later", true], ["before", false], ["after", true]])
+    for (const [name, swapped] of [["beforehand", true], ["then", false], ["earlier", false], ["later", true], ["before", false], ["after", true]])
       for (const [start, stop] of found ? [] : spans(text, this.each[name])) {
         let left = text.slice(0, start), right = text.slice(stop);
+        if (name === "then" && this.beginsAfter(text, start, stop)) continue;
         if (name === "then" && /^\s*\p{L}/u.test(text.slice(start, stop))) [left, right] = this.around(left, right);
         if (!strip(left) || !strip(right)) continue;
         found = swapped ? [right, left] : [left, right];
@@ -77,6 +90,13 @@ export class SentenceReader {
       }
     if (found) return found.flatMap((part) => this.ordered(part));
     return [this.trimmed(this.head.then.test(text) ? text.replace(this.each.then, " ") : text)];
+  }
+
+  /** Whether a word of order is the first one of a longer phrase that says the opposite. */
+  beginsAfter(text, start, stop) {
+    const said = text.slice(start, stop), word = stripStart(said);
+    const after = this.head.after.exec(text.slice(stop - word.length));
+    return after !== null && after[0].length > strip(word).length;
   }
 
   subordinate(text) {
@@ -203,6 +223,10 @@ export class SentenceReader {
     const said = text.replace(this.each.no_side, " ");
     const [left, right] = [this.first.left.test(said), this.first.right.test(said)];
     return left === right ? "both" : left ? "left" : "right";
+  }
+
+  goesRound(text) {
+    return this.first.round.test(text);
   }
 
   measured(text) {

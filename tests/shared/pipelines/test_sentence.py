@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.pipelines.sentence import Clause, Reading, clauses, side_of
+from src.shared.pipelines.sentence import Clause, Reading, clauses, goes_round, side_of
 
 ACTIONS = {
     "walk": ("walk", "camina", "march", "geht", "geh", "lauf", "歩", "走"),
@@ -276,6 +276,8 @@ def test_clauses_may_hold_two_things_at_once():
         ("con la diestra", "right"),
         ("ein Linkshaken", "left"),
         ("run right away", "both"),
+        ("it waits right at the corner", "both"),
+        ("takes a right at the corner", "right"),
         ("marche tout droit", "both"),
         ("let it go", "both"),
         ("left and right", "both"),
@@ -283,3 +285,19 @@ def test_clauses_may_hold_two_things_at_once():
 )
 def test_a_side_is_told_from_words_that_look_like_one(text: str, side: str):
     assert side_of(text) == side
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("walk round and round", True),
+        ("die Wache dreht ihre Runden", True),
+        ("marche en rond vers la gauche", True),
+        ("绕着桌子走", True),
+        ("ぐるっと歩く", True),
+        ("walks round the corner", False),
+        ("corro a la izquierda", False),
+    ],
+)
+def test_a_way_round_is_told_from_a_corner(text: str, told: bool):
+    assert goes_round(text) is told

@@ -103,6 +103,22 @@ def test_who_is_to_turn_turns():
     assert [spin.seconds for spin in spins] == [4.0, 4.0, 7.0, 7.0]
 
 
+def test_a_walk_turns_a_corner_or_goes_round():
+    sentences = SentenceGenerator(TextToMotion.from_pretrained("starter", device="cpu"))
+    asked = {
+        "a pedestrian takes a right at the corner": -90,
+        "im Gehen nach links abbiegen": 90,
+        "a person walks in a circle to the left": 360,
+        "walks forward, then walks around the corner to the right": -90,
+    }
+    for (prompt, degrees), motion in zip(
+        asked.items(), sentences.generate(list(asked)), strict=True
+    ):
+        assert turn_of(motion) == pytest.approx(degrees, abs=20), prompt
+    limbs, straight = sentences.generate(["a man walks with his left arm raised", "walks ahead"])
+    assert abs(turn_of(limbs)) < 45 and abs(turn_of(straight)) < 45
+
+
 def test_what_kinematics_miss_is_sampled_again(
     monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ):

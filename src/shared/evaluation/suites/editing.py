@@ -303,7 +303,7 @@ def _follow(generator: TextToMotion, drawn: DrawnPath, seed: int) -> Followed:
     settings = Sampling(seed=seed % 2**31)
     passage = Passage("a person walks", 1)
     motion = along_path(generator, Timeline((passage,)), drawn, settings).motion
-    speed, facing = natural_gait(generator, passage, settings)
+    speed, facing, _ = natural_gait(generator, passage, settings)
     path = time_path(drawn, fps=generator.card.fps, speed=speed, facing=facing)
     return motion, path.points, drawn
 

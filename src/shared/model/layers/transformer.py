@@ -16,7 +16,7 @@ from typing import TypeVar
 import torch
 from einops import rearrange
 from torch import Tensor, nn
-from torch.nn.functional import scaled_dot_product_attention
+from torch.nn.functional import pad, scaled_dot_product_attention
 
 LayerT = TypeVar("LayerT", nn.Linear, nn.Conv1d)
 
@@ -139,13 +139,20 @@ class AdaptedLinear(nn.Linear):
         )
 
     def forward(self, x: Tensor, opened: Tensor | None = None) -> Tensor:
-        """x [B, T, D], opened [B, A] of the A adapters, or None: no sample opens one
-        -> [B, T, out_dim]."""
+        """x [B, T, D], opened [B, A], one of the A adapters or none for each sample, or None: no
+        sample opens one -> [B, T, out_dim]."""
         y = super().forward(x)
-        if opened is not None:
-            for index, adapter in enumerate(self.adapters):
-                y = y + adapter(x) * opened[:, None, index, None]
-        return y
+        if opened is None:
+            return y
+        # The weights of each sample's own adapter: as fast with twenty adapters as with one.
+        rank = max(adapter[0].out_features for adapter in self.adapters)
+        down = x.new_zeros(())  # [B, R, D]
+        up = x.new_zeros(())  # [B, out_dim, R]
+        for index, (narrow, wide) in enumerate(self.adapters):
+            share, spare = opened[:, index, None, None], rank - narrow.out_features
+            down = down + share * pad(narrow.weight, (0, 0, 0, spare))
+            up = up + share * pad(wide.weight, (0, spare))
+        return y + x @ down.mT @ up.mT
 
 
 class MultiHeadAttention(nn.Module):

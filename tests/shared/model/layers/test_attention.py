@@ -4,6 +4,7 @@ import pytest
 import torch
 
 from src.shared.model.layers.transformer import (
+    AdaptedLinear,
     CrossAttention,
     MultiHeadAttention,
     RotaryEmbedding,
@@ -82,3 +83,14 @@ def test_bf16_training_path_agrees_with_the_fused_kernel():
     fused = attend(query, key, value, mask)
     plain = attend(query.clone().requires_grad_(), key, value, mask)
     assert torch.allclose(plain.float(), fused.float(), atol=0.03)
+
+
+def test_each_sample_has_its_own_adapter_beside_the_linear_map():
+    layer = AdaptedLinear(D, 5, ranks=(2, 4))
+    for parameter in layer.parameters():
+        torch.nn.init.normal_(parameter)  # adapters start at zero
+    x, opened = torch.randn(B, T, D), torch.tensor([[0.0, 1.0], [0.0, 0.0], [1.0, 0.0]])
+    expected = layer(x).clone()
+    expected[0] += layer.adapters[1](x[0])
+    expected[2] += layer.adapters[0](x[2])
+    assert torch.allclose(layer(x, opened), expected, atol=1e-5)
