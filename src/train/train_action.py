@@ -242,8 +242,8 @@ class ActionTask(Task):
         if self.config.styles:
             others = (r for r in self.data.records("train") if r.labels and r.group not in found)
             plain = {r.group for r in self.train.records if "style" not in r.labels}
-            own = unshared(found, nearest(others).values())
-            found = {group: at for group, at in found.items() if group in plain or group in own}
+            alone = unshared(found, nearest(others).values())
+            found = {group: at for group, at in found.items() if group in plain or group in alone}
             if not found:
                 raise UserError(
                     f"styles={','.join(self.config.styles)}: no clip of {', '.join(self.actions)}"

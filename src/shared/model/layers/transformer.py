@@ -131,6 +131,7 @@ class AdaptedLinear(nn.Linear):
 
     def __init__(self, dim: int, out_dim: int, ranks: Sequence[int] = ()) -> None:
         super().__init__(dim, out_dim)
+        self.rank = max(ranks, default=0)
         self.adapters = nn.ModuleList(
             nn.Sequential(
                 nn.Linear(dim, rank, bias=False), zeroed(nn.Linear(rank, out_dim, bias=False))
@@ -145,13 +146,13 @@ class AdaptedLinear(nn.Linear):
         if opened is None:
             return y
         # The weights of each sample's own adapter: as fast with twenty adapters as with one.
-        rank = max(adapter[0].out_features for adapter in self.adapters)
         down = x.new_zeros(())  # [B, R, D]
         up = x.new_zeros(())  # [B, out_dim, R]
-        for index, (narrow, wide) in enumerate(self.adapters):
-            share, spare = opened[:, index, None, None], rank - narrow.out_features
-            down = down + share * pad(narrow.weight, (0, 0, 0, spare))
-            up = up + share * pad(wide.weight, (0, spare))
+        for index, adapter in enumerate(self.adapters):
+            narrow, wide = (adapter.get_parameter(f"{layer}.weight") for layer in (0, 1))
+            share, spare = opened[:, index, None, None], self.rank - len(narrow)
+            down = down + share * pad(narrow, (0, 0, 0, spare))
+            up = up + share * pad(wide, (0, spare))
         return y + x @ down.mT @ up.mT
 
 
