@@ -36,10 +36,10 @@ BROWSER = pytest.mark.skipif(not chromium(), reason="no Chromium is installed")
 PROMPTS = {
     "en": "a person walks forward",
     "es": "una persona salta dos veces",
-    "fr": "une personne salue de la main",
-    "de": "eine Person rennt",
+    "fr": "①une personne salue ②elle saute",
+    "de": "Hallo, eine Person rennt, davor winkt sie, danke!",
     "ja": "人が右手を振る",
-    "zh": "一个人向前走",
+    "zh": "一个人向左转弯走",
 }
 MOST = 40e6  # bytes
 
