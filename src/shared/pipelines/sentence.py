@@ -48,11 +48,13 @@ class Words:
         numbers: dict[str, int] = {}
         adverbs: dict[str, int] = {}
         angles: dict[str, float] = {}
+        others: dict[str, list[str]] = {}
         for table in tables:
             numbers |= {word: i for i, word in enumerate(table["numbers"], 1)}
             numbers |= table["more_numbers"]
             adverbs |= {word: i for i, word in enumerate(table.get("often", []), 1)}
             angles |= table["angles"]
+            others |= table.get("other", {})
         self.numbers = {bare(word): value for word, value in numbers.items()}
         self.adverbs = {bare(word): value for word, value in adverbs.items()}
         self.angles = {bare(word): float(value) for word, value in angles.items()}
@@ -83,7 +85,8 @@ class Words:
         # "right at the corner", but "a right at the corner"
         self.no_side = re.compile(rf"(?<!\ba\s){_any(all_of('no_side'))}", re.I)
         self.left, self.right = (re.compile(_any(all_of(side)), re.I) for side in ("left", "right"))
-        self.other = re.compile(_any(all_of("other")), re.I)
+        self.other = re.compile(_any(others), re.I)
+        self.others = {bare(word): sides for word, sides in others.items()}
         self.round = re.compile(_any(all_of("round")), re.I)
         self.angle = re.compile(_any(angles), re.I)
         self.often = re.compile(_any(adverbs), re.I)
@@ -150,8 +153,8 @@ def _misspelt(word: str) -> list[str]:
 
 
 def bare(word: str) -> str:
-    """A word without case and accents."""
-    letters = unicodedata.normalize("NFD", word.casefold())
+    """A word without case and accents, its apostrophes straight."""
+    letters = unicodedata.normalize("NFD", word.casefold().replace("’", "'"))
     return "".join(letter for letter in letters if not unicodedata.combining(letter))
 
 
@@ -186,7 +189,7 @@ def javascript_patterns() -> dict[str, Any]:
     return {"patterns": found, "most": MOST, "maxCount": MAX_COUNT} | said
 
 
-_SAID = ("numbers", "adverbs", "angles")
+_SAID = ("numbers", "adverbs", "angles", "others")
 
 
 def _translated(pattern: str) -> str:
@@ -493,6 +496,7 @@ def _pair(left: str, right: str, read: Read, sure: float) -> _Pair | None:
         return None
     body, other = (1, 0) if first.arms and not second.arms else (0, 1)
     sides, alone = _sides(*halves), first.arms and second.arms
+    halves = [_naming(half, side) for half, side in zip(halves, sides, strict=True)]
     return _Pair(
         replace(_measured(halves[body]), meanwhile=halves[other], side=sides[other]),
         min(first.certainty, second.certainty),
@@ -508,6 +512,14 @@ def _sides(first: str, second: str) -> list[str]:
         if sides[row] == "both" and sides[1 - row] in _SIDES and _words().other.search(half):
             sides[row] = "left" if sides[1 - row] == "right" else "right"
     return sides
+
+
+def _naming(half: str, side: str) -> str:
+    """A half that names its side, where it said "the other"."""
+    words = _words()
+    if side not in _SIDES or side_of(half) == side:
+        return half
+    return words.other.sub(lambda said: words.others[bare(said[0])][side == "right"], half)
 
 
 def side_of(text: str) -> str:

@@ -20,7 +20,7 @@ function strip(text, characters = EDGES) {
 }
 
 const stripStart = (text) => [...text].slice([...text].findIndex((c) => !EDGES.includes(c))).join("");
-const bare = (word) => word.toLowerCase().replaceAll("ß", "ss").normalize("NFD").replace(/\p{M}/gu, "");
+const bare = (word) => word.toLowerCase().replaceAll("ß", "ss").replaceAll("’", "'").normalize("NFD").replace(/\p{M}/gu, "");
 const spans = (text, pattern) => [...text.matchAll(pattern)].map((match) => [match.index, match.index + match[0].length]);
 
 /** Whether both are understood, as two actions. */
@@ -41,8 +41,8 @@ const best = (ways) => ways.reduce((found, way) => (asGood(found, way) ? found :
 export class SentenceReader {
   /** @param {object} measures patterns and words @param {function} read what a text alone asks for:
    *  { action, certainty, arms } */
-  constructor({ patterns, numbers, adverbs, angles, most, maxCount }, read) {
-    Object.assign(this, { numbers, adverbs, angles, most, maxCount, read });
+  constructor({ patterns, numbers, adverbs, angles, others, most, maxCount }, read) {
+    Object.assign(this, { numbers, adverbs, angles, others, most, maxCount, read });
     this.first = {}; this.each = {}; this.head = {};
     for (const [name, pattern] of Object.entries(patterns)) {
       this.first[name] = new RegExp(pattern, "iu");
@@ -182,7 +182,6 @@ export class SentenceReader {
     return null;
   }
 
-  /** Two halves as one clause; null where they are not two actions, or the arms do neither. */
   /** Whether a text names the left and the right, or one of them and the other one. */
   namesBoth(text) {
     const said = text.replace(this.each.no_side, " ");
@@ -198,6 +197,13 @@ export class SentenceReader {
     return found;
   }
 
+  /** A half that names its side, where it said "the other". */
+  naming(half, side) {
+    if (side === "both" || this.sideOf(half) === side) return half;
+    return half.replace(this.each.other, (said) => this.others[bare(said)][Number(side === "right")]);
+  }
+
+  /** Two halves as one clause; null where they are not two actions, or the arms do neither. */
   pair(left, right, sure) {
     const halves = [left, right].map((half) =>
       this.trimmed(half.replace(this.each.throughout, " ").replace(this.each.meanwhile, " ")));
@@ -206,8 +212,9 @@ export class SentenceReader {
     if (!(first.arms || second.arms) || !differ(first, second, sure)) return null;
     const [body, other] = first.arms && !second.arms ? [1, 0] : [0, 1];
     const sides = this.sides(halves), armsAlone = first.arms && second.arms;
+    const named = halves.map((half, i) => this.naming(half, sides[i]));
     return {
-      clause: { ...this.measured(halves[body]), meanwhile: halves[other], side: sides[other] },
+      clause: { ...this.measured(named[body]), meanwhile: named[other], side: sides[other] },
       certainty: Math.min(first.certainty, second.certainty),
       armsAlone,
       oneArmEach: armsAlone && opposite(...sides),

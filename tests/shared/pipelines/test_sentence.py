@@ -225,7 +225,7 @@ def test_any_text_has_a_clause(text: str):
         ),
         (
             "raises the left hand and waves with the other",
-            Clause("raises the left hand", meanwhile="waves with the other", side="right"),
+            Clause("raises the left hand", meanwhile="waves with the right", side="right"),
         ),
         (
             "waves with the left hand and about about about about raises the right",
@@ -301,3 +301,21 @@ def test_a_side_is_told_from_words_that_look_like_one(text: str, side: str):
 )
 def test_a_way_round_is_told_from_a_corner(text: str, told: bool):
     assert goes_round(text) is told
+
+
+@pytest.mark.parametrize(
+    ("sentence", "texts"),
+    [
+        ("Hi there, she jumps, but first she waves, thanks!", ["she waves", "she jumps"]),
+        ("1. bow 2. jump 3. wave", ["bow", "jump", "wave"]),
+        ("1.bow 2.jump", ["bow", "jump"]),
+        ("①お辞儀 ②ジャンプ", ["お辞儀", "ジャンプ"]),
+        ("take 2: he waves", ["take 2: he waves"]),
+        ("salta después de saludar", ["saludar", "salta"]),
+        ("salta, después saluda", ["salta", "saluda"]),
+        ("er hebt die Hand, davor springt er", ["springt er", "er hebt die Hand"]),
+        ("ジャンプする、その前にお辞儀する", ["お辞儀する", "ジャンプする"]),
+    ],
+)
+def test_order_is_told_in_other_ways(sentence: str, texts: list[str]):
+    assert [clause.text for clause in clauses(sentence)] == texts
