@@ -48,13 +48,13 @@ class Words:
         numbers: dict[str, int] = {}
         adverbs: dict[str, int] = {}
         angles: dict[str, float] = {}
-        others: dict[str, list[str]] = {}
+        sides: dict[str, list[str]] = {}
         for table in tables:
             numbers |= {word: i for i, word in enumerate(table["numbers"], 1)}
             numbers |= table["more_numbers"]
             adverbs |= {word: i for i, word in enumerate(table.get("often", []), 1)}
             angles |= table["angles"]
-            others |= table.get("other", {})
+            sides |= table.get("other", {})
         self.numbers = {bare(word): value for word, value in numbers.items()}
         self.adverbs = {bare(word): value for word, value in adverbs.items()}
         self.angles = {bare(word): float(value) for word, value in angles.items()}
@@ -85,8 +85,8 @@ class Words:
         # "right at the corner", but "a right at the corner"
         self.no_side = re.compile(rf"(?<!\ba\s){_any(all_of('no_side'))}", re.I)
         self.left, self.right = (re.compile(_any(all_of(side)), re.I) for side in ("left", "right"))
-        self.other = re.compile(_any(others), re.I)
-        self.others = {bare(word): sides for word, sides in others.items()}
+        self.other = re.compile(_any(sides), re.I)
+        self.others = {bare(word): both for word, both in sides.items()}
         self.round = re.compile(_any(all_of("round")), re.I)
         self.angle = re.compile(_any(angles), re.I)
         self.often = re.compile(_any(adverbs), re.I)
