@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 from src.cli.tools import app
 from src.shared.formats.arrays import read_npz
 from src.shared.io.files import write_json
+from src.shared.metrics.measurements import ACTIONS
 from tests.shared.model.conftest import tiny_generator
 
 PROMPTS = ("--prompt", "a person walks forward", "--prompt", "人が前に歩く")
@@ -73,6 +74,16 @@ def test_far_prompts_are_warned_of_by_name(model: str, tmp_path: Path) -> None:
     far, near = json.loads(out)["motions"]
     assert "walk" in far["warning"] and near["warning"] is None
     assert err.count("warning:") == 1 and far["warning"] in err
+
+
+def test_what_no_sample_shows_is_told(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    for shows in (True, False):
+        monkeypatch.setitem(ACTIONS, "jump", lambda measured, shows=shows: shows)
+        out, _ = generate("--prompt", "a person jumps", "--model", "starter", "--runtime", "torch",
+                          "--seconds", "1", "--out", str(tmp_path), "--format", "npz",
+                          "--json")  # fmt: skip
+        (row,) = json.loads(out)["motions"]
+        assert ("none of 8 samples shows" in (row["warning"] or "")) is not shows
 
 
 def test_any_length_needs_no_warning(model: str, tmp_path: Path) -> None:
