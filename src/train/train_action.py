@@ -118,9 +118,10 @@ class ActionTask(Task):
         known = set(self.before.card.tags)
         self.actions = config.actions or tuple(sorted(set(self.data.tags) - known))
         self._check()
-        records = self.data.records("train") if config.captured_share == 1 else []
-        self.captured = {r.tag for r in records if r.provenance == "captured"}
-        self.clips = Counter(r.group for r in self.data.records("train"))
+        records = self.data.records("train")
+        captured = {r.tag for r in records if r.provenance == "captured"}
+        self.captured = captured if config.captured_share == 1 else set[str]()
+        self.clips = Counter(r.group for r in records if self._admits(r))
         self.train = training_set(config, self.data, self._learns)
         self.tags = (
             self.before.card.tags if config.actions else (*self.before.card.tags, *self.actions)
@@ -139,11 +140,15 @@ class ActionTask(Task):
 
     def _learns(self, record: ClipRecord) -> bool:
         """Whether this clip is to be learned."""
-        if record.tag not in self.actions or self.clips[record.group] < self.config.min_clips:
+        if record.tag not in self.actions or not self._admits(record):
             return False
-        if record.tag in self.captured and record.provenance != "captured":
+        if self.clips[record.group] < self.config.min_clips:
             return False
         return not self.config.styles or record.labels.get("style", PLAIN) in self.config.styles
+
+    def _admits(self, record: ClipRecord) -> bool:
+        """Whether it was recorded, where recorded clips are all that is to be learned."""
+        return record.provenance == "captured" or record.tag not in self.captured
 
     def _check(self) -> None:
         styles = self.config.styles
@@ -240,8 +245,9 @@ class ActionTask(Task):
                 own = torch.cat([mine[g] for g, tag in tags.items() if tag == tags[group]])
             found[group] = int(own.mode().values)
         if self.config.styles:
-            others = (r for r in self.data.records("train") if r.labels and r.group not in found)
+            records = self.data.records("train")
             plain = {r.group for r in self.train.records if "style" not in r.labels}
+            others = (r for r in records if r.labels and r.group not in found.keys() - plain)
             alone = unshared(found, nearest(others).values())
             found = {group: at for group, at in found.items() if group in plain or group in alone}
             if not found:
@@ -250,7 +256,9 @@ class ActionTask(Task):
                     f" in {self.config.data} has them at a place of its own; name other styles"
                 )
             announce(f"learning {', '.join(sorted(found))}")
-            self.train = training_set(self.config, self.data, lambda r: r.group in found)
+            self.train = training_set(
+                self.config, self.data, lambda r: r.group in found and self._learns(r)
+            )
         return before, {group: places[place] for group, place in found.items()}
 
     def _captions(self, record: ClipRecord) -> list[str]:

@@ -35,7 +35,10 @@ _STOPS = (
 )
 _ARROWS = r"\s*(?:[-=]*>+|[→➜➔⇒▶»])"
 _DIGITS = r"\d+(?:[.,]\d+)?"
-_NUMBERED = re.compile(r"(?<![^\s,;:])(\d)\s*[.):](?!\d)\s*")  # of a list, in a line
+_NUMBERED = re.compile(  # of a list, in a line
+    r"(?<![^\s,;:.])(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?(\d\d?)\s*[.):](?!\d)\s*",
+    re.I,
+)
 
 
 class Words:
@@ -69,11 +72,13 @@ class Words:
             re.compile(rf"{_COMMAS}?\s*{_any(all_of(key))}\s*", re.I)
             for key in ("meanwhile", "throughout")
         )
-        self.beforehand = re.compile(rf"{_STOPS}?\s*{_any(all_of('beforehand'))}{_COMMAS}?", re.I)
+        behind = rf"(?:{_STOPS}\s*(?:{_any(joints)}\s*)?|{_any(joints)}\s*)"
+        said = rf"{_STOPS}?\s*{_any(all_of('beforehand'))}|{behind}{_any(all_of('previously'))}"
+        self.beforehand = re.compile(rf"(?:{said}){_COMMAS}?", re.I)
         self.greeting = re.compile(rf"^\s*{_any(all_of('greetings'))}\s*{_STOPS}\s*(?=\S)", re.I)
         self.closing = re.compile(rf"\s*{_STOPS}\s*{_any(all_of('closings'))}\W*$", re.I)
         cut = "|".join(re.escape(word[:-1]) for word in all_of("short"))
-        self.short = re.compile(rf"(?<!{_SIGN})(?:{cut})\.(?=\s+{_LETTER})", re.I)
+        self.short = re.compile(rf"(?<!{_SIGN})(?:{cut})\.(?=\s+{_any(all_of('limbs'))})", re.I)
         self.before = re.compile(rf"{_COMMAS}?\s*{_any(all_of('before'))}\s*", re.I)
         self.after = re.compile(rf"{_COMMAS}?\s*{_any(all_of('after'))}\s*", re.I)
         own = _any([*all_of("own"), *all_of("left"), *all_of("right")])
@@ -83,11 +88,13 @@ class Words:
         self.limb = re.compile(rf"^{limbs}$", re.I)
         self.manner = re.compile(rf"{_any(all_of('manner'))}$", re.I)
         # "right at the corner", but "a right at the corner"
-        self.no_side = re.compile(rf"(?<!\ba\s){_any(all_of('no_side'))}", re.I)
+        self.no_side = re.compile(rf"(?<!(?<!{_LETTER})a\s){_any(all_of('no_side'))}", re.I)
         self.left, self.right = (re.compile(_any(all_of(side)), re.I) for side in ("left", "right"))
         self.other = re.compile(_any(sides), re.I)
-        self.others = {bare(word): both for word, both in sides.items()}
-        self.round = re.compile(_any(all_of("round")), re.I)
+        self.others = {bare(word.partition("/")[0]): both for word, both in sides.items()}
+        self.round, self.corner = (
+            re.compile(_any(all_of(key)), re.I) for key in ("round", "corners")
+        )
         self.angle = re.compile(_any(angles), re.I)
         self.often = re.compile(_any(adverbs), re.I)
         number = rf"(?P<number>{_DIGITS}|{_any(numbers)})"
@@ -133,7 +140,7 @@ def _whole(word: str) -> tuple[str, str, str]:
     pattern = "|".join(map(_loosely, _misspelt(word[:-1]) if word.endswith("~") else [word]))
     if re.search(f"[{_CJK}°]", word):
         return "", pattern, follows
-    return f"(?<!{_LETTER})", pattern, "" if word.endswith("'") else f"(?!{_SIGN})"
+    return f"(?<!{_LETTER})", pattern, follows + ("" if word.endswith("'") else f"(?!{_SIGN})")
 
 
 def _loosely(word: str) -> str:
@@ -154,7 +161,7 @@ def _misspelt(word: str) -> list[str]:
 
 def bare(word: str) -> str:
     """A word without case and accents, its apostrophes straight."""
-    letters = unicodedata.normalize("NFD", word.casefold().replace("’", "'"))
+    letters = unicodedata.normalize("NFD", word.casefold().replace("’", "'").replace("ı", "i"))
     return "".join(letter for letter in letters if not unicodedata.combining(letter))
 
 
@@ -174,6 +181,7 @@ _JAVASCRIPT = (
     ("(?P<", "(?<"),
     (r"[\w", f"[{_WORD}"),
     (r"\w", f"[{_WORD}]"),
+    (r"\W", f"[^{_WORD}]"),
     (r"\d", r"\p{Nd}"),
     (r"\-", "-"),
 )
@@ -280,12 +288,15 @@ def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
 def _tidied(sentence: str) -> str:
     """A sentence without greeting and thanks, with arrows for the numbers of a list."""
     words = _words()
-    text = re.sub("[\u2460-\u2473\u2776-\u277f]", " → ", " ".join(sentence.split()))
+    text = re.sub("([\u2460-\u2468])", r" \1) ", " ".join(sentence.split()))  # circled 1 to 9
     text = words.greeting.sub("", unicodedata.normalize("NFKC", text))
     text = words.closing.sub("", text) or text
     text = words.short.sub(lambda cut: cut[0][:-1], text)
     numbers = list(_NUMBERED.finditer(text))
     if len(numbers) > 1 and [int(each[1]) for each in numbers] == list(range(1, len(numbers) + 1)):
+        lead = text[: numbers[0].start()].strip()
+        if lead.endswith((":", "：")) or len(lead.split()) < 3:  # "please do the following:"
+            text = text[numbers[0].end() :]
         text = _NUMBERED.sub(" → ", text)
     return text
 
@@ -324,7 +335,9 @@ def _begins_after(text: str, then: re.Match[str]) -> bool:
     """Whether a word of order is the first one of a longer phrase that says the opposite."""
     word = then[0].lstrip(EDGES)
     after = _words().after.match(text, then.end() - len(word))
-    return after is not None and len(after[0]) > len(word.rstrip(EDGES))
+    if after is None or _words().units["seconds"].match(text, after.end()):
+        return False
+    return len(after[0].rstrip()) > len(word.rstrip(EDGES))
 
 
 def _subordinate(text: str, read: Read) -> tuple[str, str] | None:
@@ -532,7 +545,7 @@ def side_of(text: str) -> str:
 
 def goes_round(text: str) -> bool:
     """Whether a text tells of a way in a circle."""
-    return bool(_words().round.search(text))
+    return bool(_words().round.search(text)) and not _words().corner.search(text)
 
 
 # ---------------------------------------------------------------- measure

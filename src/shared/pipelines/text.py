@@ -178,7 +178,7 @@ class SentenceGenerator:
     def missed(self, prompt: str, motion: Motion) -> str | None:
         """A line if a motion does not show the action of its prompt, as far as kinematics tell,
         although it was sampled again; None where it does, where nobody can say, as of an action
-        that kinematics do not see, and of sentences with clauses or measures."""
+        that kinematics do not see, and of sentences with clauses, measures or a way that turns."""
         (first, *others), scope = self.clauses(prompt), self.generator.scope
         action = self._nearest(first.text)
         if others or not first.plain or self._turns(first):
@@ -388,6 +388,8 @@ class SentenceGenerator:
         if clause.degrees is not None:
             return turned(clause.degrees, fps)
         if bend := self._bend(clause.text):
+            if clause.seconds is None:
+                seconds = max(seconds, abs(bend) / SPIN_SPEED + 2 * TURN_REST)
             rest = (seconds - CORNER_SECONDS) / 2 if abs(bend) == CORNER else 0.0
             return turned(bend, fps, seconds, max(rest, TURN_REST))
         side, around = side_of(clause.text), 360.0 / SPIN_SPEED

@@ -167,6 +167,7 @@ export class Director {
   async turn({ degrees, text, count, seconds: named }, seconds, seed) {
     if (degrees !== null) return turned(degrees);
     const bend = await this.bend(text);
+    if (bend && named === null) seconds = Math.max(seconds, Math.abs(bend) / SPIN_SPEED + 2 * TURN_REST);
     if (bend) return turned(bend, seconds, Math.max(Math.abs(bend) === CORNER ? (seconds - CORNER_SECONDS) / 2 : 0, TURN_REST));
     const side = this.reader.sideOf(text), around = 360 / SPIN_SPEED;
     let circles = count;

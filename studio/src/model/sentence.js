@@ -4,7 +4,7 @@
 const EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-";
 const SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, SURE_AT_ONCE = 1, MOST_PIECES = 8;
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
-const NUMBERED = /(?<![^\s,;:])(\p{Nd})\s*[.):](?!\p{Nd})\s*/gu;
+const NUMBERED = /(?<![^\s,;:.])(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?(\p{Nd}\p{Nd}?)\s*[.):](?!\p{Nd})\s*/giu;
 const BLANKS = /\s+|(?<=[\u3040-\u30ff\u3400-\u9fff])(?=[\u3040-\u30ff\u3400-\u9fff])/gu;
 const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, meanwhile: "", side: "both" });
 
@@ -19,8 +19,9 @@ function strip(text, characters = EDGES) {
   return text.slice(start, stop);
 }
 
+const stripEnd = (text) => text.slice(0, [...text].findLastIndex((c) => !EDGES.includes(c)) + 1);
 const stripStart = (text) => [...text].slice([...text].findIndex((c) => !EDGES.includes(c))).join("");
-const bare = (word) => word.toLowerCase().replaceAll("ß", "ss").replaceAll("’", "'").normalize("NFD").replace(/\p{M}/gu, "");
+const bare = (word) => word.toLowerCase().replaceAll("ß", "ss").replaceAll("’", "'").replaceAll("ı", "i").normalize("NFD").replace(/\p{M}/gu, "");
 const spans = (text, pattern) => [...text.matchAll(pattern)].map((match) => [match.index, match.index + match[0].length]);
 
 /** Whether both are understood, as two actions. */
@@ -66,12 +67,14 @@ export class SentenceReader {
 
   /** Without greeting and thanks, with arrows for the numbers of a list. */
   tidied(sentence) {
-    let text = sentence.trim().split(/\s+/u).join(" ").replace(/[\u2460-\u2473\u2776-\u277f]/gu, " → ").normalize("NFKC");
-    text = text.replace(this.first.greeting, "").replace(this.each.short, (cut) => cut.slice(0, -1));
-    text = text.replace(this.first.closing, "") || text;
-    const numbers = [...text.matchAll(NUMBERED)];
-    const listed = numbers.length > 1 && numbers.every((each, i) => Number(each[1]) === i + 1);
-    return listed ? text.replace(NUMBERED, " → ") : text;
+    let text = sentence.trim().split(/\s+/u).join(" ").replace(/([\u2460-\u2468])/gu, " $1) ").normalize("NFKC");
+    text = text.replace(this.first.greeting, "");
+    text = (text.replace(this.first.closing, "") || text).replace(this.each.short, (cut) => cut.slice(0, -1));
+    const numbers = [...text.matchAll(NUMBERED)], [first] = numbers;
+    if (numbers.length < 2 || !numbers.every((each, i) => Number(each[1]) === i + 1)) return text;
+    const lead = text.slice(0, first.index).trim();
+    if (/[:：]$/u.test(lead) || lead.split(/\s+/u).filter(Boolean).length < 3) text = text.slice(first.index + first[0].length);
+    return text.replace(NUMBERED, " → ");
   }
 
   ordered(text) {
@@ -96,7 +99,8 @@ export class SentenceReader {
   beginsAfter(text, start, stop) {
     const said = text.slice(start, stop), word = stripStart(said);
     const after = this.head.after.exec(text.slice(stop - word.length));
-    return after !== null && after[0].length > strip(word).length;
+    if (after === null || this.head.seconds.test(text.slice(stop - word.length + after[0].length))) return false;
+    return after[0].trimEnd().length > stripEnd(word).length;
   }
 
   subordinate(text) {
@@ -233,7 +237,7 @@ export class SentenceReader {
   }
 
   goesRound(text) {
-    return this.first.round.test(text);
+    return this.first.round.test(text) && !this.first.corner.test(text);
   }
 
   measured(text) {

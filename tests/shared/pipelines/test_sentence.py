@@ -278,6 +278,8 @@ def test_clauses_may_hold_two_things_at_once():
         ("run right away", "both"),
         ("it waits right at the corner", "both"),
         ("takes a right at the corner", "right"),
+        ("un coup de pied d'une personne", "both"),
+        ("bras D levé", "right"),
         ("marche tout droit", "both"),
         ("let it go", "both"),
         ("left and right", "both"),
@@ -296,6 +298,8 @@ def test_a_side_is_told_from_words_that_look_like_one(text: str, side: str):
         ("绕着桌子走", True),
         ("ぐるっと歩く", True),
         ("walks round the corner", False),
+        ("绕过拐角向左走", False),
+        ("camina mirando a su alrededor", False),
         ("corro a la izquierda", False),
     ],
 )
@@ -315,6 +319,14 @@ def test_a_way_round_is_told_from_a_corner(text: str, told: bool):
         ("salta, después saluda", ["salta", "saluda"]),
         ("er hebt die Hand, davor springt er", ["springt er", "er hebt die Hand"]),
         ("ジャンプする、その前にお辞儀する", ["お辞儀する", "ジャンプする"]),
+        ("saluda justo antes de saltar", ["saluda justo", "saltar"]),
+        ("il salue juste avant de sauter", ["il salue juste", "sauter"]),
+        ("er bleibt davor stehen", ["er bleibt davor stehen"]),
+        ("läuft wie vorher weiter", ["läuft wie vorher weiter"]),
+        ("Step 1: walk. Step 2: jump.", ["walk", "jump"]),
+        ("Please do the following: 1. walk 2. jump", ["walk", "jump"]),
+        ("camina y después de 3 segundos salta", ["camina", "salta"]),
+        ("gira a la izq. Salta.", ["gira a la izq. Salta"]),
     ],
 )
 def test_order_is_told_in_other_ways(sentence: str, texts: list[str]):
