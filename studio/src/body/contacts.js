@@ -6,7 +6,7 @@ import { gaussian, gradient, maximum, minimum, round } from "./curves.js";
 import { REST_FOOT_HEIGHT } from "./skeleton.js";
 
 const THRESHOLD = 0.5, MAX_CLAIM = 0.12, AROUND_SECONDS = 0.4, FLAT = 0.01;
-const MAX_SUPPORT = 0.08, MAX_VERTICAL = 0.5, FALL = -3.0;
+const MAX_SUPPORT = 0.08, MAX_VERTICAL = 0.5, FALL = -3.0, RUNNING = 2.0, PACE_SECONDS = 0.2;
 const MAX_GAP_SECONDS = 2 / 30, MIN_HOLD_SECONDS = 3 / 30, MIN_SWING_SECONDS = 8 / 30;
 const SOONER_SECONDS = 12 / 30, BLEND_SECONDS = 9 / 30, STEP_SECONDS = 8 / 30;
 const LIFT = 0.1, SLOPE = 0.1, SOFT = 0.01, GIVE = 0.05, ROLL = 0.005, MAX_DRAG = 0.22;
@@ -46,8 +46,11 @@ function standing(balls, hips, contacts, fps) {
   const vertical = height.map((row) => gradient(row).map((v) => Math.abs(v) * fps));
   const waist = gaussian(hips[0].map((point, t) => (point[1] + hips[1][t][1]) / 2), 0.05 * fps);
   const flies = gradient(gradient(waist)).map((a) => a * fps * fps < FALL);
+  const way = [0, 2].map((axis) => gradient(hips[0].map((point, t) => (point[axis] + hips[1][t][axis]) / 2)));
+  const pace = gaussian(way[0].map((x, t) => Math.hypot(x, way[1][t]) * fps), PACE_SECONDS * fps);
   return claimed.map((row, side) =>
     row.map((claim, t) => {
+      if (pace[t] >= RUNNING) return false;
       if (claim) return true;
       const lower = height[0][t] <= height[1][t] ? 0 : 1;
       const low = height[side][t] < MAX_SUPPORT && vertical[side][t] < MAX_VERTICAL && !flies[t];

@@ -258,6 +258,8 @@ def test_a_clip_of_another_skeleton_is_brought_onto_ours(browser: Browser, tmp_p
 
 @BROWSER
 def test_hostile_words_do_nothing(browser: Browser, tmp_path: Path) -> None:
+    with_blocks(browser, ("", 1))
+    browser.evaluate("studio.warn()")  # lines of an earlier sentence go
     before = browser.evaluate("document.querySelectorAll('*').length")
     for text in (*HOSTILE, *PAYLOADS):
         with_blocks(browser, (text, 1))

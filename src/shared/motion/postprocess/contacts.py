@@ -24,6 +24,7 @@ AROUND_SECONDS, FLAT = 0.4, 0.01  # in which a foot comes down; metres that are 
 MAX_SUPPORT = 0.08  # metres; a lower foot carries the body if none other does,
 MAX_VERTICAL = 0.5  # m/s, unless it rises or falls faster than this
 FALL = -3.0  # m/s² of the hips, below which the body flies
+RUNNING, PACE_SECONDS = 2.0, 0.2  # m/s of the hips from which on no foot is held; smoothing of them
 MAX_GAP_SECONDS = 2 / 30  # a contact that breaks off for no longer than this goes on
 MIN_HOLD_SECONDS = 3 / 30  # a shorter contact is none
 MIN_SWING_SECONDS = 8 / 30  # that a foot has to get from one hold to the next
@@ -80,7 +81,8 @@ def standing(balls: np.ndarray, hips: np.ndarray, contacts: np.ndarray, fps: flo
     """Which feet [T,2] carry the body: those that claim to, else the lower one if it is low.
 
     Nothing carries a body whose hips fall as a thrown thing does, and a foot that moves up or down
-    fast is landing or swinging.
+    fast is landing or swinging. Feet that run are left alone: held, those of captured runs slide
+    more and leave the floor less (docs/experiments.md, section 44).
     """
     height = balls[..., 1] - REST_FOOT_HEIGHT  # T 2
     claimed = (contacts > THRESHOLD) & (height < MAX_CLAIM)
@@ -91,7 +93,10 @@ def standing(balls: np.ndarray, hips: np.ndarray, contacts: np.ndarray, fps: flo
     flies = np.gradient(np.gradient(waist)) * fps**2 < FALL
     low = (height < MAX_SUPPORT) & (vertical < MAX_VERTICAL) & ~flies[:, None]
     lower = np.arange(2) == height.argmin(1)[:, None]
-    return np.asarray(claimed | (~claimed.any(1, keepdims=True) & low & lower))
+    ground = np.gradient(hips[..., [0, 2]].mean(1), axis=0) * fps
+    pace = gaussian_filter1d(np.hypot(*ground.T), PACE_SECONDS * fps, mode="nearest")
+    walks = (pace < RUNNING)[:, None]
+    return np.asarray(walks & (claimed | (~claimed.any(1, keepdims=True) & low & lower)))
 
 
 def contact_runs(contact: np.ndarray, max_gap: int) -> list[tuple[int, int]]:
