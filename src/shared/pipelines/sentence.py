@@ -12,7 +12,7 @@ import re
 import unicodedata
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, reduce
 from itertools import groupby, pairwise
 from typing import Any, NamedTuple
 
@@ -68,9 +68,9 @@ class Words:
         self.then = re.compile(rf"{_STOPS}?\s*{then}{_COMMAS}?", re.I)
         self.earlier = re.compile(_any(all_of("earlier")) + _COMMAS + "?", re.I)
         self.later = re.compile(_any(all_of("later")) + _COMMAS + "?", re.I)
-        self.meanwhile, self.throughout = (
+        self.meanwhile, self.throughout, self.before, self.after = (
             re.compile(rf"{_COMMAS}?\s*{_any(all_of(key))}\s*", re.I)
-            for key in ("meanwhile", "throughout")
+            for key in ("meanwhile", "throughout", "before", "after")
         )
         behind = rf"(?:{_STOPS}\s*(?:{_any(joints)}\s*)?|{_any(joints)}\s*)"
         said = rf"{_STOPS}?\s*{_any(all_of('beforehand'))}|{behind}{_any(all_of('previously'))}"
@@ -79,8 +79,6 @@ class Words:
         self.closing = re.compile(rf"\s*{_STOPS}\s*{_any(all_of('closings'))}\W*$", re.I)
         cut = "|".join(re.escape(word[:-1]) for word in all_of("short"))
         self.short = re.compile(rf"(?<!{_SIGN})(?:{cut})\.(?=\s+{_any(all_of('limbs'))})", re.I)
-        self.before = re.compile(rf"{_COMMAS}?\s*{_any(all_of('before'))}\s*", re.I)
-        self.after = re.compile(rf"{_COMMAS}?\s*{_any(all_of('after'))}\s*", re.I)
         own = _any([*all_of("own"), *all_of("left"), *all_of("right")])
         limbs = rf"(?:{own}\s*)*{_any(all_of('limbs'))}"
         # But "coup de poing" neither names a fist nor is it a gerund.
@@ -89,12 +87,11 @@ class Words:
         self.manner = re.compile(rf"{_any(all_of('manner'))}$", re.I)
         # "right at the corner", but "a right at the corner"
         self.no_side = re.compile(rf"(?<!(?<!{_LETTER})a\s){_any(all_of('no_side'))}", re.I)
-        self.left, self.right = (re.compile(_any(all_of(side)), re.I) for side in ("left", "right"))
+        self.left, self.right, self.round, self.corner = (
+            re.compile(_any(all_of(key)), re.I) for key in ("left", "right", "round", "corners")
+        )
         self.other = re.compile(_any(sides), re.I)
         self.others = {bare(word.partition("/")[0]): both for word, both in sides.items()}
-        self.round, self.corner = (
-            re.compile(_any(all_of(key)), re.I) for key in ("round", "corners")
-        )
         self.angle = re.compile(_any(angles), re.I)
         self.often = re.compile(_any(adverbs), re.I)
         number = rf"(?P<number>{_DIGITS}|{_any(numbers)})"
@@ -189,21 +186,14 @@ _JAVASCRIPT = (
 
 def javascript_patterns() -> dict[str, Any]:
     """The patterns as JavaScript reads them, with the flags i and u, and what their words say."""
-    ours, found = _words(), dict[str, str]()
-    for name, value in vars(ours).items():
-        patterns = value if name == "units" else {name: value}
-        found |= {key: _translated(p.pattern) for key, p in patterns.items() if name not in _SAID}
-    said = {name: getattr(ours, name) for name in _SAID}
+    ours = _words()
+    said = {name: vars(ours)[name] for name in ("numbers", "adverbs", "angles", "others")}
+    alone = {name: each for name, each in vars(ours).items() if name not in {*said, "units"}}
+    found = {
+        name: reduce(lambda text, pair: text.replace(*pair), _JAVASCRIPT, each.pattern)
+        for name, each in (alone | ours.units).items()
+    }
     return {"patterns": found, "most": MOST, "maxCount": MAX_COUNT} | said
-
-
-_SAID = ("numbers", "adverbs", "angles", "others")
-
-
-def _translated(pattern: str) -> str:
-    for here, there in _JAVASCRIPT:
-        pattern = pattern.replace(here, there)
-    return pattern
 
 
 # ---------------------------------------------------------------- what they mean
