@@ -35,10 +35,8 @@ _STOPS = (
 )
 _ARROWS = r"\s*(?:[-=]*>+|[→➜➔⇒▶»])"
 _DIGITS = r"\d+(?:[.,]\d+)?"
-_NUMBERED = re.compile(  # of a list, in a line
-    r"(?<![^\s,;:.])(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?(\d\d?)\s*[.):](?!\d)\s*",
-    re.I,
-)
+_STEP = r"(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?"  # before a number of a list
+_NUMBERED = re.compile(rf"(?<![^\s,;:.]){_STEP}(\d\d?)\s*[.):](?!\d)\s*", re.I)
 
 
 class Words:
@@ -260,8 +258,7 @@ def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
     waving", "walks with one hand up" and "raises the left hand and waves with the right one" are
     one clause, with what the arms do meanwhile.
     """
-    text = _tidied(sentence)
-    found: list[Clause] = []
+    text, found = _plain(tidied(sentence)), list[Clause]()
     for whole in _ordered(text, read):
         pieces = _joined(whole, read)
         while pieces:
@@ -275,11 +272,16 @@ def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
 # ---------------------------------------------------------------- order
 
 
-def _tidied(sentence: str) -> str:
-    """A sentence without greeting and thanks, with arrows for the numbers of a list."""
-    words = _words()
-    text = re.sub("([\u2460-\u2468])", r" \1) ", " ".join(sentence.split()))  # circled 1 to 9
-    text = words.greeting.sub("", unicodedata.normalize("NFKC", text))
+def _plain(text: str) -> str:
+    return unicodedata.normalize("NFKC", " ".join(text.split()))
+
+
+def tidied(sentence: str) -> str:
+    """A sentence without greeting and thanks, with arrows for the numbers of a list; it itself
+    where it has nothing of these."""
+    words, plain = _words(), _plain(sentence)
+    text = _plain(re.sub("([\u2460-\u2468])", r" \1) ", sentence))  # circled 1 to 9
+    text = words.greeting.sub("", text)
     text = words.closing.sub("", text) or text
     text = words.short.sub(lambda cut: cut[0][:-1], text)
     numbers = list(_NUMBERED.finditer(text))
@@ -288,7 +290,7 @@ def _tidied(sentence: str) -> str:
         if lead.endswith((":", "：")) or len(lead.split()) < 3:  # "please do the following:"
             text = text[numbers[0].end() :]
         text = _NUMBERED.sub(" → ", text)
-    return text
+    return sentence if text == plain else text
 
 
 def _ordered(text: str, read: Read) -> list[str]:

@@ -43,7 +43,7 @@ from ..tensors import Tensor, torch
 from .edit import all_but, chosen_joints, fill_free
 from .path import DrawnPath, natural_gait, time_path
 from .ranking import ScoreTable, TextJudge, unranked
-from .sentence import Clause, Reading, clauses, goes_round, side_of
+from .sentence import Clause, Reading, clauses, goes_round, side_of, tidied
 from .stream import (
     OVERLAP,
     WINDOW,
@@ -108,6 +108,7 @@ class SentenceGenerator:
         Raises:
             UserError: as `TextToMotion.generate`.
         """
+        asked, prompts = prompts, [tidied(prompt) for prompt in prompts]
         sampling = Sampling(seed=seed, steps=steps, sampler=sampler, guidance_scale=guidance_scale)
         lengths = list(seconds) if isinstance(seconds, Sequence) else [seconds] * len(prompts)
         labels = list(tags) if tags is not None else [None] * len(prompts)
@@ -161,11 +162,11 @@ class SentenceGenerator:
                     )
                     told(sum(map(len, made.values())))
         for index in plain:  # what no sample helped, unless it is warned of already
-            lines = [self.missed(prompts[index], motion) for motion in made[index]]
+            lines = [self.missed(asked[index], motion) for motion in made[index]]
             found = self._scope_result(prompts[index])
             if all(lines) and found is not None and found.known:
                 log.warning("%s", lines[0])
-        return [motion for index in range(len(prompts)) for motion in made[index]]
+        return [replace(m, text=text) for index, text in enumerate(asked) for m in made[index]]
 
     def encode_prompts(self, prompts: Sequence[str]) -> TextFeatures:
         """See `TextToMotion.encode_prompts`."""
@@ -195,7 +196,7 @@ class SentenceGenerator:
     def _warnings(self, prompt: str, *, again: bool = True) -> list[str | None]:
         parts = self.clauses(prompt)
         texts = [text for part in parts for text in (part.text, part.meanwhile) if text]
-        texts = [prompt] if len(texts) == 1 else texts
+        texts = [tidied(prompt)] if len(texts) == 1 else texts
         return self.generator.scope_warnings(texts, again=again)
 
     # ------------------------------------------------------------ one sentence

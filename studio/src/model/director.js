@@ -32,7 +32,7 @@ export class Director {
   warning(prompt) {
     const parts = this.reader.clauses(prompt);
     let texts = parts.flatMap(({ text, meanwhile }) => [text, meanwhile]).filter(Boolean);
-    if (texts.length === 1) texts = [prompt];
+    if (texts.length === 1) texts = [this.reader.tidied(prompt)];
     return texts.map((text) => this.scope.warning(text)).find(Boolean) ?? null;
   }
 
@@ -74,16 +74,17 @@ export class Director {
     const long = longest !== null && frames > round(longest * FPS);
     if (parts.length > 1 || !isPlain(parts[0]) || long || (await this.turns(parts[0])))
       return this.clausesOf(prompt, parts, seconds, seed, options);
+    const said = this.reader.tidied(prompt), action = this.nearest(said);
     let best = null, missed = null;
     for (const trial of retrySeeds(seed)) {
       const guidance = (best === null ? 1 : INSISTING) * this.settings.guidance;
-      const features = await this.sampler.sample(prompt, frames, trial, null, guidance);
-      if (this.byArms(prompt)) keepFacing(features);
-      const motion = this.rested(postProcess(features, this.settings.post, { text: prompt }), prompt);
+      const features = await this.sampler.sample(said, frames, trial, null, guidance);
+      if (this.byArms(said)) keepFacing(features);
+      const motion = this.rested(postProcess(features, this.settings.post, { text: prompt }), said);
       options.told?.(frames);
-      const does = this.does(prompt, motion);
+      const does = this.does(said, motion);
       if (best === null || does) best = motion;
-      missed = does || !this.scope.meta.checked.includes(this.nearest(prompt)) ? null : `“${prompt}”: none of ${TRIES} samples shows “${this.nearest(prompt)}”, by how joints move; try another seed or other words.`;
+      missed = does || !this.scope.meta.checked.includes(action) ? null : `“${prompt}”: none of ${TRIES} samples shows “${action}”, by how joints move; try another seed or other words.`;
       if (does) break;
     }
     return { ...best, missed };

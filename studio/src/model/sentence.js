@@ -19,6 +19,7 @@ function strip(text, characters = EDGES) {
   return text.slice(start, stop);
 }
 
+const plain = (text) => text.trim().split(/\s+/u).join(" ").normalize("NFKC");
 const stripEnd = (text) => text.slice(0, [...text].findLastIndex((c) => !EDGES.includes(c)) + 1);
 const stripStart = (text) => [...text].slice([...text].findIndex((c) => !EDGES.includes(c))).join("");
 const bare = (word) => word.toLowerCase().replaceAll("ß", "ss").replaceAll("’", "'").replaceAll("ı", "i").normalize("NFD").replace(/\p{M}/gu, "");
@@ -53,7 +54,7 @@ export class SentenceReader {
   }
 
   clauses(sentence) {
-    const text = this.tidied(sentence), found = [];
+    const text = plain(this.tidied(sentence)), found = [];
     for (const whole of this.ordered(text))
       for (let pieces = this.joined(whole); pieces.length;) {
         const [first, ...others] = pieces;
@@ -65,9 +66,14 @@ export class SentenceReader {
     return real.length ? real : [plainClause(sentence)];
   }
 
-  /** Without greeting and thanks, with arrows for the numbers of a list. */
+  /** Without greeting and thanks, with arrows for the numbers of a list; it itself where it has none. */
   tidied(sentence) {
-    let text = sentence.trim().split(/\s+/u).join(" ").replace(/([\u2460-\u2468])/gu, " $1) ").normalize("NFKC");
+    const text = this.withoutManners(sentence);
+    return text === plain(sentence) ? sentence : text;
+  }
+
+  withoutManners(sentence) {
+    let text = plain(sentence.replace(/([\u2460-\u2468])/gu, " $1) "));
     text = text.replace(this.first.greeting, "");
     text = (text.replace(this.first.closing, "") || text).replace(this.each.short, (cut) => cut.slice(0, -1));
     const numbers = [...text.matchAll(NUMBERED)], [first] = numbers;

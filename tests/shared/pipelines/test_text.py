@@ -119,6 +119,15 @@ def test_a_walk_turns_a_corner_or_goes_round():
     assert abs(turn_of(limbs)) < 45 and abs(turn_of(straight)) < 45
 
 
+def test_a_greeting_and_thanks_say_nothing():
+    sentences = SentenceGenerator(TextToMotion.from_pretrained("starter", device="cpu"))
+    polite, plain = "Bonjour, une femme saute, merci", "une femme saute"
+    made, bare = (sentences.generate([prompt], seconds=2.0)[0] for prompt in (polite, plain))
+    assert np.array_equal(made.quaternions, bare.quaternions)
+    assert (made.text, bare.text) == (polite, plain)
+    assert sentences.scope_warnings([polite]) == sentences.scope_warnings([plain])
+
+
 def test_what_kinematics_miss_is_sampled_again(
     monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ):

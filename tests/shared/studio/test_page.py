@@ -35,7 +35,7 @@ from tests.shared.formats.pages import HOSTILE, Page
 BROWSER = pytest.mark.skipif(not chromium(), reason="no Chromium is installed")
 PROMPTS = {
     "en": "a person walks forward",
-    "es": "una persona salta dos veces",
+    "es": "Hola, una persona salta, gracias",
     "fr": "①une personne salue ②elle saute",
     "de": "Hallo, eine Person rennt, davor winkt sie, danke!",
     "ja": "人が右手を振る",
