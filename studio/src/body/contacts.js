@@ -16,9 +16,10 @@ const MAX_SLOPE = 2.5, UNDER = [0, 0.5, 1], MAX_REACH = 0.9, SWING = 150;
 export function footShifts(balls, hips, contacts, fps, kept) {
   const shifts = grounding(balls, kept, fps);
   const moved = balls.map((path, side) => path.map((point, t) => add(point, shifts[side][t])));
-  const stands = standing(moved, hips, contacts, fps);
-  const held = stands.map((row) => row.map(() => false));
-  plantSpans(moved, hips, stands, fps, kept).forEach((holds, side) => {
+  const stands = standing(moved, hips, contacts, fps), runs = running(hips, fps);
+  const held = stands.map((row) => row.map((stands, t) => stands && runs[t]));
+  const walking = stands.map((row) => row.map((stands, t) => stands && !runs[t]));
+  plantSpans(moved, hips, walking, fps, kept).forEach((holds, side) => {
     const more = corrections(moved[side], holds, kept[side], fps);
     shifts[side] = shifts[side].map((shift, t) => add(shift, more[t]));
     for (const hold of holds) held[side].fill(true, hold.start, hold.stop);
@@ -46,17 +47,20 @@ function standing(balls, hips, contacts, fps) {
   const vertical = height.map((row) => gradient(row).map((v) => Math.abs(v) * fps));
   const waist = gaussian(hips[0].map((point, t) => (point[1] + hips[1][t][1]) / 2), 0.05 * fps);
   const flies = gradient(gradient(waist)).map((a) => a * fps * fps < FALL);
-  const way = [0, 2].map((axis) => gradient(hips[0].map((point, t) => (point[axis] + hips[1][t][axis]) / 2)));
-  const pace = gaussian(way[0].map((x, t) => Math.hypot(x, way[1][t]) * fps), PACE_SECONDS * fps);
   return claimed.map((row, side) =>
     row.map((claim, t) => {
-      if (pace[t] >= RUNNING) return false;
       if (claim) return true;
       const lower = height[0][t] <= height[1][t] ? 0 : 1;
       const low = height[side][t] < MAX_SUPPORT && vertical[side][t] < MAX_VERTICAL && !flies[t];
       return !claimed[0][t] && !claimed[1][t] && low && lower === side;
     }),
   );
+}
+
+function running(hips, fps) {
+  if (hips[0].length < 2) return hips[0].map(() => false);
+  const way = [0, 2].map((axis) => gradient(hips[0].map((point, t) => (point[axis] + hips[1][t][axis]) / 2)));
+  return gaussian(way[0].map((x, t) => Math.hypot(x, way[1][t]) * fps), PACE_SECONDS * fps).map((pace) => pace >= RUNNING);
 }
 
 function contactRuns(contact, maxGap) {

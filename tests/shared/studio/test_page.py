@@ -36,7 +36,7 @@ BROWSER = pytest.mark.skipif(not chromium(), reason="no Chromium is installed")
 PROMPTS = {
     "en": "a person walks forward",
     "es": "Hola, una persona salta, gracias",
-    "fr": "①une personne salue ②elle saute",
+    "fr": "①une personne court ②elle saute",
     "de": "Hallo, eine Person rennt, davor winkt sie, danke!",
     "ja": "人が右手を振る",
     "zh": "一个人向左转弯走",

@@ -81,8 +81,7 @@ def standing(balls: np.ndarray, hips: np.ndarray, contacts: np.ndarray, fps: flo
     """Which feet [T,2] carry the body: those that claim to, else the lower one if it is low.
 
     Nothing carries a body whose hips fall as a thrown thing does, and a foot that moves up or down
-    fast is landing or swinging. Feet that run are left alone: held, those of captured runs slide
-    more and leave the floor less (docs/experiments.md, section 44).
+    fast is landing or swinging.
     """
     height = balls[..., 1] - REST_FOOT_HEIGHT  # T 2
     claimed = (contacts > THRESHOLD) & (height < MAX_CLAIM)
@@ -93,10 +92,17 @@ def standing(balls: np.ndarray, hips: np.ndarray, contacts: np.ndarray, fps: flo
     flies = np.gradient(np.gradient(waist)) * fps**2 < FALL
     low = (height < MAX_SUPPORT) & (vertical < MAX_VERTICAL) & ~flies[:, None]
     lower = np.arange(2) == height.argmin(1)[:, None]
-    ground = np.gradient(hips[..., [0, 2]].mean(1), axis=0) * fps
-    pace = gaussian_filter1d(np.hypot(*ground.T), PACE_SECONDS * fps, mode="nearest")
-    walks = (pace < RUNNING)[:, None]
-    return np.asarray(walks & (claimed | (~claimed.any(1, keepdims=True) & low & lower)))
+    return np.asarray(claimed | (~claimed.any(1, keepdims=True) & low & lower))
+
+
+def running(hips: np.ndarray, fps: float) -> np.ndarray:
+    """In which frames [T] feet are left alone, as the body runs: held, those of captured runs slide
+    more and leave the floor less (docs/experiments.md, section 44)."""
+    if len(hips) < 2:
+        return np.zeros(len(hips), dtype=bool)
+    way = np.gradient(hips[..., [0, 2]].mean(1), axis=0) * fps
+    pace = gaussian_filter1d(np.hypot(*way.T), PACE_SECONDS * fps, mode="nearest")
+    return np.asarray(pace >= RUNNING)
 
 
 def contact_runs(contact: np.ndarray, max_gap: int) -> list[tuple[int, int]]:
@@ -140,9 +146,9 @@ def foot_shifts(
     kept = np.zeros((len(balls), 2), dtype=bool) if kept is None else kept
     shifts = grounding(balls, kept, fps)
     balls = balls + shifts
-    stands = standing(balls, hips, contacts, fps)
-    held = np.zeros(stands.shape, dtype=bool)
-    for side, holds in enumerate(plant_spans(balls, hips, stands, fps, kept)):
+    stands, runs = standing(balls, hips, contacts, fps), running(hips, fps)[:, None]
+    held = stands & runs
+    for side, holds in enumerate(plant_spans(balls, hips, stands & ~runs, fps, kept)):
         shifts[:, side] += corrections(balls[:, side], holds, kept[:, side], fps)
         for hold in holds:
             held[hold.start : hold.stop, side] = True

@@ -68,6 +68,8 @@ def test_rotary_tables_made_while_sampling_serve_training():
     with torch.inference_mode():
         layer(torch.randn(1, 300, D))
     layer(torch.randn(1, 300, D)).sum().backward()
+    gradients = [parameter.grad for parameter in layer.parameters()]
+    assert all(each is not None and bool(each.isfinite().all()) for each in gradients)
 
 
 def test_rotary_makes_order_matter():

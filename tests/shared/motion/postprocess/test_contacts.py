@@ -19,6 +19,7 @@ from src.shared.motion.postprocess.contacts import (
     grounding,
     hermite,
     plant_spans,
+    running,
     standing,
 )
 from src.shared.motion.postprocess.footskate import MAX_RISE, heel_rise
@@ -177,3 +178,21 @@ def test_a_heel_rises_no_further_than_needed(
         assert after == pytest.approx(longest, abs=1e-6)
     else:
         assert longest - 1e-9 < after < before
+
+
+@pytest.mark.parametrize(("speed", "left_alone"), [(1.0, False), (3.0, True)])
+def test_running_feet_are_left_alone_and_told_of(speed: float, left_alone: bool):
+    """A foot that claims to stand slides under a body that walks, or runs, past it."""
+    way = np.arange(40) / FPS
+    balls = np.zeros((40, 2, 3))
+    balls[..., 1] = REST_FOOT_HEIGHT
+    balls[..., 2] = 0.2 * way[:, None]  # a slow slide: 20 cm/s
+    hips = np.zeros((40, 2, 3))
+    hips[..., 1], hips[..., 2] = 0.85, speed * (way - way[20])[:, None]
+    claims = np.zeros((40, 2))
+    claims[17:24, 0] = 1.0
+    shifts, held = foot_shifts(balls, hips, claims, FPS)
+    assert running(hips, FPS).all() == left_alone
+    stood = claims[:, 0] > 0  # a foot on the floor is told of, held or not
+    assert np.array_equal(held[:, 0] & stood, stood) if left_alone else (held[:, 0] & stood).any()
+    assert (np.abs(shifts[..., 2]).max() == 0) == left_alone
