@@ -83,8 +83,9 @@ class Words:
         self.sign = re.compile(rf"(?<!de )(?:{_any(all_of('with'))}|{limbs})", re.I)
         self.limb = re.compile(rf"^{limbs}$", re.I)
         self.manner = re.compile(rf"{_any(all_of('manner'))}$", re.I)
-        # "right at the corner", but "a right at the corner"
-        self.no_side = re.compile(rf"(?<!(?<!{_LETTER})a\s){_any(all_of('no_side'))}", re.I)
+        # "right at the corner", but "a right at the corner", "turns right at the corner"
+        apart = "".join(rf"(?<!(?<!{_LETTER}){word}\s)" for word in all_of("to_side"))
+        self.no_side = re.compile(apart + _any(all_of("no_side")), re.I)
         self.left, self.right, self.round, self.corner = (
             re.compile(_any(all_of(key)), re.I) for key in ("left", "right", "round", "corners")
         )

@@ -238,16 +238,17 @@ def _realism(yardstick: Yardstick, rows: dict[str, Asked]) -> Grid:
         clips["procedural"] = yardstick.procedural, yardstick.procedural_records
     asked, found = rows["generated"].labels, dict[str, GridRow]()
 
-    def row(seen: Seen, actions: Sequence[str], distances: dict[str, Cell]) -> GridRow:
+    def row(seen: Seen, labels: Sequence[dict[str, str]], distances: dict[str, Cell]) -> GridRow:
+        actions = [wanted.get("action", "") for wanted in labels]
         nearer = share_of(yardstick.nearer_to_procedural(actions, seen))
-        gait = gaits(seen, actions, yardstick.top_run)
+        gait = gaits(seen, labels, yardstick.top_run)
         return GridRow({**distances, **gait, "procedural": nearer}, len(seen))
 
     for name, (seen, records) in clips.items():
-        tags = [record.tag for record in records]
-        found[name] = row(seen, tags, distances(asked, seen, records))
+        own = [{**record.labels, "action": record.tag} for record in records]
+        found[name] = row(seen, own, distances(asked, seen, records))
     for name, each in rows.items():
-        found[name] = row(each.seen, each.actions, distances(each.labels, each.seen))
+        found[name] = row(each.seen, each.labels, distances(each.labels, each.seen))
     matches = yardstick.settings.min_matches
     told = sum(bool(yardstick.references(w)) for w in asked)
     columns = (
@@ -257,6 +258,7 @@ def _realism(yardstick: Yardstick, rows: dict[str, Asked]) -> Grid:
         Column("peak", "walks: peak acceleration m/s²", 0),
         Column("teleports", "runs: frames beyond captured %", 2, "low"),
         Column("slide", "walks: carrying foot cm/s", 1),
+        Column("turn", "walks that turn: by degrees", 0),
     )
     note = (
         "FD: Fréchet distance in the axes along which the judge tells captured actions apart, in"
@@ -265,8 +267,9 @@ def _realism(yardstick: Yardstick, rows: dict[str, Asked]) -> Grid:
         f" {told}); mean of {DRAWS} draws. The first two rows answer the same requests with a clip"
         " of another take, and with a plain one that was trained on. *nearer to procedural*: the"
         " nearest clip of the same action is one that nobody recorded. *frames beyond captured*:"
-        " worst joint's acceleration above the 99.9th percentile of captured runs. A frozen pose is"
-        " smooth and does not slide: read the distances first."
+        " worst joint's acceleration above the 99.9th percentile of captured runs. *walks that"
+        " turn*: obeyed asks for the side alone, which who goes round and round keeps. A frozen"
+        " pose is smooth and does not slide: read the distances first."
     )
     return Grid("realism", "Like captured motion", columns, found, note)
 
@@ -453,16 +456,19 @@ def spread(motions: Sequence[Motion]) -> float:
     return float(100 * np.linalg.norm(deviation, axis=-1).mean())
 
 
-def gaits(seen: Seen, tags: Sequence[str], top_run: float) -> dict[str, Estimate]:
-    """How walks and runs move: peak acceleration m/s², frames beyond `top_run` %, slide cm/s."""
-    pairs = list(zip(seen.motions, tags, strict=True))
-    walks = [motion for motion, tag in pairs if tag == "walk"]
-    runs = [motion for motion, tag in pairs if tag == "run"]
+def gaits(seen: Seen, labels: Sequence[dict[str, str]], top_run: float) -> dict[str, Estimate]:
+    """How walks and runs move: peak acceleration m/s², frames beyond `top_run` %, slide cm/s, and
+    degrees by which walks turn that are to turn, to whichever side."""
+    pairs = list(zip(seen.motions, labels, strict=True))
+    walks = [motion for motion, wanted in pairs if wanted.get("action") == "walk"]
+    runs = [motion for motion, wanted in pairs if wanted.get("action") == "run"]
+    bent = [m for m, wanted in pairs if wanted.get("action") == "walk" and "turn" in wanted]
     slides = [support_slide(m.positions().astype(np.float64), m.fps) for m in walks]
     return {
         "peak": bootstrap_mean([float(np.percentile(worst_acceleration(m), 99)) for m in walks]),
         "teleports": bootstrap_mean([100 * (worst_acceleration(m) > top_run).mean() for m in runs]),
         "slide": bootstrap_mean(slides),
+        "turn": bootstrap_mean([abs(math.degrees(measure(m).yaw)) for m in bent]),
     }
 
 
