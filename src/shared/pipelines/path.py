@@ -29,7 +29,7 @@ from ..motion.motion import Motion
 from ..motion.rotations import yaw_quaternion
 from ..motion.skeleton import REST_PELVIS_HEIGHT
 from ..motion.trajectory import MotionTrajectory, to_root
-from ..tensors import torch
+from ..tensors import Tensor, torch
 from .edit import ControlledMotion
 from .stream import Passage, stream_features
 from .timeline import Timeline, make_timeline
@@ -211,6 +211,14 @@ class TimedPath:
 
     def __len__(self) -> int:
         return len(self.points)
+
+    def swaying(self, sway: np.ndarray) -> "TimedPath":
+        """The same, its headings swaying about the way by radians a second [T]: less where it is
+        slow, not at its ends."""
+        pace = np.linalg.norm(np.gradient(self.points, axis=0), axis=1)
+        swayed = np.cumsum(sway * pace / max(pace.max(), 1e-9)) / self.fps
+        swayed -= np.linspace(swayed[0], swayed[-1], len(self))
+        return replace(self, headings=self.headings + swayed)
 
     def trajectory(self, phase: np.ndarray | None = None) -> MotionTrajectory:
         """The same of an upright pelvis at its height at rest; phase: unwrapped bars [T]."""
@@ -396,6 +404,7 @@ def distances_to_line(places: np.ndarray, points: np.ndarray) -> np.ndarray:
 
 
 STANDING = 0.25  # m/s; a prompt that moves less has no way of going
+SWAY_SMOOTHING = 0.4  # seconds, standard deviation: what is slower is the way it goes, not a step
 
 
 def along_path(
@@ -439,6 +448,8 @@ def along_path(
         )
     if alone:
         timeline = Timeline((replace(timeline.passages[0], frames=len(path)),))
+    if drawn.headings is None:
+        path = path.swaying(natural_sway(make_timeline(generator, timeline, sampling), fps))
     given = path.constraint()
     features = make_timeline(
         generator,
@@ -488,3 +499,11 @@ def natural_gait(generator: TextToMotion, passage: Passage, sampling: Sampling) 
         return Gait(NATURAL, 0.0, turning)
     way = float(np.round(np.arctan2(lateral, forward) / (np.pi / 2)) * (np.pi / 2))
     return Gait(speed, -way, turning)
+
+
+def natural_sway(features: Tensor, fps: float) -> np.ndarray:
+    """Radians a second [T], 0 in the mean, by which the heading of a body that nobody directs
+    sways about its way with each step. Without it a led pelvis does not turn with its legs."""
+    rate = features[:, ROOT_ROW, YAW_RATE].numpy()
+    sway = rate - gaussian_filter1d(rate, SWAY_SMOOTHING * fps, mode="nearest")
+    return np.asarray(sway - sway.mean())

@@ -41,7 +41,7 @@ from ..motion.motion import Motion
 from ..motion.postprocess.whole import rest_to_rest
 from ..tensors import Tensor, torch
 from .edit import all_but, chosen_joints, fill_free
-from .path import DrawnPath, natural_gait, time_path
+from .path import DrawnPath, natural_gait, natural_sway, time_path
 from .ranking import ScoreTable, TextJudge, unranked
 from .sentence import Clause, Reading, clauses, goes_round, side_of, tidied
 from .stream import (
@@ -371,7 +371,7 @@ class SentenceGenerator:
         given = None
         passage = Passage(clause.text, max(1, round(seconds * fps)), tag)
         if self._turns(clause):
-            given = self._turn(clause, seconds, sampling.seed)
+            given = self._turn(clause, seconds, sampling)
         elif clause.metres is not None:
             given = self._led(passage, clause, sampling)
         elif clause.count > 1:
@@ -382,7 +382,7 @@ class SentenceGenerator:
             return replace(passage, frames=len(given)), given
         return replace(passage, miss=self._miss(clause, passage.frames)), None
 
-    def _turn(self, clause: Clause, seconds: float, seed: int) -> Constraint:
+    def _turn(self, clause: Clause, seconds: float, sampling: Sampling) -> Constraint:
         """By the angle that is named; round a corner or in a circle; else in full circles, as many
         as are named or as fill the seconds, to the side that is named or that the seed says."""
         fps = self.card.fps
@@ -392,14 +392,17 @@ class SentenceGenerator:
             if clause.seconds is None:
                 seconds = max(seconds, abs(bend) / SPIN_SPEED + 2 * TURN_REST)
             rest = (seconds - CORNER_SECONDS) / 2 if abs(bend) == CORNER else 0.0
-            return turned(bend, fps, seconds, max(rest, TURN_REST))
+            given = turned(bend, fps, seconds, max(rest, TURN_REST))
+            sway = self._sway(Passage(clause.text, len(given)), sampling)
+            given.values[:, ROOT_ROW, YAW_RATE] += torch.as_tensor(sway)
+            return given
         side, around = side_of(clause.text), 360.0 / SPIN_SPEED
         circles = max(clause.count, 1)
         if circles == 1:
             circles = max(round((seconds - 2 * TURN_REST) / around), 1)
         elif clause.seconds is None:
             seconds = circles * around + 2 * TURN_REST
-        left = seed % 2 == 0 if side == "both" else side == "left"
+        left = sampling.seed % 2 == 0 if side == "both" else side == "left"
         return turned(360.0 * (circles if left else -circles), fps, seconds)
 
     def _led(self, passage: Passage, clause: Clause, sampling: Sampling) -> Constraint:
@@ -413,7 +416,11 @@ class SentenceGenerator:
             )  # fmt: skip
         except UserError as error:
             raise UserError(f"{passage.text!r}: {error}") from None
-        return path.constraint()
+        return path.swaying(self._sway(replace(passage, frames=len(path)), sampling)).constraint()
+
+    def _sway(self, passage: Passage, sampling: Sampling) -> np.ndarray:
+        free = torch.cat(list(stream_features(self.generator, [passage], sampling)))
+        return natural_sway(free, self.card.fps)
 
 
 def turned(

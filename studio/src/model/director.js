@@ -7,7 +7,7 @@ import { ACTIONS, endsAtRest, measure, REPETITIONS, repetitions, sideCheck } fro
 import { FPS } from "../body/skeleton.js";
 import { postProcess, restToRest } from "../body/whole.js";
 import { allBut, chosenJoints, fill, fillFree, keepEnds, NO_TEXT, redo } from "./edit.js";
-import { naturalGait, pathConstraint, timePath } from "./path.js";
+import { naturalGait, naturalSway, pathConstraint, swaying, timePath } from "./path.js";
 import { isPlain, SentenceReader } from "./sentence.js";
 import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
@@ -136,7 +136,8 @@ export class Director {
     if (await this.turns(clause)) return led(await this.turn(clause, seconds, seed));
     if (clause.metres !== null) {
       const gait = await naturalGait(this.sampler, text, seed);
-      return led(pathConstraint(timePath([[0, 0], [0, clause.metres]], { ...gait, seconds: clause.seconds })));
+      const path = timePath([[0, 0], [0, clause.metres]], { ...gait, seconds: clause.seconds });
+      return led(pathConstraint(swaying(path, await this.sway(text, path.points.length, seed))));
     }
     if (count > 1) {
       const once = round(Math.min(Math.max(seconds / count, ONCE[0]), ONCE[1]) * FPS), frames = once * count;
@@ -169,13 +170,21 @@ export class Director {
     if (degrees !== null) return turned(degrees);
     const bend = await this.bend(text);
     if (bend && named === null) seconds = Math.max(seconds, Math.abs(bend) / SPIN_SPEED + 2 * TURN_REST);
-    if (bend) return turned(bend, seconds, Math.max(Math.abs(bend) === CORNER ? (seconds - CORNER_SECONDS) / 2 : 0, TURN_REST));
+    if (bend) {
+      const given = turned(bend, seconds, Math.max(Math.abs(bend) === CORNER ? (seconds - CORNER_SECONDS) / 2 : 0, TURN_REST));
+      for (const [t, rate] of (await this.sway(text, framesOf(given.values), seed)).entries()) given.values[t * WIDTH + ROOT + YAW_RATE] += rate;
+      return given;
+    }
     const side = this.reader.sideOf(text), around = 360 / SPIN_SPEED;
     let circles = count;
     if (circles <= 1) circles = Math.max(round((seconds - 2 * TURN_REST) / around), 1);
     else if (named === null) seconds = circles * around + 2 * TURN_REST;
     const left = side === "both" ? BigInt(seed) % 2n === 0n : side === "left";
     return turned(360 * (left ? circles : -circles), seconds);
+  }
+
+  async sway(text, frames, seed) {
+    return naturalSway(await streamFeatures(this.sampler, [{ text, frames }], seed));
   }
 
   nearest(text) {
@@ -225,9 +234,10 @@ export class Director {
     const gait = await naturalGait(this.sampler, blocks[0].text, seed);
     const total = passages.reduce((sum, { frames }) => sum + frames, 0);
     const timed = timePath(path, { ...gait, seconds: alone ? blocks[0].seconds : (total - 1) / FPS });
-    const given = pathConstraint(timed), frames = timed.points.length;
     // Rounding may make a path a frame longer or shorter than its sentences: the last one gives way.
-    passages[passages.length - 1].frames += frames - total;
+    passages[passages.length - 1].frames += timed.points.length - total;
+    const sway = naturalSway(await streamFeatures(this.sampler, passages, seed, { ...options, told: undefined }));
+    const given = pathConstraint(swaying(timed, sway));
     const features = await streamFeatures(this.sampler, passages, seed, { ...options, constraint: given });
     return postProcess(features, this.settings.post, {
       known: given.known,

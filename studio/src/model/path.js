@@ -9,7 +9,7 @@ import { freeConstraint, streamFeatures } from "./stream.js";
 
 const SPACING = 0.01, ROUNDING = 0.12, NATURAL = 1.2, SLOWEST = 0.25, FASTEST = 4, MAX_SIDEWAYS = 2;
 const MAX_ALONG = 1.5, MAX_TURN = 2.5, FASTEST_TURN = 4, START_SPEED = 0.1, REST = 0.4, RUNNING = 2;
-const TURN_SMOOTHING = 0.12, STANDING = 0.25;
+const TURN_SMOOTHING = 0.12, STANDING = 0.25, SWAY_SMOOTHING = 0.4;
 
 const steps = (points) => points.slice(1).map((point, i) => [point[0] - points[i][0], point[1] - points[i][1]]);
 export const lengthOf = (points) => steps(points).reduce((sum, step) => sum + Math.hypot(...step), 0);
@@ -93,6 +93,24 @@ function slowTurns(headings) {
     smooth = gaussian(headings, width);
   }
   return smooth;
+}
+
+/** Radians a second, 0 in the mean, by which a heading that nobody directs sways about its way with each step. */
+export function naturalSway(features) {
+  const rate = Array.from({ length: framesOf(features) }, (_, t) => features[t * WIDTH + ROOT + YAW_RATE]);
+  const smooth = gaussian(rate, SWAY_SMOOTHING * FPS), sway = rate.map((v, t) => v - smooth[t]);
+  const mean = sway.reduce((sum, v) => sum + v, 0) / sway.length;
+  return sway.map((v) => v - mean);
+}
+
+/** The same path, its headings swaying: less where it is slow, not at its ends. */
+export function swaying({ points, headings }, sway) {
+  const [dx, dz] = [gradient(points.map((p) => p[0])), gradient(points.map((p) => p[1]))];
+  const pace = dx.map((v, t) => Math.hypot(v, dz[t])), fastest = Math.max(...pace, 1e-9), last = points.length - 1;
+  let sum = 0;
+  const swayed = sway.map((v, t) => (sum += (v * pace[t]) / fastest) / FPS);
+  const drift = (t) => swayed[0] + ((swayed[last] - swayed[0]) * t) / last;
+  return { points, headings: headings.map((v, t) => v + swayed[t] - drift(t)) };
 }
 
 /** Forward, lateral and turning velocity are known; all else is free. */

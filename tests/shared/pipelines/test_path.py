@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -18,6 +19,7 @@ from src.shared.pipelines.path import (
     DrawnPath,
     TimedPath,
     distances_to_line,
+    natural_sway,
     path_error,
     read_path,
     time_path,
@@ -219,6 +221,22 @@ def test_times_and_headings_of_the_file_count() -> None:
     assert path.headings[-1] == pytest.approx(1.5, abs=0.02)
     walked(path)
     assert FASTEST > 1
+
+
+def test_a_heading_sways_about_the_way_and_the_places_stay() -> None:
+    path = time_path(LINE, fps=30.0)
+    steps = 0.6 * np.sin(np.arange(len(path)) * 2 * np.pi / 30)
+    swaying = path.swaying(steps)
+    walked(swaying)
+    apart = swaying.headings - path.headings
+    assert apart[[0, -1]] == pytest.approx([0, 0], abs=1e-9) and 0.05 < apart.std() < 0.2
+    still = np.linalg.norm(np.gradient(path.points, axis=0), axis=1) < 1e-3
+    assert np.abs(np.diff(apart)[still[1:]]).max() < 2e-3
+    features = torch.zeros(90, ROOT_ROW + 1, 6)
+    features[:, ROOT_ROW, YAW_RATE] = torch.as_tensor(0.5 + steps[:90])
+    sway = natural_sway(features, 30.0)
+    assert sway.mean() == pytest.approx(0, abs=1e-6)
+    np.testing.assert_allclose(sway[20:70], steps[20:70], atol=0.1)
 
 
 def test_errors_are_distances() -> None:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 import torch
+from scipy.ndimage import gaussian_filter1d
 
 from src.shared.errors import UserError
 from src.shared.metrics.measurements import ACTIONS, Check, Measurements, at_rest, measure
@@ -117,6 +118,13 @@ def test_a_walk_turns_a_corner_or_goes_round():
         assert turn_of(motion) == pytest.approx(degrees, abs=20), prompt
     limbs, straight = sentences.generate(["a man walks with his left arm raised", "walks ahead"])
     assert abs(turn_of(limbs)) < 45 and abs(turn_of(straight)) < 45
+
+
+def test_a_pelvis_that_is_led_turns_with_its_legs():
+    sentences = SentenceGenerator(TextToMotion.from_pretrained("starter", device="cpu"))
+    for motion in sentences.generate(["a person walks four metres", "walks round the corner left"]):
+        yaw = encode_features(motion)[15:-15, ROOT_ROW, YAW_RATE]
+        assert 0.2 < float(np.std(np.asarray(yaw) - gaussian_filter1d(yaw, 12))) < 0.8
 
 
 def test_a_greeting_and_thanks_say_nothing():
