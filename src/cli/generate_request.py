@@ -219,7 +219,8 @@ def controlled(request: Request) -> dict[str, Any]:
         clock.lap("read")
         _ = generator.text
         clock.lap("load")
-        warnings = warn(generator.text.scope_warnings(texts))
+        plain = path is None and not directions.loop
+        warnings = warn((generator.sentences if plain else generator.text).scope_warnings(texts))
         made = generator.timeline(
             timeline, path=path, seconds=request.seconds, loop=directions.loop, **options
         )

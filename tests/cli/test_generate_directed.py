@@ -42,7 +42,7 @@ def generate(model: str, out: Path, *arguments: str) -> dict[str, object]:
 
 def test_then(model: str, tmp_path: Path) -> None:
     row = generate(model, tmp_path, *WALK, "--then", "somebody jumps twice", "--seconds", "1")
-    assert row["frames"] == 60 and row["directions"] == ["--then"]
+    assert row["frames"] == 30 + 2 * 75 and row["directions"] == ["--then"]  # two jumps take time
     assert row["prompt"] == "a person walks forward, then somebody jumps twice"
 
 

@@ -29,7 +29,7 @@ from .path import DrawnPath, TimedPath, along_path, time_path
 from .ranking import PerformanceJudge, TextJudge, load_tower, own_tower
 from .stream import DEFAULT_SAMPLING, MotionStream, Passage
 from .text import PromptResult, PromptSampler, SentenceGenerator
-from .timeline import Timeline, by_timeline, in_a_loop
+from .timeline import Timeline, in_a_loop
 
 if TYPE_CHECKING:  # who asks for a sentence waits for nothing that songs need
     from ..audio.song import Song
@@ -392,8 +392,9 @@ class MotionGenerator:
             return along_path(
                 self.text, timeline, path, sampling, seconds=seconds, foot_lock=foot_lock
             )
-        make = in_a_loop if loop else by_timeline
-        return make(self.text, timeline, sampling, foot_lock=foot_lock)
+        if loop:
+            return in_a_loop(self.text, timeline, sampling, foot_lock=foot_lock)
+        return ControlledMotion(self.sentences.timeline(timeline, sampling, foot_lock=foot_lock))
 
     def stream(self, prompts: str | Iterable[str | Passage], **options: Any) -> MotionStream:
         """Motion without end while prompts change; see `MotionStream`."""

@@ -14,7 +14,7 @@ import logging
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from typing import Any
 
 import numpy as np
@@ -44,13 +44,8 @@ from .edit import all_but, chosen_joints, fill_free
 from .path import DrawnPath, natural_gait, natural_sway, time_path
 from .ranking import ScoreTable, TextJudge, unranked
 from .sentence import Clause, Reading, clauses, goes_round, side_of, tidied
-from .stream import (
-    OVERLAP,
-    WINDOW,
-    Miss,
-    Passage,
-    stream_features,
-)
+from .stream import OVERLAP, WINDOW, Miss, Passage, stream_features
+from .timeline import Part, Timeline, add_parts
 
 TURN_SPEED, TURN_REST = 75.0, 0.5  # degrees a second; seconds before and after a turn
 SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to be filled
@@ -307,7 +302,6 @@ class SentenceGenerator:
             self._bent[text] = angle if left else -angle
         return self._bent[text]
 
-    @idle_threads()
     def _one(
         self,
         prompt: str,
@@ -318,6 +312,41 @@ class SentenceGenerator:
     ) -> Motion:
         parts = self.clauses(prompt)
         stretches = [self._stretch(part, seconds, tag, sampling) for part in parts]
+        return self._motion(parts, stretches, prompt, sampling, foot_lock)
+
+    def timeline(
+        self, timeline: Timeline, sampling: Sampling, *, foot_lock: bool | None = None
+    ) -> Motion:
+        """One motion of several texts, each read as a sentence is.
+
+        Where the timeline has times, they hold: the clauses of a text share them, and what one
+        names of its length gives way.
+
+        Raises:
+            UserError: so many metres cannot be gone in their time, or as `stream_features`.
+        """
+        parts, fps = list[Clause](), self.card.fps
+        stretches = list[tuple[Passage, Constraint | None]]()
+        for text, frames, tag in ((each.text, each.frames, each.tag) for each in timeline.passages):
+            own = self.clauses(text)
+            stops = [round(frames * number / len(own)) for number in range(len(own) + 1)]
+            for part, (start, stop) in zip(own, pairwise(stops), strict=True):
+                exactly = stop - start if timeline.timed else None
+                stretches.append(self._stretch(part, frames / fps, tag, sampling, exactly))
+            parts += own
+        return self._motion(parts, stretches, timeline.text, sampling, foot_lock, timeline.parts)
+
+    @idle_threads()
+    def _motion(
+        self,
+        parts: Sequence[Clause],
+        stretches: Sequence[tuple[Passage, Constraint | None]],
+        text: str,
+        sampling: Sampling,
+        foot_lock: bool | None,
+        limbs: Sequence[Part] = (),
+    ) -> Motion:
+        """What clauses became, one after the other, and what single limbs do meanwhile."""
         starts = [0, *accumulate(passage.frames for passage, _ in stretches)]
         given = Constraint.free(starts[-1])
         for start, (passage, constraint) in zip(starts, stretches, strict=False):
@@ -345,6 +374,7 @@ class SentenceGenerator:
         for start, stop, part in zip(starts, starts[1:], parts, strict=False):
             if part.degrees is None and part.metres is None and self._by_arms(part.text):
                 features[start:stop] = facing_kept(features[start:stop])
+        features = add_parts(self.generator, features, limbs, sampling)
         motion = self.generator.post_processor(features, None, foot_lock=foot_lock)
         motion = self._rested(motion, parts[0].text, parts[-1].text)
         for start, stop, part in zip(starts, starts[1:], parts, strict=False):
@@ -354,8 +384,9 @@ class SentenceGenerator:
                 and self._nearest(part.text) not in REPETITIONS
             ):
                 # nothing but arms that hang in between tells one wave from the next
-                motion = rest_to_rest(motion, range(start, stop, (stop - start) // part.count)[1:])
-        return replace(motion, text=prompt)
+                joins = [start + (stop - start) * k // part.count for k in range(1, part.count)]
+                motion = rest_to_rest(motion, joins)
+        return replace(motion, text=text)
 
     def _window(self) -> int:
         """Frames of a window: no more than the model has seen, where two overlaps fit in that."""
@@ -363,10 +394,17 @@ class SentenceGenerator:
         return min(WINDOW, max(2 * OVERLAP, round(longest * self.card.fps)))
 
     def _stretch(
-        self, clause: Clause, seconds: float, tag: str | None, sampling: Sampling
+        self,
+        clause: Clause,
+        seconds: float,
+        tag: str | None,
+        sampling: Sampling,
+        exactly: int | None = None,
     ) -> tuple[Passage, Constraint | None]:
-        """What one clause becomes, and what is known of its frames."""
+        """What one clause becomes, and what is known of its frames; they are `exactly` so many."""
         fps = self.card.fps
+        if exactly is not None:
+            clause = replace(clause, seconds=exactly / fps)
         seconds = clause.seconds or seconds
         given = None
         passage = Passage(clause.text, max(1, round(seconds * fps)), tag)
@@ -376,8 +414,10 @@ class SentenceGenerator:
             given = self._led(passage, clause, sampling)
         elif clause.count > 1:
             once = round(float(np.clip(seconds / clause.count, *ONCE)) * fps)
-            frames, window = once * clause.count, once + REPEATED_OVERLAP
-            passage = replace(passage, frames=frames, window=window)
+            if exactly is not None:
+                once = math.ceil(exactly / clause.count)
+            frames = exactly or once * clause.count
+            passage = replace(passage, frames=frames, window=once + REPEATED_OVERLAP)
         if given is not None:
             return replace(passage, frames=len(given)), given
         return replace(passage, miss=self._miss(clause, passage.frames)), None
@@ -387,7 +427,7 @@ class SentenceGenerator:
         as are named or as fill the seconds, to the side that is named or that the seed says."""
         fps = self.card.fps
         if clause.degrees is not None:
-            return turned(clause.degrees, fps)
+            return turned(clause.degrees, fps, clause.seconds)
         if bend := self._bend(clause.text):
             if clause.seconds is None:
                 seconds = max(seconds, abs(bend) / SPIN_SPEED + 2 * TURN_REST)
@@ -409,11 +449,10 @@ class SentenceGenerator:
         """So many metres, at the pace and in the direction that are the clause's own."""
         speed, facing, _ = natural_gait(self.generator, passage, sampling)
         ahead = np.array([[0.0, 0.0], [0.0, clause.metres or 0.0]])
+        fps, seconds = self.card.fps, clause.seconds
+        last = None if seconds is None else max(seconds * fps - 1, 1) / fps
         try:
-            path = time_path(
-                DrawnPath(ahead), fps=self.card.fps, speed=speed, seconds=clause.seconds,
-                facing=facing,
-            )  # fmt: skip
+            path = time_path(DrawnPath(ahead), fps=fps, speed=speed, seconds=last, facing=facing)
         except UserError as error:
             raise UserError(f"{passage.text!r}: {error}") from None
         return path.swaying(self._sway(replace(passage, frames=len(path)), sampling)).constraint()

@@ -47,10 +47,15 @@ class Part:
 
 @dataclass(frozen=True)
 class Timeline:
-    """Passages one after another, and what single parts of the body do meanwhile."""
+    """Passages one after another, and what single parts of the body do meanwhile.
+
+    Attributes:
+        timed: each takes its time, whatever it says of its length.
+    """
 
     passages: tuple[Passage, ...]
     parts: tuple[Part, ...] = ()
+    timed: bool = True
 
     @classmethod
     def of(
@@ -61,10 +66,10 @@ class Timeline:
         *,
         fps: float = 30.0,
     ) -> "Timeline":
-        """Texts one after another, each of so many seconds; None = 4."""
+        """Texts one after another, so many seconds each that names no length; None = 4."""
         frames = round((SECONDS if seconds is None else seconds) * fps)
         pairs = zip(texts, tags or [None] * len(texts), strict=True)
-        return cls(tuple(Passage(text, frames, tag) for text, tag in pairs))
+        return cls(tuple(Passage(text, frames, tag) for text, tag in pairs), timed=False)
 
     @property
     def texts(self) -> list[str]:
@@ -260,23 +265,6 @@ def _stream(
             sampling=sampling,
         )
     )
-
-
-def by_timeline(
-    generator: TextToMotion,
-    timeline: Timeline,
-    sampling: Sampling,
-    *,
-    foot_lock: bool | None = None,
-) -> ControlledMotion:
-    """One motion with several texts: the features that `MotionStream` makes of them, in one piece.
-
-    Returns:
-        errors: none, as nothing is given.
-    """
-    features = make_timeline(generator, timeline, sampling)
-    motion = generator.post_processor(features, None, text=timeline.text, foot_lock=foot_lock)
-    return ControlledMotion(motion)
 
 
 def in_a_loop(

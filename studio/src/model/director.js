@@ -46,9 +46,18 @@ export class Director {
     if (scene.clip) return this.edited(scene, seed, options);
     if (scene.path) return this.alongPath(scene, seed, options);
     if (scene.blocks.length === 1) return this.sentence(scene.blocks[0].text, scene.blocks[0].seconds, seed, options);
-    const passages = this.passages(scene.blocks);
-    const features = await streamFeatures(this.sampler, passages, seed, options);
-    return postProcess(features, this.settings.post, { text: passages.map(({ text }) => text).join(", then ") });
+    return this.timeline(scene.blocks, seed, options);
+  }
+
+  /** Each text is read as a sentence is; the times of the blocks hold, and the clauses of a text share them. */
+  async timeline(blocks, seed, options) {
+    const parts = [], stretches = [];
+    for (const { text, frames } of this.passages(blocks)) {
+      const own = this.reader.clauses(text), stop = (i) => round((frames * i) / own.length);
+      for (const [i, part] of own.entries()) stretches.push(await this.stretch(part, frames / FPS, seed, stop(i + 1) - stop(i)));
+      parts.push(...own);
+    }
+    return this.performed(parts, stretches, blocks.map(({ text }) => text).join(", then "), seed, options);
   }
 
   passages(blocks) {
@@ -92,7 +101,12 @@ export class Director {
 
   async clausesOf(prompt, parts, seconds, seed, options) {
     const stretches = [];
-    for (const part of parts) stretches.push(await this.stretch(part, part.seconds ?? seconds, seed));
+    for (const part of parts) stretches.push(await this.stretch(part, seconds, seed));
+    return this.performed(parts, stretches, prompt, seed, options);
+  }
+
+  /** What clauses became, one after the other. */
+  async performed(parts, stretches, text, seed, options) {
     const passages = stretches.map(({ passage }) => passage), led = stretches.some(({ given }) => given);
     const given = freeConstraint(passages.reduce((sum, { frames }) => sum + frames, 0)), starts = [];
     let at = 0;
@@ -120,27 +134,32 @@ export class Director {
     for (const [i, part] of parts.entries())
       if (part.degrees === null && part.metres === null && this.byArms(part.text))
         keepFacing(features, starts[i], starts[i] + passages[i].frames);
-    const motion = postProcess(features, this.settings.post, { text: prompt });
+    const motion = postProcess(features, this.settings.post, { text });
     let rested = this.rested(motion, parts[0].text, parts[parts.length - 1].text);
     for (const [i, { count, text }] of parts.entries())
       if (count > 1 && this.byArms(text) && !(this.nearest(text) in REPETITIONS)) {
-        const once = passages[i].frames / count;
-        rested = restToRest(rested, Array.from({ length: count - 1 }, (_, k) => starts[i] + (k + 1) * once));
+        const { frames } = passages[i], joins = Array.from({ length: count - 1 }, (_, k) => Math.floor((frames * (k + 1)) / count));
+        rested = restToRest(rested, joins.map((at) => starts[i] + at));
       }
-    return { ...rested, text: prompt };
+    return { ...rested, text };
   }
 
-  async stretch(clause, seconds, seed) {
+  /** What one clause becomes, and what is known of its frames; they are `exactly` so many. */
+  async stretch(clause, seconds, seed, exactly = null) {
+    if (exactly !== null) clause = { ...clause, seconds: exactly / FPS };
     const { text, count } = clause, afresh = this.beginsStanding(text);
+    seconds = clause.seconds ?? seconds;
     const led = (given) => ({ passage: { text, frames: framesOf(given.values), afresh }, given });
     if (await this.turns(clause)) return led(await this.turn(clause, seconds, seed));
     if (clause.metres !== null) {
       const gait = await naturalGait(this.sampler, text, seed);
-      const path = timePath([[0, 0], [0, clause.metres]], { ...gait, seconds: clause.seconds });
+      const last = clause.seconds === null ? null : Math.max(clause.seconds * FPS - 1, 1) / FPS;
+      const path = timePath([[0, 0], [0, clause.metres]], { ...gait, seconds: last });
       return led(pathConstraint(swaying(path, await this.sway(text, path.points.length, seed))));
     }
     if (count > 1) {
-      const once = round(Math.min(Math.max(seconds / count, ONCE[0]), ONCE[1]) * FPS), frames = once * count;
+      const once = exactly ? Math.ceil(exactly / count) : round(Math.min(Math.max(seconds / count, ONCE[0]), ONCE[1]) * FPS);
+      const frames = exactly ?? once * count;
       return { passage: { text, frames, afresh, window: once + REPEATED_OVERLAP, miss: this.miss(clause, frames) } };
     }
     const frames = Math.max(1, round(seconds * FPS));
@@ -167,7 +186,7 @@ export class Director {
 
   /** By the angle that is named; round a corner or in a circle; else in full circles, as many as are named or as fill the seconds. */
   async turn({ degrees, text, count, seconds: named }, seconds, seed) {
-    if (degrees !== null) return turned(degrees);
+    if (degrees !== null) return turned(degrees, named ?? undefined);
     const bend = await this.bend(text);
     if (bend && named === null) seconds = Math.max(seconds, Math.abs(bend) / SPIN_SPEED + 2 * TURN_REST);
     if (bend) {

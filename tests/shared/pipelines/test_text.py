@@ -13,13 +13,16 @@ from scipy.ndimage import gaussian_filter1d
 
 from src.shared.errors import UserError
 from src.shared.metrics.measurements import ACTIONS, Check, Measurements, at_rest, measure
+from src.shared.model.diffusion import Sampling
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.model.noise import TRIES
 from src.shared.motion.features import ROOT_ROW, YAW_RATE, encode_features
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import JOINT_INDEX
 from src.shared.pipelines.ranking import TextJudge
+from src.shared.pipelines.stream import Passage
 from src.shared.pipelines.text import INSISTING, PromptSampler, SentenceGenerator, turned
+from src.shared.pipelines.timeline import Timeline
 from tests.shared.model.conftest import tiny_generator
 
 
@@ -125,6 +128,23 @@ def test_a_pelvis_that_is_led_turns_with_its_legs():
     for motion in sentences.generate(["a person walks four metres", "walks round the corner left"]):
         yaw = encode_features(motion)[15:-15, ROOT_ROW, YAW_RATE]
         assert 0.2 < float(np.std(np.asarray(yaw) - gaussian_filter1d(yaw, 12))) < 0.8
+
+
+def test_texts_of_a_timeline_are_read_as_sentences_are():
+    sentences = SentenceGenerator(TextToMotion.from_pretrained("starter", device="cpu"))
+    texts = ["a person walks two metres", "turns 90 degrees to the left, then squats twice"]
+    free = sentences.timeline(Timeline.of(texts), Sampling(seed=1))
+    (one,) = sentences.generate([", then ".join(texts)], seed=1)
+    assert free.num_frames == one.num_frames and free.text == one.text
+    np.testing.assert_array_equal(free.quaternions, one.quaternions)
+    timed = Timeline((Passage(texts[0], 90), Passage(texts[1], 241)))
+    made = sentences.timeline(timed, Sampling(seed=1))
+    assert made.num_frames == 331
+    walk, turn, squats = made.frames(0, 90), made.frames(90, 210), made.frames(210, 331)
+    assert np.linalg.norm(walk.root_position[-1, [0, 2]]) == pytest.approx(2.0, abs=0.1)
+    assert turn_of(turn) == pytest.approx(90, abs=5) and measure(squats).squats == 2
+    with pytest.raises(UserError, match="too long for its time"):
+        sentences.timeline(Timeline((Passage("a person walks 9 metres", 30),)), Sampling())
 
 
 def test_a_greeting_and_thanks_say_nothing():

@@ -16,11 +16,11 @@ from src.shared.motion.skeleton import JOINT_INDEX
 from src.shared.pipelines.edit import chosen_joints
 from src.shared.pipelines.path import DrawnPath, along_path, natural_gait
 from src.shared.pipelines.stream import Passage
+from src.shared.pipelines.text import SentenceGenerator
 from src.shared.pipelines.timeline import (
     Part,
     Timeline,
     add_parts,
-    by_timeline,
     in_a_loop,
     make_loop,
     make_timeline,
@@ -125,8 +125,8 @@ def test_parts_leave_the_rest_alone(generator: TextToMotion) -> None:
     }
     torch.testing.assert_close(made[:20], body[:20])
     torch.testing.assert_close(made[60:], body[60:])
-    whole = by_timeline(generator, Timeline(TWO.passages, (part,)), SETTINGS)
-    assert whole.motion.num_frames == 110 and whole.motion.text == TWO.text
+    whole = SentenceGenerator(generator).timeline(Timeline(TWO.passages, (part,)), SETTINGS)
+    assert whole.num_frames == 110 and whole.text == TWO.text
 
 
 @pytest.mark.parametrize("frames", [30, 60, 150])

@@ -146,9 +146,9 @@ def test_a_sentence_gives_what_the_command_line_gives(
 def test_timelines_and_paths_are_those_of_the_command_line(
     browser: Browser, generator: MotionGenerator, tmp_path: Path
 ) -> None:
-    texts = ("a person walks forward", "a person waves")
-    blocks = ", ".join(f"{{ text: '{text}', seconds: 2 }}" for text in texts)
-    timeline = Timeline(tuple(Passage(text, 60) for text in texts))
+    texts = ("a person walks forward", "turns 90 degrees to the left, then waves twice")
+    blocks = ", ".join(f"{{ text: '{text}', seconds: {n} }}" for n, text in enumerate(texts, 2))
+    timeline = Timeline(tuple(Passage(text, 30 * n) for n, text in enumerate(texts, 2)))
     made(browser, f"{{ blocks: [{blocks}], seed: 3 }}")
     wanted = generator.timeline(timeline, sampling=Sampling(seed=3)).motion
     assert_same(exported(browser, tmp_path), wanted)

@@ -20,7 +20,8 @@ from ...motion.postprocess.stitching import joined, moved_to, place_of
 from ...pipelines.edit import GROUPS, Given, edited, keep_ends, kept_error, redo
 from ...pipelines.path import DrawnPath, along_path, distances_to_line, natural_gait, time_path
 from ...pipelines.stream import Passage
-from ...pipelines.timeline import Timeline, by_timeline
+from ...pipelines.text import SentenceGenerator
+from ...pipelines.timeline import Timeline
 from ..engine import Progress
 from ..judge.evaluator import Evaluator
 from ..report.tables import Cell, Column, Grid, GridRow
@@ -337,10 +338,10 @@ def transition_table(context: EditContext, judge: Evaluator) -> Grid:
     seed, pairs, made = context.settings.seed, context.pairs, dict[str, list[Motion]]()
     for who, generator in context.generators.items():
         context.progress(f"transitions: {who}")
-        made[who] = []
+        made[who], sentences = [], SentenceGenerator(generator)
         for k, pair in enumerate(pairs):
             timeline = Timeline(tuple(Passage(text, HALF) for text in pair))
-            made[who].append(by_timeline(generator, timeline, Sampling(seed=seed + k)).motion)
+            made[who].append(sentences.timeline(timeline, Sampling(seed=seed + k)))
     context.progress("transitions: hard cut")
     made["hard cut"] = [
         hard_cut(*context.generator.generate(pair, seconds=HALF / 30, seed=seed + k))
