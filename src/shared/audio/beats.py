@@ -286,11 +286,7 @@ def track_beats(
         Beats; with tempo 0.0 and empty times where nothing periodic is heard.
     """
     chunks = [sound] if isinstance(sound, np.ndarray) else sound
-    return beats_from_onsets(detect_onsets(chunks, sample_rate), meter=meter)
-
-
-def beats_from_onsets(onsets: Onsets, *, meter: int | None = 4) -> Beats:
-    """`track_beats` for onset strengths that are already there."""
+    onsets = detect_onsets(chunks, sample_rate)
     nothing = Beats(0.0, np.zeros(0), np.zeros(0), meter or 4)
     if onsets.silent or onsets.strength.size < 2 * LENGTHS[0]:
         return nothing

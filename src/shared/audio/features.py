@@ -24,7 +24,7 @@ from typing import Literal
 import numpy as np
 
 from ..errors import UsageError, UserError
-from ..io.arrays import BadArray, load_arrays, write_arrays
+from ..io.arrays import BadArray, load_arrays
 from .sound import FPS, HOP, SAMPLE_RATE, Sound, load_sound
 
 N_FFT = 2048
@@ -307,23 +307,6 @@ class AudioFeatures:
     def stack(self) -> np.ndarray:
         """[163,T] float32: mel, chroma, MFCC, RMS, centroid, onset strength (TECH 4.3)."""
         return np.concatenate([np.atleast_2d(array) for array in self.arrays().values()])
-
-    def save(self, path: str | Path) -> Path:
-        """Write an npz with one array a feature.
-
-        Raises:
-            UserError: the file cannot be written.
-        """
-        return write_arrays(self.arrays(), Path(path))
-
-    @classmethod
-    def load(cls, path: str | Path) -> "AudioFeatures":
-        """Read what `save` wrote; arrays that are no feature are left alone.
-
-        Raises:
-            UserError: missing, broken or incomplete.
-        """
-        return cls.from_arrays(read_arrays(path), path)
 
     @classmethod
     def from_arrays(cls, arrays: dict[str, np.ndarray], path: str | Path) -> "AudioFeatures":

@@ -45,42 +45,6 @@ def code_version() -> str:
     return hashlib.sha256(b"".join(source.read_bytes() for source in sources)).hexdigest()
 
 
-class FeatureCache:
-    """A folder of npz entries; with `folder` None it keeps nothing and finds nothing."""
-
-    def __init__(self, folder: Path | None) -> None:
-        self.folder = folder
-
-    def path(self, sha256: str, **parameters: Any) -> Path:
-        """File of an entry: one for each content, parameters and version of the code."""
-        assert self.folder is not None
-        text = json.dumps({"version": code_version(), **parameters}, sort_keys=True)
-        tail = hashlib.sha256(text.encode()).hexdigest()[:12]
-        return self.folder / f"{sha256}-{tail}.npz"
-
-    def get(self, sha256: str, **parameters: Any) -> dict[str, np.ndarray] | None:
-        """Arrays of an entry, or None where there is none that can be read."""
-        if self.folder is None or not (path := self.path(sha256, **parameters)).exists():
-            return None
-        try:
-            return read_arrays(path)
-        except UserError as error:
-            log.warning("made again: %s", error)
-            return None
-
-    def put(self, arrays: dict[str, np.ndarray], sha256: str, **parameters: Any) -> None:
-        """Keep `arrays`; a folder that cannot be written to is a warning, not an end."""
-        if self.folder is None:
-            return
-        try:
-            write_arrays(arrays, self.path(sha256, **parameters))
-        except UserError as error:
-            log.warning("not cached: %s; $%s names another folder", error, FOLDER_VARIABLE)
-
-
-# ---------------------------------------------------------------- songs
-
-
 @dataclass(frozen=True)
 class Song:
     """What the network and the previews need to know of a song.
@@ -125,7 +89,7 @@ class Song:
         }
 
     def save(self, path: str | Path) -> Path:
-        """Write `arrays` as an npz; `AudioFeatures.load` reads it too.
+        """Write `arrays` as an npz.
 
         Raises:
             UserError: the file cannot be written.
@@ -176,34 +140,42 @@ def analyse(
     """Features and beats of a sound file, from the cache where its content is known.
 
     Args:
-        meter: beats a bar; None: 3 or 4, whichever fits better.
-        chroma: `fast`, or `cqt` for librosa's own at many times the cost.
+        meter, chroma: as of `analyse_sound`.
         cache: use the user's cache folder, none, or this one.
 
     Raises:
         UserError: the file cannot be used (see `load_sound`).
     """
     folder = cache if isinstance(cache, Path) else cache_folder() if cache else None
-    store, parameters = FeatureCache(folder), {"meter": meter, "chroma": chroma}
-    song = _remembered(store, Path(path), parameters)
+    file, entry, song = Path(path), None, None
+    if folder is not None and file.is_file():
+        entry = _entry(folder, sha256_file(file), meter=meter, chroma=chroma)
+        song = _remembered(entry)
     if song is None:
-        song = analyse_sound(load_sound(path), meter=meter, chroma=chroma)
-        store.put(song.arrays(), song.sha256, **parameters)
+        song = analyse_sound(load_sound(file), meter=meter, chroma=chroma)
+        if entry is not None:
+            try:
+                song.save(entry)
+            except UserError as error:  # a warning, not an end
+                log.warning("not cached: %s; $%s names another folder", error, FOLDER_VARIABLE)
     for note in song.notes:
         log.warning("%s: %s", path, note)
     return song
 
 
-def _remembered(store: FeatureCache, path: Path, parameters: dict[str, Any]) -> Song | None:
-    """The song from the cache, if it is there and whole."""
-    if not (store.folder and path.is_file()):
-        return None
-    sha256 = sha256_file(path)
-    arrays = store.get(sha256, **parameters)
-    if arrays is None:
+def _entry(folder: Path, sha256: str, **parameters: Any) -> Path:
+    """File of an analysed song: one for each content, parameters and version of the code."""
+    text = json.dumps({"version": code_version(), **parameters}, sort_keys=True)
+    tail = hashlib.sha256(text.encode()).hexdigest()[:12]
+    return folder / f"{sha256}-{tail}.npz"
+
+
+def _remembered(entry: Path) -> Song | None:
+    """The song of an entry, if it is there and whole."""
+    if not entry.exists():
         return None
     try:
-        return Song.from_arrays(arrays, store.path(sha256, **parameters))
+        return Song.from_arrays(read_arrays(entry), entry)
     except UserError as error:
         log.warning("made again: %s", error)
         return None

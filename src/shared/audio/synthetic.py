@@ -341,6 +341,7 @@ TRAIN_TEMPI = (
 )
 HELD_OUT_TEMPI = tuple((high, high + 10.0) for _, high in TRAIN_TEMPI)
 PEAK = 0.8
+METERS_DRAWN = (4, 4, 4, 3, 3, 2)  # uniformly, so a repeated one is likelier
 
 
 @dataclass(frozen=True)
@@ -353,9 +354,9 @@ class SyntheticSong:
     downbeat_times: np.ndarray = field(repr=False)
     sample_rate: int = SAMPLE_RATE
 
-    def phase(self, num_frames: int, fps: float = 30.0) -> np.ndarray:
-        """Unwrapped bar phase [num_frames] (float64, bars): 0 at the first downbeat."""
-        return song_phase(self.spec, np.arange(num_frames) / fps)
+    def phase(self, num_frames: int) -> np.ndarray:
+        """Unwrapped bar phase [num_frames] (float64, bars) at 30 fps: 0 at the first downbeat."""
+        return song_phase(self.spec, np.arange(num_frames) / 30.0)
 
     def write_wav(self, path: Path) -> None:
         """Write the samples as 16-bit PCM."""
@@ -408,8 +409,6 @@ def sample_song_specs(
     split: Literal["train", "held-out"] = "train",
     *,
     seconds: float = 30.0,
-    meters: tuple[int, ...] = (4, 4, 4, 3, 3, 2),
-    steady: bool = False,
 ) -> list[SongSpec]:
     """Draw songs whose every tempo lies in the bands of `split`.
 
@@ -417,29 +416,23 @@ def sample_song_specs(
         number: how many.
         seed: of the draw; song i does not depend on `number`.
         split: "train" (TRAIN_TEMPI) or "held-out" (HELD_OUT_TEMPI).
-        seconds: length of each.
-        meters: drawn uniformly, so a repeated meter is likelier.
-        steady: constant tempi only; else a third of the songs change tempo.
+        seconds: length of each; a third of them change tempo.
     """
     bands = TRAIN_TEMPI if split == "train" else HELD_OUT_TEMPI
     # The split enters the seed so that two splits of one seed share nothing.
     rngs = [np.random.default_rng([seed, split == "train", index]) for index in range(number)]
-    return [_sample(rng, bands, seconds, meters, steady) for rng in rngs]
+    return [_sample(rng, bands, seconds) for rng in rngs]
 
 
 def _sample(
-    rng: np.random.Generator,
-    bands: tuple[tuple[float, float], ...],
-    seconds: float,
-    meters: tuple[int, ...],
-    steady: bool,
+    rng: np.random.Generator, bands: tuple[tuple[float, float], ...], seconds: float
 ) -> SongSpec:
-    meter = int(rng.choice(meters))
+    meter = int(rng.choice(METERS_DRAWN))
     band = bands[rng.integers(len(bands))]
     voices = [VOICES, VOICES, VOICES[:2], ("drums", "chords"), VOICES[1:]][rng.integers(5)]
     return SongSpec(
         seconds=seconds,
-        tempo=float(rng.uniform(*band)) if steady else _sample_tempo(rng, bands, band, seconds),
+        tempo=_sample_tempo(rng, bands, band, seconds),
         meter=meter,
         voices=voices,
         density=float(rng.random()),

@@ -7,7 +7,8 @@ before anything is allocated or unpacked; members that nobody asked for are not 
 import io
 import math
 import zipfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from functools import lru_cache
 from typing import IO, TypeVar
 
@@ -22,7 +23,6 @@ MAX_VALUES = 16 << 20  # numbers kept of one array: 128 MB as float64
 _MAX_MEMBERS = 1000  # arrays of one archive
 _MAX_HEADER = 10_000  # bytes that describe one array
 _END = b"PK\5\6"  # of a ZIP archive: where its directory is
-_ZIP = b"PK\3\4"
 
 
 class BadArray(ValueError):
@@ -46,17 +46,10 @@ def load_arrays(
         OSError: the file is missing or cannot be read.
         BadArray: see there.
     """
-    with _opened(source) as stream:
-        try:
-            _check_directory(stream)
-            with zipfile.ZipFile(stream) as archive:
-                infos = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
-                names = [name for name in (infos if wanted is None else wanted) if name in infos]
-                return {name: _member(archive, infos[name], name, max_values) for name in names}
-        except (BadArray, OSError):
-            raise
-        except Exception as error:  # a damaged archive fails in zipfile, zlib or numpy, in any way
-            raise BadArray(f"is not a whole NPZ file ({error})") from error
+    with _archive(source) as archive:
+        infos = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
+        names = [name for name in (infos if wanted is None else wanted) if name in infos]
+        return {name: _member(archive, infos[name], name, max_values) for name in names}
 
 
 def write_arrays(arrays: Mapping[str, object], path: PlaceT, *, compressed: bool = False) -> PlaceT:
@@ -78,37 +71,41 @@ def array_names(source: str | Place | bytes) -> tuple[str, ...]:
         OSError: the file is missing or cannot be read.
         BadArray: it is no NPZ.
     """
-    with _opened(source) as stream:
-        try:
-            _check_directory(stream)
-            with zipfile.ZipFile(stream) as archive:
-                return tuple(name.removesuffix(".npy") for name in archive.namelist())
-        except (BadArray, OSError):
-            raise
-        except Exception as error:
-            raise BadArray(f"is not a whole NPZ file ({error})") from error
+    with _archive(source) as archive:
+        return tuple(name.removesuffix(".npy") for name in archive.namelist())
 
 
-def load_array(source: str | Place | bytes, *, max_values: int = MAX_VALUES) -> np.ndarray:
+def load_array(source: str | Place | bytes) -> np.ndarray:
     """The array of an NPY.
 
     Raises:
         OSError: the file is missing or cannot be read.
         BadArray: see there.
     """
-    with _opened(source) as stream:
+    with _opened(source, "NPY") as stream:
         size = stream.seek(0, io.SEEK_END)
         stream.seek(0)
+        return _array(stream, size, "the array", MAX_VALUES)
+
+
+@contextmanager
+def _opened(source: str | Place | bytes, kind: str) -> Iterator[IO[bytes]]:
+    """The bytes of a file; what fails on them but the reading itself is a `BadArray`."""
+    with io.BytesIO(source) if isinstance(source, bytes) else place(source).open("rb") as stream:
         try:
-            return _array(stream, size, "the array", max_values)
+            yield stream
         except (BadArray, OSError):
             raise
-        except Exception as error:
-            raise BadArray(f"is not a whole NPY file ({error})") from error
+        except Exception as error:  # a damaged file fails in zipfile, zlib or numpy, in any way
+            raise BadArray(f"is not a whole {kind} file ({error})") from error
 
 
-def _opened(source: str | Place | bytes) -> IO[bytes]:
-    return io.BytesIO(source) if isinstance(source, bytes) else place(source).open("rb")
+@contextmanager
+def _archive(source: str | Place | bytes) -> Iterator[zipfile.ZipFile]:
+    with _opened(source, "NPZ") as stream:
+        _check_directory(stream)
+        with zipfile.ZipFile(stream) as archive:
+            yield archive
 
 
 def _check_directory(stream: IO[bytes]) -> None:
@@ -142,9 +139,7 @@ _READERS = {
 }
 
 
-@lru_cache(
-    256
-)  # arrays of one kind are described alike, and reading that takes a third of the time
+@lru_cache(256)  # arrays of one kind are described alike; reading it takes a third of the time
 def _described(version: tuple[int, int], header: bytes) -> tuple[tuple[int, ...], bool, np.dtype]:
     """Shape, order and type of the numbers of an array."""
     return _READERS[version](io.BytesIO(header), max_header_size=_MAX_HEADER)

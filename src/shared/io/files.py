@@ -118,24 +118,22 @@ def write_json(path: Place, value: Any) -> None:
     write_text(path, json.dumps(value, indent=1, ensure_ascii=False, sort_keys=True) + "\n")
 
 
-def read_text(path: Path, wanted: str, *, max_bytes: int = MAX_TEXT) -> str:
+def read_text(path: Path, wanted: str) -> str:
     """The text of a file that people write: UTF-8, or UTF-16 with its mark, as Excel writes it.
 
     Args:
-        path: the file.
-        wanted: what it should be, with its article, for errors.
-        max_bytes: of it.
+        wanted: what the file should be, with its article, for errors.
 
     Raises:
         UserError: missing, unreadable, too large, or in neither of them.
     """
     try:
         with Path(path).open("rb") as stream:
-            data = stream.read(max_bytes + 1)
-        if len(data) <= max_bytes:
+            data = stream.read(MAX_TEXT + 1)
+        if len(data) <= MAX_TEXT:
             wide = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
             return data.decode("utf-16" if wide else "utf-8-sig")
-        reason = f"larger than {max_bytes >> 20} MB"
+        reason = f"larger than {MAX_TEXT >> 20} MB"
     except OSError as error:
         reason = error.strerror or str(error)
     except UnicodeDecodeError as error:

@@ -13,8 +13,8 @@ import os
 import struct
 import threading
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -30,8 +30,7 @@ TAGS = (b"Xing", b"Info", b"VBRI")
 VBRI_OFFSET = 36
 
 
-@dataclass(frozen=True)
-class FrameHeader:
+class FrameHeader(NamedTuple):
     """What the four bytes before a frame say: its size and where its tag would stand, in bytes."""
 
     size: int
@@ -42,10 +41,7 @@ def with_length(path: Path) -> io.BytesIO | None:
     """The file with a length tag before it, or None where it is no mp3 or has one."""
     if not path.stat().st_size:
         return None
-    with (
-        path.open("rb") as stream,
-        mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as data,
-    ):
+    with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
         if data[:4] in (b"RIFF", b"OggS", b"fLaC", b"FORM", b"RF64"):
             return None
         start = _first_frame(data)
@@ -212,9 +208,7 @@ class SoundReader:
         if not RATES[0] <= self.rate <= RATES[1]:
             self._file.close()
             raise UserError(f"{path} has {self.rate} samples a second; convert it to 44100")
-        if (
-            self.claimed > MAX_SECONDS
-        ):  # before anything is decoded; `blocks` counts what is not told
+        if self.claimed > MAX_SECONDS:  # before anything is decoded; `blocks` counts the untold
             self._file.close()
             raise too_long(path, self.claimed)
         self._mender = Mender()

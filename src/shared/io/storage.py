@@ -127,6 +127,17 @@ class Storage:
     def __getstate__(self) -> dict[str, Any]:
         return self.__dict__ | {"_opened": None}
 
+    def _run(
+        self, action: Callable[[Any, str], Result], path: str = "", *, anew: bool = False
+    ) -> Result:
+        """`action` of the file system and an object's full path, with patience; `anew` not out of
+        what fsspec remembers."""
+        fs, base = self._open()
+        if anew:
+            fs.invalidate_cache()
+        full = f"{base}/{path}".rstrip("/")
+        return self.backoff.run(lambda: action(fs, full), path or self.root)
+
     def read(self, path: str, start: int | None = None, stop: int | None = None) -> bytes:
         """One object, or its bytes from `start` to `stop`.
 
@@ -136,53 +147,40 @@ class Storage:
         """
         from fsspec.asyn import sync
 
-        fs, base = self._open()
-        full = f"{base}/{path}".rstrip("/")
+        def attempt(fs: Any, full: str) -> bytes:
+            if not fs.async_impl:
+                return bytes(fs.cat_file(full, start=start, end=stop))
+            read, timeout = fs._cat_file, self.backoff.timeout
+            return bytes(sync(fs.loop, read, full, start=start, end=stop, timeout=timeout))
 
-        def attempt() -> bytes:
-            if fs.async_impl:
-                read, timeout = fs._cat_file, self.backoff.timeout
-                found = sync(fs.loop, read, full, start=start, end=stop, timeout=timeout)
-            else:
-                found = fs.cat_file(full, start=start, end=stop)
-            return bytes(found)
-
-        return self.backoff.run(attempt, path or self.root)
+        return self._run(attempt, path)
 
     def find(self) -> dict[str, dict[str, Any]]:
         """What the store tells of every object under the root, by relative path."""
-        fs, base = self._open()
-        found = self.backoff.run(lambda: fs.find(base, detail=True), self.root)
+        found = self._run(lambda fs, base: fs.find(base, detail=True))
+        base = self._open()[1]
         return {name[len(base) :].lstrip("/"): info for name, info in found.items()}
 
     def stored(self, path: str) -> tuple[int, str]:
         """What the store itself says now: size and hex MD5 ("" where it tells none)."""
-        fs, base = self._open()
-        fs.invalidate_cache()
-        info = self.backoff.run(lambda: fs.info(f"{base}/{path}".rstrip("/")), path or self.root)
+        info = self._run(lambda fs, full: fs.info(full), path, anew=True)
         return info["size"], md5_of(info)
 
     def write(self, data: bytes) -> None:
         """Put the object that the root names; raises `Unreachable`."""
-        fs, base = self._open()
-        self.backoff.run(lambda: fs.pipe_file(base, data), self.root)
+        self._run(lambda fs, full: fs.pipe_file(full, data))
 
     def remove(self) -> None:
         """Remove the object that the root names; raises as `read`."""
-        fs, base = self._open()
-        self.backoff.run(lambda: fs.rm_file(base), self.root)
+        self._run(lambda fs, full: fs.rm_file(full))
 
     def exists(self) -> bool:
         """Whether there is such an object or folder, asked anew; raises `Unreachable`."""
-        fs, base = self._open()
-        fs.invalidate_cache()
-        return bool(self.backoff.run(lambda: fs.exists(base), self.root))
+        return bool(self._run(lambda fs, full: fs.exists(full), anew=True))
 
     def is_object(self) -> bool:
         """Whether there is an object of just this name, asked anew; raises `Unreachable`."""
-        fs, base = self._open()
-        fs.invalidate_cache()
-        return bool(self.backoff.run(lambda: fs.isfile(base), self.root))
+        return bool(self._run(lambda fs, full: fs.isfile(full), anew=True))
 
 
 def md5_of(info: dict[str, Any]) -> str:
