@@ -3,7 +3,7 @@
 Onset strengths at 100 frames a second → likely tempi per window → the best chain of
 beats by dynamic programming over beat time and beat length together (a semi-Markov form of the
 bar pointer of Whiteley et al. 2006 and the score of Ellis 2007) → refined below a frame →
-downbeats. Tempo may drift and jump. NumPy only.
+downbeats. Tempo may drift and jump.
 
 A linear score of the five beats around a beat says how much it sounds like a downbeat; the best
 numbering of all beats follows by dynamic programming, where counting on costs nothing and starting
@@ -20,16 +20,128 @@ tempi the tests use, on 200 such patterns and 200 songs with dotted basses.
 Where nothing sounds for a while there are no beats, but they are counted on through it: the bars
 after a gap are those before it.
 
-Letters: T frames, N beats or windows, M downbeats, L beat lengths in frames, F features, P pitch
-frames, B pairs of bands, G candidate tempi.
+Letters: S samples, T frames, P pitch frames, N beats or windows (of pitch: semitones), M downbeats
+(of filters: mel bands), L beat lengths in frames, F features, B pairs of bands, G candidate tempi.
 """
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from .onsets import Onsets, detect_onsets
+from .features import centred_frames
+
+# ---------------------------------------------------------------- onsets
+
+ONSET_FPS, PITCH_FPS = 100, 20  # nominal; exact only where the sample rate divides by them
+ONSET_WINDOW, PITCH_WINDOW = 0.04, 0.18  # seconds, to the nearest power of two in samples
+MEL_BANDS = 36
+LOWEST, LOW, HIGH, HIGHEST = 30.0, 180.0, 2500.0, 16_000.0  # Hz: edges of the three bands
+LOWEST_PITCH, SEMITONES = 33, 60  # MIDI numbers from 55 Hz on
+FLOOR_DB = 60.0  # below the loudest band
+SILENCE_POWER = 1e-9  # power of the loudest frame; about -80 dB full scale
+BLOCK_FRAMES = 512
+LAG = 2  # frames over which a rise is measured
+
+
+@dataclass(frozen=True)
+class Onsets:
+    """Onset strengths, levels and pitches; frame t of T is centred on t / fps seconds.
+
+    Attributes:
+        bands: [3, T] mean rise of the low, middle and high bands, dB in 20 ms.
+        loudness: [T] level of the loudest band in dB above the floor.
+        pitch: [N, P] levels of the semitones, compressed, at `pitch_fps`.
+        silent: nothing can be heard.
+    """
+
+    bands: np.ndarray
+    loudness: np.ndarray
+    pitch: np.ndarray
+    fps: float
+    pitch_fps: float
+    silent: bool
+
+    @property
+    def strength(self) -> np.ndarray:
+        """Rise of all bands [T]."""
+        return np.asarray(self.bands.mean(axis=0))
+
+
+def detect_onsets(samples: np.ndarray, sample_rate: int) -> Onsets:
+    """Onset strengths and pitch levels of mono sound [S]: spectra of 46 ms windows for the moment
+    of an onset, of 186 ms for pitch. What is kept are 20 kB a second."""
+    hop, bins = _framing(sample_rate, ONSET_FPS, ONSET_WINDOW)
+    centres, filters = mel_filters(bins)
+    power = _powers(samples, hop, filters)
+    peak = float(power.max(initial=0.0))
+    level = np.maximum(10 * np.log10(np.maximum(power, 1e-20) / max(peak, 1e-20)) + FLOOR_DB, 0.0)
+    groups = np.split(_rise(level), np.searchsorted(centres, [LOW, HIGH]))
+    pitch_hop, bins = _framing(sample_rate, PITCH_FPS, PITCH_WINDOW)
+    pitch = np.sqrt(_powers(samples, pitch_hop, pitch_filters(bins)))  # amplitudes
+    return Onsets(
+        bands=np.stack([group.mean(axis=0) for group in groups]),
+        loudness=level.max(axis=0),
+        pitch=np.log1p(100 * pitch / max(float(pitch.max(initial=0.0)), 1e-10)),
+        fps=sample_rate / hop,
+        pitch_fps=sample_rate / pitch_hop,
+        silent=peak < SILENCE_POWER,
+    )
+
+
+def _framing(sample_rate: int, fps: float, seconds: float) -> tuple[int, np.ndarray]:
+    """Samples from frame to frame, and the frequencies [bins] of a window's spectrum in Hz."""
+    size = int(2 ** round(np.log2(seconds * sample_rate)))
+    return max(round(sample_rate / fps), 1), np.arange(size // 2 + 1) * sample_rate / size
+
+
+def _powers(samples: np.ndarray, hop: int, filters: np.ndarray) -> np.ndarray:
+    """Powers [bands, T = 1 + S // hop] of samples [S] through filters [bands, bins]."""
+    from scipy.fft import rfft  # single precision stays single, unlike numpy's
+
+    samples, size = samples.astype(np.float32, copy=False), 2 * (filters.shape[1] - 1)
+    window = np.hanning(size + 1)[:-1].astype(np.float32)
+    window = window * np.float32(2 / window.sum())
+    parts, count = [], 1 + len(samples) // hop
+    for first in range(0, count, BLOCK_FRAMES):
+        block = range(first, min(first + BLOCK_FRAMES, count))
+        spectrum = rfft(centred_frames(samples, block, size, hop) * window, axis=1)
+        parts.append((spectrum.real**2 + spectrum.imag**2) @ filters.T)
+    return np.concatenate(parts).T
+
+
+def mel_filters(bins: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Centres [M] in Hz and triangles [M, bins] of unit sum, at equal steps on the mel scale.
+
+    Triangles narrower than a bin are widened to one, so that none is empty.
+    """
+    first, last = 1127 * np.log1p(np.array([LOWEST, min(HIGHEST, bins[-1])]) / 700)
+    edges = 700 * np.expm1(np.linspace(first, last, MEL_BANDS + 2) / 1127)
+    centres = edges[1:-1]
+    below = np.minimum(edges[:-2], centres - bins[1])[:, None]
+    above = np.maximum(edges[2:], centres + bins[1])[:, None]
+    rise = (bins - below) / (centres[:, None] - below)
+    fall = (above - bins) / (above - centres[:, None])
+    filters = np.maximum(0.0, np.minimum(rise, fall))
+    return centres, (filters / filters.sum(axis=1, keepdims=True)).astype(np.float32)
+
+
+def pitch_filters(bins: np.ndarray) -> np.ndarray:
+    """Triangles [N, bins], a semitone or at least a bin to each side."""
+    centres = 440.0 * 2 ** ((LOWEST_PITCH + np.arange(SEMITONES) - 69) / 12)
+    width = np.maximum(centres * (2 ** (1 / 12) - 1), bins[1])[:, None]
+    return np.asarray(
+        np.maximum(0.0, 1 - np.abs(bins - centres[:, None]) / width).astype(np.float32)
+    )
+
+
+def _rise(level: np.ndarray) -> np.ndarray:
+    """Rise [M, T] in dB over LAG frames, above the loudest neighbour band before (vibrato)."""
+    before = np.pad(level, ((1, 1), (LAG, 0)))[:, : level.shape[1]]
+    before = np.maximum(np.maximum(before[:-2], before[1:-1]), before[2:])
+    return np.asarray(np.maximum(level - before, 0.0))
+
+
+# ---------------------------------------------------------------- tempo
 
 SLOWEST, PER_OCTAVE, CANDIDATES = 44.0, 24, 57  # BPM, candidates per octave, G: up to 223 BPM
 PERIODS = 60 / (SLOWEST * 2 ** (np.arange(CANDIDATES) / PER_OCTAVE))  # [G] seconds
@@ -165,15 +277,11 @@ def find_downbeats(onsets: Onsets, times: np.ndarray, meter: int | None) -> tupl
     Args:
         meter: beats a bar; None takes the likelier of METERS.
     """
-    scores = downbeat_scores(onsets, times)
+    # How much each beat sounds like a downbeat [N]: about 1 for downbeats, -0.3 for others.
+    scores = np.einsum("fc,fcn->n", WEIGHTS, downbeat_features(onsets, times))
     if meter is None:
         meter = max(METERS, key=lambda bar: _evidence(scores, bar))
     return meter, np.flatnonzero(_numbers(scores, meter) == 0)
-
-
-def downbeat_scores(onsets: Onsets, times: np.ndarray) -> np.ndarray:
-    """How much each beat sounds like a downbeat [N], about 1 for downbeats, -0.3 for others."""
-    return np.asarray(np.einsum("fc,fcn->n", WEIGHTS, downbeat_features(onsets, times)))
 
 
 def downbeat_features(onsets: Onsets, times: np.ndarray) -> np.ndarray:
@@ -272,21 +380,18 @@ class Beats:
     confidence: float = 0.0
 
 
-def track_beats(
-    sound: np.ndarray | Iterable[np.ndarray], sample_rate: int = 44_100, *, meter: int | None = 4
-) -> Beats:
+def track_beats(sound: np.ndarray, sample_rate: int = 44_100, *, meter: int | None = 4) -> Beats:
     """Find beats and downbeats.
 
     Args:
-        sound: mono samples [S], or an iterable of such chunks in order.
+        sound: mono samples [S].
         sample_rate: Hz.
         meter: beats a bar; None chooses between 3 and 4.
 
     Returns:
         Beats; with tempo 0.0 and empty times where nothing periodic is heard.
     """
-    chunks = [sound] if isinstance(sound, np.ndarray) else sound
-    onsets = detect_onsets(chunks, sample_rate)
+    onsets = detect_onsets(sound, sample_rate)
     nothing = Beats(0.0, np.zeros(0), np.zeros(0), meter or 4)
     if onsets.silent or onsets.strength.size < 2 * LENGTHS[0]:
         return nothing

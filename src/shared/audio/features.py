@@ -52,18 +52,14 @@ def spectra(
     """Yield (frame indices, frames [t,N], power spectra [t,F]) of the centred Hann STFT."""
     from scipy.fft import rfft
 
-    window = hann(N_FFT)
+    window = 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(N_FFT) / N_FFT)  # periodic Hann
+    window = window.astype(np.float32)
     count = 1 + len(samples) // hop
     for first in range(0, count, block):
         indices = range(first, min(first + block, count))
         frames = centred_frames(samples, indices, N_FFT, hop)
         spectrum = rfft(frames * window, axis=1)
         yield indices, frames, np.square(spectrum.real) + np.square(spectrum.imag)
-
-
-def hann(size: int) -> np.ndarray:
-    """Periodic Hann window [size] float32."""
-    return (0.5 - 0.5 * np.cos(2 * np.pi * np.arange(size) / size)).astype(np.float32)
 
 
 @lru_cache(maxsize=8)
@@ -251,11 +247,7 @@ MAX_VALUES = 1 << 25  # numbers: the 128 rows of two hours at 30 frames a second
 
 
 def read_arrays(path: str | Path) -> dict[str, np.ndarray]:
-    """Read every array of an npz; checksums are verified.
-
-    Raises:
-        UserError: missing, no npz, or damaged.
-    """
+    """Every array of an npz, checksums verified; raises UserError where it cannot be read."""
     try:
         return load_arrays(path, max_values=MAX_VALUES)
     except FileNotFoundError:

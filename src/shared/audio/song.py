@@ -89,11 +89,7 @@ class Song:
         }
 
     def save(self, path: str | Path) -> Path:
-        """Write `arrays` as an npz.
-
-        Raises:
-            UserError: the file cannot be written.
-        """
+        """Write `arrays` as an npz; raises UserError where it cannot be written."""
         return write_arrays(self.arrays(), Path(path))
 
     @classmethod

@@ -2,7 +2,6 @@
 
 import hashlib
 from array import array
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -18,6 +17,7 @@ FPS = 30
 HOP = SAMPLE_RATE // FPS  # samples of a frame
 MIN_SECONDS = 1.0
 CHUNK_SECONDS = 10.0
+SAMPLES = Path("samples")  # of a sound that came from no file
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Sound:
     """
 
     samples: np.ndarray
-    path: Path = Path("samples")
+    path: Path = SAMPLES
     sha256: str = ""
     notes: tuple[str, ...] = field(default=())
     sample_rate: int = SAMPLE_RATE
@@ -56,9 +56,11 @@ def load_sound(path: str | Path) -> Sound:
     """
     path = Path(path)
     reader = SoundReader(path)
+    mixer = _Mixer(reader.rate)
     samples = array("f")  # grows where it is: chunks joined in the end would lie there twice
-    for chunk in _chunks(reader, CHUNK_SECONDS):
-        samples.frombytes(chunk.tobytes())
+    for block in reader.blocks(max(1, round(CHUNK_SECONDS * reader.rate))):
+        samples.frombytes(mixer.push(block).tobytes())
+    samples.frombytes(mixer.finish().tobytes())
     mono = np.frombuffer(samples, np.float32)
     sound = Sound(mono, path, sha256_file(path), tuple(reader.notes()))
     _check_length(sound)
@@ -77,9 +79,7 @@ def check_sound(path: str | Path) -> None:
         load_sound(path)
 
 
-def sound_from_samples(
-    samples: np.ndarray, sample_rate: int = SAMPLE_RATE, *, name: str = "samples"
-) -> Sound:
+def sound_from_samples(samples: np.ndarray, sample_rate: int = SAMPLE_RATE) -> Sound:
     """A sound out of samples [S] or [S,channels] in memory, mended and resampled like a file.
 
     Raises:
@@ -89,8 +89,7 @@ def sound_from_samples(
     mender, mixer = Mender(), _Mixer(sample_rate)
     mono = np.concatenate([mixer.push(mender.mend(samples)), mixer.finish()])
     digest = hashlib.sha256(mono.tobytes()).hexdigest()
-    path = Path(name)
-    sound = Sound(mono, path, digest, tuple(mender.notes(path)))
+    sound = Sound(mono, SAMPLES, digest, tuple(mender.notes(SAMPLES)))
     _check_length(sound)
     return sound
 
@@ -103,16 +102,6 @@ def _check_length(sound: Sound) -> None:
         )
     if sound.seconds > MAX_SECONDS:
         raise too_long(sound.path, sound.seconds)
-
-
-def _chunks(reader: SoundReader, seconds: float) -> Iterator[np.ndarray]:
-    """Yield [S] float32 at 44.1 kHz until the file ends or breaks."""
-    mixer = _Mixer(reader.rate)
-    for samples in reader.blocks(max(1, round(seconds * reader.rate))):
-        if len(mono := mixer.push(samples)):
-            yield mono
-    if len(mono := mixer.finish()):
-        yield mono
 
 
 class _Mixer:

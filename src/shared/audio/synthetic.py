@@ -257,7 +257,6 @@ class _Players:
 # ---------------------------------------------------------------- what it sounds like
 
 SAMPLE_RATE = 44_100
-DRUMS = ("kick", "snare", "hat", "crash", "click")
 # Strength of the harmonics 1, 2, ..., time to 1/e in seconds, attack in seconds.
 TIMBRES: dict[str, tuple[tuple[float, ...], float, float]] = {
     "bass": ((1.0, 0.6, 0.3, 0.15, 0.08), 0.5, 0.004),
@@ -281,7 +280,7 @@ def _noise(count: int, seed: int) -> np.ndarray:
 
 @lru_cache(maxsize=64)
 def drum(name: str, kit: int = 0) -> np.ndarray:
-    """One stroke of `name` (of DRUMS), [S], peak about 1; `kit` varies pitch and length."""
+    """One kick, snare, hat, crash or click [S], peak about 1; `kit` varies pitch and length."""
     lift = 1.0 + 0.12 * (kit % 4 - 1.5)
     if name == "kick":
         t = _time(0.3)
@@ -413,7 +412,6 @@ def sample_song_specs(
     """Draw songs whose every tempo lies in the bands of `split`.
 
     Args:
-        number: how many.
         seed: of the draw; song i does not depend on `number`.
         split: "train" (TRAIN_TEMPI) or "held-out" (HELD_OUT_TEMPI).
         seconds: length of each; a third of them change tempo.

@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 from src.shared.audio import beats as tracking
-from src.shared.audio.beats import _novelty
-from src.shared.audio.onsets import Onsets, detect_onsets
+from src.shared.audio.beats import Onsets, _novelty, detect_onsets
 from src.shared.audio.synthetic import (
     SAMPLE_RATE,
     SyntheticSong,
@@ -81,7 +80,7 @@ def other_songs(make: Callable[[int], OtherSong]) -> list[Heard]:
 
 
 def heard(song: SyntheticSong | OtherSong, meter: int) -> Heard:
-    onsets = detect_onsets([song.samples], SAMPLE_RATE)
+    onsets = detect_onsets(song.samples, SAMPLE_RATE)
     return Heard(onsets, song.beat_times, song.downbeat_times, meter)
 
 

@@ -5,8 +5,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from src.shared.audio.beats import DEFAULT_TEMPO, Beats, _numbers, bar_phase, track_beats
-from src.shared.audio.onsets import detect_onsets, mel_filters
+from src.shared.audio.beats import (
+    DEFAULT_TEMPO,
+    Beats,
+    _numbers,
+    bar_phase,
+    detect_onsets,
+    mel_filters,
+    track_beats,
+)
 from src.shared.audio.synthetic import (
     SAMPLE_RATE,
     SongSpec,
@@ -127,11 +134,9 @@ def test_a_change_of_tempo_is_followed() -> None:
     assert 60 / np.median(gaps[-15:]) == pytest.approx(128, rel=0.02)
 
 
-def test_chunks_and_sample_rates_change_little() -> None:
+def test_loudness_and_sample_rate_change_little() -> None:
     song = render_song(SongSpec(seconds=12.0, tempo=110.0, seed=3))
     whole = track_beats(song.samples)
-    pieces = track_beats(np.array_split(song.samples, 37))
-    np.testing.assert_allclose(pieces.beat_times, whole.beat_times, atol=1e-6)
     from scipy.signal import resample_poly
 
     half = track_beats(resample_poly(song.samples, 1, 2).astype(np.float32), SAMPLE_RATE // 2)
@@ -225,7 +230,7 @@ def test_onsets_lie_on_the_strokes() -> None:
     for stroke in strokes:
         start = round(stroke * SAMPLE_RATE)
         sound[start : start + 4000] = rng.standard_normal(4000) * np.exp(-np.arange(4000) / 800)
-    onsets = detect_onsets([sound], SAMPLE_RATE)
+    onsets = detect_onsets(sound, SAMPLE_RATE)
     assert onsets.strength.size == 301 and onsets.fps == 100.0 and not onsets.silent
     for stroke in strokes:
         near = np.arange(round(stroke * 100) - 4, round(stroke * 100) + 5)
