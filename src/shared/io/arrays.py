@@ -53,11 +53,7 @@ def load_arrays(
 
 
 def write_arrays(arrays: Mapping[str, object], path: PlaceT, *, compressed: bool = False) -> PlaceT:
-    """Write an NPZ whole or not at all; returns its path.
-
-    Raises:
-        UserError: the file cannot be written.
-    """
+    """Write an NPZ whole or not at all; returns its path; raises UserError as `atomic_write`."""
     save = np.savez_compressed if compressed else np.savez
     with atomic_write(path) as temporary, temporary.open("wb") as stream:
         save(stream, **arrays)  # type: ignore[arg-type]
@@ -65,23 +61,13 @@ def write_arrays(arrays: Mapping[str, object], path: PlaceT, *, compressed: bool
 
 
 def array_names(source: str | Place | bytes) -> tuple[str, ...]:
-    """Names of the arrays in an NPZ.
-
-    Raises:
-        OSError: the file is missing or cannot be read.
-        BadArray: it is no NPZ.
-    """
+    """Names of the arrays in an NPZ; raises as `load_arrays`."""
     with _archive(source) as archive:
         return tuple(name.removesuffix(".npy") for name in archive.namelist())
 
 
 def load_array(source: str | Place | bytes) -> np.ndarray:
-    """The array of an NPY.
-
-    Raises:
-        OSError: the file is missing or cannot be read.
-        BadArray: see there.
-    """
+    """The array of an NPY; raises as `load_arrays`."""
     with _opened(source, "NPY") as stream:
         size = stream.seek(0, io.SEEK_END)
         stream.seek(0)

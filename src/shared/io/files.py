@@ -156,11 +156,7 @@ def load_json(path: Place, *, max_bytes: int = MAX_JSON) -> Any:
 
 
 def parse_json(data: str | bytes) -> Any:
-    """The value of a JSON text.
-
-    Raises:
-        ValueError: not UTF-8, not JSON, or nested too deeply.
-    """
+    """The value of a JSON text; raises ValueError: not UTF-8, not JSON, or nested too deeply."""
     try:
         return json.loads(data)
     except RecursionError:

@@ -146,11 +146,7 @@ class Mender:
         return np.where(good, samples, np.float32(0))
 
     def notes(self, path: Path) -> Iterator[str]:
-        """What was mended.
-
-        Raises:
-            UserError: no sample was sound.
-        """
+        """What was mended; raises UserError where no sample was sound."""
         if self.mended and self.mended == self.seen:
             raise UserError(f"{path} holds no sample that is finite and in range; export it again")
         if self.mended:
@@ -232,11 +228,8 @@ class SoundReader:
                 yield self._mender.mend(samples)
 
     def beginning(self, seconds: float, count: int) -> Iterator[np.ndarray]:
-        """Yield the first seconds as `blocks` does, of one or two channels: more become one.
-
-        Raises:
-            UserError: as `blocks`.
-        """
+        """Yield the first seconds as `blocks` does, of one or two channels: more become one; raises
+        UserError as `blocks`."""
         left = round(seconds * self.rate)
         for block in self.blocks(count):
             block = block[:left]
@@ -246,11 +239,7 @@ class SoundReader:
                 break
 
     def notes(self) -> Iterator[str]:
-        """What was wrong with the file, once it is read.
-
-        Raises:
-            UserError: no sample was sound.
-        """
+        """What was wrong with the file, once it is read; UserError if no sample was sound."""
         lost = self.claimed - self.seconds
         # A tenth of a second: decoders may drop a partial last block.
         if self._broke or self._cut or lost > 0.1:

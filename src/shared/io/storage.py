@@ -127,11 +127,11 @@ class Storage:
     def __getstate__(self) -> dict[str, Any]:
         return self.__dict__ | {"_opened": None}
 
-    def _run(
+    def run(
         self, action: Callable[[Any, str], Result], path: str = "", *, anew: bool = False
     ) -> Result:
-        """`action` of the file system and an object's full path, with patience; `anew` not out of
-        what fsspec remembers."""
+        """`action` of the file system and an object's full path, with patience; `anew`: not out of
+        what fsspec remembers. Raises as `Backoff.run`."""
         fs, base = self._open()
         if anew:
             fs.invalidate_cache()
@@ -153,34 +153,18 @@ class Storage:
             read, timeout = fs._cat_file, self.backoff.timeout
             return bytes(sync(fs.loop, read, full, start=start, end=stop, timeout=timeout))
 
-        return self._run(attempt, path)
+        return self.run(attempt, path)
 
     def find(self) -> dict[str, dict[str, Any]]:
         """What the store tells of every object under the root, by relative path."""
-        found = self._run(lambda fs, base: fs.find(base, detail=True))
+        found = self.run(lambda fs, base: fs.find(base, detail=True))
         base = self._open()[1]
         return {name[len(base) :].lstrip("/"): info for name, info in found.items()}
 
     def stored(self, path: str) -> tuple[int, str]:
         """What the store itself says now: size and hex MD5 ("" where it tells none)."""
-        info = self._run(lambda fs, full: fs.info(full), path, anew=True)
+        info = self.run(lambda fs, full: fs.info(full), path, anew=True)
         return info["size"], md5_of(info)
-
-    def write(self, data: bytes) -> None:
-        """Put the object that the root names; raises `Unreachable`."""
-        self._run(lambda fs, full: fs.pipe_file(full, data))
-
-    def remove(self) -> None:
-        """Remove the object that the root names; raises as `read`."""
-        self._run(lambda fs, full: fs.rm_file(full))
-
-    def exists(self) -> bool:
-        """Whether there is such an object or folder, asked anew; raises `Unreachable`."""
-        return bool(self._run(lambda fs, full: fs.exists(full), anew=True))
-
-    def is_object(self) -> bool:
-        """Whether there is an object of just this name, asked anew; raises `Unreachable`."""
-        return bool(self._run(lambda fs, full: fs.isfile(full), anew=True))
 
 
 def md5_of(info: dict[str, Any]) -> str:
@@ -255,12 +239,12 @@ class Address:
         return self._ask(lambda store: store.find())
 
     def exists(self) -> bool:
-        """Whether there is an object, or any under it."""
-        return self._ask(lambda store: store.exists())
+        """Whether there is an object, or any under it; asked anew."""
+        return bool(self._run(lambda fs, full: fs.exists(full), anew=True))
 
     def is_file(self) -> bool:
-        """Whether there is an object of just this name."""
-        return self._ask(lambda store: store.is_object())
+        """Whether there is an object of just this name; asked anew."""
+        return bool(self._run(lambda fs, full: fs.isfile(full), anew=True))
 
     def is_dir(self) -> bool:
         """Whether there are objects under it."""
@@ -287,12 +271,15 @@ class Address:
         return self._ask(lambda store: store.stored("")[0])
 
     def write_bytes(self, data: bytes) -> None:
-        self._ask(lambda store: store.write(data))
+        self._run(lambda fs, full: fs.pipe_file(full, data))
 
     def unlink(self, missing_ok: bool = False) -> None:
         """Remove the object."""
         with suppress(*[FileNotFoundError] if missing_ok else []):
-            self._ask(lambda store: store.remove())
+            self._run(lambda fs, full: fs.rm_file(full))
+
+    def _run(self, action: Callable[[Any, str], Result], *, anew: bool = False) -> Result:
+        return self._ask(lambda store: store.run(action, anew=anew))
 
     def _ask(self, question: Callable[[Storage], Result]) -> Result:
         try:
