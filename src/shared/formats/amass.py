@@ -14,6 +14,7 @@ jaw and eyes are dropped, and the rotations go onto our own bones, whose rest di
 from the model's by a few degrees; written, they go over as they stand, so hands and feet end up a
 few centimetres elsewhere. Legend: T frames."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -26,7 +27,7 @@ from ..motion.rotations import matrix_to_quaternion, quaternion_log
 from ..motion.skeleton import NUM_JOINTS, canonical_skeleton
 from ..tensors import torch
 from .limits import FRAME_RATES, check_numbers, read_arrays
-from .rig import JointClip, quaternions_to_matrices
+from .rig import RigClip, canonical_rig, quaternions_to_matrices, rooted_clip
 
 MAX_VALUE = 1e4  # metres or radians
 NAMES = ("poses", "root_orient", "pose_body", "trans", "mocap_framerate", "mocap_frame_rate",
@@ -43,8 +44,8 @@ def is_amass(names: tuple[str, ...]) -> bool:
     return "trans" in names and ("poses" in names or {"root_orient", "pose_body"} <= set(names))
 
 
-def read_amass(path: str | Path, *, fps: float | None = None) -> JointClip:
-    """Read the 22 body joints of an AMASS file, in the file's +Z-up world.
+def read_amass(path: str | Path, *, fps: float | None = None) -> tuple[RigClip, bool]:
+    """Read the 22 body joints of an AMASS file, in the file's +Z-up world; is the body our own?
 
     Args:
         fps: frames a second, for a file that does not say.
@@ -74,14 +75,12 @@ def read_amass(path: str | Path, *, fps: float | None = None) -> JointClip:
     if len(poses) != len(trans) or not len(trans):
         raise UserError(f"{path}: {len(poses)} poses and {len(trans)} places; "
                         "the file is damaged; export it again")  # fmt: skip
-    rotations = Rotation.from_rotvec(poses.reshape(-1, 3))
-    return JointClip(
-        rotations=rotations.as_matrix().reshape(-1, NUM_JOINTS, 3, 3),
-        root=trans + SMPL_PELVIS,
-        offsets=canonical_skeleton().offsets.astype(np.float64),
-        frame_time=1.0 / _rate(path, arrays, fps),
-        ours="skeleton" in arrays and str(arrays["skeleton"]) == OURS,
+    rotations = Rotation.from_rotvec(poses.reshape(-1, 3)).as_matrix()
+    rig = replace(canonical_rig(), offsets=canonical_skeleton().offsets.astype(np.float64))
+    clip = rooted_clip(
+        rig, rotations.reshape(-1, NUM_JOINTS, 3, 3), trans + SMPL_PELVIS, _rate(path, arrays, fps)
     )
+    return clip, "skeleton" in arrays and str(arrays["skeleton"]) == OURS
 
 
 def _rate(path: Path, arrays: dict[str, np.ndarray], fps: float | None) -> float:
@@ -113,11 +112,7 @@ BODY, ALL = 22, 52  # joints
 
 
 def write_amass(motion: Motion, path: str | Path) -> Path:
-    """Write one motion with the arrays of the module's table.
-
-    Raises:
-        UserError: the file cannot be written.
-    """
+    """Write one motion with the module's arrays; raises UserError where it cannot be written."""
     matrices = quaternions_to_matrices(motion.quaternions)
     matrices[:, 0] = Z_UP @ matrices[:, 0]
     poses = np.zeros((motion.num_frames, ALL * 3))

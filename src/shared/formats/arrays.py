@@ -27,7 +27,7 @@ from ..io.arrays import write_arrays
 from ..motion.motion import Motion
 from ..motion.skeleton import JOINT_NAMES, NUM_JOINTS, canonical_skeleton
 from ..motion.trajectory import CHANNELS, FPS, QUATERNION, MotionTrajectory
-from .limits import array_names, check_numbers, check_plausible, read_array, read_arrays
+from .limits import check_numbers, check_plausible, read_array, read_arrays
 
 FORMAT_VERSION = 1
 _SHAPES = {"quaternions": (NUM_JOINTS, 4), "root_position": (3,), "contacts": (2,)}
@@ -37,11 +37,7 @@ MIN_FPS = 0.1  # less, and resampling would make millions of frames of a few
 
 
 def write_npz(motion: Motion, path: str | Path) -> Path:
-    """Write one motion with the arrays of the module's table.
-
-    Raises:
-        UserError: the file cannot be written.
-    """
+    """Write one motion with the module's arrays; raises UserError where it cannot be written."""
     skeleton = canonical_skeleton()
     arrays = {
         "format_version": np.int32(FORMAT_VERSION),
@@ -173,7 +169,7 @@ def load_arrays(path: Path) -> dict[str, np.ndarray]:
     """
     if path.suffix.lower() == ".npy":
         return {"trajectory": read_array(path)}
-    return read_arrays(path, array_names(path))
+    return read_arrays(path)
 
 
 def checked_trajectory(path: Path, data: np.ndarray, fps: float) -> MotionTrajectory:

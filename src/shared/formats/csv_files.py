@@ -33,11 +33,7 @@ DEFAULT_FPS = 30.0  # of a single frame
 
 
 def write_table(path: Path, header: Sequence[str], columns: np.ndarray, fps: float) -> Path:
-    """Write columns [T,N-1] behind the time of each frame.
-
-    Raises:
-        UserError: the file cannot be written.
-    """
+    """Write columns [T,N-1] behind the time of each frame; raises UserError as `atomic_write`."""
     table = np.concatenate((np.arange(len(columns))[:, None] / fps, columns), 1)
     with atomic_write(path) as temporary, temporary.open("w", encoding="utf-8") as stream:
         np.savetxt(stream, table, fmt="%.9g", delimiter=",", header=",".join(header), comments="")
@@ -48,7 +44,6 @@ def read_table(path: Path, header: Sequence[str], what: str) -> tuple[np.ndarray
     """The columns [T,N-1] behind the time, and the frame rate.
 
     Args:
-        path: the file.
         header: N names that its first line must hold.
         what: of which it is a table, for errors.
 
@@ -112,13 +107,10 @@ MOTION_HEADER = (
 
 
 def write_motion_csv(motion: Motion, path: str | Path) -> Path:
-    """Write one motion.
-
-    Raises:
-        UserError: the file cannot be written.
-    """
-    turns = continuous(matrices_to_quaternions(motion.global_rotations()))
-    joints = np.concatenate((motion.positions(), turns), -1).reshape(motion.num_frames, -1)
+    """Write one motion; raises UserError where the file cannot be written."""
+    positions, rotations = motion.kinematics()
+    turns = continuous(matrices_to_quaternions(rotations))
+    joints = np.concatenate((positions, turns), -1).reshape(motion.num_frames, -1)
     columns = np.concatenate((joints, motion.contacts), 1)
     return write_table(Path(path), MOTION_HEADER, columns, motion.fps)
 
@@ -152,20 +144,13 @@ TRAJECTORY_HEADER = ("time", *COLUMNS)
 
 
 def write_trajectory_csv(trajectory: MotionTrajectory, path: str | Path) -> Path:
-    """Write one trajectory.
-
-    Raises:
-        UserError: the file cannot be written.
-    """
+    """Write one trajectory; raises UserError where the file cannot be written."""
     return write_table(Path(path), TRAJECTORY_HEADER, trajectory.data, trajectory.fps)
 
 
 def read_trajectory_csv(path: str | Path) -> MotionTrajectory:
-    """Read what `write_trajectory_csv` wrote; a single frame counts as 30 frames a second.
-
-    Raises:
-        UserError: as `read_table`.
-    """
+    """Read what `write_trajectory_csv` wrote; a single frame counts as 30 frames a second. Raises
+    UserError as `read_table`."""
     path = Path(path)
     data, fps = read_table(path, TRAJECTORY_HEADER, "trajectory")
     return checked_trajectory(path, data, fps)

@@ -68,11 +68,7 @@ def check_size(path: Path, max_bytes: int = MAX_BYTES) -> int:
 
 
 def read_bytes(path: Path, max_bytes: int = MAX_BYTES) -> bytes:
-    """All bytes of a file.
-
-    Raises:
-        UserError: missing, unreadable, empty or too large.
-    """
+    """All bytes of a file; raises UserError as `check_size`."""
     check_size(path, max_bytes)
     with readable(path), path.open("rb") as stream:
         return stream.read(max_bytes)
@@ -122,42 +118,32 @@ def check_numbers(
     return check_plausible(where, values, most, remedy)
 
 
-def read_arrays(path: Path, wanted: Iterable[str]) -> dict[str, np.ndarray]:
-    """Those of the `wanted` arrays that an NPZ file holds; no other member is touched.
+def read_arrays(path: Path, wanted: Iterable[str] | None = None) -> dict[str, np.ndarray]:
+    """Those of the `wanted` arrays that an NPZ file holds, or all; no other member is touched.
 
     Raises:
         UserError: not an NPZ file, damaged, too large, or with pickles.
     """
-    check_size(path)
     with _told(path):
         return load_arrays(path, wanted)
 
 
 def array_names(path: Path) -> tuple[str, ...]:
-    """Names of the arrays in an NPZ file.
-
-    Raises:
-        UserError: not an NPZ file.
-    """
-    check_size(path)
+    """Names of the arrays in an NPZ file; raises UserError where it is none."""
     with _told(path):
         return names_of(path)
 
 
 def read_array(path: Path) -> np.ndarray:
-    """The array of an NPY file, under the same limits.
-
-    Raises:
-        UserError: not an NPY file, damaged, too large, or with pickles.
-    """
-    check_size(path)
+    """The array of an NPY file; raises UserError as `read_arrays`."""
     with _told(path):
         return load_array(path)
 
 
 @contextmanager
 def _told(path: Path) -> Iterator[None]:
-    """Name the file in what goes wrong with its arrays."""
+    """Refuse what is too large; name the file in what goes wrong with its arrays."""
+    check_size(path)
     with readable(path):
         try:
             yield

@@ -11,20 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..motion.skeleton import JOINT_NAMES, canonical_skeleton
+from ..motion.skeleton import canonical_skeleton
+from .rig import SCHEMES
 
-VMC_BONES = {
-    "pelvis": "Hips", "spine1": "Spine", "spine2": "Chest", "spine3": "UpperChest", "neck": "Neck",
-    "head": "Head",
-    **{
-        f"{letter}_{joint}": side + bone
-        for letter, side in (("l", "Left"), ("r", "Right"))
-        for joint, bone in {
-            "hip": "UpperLeg", "knee": "LowerLeg", "ankle": "Foot", "foot": "Toes",
-            "collar": "Shoulder", "shoulder": "UpperArm", "elbow": "LowerArm", "wrist": "Hand",
-        }.items()
-    },
-}  # fmt: skip
 _OSC_AT_ONCE = (1).to_bytes(8, "big")  # the time tag that means now
 
 
@@ -65,9 +54,9 @@ def vmc_bundle(frame: Frame) -> bytes:
     offsets = canonical_skeleton().offsets.copy()
     offsets[0] = frame.root
     messages = [_message("/VMC/Ext/Root/Pos", "root", *(0.0,) * 6, 1.0)]
-    for name, offset, turn in zip(JOINT_NAMES, offsets, frame.quaternions, strict=True):
+    for name, offset, turn in zip(SCHEMES["unity"], offsets, frame.quaternions, strict=True):
         (x, y, z), (w, i, j, k) = offset.tolist(), turn.tolist()
-        messages.append(_message("/VMC/Ext/Bone/Pos", VMC_BONES[name], -x, y, z, i, -j, -k, w))
+        messages.append(_message("/VMC/Ext/Bone/Pos", name, -x, y, z, i, -j, -k, w))
     messages.append(_message("/VMC/Ext/OK", 1))
     messages.append(_message("/VMC/Ext/T", float(frame.seconds)))
     sized = (struct.pack(">i", len(message)) + message for message in messages)

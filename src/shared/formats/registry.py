@@ -112,8 +112,6 @@ def write_motion(motion: Motion, path: str | Path, *, names: str = "canonical") 
     """Write one motion in the format that the ending of `path` names; returns the path.
 
     Args:
-        motion: what to write.
-        path: the file; its folder is made where it is missing.
         names: what BVH, GLB and USD call the joints (`rig.SCHEMES`).
 
     Raises:
@@ -211,8 +209,6 @@ def write_trajectory(
     """Write one trajectory in the format that the ending of `path` names; returns the path.
 
     Args:
-        trajectory: what to write.
-        path: the file; its folder is made where it is missing.
         song: beats are taken from the trajectory's bar phase where it does not know them.
         title: caption, name of the animation.
 
@@ -256,11 +252,8 @@ def write_trajectory_preview(
     song: Song = None,
     titles: Sequence[str] = (),
 ) -> Path:
-    """Write one HTML page that plays the song with its trajectories side by side, offline.
-
-    Raises:
-        UserError: no trajectory, or as `write_trajectory`.
-    """
+    """Write one HTML page that plays the song with its trajectories side by side, offline; raises
+    UserError: no trajectory, or as `write_trajectory`."""
     shown = [trajectories] if isinstance(trajectories, MotionTrajectory) else trajectories
     for trajectory in shown:
         _check_trajectory(trajectory, path)
@@ -298,10 +291,8 @@ def export_dance(
     """Write one dance as `folder/stem.<format>` for each format, page and film with the song.
 
     Args:
-        motion: the body.
         trajectory: its path, as many frames.
         folder: where to; it is made where it is missing.
-        stem: the files' name.
         formats: of `EXPORTERS`.
         song: that it belongs to.
         figures: what it dances on a stage, seen from the front; None = it follows a path.

@@ -12,14 +12,12 @@ import numpy as np
 
 from ..errors import UsageError
 from ..motion.motion import Motion
-from ..motion.rotations import matrix_to_quaternion, quaternion_to_matrix
-from ..motion.skeleton import (
-    JOINT_INDEX,
-    JOINT_NAMES,
-    PARENTS,
-    REST_PELVIS_HEIGHT,
-    canonical_skeleton,
+from ..motion.rotations import (
+    matrix_to_quaternion,
+    quaternion_continuous,
+    quaternion_to_matrix,
 )
+from ..motion.skeleton import JOINT_INDEX, JOINT_NAMES, REST_PELVIS_HEIGHT, canonical_skeleton
 from ..tensors import torch
 
 ALL = slice(None)
@@ -29,32 +27,25 @@ class SourceClip(Protocol):
     """A recording as it stands in its file: its own joint names, axes and unit of length.
 
     At rest every joint's axes are parallel to the file's world axes, and `offsets` are the bones.
+
+    Attributes:
+        names: joint names, parents before children.
+        parents: index of each joint's parent; -1 for a root.
+        offsets: each joint's place in its parent's axes at rest [N,3].
+        frame_time: seconds between two frames.
+        num_frames: T.
     """
 
     @property
-    def names(self) -> tuple[str, ...]:
-        """Joint names, parents before children."""
-        ...
-
+    def names(self) -> tuple[str, ...]: ...
     @property
-    def parents(self) -> tuple[int, ...]:
-        """Index of each joint's parent; -1 for a root."""
-        ...
-
+    def parents(self) -> tuple[int, ...]: ...
     @property
-    def offsets(self) -> np.ndarray:
-        """Each joint's place in its parent's axes at rest [N,3]."""
-        ...
-
+    def offsets(self) -> np.ndarray: ...
     @property
-    def frame_time(self) -> float:
-        """Seconds between two frames."""
-        ...
-
+    def frame_time(self) -> float: ...
     @property
-    def num_frames(self) -> int:
-        """T."""
-        ...
+    def num_frames(self) -> int: ...
 
     def every(self, stride: int) -> Self:
         """Only every `stride`-th frame, `frame_time` lengthened accordingly."""
@@ -81,6 +72,11 @@ def compose(
             moved = above @ translations[:, joint, :, None]
             translations[:, joint] = moved[..., 0] + translations[:, parent]
     return translations, rotations
+
+
+def units(vectors: np.ndarray) -> np.ndarray:
+    """Directions [...,3] of vectors, each of length one; of no vector 0."""
+    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-9))
 
 
 def rest_positions(parents: Sequence[int], offsets: np.ndarray) -> np.ndarray:
@@ -131,11 +127,7 @@ SCHEMES: dict[str, tuple[str, ...]] = {
 
 
 def joint_names(scheme: str) -> tuple[str, ...]:
-    """The 22 names of a scheme, in our order of joints.
-
-    Raises:
-        UsageError: no scheme has this name.
-    """
+    """The 22 names of a scheme, in our order of joints; raises UsageError where it is unknown."""
     try:
         return SCHEMES[scheme]
     except KeyError:
@@ -190,7 +182,6 @@ class RigClip:
     """A rig in motion; what `SourceClip` promises, so any reader's user takes it.
 
     Attributes:
-        rig: the skeleton.
         rotations: [T,N,3,3] turn of each joint from rest against its parent.
         translations: [T,N,3] position of each joint against its parent, along the world's axes
             at rest, in the rig's unit; most equal `rig.offsets`.
@@ -262,11 +253,17 @@ def canonical_rig(names: str = "canonical") -> Rig:
 
 def motion_clip(motion: Motion, names: str = "canonical") -> RigClip:
     """A motion on our own skeleton, nothing changed."""
-    rig = canonical_rig(names)
-    translations = np.repeat(rig.offsets[None], motion.num_frames, 0)
-    translations[:, JOINT_INDEX["pelvis"]] = motion.root_position
-    rotations = quaternions_to_matrices(motion.quaternions)
-    return RigClip(rig, rotations, translations, motion.fps, motion.text)
+    rotations, root = quaternions_to_matrices(motion.quaternions), motion.root_position
+    return rooted_clip(canonical_rig(names), rotations, root, motion.fps, motion.text)
+
+
+def rooted_clip(
+    rig: Rig, rotations: np.ndarray, root: np.ndarray, fps: float, text: str = ""
+) -> RigClip:
+    """A rig whose joints turn [T,N,3,3] and of which the root alone travels [T,3]."""
+    translations = np.repeat(rig.offsets[None], len(root), 0)
+    translations[:, 0] = root
+    return RigClip(rig, rotations, translations, fps, text)
 
 
 def rescaled(clip: RigClip, metres: float) -> RigClip:
@@ -297,42 +294,6 @@ def matrices_to_quaternions(matrices: np.ndarray) -> np.ndarray:
     return np.asarray(matrix_to_quaternion(torch.as_tensor(matrices.astype(np.float64))).numpy())
 
 
-@dataclass(frozen=True, eq=False)
-class JointClip:
-    """Rotations on our joints, with the file's own bone lengths.
-
-    Attributes:
-        rotations: of each joint against its parent [T,22,3,3].
-        root: world position of the pelvis [T,3], metres.
-        offsets: bones at rest [22,3], metres.
-        ours: the body is our own, so places are taken as they are.
-    """
-
-    rotations: np.ndarray
-    root: np.ndarray
-    offsets: np.ndarray
-    frame_time: float
-    names: tuple[str, ...] = JOINT_NAMES
-    parents: tuple[int, ...] = PARENTS
-    metres: float = 1.0
-    ours: bool = False
-
-    @property
-    def num_frames(self) -> int:
-        return len(self.root)
-
-    def every(self, stride: int) -> "JointClip":
-        return replace(self, rotations=self.rotations[::stride], root=self.root[::stride],
-                       frame_time=self.frame_time * stride)  # fmt: skip
-
-    def world(self, frames: slice = ALL) -> tuple[np.ndarray, np.ndarray]:
-        """World positions [T,22,3] and world rotations [T,22,3,3]."""
-        root = self.root[frames]
-        translations = np.repeat(self.offsets[None].astype(np.float64), len(root), axis=0)
-        translations[:, 0] = root
-        return compose(self.parents, self.rotations[frames].astype(np.float64), translations)
-
-
 def parent_frames(rig: Rig, frames: np.ndarray, base: np.ndarray | None = None) -> np.ndarray:
     """The axes [N,3,3] in which each joint's own pose is told: its parent's, at rest."""
     top = np.eye(3) if base is None else base[:3, :3] / np.linalg.norm(base[:3, :3], axis=0)
@@ -340,12 +301,9 @@ def parent_frames(rig: Rig, frames: np.ndarray, base: np.ndarray | None = None) 
 
 
 def continuous(quaternions: np.ndarray) -> np.ndarray:
-    """Unit quaternions [T,...,4] with signs chosen so that neighbouring frames are near.
+    """Unit quaternions [T,...,4] float64 with signs so that neighbouring frames are near.
 
     Some players mix neighbouring keys as they stand, and would turn the long way round.
     """
-    unit = quaternions.astype(np.float64)
-    unit = unit / np.linalg.norm(unit, axis=-1, keepdims=True)
-    flips = np.where((unit[1:] * unit[:-1]).sum(-1) < 0, -1.0, 1.0)
-    signs = np.concatenate((np.ones_like(unit[:1, ..., 0]), np.cumprod(flips, axis=0)))
-    return np.asarray(unit * signs[..., None])
+    unit = quaternions / np.linalg.norm(quaternions, axis=-1, keepdims=True)
+    return np.asarray(quaternion_continuous(torch.as_tensor(unit)).numpy())

@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.formats.live import VMC_BONES, Frame, json_line, vmc_bundle
+from src.shared.formats.live import Frame, json_line, vmc_bundle
+from src.shared.formats.rig import SCHEMES
 from src.shared.motion.skeleton import JOINT_NAMES, canonical_skeleton
 
 
@@ -57,7 +58,7 @@ def test_a_line_is_whole() -> None:
 def test_vmc_tells_every_bone_once() -> None:
     found = messages(vmc_bundle(frame()))
     bones = {values[0]: values[1:] for address, values in found if address == "/VMC/Ext/Bone/Pos"}
-    assert len(bones) == 22 and set(bones) == {VMC_BONES[name] for name in JOINT_NAMES}
+    assert len(bones) == 22 and set(bones) == set(SCHEMES["unity"])
     np.testing.assert_allclose(bones["Hips"], [-0.5, 0.9, 2.0, 0, 0, 0, 1], atol=1e-6)
     x, y, z = canonical_skeleton().offsets[JOINT_NAMES.index("l_elbow")]
     np.testing.assert_allclose(bones["LeftLowerArm"][:3], [-x, y, z], atol=1e-6)

@@ -106,9 +106,9 @@ def _npz(path: Path, fps: float | None) -> Recording:
         raise UserError(f"{path}: holds {shown}: neither a motion of this project nor AMASS "
                         "(trans, and poses or root_orient and pose_body); "
                         "export it as one of them")  # fmt: skip
-    clip = read_amass(path, fps=fps)
+    clip, ours = read_amass(path, fps=fps)
     return Recording(
-        "AMASS", clip=clip, up="Z", metres=1.0, true_size=True, exact=clip.ours,
+        "AMASS", clip=clip, up="Z", metres=1.0, true_size=True, exact=ours,
         warnings=("no body model is read: body shape, hands, jaw and eyes are dropped, and the "
                   "rotations go onto our own bones",),
     )  # fmt: skip
@@ -257,11 +257,8 @@ def inspect_motion(
     skeleton: Path | None = None,
     source_fps: float | None = None,
 ) -> Inspection:
-    """Say what a motion file holds; the arguments are those of `read_motion`.
-
-    Raises:
-        UserError: missing, damaged, too large or of no known format.
-    """
+    """Say what a motion file holds; arguments and errors are those of `read_motion`, but for joints
+    that no profile maps."""
     recording = open_recording(Path(path), skeleton=skeleton, fps=source_fps)
     if recording.motion is not None:
         return _inspect_ours(recording, recording.motion)

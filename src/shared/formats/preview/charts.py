@@ -37,11 +37,7 @@ FACINGS = 12  # places on the path that show where the pelvis faces
 def render_trajectory(
     trajectory: MotionTrajectory, path: str | Path, song: SongTrack | None = None, title: str = ""
 ) -> Path:
-    """Draw one trajectory and save a PNG.
-
-    Raises:
-        UserError: the file cannot be written.
-    """
+    """Draw one trajectory and save a PNG; raises UserError where it cannot be written."""
     song = song or SongTrack()
     marks = beat_marks(trajectory, song)
     seconds = trajectory.seconds
@@ -80,7 +76,7 @@ def _draw_path(trajectory: MotionTrajectory, colours: np.ndarray, marks: BeatMar
         draw.line(step, tuple(colour), 3 * OVERSAMPLE)
     for time in marks.times[marks.downbeat]:
         frame = min(round(time * trajectory.fps), len(points) - 1)
-        _dot(draw, points[frame], 3.5 * OVERSAMPLE, colours[frame])
+        draw.circle(points[frame], 3.5 * OVERSAMPLE, tuple(colours[frame]), INK, OVERSAMPLE)
     half = np.stack((np.sin(trajectory.heading), np.cos(trajectory.heading)), -1)
     for frame in np.linspace(0, len(points) - 1, min(FACINGS, len(points))).astype(int):
         radius = 4.5 * OVERSAMPLE if frame == 0 else 2 * OVERSAMPLE
@@ -143,13 +139,6 @@ def _across(time: float, span: tuple[float, float]) -> float:
     return float((time - span[0]) / max(1e-9, span[1] - span[0]) * ROW_WIDTH)
 
 
-def _dot(
-    draw: ImageDraw.ImageDraw, point: tuple[float, float], radius: float, colour: np.ndarray
-) -> None:
-    x, y = point
-    draw.ellipse((x - radius, y - radius, x + radius, y + radius), tuple(colour), INK, OVERSAMPLE)
-
-
 FPS = 30.0
 PIXELS_PER_SECOND = 12 * OVERSAMPLE
 WIDTHS = (900 * OVERSAMPLE, 6000 * OVERSAMPLE)
@@ -161,11 +150,8 @@ BEAT, DOWNBEAT, CURVE, SECOND = (120, 150, 200), (200, 60, 90), (52, 58, 68), (2
 
 
 def plot_features(arrays: Mapping[str, np.ndarray], path: str | Path, *, title: str = "") -> Path:
-    """Draw T frames of features (TECH section 4.2's names) with `beat_times` and `phase`.
-
-    Raises:
-        UserError: the file cannot be written.
-    """
+    """Draw T frames of features (TECH section 4.2's names) with `beat_times` and `phase`; raises
+    UserError where the file cannot be written."""
     seconds = arrays["mel"].shape[1] / FPS
     width = int(np.clip(seconds * PIXELS_PER_SECOND, *WIDTHS))
     panels = {name: height * OVERSAMPLE for name, height in HEIGHTS.items()}

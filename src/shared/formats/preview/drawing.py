@@ -35,11 +35,7 @@ def new_sheet(width: int, height: int) -> tuple[Image.Image, ImageDraw.ImageDraw
 
 
 def save_sheet(sheet: Image.Image, path: Path) -> Path:
-    """Shrink to the wanted size and write a PNG whole or not at all.
-
-    Raises:
-        UserError: the file cannot be written.
-    """
+    """Shrink to the wanted size; write a PNG whole or not at all; raises UserError if it cannot."""
     size = (sheet.width // OVERSAMPLE, sheet.height // OVERSAMPLE)
     small = sheet.resize(size, Image.Resampling.LANCZOS)
     with atomic_write(path) as temporary:
@@ -117,7 +113,7 @@ class FloorMap:
         x, y = self.pixel(point)
         ahead = facing / max(1e-6, float(np.linalg.norm(facing))) * 12 * OVERSAMPLE
         draw.line([(x, y), (x + ahead[0], y + ahead[1])], INK, 2 * OVERSAMPLE)
-        draw.ellipse([x - radius, y - radius, x + radius, y + radius], INK)
+        draw.circle((x, y), radius, INK)
 
 
 LIGHT = np.array([0.30, 0.80, 0.60]) / np.linalg.norm([0.30, 0.80, 0.60])  # world, towards it
@@ -166,8 +162,6 @@ def draw_mesh(
     """Draw a closed mesh over what is there.
 
     Args:
-        draw: Pillow's pen on the picture.
-        camera: how to look.
         vertices: world positions [V,3], metres.
         normals: unit normals [V,3].
         triangles: vertex indices [F,3], counter-clockwise seen from outside.

@@ -50,8 +50,6 @@ def render_strip(
     """Draw `frames` evenly spaced poses of each motion, one motion a row, and save a PNG.
 
     Args:
-        motions: one motion or several.
-        path: the picture to write.
         frames: poses a row.
         panel: width and height of one pose in pixels.
         azimuth: camera angle in radians; 0 looks at the face of a character that faces +Z.
@@ -105,10 +103,8 @@ def draw_pose(
     """One pose, with the floor, the shadow and the path.
 
     Args:
-        motion: whose pose.
         positions: `motion.positions()`.
         rotations: `motion.global_rotations()`.
-        frame: which one.
         size: width and height in (doubled) pixels.
         azimuth: camera angle in radians.
         target: the point of the floor [3] that the camera looks at; under the pelvis by default.
@@ -151,17 +147,15 @@ def draw_pose(
 
 
 def _draw_grid(draw: ImageDraw.ImageDraw, camera: Camera, target: np.ndarray) -> None:
-    """Floor lines every half metre, fixed to the world, and the wall behind them."""
+    """Floor lines every half metre, fixed to the world."""
     reach = 4.0
-    lines = np.arange(np.floor(-reach / GRID_METRES), np.ceil(reach / GRID_METRES) + 1)
+    lines = np.arange(-reach / GRID_METRES, reach / GRID_METRES + 1)
     x = (np.round(target[0] / GRID_METRES) + lines) * GRID_METRES
     z = (np.round(target[2] / GRID_METRES) + lines) * GRID_METRES
-    for value in x:
-        ends = camera.project(np.array([[value, 0, z[0]], [value, 0, z[-1]]]))[:, :2]
-        draw.line([tuple(p) for p in ends], GRID, OVERSAMPLE)
-    for value in z:
-        ends = camera.project(np.array([[x[0], 0, value], [x[-1], 0, value]]))[:, :2]
-        draw.line([tuple(p) for p in ends], GRID, OVERSAMPLE)
+    along_z = [((value, 0, z[0]), (value, 0, z[-1])) for value in x]
+    along_x = [((x[0], 0, value), (x[-1], 0, value)) for value in z]
+    for ends in along_z + along_x:
+        draw.line([tuple(p) for p in camera.project(np.array(ends))[:, :2]], GRID, OVERSAMPLE)
 
 
 def _draw_arrow(
@@ -211,11 +205,7 @@ MAX_PICTURES = {"gif": 1500, "mp4": 18_000}  # a minute, which Pillow keeps in m
 
 
 def write_gif(motion: Motion, path: str | Path) -> Path:
-    """Write an animated GIF that repeats for ever.
-
-    Raises:
-        UserError: too long, or the file cannot be written.
-    """
+    """Write an animated GIF that repeats for ever; raises UserError: too long, or not writable."""
     motion = resample_motion(motion, gif_rate(min(motion.fps, MAX_FPS)))
     _check(motion, path, "gif")
     pictures = frames(motion)
@@ -256,7 +246,6 @@ def write_mp4(
 
     Args:
         motion: T frames.
-        path: the film to write.
         song: the sound file that is heard from its start; None = a silent film.
         figures: what is danced on a stage, which is seen from the front; None = the camera follows.
 
@@ -344,16 +333,13 @@ def frames(motion: Motion, size: tuple[int, int] = SIZE) -> Iterator[Image.Image
 
 def stage_frames(motion: Motion, figures: Sequence[Danced]) -> Iterator[Image.Image]:
     """The pictures of a dance: the whole stage from the front, the figure and its counts."""
-    positions, rotations = motion.positions(), motion.global_rotations()
+    positions, rotations = motion.kinematics()
     low, high = positions.min((0, 1)), positions.max((0, 1))
     middle = (low + high) / 2 * (1.0, 0.0, 1.0)
     width = float(high[0] - low[0]) + 0.4
     large = (STAGE_SIZE[0] * OVERSAMPLE, STAGE_SIZE[1] * OVERSAMPLE)
-    title, small, big = (
-        font(20 * OVERSAMPLE, motion.text),
-        font(16 * OVERSAMPLE),
-        font(48 * OVERSAMPLE),
-    )
+    title = font(20 * OVERSAMPLE, motion.text)
+    small, big = font(16 * OVERSAMPLE), font(48 * OVERSAMPLE)
     tail = round(STAGE_TAIL * motion.fps)
     x, y, radius = large[0] - 56 * OVERSAMPLE, 56 * OVERSAMPLE, 40 * OVERSAMPLE
     for frame in range(motion.num_frames):
@@ -368,7 +354,7 @@ def stage_frames(motion: Motion, figures: Sequence[Danced]) -> Iterator[Image.Im
                 glow = max(0.0, 1 - (now - figure.times[count]) / GLOW)
                 between = np.array(BACKGROUND) * (1 - 0.8 * glow) + np.array(ACCENT) * 0.8 * glow
                 colour = tuple(between.astype(int).tolist())
-                pen.ellipse((x - radius, y - radius, x + radius, y + radius), colour)
+                pen.circle((x, y), radius, colour)
                 pen.text((x, y), str(count + 1), INK, big, anchor="mm")
                 named = figure.kind + ", mirrored" * figure.mirrored
                 pen.text((16 * OVERSAMPLE, 42 * OVERSAMPLE), named, INK, small)

@@ -66,7 +66,6 @@ def write_page(
 
     Args:
         data: `motions`, a list of what `motion_data` made, and what else the scripts read.
-        path: the page to write.
         hint: markup that explains the picture, under the controls.
         media: markup of the element with the id `song`, which then drives the clock.
 
@@ -219,7 +218,6 @@ def write_trajectory_html(
 
     Args:
         trajectories: one or several for the same song.
-        path: the page to write.
         song: its file is put into the page, cut to the longest trajectory.
         titles: one caption a trajectory; a body's own text where there is none.
         bodies: one a trajectory, frame by frame on it; none = the proxy body.

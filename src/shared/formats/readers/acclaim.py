@@ -15,18 +15,7 @@ import numpy as np
 
 from ...errors import UserError, printable
 from ...io.arrays import MAX_VALUES
-from ..limits import (
-    FRAME_RATES,
-    MAX_FRAMES,
-    MAX_JOINTS,
-    MAX_LINE,
-    MAX_VALUE,
-    Deadline,
-    check_size,
-    read_bytes,
-    readable,
-    remedied,
-)
+from .. import limits
 from ..rig import ALL, compose
 
 ROOT = "root"
@@ -85,7 +74,7 @@ class _SkeletonReader:
         self.bone: Bone | None = None
 
     def fault(self, message: str) -> UserError:
-        return UserError(f"{self.path}, line {self.number}: {remedied(message)}")
+        return UserError(f"{self.path}, line {self.number}: {limits.remedied(message)}")
 
     def numbers(self, words: list[str], count: int, what: str) -> tuple[float, ...]:
         try:
@@ -94,8 +83,9 @@ class _SkeletonReader:
             values = ()
         if len(values) != count:
             shown = " ".join(words)[:60]
-            raise self.fault(f"{what} {shown!r} is not {_counted(count)}")
-        if not np.abs(values).max() < MAX_VALUE:
+            wanted = "a number" if count == 1 else f"{count} numbers"
+            raise self.fault(f"{what} {shown!r} is not {wanted}")
+        if not np.abs(values).max() < limits.MAX_VALUE:
             raise self.fault(f"{what} {' '.join(words)[:60]!r} is impossibly large")
         return values
 
@@ -164,17 +154,13 @@ class _SkeletonReader:
             raise self.fault(f"second bone {self.bone.name[:40]!r}")
         self.bones[self.bone.name] = self.bone
         self.bone = None
-        if len(self.bones) > MAX_JOINTS:
-            raise self.fault(f"more than {MAX_JOINTS} bones")
+        if len(self.bones) > limits.MAX_JOINTS:
+            raise self.fault(f"more than {limits.MAX_JOINTS} bones")
 
     def hierarchy(self, words: list[str]) -> None:
         if words[0] in ("begin", "end"):
             return
         self.children.append((self.number, words[0], words[1:]))
-
-
-def _counted(count: int) -> str:
-    return "a number" if count == 1 else f"{count} numbers"
 
 
 def read_asf(path: str | Path) -> AsfSkeleton:
@@ -185,7 +171,7 @@ def read_asf(path: str | Path) -> AsfSkeleton:
             file and the line.
     """
     path = Path(path)
-    text = read_bytes(path, MAX_ASF_BYTES).decode("latin-1")
+    text = limits.read_bytes(path, MAX_ASF_BYTES).decode("latin-1")
     text = text.replace("\r\n", "\n").replace("\r", "\n")
     reader = _SkeletonReader(path)
     sections = {"units": reader.units, "root": reader.root, "bonedata": reader.bonedata,
@@ -321,15 +307,15 @@ def read_amc(
             file and, where there is one, the line.
     """
     path = Path(path)
-    check_size(path)
+    limits.check_size(path)
     asf = read_asf(Path(skeleton) if skeleton else find_skeleton(path))
     reader = _MotionReader(path, asf)
-    with readable(path):
+    with limits.readable(path):
         with path.open("rb") as start:
-            head = start.read(MAX_LINE)
+            head = start.read(limits.MAX_LINE)
         newline = "\r" if b"\r" in head and b"\n" not in head else "\n"
         with path.open(encoding="latin-1", newline=newline) as stream:
-            while line := stream.readline(MAX_LINE):
+            while line := stream.readline(limits.MAX_LINE):
                 reader.take(line)
     reader.finish_frame()
     if not reader.frames:
@@ -367,7 +353,7 @@ class _MotionReader:
         self.rate: float | None = None
         self.frames, self.done = bytearray(), 0  # rows of float64, and how many
         self.row: list[float] | None = None
-        self.deadline = Deadline(path)
+        self.deadline = limits.Deadline(path)
         self.columns: dict[str, slice] = {}
         count = 0
         for bone in skeleton.bones:
@@ -376,15 +362,15 @@ class _MotionReader:
                 count += len(bone.dof)
         self.count = count
         self.empty = [np.nan] * count
-        self.max_frames = min(MAX_FRAMES, MAX_VALUES // max(count, 1))
+        self.max_frames = min(limits.MAX_FRAMES, MAX_VALUES // max(count, 1))
 
     def fault(self, message: str) -> UserError:
-        return UserError(f"{self.path}, line {self.number}: {remedied(message)}")
+        return UserError(f"{self.path}, line {self.number}: {limits.remedied(message)}")
 
     def take(self, line: str) -> None:
         """The next line of the file."""
         self.number += 1
-        if len(line) >= MAX_LINE:
+        if len(line) >= limits.MAX_LINE:
             raise self.fault("the line is impossibly long: not an AMC motion")
         words = line.split()
         if not words or line.startswith("#"):
@@ -409,7 +395,7 @@ class _MotionReader:
             except (IndexError, ValueError):
                 raise self.fault("SAMPLES-PER-SECOND is not followed by a number; "
                                  "correct it") from None  # fmt: skip
-            if not FRAME_RATES[0] <= rate <= FRAME_RATES[1]:
+            if not limits.FRAME_RATES[0] <= rate <= limits.FRAME_RATES[1]:
                 raise self.fault(f"{rate:g} samples a second are not possible")
             self.rate = rate
 
@@ -437,8 +423,8 @@ class _MotionReader:
         if self.row is None:
             return
         row = np.array(self.row)
-        if not np.abs(row).max(initial=0.0) < MAX_VALUE:  # also true for NaN
-            column = int(np.flatnonzero(~(np.abs(row) < MAX_VALUE))[0])
+        if not np.abs(row).max(initial=0.0) < limits.MAX_VALUE:  # also true for NaN
+            column = int(np.flatnonzero(~(np.abs(row) < limits.MAX_VALUE))[0])
             name = next(n for n, c in self.columns.items() if c.start <= column < c.stop)
             what = "is missing from" if np.isnan(row[column]) else "is impossibly large in"
             raise self.fault(f"{name[:40]!r} {what} frame {self.done + 1}, "

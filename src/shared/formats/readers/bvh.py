@@ -16,18 +16,7 @@ import numpy as np
 
 from ...errors import UserError, printable
 from ...io.arrays import MAX_VALUES
-from ..limits import (
-    FRAME_RATES,
-    MAX_BYTES,
-    MAX_FRAMES,
-    MAX_JOINTS,
-    MAX_LINE,
-    MAX_VALUE,
-    Deadline,
-    check_size,
-    readable,
-    remedied,
-)
+from .. import limits
 from ..rig import ALL, compose
 
 _CHANNELS = {
@@ -84,8 +73,8 @@ def parse_hierarchy(
             elif keyword in _TITLES and pending is None:
                 pending = _title(keyword, words, stack, number)
                 (ends if pending.is_end else joints).append(pending)
-                if len(joints) > MAX_JOINTS:
-                    raise BvhError(f"more than {MAX_JOINTS} joints", number)
+                if len(joints) > limits.MAX_JOINTS:
+                    raise BvhError(f"more than {limits.MAX_JOINTS} joints", number)
             elif keyword == "{" and pending is not None:
                 stack.append((pending, len(joints) - 1))
                 pending = None
@@ -209,10 +198,10 @@ def read_head(stream: IO[bytes]) -> Head:
         raise BvhError("MOTION is not followed by 'Frames:' and 'Frame Time:'; "
                        "export the file again", line)  # fmt: skip
     num_frames = _number(timing[1], "Frames", int, line + 1)
-    if not 1 <= num_frames <= MAX_FRAMES:
-        raise BvhError(f"Frames is {num_frames}; a motion has 1 to {MAX_FRAMES}", line + 1)
+    if not 1 <= num_frames <= limits.MAX_FRAMES:
+        raise BvhError(f"Frames is {num_frames}; a motion has 1 to {limits.MAX_FRAMES}", line + 1)
     frame_time = _number(timing[2], "Frame Time", float, line + 2)
-    low, high = 1 / FRAME_RATES[1], 1 / FRAME_RATES[0]
+    low, high = 1 / limits.FRAME_RATES[1], 1 / limits.FRAME_RATES[0]
     if not low <= frame_time <= high:
         raise BvhError(f"Frame Time {frame_time:g} is not within {low:g} … {high:g} seconds; "
                        "correct it", line + 2)  # fmt: skip
@@ -240,7 +229,7 @@ def read_rows(path: Path, stream: IO[bytes], head: Head) -> np.ndarray:
     """
     total = head.num_frames * head.num_channels
     values = np.empty(min(total, MAX_VALUES))
-    count, kept, deadline = 0, head.rest, Deadline(path)
+    count, kept, deadline = 0, head.rest, limits.Deadline(path)
     while True:
         deadline.check()
         block = stream.read(BLOCK_BYTES)
@@ -254,8 +243,8 @@ def read_rows(path: Path, stream: IO[bytes], head: Head) -> np.ndarray:
             break
     if count != total:
         raise _explain(path, head, deadline)
-    if not max(values.max(), -values.min()) < MAX_VALUE:  # also true for NaN
-        worst = int(np.flatnonzero(~(np.abs(values) < MAX_VALUE))[0])
+    if not max(values.max(), -values.min()) < limits.MAX_VALUE:  # also true for NaN
+        worst = int(np.flatnonzero(~(np.abs(values) < limits.MAX_VALUE))[0])
         frame = worst // head.num_channels
         raise BvhError(f"value {values[worst]:g} in frame {frame + 1} is not a possible angle or "
                        "position; correct it", head.first_row + frame)  # fmt: skip
@@ -265,7 +254,7 @@ def read_rows(path: Path, stream: IO[bytes], head: Head) -> np.ndarray:
 def _whole_words(data: bytes) -> tuple[bytes, bytes]:
     """What may be parsed now, and a word that the next block may carry on."""
     cut = max(data.rfind(b"\n"), data.rfind(b" "), data.rfind(b"\t"), data.rfind(b"\r"))
-    if len(data) - cut > MAX_LINE:
+    if len(data) - cut > limits.MAX_LINE:
         return data, b""  # no number is that long: parsing tells
     return data[: cut + 1], data[cut + 1 :]
 
@@ -291,11 +280,11 @@ def _number(text: bytes, what: str, kind: Callable[[bytes], N], line: int) -> N:
         raise BvhError(f"{what} is {shown!r}, not a number; correct it", line) from None
 
 
-def _explain(path: Path, head: Head, deadline: Deadline) -> BvhError:
+def _explain(path: Path, head: Head, deadline: limits.Deadline) -> BvhError:
     """What is wrong with rows that do not hold the values the head promises."""
     count = number = 0
     with path.open(encoding="latin-1", newline=None) as lines:
-        while row := lines.readline(MAX_LINE):
+        while row := lines.readline(limits.MAX_LINE):
             number += 1
             if number < head.first_row:
                 continue
@@ -303,7 +292,7 @@ def _explain(path: Path, head: Head, deadline: Deadline) -> BvhError:
                 deadline.check()
             words = row.split()
             fault = _fault(words, head.num_channels)
-            if fault or len(row) >= MAX_LINE:
+            if fault or len(row) >= limits.MAX_LINE:
                 return BvhError(fault or "the line is impossibly long", number)
             count += bool(words)
     return BvhError(
@@ -351,10 +340,6 @@ class BvhClip:
     @property
     def num_frames(self) -> int:
         return len(self.values)
-
-    @property
-    def fps(self) -> float:
-        return 1.0 / self.frame_time
 
     def every(self, stride: int) -> "BvhClip":
         """Only every `stride`-th frame, `frame_time` lengthened accordingly."""
@@ -417,21 +402,15 @@ class BvhClip:
         ]
 
 
-def read_bvh(path: str | Path, *, stride: int = 1, max_bytes: int = MAX_BYTES) -> BvhClip:
+def read_bvh(path: str | Path) -> BvhClip:
     """Read a BVH file of any channel order, indentation and line ends.
-
-    Args:
-        path: the file.
-        stride: keep every `stride`-th frame (4 turns 120 frames a second into 30) and lengthen
-            `frame_time` accordingly; the whole file is checked all the same.
-        max_bytes: refuse larger files before reading them.
 
     Raises:
         UserError: missing, too large, not BVH, truncated, or with impossible values; names the
             file and, where there is one, the line.
     """
     path = Path(path)
-    check_size(path, max_bytes)
+    limits.check_size(path)
     with _opened(path) as stream:
         head = read_head(stream)
         values = read_rows(path, stream, head)
@@ -445,18 +424,14 @@ def read_bvh(path: str | Path, *, stride: int = 1, max_bytes: int = MAX_BYTES) -
         rotation_orders=tuple(
             "".join(c[0] for c in node.channels if c.endswith("rotation")) for node in nodes
         ),
-        frame_time=head.frame_time * stride,
-        values=values[::stride],
+        frame_time=head.frame_time,
+        values=values,
     )
 
 
 def check_head(path: Path) -> None:
-    """Read everything but the frames.
-
-    Raises:
-        UserError: it is broken, or no motion follows it.
-    """
-    check_size(path)
+    """Read all but the frames; raises UserError where it is broken or no motion follows it."""
+    limits.check_size(path)
     with _opened(path) as stream:
         read_head(stream)
 
@@ -465,8 +440,8 @@ def check_head(path: Path) -> None:
 def _opened(path: Path) -> Iterator[IO[bytes]]:
     """The file's bytes; what is wrong with them names file and line."""
     try:
-        with readable(path, "BVH file"), path.open("rb") as stream:
+        with limits.readable(path, "BVH file"), path.open("rb") as stream:
             yield stream
     except BvhError as error:
         place = f", line {error.line}" if error.line else ""
-        raise UserError(f"{path}{place}: {remedied(str(error))}") from None
+        raise UserError(f"{path}{place}: {limits.remedied(str(error))}") from None

@@ -49,11 +49,7 @@ class GlbFile:
 
     @classmethod
     def read(cls, path: Path) -> "GlbFile":
-        """Open a file.
-
-        Raises:
-            UserError: missing, too large or not a GLB file.
-        """
+        """Open a file; raises UserError where it is missing, too large or no GLB file."""
         data = read_bytes(path)
         if data[:4] != b"glTF":
             raise UserError(f"{path}: is not a GLB file; export it as glTF binary (.glb)")
@@ -67,11 +63,7 @@ class GlbFile:
         return cls(document, chunks.get(b"BIN\0", b""))
 
     def write(self, path: Path) -> Path:
-        """Write the file whole or not at all.
-
-        Raises:
-            UserError: the file cannot be written.
-        """
+        """Write the file whole or not at all; raises UserError where it cannot be written."""
         data = self.to_bytes()
         with atomic_write(path) as temporary:
             temporary.write_bytes(data)
@@ -323,30 +315,23 @@ def read_glb_skeleton(path: str | Path) -> GlbSkeleton:
     Raises:
         UserError: missing, damaged, without joints, or with joints scaled unevenly.
     """
-    path = Path(path)
-    file = GlbFile.read(path)
-    with _faults(path):
+    with _opened(Path(path)) as file:
         return _skeleton(file)
 
 
 def read_glb(path: str | Path) -> RigClip:
     """The first animation of a GLB file, at the rate of its densest keys; else the rest pose.
-
-    Raises:
-        UserError: as `read_glb_skeleton`, or an animation of impossible length.
-    """
-    path = Path(path)
-    file = GlbFile.read(path)
-    with _faults(path):
-        skeleton = _skeleton(file)
-        return _clip(skeleton)
+    Raises UserError as `read_glb_skeleton`, or for an animation of impossible length."""
+    with _opened(Path(path)) as file:
+        return _clip(_skeleton(file))
 
 
 @contextmanager
-def _faults(path: Path) -> Iterator[None]:
-    """Faults of the file become one sentence that names it."""
+def _opened(path: Path) -> Iterator[GlbFile]:
+    """The file; its faults become one sentence that names it."""
+    file = GlbFile.read(path)
     try:
-        yield
+        yield file
     except GlbError as error:
         raise UserError(f"{path}: {error}") from None
     except (LookupError, TypeError, ValueError, AttributeError, OverflowError, struct.error,

@@ -15,6 +15,7 @@ other joint takes the smallest turn that aims its bone. Legend: T frames, N = 22
 | 67:263          | rotations, velocities, contacts: not read                           |
 """
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +23,7 @@ import numpy as np
 from ...errors import UserError
 from ...motion.skeleton import JOINT_INDEX, NUM_JOINTS, PARENTS, canonical_skeleton
 from ..limits import check_plausible, read_array
-from ..rig import JointClip
+from ..rig import RigClip, canonical_rig, rooted_clip, units
 
 FPS = 20.0
 FEATURES = 263
@@ -30,7 +31,7 @@ MAX_VALUE = 1e4  # metres
 SPREAD = 0.25  # of a bone's length over time, relative: more, and they are no positions
 
 
-def read_humanml(path: str | Path, *, fps: float | None = None) -> JointClip:
+def read_humanml(path: str | Path, *, fps: float | None = None) -> RigClip:
     """Read joint positions or feature vectors and fit rotations to them.
 
     Raises:
@@ -77,12 +78,12 @@ BENDS = {"l_hip": ("l_knee", "l_ankle", LEFT), "r_hip": ("r_knee", "r_ankle", LE
 BENT = (0.1, 0.4)  # sine of a bend that tells nothing, and of one that tells all
 
 
-def clip_of_positions(positions: np.ndarray, fps: float) -> JointClip:
+def clip_of_positions(positions: np.ndarray, fps: float) -> RigClip:
     """Rotations for joint positions [T,22,3] in metres, +Y up; bones of mean length along ours."""
     rest = canonical_skeleton().offsets.astype(np.float64)
     bones = positions - positions[:, [max(parent, 0) for parent in PARENTS]]
     lengths = np.linalg.norm(bones, axis=-1).mean(0)
-    rest, bones = _units(rest), _units(bones)
+    rest, bones = units(rest), units(bones)
     limbs = {JOINT_INDEX[upper]: (JOINT_INDEX[middle], JOINT_INDEX[end], axis)
              for upper, (middle, end, axis) in BENDS.items()}  # fmt: skip
     identity = np.tile(np.eye(3), (len(positions), 1, 1))
@@ -104,11 +105,8 @@ def clip_of_positions(positions: np.ndarray, fps: float) -> JointClip:
             seen = np.einsum("tji,tj->ti", world[:, joint], normal)
             world[:, joint] = world[:, joint] @ _twist(rest[middle], axis, seen)
         local[:, joint] = np.swapaxes(above, -1, -2) @ world[:, joint]
-    return JointClip(local, positions[:, 0], rest * lengths[:, None], 1.0 / fps)
-
-
-def _units(vectors: np.ndarray) -> np.ndarray:
-    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-9))
+    rig = replace(canonical_rig(), offsets=rest * lengths[:, None])
+    return rooted_clip(rig, local, positions[:, 0], fps)
 
 
 def _fit(rest: np.ndarray, seen: np.ndarray) -> np.ndarray:

@@ -22,9 +22,7 @@ def write_bvh(motion: Motion, path: str | Path, *, names: str = "canonical") -> 
     """Write one motion; reading it back gives rotations and positions within 1e-4 (rad, m).
 
     Args:
-        motion: what to write.
-        path: the file.
-        names: what the joints are called (`rig.SCHEMES`).
+        names: of the joints (`rig.SCHEMES`).
 
     Raises:
         UserError: the file cannot be written.
@@ -37,11 +35,7 @@ def write_bvh(motion: Motion, path: str | Path, *, names: str = "canonical") -> 
 
 
 def write_bvh_clip(clip: RigClip, path: str | Path) -> Path:
-    """Write a rig's motion in the rig's own unit, with its own Euler orders.
-
-    Raises:
-        UserError: the file cannot be written.
-    """
+    """Write a rig's motion in its own unit and Euler orders; raises UserError if it cannot."""
     rig, moving = clip.rig, clip.moving()
     columns = []
     angles = np.empty((clip.num_frames, len(rig.names), 3))

@@ -16,13 +16,13 @@ import numpy as np
 from PIL import Image
 
 from ...motion.motion import Motion
-from ...motion.skeleton import JOINT_NAMES, NUM_JOINTS
+from ...motion.skeleton import NUM_JOINTS
 from ...motion.trajectory import MotionTrajectory
-from ..live import VMC_BONES
 from ..mannequin import Mannequin, mannequin, side_colours, whole_shares
 from ..preview.trajectory import proxy_body
 from ..readers.glb import INDEX_DATA, VERTEX_DATA, GlbFile, GlbSkeleton
 from ..rig import (
+    SCHEMES,
     Rig,
     RigClip,
     continuous,
@@ -39,42 +39,31 @@ def write_glb(motion: Motion, path: str | Path, *, names: str = "canonical") -> 
     """Write one motion as an animated GLB; its joints move as `motion.positions()` does.
 
     Args:
-        motion: what to write.
-        path: the file.
-        names: what the joints are called (`rig.SCHEMES`).
+        names: of the joints (`rig.SCHEMES`).
 
     Raises:
         UserError: the file cannot be written.
     """
-    return _write(motion_clip(motion, names), mannequin(), path)
+    return _file(motion_clip(motion, names), mannequin()).write(Path(path))
 
 
 def write_glb_clip(clip: RigClip, path: str | Path) -> Path:
-    """Write a rig's motion as an animated GLB, with a simple body of its bones.
-
-    Raises:
-        UserError: the file cannot be written.
-    """
-
+    """Write a rig's motion as an animated GLB, with a simple body of its bones; raises UserError as
+    `write_glb`."""
     clip = rescaled(clip, 1.0)
-    return _write(clip, bone_mesh(clip.rig, clip.moving()), path)
+    return _file(clip, bone_mesh(clip.rig, clip.moving())).write(Path(path))
 
 
 def write_vrma(motion: Motion, path: str | Path) -> Path:
-    """Write one motion as a VRM animation: the T-pose, whose bones VRM names, and no mesh.
-
-    Raises:
-        UserError: the file cannot be written.
-    """
+    """Write one motion as a VRM animation: the T-pose, whose bones VRM names, and no mesh; raises
+    UserError as `write_glb`."""
     return _vrma(motion).write(Path(path))
 
 
 def _vrma(motion: Motion) -> GlbFile:
     file = _file(motion_clip(motion))
-    bones = {
-        VMC_BONES[name][0].lower() + VMC_BONES[name][1:]: {"node": joint}
-        for joint, name in enumerate(JOINT_NAMES)
-    }
+    names = (name[0].lower() + name[1:] for name in SCHEMES["unity"])
+    bones = {name: {"node": joint} for joint, name in enumerate(names)}
     extension = {"specVersion": "1.0", "humanoid": {"humanBones": bones}}
     file.document |= {
         "extensionsUsed": ["VRMC_vrm_animation"],
@@ -92,10 +81,6 @@ def rest_files() -> dict[str, bytes]:
     motion = Motion(turned, np.zeros((2, 3), np.float32), np.zeros((2, 2), np.float32))
     body = _file(motion_clip(motion), mannequin())
     return {"glb": body.to_bytes(), "vrma": _vrma(motion).to_bytes()}
-
-
-def _write(clip: RigClip, body: Mannequin, path: str | Path) -> Path:
-    return _file(clip, body).write(Path(path))
 
 
 def _file(clip: RigClip, body: Mannequin | None = None) -> GlbFile:
@@ -207,7 +192,6 @@ def animation(
 
     Args:
         clip: what moves, in metres.
-        file: takes the keys.
         nodes: node of each joint.
         frames: the joints' own axes in the world at rest [N,3,3].
         base: matrix [4,4] of the nodes above the root.
@@ -266,7 +250,6 @@ def bone_mesh(rig: Rig, loose: Sequence[int] = ()) -> Mannequin:
     """The bones of a rig as a skinned mesh, each vertex moved by one joint.
 
     Args:
-        rig: the skeleton.
         loose: joints that move against their parents, to which no bone leads.
     """
     rest = rig.rest()
@@ -338,9 +321,5 @@ def write_glb_character(skeleton: GlbSkeleton, clip: RigClip, path: str | Path) 
 
 
 def write_trajectory_glb(trajectory: MotionTrajectory, path: str | Path, title: str = "") -> Path:
-    """Write one trajectory as an animated GLB.
-
-    Raises:
-        UserError: the file cannot be written.
-    """
+    """Write one trajectory as an animated GLB; raises UserError where it cannot be written."""
     return write_glb(proxy_body(trajectory, title), path)

@@ -35,9 +35,8 @@ def write_usd(motion: Motion, path: str | Path, *, names: str = "canonical") -> 
     """Write one motion as an animated character.
 
     Args:
-        motion: what to write.
         path: a file that ends in .usd, .usda or .usdc.
-        names: what the joints are called (`rig.SCHEMES`).
+        names: of the joints (`rig.SCHEMES`).
 
     Raises:
         UserError: the file cannot be written, or .usdc without `usd-core`.
@@ -46,11 +45,7 @@ def write_usd(motion: Motion, path: str | Path, *, names: str = "canonical") -> 
 
 
 def write_usd_clip(clip: RigClip, path: str | Path) -> Path:
-    """Write a rig's motion, with a simple body of its bones.
-
-    Raises:
-        UserError: as `write_usd`.
-    """
+    """Write a rig's motion, with a simple body of its bones; raises UserError as `write_usd`."""
     from .glb import bone_mesh
 
     clip = rescaled(clip, 1.0)

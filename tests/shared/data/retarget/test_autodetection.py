@@ -1,5 +1,6 @@
 """Axes found from the motion alone: they are those that are known, and any rest pose will do."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,13 @@ from src.shared.data.retarget.to_canonical import _AIM, leg_length, retarget
 from src.shared.data.synthetic.clips import generate_clip, sample_specs
 from src.shared.errors import UsageError
 from src.shared.formats.readers.bvh import read_bvh
-from src.shared.formats.rig import JointClip, compose, quaternions_to_matrices
+from src.shared.formats.rig import (
+    RigClip,
+    canonical_rig,
+    compose,
+    quaternions_to_matrices,
+    rooted_clip,
+)
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import JOINT_NAMES, PARENTS, canonical_skeleton
 
@@ -30,7 +37,7 @@ def walk() -> Motion:
     return generate_clip(sample_specs(40, seed=3)[17], seed=5)
 
 
-def turned(motion: Motion, turns: np.ndarray, world: np.ndarray) -> JointClip:
+def turned(motion: Motion, turns: np.ndarray, world: np.ndarray) -> RigClip:
     """The same motion on joints whose axes are `turns` [22,3,3], in a world turned by [3,3]."""
     local = quaternions_to_matrices(motion.quaternions)
     places = np.repeat(canonical_skeleton().offsets[None].astype(float), len(local), 0)
@@ -39,8 +46,8 @@ def turned(motion: Motion, turns: np.ndarray, world: np.ndarray) -> JointClip:
     above = np.stack([np.tile(np.eye(3), (len(local), 1, 1)),
                       *(rotations[:, p] for p in PARENTS[1:])], 1)  # fmt: skip
     offsets = np.einsum("jba,jb->ja", turns[list(PARENTS)], canonical_skeleton().offsets)
-    return JointClip(np.swapaxes(above, -1, -2) @ rotations, motion.root_position @ world.T,
-                     offsets, 1 / motion.fps)  # fmt: skip
+    rig, local = replace(canonical_rig(), offsets=offsets), np.swapaxes(above, -1, -2) @ rotations
+    return rooted_clip(rig, local, motion.root_position @ world.T, motion.fps)
 
 
 @pytest.mark.parametrize("up", ["Y", "Z", "-Z", "X", "-Y"])

@@ -123,13 +123,13 @@ def test_directions_and_twists_of_bandai(bandai: Path, pattern: str) -> None:
 
 def test_directions_and_twists_of_cmu(cmu: Path) -> None:
     for name in ("02/02_01.bvh", "05/05_02.bvh"):
-        clip = read_bvh(cmu / name, stride=4)
+        clip = read_bvh(cmu / name).every(4)
         check_directions_and_twists(clip, find_mapping(clip.names, load_mappings()))
 
 
 def test_a_source_at_rest_stands_in_our_rest_pose(cmu: Path) -> None:
     """Derived by hand: CMU's rest is a T-pose in world axes, legs 20° apart, feet level."""
-    clip = read_bvh(cmu / "02/02_01.bvh", stride=4)
+    clip = read_bvh(cmu / "02/02_01.bvh").every(4)
     values = clip.values.copy()
     values[:, 3:] = 0.0
     rest = BvhClip(**{**vars(clip), "values": values})

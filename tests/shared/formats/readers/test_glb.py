@@ -14,8 +14,8 @@ from scipy.spatial.transform import Rotation, Slerp
 from src.shared.data.retarget.read_motion import read_motion
 from src.shared.data.retarget.to_rig import read_target
 from src.shared.errors import UserError
-from src.shared.formats.live import VMC_BONES
 from src.shared.formats.readers.glb import GlbFile, read_glb, read_glb_skeleton
+from src.shared.formats.rig import SCHEMES
 from src.shared.formats.writers.glb import write_glb, write_glb_clip
 from tests.shared.formats.rigs import random_clip
 from tests.shared.formats.writers.test_bvh import random_motion
@@ -61,7 +61,7 @@ def test_steps_hold_and_splines_bend(tmp_path: Path) -> None:
 def test_joints_of_a_vrm_avatar_are_those_it_names(version: str, tmp_path: Path) -> None:
     file = GlbFile.read(write_glb(random_motion(2), tmp_path / "a.glb"))
     nodes = file.document["nodes"]
-    names = {VMC_BONES[node["name"]]: index for index, node in enumerate(nodes[:22])}
+    names = {name: index for index, name in enumerate(SCHEMES["unity"])}
     for node in nodes:
         node["name"] = "J_Bip"
     nodes[15]["children"] = [len(nodes)]  # hair, which no humanoid has
