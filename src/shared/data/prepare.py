@@ -18,7 +18,7 @@ import hashlib
 import json
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from itertools import groupby
 from operator import itemgetter
 from pathlib import Path
@@ -130,7 +130,7 @@ def prepare(
             f"none of the {len(items)} clips could be used{example} (see {out}/report.json)"
         )
     records = _records(clips, mirror=mirror, seed=seed, book=book)
-    lines = "".join(json.dumps(r.to_json(), ensure_ascii=False) + "\n" for r in records)
+    lines = "".join(json.dumps(asdict(r), ensure_ascii=False) + "\n" for r in records)
     write_text(out / "clips.jsonl", lines)
     write_json(out / "captions.json", _group_captions(records, book, seed))
     _write_statistics(out, records)

@@ -8,9 +8,9 @@ import re
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Self
 
 import torch
 from pydantic import TypeAdapter, ValidationError
@@ -53,9 +53,6 @@ class ClipRecord:
     offset: int
     captions: dict[str, list[str]] = field(default_factory=dict)
     provenance: Provenance = "captured"
-
-    def to_json(self) -> dict[str, Any]:
-        return asdict(self)
 
 
 VERSION = 3  # of prepared folders; 2 did not say where motion comes from, 1 held other splits
@@ -139,7 +136,7 @@ class PreparedData:
             self._captions = _CAPTIONS.validate_python(load_json(path))
 
     @classmethod
-    def open(cls, folder: str | Place) -> "PreparedData":
+    def open(cls, folder: str | Place) -> Self:
         """Open a prepared folder, or an address; see `PreparedData`."""
         return cls(place(folder))
 
@@ -247,29 +244,26 @@ def unseen_orbits(clips: Sequence[tuple[str, Labels]], seed: int) -> set[str]:
         clips: (orbit, labels) of every clip.
     """
     labels_of = dict(clips)
+    keys_of = {
+        name: [(labels.get("action", ""), *item) for item in labels.items() if item[0] != "action"]
+        for name, labels in labels_of.items()
+    }
     support: dict[tuple[str, str, str], set[str]] = defaultdict(set)
-    for name, labels in labels_of.items():
-        for key, value in labels.items():
-            if key != "action":
-                support[labels.get("action", ""), key, value].add(name)
+    for name, keys in keys_of.items():
+        for key in keys:
+            support[key].add(name)
     eligible = [
         name
         for name, labels in labels_of.items()
         if len(labels) >= 3
         and not any(labels.items() < other.items() for other in labels_of.values())
-        and all(
-            len(support[labels.get("action", ""), key, value]) >= 2
-            for key, value in labels.items()
-            if key != "action"
-        )
+        and all(len(support[key]) >= 2 for key in keys_of[name])
     ]
     chosen: set[str] = set()
     for name in sorted(eligible, key=lambda name: _order(seed, name)):
         if len(chosen) >= round(UNSEEN_FRACTION * len(labels_of)):
             break
-        labels = labels_of[name]
-        keys = [(labels.get("action", ""), k, v) for k, v in labels.items() if k != "action"]
-        left = [(len(support[key] - chosen - {name}), len(support[key])) for key in keys]
+        left = [(len(support[key] - chosen - {name}), len(support[key])) for key in keys_of[name]]
         if all(stays >= max(1, MIN_SUPPORT * of) for stays, of in left):
             chosen.add(name)
     return chosen

@@ -11,9 +11,10 @@ Memory holds some shards, the sample, and a few numbers of every shard.
 import hashlib
 import threading
 from collections import OrderedDict
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Unpack
 
 import numpy as np
 import torch
@@ -27,7 +28,7 @@ from ..motion.features import mirror_features
 from .phrases.layout import BadContent, StoredObject
 from .phrases.store import ObjectCache, PhraseStore, Remote, default_cache
 from .prepared import ROWS, ClipRecord, PreparedData, checked, damaged, parse_record
-from .text_motion import CaptionedWindows, TextMotionBatch, comes_back
+from .text_motion import CaptionedWindows, TextMotionBatch, WindowOptions, comes_back
 
 MIXED = 8  # shards whose clips are mixed
 AHEAD = 4  # more are kept, for batches that are made ahead
@@ -52,6 +53,7 @@ class StreamedData(PreparedData):
 
     Attributes:
         shards: all of them.
+        files: SHA-256 of each file.
 
     Raises:
         UserError: as `PreparedData`; of the shards, when one is read.
@@ -59,9 +61,9 @@ class StreamedData(PreparedData):
 
     def __init__(self, folder: Place) -> None:
         super().__init__(folder, verify=False)
-        self._files: dict[str, str] = self.manifest["files"]
+        self.files: dict[str, str] = self.manifest["files"]
         small = ("statistics.safetensors", "captions.json")
-        self._verify({name: self._files[name] for name in small})
+        self._verify({name: self.files[name] for name in small})
         self.shards: list[Shard] = []
         self._starts: dict[str, int] = {}
         self._sample = self._survey()
@@ -78,7 +80,7 @@ class StreamedData(PreparedData):
             digest.update(block)
             *whole, rest = (rest + block).split(b"\n")
             yield from whole
-        if rest or digest.hexdigest() != self._files["clips.jsonl"]:
+        if rest or digest.hexdigest() != self.files["clips.jsonl"]:
             raise UserError(f"{path} is damaged; run `prepare` again with the same options")
 
     def _survey(self) -> list[ClipRecord]:
@@ -111,19 +113,14 @@ class StreamedData(PreparedData):
 
     def _add(self, name: str, start: int, stop: int) -> None:
         if name:
-            self._files[f"shards/{name}"]  # a shard that the manifest lacks is damage
+            self.files[f"shards/{name}"]  # a shard that the manifest lacks is damage
             self.shards.append(Shard(name, start, stop))
 
     def records_of(self, shard: Shard) -> list[ClipRecord]:
         """Every clip of a shard."""
         path = self.folder / "clips.jsonl"
         with damaged(path):
-            lines = read_range(path, shard.start, shard.stop).splitlines()
-            return [parse_record(line) for line in lines]
-
-    def hash_of(self, shard: Shard) -> str:
-        """SHA-256 of a shard's file."""
-        return self._files[f"shards/{shard.name}"]
+            return [*map(parse_record, read_range(path, shard.start, shard.stop).splitlines())]
 
     def records(self, split: str | None = None) -> list[ClipRecord]:
         """Records of the sample."""
@@ -168,37 +165,18 @@ class StreamedSet(CaptionedWindows):
 
     data: StreamedData
 
-    def __init__(
-        self,
-        data: StreamedData,
-        *,
-        min_frames: int = 32,
-        max_frames: int = 128,
-        languages: tuple[str, ...] = ("en", "es", "fr", "de", "ja", "zh"),
-        only: Callable[[ClipRecord], bool] | None = None,
-        seed: int = 0,
-    ) -> None:
-        """Count the usable clips of each shard.
-
-        Raises:
-            ValueError: there is none.
-        """
-        super().__init__(
-            data,
-            min_frames=min_frames,
-            max_frames=max_frames,
-            languages=languages,
-            only=only,
-            seed=seed,
-        )
+    def __init__(self, data: StreamedData, **windows: Unpack[WindowOptions]) -> None:
+        """Count the usable clips of each shard; raises ValueError where there is none."""
+        super().__init__(data, **windows)
         numbers = {shard.name: number for number, shard in enumerate(data.shards)}
         self._counts = np.zeros(len(data.shards), np.int64)
-        for line in data.lines():
-            record = parse_record(line)
+        for record in map(parse_record, data.lines()):
             self._counts[numbers[record.shard]] += self._is_usable(record)
         self._total = int(self._counts.sum())
         if not self._total:
-            raise ValueError(f"{data.folder} has no training clip of at least {min_frames} frames")
+            raise ValueError(
+                f"{data.folder} has no training clip of at least {self.min_frames} frames"
+            )
         self._numbers = numbers
         remote = Remote(str(data.folder), backoff=Backoff())
         cache = None if remote.local else ObjectCache(default_cache())
@@ -268,11 +246,7 @@ class StreamedSet(CaptionedWindows):
     # ------------------------------------------------------------ the shards
 
     def _load(self, number: int) -> _Loaded:
-        """A shard in memory.
-
-        Raises:
-            UserError: it is missing, damaged, or cannot be reached.
-        """
+        """A shard in memory; raises UserError where it is missing, damaged or out of reach."""
         with self._lock:
             if number not in self._loaded:
                 while len(self._loaded) >= MIXED + AHEAD:
@@ -283,9 +257,9 @@ class StreamedSet(CaptionedWindows):
 
     def _read(self, shard: Shard) -> _Loaded:
         name = f"shards/{shard.name}"
-        path, stored = self.data.folder / name, self.data.hash_of(shard)
+        path = self.data.folder / name
         try:
-            obj = StoredObject(path=name, sha256=stored)
+            obj = StoredObject(path=name, sha256=self.data.files[name])
             features = self._store.load(obj, lambda data: load(data)["features"])
         except (BadContent, Unreachable) as error:
             raise UserError(

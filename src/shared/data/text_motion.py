@@ -8,6 +8,7 @@ shortened. B batch, T frames; features are those of motion/features.py.
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TypedDict, Unpack
 
 import numpy as np
 import torch
@@ -53,6 +54,16 @@ class TextMotionBatch:
 
     def __len__(self) -> int:
         return len(self.captions)
+
+
+class WindowOptions(TypedDict, total=False):
+    """What `CaptionedWindows` takes beside its data."""
+
+    min_frames: int
+    max_frames: int
+    languages: tuple[str, ...]
+    only: Callable[[ClipRecord], bool] | None
+    seed: int
 
 
 class CaptionedWindows(ABC):
@@ -179,13 +190,9 @@ class TextMotionDataset(CaptionedWindows):
         data: PreparedData,
         split: str,
         *,
-        min_frames: int = 32,
-        max_frames: int = 128,
-        languages: tuple[str, ...] = ("en", "es", "fr", "de", "ja", "zh"),
         balance: float = 0.5,
         captured_share: float = 0.0,
-        only: Callable[[ClipRecord], bool] | None = None,
-        seed: int = 0,
+        **windows: Unpack[WindowOptions],
     ) -> None:
         """Select the records of a split.
 
@@ -200,19 +207,12 @@ class TextMotionDataset(CaptionedWindows):
         Raises:
             ValueError: no clip of the split is long enough or has a caption in `languages`.
         """
-        super().__init__(
-            data,
-            min_frames=min_frames,
-            max_frames=max_frames,
-            languages=languages,
-            only=only,
-            seed=seed,
-        )
+        super().__init__(data, **windows)
         self.records = [record for record in data.records(split) if self._is_usable(record)]
         if not self.records:
             raise ValueError(
-                f"split {split!r} of {data.folder} has no clip of at least {min_frames} frames"
-                f" with a caption in {', '.join(languages)}"
+                f"split {split!r} of {data.folder} has no clip of at least {self.min_frames}"
+                f" frames with a caption in {', '.join(self.languages)}"
             )
         groups = sorted({record.group for record in self.records})
         self._group_index = {name: index for index, name in enumerate(groups)}

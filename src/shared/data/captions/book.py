@@ -84,11 +84,7 @@ class CaptionBook:
         return tuple(sorted(self._languages))
 
     def language(self, code: str) -> CaptionLanguage:
-        """One language of the book.
-
-        Raises:
-            UserError: there is no such language here.
-        """
+        """One language of the book; raises UserError where it is not here."""
         if code not in self._languages:
             raise UserError(
                 f"no captions in language {code!r}; supported: {', '.join(self.languages)}; "

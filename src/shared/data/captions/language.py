@@ -173,10 +173,6 @@ class CaptionLanguage:
                 return key
         return OTHER
 
-    def slot_table(self, action: str, name: str) -> dict[str, list[str]] | None:
-        """The synonyms of a slot by label value; the action's own words win."""
-        return self._slots[action].get(name)
-
     # -------------------------------------------------------------- choosing
 
     @staticmethod
@@ -205,7 +201,7 @@ class CaptionLanguage:
     def _entries(self, action: str, name: str, labels: Labels) -> list[str]:
         label = name.split(".")[0]
         value = labels.get(label, "")
-        table = self.slot_table(action, name)
+        table = self._slots[action].get(name)
         if not value or table is None:
             return []
         return table.get(str(value)) or table.get(OTHER) or []

@@ -42,11 +42,7 @@ _TOKEN = re.compile(r"\{([^{}]*)\}|([()|{}])|([^(){}|]+)")
 
 @cache
 def parse(template: str) -> Sequence:
-    """Parse one template.
-
-    Raises:
-        ValueError: a brace or parenthesis is not closed, or a slot has no name.
-    """
+    """Parse one template; raises ValueError for what is not closed or a slot without a name."""
     stack: list[list[list[Node]]] = [[[]]]  # open choices > their options > nodes
     for match in _TOKEN.finditer(template):
         slot, mark, text = match.groups()
@@ -251,17 +247,19 @@ class LanguageFile(_Section):
         for name, tense in self.tenses.items():  # of one that stands before it
             _check_form(f"tenses.{name}.of", tense.of, forms)
             forms.append(name)
-        for key, form in self._named_forms():
-            _check_form(key, form, forms)
-        for key, verb in self._verbs():
+        for i, frame in enumerate(self.frames):
+            _check_form(f"frames.{i}.form", frame.form, forms)
+        for key, phrase in self._phrases():
+            for form in phrase.forms or []:
+                _check_form(f"{key}.forms", form, forms)
+        for key, verb in ((key, verb) for key, phrase in self._phrases() for verb in phrase.verbs):
             if len(verb.split("|")) != len(self.forms):
                 raise ValueError(
-                    f"{key}: verb {verb!r} needs {len(self.forms)} forms separated by '|': "
+                    f"{key}.verbs: verb {verb!r} needs {len(self.forms)} forms separated by '|': "
                     f"{' | '.join(self.forms)} ('-' where there is none)"
                 )
         known = BUILT_IN | self.words.keys() | self.slots.keys()
-        for frame in self.frames:
-            known |= frame.words.keys()
+        known = known.union(*(frame.words for frame in self.frames))
         for key, template, more in self._templates():
             try:
                 names = set(slots_in(parse(template)))
@@ -280,22 +278,10 @@ class LanguageFile(_Section):
             return tense(self.verb(forms, tense.of))
         return forms.split("|")[self.forms.index(form)].strip()
 
-    def _named_forms(self) -> Iterator[tuple[str, str]]:
-        for i, frame in enumerate(self.frames):
-            yield f"frames.{i}.form", frame.form
-        for key, phrase in self._phrases():
-            for form in phrase.forms or []:
-                yield f"{key}.forms", form
-
     def _phrases(self) -> Iterator[tuple[str, Phrase]]:
         for name, action in self.actions.items():
             for i, phrase in enumerate(action.phrases):
                 yield f"actions.{name}.phrases.{i}", phrase
-
-    def _verbs(self) -> Iterator[tuple[str, str]]:
-        for key, phrase in self._phrases():
-            for verb in phrase.verbs:
-                yield f"{key}.verbs", verb
 
     def _templates(self) -> Iterator[tuple[str, str, frozenset[str]]]:
         """Yield (key, template, slots known only there) of every template of the file."""

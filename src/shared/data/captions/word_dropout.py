@@ -12,7 +12,6 @@ def drop_words(caption: str, share: float, rng: np.random.Generator) -> str:
     Text without spaces (Japanese, Chinese) loses characters instead.
 
     Args:
-        caption: any text.
         share: chance of each word to go, 0 to 1.
         rng: consumed once a word.
     """
@@ -33,7 +32,6 @@ def insert_babble(caption: str, letters_of: str, rng: np.random.Generator, *, mo
     learn to overhear its unknown token too.
 
     Args:
-        caption: any text.
         letters_of: a text of the same language, whose letters the words are drawn from.
         rng: consumed a varying number of times.
         most: words to insert, at most.

@@ -40,7 +40,7 @@ class Clip:
     """One usable clip.
 
     Attributes:
-        id, take, tag, source, split: as in the prepared folder; split is train, val or test.
+        id, tag, source, split: as in the prepared folder; split is train, val or test.
         root: rows [T,4] float32: forward and lateral velocity, height, yaw rate.
         tilt: heading-free rotation of the pelvis [T,4] float32, w x y z.
         cuts: frames [N] at motion beats, where another clip may take over.
@@ -49,7 +49,6 @@ class Clip:
     """
 
     id: str
-    take: str
     tag: str
     source: str
     split: str
@@ -120,20 +119,9 @@ def open_library(data: PreparedData, *, synthetic: bool = True, seed: int = 0) -
             left_out["too few motion beats"] += 1
         else:
             used[f"{record.source} {record.tag or 'untagged'}"] += 1
-            clips.append(
-                Clip(
-                    record.id,
-                    record.take,
-                    record.tag,
-                    record.source,
-                    splits[record.take],
-                    root,
-                    tilt,
-                    cuts,
-                    beats.period if len(beats.times) > 2 else float(np.diff(beats.times)[0]),
-                    _match(root, tilt, cuts),
-                )
-            )
+            period = beats.period if len(beats.times) > 2 else float(np.diff(beats.times)[0])
+            made = (root, tilt, cuts, period, _match(root, tilt, cuts))
+            clips.append(Clip(record.id, record.tag, record.source, splits[record.take], *made))
     return ClipLibrary(tuple(clips), threshold, dict(left_out), dict(sorted(used.items())))
 
 

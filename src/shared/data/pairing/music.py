@@ -104,17 +104,10 @@ class SyntheticMusic:
         _, spec = self.specs()[int(entry.id.rpartition("-")[2])]
         song = render_song(spec)
         features = extract_features(sound_from_samples(song.samples, song.sample_rate))
+        beats, phase = song.beat_times, song.phase(features.num_frames)
+        tempo = 60.0 / float(np.median(np.diff(beats)))
         arrays = feature_arrays(features)
-        num_frames = arrays["mel"].shape[1]
-        beats = song.beat_times
-        return Music(
-            arrays,
-            song.phase(num_frames),
-            beats,
-            song.downbeat_times,
-            60.0 / float(np.median(np.diff(beats))),
-            spec.meter,
-        )
+        return Music(arrays, phase, beats, song.downbeat_times, tempo, spec.meter)
 
 
 @dataclass(frozen=True)
@@ -133,35 +126,27 @@ class FolderMusic:
                 f"--music {self.root} holds no sound file ({', '.join(SOUND_FILES)});"
                 " name a folder that does, or synthetic:N"
             )
-        hashes = [sha256_file(path) for path in found]
-        unique = list(dict.fromkeys(hashes))
-        splits = assign_alike(unique, self.seed)
-        entries = []
-        for digest in unique:
-            path = found[hashes.index(digest)]
-            entries.append(
-                SongEntry(
-                    f"{_slug(path.stem)}-{digest[:8]}",
-                    splits[digest],
-                    f"{digest}:{self.meter}",
-                    relative_name(path, self.root),
-                )
+        by_hash: dict[str, Place] = {}
+        for path in found:
+            by_hash.setdefault(sha256_file(path), path)
+        splits = assign_alike(list(by_hash), self.seed)
+        return [
+            SongEntry(
+                f"{_slug(path.stem)}-{digest[:8]}",
+                splits[digest],
+                f"{digest}:{self.meter}",
+                relative_name(path, self.root),
             )
-        return entries
+            for digest, path in by_hash.items()
+        ]
 
     def read(self, entry: SongEntry) -> Music:
         """One song; raises UserError where it cannot be used."""
         with fetched(self.root / entry.path) as file:
             song = analyse(file, meter=self.meter)
-        beats = song.beats
-        return Music(
-            feature_arrays(song.features),
-            song.phase,
-            np.asarray(beats.beat_times),
-            np.asarray(beats.downbeat_times),
-            float(beats.tempo),
-            beats.meter,
-        )
+        beats, arrays = song.beats, feature_arrays(song.features)
+        times = (beats.beat_times, beats.downbeat_times)
+        return Music(arrays, song.phase, *times, beats.tempo, beats.meter)
 
 
 MusicSource = SyntheticMusic | FolderMusic

@@ -10,7 +10,7 @@ T frames of the phrase, N of its motion before the warp.
 
 import zlib
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -114,11 +114,6 @@ class Warp:
         """Seconds of motion [T] at phrase seconds `at` [T] ≥ 0."""
         return np.asarray(self.start + _integral(at, len(self.rates)) @ np.asarray(self.rates))
 
-    def rate(self, at: np.ndarray) -> np.ndarray:
-        """Playback rate [T] at phrase seconds `at` [T]."""
-        knots = np.arange(len(self.rates)) * KNOT_SECONDS
-        return np.asarray(np.interp(at, knots, self.rates))
-
 
 def _integral(at: np.ndarray, num_knots: int) -> np.ndarray:
     """Weights [T,K] of knot rates in the integral over [0, at] of their linear interpolation."""
@@ -157,11 +152,8 @@ def fit_warp(motion: np.ndarray, music: np.ndarray, seconds: float, lead: float)
         return plain_warp(seconds, lead / 2)
     k = knots_for(seconds)
     hits = np.concatenate((np.ones((len(music), 1)), _integral(music, k)), 1) / 0.01
-    bend = np.zeros((max(k - 2, 0), k + 1))
-    for row in range(len(bend)):
-        bend[row, row + 1 : row + 4] = (1, -2, 1)
-    stay = np.zeros((k, k + 1))
-    stay[:, 1:] = np.eye(k)
+    stay = np.eye(k, k + 1, 1)
+    bend = np.diff(stay, n=2, axis=0)
     matrix = np.concatenate((hits, bend / 0.05, stay / 0.5))
     target = np.concatenate((motion / 0.01, np.zeros(len(bend)), np.full(k, 1 / 0.5)))
     low = np.array([0.0] + [1 - LIMIT] * k)
@@ -215,9 +207,6 @@ class Piece:
     first: int
     last: int
     at: int
-
-    def to_json(self) -> dict[str, Any]:
-        return asdict(self)
 
 
 @dataclass(frozen=True, eq=False)
@@ -335,17 +324,10 @@ Entry = dict[str, Any]
 
 
 def add_body(out: Place, entry: Entry, data: PreparedData) -> None:
-    """Write the body of a phrase; its entry, as `pair_song` makes them, learns of it.
-
-    Args:
-        out: folder of the pairs.
-        data: the clips.
-    """
+    """Write the body of a phrase; its entry, as `pair_song` makes them, learns of it."""
     pieces, warp = read_pair(entry["pair"])
-    records = data.records_by_id
-    features = phrase_body(
-        pieces, warp, entry["pair"]["frames"], lambda name: data.features(records[name])
-    )
+    frames, records = entry["pair"]["frames"], data.records_by_id
+    features = phrase_body(pieces, warp, frames, lambda name: data.features(records[name]))
     entry["body"] = write_body(out, entry["id"], features.numpy()).model_dump()
 
 
@@ -363,20 +345,14 @@ def describe(out: Place, entries: Sequence[Entry], data: PreparedData) -> None:
         longest = max(parts, key=lambda piece: piece["last"] - piece["first"])
         shown = records[longest["clip"]]
         captions = data.captions(shown)
-        spoken = captions.get("en") or next(iter(captions.values()), [])
+        spoken = captions.get("en") or next(iter(captions.values()), None) or [""]
+        chosen = zlib.crc32(entry["id"].encode()) % len(spoken)  # phrases of a clip differ in it
         entry["record"] |= {
             "body": entry["body"],
             "tag": shown.tag,
-            "caption": _one_of(spoken, entry["id"]),
+            "caption": spoken[chosen],
             "clips": sorted({part["clip"].removesuffix(MIRRORED) for part in parts}),
         }
-
-
-def _one_of(captions: Sequence[str], name: str) -> str:
-    """A caption by the phrase's name, so that phrases of one clip are not all called alike."""
-    if not captions:
-        return ""
-    return captions[zlib.crc32(name.encode()) % len(captions)]
 
 
 def read_pair(pair: Entry) -> tuple[list[Piece], Warp]:

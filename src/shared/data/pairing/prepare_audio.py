@@ -60,15 +60,11 @@ def load_trajectory(out: Place, entry: Entry) -> np.ndarray:
     return load_array(out / entry["record"]["motion"]["path"])
 
 
-def load_phase(out: Place, entry: Entry) -> np.ndarray:
-    """Unwrapped bars [T] of a phrase."""
-    return load_arrays(out / entry["record"]["features"]["path"], ["phase"])["phase"]
-
-
 def encoded_windows(out: Place, entries: Sequence[Entry]) -> Iterator[np.ndarray]:
     """Windows [25,T] of phrases, half overlapping; a shorter phrase is one window."""
     for entry in entries:
-        trajectory, phase = load_trajectory(out, entry), load_phase(out, entry)
+        trajectory = load_trajectory(out, entry)
+        phase = load_arrays(out / entry["record"]["features"]["path"], ["phase"])["phase"]
         for start in range(0, max(1, len(phase) - WINDOW_FRAMES + 1), WINDOW_FRAMES // 2):
             part = slice(start, start + WINDOW_FRAMES)
             yield encode_window(trajectory[part], phase[part])
@@ -103,19 +99,18 @@ def make_report(
 ) -> dict[str, Any]:
     """The content of report.json."""
     splits = Counter(entry["record"]["split"] for entry in entries)
+    of_split: dict[str, Sequence[Entry]] = {
+        split: [entry for entry in entries if entry["record"]["split"] == split] for split in splits
+    }
     rates = np.concatenate([entry["pair"]["warp"]["rates"] for entry in entries])
     return {
         "phrases": len(entries),
         "hours": _hours(entries),
         "songs": len({entry["record"]["song"] for entry in entries}),
         "by_split": dict(splits),
-        "hours_by_split": {
-            split: _hours([e for e in entries if e["record"]["split"] == split]) for split in splits
-        },
-        "alignment": {"all": _alignment(entries)}
-        | {
-            split: _alignment([e for e in entries if e["record"]["split"] == split])
-            for split in splits
+        "hours_by_split": {split: _hours(some) for split, some in of_split.items()},
+        "alignment": {
+            split: _alignment(some) for split, some in ({"all": entries} | of_split).items()
         },
         "warp": {
             "rate_percentiles": _percentiles(rates),
@@ -182,13 +177,8 @@ def _near(frames: Iterable[int], num_frames: int) -> np.ndarray:
 
 def _percentiles(values: np.ndarray) -> dict[str, float]:
     """Five points of a distribution; empty without values."""
-    if not len(values):
-        return {}
-    points = (5, 25, 50, 75, 95)
-    return {
-        f"p{p}": round(float(v), 4)
-        for p, v in zip(points, np.percentile(values, points), strict=True)
-    }
+    points = (5, 25, 50, 75, 95) if len(values) else ()
+    return {f"p{p}": round(float(np.percentile(values, p)), 4) for p in points}
 
 
 def _seconds_by_source(entries: Sequence[Entry], library: ClipLibrary) -> dict[str, float]:
@@ -263,7 +253,7 @@ class SongJob:
     key: str
 
 
-def pair_song(job: SongJob) -> list[dict[str, Any]]:
+def pair_song(job: SongJob) -> list[Entry]:
     """Make the phrases of one song that are missing; what cannot be made is recorded."""
     if done := finished_song(job):  # by a worker that was lost before it could tell
         return done
@@ -353,7 +343,7 @@ def _entry(name: str, record: PhraseRecord, pair: PhrasePair, start: int) -> dic
         "pair": {
             "song_frame": start,
             "frames": len(pair.position) - SPARE,
-            "pieces": [piece.to_json() for piece in pair.motion.pieces],
+            "pieces": [asdict(piece) for piece in pair.motion.pieces],
             "warp": {
                 "start": pair.warp.start,
                 "knot_seconds": KNOT_SECONDS,
@@ -385,7 +375,7 @@ def _mark(job: SongJob, entry: dict[str, Any]) -> dict[str, Any]:
     return entry
 
 
-def _read_finished(job: SongJob, name: str) -> dict[str, Any] | None:
+def _read_finished(job: SongJob, name: str) -> Entry | None:
     """A phrase's entry, if it was made of the same and its files are whole."""
     entry = finished_record(_phrase_path(job.out, name), job.key)
     if entry is None:
@@ -397,7 +387,7 @@ def _read_finished(job: SongJob, name: str) -> dict[str, Any] | None:
     return entry
 
 
-def _finish(job: SongJob, entries: list[dict[str, Any]]) -> list[dict[str, Any]]:
+def _finish(job: SongJob, entries: list[Entry]) -> list[Entry]:
     """Mark the song as done: the names of its phrases, so that it need not be heard again."""
     names = [entry["id"] for entry in entries]
     for entry in entries:
@@ -407,7 +397,7 @@ def _finish(job: SongJob, entries: list[dict[str, Any]]) -> list[dict[str, Any]]
     return entries
 
 
-def finished_song(job: SongJob) -> list[dict[str, Any]] | None:
+def finished_song(job: SongJob) -> list[Entry] | None:
     """The entries of a song that is done; None if anything is missing or of another key."""
     song = finished_record(job.out / "songs" / f"{job.entry.id}.json", job.key)
     if song is None:
@@ -455,9 +445,7 @@ def prepare_audio(
 
     Args:
         data: what `prepare` wrote.
-        sources: of music.
         out: folder of the pairs.
-        options: see `PairOptions`.
         workers, scheduler: who does it, as `run_jobs` has them.
         progress: called after each song.
 
@@ -469,8 +457,9 @@ def prepare_audio(
     )
     _, library = motions.open(data)
     if not library.clips:
+        reasons = ", ".join(f"{number}: {why}" for why, number in library.left_out.items())
         raise UserError(
-            f"{data.folder}: no clip can be used ({_counts(library.left_out)}); give motions that"
+            f"{data.folder}: no clip can be used ({reasons}); give motions that"
             " travel or step, or add the synthetic ones"
         )
     jobs = _jobs(motions, library, sources, out.absolute(), options)
@@ -494,10 +483,6 @@ def prepare_audio(
     return report
 
 
-def _counts(left_out: dict[str, int]) -> str:
-    return ", ".join(f"{number}: {reason}" for reason, number in left_out.items())
-
-
 def _jobs(
     motions: Motions,
     library: ClipLibrary,
@@ -519,7 +504,7 @@ def _jobs(
 
 def _run(
     jobs: list[SongJob], workers: int | None, scheduler: str | None, progress: Progress
-) -> list[dict[str, Any]]:
+) -> list[Entry]:
     finished = [finished_song(job) for job in jobs]
     made = [entry for found in finished if found is not None for entry in found]
     todo = [job for job, found in zip(jobs, finished, strict=True) if found is None]
@@ -544,9 +529,7 @@ def _remove_stale(out: Place, wanted: set[str]) -> None:
             path.unlink()
 
 
-def _manifest(
-    phrases: list[dict[str, Any]], data: PreparedData, options: PairOptions
-) -> dict[str, Any]:
+def _manifest(phrases: list[Entry], data: PreparedData, options: PairOptions) -> dict[str, Any]:
     return {
         "version": 1,  # of the layout
         "method": VERSION,

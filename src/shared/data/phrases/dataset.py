@@ -314,11 +314,7 @@ class MotionPhraseDataset(torch.utils.data.Dataset[tuple[Tensor, Tensor]]):
         return PhraseItem(motion, audio, torch.arange(self.target_frames) < length, record, body)
 
     def whole(self, index: int) -> DecodedPhrase | None:
-        """A phrase in its full length; None in quarantine.
-
-        Raises:
-            UserError: too many phrases are bad.
-        """
+        """A phrase in its full length, None in quarantine; raises UserError as `item`."""
         return self._load(self.phrases[index])
 
     def _load(self, record: PhraseRecord) -> DecodedPhrase | None:
@@ -451,20 +447,13 @@ FEATURE_ROWS = 163  # of sound; phases are no features
 
 
 def motion_statistics(dataset: MotionPhraseDataset) -> tuple[Tensor, Tensor]:
-    """Mean and standard deviation [25] of the window rows over real frames of up to `MOST` items.
-
-    Raises:
-        UserError: no phrase can be used.
-    """
+    """Mean and deviation [25] of the window rows over real frames of up to `MOST` items; raises
+    UserError where no phrase can be used."""
     return _statistics(dataset, lambda item: item.motion)
 
 
 def sound_statistics(dataset: MotionPhraseDataset) -> tuple[Tensor, Tensor]:
-    """Mean and standard deviation [163] of the features of sound, as `motion_statistics`.
-
-    Raises:
-        UserError: no phrase can be used.
-    """
+    """Mean and deviation [163] of the features of sound, as `motion_statistics`."""
     return _statistics(dataset, lambda item: item.audio[:FEATURE_ROWS])
 
 

@@ -19,7 +19,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import IO, Any, overload
+from typing import IO, Any
 
 import numpy as np
 from pydantic import BaseModel, ValidationError, field_validator
@@ -394,13 +394,7 @@ class PhraseTable(Sequence[PhraseRecord]):
     def __len__(self) -> int:
         return len(self._begins)
 
-    @overload
-    def __getitem__(self, index: int) -> PhraseRecord: ...
-    @overload
-    def __getitem__(self, index: slice) -> list[PhraseRecord]: ...
-    def __getitem__(self, index: int | slice) -> PhraseRecord | list[PhraseRecord]:
-        if isinstance(index, slice):
-            return [self[number] for number in range(*index.indices(len(self)))]
+    def __getitem__(self, index: int) -> PhraseRecord:  # type: ignore[override]  # no slices
         begin, end = self._begins[index], self._ends[index]
         with self._path.open("rb") as stream:  # anew: threads and processes read at once
             stream.seek(begin)

@@ -117,11 +117,7 @@ class ObjectCache:
         return data
 
     def put(self, obj: StoredObject, data: bytes) -> None:
-        """Keep the verified bytes of an object.
-
-        Raises:
-            UserError: the cache cannot be written.
-        """
+        """Keep the verified bytes of an object; raises UserError where they cannot be written."""
         digest = hashlib.sha256(data).hexdigest()
         with atomic_write(self._path(digest)) as temporary:
             temporary.write_bytes(data)
@@ -164,7 +160,7 @@ class ObjectCache:
 
 Value = TypeVar("Value")
 
-_COUNTING = threading.Lock()
+_COUNTING, _ADDING = threading.Lock(), threading.Lock()  # here: what holds one is not pickled
 
 
 class PhraseStore:
@@ -264,7 +260,6 @@ class Quarantine:
     ) -> None:
         self.path, self.root, self.max_bad_fraction = path, root, max_bad_fraction
         self._phrases = phrases
-        self._lock = threading.Lock()
         self.reasons: dict[str, str] = {}
         self._learn(self._read())
         self._require_few()
@@ -278,7 +273,7 @@ class Quarantine:
         Raises:
             UserError: too many phrases are bad.
         """
-        with self._lock:
+        with _ADDING:
             self.reasons[phrase.id] = reason
             if keep:
                 self._save(phrase, reason)
@@ -315,9 +310,3 @@ class Quarantine:
             f" {self.max_bad_fraction:g}: {named}{more}; mend them, or remove {self.path}"
             " to try again"
         )
-
-    def __getstate__(self) -> dict[str, object]:
-        return {name: value for name, value in self.__dict__.items() if name != "_lock"}
-
-    def __setstate__(self, state: dict[str, object]) -> None:
-        self.__dict__.update(state, _lock=threading.Lock())

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...errors import UsageError
 from ...formats.readers.humanml import BENDS, LEFT, UP
-from ...formats.rig import SourceClip, rest_positions
+from ...formats.rig import SourceClip, rest_positions, units
 from ...motion.skeleton import JOINT_INDEX, JOINT_NAMES, PARENTS, canonical_skeleton
 from .mapping import SkeletonMapping
 
@@ -27,11 +27,7 @@ SAMPLES = 200  # frames that are looked at
 
 
 def unit_metres(unit: str) -> float:
-    """Metres of a unit of length by name.
-
-    Raises:
-        UsageError: no such unit.
-    """
+    """Metres of a unit of length by name; raises UsageError where there is none."""
     if unit not in UNITS:
         raise UsageError(f"--unit {unit!r} is not known; choose from {', '.join(UNITS)}")
     return UNITS[unit]
@@ -49,11 +45,7 @@ def detect_unit(legs: float) -> str:
 
 
 def axis_vector(axis: str) -> np.ndarray:
-    """Unit vector [3] of "Y", "-Z", …
-
-    Raises:
-        UsageError: no such axis.
-    """
+    """Unit vector [3] of "Y", "-Z", …; raises UsageError for what is no axis."""
     name = axis.upper()
     name = name[1:] if name[:1] == "+" and "-" not in name else name
     if name not in AXES:
@@ -216,8 +208,7 @@ class _Look:
         if ours not in BENDS:
             return None
         middle, end, hinge = BENDS[ours]
-        lower = self.steps(middle, end, ours)
-        lower /= np.maximum(np.linalg.norm(lower, axis=-1, keepdims=True), 1e-9)
+        lower = units(self.steps(middle, end, ours))
         normals = np.cross(bone, lower)  # length: sine of the bend
         mean = normals.mean(0)
         if np.linalg.norm(mean) < max(BENT, 0.7 * np.linalg.norm(normals, axis=-1).mean()):

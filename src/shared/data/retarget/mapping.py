@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Literal, TypeVar
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, ValidationError, field_validator
+from pydantic import BaseModel, ValidationError, field_validator
 
 from ...config_loader import load_yaml, packaged_config
 from ...errors import UsageError, UserError, first_fault
@@ -55,10 +55,8 @@ REQUIRED = tuple(
 COMMON_PREFIX = 0.8  # of a file's joints must share what is taken for their prefix
 
 
-class SkeletonMapping(BaseModel):
+class SkeletonMapping(BaseModel, frozen=True, extra="forbid"):
     """One profile of skeletons.yaml."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
     name: str
     joints: dict[str, str]
@@ -95,10 +93,8 @@ def _axes_matrix(directions: tuple[Axis, Axis, Axis]) -> np.ndarray:
     return np.stack(columns, -1)
 
 
-class MappingFile(BaseModel):
+class MappingFile(BaseModel, frozen=True, extra="forbid"):
     """skeletons.yaml."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
     profiles: tuple[SkeletonMapping, ...]
 

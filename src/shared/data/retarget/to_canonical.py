@@ -5,7 +5,6 @@ joints in between (a second spine, a hip helper) need no counterpart.
 """
 
 from dataclasses import replace
-from functools import lru_cache
 
 import numpy as np
 
@@ -83,7 +82,7 @@ def rest_corrections(clip: SourceClip, mapping: SkeletonMapping) -> dict[str, np
     return corrections
 
 
-def _line(clip: SourceClip, joint: int, descendant: int) -> list[int]:
+def line_between(clip: SourceClip, joint: int, descendant: int) -> list[int]:
     """The joints below a joint down to a descendant, the lowest first; none if it is not below."""
     line = []
     while descendant != joint and descendant >= 0:
@@ -94,27 +93,22 @@ def _line(clip: SourceClip, joint: int, descendant: int) -> list[int]:
 
 def _bone(clip: SourceClip, joint: int, descendant: int) -> np.ndarray:
     """Rest offset of a descendant in a joint's frame (rest rotations are identities in BVH)."""
-    return np.asarray(clip.offsets[_line(clip, joint, descendant)].sum(0), np.float64)
+    return np.asarray(clip.offsets[line_between(clip, joint, descendant)].sum(0), np.float64)
 
 
 def leg_length(clip: SourceClip, mapping: SkeletonMapping) -> float:
     """Hip to ankle, mean of both sides, in the source's unit."""
     j = joint_indices(clip, mapping)
-    return float(
-        np.mean(
-            [
-                np.linalg.norm(_bone(clip, j[f"{s}_hip"], j[f"{s}_knee"]))
-                + np.linalg.norm(_bone(clip, j[f"{s}_knee"], j[f"{s}_ankle"]))
-                for s in "lr"
-            ]
-        )
-    )
+    bones = (("hip", "knee"), ("knee", "ankle"))
+    legs = [[np.linalg.norm(_bone(clip, j[f"{s}_{a}"], j[f"{s}_{b}"])) for a, b in bones]
+            for s in "lr"]  # fmt: skip
+    return float(np.mean(np.sum(legs, 1)))
 
 
 def has_short_legs(clip: SourceClip, mapping: SkeletonMapping) -> bool:
     """Whether the body has a cartoon's proportions: hardly any legs for its trunk."""
     j = joint_indices(clip, mapping)
-    trunk = clip.offsets[_line(clip, j["pelvis"], j["head"])]
+    trunk = clip.offsets[line_between(clip, j["pelvis"], j["head"])]
     return bool(np.linalg.norm(trunk, axis=-1).sum() > SHORT_LEGS * leg_length(clip, mapping))
 
 
@@ -126,13 +120,8 @@ _TOUCH = {
     "l_elbow": 0.03, "r_elbow": 0.03, "l_wrist": 0.02, "r_wrist": 0.02,
 }  # fmt: skip
 BLOCK = 200_000  # frames times joints that are worked on at once
+_HIP_CENTRE = canonical_skeleton().offsets[[JOINT_INDEX["l_hip"], JOINT_INDEX["r_hip"]]].sum(0) / 2
 CALIBRATION_JUMP = 0.15  # radians a joint, mean, between the first two frames
-
-
-@lru_cache
-def _hip_centre() -> np.ndarray:
-    offsets = canonical_skeleton().offsets
-    return np.asarray((offsets[JOINT_INDEX["l_hip"]] + offsets[JOINT_INDEX["r_hip"]]) / 2)
 
 
 def _fill_gaps(world: np.ndarray, mapped: set[str]) -> np.ndarray:
@@ -216,7 +205,7 @@ def _carry_over(
         world[:, ours] = turn @ rotations[:, theirs] @ turned
         world = _fill_gaps(world, set(mapping.joints))
         hips = positions[:, [index["l_hip"], index["r_hip"]]].mean(1) @ turn.T
-        root[frames] = hips * scale - world[:, 0] @ _hip_centre()
+        root[frames] = hips * scale - world[:, 0] @ _HIP_CENTRE
         local = global_to_local(torch.as_tensor(world), PARENTS)
         quaternions[frames] = matrix_to_quaternion(local).numpy()
     return quaternion_continuous(torch.as_tensor(quaternions), dim=0).numpy(), root

@@ -21,7 +21,7 @@ from ...motion.motion import Motion
 from ...motion.skeleton import JOINT_INDEX, LEG_LENGTH, NUM_JOINTS, REST_FOOT_HEIGHT
 from .autodetection import UNITS, detect_unit, detect_up, joint_indices, rest_frame, upright
 from .mapping import SkeletonMapping, load_mappings, mapping_of
-from .to_canonical import leg_length, rest_corrections
+from .to_canonical import leg_length, line_between, rest_corrections
 
 HIPS = (JOINT_INDEX["l_hip"], JOINT_INDEX["r_hip"])
 STANDING = 0.3  # of the legs: feet of a rest pose that are no higher than this stand on the floor
@@ -38,7 +38,6 @@ def retarget_out(
     """A motion as the movement of another skeleton, on the floor, at the motion's rate.
 
     Args:
-        motion: what to carry over.
         rig: the skeleton, in its own unit.
         mapping: which of its joints play ours; all of them are there.
         up: the up axis of the rig's world: "Y", "Z", "-X", …
@@ -95,7 +94,9 @@ def _placed(clip: RigClip, index: dict[str, int], hips: np.ndarray) -> RigClip:
     """Move the pelvis so that the middle of the hips is at `hips` [T,3], in the rig's world."""
     positions, world = clip.world()
     step = hips - positions[:, [index["l_hip"], index["r_hip"]]].mean(1)
-    mover = index["pelvis"] if _carries_hips(clip.rig, index) else 0
+    pelvis, hips_of = index["pelvis"], (index["l_hip"], index["r_hip"])
+    below = (hip == pelvis or line_between(clip, pelvis, hip) for hip in hips_of)
+    mover = pelvis if all(below) else 0  # the pelvis, if both hips hang from it
     parent = clip.parents[mover]
     if parent >= 0:
         step = (world[:, parent].swapaxes(-1, -2) @ step[..., None])[..., 0]
@@ -123,17 +124,6 @@ def _lift(
         ball = (rest.rig.rest() @ turn.T)[balls, 1].mean()
         floor = ball if 0.0 <= ball < STANDING * scale * LEG_LENGTH else floor
     return float(floor + below - canonical_rig().rest()[list(HIPS), 1].mean() * scale)
-
-
-def _carries_hips(rig: Rig, index: dict[str, int]) -> bool:
-    """Whether both hips hang from the joint that is mapped as the pelvis."""
-    for side in "lr":
-        joint = index[f"{side}_hip"]
-        while joint >= 0 and joint != index["pelvis"]:
-            joint = rig.parents[joint]
-        if joint < 0:
-            return False
-    return True
 
 
 @dataclass(frozen=True, eq=False)
@@ -188,7 +178,6 @@ def read_target(path: str | Path, *, mapping: Path | None = None) -> Target:
     Its own motion only tells which way is up and, where the rest pose does not, its axes.
 
     Args:
-        path: the file.
         mapping: YAML with skeleton profiles that go before ours.
 
     Raises:

@@ -237,15 +237,9 @@ def _table_rows(path: Path, text: str, delimiter: str) -> list[_Row]:
     header = [_KEYS.get(cell.strip().lower(), "") for cell in lines[0][1]] if lines else []
     if "clip" in header and {"caption", "action"} & set(header):
         columns, lines = header, lines[1:]
-    return [(f"line {number}", _cells(zip(columns, row, strict=False))) for number, row in lines]
-
-
-def _cells(pairs: Iterable[tuple[str, str]]) -> dict[str, str]:
-    """Cells by key; of several columns for one key, the first."""
-    cells: dict[str, str] = {}
-    for key, value in pairs:
-        cells.setdefault(key, value)
-    return cells
+    cells = [(number, [*zip(columns, row, strict=False)]) for number, row in lines]
+    # Of several columns for one key the first counts.
+    return [(f"line {number}", dict(reversed(pairs))) for number, pairs in cells]
 
 
 def _json_rows(path: Path, text: str) -> list[_Row]:
@@ -260,12 +254,9 @@ def _json_rows(path: Path, text: str) -> list[_Row]:
         for number, entry in enumerate(content):
             if not isinstance(entry, dict):
                 raise UserError(f"captions {path}, entry {number}: expected an object")
-            known = (
-                (_KEYS.get(str(key), ""), str(value))
-                for key, value in entry.items()
-                if value is not None
-            )
-            rows.append((f"entry {number}", _cells(known)))
+            given = [(key, value) for key, value in entry.items() if value is not None]
+            cells = {_KEYS.get(str(key), ""): str(value) for key, value in reversed(given)}
+            rows.append((f"entry {number}", cells))
         return rows
     if not isinstance(content, dict):
         raise UserError(f"captions {path}: expected an object or a list")
@@ -274,10 +265,8 @@ def _json_rows(path: Path, text: str) -> list[_Row]:
         for language, texts in by_language.items():
             for caption in texts if isinstance(texts, list) else [texts]:
                 if not isinstance(caption, str):
-                    raise UserError(
-                        f"captions {path}, {clip!r}: {caption!r:.60} is not text"
-                        "; write it in quotes"
-                    )
+                    raise UserError(f"captions {path}, {clip!r}: {caption!r:.60} is not text; "
+                                    "write it in quotes")  # fmt: skip
                 cells = {"clip": clip, "language": language, "caption": caption}
                 rows.append((f"{clip!r}", cells))
     return rows

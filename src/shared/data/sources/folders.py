@@ -14,7 +14,7 @@ from pathlib import Path, PurePath, PurePosixPath
 from typing import Any
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, field_validator
+from pydantic import BaseModel, field_validator
 
 from ...config_schema import Provenance
 from ...errors import UsageError, UserError
@@ -30,9 +30,7 @@ from ..synthetic.clips import SyntheticSpec, generate_clip, sample_specs
 from .caption_tables import Piece, Table, match_captions, read_captions, without_ending
 
 
-class _Rule(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
+class _Rule(BaseModel, frozen=True, extra="forbid"):
     pattern: str
     labels: Labels = {}
 
@@ -53,10 +51,8 @@ class FileRule(_Rule):
     skip: str | None = None
 
 
-class LabelRules(BaseModel):
+class LabelRules(BaseModel, frozen=True, extra="forbid"):
     """labels.yaml."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
     files: tuple[FileRule, ...] = ()
     captions: tuple[_Rule, ...] = ()

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import torch
 
+from ...formats.rig import units
 from ...motion.motion import Motion
 from ...motion.rotations import matrix_to_quaternion, quaternion_continuous
 from ...motion.skeleton import (
@@ -82,19 +83,13 @@ def smooth_noise(rng: np.random.Generator, t: Array, amplitude: float, period: f
     return np.asarray(amplitude * (weights * np.sin(t[:, None] * rates + phases)).sum(1))
 
 
-def gaussian_smooth(values: Array, sigma: float) -> Array:
-    """Gaussian filter along time, `sigma` in frames; ends are repeated."""
-    radius = int(np.ceil(3 * sigma))
-    kernel = np.exp(-0.5 * (np.arange(-radius, radius + 1) / sigma) ** 2)
-    padded = np.pad(values, radius, mode="edge")
-    return np.convolve(padded, kernel / kernel.sum(), mode="valid")
-
-
 def upper_envelope(values: Array, radius: int) -> Array:
-    """A smooth curve that stays above `values`: running maximum, then a narrower smoothing."""
+    """A smooth curve that stays above `values`: running maximum, then a narrower smoothing, which
+    is Gaussian; ends are repeated."""
     padded = np.pad(values, radius, mode="edge")
     highest = np.lib.stride_tricks.sliding_window_view(padded, 2 * radius + 1).max(1)
-    return gaussian_smooth(highest, radius / 3)
+    kernel = np.exp(-0.5 * (np.arange(-radius, radius + 1) / (radius / 3)) ** 2)
+    return np.convolve(np.pad(highest, radius, mode="edge"), kernel / kernel.sum(), mode="valid")
 
 
 FPS = 30.0
@@ -262,10 +257,6 @@ def _frame(hinge: Array, bone: Array) -> Array:
     return np.stack((hinge, -bone, np.cross(hinge, -bone)), -1)
 
 
-def _unit(vector: Array) -> Array:
-    return np.asarray(vector / np.maximum(np.linalg.norm(vector, axis=-1, keepdims=True), 1e-9))
-
-
 def _pose_leg(
     body: Body, side: int, pelvis: Array, reach: Array, foot: Array, local: Array
 ) -> None:
@@ -277,13 +268,13 @@ def _pose_leg(
     foot_turn = np.angle(np.exp(1j * (body.foot_yaw[:, side] - body.yaw)))
     hinge = pelvis @ rotation(1, 0.6 * foot_turn + outward)[..., 0][..., None]
     hinge = hinge.squeeze(-1)
-    hinge = _unit(hinge - (hinge * toward).sum(-1, keepdims=True) * toward)
+    hinge = units(hinge - (hinge * toward).sum(-1, keepdims=True) * toward)
     bend = np.cross(toward, hinge)
     along = (clipped**2 + _THIGH**2 - _SHIN**2) / (2 * clipped)
     across = np.sqrt(np.maximum(_THIGH**2 - along**2, 0.0))
     knee = along[:, None] * toward + across[:, None] * bend
-    thigh = _frame(hinge, _unit(knee))
-    shin = _frame(hinge, _unit(clipped[:, None] * toward - knee))
+    thigh = _frame(hinge, units(knee))
+    shin = _frame(hinge, units(clipped[:, None] * toward - knee))
     letter = "lr"[side]
     local[:, JOINT_INDEX[letter + "_hip"]] = pelvis.swapaxes(-1, -2) @ thigh
     local[:, JOINT_INDEX[letter + "_knee"]] = thigh.swapaxes(-1, -2) @ shin

@@ -47,7 +47,7 @@ def test_every_style_is_worded_as_adverb_subject_and_gait(book: CaptionBook, lan
     language = book.language(lang)
     for style in set(STYLES) - {"normal"}:
         for slot in ("style", "style.who", "style.gait"):
-            assert (language.slot_table("walk", slot) or {}).get(style), (style, slot)
+            assert language._slots["walk"].get(slot, {}).get(style), (style, slot)
 
 
 @settings(max_examples=40)

@@ -21,6 +21,4 @@ def walker(
     beats = np.arange(period / 2, seconds, period)
     cuts = np.rint(beats * FPS).astype(int)
     cuts = cuts[(cuts >= 6) & (cuts < len(t) - 6)]
-    return Clip(
-        name, name, "walk", "made", split, root, tilt, cuts, period, _match(root, tilt, cuts)
-    )
+    return Clip(name, "walk", "made", split, root, tilt, cuts, period, _match(root, tilt, cuts))
