@@ -188,7 +188,7 @@ def test_a_bvh_skeleton_keeps_names_offsets_orders_and_unit(tmp_path: Path) -> N
     assert after.rotation_orders == before.rotation_orders
     np.testing.assert_array_equal(after.offsets, before.offsets)
     assert after.end_sites == before.end_sites
-    assert after.fps == pytest.approx(60.0, rel=1e-5)
+    assert 1 / after.frame_time == pytest.approx(60.0, rel=1e-5)
     angle, _ = differences(random_motion(5, 13, 60.0), read_motion(out, fps=None))
     assert angle <= 1e-4
     # GLB counts in metres: the centimetres of the skeleton are guessed from its legs.
