@@ -61,8 +61,8 @@ class Landing:
     height: float = 0.0
 
 
-Arms = Callable[[Array, Array, Array], Array]
 Angles = dict[str, Array | float]  # of an arm, by name, degrees
+Arms = Callable[[float, Array, Array, Array], Angles]
 
 
 @dataclass(frozen=True)
@@ -284,7 +284,7 @@ def _body(steps: Steps, time: Array, period: float) -> Body:
     cycles = [ARMS[steps.arms[n % len(steps.arms)]] for n in range(stop // length + 2)]
     which = np.floor(time / length).astype(int) + 1
     fade = min_jerk((time % length) / 0.8)  # from the manner of the cycle before
-    made = {manner: np.radians(manner(time, side, up)) for manner in set(cycles)}
+    made = {manner: _arms(manner, time, side, up) for manner in set(cycles)}
     now = np.stack([made[cycles[n]][frame] for frame, n in enumerate(which)])
     past = np.stack([made[cycles[max(n - 1, 0)]][frame] for frame, n in enumerate(which)])
     body.arms[:] = past + (now - past) * fade[:, None, None]
@@ -323,7 +323,7 @@ def _feet(steps: Steps, body: Body, time: Array, span: range) -> tuple[Array, Ar
         if whole:
             weight = weight + (float(side == LEFT) - weight) * goes
         if steps.turned:
-            heading = heading + (place[2] - heading) * min_jerk((time - count + ARRIVES) / ARRIVES)
+            heading = heading + (place[2] - heading) * goes
     share = 0.5 + 0.38 * (2 * weight - 1)
     stands = _standing_points(time, places)
     over = stands[:, LEFT] * share[:, None] + stands[:, RIGHT] * (1 - share[:, None])
@@ -376,15 +376,22 @@ _INDEX = {"flex": FLEX, "abduct": ABDUCT, "twist": TWIST, "elbow": ELBOW, "prona
           "wrist": WRIST, "deviate": DEVIATE}  # fmt: skip
 
 
-def _arms(time: Array, left: Angles, right: Angles) -> Array:
-    """Angles [T,2,7] of both arms; what is not named hangs."""
+def _arms(manner: Arms, time: Array, side: Array, up: Array) -> Array:
+    """Radians [T,2,7] of both arms; what a manner does not name hangs.
+
+    Args:
+        manner: of one arm.
+        time: in counts [T].
+        side: where the weight is [T], from 1 on the left foot to -1 on the right one.
+        up: 0 to 1 [T], high on the counts that are no first of a bar.
+    """
     found = np.zeros((len(time), 2, 7))
     found[..., :5] = (4.0, 12.0, -12.0, 20.0, 12.0)
     found[..., WRIST] = 6.0
-    for side, angles in ((LEFT, left), (RIGHT, right)):
-        for name, value in angles.items():
-            found[:, side, _INDEX[name]] = value
-    return found
+    for arm, sign in ((LEFT, 1.0), (RIGHT, -1.0)):
+        for name, value in manner(sign, time, sign * side, up).items():
+            found[:, arm, _INDEX[name]] = value
+    return np.radians(found)
 
 
 def _wave(time: Array, counts: float, lag: float = 0.0) -> Array:
@@ -392,160 +399,112 @@ def _wave(time: Array, counts: float, lag: float = 0.0) -> Array:
     return np.asarray(np.cos(2 * np.pi * (time - lag) / counts))
 
 
-def _swing(time: Array, side: Array, up: Array) -> Array:
+# Manners: `sign` is 1 for the left arm and -1 for the right one, `own` 1 where the weight is on the
+# arm's own side and -1 where it is on the other; the rest is as of `_arms`.
+
+
+def _swing(sign: float, time: Array, own: Array, up: Array) -> Angles:
     """Bent arms that swing against the hips."""
-
-    def arm(sign: float) -> Angles:
-        bent = 78 + 14 * _wave(time, 1)
-        return {"flex": 18 - sign * 34 * side, "abduct": 20.0, "elbow": bent, "twist": -20.0}
-
-    return _arms(time, arm(1.0), arm(-1.0))
+    bent = 78 + 14 * _wave(time, 1)
+    return {"flex": 18 - 34 * own, "abduct": 20.0, "elbow": bent, "twist": -20.0}
 
 
-def _open(time: Array, side: Array, up: Array) -> Array:
+def _open(sign: float, time: Array, own: Array, up: Array) -> Angles:
     """Out to the sides on one count, before the chest on the next."""
     out = 0.5 + 0.5 * _wave(time, 2)
-
-    def arm(sign: float) -> Angles:
-        return {
-            "flex": 48 - 30 * out, "abduct": 18 + 62 * out + 8 * sign * side,
-            "elbow": 112 - 88 * out, "twist": -20 + 30 * out, "wrist": 20 - 30 * out,
-        }  # fmt: skip
-
-    return _arms(time, arm(1.0), arm(-1.0))
+    return {
+        "flex": 48 - 30 * out, "abduct": 18 + 62 * out + 8 * own,
+        "elbow": 112 - 88 * out, "twist": -20 + 30 * out, "wrist": 20 - 30 * out,
+    }  # fmt: skip
 
 
-def _reach(time: Array, side: Array, up: Array) -> Array:
+def _reach(sign: float, time: Array, own: Array, up: Array) -> Angles:
     """The arm over the standing leg reaches up and out, the other hand rests near the hip."""
-
-    def arm(sign: float) -> Angles:
-        high = min_jerk(0.5 + 0.5 * sign * side)
-        return {
-            "flex": 8 + 42 * high, "abduct": 38 + 88 * high, "elbow": 82 - 66 * high,
-            "twist": -35 + 60 * high, "wrist": 10 - 20 * high,
-        }  # fmt: skip
-
-    return _arms(time, arm(1.0), arm(-1.0))
+    high = min_jerk(0.5 + 0.5 * own)
+    return {
+        "flex": 8 + 42 * high, "abduct": 38 + 88 * high, "elbow": 82 - 66 * high,
+        "twist": -35 + 60 * high, "wrist": 10 - 20 * high,
+    }  # fmt: skip
 
 
-def _circle(time: Array, side: Array, up: Array) -> Array:
+def _circle(sign: float, time: Array, own: Array, up: Array) -> Angles:
     """Hands go round each other before the body, up on one side and down on the other."""
-
-    def arm(lag: float, sign: float) -> Angles:
-        rises, out = _wave(time, 4, lag), np.sin(2 * np.pi * (time - lag) / 4)
-        return {
-            "flex": 55 + 42 * rises, "abduct": 25 + 22 * sign * out, "elbow": 78 - 26 * rises,
-            "twist": 15.0 + 15 * rises,
-        }  # fmt: skip
-
-    return _arms(time, arm(0.0, 1.0), arm(2.0, -1.0))
+    lag = 1 - sign  # half a turn behind
+    rises, out = _wave(time, 4, lag), np.sin(2 * np.pi * (time - lag) / 4)
+    return {
+        "flex": 55 + 42 * rises, "abduct": 25 + 22 * sign * out, "elbow": 78 - 26 * rises,
+        "twist": 15.0 + 15 * rises,
+    }  # fmt: skip
 
 
-def _high(time: Array, side: Array, up: Array) -> Array:
+def _high(sign: float, time: Array, own: Array, up: Array) -> Angles:
     """Both arms overhead, swaying with the weight and pumping on the counts."""
     pump = 10 * _wave(time, 1)
-
-    def arm(sign: float) -> Angles:
-        return {
-            "flex": 128.0 + pump, "abduct": 30 + 22 * sign * side, "elbow": 42 - 14 * sign * side,
-            "twist": 20.0, "wrist": 12 * _wave(time, 1, 0.2),
-        }  # fmt: skip
-
-    return _arms(time, arm(1.0), arm(-1.0))
+    return {
+        "flex": 128.0 + pump, "abduct": 30 + 22 * own, "elbow": 42 - 14 * own,
+        "twist": 20.0, "wrist": 12 * _wave(time, 1, 0.2),
+    }  # fmt: skip
 
 
-def _push(time: Array, side: Array, up: Array) -> Array:
+def _push(sign: float, time: Array, own: Array, up: Array) -> Angles:
     """One arm pushes forward and up while the other elbow draws back."""
-
-    def arm(sign: float) -> Angles:
-        out = min_jerk(0.5 + 0.5 * sign * -side)
-        return {
-            "flex": -22 + 100 * out, "abduct": 26.0 - 10 * out, "elbow": 112 - 92 * out,
-            "twist": -25 + 25 * out, "wrist": -30 * out,
-        }  # fmt: skip
-
-    return _arms(time, arm(1.0), arm(-1.0))
+    out = min_jerk(0.5 - 0.5 * own)
+    return {
+        "flex": -22 + 100 * out, "abduct": 26.0 - 10 * out, "elbow": 112 - 92 * out,
+        "twist": -25 + 25 * out, "wrist": -30 * out,
+    }  # fmt: skip
 
 
-def _flow(time: Array, side: Array, up: Array) -> Array:
+def _flow(sign: float, time: Array, own: Array, up: Array) -> Angles:
     """Long arms that float out and sway across with the weight."""
-
-    def arm(sign: float) -> Angles:
-        return {
-            "flex": 26 - 26 * sign * side, "abduct": 34 + 20 * up + 18 * sign * side,
-            "elbow": 58 - 12 * up - 14 * sign * side, "twist": 15.0, "wrist": -14 * up,
-        }  # fmt: skip
-
-    return _arms(time, arm(1.0), arm(-1.0))
+    return {
+        "flex": 26 - 26 * own, "abduct": 34 + 20 * up + 18 * own,
+        "elbow": 58 - 12 * up - 14 * own, "twist": 15.0, "wrist": -14 * up,
+    }  # fmt: skip
 
 
-def _waist(time: Array, side: Array, up: Array) -> Array:
+def _waist(sign: float, time: Array, own: Array, up: Array) -> Angles:
     """Hands at the waist, one elbow forward and the other back with the weight."""
-
-    def arm(sign: float) -> Angles:
-        return {
-            "flex": 4 - 16 * sign * side, "abduct": 40 + 8 * up, "elbow": 98 - 8 * up,
-            "twist": -36.0,
-        }  # fmt: skip
-
-    return _arms(time, arm(1.0), arm(-1.0))
+    return {"flex": 4 - 16 * own, "abduct": 40 + 8 * up, "elbow": 98 - 8 * up, "twist": -36.0}
 
 
-def _gather(time: Array, side: Array, up: Array) -> Array:
+def _gather(sign: float, time: Array, own: Array, up: Array) -> Angles:
     """Crossed low before the body, then wide open and high, once in two bars of three."""
     wide = min_jerk(0.5 - 0.5 * _wave(time, 6))
-
-    def arm(sign: float) -> Angles:
-        return {
-            "flex": 62 - 40 * wide,
-            "abduct": -8 + 108 * wide,
-            "elbow": 84 - 44 * wide,
-            "twist": -30 + 70 * wide,
-            "wrist": 20 - 30 * wide,
-        }
-
-    return _arms(time, arm(1.0), arm(-1.0))
+    return {
+        "flex": 62 - 40 * wide, "abduct": -8 + 108 * wide, "elbow": 84 - 44 * wide,
+        "twist": -30 + 70 * wide, "wrist": 20 - 30 * wide,
+    }  # fmt: skip
 
 
-def _fan(time: Array, side: Array, up: Array) -> Array:
+def _fan(sign: float, time: Array, own: Array, up: Array) -> Angles:
     """Arms go round in great arcs, one half a turn behind the other."""
-
-    def arm(lag: float) -> Angles:
-        rises = 0.5 - 0.5 * _wave(time, 6, lag)
-        ahead = 0.5 + 0.5 * np.sin(2 * np.pi * (time - lag) / 6)
-        return {
-            "flex": 10 + 135 * rises * ahead, "abduct": 15 + 96 * rises * (1 - ahead),
-            "elbow": 66 - 30 * rises, "twist": 40 * rises,
-        }  # fmt: skip
-
-    return _arms(time, arm(0.0), arm(3.0))
+    lag = 1.5 * (1 - sign)
+    rises = 0.5 - 0.5 * _wave(time, 6, lag)
+    ahead = 0.5 + 0.5 * np.sin(2 * np.pi * (time - lag) / 6)
+    return {
+        "flex": 10 + 135 * rises * ahead, "abduct": 15 + 96 * rises * (1 - ahead),
+        "elbow": 66 - 30 * rises, "twist": 40 * rises,
+    }  # fmt: skip
 
 
-def _bloom(time: Array, side: Array, up: Array) -> Array:
+def _bloom(sign: float, time: Array, own: Array, up: Array) -> Angles:
     """From low before the body to overhead and out to the sides, once in two bars."""
-    rises = 0.5 - 0.5 * _wave(time, 6, 0.0)
+    rises = 0.5 - 0.5 * _wave(time, 6)
     out = bump(rises, 0.6)
-
-    def arm(sign: float) -> Angles:
-        return {
-            "flex": 22 + 118 * rises, "abduct": 14 + 34 * out + 10 * sign * side,
-            "elbow": 76 - 22 * rises, "twist": 5 + 25 * rises, "wrist": 10 - 24 * out,
-        }  # fmt: skip
-
-    return _arms(time, arm(1.0), arm(-1.0))
+    return {
+        "flex": 22 + 118 * rises, "abduct": 14 + 34 * out + 10 * own,
+        "elbow": 76 - 22 * rises, "twist": 5 + 25 * rises, "wrist": 10 - 24 * out,
+    }  # fmt: skip
 
 
-def _sweep(time: Array, side: Array, up: Array) -> Array:
+def _sweep(sign: float, time: Array, own: Array, up: Array) -> Angles:
     """One arm sweeps up to the side of the weight, the other rests low behind it."""
-
-    def arm(sign: float) -> Angles:
-        high = min_jerk(0.5 + 0.5 * sign * side)
-        return {
-            "flex": -12 + 50 * high, "abduct": 30 + 84 * high, "elbow": 70 - 38 * high,
-            "twist": 40 * high, "wrist": -12 + 20 * high,
-        }  # fmt: skip
-
-    return _arms(time, arm(1.0), arm(-1.0))
+    high = min_jerk(0.5 + 0.5 * own)
+    return {
+        "flex": -12 + 50 * high, "abduct": 30 + 84 * high, "elbow": 70 - 38 * high,
+        "twist": 40 * high, "wrist": -12 + 20 * high,
+    }  # fmt: skip
 
 
 ARMS: dict[str, Arms] = {
