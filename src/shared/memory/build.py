@@ -18,11 +18,12 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import islice
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import torch
 from torch import Tensor
+from torch.nn.utils.rnn import pad_sequence
 
 from ..data.phrases.dataset import read_phrase
 from ..data.phrases.layout import MANIFEST as PAIRS_MANIFEST
@@ -33,11 +34,12 @@ from ..errors import UserError
 from ..io.files import parse_json, read_text, remove_folder
 from ..io.jobs import run_jobs
 from ..io.storage import Backoff, Place, Unreachable, fetched, files_below, place
+from ..model.audio.shared_space import SharedSpace
 from ..motion.features import LEFT_CONTACT, ROOT_ROW
 from ..motion.motion import Motion
 from ..motion.trajectory import FPS, encode_window, place_window
 from .figures import FigureMemory, Take
-from .folders import MANIFEST, writable
+from .folders import INTEGERS, KEY_TENSORS, MANIFEST, MOTION_TENSORS, TEXTS, writable
 from .index import (
     MemoryConfig,
     MemoryIndex,
@@ -235,27 +237,9 @@ def _longest(pair: dict[str, Any]) -> str:
 # ---------------------------------------------------------------- build
 
 
-class Space(Protocol):
-    """What the memory needs of a SharedSpace."""
-
-    @property
-    def embed_dim(self) -> int:
-        """D."""
-
-    @property
-    def fingerprint(self) -> str:
-        """Names the weights: keys of one space mean nothing in another."""
-
-    def embed_audio(self, condition: Tensor, mask: Tensor | None = None) -> Tensor:
-        """Condition [B,C,T], mask [B,T] True on real frames → unit [B,D]."""
-
-    def embed_motion(self, features: Tensor, mask: Tensor | None = None) -> Tensor:
-        """Raw features [B,T,23,6], mask [B,T] → unit [B,D]."""
-
-
 def build_memory(
     data: str | Path,
-    space: Space,
+    space: SharedSpace,
     out: str | Place,
     *,
     config: MemoryConfig | None = None,
@@ -294,8 +278,12 @@ def build_memory(
         else:
             here = scheduler is None and workers == 1
             parts_at = (folder if scheduler is None else out).absolute() / PARTS
-            jobs = _jobs(source, space if here or not space_name else space_name,
-                         space.fingerprint, config, parts_at, made_of)  # fmt: skip
+            named = space if here or not space_name else space_name
+            jobs = [
+                _Job(source.part(first, first + CHUNK), named, space.fingerprint, config,
+                     parts_at / f"{first:08d}", made_of)
+                for first in range(0, source.total, CHUNK)
+            ]  # fmt: skip
             _run(jobs, source, workers, scheduler, progress)
             parts = [part for job in jobs if (part := _opened(job.folder, made_of))]
             if not parts:
@@ -322,7 +310,7 @@ def build_memory(
         return index
 
 
-def _made_of(records: Sequence[PhraseRecord], space: Space, config: MemoryConfig) -> str:
+def _made_of(records: Sequence[PhraseRecord], space: SharedSpace, config: MemoryConfig) -> str:
     """Changes when anything that the memory is made of does."""
     contents = [(r.id, r.key, r.body.key if r.body else "", r.caption) for r in records]
     text = json.dumps([VERSION, space.fingerprint, config.bars, config.min_frames, contents])
@@ -346,26 +334,11 @@ class _Job:
     """A part of the phrases, kept as a memory of its own; `space` itself, or its name."""
 
     source: Source
-    space: Space | str
+    space: SharedSpace | str
     fingerprint: str
     config: MemoryConfig
     folder: Place
     made_of: str
-
-
-def _jobs(
-    source: Source,
-    space: Space | str,
-    fingerprint: str,
-    config: MemoryConfig,
-    folder: Place,
-    made_of: str,
-) -> list[_Job]:
-    return [
-        _Job(source.part(first, first + CHUNK), space, fingerprint, config,
-             folder / f"{first:08d}", made_of)
-        for first in range(0, source.total, CHUNK)
-    ]  # fmt: skip
 
 
 def _run(
@@ -405,10 +378,8 @@ def _make_part(job: _Job) -> dict[str, str]:
 
 
 @lru_cache(maxsize=1)
-def _named(name: str) -> Space:
+def _named(name: str) -> SharedSpace:
     """A space by name or folder, read once a process."""
-    from ..model.audio.shared_space import SharedSpace
-
     return SharedSpace.from_pretrained(name)
 
 
@@ -418,31 +389,17 @@ def _joined(parts: Sequence[MemoryIndex], **about: Any) -> MemoryIndex:
     number = {song: n for n, song in enumerate(songs)}
     renamed = [torch.tensor([number[song] for song in part.songs])[part.song] for part in parts]
     lengths = torch.cat([part.offsets.diff() for part in parts])
-
-    def rows(name: str) -> Tensor:
-        return torch.cat([getattr(part, name) for part in parts])
-
-    def texts(name: str) -> tuple[str, ...]:
-        return tuple(text for part in parts for text in getattr(part, name))
-
-    return MemoryIndex(
-        audio_keys=rows("audio_keys"),
-        motion_keys=rows("motion_keys"),
-        start_phase=rows("start_phase"),
-        tempo=rows("tempo"),
-        song=torch.cat(renamed),
-        offsets=torch.nn.functional.pad(lengths.cumsum(0), (1, 0)),
-        trajectories=rows("trajectories"),
-        priors=rows("priors"),
-        songs=songs,
-        ids=texts("ids"),
-        captions=texts("captions"),
-        clips=texts("clips"),
-        about=about,
-    )
+    fields: dict[str, Any] = {
+        name: torch.cat([getattr(part, name) for part in parts])
+        for name in (*KEY_TENSORS, *MOTION_TENSORS)
+        if name not in INTEGERS
+    }
+    fields |= {name: tuple(t for part in parts for t in getattr(part, name)) for name in TEXTS}
+    offsets = torch.nn.functional.pad(lengths.cumsum(0), (1, 0))
+    return MemoryIndex(**fields, songs=songs, song=torch.cat(renamed), offsets=offsets, about=about)
 
 
-def _embedded(pieces: Sequence[Piece], space: Space) -> list[Phrase]:
+def _embedded(pieces: Sequence[Piece], space: SharedSpace) -> list[Phrase]:
     """Pieces with their keys, in their order; embedded by length, so that little is padding."""
     order = sorted(range(len(pieces)), key=lambda n: len(pieces[n].body))
     phrases: dict[int, Phrase] = {}
@@ -453,18 +410,22 @@ def _embedded(pieces: Sequence[Piece], space: Space) -> list[Phrase]:
     return [phrases[number] for number in range(len(pieces))]
 
 
-def _embed(pieces: Sequence[Piece], space: Space) -> list[Phrase]:
-    """One batch, padded with zeros that the mask hides."""
-    longest = max(len(piece.body) for piece in pieces)
-    rows = max(len(piece.audio) for piece in pieces)
-    audio = torch.zeros(len(pieces), rows, longest)
-    body = torch.zeros(len(pieces), longest, *pieces[0].body.shape[1:])
-    mask = torch.zeros(len(pieces), longest, dtype=torch.bool)
-    for number, piece in enumerate(pieces):
-        frames = len(piece.body)
-        audio[number, : len(piece.audio), :frames] = torch.from_numpy(piece.audio)
-        body[number, :frames] = torch.from_numpy(piece.body)
-        mask[number, :frames] = True
+def padded(sounds: Sequence[Tensor]) -> tuple[Tensor, Tensor]:
+    """Conditions [C,T] as one batch [B,C,T], padded with zeros that its mask [B,T] hides."""
+    longest = max(sound.shape[1] for sound in sounds)
+    batch = torch.zeros(len(sounds), max(len(sound) for sound in sounds), longest)
+    for row, sound in zip(batch, sounds, strict=True):
+        row[: len(sound), : sound.shape[1]] = sound
+    lengths = torch.tensor([sound.shape[1] for sound in sounds])
+    return batch, torch.arange(longest) < lengths[:, None]
+
+
+def _embed(pieces: Sequence[Piece], space: SharedSpace) -> list[Phrase]:
+    """One batch."""
+    audio, mask = padded([torch.from_numpy(piece.audio) for piece in pieces])
+    body = pad_sequence(
+        [torch.from_numpy(piece.body).float() for piece in pieces], batch_first=True
+    )
     audio_keys = space.embed_audio(audio, mask).float().cpu().numpy()
     motion_keys = space.embed_motion(body, mask).float().cpu().numpy()
     return [
@@ -547,22 +508,21 @@ def build_figures(
     takes: list[Take] = []
     left_out: dict[str, str] = {}
     for done, row in enumerate(rows, start=1):
-        if row.file.name == MADE:
-            takes += made_takes()
-            progress(done, len(rows))
-            continue
         try:
-            with fetched(row.file) as file:
-                motion = repeated(read_motion(file), row.repeat)
-            take = Take.of(motion, row.file.stem, row.kind, row.source, row.licence)
-            if take.is_dance:
-                takes.append(take)
-            else:
-                left_out[str(row.file)] = "fewer than five counts were found"
+            takes += made_takes() if row.file.name == MADE else [_take(row)]
         except UserError as error:
             left_out[str(row.file)] = str(error)
         progress(done, len(rows))
     return FigureMemory(takes), left_out
+
+
+def _take(row: TakeRow) -> Take:
+    with fetched(row.file) as file:
+        motion = repeated(read_motion(file), row.repeat)
+    take = Take.of(motion, row.file.stem, row.kind, row.source, row.licence)
+    if not take.is_dance:
+        raise UserError("fewer than five counts were found")
+    return take
 
 
 def repeated(motion: Motion, times: int) -> Motion:

@@ -189,10 +189,8 @@ class FigureMemory:
     def _joints(self) -> np.ndarray:
         """Joints in the world [F,K,3], metres."""
         motions = [take.motion for take in self.takes]
-        quaternions, roots = (
-            np.concatenate([getattr(each, name) for each in motions])
-            for name in ("quaternions", "root_position")
-        )
+        quaternions = np.concatenate([each.quaternions for each in motions])
+        roots = np.concatenate([each.root_position for each in motions])
         return Motion(quaternions, roots, np.zeros((len(roots), 2), np.float32)).positions()
 
     @cached_property
@@ -395,17 +393,13 @@ class FigureMemory:
             UserError: the folder or address cannot be written.
         """
         folder = place(folder)
-        turns, places, contacts = [], [], []
-        for take in self.takes:
-            own, root, contact = _packed(take.motion)
-            turns.append(own)
-            places.append(root)
-            contacts.append(contact)
+        packed = [_packed(take.motion) for take in self.takes]
+        turns, places, contacts = (np.concatenate(parts) for parts in zip(*packed, strict=True))
         (folder / CARD).unlink(missing_ok=True)  # until all is there, this is no memory
         arrays = {
-            "turns": np.concatenate(turns),
-            "places": np.concatenate(places),
-            "contacts": np.concatenate(contacts),
+            "turns": turns,
+            "places": places,
+            "contacts": contacts,
             "offsets": self.offsets,
             "counts": np.concatenate([take.counts for take in self.takes]),
             "counted": np.array([len(take.counts) for take in self.takes]),

@@ -31,7 +31,8 @@ KEYS, MOTIONS = "keys.safetensors", "motions.safetensors"
 KEY_TENSORS = ("audio_keys", "motion_keys", "start_phase", "tempo", "song", "offsets")
 MOTION_TENSORS = ("trajectories", "priors")
 INTEGERS = ("song", "offsets")
-NAMES = ("songs", "ids", "captions", "clips")
+TEXTS = ("ids", "captions", "clips")
+NAMES = ("songs", *TEXTS)
 
 
 def save_index(index: "MemoryIndex", folder: Place) -> None:
@@ -55,16 +56,12 @@ def save_index(index: "MemoryIndex", folder: Place) -> None:
             save_file({part: getattr(index, part).contiguous() for part in tensors}, temporary)
     write_json(folder / PHRASES, {name: list(getattr(index, name)) for name in NAMES})
     files = {name: entry_of(folder / name) for name in (KEYS, MOTIONS, PHRASES)}
-    counts = {
-        "phrases": len(index),
-        "songs": len(index.songs),
-        "frames": int(index.offsets[-1]),
-    }
+    frames = int(index.offsets[-1])
     manifest = {
         "format-version": FORMAT_VERSION,
         "kind": "motion-memory",
         "dim": index.dim,
-        "counts": counts,
+        "counts": {"phrases": len(index), "songs": len(index.songs), "frames": frames},
         "about": index.about,
         "files": files,
     }
@@ -102,7 +99,7 @@ def read_manifest(folder: Place) -> dict[str, Any]:
     return manifest
 
 
-def read_index(folder: Path, *, verify: bool) -> dict[str, Any]:
+def read_index(folder: Path) -> dict[str, Any]:
     """The fields of a MemoryIndex.
 
     Raises:
@@ -114,7 +111,7 @@ def read_index(folder: Path, *, verify: bool) -> dict[str, Any]:
     manifest = read_manifest(folder)
     try:
         for name in dict.fromkeys((KEYS, MOTIONS, PHRASES, *manifest["files"])):
-            _check(inside(folder, name), manifest["files"][name], verify=verify)
+            _check(inside(folder, name), manifest["files"][name])
         fields: dict[str, Any] = {}
         for name, tensors in ((KEYS, KEY_TENSORS), (MOTIONS, MOTION_TENSORS)):
             stored = load_file(folder / name)  # mapped: pages are read when they are touched
@@ -141,7 +138,7 @@ def _check_fields(folder: Path, fields: dict[str, Any]) -> None:
         "priors": (frames, 4),
     }
     whole = all(tuple(fields[name].shape) == shape for name, shape in shapes.items())
-    whole &= all(len(fields[name]) == count for name in ("ids", "captions", "clips"))
+    whole &= all(len(fields[name]) == count for name in TEXTS)
     whole &= count > 0 and fields["audio_keys"].ndim == 2
     whole &= all(fields[name].dtype.is_floating_point for name in shapes if name not in INTEGERS)
     whole = whole and not any(fields[name].dtype.is_floating_point for name in INTEGERS)
@@ -156,12 +153,12 @@ def _check_fields(folder: Path, fields: dict[str, Any]) -> None:
         )
 
 
-def _check(path: Path, entry: dict[str, Any], *, verify: bool) -> None:
+def _check(path: Path, entry: dict[str, Any]) -> None:
     size = path.stat().st_size if path.is_file() else None
     if size != entry["bytes"]:
         found = "is missing" if size is None else f"has {size} bytes, not {entry['bytes']}"
         raise UserError(f"{path} {found}; copy the memory's folder again or build it anew")
-    if verify and sha256_file(path) != entry["sha256"]:
+    if sha256_file(path) != entry["sha256"]:
         raise UserError(
             f"{path} does not match the SHA-256 in {MANIFEST}; copy the memory's folder again or"
             " build it anew"

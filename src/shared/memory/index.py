@@ -18,6 +18,7 @@ import numpy as np
 import torch
 from pydantic import Field
 from torch import Tensor
+from torch.nn.functional import normalize, pad
 
 from ..config_schema import Config
 from ..errors import UserError
@@ -41,7 +42,7 @@ class MemoryConfig(Config):
     min_frames: int = Field(24, ge=8)  # shorter rests at the ends of a song are left out
     top_k: int = Field(8, ge=1)
     temperature: float = Field(0.07, gt=0)  # of the softmax over similarities of the hits
-    key: Literal["audio", "motion"] = "audio"  # which side of a phrase is compared with the query
+    key: Key = "audio"  # which side of a phrase is compared with the query
     phase_weight: float = Field(0.1, ge=0)  # similarity that a phrase half a bar off loses
     deadline: float = Field(2.0, gt=0)  # seconds after which a query is answered by "nothing"
     workers: int = Field(4, ge=1)  # threads that search
@@ -207,7 +208,7 @@ class MemoryIndex:
         """
         self.check_width(query)
         keys, banned = self.keys(key), self.banned(exclude_songs, len(query))
-        best = Hits(*_empty(len(query), 0))
+        best = []
         for start in range(0, len(self), BLOCK):
             block = slice(start, min(start + BLOCK, len(self)))
             scores = query.float() @ keys[block].T
@@ -215,8 +216,8 @@ class MemoryIndex:
                 scores -= phase_cost(phase, self.start_phase[block], phase_weight)
             if banned is not None:
                 scores.masked_fill_(banned[:, self.song[block]], -torch.inf)
-            best = _merge(best, _top(scores, top_k, start), top_k)
-        return best
+            best.append(_top(scores, top_k, start))
+        return _merged(best, top_k)
 
     def check_width(self, query: Tensor) -> None:
         """Raises ValueError for queries that are not [B,D]."""
@@ -248,13 +249,13 @@ class MemoryIndex:
         save_index(self, place(folder))
 
     @classmethod
-    def open(cls, folder: str | Place, *, verify: bool = True) -> Self:
-        """Open what `save` wrote; `verify` compares every file with its SHA-256.
+    def open(cls, folder: str | Place) -> Self:
+        """Open what `save` wrote.
 
         Raises:
             UserError: no memory there, of another version, or a file is missing or damaged.
         """
-        return cls(**read_index(readable(folder), verify=verify))
+        return cls(**read_index(readable(folder)))
 
 
 def phase_cost(phase: Tensor, start_phase: Tensor, weight: float) -> Tensor:
@@ -269,12 +270,7 @@ def phase_cost(phase: Tensor, start_phase: Tensor, weight: float) -> Tensor:
 
 def _stack(keys: list[np.ndarray]) -> Tensor:
     stacked = torch.from_numpy(np.stack(keys).astype(np.float32))
-    return torch.nn.functional.normalize(stacked, dim=-1)
-
-
-def _empty(queries: int, hits: int) -> tuple[Tensor, Tensor]:
-    index = torch.full((queries, hits), NOTHING)
-    return index, torch.full((queries, hits), -torch.inf)
+    return normalize(stacked, dim=-1)
 
 
 def _top(scores: Tensor, top_k: int, start: int) -> Hits:
@@ -287,13 +283,12 @@ def _top(scores: Tensor, top_k: int, start: int) -> Hits:
     return Hits(index[:, :top_k] + start, values[:, :top_k])
 
 
-def _merge(first: Hits, second: Hits, top_k: int) -> Hits:
-    """The best of both, always k wide; what scores -inf is no hit."""
-    width = max(top_k, first.index.shape[1] + second.index.shape[1])
-    index, score = _empty(len(first), width)
-    count = first.index.shape[1] + second.index.shape[1]
-    index[:, :count] = torch.cat((first.index, second.index), 1)
-    score[:, :count] = torch.cat((first.score, second.score), 1)
+def _merged(parts: Sequence[Hits], top_k: int) -> Hits:
+    """The best of all blocks, always k wide; what scores -inf is no hit."""
+    index = torch.cat([part.index for part in parts], 1)
+    score = torch.cat([part.score for part in parts], 1)
+    spare = (0, max(top_k - index.shape[1], 0))
+    index, score = pad(index, spare, value=NOTHING), pad(score, spare, value=-torch.inf)
     by_index = index.masked_fill(index == NOTHING, torch.iinfo(index.dtype).max).argsort(1)
     index, score = index.gather(1, by_index), score.gather(1, by_index)
     order = score.sort(dim=1, descending=True, stable=True).indices[:, :top_k]
@@ -351,9 +346,7 @@ class LibraryIndex(MemoryIndex):
             rows = zip(points, (~banned).numpy(), strict=True)
             parts = [self._search_table(key, row[None], top_k, songs) for row, songs in rows]
             score, index = (torch.cat(part) for part in zip(*parts, strict=True))
-        index, order = index.sort(
-            dim=1, stable=True
-        )  # of equal scores the first phrase comes first
+        index, order = index.sort(dim=1, stable=True)  # of equal scores the first phrase is first
         score = (score.gather(1, order) - weight / 2).masked_fill(index == NOTHING, -torch.inf)
         score, order = score.sort(dim=1, descending=True, stable=True)
         return Hits(index.gather(1, order), score)

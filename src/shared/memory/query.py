@@ -3,7 +3,6 @@
 Letters: B queries, C rows of sound, D width of the shared space, k hits, T frames asked for.
 """
 
-from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from functools import lru_cache
 from typing import Any
@@ -12,8 +11,9 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from ..model.audio.shared_space import SharedSpace
 from ..motion.trajectory import FPS, PHASE, VELOCITY, unwrap_phase
-from .build import BATCH, Space, cut_at_bars
+from .build import BATCH, cut_at_bars, padded
 from .index import NOTHING, PHASE_WEIGHT, Excluded, Hits, Key, MemoryConfig, MemoryIndex
 from .priors import NUM_PRIORS
 
@@ -156,18 +156,12 @@ def _blend(
 ) -> np.ndarray:
     """Weighted mean [B,4,T] of the hits' curves."""
     mean = np.zeros((len(weights), NUM_PRIORS, num_frames), np.float32)
-    for row, phrase, weight in _weighted(hits, weights):
-        curves = index.prior(phrase)
+    for row, place in np.argwhere(weights > 0):
+        phrase = int(hits.index[row, place])
         own = unwrap_phase(index.trajectory(phrase)[:, PHASE])
-        mean[row] += weight * lay(curves, own, bars[row], num_frames)
+        curves = lay(index.prior(phrase), own, bars[row], num_frames)
+        mean[row] += float(weights[row, place]) * curves
     return np.clip(mean, 0, 1)
-
-
-def _weighted(hits: Hits, weights: np.ndarray) -> Iterator[tuple[int, int, float]]:
-    for row, phrases in enumerate(hits.index.tolist()):
-        for place, phrase in enumerate(phrases):
-            if weights[row, place] > 0:
-                yield row, phrase, float(weights[row, place])
 
 
 def lay(curves: np.ndarray, own: np.ndarray, bars: np.ndarray, num_frames: int) -> np.ndarray:
@@ -242,7 +236,7 @@ class QueryResult:
 @torch.no_grad()
 def query_song(
     index: MemoryIndex,
-    space: Space,
+    space: SharedSpace,
     condition: Tensor,
     phase: np.ndarray | None,
     *,
@@ -261,12 +255,7 @@ def query_song(
     results: list[QueryResult] = []
     for first in range(0, len(cuts), BATCH):
         part = cuts[first : first + BATCH]
-        longest = max(stop - start for start, stop in part)
-        windows = torch.zeros(len(part), len(condition), longest)
-        mask = torch.zeros(len(part), longest, dtype=torch.bool)
-        for row, (start, stop) in enumerate(part):
-            windows[row, :, : stop - start] = condition[:, start:stop]
-            mask[row, : stop - start] = True
+        windows, mask = padded([condition[:, start:stop] for start, stop in part])
         starts = torch.tensor([float(bars[start]) for start, _ in part])
         memory = retrieve(
             index,

@@ -12,6 +12,7 @@ import weakref
 from collections import Counter
 from collections.abc import Callable, Sequence, Set
 from concurrent.futures import Future, wait
+from functools import partial
 from typing import Self
 
 import numpy as np
@@ -87,8 +88,7 @@ class MPMService:
             ValueError: an argument of another shape.
             RuntimeError: `initialize` was not awaited.
         """
-        work, batch = self._work(audio_embedding, beat_phase, num_frames, exclude_songs)
-        future = self._workers.submit(work)
+        future, batch = self._submit(audio_embedding, beat_phase, num_frames, exclude_songs)
         try:
             async with asyncio.timeout(self.config.deadline) as timer:
                 memory = await asyncio.wrap_future(future)  # cancelled with the wait for it
@@ -108,8 +108,7 @@ class MPMService:
         """`query` for callers without an event loop; the memory is opened at the first call."""
         if self.index is None:
             self.index = self._open()
-        work, batch = self._work(audio_embedding, beat_phase, num_frames, exclude_songs)
-        future = self._workers.submit(work)
+        future, batch = self._submit(audio_embedding, beat_phase, num_frames, exclude_songs)
         done, _ = wait([future], self.config.deadline)
         error = future.exception() if done else None
         if not done or error is not None:
@@ -121,14 +120,14 @@ class MPMService:
     def _open(self) -> MemoryIndex:
         return open_index(self.config.folder, library_above=self.config.library_above)
 
-    def _work(
+    def _submit(
         self,
         audio_embedding: Array,
         beat_phase: Array | float | None,
         num_frames: int,
         exclude_songs: Excluded | None,
-    ) -> tuple[Callable[[], Memory], int]:
-        """The search to be done, and B; mistakes of the caller show here, not as nulls."""
+    ) -> tuple[Future[Memory], int]:
+        """The search, and B; mistakes of the caller show here, not as nulls."""
         if self.index is None:
             raise RuntimeError("await initialize() before the first query")
         index, config = self.index, self.config
@@ -140,20 +139,19 @@ class MPMService:
         if excluded is not None and len(excluded) != len(query):
             raise ValueError(f"exclude_songs has {len(excluded)} entries, not {len(query)}")
 
-        def work() -> Memory:
-            return retrieve(
-                index,
-                query,
-                num_frames=num_frames,
-                phase=phase,
-                top_k=config.top_k,
-                temperature=config.temperature,
-                exclude_songs=excluded,
-                key=config.key,
-                phase_weight=config.phase_weight,
-            )
-
-        return work, len(query)
+        search = partial(
+            retrieve,
+            index,
+            query,
+            num_frames=num_frames,
+            phase=phase,
+            top_k=config.top_k,
+            temperature=config.temperature,
+            exclude_songs=excluded,
+            key=config.key,
+            phase_weight=config.phase_weight,
+        )
+        return self._workers.submit(search), len(query)
 
     def _nothing(self, error: BaseException | None, batch: int, num_frames: int) -> Memory:
         """The null memory, counted: of a search that failed, or is late if there is no error."""

@@ -13,10 +13,10 @@ from torch import Tensor
 
 from ..device import choose_device
 from ..errors import UsageError
-from ..memory.build import Space
 from ..memory.query import Memory
 from ..memory.service import MPMService
 from ..model.audio.audio_motion_model import AudioMotionModel
+from ..model.audio.shared_space import SharedSpace
 from .ranking import AudioJudge, ScoreTable
 from .song import AudioCondition, own_noise
 from .song_memory import (
@@ -158,7 +158,7 @@ class MPMSMotionSampler(MotionSampler):
         self,
         diffusion: AudioMotionModel,
         mpms_service: MPMService,
-        space: Space | None = None,
+        space: SharedSpace | None = None,
         device: str = "auto",
         *,
         judge: AudioJudge | None = None,

@@ -21,7 +21,6 @@ from ..config_audio import AudioNetworkConfig
 from ..config_loader import load_config, load_yaml, packaged_config
 from ..errors import UserError
 from ..io.storage import Place
-from ..memory.build import Space
 from ..memory.index import MemoryConfig, MemoryIndex
 from ..memory.query import Memory
 from ..memory.service import MPMService
@@ -91,7 +90,7 @@ def bars_of_window(bars: np.ndarray, start: int, length: int) -> np.ndarray:
 
 @torch.no_grad()
 def questions(
-    space: Space,
+    space: SharedSpace,
     condition: Tensor,
     bars: np.ndarray | None,
     windows: Sequence[tuple[int, int]],
@@ -155,7 +154,7 @@ class SongMemory:
     """A memory that answers, and the space of its keys."""
 
     service: MPMService
-    space: Space
+    space: SharedSpace
 
     @classmethod
     def open(cls, folder: str | Place) -> "SongMemory":
@@ -176,7 +175,7 @@ class SongMemory:
 
 def remembering(
     service: MPMService,
-    space: Space,
+    space: SharedSpace,
     sampler: SongSampler,
     condition: Tensor,
     bars: np.ndarray | None,

@@ -19,12 +19,12 @@ from torch import Tensor
 
 from ...data.phrases.dataset import PhraseBatch, PhraseItem, collate
 from ...errors import UserError
-from ...memory.build import Space
 from ...memory.index import MemoryConfig, MemoryIndex
 from ...memory.priors import prior_curves
 from ...memory.query import Memory, retrieve
 from ...model.audio.audio_motion_model import AudioMotionModel
 from ...model.audio.conditioning import MemoryCondition
+from ...model.audio.shared_space import SharedSpace
 from ...model.noise import standard_normal
 from ...motion.trajectory import MotionTrajectory, place_window
 from ...pipelines.song_memory import as_condition, bars_of_sound, bars_of_window
@@ -182,7 +182,7 @@ class Setting:
     """The model, its memory and the space; the seed of noise."""
 
     model: AudioMotionModel
-    space: Space
+    space: SharedSpace
     asker: Asker
     sampled: SongSampling
 
@@ -388,7 +388,7 @@ class MemorySettings:
 def evaluate_memory(
     model: AudioMotionModel,
     index: MemoryIndex,
-    space: Space,
+    space: SharedSpace,
     *,
     data: str,
     config: MemoryConfig,
