@@ -17,6 +17,7 @@ Letters: T frames.
 
 import difflib
 import re
+from functools import partial
 
 import numpy as np
 
@@ -126,7 +127,7 @@ def measure_style(trajectory: MotionTrajectory) -> np.ndarray:
         acceleration[-2:] = acceleration[-3]
     speed = velocity.norm(dim=-1).numpy().astype(np.float64)
     position = trajectory.position.astype(np.float64)
-    average = _Average(trajectory.num_frames, trajectory.fps)
+    average = partial(_average, fps=trajectory.fps)
     spread = average(position**2) - average(position) ** 2
     slow = average(speed)
     variance = average(speed**2) - slow**2
@@ -139,23 +140,14 @@ def measure_style(trajectory: MotionTrajectory) -> np.ndarray:
     return style_vector(_percentile(measures, np.array(PELVIS)))
 
 
-class _Average:
-    """Hann-weighted mean over `WINDOW` around each frame; shorter at the ends."""
-
-    def __init__(self, num_frames: int, fps: float) -> None:
-        size = max(1, round(WINDOW * fps)) | 1
-        self._weights = np.hanning(size + 2)[1:-1]
-        self._total = self._sum(np.ones(num_frames))
-
-    def _sum(self, series: np.ndarray) -> np.ndarray:
-        half = len(self._weights) // 2
-        return np.convolve(series, self._weights, "full")[half : half + len(series)]
-
-    def __call__(self, values: np.ndarray) -> np.ndarray:
-        """[T] or [T,C] → the same."""
-        columns = values.reshape(len(values), -1).T
-        means = np.stack([self._sum(column) / self._total for column in columns], 1)
-        return means.reshape(values.shape)
+def _average(values: np.ndarray, fps: float) -> np.ndarray:
+    """Hann-weighted mean of [T] or [T,C] over `WINDOW` around each frame; shorter at the ends."""
+    size = max(1, round(WINDOW * fps)) | 1
+    weights, own = np.hanning(size + 2)[1:-1], slice(size // 2, size // 2 + len(values))
+    total = np.convolve(np.ones(len(values)), weights, "full")[own]
+    columns = values.reshape(len(values), -1).T
+    means = np.stack([np.convolve(each, weights, "full")[own] / total for each in columns], 1)
+    return means.reshape(values.shape)
 
 
 def _percentile(measures: np.ndarray, reference: np.ndarray) -> np.ndarray:

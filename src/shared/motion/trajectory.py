@@ -266,47 +266,6 @@ def place_window(
     return np.asarray(placed.astype(np.float32))
 
 
-@dataclass
-class _Pose:
-    """What a path is made of: position [T,3], quaternion [T,4], phase steps [T], style [T,8]."""
-
-    position: Tensor
-    quaternion: Tensor
-    steps: Tensor
-    style: Tensor
-
-    @classmethod
-    def of(cls, window: np.ndarray) -> "_Pose":
-        data = torch.as_tensor(window, dtype=torch.float64).T
-        return cls(data[:, POSITION], data[:, QUATERNION], data[:, PHASE_STEP], data[:, STYLE])
-
-    def __getitem__(self, frames: slice) -> "_Pose":
-        return _Pose(
-            self.position[frames], self.quaternion[frames], self.steps[frames], self.style[frames]
-        )
-
-    def moved(self, heading: float, offset: Tensor) -> "_Pose":
-        """Turned about +Y, then moved."""
-        turn = yaw_quaternion(torch.tensor(heading, dtype=torch.float64))
-        return _Pose(
-            turn_about_y(self.position, heading) + offset,
-            quaternion_multiply(turn, self.quaternion),
-            self.steps,
-            self.style,
-        )
-
-    def followed_by(self, other: "_Pose") -> "_Pose":
-        return _Pose(
-            torch.cat((self.position, other.position)),
-            torch.cat((self.quaternion, other.quaternion)),
-            torch.cat((self.steps, other.steps)),
-            torch.cat((self.style, other.style)),
-        )
-
-    def __len__(self) -> int:
-        return len(self.position)
-
-
 class WindowJoiner:
     """Joins windows as they come; what was returned is final, memory is one window.
 
@@ -323,19 +282,19 @@ class WindowJoiner:
         self.overlap = overlap
         self._phase = phase  # bars at the first pending frame
         self._last_sign: Tensor | None = None  # quaternion of the last frame returned
-        self._pending: _Pose | None = None
+        self._pending: Tensor | None = None  # [T,25], of which velocities and turns are not used
 
     def add(self, window: np.ndarray) -> MotionTrajectory:
         """Take the next window [25,T]; return the frames that it settled."""
-        pose = _Pose.of(window)
-        assert len(pose) > self.overlap
+        data = torch.as_tensor(window, dtype=torch.float64).T
+        assert len(data) > self.overlap
         if self._pending is None:
-            self._pending = pose.moved(0.0, torch.zeros(3, dtype=torch.float64))
+            self._pending = _move(data, 0.0, torch.zeros(3, dtype=torch.float64))
         else:
             before, shared = self._pending[: -self.overlap], self._pending[-self.overlap :]
-            pose = pose.moved(*_fit(pose[: self.overlap], shared))
-            blended = _blend(shared, pose[: self.overlap])
-            self._pending = before.followed_by(blended).followed_by(pose[self.overlap :])
+            data = _move(data, *_fit(data[: self.overlap], shared))
+            blended = _blend(shared, data[: self.overlap])
+            self._pending = torch.cat((before, blended, data[self.overlap :]))
         return self._release(len(self._pending) - self.overlap - 2, spare=2)
 
     def finish(self, *, spare: int = 0) -> MotionTrajectory:
@@ -352,17 +311,14 @@ class WindowJoiner:
         assert self._pending is not None
         if num_frames <= 0:
             return MotionTrajectory(np.empty((0, CHANNELS), dtype=np.float32))
-        piece = self._pending[: num_frames + spare]
-        phase = _integrate(piece.steps.numpy(), self._phase)
+        piece = self._pending[: num_frames + spare].numpy()
+        steps = piece[:, PHASE_STEP]
+        phase = _integrate(steps, self._phase)
         trajectory = MotionTrajectory.from_pose(
-            piece.position.numpy(),
-            piece.quaternion.numpy(),
-            phase,
-            piece.style.numpy(),
-            spare=spare,
+            piece[:, POSITION], piece[:, QUATERNION], phase, piece[:, STYLE], spare=spare
         )
         self._carry_sign(trajectory)
-        self._phase = phase[num_frames - 1] + float(piece.steps[num_frames - 1])
+        self._phase = phase[num_frames - 1] + float(steps[num_frames - 1])
         self._pending = self._pending[num_frames:]
         return trajectory
 
@@ -392,33 +348,27 @@ def _integrate(steps: np.ndarray, start: float) -> np.ndarray:
     return phase
 
 
-def _fit(local: _Pose, target: _Pose) -> tuple[float, Tensor]:
-    """Turn and offset that lay the shared frames of a window on those already placed.
+def _fit(local: Tensor, target: Tensor) -> tuple[float, Tensor]:
+    """Turn and offset that lay the shared frames of a window [S,25] on those already placed.
 
     The turn is the circular mean of the heading differences, the offset the mean of what then
     remains in x and z.
     """
-    turns = heading_of(target.quaternion) - heading_of(local.quaternion)  # S
+    turns = heading_of(target[:, QUATERNION]) - heading_of(local[:, QUATERNION])  # S
     turn = float(torch.atan2(torch.sin(turns).mean(), torch.cos(turns).mean()))
-    offset = (target.position - turn_about_y(local.position, turn)).mean(0)
-    offset[1] = 0
-    return turn, offset
+    return turn, (target[:, POSITION] - turn_about_y(local[:, POSITION], turn)).mean(0)
 
 
-def _blend(first: _Pose, second: _Pose) -> _Pose:
-    """Shared frames, from the first window over to the second with a soft start and end.
+def _blend(first: Tensor, second: Tensor) -> Tensor:
+    """Shared frames [S,25], from the first window over to the second, soft at both ends.
 
     Phase steps are blended rather than phases: their sum stays monotone whatever they are. The
     first window's last step leads out of it, a repetition, so the second one's is taken.
     """
     x = torch.arange(1, len(first) + 1, dtype=torch.float64) / (len(first) + 1)
     weight = (x**3 * (x * (6 * x - 15) + 10))[:, None]  # two vanishing derivatives at both ends
-    style = torch.lerp(first.style, second.style, weight)
-    steps = torch.lerp(first.steps, second.steps, weight[:, 0])
-    steps[-1] = second.steps[-1]
-    return _Pose(
-        torch.lerp(first.position, second.position, weight),
-        quaternion_slerp(first.quaternion, second.quaternion, weight),
-        steps,
-        torch.nn.functional.normalize(style, dim=-1),
-    )
+    blended = torch.lerp(first, second, weight)
+    blended[:, QUATERNION] = quaternion_slerp(first[:, QUATERNION], second[:, QUATERNION], weight)
+    blended[-1, PHASE_STEP] = second[-1, PHASE_STEP]
+    blended[:, STYLE] = torch.nn.functional.normalize(blended[:, STYLE], dim=-1)
+    return blended
