@@ -226,13 +226,8 @@ RUNTIMES = ("auto", "torch", "onnx")
 
 
 def chosen_runtime(runtime: str, model: str | Path, device: str = "auto") -> str:
-    """Torch or onnx: auto is onnx on a CPU where onnxruntime is installed and the model exported.
-
-    Args:
-        runtime: one of RUNTIMES.
-        model: a name or folder.
-        device: auto, cuda, mps or cpu.
-    """
+    """Torch or onnx; auto, of RUNTIMES, is onnx where the device is a CPU, onnxruntime is installed
+    and the model exported."""
     if runtime != "auto":
         return runtime
     if find_spec("onnxruntime") is None or not computes_on_cpu(device):

@@ -19,11 +19,11 @@ import torch
 from torch import Tensor, nn
 
 from ..io.files import atomic_write, parse_json, sha256_file, write_json
-from .checkpoint import INT8_SCALE, WEIGHTS_FILE, read_card, read_tensors
+from .checkpoint import INT8_SCALE, WEIGHTS_FILE, ModelCard, read_card, read_tensors
 from .diffusion import GaussianDiffusion
 from .layers.transformer import RotaryEmbedding
 from .noise import sampling_timesteps
-from .onnx_card import OPSET, GraphInfo, OnnxCard, ProcessInfo, ValueInfo
+from .onnx_card import ONNX_CARD, OPSET, CardT, GraphInfo, ProcessInfo, ValueInfo
 
 EXAMPLE_FRAMES = 37  # no multiple of anything, so that no length is taken for a constant
 Shapes = Mapping[int, str]  # dimension -> name of its symbol
@@ -95,11 +95,6 @@ def write_graph(model: Any, path: Path) -> GraphInfo:
     )
 
 
-def write_card(path: Path, card: OnnxCard) -> None:
-    """Write the card of an export."""
-    write_json(path, card.model_dump(mode="json", by_alias=True))
-
-
 def process_info(diffusion: GaussianDiffusion, guidance_scale: float) -> ProcessInfo:
     """A diffusion in numbers."""
     config = diffusion.config
@@ -113,13 +108,46 @@ def process_info(diffusion: GaussianDiffusion, guidance_scale: float) -> Process
     )
 
 
-def copy_model(source: Path, folder: Path, files: Sequence[str]) -> None:
-    """Copy what there is of a model folder's files, whole; nothing where it is the same folder."""
+def write_export(
+    source: Path,
+    folder: Path,
+    files: Sequence[str],
+    graphs: Mapping[str, Any],
+    kind: type[CardT],
+    card: ModelCard,
+    **own: Any,
+) -> CardT:
+    """Write a model folder with graphs of `traced` and the card that vouches for them.
+
+    Args:
+        source: the model's folder.
+        folder: made when absent; may be the same.
+        files: of the model, copied where they are there.
+        graphs: by the names of their files.
+        kind: of the card.
+        card: of the model.
+        own: what the card of this kind says besides.
+
+    Raises:
+        UserError: the folder cannot be written.
+    """
     for name in files:
         given, target = source / name, folder / name
         if given.is_file() and not (target.exists() and target.samefile(given)):
             with atomic_write(target) as temporary:
                 shutil.copyfile(given, temporary)
+    result = kind(
+        name=card.name,
+        description=card.description,
+        licence=card.licence,
+        trained=card.trained,
+        model=card.content_hash,
+        fps=card.fps,
+        graphs={name: write_graph(graph, folder / name) for name, graph in graphs.items()},
+        **own,
+    )
+    write_json(folder / ONNX_CARD, result.model_dump(mode="json", by_alias=True))
+    return result
 
 
 # ---------------------------------------------------------------- weights outside the graph

@@ -15,16 +15,8 @@ from torch.nn import functional as F
 
 from ...motion.trajectory import CHANNELS, PHASE
 from ..checkpoint import CARD_FILE, WEIGHTS_FILE, resolve_model
-from ..onnx_card import ONNX_CARD, AudioOnnxCard
-from ..onnx_export import (
-    EXAMPLE_FRAMES,
-    copy_model,
-    process_info,
-    symbolic,
-    traced,
-    write_card,
-    write_graph,
-)
+from ..onnx_card import AudioOnnxCard
+from ..onnx_export import EXAMPLE_FRAMES, process_info, symbolic, traced, write_export
 from .audio_motion_model import AudioMotionModel
 from .conditioning import CONDITION_ROWS
 from .decoder import Decoder, wrapped_phase
@@ -111,25 +103,16 @@ def export_audio(model: str | Path, folder: str | Path) -> AudioOnnxCard:
         ("trajectory", "phase"),
     )
     # Written only now: who stops the slow part leaves no folder behind.
-    copy_model(source, folder, FILES)
-    graphs = {
-        UNET_GRAPH: write_graph(unet, folder / UNET_GRAPH),
-        DECODER_GRAPH: write_graph(decoder, folder / DECODER_GRAPH),
-    }
-    card = loaded.card
-    result = AudioOnnxCard(
-        name=card.name,
-        description=card.description,
-        licence=card.licence,
-        trained=card.trained,
-        model=card.content_hash,
-        fps=card.fps,
-        graphs=graphs,
+    return write_export(
+        source,
+        folder,
+        FILES,
+        {UNET_GRAPH: unet, DECODER_GRAPH: decoder},
+        AudioOnnxCard,
+        loaded.card,
         process=process_info(loaded.diffusion, loaded.config.guidance_scale),
         audio_network=loaded.config,
         mean=tuple(loaded.mean.tolist()),
         std=tuple(loaded.std.tolist()),
         null_condition=tuple(loaded.unet.null.tolist()),
     )
-    write_card(folder / ONNX_CARD, result)
-    return result

@@ -17,7 +17,6 @@ from pathlib import Path
 import torch
 from torch import Tensor, nn
 
-from ...config_schema import PROVENANCES
 from ..checkpoint import CARD_FILE, WEIGHTS_FILE, resolve_model
 from ..clip.core import SPECIAL, TextTower, TokenPairEncoder
 from ..clip.features import TextFeatures
@@ -25,19 +24,11 @@ from ..clip.out_of_domain import META_FILE as SCOPE_FILE
 from ..clip.out_of_domain import TABLE_FILE
 from ..clip.style_map import STYLE_FILE
 from ..clip.tokenizer import META_FILE, MODEL_FILE, TOKENIZER_FOLDER
-from ..onnx_card import ONNX_CARD, TextOnnxCard, TokenizerInfo
-from ..onnx_export import (
-    EXAMPLE_FRAMES,
-    copy_model,
-    process_info,
-    symbolic,
-    traced,
-    write_card,
-    write_graph,
-)
+from ..onnx_card import TextOnnxCard, TokenizerInfo
+from ..onnx_export import EXAMPLE_FRAMES, process_info, symbolic, traced, write_export
 from .constraint import MIN_FRAMES
 from .denoiser import MotionDenoiser
-from .motion_generator import TextToMotion
+from .motion_generator import TextToMotion, as_captured
 from .onnx_networks import ADAPTED_GRAPH, DENOISER_GRAPH, TEXT_GRAPH
 
 FILES = (
@@ -113,9 +104,6 @@ class DenoiserGraph(nn.Module):
         if tokens is None or token_mask is None:
             tokens = pooled[:, None]
             token_mask = torch.ones_like(pooled[:, :1], dtype=torch.bool)
-        provenance = None
-        if self.denoiser.provenance_embed is not None:
-            provenance = torch.full_like(tag, PROVENANCES.index("captured"))
         result: Tensor = self.denoiser(
             x,
             t,
@@ -123,7 +111,7 @@ class DenoiserGraph(nn.Module):
             tag,
             mask,
             known=known if self.denoiser.shows_known else None,
-            provenance=provenance,
+            provenance=as_captured(self.denoiser, tag),
         )
         return result
 
@@ -176,21 +164,15 @@ def export_text(model: str | Path, folder: str | Path) -> TextOnnxCard:
         )
         for graph, heard in variants.items()
     }
-    # Written only now: who stops the slow part leaves no folder behind.
-    copy_model(source, folder, FILES)
-    graphs = {
-        name: write_graph(graph, folder / name)
-        for name, graph in {TEXT_GRAPH: text, **networks}.items()
-    }
     card, tokenizer = generator.card, generator.tokenizer
-    result = TextOnnxCard(
-        name=card.name,
-        description=card.description,
-        licence=card.licence,
-        trained=card.trained,
-        model=card.content_hash,
-        fps=card.fps,
-        graphs=graphs,
+    # Written only now: who stops the slow part leaves no folder behind.
+    return write_export(
+        source,
+        folder,
+        FILES,
+        {TEXT_GRAPH: text, **networks},
+        TextOnnxCard,
+        card,
         process=process_info(generator.diffusion, config.generation.guidance_scale),
         mean=tuple(map(tuple, generator.mean.tolist())),
         std=tuple(map(tuple, generator.std.tolist())),
@@ -209,5 +191,3 @@ def export_text(model: str | Path, folder: str | Path) -> TextOnnxCard:
         ),
         post_processing=config.generation.post_processing,
     )
-    write_card(folder / ONNX_CARD, result)
-    return result
