@@ -25,13 +25,13 @@ import re
 import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import ConfigDict, TypeAdapter, ValidationError
 
 from ...errors import UserError
 from ...io.files import atomic_write, load_json, write_json
@@ -114,13 +114,17 @@ class OutOfDomainDetector:
         checked: actions that `metrics.measurements` tells, as captured clips bear out.
     """
 
+    __pydantic_config__: ClassVar = ConfigDict(  # of what scope.json holds
+        alias_generator=lambda name: name.replace("_", "-"), arbitrary_types_allowed=True
+    )
+
     actions: tuple[str, ...]
     key_words: KeyWords
     words: frozenset[str]
     fillers: frozenset[str]
     means: np.ndarray
-    false_alarms: float = 0.0
-    min_cosine: float | None = None
+    false_alarms: float
+    min_cosine: float | None
     weights: tuple[float, ...] | None = None
     warning_weights: tuple[float, ...] | None = None
     reliability: Mapping[str, float] = field(default_factory=dict)
@@ -306,7 +310,8 @@ class OutOfDomainDetector:
         folder = Path(folder)
         with atomic_write(folder / TABLE_FILE) as temporary:
             save_file({"means": self.means.astype(np.float16)}, temporary)
-        meta = {name.replace("_", "-"): getattr(self, name) for name in _Meta.model_fields}
+        names = [each.name for each in fields(self) if each.name != "means"]
+        meta = {name.replace("_", "-"): getattr(self, name) for name in names}
         meta |= {"words": sorted(self.words), "fillers": sorted(self.fillers)}
         write_json(folder / META_FILE, meta | {"reliability": dict(self.reliability)})
 
@@ -325,15 +330,17 @@ class OutOfDomainDetector:
             return None
         try:
             means = load_file(folder / TABLE_FILE)["means"].astype(np.float32)
-            stored = _Meta.model_validate(load_json(folder / META_FILE))
-            # folders of before had none: a prompt of trained words alone told nothing
-            fillers = stored.words if stored.fillers is None else stored.fillers
-            rows = {row for found in stored.key_words.values() for row in found}
-            if means.ndim != 2 or len(means) != len(stored.actions) or not np.isfinite(means).all():
-                raise ValueError(f"{len(stored.actions)} actions and means {list(means.shape)}")
-            if rows and not 0 <= min(rows) <= max(rows) < len(stored.actions):
+            meta = load_json(folder / META_FILE) | {"means": means}
+            if meta.get("fillers") is None:
+                # folders of before had none: a prompt of trained words alone told nothing
+                meta["fillers"] = meta.get("words")
+            found = TypeAdapter(cls).validate_python(meta)
+            rows = {row for actions in found.key_words.values() for row in actions}
+            if means.ndim != 2 or len(means) != len(found.actions) or not np.isfinite(means).all():
+                raise ValueError(f"{len(found.actions)} actions and means {list(means.shape)}")
+            if rows and not 0 <= min(rows) <= max(rows) < len(found.actions):
                 raise ValueError("a key word tells of an action that is not there")
-            return cls(means=means, **(dict(stored) | {"fillers": fillers}))
+            return found
         except ValidationError as error:
             raise of_another_version(folder / META_FILE, error) from error
         except (
@@ -348,25 +355,6 @@ class OutOfDomainDetector:
                 f"{folder / META_FILE} or {TABLE_FILE} is damaged ({error});"
                 " copy the model folder again"
             ) from error
-
-
-class _Meta(BaseModel):
-    """What scope.json holds."""
-
-    model_config = ConfigDict(alias_generator=lambda name: name.replace("_", "-"))
-
-    actions: tuple[str, ...]
-    key_words: dict[str, tuple[int, ...]]
-    words: frozenset[str]
-    fillers: frozenset[str] | None = None
-    false_alarms: float
-    min_cosine: float | None
-    weights: tuple[float, ...] | None = None
-    warning_weights: tuple[float, ...] | None = None
-    reliability: dict[str, float] = Field({})
-    gestures: tuple[str, ...] = ()
-    arms: tuple[str, ...] = ()
-    checked: tuple[str, ...] = ()
 
 
 def _logistic(rows: np.ndarray, wanted: np.ndarray, false: float) -> tuple[float, ...]:
