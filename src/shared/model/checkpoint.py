@@ -5,6 +5,7 @@ safetensors; the card holds their SHA-256.
 """
 
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -22,6 +23,10 @@ if TYPE_CHECKING:
 
 CARD_FILE = "config.json"
 WEIGHTS_FILE = "model.safetensors"
+NO_MODEL = (
+    f"is no model folder: it has no {CARD_FILE}; name a folder from training, or a name that"
+    " `models` lists"
+)
 INT8_SCALE = ".int8_scale"
 SMALLEST = 4096  # numbers; smaller tensors, biases and norms among them, stay as they are
 
@@ -82,10 +87,7 @@ def read_card(folder: Path) -> ModelCard:
     try:
         return ModelCard.model_validate(load_json(path))
     except FileNotFoundError as error:
-        raise UserError(
-            f"{folder} is no model folder: it has no {CARD_FILE}"
-            "; name a folder from training, or a name that `models` lists"
-        ) from error
+        raise UserError(f"{folder} {NO_MODEL}") from error
     except ValidationError as error:
         raise of_another_version(path, error) from error
     except (OSError, ValueError) as error:
@@ -140,11 +142,7 @@ def weights_info(
 
 
 def check_weights(folder: Path, weights: WeightsInfo | None) -> Path:
-    """The weights file of a model folder.
-
-    Args:
-        folder: of the model.
-        weights: what its card says of them.
+    """The weights file of a model folder, whose card says this of it.
 
     Raises:
         UserError: it is missing, truncated, or not the one the card vouches for.
@@ -271,10 +269,7 @@ RUNS = Path("runs")
 
 
 def list_models(*, runs: bool = True) -> list[dict[str, Any]]:
-    """The shipped models by name, then those under runs/ by folder; damaged cards are left out.
-
-    Args:
-        runs: False: the shipped ones only.
+    """The shipped models by name, then those under `runs` by folder, if asked for; no damaged ones.
 
     Keys: name, kind, trained, licence, size (MB), languages, description.
     """
@@ -286,24 +281,21 @@ def list_models(*, runs: bool = True) -> list[dict[str, Any]]:
     own = [(str(path.parent), path.parent) for path in sorted(found)]
     rows = []
     for name, folder in [*shipped, *own]:
-        try:
-            rows.append(_row(name, read_card(folder)))
-        except UserError:
-            continue
+        with suppress(UserError):
+            card = read_card(folder)
+            size = card.weights.bytes / 1e6 if card.weights else 0.0
+            rows.append(
+                {
+                    "name": name,
+                    "kind": card.kind,
+                    "trained": card.trained,
+                    "licence": card.licence,
+                    "size": f"{size:.1f} MB",
+                    "languages": ", ".join(card.languages),
+                    "description": card.description,
+                }
+            )
     return rows
-
-
-def _row(name: str, card: ModelCard) -> dict[str, Any]:
-    size = card.weights.bytes / 1e6 if card.weights else 0.0
-    return {
-        "name": name,
-        "kind": card.kind,
-        "trained": card.trained,
-        "licence": card.licence,
-        "size": f"{size:.1f} MB",
-        "languages": ", ".join(card.languages),
-        "description": card.description,
-    }
 
 
 def wrong_kind(
@@ -312,11 +304,8 @@ def wrong_kind(
     """What to say of a model of another kind; names what is shipped of the kind that was wanted."""
     shipped = [row["name"] for row in list_models(runs=False) if row["kind"] == wanted]
     of_it = f", or {' or '.join(shipped)}, which is shipped" if shipped else ""
-    return UserError(f"{folder} holds {_a(found)}, not {_a(wanted)}; {hint}{of_it}")
-
-
-def _a(noun: str) -> str:
-    return f"{'an' if noun[:1] in 'aeiou' else 'a'} {noun}"
+    held, asked = (f"{'an' if kind[:1] in 'aeiou' else 'a'} {kind}" for kind in (found, wanted))
+    return UserError(f"{folder} holds {held}, not {asked}; {hint}{of_it}")
 
 
 def resolve_model(name_or_folder: str | Path) -> Path:
@@ -343,10 +332,7 @@ def resolve_model(name_or_folder: str | Path) -> Path:
             f" and name the run's folder{use}"
         )
     if folder.is_dir():
-        raise UserError(
-            f"{folder} is no model folder: it has no {CARD_FILE}"
-            "; name a folder from training, or a name that `models` lists"
-        )
+        raise UserError(f"{folder} {NO_MODEL}")
     hint = did_you_mean(name, shipped)
     raise UsageError(f"no model named {name!r}, and no such folder; {hint}`models` lists all")
 

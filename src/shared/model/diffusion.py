@@ -273,11 +273,6 @@ class GaussianDiffusion(nn.Module):
 
     # Training
 
-    def draw_timesteps(self, num: int, generator: torch.Generator | None = None) -> Tensor:
-        """Uniform steps [num], drawn on the CPU, on the device of the process."""
-        steps = torch.randint(self.config.timesteps, (num,), generator=generator)
-        return steps.to(self.betas.device)
-
     def training_loss(
         self,
         model: Model,
@@ -303,7 +298,8 @@ class GaussianDiffusion(nn.Module):
             generator: source of t and noise when they are absent, on the CPU.
         """
         if t is None:
-            t = self.draw_timesteps(len(x_0), generator)
+            steps = torch.randint(self.config.timesteps, (len(x_0),), generator=generator)
+            t = steps.to(self.betas.device)
         if noise is None:
             noise = (
                 torch.randn_like(x_0)
@@ -414,10 +410,19 @@ def masked_loss(
 
 
 class Sampler(ABC):
-    """A way through the timesteps of one diffusion process."""
+    """A way through the timesteps of one diffusion process.
 
-    def __init__(self, diffusion: GaussianDiffusion, num_steps: int | None = None) -> None:
+    Args:
+        diffusion: the process.
+        num_steps: of the way; None = as configured.
+        eta: of DDIM, the others have none; None = as configured.
+    """
+
+    def __init__(
+        self, diffusion: GaussianDiffusion, num_steps: int | None = None, eta: float | None = None
+    ) -> None:
         self.diffusion = diffusion
+        self.eta = diffusion.config.eta if eta is None else eta
         self.timesteps: tuple[int, ...] = ()
         self.set_timesteps(num_steps or diffusion.config.sampling_steps)
 
@@ -514,12 +519,6 @@ class DDIMSampler(Sampler):
     The noise in eq. 12 is recomputed from the limited x_0, so that the two always add up to x_t.
     """
 
-    def __init__(
-        self, diffusion: GaussianDiffusion, num_steps: int | None = None, eta: float | None = None
-    ) -> None:
-        super().__init__(diffusion, num_steps)
-        self.eta = diffusion.config.eta if eta is None else eta
-
     def step(
         self, model_output: Tensor, t: int, x_t: Tensor, *, generator: Generators = None
     ) -> Tensor:
@@ -569,6 +568,13 @@ def _add_noise(mean: Tensor, deviation: float, generator: Generators) -> Tensor:
     return mean + deviation * standard_normal(mean.shape, generator, device=mean.device)
 
 
+SAMPLERS: dict[str, type[Sampler]] = {
+    "ddpm": DDPMSampler,
+    "ddim": DDIMSampler,
+    "dpm-solver++": DPMSolverPP2MSampler,
+}
+
+
 def make_sampler(
     diffusion: GaussianDiffusion,
     name: str | None = None,
@@ -581,10 +587,6 @@ def make_sampler(
         UsageError: the name is unknown or the number of steps is out of range.
     """
     name = name or diffusion.config.sampler
-    if name == "ddpm":
-        return DDPMSampler(diffusion, num_steps)
-    if name == "ddim":
-        return DDIMSampler(diffusion, num_steps, eta)
-    if name == "dpm-solver++":
-        return DPMSolverPP2MSampler(diffusion, num_steps)
-    raise UsageError(f"sampler {name!r} is unknown; choose one of ddpm, ddim, dpm-solver++")
+    if name not in SAMPLERS:
+        raise UsageError(f"sampler {name!r} is unknown; choose one of {', '.join(SAMPLERS)}")
+    return SAMPLERS[name](diffusion, num_steps, eta)

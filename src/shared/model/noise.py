@@ -47,15 +47,11 @@ def get_beta_schedule(
         raise UsageError(
             f"beta-schedule {schedule!r} is unknown; choose one of linear, cosine, sqrt"
         )
-    lowest = 1e-4 if schedule == "cosine" else 1e-8
-    return _end_in_noise(np.clip(betas, lowest, 0.9999))
-
-
-def _end_in_noise(betas: Array) -> Array:
-    """Raise every alpha to the one power that keeps sqrt(alpha_bar_S) under the limit."""
-    log_signal = 0.5 * float(np.log1p(-betas).sum())
+    clipped: Array = np.clip(betas, 1e-4 if schedule == "cosine" else 1e-8, 0.9999)
+    # Every alpha is raised to the one power that keeps sqrt(alpha_bar_S) under the limit.
+    log_signal = 0.5 * float(np.log1p(-clipped).sum())
     power = np.log(0.95 * MAX_FINAL_SIGNAL) / log_signal
-    return betas if power <= 1 else -np.expm1(power * np.log1p(-betas))
+    return clipped if power <= 1 else -np.expm1(power * np.log1p(-clipped))
 
 
 @dataclass(frozen=True)

@@ -267,7 +267,7 @@ class Denoising:
         noise = standard_normal(clean.shape, draws, device=device)
         noisy = model.diffusion.q_sample(clean, t, noise)
         heard = None if memory is None else memory.to(device)
-        output = model.denoise(noisy, t, phrases.audio.to(device), memory=heard)
+        output = model(noisy, t, phrases.audio.to(device), memory=heard)
         x_0 = model.diffusion.predict_x0(output, noisy, t)
         return (x_0 - clean).square().mean(dim=(1, 2)).cpu()
 

@@ -23,7 +23,7 @@ from ..checkpoint import (
     wrong_kind,
 )
 from ..diffusion import GaussianDiffusion, ModelFn, guided
-from .conditioning import AudioConditioner, ConditionAugmentation, MemoryCondition
+from .conditioning import ConditionAugmentation, MemoryCondition
 from .decoder import Decoded, Decoder, create_motion_decoder
 from .unet import Prepared, UNet1D
 
@@ -54,11 +54,6 @@ class AudioMotionModel(nn.Module):
         rows = config.unet.in_channels
         self.register_buffer("mean", torch.zeros(rows))
         self.register_buffer("std", torch.ones(rows))
-
-    @property
-    def conditioner(self) -> AudioConditioner | None:
-        """The UNet's; None when it conditions by cross-attention alone."""
-        return self.unet.conditioner
 
     def replace_decoder(self, decoder: Decoder) -> None:
         """Take over another decoder, of either kind."""
@@ -102,18 +97,6 @@ class AudioMotionModel(nn.Module):
 
     # Denoising and decoding
 
-    def denoise(
-        self,
-        x_t: Tensor,
-        t: Tensor,
-        condition: Prepared | Tensor,
-        drop: Tensor | None = None,
-        memory: MemoryCondition | None = None,
-    ) -> Tensor:
-        """One prediction [B, 25, T] of the UNet; see `UNet1D.forward`."""
-        result: Tensor = self.unet(x_t, t, condition, drop, memory)
-        return result
-
     def model_fn(
         self,
         condition: Tensor,
@@ -143,8 +126,9 @@ class AudioMotionModel(nn.Module):
         drop: Tensor | None = None,
         memory: MemoryCondition | None = None,
     ) -> Tensor:
-        """As `denoise`."""
-        return self.denoise(x_t, t, condition, drop, memory)
+        """One prediction [B, 25, T] of the UNet; see `UNet1D.forward`."""
+        result: Tensor = self.unet(x_t, t, condition, drop, memory)
+        return result
 
     # Folders
 

@@ -115,7 +115,8 @@ class Decoder(nn.Module):
     def _decode(self, x: Tensor, start: Tensor | None) -> Decoded:
         h, motion = self._motion(x)
         phase = self._phase(x, h, start)
-        columns = (*motion, wrapped_phase(phase)[..., None], self._style(x, h))
+        style = F.normalize(x[..., STYLE] + self.style_head(h), dim=-1)
+        columns = (*motion, wrapped_phase(phase)[..., None], style)
         return Decoded(torch.cat(columns, dim=-1), phase)
 
     def _motion(self, x: Tensor) -> tuple[Tensor, tuple[Tensor, ...]]:
@@ -142,9 +143,6 @@ class Decoder(nn.Module):
             start = torch.atan2(sine, cosine) / (2 * math.pi)
         bars = increments[:, :-1].cumsum(dim=1)  # [B, T-1]
         return start[:, None] + F.pad(bars, (1, 0))
-
-    def _style(self, x: Tensor, h: Tensor) -> Tensor:
-        return F.normalize(x[..., STYLE] + self.style_head(h), dim=-1)
 
 
 class MotionDecoder(Decoder):

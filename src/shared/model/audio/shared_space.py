@@ -191,7 +191,7 @@ class SharedSpace(nn.Module):
         card = card or ModelCard(kind=KIND)
         update = {"kind": KIND, "network": network, "audio_tower": config}
         self.card = card.model_copy(update=update)
-        self.config = config
+        self.config, self.embed_dim = config, config.embed_dim
         self.motion = MotionTower(network)
         self.audio = AudioTower(config)
 
@@ -203,11 +203,6 @@ class SharedSpace(nn.Module):
         space = cls(network, config.model_copy(update={"embed_dim": network.embed_dim}), card)
         space.motion = MotionTower.of(bundle)
         return space
-
-    @property
-    def embed_dim(self) -> int:
-        """D."""
-        return self.config.embed_dim
 
     @property
     def fingerprint(self) -> str:

@@ -461,38 +461,29 @@ class UNet1D(nn.Module):
             condition = self.prepare(condition, drop, memory)
         else:
             assert drop is None and memory is None, "a prepared condition cannot change any more"
-        down, middle, up = self._split(condition)
+        stages, depth = condition.stages, len(self.down)
         time_emb = self.time_embed(sinusoidal(t, self.config.time_embed_dim))  # [B, E]
         if condition.time is not None:
             time_emb = time_emb + condition.time
         h = self.input_conv(self._pad(x))  # [B, C, T']
-        self._check_frames(h.shape[-1], condition)
+        film = stages[0].film[0]
+        if film is not None and film.shape[-1] != h.shape[-1]:
+            raise ValueError(
+                f"the condition has {film.shape[-1]} frames (padded), the motion {h.shape[-1]}"
+            )
         skips = []
-        for stage, halve, own in zip(self.down, self.downsample, down, strict=True):
+        for stage, halve, own in zip(self.down, self.downsample, stages[:depth], strict=True):
             h = self._run(stage, h, time_emb, own)  # [B, C_i, T/2^i]
             skips.append(h)
             h = halve(h)
-        h = self._run(self.middle, h, time_emb, middle)
-        for level, own in zip(reversed(range(len(self.up))), up, strict=True):
+        h = self._run(self.middle, h, time_emb, stages[depth])
+        for level, own in zip(reversed(range(depth)), stages[depth + 1 :], strict=True):
             h = self.upsample[level](h)
             h = torch.cat((h, skips[level]), dim=1)  # [B, 2 C_i, T/2^i]
             h = self._run(self.up[level], h, time_emb, own)
         h = F.silu(self.output_norm(h))  # [B, C, T']
         result: Tensor = self.output_conv(h)[..., :frames]  # [B, 25, T]
         return result
-
-    def _split(
-        self, prepared: Prepared
-    ) -> tuple[Sequence[StageCondition], StageCondition, Sequence[StageCondition]]:
-        depth, stages = len(self.down), prepared.stages
-        return stages[:depth], stages[depth], stages[depth + 1 :]
-
-    def _check_frames(self, frames: int, prepared: Prepared) -> None:
-        film = prepared.stages[0].film[0]
-        if film is not None and film.shape[-1] != frames:
-            raise ValueError(
-                f"the condition has {film.shape[-1]} frames (padded), the motion {frames}"
-            )
 
     def _run(self, stage: nn.Module, h: Tensor, time: Tensor, condition: StageCondition) -> Tensor:
         out: Tensor

@@ -124,18 +124,13 @@ class TextTower(nn.Module):
         encoder_config: Mapping[str, Any] | None = None,
     ) -> None:
         super().__init__()
-        self.config = config
+        self.config, self.embed_dim = config, embed_dim
         self.encoder = _build_encoder(config, encoder_config)
         self.text_proj = nn.Linear(self.encoder.config.hidden_size, embed_dim)
         if config.text_places:
             self.register_buffer("places", torch.zeros(config.text_places, embed_dim))
         if config.text_place_keys:
             self.register_buffer("keys", torch.zeros(config.text_places, embed_dim))
-
-    @property
-    def embed_dim(self) -> int:
-        """D."""
-        return self.text_proj.out_features
 
     def encoder_config(self) -> dict[str, Any] | None:
         """What a model folder must keep to rebuild the encoder; None for our own."""

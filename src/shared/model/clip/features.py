@@ -45,6 +45,15 @@ class TextFeatures:
         return TextFeatures(*parts)  # type: ignore[arg-type]
 
 
+def null_features(pooled: Tensor, token: Tensor, batch_size: int, num_tokens: int) -> TextFeatures:
+    """A network's "no text" [D] and the token [D] of it, B times; one of L tokens is real."""
+    mask = torch.zeros(batch_size, num_tokens, dtype=torch.bool, device=pooled.device)
+    mask[:, 0] = True
+    dim = len(pooled)
+    tokens = token.expand(batch_size, num_tokens, dim)
+    return TextFeatures(pooled.expand(batch_size, dim), tokens, mask)
+
+
 def check_embed_dims(text_dim: int, denoiser_dim: int, where: str) -> None:
     """TEXT's constraint, caught at load.
 

@@ -9,7 +9,7 @@ import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any, Protocol, Self
+from typing import Any, Self
 
 from ...errors import UserError
 from ...io.files import atomic_write, load_json, write_json
@@ -23,18 +23,6 @@ BYTES_AND_SPECIALS = 256 + 4
 CHARACTER_SHARE = 0.75  # of the other pieces may be single characters; rarer ones become bytes
 
 log = logging.getLogger(__name__)
-
-
-class _Backend(Protocol):
-    kind: str
-    vocab_size: int
-    pad_id: int
-
-    def encode(self, prompt: str) -> list[int]: ...
-
-    def pieces(self, prompt: str) -> list[str]: ...
-
-    def save(self, folder: Path) -> None: ...
 
 
 class _SentencePiece:
@@ -102,8 +90,10 @@ class PromptTokenizer:
     Make one with `train` or `from_pretrained`.
     """
 
-    def __init__(self, backend: _Backend, max_tokens: int) -> None:
+    def __init__(self, backend: _SentencePiece | _Pretrained, max_tokens: int) -> None:
         self._backend = backend
+        self.vocab_size = backend.vocab_size  # number of ids
+        self.kind = backend.kind  # sentencepiece or transformers: who reads its folder
         self.max_tokens = max_tokens
 
     @classmethod
@@ -172,18 +162,8 @@ class PromptTokenizer:
         folder = Path(folder)
         folder.mkdir(parents=True, exist_ok=True)
         self._backend.save(folder)
-        meta = {"kind": self._backend.kind, "max-tokens": self.max_tokens}
+        meta = {"kind": self.kind, "max-tokens": self.max_tokens}
         write_json(folder / META_FILE, meta)
-
-    @property
-    def vocab_size(self) -> int:
-        """Number of ids."""
-        return self._backend.vocab_size
-
-    @property
-    def kind(self) -> str:
-        """Sentencepiece or transformers: who reads its folder."""
-        return self._backend.kind
 
     def pieces(self, prompt: str) -> list[str]:
         """The prompt cut into pieces, without special tokens."""
@@ -232,9 +212,6 @@ def _without_rare_characters(corpus: Sequence[str], vocab_size: int) -> list[str
     counts = Counter(character for text in texts for character in text)
     if len(counts) <= room:
         return list(corpus)
-    common = {character for character, _ in sorted(counts.items(), key=_by_count)[: max(room, 0)]}
+    by_count = sorted(counts, key=lambda character: (-counts[character], character))
+    common = set(by_count[: max(room, 0)])
     return ["".join(c if c in common else " " for c in text) for text in texts]
-
-
-def _by_count(item: tuple[str, int]) -> tuple[int, str]:
-    return -item[1], item[0]

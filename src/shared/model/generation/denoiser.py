@@ -11,7 +11,7 @@ from torch import Tensor, nn
 from torch.nn.functional import one_hot, pad, silu
 
 from ...config_schema import PROVENANCES, NetworkConfig
-from ..clip.features import TextFeatures
+from ..clip.features import TextFeatures, null_features
 from ..layers.transformer import (
     CrossAttention,
     DenoiserBlock,
@@ -63,13 +63,14 @@ class MotionDenoiser(nn.Module):
         self.config = config
         self.num_tags = num_tags
         self.uses_tokens = generation.text_conditioning == "tokens"
+        self.shows_known = generation.constraints  # known entries are an input
         self.stride = generation.frames_per_token
         motion_dim = config.motion_rows * generation.motion_channels
         token_dim = self.stride * motion_dim
 
         self.motion_proj = nn.Linear(token_dim, dim)
         self.known_proj = None
-        if generation.constraints:  # starts at zero: a network without it can be gone on from
+        if self.shows_known:  # starts at zero: a network without it can be gone on from
             self.known_proj = zeroed(nn.Linear(token_dim, dim, bias=False))
         self.text_scale = nn.Parameter(torch.tensor(float(dim) ** 0.5))  # unit-norm -> unit RMS
         self.text_proj = nn.Linear(dim, dim)
@@ -127,9 +128,7 @@ class MotionDenoiser(nn.Module):
         Returns:
             [B, T, K, C] in float32 outside autocast.
         """
-        if mask is not None:
-            mask = without_full_mask(mask)
-        frame_mask = mask
+        frame_mask = mask = without_full_mask(mask)
         frames = noisy.shape[1]
         if self.refiner is not None and mask is not None:
             noisy = noisy * mask[:, :, None, None]  # a token may hold frames that are none
@@ -161,11 +160,6 @@ class MotionDenoiser(nn.Module):
         result: Tensor = out.view_as(noisy)  # [B, frames, K, C]
         return result
 
-    @property
-    def shows_known(self) -> bool:
-        """Whether known entries are an input."""
-        return self.known_proj is not None
-
     def _tokens(self, values: Tensor) -> Tensor:
         """Rows of `stride` frames side by side: [B, frames, N] -> [B, T, stride * N]."""
         if self.stride == 1:
@@ -184,15 +178,8 @@ class MotionDenoiser(nn.Module):
 
     def null_text(self, batch_size: int, num_tokens: int = 1) -> TextFeatures:
         """The learned "no text" (ruling 14): pooled [B, D], tokens [B, L, D], one of them real."""
-        dim, device = self.null_pooled.shape[0], self.null_pooled.device
-        token = self.null_token if self.uses_tokens else torch.zeros(dim, device=device)
-        mask = torch.zeros(batch_size, num_tokens, dtype=torch.bool, device=device)
-        mask[:, 0] = True
-        return TextFeatures(
-            self.null_pooled.expand(batch_size, dim),
-            token.expand(batch_size, num_tokens, dim),
-            mask,
-        )
+        token = self.null_token if self.uses_tokens else torch.zeros_like(self.null_pooled)
+        return null_features(self.null_pooled, token, batch_size, num_tokens)
 
     def drop_text(self, text: TextFeatures, drop: Tensor) -> TextFeatures:
         """The same texts with the learned null where drop [B] bool is True; what is open stays

@@ -80,38 +80,20 @@ class GenerationLoss(nn.Module):
         """
         if mask is None:
             mask = torch.ones(clean.shape[:2], dtype=torch.bool, device=clean.device)
-        with torch.autocast(clean.device.type, enabled=False):  # metres do not fit into bf16
-            return self._terms(output.float(), clean, noisy, noise, timesteps, mask)
-
-    def _terms(
-        self,
-        output: Tensor,
-        clean: Tensor,
-        noisy: Tensor,
-        noise: Tensor,
-        timesteps: Tensor,
-        mask: Tensor,
-    ) -> dict[str, Tensor]:
         terms = {}
-        if self.weights.reconstruction > 0:
-            target = self.diffusion.target(clean, noise, timesteps)
-            terms["reconstruction"] = self.diffusion.loss(output, target, mask=mask)
-        others: dict[str, Callable[[Motions], Tensor]] = {
-            "velocity": velocity_loss,
-            "root": root_loss,
-            "geodesic": geodesic_loss,
-            "position": position_loss,
-            "foot_contact": foot_contact_loss,
-            "foot_slide": foot_slide_loss,
-        }
-        active = {name: term for name, term in others.items() if getattr(self.weights, name) > 0}
-        if active:
-            # Limiting what is the output itself would only stop its gradient.
-            clip = self.diffusion.config.prediction_type != "sample"
-            predicted = self.diffusion.predict_x0(output, noisy, timesteps, clip=clip)
-            motions = Motions(predicted, clean, mask, self)
-            terms |= {name: term(motions) for name, term in active.items()}
-        total = sum(getattr(self.weights, name) * value for name, value in terms.items())
+        with torch.autocast(clean.device.type, enabled=False):  # metres do not fit into bf16
+            output = output.float()
+            if self.weights.reconstruction > 0:
+                target = self.diffusion.target(clean, noise, timesteps)
+                terms["reconstruction"] = self.diffusion.loss(output, target, mask=mask)
+            active = {name: term for name, term in TERMS.items() if getattr(self.weights, name) > 0}
+            if active:
+                # Limiting what is the output itself would only stop its gradient.
+                clip = self.diffusion.config.prediction_type != "sample"
+                predicted = self.diffusion.predict_x0(output, noisy, timesteps, clip=clip)
+                motions = Motions(predicted, clean, mask, self)
+                terms |= {name: term(motions) for name, term in active.items()}
+            total = sum(getattr(self.weights, name) * value for name, value in terms.items())
         return {"loss": torch.as_tensor(total, device=clean.device), **terms}
 
 
@@ -193,3 +175,13 @@ def foot_slide_loss(motions: Motions) -> Tensor:
     stands = motions.raw_true.features[:, :, ROOT_ROW, LEFT_CONTACT:] > 0.5  # [B, T, 2]
     pairs = motions.mask[:, 1:, None] & stands[:, 1:] & stands[:, :-1]  # [B, T-1, 2]
     return (speed.square().sum(dim=-1) * pairs).sum() / pairs.sum().clamp_min(1)
+
+
+TERMS: dict[str, Callable[[Motions], Tensor]] = {  # beside the reconstruction
+    "velocity": velocity_loss,
+    "root": root_loss,
+    "geodesic": geodesic_loss,
+    "position": position_loss,
+    "foot_contact": foot_contact_loss,
+    "foot_slide": foot_slide_loss,
+}

@@ -278,7 +278,12 @@ class TextToMotion:
         progress: Progress | None = None,
     ) -> list[Tensor]:
         """Like `generate`, before post-processing: raw features [T, K, C] on the CPU."""
-        self._require_trained()
+        if not self.card.trained:
+            name = self.card.name or "this model"
+            raise UserError(
+                f"{name} is untrained and would only give noise; train it with"
+                " `motion-tools train generation`, or use a model that `models` lists"
+            )
         requests = make_requests(
             prompts,
             seconds=seconds,
@@ -383,15 +388,6 @@ class TextToMotion:
             return None
         return self.style_map(self.encode_prompts([prompt]).pooled[0].cpu().numpy())
 
-    def _require_trained(self) -> None:
-        if not self.card.trained:
-            name = self.card.name or "this model"
-            raise UserError(
-                f"{name} is untrained and would only give noise; train it with"
-                " `motion-tools train generation`, or use a model that `models`"
-                " lists"
-            )
-
     def length_warning(self, seconds: float) -> str | None:
         """A line that says so if a motion is longer than any trained on; `generate` logs it."""
         longest = self.card.max_seconds
@@ -407,16 +403,8 @@ class TextToMotion:
     def save_pretrained(
         self, folder: str | Path, *, half: bool = False, int8: bool = False
     ) -> None:
-        """Write weights, card, tokenizer, scope and map of styles into a folder.
-
-        Args:
-            folder: made when absent.
-            half: store float16; computing stays float32.
-            int8: store large tensors as int8 with a scale a row.
-
-        Raises:
-            UserError: the folder cannot be written.
-        """
+        """Write weights, as float16 or int8 if asked, card, tokenizer, scope and map of styles;
+        raises UserError when that fails."""
         folder = Path(folder)
         self.tokenizer.save_pretrained(folder / TOKENIZER_FOLDER)
         if self.scope is not None:
@@ -442,7 +430,7 @@ class TextToMotion:
         """A generator by the name of a shipped model, or from a folder.
 
         Args:
-            name_or_folder: as `resolve_model` takes it.
+            name_or_folder: as of `resolve_model`.
             device: auto, cuda, mps or cpu.
             runtime: torch; or onnx for a folder that holds an export, on the CPU.
 
@@ -480,7 +468,9 @@ def _from_weights(folder: Path, card: ModelCard) -> Loaded:
     from .denoiser import MotionDenoiser
 
     tensors = read_tensors(folder, card)
-    _check_widths(tensors, folder)
+    tower, projection = (tensors.get(f"{part}.text_proj.weight") for part in ("text", "denoiser"))
+    if tower is not None and projection is not None:
+        check_embed_dims(len(tower), projection.shape[1], f"the text tower in {folder}")
     denoiser = MotionDenoiser(card.network, len(card.tags))
     load_state(denoiser, tensors, "denoiser", folder)
     text = TextTower(card.network.clip, card.network.embed_dim, encoder_config=card.text_encoder)
@@ -502,10 +492,3 @@ def _from_export(folder: Path, card: ModelCard) -> Loaded:
         torch.tensor(export.mean),
         torch.tensor(export.std),
     )
-
-
-def _check_widths(tensors: dict[str, Tensor], folder: Path) -> None:
-    """The text tower in the file must fit the denoiser in the file (TEXT's constraint)."""
-    tower, denoiser = tensors.get("text.text_proj.weight"), tensors.get("denoiser.text_proj.weight")
-    if tower is not None and denoiser is not None:
-        check_embed_dims(len(tower), denoiser.shape[1], f"the text tower in {folder}")

@@ -13,7 +13,7 @@ import numpy as np
 from ...config_schema import ClipConfig, NetworkConfig
 from ...tensors import Tensor, nn, torch
 from ..checkpoint import ModelCard, read_tensors
-from ..clip.features import TextFeatures
+from ..clip.features import TextFeatures, null_features
 from ..onnx_card import TextOnnxCard, open_graph, run
 
 TEXT_GRAPH, DENOISER_GRAPH = "text.onnx", "denoiser.onnx"
@@ -21,13 +21,7 @@ ADAPTED_GRAPH = "adapted.onnx"  # the denoiser with its adapters, for texts that
 
 
 class OnnxTextTower(nn.Module):
-    """What `TextTower` gives, from a graph.
-
-    Args:
-        folder: of the export.
-        card: of its weights.
-        threads: of the CPU.
-    """
+    """What `TextTower` gives, from a graph on so many threads of the CPU; `card` is the model's."""
 
     def __init__(self, folder: Path, card: ModelCard, threads: int) -> None:
         super().__init__()
@@ -56,14 +50,8 @@ class OnnxTextTower(nn.Module):
 
 
 class OnnxDenoiser(nn.Module):
-    """What `MotionDenoiser` predicts, from a graph; called as that is.
-
-    Args:
-        folder: of the export.
-        config: of the network.
-        card: of the export.
-        threads: of the CPU.
-    """
+    """What `MotionDenoiser` predicts, from a graph on so many threads of the CPU; called as it is,
+    `card` the export's."""
 
     def __init__(
         self, folder: Path, config: NetworkConfig, card: TextOnnxCard, threads: int
@@ -114,15 +102,6 @@ class OnnxDenoiser(nn.Module):
 
     def drop_text(self, text: TextFeatures, drop: Tensor) -> TextFeatures:
         """See `MotionDenoiser.drop_text`; all of them are dropped."""
-        null = self.null_text(len(text), text.mask.shape[1])
+        token = torch.zeros_like(self._pooled) if self._token is None else self._token
+        null = null_features(self._pooled, token, len(text), text.mask.shape[1])
         return replace(null, opened=text.opened, closeness=text.closeness)
-
-    def null_text(self, batch_size: int, num_tokens: int = 1) -> TextFeatures:
-        """See `MotionDenoiser.null_text`."""
-        dim = len(self._pooled)
-        token = torch.zeros(dim) if self._token is None else self._token
-        mask = torch.zeros(batch_size, num_tokens, dtype=torch.bool)
-        mask[:, 0] = True
-        return TextFeatures(
-            self._pooled.expand(batch_size, dim), token.expand(batch_size, num_tokens, dim), mask
-        )

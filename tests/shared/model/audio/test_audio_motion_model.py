@@ -44,7 +44,7 @@ def test_statistics_go_there_and_back() -> None:
 def test_forward_denoise_and_prepared_agree() -> None:
     model, (z, t, condition) = tiny(), batch()
     out = model(z, t, condition)
-    torch.testing.assert_close(out, model.denoise(z, t, model.prepare(condition)))
+    torch.testing.assert_close(out, model(z, t, model.prepare(condition)))
     torch.testing.assert_close(out, model.model_fn(condition)(z, t))
 
 

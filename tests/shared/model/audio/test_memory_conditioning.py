@@ -220,8 +220,8 @@ def test_guidance_leads_away_from_no_audio_and_no_memory() -> None:
     model.eval()
     assert torch.equal(model.model_fn(condition, 2.5)(x, t), plain)
     guided = model.model_fn(condition, 2.0, memory())(x, t)
-    null = model.denoise(x, t, model.prepare_null(2, FRAMES))
-    heard = model.denoise(x, t, condition, memory=memory())
+    null = model(x, t, model.prepare_null(2, FRAMES))
+    heard = model(x, t, condition, memory=memory())
     torch.testing.assert_close(guided, 2 * heard - null, rtol=1e-4, atol=1e-5)
 
 
