@@ -11,8 +11,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..errors import UsageError, UserError
-from ..motion.danced import Danced
-from ..motion.motion import Motion
+from ..motion.motion import Danced, Motion
 from ..motion.trajectory import MotionTrajectory, from_motion
 from .preview.trajectory import SongTrack
 from .rig import RigClip

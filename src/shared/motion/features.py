@@ -81,27 +81,14 @@ def encode_features(motion: Motion, *others: Motion) -> Tensor:
     to_heading = yaw_to_matrix(-heading)  # T 3 3
     local = torch.cat(((to_heading @ local[:, 0])[:, None], local[:, 1:]), 1)
     velocity = (to_heading @ rate(position)[..., None]).squeeze(-1)
-    root = torch.cat(
-        (
-            velocity[:, [2]],
-            velocity[:, [0]],
-            position[:, [1]],
-            rate(heading[:, None]),
-            joined("contacts"),
-        ),
-        1,
-    )  # T 6
+    ground, height, turning = velocity[:, [2, 0]], position[:, [1]], rate(heading[:, None])
+    root = torch.cat((ground, height, turning, joined("contacts")), 1)  # T 6
     return torch.cat((matrix_to_rotation_6d(local), root[:, None]), 1).float()
 
 
 def integrate_root(root: Tensor, fps: float, place: Place = ORIGIN) -> tuple[Tensor, Tensor]:
-    """Root rows [...,T,6] → pelvis path [...,T,3] in metres and heading [...,T] in radians.
-
-    Args:
-        root: rows as in this module's head.
-        fps: frames per second.
-        place: of the first frame.
-    """
+    """Root rows [...,T,6] → pelvis path [...,T,3] in metres and heading [...,T] in radians, the
+    first frame at `place`."""
 
     def accumulate(rate: Tensor) -> Tensor:
         total = torch.cumsum(rate / fps, -1)
@@ -116,13 +103,8 @@ def integrate_root(root: Tensor, fps: float, place: Place = ORIGIN) -> tuple[Ten
 
 
 def to_world(joints: Tensor, root: Tensor, fps: float) -> Tensor:
-    """Joints [...,T,J,3] in the heading frame, over the origin → the world, where the path began.
-
-    Args:
-        joints: with their heights, the pelvis at x = z = 0.
-        root: the rows [...,T,6] of the path.
-        fps: frames per second.
-    """
+    """Joints [...,T,J,3] in the heading frame, the pelvis at x = z = 0 → the world, along the path
+    of root rows [...,T,6] from the origin on."""
     path, heading = integrate_root(root, fps)  # [..., T, 3], [..., T]
     turned = (yaw_to_matrix(heading)[..., None, :, :] @ joints[..., None]).squeeze(-1)
     ground = path * path.new_tensor([1.0, 0.0, 1.0])  # the height is in the joints already
@@ -139,13 +121,8 @@ def heading_joints(rotations: Tensor, height: Tensor) -> Tensor:
 
 
 def world_pose(features: Tensor, fps: float, place: Place = ORIGIN) -> tuple[Tensor, Tensor]:
-    """Local rotations [...,T,K,3,3], the pelvis' in the world, and the pelvis path [...,T,3].
-
-    Args:
-        features: raw [...,T,R,6]; without a root track the body stands in place.
-        fps: frames per second.
-        place: of the first frame.
-    """
+    """Local rotations [...,T,K,3,3], the pelvis' in the world, and the pelvis path [...,T,3] of raw
+    features [...,T,R,6]; without a root track the body stands in place."""
     if features.shape[-2] == NUM_JOINTS:
         root = torch.zeros_like(features[..., 0, :])
         root[..., HEIGHT] = REST_PELVIS_HEIGHT
@@ -171,14 +148,8 @@ def decode_features(
     place: Place = ORIGIN,
     text: str = "",
 ) -> Motion:
-    """Features [T,23,6], or [T,22,6] without a root track (stands in place) → Motion.
-
-    Args:
-        features: raw.
-        fps: frames per second.
-        place: of the first frame.
-        text: the caption.
-    """
+    """Raw features [T,23,6], or [T,22,6] without a root track (stands in place) → Motion, its first
+    frame at `place`; `text` is its caption."""
     features = features.detach().float().cpu()
     local, path = world_pose(features, fps, place)
     contacts = torch.zeros(len(features), 2)

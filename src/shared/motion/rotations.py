@@ -49,16 +49,10 @@ def matrix_to_quaternion(matrix: Tensor) -> Tensor:
     squares = torch.stack(
         (1 + m00 + m11 + m22, 1 + m00 - m11 - m22, 1 - m00 + m11 - m22, 1 - m00 - m11 + m22), -1
     )  # 4·(w², x², y², z²)
-    yz, zx, xy = (
-        matrix[..., 2, 1] - matrix[..., 1, 2],
-        matrix[..., 0, 2] - matrix[..., 2, 0],
-        matrix[..., 1, 0] - matrix[..., 0, 1],
-    )  # 4·(wx, wy, wz)
-    sxy, szx, syz = (
-        matrix[..., 1, 0] + matrix[..., 0, 1],
-        matrix[..., 0, 2] + matrix[..., 2, 0],
-        matrix[..., 2, 1] + matrix[..., 1, 2],
-    )  # 4·(xy, zx, yz)
+    turned = matrix.swapaxes(-1, -2)
+    gaps, sums = matrix - turned, matrix + turned
+    yz, zx, xy = gaps[..., 2, 1], gaps[..., 0, 2], gaps[..., 1, 0]  # 4·(wx, wy, wz)
+    sxy, szx, syz = sums[..., 1, 0], sums[..., 0, 2], sums[..., 2, 1]  # 4·(xy, zx, yz)
     s = squares
     rows = torch.stack(
         (
@@ -175,8 +169,7 @@ def shortest_turn(source: Tensor, target: Tensor) -> Tensor:
 
 def heading_angle(matrix: Tensor) -> Tensor:
     """Heading [...] in radians: the twist of [...,3,3] about +Y (SPEC ruling 19)."""
-    q = matrix_to_quaternion(matrix)
-    return 2 * torch.atan2(q[..., 2], q[..., 0])
+    return heading_of(matrix_to_quaternion(matrix))
 
 
 def heading_of(quaternions: Tensor) -> Tensor:
@@ -274,15 +267,11 @@ def angular_velocity(quaternions: Tensor, fps: float) -> Tensor:
 
 
 def derive(position: Tensor, quaternions: Tensor, fps: float) -> tuple[Tensor, Tensor, Tensor]:
-    """Velocity m/s, acceleration m/s² and angular velocity rad/s, each [...,T,3].
+    """Velocity m/s, acceleration m/s² and angular velocity rad/s, each [...,T,3], of positions
+    [...,T,3] in metres and unit quaternions [...,T,4].
 
     The last two accelerations of a sequence are zero because its last velocity repeats: derive
     with two spare frames and crop where that matters (ruling 6).
-
-    Args:
-        position: metres [...,T,3].
-        quaternions: unit, w x y z [...,T,4].
-        fps: frames per second.
     """
     velocity = forward_difference(position, fps)
     return velocity, forward_difference(velocity, fps), angular_velocity(quaternions, fps)

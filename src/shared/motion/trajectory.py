@@ -43,6 +43,16 @@ STYLE = slice(17, 25)  # unit vector
 NEUTRAL_STYLE = np.full(8, 8**-0.5, dtype=np.float32)  # halfway in all four pairs, see style.py
 
 
+class _Columns:
+    """Columns of a trajectory by their name."""
+
+    def __init__(self, columns: slice | int) -> None:
+        self.columns = columns
+
+    def __get__(self, trajectory: "MotionTrajectory", _: type) -> np.ndarray:
+        return trajectory.data[:, self.columns]
+
+
 @dataclass(frozen=True, eq=False)
 class MotionTrajectory:
     """A trajectory and its frame rate.
@@ -57,6 +67,14 @@ class MotionTrajectory:
 
     data: np.ndarray
     fps: float = FPS
+
+    position = _Columns(POSITION)  # pelvis [T,3], metres
+    velocity = _Columns(VELOCITY)  # [T,3] m/s
+    acceleration = _Columns(ACCELERATION)  # [T,3] m/s²
+    quaternion = _Columns(QUATERNION)  # [T,4], w x y z
+    angular_velocity = _Columns(ANGULAR_VELOCITY)  # [T,3] rad/s, world frame
+    phase = _Columns(PHASE)  # [T] of the bar, in [0, 1)
+    style = _Columns(STYLE)  # [T,8], unit
 
     def __post_init__(self) -> None:
         if self.data.ndim != 2 or self.data.shape[1] != CHANNELS:
@@ -104,44 +122,9 @@ class MotionTrajectory:
         return self.num_frames / self.fps
 
     @property
-    def position(self) -> np.ndarray:
-        """Pelvis [T,3], metres."""
-        return self.data[:, POSITION]
-
-    @property
-    def velocity(self) -> np.ndarray:
-        """[T,3] m/s."""
-        return self.data[:, VELOCITY]
-
-    @property
-    def acceleration(self) -> np.ndarray:
-        """[T,3] m/s²."""
-        return self.data[:, ACCELERATION]
-
-    @property
-    def quaternion(self) -> np.ndarray:
-        """[T,4], w x y z."""
-        return self.data[:, QUATERNION]
-
-    @property
-    def angular_velocity(self) -> np.ndarray:
-        """[T,3] rad/s, world frame."""
-        return self.data[:, ANGULAR_VELOCITY]
-
-    @property
-    def phase(self) -> np.ndarray:
-        """[T] of the bar, in [0, 1)."""
-        return self.data[:, PHASE]
-
-    @property
     def phase_unwrapped(self) -> np.ndarray:
         """[T] bars, float64, growing on."""
         return unwrap_phase(self.phase)
-
-    @property
-    def style(self) -> np.ndarray:
-        """[T,8], unit."""
-        return self.data[:, STYLE]
 
     @property
     def heading(self) -> np.ndarray:
@@ -223,10 +206,6 @@ def encode_window(trajectory: np.ndarray, phase_unwrapped: np.ndarray) -> np.nda
 
     Velocities, accelerations and turns are taken over as they are, so cut windows out of a whole
     trajectory rather than deriving each anew.
-
-    Args:
-        trajectory: T frames.
-        phase_unwrapped: bars [T].
     """
     data = torch.as_tensor(trajectory, dtype=torch.float64)
     heading = float(heading_of(data[0, QUATERNION]))
@@ -281,7 +260,7 @@ class WindowJoiner:
         assert overlap >= 1
         self.overlap = overlap
         self._phase = phase  # bars at the first pending frame
-        self._last_sign: Tensor | None = None  # quaternion of the last frame returned
+        self._last_sign: np.ndarray | None = None  # quaternion of the last frame returned
         self._pending: Tensor | None = None  # [T,25], of which velocities and turns are not used
 
     def add(self, window: np.ndarray) -> MotionTrajectory:
@@ -317,17 +296,13 @@ class WindowJoiner:
         trajectory = MotionTrajectory.from_pose(
             piece[:, POSITION], piece[:, QUATERNION], phase, piece[:, STYLE], spare=spare
         )
-        self._carry_sign(trajectory)
+        # continuity wins across the seam (ruling 10)
+        if self._last_sign is not None and float(trajectory.quaternion[0] @ self._last_sign) < 0:
+            trajectory.quaternion[:] *= -1
+        self._last_sign = trajectory.quaternion[-1].copy()
         self._phase = phase[num_frames - 1] + float(steps[num_frames - 1])
         self._pending = self._pending[num_frames:]
         return trajectory
-
-    def _carry_sign(self, trajectory: MotionTrajectory) -> None:
-        """Continuity wins across the seam (ruling 10)."""
-        first = torch.as_tensor(trajectory.quaternion[0])
-        if self._last_sign is not None and float(first @ self._last_sign) < 0:
-            trajectory.quaternion[:] *= -1
-        self._last_sign = torch.as_tensor(trajectory.quaternion[-1].copy())
 
 
 def _move(data: Tensor, heading: float, offset: Tensor) -> Tensor:

@@ -26,9 +26,8 @@ from ..errors import UsageError
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
-from ..motion.danced import Danced
 from ..motion.features import LEFT_CONTACT, ROOT_ROW, Place
-from ..motion.motion import Motion
+from ..motion.motion import Danced, Motion
 from ..motion.postprocess.stitching import blend_cuts
 from ..motion.rotations import (
     heading_of,
@@ -37,7 +36,7 @@ from ..motion.rotations import (
     turn_about_y,
     yaw_to_matrix,
 )
-from ..motion.steering import circling, steered
+from ..motion.staging import circling, steered
 from ..motion.trajectory import MotionTrajectory, from_motion, to_root
 from .song_sampler import Progress
 from .stream import Passage, stream_features

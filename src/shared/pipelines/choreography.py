@@ -23,7 +23,7 @@ from scipy.spatial.distance import cdist
 
 from ..config_loader import load_yaml, packaged_config
 from ..memory.figures import AXES, FPS, FigureMemory, Figures
-from ..motion.manner import PLAIN, Manner
+from ..motion.staging import PLAIN, Manner
 from .body import beats_beyond
 
 PACE = 0.5  # seconds of a count, about; a beat counts half, one or two of them

@@ -22,7 +22,6 @@ from ..metrics.rhythm import motion_beats
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
-from ..motion.danced import Danced
 from ..motion.features import (
     FORWARD,
     LATERAL,
@@ -32,8 +31,7 @@ from ..motion.features import (
     mirror_features,
     world_joints,
 )
-from ..motion.manner import carried
-from ..motion.motion import Motion
+from ..motion.motion import Danced, Motion
 from ..motion.rotations import (
     matrix_to_quaternion,
     matrix_to_rotation_6d,
@@ -42,7 +40,7 @@ from ..motion.rotations import (
     rotation_6d_to_matrix,
 )
 from ..motion.skeleton import NUM_JOINTS
-from ..motion.steering import staged
+from ..motion.staging import carried, staged
 from .choreography import Choreographer, Slot, Wish, song_slots
 from .edit import fill_free
 from .song import SongCondition

@@ -13,8 +13,7 @@ from src.shared.errors import UserError
 from src.shared.formats.arrays import read_npz
 from src.shared.formats.preview.trajectory import SongTrack
 from src.shared.formats.registry import export_dance, write_dance_page
-from src.shared.motion.danced import Danced
-from src.shared.motion.motion import Motion
+from src.shared.motion.motion import Danced, Motion
 from src.shared.motion.skeleton import JOINT_INDEX
 from src.shared.motion.trajectory import MotionTrajectory, to_motion
 from tests.shared.evaluation.tiny_pairs import nod

@@ -16,8 +16,7 @@ from PIL import Image, ImageDraw, ImageFilter
 from ...errors import UserError
 from ...io.files import atomic_write
 from ...io.sound_files import SoundReader
-from ...motion.danced import Danced
-from ...motion.motion import Motion, resample_motion
+from ...motion.motion import Danced, Motion, resample_motion
 from ...motion.skeleton import FOOT_JOINTS
 from ..mannequin import CONTACT, Mannequin, mannequin, side_colours
 from .drawing import (

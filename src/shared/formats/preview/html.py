@@ -25,8 +25,7 @@ import numpy as np
 from ...errors import UserError
 from ...io.files import write_text
 from ...io.sound_files import SoundReader
-from ...motion.danced import Danced
-from ...motion.motion import Motion
+from ...motion.motion import Danced, Motion
 from ...motion.skeleton import FOOT_JOINTS, canonical_skeleton
 from ...motion.style import PAIRS, style_values
 from ...motion.trajectory import MotionTrajectory

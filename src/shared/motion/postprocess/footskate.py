@@ -24,7 +24,7 @@ from ..rotations import (
     quaternion_to_matrix,
     shortest_turn,
 )
-from ..skeleton import FOOT_JOINTS, JOINT_INDEX, LEG_LENGTH, LIMBS, PARENTS, canonical_skeleton
+from ..skeleton import JOINT_INDEX, LEG_LENGTH, LIMBS, PARENTS, canonical_skeleton
 from .contacts import foot_shifts
 
 MIN_CORRECTION = 1e-4  # metres; frames that need less stay exactly as they are
@@ -39,23 +39,17 @@ STRAIGHT, BENT = 0.02, 0.1  # sine between which the knee's own plane takes over
 
 def kept_legs(known: Tensor) -> np.ndarray:
     """Which leg has a known joint: entries [T,R,C] bool → [T,2] bool, left and right."""
-    legs = [[PARENTS[PARENTS[ankle]], PARENTS[ankle], ankle] for ankle, _ in FOOT_JOINTS]
-    return np.stack([known[:, leg].flatten(1).any(1).numpy() for leg in legs], axis=1)
+    return np.stack([known[:, leg[:-1]].flatten(1).any(1).numpy() for leg in LEGS], axis=1)
 
 
 def lock_feet(motion: Motion, *, kept: np.ndarray | None = None) -> Motion:
-    """The motion with its standing feet held; `contacts` then tells which are.
-
-    Args:
-        motion: of any length.
-        kept: legs [T,2] bool that must stay as they are.
-    """
+    """The motion with its standing feet held, which `contacts` then tells; legs that are `kept`
+    [T,2] bool stay as they are."""
     quaternions = torch.as_tensor(motion.quaternions, dtype=torch.float64)
     offsets = torch.as_tensor(canonical_skeleton().offsets, dtype=torch.float64)
     root = torch.as_tensor(motion.root_position, dtype=torch.float64)
     positions, world = forward_kinematics(quaternion_to_matrix(quaternions), root, offsets, PARENTS)
-    balls = [ball for _, ball in FOOT_JOINTS]
-    hips = [PARENTS[PARENTS[ankle]] for ankle, _ in FOOT_JOINTS]
+    hips, balls = [leg[0] for leg in LEGS], [leg[-1] for leg in LEGS]
     shifts, held = foot_shifts(
         positions[:, balls].numpy(), positions[:, hips].numpy(), motion.contacts, motion.fps, kept
     )
@@ -92,7 +86,7 @@ def _move_legs(
     turned_hip, turned_knee, turned_ankle, turned_ball = world[legs].unbind(1)
     target = ball + shift
     lever = ankle - ball
-    longest = longest_reach((ankle - hip).norm(dim=-1))
+    longest = (ankle - hip).norm(dim=-1).clip(min=RISE_AT * LEG_LENGTH)  # with its heel down
     rise = heel_rise(hip, target, lever, longest)
     _, knee, foot, _ = LEGS[0]
     thigh, shin = two_bone_ik(
@@ -116,10 +110,6 @@ def lock_carried_feet(motion: Motion, *, kept: np.ndarray | None = None) -> Moti
     steps there, which begin and end with corners, on top of whatever the legs did. Smoothed, that
     is a body that steps by itself, and the second time there is little left to correct: standing
     feet slide less than after one lock, and accelerations stay as real ones (docs/experiments.md).
-
-    Args:
-        motion: of any length, its pelvis on a path that is not its own.
-        kept: legs [T,2] bool that must stay as they are.
     """
     stepping = _smooth_legs(lock_feet(motion, kept=kept), FIRST, kept)
     return _smooth_legs(lock_feet(stepping, kept=kept), LAST, kept)
@@ -151,11 +141,6 @@ def ease_from_kept(loose: Motion, locked: Motion, kept: np.ndarray) -> Motion:
 
 
 # ---------------------------------------------------------------- one leg
-
-
-def longest_reach(length: Tensor) -> Tensor:
-    """How far an ankle may be from its hip [...] with its heel down, `length` [...] away now."""
-    return length.clip(min=RISE_AT * LEG_LENGTH)
 
 
 def heel_rise(hip: Tensor, ball: Tensor, lever: Tensor, longest: Tensor) -> Tensor:

@@ -98,7 +98,8 @@ def _meet(values: np.ndarray, fixed: np.ndarray, fade: int) -> None:
     starts = fixed[:-1] & ~fixed[1:]  # T-1 N, the next frame is the first free one
     for last in np.flatnonzero(starts.any(1)):
         columns = np.flatnonzero(starts[last])
-        lengths = _free_frames(fixed[last + 1 :, columns])
+        later = fixed[last + 1 :, columns]
+        lengths = np.where(later.any(0), later.argmax(0), len(later))  # until it is fixed again
         for length in np.unique(lengths):
             same = columns[lengths == length]
             part = values[last + 1 : last + 1 + length, same]
@@ -106,11 +107,6 @@ def _meet(values: np.ndarray, fixed: np.ndarray, fade: int) -> None:
             open_ended = last + 1 + length == len(values)
             reach = fade if open_ended else min(fade, max(1, length // 2))
             values[last + 1 : last + 1 + length, same] += _weights(length, reach)[:, None] * miss
-
-
-def _free_frames(fixed: np.ndarray) -> np.ndarray:
-    """How many frames [N] pass until a column [T,N] is fixed again."""
-    return np.where(fixed.any(0), fixed.argmax(0), len(fixed))
 
 
 def _expected(before: np.ndarray, fixed: np.ndarray, after: np.ndarray) -> np.ndarray:

@@ -62,12 +62,8 @@ def clamp_velocity(quaternions: Tensor, max_velocity: float | None, fps: float) 
     """Rotations that no joint turns faster than allowed, [...,T,K,4] → the same.
 
     Each frame follows the wanted rotation along the geodesic, as far as one frame allows, so a
-    jump becomes a ramp that arrives late. Frames within the limit are returned untouched.
-
-    Args:
-        quaternions: unit, w x y z.
-        max_velocity: rad/s; None = no limit.
-        fps: frames per second.
+    jump becomes a ramp that arrives late. Frames within the limit are returned untouched, as are
+    all where `max_velocity`, rad/s, is None.
     """
     if max_velocity is None:
         return quaternions

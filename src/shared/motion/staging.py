@@ -1,0 +1,179 @@
+"""How a dancer is staged: in which manner, and kept near the middle and to the front.
+
+A manner is how somebody carries what they do: bent trunk, bowed head, bent knees, small or wide
+arms. What is danced stays what it is; who dances it changes.
+
+Nothing says where a dance goes, and a body that nobody holds wanders off. Frame by frame the
+heading is turned towards the front and the velocity towards the middle, by no more than feet that
+step anyway can take up; a slow way backward, which nobody asked for, is mostly left out. The foot
+clean-up then lets feet stand where they would have slid.
+
+Runs on the CPU in float64.
+
+Letters: T frames.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d
+
+from ..tensors import Tensor, torch
+from .features import FORWARD, HEIGHT, LATERAL, ROOT_ROW, YAW_RATE, heading_joints, integrate_root
+from .rotations import (
+    axis_angle_to_matrix,
+    matrix_to_quaternion,
+    matrix_to_rotation_6d,
+    quaternion_slerp,
+    quaternion_to_matrix,
+    rotation_6d_to_matrix,
+)
+from .skeleton import JOINT_INDEX, LIMBS, NUM_JOINTS
+
+FAR = 2.6  # radians from what an arm does on average, beyond which it is left alone
+SETTLE = 0.1  # seconds, standard deviation, over which the pelvis follows bent knees
+FOLDED = 100.0  # degrees of a knee that bends no more
+ARMS = [JOINT_INDEX[name] for side in ("left-arm", "right-arm") for name in LIMBS[side]]
+
+
+@dataclass(frozen=True)
+class Manner:
+    """What is added to every pose, degrees, and what arms keep of their movement.
+
+    Attributes:
+        stoop: that the trunk is bent forward.
+        bow: that neck and head are, further.
+        knees: that legs which stand straight are bent, each hip by this, each knee by twice that;
+            the more one is bent already, the less.
+        arms: share of their movement around what they do on average; 1 = all of it.
+    """
+
+    stoop: float = 0.0
+    bow: float = 0.0
+    knees: float = 0.0
+    arms: float = 1.0
+
+    def __and__(self, other: "Manner") -> "Manner":
+        """Both at once."""
+        return Manner(
+            self.stoop + other.stoop,
+            self.bow + other.bow,
+            self.knees + other.knees,
+            self.arms * other.arms,
+        )
+
+
+PLAIN = Manner()
+
+
+def carried(features: Tensor, manner: Manner, fps: float) -> Tensor:
+    """Raw features [T,23,6] of the same movement in a manner; feet stay as high as they were."""
+    if manner == PLAIN:
+        return features
+    result = features.clone()
+    rotations = rotation_6d_to_matrix(features[:, :NUM_JOINTS].double())
+    low = _lowest(rotations, features)
+    if manner.arms != 1.0:
+        mean = matrix_to_quaternion(rotation_6d_to_matrix(features[:, ARMS].double().mean(0)))
+        own = matrix_to_quaternion(rotations[:, ARMS])
+        apart = 2 * torch.acos(((mean * own).sum(-1, keepdim=True)).abs().clamp(0, 1))
+        near = ((FAR - apart) / (FAR / 2)).clamp(0, 1)  # there are two ways to the far side
+        share = 1 + (manner.arms - 1) * near
+        rotations[:, ARMS] = quaternion_to_matrix(quaternion_slerp(mean, own, share))
+    for names, degrees in (
+        (("spine1", "spine2", "spine3"), manner.stoop / 3),
+        (("neck", "head"), manner.bow / 2),
+    ):
+        for name in names:
+            rotations[:, JOINT_INDEX[name]] = (
+                _forward(torch.tensor(degrees)) @ rotations[:, JOINT_INDEX[name]]
+            )
+    for side in "lr":
+        hip, knee, ankle = (JOINT_INDEX[f"{side}_{name}"] for name in ("hip", "knee", "ankle"))
+        trace = rotations[:, knee, 0, 0] + rotations[:, knee, 1, 1] + rotations[:, knee, 2, 2]
+        bent = torch.acos(((trace - 1) / 2).clamp(-1, 1)) * (180 / np.pi)
+        more = manner.knees * (1 - bent / FOLDED).clamp(0, 1)
+        rotations[:, hip] = rotations[:, hip] @ _forward(-more)
+        rotations[:, knee] = rotations[:, knee] @ _forward(2 * more)
+        rotations[:, ankle] = _forward(-more) @ rotations[:, ankle]
+    result[:, :NUM_JOINTS] = matrix_to_rotation_6d(rotations).float()
+    sinks = gaussian_filter1d(_lowest(rotations, features) - low, SETTLE * fps, mode="nearest")
+    result[:, ROOT_ROW, HEIGHT] -= torch.from_numpy(sinks).float()
+    return result
+
+
+def _forward(degrees: Tensor) -> Tensor:
+    """Turns [...,3,3] that tilt what is up forward by degrees [...]."""
+    return axis_angle_to_matrix(0, degrees.double() * (np.pi / 180))
+
+
+def _lowest(rotations: Tensor, features: Tensor) -> np.ndarray:
+    """Height of the lowest joint [T]."""
+    height = features[:, ROOT_ROW, HEIGHT].double()
+    return np.asarray(heading_joints(rotations, height)[..., 1].min(1).values.numpy())
+
+
+# ---------------------------------------------------------------- on the stage
+
+LAG = 1.0  # seconds over which place and heading are averaged: a sway and a spin are left alone
+PULL, NEAR = 0.12, 0.8  # m/s at most, and metres from the middle at which 0.7 of it is reached
+TURN = 0.3  # rad/s at most, for a body that has its side to the front
+SWAY = 0.5  # seconds, standard deviation: quicker steps backward stay
+STEADY, STROLL = 1.0, 0.12  # seconds, standard deviation, and m/s: a faster way is a walk,
+ROUND = 0.55  # metres, radius of the circle that it is bent to
+ROOM, PULLS = 1.1, (PULL, 0.3, 0.6, 1.2)  # metres from the middle; pulls until it stays there
+BACKWARD = 0.8  # share of the way backward that is left out
+
+
+def circling(root: Tensor, fps: float) -> Tensor:
+    """Root rows [T,6] of a body that walks round where it would have walked off; see `steered`."""
+    rows = root.double().clone()
+    way = rows[:, [FORWARD, LATERAL]].numpy()
+    slow = gaussian_filter1d(way, STEADY * fps, axis=0, mode="nearest")
+    speed = np.linalg.norm(slow, axis=1)
+    side = 1.0 if float(rows[:, YAW_RATE].sum()) >= 0 else -1.0
+    bend = side * np.maximum(speed - STROLL, 0) / ROUND
+    rows[:, YAW_RATE] += torch.from_numpy(bend)
+    return rows.to(root.dtype)
+
+
+def staged(root: Tensor, fps: float) -> Tensor:
+    """Root rows [T,6] that `steered` leaves within `ROOM`, by a stronger pull if it has to be."""
+    rows = root
+    for pull in PULLS:
+        rows = steered(root, fps, pull=pull)
+        path = integrate_root(rows.double(), fps)[0].numpy()[:, [0, 2]]
+        if np.linalg.norm(path - path.mean(0), axis=1).max() <= ROOM:
+            break
+    return rows
+
+
+def steered(root: Tensor, fps: float, *, pull: float = PULL) -> Tensor:
+    """Root rows [T,6] of a body that keeps near the middle and comes back to the front.
+
+    Args:
+        root: forward and lateral velocity (m/s), height, yaw rate (rad/s) and contacts; the first
+            frame is in the middle and faces the front.
+        fps: frames a second.
+        pull: m/s at most.
+    """
+    rows = root.double().clone()
+    slow = gaussian_filter1d(rows[:, FORWARD].numpy(), SWAY * fps, mode="nearest")
+    rows[:, FORWARD] -= torch.from_numpy(BACKWARD * np.minimum(slow, 0.0))
+    values, keep = rows.tolist(), math.exp(-1 / (LAG * fps))
+    x = z = heading = near_x = near_z = sine = 0.0
+    cosine = 1.0
+    for row in values:
+        near_x, near_z = keep * near_x + (1 - keep) * x, keep * near_z + (1 - keep) * z
+        sine = keep * sine + (1 - keep) * math.sin(heading)
+        cosine = keep * cosine + (1 - keep) * math.cos(heading)
+        to_x, to_z = (-pull * at / math.hypot(near_x, near_z, NEAR) for at in (near_x, near_z))
+        row[YAW_RATE] -= TURN * sine  # of a spin's mean little is left
+        row[FORWARD] += to_x * math.sin(heading) + to_z * math.cos(heading)
+        row[LATERAL] += to_x * math.cos(heading) - to_z * math.sin(heading)
+        forward, left = row[FORWARD] / fps, row[LATERAL] / fps
+        x += forward * math.sin(heading) + left * math.cos(heading)
+        z += forward * math.cos(heading) - left * math.sin(heading)
+        heading += row[YAW_RATE] / fps
+    return torch.tensor(values, dtype=root.dtype)

@@ -1,0 +1,134 @@
+"""The same movement, carried otherwise; a body that wanders is pulled to the middle and the front,
+one that dances there is not."""
+
+import numpy as np
+import pytest
+import torch
+
+from src.shared.motion.features import (
+    FORWARD,
+    HEIGHT,
+    LATERAL,
+    YAW_RATE,
+    decode_features,
+    encode_features,
+    integrate_root,
+)
+from src.shared.motion.skeleton import JOINT_INDEX
+from src.shared.motion.staging import (
+    FAR,
+    PLAIN,
+    PULL,
+    ROOM,
+    TURN,
+    Manner,
+    carried,
+    circling,
+    staged,
+    steered,
+)
+from tests.shared.memory.tiny_figures import tiny_figures
+
+HEAD, PELVIS, WRIST = (JOINT_INDEX[name] for name in ("head", "pelvis", "l_wrist"))
+
+
+def places(manner: Manner) -> np.ndarray:
+    features = encode_features(tiny_figures().takes[0].motion)
+    return decode_features(carried(features, manner, 30.0)).positions()
+
+
+def test_who_is_plain_moves_as_ever() -> None:
+    features = encode_features(tiny_figures().takes[0].motion)
+    assert carried(features, PLAIN, 30.0) is features
+    assert Manner(stoop=10, arms=0.5) & Manner(knees=5, arms=0.5) == Manner(10, 0, 5, 0.25)
+
+
+def test_trunk_and_knees_bend_and_feet_stay_on_the_floor() -> None:
+    plain, old = places(PLAIN), places(Manner(stoop=24, knees=14))
+    assert (old[:, HEAD, 2] - old[:, PELVIS, 2]).mean() > 0.15  # in front of the pelvis
+    sinks = plain[:, PELVIS, 1] - old[:, PELVIS, 1]
+    assert 0.01 < sinks.mean() < 0.06
+    assert np.abs(plain[..., 1].min(1) - old[..., 1].min(1)).max() < 0.01
+
+
+@pytest.mark.parametrize("share", [0.5, 1.3])
+def test_arms_keep_a_share_of_their_movement(share: float) -> None:
+    plain, own = places(PLAIN)[:, WRIST], places(Manner(arms=share))[:, WRIST]
+    moved = [np.ptp(each - each.mean(0), axis=0).max() for each in (own, plain)]
+    assert moved[0] / moved[1] == pytest.approx(share, abs=0.3)
+
+
+def test_an_arm_that_goes_all_round_does_not_jump() -> None:
+    features = encode_features(tiny_figures().takes[0].motion)[:120]
+    angle = torch.linspace(0, 2 * np.pi, 120)
+    shoulder = JOINT_INDEX["l_shoulder"]
+    zero = torch.zeros_like(angle)
+    features[:, shoulder] = torch.stack((zero + 1, zero, zero, zero, angle.cos(), angle.sin()), -1)
+    steps = np.linalg.norm(
+        np.diff(decode_features(carried(features, Manner(arms=0.7), 30.0)).positions(), axis=0),
+        axis=-1,
+    )[:, WRIST]
+    assert steps.max() < 0.2 and np.pi > FAR
+
+
+# ---------------------------------------------------------------- on the stage
+
+
+def root(frames: int = 900, **rates: float) -> torch.Tensor:
+    """Rows [T,6] of a pelvis that keeps one velocity."""
+    rows = torch.zeros(frames, 6)
+    rows[:, HEIGHT] = 0.9
+    for name, rate in rates.items():
+        rows[:, {"forward": FORWARD, "left": LATERAL, "turn": YAW_RATE}[name]] = rate
+    return rows
+
+
+def furthest(rows: torch.Tensor) -> float:
+    path, _ = integrate_root(rows, 30.0)
+    return float(path[:, [0, 2]].norm(dim=-1).max())
+
+
+def test_who_wanders_off_stays_near() -> None:
+    for way in ({"forward": 0.08}, {"left": 0.08}, {"left": -0.08}):
+        assert furthest(root(**way)) > 2.3 and furthest(steered(root(**way), 30.0)) < 1.0
+
+
+def test_who_walks_off_all_the_same_is_pulled_harder() -> None:
+    off = root(left=0.25)
+    assert furthest(steered(off, 30.0)) > 2 * ROOM and furthest(staged(off, 30.0)) < 2 * ROOM
+    near = root(left=0.05)
+    assert torch.equal(staged(near, 30.0), steered(near, 30.0))
+
+
+def test_a_way_backward_is_mostly_left_out_and_quick_steps_stay() -> None:
+    backward = steered(root(forward=-0.3), 30.0)
+    assert float(backward[:30, FORWARD].min()) > -0.15
+    quick = root()
+    quick[:, FORWARD] = torch.from_numpy(np.sin(np.arange(900) / 30 * 4 * np.pi)).float()
+    change = (steered(quick, 30.0) - quick)[60:-60, FORWARD]
+    assert float(change.abs().max()) < PULL + 0.02
+
+
+def test_it_comes_back_to_the_front_but_spins_where_it_spins() -> None:
+    aside = root()
+    aside[:30, YAW_RATE] = np.pi / 2
+    assert abs(float(integrate_root(steered(aside, 30.0), 30.0)[1][-1])) < 0.2
+    spinning = steered(root(turn=2 * np.pi), 30.0)
+    heading = integrate_root(spinning, 30.0)[1]
+    assert abs(float(heading[-1]) - 2 * np.pi * 899 / 30) < np.pi
+    assert float((spinning[:, YAW_RATE] - 2 * np.pi).abs().max()) <= TURN + 1e-6
+
+
+def test_heights_and_contacts_stay() -> None:
+    rows = root(forward=0.2)
+    rows[::2, 4:] = 1.0
+    torch.testing.assert_close(steered(rows, 30.0)[:, [2, 4, 5]], rows[:, [2, 4, 5]])
+
+
+def test_who_walks_off_walks_round_and_a_sway_stays() -> None:
+    walk = circling(root(forward=1.0), 30.0)
+    assert furthest(walk) < 1.6 and furthest(root(forward=1.0)) > 29
+    assert float(walk[:, FORWARD].min()) == 1.0
+    sway = root()
+    sway[:, LATERAL] = torch.from_numpy(np.sin(np.arange(900) / 30 * 2 * np.pi)).float()
+    assert float((circling(sway, 30.0) - sway)[60:-60].abs().max()) < 0.02
