@@ -244,8 +244,7 @@ def config_keys(model_class: type[Config], prefix: str = "") -> Iterator[str]:
 
 def nearest(word: str, candidates: Sequence[str]) -> str:
     """The candidate most like `word`; candidates must not be empty."""
-    close = difflib.get_close_matches(word, candidates, n=1, cutoff=0.0)
-    return close[0] if close else candidates[0]
+    return difflib.get_close_matches(word, candidates, n=1, cutoff=0.0)[0]
 
 
 def did_you_mean(word: str, candidates: Sequence[str]) -> str:

@@ -50,11 +50,9 @@ def choose_device(requested: str = "auto") -> tuple[DeviceName, str]:
     reason = "as requested"
     if requested == "auto" and (named := variable(DEVICE)):
         requested, reason = named, f"as {DEVICE} says"
-    if not torch_is_here:
-        available = {"cuda": False, "mps": False, "cpu": True}
-    else:
-        cuda, mps = torch.cuda.is_available(), torch.backends.mps.is_available()
-        available = {"cuda": cuda, "mps": mps, "cpu": True}
+    cuda = torch_is_here and torch.cuda.is_available()
+    mps = torch_is_here and torch.backends.mps.is_available()
+    available = {"cuda": cuda, "mps": mps, "cpu": True}
     if requested == "auto":
         if available["cuda"]:
             return "cuda", torch.cuda.get_device_name()
@@ -109,11 +107,8 @@ def choose_compute(device: str = "auto", precision: str = "auto") -> ComputeChoi
     Raises:
         UsageError: the device does not exist here, or cannot compute in that precision.
     """
-    if device == "auto" and os.environ.get("ACCELERATE_USE_CPU", "").lower() in (
-        "true",
-        "1",
-        "yes",
-    ):
+    on_cpu = os.environ.get("ACCELERATE_USE_CPU", "").lower() in ("true", "1", "yes")
+    if device == "auto" and on_cpu:
         device = "cpu"
     # "no" is what the launcher says when nobody asked for anything
     launcher = os.environ.get("ACCELERATE_MIXED_PRECISION", "no")

@@ -143,11 +143,12 @@ class Source:
             )
         self.total = len(self.records)
         self._pairs = _pairs(remote)
-        self._captions = {
-            _longest(self._pairs[record.id]): record.caption
-            for record in everything
-            if record.id in self._pairs and record.caption
-        }
+        self._captions = {}  # of clips: a phrase's caption tells of the one it shows longest
+        for record in everything:
+            if record.id in self._pairs and record.caption:
+                pieces = self._pairs[record.id]["pieces"]
+                longest = max(pieces, key=lambda piece: piece["last"] - piece["first"])
+                self._captions[str(longest["clip"])] = record.caption
 
     def part(self, first: int, last: int) -> "Source":
         """The phrases from `first` to before `last`, as light as can be: for a job elsewhere."""
@@ -227,11 +228,6 @@ def _pairs(remote: Remote) -> dict[str, dict[str, Any]]:
     except FileNotFoundError:
         return {}
     return {phrase["id"]: phrase["pair"] for phrase in phrases if "pair" in phrase}
-
-
-def _longest(pair: dict[str, Any]) -> str:
-    """The clip that a phrase's caption tells of."""
-    return str(max(pair["pieces"], key=lambda piece: piece["last"] - piece["first"])["clip"])
 
 
 # ---------------------------------------------------------------- build

@@ -87,9 +87,6 @@ class Hits:
     index: Tensor
     score: Tensor
 
-    def __len__(self) -> int:
-        return len(self.index)
-
 
 @dataclass(frozen=True, eq=False)
 class MemoryIndex:

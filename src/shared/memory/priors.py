@@ -16,7 +16,10 @@ T frames at 30 fps.
 """
 
 import numpy as np
+from scipy.ndimage import gaussian_filter1d
+from scipy.signal import find_peaks
 
+from ..metrics.rhythm import motion_beats
 from ..motion.trajectory import ACCELERATION, FPS, POSITION, VELOCITY
 
 NUM_PRIORS = 4
@@ -47,10 +50,11 @@ def prior_curves(
     sway = np.square(velocity - _average(velocity, SLOW)).sum(axis=1)
 
     energy = _level(_average(speed, FAST), HALF[ENERGY])
-    density = _level(_rate(_beats(data[:, POSITION]), len(data)), HALF[DENSITY])
+    beats = motion_beats(data[:, POSITION], FPS).times * FPS
+    density = _level(_rate(beats, len(data)), HALF[DENSITY])
     if onsets is not None:
-        of_song = _level(_rate(_peaks(onsets), len(data)), HALF[DENSITY])
-        density = (density + of_song) / 2
+        peaks, _ = find_peaks(np.asarray(onsets, np.float64), prominence=MIN_ONSET)
+        density = (density + _level(_rate(peaks, len(data)), HALF[DENSITY])) / 2
     tension = _level(_average(jerk, FAST), HALF[TENSION])
     stability = 1 - _level(np.sqrt(_average(sway, SLOW)), HALF[STABILITY])
     if contacts is not None:
@@ -67,21 +71,7 @@ def _level(measure: np.ndarray, half: float) -> np.ndarray:
 
 def _average(values: np.ndarray, seconds: float) -> np.ndarray:
     """Gaussian average over time of [T] or [T,C]; the ends are held."""
-    from scipy.ndimage import gaussian_filter1d
-
     return np.asarray(gaussian_filter1d(values, seconds * FPS, axis=0, mode="nearest"))
-
-
-def _beats(position: np.ndarray) -> np.ndarray:
-    from ..metrics.rhythm import motion_beats
-
-    return motion_beats(position, FPS).times * FPS
-
-
-def _peaks(onsets: np.ndarray) -> np.ndarray:
-    from scipy.signal import find_peaks
-
-    return np.asarray(find_peaks(np.asarray(onsets, np.float64), prominence=MIN_ONSET)[0])
 
 
 def _rate(frames: np.ndarray, num_frames: int) -> np.ndarray:

@@ -235,13 +235,7 @@ def made_takes() -> Iterator[Take]:
 
 
 def made_take(steps: Steps, period: float, number: int = 0) -> Take:
-    """A step at so many seconds a count, danced on and on.
-
-    Args:
-        steps: the cycle.
-        period: seconds of a count.
-        number: told in its name.
-    """
+    """A step at `period` seconds a count, danced on and on; its name tells the number."""
     length = len(steps.landings)
     counts = np.arange(-(-COUNTS // length) * length + 1)
     time = np.arange(round((len(counts) + 1) * period * FPS)) / FPS / period - 1  # counts
