@@ -343,9 +343,9 @@ def load_config(
 # ---------------------------------------------------------------- the project's own files
 
 
-def profile_names(path: Path | str | None = None) -> list[str]:
-    """Names of the profiles in a network file."""
-    return list(_profiles(path or packaged_config("network.yaml")))
+def profile_names() -> list[str]:
+    """Names of the profiles of network.yaml."""
+    return list(_profiles(packaged_config("network.yaml")))
 
 
 def _profiles(path: Path | str) -> dict[str, Any]:

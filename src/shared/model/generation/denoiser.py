@@ -32,10 +32,10 @@ class FrameRefiner(nn.Module):
     tokens; they start at zero.
     """
 
-    def __init__(self, motion_dim: int, hidden: int, kernel: int = 3) -> None:
+    def __init__(self, motion_dim: int, hidden: int) -> None:
         super().__init__()
-        self.expand = nn.Conv1d(2 * motion_dim, hidden, kernel, padding=kernel // 2)
-        self.contract = zeroed(nn.Conv1d(hidden, motion_dim, kernel, padding=kernel // 2))
+        self.expand = nn.Conv1d(2 * motion_dim, hidden, 3, padding=1)
+        self.contract = zeroed(nn.Conv1d(hidden, motion_dim, 3, padding=1))
 
     def forward(self, noisy: Tensor, coarse: Tensor, mask: Tensor | None = None) -> Tensor:
         """Both [B, T, K*C], mask [B, T], True = real frame -> [B, T, K*C], to be added."""

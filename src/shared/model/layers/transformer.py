@@ -18,6 +18,7 @@ from einops import rearrange
 from torch import Tensor, nn
 from torch.nn.functional import pad, scaled_dot_product_attention
 
+MAX_PERIOD = 10_000.0  # of positions, both as codes and as turns
 LayerT = TypeVar("LayerT", nn.Linear, nn.Conv1d)
 
 
@@ -28,14 +29,14 @@ def zeroed(layer: LayerT) -> LayerT:
     return layer
 
 
-def sinusoidal(positions: Tensor, dim: int, *, max_period: float = 10_000.0) -> Tensor:
+def sinusoidal(positions: Tensor, dim: int) -> Tensor:
     """Codes [..., dim] float32 of positions [...]: cosines in the first half, then sines.
 
     Vaswani et al. 2017, section 3.5. An odd `dim` ends with one zero.
     """
     half = dim // 2
     steps = torch.arange(half, dtype=torch.float32, device=positions.device)
-    frequencies = torch.exp(steps * (-math.log(max_period) / max(half, 1)))
+    frequencies = torch.exp(steps * (-math.log(MAX_PERIOD) / max(half, 1)))
     angles = positions.float()[..., None] * frequencies  # [..., dim/2]
     codes = torch.cat([angles.cos(), angles.sin()], dim=-1)
     return torch.nn.functional.pad(codes, (0, dim - 2 * half))
@@ -68,13 +69,13 @@ class RotaryEmbedding(nn.Module):
     frames, so that queries and keys of two rates turn by their distance in time.
     """
 
-    def __init__(self, head_dim: int, *, stride: int = 1, base: float = 10_000.0) -> None:
+    def __init__(self, head_dim: int, *, stride: int = 1) -> None:
         super().__init__()
         assert head_dim % 2 == 0, f"head dim {head_dim} must be even"
         self.stride = stride
         exponents = torch.arange(0, head_dim, 2, dtype=torch.float32) / head_dim
         self.frequencies: Tensor
-        self.register_buffer("frequencies", base**-exponents, persistent=False)  # [d/2]
+        self.register_buffer("frequencies", MAX_PERIOD**-exponents, persistent=False)  # [d/2]
         self._cos: Tensor | None = None
         self._sin: Tensor | None = None
 
