@@ -56,9 +56,9 @@ def _scored(
     name: str, motions: list[Motion], clips: Clips, judge: Evaluator, captions: np.ndarray
 ) -> str:
     embedded, equal = judge.embed_motion(motions).numpy(), (clips.groups, clips.captions)
-    own = guo_retrieval(captions, embedded, equal).hits[2]
+    own = guo_retrieval(captions, embedded, equal)[2]
     order = np.random.default_rng(1).permutation(len(motions))
-    chance = guo_retrieval(captions, embedded[order], equal).hits[2]
+    chance = guo_retrieval(captions, embedded[order], equal)[2]
     jerk = bootstrap_mean([mean_jerk(motion.positions(), motion.fps) for motion in motions])
     told = f"R@3 {shown(bootstrap_mean(own))}, shuffled {shown(bootstrap_mean(chance))}"
     return f"{name}: {told}, jerk {shown(jerk)} m/s^3, N {len(own)}"

@@ -204,7 +204,7 @@ class EvaluatorTask(Task):
             losses.append(contrastive_loss(text, motion, pairs.same.to(device), scale).item())
             group = [pairs.same[row].int().argmax().item() for row in range(BATCH)]
             arrays = text.cpu().float().numpy(), motion.cpu().float().numpy()
-            hits.append(guo_retrieval(*arrays, [group, pairs.captions]).r_precision)
+            hits.append(guo_retrieval(*arrays, [group, pairs.captions]).mean(1))
         module.train()
         if self.retrieves:
             mean = np.mean(hits, axis=0)

@@ -26,10 +26,11 @@ from ..metrics.retrieval import (
     RECALL_AT,
     SUBSET,
     THRESHOLD,
-    Retrieval,
+    TOP,
+    dissimilar_subset,
     guo_retrieval,
     recall_in_pools,
-    recall_of_dissimilar,
+    recalls,
     text_similarity,
 )
 from ..metrics.rhythm import (
@@ -54,8 +55,8 @@ KINDS = {
 }
 
 
-def r_precision(sample: MotionSample, seed: int) -> Retrieval:
-    """Retrieval where clips of one label group, or with one caption, are all right."""
+def r_precision(sample: MotionSample, seed: int) -> np.ndarray:
+    """`guo_retrieval` where clips of one label group, or with one caption, are all right."""
     equal_by = [sample.clips.groups, sample.clips.captions]
     return guo_retrieval(sample.text, sample.motion, equal_by, seed=seed)
 
@@ -64,8 +65,8 @@ def _guo(sample: MotionSample, reference: MotionSample, seed: int) -> dict[str, 
     """R-precision needs a batch."""
     found: dict[str, Value] = {}
     if len(sample) >= BATCH:
-        at = r_precision(sample, seed).r_precision
-        found = {f"r_at_{k}": value for k, value in enumerate(at, start=1)}
+        at = r_precision(sample, seed).mean(1).tolist()
+        found = {f"r_at_{k}": value for k, value in zip(TOP, at, strict=True)}
     apart = sample.text.astype(np.float64) - sample.motion.astype(np.float64)
     found["matching_distance"] = np.linalg.norm(apart, axis=1)
     if len(sample) >= MIN_SAMPLE:
@@ -102,9 +103,8 @@ def _frechet(sample: MotionSample, reference: MotionSample, seed: int) -> dict[s
     }
     groups = group_frechet(sample.motion, sample.clips.tags, reference.motion, reference.clips.tags)
     if groups is not None:
-        found["frechet_by_tag"] = groups.matched
-        found["frechet_by_wrong_tag"] = groups.mismatched
-        found["num_tags"] = float(groups.num_groups)
+        found["frechet_by_tag"], found["frechet_by_wrong_tag"] = groups[:2]
+        found["num_tags"] = float(groups[2])
     return found
 
 
@@ -154,7 +154,7 @@ def _travel(sample: MotionSample, reference: MotionSample, seed: int) -> dict[st
     known = np.flatnonzero(sample.source >= 0)
     errors = travel_error([own[i] for i in known], [real[sample.source[i]] for i in known])
     found = {}
-    for name, values in asdict(errors).items():
+    for name, values in errors.items():
         column = found[f"{name}_error"] = np.full(len(sample), np.nan)
         column[known] = values
     return found
@@ -275,14 +275,14 @@ CONTACT: MetricFamily[MotionSample] = MetricFamily(
 
 def _multimodality(sample: MotionSample, reference: MotionSample, seed: int) -> dict[str, float]:
     """Nothing where no caption comes twice; no random choice."""
-    found = within_prompts(sample.motion, sample.clips.captions)
-    if not found.num_prompts:
+    distance, num_prompts = within_prompts(sample.motion, sample.clips.captions)
+    if not num_prompts:
         return {}
     every = float(pdist(sample.motion.astype(np.float64)).mean())
     return {
-        "multimodality": found.distance,
-        "multimodality_share": found.distance / every if every else float("nan"),
-        "multimodality_prompts": float(found.num_prompts),
+        "multimodality": distance,
+        "multimodality_share": distance / every if every else float("nan"),
+        "multimodality_prompts": float(num_prompts),
     }
 
 
@@ -328,26 +328,20 @@ def _tmr(protocol: str) -> MetricFamily[MotionSample]:
 
     def figures(sample: MotionSample, reference: MotionSample, seed: int) -> dict[str, float]:
         """R@k and MedR of the sample; nothing where it is smaller than a batch of protocol (d)."""
-        text, motion, pool = sample.text, sample.motion, min(POOL, len(sample))
-        if protocol == "batches":
-            if len(sample) < BATCH:
-                return {}
-            found = recall_in_pools(text, motion, seed=seed)
-        elif protocol == "all":
-            found = recall_in_pools(text, motion, pool, seed=seed)
+        text, motion, alike = sample.text, sample.motion, None
+        pool = BATCH if protocol == "batches" else min(POOL, len(sample))
+        if len(sample) < pool:
+            return {}
+        if protocol in ("threshold", "dissimilar"):
+            said = sample.clips.captions, sample.clips.groups
+            alike = sample.memo.once("text similarity", lambda: text_similarity(*said))
+        if protocol == "dissimilar" and alike is not None:
+            rows = dissimilar_subset(alike, seed=seed)
+            found, pool = recalls(text[rows], motion[rows]), len(rows)
         else:
-            clips = sample.clips
-            alike = sample.memo.once(
-                "text similarity", lambda: text_similarity(clips.captions, clips.groups)
-            )
-            if protocol == "threshold":
-                found = recall_in_pools(text, motion, pool, alike, seed=seed)
-            else:
-                found = recall_of_dissimilar(text, motion, alike, seed=seed)
-        ways = (found.text_to_motion, found.motion_to_text)
-        values = [value for way in ways for value in (*way.recall, way.median_rank)]
+            found = recall_in_pools(text, motion, pool, alike, seed=seed)
         keys = [column.key for column in columns]
-        return dict(zip(keys, [*values, float(found.num_pairs)], strict=True))
+        return dict(zip(keys, [*found.ravel().tolist(), float(pool)], strict=True))
 
     definition = (
         f"TMR (Petrovich et al. 2023), {_SAYS[protocol]}. Cosine similarity; R@k is the "

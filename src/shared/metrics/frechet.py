@@ -76,26 +76,16 @@ class JointFrechet:
 
     def moments(self, text: np.ndarray, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Mean and covariance of pairs [N, D] in the reduced joint space."""
-        return _moments(self._join(text, motion))
-
-    def _join(self, text: np.ndarray, motion: np.ndarray) -> np.ndarray:
         if len(text) != len(motion):
             raise ValueError(f"{len(text)} texts and {len(motion)} motions must be aligned")
-        return np.concatenate([self.text_axes(text), self.motion_axes(motion)], axis=1)
+        return _moments(np.concatenate([self.text_axes(text), self.motion_axes(motion)], axis=1))
 
     def __call__(self, text: np.ndarray, motion: np.ndarray) -> float:
         """Distance of pairs (text [N, D], motion [N, D]) to the real pairs given at the start."""
         return gaussian_frechet(*self.moments(text, motion), *self.reference)
 
 
-@dataclass(frozen=True)
-class GroupFrechet:
-    """Mean Fréchet distance over label groups: to the same group, and to a wrong one."""
-
-    matched: float
-    mismatched: float
-    num_groups: int
-    num_axes: int
+GROUP_AXES, GROUP_SIZE = 8, 24  # principal axes, and least samples of a label
 
 
 def group_frechet(
@@ -103,53 +93,47 @@ def group_frechet(
     generated_labels: Sequence[str],
     real: np.ndarray,
     real_labels: Sequence[str],
-    *,
-    num_axes: int = 8,
-    min_size: int = 24,
-    seed: int = 0,
-) -> GroupFrechet | None:
+) -> tuple[float, float, int] | None:
     """Fréchet distance label by label, beside the same with the labels shuffled.
 
-    Only labels with `min_size` samples on both sides take part, in `num_axes` principal axes of the
-    real sample, because a small group in many dimensions measures its own size. The shuffled value
-    pairs every label with the next one of a random cycle, so none meets itself.
+    Only labels with `GROUP_SIZE` samples on both sides take part, in `GROUP_AXES` principal axes of
+    the real sample, because a small group in many dimensions measures its own size. The shuffled
+    value pairs every label with the next one of a random cycle, so none meets itself.
 
     Returns:
-        None when fewer than two labels are large enough.
+        Mean distance to the same label and to a wrong one, and the number of labels; None when
+        fewer than two labels are large enough.
     """
-    project = Projection.fit(real, min(num_axes, real.shape[1]))
+    project = Projection.fit(real, min(GROUP_AXES, real.shape[1]))
     made, true = np.asarray(generated_labels), np.asarray(real_labels)
     names = [
         name
         for name in sorted(set(generated_labels) & set(real_labels))
-        if min((made == name).sum(), (true == name).sum()) >= min_size
+        if min((made == name).sum(), (true == name).sum()) >= GROUP_SIZE
     ]
     if len(names) < 2:
         return None
     a = {name: _moments(project(generated[made == name])) for name in names}
     b = {name: _moments(project(real[true == name])) for name in names}
-    cycle = np.random.default_rng(seed).permutation(len(names))
+    cycle = np.random.default_rng(0).permutation(len(names))
     wrong = {names[i]: names[j] for i, j in zip(cycle, np.roll(cycle, 1), strict=True)}
-    return GroupFrechet(
-        matched=float(np.mean([gaussian_frechet(*a[n], *b[n]) for n in names])),
-        mismatched=float(np.mean([gaussian_frechet(*a[n], *b[wrong[n]]) for n in names])),
-        num_groups=len(names),
-        num_axes=project.axes.shape[1],
-    )
+    matched = np.mean([gaussian_frechet(*a[n], *b[n]) for n in names])
+    mismatched = np.mean([gaussian_frechet(*a[n], *b[wrong[n]]) for n in names])
+    return float(matched), float(mismatched), len(names)
 
 
 # ---------------------------------------------------------------- variety (Guo et al. 2020)
 
 
-def diversity(embeddings: np.ndarray, *, num_pairs: int = 300, seed: int = 0) -> float:
-    """Mean distance of `num_pairs` random pairs of different rows of embeddings [N, D].
+def diversity(embeddings: np.ndarray, *, seed: int = 0) -> float:
+    """Mean distance of 300 random pairs of different rows of embeddings [N, D].
 
-    With fewer than 2 x `num_pairs` rows as many disjoint pairs as there are. Close to real is best.
+    With fewer than 600 rows as many disjoint pairs as there are. Close to real is best.
 
     Raises:
         ValueError: fewer than two rows.
     """
-    pairs = min(num_pairs, len(embeddings) // 2)
+    pairs = min(300, len(embeddings) // 2)
     if pairs < 1:
         raise ValueError(f"{len(embeddings)} embeddings make no pair: at least 2 are needed")
     rows = np.random.default_rng(seed).permutation(len(embeddings))[: 2 * pairs]
@@ -157,19 +141,12 @@ def diversity(embeddings: np.ndarray, *, num_pairs: int = 300, seed: int = 0) ->
     return float(np.linalg.norm(difference.astype(np.float64), axis=-1).mean())
 
 
-@dataclass(frozen=True)
-class WithinPrompts:
-    """Mean distance of motions of one prompt, over the `num_prompts` that have two or more."""
-
-    distance: float
-    num_prompts: int
-
-
-def within_prompts(embeddings: np.ndarray, prompts: Sequence[str]) -> WithinPrompts:
+def within_prompts(embeddings: np.ndarray, prompts: Sequence[str]) -> tuple[float, int]:
     """Multimodality of a sample in which some of the prompts [N] come again; embeddings [N, D].
 
     All pairs of a prompt instead of ten random ones: the value that Guo's draw estimates, without
-    the draw. NaN where no prompt comes twice.
+    the draw. Mean distance of motions of one prompt, NaN where no prompt comes twice, and how many
+    prompts do.
 
     Raises:
         ValueError: lengths that differ, NaN or infinity.
@@ -182,4 +159,4 @@ def within_prompts(embeddings: np.ndarray, prompts: Sequence[str]) -> WithinProm
     ids = np.unique(list(prompts), return_inverse=True)[1]
     again = np.flatnonzero(np.bincount(ids) > 1)
     means = [pdist(values[ids == prompt]).mean() for prompt in again]
-    return WithinPrompts(float(np.mean(means)) if means else float("nan"), len(means))
+    return float(np.mean(means)) if means else float("nan"), len(means)

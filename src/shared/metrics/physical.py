@@ -282,7 +282,7 @@ def travel(motion: Motion) -> Travel:
     across, along = path[-1] - path[0]
     direction = float("nan")
     if np.hypot(across, along) >= MIN_TRAVEL:
-        direction = _wrap(float(np.arctan2(across, along)) - float(heading[0]))
+        direction = float(_wrap(np.arctan2(across, along) - float(heading[0])))
     return Travel(
         speed=float(np.linalg.norm(np.diff(path, axis=0), axis=-1).sum() / seconds),
         direction=direction,
@@ -290,30 +290,29 @@ def travel(motion: Motion) -> Travel:
     )
 
 
-def _wrap(angle: float) -> float:
+def _wrap(angle: np.ndarray) -> np.ndarray:
     """Radians into -pi..pi."""
-    return (angle + np.pi) % (2 * np.pi) - np.pi
+    return np.asarray((angle + np.pi) % (2 * np.pi) - np.pi)
 
 
-@dataclass(frozen=True)
-class TravelError:
-    """Absolute differences to a real motion of the same caption; one entry a motion, NaN = none."""
+def travel_error(motions: Sequence[Travel], references: Sequence[Travel]) -> dict[str, np.ndarray]:
+    """Absolute differences to real motions of the same captions, row by row [N].
 
-    speed: list[float]  # m/s
-    direction: list[float]  # degrees, where both travel
-    turn: list[float]  # degrees
-
-
-def travel_error(motions: Sequence[Travel], references: Sequence[Travel]) -> TravelError:
-    """Row by row; a motion that stands where its reference travels has a direction error of 90°."""
-    speed, direction, turn = [], [], []
-    for ours, real in zip(motions, references, strict=True):
-        speed.append(abs(ours.speed - real.speed))
-        turn.append(abs(float(np.degrees(ours.turn - real.turn))))
-        if np.isnan(real.direction):
-            direction.append(float("nan"))
-        elif np.isnan(ours.direction):
-            direction.append(90.0)
-        else:
-            direction.append(abs(float(np.degrees(_wrap(ours.direction - real.direction)))))
-    return TravelError(speed, direction, turn)
+    Returns:
+        speed in m/s; direction in degrees, NaN where the reference has none, 90 for a motion that
+        stands where its reference travels; turn in degrees.
+    """
+    ours, real = (
+        {
+            key: np.array([getattr(each, key) for each in side])
+            for key in ("speed", "direction", "turn")
+        }
+        for side in (motions, references)
+    )
+    off = np.abs(np.degrees(_wrap(ours["direction"] - real["direction"])))
+    off = np.where(np.isnan(ours["direction"]), 90.0, off)
+    return {
+        "speed": np.abs(ours["speed"] - real["speed"]),
+        "direction": np.where(np.isnan(real["direction"]), np.nan, off),
+        "turn": np.abs(np.degrees(ours["turn"] - real["turn"])),
+    }

@@ -13,7 +13,7 @@ import re
 import unicodedata
 import zlib
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -22,20 +22,6 @@ from scipy.stats import rankdata
 
 BATCH = 32
 TOP = (1, 2, 3)
-
-
-@dataclass(frozen=True)
-class Retrieval:
-    """R-precision at 1, 2, 3 (fractions) and the mean distance of matching pairs.
-
-    Attributes:
-        hits: chance of a right answer at 1, 2, 3 [3, Q], text by text in any order.
-    """
-
-    r_precision: tuple[float, float, float]
-    matching_distance: float
-    num_batches: int
-    hits: np.ndarray = field(compare=False, repr=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,13 +80,8 @@ def pair_distances(text: np.ndarray, motion: np.ndarray) -> np.ndarray:
 
 
 def guo_retrieval(
-    text: np.ndarray,
-    motion: np.ndarray,
-    equal_by: Sequence[Sequence[object]],
-    *,
-    batch: int = BATCH,
-    seed: int = 0,
-) -> Retrieval:
+    text: np.ndarray, motion: np.ndarray, equal_by: Sequence[Sequence[object]], *, seed: int = 0
+) -> np.ndarray:
     """R-precision in random batches of 32: each text ranks the motions of its batch.
 
     A motion also counts as right when it shares the text's value in one of the columns of
@@ -112,6 +93,10 @@ def guo_retrieval(
         text, motion: [N, D], row i belongs together.
         equal_by: columns of N values each; none: only row i is right for text i.
 
+    Returns:
+        Chance of a right answer at 1, 2, 3 [3, Q], text by text in any order; their mean is the
+        R-precision.
+
     Raises:
         ValueError: fewer pairs than one batch, shapes that differ, or values that are not finite.
     """
@@ -120,25 +105,19 @@ def guo_retrieval(
         raise ValueError(
             f"texts {text.shape}, motions {motion.shape} and labels {sizes} must be aligned"
         )
-    if len(text) < batch:
-        raise ValueError(f"{len(text)} pairs are fewer than one batch of {batch}: add samples")
+    if len(text) < BATCH:
+        raise ValueError(f"{len(text)} pairs are fewer than one batch of {BATCH}: add samples")
     if not (np.isfinite(text).all() and np.isfinite(motion).all()):
         raise ValueError("embeddings hold NaN or infinity: look at the motions they came from")
     columns = [np.unique([str(v) for v in c], return_inverse=True)[1] for c in equal_by]
     columns.append(np.arange(len(text)))
     order = np.random.default_rng(seed).permutation(len(text))
-    num_batches = len(text) // batch
     hits: list[list[np.ndarray]] = []
-    matching = 0.0
-    for rows in order[: num_batches * batch].reshape(num_batches, batch):
-        distances = pair_distances(text[rows], motion[rows])
+    for rows in order[: len(text) // BATCH * BATCH].reshape(-1, BATCH):
         relevant = np.any([ids[rows][:, None] == ids[rows][None] for ids in columns], axis=0)
-        ranks = best_ranks(distances, relevant)
+        ranks = best_ranks(pair_distances(text[rows], motion[rows]), relevant)
         hits.append([ranks.hits(k) for k in TOP])
-        matching += float(np.diag(distances).sum())
-    found = np.concatenate(hits, axis=1)
-    at_1, at_2, at_3 = found.mean(1).tolist()
-    return Retrieval((at_1, at_2, at_3), matching / found.shape[1], num_batches, found)
+    return np.concatenate(hits, axis=1)
 
 
 def normalised_score(generated: float, chance: float, real: float) -> float:
@@ -184,23 +163,6 @@ THRESHOLD = 0.95  # of (1 + cosine) / 2 of two texts, as in TMR
 POOL = 256  # candidates of protocols (a) and (b) in the tables, whose rows differ in N
 SUBSET = 100  # pairs of the dissimilar subset
 PROTOCOLS = ("all", "threshold", "dissimilar", "batches")
-
-
-@dataclass(frozen=True)
-class Recall:
-    """One direction: R@1, 2, 3, 5, 10 as fractions and the median of the (mean) ranks from 1."""
-
-    recall: tuple[float, ...]
-    median_rank: float
-
-
-@dataclass(frozen=True)
-class BothWays:
-    """Text to motion and motion to text, over `num_pairs` candidates."""
-
-    text_to_motion: Recall
-    motion_to_text: Recall
-    num_pairs: int
 
 
 # ---------------------------------------------------------------- similarities
@@ -252,12 +214,10 @@ def text_similarity(captions: Sequence[str], groups: Sequence[str] | None = None
     return similarity
 
 
-def dissimilar_subset(
-    similarity: np.ndarray, size: int = SUBSET, *, threshold: float = THRESHOLD, seed: int = 0
-) -> np.ndarray:
+def dissimilar_subset(similarity: np.ndarray, size: int = SUBSET, *, seed: int = 0) -> np.ndarray:
     """Rows [at most `size`], ascending, of texts far from each other; similarity [N, N].
 
-    No two of them are more similar than `threshold`: of such a set a random one stays, so captions
+    No two of them are more similar than `THRESHOLD`: of such a set a random one stays, so captions
     from few templates make a smaller subset. TMR states the choice as a quadratic knapsack and
     approximates it. Here the text that is most similar to all that are left goes, one after the
     other, and then one text is exchanged for another as long as that lowers the sum of the
@@ -265,7 +225,7 @@ def dissimilar_subset(
     """
     unlike: list[int] = []
     for row in np.random.default_rng(seed).permutation(len(similarity)).tolist():
-        if not (similarity[row, unlike] > threshold).any():
+        if not (similarity[row, unlike] > THRESHOLD).any():
             unlike.append(row)
     rows = np.sort(unlike)
     return np.asarray(rows[_farthest(similarity[np.ix_(rows, rows)], size)])
@@ -295,44 +255,26 @@ def _farthest(similarity: np.ndarray, size: int) -> np.ndarray:
 
 
 def recalls(
-    text: np.ndarray,
-    motion: np.ndarray,
-    similarity: np.ndarray | None = None,
-    threshold: float = THRESHOLD,
-) -> BothWays:
+    text: np.ndarray, motion: np.ndarray, similarity: np.ndarray | None = None
+) -> np.ndarray:
     """Rank all motions for each text and all texts for each motion: protocol (a), or (b).
 
     Args:
         text, motion: [N, D], row i belongs together.
-        similarity: of the texts [N, N]; pairs above `threshold` count beside the own, the best
+        similarity: of the texts [N, N]; pairs above `THRESHOLD` count beside the own, the best
             placed of the right answers decides, and guessing is easier: see the chance row. None =
             only the own pair counts, though another caption may say the same.
+
+    Returns:
+        [2, 6]: text to motion, motion to text; R@1, 2, 3, 5, 10 as fractions and the median of the
+        (mean) ranks from 1.
     """
     found = cosines(text, motion)
     right = np.eye(len(text), dtype=bool)
     if similarity is not None:
-        right |= similarity > threshold
-    return BothWays(_recall(-found, right), _recall(-found.T, right.T), len(text))
-
-
-def _recall(distances: np.ndarray, relevant: np.ndarray) -> Recall:
-    ranks = best_ranks(distances, relevant)
-    return Recall(
-        tuple(float(ranks.hits(k).mean()) for k in RECALL_AT), float(np.median(ranks.mean()))
-    )
-
-
-def recall_of_dissimilar(
-    text: np.ndarray,
-    motion: np.ndarray,
-    similarity: np.ndarray,
-    size: int = SUBSET,
-    *,
-    seed: int = 0,
-) -> BothWays:
-    """Protocol (c): protocol (a) among `size` texts far from each other; similarity [N, N]."""
-    rows = dissimilar_subset(similarity, size, seed=seed)
-    return recalls(text[rows], motion[rows])
+        right |= similarity > THRESHOLD
+    ways = best_ranks(-found, right), best_ranks(-found.T, right.T)
+    return np.array([[*(r.hits(k).mean() for k in RECALL_AT), np.median(r.mean())] for r in ways])
 
 
 def recall_in_pools(
@@ -342,12 +284,12 @@ def recall_in_pools(
     similarity: np.ndarray | None = None,
     *,
     seed: int = 0,
-) -> BothWays:
+) -> np.ndarray:
     """Protocol (a), or (b) if texts are given a similarity [N, N], in random pools of `size`.
 
     Pools of 32 are protocol (d) (Guo et al.). Recall falls as candidates are added, so samples of
     different N only compare in pools of one size. Mean over the pools; an incomplete last one is
-    left out, and the median rank is the mean of the pools' medians.
+    left out, and the median rank is the mean of the pools' medians. Returns what `recalls` does.
 
     Raises:
         ValueError: fewer pairs than one pool.
@@ -355,17 +297,10 @@ def recall_in_pools(
     if len(text) < size:
         raise ValueError(f"{len(text)} pairs are fewer than one pool of {size}: add samples")
     order = np.random.default_rng(seed).permutation(len(text))
-    count = len(text) // size
     found = [
         recalls(
             text[rows], motion[rows], None if similarity is None else similarity[np.ix_(rows, rows)]
         )
-        for rows in order[: count * size].reshape(count, size)
+        for rows in order[: len(text) // size * size].reshape(-1, size)
     ]
-    text_to_motion = _mean([one.text_to_motion for one in found])
-    return BothWays(text_to_motion, _mean([one.motion_to_text for one in found]), size)
-
-
-def _mean(found: Sequence[Recall]) -> Recall:
-    table = np.array([one.recall for one in found]).mean(0)
-    return Recall(tuple(table.tolist()), float(np.mean([one.median_rank for one in found])))
+    return np.asarray(np.mean(found, axis=0))

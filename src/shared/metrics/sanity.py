@@ -22,6 +22,7 @@ Letters: T frames.
 import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -121,9 +122,10 @@ def _incoherence(trajectory: MotionTrajectory, of: slice, claimed: slice) -> flo
 # ---------------------------------------------------------------- figures of the path
 
 
-def mean_speed(trajectory: MotionTrajectory) -> float:
-    """Mean speed of the pelvis, m/s."""
-    return _mean_rate(trajectory, 1)
+def mean_rate(trajectory: MotionTrajectory, order: int) -> float:
+    """Mean norm of the position's `order`-th derivative, m/s, m/s² or m/s³."""
+    steps = np.diff(trajectory.position.astype(np.float64), n=order, axis=0)
+    return _mean(np.linalg.norm(steps, axis=1)) * trajectory.fps**order
 
 
 def path_rate(trajectory: MotionTrajectory) -> float:
@@ -137,32 +139,22 @@ def turning(trajectory: MotionTrajectory) -> float:
     return _mean(np.abs(np.diff(trajectory.heading))) * trajectory.fps
 
 
-def mean_acceleration(trajectory: MotionTrajectory) -> float:
-    """Mean size of the acceleration, m/s²."""
-    return _mean_rate(trajectory, 2)
-
-
-def path_jerk(trajectory: MotionTrajectory) -> float:
-    """Mean size of the jerk, m/s³."""
-    return _mean_rate(trajectory, 3)
-
-
 def roughness(trajectory: MotionTrajectory) -> float:
     """Mean acceleration by mean speed, 1/s: how fast velocities change.
 
     Does not depend on the size of the motion. At 30 fps white noise has √3·30 = 52, a random walk
     √2·30 = 42, a person at most 20. 0 where nothing moves.
     """
-    speed = mean_speed(trajectory)
-    return mean_acceleration(trajectory) / speed if speed else 0.0
+    speed = mean_rate(trajectory, 1)
+    return mean_rate(trajectory, 2) / speed if speed else 0.0
 
 
 MEASURES: dict[str, Callable[[MotionTrajectory], float]] = {
-    "mean_speed": mean_speed,
+    "mean_speed": partial(mean_rate, order=1),
     "path_rate": path_rate,
     "turning": turning,
-    "mean_acceleration": mean_acceleration,
-    "path_jerk": path_jerk,
+    "mean_acceleration": partial(mean_rate, order=2),
+    "path_jerk": partial(mean_rate, order=3),
     "roughness": roughness,
 }
 UNITS = {
@@ -175,12 +167,6 @@ UNITS = {
 }
 
 
-def _mean_rate(trajectory: MotionTrajectory, order: int) -> float:
-    """Mean norm of the position's `order`-th derivative."""
-    steps = np.diff(trajectory.position.astype(np.float64), n=order, axis=0)
-    return _mean(np.linalg.norm(steps, axis=1)) * trajectory.fps**order
-
-
 # ---------------------------------------------------------------- what real motions measure
 
 
@@ -190,17 +176,11 @@ SLACK = 3.0  # a factor beyond the band at both ends that still passes
 
 @dataclass(frozen=True)
 class Band:
-    """One figure over a set of real motions.
+    """One figure over a set of real motions."""
 
-    Attributes:
-        low: 5th percentile.
-        median: 50th.
-        high: 95th.
-    """
-
-    low: float
+    low: float  # 5th percentile
     median: float
-    high: float
+    high: float  # 95th percentile
 
     def holds(self, value: float) -> bool:
         """Whether a value lies between the 5th and the 95th percentile."""
@@ -318,53 +298,32 @@ WHAT = {
 class SanityThresholds:
     """Bounds of the checks; TECH's names, its values but for jerk and acceleration.
 
-    Attributes:
-        quaternion_norm_min: of the mean norm.
-        quaternion_norm_max: of the mean norm.
-        phase_min: bars.
-        phase_max: bars.
-        max_jerk: m/s³, mean; TECH's 50,000 passes anything (ruling 18), real motion has at most
-            a fourth of this.
-        max_velocity_error: m/s, mean.
-        max_acceleration_error: m/s², mean (ruling 16).
-        min_quaternion_continuity: smallest signed dot product (ruling 18).
-        max_phase_backstep: bars a frame that rounding may cost a monotone phase.
-        min_mean_speed: m/s; below, nothing moves.
-        max_roughness: 1/s; above, the path is noise.
+    TECH's jerk of 50,000 passes anything (ruling 18); real motion has at most a fourth of this.
     """
 
-    quaternion_norm_min: float = 0.95
+    quaternion_norm_min: float = 0.95  # of the mean norm
     quaternion_norm_max: float = 1.05
-    phase_min: float = 0.0
+    phase_min: float = 0.0  # bars
     phase_max: float = 1.0
-    max_jerk: float = 2000.0
-    max_velocity_error: float = 5.0
-    max_acceleration_error: float = 50.0
-    min_quaternion_continuity: float = 0.95
-    max_phase_backstep: float = 1e-4
-    min_mean_speed: float = 0.003
-    max_roughness: float = 25.0
+    max_jerk: float = 2000.0  # m/s³, mean
+    max_velocity_error: float = 5.0  # m/s, mean
+    max_acceleration_error: float = 50.0  # m/s², mean (ruling 16)
+    min_quaternion_continuity: float = 0.95  # smallest signed dot product (ruling 18)
+    max_phase_backstep: float = 1e-4  # bars a frame that rounding may cost a monotone phase
+    min_mean_speed: float = 0.003  # m/s; below, nothing moves
+    max_roughness: float = 25.0  # 1/s; above, the path is noise
 
 
 @dataclass(frozen=True)
 class CheckResult:
-    """Result of one check.
+    """Result of one check."""
 
-    Attributes:
-        name: key in `check_all`'s dictionary.
-        passed: the verdict.
-        value: what was measured; the phase check gives smallest and largest.
-        threshold: the bound or bounds it was held against.
-        message: one line for people.
-        band: 5th and 95th percentile of real motions, where known.
-    """
-
-    name: str
+    name: str  # key in `check_all`'s dictionary
     passed: bool
-    value: Figure
-    threshold: Figure
-    message: str
-    band: tuple[float, float] | None = None
+    value: Figure  # the phase check gives smallest and largest
+    threshold: Figure  # the bound or bounds it was held against
+    message: str  # one line for people
+    band: tuple[float, float] | None = None  # 5th and 95th percentile of real motions, where known
 
 
 class SanityChecker:
@@ -394,26 +353,31 @@ class SanityChecker:
         return all(result.passed for result in results), {r.name: r for r in results}
 
     def _checks(self, trajectory: MotionTrajectory) -> Iterator[CheckResult]:
-        t = self.thresholds
-        value = {name: check(trajectory) for name, check in CHECKS.items()}
-        norm, continuity = value["quaternion"], value["quaternion_continuity"]
-        norms, range_ = (t.quaternion_norm_min, t.quaternion_norm_max), phase_range(trajectory)
-        step, backstep = value["phase_monotonic"], -t.max_phase_backstep
-        inside = t.phase_min <= range_[0] and range_[1] <= t.phase_max
-        yield self._result("quaternion", norms[0] <= norm <= norms[1], norm, norms)
-        yield self._result("phase", inside, range_, (t.phase_min, t.phase_max))
-        for name, bound in (
+        t, value = self.thresholds, {name: check(trajectory) for name, check in CHECKS.items()}
+        value |= {"liveliness": mean_rate(trajectory, 1), "roughness": roughness(trajectory)}
+        norms, phases = (t.quaternion_norm_min, t.quaternion_norm_max), (t.phase_min, t.phase_max)
+        low, high = phase_range(trajectory)
+        found: dict[str, tuple[bool, Figure]] = {
+            "quaternion": (norms[0] <= value["quaternion"] <= norms[1], norms),
+            "phase": (phases[0] <= low and high <= phases[1], phases),
+        }
+        for name, most in (
             ("jerk", t.max_jerk),
             ("velocity_coherence", t.max_velocity_error),
             ("accel_coherence", t.max_acceleration_error),
         ):
-            yield self._result(name, value[name] < bound, value[name], bound)
-        least = t.min_quaternion_continuity
-        yield self._result("quaternion_continuity", continuity > least, continuity, least)
-        yield self._result("phase_monotonic", step >= backstep, step, backstep)
-        speed, rough = mean_speed(trajectory), roughness(trajectory)
-        yield self._result("liveliness", speed >= t.min_mean_speed, speed, t.min_mean_speed)
-        yield self._result("roughness", rough < t.max_roughness, rough, t.max_roughness)
+            found[name] = value[name] < most, most
+        least, backstep = t.min_quaternion_continuity, -t.max_phase_backstep
+        found["quaternion_continuity"] = value["quaternion_continuity"] > least, least
+        found["phase_monotonic"] = value["phase_monotonic"] >= backstep, backstep
+        found["liveliness"] = value["liveliness"] >= t.min_mean_speed, t.min_mean_speed
+        found["roughness"] = value["roughness"] < t.max_roughness, t.max_roughness
+        for name, (passed, threshold) in found.items():
+            figure: Figure = (low, high) if name == "phase" else value[name]
+            band = self.bands.bands.get(name) if self.bands else None
+            message = f"{WHAT[name]}: {_text(figure)} (threshold {_text(threshold)})"
+            limits = (band.low, band.high) if band else None
+            yield CheckResult(name, bool(passed), figure, threshold, message, limits)
 
     def _against_bands(self, trajectory: MotionTrajectory) -> Iterator[CheckResult]:
         known = {} if self.bands is None else self.bands.bands
@@ -423,12 +387,6 @@ class SanityChecker:
             message = f"{what}: {value:.4g} {UNITS[name]} {real}"
             limits, edges = band.limits, (band.low, band.high)
             yield CheckResult(f"band_{name}", band.tolerates(value), value, limits, message, edges)
-
-    def _result(self, name: str, passed: bool, value: Figure, threshold: Figure) -> CheckResult:
-        band = self.bands.bands.get(name) if self.bands else None
-        message = f"{WHAT[name]}: {_text(value)} (threshold {_text(threshold)})"
-        limits = (band.low, band.high) if band else None
-        return CheckResult(name, bool(passed), value, threshold, message, limits)
 
 
 def _text(value: Figure) -> str:

@@ -37,7 +37,7 @@ def test_errors_wrap_and_standing_where_one_should_walk_is_half_wrong() -> None:
     ours = [Travel(1.0, 3.0, 0.0), Travel(0.0, nan, 1.0), Travel(1.0, 0.0, 0.0)]
     real = [Travel(1.5, -3.0, 0.0), Travel(1.0, 0.0, 0.0), Travel(0.0, nan, 0.0)]
     errors = travel_error(ours, real)
-    assert errors.speed == pytest.approx([0.5, 1.0, 1.0])
-    assert errors.direction[:2] == pytest.approx([np.degrees(2 * np.pi - 6), 90.0])
-    assert np.isnan(errors.direction[2])
-    assert errors.turn == pytest.approx([0, np.degrees(1.0), 0])
+    assert errors["speed"] == pytest.approx([0.5, 1.0, 1.0])
+    assert errors["direction"][:2] == pytest.approx([np.degrees(2 * np.pi - 6), 90.0])
+    assert np.isnan(errors["direction"][2])
+    assert errors["turn"] == pytest.approx([0, np.degrees(1.0), 0])

@@ -317,8 +317,8 @@ def _singles(
         obeys = [all(each.values()) if each else float("nan") for each in answers]
         for key, values in {
             "obeys": obeys,
-            "speed_error": errors.speed,
-            "turn_error": errors.turn,
+            "speed_error": errors["speed"],
+            "turn_error": errors["turn"],
             "support_slide": [body.support_slide for body in bodies],
             "hand_jerk": [body.hand_jerk for body in bodies],
         }.items():

@@ -421,7 +421,7 @@ def _language(context: TextContext, language: str) -> Part:
         if sampler is not None:
             samples[name] = context.made(asked, sampler, settings.seed)
     at_3 = {
-        name: bootstrap_mean(r_precision(sample, settings.seed).hits[2])
+        name: bootstrap_mean(r_precision(sample, settings.seed)[2])
         for name, sample in samples.items()
     }
     score = normalised_score(*(at_3[k].value for k in ("generated", "chance", "real")))
