@@ -304,31 +304,18 @@ class FeatureSpace:
         """[N, F] in units of the real deviation, 0 at the real mean."""
         return np.asarray((features - self.mean) / self.scale)
 
-    def distance(self, a: np.ndarray, b: np.ndarray, axes: Projection | None = None) -> float:
-        """Fréchet distance of features [N, F] and [M, F], along principal axes if given."""
-        left, right = self(a), self(b)
-        return (
-            frechet_distance(left, right)
-            if axes is None
-            else frechet_distance(axes(left), axes(right))
-        )
-
 
 def mean_pairwise(features: np.ndarray) -> float:
     """Mean Euclidean distance over all pairs of features [N, F]; NaN below two."""
     return float(pdist(features).mean()) if len(features) > 1 else float("nan")
 
 
-@dataclass(frozen=True, eq=False)
-class Features:
-    """What is known of N motions."""
-
-    kinetic: np.ndarray  # [N, F]
-    geometric: np.ndarray  # [N, F]
-    amount: np.ndarray  # [N] m/s, mean speed of the joints
+# Of one motion kinetic and geometric features [F] and its amount in m/s, the joints' mean speed.
+Features = tuple[Array, Array, float]
+Stacked = tuple[Array, Array, Array]  # the same of N motions: [N, F], [N, F'] and [N]
 
 
-def body_features(motion: Motion) -> tuple[np.ndarray, np.ndarray, float]:
+def body_features(motion: Motion) -> Features:
     """Kinetic [66] and geometric [32] features and the amount of motion in m/s of a body."""
     points = motion.positions()
     return (
@@ -338,7 +325,7 @@ def body_features(motion: Motion) -> tuple[np.ndarray, np.ndarray, float]:
     )
 
 
-def root_features(trajectory: MotionTrajectory) -> list[tuple[np.ndarray, np.ndarray, float]]:
+def root_features(trajectory: MotionTrajectory) -> list[Features]:
     """Kinetic [5] and geometric [12] features and the speed in m/s of each 4 s of a pelvis.
 
     What is left at the end is dropped; a shorter trajectory is one piece.
@@ -362,14 +349,14 @@ def amount(points: np.ndarray, fps: float) -> float:
     return float(np.linalg.norm(steps, axis=-1).mean() * fps)
 
 
-def stacked(rows: Sequence[tuple[np.ndarray, np.ndarray, float]]) -> Features:
+def stacked(rows: Sequence[Features]) -> Stacked:
     """What `body_features` or `root_features` say of N motions."""
     kinetic, geometric, speed = zip(*rows, strict=True)
-    return Features(np.stack(kinetic), np.stack(geometric), np.array(speed))
+    return np.stack(kinetic), np.stack(geometric), np.array(speed)
 
 
 def kinetic_columns(
-    made: Features, real: Features, *, kinds: int, units_of: Features | None = None
+    made: Stacked, real: Stacked, *, kinds: int, units_of: Stacked | None = None
 ) -> dict[str, float]:
     """Distances and diversity of both sets of features, and the amount of motion.
 
@@ -384,17 +371,14 @@ def kinetic_columns(
         there are more features; div_k, div_g; amount.
     """
     found: dict[str, float] = {}
-    base = units_of or real
-    sets = (
-        ("k", made.kinetic, real.kinetic, base.kinetic),
-        ("g", made.geometric, real.geometric, base.geometric),
-    )
-    for name, ours, theirs, whole in sets:
-        units = np.arange(ours.shape[1]) % kinds if name == "k" else np.zeros(ours.shape[1])
-        space = FeatureSpace.fit(whole, units)
-        found[f"fid_{name}"] = space.distance(ours, theirs)
-        if ours.shape[1] > AXES:
-            axes = Projection.fit(space(whole), AXES)
-            found[f"fid_{name}_axes"] = space.distance(ours, theirs, axes)
-        found[f"div_{name}"] = mean_pairwise(space(ours))
-    return found | {"amount": float(made.amount.mean())}
+    for name, *sets in zip("kg", made, real, units_of or real, strict=False):
+        width = sets[0].shape[1]
+        units = np.arange(width) % kinds if name == "k" else np.zeros(width)
+        space = FeatureSpace.fit(sets[2], units)
+        ours, theirs, whole = map(space, sets)
+        found[f"fid_{name}"] = frechet_distance(ours, theirs)
+        if width > AXES:
+            axes = Projection.fit(whole, AXES)
+            found[f"fid_{name}_axes"] = frechet_distance(axes(ours), axes(theirs))
+        found[f"div_{name}"] = mean_pairwise(ours)
+    return found | {"amount": float(made[2].mean())}

@@ -349,10 +349,6 @@ def _sideways(m: Measurements, sign: int) -> bool:
     )
 
 
-def _turns(m: Measurements, sign: int) -> bool:
-    return sign * m.yaw > _MIN_TURN
-
-
 def _hand_up(m: Measurements, side: int) -> bool:
     return m.hand_peak[side] > -0.2 and m.hand_travel[side] > 0.15
 
@@ -375,14 +371,6 @@ def _runs(m: Measurements) -> bool:
     return _forward(m) and (m.cruise > 2.0 or (flies and m.cruise > 1.3))
 
 
-def _kicks(m: Measurements, side: int) -> bool:
-    return m.kicks[side] > m.kicks[1 - side]
-
-
-def _punches(m: Measurements, side: int) -> bool:
-    return m.punches[side] > m.punches[1 - side]
-
-
 def _stays(m: Measurements) -> bool:
     return abs(m.forward) < 0.4 and abs(m.lateral) < 0.4
 
@@ -397,8 +385,8 @@ _RAW: dict[str, Check] = {
     "backward": _backward,
     "left": lambda m: _sideways(m, 1),
     "right": lambda m: _sideways(m, -1),
-    "turn-left": lambda m: _turns(m, 1),
-    "turn-right": lambda m: _turns(m, -1),
+    "turn-left": lambda m: m.yaw > _MIN_TURN,
+    "turn-right": lambda m: -m.yaw > _MIN_TURN,
     "left-hand": lambda m: _one_hand(m, 0),
     "right-hand": lambda m: _one_hand(m, 1),
     "left-hand-too": lambda m: _hand_up(m, 0),
@@ -408,10 +396,10 @@ _RAW: dict[str, Check] = {
     "run": _runs,
     "squat": lambda m: m.squats >= 1,
     "jump": lambda m: m.jumps >= 1,
-    "kick-left": lambda m: _kicks(m, 0),
-    "kick-right": lambda m: _kicks(m, 1),
-    "punch-left": lambda m: _punches(m, 0),
-    "punch-right": lambda m: _punches(m, 1),
+    "kick-left": lambda m: m.kicks[0] > m.kicks[1],
+    "kick-right": lambda m: m.kicks[1] > m.kicks[0],
+    "punch-left": lambda m: m.punches[0] > m.punches[1],
+    "punch-right": lambda m: m.punches[1] > m.punches[0],
     "clap": lambda m: m.claps >= 1,
     "bow": lambda m: m.bows >= 1,
     "forward-jump": lambda m: m.forward > 0.25,

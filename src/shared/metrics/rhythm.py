@@ -85,7 +85,7 @@ def distances(beats: np.ndarray, others: np.ndarray) -> np.ndarray:
     )
 
 
-def beat_alignment(beats: np.ndarray, others: np.ndarray, sigma: float = SIGMA) -> float:
+def beat_alignment(beats: np.ndarray, others: np.ndarray) -> float:
     """Mean over `beats` of exp(-d²/2σ²), d the distance to the nearest of `others`.
 
     NaN without `beats`, 0 without `others`.
@@ -94,7 +94,7 @@ def beat_alignment(beats: np.ndarray, others: np.ndarray, sigma: float = SIGMA) 
         return float("nan")
     if not len(others):
         return 0.0
-    return float(np.exp(-(distances(beats, others) ** 2) / (2 * sigma**2)).mean())
+    return float(np.exp(-(distances(beats, others) ** 2) / (2 * SIGMA**2)).mean())
 
 
 @dataclass(frozen=True)
@@ -110,29 +110,37 @@ def alignment(motion: np.ndarray, music: np.ndarray, seconds: float) -> Alignmen
 
     Beats beyond the ends count as neighbours, never as beats of their own.
     """
-    inside = motion[(motion >= 0) & (motion < seconds)]
-    heard = music[(music >= 0) & (music < seconds)]
-    return Alignment(beat_alignment(inside, music), beat_alignment(heard, motion))
+    return Alignment(
+        beat_alignment(_inside(motion, seconds), music),
+        beat_alignment(_inside(music, seconds), motion),
+    )
+
+
+def _inside(beats: np.ndarray, seconds: float) -> np.ndarray:
+    """Those in [0, seconds)."""
+    return beats[(beats >= 0) & (beats < seconds)]
+
+
+def turned_round(
+    motion: np.ndarray, seconds: float, rng: np.random.Generator, n: int
+) -> Iterator[np.ndarray]:
+    """The motion's beats moved by a random time, `n` times: chance.
+
+    Turned round within the song, so that number and spacing of the beats stay.
+    """
+    for shift in (np.arange(n) + rng.random(n)) * (seconds / n):
+        yield np.sort((motion + shift) % seconds)
 
 
 def chance_alignment(
     motion: np.ndarray, music: np.ndarray, seconds: float, rng: np.random.Generator, *, n: int = 16
 ) -> Alignment:
-    """What the same motion reaches when its beats are moved by a random time, mean of `n`.
-
-    The motion is turned round within the phrase, so that number and spacing of beats stay.
-    """
-    draws = [
-        alignment(np.sort((motion + shift) % seconds), music, seconds)
-        for shift in (np.arange(n) + rng.random(n)) * (seconds / n)
-    ]
+    """What the same motion reaches when it is turned round, mean of `n`."""
+    draws = [alignment(each, music, seconds) for each in turned_round(motion, seconds, rng, n)]
     return Alignment(
         float(np.mean([draw.motion_to_music for draw in draws])),
         float(np.mean([draw.music_to_motion for draw in draws])),
     )
-
-
-HIT = 0.07  # seconds, the window of the F-measure in beat tracking (Davies et al. 2009)
 
 
 # ---------------------------------------------------------------- phase
@@ -234,13 +242,12 @@ class Rhythm:
     distance: float
 
 
+HIT = 0.07  # seconds, the window of the F-measure in beat tracking (Davies et al. 2009)
 OFFSETS = 16  # random times a motion, for the floor
 COLUMNS = ("motion_to_music", "music_to_motion", "f", "hits", "distance")
 
 
-def rhythm(
-    motion: np.ndarray, music: np.ndarray, seconds: float, *, sigma: float = SIGMA
-) -> Rhythm:
+def rhythm(motion: np.ndarray, music: np.ndarray, seconds: float) -> Rhythm:
     """Score motion beats [N] against music beats [M] within [0, seconds), both ascending.
 
     Beats outside count as neighbours, never as beats of their own. A motion that never slows down
@@ -251,10 +258,9 @@ def rhythm(
     """
     if not (np.isfinite(motion).all() and np.isfinite(music).all()):
         raise ValueError("beat times hold NaN or infinity")
-    made = motion[(motion >= 0) & (motion < seconds)]
-    heard = music[(music >= 0) & (music < seconds)]
-    forth = beat_alignment(made, music, sigma) if len(made) else 0.0
-    back = beat_alignment(heard, motion, sigma) if len(heard) else 0.0
+    made, heard = _inside(motion, seconds), _inside(music, seconds)
+    forth = beat_alignment(made, music) if len(made) else 0.0
+    back = beat_alignment(heard, motion) if len(heard) else 0.0
     near = len(made) and len(music)
     return Rhythm(
         motion_to_music=forth,
@@ -265,8 +271,8 @@ def rhythm(
     )
 
 
-def hit_f_measure(reference: np.ndarray, estimate: np.ndarray, window: float = HIT) -> float:
-    """F-measure of beats matched one to one within `window` seconds, both ascending.
+def hit_f_measure(reference: np.ndarray, estimate: np.ndarray) -> float:
+    """F-measure of beats matched one to one within 70 ms, both ascending.
 
     Times on a line: taking the earliest pair that fits gives a largest matching.
     """
@@ -275,7 +281,7 @@ def hit_f_measure(reference: np.ndarray, estimate: np.ndarray, window: float = H
     matched = i = k = 0
     while i < len(reference) and k < len(estimate):
         apart = estimate[k] - reference[i]
-        if abs(apart) <= window:
+        if abs(apart) <= HIT:
             matched, i, k = matched + 1, i + 1, k + 1
         elif apart < 0:
             k += 1
@@ -297,18 +303,6 @@ def half_beat_later(beats: np.ndarray) -> np.ndarray:
     return np.concatenate(([first], middles, [last]))
 
 
-def turned_round(
-    motion: np.ndarray, seconds: float, rng: np.random.Generator, n: int
-) -> Iterator[np.ndarray]:
-    """The motion's beats moved by a random time, `n` times: chance.
-
-    Turned round within the song, so that number and spacing of the beats stay.
-    """
-    inside = motion[(motion >= 0) & (motion < seconds)]
-    for shift in (np.arange(n) + rng.random(n)) * (seconds / n):
-        yield np.sort((inside + shift) % seconds)
-
-
 def against_chance(
     motion: np.ndarray, music: np.ndarray, seconds: float, rng: np.random.Generator
 ) -> tuple[Rhythm, Rhythm, Rhythm]:
@@ -316,7 +310,8 @@ def against_chance(
 
     Chance is the mean over `OFFSETS` random times that the motion is turned round by.
     """
-    turned = [rhythm(each, music, seconds) for each in turned_round(motion, seconds, rng, OFFSETS)]
+    inside = _inside(motion, seconds)
+    turned = [rhythm(each, music, seconds) for each in turned_round(inside, seconds, rng, OFFSETS)]
     own, off = rhythm(motion, music, seconds), rhythm(motion, half_beat_later(music), seconds)
     return own, mean_rhythm(turned), off
 
@@ -330,11 +325,8 @@ def strangers(number: int, rng: np.random.Generator) -> list[int]:
 
 def mean_rhythm(scores: list[Rhythm]) -> Rhythm:
     """The mean of each column over at least one score; distances that are NaN are left out."""
-    table = np.array([[getattr(score, name) for name in COLUMNS] for score in scores])
-    known = ~np.isnan(table)
-    sums = np.where(known, table, 0.0).sum(0)
-    means = np.divide(sums, known.sum(0), out=np.full(len(COLUMNS), np.nan), where=known.any(0))
-    return Rhythm(*(float(value) for value in means))
+    table = np.ma.masked_invalid([[getattr(score, name) for name in COLUMNS] for score in scores])
+    return Rhythm(*table.mean(0).filled(np.nan).tolist())
 
 
 # ---------------------------------------------------------------- when a whole body dances

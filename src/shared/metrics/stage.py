@@ -58,7 +58,7 @@ def stage(motion: Motion) -> Stage:
         poses=float(distinct_poses(poses[:: max(1, round(POSE_STEP * motion.fps))])),
         dimensions=pose_dimensions(poses),
         hovering=hovering(positions, motion.fps),
-        both_slide=both_slide(positions, motion.fps),
+        both_slide=float(sliding(positions, motion.fps).mean()),
     )
 
 
@@ -145,11 +145,6 @@ def torn(change: np.ndarray) -> np.ndarray:
     found[1:] |= shaken
     found[:-1] |= shaken
     return np.asarray(found)
-
-
-def both_slide(positions: np.ndarray, fps: float) -> float:
-    """Share of the frames of [T, 22, 3] in which both feet are near the floor and neither rests."""
-    return float(sliding(positions, fps).mean())
 
 
 def sliding(positions: np.ndarray, fps: float) -> np.ndarray:

@@ -5,11 +5,11 @@ import pytest
 
 from src.shared.metrics.stage import (
     backward_share,
-    both_slide,
     distinct_poses,
     hovering,
     net_way,
     pose_dimensions,
+    sliding,
     stage,
     turning,
 )
@@ -53,14 +53,14 @@ def test_poses_and_their_dimensions() -> None:
 def test_hovering_and_sliding_feet() -> None:
     ground = np.zeros((300, 22, 3))
     ground[..., 1] = REST_FOOT_HEIGHT
-    assert hovering(ground, 30.0) == both_slide(ground, 30.0) == 0
+    assert hovering(ground, 30.0) == sliding(ground, 30.0).mean() == 0
     high = ground.copy()
     high[30:60, :, 1] += 0.2
     high[100:106, :, 1] += 0.2  # a hop
     assert hovering(high, 30.0) == pytest.approx(6)
     gliding = ground.copy()
     gliding[..., 2] += TIME[:, None]
-    assert both_slide(gliding, 30.0) == 1
+    assert sliding(gliding, 30.0).mean() == 1
 
 
 def test_a_whole_body() -> None:

@@ -23,6 +23,7 @@ import numpy as np
 from ...errors import UserError
 from ...metrics.kinetic import (
     Features,
+    Stacked,
     kinetic_columns,
     root_geometric_features,
     root_kinetic_features,
@@ -508,14 +509,12 @@ def song_pool(
     )
 
 
-def _features(
-    motions: Sequence[MotionTrajectory],
-) -> list[tuple[np.ndarray, np.ndarray, float]]:
+def _features(motions: Sequence[MotionTrajectory]) -> list[Features]:
     """Of each motion as a whole; how much it moves counts for nothing here."""
     return [(root_kinetic_features(m), root_geometric_features(m), 0.0) for m in motions]
 
 
-def _distances(ours: Features, theirs: Features) -> dict[str, float]:
+def _distances(ours: Stacked, theirs: Stacked) -> dict[str, float]:
     found = kinetic_columns(ours, theirs, kinds=KINDS)
     return {key: float(found[key]) for key in ("fid_g", "fid_k")}
 
