@@ -34,14 +34,6 @@ class Side:
     folder: Path
     row: str = "generated"
 
-    def report(self) -> dict[str, Any]:
-        """Its report.json.
-
-        Raises:
-            UserError: there is none.
-        """
-        return read_json(self.folder / "report.json")
-
     def parts(self, bench: str) -> list[Part]:
         """The row's replications, as many as there are without a gap."""
         kept = Parts(self.folder)
@@ -66,7 +58,7 @@ def compare(a: Side, b: Side, *, seed: int = 0) -> dict[str, Any]:
             f"{a.folder} and {b.folder} differ in {', '.join(differs)}: such figures never stand"
             " beside each other; evaluate both with the same data, judge and settings"
         )
-    ours, theirs = a.report(), b.report()
+    ours, theirs = (read_json(side.folder / "report.json") for side in (a, b))
     tables = [
         table
         for grid in grids(ours)

@@ -181,7 +181,8 @@ def run_suite(suite: Suite, parts: Parts, progress: Progress = lambda text: None
         tables += [*grids, *([bench.summary(grids)] if bench.summary is not None else [])]
         samples += parts.once(part_name(bench.name, bench.main, 0), dict).get("samples", [])
     for name, make in suite.tables.items():
-        tables += kept_tables(parts, name, make)
+        part = parts.once(name, partial(_as_part, make))
+        tables += [Grid.from_dict(grid) for grid in part["grids"]]
     pictures: list[dict[str, Any]] = []
     if suite.pictures is not None:
         draw, folder = suite.pictures, parts.folder
@@ -193,10 +194,8 @@ def run_suite(suite: Suite, parts: Parts, progress: Progress = lambda text: None
     return report_data(suite.branch, about, suite.settings, tables, samples, pictures)
 
 
-def kept_tables(parts: Parts, name: str, make: Callable[[], list[Grid]]) -> list[Grid]:
-    """Tables that are one part of a report."""
-    part = parts.once(name, lambda: {"grids": [grid.as_dict() for grid in make()]})
-    return [Grid.from_dict(grid) for grid in part["grids"]]
+def _as_part(make: Callable[[], list[Grid]]) -> Part:
+    return {"grids": [grid.as_dict() for grid in make()]}
 
 
 # ---------------------------------------------------------------- measuring
@@ -356,7 +355,5 @@ def motion_values(parts: Sequence[Part], key: str) -> np.ndarray | None:
     kept = [part["values"][key] for part in parts if key in part.get("values", {})]
     if not kept:
         return None
-    table = np.array(kept, dtype=np.float64)  # None becomes NaN
-    known = (~np.isnan(table)).sum(0)
-    total = np.nansum(table, axis=0)
-    return np.where(known > 0, total / np.maximum(known, 1), np.nan)
+    table = np.ma.masked_invalid(np.array(kept, dtype=np.float64))  # None becomes NaN
+    return np.asarray(table.mean(0).filled(np.nan))

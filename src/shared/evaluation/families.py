@@ -144,7 +144,7 @@ PHYSICS: MetricFamily[MotionSample] = MetricFamily(
     " in every frame within 6 cm of its standing height. sunk: lowest foot below its standing"
     " height. jerk: third differences of joint positions. A frozen pose is best in the first"
     " four: read them beside speed and the real row.",
-    lambda sample, *_: [asdict(each) for each in sample.each("physics", physics)],
+    lambda sample, *_: sample.each("physics", physics),
 )
 
 
@@ -269,7 +269,7 @@ CONTACT: MetricFamily[MotionSample] = MetricFamily(
     "the clip, and improves with one rough frame: it is here because it is asked for. A frozen "
     "pose is perfect in *skating*, *sunk* and *floating*: read them beside *slide cm/m* and "
     "the motion amount. None may stand beside a published figure.",
-    lambda sample, *_: [asdict(each) for each in sample.each("contact", contact)],
+    lambda sample, *_: sample.each("contact", contact),
 )
 
 

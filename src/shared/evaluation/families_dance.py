@@ -3,7 +3,6 @@
 Letters: N dances.
 """
 
-from dataclasses import asdict
 from functools import partial
 
 import numpy as np
@@ -120,13 +119,13 @@ def _ground(motion: Motion) -> dict[str, float]:
     """The figures of `GROUND`, and the roughness."""
     speeds, floor = physics(motion), contact(motion)
     return {
-        "contact": speeds.contact_slide,
-        "support": speeds.support_slide,
-        "skating": floor.skating_frames,
-        "sunk": floor.sunk_depth,
-        "floating": floor.float_height,
-        "jerk": speeds.jerk,
-        "jerk_per_speed": floor.jerk_per_speed,
+        "contact": speeds["contact_slide"],
+        "support": speeds["support_slide"],
+        "skating": floor["skating_frames"],
+        "sunk": floor["sunk_depth"],
+        "floating": floor["float_height"],
+        "jerk": speeds["jerk"],
+        "jerk_per_speed": floor["jerk_per_speed"],
     }
 
 
@@ -183,10 +182,7 @@ ON_STAGE: MetricFamily[Bodies] = MetricFamily(
     " *hovering*: no joint near the floor for over 0.45 s. *both slide*: share of time in which"
     " both feet are near the floor and faster than 20 cm/s. A frozen pose is perfect in the last"
     " two, has one pose and no way.",
-    lambda sample, *_: [
-        {name: value for name, value in asdict(found).items() if not np.isnan(value)}
-        for found in sample.each("stage", stage)
-    ],
+    lambda sample, *_: sample.each("stage", stage),
 )
 DANCE_FAMILIES: tuple[MetricFamily[Bodies], ...] = (
     BODY_RHYTHM, ON_STAGE, BODY_KINETICS, ON_THE_PATH, FEET,

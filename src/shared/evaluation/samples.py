@@ -5,7 +5,7 @@ And what they are held against: a pose held still, and a network that has learne
 Letters: N motions of a sample, D embedding channels, T frames.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -278,6 +278,14 @@ def choose_caption(captions: Sequence[str], key: str, seed: int) -> str:
     """One of a clip's captions, the same for the same key (the clip's id) and seed."""
     rng = np.random.default_rng([seed, *key.encode()])
     return captions[int(rng.integers(len(captions)))]
+
+
+def rows_of_each(names: Iterable[str]) -> dict[str, list[int]]:
+    """The rows of each name, ascending, names as they first come."""
+    rows: dict[str, list[int]] = {}
+    for row, name in enumerate(names):
+        rows.setdefault(name, []).append(row)
+    return rows
 
 
 def spread_over_groups(records: Sequence[ClipRecord], num: int, seed: int) -> list[ClipRecord]:

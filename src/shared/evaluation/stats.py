@@ -4,7 +4,7 @@ Letters: N observations (prompts, motions or replications), B resamples.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 
 import numpy as np
@@ -12,6 +12,7 @@ import numpy as np
 Z95 = 1.959963984540054  # 97.5% quantile of the standard normal
 FEW = 8  # observations below which a percentile bootstrap is too sure of itself
 MIN_PAIRS = 2
+RESAMPLES = 1000  # of a mean
 CHUNK = 1000  # resamples at once
 
 
@@ -51,17 +52,20 @@ def replicated(values: Sequence[float]) -> Estimate:
     return Estimate(mean, mean - half, mean + half, len(data))
 
 
-def bootstrap_mean(
-    values: Sequence[float] | np.ndarray, *, num_resamples: int = 1000, seed: int = 0
-) -> Estimate:
+def bootstrap_mean(values: Sequence[float] | np.ndarray) -> Estimate:
     """Mean with its percentile bootstrap interval (Efron 1979); NaN entries are left out."""
     data = np.asarray(values, dtype=np.float64)
     data = data[~np.isnan(data)]
     if not len(data):
         return NOTHING
-    means = _resampled_means(data, np.random.default_rng(seed), num_resamples)
+    means = _resampled_means(data, 0, RESAMPLES)
     low, high = np.percentile(means, [2.5, 97.5])
     return Estimate(float(data.mean()), float(low), float(high), len(data))
+
+
+def bootstrap_columns(rows: Sequence[Mapping[str, float]]) -> dict[str, Estimate]:
+    """`bootstrap_mean` of each column of N rows that all have the same ones."""
+    return {key: bootstrap_mean([row[key] for row in rows]) for key in (rows[0] if rows else ())}
 
 
 def success_rate(successes: int, trials: int) -> Estimate:
@@ -108,15 +112,16 @@ def paired_bootstrap(
     difference = difference[~np.isnan(difference)]
     if len(difference) < MIN_PAIRS:
         raise ValueError(f"{len(difference)} pairs are too few for an interval")
-    means = _resampled_means(difference, np.random.default_rng(seed), num)
+    means = _resampled_means(difference, seed, num)
     low, high = np.percentile(means, [2.5, 97.5])
     beyond = min((means <= 0).sum(), (means >= 0).sum())
     p = min(1.0, 2 * (1 + int(beyond)) / (1 + num))
     return Difference(float(difference.mean()), float(low), float(high), len(difference), p)
 
 
-def _resampled_means(values: np.ndarray, rng: np.random.Generator, num: int) -> np.ndarray:
+def _resampled_means(values: np.ndarray, seed: int, num: int) -> np.ndarray:
     """Means [B] of resamples of values [N]."""
+    rng = np.random.default_rng(seed)
     sizes = [min(CHUNK, num - start) for start in range(0, num, CHUNK)]
     return np.concatenate(
         [values[rng.integers(0, len(values), (size, len(values)))].mean(1) for size in sizes]

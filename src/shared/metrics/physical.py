@@ -7,7 +7,6 @@ Letters: T frames, K joints, N motions.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -72,18 +71,6 @@ HANDS = [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]]
 SUPPORT_HEIGHT = 0.06  # metres above the rest height: higher than this, no foot carries the body
 
 
-@dataclass(frozen=True)
-class Physics:
-    """Physical figures of one motion; a slide is NaN when no foot touches the ground."""
-
-    contact_slide: float  # cm/s of a ball of the foot while the contact detector sees it on ground
-    support_slide: float  # cm/s of the lower ball of the foot, no condition on its speed
-    penetration: float  # cm, mean depth of the lowest ball of the foot below its rest height
-    jerk: float  # m/s^3, mean over all joints
-    hand_jerk: float  # m/s^3, mean over both wrists
-    speed: float  # m/s, pelvis over the ground
-
-
 def support_slide(positions: np.ndarray, fps: float) -> float:
     """Mean horizontal speed in cm/s of the lower foot, over frames where it is near the floor.
 
@@ -93,17 +80,17 @@ def support_slide(positions: np.ndarray, fps: float) -> float:
     return 100 * _mean(support_speed(positions, fps))
 
 
-def physics(motion: Motion) -> Physics:
-    """All figures of one motion of at least two frames."""
+def physics(motion: Motion) -> dict[str, float]:
+    """Figures of a motion of at least two frames; a slide is NaN when no foot is on the ground."""
     positions = motion.positions().astype(np.float64)
-    return Physics(
-        contact_slide=contact_slide(positions, motion.fps),
-        support_slide=support_slide(positions, motion.fps),
-        penetration=penetration(positions),
-        jerk=mean_jerk(positions, motion.fps),
-        hand_jerk=mean_jerk(positions[:, HANDS], motion.fps),
-        speed=float(ground_speed(positions[:, 0], motion.fps).mean()),
-    )
+    return {
+        "contact_slide": contact_slide(positions, motion.fps),  # cm/s
+        "support_slide": support_slide(positions, motion.fps),  # cm/s
+        "penetration": penetration(positions),  # cm
+        "jerk": mean_jerk(positions, motion.fps),  # m/s³, mean over all joints
+        "hand_jerk": mean_jerk(positions[:, HANDS], motion.fps),  # of both wrists
+        "speed": float(ground_speed(positions[:, 0], motion.fps).mean()),  # m/s, of the pelvis
+    }
 
 
 # ---------------------------------------------------------------- feet and floor
@@ -119,25 +106,8 @@ MIN_PUSH = 0.01  # m/s²: a smaller greatest acceleration is rounding
 PFC_FPS = 30.0  # of the published figures
 
 
-@dataclass(frozen=True)
-class Contact:
-    """Figures of one motion; NaN where there is nothing to judge."""
-
-    claimed_slide: float  # cm/s of a foot while the motion itself says that it stands
-    claimed_frames: float  # % of frames in which it says so of a foot
-    skating_frames: float  # % of supported frames whose lower foot is faster than 10 cm/s
-    slide_per_metre: float  # cm the lower foot slides for each metre that the pelvis travels
-    sunk_depth: float  # cm, mean depth of the lowest joint
-    sunk_frames: float  # % of frames deeper than 1 cm
-    float_height: float  # cm, mean height of the lowest joint where nothing carries the body
-    floating_frames: float  # % of frames in which it is above 2 cm and the body does not fly
-    flying_frames: float  # % of frames in which it is and falls as a thrown thing does
-    jerk_per_speed: float  # 1/s², jerk over speed of the joints
-    pfc: float  # EDGE's physical foot contact score
-
-
-def contact(motion: Motion) -> Contact:
-    """All figures of one motion of at least two frames.
+def contact(motion: Motion) -> dict[str, float]:
+    """Figures of one motion of at least two frames; NaN where there is nothing to judge.
 
     Raises:
         ValueError: NaN or infinity.
@@ -150,19 +120,22 @@ def contact(motion: Motion) -> Contact:
     floating, flying = unsupported(positions, fps)
     claimed = motion.contacts[:-1] > 0.5  # T-1 2
     speed = ground_speed(positions[:, BALLS], fps)  # T-1 2
-    return Contact(
-        claimed_slide=100 * _mean(speed[claimed]),
-        claimed_frames=100 * float((motion.contacts > 0.5).any(1).mean()),
-        skating_frames=100 * _mean(support_speed(positions, fps) > SKATING),
-        slide_per_metre=slide_per_metre(positions, fps),
-        sunk_depth=100 * float((-height).clip(min=0).mean()),
-        sunk_frames=100 * float((height < -SUNK).mean()),
-        float_height=100 * float(np.where(floating, height, 0.0).mean()),
-        floating_frames=100 * float(floating.mean()),
-        flying_frames=100 * float(flying.mean()),
-        jerk_per_speed=jerk_per_speed(positions, fps),
-        pfc=pfc(positions, fps),
-    )
+    return {
+        # cm/s of a foot while the motion itself says that it stands, and % of frames with a claim
+        "claimed_slide": 100 * _mean(speed[claimed]),
+        "claimed_frames": 100 * float((motion.contacts > 0.5).any(1).mean()),
+        # % of supported frames whose lower foot is faster than 10 cm/s
+        "skating_frames": 100 * _mean(support_speed(positions, fps) > SKATING),
+        "slide_per_metre": slide_per_metre(positions, fps),  # cm
+        "sunk_depth": 100 * float((-height).clip(min=0).mean()),  # cm, of the lowest joint
+        "sunk_frames": 100 * float((height < -SUNK).mean()),  # % deeper than 1 cm
+        # cm, of the lowest joint where nothing carries the body; % of such frames; % of flights
+        "float_height": 100 * float(np.where(floating, height, 0.0).mean()),
+        "floating_frames": 100 * float(floating.mean()),
+        "flying_frames": 100 * float(flying.mean()),
+        "jerk_per_speed": jerk_per_speed(positions, fps),  # 1/s²
+        "pfc": pfc(positions, fps),
+    }
 
 
 def _mean(values: np.ndarray) -> float:
@@ -265,17 +238,13 @@ def pfc(positions: np.ndarray, fps: float) -> float:
 MIN_TRAVEL = 0.5  # metres: below this a direction is noise
 
 
-@dataclass(frozen=True)
-class Travel:
-    """Net travel of one motion, seen from its first frame."""
+def travel(motion: Motion) -> np.ndarray:
+    """Net travel of a motion of at least two frames, seen from its first frame.
 
-    speed: float  # m/s, path length of the pelvis over the ground
-    direction: float  # radians from where it faces at first, + = to its left; NaN below 0.5 m
-    turn: float  # radians of heading gained, + = to the left
-
-
-def travel(motion: Motion) -> Travel:
-    """Speed, direction and turning of one motion of at least two frames."""
+    Returns:
+        [3]: speed, m/s, the path of the pelvis over the ground; direction, radians from where it
+        faces at first, + = to its left, NaN below 0.5 m; turn, radians of heading gained, + = left.
+    """
     heading = headings(quaternion_to_matrix(torch.as_tensor(motion.quaternions[:, 0]))).numpy()
     path = motion.root_position[:, [0, 2]].astype(np.float64)  # x, z
     seconds = (motion.num_frames - 1) / motion.fps
@@ -283,11 +252,8 @@ def travel(motion: Motion) -> Travel:
     direction = float("nan")
     if np.hypot(across, along) >= MIN_TRAVEL:
         direction = float(_wrap(np.arctan2(across, along) - float(heading[0])))
-    return Travel(
-        speed=float(np.linalg.norm(np.diff(path, axis=0), axis=-1).sum() / seconds),
-        direction=direction,
-        turn=float(heading[-1] - heading[0]),
-    )
+    speed = np.linalg.norm(np.diff(path, axis=0), axis=-1).sum() / seconds
+    return np.array([speed, direction, float(heading[-1] - heading[0])])
 
 
 def _wrap(angle: np.ndarray) -> np.ndarray:
@@ -295,24 +261,20 @@ def _wrap(angle: np.ndarray) -> np.ndarray:
     return np.asarray((angle + np.pi) % (2 * np.pi) - np.pi)
 
 
-def travel_error(motions: Sequence[Travel], references: Sequence[Travel]) -> dict[str, np.ndarray]:
-    """Absolute differences to real motions of the same captions, row by row [N].
+def travel_error(
+    motions: Sequence[np.ndarray], references: Sequence[np.ndarray]
+) -> dict[str, np.ndarray]:
+    """Absolute differences of `travel` to real motions of the same captions, row by row [N].
 
     Returns:
         speed in m/s; direction in degrees, NaN where the reference has none, 90 for a motion that
         stands where its reference travels; turn in degrees.
     """
-    ours, real = (
-        {
-            key: np.array([getattr(each, key) for each in side])
-            for key in ("speed", "direction", "turn")
-        }
-        for side in (motions, references)
-    )
-    off = np.abs(np.degrees(_wrap(ours["direction"] - real["direction"])))
-    off = np.where(np.isnan(ours["direction"]), 90.0, off)
+    ours, real = (np.reshape(side, (-1, 3)).T for side in (motions, references))
+    off = np.abs(np.degrees(_wrap(ours[1] - real[1])))
+    off = np.where(np.isnan(ours[1]), 90.0, off)
     return {
-        "speed": np.abs(ours["speed"] - real["speed"]),
-        "direction": np.where(np.isnan(real["direction"]), np.nan, off),
-        "turn": np.abs(np.degrees(ours["turn"] - real["turn"])),
+        "speed": np.abs(ours[0] - real[0]),
+        "direction": np.where(np.isnan(real[1]), np.nan, off),
+        "turn": np.abs(np.degrees(ours[2] - real[2])),
     }

@@ -6,8 +6,6 @@ little without the real row: a frozen pose has a small stage and never hovers.
 Letters: T frames, K joints, A principal axes.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
@@ -30,36 +28,23 @@ SHAKEN = 120.0  # m/s², one way and the other in two frames, likewise
 SLIDING = 0.2  # m/s of the slower foot while both are near the floor
 
 
-@dataclass(frozen=True)
-class Stage:
-    """Figures of one dance; NaN where there is nothing to judge."""
-
-    backward: float  # share of the way that is gone backward; NaN without a way
-    radius: float  # metres, furthest that the pelvis is from the middle of where it was
-    net_way: float  # distance from first to last place over the way between them; NaN without
-    turning: float  # degrees a second of the heading, either way
-    poses: float  # poses that differ from each other
-    dimensions: float  # participation ratio of the poses' principal axes
-    hovering: float  # times a minute that no joint is near the floor for over 0.45 s
-    both_slide: float  # share of time in which both feet slide
-
-
-def stage(motion: Motion) -> Stage:
-    """All figures of one motion of at least two frames."""
+def stage(motion: Motion) -> dict[str, float]:
+    """Figures of one dance of at least two frames; NaN where there is nothing to judge."""
     positions = motion.positions().astype(np.float64)
     facing = headings(quaternion_to_matrix(torch.as_tensor(motion.quaternions[:, 0])))
     path, heading = positions[:, 0, [0, 2]], facing.double().numpy()
     poses = local_poses(positions, heading)
-    return Stage(
-        backward=backward_share(path, heading, motion.fps),
-        radius=float(np.linalg.norm(path - path.mean(0), axis=1).max()),
-        net_way=net_way(path, motion.fps),
-        turning=turning(heading, motion.fps),
-        poses=float(distinct_poses(poses[:: max(1, round(POSE_STEP * motion.fps))])),
-        dimensions=pose_dimensions(poses),
-        hovering=hovering(positions, motion.fps),
-        both_slide=float(sliding(positions, motion.fps).mean()),
-    )
+    apart = np.linalg.norm(path - path.mean(0), axis=1)
+    return {
+        "backward": backward_share(path, heading, motion.fps),
+        "radius": float(apart.max()),  # metres from the middle of where the pelvis was
+        "net_way": net_way(path, motion.fps),
+        "turning": turning(heading, motion.fps),
+        "poses": float(distinct_poses(poses[:: max(1, round(POSE_STEP * motion.fps))])),
+        "dimensions": pose_dimensions(poses),
+        "hovering": hovering(positions, motion.fps),
+        "both_slide": float(sliding(positions, motion.fps).mean()),  # share of the time
+    }
 
 
 # ---------------------------------------------------------------- way and stage

@@ -28,7 +28,7 @@ def test_feet_land_on_counts_stand_still_and_end_where_they_began(steps: Steps) 
             assert (motion.contacts[frame, foot] > 0.5) == (landing.height == 0)
     assert (motion.contacts.max(1) > 0.5).all(), "one foot is always on the floor"
     figures = stage(motion)
-    assert figures.hovering == 0 and figures.both_slide < 0.03 and figures.radius < 0.8
+    assert figures["hovering"] == 0 and figures["both_slide"] < 0.03 and figures["radius"] < 0.8
 
 
 def test_a_step_says_what_it_is() -> None:

@@ -27,22 +27,22 @@ def rest_motion(num_frames: int = 40, *, velocity: float = 0.0, lift: float = 0.
 
 def test_a_gliding_pose_slides_at_its_own_speed() -> None:
     figures = physics(rest_motion(velocity=0.2))
-    assert figures.contact_slide == pytest.approx(20, rel=1e-3)
-    assert figures.support_slide == pytest.approx(20, rel=1e-3)
-    assert figures.speed == pytest.approx(0.2, rel=1e-3)
-    assert figures.jerk == pytest.approx(0, abs=0.1)
-    assert figures.penetration == pytest.approx(0, abs=1e-3)
+    assert figures["contact_slide"] == pytest.approx(20, rel=1e-3)
+    assert figures["support_slide"] == pytest.approx(20, rel=1e-3)
+    assert figures["speed"] == pytest.approx(0.2, rel=1e-3)
+    assert figures["jerk"] == pytest.approx(0, abs=0.1)
+    assert figures["penetration"] == pytest.approx(0, abs=1e-3)
 
 
 def test_a_fast_glide_escapes_the_contact_detector_but_not_the_support_slide() -> None:
     figures = physics(rest_motion(velocity=1.5))
-    assert np.isnan(figures.contact_slide)
-    assert figures.support_slide == pytest.approx(150, rel=1e-3)
+    assert np.isnan(figures["contact_slide"])
+    assert figures["support_slide"] == pytest.approx(150, rel=1e-3)
 
 
 def test_a_body_in_the_air_has_no_slide_and_a_sunk_one_penetrates() -> None:
-    assert np.isnan(physics(rest_motion(lift=0.5, velocity=1.0)).support_slide)
-    assert physics(rest_motion(lift=-0.05)).penetration == pytest.approx(5, rel=1e-3)
+    assert np.isnan(physics(rest_motion(lift=0.5, velocity=1.0))["support_slide"])
+    assert physics(rest_motion(lift=-0.05))["penetration"] == pytest.approx(5, rel=1e-3)
 
 
 def test_the_standing_foot_of_a_step_does_not_slide() -> None:

@@ -65,5 +65,5 @@ def test_hovering_and_sliding_feet() -> None:
 
 def test_a_whole_body() -> None:
     found = stage(swinging_arms(frames=90))
-    assert found.radius < 0.1 and found.turning < 5 and found.dimensions >= 1
-    assert stage(walker(np.pi, heading=0.3)).backward == 1
+    assert found["radius"] < 0.1 and found["turning"] < 5 and found["dimensions"] >= 1
+    assert stage(walker(np.pi, heading=0.3))["backward"] == 1

@@ -14,7 +14,7 @@ import math
 from collections import defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import cycle, islice, pairwise
 from typing import Protocol
 
 import numpy as np
@@ -41,7 +41,7 @@ from ...motion.rotations import quaternion_to_matrix
 from ...motion.skeleton import JOINT_INDEX
 from ...tensors import Tensor
 from ..engine import Progress
-from ..samples import choose_caption, spread_over_groups
+from ..samples import choose_caption, rows_of_each, spread_over_groups
 
 PARTS = 3  # beginning, middle, end: a wave is not a raise that stays up
 BANDS = ((0.3, 1.0), (1.0, 2.0), (2.0, 4.0), (4.0, 8.0))  # Hz
@@ -209,14 +209,15 @@ class ActionRecognizer:
         tags, takes = [r.tag for r in records], [r.take for r in records]
         judge = ActionJudge.fit(features, tags)
         seen = np.array(_of_unseen_takes(features, tags, takes), object)
-        few = _first_of_each(tags, WITNESS_CLIPS)
+        few = sorted(row for own in rows_of_each(tags).values() for row in own[:WITNESS_CLIPS])
         figures = {row: measure(motions[row]) for row in few}
         kinematic, necessary = set[str](), set[str]()
         recall, false_alarms = dict[str, float](), dict[str, float]()
         for action in judge.classes:
             own = np.array([same_action(action, tags[row]) for row in few])
             said = np.array([same_action(action, seen[row]) for row in few])
-            shown = np.array([ACTIONS.get(action, _never)(figures[row]) for row in few])
+            check = ACTIONS.get(action, lambda _: False)
+            shown = np.array([check(figures[row]) for row in few])
             if shown[own].mean() >= MIN_RECALL:
                 necessary.add(action)
                 if shown[~own].mean() <= MAX_FALSE:
@@ -231,18 +232,6 @@ class ActionRecognizer:
         if same_action(action, found):
             return True
         return action in self.kinematic and ACTIONS[action](measure(motion))
-
-
-def _never(_: object) -> bool:
-    return False
-
-
-def _first_of_each(names: Sequence[str], num: int) -> list[int]:
-    """Rows of at most `num` of each name."""
-    rows: dict[str, list[int]] = defaultdict(list)
-    for row, name in enumerate(names):
-        rows[name].append(row)
-    return sorted(row for own in rows.values() for row in own[:num])
 
 
 def _of_unseen_takes(features: np.ndarray, tags: Sequence[str], takes: Sequence[str]) -> list[str]:
@@ -326,10 +315,10 @@ def shown_together(parts: Sequence[dict[str, str]], motion: Motion) -> bool:
 # ---------------------------------------------------------------- how reliably actions come out
 
 
-class Model(Protocol):
+class Generator(Protocol):
     """What is asked of a model; `SentenceGenerator` is one."""
 
-    def generate(self, prompts: list[str], *, seconds: float, seed: int) -> list[Motion]: ...
+    def generate(self, prompts: Sequence[str], *, seconds: float, seed: int) -> list[Motion]: ...
 
 
 def recognizer_of(
@@ -352,7 +341,7 @@ def recognizer_of(
 
 
 def action_reliability(
-    model: Model,
+    model: Generator,
     data: PreparedData,
     judge: ActionRecognizer,
     *,
@@ -366,11 +355,11 @@ def action_reliability(
     try tells little.
     """
     train = _captioned(data)
-    asked = [
-        (record, _caption(data, record, seed + row))
-        for tag, own in sorted(_by_tag(train).items())
-        for row, record in enumerate(_several(spread_over_groups(own, tries, seed), tries))
-    ]
+    asked = []
+    for _, rows in sorted(rows_of_each(record.tag for record in train).items()):
+        own = spread_over_groups([train[row] for row in rows], tries, seed)
+        several = enumerate(islice(cycle(own), tries))
+        asked += [(record, _caption(data, record, seed + number)) for number, record in several]
     shares: dict[str, list[bool]] = defaultdict(list)
     for at in range(0, len(asked), SENTENCES):
         progress(f"{at} of {len(asked)} sentences")
@@ -388,17 +377,6 @@ def _captioned(data: PreparedData) -> list[ClipRecord]:
     """Training clips of a labelled action, long enough, with words."""
     train = [r for r in data.records("train") if r.tag and r.num_frames >= MIN_FRAMES]
     return [r for r in train if any(data.captions(r).values())]
-
-
-def _by_tag(records: list[ClipRecord]) -> dict[str, list[ClipRecord]]:
-    found: dict[str, list[ClipRecord]] = defaultdict(list)
-    for record in records:
-        found[record.tag].append(record)
-    return found
-
-
-def _several(records: list[ClipRecord], num: int) -> list[ClipRecord]:
-    return [records[row % len(records)] for row in range(num)]
 
 
 def _caption(data: PreparedData, record: ClipRecord, seed: int) -> str:

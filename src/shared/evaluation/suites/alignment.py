@@ -4,7 +4,7 @@ Letters: N motion beats, M music beats.
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -24,7 +24,7 @@ from ...motion.trajectory import FPS, MotionTrajectory
 from ..report.plots import new_figure, save_figure
 from ..report.tables import Column, Grid, GridRow
 from ..samples import DanceSample, Moved
-from ..stats import FEW, bootstrap_mean
+from ..stats import FEW, Estimate, bootstrap_columns, bootstrap_mean
 from .songs import Piece
 
 HELD_AGAINST = ("chance", "another song", "half a beat later")
@@ -39,22 +39,25 @@ NOTES = {
     "above": "own song minus the row, song by song, ± 95%; * the two rows' intervals do not"
     " overlap.",
 }
-SCORES = ("motion_to_music", "music_to_motion", "f", "hits")
 
 
-def alignment_grids(name: str, part: dict[str, Any]) -> Iterator[Grid]:
-    """What `alignment_rows` found of the motions called `name`: scores, and differences."""
-    size = (
-        f"{part['songs']} songs; beats a second: motion {part['motion_beats']:.2f}, music"
-        f" {part['music_beats']:.2f}; {part['without_beats']} motions without beats"
-    )
-    for key, title, columns in (
-        ("rows", f"{name} motion on music ({size})", ALIGNMENT),
-        ("above", f"{name} motion: its own song above", ALIGNMENT[:-1]),
-    ):
-        note = NOTES[key]
-        rows = {row: GridRow(cells, part["songs"], 1) for row, cells in part[key].items()}
-        yield Grid(f"alignment/{name}/{key}", title, columns, rows, note, "motion against")
+def alignment_grids(found: Mapping[str, Sequence["Danced"]], seed: int) -> list[Grid]:
+    """`alignment_rows` of motions by name: their scores, and differences."""
+    grids = []
+    for name, dances in found.items():
+        part = alignment_rows(dances, seed)
+        size = (
+            f"{part['songs']} songs; beats a second: motion {part['motion_beats']:.2f}, music"
+            f" {part['music_beats']:.2f}; {part['without_beats']} motions without beats"
+        )
+        for key, title, columns in (
+            ("rows", f"{name} motion on music ({size})", ALIGNMENT),
+            ("above", f"{name} motion: its own song above", ALIGNMENT[:-1]),
+        ):
+            rows = {row: GridRow(cells, part["songs"], 1) for row, cells in part[key].items()}
+            grid_name = f"alignment/{name}/{key}"
+            grids.append(Grid(grid_name, title, columns, rows, NOTES[key], "motion against"))
+    return grids
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +105,7 @@ def alignment_rows(dances: Sequence[Danced], seed: int) -> dict[str, Any]:
         name: {
             column: bootstrap_mean(values["own song"][column] - values[name][column]).as_dict()
             | {"apart": len(dances) >= FEW and own[column]["low"] > rows[name][column]["high"]}
-            for column in SCORES
+            for column in COLUMNS[:-1]  # of no distance
         }
         for name in HELD_AGAINST
     }
@@ -157,19 +160,19 @@ def right_tempo(piece: Piece) -> bool:
     return bool(abs(np.median(heard / true) - 1) <= TEMPO_TOLERANCE)
 
 
-def phase_row(songs: Sequence[tuple[Piece, np.ndarray]]) -> dict[str, dict[str, Any]]:
+def phase_row(songs: Sequence[tuple[Piece, np.ndarray]]) -> dict[str, Estimate]:
     """`song_phase` over songs, each column with its interval.
 
     Args:
         songs: what is true, and unwrapped bars [T] in the tracker's meter.
     """
-    columns: dict[str, list[float]] = {}
-    for piece, bars in songs:
-        assert piece.bars is not None
-        found = song_phase(bars * piece.meter, bars, piece.bars, piece.true_meter, piece.beats)
-        for name, value in found.items():
-            columns.setdefault(name, []).append(value)
-    return {name: bootstrap_mean(values).as_dict() for name, values in columns.items()}
+    return bootstrap_columns(
+        [
+            song_phase(bars * piece.meter, bars, piece.bars, piece.true_meter, piece.beats)
+            for piece, bars in songs
+            if piece.bars is not None
+        ]
+    )
 
 
 LINES = {"truth": ("black", "-"), "beat tracker": ("tab:blue", ":"), "generated": ("tab:red", "--")}

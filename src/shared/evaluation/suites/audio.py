@@ -39,7 +39,6 @@ from ..samples import Dance, DanceSample, Trajectories, untrained_audio_model
 from .alignment import (
     Danced,
     alignment_grids,
-    alignment_rows,
     danced,
     phase_row,
     plot_phase,
@@ -136,23 +135,18 @@ class AudioContext:
         """
         settings = replace(self.sampled, seed=self.settings.seed)
         settings = own_noise(settings, replication, crc32(piece.name.encode()))
+        phase = piece.phase if held else None
         return (generator or self.generator).generate(
-            piece.condition,
-            phase=piece.phase if held else None,
-            settings=settings,
+            piece.condition, phase=phase, settings=settings
         )[0]
 
     @cached_property
-    def made(self) -> Callable[[int], Made]:
-        """A motion for each held-out song in a replication."""
-        return cache(partial(self._made, self.generator))
+    def made(self) -> Callable[[int, bool], Made]:
+        """A motion for each held-out song in a replication, by the model or by `fresh`."""
+        return cache(self._made)
 
-    @cached_property
-    def made_untrained(self) -> Callable[[int], Made]:
-        """The same by the same network with fresh weights, the last layer included."""
-        return cache(lambda replication: self._made(self.fresh, replication))
-
-    def _made(self, generator: SongGenerator[AudioMotionModel], replication: int) -> Made:
+    def _made(self, replication: int, untrained: bool) -> Made:
+        generator = self.fresh if untrained else self.generator
         return [
             (piece, self.dance(piece, replication=replication, generator=generator))
             for piece in self.pieces
@@ -209,7 +203,7 @@ class AudioContext:
 
     def generated(self, replication: int) -> Trajectories:
         """The model's motions on their own songs."""
-        return sample_of(self.made(replication))
+        return sample_of(self.made(replication, False))
 
     def chance(self, replication: int) -> Trajectories:
         """The same motions, each on another song: what not listening scores."""
@@ -219,11 +213,11 @@ class AudioContext:
 
     def frozen_pose(self, replication: int) -> Trajectories:
         """The first pose of each motion held while the music goes on."""
-        return sample_of([(piece, frozen(motion)) for piece, motion in self.made(0)])
+        return sample_of([(piece, frozen(motion)) for piece, motion in self.made(0, False)])
 
     def untrained(self, replication: int) -> Trajectories:
         """Motions of the same network with fresh weights."""
-        return sample_of(self.made_untrained(replication))
+        return sample_of(self.made(replication, True))
 
     @cached_property
     def fresh(self) -> SongGenerator[AudioMotionModel]:
@@ -274,7 +268,7 @@ NOTES = {
 
 def phase_table(context: AudioContext) -> list[Grid]:
     """Rows by name, see `phase_row`; "right tempo" are songs whose tempo the tracker found."""
-    made, settings = context.made(0), context.settings
+    made, settings = context.made(0, False), context.settings
     rng = np.random.default_rng([settings.seed, 1])
     counted = _counted(context, "own count", context.generator)
     blind = _counted(context, "untrained, own count", context.fresh) if settings.untrained else []
@@ -317,12 +311,8 @@ def alignment_tables(context: AudioContext) -> list[Grid]:
         samples["untrained"] = context.untrained(0)
     if len(context.reference):
         samples["real"] = context.reference
-    seed = context.settings.seed
-    return [
-        grid
-        for name, sample in samples.items()
-        for grid in alignment_grids(name, alignment_rows(danced(sample, "beats", beats_of), seed))
-    ]
+    found = {name: danced(sample, "beats", beats_of) for name, sample in samples.items()}
+    return alignment_grids(found, context.settings.seed)
 
 
 # ---------------------------------------------------------------- seams
@@ -330,9 +320,9 @@ def alignment_tables(context: AudioContext) -> list[Grid]:
 
 def seam_tables(context: AudioContext) -> list[Grid]:
     """Accelerations at seams between windows against everywhere else."""
-    made = {"": context.made(0)}
+    made = {"": context.made(0, False)}
     if context.settings.untrained:
-        made["untrained"] = context.made_untrained(0)
+        made["untrained"] = context.made(0, True)
     tables: list[Grid] = []
     window, overlap = context.sampled.window, context.sampled.overlap
     assert window is not None  # resolved
@@ -481,7 +471,7 @@ def _write(context: AudioContext, sample: Trajectories, row: int, path: Path) ->
 
 def _draw(context: AudioContext, folder: Path) -> list[dict[str, Any]]:
     """Phases against beats of the first songs and of each sound file, as pictures."""
-    shown = [*context.made(0)[: context.settings.pictures], *context.played]
+    shown = [*context.made(0, False)[: context.settings.pictures], *context.played]
     pictures = []
     for number, pair in enumerate(shown, start=1):
         name = f"phase-{number:02d}.png"

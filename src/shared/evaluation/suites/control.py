@@ -7,7 +7,7 @@ made for other tasks (chance), on a pose held still, and on what an untrained ne
 Letters: N motions of one cell.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from itertools import chain
 from typing import Any
@@ -16,15 +16,14 @@ from ...data.captions.book import CaptionBook
 from ...metrics.measurements import Measurements, measure
 from ..judge.actions import CONTROL_TASKS, ControlTask
 from ..manifest import Part
-from ..report.tables import Cell as TableCell
 from ..report.tables import Column, Grid, GridRow
 from ..samples import Clips, Sampler, frozen_pose
-from ..stats import Estimate, share_of, success_rate
+from ..stats import NOTHING, Estimate, share_of, success_rate
 
 Labels = dict[str, str]
 Once = Callable[[str, Callable[[], Part]], Part]
 WORDINGS = {"templates": "tmpl", "paraphrases": "para"}  # with their headings
-FLOORS = ("real", "chance", "still", "untrained")
+NUM_FRAMES = 120  # of each motion
 NUM_TEMPLATES = 12  # captions of one label set and language that the seeds go round
 NOTE = (
     "Success by forward kinematics: prompts of the training templates (tmpl) and paraphrases that"
@@ -81,13 +80,13 @@ def plan_cells(
     return cells
 
 
-def _measured(cells: Sequence[Cell], sampler: Sampler, num_frames: int, seed: int) -> Part:
+def _measured(cells: Sequence[Cell], sampler: Sampler, seed: int) -> Part:
     """What all motions of these cells do, made in one call, and the first cell's held still.
 
     Equal prompts in several places get different noise from the sampler.
     """
     wanted = [prompt for cell in cells for prompt in (*cell.prompts, *cell.versus)]
-    motions = sampler(wanted, [num_frames] * len(wanted), seed)
+    motions = sampler(wanted, [NUM_FRAMES] * len(wanted), seed)
     rest = iter(motions)
     found: Part = {"made": [], "others": []}
     for cell in cells:
@@ -115,27 +114,25 @@ def rate(
     return share_of([task.passes(a, b) for a, b in zip(motions, others, strict=False)])
 
 
-def control_table(
+def control_grid(
     sampler: Sampler,
     book: CaptionBook,
     real: Clips | None,
     *,
     languages: Sequence[str],
     num_seeds: int,
-    num_frames: int = 120,
     seed: int = 0,
     untrained: Sampler | None = None,
     progress: Callable[[str], None] = lambda text: None,
     once: Once = lambda name, compute: compute(),
-) -> dict[str, Any]:
-    """Success rates as plain data: `tasks`, `means`, `languages`, `wordings`, `num_seeds`.
+) -> Grid:
+    """Success rates: a row a task and their mean, a column a language and kind of wording.
 
     Args:
         sampler: makes motions from prompts.
         book: templates and held-out paraphrases.
         real: clips for the real row, None for none.
         num_seeds: motions a cell.
-        num_frames: length of each.
         untrained: asked the templates of the first language; None = its column stays empty.
         once: `Parts.once`: what is finished is not made again.
     """
@@ -146,7 +143,7 @@ def control_table(
         def compute() -> Part:
             number = len(own[0].prompts)
             progress(f"controllability: {name}, {len(own)} cells of {number} motions")
-            return _measured(own, sampler, num_frames, seed)
+            return _measured(own, sampler, seed)
 
         found = once(f"controllability.{name}", compute)
         for cell, made, others in zip(own, found["made"], found["others"], strict=True):
@@ -155,8 +152,7 @@ def control_table(
 
     still: list[Measurements] = []
     for language in languages:
-        own = [cell for cell in cells if cell.language == language]
-        if own:
+        if own := [cell for cell in cells if cell.language == language]:
             first = fill(own, sampler, language)
             still = still or first
     floor: list[Cell] = []
@@ -165,29 +161,26 @@ def control_table(
                  if c.language in languages[:1] and c.wording == "templates"]  # fmt: skip
         if floor:
             fill(floor, untrained, "untrained")
-    tasks: dict[str, dict[str, Any]] = {}
+    kinds = [(language, wording) for language in languages for wording in WORDINGS]
+    columns = [Column(f"{k} {word}", f"{k} {WORDINGS[word]}", 2, "high") for k, word in kinds]
+    columns += [Column(name, name, 2) for name in ("real", "chance", "still", "untrained")]
+    rates: dict[str, dict[str, Estimate]] = {}
     for task in CONTROL_TASKS:
-        made: dict[str, dict[str, Any]] = {}
-        for cell in cells:
-            if cell.task is task:
-                value = rate(task, cell.made, cell.others).as_dict()
-                made.setdefault(cell.language, {})[cell.wording] = value
-        own = [cell for cell in floor if cell.task is task]
-        fresh = rate(task, own[0].made, own[0].others) if own else success_rate(0, 0)
-        tasks[task.name] = {
-            "generated": made,
-            "real": _real_rate(task, real).as_dict(),
-            "chance": _chance_rate(task, cells).as_dict(),
-            "still": rate(task, still, still[1:] + still[:1]).as_dict(),
-            "untrained": fresh.as_dict(),
+        found = {f"{cell.language} {cell.wording}": cell for cell in cells if cell.task is task}
+        rates[task.name] = {key: rate(task, c.made, c.others) for key, c in found.items()} | {
+            "real": _real_rate(task, real),
+            "chance": _chance_rate(task, cells),
+            "still": rate(task, still, still[1:] + still[:1]),
+            "untrained": next(
+                (rate(task, c.made, c.others) for c in floor if c.task is task), NOTHING
+            ),
         }
-    return {
-        "tasks": tasks,
-        "means": _means(tasks, languages),
-        "languages": languages,
-        "wordings": list(WORDINGS),
-        "num_seeds": num_seeds,
-    }
+    keys = [column.key for column in columns]
+    rows = {name: GridRow({key: own.get(key) for key in keys}) for name, own in rates.items()}
+    means = {key: _pooled(own[key] for own in rates.values() if key in own) for key in keys}
+    title = f"controllability ({num_seeds} motions a cell)"
+    rows["mean"] = GridRow(means)
+    return Grid("controllability", title, tuple(columns), rows, NOTE, "task")
 
 
 def _real_rate(task: ControlTask, real: Clips | None) -> Estimate:
@@ -215,38 +208,8 @@ def _chance_rate(task: ControlTask, cells: Sequence[Cell]) -> Estimate:
     return rate(task, motions, motions[1:] + motions[:1])
 
 
-def _means(tasks: Mapping[str, Any], languages: Sequence[str]) -> dict[str, Any]:
-    """Rates pooled over tasks, every motion alike."""
-
-    def pooled(found: Sequence[Mapping[str, float]]) -> dict[str, float | int]:
-        known = [cell for cell in found if cell and cell["count"]]
-        successes = round(sum(cell["value"] * cell["count"] for cell in known))
-        return success_rate(successes, sum(int(cell["count"]) for cell in known)).as_dict()
-
-    made = [task["generated"] for task in tasks.values()]
-    means: dict[str, Any] = {
-        language: {
-            wording: pooled([rates.get(language, {}).get(wording, {}) for rates in made])
-            for wording in WORDINGS
-        }
-        for language in languages
-    }
-    return means | {floor: pooled([task[floor] for task in tasks.values()]) for floor in FLOORS}
-
-
-def control_grid(found: Mapping[str, Any]) -> Grid:
-    """What `control_table` found, as a table."""
-    kinds = [(language, wording) for language in found["languages"] for wording in WORDINGS]
-    columns = [Column(f"{k} {word}", f"{k} {WORDINGS[word]}", 2, "high") for k, word in kinds]
-    columns += [Column(floor, floor, 2) for floor in FLOORS]
-
-    def row(rates: Mapping[str, Any], floors: Mapping[str, Any]) -> GridRow:
-        cells: dict[str, TableCell] = {
-            f"{k} {word}": rates.get(k, {}).get(word) for k, word in kinds
-        }
-        return GridRow(cells | {floor: floors[floor] for floor in FLOORS})
-
-    rows = {name: row(task["generated"], task) for name, task in found["tasks"].items()}
-    rows["mean"] = row(found["means"], found["means"])
-    title = f"controllability ({found['num_seeds']} motions a cell)"
-    return Grid("controllability", title, tuple(columns), rows, NOTE, "task")
+def _pooled(rates: Iterable[Estimate]) -> Estimate:
+    """The rate over all tasks, every motion alike."""
+    known = [found for found in rates if found.count]
+    successes = round(sum(found.value * found.count for found in known))
+    return success_rate(successes, sum(found.count for found in known))

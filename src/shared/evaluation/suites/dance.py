@@ -10,13 +10,12 @@ judge.
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import cache, cached_property, partial
-from itertools import accumulate
+from itertools import accumulate, cycle, islice, product
 from pathlib import Path
 from typing import Any
 from zlib import crc32
 
 import numpy as np
-import torch
 from scipy.spatial.distance import cdist, pdist
 
 from ...data.phrases.dataset import MotionPhraseDataset
@@ -25,7 +24,7 @@ from ...errors import UserError
 from ...formats.arrays import write_npz
 from ...memory.figures import FigureMemory
 from ...metrics.retrieval import rank_of
-from ...metrics.rhythm import beats_of_phase, body_beats, limb_beats, rhythm, strangers
+from ...metrics.rhythm import body_beats, limb_beats, rhythm, strangers
 from ...metrics.seams import marked
 from ...model.audio.audio_motion_model import AudioMotionModel
 from ...model.generation.motion_generator import TextToMotion
@@ -47,7 +46,7 @@ from ..manifest import Parts, Sources, model_hashes, song_hashes
 from ..report.tables import Column, Grid, GridRow
 from ..samples import Bodies, Dance, DanceSample, held_still, untrained
 from ..stats import bootstrap_mean
-from .alignment import alignment_grids, alignment_rows, danced
+from .alignment import alignment_grids, danced
 from .dance_seams import hard_cuts, seam_grid
 from .editing import EditContext, editing_tables
 from .songs import Piece, clock, held_out_songs, tracks
@@ -150,16 +149,13 @@ class DanceContext:
     ) -> Dance[Motion]:
         """A body that dances to a song; with the `seed` of its replication unless told."""
         piece = self.pieces[number]
-        again = replication if seed is None else seed
-        own = candidate_seed(self.settings.seed, crc32(piece.name.encode()), again)
-        # Told are the beats that the tracker heard.
-        heard = None if piece.phase is None else beats_of_phase(piece.phase * piece.meter, FPS)
+        own = self._own_seed(piece, replication if seed is None else seed)
         path = self.path(number, replication) if pinned else None
         if path is not None:
-            raw = performer.perform(path, prompt, beats=heard, seed=own).motion
+            raw = performer.perform(path, prompt, beats=piece.heard, seed=own).motion
         else:
-            passages = [Passage(prompt, piece.condition.shape[1])]
-            raw = performer.improvise(passages, beats=heard, seed=own).motion
+            passages = [Passage(prompt, piece.num_frames)]
+            raw = performer.improvise(passages, beats=piece.heard, seed=own).motion
         return Dance(
             song=piece.name,
             motion=lock_carried_feet(raw),
@@ -169,37 +165,26 @@ class DanceContext:
             seams=near_seams(raw.num_frames),
         )
 
-    def performer(self, generator: TextToMotion, *, on_beats: bool = True) -> Performer:
-        """Puts bodies on paths, their feet not yet held."""
-        settings = replace(self.sampling, foot_lock=False, on_beats=on_beats)
-        return Performer(generator, settings)
+    def _own_seed(self, piece: Piece, replication: int) -> int:
+        return candidate_seed(self.settings.seed, crc32(piece.name.encode()), replication)
+
+    def performer(self, who: str) -> Performer:
+        """Puts bodies on paths, their feet not yet held: whoever dances in that row."""
+        generator = self.fresh if who == "untrained" else self.generator
+        if who == "other" and self.other is not None:
+            generator = self.other
+        on_beats = who != "beats not told"
+        return Performer(generator, replace(self.sampling, foot_lock=False, on_beats=on_beats))
 
     def _danced(self, who: str, replication: int) -> Bodies:
-        performer = self.performers[who]()
-        prompts = self.settings.prompts
+        performer, pinned = self.performer(who), who == "pinned"
+        prompts = islice(cycle(self.settings.prompts), len(self.pieces))
         return DanceSample.of(
             [
-                self.perform(
-                    performer,
-                    number,
-                    replication,
-                    prompts[number % len(prompts)],
-                    pinned=who == "pinned",
-                )
-                for number in range(len(self.pieces))
+                self.perform(performer, number, replication, prompt, pinned=pinned)
+                for number, prompt in enumerate(prompts)
             ]
         )
-
-    @property
-    def performers(self) -> dict[str, Callable[[], Performer]]:
-        """By the row that they dance in."""
-        return {
-            "generated": lambda: self.performer(self.generator),
-            "pinned": lambda: self.performer(self.generator),
-            "beats not told": lambda: self.performer(self.generator, on_beats=False),
-            "untrained": lambda: self.performer(self.fresh),
-            "other": lambda: self.performer(self.other or self.generator),
-        }
 
     @cached_property
     def fresh(self) -> TextToMotion:
@@ -237,20 +222,16 @@ class DanceContext:
 
     def figured(self, replication: int, *, at_random: bool = False) -> Bodies:
         """Dances of recorded figures, chosen or drawn; a song without beats has none."""
-        settings = replace(self.sampling, foot_lock=False)
         dancer = FigureDancer(self.choreographer, self.generator, at_random=at_random)
         found = []
         for piece in self.pieces:
-            heard = np.zeros(0)
-            if piece.phase is not None:
-                heard = beats_of_phase(piece.phase * piece.meter, FPS)
-            own = candidate_seed(self.settings.seed, crc32(piece.name.encode()), replication)
-            song = SongCondition(torch.as_tensor(piece.condition), piece.phase, heard)
-            sampling = replace(settings, seed=own)
+            heard = np.zeros(0) if piece.heard is None else piece.heard
+            song = SongCondition(piece.condition, piece.phase, heard)
+            own = self._own_seed(piece, replication)
+            sampling = replace(self.sampling, foot_lock=False, seed=own)
             made = dancer.dance(song, Wish(), sampling=sampling, foot_lock=False)
             if made is not None:
-                dance = Dance(piece.name, lock_feet(made[0]), piece.beats, raw=made[0])
-                found.append(dance)
+                found.append(Dance(piece.name, lock_feet(made[0]), piece.beats, raw=made[0]))
         return DanceSample.of(found)
 
     def another_song(self, replication: int) -> Bodies:
@@ -261,22 +242,15 @@ class DanceContext:
 
     def frozen_pose(self, replication: int) -> Bodies:
         """The first pose of each dance held where it is."""
-        still = [held_still(dance.motion) for dance in self.danced("generated", 0).dances]
-        return self._instead(still)
+        dances = self.danced("generated", 0).dances
+        return DanceSample.of([Dance(d.song, held_still(d.motion), d.beats) for d in dances])
 
     def path_alone(self, replication: int) -> Bodies:
         """A statue carried along each path."""
-        numbers = range(len(self.pieces))
-        paths = [self.path(number, replication) for number in numbers]
-        return self._instead([to_motion(path) for path in paths], paths)
-
-    def _instead(
-        self, motions: Sequence[Motion], paths: Sequence[MotionTrajectory | None] = ()
-    ) -> Bodies:
-        """Other motions to the same songs, each on its path if there are paths."""
-        rows = zip(self.pieces, motions, paths or [None] * len(motions), strict=True)
+        paths = [self.path(number, replication) for number in range(len(self.pieces))]
+        rows = zip(self.pieces, paths, strict=True)
         return DanceSample.of(
-            [Dance(piece.name, motion, piece.beats, path=path) for piece, motion, path in rows]
+            [Dance(p.name, to_motion(path), p.beats, path=path) for p, path in rows]
         )
 
 
@@ -337,12 +311,11 @@ def alignment_tables(context: DanceContext) -> list[Grid]:
     heard = [row for row, dance in enumerate(context.reference.dances) if len(dance.beats)]
     if heard:
         groups["real whole-body"] = context.reference.rows(heard)
-    tables: list[Grid] = []
+    found = {}
     for name, sample in groups.items():
         key = "limbs_" if name.startswith("limbs") else ""
-        beats = danced(sample, key + "beats", MOMENTS[key])
-        tables += alignment_grids(name, alignment_rows(beats, context.settings.seed))
-    return tables
+        found[name] = danced(sample, key + "beats", MOMENTS[key])
+    return alignment_grids(found, context.settings.seed)
 
 
 def seam_tables(context: DanceContext) -> list[Grid]:
@@ -383,15 +356,6 @@ PROMPT_NOTE = (
 Dancer = Callable[[int, str, int], Motion]  # song, prompt and noise to a dance
 
 
-@dataclass(frozen=True, eq=False)
-class PromptDances:
-    """Embeddings [S,P,NOISES,W,D] of dances and what their beats score [S,P·NOISES]."""
-
-    embeddings: np.ndarray
-    f: np.ndarray
-    limbs_f: np.ndarray
-
-
 def prompt_effect(context: DanceContext) -> list[Grid]:
     """The table; nothing without songs to measure on."""
     songs = list(range(context.num_tracks, len(context.pieces)))[: context.settings.style_songs]
@@ -401,8 +365,8 @@ def prompt_effect(context: DanceContext) -> list[Grid]:
     rows = {}
     for name, dancer in dancers(context).items():
         context.progress(f"prompts: {name}")
-        danced = dance_all(context, dancer, songs)
-        rows[name] = GridRow(effect(danced, text), danced.f.size, 1)
+        embeddings, *scores = dance_all(context, dancer, songs)
+        rows[name] = GridRow(effect(embeddings, *scores, text), scores[0].size, 1)
     title = f"what the prompt changes ({len(songs)} songs, {len(ASKED)} prompts, {NOISES} noises)"
     prompts = "; ".join(ASKED)
     return [Grid("prompts", title, PROMPT_COLUMNS, rows, f"{PROMPT_NOTE} Prompts: {prompts}.")]
@@ -421,7 +385,7 @@ def dancers(context: DanceContext) -> dict[str, Dancer]:
         (motion,) = context.generator.generate([prompt], seconds=seconds, seed=noise)
         return motion
 
-    own = cache(by(context.performer(context.generator)))
+    own = cache(by(context.performer("generated")))
     found: dict[str, Dancer] = {
         "generated": own,
         "words alone": alone,
@@ -429,36 +393,39 @@ def dancers(context: DanceContext) -> dict[str, Dancer]:
         "frozen pose": lambda song, prompt, noise: held_still(own(song, ASKED[0], noise)),
     }
     if context.settings.untrained:
-        found["untrained"] = by(context.performer(context.fresh))
+        found["untrained"] = by(context.performer("untrained"))
     return found
 
 
-def dance_all(context: DanceContext, dancer: Dancer, songs: Sequence[int]) -> PromptDances:
-    """Every song to every prompt with every noise."""
+def dance_all(
+    context: DanceContext, dancer: Dancer, songs: Sequence[int]
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Every song to every prompt with every noise.
+
+    Returns:
+        Embeddings [S,P,NOISES,W,D], and what beats of bodies and limbs score [S,P·NOISES].
+    """
     embeddings, scores, limbs = [], [], []
-    for song in songs:
-        beats = context.pieces[song].beats
-        for prompt in ASKED:
-            for noise in range(NOISES):
-                motion = dancer(song, prompt, noise)
-                embeddings.append(context.judge.embed_windows(motion))
-                scores.append(rhythm(body_beats(motion), beats, motion.seconds).f)
-                limbs.append(rhythm(limb_beats(motion), beats, motion.seconds).f)
-    shape = (len(songs), len(ASKED), NOISES)
-    stacked = np.stack(embeddings).reshape(*shape, *embeddings[0].shape)
-    flat = (len(songs), -1)
-    return PromptDances(stacked, np.reshape(scores, flat), np.reshape(limbs, flat))
+    for song, prompt, noise in product(songs, ASKED, range(NOISES)):
+        motion, beats = dancer(song, prompt, noise), context.pieces[song].beats
+        embeddings.append(context.judge.embed_windows(motion))
+        scores.append(rhythm(body_beats(motion), beats, motion.seconds).f)
+        limbs.append(rhythm(limb_beats(motion), beats, motion.seconds).f)
+    shape, flat = (len(songs), len(ASKED), NOISES, *embeddings[0].shape), (len(songs), -1)
+    return np.reshape(embeddings, shape), np.reshape(scores, flat), np.reshape(limbs, flat)
 
 
-def effect(danced: PromptDances, text: np.ndarray) -> dict[str, dict[str, float | int]]:
+def effect(
+    embeddings: np.ndarray, f: np.ndarray, limbs_f: np.ndarray, text: np.ndarray
+) -> dict[str, dict[str, float | int]]:
     """The cells of a row: means over songs with their intervals.
 
     Args:
-        danced: see there.
+        embeddings, f, limbs_f: what `dance_all` returns.
         text: the judge's embeddings of the prompts [P,D].
     """
     apart, same, first, third = [], [], [], []
-    for song in danced.embeddings.astype(np.float64):  # P NOISES W D
+    for song in embeddings.astype(np.float64):  # P NOISES W D
         prompts, noises, windows, _ = song.shape
         apart.append(np.mean([pdist(song[:, n, w]) for n in range(noises) for w in range(windows)]))
         same.append(np.mean([pdist(song[p, :, w]) for p in range(prompts) for w in range(windows)]))
@@ -471,7 +438,7 @@ def effect(danced: PromptDances, text: np.ndarray) -> dict[str, dict[str, float 
     gain = [a - s for a, s in zip(apart, same, strict=True)]
     columns = {
         "apart": apart, "same": same, "gain": gain, "r_at_1": first, "r_at_3": third,
-        "f": danced.f.mean(1), "limbs_f": danced.limbs_f.mean(1),
+        "f": f.mean(1), "limbs_f": limbs_f.mean(1),
     }  # fmt: skip
     return {key: bootstrap_mean(list(values)).as_dict() for key, values in columns.items()}
 
@@ -519,7 +486,7 @@ def evaluate_performer(
 
 def dance_bench(context: DanceContext) -> Bench[Bodies]:
     """The songs, danced by the model, by its floors, and by real dancers where there is data."""
-    few = context.settings.untrained
+    few, danced = context.settings.untrained, context.danced
     hinted = context.generator.network.generation.constraints
     known = context.data is not None or context.dances is not None
 
@@ -532,24 +499,16 @@ def dance_bench(context: DanceContext) -> Bench[Bodies]:
         real,
         [
             Row("real", real, None if known else 0, fixed=True, real=True),
-            Row("generated", partial(context.danced, "generated")),
+            Row("generated", partial(danced, "generated")),
             Row("figures", context.figured),
             Row("figures at random", partial(context.figured, at_random=True), limit=few),
             Row("another song", context.another_song),
             Row("frozen pose", context.frozen_pose, limit=1, fixed=True),
-            Row("pinned", partial(context.danced, "pinned")),
+            Row("pinned", partial(danced, "pinned")),
             Row("path alone", context.path_alone, limit=1, fixed=True),
-            Row(
-                "beats not told",
-                partial(context.danced, "beats not told"),
-                limit=few if hinted else 0,
-            ),
-            Row(
-                "other model",
-                partial(context.danced, "other"),
-                limit=0 if context.other is None else few,
-            ),
-            Row("untrained", partial(context.danced, "untrained"), limit=few),
+            Row("beats not told", partial(danced, "beats not told"), limit=few if hinted else 0),
+            Row("other model", partial(danced, "other"), limit=few if context.other else 0),
+            Row("untrained", partial(danced, "untrained"), limit=few),
         ],
         DANCE_FAMILIES,
         write=write_body,

@@ -42,12 +42,7 @@ def hard_cuts(dances: Sequence[Dance[Motion]]) -> list[Dance[Motion]]:
         own = dance.motion.quaternions[:frames]
         pose = np.where(taken, other[:frames], own)
         pose[:, 0] = own[:, 0]  # the path stays
-        motion = replace(
-            dance.motion,
-            quaternions=pose,
-            root_position=dance.motion.root_position[:frames],
-            contacts=dance.motion.contacts[:frames],
-        )
+        motion = replace(dance.motion.frames(0, frames), quaternions=pose)
         seams = None if dance.seams is None else dance.seams[:frames]
         cut.append(Dance(dance.song, motion, dance.beats, path=dance.path, seams=seams))
     return cut
@@ -78,20 +73,14 @@ def seam_grid(
     }
     found: dict[str, GridRow] = {}
     for who, dances in rows.items():
-        marked = [dance for dance in dances if dance.seams is not None and dance.seams.any()]
-        if not marked:
-            continue
-        sizes = _stacked([dance.motion for dance in marked])
-        for name, limit in limits.items():
-            pairs = [
-                (values, dance.seams)
-                for values, dance in zip(sizes[name], marked, strict=True)
-                if dance.seams is not None
-            ]
+        marked = [(d.motion, d.seams) for d in dances if d.seams is not None and d.seams.any()]
+        sizes = _stacked([motion for motion, _ in marked])
+        for name, limit in limits.items() if marked else ():
+            pairs = list(zip(sizes[name], (seams for _, seams in marked), strict=True))
             found[f"{name}: {who}"] = GridRow(_cells(pairs, limit, seed), len(marked), 1)
     if not found:
         return []
-    number = sum(len(starts(dance.seams)) for dance in marked if dance.seams is not None)
+    number = sum(len(starts(seams)) for _, seams in marked)
     title = f"seams of the body's windows ({number} seams of {len(marked)} dances)"
     return [Grid("body-seams", title, SEAM_COLUMNS, found, SEAM_NOTE, "quantity")]
 

@@ -26,7 +26,7 @@ from ..engine import Progress
 from ..judge.evaluator import Evaluator
 from ..report.tables import Cell, Column, Grid, GridRow
 from ..samples import Clips, HeldOut, held_still, real_clips, untrained
-from ..stats import bootstrap_mean
+from ..stats import bootstrap_columns, bootstrap_mean
 
 MIN_FRAMES, MAX_FRAMES = 90, 150  # of a clip that is edited
 RADIUS = 1.5  # metres of the curved paths
@@ -310,24 +310,25 @@ def _follow(generator: TextToMotion, drawn: DrawnPath, seed: int) -> Followed:
 
 
 def _path_row(made: Sequence[Followed]) -> GridRow:
-    columns: dict[str, list[float]] = {column.key: [] for column in PATH}
+    rows = []
     for motion, points, drawn in made:
         ground = motion.root_position[:, [0, 2]].astype(np.float64)
         frames = min(len(ground), len(points))
         apart = np.linalg.norm(ground[:frames] - points[:frames], axis=1)
         steps = np.linalg.norm(np.diff(seen_from_pelvis(motion), axis=0), axis=-1)
         joints, fps = motion.positions().astype(np.float64), motion.fps
-        for key, value in {
-            "mean": 100 * float(apart.mean()),
-            "max": 100 * float(apart.max()),
-            "line": 100 * float(distances_to_line(ground, drawn.points).mean()),
-            "limb_speed": float(steps.mean() * fps),
-            "support": support_slide(joints, fps),
-            "rough": jerk_per_speed(joints, fps),
-        }.items():
-            columns[key].append(value)
-    cells: dict[str, Cell] = {key: bootstrap_mean(values) for key, values in columns.items()}
-    return GridRow(cells | {"max": float(np.max(columns["max"]))}, len(made), 1)
+        rows.append(
+            {
+                "mean": 100 * float(apart.mean()),
+                "max": 100 * float(apart.max()),
+                "line": 100 * float(distances_to_line(ground, drawn.points).mean()),
+                "limb_speed": float(steps.mean() * fps),
+                "support": support_slide(joints, fps),
+                "rough": jerk_per_speed(joints, fps),
+            }
+        )
+    furthest = max(row["max"] for row in rows)
+    return GridRow({**bootstrap_columns(rows), "max": furthest}, len(made), 1)
 
 
 # ---------------------------------------------------------------- transitions

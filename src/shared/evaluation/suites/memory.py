@@ -8,10 +8,10 @@ denoising error alone, the finest and cheapest of the figures.
 Letters: N phrases or songs, S songs, B of a batch or questions, D width of the space, T frames.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import torch
@@ -160,21 +160,23 @@ SONGS = (
 )
 
 
-class Figures(Protocol):
+@dataclass(frozen=True, eq=False)
+class Figures:
     """A way to measure an arm.
 
     Attributes:
         name: of its table.
         columns: of it.
         clusters: song of each of the N figures: what is drawn again together.
+        measure: figures [N] of one arm.
+        chance: those of what not listening scores; None = no such row.
     """
 
     name: str
     columns: tuple[Column, ...]
     clusters: list[str]
-
-    def measure(self, arm: Arm) -> Values:
-        """Figures [N] of one arm."""
+    measure: Callable[[Arm], Values]
+    chance: Callable[[], Values] | None = None
 
 
 @dataclass(frozen=True)
@@ -211,131 +213,118 @@ def song_of(item: PhraseItem) -> str:
     return item.record.song or item.record.id
 
 
-class Denoising:
+def denoising(setting: Setting, items: Sequence[PhraseItem], draws: int) -> Figures:
     """Mean squared error of the predicted clean window, in z-scores, at three levels of noise.
 
     Every arm sees the same noise. The finest of the three tables: it judges the network where it
     knows what is right, not one of the many dances that fit a song.
     """
-
-    name = "error of denoising real motion"
-    columns = DENOISING
-
-    def __init__(self, setting: Setting, items: Sequence[PhraseItem], draws: int) -> None:
-        self.setting, self.items, self.draws = setting, items, draws
-        self.clusters = [song_of(item) for item in items]
+    clusters = [song_of(item) for item in items]
 
     @torch.no_grad()
-    def measure(self, arm: Arm) -> Values:
-        """Figures [N] of one arm."""
+    def measure(arm: Arm) -> Values:
         found: dict[str, list[Tensor]] = {level: [] for level in LEVELS}
-        for number, start in enumerate(range(0, len(self.items), BATCH)):
+        for number, start in enumerate(range(0, len(items), BATCH)):
             part = slice(start, start + BATCH)
-            phrases = collate(self.items[part])
-            memory = self.setting.asker.answer(
+            phrases = collate(items[part])
+            memory = setting.asker.answer(
                 arm,
-                self.setting.space.embed_audio(phrases.audio),
+                setting.space.embed_audio(phrases.audio),
                 bars_of_sound(phrases.audio),
                 phrases.audio.shape[-1],
-                self.clusters[part],
+                clusters[part],
                 draw=number,
             )
             for third, level in enumerate(LEVELS):
                 errors = [
-                    self._error(phrases, memory, third, (number, third, draw))
-                    for draw in range(self.draws)
+                    _denoising_error(setting, phrases, memory, third, (number, third, draw))
+                    for draw in range(draws)
                 ]
                 found[level].append(torch.stack(errors).mean(dim=0))
         values = {level: torch.cat(each).double().numpy() for level, each in found.items()}
         return values | {"all": np.mean(list(values.values()), axis=0)}
 
-    def _error(
-        self,
-        phrases: PhraseBatch,
-        memory: MemoryCondition | None,
-        third: int,
-        place: tuple[int, ...],
-    ) -> Tensor:
-        """[B] of one draw of noise."""
-        model, seed = self.setting.model, self.setting.sampled.seed
-        device, steps = model.mean.device, model.diffusion.config.timesteps
-        entropy = np.random.SeedSequence([seed, 7, *place]).generate_state(1)[0]
-        draws = torch.Generator().manual_seed(int(entropy))
-        clean = model.normalise(phrases.motion.to(device))
-        low, high = third * steps // len(LEVELS), (third + 1) * steps // len(LEVELS)
-        t = torch.randint(low, max(high, low + 1), (len(clean),), generator=draws).to(device)
-        noise = standard_normal(clean.shape, draws, device=device)
-        noisy = model.diffusion.q_sample(clean, t, noise)
-        heard = None if memory is None else memory.to(device)
-        output = model(noisy, t, phrases.audio.to(device), memory=heard)
-        x_0 = model.diffusion.predict_x0(output, noisy, t)
-        return (x_0 - clean).square().mean(dim=(1, 2)).cpu()
+    return Figures("error of denoising real motion", DENOISING, clusters, measure)
 
 
-class Curves:
+def _denoising_error(
+    setting: Setting,
+    phrases: PhraseBatch,
+    memory: MemoryCondition | None,
+    third: int,
+    place: tuple[int, ...],
+) -> Tensor:
+    """[B] of one draw of noise."""
+    model, seed = setting.model, setting.sampled.seed
+    device, steps = model.mean.device, model.diffusion.config.timesteps
+    entropy = np.random.SeedSequence([seed, 7, *place]).generate_state(1)[0]
+    draws = torch.Generator().manual_seed(int(entropy))
+    clean = model.normalise(phrases.motion.to(device))
+    low, high = third * steps // len(LEVELS), (third + 1) * steps // len(LEVELS)
+    t = torch.randint(low, max(high, low + 1), (len(clean),), generator=draws).to(device)
+    noise = standard_normal(clean.shape, draws, device=device)
+    noisy = model.diffusion.q_sample(clean, t, noise)
+    heard = None if memory is None else memory.to(device)
+    output = model(noisy, t, phrases.audio.to(device), memory=heard)
+    x_0 = model.diffusion.predict_x0(output, noisy, t)
+    return (x_0 - clean).square().mean(dim=(1, 2)).cpu()
+
+
+def curves(setting: Setting, items: Sequence[PhraseItem]) -> Figures:
     """How far the made motion's prior curves are from those of the motion that was danced.
 
-    Mean absolute difference over time, each curve in [0, 1]; one sample a phrase.
+    One sample a phrase, as many frames as one window makes. Chance is real motion of another song.
     """
+    frames = setting.model.config.window - SPARE
+    clusters = [song_of(item) for item in items]
+    starts = [float(bars_of_sound(item.audio[None])[0][0]) for item in items]
+    real = [
+        prior_curves(place_window(item.motion.numpy(), phase=start)[:frames])
+        for item, start in zip(items, starts, strict=True)
+    ]
+
+    def measure(arm: Arm) -> Values:
+        made = []
+        for number, item in enumerate(items):
+            audio = item.audio[:, :frames]
+            bars = bars_of_sound(audio[None])[0].numpy()
+            motion = dance(setting, arm, audio, bars, clusters[number], number)
+            made.append(prior_curves(motion.data))
+        return curve_distances(made, real)
+
+    def chance() -> Values:
+        order = np.roll(np.arange(len(items)), len(items) // 2)
+        return curve_distances([real[number] for number in order], real)
 
     name = "distance of prior curves from real motion"
-    columns = CURVES
+    return Figures(name, CURVES, clusters, measure, chance)
 
-    def __init__(self, setting: Setting, items: Sequence[PhraseItem]) -> None:
-        self.setting, self.items = setting, items
-        self.frames = setting.model.config.window - SPARE  # as many as one window makes
-        self.clusters = [song_of(item) for item in items]
-        starts = [float(bars_of_sound(item.audio[None])[0][0]) for item in items]
-        self.real = [
-            prior_curves(place_window(item.motion.numpy(), phase=start)[: self.frames])
-            for item, start in zip(items, starts, strict=True)
-        ]
 
-    def measure(self, arm: Arm) -> Values:
-        """Figures [N] of one arm."""
-        made = []
-        for number, item in enumerate(self.items):
-            audio, song = item.audio[:, : self.frames], self.clusters[number]
-            bars = bars_of_sound(audio[None])[0].numpy()
-            made.append(prior_curves(dance(self.setting, arm, audio, bars, song, number).data))
-        return self._distances(made)
-
-    def chance(self) -> Values:
-        """Real motion of another song instead: what not listening scores."""
-        order = np.roll(np.arange(len(self.items)), len(self.items) // 2)
-        return self._distances([self.real[number] for number in order])
-
-    def _distances(self, made: Sequence[np.ndarray]) -> Values:
-        pairs = zip(made, self.real, strict=True)
-        rows = np.array([np.abs(a - b).mean(axis=1) for a, b in pairs])  # [N,4]
-        return {column.key: rows[:, place] for place, column in enumerate(self.columns)}
+def curve_distances(made: Sequence[np.ndarray], real: Sequence[np.ndarray]) -> Values:
+    """Mean absolute difference over time [N] of curves [4,T], each in [0, 1]."""
+    rows = np.array([np.abs(a - b).mean(axis=1) for a, b in zip(made, real, strict=True)])  # N 4
+    return {column.key: rows[:, place] for place, column in enumerate(CURVES)}
 
 
 # ---------------------------------------------------------------- songs
 
 
-class Songs:
+def songs(setting: Setting, pieces: Sequence[Piece]) -> Figures:
     """Beat alignment and sanity of motions for held-out synthetic songs, one sample a song."""
 
-    name = "motions for held-out songs"
-    columns = SONGS
-
-    def __init__(self, setting: Setting, pieces: Sequence[Piece]) -> None:
-        self.setting, self.pieces = setting, pieces
-        self.clusters = [piece.name for piece in pieces]
-
-    def measure(self, arm: Arm) -> Values:
-        """Figures [N] of one arm."""
-        dances = []
-        for number, piece in enumerate(self.pieces):
-            made = dance(self.setting, arm, piece.condition, piece.phase, piece.name, number)
-            dances.append(dance_of(piece, made))
-        sample = DanceSample.of(dances)
+    def measure(arm: Arm) -> Values:
+        made = [
+            dance(setting, arm, piece.condition, piece.phase, piece.name, number)
+            for number, piece in enumerate(pieces)
+        ]
+        sample = DanceSample.of(list(map(dance_of, pieces, made)))
         found: Values = {}
         for family in SONG_FAMILIES:
-            computed = family.compute(sample, sample, seed=self.setting.sampled.seed)
+            computed = family.compute(sample, sample, seed=setting.sampled.seed)
             found |= {key: np.asarray(value) for key, value in computed.items()}
-        return {column.key: found[column.key] for column in self.columns}
+        return {column.key: found[column.key] for column in SONGS}
+
+    return Figures("motions for held-out songs", SONGS, [p.name for p in pieces], measure)
 
 
 @torch.no_grad()
@@ -429,15 +418,15 @@ def evaluate_memory(
     tables: list[Grid] = []
     verdict: dict[str, Any] = {}
     for figures, asked in (
-        (Denoising(setting, items, settings.draws), [*main, *others]),
-        (Curves(setting, items), main),
-        (Songs(setting, list(pieces)), main),
+        (denoising(setting, items, settings.draws), [*main, *others]),
+        (curves(setting, items), main),
+        (songs(setting, list(pieces)), main),
     ):
         measured = {}
         for arm in asked:
             progress(f"{figures.name}: {arm.name}")
             measured[arm.name] = over_songs(figures.measure(arm), figures.clusters)
-        if isinstance(figures, Curves):
+        if figures.chance is not None:
             measured[CHANCE] = over_songs(figures.chance(), figures.clusters)
         tables += [rows_table(figures, measured), gains_table(figures, measured, asked)]
         verdict |= judged(figures, measured)

@@ -33,11 +33,12 @@ from ..engine import Progress
 from ..judge.actions import (
     MIN_FRAMES,
     ActionJudge,
+    Generator,
     same_action,
     shown_together,
 )
 from ..report.tables import Cell, Column, Grid, GridRow, Report, report_data
-from ..samples import frozen_pose, spread_over_groups
+from ..samples import frozen_pose, rows_of_each, spread_over_groups
 from ..stats import Estimate, bootstrap_mean, replicated, share_of
 from .text import errors_only
 from .yardstick import Asked, RequestSettings, Seen, Yardstick, answering
@@ -52,13 +53,7 @@ LOOKED_UP = "captured, looked up in training"
 DRAWS = 20  # of the clips that a distance is held against
 
 
-class Floor(Protocol):
-    """What is asked of a model that is a row of the first tables alone."""
-
-    def generate(self, prompts: Sequence[str], *, seconds: float, seed: int) -> list[Motion]: ...
-
-
-class Model(Floor, Protocol):
+class Model(Generator, Protocol):
     """What is asked of a model; `SentenceGenerator` is one."""
 
     def scope_warnings(self, prompts: Sequence[str]) -> list[str | None]: ...
@@ -69,7 +64,7 @@ def evaluate_requests(
     model: Model,
     data: PreparedData,
     *,
-    floors: dict[str, Floor] | None = None,
+    floors: dict[str, Generator] | None = None,
     settings: RequestSettings | None = None,
     about: dict[str, Any] | None = None,
     progress: Progress = lambda text: None,
@@ -91,7 +86,7 @@ def evaluate_requests(
     plain = drawn([r for r in requests if r.section == "plain"], settings.wordings, settings.seed)
     plain = [r for r in plain if r.action in yardstick.judge.classes]
 
-    def make(texts: Sequence[str], by: Floor = model) -> Seen:
+    def make(texts: Sequence[str], by: Generator = model) -> Seen:
         return Seen.of(by.generate(texts, seconds=settings.seconds, seed=settings.seed))
 
     with errors_only():
@@ -361,11 +356,11 @@ def _spread_row(yardstick: Yardstick, model: Model, gestures: Sequence[Request])
         for seed in range(settings.variety_seeds)
     ]
     made = [spread(list(motions)) for motions in zip(*by_seed, strict=True)]
-    groups: dict[str, list[Motion]] = {}
-    for record, motion in zip(yardstick.records, yardstick.real.motions, strict=True):
-        if record.tag in GESTURES and motion.num_frames >= PIECES[0]:
-            groups.setdefault(record.group, []).append(motion)
-    real = [spread(motions) for motions in groups.values() if len(motions) > 3]
+    pairs = zip(yardstick.records, yardstick.real.motions, strict=True)
+    long = [(record.group, motion) for record, motion in pairs
+            if record.tag in GESTURES and motion.num_frames >= PIECES[0]]  # fmt: skip
+    groups = rows_of_each(group for group, _ in long).values()
+    real = [spread([long[row][1] for row in rows]) for rows in groups if len(rows) > 3]
     cells = {"share": bootstrap_mean(made), "real": bootstrap_mean(real)}
     return GridRow(cells, len(made) * settings.variety_seeds)
 

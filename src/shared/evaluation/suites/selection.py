@@ -320,8 +320,8 @@ def _singles(
             "obeys": obeys,
             "speed_error": errors["speed"],
             "turn_error": errors["turn"],
-            "support_slide": [body.support_slide for body in bodies],
-            "hand_jerk": [body.hand_jerk for body in bodies],
+            "support_slide": [body["support_slide"] for body in bodies],
+            "hand_jerk": [body["hand_jerk"] for body in bodies],
         }.items():
             found.setdefault(key, []).append(np.array(values, dtype=np.float64))
     apart = np.linalg.norm(embedded.astype(np.float64) - text[:, None], axis=-1)

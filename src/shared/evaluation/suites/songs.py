@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import torch
 from torch import Tensor
 
 from ...audio.song import analyse, analyse_sound
@@ -69,6 +68,11 @@ class Piece:
     @property
     def seconds(self) -> float:
         return self.num_frames / FPS
+
+    @property
+    def heard(self) -> np.ndarray | None:
+        """Seconds of the beats that the tracker heard; None = no beat found."""
+        return None if self.phase is None else beats_of_phase(self.phase * self.meter, FPS)
 
 
 def dance_of(piece: Piece, motion: MotionTrajectory) -> Dance[MotionTrajectory]:
@@ -147,25 +151,13 @@ def tracks(folder: Path, seconds: float) -> Iterator[Piece]:
 
 @dataclass(frozen=True, eq=False)
 class RealPhrase:
-    """A window of a paired phrase.
-
-    Attributes:
-        song: it belongs to.
-        audio: [C,T].
-        motion: T frames.
-        beats: seconds, those that the rows of beat phase tell; none without.
-        bars: unwrapped [T], as those rows tell; None without.
-    """
+    """A window of a paired phrase."""
 
     song: str
-    audio: Tensor
+    audio: Tensor  # [C,T]
     motion: MotionTrajectory
-    beats: np.ndarray
-    bars: np.ndarray | None
-
-    @property
-    def seconds(self) -> float:
-        return self.motion.seconds
+    beats: np.ndarray  # seconds, those that the rows of beat phase tell; none without
+    bars: np.ndarray | None  # unwrapped [T], as those rows tell; None without
 
 
 def open_split(data: str, split: str, frames: int, seed: int) -> MotionPhraseDataset:
@@ -222,6 +214,6 @@ def conditions_of_songs(number: int, frames: int, seed: int) -> list[SongConditi
         for part in (slice(k * frames, (k + 1) * frames) for k in range(each)):
             bars = None if piece.phase is None else piece.phase[part]
             beats = np.zeros(0) if bars is None else beats_of_phase(bars * piece.meter, FPS)
-            condition = torch.as_tensor(piece.condition[:, part]).float()
+            condition = piece.condition[:, part].float()
             found.append(SongCondition(condition, bars, beats, len(found)))
     return found[:number]

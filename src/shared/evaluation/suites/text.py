@@ -36,10 +36,11 @@ from ..samples import (
     frozen_pose,
     open_held_out,
     real_clips,
+    rows_of_each,
     untrained,
 )
 from ..stats import bootstrap_mean
-from .control import control_grid, control_table
+from .control import control_grid
 
 if TYPE_CHECKING:
     from ...model.generation.motion_generator import TextToMotion
@@ -147,10 +148,7 @@ class Split:
         """The real clips, each to be compared with another of its label group."""
         real, rng = self.reference, np.random.default_rng(self.seed)
         source = np.full(len(real), -1)
-        groups: dict[str, list[int]] = {}
-        for row, group in enumerate(real.clips.groups):
-            groups.setdefault(group, []).append(row)
-        for rows in groups.values():
+        for rows in rows_of_each(real.clips.groups).values():
             if len(rows) > 1:
                 order = rng.permutation(rows)
                 source[order] = np.roll(order, 1)
@@ -433,7 +431,7 @@ def control(context: TextContext) -> list[Grid]:
     settings = context.settings
     if not settings.control_seeds:
         return []
-    found = control_table(
+    grid = control_grid(
         context.sampler,
         CaptionBook.load(None),
         context.clips(context.held_out.everything, settings.language),
@@ -444,4 +442,4 @@ def control(context: TextContext) -> list[Grid]:
         progress=context.progress,
         once=context.parts.once,
     )
-    return [control_grid(found)]
+    return [grid]

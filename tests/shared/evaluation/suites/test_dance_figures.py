@@ -7,7 +7,7 @@ import pytest
 
 from src.shared.evaluation.families_dance import BODY_RHYTHM, FEET, ON_THE_PATH
 from src.shared.evaluation.samples import Dance, DanceSample, held_still
-from src.shared.evaluation.suites.dance import PromptDances, effect, near_seams
+from src.shared.evaluation.suites.dance import effect, near_seams
 from src.shared.evaluation.suites.dance_seams import (
     hard_cuts,
     seam_grid,
@@ -162,7 +162,7 @@ def test_only_who_listens_is_found_by_its_prompt(listens: bool) -> None:
         songs += text[None, :, None, None]
     else:
         songs += text[0]
-    found = effect(PromptDances(songs, np.full((3, 16), 0.5), np.zeros((3, 16))), text)
+    found = effect(songs, np.full((3, 16), 0.5), np.zeros((3, 16)), text)
     if listens:
         assert found["gain"]["low"] > 1 and found["r_at_1"]["value"] == 1
     else:

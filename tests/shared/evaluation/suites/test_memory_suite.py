@@ -21,11 +21,12 @@ from src.shared.evaluation.suites.memory import (
     WITHOUT,
     Arm,
     Asker,
-    Curves,
-    Denoising,
     MemorySettings,
     Setting,
     arms,
+    curve_distances,
+    curves,
+    denoising,
     difference,
     evaluate_memory,
     held_back,
@@ -128,7 +129,7 @@ def test_a_silent_memory_changes_no_figure(pairs: Path) -> None:
     setting = Setting(silent.eval(), LinearSpace(), asker(), SongSampling(steps=2, window=180))
     items = held_back(str(pairs), ("test",), 180, 4, 0)
     assert len(items) == 4
-    for figures in (Denoising(setting, items, 1), Curves(setting, items)):
+    for figures in (denoising(setting, items, 1), curves(setting, items)):
         first, *rest = [figures.measure(arm) for arm in arms()]
         assert first.keys() == {column.key for column in figures.columns}
         for other in rest:
@@ -137,9 +138,11 @@ def test_a_silent_memory_changes_no_figure(pairs: Path) -> None:
 
 def test_real_motion_has_no_distance_from_itself(pairs: Path, model: AudioMotionModel) -> None:
     setting = Setting(model, LinearSpace(), asker(), SongSampling(window=180))
-    curves = Curves(setting, held_back(str(pairs), ("test",), 180, 4, 0))
-    assert all((each == 0).all() for each in curves._distances(curves.real).values())
-    assert all((each > 0).all() for each in curves.chance().values())
+    figures = curves(setting, held_back(str(pairs), ("test",), 180, 4, 0))
+    real = list(np.random.default_rng(0).random((3, 4, 9)))
+    assert all((each == 0).all() for each in curve_distances(real, real).values())
+    assert figures.chance is not None
+    assert all((each > 0).all() for each in figures.chance().values())
 
 
 # ------------------------------------------------------------ the report

@@ -2,10 +2,11 @@
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from io import StringIO
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,7 +18,15 @@ from src.shared.data.prepared import PreparedData
 from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.errors import UserError
 from src.shared.evaluation.judge.evaluator import Evaluator, EvaluatorConfig
-from src.shared.evaluation.report.tables import draw, grids, heading, markdown, printed, tables
+from src.shared.evaluation.report.tables import (
+    Grid,
+    draw,
+    grids,
+    heading,
+    markdown,
+    printed,
+    tables,
+)
 from src.shared.evaluation.samples import HeldOut, Sampler
 from src.shared.evaluation.suites import control as control
 from src.shared.evaluation.suites.control import control_grid
@@ -169,22 +178,28 @@ def oracle_sampler(book: CaptionBook, num_seeds: int, languages: Sequence[str]) 
 def test_an_obedient_sampler_passes_the_control_tasks() -> None:
     book = CaptionBook.load(None)
     sampler = oracle_sampler(book, 4, ["en"])
-    table = control.control_table(sampler, book, None, languages=["en", "xx"], num_seeds=4)
+    table = control_grid(sampler, book, None, languages=["en", "xx"], num_seeds=4)
 
     def deaf(prompts: Sequence[str], num_frames: Sequence[int], seed: int) -> list[Motion]:
         return sampler([prompts[0]] * len(prompts), num_frames, seed)
 
-    assert table["languages"] == ["en"]
-    assert table["means"]["en"]["templates"]["value"] >= 0.9
-    assert table["means"]["en"]["paraphrases"]["count"] == 4 * len(table["tasks"])
-    assert table["means"]["chance"]["value"] < 0.4
-    assert table["means"]["still"]["value"] == 0
-    assert table["means"]["untrained"]["count"] == 0
-    assert all(math.isnan(task["real"]["value"]) for task in table["tasks"].values())
-    both = control.control_table(sampler, book, None, languages=["en"], num_seeds=2, untrained=deaf)
-    assert both["means"]["untrained"]["count"] == 2 * len(both["tasks"])
-    assert both["means"]["untrained"]["value"] < 0.4 < both["means"]["en"]["templates"]["value"]
-    drawn = printed(control_grid(table))
+    def mean(grid: Grid, column: str) -> Mapping[str, Any]:
+        cell = grid.rows["mean"].cells[column]
+        assert isinstance(cell, Mapping)
+        return cell
+
+    num_tasks = len(control.CONTROL_TASKS)
+    assert len(table.rows) == num_tasks + 1
+    assert mean(table, "en templates")["value"] >= 0.9
+    assert mean(table, "en paraphrases")["count"] == 4 * num_tasks
+    assert mean(table, "chance")["value"] < 0.4
+    assert mean(table, "still")["value"] == 0
+    assert mean(table, "untrained")["count"] == 0
+    assert all(math.isnan(table.value(row, "real")) for row in table.rows)
+    both = control_grid(sampler, book, None, languages=["en"], num_seeds=2, untrained=deaf)
+    assert mean(both, "untrained")["count"] == 2 * num_tasks
+    assert mean(both, "untrained")["value"] < 0.4 < mean(both, "en templates")["value"]
+    drawn = printed(table)
     assert drawn.header[:3] == ["task", "en tmpl", "en para"] and drawn.rows[-1][0] == "mean"
     assert {len(row) for row in drawn.rows} == {len(drawn.header)}
 
