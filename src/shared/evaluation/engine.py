@@ -86,71 +86,52 @@ class MetricFamily(Generic[Judged]):
 
 @dataclass(frozen=True)
 class Row(Generic[Sample]):
-    """A row of a bench.
-
-    Attributes:
-        make: the sample of a replication (0, 1, ...).
-        limit: replications at most; None = as many as are asked for, 0 = no such row.
-        fixed: the same motions in each replication: one-a-motion figures are kept of the first.
-        real: it is the reference itself, so that distances are taken between halves of it.
-    """
+    """A row of a bench."""
 
     name: str
-    make: Callable[[int], Sample]
+    make: Callable[[int], Sample]  # the sample of a replication (0, 1, ...)
+    # replications at most; None = as many as are asked for, 0 = no such row
     limit: int | None = None
+    # the same motions in each replication: one-a-motion figures are kept of the first
     fixed: bool = False
+    # it is the reference itself, so that distances are taken between halves of it
     real: bool = False
 
 
 @dataclass(frozen=True)
 class Bench(Generic[Sample]):
-    """Rows that are held against one reference by the same families.
-
-    Attributes:
-        title: for the tables, with what was measured on.
-        reference: makes the real sample; asked only when a part is missing.
-        main: name of the row whose worst motions are kept as files of the report.
-        write: writes motion i of a sample to a path, and returns what else the report says of it:
-            its title, and files beside it; None = none is kept.
-        worst: motions to keep.
-        summary: a table made of the bench's own.
-        optional: a UserError leaves a table that says why in place of the bench's.
-    """
+    """Rows that are held against one reference by the same families."""
 
     name: str
-    title: str
-    reference: Callable[[], Sample]
+    title: str  # for the tables, with what was measured on
+    reference: Callable[[], Sample]  # makes the real sample; asked only when a part is missing
     rows: Sequence[Row[Sample]]
     families: Sequence[MetricFamily[Sample]]
-    main: str = "generated"
+    main: str = "generated"  # name of the row whose worst motions are kept as files of the report
+    # writes motion i of a sample to a path, and returns what else the report says of it: its title,
+    # and files beside it; None = none is kept
     write: Callable[[Sample, int, Path], dict[str, Any]] | None = None
-    worst: int = 0
-    summary: Callable[[list[Grid]], Grid] | None = None
-    optional: bool = False
+    worst: int = 0  # motions to keep
+    summary: Callable[[list[Grid]], Grid] | None = None  # a table made of the bench's own
+    optional: bool = False  # a UserError leaves a table that says why in place of the bench's
 
 
 @dataclass(frozen=True)
 class Suite:
-    """One evaluation.
+    """One evaluation."""
 
-    Attributes:
-        branch: text, audio or performer; decides how the report plays motions.
-        settings: amounts and seeds, `replications` and `seed` among them.
-        benches: rows against metrics.
-        tables: further tables by the name of their part, each made once.
-        about: what the report repeats of model and data.
-        facts: more of it that takes long to find out, kept as a part of its own.
-        pictures: draws into the report's folder; returns `file` and `title` of each.
-        sources: of the manifest; asked only where there is a folder.
-    """
-
-    branch: str
-    settings: Mapping[str, Any]
-    benches: Sequence[Bench[Any]]
+    branch: str  # text, audio or performer; decides how the report plays motions
+    settings: Mapping[str, Any]  # amounts and seeds, `replications` and `seed` among them
+    benches: Sequence[Bench[Any]]  # rows against metrics
+    # further tables by the name of their part, each made once
     tables: Mapping[str, Callable[[], list[Grid]]] = field(default_factory=dict)
+    # what the report repeats of model and data
     about: Mapping[str, Any] = field(default_factory=dict)
+    # more of it that takes long to find out, kept as a part of its own
     facts: Callable[[], dict[str, Any]] | None = None
+    # draws into the report's folder; returns `file` and `title` of each
     pictures: Callable[[Path], list[dict[str, Any]]] | None = None
+    # of the manifest; asked only where there is a folder
     sources: Callable[[], Sources] | None = None
 
 

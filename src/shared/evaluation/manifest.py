@@ -31,20 +31,14 @@ Part = dict[str, Any]
 
 @dataclass(frozen=True)
 class Sources:
-    """What decides the figures of a report beside its settings.
+    """What decides the figures of a report beside its settings."""
 
-    Attributes:
-        model, evaluator: hashes of their files, see `folder_hashes`.
-        data: what was measured on: manifest hash, ids of the splits.
-        statistics: mean and deviation tensors in use.
-        sampling: what differs from the model's own settings.
-    """
-
-    model: Mapping[str, Any]
-    data: Mapping[str, Any]
-    statistics: Iterable[torch.Tensor]
+    model: Mapping[str, Any]  # hashes of their files, see `folder_hashes`
+    data: Mapping[str, Any]  # what was measured on: manifest hash, ids of the splits
+    statistics: Iterable[torch.Tensor]  # mean and deviation tensors in use
     device: str
-    evaluator: Mapping[str, Any] = field(default_factory=dict)
+    evaluator: Mapping[str, Any] = field(default_factory=dict)  # likewise
+    # what differs from the model's own settings
     sampling: Mapping[str, Any] = field(default_factory=dict)
 
 

@@ -83,23 +83,16 @@ class Clips:
 
 @dataclass(frozen=True, eq=False)
 class MotionSample:
-    """N motions of the text branch under N captions.
-
-    Attributes:
-        clips: motions, captions, label groups, tags and labels, row by row.
-        text, motion: the judge's embeddings [N,D].
-        source: row [N] of the reference clip whose caption was asked for, -1 = none.
-        memos: one a motion; it goes with the motion wherever that goes.
-        memo: `sample.memo.once("features", lambda: ...)` computes a thing once a sample.
-        whole: of which this is a part; units fitted on halves would differ from row to row.
-    """
+    """N motions of the text branch under N captions."""
 
     clips: Clips
-    text: np.ndarray
-    motion: np.ndarray
-    source: np.ndarray
-    memos: list[Memo]
+    text: np.ndarray  # the judge's embeddings [N,D]
+    motion: np.ndarray  # [N,D] likewise
+    source: np.ndarray  # row [N] of the reference clip whose caption was asked for, -1 = none
+    memos: list[Memo]  # one a motion; it goes with the motion wherever that goes
+    # `sample.memo.once("features", lambda: ...)` computes a thing once a sample
     memo: Memo = field(default_factory=Memo, repr=False)
+    # of which this is a part; units fitted on halves would differ from row to row
     whole: "MotionSample | None" = field(default=None, repr=False)
 
     @classmethod
@@ -140,30 +133,19 @@ class MotionSample:
 
 @dataclass(frozen=True, eq=False)
 class Dance(Generic[Moved]):
-    """A motion of T frames, a pelvis's path or a whole body's, and the music it is held against.
+    """A motion of T frames, a pelvis's path or a whole body's, and the music it is held against."""
 
-    Attributes:
-        song: name; dances of one song are neighbours, not strangers.
-        motion: as it is handed over, 30 frames a second.
-        beats: of the music, seconds; some may lie beyond the end.
-        bars: true bars [T] of the music, unwrapped; None = nobody knows.
-        meter: beats a bar of the music.
-        counted: beats a bar that the motion's phase counts.
-        raw: a body before its feet were held; None = nobody held them.
-        path: that a body was to stand on; None = it has its own.
-        seams: True [T] near a seam of two windows of a body; None = one piece.
-        memo: of the motion; it goes with the motion wherever that goes.
-    """
-
-    song: str
-    motion: Moved
-    beats: np.ndarray
-    bars: np.ndarray | None = None
-    meter: int = 4
-    counted: int = 4
-    raw: Motion | None = None
-    path: MotionTrajectory | None = None
+    song: str  # name; dances of one song are neighbours, not strangers
+    motion: Moved  # as it is handed over, 30 frames a second
+    beats: np.ndarray  # of the music, seconds; some may lie beyond the end
+    bars: np.ndarray | None = None  # true bars [T] of the music, unwrapped; None = nobody knows
+    meter: int = 4  # beats a bar of the music
+    counted: int = 4  # beats a bar that the motion's phase counts
+    raw: Motion | None = None  # a body before its feet were held; None = nobody held them
+    path: MotionTrajectory | None = None  # that a body was to stand on; None = it has its own
+    # True [T] near a seam of two windows of a body; None = one piece
     seams: np.ndarray | None = None
+    # of the motion; it goes with the motion wherever that goes
     memo: Memo = field(default_factory=Memo, repr=False)
 
     @property
@@ -225,16 +207,11 @@ FRESH_CLIPS = 800
 
 @dataclass(frozen=True)
 class HeldOut:
-    """Clips of each kind, and where they come from.
-
-    Attributes:
-        records: `seen` and `unseen` (label combinations) to their clips.
-        source: one line for the report.
-    """
+    """Clips of each kind, and where they come from."""
 
     data: PreparedData
-    records: dict[str, list[ClipRecord]]
-    source: str
+    records: dict[str, list[ClipRecord]]  # `seen` and `unseen` (label combinations) to their clips
+    source: str  # one line for the report
 
     @property
     def everything(self) -> list[ClipRecord]:

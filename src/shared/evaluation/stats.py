@@ -32,13 +32,9 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Difference(Estimate):
-    """b minus a over `count` pairs.
+    """b minus a over `count` pairs."""
 
-    Attributes:
-        p: two-sided: how often resamples disagree with the sign, twice; at least 2 / (B + 1).
-    """
-
-    p: float
+    p: float  # two-sided: how often resamples disagree with the sign, twice; at least 2 / (B + 1)
 
 
 NOTHING = Estimate(math.nan, math.nan, math.nan, 0)

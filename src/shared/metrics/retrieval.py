@@ -26,17 +26,12 @@ TOP = (1, 2, 3)
 
 @dataclass(frozen=True, eq=False)
 class Ranks:
-    """Where the best right answer of each of Q queries stands, equal distances in any order.
+    """Where the best right answer of each of Q queries stands, equal distances in any order."""
 
-    Attributes:
-        better: candidates nearer than it [Q].
-        right: right answers at exactly its distance, itself included [Q]; 0 = there is none at all.
-        wrong: wrong answers at exactly its distance [Q].
-    """
-
-    better: np.ndarray
+    better: np.ndarray  # candidates nearer than it [Q]
+    # right answers at exactly its distance, itself included [Q]; 0 = there is none at all
     right: np.ndarray
-    wrong: np.ndarray
+    wrong: np.ndarray  # wrong answers at exactly its distance [Q]
 
     def hits(self, k: int) -> np.ndarray:
         """Chance [Q] of a right answer among the k nearest: hypergeometric over the ties."""

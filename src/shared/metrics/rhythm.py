@@ -31,14 +31,10 @@ SIGMA = 0.05  # seconds, of the alignment
 
 @dataclass(frozen=True, eq=False)
 class MotionBeats:
-    """Beats of one motion.
+    """Beats of one motion."""
 
-    Attributes:
-        times: seconds [N], increasing.
-        speed: smoothed speed [T-1] in m/s they were found in; value t lies at (t + ½) / fps.
-    """
-
-    times: np.ndarray
+    times: np.ndarray  # seconds [N], increasing
+    # smoothed speed [T-1] in m/s they were found in; value t lies at (t + ½) / fps
     speed: np.ndarray
 
     @property
@@ -154,17 +150,11 @@ def circular_error(phase: np.ndarray, truth: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True)
 class PhaseError:
-    """Errors of one song, in cycles.
+    """Errors of one song, in cycles."""
 
-    Attributes:
-        absolute: mean |error|; guessing scores 0.25, always half a cycle off 0.5.
-        offset: circular mean of the error, ahead of the truth is positive.
-        concentration: length of the mean vector [0, 1]; 1 = the same offset all the time.
-    """
-
-    absolute: float
-    offset: float
-    concentration: float
+    absolute: float  # mean |error|; guessing scores 0.25, always half a cycle off 0.5
+    offset: float  # circular mean of the error, ahead of the truth is positive
+    concentration: float  # length of the mean vector [0, 1]; 1 = the same offset all the time
 
 
 def phase_error(phase: np.ndarray, truth: np.ndarray) -> PhaseError:
@@ -225,21 +215,13 @@ def beats_of_phase(beats: np.ndarray, fps: float = 30.0) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Rhythm:
-    """How a motion's beats and a song's fall on each other; all but `distance` in [0, 1].
+    """How a motion's beats and a song's fall on each other; all but `distance` in [0, 1]."""
 
-    Attributes:
-        motion_to_music: mean over motion beats of exp(-d²/2σ²), σ = 0.05 s; 0 without any.
-        music_to_motion: mean over music beats; a dance on every second beat gets half.
-        f: harmonic mean of the two.
-        hits: F-measure of matches one to one within 70 ms.
-        distance: median seconds from a motion beat to the nearest music beat, NaN without any.
-    """
-
-    motion_to_music: float
-    music_to_motion: float
-    f: float
-    hits: float
-    distance: float
+    motion_to_music: float  # mean over motion beats of exp(-d²/2σ²), σ = 0.05 s; 0 without any
+    music_to_motion: float  # mean over music beats; a dance on every second beat gets half
+    f: float  # harmonic mean of the two
+    hits: float  # F-measure of matches one to one within 70 ms
+    distance: float  # median seconds from a motion beat to the nearest music beat, NaN without any
 
 
 HIT = 0.07  # seconds, the window of the F-measure in beat tracking (Davies et al. 2009)

@@ -115,20 +115,14 @@ def _rhythm(velocity: np.ndarray, fps: float) -> np.ndarray:
 
 @dataclass(frozen=True, eq=False)
 class ActionJudge:
-    """Linear discriminant analysis with one covariance for all classes.
+    """Linear discriminant analysis with one covariance for all classes."""
 
-    Attributes:
-        classes: C names.
-        mean, scale: [F] of the clips it was fitted on.
-        weights: [F, C] and bias [C] of the scores.
-        axes: [F, C - 1] in which the classes lie apart: the covariance within a class is 1.
-    """
-
-    classes: tuple[str, ...]
-    mean: np.ndarray
-    scale: np.ndarray
-    weights: np.ndarray
-    bias: np.ndarray
+    classes: tuple[str, ...]  # C names
+    mean: np.ndarray  # [F] of the clips it was fitted on
+    scale: np.ndarray  # [F], likewise
+    weights: np.ndarray  # [F, C] of the scores
+    bias: np.ndarray  # [C] of the scores
+    # [F, C - 1] in which the classes lie apart: the covariance within a class is 1
     axes: np.ndarray
 
     @classmethod
@@ -179,23 +173,17 @@ class ActionJudge:
 
 @dataclass(frozen=True, eq=False)
 class ActionRecognizer:
-    """The discriminant, and kinematics where captured clips bear them out.
+    """The discriminant, and kinematics where captured clips bear them out."""
 
-    Attributes:
-        judge: the discriminant, fitted on every clip.
-        kinematic: actions that are shown too where `metrics.measurements.ACTIONS` says so: a share
-            MIN_RECALL of their captured clips pass, and MAX_FALSE at most of those of others.
-        necessary: actions of which MIN_RECALL of the captured clips pass, whatever else does.
-        recall: share of an action's clips that is recognised, the discriminant fitted on other
-            takes each time.
-        false_alarms: share of the clips of other actions that pass for it, likewise.
-    """
-
-    judge: ActionJudge
+    judge: ActionJudge  # fitted on every clip
+    # actions that are shown too where `metrics.measurements.ACTIONS` says so: a share MIN_RECALL of
+    # their captured clips pass, and MAX_FALSE at most of those of others
     kinematic: frozenset[str]
+    # actions of which MIN_RECALL of the captured clips pass, whatever else does
     necessary: frozenset[str]
+    # share of an action's clips recognised, the discriminant fitted on other takes each time
     recall: dict[str, float]
-    false_alarms: dict[str, float]
+    false_alarms: dict[str, float]  # share of the clips of other actions that pass for it, likewise
 
     @classmethod
     def fit(
@@ -448,19 +436,14 @@ def check(labels: dict[str, str], motion: Motion | Measurements) -> dict[str, bo
 
 @dataclass(frozen=True)
 class ControlTask:
-    """One thing a user may ask for, with the labels its prompts are rendered from.
-
-    Attributes:
-        labels: label sets that all ask for it; use them in turn.
-        check: answers for one motion.
-        versus: label set of the motion to compare with, None if none is needed.
-        compare: answers for the pair (motion, comparison) where `versus` is given.
-    """
+    """One thing a user may ask for, with the labels its prompts are rendered from."""
 
     name: str
-    labels: tuple[dict[str, str], ...]
-    check: Check
+    labels: tuple[dict[str, str], ...]  # label sets that all ask for it; use them in turn
+    check: Check  # answers for one motion
+    # label set of the motion to compare with, None if none is needed
     versus: dict[str, str] | None = None
+    # answers for the pair (motion, comparison) where `versus` is given
     compare: Callable[[Measurements, Measurements], bool] | None = None
 
     def passes(self, motion: Measurements, other: Measurements | None = None) -> bool:

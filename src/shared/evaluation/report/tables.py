@@ -23,20 +23,14 @@ Report = dict[str, Any]  # what report.json holds, see `report_data`
 
 @dataclass(frozen=True)
 class Column:
-    """One figure of a table.
+    """One figure of a table."""
 
-    Attributes:
-        key: in report.json; unique among the metrics of a branch.
-        heading: above the column, with its unit.
-        decimals: shown.
-        better: which way is good; `worst first` goes by the columns that are not `real`.
-        share: yes or no a motion (1 or 0): its interval is Wilson's, which has a width at 0 of N.
-    """
-
-    key: str
-    heading: str
+    key: str  # in report.json; unique among the metrics of a branch
+    heading: str  # above the column, with its unit
     decimals: int = 3
+    # which way is good; `worst first` goes by the columns that are not `real`
     better: Better = "real"
+    # yes or no a motion (1 or 0): its interval is Wilson's, which has a width at 0 of N
     share: bool = False
 
 
@@ -54,23 +48,15 @@ class GridRow:
 
 @dataclass(frozen=True)
 class Grid:
-    """One table.
+    """One table."""
 
-    Attributes:
-        name: unique in its report.
-        rows: by name, in reading order.
-        note: under the table, Markdown.
-        head: over the names of the rows.
-        plot: whether the columns are drawn in the HTML report.
-    """
-
-    name: str
+    name: str  # unique in its report
     title: str
     columns: tuple[Column, ...]
-    rows: Mapping[str, GridRow]
-    note: str = ""
-    head: str = "row"
-    plot: bool = False
+    rows: Mapping[str, GridRow]  # by name, in reading order
+    note: str = ""  # under the table, Markdown
+    head: str = "row"  # over the names of the rows
+    plot: bool = False  # whether the columns are drawn in the HTML report
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data for report.json; rows keep their order."""

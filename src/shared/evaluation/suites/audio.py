@@ -78,23 +78,16 @@ class AudioSettings:
 
 @dataclass(frozen=True, eq=False)
 class AudioContext:
-    """Everything a table of the audio branch may draw on; songs and motions are made once.
+    """Everything a table of the audio branch may draw on; songs and motions are made once."""
 
-    Attributes:
-        generator: a trained audio branch.
-        settings: how much.
-        data: folder or bucket of pairs, whose test split is the real row; None = no such row.
-        songs: folder of sound files to describe; None = none.
-        sampling: steps, sampler, guidance_scale; left out or None = the model's own.
-        progress: told what begins.
-    """
-
-    generator: SongGenerator[AudioMotionModel]
+    generator: SongGenerator[AudioMotionModel]  # a trained audio branch
     settings: AudioSettings = field(default_factory=AudioSettings)
+    # folder or bucket of pairs, whose test split is the real row; None = no such row
     data: str | None = None
-    songs: Path | None = None
+    songs: Path | None = None  # folder of sound files to describe; None = none
+    # steps, sampler, guidance_scale; left out or None = the model's own
     sampling: Mapping[str, Any] = field(default_factory=dict)
-    progress: Progress = lambda text: None
+    progress: Progress = lambda text: None  # told what begins
 
     @cached_property
     def sampled(self) -> SongSampling:

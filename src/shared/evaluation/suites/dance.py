@@ -77,31 +77,19 @@ class DanceSettings:
 
 @dataclass(frozen=True, eq=False)
 class DanceContext:
-    """Everything a table of the performer may draw on; songs, paths and dances are made once.
+    """Everything a table of the performer may draw on; songs, paths and dances are made once."""
 
-    Attributes:
-        generator: the text branch.
-        singer: the audio branch, which makes the paths.
-        judge: the separate evaluator.
-        settings: how much.
-        data: pairs with bodies, whose test split is the real row; None = no such row.
-        dances: folder of captured dances, more of the real row; None = none.
-        songs: folder of sound files; None = synthetic songs alone.
-        other: another text model, for a row of its own; None = none.
-        sampling: of the text branch.
-        progress: told what begins.
-    """
-
-    generator: TextToMotion
-    singer: SongGenerator[AudioMotionModel]
-    judge: Evaluator
+    generator: TextToMotion  # the text branch
+    singer: SongGenerator[AudioMotionModel]  # the audio branch, which makes the paths
+    judge: Evaluator  # the separate evaluator
     settings: DanceSettings
+    # pairs with bodies, whose test split is the real row; None = no such row
     data: str | None = None
-    dances: Path | None = None
-    songs: Path | None = None
-    other: TextToMotion | None = None
-    sampling: PerformerSettings = field(default_factory=PerformerSettings)
-    progress: Progress = lambda text: None
+    dances: Path | None = None  # folder of captured dances, more of the real row; None = none
+    songs: Path | None = None  # folder of sound files; None = synthetic songs alone
+    other: TextToMotion | None = None  # another text model, for a row of its own; None = none
+    sampling: PerformerSettings = field(default_factory=PerformerSettings)  # of the text branch
+    progress: Progress = lambda text: None  # told what begins
 
     @cached_property
     def path(self) -> Callable[[int, int], MotionTrajectory]:

@@ -88,19 +88,12 @@ class EditSettings:
 
 @dataclass(frozen=True, eq=False)
 class EditContext:
-    """Everything the tables of editing draw on: real clips, models, pairs of actions.
+    """Everything the tables of editing draw on: real clips, models, pairs of actions."""
 
-    Attributes:
-        generator: the text branch.
-        held_out: clips that no training saw.
-        settings: how much.
-        progress: told what begins.
-    """
-
-    generator: TextToMotion
-    held_out: HeldOut
+    generator: TextToMotion  # the text branch
+    held_out: HeldOut  # clips that no training saw
     settings: EditSettings
-    progress: Progress = lambda text: None
+    progress: Progress = lambda text: None  # told what begins
 
     @cached_property
     def clips(self) -> Clips:

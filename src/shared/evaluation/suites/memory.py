@@ -41,21 +41,15 @@ WITHOUT, WITH, RANDOM = "without", "with", "random"
 
 @dataclass(frozen=True)
 class Arm:
-    """One way to ask.
-
-    Attributes:
-        asks: False = the model is given no memory at all.
-        stray: somebody else's question, yet as sure of the answer as of the right one: if this
-            does as well as the right answers, what is remembered does not matter.
-        top_k: hits; None = as configured.
-        share: of the memory's songs that may be found.
-    """
+    """One way to ask."""
 
     name: str
-    asks: bool = True
+    asks: bool = True  # False = the model is given no memory at all
+    # somebody else's question, yet as sure of the answer as of the right one: if this does as well
+    # as the right answers, what is remembered does not matter
     stray: bool = False
-    top_k: int | None = None
-    share: float = 1.0
+    top_k: int | None = None  # hits; None = as configured
+    share: float = 1.0  # of the memory's songs that may be found
 
 
 def arms() -> list[Arm]:
@@ -73,17 +67,11 @@ def variations(shares: Sequence[float], top_ks: Sequence[int]) -> list[Arm]:
 
 @dataclass(frozen=True)
 class Asker:
-    """A memory asked directly, without a deadline: the same answers on any machine.
-
-    Attributes:
-        index: the memory.
-        config: how it is asked.
-        seed: of what is hidden from small memories, and of stray questions.
-    """
+    """A memory asked directly, without a deadline: the same answers on any machine."""
 
     index: MemoryIndex
-    config: MemoryConfig
-    seed: int
+    config: MemoryConfig  # how it is asked
+    seed: int  # of what is hidden from small memories, and of stray questions
 
     def answer(
         self,
@@ -162,20 +150,13 @@ SONGS = (
 
 @dataclass(frozen=True, eq=False)
 class Figures:
-    """A way to measure an arm.
+    """A way to measure an arm."""
 
-    Attributes:
-        name: of its table.
-        columns: of it.
-        clusters: song of each of the N figures: what is drawn again together.
-        measure: figures [N] of one arm.
-        chance: those of what not listening scores; None = no such row.
-    """
-
-    name: str
+    name: str  # of its table
     columns: tuple[Column, ...]
-    clusters: list[str]
-    measure: Callable[[Arm], Values]
+    clusters: list[str]  # song of each of the N figures: what is drawn again together
+    measure: Callable[[Arm], Values]  # figures [N] of one arm
+    # those of what not listening scores; None = no such row
     chance: Callable[[], Values] | None = None
 
 

@@ -75,24 +75,18 @@ class Figure:
 
 @dataclass(frozen=True, eq=False)
 class Pool:
-    """Everything measured of P x C candidates.
-
-    Attributes:
-        figures: the columns.
-        score: the judge's, [P,C].
-        values: figures of single candidates [P,C]; NaN where nothing is asked.
-        together: figures [P] of each subject that depend on what was chosen for the others.
-        of_set: figures of a whole choice.
-        floors: rows to stand beside, by name: figures [P'] by key.
-        set_floors: figures of such rows that belong to whole sets.
-    """
+    """Everything measured of P x C candidates."""
 
     figures: Sequence[Figure]
-    score: np.ndarray
+    score: np.ndarray  # the judge's, [P,C]
+    # figures of single candidates [P,C]; NaN where nothing is asked
     values: Mapping[str, np.ndarray]
+    # figures [P] of each subject that depend on what was chosen for the others
     together: Callable[[Chosen], Mapping[str, np.ndarray]] = lambda chosen: {}
-    of_set: Callable[[Chosen], Mapping[str, float]] = lambda chosen: {}
+    of_set: Callable[[Chosen], Mapping[str, float]] = lambda chosen: {}  # figures of a whole choice
+    # rows to stand beside, by name: figures [P'] by key
     floors: Mapping[str, Mapping[str, np.ndarray]] = field(default_factory=dict)
+    # figures of such rows that belong to whole sets
     set_floors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
     def single(self, chosen: Chosen) -> dict[str, np.ndarray]:

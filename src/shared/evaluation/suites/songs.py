@@ -38,27 +38,16 @@ TEMPI = ", ".join(f"{low:g}-{high:g}" for low, high in HELD_OUT_TEMPI)
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """A song as the model hears it, and what is true of it.
+    """A song as the model hears it, and what is true of it."""
 
-    Attributes:
-        name: for the report.
-        condition: [C,T].
-        phase: bars [T] of the beat tracker, unwrapped; None = no beat found.
-        meter: beats a bar that the tracker counts.
-        bars: true bars [T], unwrapped; None = nobody knows.
-        true_meter: beats a true bar.
-        beats: seconds, true ones where they are known.
-        about: tempo and the like, for the report.
-    """
-
-    name: str
-    condition: Tensor
-    phase: np.ndarray | None
-    meter: int
-    bars: np.ndarray | None
-    true_meter: int
-    beats: np.ndarray
-    about: dict[str, Any]
+    name: str  # for the report
+    condition: Tensor  # [C,T]
+    phase: np.ndarray | None  # bars [T] of the beat tracker, unwrapped; None = no beat found
+    meter: int  # beats a bar that the tracker counts
+    bars: np.ndarray | None  # true bars [T], unwrapped; None = nobody knows
+    true_meter: int  # beats a true bar
+    beats: np.ndarray  # seconds, true ones where they are known
+    about: dict[str, Any]  # tempo and the like, for the report
 
     @property
     def num_frames(self) -> int:

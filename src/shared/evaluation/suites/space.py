@@ -36,17 +36,11 @@ EMBEDDED = 64  # windows at a time
 
 @dataclass(frozen=True, eq=False)
 class Window:
-    """A few bars of a phrase.
+    """A few bars of a phrase."""
 
-    Attributes:
-        phrase: its number in `Windows.records`.
-        audio: condition [167,T] float32.
-        body: raw features [T,23,6] float16.
-    """
-
-    phrase: int
-    audio: np.ndarray
-    body: np.ndarray
+    phrase: int  # its number in `Windows.records`
+    audio: np.ndarray  # condition [167,T] float32
+    body: np.ndarray  # raw features [T,23,6] float16
 
     @property
     def num_frames(self) -> int:
@@ -56,17 +50,11 @@ class Window:
 
 @dataclass(frozen=True, eq=False)
 class Windows:
-    """All windows of a split, by phrase.
-
-    Attributes:
-        items: windows.
-        records: the phrases they are cut from.
-        of_phrase: numbers of each phrase's windows.
-    """
+    """All windows of a split, by phrase."""
 
     items: list[Window]
-    records: list[PhraseRecord]
-    of_phrase: list[list[int]]
+    records: list[PhraseRecord]  # the phrases they are cut from
+    of_phrase: list[list[int]]  # numbers of each phrase's windows
 
     @classmethod
     def cut(
@@ -261,23 +249,14 @@ Figures = dict[str, Estimate]
 
 @dataclass(frozen=True)
 class Bench:
-    """Batches of windows, drawn once, so that every row of a table answers the same questions.
+    """Batches of windows, drawn once, so that every row of a table answers the same questions."""
 
-    Attributes:
-        batches: numbers of the windows [M] of each.
-        phrase: of each window [N].
-        songs: of each query, batch after batch.
-        kin: phrases [P,P] bool of one song or that share a clip.
-        same_action: phrases [P,P] bool whose motion goes by the same tag.
-        seed: of everything random.
-    """
-
-    batches: list[np.ndarray]
-    phrase: np.ndarray
-    songs: list[str]
-    kin: np.ndarray
-    same_action: np.ndarray
-    seed: int
+    batches: list[np.ndarray]  # numbers of the windows [M] of each
+    phrase: np.ndarray  # of each window [N]
+    songs: list[str]  # of each query, batch after batch
+    kin: np.ndarray  # phrases [P,P] bool of one song or that share a clip
+    same_action: np.ndarray  # phrases [P,P] bool whose motion goes by the same tag
+    seed: int  # of everything random
 
     @classmethod
     def draw(
@@ -333,19 +312,12 @@ class Bench:
 
 @dataclass(frozen=True)
 class Neighbours:
-    """Windows with what is known of their motion.
+    """Windows with what is known of their motion."""
 
-    Attributes:
-        bench: batches within which neighbours are looked for.
-        tempo: of each window's song [N], beats a minute.
-        speed: mean speed over ground [N], m/s.
-        tag: of each window's phrase [N].
-    """
-
-    bench: Bench
-    tempo: np.ndarray
-    speed: np.ndarray
-    tag: np.ndarray
+    bench: Bench  # batches within which neighbours are looked for
+    tempo: np.ndarray  # of each window's song [N], beats a minute
+    speed: np.ndarray  # mean speed over ground [N], m/s
+    tag: np.ndarray  # of each window's phrase [N]
 
     @classmethod
     def of(cls, windows: Windows, bench: Bench) -> "Neighbours":

@@ -69,21 +69,16 @@ class TextSettings:
 
 @dataclass(frozen=True, eq=False)
 class TextContext:
-    """Everything a table of the text branch may draw on.
+    """Everything a table of the text branch may draw on."""
 
-    Attributes:
-        held_out: clips that no training saw.
-        samplers: by the name of their row; the first is the model that the other tables are about,
-            the others (an untrained or older model) only add rows.
-        progress: told what begins.
-        parts: of the report's folder: what is finished is kept there and not measured again.
-    """
-
-    held_out: HeldOut
+    held_out: HeldOut  # clips that no training saw
     judge: Evaluator
+    # by the name of their row; the first is the model that the other tables are about, the others
+    # (an untrained or older model) only add rows
     samplers: dict[str, Sampler]
     settings: TextSettings = field(default_factory=TextSettings)
-    progress: Progress = lambda text: None
+    progress: Progress = lambda text: None  # told what begins
+    # of the report's folder: what is finished is kept there and not measured again
     parts: Parts = field(default_factory=Parts)
 
     @property
