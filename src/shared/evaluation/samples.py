@@ -76,10 +76,6 @@ class Clips:
         columns = (self.motions, self.captions, self.groups, self.tags, self.labels)
         return Clips(*([column[i] for i in index] for column in columns))  # type: ignore[arg-type]
 
-    def with_motions(self, motions: list[Motion]) -> "Clips":
-        """The same captions and labels over other motions."""
-        return replace(self, motions=motions)
-
 
 @dataclass(frozen=True, eq=False)
 class MotionSample:
@@ -126,7 +122,7 @@ class MotionSample:
     def reordered(self, order: Sequence[int]) -> "MotionSample":
         """Captions and labels stay, motions change places: what ignoring the prompt gives."""
         at = list(order)
-        clips = self.clips.with_motions([self.clips.motions[row] for row in at])
+        clips = replace(self.clips, motions=[self.clips.motions[row] for row in at])
         memos = [self.memos[row] for row in at]
         return MotionSample(clips, self.text, self.motion[at], self.source, memos)
 

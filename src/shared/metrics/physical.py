@@ -12,12 +12,18 @@ import numpy as np
 
 from ..motion.features import headings
 from ..motion.motion import Motion
-from ..motion.postprocess.contacts import detect_contacts
+from ..motion.postprocess.contacts import contact_runs, detect_contacts
 from ..motion.rotations import quaternion_to_matrix
 from ..motion.skeleton import FOOT_JOINTS, JOINT_INDEX, REST_FOOT_HEIGHT
 from ..tensors import torch
 
 BALLS = [ball for _, ball in FOOT_JOINTS]
+
+
+def heading_of(motion: Motion) -> np.ndarray:
+    """Radians [T] that the pelvis faces, unwrapped, float32."""
+    pelvis = quaternion_to_matrix(torch.as_tensor(motion.quaternions[:, 0]))
+    return np.asarray(headings(pelvis).numpy())
 
 
 def ground_speed(positions: np.ndarray, fps: float) -> np.ndarray:
@@ -183,8 +189,7 @@ def unsupported(positions: np.ndarray, fps: float) -> tuple[np.ndarray, np.ndarr
     high = positions[..., 1].min(1) > REST_FOOT_HEIGHT + FLOATING
     centre = positions[..., 1].mean(1)
     flying = np.zeros_like(high)
-    edges = np.flatnonzero(np.diff(high.astype(int), prepend=0, append=0))
-    for start, stop in edges.reshape(-1, 2):
+    for start, stop in contact_runs(high, 0):
         around = centre[max(start - 1, 0) : stop + 1]
         if len(around) > 2:
             curve = np.polyfit(np.arange(len(around)) / fps, around, 2)[0]
@@ -245,7 +250,7 @@ def travel(motion: Motion) -> np.ndarray:
         [3]: speed, m/s, the path of the pelvis over the ground; direction, radians from where it
         faces at first, + = to its left, NaN below 0.5 m; turn, radians of heading gained, + = left.
     """
-    heading = headings(quaternion_to_matrix(torch.as_tensor(motion.quaternions[:, 0]))).numpy()
+    heading = heading_of(motion)
     path = motion.root_position[:, [0, 2]].astype(np.float64)  # x, z
     seconds = (motion.num_frames - 1) / motion.fps
     across, along = path[-1] - path[0]

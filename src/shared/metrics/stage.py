@@ -9,13 +9,12 @@ Letters: T frames, K joints, A principal axes.
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
-from ..motion.features import headings
 from ..motion.motion import Motion
 from ..motion.postprocess.contacts import contact_runs
-from ..motion.rotations import quaternion_to_matrix, turn_about_y
+from ..motion.rotations import turn_about_y
 from ..motion.skeleton import REST_FOOT_HEIGHT
 from ..tensors import torch
-from .physical import BALLS, SUPPORT_HEIGHT, ground_speed
+from .physical import BALLS, SUPPORT_HEIGHT, ground_speed, heading_of
 
 SWAY = 0.25  # seconds, standard deviation: a sway within a step is no way
 MOVING = 0.1  # m/s of that smoothed path; slower has no direction
@@ -31,8 +30,7 @@ SLIDING = 0.2  # m/s of the slower foot while both are near the floor
 def stage(motion: Motion) -> dict[str, float]:
     """Figures of one dance of at least two frames; NaN where there is nothing to judge."""
     positions = motion.positions().astype(np.float64)
-    facing = headings(quaternion_to_matrix(torch.as_tensor(motion.quaternions[:, 0])))
-    path, heading = positions[:, 0, [0, 2]], facing.double().numpy()
+    path, heading = positions[:, 0, [0, 2]], heading_of(motion).astype(np.float64)
     poses = local_poses(positions, heading)
     apart = np.linalg.norm(path - path.mean(0), axis=1)
     return {

@@ -34,10 +34,10 @@ from ...metrics.measurements import (
     measure,
     repetitions,
 )
+from ...metrics.physical import heading_of
 from ...model.clip.out_of_domain import TWINS
-from ...motion.features import decode_features, headings
+from ...motion.features import decode_features
 from ...motion.motion import Motion
-from ...motion.rotations import quaternion_to_matrix
 from ...motion.skeleton import JOINT_INDEX
 from ...tensors import Tensor
 from ..engine import Progress
@@ -71,11 +71,8 @@ def descriptor(motion: Motion) -> np.ndarray:
 
     Joints are seen from the pelvis in the momentary heading frame; metres, seconds, radians.
     """
-    import torch
-
     joints = motion.positions().astype(np.float64)  # T K 3
-    pelvis = quaternion_to_matrix(torch.as_tensor(motion.quaternions[:, 0]))
-    heading = np.unwrap(headings(pelvis).numpy().astype(np.float64))
+    heading = np.unwrap(heading_of(motion).astype(np.float64))
     sine, cosine = np.sin(heading), np.cos(heading)
     body = heading_frame(joints, heading)
     velocity = np.diff(body, axis=0) * motion.fps  # T-1 K 3
@@ -204,8 +201,8 @@ class ActionRecognizer:
         for action in judge.classes:
             own = np.array([same_action(action, tags[row]) for row in few])
             said = np.array([same_action(action, seen[row]) for row in few])
-            check = ACTIONS.get(action, lambda _: False)
-            shown = np.array([check(figures[row]) for row in few])
+            performs: Check = ACTIONS.get(action, lambda _: False)
+            shown = np.array([performs(figures[row]) for row in few])
             if shown[own].mean() >= MIN_RECALL:
                 necessary.add(action)
                 if shown[~own].mean() <= MAX_FALSE:
@@ -280,19 +277,15 @@ def same_action(wanted: str, found: str) -> bool:
     return wanted == found or {wanted, found} in TWINS
 
 
-def shown(labels: dict[str, str], motion: Motion) -> bool:
-    """Whether direction, turn, side, count and angle are those of the labels, as far as asked."""
-    answers = check({key: value for key, value in labels.items() if key != "speed"}, motion)
-    return all(value for name, value in answers.items() if name in SHOWN)
+def shown(parts: Sequence[dict[str, str]], motion: Motion) -> bool:
+    """Whether direction, turn, side, count and angle are those of the labels, as far as asked.
 
-
-def shown_together(parts: Sequence[dict[str, str]], motion: Motion) -> bool:
-    """`shown` of things done at once: a hand that is up need not be higher than the other one."""
+    Of several `parts` that are done at once, a hand that is up need not be higher than the other.
+    """
     measured, other = measure(motion), {"left": "right", "right": "left"}
     for labels in parts:
         rest = [part.get("side") for part in parts if part is not labels]
-        side = labels.get("side", "")
-        answers = check({key: value for key, value in labels.items() if key != "speed"}, measured)
+        side, answers = labels.get("side", ""), check(labels, measured)
         if f"{side}-hand" in answers and {other.get(side), "both"} & {*rest}:
             answers[f"{side}-hand"] = CHECKS[f"{side}-hand-too"](measured)
         if not all(value for name, value in answers.items() if name in SHOWN):
@@ -356,7 +349,7 @@ def action_reliability(
         found = judge.judge(np.stack([*map(descriptor, motions)]))
         for (record, _), motion, action in zip(part, motions, found, strict=True):
             labels = {key: v for key, v in record.labels.items() if key not in MEASURES}
-            right = judge.shows(record.tag, action, motion) and shown(labels, motion)
+            right = judge.shows(record.tag, action, motion) and shown([labels], motion)
             shares[record.tag].append(right)
     return {tag: (sum(done) + 1) / (len(done) + 2) for tag, done in shares.items()}
 

@@ -24,7 +24,7 @@ from ...data.phrases.dataset import MotionPhraseDataset
 from ...errors import UserError
 from ...formats.arrays import write_trajectory_npz
 from ...io.files import atomic_write
-from ...metrics.rhythm import phase_error, strangers
+from ...metrics.rhythm import against_chance, phase_error, strangers
 from ...metrics.sanity import frozen
 from ...metrics.seams import Seamed, marked, seam_report
 from ...model.audio.audio_motion_model import AudioMotionModel
@@ -37,13 +37,11 @@ from ..manifest import Part, Parts, Sources, model_hashes, song_hashes
 from ..report.tables import Column, Grid, GridRow
 from ..samples import Dance, DanceSample, Trajectories, untrained_audio_model
 from .alignment import (
-    Danced,
     alignment_grids,
     danced,
     phase_row,
     plot_phase,
     right_tempo,
-    song_scores,
 )
 from .songs import (
     TEMPI,
@@ -377,17 +375,18 @@ def _track(piece: Piece, trajectory: MotionTrajectory, seed: int) -> dict[str, f
     cells = {key: float(piece.about[key]) for key in ("tempo", "meter", "confidence")}
     if piece.phase is None:
         return cells
-    dance = Danced(piece.name, beats_of(trajectory), piece.beats, piece.seconds)
-    scores = song_scores(dance, [dance], np.random.default_rng([seed, 3]))
-    own = asdict(scores["own song"])
+    rng = np.random.default_rng([seed, 3])
+    own, chance, off = against_chance(beats_of(trajectory), piece.beats, piece.seconds, rng)
     error = phase_error(
         trajectory.phase_unwrapped * piece.meter, np.asarray(piece.phase) * piece.meter
     )
     return cells | {
         "phase_from_tracker": error.absolute,
-        **{key: own[key] for key in ("motion_to_music", "music_to_motion", "f")},
-        "chance": scores["chance"].f,
-        "half": scores["half a beat later"].f,
+        "motion_to_music": own.motion_to_music,
+        "music_to_motion": own.music_to_motion,
+        "f": own.f,
+        "chance": chance.f,
+        "half": off.f,
     }
 
 

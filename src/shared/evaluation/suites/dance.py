@@ -48,8 +48,8 @@ from ..samples import Bodies, Dance, DanceSample, held_still, untrained
 from ..stats import bootstrap_mean
 from .alignment import alignment_grids, danced
 from .dance_seams import hard_cuts, seam_grid
-from .editing import EditContext, editing_tables
-from .songs import Piece, clock, held_out_songs, tracks
+from .editing import EditContext, kept_table, path_table, transition_table
+from .songs import Piece, clock, held_out_songs, song_of, tracks
 
 PROMPTS = (
     "a person dances", "a proud person dances", "a young person dances to the music",
@@ -281,8 +281,8 @@ def real_dances(data: str, frames: int, number: int, seed: int) -> list[Dance[Mo
             continue
         beats = clock(item.audio[:, item.mask])[1]
         if len(beats) >= MIN_BEATS:
-            song = item.record.song or item.record.id
-            found.append(Dance(song, decode_features(item.body[item.mask]), beats))
+            body = decode_features(item.body[item.mask])
+            found.append(Dance(song_of(item.record), body, beats))
     return found
 
 
@@ -353,8 +353,8 @@ def prompt_effect(context: DanceContext) -> list[Grid]:
     rows = {}
     for name, dancer in dancers(context).items():
         context.progress(f"prompts: {name}")
-        embeddings, *scores = dance_all(context, dancer, songs)
-        rows[name] = GridRow(effect(embeddings, *scores, text), scores[0].size, 1)
+        embeddings, f, limbs_f = dance_all(context, dancer, songs)
+        rows[name] = GridRow(effect(embeddings, f, limbs_f, text), f.size, 1)
     title = f"what the prompt changes ({len(songs)} songs, {len(ASKED)} prompts, {NOISES} noises)"
     prompts = "; ".join(ASKED)
     return [Grid("prompts", title, PROMPT_COLUMNS, rows, f"{PROMPT_NOTE} Prompts: {prompts}.")]
@@ -459,7 +459,11 @@ def evaluate_performer(
         "prompts": partial(prompt_effect, context),
     }
     if edits is not None:
-        tables |= editing_tables(edits, context.judge)
+        tables |= {
+            "edits": partial(kept_table, edits),
+            "paths": partial(path_table, edits),
+            "transitions": partial(transition_table, edits, context.judge),
+        }
     facts = {
         **about,
         "evaluator_hash": context.judge.content_hash,

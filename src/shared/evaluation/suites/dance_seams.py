@@ -14,6 +14,7 @@ import numpy as np
 
 from ...metrics.seams import ORDERS, body_quantities, compare, starts
 from ...motion.motion import Motion
+from ...motion.postprocess.contacts import contact_runs
 from ..report.tables import Column, Grid, GridRow
 from ..samples import Dance
 
@@ -50,9 +51,8 @@ def hard_cuts(dances: Sequence[Dance[Motion]]) -> list[Dance[Motion]]:
 
 def _windows(seams: np.ndarray) -> np.ndarray:
     """The number [T] of the window that each frame is in, counted in the middle of seams."""
-    edges = np.flatnonzero(np.diff(seams.astype(int), prepend=0, append=0)).reshape(-1, 2)
     number = np.zeros(len(seams), dtype=int)
-    for start, stop in edges:
+    for start, stop in contact_runs(seams, 0):
         number[(start + stop) // 2 :] += 1
     return number
 

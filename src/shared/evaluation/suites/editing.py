@@ -3,7 +3,7 @@
 Letters: T frames, K joints, N points.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -148,15 +148,6 @@ class EditContext:
         }
 
 
-def editing_tables(context: EditContext, judge: Evaluator) -> dict[str, Callable[[], list[Grid]]]:
-    """The tables by the name of their part."""
-    return {
-        "edits": lambda: [kept_table(context)],
-        "paths": lambda: [path_table(context)],
-        "transitions": lambda: [transition_table(context, judge)],
-    }
-
-
 def accelerations(motion: Motion) -> np.ndarray:
     """Of each frame [T] the largest acceleration of a joint in m/s²; 0 at the ends."""
     return body_quantities(motion)[ACCELERATION]
@@ -167,7 +158,7 @@ def accelerations(motion: Motion) -> np.ndarray:
 Edit = tuple[Motion, Motion, Given]  # what was made of a clip, the clip, and what was to stay
 
 
-def kept_table(context: EditContext) -> Grid:
+def kept_table(context: EditContext) -> list[Grid]:
     """A row a kind of edit, and floors."""
     rows = {}
     for who, generator in context.generators.items():
@@ -183,7 +174,8 @@ def kept_table(context: EditContext) -> Grid:
     others = [(_with_poses(c, tasks[k - 1][0], g), c, g) for k, (c, g) in enumerate(tasks)]
     rows["a second: clip handed back"] = _kept_row(context, back)
     rows["a second: another clip's poses"] = _kept_row(context, others)
-    return Grid("edits", f"edits of {len(tasks)} real clips", KEPT, rows, NOTES["kept"], "edit")
+    title = f"edits of {len(tasks)} real clips"
+    return [Grid("edits", title, KEPT, rows, NOTES["kept"], "edit")]
 
 
 def _tasks(context: EditContext, kind: str) -> Iterator[tuple[Motion, Given, str, int]]:
@@ -261,7 +253,7 @@ def _with_poses(clip: Motion, other: Motion, given: Given) -> Motion:
 Followed = tuple[Motion, np.ndarray, DrawnPath]  # with where the pelvis was to be [T,2]
 
 
-def path_table(context: EditContext) -> Grid:
+def path_table(context: EditContext) -> list[Grid]:
     """A row a shape and a maker."""
     rows = {}
     number = context.settings.repeats
@@ -279,7 +271,8 @@ def path_table(context: EditContext) -> Grid:
             free.append((alone, points, drawn))
         rows[f"{shape}: frozen pose"] = _path_row(still)
         rows[f"{shape}: words alone"] = _path_row(free)
-    return Grid("paths", f"drawn paths ({number} motions each)", PATH, rows, NOTES["path"], "path")
+    title = f"drawn paths ({number} motions each)"
+    return [Grid("paths", title, PATH, rows, NOTES["path"], "path")]
 
 
 def drawn_paths() -> dict[str, DrawnPath]:
@@ -327,7 +320,7 @@ def _path_row(made: Sequence[Followed]) -> GridRow:
 # ---------------------------------------------------------------- transitions
 
 
-def transition_table(context: EditContext, judge: Evaluator) -> Grid:
+def transition_table(context: EditContext, judge: Evaluator) -> list[Grid]:
     """One action after the other."""
     seed, pairs, made = context.settings.seed, context.pairs, dict[str, list[Motion]]()
     for who, generator in context.generators.items():
@@ -344,7 +337,7 @@ def transition_table(context: EditContext, judge: Evaluator) -> Grid:
     made["frozen pose"] = [held_still(motion) for motion in made["generated"]]
     rows = {who: _transition_row(context, motions, judge) for who, motions in made.items()}
     title = f"transitions ({len(pairs)} pairs of actions)"
-    return Grid("transitions", title, TRANSITION, rows, NOTES["transitions"])
+    return [Grid("transitions", title, TRANSITION, rows, NOTES["transitions"])]
 
 
 def hard_cut(first: Motion, second: Motion) -> Motion:

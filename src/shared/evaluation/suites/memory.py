@@ -34,7 +34,7 @@ from ..families import BEAT_ALIGNMENT, TRAJECTORY_SANITY
 from ..report.tables import Column, Grid, GridRow, plain, report_data
 from ..samples import DanceSample
 from ..stats import MIN_PAIRS, bootstrap_mean, paired_bootstrap
-from .songs import Piece, dance_of, held_out_songs, open_split
+from .songs import Piece, dance_of, held_out_songs, open_split, song_of
 
 WITHOUT, WITH, RANDOM = "without", "with", "random"
 
@@ -189,18 +189,13 @@ def held_back(
     return found[:most]
 
 
-def song_of(item: PhraseItem) -> str:
-    """The song that a phrase is of."""
-    return item.record.song or item.record.id
-
-
 def denoising(setting: Setting, items: Sequence[PhraseItem], draws: int) -> Figures:
     """Mean squared error of the predicted clean window, in z-scores, at three levels of noise.
 
     Every arm sees the same noise. The finest of the three tables: it judges the network where it
     knows what is right, not one of the many dances that fit a song.
     """
-    clusters = [song_of(item) for item in items]
+    clusters = [song_of(item.record) for item in items]
 
     @torch.no_grad()
     def measure(arm: Arm) -> Values:
@@ -257,7 +252,7 @@ def curves(setting: Setting, items: Sequence[PhraseItem]) -> Figures:
     One sample a phrase, as many frames as one window makes. Chance is real motion of another song.
     """
     frames = setting.model.config.window - SPARE
-    clusters = [song_of(item) for item in items]
+    clusters = [song_of(item.record) for item in items]
     starts = [float(bars_of_sound(item.audio[None])[0][0]) for item in items]
     real = [
         prior_curves(place_window(item.motion.numpy(), phase=start)[:frames])
@@ -374,10 +369,8 @@ def evaluate_memory(
         index, space: the memory and the space of its keys.
         data: folder or bucket of pairs with the splits to measure on.
         config: how the memory is asked.
-        settings: how much is measured.
         sampling: what `SongSampling` takes, the seed aside.
         about: what to repeat in the report.
-        progress: told what begins.
 
     Raises:
         UserError: the data cannot be used.

@@ -35,7 +35,7 @@ from ..judge.actions import (
     ActionJudge,
     Generator,
     same_action,
-    shown_together,
+    shown,
 )
 from ..report.tables import Cell, Column, Grid, GridRow, Report, report_data
 from ..samples import frozen_pose, rows_of_each, spread_over_groups
@@ -93,10 +93,10 @@ def evaluate_requests(
         progress(f"{len(plain)} plain requests")
         made, few = make([r.text for r in plain]), plain[::FLOOR_SHARE]
         still = Seen.of([frozen_pose(motion) for motion in made.motions])
-        rows = {"generated": Asked.of(plain, made), "frozen pose": Asked.of(plain, still)}
+        rows = {"generated": Asked(plain, made), "frozen pose": Asked(plain, still)}
         for name, floor in (floors or {}).items():
             progress(f"{len(few)} of them by {name}")
-            rows[name] = Asked.of(few, make([r.text for r in few], floor))
+            rows[name] = Asked(few, make([r.text for r in few], floor))
         progress("numbers, sides, styles and compositions")
         tables = [
             _obedience(yardstick, rows),
@@ -122,15 +122,14 @@ def _obedience(yardstick: Yardstick, rows: dict[str, Asked]) -> Grid:
         done = yardstick.obeyed(tags, yardstick.procedural)
         found["procedural"] = GridRow({"all": share_of(done)}, len(tags))
     for name, asked in rows.items():
-        done, spoken = yardstick.obeyed(asked.labels, asked.seen), np.array(asked.languages)
+        done = yardstick.obeyed(asked.labels, asked.seen)
+        spoken = np.array([request.language for request in asked.requests])
         cells: dict[str, Cell] = {"all": share_of(done)}
         cells |= {code: share_of(done[spoken == code]) for code in languages}
         found[name] = GridRow(cells, len(asked.seen))
     asked = rows["generated"]
-    others = [
-        asked.labels[row] for row in _of_other_actions(asked.actions, yardstick.settings.seed)
-    ]
-    done = yardstick.obeyed(others, asked.seen)
+    others = _of_other_actions(asked.actions, yardstick.settings.seed)
+    done = yardstick.obeyed([asked.requests[row].labels for row in others], asked.seen)
     found["generated, for another action"] = GridRow({"all": share_of(done)}, len(done))
     columns = tuple(Column(key, key, 2, "high", share=True) for key in ("all", *languages))
     note = (
@@ -294,7 +293,7 @@ def _exactness(yardstick: Yardstick, model: Model, requests: Sequence[Request], 
     row(
         "two sides at once",
         of("sides", simultaneous=True),
-        lambda r, motion: shown_together(r.parts, motion),
+        lambda r, motion: shown(r.parts, motion),
     )
     if sequences := of(COMPOSITIONS):
         acted, order = make([r.text for r in sequences]).motions, partial(in_order, yardstick)

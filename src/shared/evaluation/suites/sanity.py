@@ -8,7 +8,7 @@ Letters: T frames, C rows of sound.
 
 import math
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -21,13 +21,13 @@ from ...model.audio.audio_motion_model import AudioMotionModel
 from ...motion.trajectory import MotionTrajectory
 from ...pipelines.song import SongCondition, SongGenerator, finished
 from ...pipelines.song_sampler import SongSampling
+from ..engine import Progress
 from ..report.plots import new_figure, save_figure
 from ..report.tables import Column, Grid, GridRow, Report, number, report_data
 from ..samples import untrained_audio_model
 from ..stats import success_rate
 from .songs import TEMPI, conditions_of_songs, open_split, phrases
 
-Progress = Callable[[str], None]
 PASS_SHARE = 0.95  # of samples, all seven checks and the whole suite
 FREE = ("mean_speed", "path_rate", "turning")  # the figures that the verdict holds against bands
 COLUMNS = (*SEVEN, "liveliness", "roughness")
@@ -79,9 +79,7 @@ def evaluate_sanity(
         generator: trained; its own bands count where there is no data.
         data: folder or bucket of pairs: its test split's sound is what is danced to, its training
             split gives the bands, at the same number of frames. None = held-out synthetic songs.
-        settings: see `SanitySettings`.
         about: what to repeat in the report.
-        progress: told what begins.
 
     Raises:
         UserError: the data cannot be used.

@@ -24,6 +24,7 @@ from ...audio.synthetic import (
     song_beats,
 )
 from ...data.phrases.dataset import MotionPhraseDataset
+from ...data.phrases.layout import PhraseRecord
 from ...errors import UserError
 from ...metrics.rhythm import beats_of_phase
 from ...model.audio.conditioning import BEAT, CONDITION_ROWS
@@ -180,9 +181,14 @@ def phrases(
         bars, beats = clock(audio)
         window = item.motion[:, item.mask].numpy()
         placed = place_window(window, phase=0.0 if bars is None else float(bars[0]))
-        song = item.record.song or item.record.id
-        found.append(RealPhrase(song, audio, MotionTrajectory(placed), beats, bars))
+        motion = MotionTrajectory(placed)
+        found.append(RealPhrase(song_of(item.record), audio, motion, beats, bars))
     return found
+
+
+def song_of(record: PhraseRecord) -> str:
+    """The song that a phrase is of; its own where nobody knows."""
+    return record.song or record.id
 
 
 def clock(audio: Tensor) -> tuple[np.ndarray | None, np.ndarray]:

@@ -25,9 +25,11 @@ from ...model.audio.shared_space import SharedSpace
 from ...model.clip.core import TextTower
 from ...model.clip.tokenizer import PromptTokenizer
 from ...motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
+from ..engine import Progress
 from ..report.tables import Column, Grid, GridRow, report_data
 from ..samples import untrained_audio_tower, untrained_motion_tower
 from ..stats import Estimate
+from .songs import song_of
 
 Embed = Callable[[Tensor, Tensor], Tensor]
 
@@ -166,7 +168,7 @@ def padded(parts: Sequence[Tensor], *, time_first: bool = True) -> tuple[Tensor,
 
 def related(records: Sequence[PhraseRecord]) -> np.ndarray:
     """Which phrases [N,N] bool are of one song or share a clip; each is related to itself."""
-    songs = np.array([record.song or record.id for record in records])
+    songs = np.array([song_of(record) for record in records])
     same = songs[:, None] == songs[None]
     owners: dict[str, list[int]] = {}
     for number, record in enumerate(records):
@@ -281,7 +283,7 @@ class Bench:
         return cls(
             batches,
             phrase,
-            [windows.records[p].song or windows.records[p].id for p in drawn],
+            [song_of(windows.records[p]) for p in drawn],
             related(windows.records),
             (tags[:, None] == tags[None]) & (tags != "")[:, None],
             seed,
@@ -310,53 +312,38 @@ class Bench:
             yield rng.permutation(windows) if shuffled else windows, windows, self.phrase[windows]
 
 
-@dataclass(frozen=True)
-class Neighbours:
-    """Windows with what is known of their motion."""
+def in_common(
+    windows: Windows, bench: Bench, sound: Tensor, motion: Tensor, *, shuffled: bool = False
+) -> Figures:
+    """What each sound's nearest motion of another song has in common with its own.
 
-    bench: Bench  # batches within which neighbours are looked for
-    tempo: np.ndarray  # of each window's song [N], beats a minute
-    speed: np.ndarray  # mean speed over ground [N], m/s
-    tag: np.ndarray  # of each window's phrase [N]
+    Args:
+        sound, motion: keys [N,D].
+        shuffled: another sound asks in each one's place.
 
-    @classmethod
-    def of(cls, windows: Windows, bench: Bench) -> "Neighbours":
-        """Measure the windows' motions."""
-        root = [window.body[:, ROOT_ROW].astype(np.float32) for window in windows.items]
-        records = [windows.records[window.phrase] for window in windows.items]
-        return cls(
-            bench,
-            np.array([record.tempo for record in records]),
-            np.array([np.hypot(r[:, FORWARD], r[:, LATERAL]).mean() for r in root]),
-            np.array([record.tag for record in records]),
-        )
-
-    def measure(
-        self, sound: Tensor, motion: Tensor, *, shuffled: bool = False
-    ) -> dict[str, Estimate]:
-        """`tempo`: octaves between the songs' tempi, half and double tempo being the same;
-        `speed`: m/s between the motions; `action`: share of the same tag.
-
-        Args:
-            sound, motion: keys [N,D].
-            shuffled: another sound asks in each one's place.
-        """
-        given = []
-        for asking, windows, phrases in self.bench.questions(shuffled=shuffled):
-            similarity = sound.numpy()[asking] @ motion.numpy()[windows].T  # M M
-            similarity[self.bench.kin[np.ix_(phrases, phrases)]] = -np.inf
-            given.append(windows[similarity.argmax(1)])
-        own, found = np.concatenate(self.bench.batches), np.concatenate(given)
-        octaves = np.log2(self.tempo[found] / self.tempo[own])
-        values = {
-            "tempo": np.abs(octaves - np.rint(octaves)),
-            "speed": np.abs(self.speed[found] - self.speed[own]),
-            "action": (self.tag[found] == self.tag[own]).astype(float),
-        }
-        return {
-            name: by_song(value, self.bench.songs, np.mean, seed=self.bench.seed)
-            for name, value in values.items()
-        }
+    Returns:
+        tempo: octaves between the songs' tempi, half and double tempo being the same; speed: m/s
+        between the motions' mean speeds over ground; action: share of the same tag.
+    """
+    given = []
+    for asking, asked, phrases in bench.questions(shuffled=shuffled):
+        similarity = sound.numpy()[asking] @ motion.numpy()[asked].T  # M M
+        similarity[bench.kin[np.ix_(phrases, phrases)]] = -np.inf
+        given.append(asked[similarity.argmax(1)])
+    own, found = np.concatenate(bench.batches), np.concatenate(given)
+    tempo = np.array([windows.records[phrase].tempo for phrase in bench.phrase])  # N
+    tag = np.array([windows.records[phrase].tag for phrase in bench.phrase])  # N
+    root = [window.body[:, ROOT_ROW].astype(np.float32) for window in windows.items]
+    speed = np.array([np.hypot(r[:, FORWARD], r[:, LATERAL]).mean() for r in root])  # N
+    octaves = np.log2(tempo[found] / tempo[own])
+    values = {
+        "tempo": np.abs(octaves - np.rint(octaves)),
+        "speed": np.abs(speed[found] - speed[own]),
+        "action": (tag[found] == tag[own]).astype(float),
+    }
+    return {
+        key: by_song(each, bench.songs, np.mean, seed=bench.seed) for key, each in values.items()
+    }
 
 
 # ---------------------------------------------------------------- the suite
@@ -403,7 +390,7 @@ def evaluate_space(
     texts: Texts | None = None,
     settings: SpaceSettings | None = None,
     about: dict[str, str] | None = None,
-    progress: Callable[[str], None] = lambda text: None,
+    progress: Progress = lambda text: None,
 ) -> dict[str, object]:
     """Measure a space on one split of prepared phrases.
 
@@ -412,9 +399,7 @@ def evaluate_space(
         data: folder of `prepare-audio`, with bodies.
         split: whose songs and clips no training saw: test, or val.
         texts: measure text as well, if every phrase has a caption.
-        settings: amounts and seed.
         about: what is measured with what.
-        progress: told what comes next.
 
     Returns:
         Plain data, see `report_data`.
@@ -450,8 +435,7 @@ def evaluate_space(
             _table(bench, "sound → text", sounds, text, by_action=True),
             _table(bench, "text → motion", text, {SPACE: motion, UNTRAINED: blind}, by_action=True),
         ]
-    neighbours = Neighbours.of(held_out, bench)
-    tables.append(_nearest(neighbours, sounds, motion))
+    tables.append(_nearest(held_out, bench, sounds, motion))
     songs = len({record.song for record in held_out.records})
     facts = {"split": split, "phrases": len(held_out.records), "songs": songs}
     facts |= {"windows": len(held_out.items), "fingerprint": space.fingerprint}
@@ -511,9 +495,9 @@ def _table(
     return Grid(title, title, COLUMNS, rows, note, head="keys")
 
 
-def _nearest(neighbours: Neighbours, sounds: dict[str, Tensor], motion: Tensor) -> Grid:
-    found = {name: neighbours.measure(keys, motion) for name, keys in sounds.items()}
-    found[CHANCE] = neighbours.measure(sounds[SPACE], motion, shuffled=True)
+def _nearest(windows: Windows, bench: Bench, sounds: dict[str, Tensor], motion: Tensor) -> Grid:
+    found = {name: in_common(windows, bench, keys, motion) for name, keys in sounds.items()}
+    found[CHANCE] = in_common(windows, bench, sounds[SPACE], motion, shuffled=True)
     rows = {name: GridRow(cells) for name, cells in found.items()}
     own = (
         "The nearest motion of another song and other clips, held against the sound's own motion,"

@@ -111,7 +111,8 @@ class TextContext:
     def with_motions(self, asked: MotionSample, motions: list[Motion]) -> MotionSample:
         """Other motions under the captions of a sample."""
         motion = self.judge.embed_motion(motions).numpy()
-        return MotionSample.of(asked.clips.with_motions(motions), asked.text, motion, asked.source)
+        clips = replace(asked.clips, motions=motions)
+        return MotionSample.of(clips, asked.text, motion, asked.source)
 
     def made(self, asked: MotionSample, sampler: Sampler, seed: int) -> MotionSample:
         """What a sampler makes of the captions of a sample, at its lengths."""

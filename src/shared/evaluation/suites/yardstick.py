@@ -65,19 +65,18 @@ class Seen:
 class Asked:
     """A row of the first tables: motions and what each was asked for."""
 
-    labels: list[dict[str, str]]
-    languages: list[str]
+    requests: Sequence[Request]
     seen: Seen
 
-    @classmethod
-    def of(cls, requests: Sequence[Request], seen: Seen) -> "Asked":
-        """Motions made for requests."""
-        return cls([r.labels for r in requests], [r.language for r in requests], seen)
+    @property
+    def labels(self) -> list[dict[str, str]]:
+        """What each was asked for."""
+        return [request.labels for request in self.requests]
 
     @property
     def actions(self) -> list[str]:
         """The action that each was asked for."""
-        return [labels.get("action", "") for labels in self.labels]
+        return [request.action for request in self.requests]
 
 
 class Yardstick:
@@ -140,7 +139,7 @@ class Yardstick:
         """Whether each motion does what its labels say: the action, and which way or side [N]."""
         rows = zip(labels, self.shows(seen), seen.motions, strict=True)
         shows = self.recognizer.shows
-        return np.array([shows(w.get("action", ""), f, m) and shown(w, m) for w, f, m in rows])
+        return np.array([shows(w.get("action", ""), f, m) and shown([w], m) for w, f, m in rows])
 
     @property
     def real_obeyed(self) -> np.ndarray:

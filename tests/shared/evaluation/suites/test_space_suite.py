@@ -16,11 +16,11 @@ from src.shared.evaluation.suites.space import (
     TEMPO,
     UNTRAINED,
     Bench,
-    Neighbours,
     SpaceSettings,
     Texts,
     Windows,
     evaluate_space,
+    in_common,
     padded,
     related,
     tempo_alone,
@@ -121,10 +121,11 @@ def test_perfect_keys_find_all_and_shuffled_ones_nothing(windows: Windows) -> No
 
 def test_neighbours_of_the_tempo_share_the_tempo(windows: Windows) -> None:
     bench = Bench.draw(windows, replications=4)
-    near = Neighbours.of(windows, bench)
-    angle = 2 * np.pi * np.log2(near.tempo)  # an octave is a turn
+    tempo = [windows.records[window.phrase].tempo for window in windows.items]
+    angle = 2 * np.pi * np.log2(tempo)  # an octave is a turn
     keys = torch.from_numpy(np.stack((np.cos(angle), np.sin(angle)), 1))
-    found, blind = near.measure(keys, keys), near.measure(keys, keys, shuffled=True)
+    found = in_common(windows, bench, keys, keys)
+    blind = in_common(windows, bench, keys, keys, shuffled=True)
     assert found["tempo"].value < 0.08 < blind["tempo"].value
     assert found["speed"].value < blind["speed"].value
     assert 0 <= found["action"].value <= 1
