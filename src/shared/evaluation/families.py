@@ -43,7 +43,7 @@ from ..motion.trajectory import MotionTrajectory
 from .engine import MetricFamily, Value
 from .judge.actions import check
 from .report.tables import Column
-from .samples import Bodies, MotionSample, Trajectories
+from .samples import Bodies, Dance, MotionSample, Trajectories
 
 JOINT_AXES = 16
 MIN_SAMPLE = 2  # motions that have a covariance
@@ -378,15 +378,23 @@ def beats_of(trajectory: MotionTrajectory) -> np.ndarray:
     return motion_beats(trajectory.position, trajectory.fps).times
 
 
+def beat_scores(times: np.ndarray, dance: Dance[Any], rng: np.random.Generator) -> dict[str, float]:
+    """What moments of a dance, seconds [N], score on its music, and above chance."""
+    own, chance, off = against_chance(times, dance.beats, dance.seconds, rng)
+    return asdict(own) | {
+        "beat_distance": own.distance,
+        "f_above_turned": own.f - chance.f,
+        "f_above_half": own.f - off.f,
+        "above_turned": own.motion_to_music - chance.motion_to_music,
+    }
+
+
 def _on_beats(sample: Trajectories, reference: Trajectories, seed: int) -> list[dict[str, float]]:
-    rows = []
     pairs = zip(sample.dances, sample.each("beats", beats_of), strict=True)
-    for index, (dance, beats) in enumerate(pairs):
-        rng = np.random.default_rng([seed, 2, index])
-        own, chance, off = against_chance(beats, dance.beats, dance.seconds, rng)
-        above = {"f_above_turned": own.f - chance.f, "f_above_half": own.f - off.f}
-        rows.append(asdict(own) | above | {"beat_distance": own.distance})
-    return rows
+    return [
+        beat_scores(beats, dance, np.random.default_rng([seed, 2, index]))
+        for index, (dance, beats) in enumerate(pairs)
+    ]
 
 
 BEAT_ALIGNMENT = MetricFamily(

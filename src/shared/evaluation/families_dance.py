@@ -9,31 +9,16 @@ import numpy as np
 
 from ..metrics.kinetic import amount
 from ..metrics.physical import contact, physics
-from ..metrics.rhythm import against_chance, body_beats, landings, limb_beats, seen_from_pelvis
+from ..metrics.rhythm import body_beats, landings, limb_beats, seen_from_pelvis
 from ..metrics.stage import stage
 from ..motion.motion import Motion
 from ..pipelines.body import root_error
 from .engine import MetricFamily
-from .families import ABOVE, BODY_KINETICS, SCORES
+from .families import ABOVE, BODY_KINETICS, SCORES, beat_scores
 from .report.tables import Column
 from .samples import Bodies, Dance
 
 MOMENTS = {"": body_beats, "limbs_": limb_beats, "landing_": landings}
-
-
-def _scores(
-    key: str, times: np.ndarray, dance: Dance[Motion], rng: np.random.Generator
-) -> dict[str, float]:
-    """What moments of one dance score on its music; `key` begins the names."""
-    own, chance, off = against_chance(times, dance.beats, dance.seconds, rng)
-    if key == "landing_":
-        return {
-            "landing_to_music": own.motion_to_music,
-            "landing_above_turned": own.motion_to_music - chance.motion_to_music,
-        }
-    figures = {name: getattr(own, name) for name in ("motion_to_music", "music_to_motion", "hits")}
-    figures |= {"f": own.f, "f_above_turned": own.f - chance.f, "f_above_half": own.f - off.f}
-    return {key + name: value for name, value in figures.items()}
 
 
 def _moments(sample: Bodies, reference: Bodies, seed: int) -> list[dict[str, float]]:
@@ -46,7 +31,9 @@ def _moments(sample: Bodies, reference: Bodies, seed: int) -> list[dict[str, flo
         rng = np.random.default_rng([seed, 5, index])
         figures = {"landings": len(moments["landing_"][index]) / dance.seconds}
         for key, times in moments.items():
-            figures |= _scores(key, times[index], dance, rng)
+            scores = beat_scores(times[index], dance, rng)
+            figures |= {key + name: value for name, value in scores.items()}
+        figures["landing_to_music"] = figures["landing_motion_to_music"]
         rows.append(figures)
     return rows
 
