@@ -1,7 +1,7 @@
-"""What the audio branch is judged on: songs and phrases that training never saw.
+"""What the audio branch and the performer are judged on: songs and motion that no training saw.
 
 Synthetic songs have tempi that no training song has, and exactly known beats; test phrases are
-real motion paired with its song; tracks are sound files whose beats nobody knows.
+real motion paired with its song, some with bodies; tracks are sound files whose beats nobody knows.
 
 Letters: T frames, C rows of sound.
 """
@@ -25,9 +25,12 @@ from ...audio.synthetic import (
 )
 from ...data.phrases.dataset import MotionPhraseDataset
 from ...data.phrases.layout import PhraseRecord
+from ...data.retarget.read_motion import FOLDER_ENDINGS, read_motion
 from ...errors import UserError
 from ...metrics.rhythm import beats_of_phase
 from ...model.audio.conditioning import BEAT, CONDITION_ROWS
+from ...motion.features import decode_features
+from ...motion.motion import Motion, resample_motion
 from ...motion.trajectory import FPS, MotionTrajectory, place_window
 from ...pipelines.song import SongCondition, song_condition
 from ..samples import Dance
@@ -212,3 +215,47 @@ def conditions_of_songs(number: int, frames: int, seed: int) -> list[SongConditi
             condition = piece.condition[:, part].float()
             found.append(SongCondition(condition, bars, beats, len(found)))
     return found[:number]
+
+
+# ---------------------------------------------------------------- bodies
+
+
+MIN_BEATS = 4  # of a real dance that is held against its music
+
+
+def captured_dances(folder: Path, frames: int) -> Iterator[Dance[Motion]]:
+    """The motion files of a folder in pieces of so many frames, nobody knows to which music.
+
+    What is left at the end is a piece if it is half as long, or all there is.
+
+    Raises:
+        UserError: there is none, or one cannot be read.
+    """
+    files = sorted(each for each in folder.iterdir() if each.suffix.lower() in FOLDER_ENDINGS)
+    if not files:
+        raise UserError(f"{folder} holds no motion files; name a folder of captured dances")
+    for file in files:
+        motion = resample_motion(read_motion(file), FPS)
+        for start in range(0, motion.num_frames, frames):
+            piece = motion.frames(start, start + frames)
+            if start == 0 or piece.num_frames >= frames / 2:
+                yield Dance(file.stem, piece, np.zeros(0))
+
+
+def real_dances(data: str, frames: int, number: int, seed: int) -> list[Dance[Motion]]:
+    """Bodies of up to `number` test phrases that have beats, windows of at most `frames`."""
+    split = MotionPhraseDataset(
+        data, split="test", target_frames=frames, seed=seed, cache_in_memory=False, bodies=True
+    )
+    found: list[Dance[Motion]] = []
+    for index in split.order(0):
+        item = split.item(int(index), 0)
+        if len(found) == number:
+            break
+        if item is None or item.body is None:
+            continue
+        beats = clock(item.audio[:, item.mask])[1]
+        if len(beats) >= MIN_BEATS:
+            body = decode_features(item.body[item.mask])
+            found.append(Dance(song_of(item.record), body, beats))
+    return found

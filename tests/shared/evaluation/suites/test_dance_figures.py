@@ -7,11 +7,7 @@ import pytest
 
 from src.shared.evaluation.families_dance import BODY_RHYTHM, FEET, ON_THE_PATH
 from src.shared.evaluation.samples import Dance, DanceSample, held_still
-from src.shared.evaluation.suites.dance import effect, near_seams
-from src.shared.evaluation.suites.dance_seams import (
-    hard_cuts,
-    seam_grid,
-)
+from src.shared.evaluation.suites.dance import effect, hard_cuts, near_seams, seam_grid
 from src.shared.metrics.retrieval import rank_of
 from src.shared.metrics.rhythm import body_beats, landings, limb_beats, seen_from_pelvis, strangers
 from src.shared.metrics.seams import ACCELERATION, JERK, body_quantities

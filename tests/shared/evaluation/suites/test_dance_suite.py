@@ -19,10 +19,10 @@ from src.shared.evaluation.samples import HeldOut
 from src.shared.evaluation.suites.dance import (
     DanceContext,
     DanceSettings,
-    captured_dances,
     evaluate_performer,
 )
 from src.shared.evaluation.suites.editing import EditContext, EditSettings
+from src.shared.evaluation.suites.songs import captured_dances
 from src.shared.formats.arrays import write_npz
 from src.shared.motion.features import encode_features
 from src.shared.pipelines.body import PerformerSettings
