@@ -62,6 +62,7 @@ def guarded(command: Callable[Parameters, None]) -> Callable[Parameters, None]:
         logging.basicConfig(format="warning: %(message)s")  # from warnings upwards, on stderr
         try:
             check_texts(kwargs)
+            check_ranges(kwargs)
             with orderly_termination(), short_names():
                 command(*args, **kwargs)
         except UserError as error:
@@ -112,6 +113,71 @@ def check_texts(arguments: Mapping[str, Any]) -> None:
             half = isinstance(text, str) and any("\ud800" <= char <= "\udfff" for char in text)
             if half and not os.path.lexists(text):
                 raise UsageError(f"{text!r} is not UTF-8 text; set the terminal to UTF-8")
+
+
+RANGES = {  # of numbers, whatever command has them
+    "window": (0.1, 4.0),
+    "song_seconds": (4.0, 600.0),
+    "track_seconds": (4.0, 7200.0),
+    "keep": (0.1, 60.0),
+    "begin": (0.0, 7200.0),
+    "until": (0.0, 7200.0),
+    "source_fps": (1.0, 2000.0),
+    "fps": (1.0, 1000.0),
+    "passes": (1, 100),
+    "meter": (2, 12),
+    "num_samples": (1, 100_000),
+    "num_frames": (8, 3000),
+    "num_steps": (1, 10_000),
+    "num_songs": (2, 10_000),
+    "num_phrases": (2, 10_000),
+    "num_subjects": (2, 10_000),
+    "num_candidates": (2, 256),
+    "style_songs": (0, 10_000),
+    "edits": (0, 10_000),
+    "wordings": (1, 100),
+    "seed": (0, 2**63 - 1),
+    "steps": (1, 10_000),
+    "guidance_scale": (0.0, 30.0),
+    "threads": (1, 1024),
+    "workers": (1, 1024),
+    "synthetic": (0, 1_000_000),
+    "replications": (1, 1000),
+    "control_seeds": (0, 10_000),
+    "tries": (1, 1000),
+}
+FLAGS = {"begin": "--from", "until": "--to"}  # the others are called as their parameters
+
+
+def flag_of(name: str) -> str:
+    """An option as it is typed, of the parameter's name."""
+    return FLAGS.get(name, "--" + name.replace("_", "-"))
+
+
+def check_ranges(arguments: Mapping[str, Any]) -> None:
+    """Refuse numbers out of range; None is left to the model.
+
+    Raises:
+        UsageError: naming the flag and its range.
+    """
+    for name, limits in RANGES.items():
+        check_range(name, arguments.get(name), *limits)
+
+
+def check_range(name: str, value: float | None, least: float, most: float) -> None:
+    """Refuse a number that is out of range, NaN among them.
+
+    Raises:
+        UsageError: naming the flag and its range.
+    """
+    if value is not None and not least <= value <= most:
+        given, low, high = map(_digits, (value, least, most))
+        raise UsageError(f"{flag_of(name)} {given} is out of range; choose from {low} to {high}")
+
+
+def _digits(value: float) -> str:
+    """All of a number: no 1e+08."""
+    return str(value) if isinstance(value, int) else f"{value:.12g}"
 
 
 @contextmanager

@@ -84,7 +84,6 @@ def convert(
 
     if root not in ROOTS:
         raise UsageError(f"--root {root!r} is unknown; choose from {', '.join(ROOTS)}")
-    options.check_ranges(fps=fps, source_fps=source_fps, workers=workers)
     options.check_scheduler(scheduler)
     joint_names(names)
     named = list(map(place, files))
@@ -347,7 +346,6 @@ def inspect(
       motion-tools inspect dance.bvh
       motion-tools inspect dance.bvh --write-mapping my.yaml
     """
-    options.check_ranges(source_fps=source_fps)
     if skeleton is not None and file.suffix.lower() != ".amc":
         raise UsageError(
             f"--skeleton {skeleton} is the skeleton of an .amc, and {file} is none; leave it out"

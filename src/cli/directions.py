@@ -5,13 +5,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..shared.errors import UsageError
+from .console import flag_of
 
 if TYPE_CHECKING:
     from ..shared.pipelines.edit import Given
     from ..shared.pipelines.path import DrawnPath
     from ..shared.pipelines.timeline import Timeline
-
-FLAGS = {"begin": "--from", "until": "--to"}  # the others are called as their attributes
 
 
 @dataclass(frozen=True)
@@ -38,9 +37,7 @@ class Directions:
     def given(self) -> list[str]:
         """The flags that were given, as they are typed."""
         return [
-            FLAGS.get(name, "--" + name.replace("_", "-"))
-            for name, value in vars(self).items()
-            if value not in (None, False, [])
+            flag_of(name) for name, value in vars(self).items() if value not in (None, False, [])
         ]
 
     @property

@@ -10,7 +10,7 @@ import typer
 
 from ..shared.errors import UsageError
 from . import options
-from .console import print_json, tell
+from .console import flag_of, print_json, tell
 
 if TYPE_CHECKING:
     from ..shared.evaluation.report.tables import Report
@@ -20,11 +20,6 @@ if TYPE_CHECKING:
 
 QUICK_REPLICATIONS, QUICK_SONGS = 3, 10
 AUDIO_KIND, MODEL = "audio-motion", "starter-audio"
-SONG_LIMITS = {
-    "num_songs": (2, 10_000),
-    "song_seconds": (4.0, 600.0),
-    "track_seconds": (4.0, 7200.0),
-}
 
 
 @dataclass(frozen=True)
@@ -229,21 +224,11 @@ def _progress(text: str) -> None:
 
 
 def check(request: Request, folder: Path) -> None:
-    """Refuse values out of range and folders that cannot be used, before anything slow starts.
+    """Refuse folders that cannot be used, before anything slow starts.
 
     Raises:
         UsageError: naming the flag.
     """
-    options.check_ranges(
-        **{
-            name: getattr(request, name)
-            for name in (
-                "num_samples", "replications", "control_seeds", "steps", "guidance_scale", "seed",
-                "threads",
-            )
-        }
-    )  # fmt: skip
-    options.check_limits({name: getattr(request, name) for name in SONG_LIMITS}, SONG_LIMITS)
     options.check_songs(request.songs)
     if folder.suffix in (".json", ".md", ".html"):
         raise UsageError(
@@ -261,9 +246,9 @@ def refuse(model: str, audio: bool, request: Request) -> None:
     foreign = ("num_samples", "control_seeds") if audio else ("num_songs", "song_seconds", "songs")
     for name in foreign:
         if getattr(request, name) is not None:
-            flag, kind = "--" + name.replace("_", "-"), "music" if audio else "text"
+            kind = "music" if audio else "text"
             raise UsageError(
-                f"{flag} is not for {model}, which makes motion from {kind}; leave it out"
+                f"{flag_of(name)} is not for {model}, which makes motion from {kind}; leave it out"
             )
 
 

@@ -8,14 +8,8 @@ import typer
 
 from ..shared.errors import UsageError
 from . import options
-from .console import tell
-from .evaluate import (
-    MODEL,
-    SONG_LIMITS,
-    keep_and_show,
-    load_generator,
-    show_report,
-)
+from .console import check_range, tell
+from .evaluate import MODEL, keep_and_show, load_generator, show_report
 
 if TYPE_CHECKING:
     from ..shared.evaluation.suites.sanity import SanityEvaluation
@@ -42,7 +36,6 @@ def set_threads(threads: int | None) -> None:
 # ---------------------------------------------------------------- memory
 
 Number = TypeVar("Number", int, float)
-MEMORY_LIMITS = {"num_phrases": (2, 10_000), "num_songs": (2, 10_000), "song_seconds": (4.0, 600.0)}
 
 
 def evaluate_memory(
@@ -78,11 +71,6 @@ def evaluate_memory(
       motion-tools evaluate-memory --model runs/memory-audio --memory data/memory --data data/pairs
     """
     sampling = {"steps": steps, "sampler": sampler, "guidance_scale": guidance_scale}
-    options.check_ranges(steps=steps, guidance_scale=guidance_scale, seed=seed, threads=threads)
-    amount: dict[str, Any] = {
-        "num_phrases": num_phrases, "num_songs": num_songs, "song_seconds": song_seconds,
-    }  # fmt: skip
-    options.check_limits(amount, MEMORY_LIMITS)
     options.check_pairs(data)
     found_shares = numbers("--shares", shares, float)
     if not all(0 < share <= 1 for share in found_shares):
@@ -111,8 +99,10 @@ def evaluate_memory(
             splits=tuple(splits.split(",")),
             shares=found_shares,
             top_ks=top_ks,
+            num_phrases=num_phrases,
+            num_songs=num_songs,
+            song_seconds=song_seconds,
             seed=seed,
-            **amount,
         ),
         sampling=sampling,
         about={"model": model, "data": data, "threads": threads},
@@ -136,7 +126,6 @@ def numbers(flag: str, text: str, kind: type[Number]) -> tuple[Number, ...]:
 # ---------------------------------------------------------------- performer
 
 QUICK_DANCES = {"num_songs": 4, "replications": 1, "style_songs": 2, "edits": 6}
-DANCE_LIMITS = {**SONG_LIMITS, "style_songs": (0, 10_000), "edits": (0, 10_000)}
 
 
 def evaluate_performer(
@@ -195,12 +184,7 @@ def evaluate_performer(
     }
     amount = {name: value for name, value in amount.items() if value is not None}
     amount = (QUICK_DANCES if quick else {}) | amount
-    options.check_ranges(
-        steps=steps, guidance_scale=guidance_scale, seed=seed, threads=threads,
-        replications=replications,
-    )  # fmt: skip
     amount |= {"song_seconds": song_seconds, "track_seconds": track_seconds}
-    options.check_limits({k: v for k, v in amount.items() if k in DANCE_LIMITS}, DANCE_LIMITS)
     options.check_pairs(data)
     options.check_songs(songs)
     if dances is not None and not dances.is_dir():
@@ -278,8 +262,6 @@ def run_performer(
 
 # ---------------------------------------------------------------- requests
 
-REQUEST_LIMITS = {"wordings": (1, 100), "seconds": (1, 20)}
-
 
 def evaluate_requests(
     data: Annotated[Path, typer.Option(help="Folder written by `prepare`, with captured clips.")],
@@ -306,8 +288,7 @@ def evaluate_requests(
     """
     from ..shared.evaluation.suites.text import LANGUAGES
 
-    options.check_limits({"wordings": wordings, "seconds": seconds}, REQUEST_LIMITS)
-    options.check_ranges(seed=seed, threads=threads)
+    check_range("seconds", seconds, 1, 20)
     codes = tuple(code.strip() for code in languages.split(",") if code.strip())
     if unknown := sorted(set(codes) - set(LANGUAGES)):
         raise UsageError(f"--languages {unknown[0]} is unknown; choose from {', '.join(LANGUAGES)}")
@@ -338,7 +319,6 @@ def evaluate_requests(
 
 FULL_SANITY = {"num_samples": 100, "num_frames": 120, "num_steps": 20}
 QUICK_SANITY = {"num_samples": 20, "num_frames": 120, "num_steps": 10}
-SANITY_LIMITS = {"num_samples": (1, 100_000), "num_frames": (8, 3000), "num_steps": (1, 10_000)}
 
 
 def evaluate_sanity(
@@ -371,8 +351,6 @@ def evaluate_sanity(
     amount = {
         k: (QUICK_SANITY if quick else FULL_SANITY)[k] if v is None else v for k, v in given.items()
     }
-    options.check_limits(amount, SANITY_LIMITS)
-    options.check_ranges(seed=seed, threads=threads)
     options.check_pairs(data)
     options.check_folder("--output-dir", output_dir)
 
@@ -405,7 +383,6 @@ def draw_pictures(result: "SanityEvaluation", folder: Path) -> None:
 
 SYNTHETIC = "synthetic"
 MODELS = {"text": "starter", "audio": "starter-audio"}
-SELECTION_LIMITS = {"num_subjects": (2, 10_000), "num_candidates": (2, 256)}
 
 
 def evaluate_selection(
@@ -446,13 +423,6 @@ def evaluate_selection(
     """
     if branch not in MODELS:
         raise UsageError(f"--branch {branch} is unknown; choose from {', '.join(MODELS)}")
-    options.check_ranges(
-        steps=steps, guidance_scale=guidance_scale, seed=seed, threads=threads,
-        replications=replications,
-    )  # fmt: skip
-    options.check_limits(
-        {"num_subjects": num_subjects, "num_candidates": num_candidates}, SELECTION_LIMITS
-    )
     check_report(out)
     wanted: dict[str, Any] = {"steps": steps, "sampler": sampler, "guidance_scale": guidance_scale}
     wanted |= {"device": device, "progress": told("selection")}
@@ -503,7 +473,6 @@ def evaluate_selection(
 SPACE, TEXT, NO_TEXT = "starter-space", "starter", "none"
 SPLITS = ("test", "val")
 RUNS, QUICK_RUNS = 20, 3
-SPACE_LIMITS = {"bars": (1, 16), "batch": (2, 1000), "replications": (1, 1000)}
 
 
 def evaluate_space(
@@ -535,8 +504,8 @@ def evaluate_space(
       motion-tools evaluate-space --model starter-space --data data/pairs
     """
     runs = replications or (QUICK_RUNS if quick else RUNS)
-    options.check_limits({"bars": bars, "batch": batch, "replications": runs}, SPACE_LIMITS)
-    options.check_ranges(seed=seed, threads=threads)
+    check_range("bars", bars, 1, 16)
+    check_range("batch", batch, 2, 1000)
     if split not in SPLITS:
         raise UsageError(f"--split {split} is unknown; choose from {', '.join(SPLITS)}")
     options.check_pairs(data)

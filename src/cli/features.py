@@ -38,7 +38,6 @@ def features(
     """
     if chroma not in CHROMA:
         raise UsageError(f"--chroma {chroma} is unknown; choose from {', '.join(CHROMA)}")
-    options.check_ranges(meter=meter)
     check_suffix("--out", out, ".npz")
     if plot is not None:
         check_suffix("--plot", plot, ".png")

@@ -9,7 +9,7 @@ from ..shared import environment
 from ..shared.errors import UsageError
 from ..shared.io.storage import place
 from . import options
-from .console import counted, print_json, tell
+from .console import check_range, counted, print_json, tell
 from .directions import Directions
 from .generate_files import show_scores
 from .generate_request import Request, only_song, produce
@@ -161,16 +161,8 @@ def generate(
         start=start, end=end, keep=keep, edit=edit, joints=joints, begin=begin, until=until,
         path=path, timeline=timeline, then=then, loop=loop,
     )  # fmt: skip
-    options.check_ranges(
-        **{"song_seconds" if audio or directions.given() else "seconds": seconds},
-        **{"keep": keep, "from": begin, "to": until},
-        meter=meter,
-        num_samples=num_samples,
-        seed=seed,
-        steps=steps,
-        guidance_scale=guidance_scale,
-        threads=threads,
-    )
+    long = audio or directions.given()  # what is made in several windows
+    check_range("seconds", seconds, *((1.0, 7200.0) if long else (0.3, 60.0)))
     options.check_folder("--out", out)
     if judge is not None and num_samples == 1:
         raise UsageError("--judge compares candidates: give --num-samples 2 or more with it")

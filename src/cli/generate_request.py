@@ -10,7 +10,7 @@ from ..shared.environment import TEXT_MODEL, default_audio_model
 from ..shared.errors import UsageError
 from ..shared.io.storage import Place
 from . import generate_files as files
-from .console import Stopwatch, complain, progress_bar, tell
+from .console import Stopwatch, complain, flag_of, progress_bar, tell
 from .directions import Directions, read_given, read_timed
 
 if TYPE_CHECKING:
@@ -153,9 +153,11 @@ def produce(request: Request) -> dict[str, Any]:
             tell(f"note: no beat was found in {result['audio']}; the motion keeps its own time")
         return result
     dancing = ("body", "body_model", "follow_path")
-    for flag, value in ((f"--{n.replace('_', '-')}", getattr(request, n)) for n in dancing):
-        if value:
-            raise UsageError(f"{flag} is about a dance; name a song with --audio, or leave it out")
+    for name in dancing:
+        if getattr(request, name):
+            raise UsageError(
+                f"{flag_of(name)} is about a dance; name a song with --audio, or leave it out"
+            )
     return controlled(request) if request.directions.given() else prompted(request)
 
 
@@ -484,7 +486,7 @@ def refuse_with(flag: str, **others: Any) -> None:
     """Refuse options that mean nothing beside this one."""
     for name, value in others.items():
         if value not in (None, []):
-            raise UsageError(f"--{name.replace('_', '-')} does not go with {flag}; leave one out")
+            raise UsageError(f"{flag_of(name)} does not go with {flag}; leave one out")
 
 
 def warn(warnings: list[str | None]) -> list[str | None]:

@@ -67,7 +67,6 @@ def build(
       motion-tools memory build data/pairs --out data/memory
       motion-tools memory build my-dances --figures --takes takes.csv --out data/figures
     """
-    options.check_ranges(threads=threads, workers=workers)
     options.check_scheduler(scheduler)
     target = place(out)
     options.check_folder("--out", target)
@@ -138,7 +137,6 @@ def query(
       motion-tools memory query song.mp3 --memory data/memory
       motion-tools memory query "a person runs" --memory data/memory --top-k 5
     """
-    options.check_ranges(threads=threads, meter=meter)
     if not ask.strip():
         raise UsageError("the question is empty; name a sound file or give words")
     is_song = os.path.isfile(ask)  # a sentence may be too long for `Path.is_file`

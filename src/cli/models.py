@@ -191,7 +191,6 @@ def calibrate(
     Example:
       motion-tools calibrate --model runs/generation --data data/prepared
     """
-    options.check_ranges(seed=seed, threads=threads, tries=tries)
     if not (model / "config.json").is_file():
         raise UsageError(
             f"--model {model} is no model folder of yours, and what ships is not written to; name"

@@ -3,7 +3,6 @@
 import errno
 import re
 import tempfile
-from collections.abc import Mapping as Map
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -94,52 +93,6 @@ Decoder = Annotated[
 ]
 ReportFile = Annotated[Path | None, typer.Option(help="Report file: .json, or .md for tables.")]
 
-RANGES = {
-    "--seconds": (0.3, 60.0),
-    "--window": (0.1, 4.0),
-    "--song-seconds": (1.0, 7200.0),
-    "--keep": (0.1, 60.0),
-    "--from": (0.0, 7200.0),
-    "--to": (0.0, 7200.0),
-    "--source-fps": (1.0, 2000.0),
-    "--fps": (1.0, 1000.0),
-    "--passes": (1, 100),
-    "--meter": (2, 12),
-    "--num-samples": (1, 100_000),
-    "--seed": (0, 2**63 - 1),
-    "--steps": (1, 10_000),
-    "--guidance-scale": (0.0, 30.0),
-    "--threads": (1, 1024),
-    "--workers": (1, 1024),
-    "--synthetic": (0, 1_000_000),
-    "--replications": (1, 1000),
-    "--control-seeds": (0, 10_000),
-    "--tries": (1, 1000),
-}
-
-
-def check_ranges(**values: float | None) -> None:
-    """Refuse numbers out of range, NaN among them; None is left to the model.
-
-    Raises:
-        UsageError: naming the flag and its range.
-    """
-    for name, value in values.items():
-        flag = "--" + name.replace("_", "-")
-        _check_range(flag.replace("song-", ""), value, RANGES[flag])
-
-
-def _check_range(flag: str, value: float | None, limits: tuple[float, float]) -> None:
-    low, high = limits
-    if value is not None and not low <= value <= high:
-        given, least, most = map(_digits, (value, low, high))
-        raise UsageError(f"{flag} {given} is out of range; choose from {least} to {most}")
-
-
-def _digits(value: float) -> str:
-    """All of a number: no 1e+08."""
-    return str(value) if isinstance(value, int) else f"{value:.12g}"
-
 
 def check_scheduler(scheduler: str | None) -> None:
     """As `jobs.check_scheduler`, which is imported only where there is one to check."""
@@ -194,12 +147,6 @@ def check_file(flag: str, path: Path) -> None:
     except OSError as error:
         if error.errno == errno.ENAMETOOLONG:  # of anything else writing tells
             raise UsageError(f"{flag} {path}: {error.strerror}; shorten its name") from None
-
-
-def check_limits(values: Map[str, float | None], limits: Map[str, tuple[float, float]]) -> None:
-    """Refuse numbers out of range, naming the flag; None is left to the suite."""
-    for name, value in values.items():
-        _check_range("--" + name.replace("_", "-"), value, limits[name])
 
 
 def check_pairs(data: str | None) -> None:

@@ -74,7 +74,6 @@ def prepare(
         raise UsageError(f"{given[0]} without SOURCE; name the folder it is about")
     if only_gaps and not synthetic:
         raise UsageError("--only-gaps without --synthetic N; add it, or leave out --only-gaps")
-    options.check_ranges(synthetic=synthetic, workers=workers, seed=seed, source_fps=source_fps)
     options.check_scheduler(scheduler)
     target, roots = place(out), list(map(place, source or []))
     options.check_folder("--out", target)
@@ -180,7 +179,6 @@ def prepare_audio(
       motion-tools prepare-audio --motion data/mine --music my-songs --out data/pairs
       motion-tools prepare-audio --motion synthetic --music synthetic:100 --out data/pairs
     """
-    options.check_ranges(workers=workers, seed=seed, meter=meter, passes=passes)
     options.check_scheduler(scheduler)
     if not 2.0 <= min_seconds <= max_seconds <= 120.0:
         raise UsageError(

@@ -11,7 +11,7 @@ import typer
 from ..shared.environment import TEXT_MODEL
 from ..shared.errors import UsageError, UserError
 from . import options
-from .console import complain, tell
+from .console import check_range, complain, tell
 
 AFTER = 4.0  # seconds of motion after the last sentence of a pipe
 VMC_PORT = 39539
@@ -64,10 +64,7 @@ def stream(
       motion-tools stream --vmc 39539 --prompt "a person walks in a circle"
       (sleep 5; echo "a person waves") | motion-tools stream --websocket 8765
     """
-    options.check_ranges(
-        seconds=seconds, seed=seed, steps=steps, guidance_scale=guidance_scale, threads=threads,
-        window=window,
-    )  # fmt: skip
+    check_range("seconds", seconds, 0.3, 60.0)
     if not prompt.strip():
         raise UsageError("--prompt is empty; say what the body does at first")
     if websocket is not None and not 0 <= websocket < 65536:
