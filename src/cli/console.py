@@ -13,7 +13,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from io import TextIOWrapper
-from typing import Annotated, Any, ParamSpec
+from typing import Annotated, Any, ParamSpec, TypeVar
 
 import typer
 
@@ -22,6 +22,7 @@ from ..shared.io.concurrency import orderly_termination
 from ..shared.io.storage import Place
 
 Parameters = ParamSpec("Parameters")
+OptionsT = TypeVar("OptionsT")  # a dataclass
 INTERRUPTED = 130
 QUIET = inspect.Parameter(
     "quiet",
@@ -49,6 +50,11 @@ def tell(text: str) -> None:
     """One line on stderr of what is being done or was done; none with --quiet."""
     if not _quiet:
         complain(text)
+
+
+def told(command: str) -> Callable[[str], None]:
+    """Tells a command's progress, on stderr."""
+    return lambda text: tell(f"{command}: {text}")
 
 
 def guarded(command: Callable[Parameters, None]) -> Callable[Parameters, None]:
@@ -97,6 +103,22 @@ def with_quiet(command: Callable[..., None]) -> Callable[..., None]:
     parameters = [*signature.parameters.values(), QUIET]
     run.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
     return run
+
+
+def of_fields(
+    options: type[OptionsT],
+) -> Callable[[Callable[[OptionsT], None]], Callable[..., None]]:
+    """Makes a command of a function of one dataclass, whose fields are the options."""
+
+    def command(function: Callable[[OptionsT], None]) -> Callable[..., None]:
+        @functools.wraps(function)
+        def run(**given: Any) -> None:
+            function(options(**given))
+
+        run.__signature__ = inspect.signature(options)  # type: ignore[attr-defined]
+        return run
+
+    return command
 
 
 def check_texts(arguments: Mapping[str, Any]) -> None:

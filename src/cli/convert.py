@@ -115,7 +115,11 @@ def convert(
             print(*made.values(), sep="\n", flush=True)
     rows = [done[job] for job in jobs if job in done]
     faults.sort(key=itemgetter("file"))
-    report(rows, faults, sorted(map(str, kept)), json=json)
+    if json:
+        skipped = sorted(map(str, kept))
+        print_json({"converted": rows, "failed": faults, "skipped": skipped})
+    if kept:
+        tell(f"{counted(len(kept), 'file')} skipped: newer than what they were made from")
     if faults:
         raise UserError(
             f"{counted(len(faults), 'file')} of {len(jobs)} could not be converted"
@@ -146,9 +150,7 @@ def plan(files: list[Place], format: str | None) -> Iterator[Job]:
             options.check_file("OUT", out)
         yield Job(sources[0], ((name, out),))
         return
-    formats = list(
-        dict.fromkeys(part.strip().lower() for part in format.split(",") if part.strip())
-    )
+    formats = list(dict.fromkeys(options.parts(format.lower())))
     if not formats:
         raise UsageError(f"--format {format!r} names nothing; choose from {', '.join(EXPORTERS)}")
     for name in formats:
@@ -309,19 +311,6 @@ def writer(
     from ..shared.data.retarget.to_rig import read_target
 
     return read_target(skeleton, mapping=mapping).write
-
-
-def report(
-    rows: list[dict[str, Any]], faults: list[dict[str, str]], kept: list[str], *, json: bool
-) -> None:
-    """The result as JSON on stdout, or what is worth a line on stderr."""
-    if json:
-        import json as writer
-
-        result = {"converted": rows, "failed": faults, "skipped": kept}
-        print(writer.dumps(result, indent=1, ensure_ascii=False))
-    if kept:
-        tell(f"{counted(len(kept), 'file')} skipped: newer than what they were made from")
 
 
 MAX_INDENT = 24  # levels; deeper joints are shown there

@@ -10,7 +10,7 @@ import typer
 
 from ..shared.errors import UsageError
 from . import options
-from .console import flag_of, print_json, tell
+from .console import flag_of, print_json, tell, told
 
 if TYPE_CHECKING:
     from ..shared.evaluation.report.tables import Report
@@ -20,6 +20,11 @@ if TYPE_CHECKING:
 
 QUICK_REPLICATIONS, QUICK_SONGS = 3, 10
 AUDIO_KIND, MODEL = "audio-motion", "starter-audio"
+
+
+def given(**values: Any) -> dict[str, Any]:
+    """Those that are not None, which is left to whoever is asked."""
+    return {name: value for name, value in values.items() if value is not None}
 
 
 @dataclass(frozen=True)
@@ -46,15 +51,15 @@ class Request:
     threads: int | None = None
 
     @classmethod
-    def of(cls, given: Mapping[str, Any]) -> "Request":
+    def of(cls, arguments: Mapping[str, Any]) -> "Request":
         """From the arguments of a command, which may have others besides."""
-        return cls(**{each.name: given[each.name] for each in fields(cls) if each.name in given})
+        names = [each.name for each in fields(cls) if each.name in arguments]
+        return cls(**{name: arguments[name] for name in names})
 
     def amount(self, *names: str) -> dict[str, Any]:
         """Settings that were asked for, by name, and how often."""
         runs = self.replications or (QUICK_REPLICATIONS if self.quick else None)
-        wanted = {name: getattr(self, name) for name in ("seed", *names)} | {"replications": runs}
-        return {name: value for name, value in wanted.items() if value is not None}
+        return given(replications=runs, **{name: getattr(self, name) for name in ("seed", *names)})
 
     @property
     def sampling(self) -> dict[str, Any]:
@@ -138,8 +143,8 @@ def evaluate_audio(
     Example:
       motion-tools evaluate-audio --model starter-audio --data data/pairs --songs music
     """
-    given = {**locals(), "decoder": decoder_checkpoint}
-    show_report(run(model, Request.of(given), out), json=json)
+    request = Request.of({**locals(), "decoder": decoder_checkpoint})
+    show_report(run(model, request, out), json=json)
 
 
 # ---------------------------------------------------------------- running
@@ -190,7 +195,7 @@ def run_text(model: str, request: Request, folder: Path) -> dict[str, Any]:
         settings=TextSettings(**request.amount("num_samples", "control_seeds")),
         device=request.device,
         folder=folder,
-        progress=_progress,
+        progress=told("evaluate"),
         **request.sampling,
     )
 
@@ -210,14 +215,10 @@ def run_audio(model: str, request: Request, folder: Path) -> dict[str, Any]:
         request.data,
         request.songs,
         request.sampling,
-        _progress,
+        told("evaluate"),
     )
     about = {"model": model, "decoder": request.decoder or model}
     return evaluate_audio(context, about=about, folder=folder)
-
-
-def _progress(text: str) -> None:
-    tell(f"evaluate: {text}")
 
 
 # ---------------------------------------------------------------- arguments

@@ -1,6 +1,5 @@
 """`evaluate-…`: the suites of `evaluate` that have flags of their own, a command each."""
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
@@ -8,16 +7,11 @@ import typer
 
 from ..shared.errors import UsageError
 from . import options
-from .console import check_range, tell
-from .evaluate import MODEL, keep_and_show, load_generator, show_report
+from .console import check_range, tell, told
+from .evaluate import MODEL, given, keep_and_show, load_generator, show_report
 
 if TYPE_CHECKING:
     from ..shared.evaluation.suites.sanity import SanityEvaluation
-
-
-def told(suite: str) -> Callable[[str], None]:
-    """Tells a suite's progress, on stderr."""
-    return lambda text: tell(f"evaluate-{suite}: {text}")
 
 
 def check_report(out: Path | None) -> None:
@@ -106,7 +100,7 @@ def evaluate_memory(
         ),
         sampling=sampling,
         about={"model": model, "data": data, "threads": threads},
-        progress=told("memory"),
+        progress=told("evaluate-memory"),
     )
     keep_and_show(report, *filter(None, [out]), json=json)
 
@@ -118,7 +112,7 @@ def numbers(flag: str, text: str, kind: type[Number]) -> tuple[Number, ...]:
         UsageError: one is no number.
     """
     try:
-        return tuple(kind(part) for part in text.split(",") if part.strip())
+        return tuple(map(kind, options.parts(text)))
     except ValueError as error:
         raise UsageError(f"{flag} {text}: give numbers with commas between them") from error
 
@@ -176,15 +170,9 @@ def evaluate_performer(
     Example:
       motion-tools evaluate-performer --data data/pairs --clips data/mine --songs music
     """
-    amount: dict[str, Any] = {
-        "num_songs": num_songs,
-        "replications": replications,
-        "style_songs": style_songs,
-        "edits": edits,
-    }
-    amount = {name: value for name, value in amount.items() if value is not None}
-    amount = (QUICK_DANCES if quick else {}) | amount
-    amount |= {"song_seconds": song_seconds, "track_seconds": track_seconds}
+    amount = (QUICK_DANCES if quick else {}) | given(
+        num_songs=num_songs, replications=replications, style_songs=style_songs, edits=edits
+    )
     options.check_pairs(data)
     options.check_songs(songs)
     if dances is not None and not dances.is_dir():
@@ -192,72 +180,49 @@ def evaluate_performer(
     if amount.get("edits") != 0:
         options.check_data(clips)
     options.check_folder("--out", out)
-    sampling = {"steps": steps, "sampler": sampler, "guidance_scale": guidance_scale}
-    models = {"model": model, "audio_model": audio_model, "other": other, "evaluator": evaluator}
-    from ..shared.io.files import sole_writer
 
-    set_threads(threads)
-    with sole_writer(out):
-        report = run_performer(
-            models, amount | {"seed": seed}, sampling, data, dances, clips, songs, out, device
-        )
-    show_report(report, json=json)
-
-
-def run_performer(
-    models: dict[str, str | None],
-    amount: dict[str, Any],
-    sampling: dict[str, Any],
-    data: str | None,
-    dances: Path | None,
-    clips: str,
-    songs: Path | None,
-    out: Path,
-    device: str,
-) -> dict[str, Any]:
-    """Load, measure, and write the report.
-
-    Raises:
-        UserError: no such model, or data that cannot be used.
-    """
     from ..shared.evaluation.judge.evaluator import Evaluator
     from ..shared.evaluation.report.pages import save_report
     from ..shared.evaluation.samples import open_held_out
-    from ..shared.evaluation.suites.dance import DanceContext, DanceSettings
-    from ..shared.evaluation.suites.dance import evaluate_performer as evaluate
+    from ..shared.evaluation.suites import dance
     from ..shared.evaluation.suites.editing import EditContext, EditSettings
+    from ..shared.io.files import sole_writer
     from ..shared.model.generation.motion_generator import TextToMotion
     from ..shared.pipelines.body import PerformerSettings
     from ..shared.pipelines.song import SongGenerator
 
-    judge = Evaluator.from_pretrained(str(models["evaluator"]))
-    generator = TextToMotion.from_pretrained(str(models["model"]), device=device)
-    other = models["other"]
-    settings = DanceSettings(**amount)
-    context = DanceContext(
-        generator,
-        SongGenerator.from_pretrained(str(models["audio_model"]), device=device),
-        judge,
-        settings,
-        data=data,
-        dances=dances,
-        songs=songs,
-        other=None if not other else TextToMotion.from_pretrained(other, device=device),
-        sampling=PerformerSettings(**sampling),
-        progress=told("performer"),
-    )
-    editing = None
-    if settings.edits:
-        editing = EditContext(
-            generator,
-            open_held_out(clips, Path("runs"), judge.trained_groups),
-            EditSettings(settings.edits, untrained=settings.untrained, seed=settings.seed),
-            progress=told("performer"),
+    set_threads(threads)
+    with sole_writer(out):
+        judge = Evaluator.from_pretrained(evaluator)
+        generator = TextToMotion.from_pretrained(model, device=device)
+        settings = dance.DanceSettings(
+            song_seconds=song_seconds, track_seconds=track_seconds, seed=seed, **amount
         )
-    report = evaluate(context, editing, about=models, folder=out)
-    save_report(report, out)
+        context = dance.DanceContext(
+            generator,
+            SongGenerator.from_pretrained(audio_model, device=device),
+            judge,
+            settings,
+            data=data,
+            dances=dances,
+            songs=songs,
+            other=TextToMotion.from_pretrained(other, device=device) if other else None,
+            sampling=PerformerSettings(steps=steps, sampler=sampler, guidance_scale=guidance_scale),
+            progress=told("evaluate-performer"),
+        )
+        editing = None
+        if settings.edits:
+            editing = EditContext(
+                generator,
+                open_held_out(clips, Path("runs"), judge.trained_groups),
+                EditSettings(settings.edits, untrained=settings.untrained, seed=seed),
+                progress=told("evaluate-performer"),
+            )
+        about = {"model": model, "audio_model": audio_model, "other": other, "evaluator": evaluator}
+        report = dance.evaluate_performer(context, editing, about=about, folder=out)
+        save_report(report, out)
     tell(str(out / "report.html"))
-    return report
+    show_report(report, json=json)
 
 
 # ---------------------------------------------------------------- requests
@@ -289,7 +254,7 @@ def evaluate_requests(
     from ..shared.evaluation.suites.text import LANGUAGES
 
     check_range("seconds", seconds, 1, 20)
-    codes = tuple(code.strip() for code in languages.split(",") if code.strip())
+    codes = tuple(options.parts(languages))
     if unknown := sorted(set(codes) - set(LANGUAGES)):
         raise UsageError(f"--languages {unknown[0]} is unknown; choose from {', '.join(LANGUAGES)}")
     options.check_folder("--out", out)
@@ -309,7 +274,7 @@ def evaluate_requests(
         floors={"untrained": untrained(generator, seed)},
         settings=RequestSettings(wordings=wordings, languages=codes, seconds=seconds, seed=seed),
         about={"model": model, "data": str(data)},
-        progress=told("requests"),
+        progress=told("evaluate-requests"),
     )
     report["title"] = f"What people ask of {model}"
     keep_and_show(report, out / "requests.json", out / "requests.md", json=json)
@@ -347,10 +312,9 @@ def evaluate_sanity(
     Example:
       motion-tools evaluate-sanity --quick --model starter-audio --data data/pairs
     """
-    given = {"num_samples": num_samples, "num_frames": num_frames, "num_steps": num_steps}
-    amount = {
-        k: (QUICK_SANITY if quick else FULL_SANITY)[k] if v is None else v for k, v in given.items()
-    }
+    amount = (QUICK_SANITY if quick else FULL_SANITY) | given(
+        num_samples=num_samples, num_frames=num_frames, num_steps=num_steps
+    )
     options.check_pairs(data)
     options.check_folder("--output-dir", output_dir)
 
@@ -362,7 +326,7 @@ def evaluate_sanity(
         data=data,
         settings=sanity.SanitySettings(seed=seed, **amount),
         about={"model": model, "decoder": decoder_checkpoint or model},
-        progress=told("sanity"),
+        progress=told("evaluate-sanity"),
     )
     files = [output_dir / name for name in ("sanity.json", "sanity.md")]
     keep_and_show(result.report, *files, json=json)
@@ -425,7 +389,8 @@ def evaluate_selection(
         raise UsageError(f"--branch {branch} is unknown; choose from {', '.join(MODELS)}")
     check_report(out)
     wanted: dict[str, Any] = {"steps": steps, "sampler": sampler, "guidance_scale": guidance_scale}
-    wanted |= {"device": device, "progress": told("selection")}
+    wanted |= {"device": device, "progress": told("evaluate-selection")}
+    amount = given(num_candidates=num_candidates, replications=replications, seed=seed)
     model = model or MODELS[branch]
 
     set_threads(threads)
@@ -434,13 +399,8 @@ def evaluate_selection(
         options.check_data(data)
         from ..shared.evaluation.suites.selection import PromptSettings, evaluate_prompts
 
-        prompts = PromptSettings(
-            num_prompts=num_subjects or PromptSettings.num_prompts,
-            num_candidates=num_candidates,
-            replications=replications or PromptSettings.replications,
-            split="unseen" if unseen else "seen",
-            seed=seed,
-        )
+        split = "unseen" if unseen else "seen"
+        prompts = PromptSettings(**given(num_prompts=num_subjects), **amount, split=split)
         report = evaluate_prompts(
             model, data, judge=judge, evaluator=evaluator, settings=prompts, **wanted
         )
@@ -452,19 +412,9 @@ def evaluate_selection(
         from ..shared.evaluation.suites.selection import SongSettings, evaluate_songs
         from ..shared.pipelines.song import shipped_bands
 
-        songs = SongSettings(
-            num_songs=num_subjects or SongSettings.num_songs,
-            num_candidates=num_candidates,
-            replications=replications or SongSettings.replications,
-            seed=seed,
-        )
-        report = evaluate_songs(
-            model,
-            None if data == SYNTHETIC else data,
-            bands=shipped_bands(model),
-            settings=songs,
-            **wanted,
-        )
+        songs = SongSettings(**given(num_songs=num_subjects), **amount)
+        pairs, bands = None if data == SYNTHETIC else data, shipped_bands(model)
+        report = evaluate_songs(model, pairs, bands=bands, settings=songs, **wanted)
     keep_and_show(report, *filter(None, [out]), json=json)
 
 
@@ -528,7 +478,7 @@ def evaluate_space(
         texts=texts,
         settings=SpaceSettings(bars=bars, batch=batch, replications=runs, seed=seed),
         about={"model": model, "data": data, "text": text},
-        progress=told("space"),
+        progress=told("evaluate-space"),
     )
     report["title"] = f"Shared space of {model}"
     keep_and_show(report, out / "space.json", out / "space.md", json=json)

@@ -1,152 +1,49 @@
-"""`generate`: prompts or a song in, motion files out."""
+"""`generate`: prompts or a song in, motion files out; four kinds, each checks, makes and writes."""
 
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-import typer
-
-from ..shared import environment
 from ..shared.errors import UsageError
-from ..shared.io.storage import place
+from . import generate_files as files
 from . import options
-from .console import check_range, counted, print_json, tell
-from .directions import Directions
-from .generate_files import show_scores
-from .generate_request import Request, only_song, produce
+from .console import (
+    Stopwatch,
+    check_range,
+    counted,
+    flag_of,
+    of_fields,
+    print_json,
+    progress_bar,
+    tell,
+)
+from .generate_request import (
+    Request,
+    check_figures,
+    check_runtime,
+    check_song,
+    checked_prompts,
+    checked_tags,
+    refuse_music,
+    refuse_with,
+    warn,
+)
+
+if TYPE_CHECKING:
+    from ..shared.audio.song import Song
+    from ..shared.model.generation.motion_generator import Progress
+    from ..shared.pipelines.edit import Given
+    from ..shared.pipelines.motion_generator import MotionGenerator
+    from ..shared.pipelines.path import DrawnPath
+    from ..shared.pipelines.ranking import ScoreTable
+    from ..shared.pipelines.timeline import Timeline
+
+STAGES = {"path": "frames of the path", "body": "frames of the body"}
 
 
-def generate(
-    prompt: Annotated[
-        list[str] | None, typer.Option(help="What the character does; repeat for several.")
-    ] = None,
-    audio: Annotated[
-        list[Path] | None, typer.Option(help="A song instead: wav, flac, ogg or mp3.")
-    ] = None,
-    body: Annotated[
-        bool,
-        typer.Option(
-            "--body", help="For a song: a whole body that dances as the music says; or --prompt."
-        ),
-    ] = False,
-    figures: Annotated[
-        bool,
-        typer.Option(
-            "--figures/--no-figures",
-            help="For a dance: recorded figures where they show it; or the model dances alone.",
-        ),
-    ] = True,
-    follow_path: Annotated[
-        bool,
-        typer.Option(
-            "--follow-path", help="For a dance: the song makes a path, which the body follows."
-        ),
-    ] = False,
-    style: Annotated[
-        str | None, typer.Option(help='How to move to the song, e.g. "tired, elderly".')
-    ] = None,
-    meter: Annotated[
-        int | None, typer.Option(help="Beats in a bar of the song; 3 or 4, as heard.")
-    ] = None,
-    memory: Annotated[
-        str | None,
-        typer.Option(
-            help="For a song: folder or address of `memory build`: figures to dance, or phrases"
-            " that a --model of train_memory hears."
-        ),
-    ] = None,
-    then: Annotated[
-        list[str] | None, typer.Option(help="What it does next, in the same motion; repeat.")
-    ] = None,
-    timeline: Annotated[
-        Path | None,
-        typer.Option(help="What it does when: YAML or JSON with text, start, end, parts."),
-    ] = None,
-    loop: Annotated[
-        bool, typer.Option("--loop", help="The last frame leads into the first one.")
-    ] = False,
-    path: Annotated[
-        Path | None, typer.Option(help="Where it goes: CSV, JSON or YAML with x, z, t, heading.")
-    ] = None,
-    start: Annotated[
-        Path | None, typer.Option(help="A motion file whose first seconds it begins with.")
-    ] = None,
-    end: Annotated[
-        Path | None, typer.Option(help="A motion file whose last seconds it ends with.")
-    ] = None,
-    keep: Annotated[
-        float | None, typer.Option(help="Seconds of --start and --end that are kept; 1.")
-    ] = None,
-    edit: Annotated[
-        Path | None, typer.Option(help="A motion file of which something is made anew.")
-    ] = None,
-    joints: Annotated[
-        str | None,
-        typer.Option(help="Of --edit, with commas between: left-arm, legs, upper-body, head, …"),
-    ] = None,
-    begin: Annotated[
-        float | None, typer.Option("--from", help="Of --edit: seconds at which that begins.")
-    ] = None,
-    until: Annotated[
-        float | None, typer.Option("--to", help="Of --edit: seconds at which that ends.")
-    ] = None,
-    tag: Annotated[
-        list[str] | None,
-        typer.Option(help="Action label beside the prompt: one for all, or one a prompt."),
-    ] = None,
-    seconds: Annotated[
-        float | None, typer.Option(help="Length of each motion: 4 for a prompt, all of a song.")
-    ] = None,
-    num_samples: Annotated[
-        int, typer.Option(help="Candidates for each prompt or song; the best one is written.")
-    ] = 1,
-    return_all: Annotated[
-        bool, typer.Option("--return-all", help="Write all candidates, the best one first.")
-    ] = False,
-    judge: Annotated[
-        str | None,
-        typer.Option(
-            help="Folder of train_clip, to hold candidates against the prompt; starter has its own."
-        ),
-    ] = None,
-    seed: Annotated[int, typer.Option(help="Same seed, same motions (on the CPU).")] = 0,
-    steps: options.Steps = None,
-    sampler: options.Sampler = None,
-    guidance_scale: options.GuidanceScale = None,
-    foot_lock: Annotated[
-        bool | None,
-        typer.Option("--foot-lock/--no-foot-lock", help="Hold feet still while they stand."),
-    ] = None,
-    post_processing: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="KEY=VALUE",
-            help="Of the body, or of the path of a song alone: apply-smoothing=true, …; repeat.",
-        ),
-    ] = None,
-    format: Annotated[
-        str | None,
-        typer.Option(
-            help="With commas between: bvh, glb, npz, html for a body;"
-            " npz, csv, glb, html, png for the path of a song."
-        ),
-    ] = None,
-    out: Annotated[
-        Path, typer.Option(envvar=environment.OUTPUT_DIR, help="Folder for the files.")
-    ] = Path("outputs"),
-    model: Annotated[str | None, typer.Option(help=options.NAMED)] = None,
-    body_model: Annotated[
-        str | None, typer.Option(help="The same for the body that dances to a song; starter.")
-    ] = None,
-    runtime: Annotated[
-        str | None,
-        typer.Option(
-            help="torch; onnx, for a model that ships or a folder of export-onnx; or auto."
-        ),
-    ] = None,
-    device: options.Device = "auto",
-    threads: options.Threads = None,
-    json: options.Json = False,
-) -> None:
+@of_fields(Request)
+def generate(request: Request) -> None:
     """Turn prompts, or a song, into motion files.
 
     \b
@@ -157,31 +54,348 @@ def generate(
       motion-tools generate --audio song.mp3
       motion-tools generate --audio song.mp3 --prompt "a proud old man dances"
     """
-    directions = Directions(
-        start=start, end=end, keep=keep, edit=edit, joints=joints, begin=begin, until=until,
-        path=path, timeline=timeline, then=then, loop=loop,
-    )  # fmt: skip
-    long = audio or directions.given()  # what is made in several windows
-    check_range("seconds", seconds, *((1.0, 7200.0) if long else (0.3, 60.0)))
-    options.check_folder("--out", out)
-    if judge is not None and num_samples == 1:
+    several_windows = request.audio or request.given()
+    check_range("seconds", request.seconds, *((1.0, 7200.0) if several_windows else (0.3, 60.0)))
+    options.check_folder("--out", request.out)
+    if request.judge is not None and request.num_samples == 1:
         raise UsageError("--judge compares candidates: give --num-samples 2 or more with it")
-    result = produce(
-        Request(
-            prompt or [], only_song(audio), directions, body=body, figures=figures,
-            follow_path=follow_path, style=style, meter=meter,
-            memory=None if memory is None else place(memory), tag=tag, seconds=seconds,
-            num_samples=num_samples, return_all=return_all, judge=judge, seed=seed, steps=steps,
-            sampler=sampler, guidance_scale=guidance_scale, foot_lock=foot_lock,
-            post_processing=post_processing or [], format=format, out=out,
-            model=model, body_model=body_model, runtime=runtime, device=device, threads=threads,
-        )
-    )  # fmt: skip
-    show_scores(result["selection"])
-    if json:
+    if request.audio:
+        check_song(request.audio)
+    result = produce(request)
+    files.show_scores(result["selection"])
+    if request.json:
         print_json(result)
     else:
         print_files(result)
+
+
+def produce(request: Request) -> dict[str, Any]:
+    """Make and write the motions; which lie in which files, and what took how long.
+
+    Raises:
+        UsageError: options that do not go together.
+        UserError: as the model, the song or the files.
+    """
+    check_runtime(request)
+    request.keep_light()
+    if (song := request.song) is not None:
+        from ..shared.audio.sound import check_sound
+
+        if others := [flag for flag in request.given() if flag != "--path"]:
+            raise UsageError(f"{others[0]} does not go with --audio; leave one out")
+        check_sound(song)
+        result = (song_path if request.path_alone else dance)(request, song)
+        if result["tempo"] == 0:
+            tell(f"note: no beat was found in {result['audio']}; the motion keeps its own time")
+        return result
+    dancing = ("body", "body_model", "follow_path")
+    for name in dancing:
+        if getattr(request, name):
+            raise UsageError(
+                f"{flag_of(name)} is about a dance; name a song with --audio, or leave it out"
+            )
+    return controlled(request) if request.given() else prompted(request)
+
+
+# ---------------------------------------------------------------- the four kinds
+
+
+def prompted(request: Request) -> dict[str, Any]:
+    """A motion for each prompt."""
+    refuse_music(request, "--prompt")
+    prompts = checked_prompts(request.prompt)
+    tags, formats = checked_tags(request.tag, len(prompts)), request.body_formats()
+    clock = Stopwatch()
+    generator = request.generator()
+    clock.lap("import")
+    several = request.num_samples > 1
+    _ = generator.text, generator.tower if several else None
+    clock.lap("load")
+    warnings = warn(generator.sentences.scope_warnings(prompts))
+    with progress_bar("motions") as progress:
+        found = generator.candidates(
+            prompts,
+            request.num_samples,
+            return_all=request.return_all,
+            seconds=4.0 if request.seconds is None else request.seconds,
+            tags=tags,
+            sampling=request.sampling,
+            foot_lock=request.foot_lock,
+            progress=progress,
+        )
+    clock.lap("sample")
+    kept = request.kept
+    motions = [motion for result in found for motion in result.ranked()]
+    rows = files.write_motions(motions, kept, formats, request.out)
+    places = [int(place) for result in found for place in result.table.order[:kept]]
+    for at, (row, place, motion) in enumerate(zip(rows, places, motions, strict=True)):
+        warning = warnings[at // kept] or generator.sentences.missed(prompts[at // kept], motion)
+        row |= {"sample": place, "rank": at % kept + 1}
+        row |= {"seed": request.seed, "warning": warning}
+    paged = "html" in formats and len(motions) > 1
+    index = files.write_index(motions, request.out) if paged else None
+    clock.lap("write")
+    judged = zip(prompts, (result.table for result in found), strict=True) if several else ()
+    return told_of_text(request, generator) | results(rows, clock, judged, index)
+
+
+def controlled(request: Request) -> dict[str, Any]:
+    """One motion after a path, a clip, a timeline or several texts."""
+    refuse_music(request, request.given()[0])
+    request.check_directions()
+    texts = [*(request.prompt or ()), *(request.then or ())]
+    texts = checked_prompts(texts) if texts else []
+    tags, formats = checked_tags(request.tag, len(texts)), request.body_formats()
+    clock = Stopwatch()
+    generator = request.generator()
+    clock.lap("import")
+    options: dict[str, Any] = {"sampling": request.sampling, "foot_lock": request.foot_lock}
+    if request.kind in ("path", "timeline"):
+        path, timeline = read_timed(request, texts, tags)
+        texts = timeline.texts
+        clock.lap("read")
+        _ = generator.text
+        clock.lap("load")
+        plain = path is None and not request.loop
+        warnings = warn((generator.sentences if plain else generator.text).scope_warnings(texts))
+        made = generator.timeline(
+            timeline, path=path, seconds=request.seconds, loop=request.loop, **options
+        )
+    else:
+        given = read_given(request)
+        clock.lap("read")
+        _ = generator.text
+        clock.lap("load")
+        warnings = warn(generator.text.scope_warnings(texts)) if texts else []
+        text, tag = (each[0] if each else None for each in (texts, tags))
+        made = generator.edit(given, text, tag=tag, **options)
+    clock.lap("sample")
+    rows = files.write_motions([made.motion], 1, formats, request.out)
+    rows[0] |= {"seed": request.seed, "directions": request.given(), "errors": made.errors}
+    rows[0] |= {"warning": next(filter(None, warnings), None)}
+    clock.lap("write")
+    return told_of_text(request, generator) | results(rows, clock)
+
+
+def song_path(request: Request, audio: Path) -> dict[str, Any]:
+    """The path of a song alone."""
+    no_body = {name: getattr(request, name) for name in ("tag", "foot_lock", "judge", "body_model")}
+    refuse_with("--audio alone", **no_body, path=request.path)
+    if request.follow_path:
+        raise UsageError('--follow-path is about a body: add --prompt "a person dances", or --body')
+    files.check_path_formats(request.format or "")
+    from ..shared.formats.registry import TRAJECTORY_EXPORTERS
+
+    formats = files.checked_formats(request.format or "npz,glb,html", TRAJECTORY_EXPORTERS)
+    generator, song, clock, style = listen(request, audio, bodies=False)
+    made = generator.trajectory(
+        song,
+        seconds=request.seconds,
+        style=style,
+        num_samples=request.num_samples,
+        sampling=request.sampling,
+        stage=staged(clock, {"path": "sample"}),
+    )
+    settings = generator.audio.post_processing
+    rows, index = files.write_trajectories(
+        made, request.kept, audio, formats, request.out, settings
+    )
+    clock.lap("write")
+    selection = [(str(audio), made.table)] if request.num_samples > 1 else []
+    return told_of_song(request, generator, song, rows, index, selection, clock)
+
+
+def dance(request: Request, audio: Path) -> dict[str, Any]:
+    """A body that dances to a song."""
+    drawn = request.path
+    if drawn is not None and request.follow_path:
+        raise UsageError("--path does not go with --follow-path; leave one out")
+    if not request.follow_path:
+        refuse_with("a dance that follows no path (--follow-path)", style=request.style)
+        check_figures(request)
+    elif not request.figures:
+        raise UsageError(
+            "--no-figures does not go with --follow-path, which has none; leave it out"
+        )
+    if not request.prompt:
+        refuse_with("--body alone", tag=request.tag)
+    elif request.body:
+        raise UsageError("--body lets the music say what --prompt says; leave one out")
+    said = checked_prompts(request.prompt) if request.prompt else []
+    prompts: list[str | None] = [*said] or [None]
+    tags = checked_tags(request.tag, len(said)) or [None] * len(prompts)
+    formats, path = request.body_formats(), None
+    if drawn is not None:
+        from ..shared.pipelines.path import read_path
+
+        path = read_path(drawn)
+    generator, song, clock, style = listen(request, audio, bodies=True)
+    warnings = warn(generator.text.scope_warnings(said)) if said else [None]
+    found = [
+        generator.dance(
+            song,
+            prompt,
+            tag=tag,
+            seconds=request.seconds,
+            figures=request.figures,
+            follow_path=request.follow_path,
+            path=path,
+            style=style,
+            num_samples=request.num_samples,
+            sampling=request.sampling,
+            foot_lock=request.foot_lock,
+            stage=staged(clock),
+        )
+        for prompt, tag in zip(prompts, tags, strict=True)
+    ]
+    rows, index = files.write_dances(found, request.kept, audio, song, formats, request.out)
+    for place, row in enumerate(rows):
+        row |= {"seed": request.seed, "warning": warnings[place // request.kept]}
+    clock.lap("write")
+    several = found if request.num_samples > 1 else []
+    selection = [(each.prompt or str(audio), each.table) for each in several]
+    return told_of_song(request, generator, song, rows, index, selection, clock)
+
+
+# ---------------------------------------------------------------- songs
+
+
+def listen(
+    request: Request, audio: Path, *, bodies: bool
+) -> "tuple[MotionGenerator, Song, Stopwatch, Any]":
+    """Models loaded, and the song analysed: generator, song, clock, and what `--style` says."""
+    clock = Stopwatch()
+    from ..shared.audio.song import analyse
+    from ..shared.pipelines.song import styled
+
+    generator = request.generator()
+    clock.lap("import")
+    style = styled(request.style)
+    _ = generator.audio if request.pathed else None
+    if bodies:
+        _ = generator.text, generator.tower if request.num_samples > 1 else None
+        _ = None if request.prompt else generator.prompter
+    clock.lap("load")
+    song = analyse(audio, meter=request.meter)
+    clock.lap("listen")
+    return generator, song, clock, style
+
+
+def staged(clock: Stopwatch, names: dict[str, str] | None = None) -> Any:
+    """A bar for each stage, and its time; under another name where `names` has one."""
+
+    @contextmanager
+    def stage(name: str) -> "Iterator[Progress]":
+        with progress_bar(STAGES[name]) as progress:
+            yield progress
+        clock.lap((names or {}).get(name, name))
+
+    return stage
+
+
+def told_of_text(request: Request, generator: "MotionGenerator") -> dict[str, Any]:
+    """What motions of a prompt were made with."""
+    device = str(generator.text.device)
+    return {"model": request.text_model, "device": device, "seed": request.seed}
+
+
+def results(
+    rows: list[dict[str, Any]],
+    clock: Stopwatch,
+    judged: "Iterable[tuple[str, ScoreTable]]" = (),
+    index: str | None = None,
+) -> dict[str, Any]:
+    """The motions, how several were judged, the page that shows all, what took how long."""
+    return {
+        "motions": rows,
+        "selection": [files.scored(about, table) for about, table in judged],
+        "index": index,
+        "timings": clock.seconds(),
+    }
+
+
+def told_of_song(
+    request: Request,
+    generator: "MotionGenerator",
+    song: "Song",
+    rows: list[dict[str, Any]],
+    index: str | None,
+    selection: list[tuple[str, Any]],
+    clock: Stopwatch,
+) -> dict[str, Any]:
+    """What was heard, what it was made with, and the results."""
+    memory = generator.audio.memory if request.pathed else None
+    dancing = not request.path_alone
+    remembered = None
+    if memory is not None:
+        counts = dict(memory.service.counts)
+        unanswered = counts["timed_out"] + counts["failed"]
+        remembered = {"folder": str(request.memory_folder), **counts, "null": unanswered}
+    return {
+        "audio": str(request.song),
+        "tempo": round(song.beats.tempo, 2),
+        "meter": song.beats.meter,
+        "beats": len(song.beats.beat_times),
+        "model": request.audio_model if request.pathed else None,
+        **({"body-model": request.text_model} if dancing else {}),
+        "runtime": request.runtime or "torch",
+        "device": str(generator.text.device if dancing else generator.audio.device),
+        "seed": request.seed,
+        "memory": remembered,
+        **results(rows, clock, selection, index),
+    }
+
+
+# ---------------------------------------------------------------- clips, paths, timelines
+
+
+def read_timed(
+    request: Request, texts: list[str], tags: list[str | None] | None
+) -> "tuple[DrawnPath | None, Timeline]":
+    """The files that were named, and the prompts one after another.
+
+    Raises:
+        UserError: a file cannot be read or says what cannot be.
+    """
+    from ..shared.pipelines.path import read_path
+    from ..shared.pipelines.timeline import Timeline, read_timeline
+
+    path = None if request.path is None else read_path(request.path)
+    if path is not None and path.times is not None and request.seconds is not None:
+        raise UsageError(
+            f"--seconds does not go with {request.path}, which has times; leave it out"
+        )
+    if request.timeline is not None:
+        return path, read_timeline(request.timeline)
+    return path, Timeline.of(texts, request.seconds, tags)
+
+
+def read_given(request: Request) -> "Given":
+    """What is kept of the clips that were named.
+
+    Raises:
+        UserError: a clip cannot be read, or is shorter than what is asked of it.
+    """
+    from ..shared.data.retarget.read_motion import read_motion
+    from ..shared.pipelines.edit import KEEP, chosen_joints, continue_clips, edit_clip
+
+    names = options.parts(request.joints or "")
+    if request.joints is not None and not names:
+        raise UsageError("--joints is empty; name joints or groups, e.g. --joints left-arm,head")
+    joints = chosen_joints(names) if names else None
+    if request.edit is not None:
+        clip = read_motion(request.edit)
+        return edit_clip(clip, request.begin or 0.0, request.until, joints)
+    start, end = (
+        None if path is None else read_motion(path) for path in (request.start, request.end)
+    )
+    return continue_clips(
+        start,
+        end,
+        keep=KEEP if request.keep is None else request.keep,
+        seconds=request.seconds,
+        rejoin=request.start == request.end,
+    )
 
 
 # ---------------------------------------------------------------- results

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..shared.errors import UsageError
 from .console import is_quiet, note_replaced, progress_bar
+from .options import parts
 
 if TYPE_CHECKING:
     from ..shared.audio.song import Song
@@ -29,7 +30,7 @@ SHOWN = 8  # candidates in the printed table
 
 def checked_formats(text: str, known: Iterable[str]) -> list[str]:
     """The wanted formats, each once, of a table of `formats/registry.py`, before anything slow."""
-    names = list(dict.fromkeys(part.strip().lower() for part in text.split(",") if part.strip()))
+    names = list(dict.fromkeys(parts(text.lower())))
     unknown = [name for name in names if name not in known]
     if unknown or not names:
         raise UsageError(
@@ -47,8 +48,7 @@ def check_path_formats(text: str) -> None:
     """
     from ..shared.formats.registry import EXPORTERS, TRAJECTORY_EXPORTERS
 
-    names = {part.strip().lower() for part in text.split(",")}
-    bodies = sorted(names & (EXPORTERS.keys() - TRAJECTORY_EXPORTERS.keys()))
+    bodies = sorted({*parts(text.lower())} & (EXPORTERS.keys() - TRAJECTORY_EXPORTERS.keys()))
     if bodies:
         raise UsageError(
             f"--format {text!r}: {' and '.join(bodies)} would hold a body, and --audio alone makes"
@@ -150,10 +150,7 @@ def write_trajectories(
 
     first, track = song_stem(audio), _track(audio, made.song)
     names = [first, *(f"{first}-{number + 1}" for number in range(1, kept))]
-    alone = [name for name in formats if name != "html" or kept == 1]
-    page = None if alone == formats else out / "index.html"
-    files = [out / f"{stem}.{name}" for stem in names for name in alone]
-    note_replaced(files if page is None else [*files, page], out)
+    alone, page = _planned(names, formats, out)
     rows = []
     for rank, (path, raw, stem) in enumerate(
         zip(made.trajectories[:kept], made.raw[:kept], names, strict=True)
@@ -181,16 +178,12 @@ def write_dances(
 
     Several share one page, so that the song is in it once; its path is the second value.
     """
-    from ..shared.formats.registry import ending, export_dance, write_dance_page
+    from ..shared.formats.registry import export_dance, write_dance_page
 
     track = _track(audio, song)
     dances = [dance for each in found for dance in each.ranked[:kept]]
     names = dance_stems(audio, [each.prompt for each in found], kept)
-    shared = "html" in formats and len(dances) > 1
-    alone = [name for name in formats if not (shared and name == "html")]
-    page = out / "index.html" if shared else None
-    files = [out / f"{stem}.{ending(name)}" for stem in names for name in alone]
-    note_replaced(files if page is None else [*files, page], out)
+    alone, page = _planned(names, formats, out)
     places = [int(place) for each in found for place in each.table.order[:kept]]
     rows = []
     for at, (dance, stem, place) in enumerate(zip(dances, names, places, strict=True)):
@@ -206,6 +199,18 @@ def write_dances(
         shown = [None if d.error else d.figures for d in dances]
         write_dance_page(motions, paths_shown, page, track, shown)
     return rows, None if page is None else str(page)
+
+
+def _planned(names: list[str], formats: list[str], out: Path) -> tuple[list[str], Path | None]:
+    """The formats that each has a file of its own in, and the page that several share as HTML."""
+    from ..shared.formats.registry import ending
+
+    shared = "html" in formats and len(names) > 1
+    alone = [name for name in formats if not (shared and name == "html")]
+    page = out / "index.html" if shared else None
+    files = [out / f"{stem}.{ending(name)}" for stem in names for name in alone]
+    note_replaced([*files, *filter(None, [page])], out)
+    return alone, page
 
 
 def _track(audio: Path, song: "Song") -> "SongTrack":

@@ -1,64 +1,161 @@
-"""What `generate` was asked, and which of its four kinds that is: each checks, makes and writes."""
+"""What `generate` is asked: its options, and which of them go together."""
 
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from ..shared.environment import TEXT_MODEL, default_audio_model
+import typer
+
+from ..shared import environment
 from ..shared.errors import UsageError
-from ..shared.io.storage import Place
+from ..shared.io.storage import Place, place
 from . import generate_files as files
-from .console import Stopwatch, complain, flag_of, progress_bar, tell
-from .directions import Directions, read_given, read_timed
+from . import options
+from .console import complain, flag_of
 
 if TYPE_CHECKING:
-    from ..shared.audio.song import Song
     from ..shared.model.diffusion import Sampling
-    from ..shared.model.generation.motion_generator import Progress
     from ..shared.pipelines.motion_generator import MotionGenerator
-    from ..shared.pipelines.ranking import ScoreTable
 
-STAGES = {"path": "frames of the path", "body": "frames of the body"}
+DIRECTIONS = (  # what `generate` is told beside prompts
+    "start", "end", "keep", "edit", "joints", "begin", "until", "path", "timeline", "then", "loop"
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Request:
-    """The options of `generate`, their ranges checked; None = not given.
+    """The options of `generate`, a field each; None = not given."""
 
-    Attributes:
-        prompt, audio, directions: what decides the kind.
-        body ... threads: as the options are called.
-    """
-
-    prompt: list[str]
-    audio: Path | None
-    directions: Directions
-    body: bool
-    figures: bool
-    follow_path: bool
-    style: str | None
-    meter: int | None
-    memory: Place | None
-    tag: list[str] | None
-    seconds: float | None
-    num_samples: int
-    return_all: bool
-    judge: str | None
-    seed: int
-    steps: int | None
-    sampler: str | None
-    guidance_scale: float | None
-    foot_lock: bool | None
-    post_processing: list[str]
-    format: str | None
-    out: Path
-    model: str | None
-    body_model: str | None
-    runtime: str | None
-    device: str
-    threads: int | None
+    prompt: Annotated[
+        list[str] | None, typer.Option(help="What the character does; repeat for several.")
+    ] = None
+    audio: Annotated[
+        list[Path] | None, typer.Option(help="A song instead: wav, flac, ogg or mp3.")
+    ] = None
+    body: Annotated[
+        bool,
+        typer.Option(
+            "--body", help="For a song: a whole body that dances as the music says; or --prompt."
+        ),
+    ] = False
+    figures: Annotated[
+        bool,
+        typer.Option(
+            "--figures/--no-figures",
+            help="For a dance: recorded figures where they show it; or the model dances alone.",
+        ),
+    ] = True
+    follow_path: Annotated[
+        bool,
+        typer.Option(
+            "--follow-path", help="For a dance: the song makes a path, which the body follows."
+        ),
+    ] = False
+    style: Annotated[
+        str | None, typer.Option(help='How to move to the song, e.g. "tired, elderly".')
+    ] = None
+    meter: Annotated[
+        int | None, typer.Option(help="Beats in a bar of the song; 3 or 4, as heard.")
+    ] = None
+    memory: Annotated[
+        str | None,
+        typer.Option(
+            help="For a song: folder or address of `memory build`: figures to dance, or phrases"
+            " that a --model of train_memory hears."
+        ),
+    ] = None
+    then: Annotated[
+        list[str] | None, typer.Option(help="What it does next, in the same motion; repeat.")
+    ] = None
+    timeline: Annotated[
+        Path | None,
+        typer.Option(help="What it does when: YAML or JSON with text, start, end, parts."),
+    ] = None
+    loop: Annotated[
+        bool, typer.Option("--loop", help="The last frame leads into the first one.")
+    ] = False
+    path: Annotated[
+        Path | None, typer.Option(help="Where it goes: CSV, JSON or YAML with x, z, t, heading.")
+    ] = None
+    start: Annotated[
+        Path | None, typer.Option(help="A motion file whose first seconds it begins with.")
+    ] = None
+    end: Annotated[
+        Path | None, typer.Option(help="A motion file whose last seconds it ends with.")
+    ] = None
+    keep: Annotated[
+        float | None, typer.Option(help="Seconds of --start and --end that are kept; 1.")
+    ] = None
+    edit: Annotated[
+        Path | None, typer.Option(help="A motion file of which something is made anew.")
+    ] = None
+    joints: Annotated[
+        str | None,
+        typer.Option(help="Of --edit, with commas between: left-arm, legs, upper-body, head, …"),
+    ] = None
+    begin: Annotated[
+        float | None, typer.Option("--from", help="Of --edit: seconds at which that begins.")
+    ] = None
+    until: Annotated[
+        float | None, typer.Option("--to", help="Of --edit: seconds at which that ends.")
+    ] = None
+    tag: Annotated[
+        list[str] | None,
+        typer.Option(help="Action label beside the prompt: one for all, or one a prompt."),
+    ] = None
+    seconds: Annotated[
+        float | None, typer.Option(help="Length of each motion: 4 for a prompt, all of a song.")
+    ] = None
+    num_samples: Annotated[
+        int, typer.Option(help="Candidates for each prompt or song; the best one is written.")
+    ] = 1
+    return_all: Annotated[
+        bool, typer.Option("--return-all", help="Write all candidates, the best one first.")
+    ] = False
+    judge: Annotated[
+        str | None,
+        typer.Option(
+            help="Folder of train_clip, to hold candidates against the prompt; starter has its own."
+        ),
+    ] = None
+    seed: Annotated[int, typer.Option(help="Same seed, same motions (on the CPU).")] = 0
+    steps: options.Steps = None
+    sampler: options.Sampler = None
+    guidance_scale: options.GuidanceScale = None
+    foot_lock: Annotated[
+        bool | None,
+        typer.Option("--foot-lock/--no-foot-lock", help="Hold feet still while they stand."),
+    ] = None
+    post_processing: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="KEY=VALUE",
+            help="Of the body, or of the path of a song alone: apply-smoothing=true, …; repeat.",
+        ),
+    ] = None
+    format: Annotated[
+        str | None,
+        typer.Option(
+            help="With commas between: bvh, glb, npz, html for a body;"
+            " npz, csv, glb, html, png for the path of a song."
+        ),
+    ] = None
+    out: Annotated[
+        Path, typer.Option(envvar=environment.OUTPUT_DIR, help="Folder for the files.")
+    ] = Path("outputs")
+    model: Annotated[str | None, typer.Option(help=options.NAMED)] = None
+    body_model: Annotated[
+        str | None, typer.Option(help="The same for the body that dances to a song; starter.")
+    ] = None
+    runtime: Annotated[
+        str | None,
+        typer.Option(
+            help="torch; onnx, for a model that ships or a folder of export-onnx; or auto."
+        ),
+    ] = None
+    device: options.Device = "auto"
+    threads: options.Threads = None
+    json: options.Json = False
 
     @property
     def sampling(self) -> "Sampling":
@@ -73,6 +170,16 @@ class Request:
         )
 
     @property
+    def song(self) -> Path | None:
+        """The song to move to."""
+        return self.audio[0] if self.audio else None
+
+    @property
+    def memory_folder(self) -> Place | None:
+        """The folder or address of --memory."""
+        return None if self.memory is None else place(self.memory)
+
+    @property
     def kept(self) -> int:
         """Candidates that are written."""
         return self.num_samples if self.return_all else 1
@@ -80,18 +187,18 @@ class Request:
     @property
     def text_model(self) -> str:
         """What makes bodies; an empty name is refused where it is loaded."""
-        name = self.model if self.audio is None else self.body_model
-        return TEXT_MODEL if name is None else name
+        name = self.body_model if self.audio else self.model
+        return environment.TEXT_MODEL if name is None else name
 
     @property
     def audio_model(self) -> str:
         """What makes the paths of songs."""
-        return default_audio_model() if self.model is None else self.model
+        return environment.default_audio_model() if self.model is None else self.model
 
     @property
     def path_alone(self) -> bool:
         """Whether a song is asked for, and no body."""
-        return self.audio is not None and not (self.prompt or self.body)
+        return bool(self.audio) and not (self.prompt or self.body)
 
     @property
     def pathed(self) -> bool:
@@ -104,26 +211,26 @@ class Request:
         from ..shared.pipelines.motion_generator import MotionGenerator
 
         set_threads(self.threads)
+        settings = self.post_processing or []
         return MotionGenerator(
             self.text_model,
             self.audio_model,
             device=self.device,
             runtime=self.runtime or "auto",
-            memory=self.memory,
+            memory=self.memory_folder,
             judge=self.judge,
-            post_processing=[] if self.path_alone else self.post_processing,
-            path_post_processing=self.post_processing if self.path_alone else [],
+            post_processing=[] if self.path_alone else settings,
+            path_post_processing=settings if self.path_alone else [],
         )
 
     def keep_light(self) -> None:
         """Leave PyTorch unimported where onnxruntime does all that is asked."""
-        from ..shared.environment import compute_without_torch
         from ..shared.model.onnx_card import chosen_runtime
 
-        alone = self.audio is None and self.num_samples == 1  # songs and judges are PyTorch's
+        alone = not self.audio and self.num_samples == 1  # songs and judges are PyTorch's
         runtime = self.runtime or "auto"
         if alone and chosen_runtime(runtime, self.text_model, self.device) == "onnx":
-            compute_without_torch()
+            environment.compute_without_torch()
 
     def body_formats(self) -> list[str]:
         """Formats of a body's files."""
@@ -132,304 +239,94 @@ class Request:
 
         return files.checked_formats(wanted, EXPORTERS)
 
+    def given(self) -> list[str]:
+        """The flags of `DIRECTIONS` that were given, as they are typed."""
+        told = ((name, getattr(self, name)) for name in DIRECTIONS)
+        return [flag_of(name) for name, value in told if value not in (None, False, [])]
 
-def produce(request: Request) -> dict[str, Any]:
-    """Make and write the motions; which lie in which files, and what took how long.
+    @property
+    def kind(self) -> str:
+        """edit, ends, path or timeline: what has the say."""
+        if self.edit is not None:
+            return "edit"
+        if self.start is not None or self.end is not None:
+            return "ends"
+        return "timeline" if self.path is None else "path"
 
-    Raises:
-        UsageError: options that do not go together.
-        UserError: as the model, the song or the files.
-    """
-    check_runtime(request)
-    request.keep_light()
-    if request.audio is not None:
-        from ..shared.audio.sound import check_sound
+    def check_directions(self) -> None:
+        """Refuse what does not go together, before anything slow starts.
 
-        replace(request.directions, path=None).refuse("--audio")
-        check_sound(request.audio)
-        made = song_path if request.path_alone else dance
-        result = made(request, request.audio)
-        if result["tempo"] == 0:
-            tell(f"note: no beat was found in {result['audio']}; the motion keeps its own time")
-        return result
-    dancing = ("body", "body_model", "follow_path")
-    for name in dancing:
-        if getattr(request, name):
+        Raises:
+            UsageError: naming the flags.
+        """
+        own = {
+            "edit": ("--edit", "--joints", "--from", "--to"),
+            "ends": ("--start", "--end", "--keep"),
+            "path": ("--path", "--timeline", "--then"),
+            "timeline": ("--timeline", "--then", "--loop"),
+        }[self.kind]
+        given = self.given()
+        chief = next(flag for flag in (*own, *given) if flag in given)
+        for flag in given:
+            if flag in ("--joints", "--from", "--to") and self.edit is None:
+                raise UsageError(f"{flag} says what of a clip is made anew: give --edit CLIP too")
+            if flag == "--keep" and self.kind != "ends":
+                raise UsageError("--keep says how much of a clip stays: give --start or --end too")
+            if flag not in own:
+                raise UsageError(f"{flag} does not go with {chief}; leave one out")
+        if self.edit is not None and given == ["--edit"]:
+            raise UsageError("--edit: say what is made anew, by --joints, or --from and --to")
+        if self.timeline is not None and self.then:
+            raise UsageError("--timeline does not go with --then; leave one out")
+        if self.num_samples > 1:
             raise UsageError(
-                f"{flag_of(name)} is about a dance; name a song with --audio, or leave it out"
+                f"--num-samples does not go with {chief}, which makes one motion; another --seed"
+                " makes another one"
             )
-    return controlled(request) if request.directions.given() else prompted(request)
+        self._check_spans()
+        self._check_prompts(len(self.prompt or ()))
+
+    def _check_spans(self) -> None:
+        if self.seconds is not None and (self.edit is not None or self.timeline is not None):
+            file = "--edit" if self.edit is not None else "--timeline"
+            raise UsageError(
+                f"--seconds does not go with {file}, which says how long it is; leave it out"
+            )
+        if self.begin is not None and self.until is not None and self.until <= self.begin:
+            raise UsageError(
+                f"--to {self.until:g} is not after --from {self.begin:g}; give a later --to"
+            )
+
+    def _check_prompts(self, prompts: int) -> None:
+        if self.timeline is not None and prompts:
+            raise UsageError(
+                "--prompt does not go with --timeline, which has texts of its own; leave one out"
+            )
+        if prompts > 1:
+            raise UsageError(
+                f"--prompt is given {prompts} times beside {self.given()[0]}, which makes one"
+                " motion: --then TEXT says what comes next"
+            )
+        if not prompts and self.timeline is None and self.kind in ("path", "timeline"):
+            raise UsageError('--prompt is missing; give one, e.g. --prompt "a person walks"')
 
 
-# ---------------------------------------------------------------- the four kinds
-
-
-def prompted(request: Request) -> dict[str, Any]:
-    """A motion for each prompt."""
-    refuse_music(request, "--prompt")
-    prompts = checked_prompts(request.prompt)
-    tags, formats = checked_tags(request.tag, len(prompts)), request.body_formats()
-    clock = Stopwatch()
-    generator = request.generator()
-    clock.lap("import")
-    several = request.num_samples > 1
-    _ = generator.text, generator.tower if several else None
-    clock.lap("load")
-    warnings = warn(generator.sentences.scope_warnings(prompts))
-    with progress_bar("motions") as progress:
-        found = generator.candidates(
-            prompts,
-            request.num_samples,
-            return_all=request.return_all,
-            seconds=4.0 if request.seconds is None else request.seconds,
-            tags=tags,
-            sampling=request.sampling,
-            foot_lock=request.foot_lock,
-            progress=progress,
-        )
-    clock.lap("sample")
-    kept = request.kept
-    motions = [motion for result in found for motion in result.ranked()]
-    rows = files.write_motions(motions, kept, formats, request.out)
-    places = [int(place) for result in found for place in result.table.order[:kept]]
-    for at, (row, place, motion) in enumerate(zip(rows, places, motions, strict=True)):
-        warning = warnings[at // kept] or generator.sentences.missed(prompts[at // kept], motion)
-        row |= {"sample": place, "rank": at % kept + 1}
-        row |= {"seed": request.seed, "warning": warning}
-    paged = "html" in formats and len(motions) > 1
-    index = files.write_index(motions, request.out) if paged else None
-    clock.lap("write")
-    judged = zip(prompts, (result.table for result in found), strict=True) if several else ()
-    return told_of_text(request, generator) | results(rows, clock, judged, index)
-
-
-def controlled(request: Request) -> dict[str, Any]:
-    """One motion after a path, a clip, a timeline or several texts."""
-    directions = request.directions
-    refuse_music(request, directions.given()[0])
-    directions.check(len(request.prompt), num_samples=request.num_samples, seconds=request.seconds)
-    texts = [*request.prompt, *(directions.then or ())]
-    texts = checked_prompts(texts) if texts else []
-    tags, formats = checked_tags(request.tag, len(texts)), request.body_formats()
-    clock = Stopwatch()
-    generator = request.generator()
-    clock.lap("import")
-    options: dict[str, Any] = {"sampling": request.sampling, "foot_lock": request.foot_lock}
-    if directions.kind in ("path", "timeline"):
-        path, timeline = read_timed(directions, texts, tags, request.seconds)
-        texts = timeline.texts
-        clock.lap("read")
-        _ = generator.text
-        clock.lap("load")
-        plain = path is None and not directions.loop
-        warnings = warn((generator.sentences if plain else generator.text).scope_warnings(texts))
-        made = generator.timeline(
-            timeline, path=path, seconds=request.seconds, loop=directions.loop, **options
-        )
-    else:
-        given = read_given(directions, request.seconds)
-        clock.lap("read")
-        _ = generator.text
-        clock.lap("load")
-        warnings = warn(generator.text.scope_warnings(texts)) if texts else []
-        text, tag = (each[0] if each else None for each in (texts, tags))
-        made = generator.edit(given, text, tag=tag, **options)
-    clock.lap("sample")
-    rows = files.write_motions([made.motion], 1, formats, request.out)
-    rows[0] |= {"seed": request.seed, "directions": directions.given(), "errors": made.errors}
-    rows[0] |= {"warning": next(filter(None, warnings), None)}
-    clock.lap("write")
-    return told_of_text(request, generator) | results(rows, clock)
-
-
-def song_path(request: Request, audio: Path) -> dict[str, Any]:
-    """The path of a song alone."""
-    no_body = {name: getattr(request, name) for name in ("tag", "foot_lock", "judge", "body_model")}
-    refuse_with("--audio alone", **no_body, path=request.directions.path)
-    if request.follow_path:
-        raise UsageError('--follow-path is about a body: add --prompt "a person dances", or --body')
-    files.check_path_formats(request.format or "")
-    from ..shared.formats.registry import TRAJECTORY_EXPORTERS
-
-    formats = files.checked_formats(request.format or "npz,glb,html", TRAJECTORY_EXPORTERS)
-    generator, song, clock, style = listen(request, audio, bodies=False)
-    made = generator.trajectory(
-        song,
-        seconds=request.seconds,
-        style=style,
-        num_samples=request.num_samples,
-        sampling=request.sampling,
-        stage=staged(clock, {"path": "sample"}),
-    )
-    settings = generator.audio.post_processing
-    rows, index = files.write_trajectories(
-        made, request.kept, audio, formats, request.out, settings
-    )
-    clock.lap("write")
-    selection = [(str(audio), made.table)] if request.num_samples > 1 else []
-    return told_of_song(request, generator, song, rows, index, selection, clock)
-
-
-def dance(request: Request, audio: Path) -> dict[str, Any]:
-    """A body that dances to a song."""
-    drawn = request.directions.path
-    if drawn is not None and request.follow_path:
-        raise UsageError("--path does not go with --follow-path; leave one out")
-    if not request.follow_path:
-        refuse_with("a dance that follows no path (--follow-path)", style=request.style)
-        check_figures(request)
-    elif not request.figures:
-        raise UsageError(
-            "--no-figures does not go with --follow-path, which has none; leave it out"
-        )
-    if not request.prompt:
-        refuse_with("--body alone", tag=request.tag)
-    elif request.body:
-        raise UsageError("--body lets the music say what --prompt says; leave one out")
-    said = checked_prompts(request.prompt) if request.prompt else []
-    prompts: list[str | None] = [*said] or [None]
-    tags = checked_tags(request.tag, len(said)) or [None] * len(prompts)
-    formats, path = request.body_formats(), None
-    if drawn is not None:
-        from ..shared.pipelines.path import read_path
-
-        path = read_path(drawn)
-    generator, song, clock, style = listen(request, audio, bodies=True)
-    warnings = warn(generator.text.scope_warnings(said)) if said else [None]
-    found = [
-        generator.dance(
-            song,
-            prompt,
-            tag=tag,
-            seconds=request.seconds,
-            figures=request.figures,
-            follow_path=request.follow_path,
-            path=path,
-            style=style,
-            num_samples=request.num_samples,
-            sampling=request.sampling,
-            foot_lock=request.foot_lock,
-            stage=staged(clock),
-        )
-        for prompt, tag in zip(prompts, tags, strict=True)
-    ]
-    rows, index = files.write_dances(found, request.kept, audio, song, formats, request.out)
-    for place, row in enumerate(rows):
-        row |= {"seed": request.seed, "warning": warnings[place // request.kept]}
-    clock.lap("write")
-    several = found if request.num_samples > 1 else []
-    selection = [(each.prompt or str(audio), each.table) for each in several]
-    return told_of_song(request, generator, song, rows, index, selection, clock)
-
-
-# ---------------------------------------------------------------- songs
-
-
-def listen(
-    request: Request, audio: Path, *, bodies: bool
-) -> "tuple[MotionGenerator, Song, Stopwatch, Any]":
-    """Models loaded, and the song analysed: generator, song, clock, and what `--style` says."""
-    clock = Stopwatch()
-    from ..shared.audio.song import analyse
-    from ..shared.pipelines.song import styled
-
-    generator = request.generator()
-    clock.lap("import")
-    style = styled(request.style)
-    _ = generator.audio if request.pathed else None
-    if bodies:
-        _ = generator.text, generator.tower if request.num_samples > 1 else None
-        _ = None if request.prompt else generator.prompter
-    clock.lap("load")
-    song = analyse(audio, meter=request.meter)
-    clock.lap("listen")
-    return generator, song, clock, style
-
-
-def staged(clock: Stopwatch, names: dict[str, str] | None = None) -> Any:
-    """A bar for each stage, and its time; under another name where `names` has one."""
-
-    @contextmanager
-    def stage(name: str) -> "Iterator[Progress]":
-        with progress_bar(STAGES[name]) as progress:
-            yield progress
-        clock.lap((names or {}).get(name, name))
-
-    return stage
-
-
-def told_of_text(request: Request, generator: "MotionGenerator") -> dict[str, Any]:
-    """What motions of a prompt were made with."""
-    device = str(generator.text.device)
-    return {"model": request.text_model, "device": device, "seed": request.seed}
-
-
-def results(
-    rows: list[dict[str, Any]],
-    clock: Stopwatch,
-    judged: "Iterable[tuple[str, ScoreTable]]" = (),
-    index: str | None = None,
-) -> dict[str, Any]:
-    """The motions, how several were judged, the page that shows all, what took how long."""
-    return {
-        "motions": rows,
-        "selection": [files.scored(about, table) for about, table in judged],
-        "index": index,
-        "timings": clock.seconds(),
-    }
-
-
-def told_of_song(
-    request: Request,
-    generator: "MotionGenerator",
-    song: "Song",
-    rows: list[dict[str, Any]],
-    index: str | None,
-    selection: list[tuple[str, Any]],
-    clock: Stopwatch,
-) -> dict[str, Any]:
-    """What was heard, what it was made with, and the results."""
-    memory = generator.audio.memory if request.pathed else None
-    dancing = not request.path_alone
-    remembered = None
-    if memory is not None:
-        counts = dict(memory.service.counts)
-        unanswered = counts["timed_out"] + counts["failed"]
-        remembered = {"folder": str(request.memory), **counts, "null": unanswered}
-    return {
-        "audio": str(request.audio),
-        "tempo": round(song.beats.tempo, 2),
-        "meter": song.beats.meter,
-        "beats": len(song.beats.beat_times),
-        "model": request.audio_model if request.pathed else None,
-        **({"body-model": request.text_model} if dancing else {}),
-        "runtime": request.runtime or "torch",
-        "device": str(generator.text.device if dancing else generator.audio.device),
-        "seed": request.seed,
-        "memory": remembered,
-        **results(rows, clock, selection, index),
-    }
-
-
-def only_song(paths: list[Path] | None) -> Path | None:
-    """The one song that was named, None without; refused before anything slow starts."""
-    if not paths:
-        return None
+def check_song(paths: list[Path]) -> None:
+    """Refuse several songs, and one that is no file, before anything slow starts."""
     if len(paths) > 1:
         raise UsageError(f"--audio is given {len(paths)} times; name one song")
-    (path,) = paths
+    path = paths[0]
     if path.is_dir():
         raise UsageError(f"--audio {path} is a folder; name a wav, flac, ogg or mp3 file in it")
     if not path.is_file():
         raise UsageError(f"--audio {path}: no such file; name a wav, flac, ogg or mp3 file")
-    return path
 
 
 def check_runtime(request: Request) -> None:
     """Refuse an unknown runtime, a device or memory that it has not, and what is no memory."""
     from ..shared.model.onnx_card import RUNTIMES
 
-    runtime, device, memory = request.runtime, request.device, request.memory
+    runtime, device, memory = request.runtime, request.device, request.memory_folder
     if runtime not in (None, *RUNTIMES):
         raise UsageError(f"--runtime {runtime} is unknown; choose from {', '.join(RUNTIMES)}")
     if runtime == "onnx" and device not in ("auto", "cpu"):
@@ -440,16 +337,14 @@ def check_runtime(request: Request) -> None:
         raise UsageError(f"--memory {memory} is no folder; make one with `memory build`")
 
 
-# ---------------------------------------------------------------- arguments
-
-
 def check_figures(request: Request) -> None:
     """Refuse a memory that holds no figures to dance."""
     from ..shared.memory.figures import is_figure_memory
 
-    if request.memory is not None and not is_figure_memory(request.memory):
+    folder = request.memory_folder
+    if folder is not None and not is_figure_memory(folder):
         raise UsageError(
-            f"--memory {request.memory} holds no figures; make some with `memory build --figures`,"
+            f"--memory {folder} holds no figures; make some with `memory build --figures`,"
             " or give --follow-path for a memory of phrases"
         )
 

@@ -1,5 +1,5 @@
 """What can be named in `--model`: `models` lists it and exchanges it with a hub, `calibrate` tries
-it, `export-onnx` writes it as ONNX."""
+it, `export-onnx` writes it as ONNX, `studio` as a page that makes motions in a browser."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -11,7 +11,7 @@ import typer
 from ..shared import environment
 from ..shared.errors import UsageError, UserError
 from . import options
-from .console import guarded, print_columns, print_json, tell, with_quiet
+from .console import guarded, print_columns, print_json, tell, told, with_quiet
 
 COLUMNS = ("name", "kind", "trained", "licence", "size", "languages", "description")
 
@@ -173,6 +173,37 @@ def export_onnx(
         print(*files, sep="\n")
 
 
+def studio(
+    out: Annotated[
+        Path, typer.Option(help="The page: an .html file, or a folder for its index.html.")
+    ] = Path("outputs/studio.html"),
+    model: Annotated[str, typer.Option(help=options.NAMED)] = environment.TEXT_MODEL,
+    no_open: Annotated[bool, typer.Option("--no-open", help="Only write it.")] = False,
+    json: options.Json = False,
+) -> None:
+    """Write one page with the model inside, and open it in the browser; it needs no server.
+
+    \b
+    Examples:
+      motion-tools studio
+      motion-tools studio --out public/ --no-open
+    """
+    from ..shared.studio.page import page_file, write_studio
+
+    options.check_file("--out", page_file(out))
+    path = write_studio(out, model)
+    if json:
+        print_json({"file": str(path), "bytes": path.stat().st_size})
+    else:
+        print(path)
+    if no_open:
+        return
+    import webbrowser
+
+    if not webbrowser.open(path.resolve().as_uri()):
+        tell(f"no browser here to open it with; open {path} in one")
+
+
 def calibrate(
     model: Annotated[Path, typer.Option(help="Folder of `train generation`; its scope is kept.")],
     data: Annotated[Path, typer.Option(help="Folder written by `prepare`, as it was trained on.")],
@@ -211,16 +242,18 @@ def calibrate(
         raise UserError(f"{model} has no scope.json to write to; train it again with this version")
     clips = PreparedData.open(data)
 
-    def progress(what: str) -> None:
-        tell(f"calibrate: {what}")
-
-    judge = recognizer_of(clips, seed, progress)
+    judge = recognizer_of(clips, seed, told("calibrate"))
     checked = tuple(sorted(judge.necessary))
     generator.scope = replace(
         generator.scope, gestures=gestures(clips), arms=arm_actions(clips), checked=checked
     )
     found = action_reliability(
-        SentenceGenerator(generator), clips, judge, tries=tries, seed=seed, progress=progress
+        SentenceGenerator(generator),
+        clips,
+        judge,
+        tries=tries,
+        seed=seed,
+        progress=told("calibrate"),
     )
     replace(generator.scope, reliability=found).save_pretrained(model)
     if json:

@@ -94,6 +94,11 @@ Decoder = Annotated[
 ReportFile = Annotated[Path | None, typer.Option(help="Report file: .json, or .md for tables.")]
 
 
+def parts(text: str) -> list[str]:
+    """What is named with commas between."""
+    return [part.strip() for part in text.split(",") if part.strip()]
+
+
 def check_scheduler(scheduler: str | None) -> None:
     """As `jobs.check_scheduler`, which is imported only where there is one to check."""
     if scheduler is not None:

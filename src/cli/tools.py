@@ -1,9 +1,12 @@
-"""The command line. Each command lives in its own file: it parses, calls, and prints.
+"""The command line. Each command lives in a file of its subject: it parses, calls, and prints;
+the stages of `train` have the flags and settings of their own files.
 
 Nothing heavy is imported here: `--help` and shell completion answer at once.
 """
 
 import sys
+from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
 from typing import Annotated
 
@@ -23,13 +26,11 @@ from .evaluate_suites import (
 from .features import features
 from .generate import generate
 from .memory import memory
-from .models import calibrate, export_onnx, models
+from .models import calibrate, export_onnx, models, studio
 from .options import Command, SuiteCommand
 from .prepare import prepare, prepare_audio
 from .shape_check import shape_check
 from .stream import stream
-from .studio import studio
-from .train import train
 
 PROGRAM = "motion-tools"
 
@@ -43,6 +44,38 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
     epilog=f'Start here:  {PROGRAM} generate --prompt "a person waves"',
 )
+
+STAGES = {
+    "clip": ("train_clip", "The text tower and the motion tower that share one space."),
+    "generation": ("train_generation", "Motion from text, behind the text tower of `clip`."),
+    "evaluator": ("train_evaluator", "The independent judge that `evaluate` asks."),
+    "text": ("train_text", "A text tower that bears wordings it never saw."),
+    "action": ("train_action", "A new action for a trained text model, from a few clips."),
+    "distill": ("train_distill", "A text model of one or a few steps, from one of many."),
+    "audio": ("train_audio", "Paths from music."),
+    "decoder": ("train_decoder", "The decoder behind `audio`."),
+    "finetune-e2e": ("finetune_e2e", "`audio` and `decoder` through the sampler, as one."),
+    "audio-tower": ("train_audio_tower", "Sound in the space of `clip`."),
+    "memory": ("train_memory", "An audio model that hears a memory."),
+}
+
+train = typer.Typer(
+    no_args_is_help=True,
+    help="Train a stage on your own data: settings are KEY=VALUE, Ctrl-C saves.",
+    epilog="Example:  motion-tools train clip --data data/mine --output runs/clip",
+    rich_markup_mode=None,
+)
+
+
+def stage(module: str) -> Callable[[typer.Context], None]:
+    """The command that hands its arguments, --help among them, to a stage's own."""
+
+    def run(context: typer.Context) -> None:
+        """All of it is the stage's to read."""
+        app = import_module(f"..train.{module}", __package__).app
+        app(context.args, prog_name=context.command_path)
+
+    return run
 
 
 def show_version(wanted: bool) -> None:
@@ -90,6 +123,9 @@ for command in (
 ):
     kind = SuiteCommand if command is evaluate else Command
     app.command(cls=kind)(with_quiet(guarded(command)))
+UNREAD = {"ignore_unknown_options": True, "allow_extra_args": True, "help_option_names": []}
+for name, (module, about) in STAGES.items():
+    train.command(name, help=about, context_settings=UNREAD)(guarded(stage(module)))
 app.add_typer(memory, name="memory")
 app.add_typer(models, name="models")
 app.add_typer(train, name="train")

@@ -6,10 +6,9 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from src.cli import evaluate_suites
 from src.cli.tools import app
 from src.shared.evaluation.report.tables import report_data
-from src.shared.evaluation.suites.dance import DanceSettings
+from src.shared.evaluation.suites import dance
 
 
 @pytest.mark.parametrize(
@@ -27,7 +26,7 @@ from src.shared.evaluation.suites.dance import DanceSettings
 def test_wrong_ones_are_usage_errors(
     arguments: list[str], message: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(evaluate_suites, "run_performer", lambda *a, **k: pytest.fail("it began"))
+    monkeypatch.setattr(dance, "evaluate_performer", lambda *a, **k: pytest.fail("it began"))
     result = CliRunner().invoke(app, ["evaluate-performer", *arguments])
     assert result.exit_code == 2 and message in result.output
 
@@ -35,16 +34,16 @@ def test_wrong_ones_are_usage_errors(
 def test_right_ones_reach_the_harness(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     asked: list[Any] = []
 
-    def run(*arguments: Any) -> dict[str, Any]:
-        asked.extend(arguments)
-        return report_data("performer", {"model": "starter"}, {}, [], [])
+    def run(*arguments: Any, about: dict[str, Any], folder: Path) -> dict[str, Any]:
+        asked.extend((*arguments, about))
+        return report_data("performer", {"model": about["model"]}, {}, [], [])
 
-    monkeypatch.setattr(evaluate_suites, "run_performer", run)
+    monkeypatch.setattr(dance, "evaluate_performer", run)
     flags = ["--quick", "--edits", "0", "--steps", "5", "--seed", "3", "--out", str(tmp_path)]
     result = CliRunner().invoke(app, ["evaluate-performer", *flags])
     assert result.exit_code == 0 and "Evaluation of starter" in result.output
-    models, amount, sampling = asked[:3]
-    assert models["model"] == "starter" and models["other"] is None
-    settings = DanceSettings(**amount)
+    context, editing, models = asked
+    assert models["model"] == "starter" and models["other"] is None and context.other is None
+    settings = context.settings
     assert (settings.num_songs, settings.replications, settings.seed) == (4, 1, 3)
-    assert settings.edits == 0 and sampling["steps"] == 5
+    assert settings.edits == 0 and editing is None and context.sampling.steps == 5

@@ -2,14 +2,16 @@
 
 import ast
 import inspect
+import sys
 from typing import Any
 
+import pytest
 import typer
 from typer.main import get_command
 
 from src.cli.evaluate import Request
-from src.cli.tools import app
-from src.cli.train import STAGES
+from src.cli.generate_request import Request as GenerateRequest
+from src.cli.tools import STAGES, app
 
 FLAGS = {
     "generate": (
@@ -152,15 +154,21 @@ def test_flags_are_used() -> None:
             assert name in body and name in source, f"{function.__name__}: {name}"
 
 
-def test_every_field_of_an_evaluation_request_is_read() -> None:
+@pytest.mark.parametrize(
+    ("request_of", "modules"),
+    [
+        (Request, ["src.cli.evaluate"]),
+        (GenerateRequest, ["src.cli.generate", "src.cli.generate_request"]),
+    ],
+)
+def test_every_field_of_a_request_is_read(request_of: Any, modules: list[str]) -> None:
     """By its own name, or by one in a list of names; that it is declared is not enough."""
-    tree = ast.parse(inspect.getsource(inspect.getmodule(Request)))  # type: ignore[arg-type]
-    flags = next(n for n in tree.body if isinstance(n, ast.FunctionDef) and n.name == "evaluate")
     read = {
         node.attr if isinstance(node, ast.Attribute) else node.value
-        for part in tree.body
-        if part is not flags
+        for module in modules
+        for part in ast.parse(inspect.getsource(sys.modules[module])).body
+        if getattr(part, "name", "") != "evaluate"
         for node in ast.walk(part)
         if isinstance(node, ast.Attribute | ast.Constant)
     }
-    assert not set(Request.__dataclass_fields__) - read
+    assert not set(request_of.__dataclass_fields__) - read

@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from typer.testing import CliRunner
 
+from src.cli import generate as command
 from src.cli import generate_files
-from src.cli import generate_request as command
 from src.cli.tools import app
 from src.shared.errors import UsageError
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from typer.main import get_command
 
-from src.cli.train import STAGES
+from src.cli.tools import STAGES
 
 ROOT = Path(__file__).parents[2]
 COMMON = {"--config", "--data", "--output", "--num-processes", "--resume"}
