@@ -34,7 +34,7 @@ from src.shared.model.clip.core import MotionClip
 from src.shared.model.generation.denoiser import MotionDenoiser
 from src.train.task import to_device
 from src.train.train_audio import audio_losses
-from src.train.train_generation import GuidedDenoiser
+from src.train.train_generation import Conditions, GuidedDenoiser
 
 TOKENS, TAGS = 32, 40
 HEAD = (
@@ -70,7 +70,8 @@ def text_step(profile: str, batch: int, frames: int, device: torch.device) -> tu
     def loss(network: nn.Module) -> torch.Tensor:
         with torch.no_grad():
             text = tower(ids, torch.ones_like(ids))
-        found = network(motion, steps, text, tag, mask, drop, known, provenance)
+        told = Conditions(steps, tag, mask, drop, known, provenance)
+        found = network(motion, text, told)
         return (found.float() - clean).square().mean()
 
     return module, loss

@@ -311,7 +311,7 @@ class LossWeights(Config):
 
 
 class ConstraintShares(Config):
-    """How often what is known in training (src/train/constraints.py); shares of clips."""
+    """How often what is known in training (src/train/train_generation.py); shares of clips."""
 
     free: float = Field(0.5, ge=0, le=1)  # no entry at all; those below are of what remains
     root: float = Field(0.55, ge=0, le=1)  # the path and the heading

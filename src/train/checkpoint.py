@@ -11,6 +11,7 @@ import math
 import os
 import shutil
 import sys
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -25,8 +26,6 @@ from ..shared.config_schema import TrainConfig
 from ..shared.errors import UsageError, UserError
 from ..shared.io.files import sha256_file, unfinished, why_not_written, write_json
 from .sharding import placed_as, whole
-
-_FILES = ("model", "ema", "optimizer")
 
 
 @dataclass(frozen=True)
@@ -76,27 +75,27 @@ def _contiguous(tensors: dict[str, Tensor]) -> dict[str, Tensor]:
 
 
 def save_checkpoint(
-    root: Path,
-    *,
-    model: dict[str, Tensor],
-    ema: dict[str, Tensor],
-    optimizer: dict[str, Tensor],
-    state: dict[str, Any],
-    keep: int,
+    root: Path, tensors: Mapping[str, dict[str, Tensor]], *, state: dict[str, Any], keep: int
 ) -> Path:
     """Write `root/step-N` for `state["step"]` and remove all but the newest `keep`.
+
+    Args:
+        root: folder of the checkpoints.
+        tensors: those of each file: model, ema, optimizer.
+        state: the plain data of state.json.
+        keep: number of checkpoints.
 
     Raises:
         UserError: the folder cannot be written.
     """
     target = root / f"step-{state['step']:08d}"
     partial = unfinished(target)
-    contents = (model, ema, optimizer)
+    files = {f"{name}.safetensors": own for name, own in tensors.items()}
     try:
         partial.mkdir(parents=True)
-        for name, tensors in zip(_FILES, contents, strict=True):
-            save_file(_contiguous(tensors), partial / f"{name}.safetensors")
-        hashes = {f"{n}.safetensors": sha256_file(partial / f"{n}.safetensors") for n in _FILES}
+        for name, own in files.items():
+            save_file(_contiguous(own), partial / name)
+        hashes = {name: sha256_file(partial / name) for name in files}
         write_json(partial / "state.json", {**state, "sha256": hashes})
         shutil.rmtree(target, ignore_errors=True)
         os.replace(partial, target)

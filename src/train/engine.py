@@ -35,8 +35,8 @@ from .checkpoint import (
     run_identity,
     save_checkpoint,
 )
-from .processes import Interrupted, InterruptGuard
-from .run_log import VALIDATION, RunLog, console
+from .processes import Interrupted, InterruptGuard, answering
+from .run_log import VALIDATION, RunLog, announce
 from .sharding import is_asked_for, local, placed_as, shard, whole
 from .task import Part, Task, mix_seed, to_device
 
@@ -196,15 +196,16 @@ class Trainer(Generic[ConfigT]):
         sharded = is_asked_for(config.fsdp_version)
         self.accelerator = make_accelerator(config, compute)
         processes = self.accelerator.num_processes
-        self._say(f"computing on {compute}; {threads} CPU threads; {processes} process(es)")
+        announce(f"computing on {compute}; {threads} CPU threads; {processes} process(es)")
         with self.accelerator.main_process_first():
             torch.manual_seed(mix_seed("weights", config.seed))
             self.task = build(config)
+        self.task.figures = {}
         self.module = self.task.module.to(self.accelerator.device)
         self.task.to(self.accelerator.device)
         start = copy.deepcopy(self.module)
         if sharded and processes > 1:
-            self._say(f"FSDP2: weights, gradients and optimizer in {processes} shards")
+            announce(f"FSDP2: weights, gradients and optimizer in {processes} shards")
             shard(self.module, self.accelerator.device)
         self.ema = ExponentialMovingAverage(self.module, config.ema_decay, start)
         rates = self.task.learning_rates
@@ -230,9 +231,9 @@ class Trainer(Generic[ConfigT]):
         start = self._restore()
         if start is None:
             return
-        main = self.accelerator.is_main_process
+        main, guard = self.accelerator.is_main_process, InterruptGuard()
         with (
-            InterruptGuard() as guard,
+            answering(guard),
             RunLog(
                 self.output,
                 start=start,
@@ -348,7 +349,7 @@ class Trainer(Generic[ConfigT]):
         self._validate(step, log)
         if step == self.config.steps or not self._has_converged():
             return False
-        self._say(f"no better for long: stopping early at step {step}")
+        announce(f"no better for long: stopping early at step {step}")
         self._save(step)
         return True
 
@@ -358,8 +359,8 @@ class Trainer(Generic[ConfigT]):
         if self.accelerator.is_main_process:
             torch.manual_seed(mix_seed("validation", self.config.seed))
             with torch.no_grad():
-                values = self.task.validation(self.ema.module)
-                log.write(step, {VALIDATION + key: value for key, value in values.items()})
+                self.task.figures = figures = self.task.validation(self.ema.module)
+                log.write(step, {VALIDATION + key: value for key, value in figures.items()})
                 self._export(self.output / "samples" / f"{step:08d}")
         self.accelerator.wait_for_everyone()
 
@@ -368,12 +369,12 @@ class Trainer(Generic[ConfigT]):
         try:
             self.task.export_samples(self.ema.module, folder)
         except Exception as error:
-            self._say(f"warning: no samples in {folder}: {type(error).__name__}: {error}")
+            announce(f"warning: no samples in {folder}: {type(error).__name__}: {error}")
 
     # ------------------------------------------------------------ saving and resuming
 
     def _identity(self) -> dict[str, Any]:
-        return run_identity(self.config, self.task.identity(), self.accelerator.num_processes)
+        return run_identity(self.config, self.task.identity, self.accelerator.num_processes)
 
     def _save(self, step: int) -> None:
         """Write a checkpoint, unless the loss since the last log line is not finite."""
@@ -388,14 +389,9 @@ class Trainer(Generic[ConfigT]):
             state["sums"] = list(sums.items())  # in their order, which JSON objects here lose
             if self.accelerator.scaler is not None:
                 state["scaler"] = self.accelerator.scaler.state_dict()
-            save_checkpoint(
-                self.output / "checkpoints",
-                model=model,
-                ema=self.ema.module.state_dict(),
-                optimizer=optimizer,
-                state=state,
-                keep=self.config.keep_checkpoints,
-            )
+            tensors = {"model": model, "ema": self.ema.module.state_dict(), "optimizer": optimizer}
+            keep = self.config.keep_checkpoints
+            save_checkpoint(self.output / "checkpoints", tensors, state=state, keep=keep)
         self.accelerator.wait_for_everyone()
 
     def _restore(self) -> int | None:
@@ -403,7 +399,7 @@ class Trainer(Generic[ConfigT]):
         checkpoint = latest_checkpoint(self.output / "checkpoints")
         if checkpoint is None:
             if self.resume:
-                self._say(f"nothing to resume in {self.output}: starting at step 0")
+                announce(f"nothing to resume in {self.output}: starting at step 0")
             if self.accelerator.is_main_process:
                 self.output.mkdir(parents=True, exist_ok=True)
                 write_json(self.output / "run.json", self._identity())
@@ -411,7 +407,7 @@ class Trainer(Generic[ConfigT]):
             return 0
         require_same_run(checkpoint, self._identity())
         if self._is_finished(checkpoint.step):
-            self._say(f"{self.output} is finished ({checkpoint.step} steps): nothing to do")
+            announce(f"{self.output} is finished ({checkpoint.step} steps): nothing to do")
             return None
         if checkpoint.step > self.config.steps:
             raise UsageError(
@@ -419,7 +415,7 @@ class Trainer(Generic[ConfigT]):
                 " already is; raise steps"
             )
         self._load(checkpoint)
-        self._say(f"resuming {self.output} after step {checkpoint.step}")
+        announce(f"resuming {self.output} after step {checkpoint.step}")
         return checkpoint.step
 
     def _is_finished(self, step: int) -> bool:
@@ -446,9 +442,12 @@ class Trainer(Generic[ConfigT]):
 
     def _has_converged(self) -> bool:
         """Whether the task wants no more steps; the main process decides, as it validates."""
-        stop = self.accelerator.is_main_process and self.task.has_converged()
-        flag = torch.tensor(float(stop), device=self.accelerator.device)
-        return bool(self.accelerator.reduce(flag, "sum").item())
+        return self._any(self.accelerator.is_main_process and self.task.has_converged())
+
+    def _any(self, flag: bool) -> bool:
+        """Whether it holds in any process; every process must ask."""
+        value = torch.tensor(float(flag), device=self.accelerator.device)
+        return bool(self.accelerator.reduce(value, "sum").item())
 
     def _finish(self, step: int) -> None:
         """Write the pretrained folder and mark the run as finished."""
@@ -457,7 +456,7 @@ class Trainer(Generic[ConfigT]):
             self.task.save_pretrained(self.ema.module, self.output)
             done = {"steps": step, "planned": self.config.steps}
             write_json(self.output / "finished.json", done)
-            self._say(f"finished: {self.output} is ready to use")
+            announce(f"finished: {self.output} is ready to use")
         self.accelerator.wait_for_everyone()
 
     # ------------------------------------------------------------ stopping
@@ -466,17 +465,10 @@ class Trainer(Generic[ConfigT]):
         """Whether any process was told to stop; all must agree, or the others would hang."""
         if self.accelerator.num_processes == 1:
             return guard.signal_number is not None
-        if step % _STOP_CHECK_EVERY:
-            return False
-        flag = torch.tensor(float(guard.signal_number or 0), device=self.accelerator.device)
-        return bool(self.accelerator.reduce(flag, "sum").item())
+        return step % _STOP_CHECK_EVERY == 0 and self._any(guard.signal_number is not None)
 
     def _interrupted(self, step: int, guard: InterruptGuard) -> Interrupted:
         return Interrupted(
             f"stopped and saved at step {step}; continue with: {self.command}",
             guard.signal_number or 2,
         )
-
-    def _say(self, text: str) -> None:
-        if self.accelerator.is_main_process:
-            console.print(text, markup=False)

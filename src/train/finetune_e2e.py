@@ -248,6 +248,7 @@ class FinetuneE2eTask(AudioTask):
             "model.unet.": config.lr_diffusion,
             "model.decoder.": config.lr_decoder,
         }
+        self.identity["weights"] = [card.weights.sha256 for card in self.sources if card.weights]
 
     def _start(self) -> AudioMotionModel:
         model = AudioMotionModel.from_pretrained(self.config.checkpoint)
@@ -259,18 +260,11 @@ class FinetuneE2eTask(AudioTask):
         self.network = model.config
         return model
 
-    def identity(self) -> dict[str, Any]:
-        """A resumed run must start from the same weights and see the same phrases."""
-        return {
-            **super().identity(),
-            "weights": [card.weights.sha256 for card in self.sources if card.weights],
-        }
-
     # ------------------------------------------------------------ batches
 
     def _drawn(self, phrases: PhraseBatch, draws: torch.Generator) -> E2eBatch:
         phrases = whole_windows(phrases)
-        return self._completed(phrases, self._drawn_audio(phrases, draws), draws)
+        return self._completed(phrases, super()._drawn(phrases, draws), draws)
 
     def _completed(
         self, phrases: PhraseBatch, audio: Any, draws: torch.Generator, start: int | None = None
@@ -300,12 +294,11 @@ class FinetuneE2eTask(AudioTask):
             draws = generator("validation", index)
             timesteps = spread_timesteps(len(phrases), steps, draws)
             known = torch.zeros(phrases.motion.shape, dtype=torch.bool)
-            audio = self._noised(phrases, timesteps, known, None, draws, augment=False)
+            audio = self._noised(phrases, timesteps, known, draws)
             batch = to_device(self._completed(phrases, audio, draws, index), device)
             with autocast(self.compute):
                 losses = module(batch)
             add_shares(sums, losses, self.config.validation_batches)
-        self.figures = sums
         before = [epoch.loss for epoch in self.epochs()]
         if not before or as_logged(sums["loss"]) < min(before):
             self._finished(module).save_pretrained(Path(self.config.output) / BEST)

@@ -15,7 +15,7 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from types import FrameType
 from typing import IO, Any
@@ -31,26 +31,28 @@ class Interrupted(UserError):
         self.exit_code = 128 + signal_number
 
 
-class InterruptGuard:
-    """Inside the block the first signal only sets `signal_number`; a second one stops at once."""
-
-    def __init__(self) -> None:
-        self.signal_number: int | None = None
-        self._previous: dict[int, Any] = {}
-
-    def __enter__(self) -> "InterruptGuard":
-        for number in (signal.SIGINT, signal.SIGTERM):
-            try:
-                self._previous[number] = signal.signal(number, self._handle)
-            except ValueError:  # not the main thread: signals stay with whoever runs it
-                break
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        for number, handler in self._previous.items():
+@contextmanager
+def answering(handle: Callable[[int, FrameType | None], None]) -> Iterator[None]:
+    """Inside, the signals to stop are for this function to answer."""
+    before: dict[signal.Signals, Any] = {}
+    for number in (signal.SIGINT, signal.SIGTERM):
+        try:
+            before[number] = signal.signal(number, handle)
+        except ValueError:  # not the main thread: signals stay with whoever runs it
+            break
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
             signal.signal(number, handler)
 
-    def _handle(self, number: int, _frame: FrameType | None) -> None:
+
+class InterruptGuard:
+    """An answer: the first signal only sets `signal_number`; a second one stops at once."""
+
+    signal_number: int | None = None
+
+    def __call__(self, number: int, _frame: FrameType | None) -> None:
         if self.signal_number is not None:
             raise KeyboardInterrupt
         self.signal_number = number
@@ -88,7 +90,12 @@ def run_processes(number: int) -> int:
         notes = [files.enter_context(tempfile.TemporaryFile()) for _ in range(number - 1)]
         errors: list[IO[bytes] | None] = [None, *notes]  # the first process has the terminal's
         workers = [_start(rank, shared, errors[rank]) for rank in range(number)]
-        with _signals_for(workers):
+
+        def pass_on(number: int, _frame: object) -> None:
+            for worker in workers:
+                worker.send_signal(number)
+
+        with answering(pass_on):
             failed = _wait(workers)
         if failed is None:
             return 0
@@ -139,22 +146,6 @@ def _wait(workers: Sequence["subprocess.Popen[bytes]"]) -> int | None:
             worker.kill()
             worker.wait()
     return failed
-
-
-@contextmanager
-def _signals_for(workers: Sequence["subprocess.Popen[bytes]"]) -> Iterator[None]:
-    """Inside, a signal to stop is the workers' to answer."""
-
-    def pass_on(number: int, _frame: object) -> None:
-        for worker in workers:
-            worker.send_signal(number)
-
-    before = {number: signal.signal(number, pass_on) for number in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        yield
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
 
 
 def _free_port() -> int:

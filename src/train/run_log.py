@@ -138,12 +138,7 @@ class RunLog:
         if self._interactive and "loss" in values:
             self._progress.update(self._bar, description=f"loss {values['loss']:.4f}")
         else:
-            self.say(f"step {step}  {text}")
-
-    def say(self, text: str) -> None:
-        """One line on stderr, above the progress bar."""
-        if self._main:
-            self._progress.console.print(text, markup=False)
+            announce(f"step {step}  {text}")
 
 
 ROWS = {  # of the table: figure, name

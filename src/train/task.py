@@ -5,7 +5,7 @@ Randomness is a pure function of (seed, step, part): resuming needs no generator
 
 import hashlib
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
@@ -41,34 +41,45 @@ class Part:
     count: int
 
 
+def means(rows: Sequence[Mapping[str, float]]) -> dict[str, float]:
+    """Of each figure its mean over the rows that have it."""
+    columns: dict[str, list[float]] = {}
+    for row in rows:
+        for key, value in row.items():
+            columns.setdefault(key, []).append(value)
+    return {key: sum(values) / len(values) for key, values in columns.items()}
+
+
 class Task(ABC):
     """What one stage learns.
 
     Attributes:
         module: everything that is trained.
+        identity: plain data that must be equal when a run is resumed (network, data hash, …).
+        frozen: what belongs to the task but is not trained (towers, losses); it follows the module.
         learning_rates: from the beginning of weights' names to the rate of that part.
-        figures: of the last validation.
+        figures: of the last validation; the trainer keeps them here.
     """
 
     module: nn.Module
+    identity: dict[str, Any]
+    frozen: Sequence[nn.Module] = ()
     learning_rates: Mapping[str, float] = MappingProxyType({})
     figures: dict[str, float]
 
-    @abstractmethod
-    def identity(self) -> dict[str, Any]:
-        """Plain data that must be equal when a run is resumed (network, data hash, ...)."""
-
     def to(self, device: torch.device) -> None:
-        """Move what belongs to the task but is not trained (frozen towers, statistics)."""
-        return
+        """Move what belongs to the task but is not trained."""
+        for part in self.frozen:
+            part.to(device)
 
     @abstractmethod
     def batch(self, part: Part) -> Any:
         """Part of a step's batch, on the CPU: a pure function of its argument and the seed."""
 
-    @abstractmethod
     def training_step(self, module: nn.Module, batch: Any) -> dict[str, Tensor]:
         """Scalars of one part, among them `loss`; call `module` itself, never an attribute."""
+        losses: dict[str, Tensor] = module(batch)
+        return losses
 
     @abstractmethod
     def validation(self, module: nn.Module) -> dict[str, float]:

@@ -9,7 +9,7 @@ Letters: N prompts or captions, D embed dim, H width of the encoder.
 
 import copy
 import hashlib
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -34,9 +34,10 @@ from ..shared.data.text_motion import (
     gestures,
 )
 from ..shared.errors import UsageError, UserError
+from ..shared.formats.registry import write_motion, write_preview
 from ..shared.io.files import atomic_write
 from ..shared.metrics.retrieval import BATCH
-from ..shared.model.checkpoint import read_card, resolve_model
+from ..shared.model.checkpoint import ModelCard, read_card, resolve_model
 from ..shared.model.clip.core import OWN, TextTower
 from ..shared.model.clip.features import TextFeatures
 from ..shared.model.clip.out_of_domain import OutOfDomainDetector, words_of
@@ -46,6 +47,7 @@ from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.generation.motion_generator import KIND, TextToMotion
 from ..shared.model.layers.transformer import masked_mean
 from ..shared.motion.features import decode_features
+from ..shared.motion.motion import Motion
 from ..shared.motion.skeleton import NUM_JOINTS
 from ..shared.motion.style import measure_style, style_values
 from ..shared.motion.trajectory import from_motion
@@ -159,6 +161,30 @@ def split_set(
         only=only,
         seed=mix_seed("data", config.seed),
     )
+
+
+def trained_card(
+    kind: str, config: TrainConfig, network: NetworkConfig, data: PreparedData, **noted: Any
+) -> ModelCard:
+    """The card of what a run learned from these clips."""
+    return ModelCard(
+        kind=kind,
+        name=Path(config.output).name,
+        trained=True,
+        network=network,
+        tags=data.tags,
+        languages=config.languages,
+        data=data.manifest_hash,
+        **noted,
+    )
+
+
+def write_samples(motions: Sequence[Motion], names: Iterable[str], folder: Path) -> None:
+    """As BVH of these names, and side by side as HTML."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, motion in zip(names, motions, strict=True):
+        write_motion(motion, folder / f"{name}.bvh")
+    write_preview(motions, folder / "index.html")
 
 
 def motion_rows(motion: torch.Tensor, network: NetworkConfig) -> torch.Tensor:

@@ -19,7 +19,6 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import torch
 from pydantic import Field
@@ -30,7 +29,6 @@ from ..shared.config_schema import PAIRS, ConstraintShares, LossWeights, Network
 from ..shared.data.captions.book import packaged_book
 from ..shared.data.captions.word_dropout import insert_babble
 from ..shared.data.prepared import ClipRecord
-from ..shared.device import choose_compute
 from ..shared.errors import UsageError, UserError
 from ..shared.model.clip.core import (
     PLACE_SCALE,
@@ -45,7 +43,6 @@ from ..shared.model.generation.denoiser import TAG_WEIGHT, MotionDenoiser
 from ..shared.model.generation.losses import GenerationLoss
 from ..shared.model.generation.motion_generator import TextToMotion
 from .captured_places import apart
-from .constraints import draw_known
 from .launch import Stage
 from .run_log import announce
 from .task import Part, Task, generator, numpy_generator
@@ -56,9 +53,16 @@ from .text_stages import (
     own_network,
     training_set,
     with_places,
+    write_samples,
     z_scored_for,
 )
-from .train_generation import GuidedDenoiser, spread_timesteps
+from .train_generation import (
+    GuidedDenoiser,
+    NoisedBatch,
+    denoising_losses,
+    draw_known,
+    spread_timesteps,
+)
 
 OLD_CAPTIONS = 16  # of each known action and language
 TOWER_BATCH = 256  # sentences: half of them new, a quarter each of what it knew and of neither
@@ -88,23 +92,9 @@ class TrainActionConfig(TrainConfig):
 
 
 @dataclass(frozen=True)
-class ActionBatch:
-    """Everything random is drawn already, on the CPU.
+class ActionBatch(NoisedBatch):
+    """With what the text tower gives: place [B,D]."""
 
-    Attributes:
-        clean, noise: [B,T,R,6] z-scored; mask [B,T] bool; known [B,T,R,6] bool.
-        timesteps, tag, provenance: [B] long; drop [B] bool, rows that see no text.
-        place: [B,D] what the text tower gives.
-    """
-
-    clean: Tensor
-    noise: Tensor
-    mask: Tensor
-    known: Tensor
-    timesteps: Tensor
-    tag: Tensor
-    provenance: Tensor
-    drop: Tensor
     place: Tensor
 
 
@@ -135,8 +125,13 @@ class ActionTask(Task):
         self.loss = GenerationLoss(
             config.losses, self.diffusion, self.before.mean.cpu(), self.before.std.cpu()
         )
-        self.compute = choose_compute(config.device, config.precision)
-        self.figures: dict[str, float] = {}
+        self.shares = config.constraints if network.generation.constraints else None
+        self.frozen = (self.loss,)
+        self.identity = {
+            "network": self.network.model_dump(mode="json", by_alias=True),
+            "data-hash": self.data.manifest_hash,
+            "tower-hash": tower_hash(self.before.text),
+        }
 
     def _learns(self, record: ClipRecord) -> bool:
         """Whether this clip is to be learned."""
@@ -263,14 +258,13 @@ class ActionTask(Task):
 
     def _captions(self, record: ClipRecord) -> list[str]:
         """Of every clip of its group, in every language."""
-        texts = {
-            text
-            for other in self.data.records("train")
-            if other.group == record.group
-            for some in self.data.captions(other).values()
-            for text in some
-        }
-        return sorted(texts)
+        records = self.data.records("train")
+        return sorted({*self._said(r for r in records if r.group == record.group)})
+
+    def _said(self, records: Iterable[ClipRecord]) -> list[str]:
+        """The captions of these clips, one after another."""
+        spoken = (self.data.captions(record).values() for record in records)
+        return [text for languages in spoken for texts in languages for text in texts]
 
     # ------------------------------------------------------------ the denoiser
 
@@ -303,18 +297,6 @@ class ActionTask(Task):
             weight.requires_grad_(f".adapters.{len(ranks) - 1}." in name)
         return denoiser
 
-    def identity(self) -> dict[str, Any]:
-        """A resumed run must go on from the same model with the same clips."""
-        return {
-            "network": self.network.model_dump(mode="json", by_alias=True),
-            "data-hash": self.data.manifest_hash,
-            "tower-hash": tower_hash(self.before.text),
-        }
-
-    def to(self, device: torch.device) -> None:
-        """Frozen parts follow the module."""
-        self.loss.to(device)
-
     # ------------------------------------------------------------ batches
 
     def batch(self, part: Part) -> ActionBatch:
@@ -323,15 +305,12 @@ class ActionTask(Task):
         clips = self.train.batch(part.step, size, rank=part.index)
         clean = z_scored_for(self.before, clips.motion, self.data)
         draws = generator("noise", config.seed, part.step, part.index)
-        known = torch.zeros(clean.shape, dtype=torch.bool)
-        if self.network.generation.constraints:
-            rng = numpy_generator("known", config.seed, part.step, part.index)
-            known = draw_known(clips.mask, clean.shape[2], config.constraints, rng)
+        rng = numpy_generator("known", config.seed, part.step, part.index)
         return ActionBatch(
             clean=clean,
             noise=torch.randn(clean.shape, generator=draws),
             mask=clips.mask,
-            known=known,
+            known=draw_known(clips.mask, clean.shape[2], self.shares, rng),
             timesteps=spread_timesteps(size, self.diffusion.config.timesteps, draws),
             tag=torch.full((size,), len(self.tags)),
             provenance=clips.provenance,
@@ -343,32 +322,11 @@ class ActionTask(Task):
 
     def training_step(self, module: nn.Module, batch: ActionBatch) -> dict[str, Tensor]:
         """The weighted losses of one noised batch."""
-        noisy = self.diffusion.q_sample(batch.clean, batch.timesteps, batch.noise)
-        seen = torch.where(batch.known, batch.clean, noisy)
-        output = module(
-            seen,
-            batch.timesteps,
-            as_features(batch.place),
-            batch.tag,
-            batch.mask,
-            batch.drop,
-            batch.known,
-            batch.provenance,
-        )
-        target = self.diffusion.target(batch.clean, batch.noise, batch.timesteps)
-        losses: dict[str, Tensor] = self.loss(
-            torch.where(batch.known, target, output.float()),
-            batch.clean,
-            noisy,
-            batch.noise,
-            batch.timesteps,
-            batch.mask,
-        )
-        return losses
+        return denoising_losses(module, as_features(batch.place), batch, self.loss)
 
     def validation(self, module: nn.Module) -> dict[str, float]:
         """`evaluate-requests` and `calibrate` tell more than a loss on a few clips would."""
-        return self.figures
+        return {}
 
     # ------------------------------------------------------------ results
 
@@ -389,13 +347,7 @@ class ActionTask(Task):
         scope = before.scope
         if scope is not None and not self.config.actions:
             for action in self.actions:
-                texts = [
-                    text
-                    for record in self.train.records
-                    if record.tag == action
-                    for some in self.data.captions(record).values()
-                    for text in some
-                ]
+                texts = self._said(r for r in self.train.records if r.tag == action)
                 embeddings = encode_captions(self.tower, before.tokenizer, texts).numpy()
                 scope = scope.with_action(action, texts, embeddings)
         return before.with_denoiser(
@@ -408,18 +360,12 @@ class ActionTask(Task):
 
     def export_samples(self, module: nn.Module, folder: Path) -> None:
         """One motion of each new action, as BVH and HTML."""
-        from ..shared.formats.registry import write_motion, write_preview
-
         maker = self._generator(module)
         prompts = [
             self._captions(next(r for r in self.train.records if r.tag == action))[0]
             for action in self.actions
         ]
-        folder.mkdir(parents=True, exist_ok=True)
-        motions = maker.generate(prompts, seconds=3.0)
-        for action, motion in zip(self.actions, motions, strict=True):
-            write_motion(motion, folder / f"{action}.bvh")
-        write_preview(motions, folder / "index.html")
+        write_samples(maker.generate(prompts, seconds=3.0), self.actions, folder)
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """A folder that `generate --model` reads."""

@@ -32,8 +32,8 @@ from ..shared.model.diffusion import GaussianDiffusion, masked_loss
 from ..shared.motion.trajectory import FPS, POSITION, QUATERNION, STYLE
 from .audio_stages import PhraseConfig, PhraseTask, open_held_back, open_phrases, save_noted
 from .launch import Stage
-from .task import generator, to_device
-from .train_generation import NOISE_LEVELS, spread_timesteps
+from .task import means, to_device
+from .train_generation import noise_levels, spread_timesteps
 
 
 class TrainAudioConfig(PhraseConfig):
@@ -122,13 +122,16 @@ class AudioTask(PhraseTask):
         self.train = open_phrases(config, "train", config.num_phrases)
         self.held_back = open_held_back(config)
         self.model = self._start()
-        self.mean, self.std = self.model.mean.clone(), self.model.std.clone()
+        self.std = self.model.std.clone()
         # a copy: samples are made by the task's own model, with averaged weights, on the CPU
         self.module = copy.deepcopy(self.model.unet)
         self.augment = ConditionAugmentation(network.condition.augmentation)
         self.diffusion = GaussianDiffusion(network.diffusion)
         self.compute = choose_compute(config.device, config.precision)
-        self.figures = {}
+        self.identity = {
+            "network": self.network.model_dump(mode="json", by_alias=True),
+            "data-hash": self.train.fingerprint,
+        }
 
     def _start(self) -> AudioMotionModel:
         """The model before training: nothing learned, or all of `init` with its z-scores."""
@@ -145,29 +148,19 @@ class AudioTask(PhraseTask):
         model.load_state_dict(trained.state_dict())
         return model
 
-    def identity(self) -> dict[str, Any]:
-        """A resumed run must have the same network and see the same phrases."""
-        return {
-            "network": self.network.model_dump(mode="json", by_alias=True),
-            "data-hash": self.train.fingerprint,
-        }
-
     def to(self, device: torch.device) -> None:
         """Frozen parts follow the module."""
         self.diffusion.to(device)
-        self.mean, self.std = self.mean.to(device), self.std.to(device)
+        self.std = self.std.to(device)
 
     # ------------------------------------------------------------ batches
 
     def _drawn(self, phrases: PhraseBatch, draws: torch.Generator) -> Any:
-        return self._drawn_audio(phrases, draws)
-
-    def _drawn_audio(self, phrases: PhraseBatch, draws: torch.Generator) -> AudioBatch:
         """Windows with noise, steps, what is known and what is dropped."""
         timesteps = spread_timesteps(len(phrases), self.diffusion.config.timesteps, draws)
         known = self._known(phrases, draws)
         drop = self.augment.draw_drop(len(phrases), draws)
-        return self._noised(phrases, timesteps, known, drop, draws, augment=True)
+        return self._noised(phrases, timesteps, known, draws, drop)
 
     def _known(self, phrases: PhraseBatch, draws: torch.Generator) -> Tensor:
         """Entries [B,25,T] that the network is given."""
@@ -185,18 +178,16 @@ class AudioTask(PhraseTask):
         phrases: PhraseBatch,
         timesteps: Tensor,
         known: Tensor,
-        drop: Tensor | None,
         draws: torch.Generator,
-        *,
-        augment: bool,
+        drop: Tensor | None = None,
     ) -> AudioBatch:
+        """Without `drop`, as in validation, all windows hear the sound as it is."""
         clean = self.model.normalise(phrases.motion) * phrases.mask[:, None]
         noise = torch.randn(clean.shape, generator=draws)
-        condition = (
-            self.augment(phrases.audio, draws) if augment else with_phase_rows(phrases.audio)
-        )
         if drop is None:
-            drop = torch.zeros(len(phrases), dtype=torch.bool)
+            condition, drop = with_phase_rows(phrases.audio), torch.zeros(len(phrases)).bool()
+        else:
+            condition = self.augment(phrases.audio, draws)
         return AudioBatch(clean, noise, known, phrases.mask, condition, drop, timesteps)
 
     # ------------------------------------------------------------ learning
@@ -209,25 +200,18 @@ class AudioTask(PhraseTask):
     def validation(self, module: nn.Module) -> dict[str, float]:
         """Losses on held-back phrases at fixed steps and noise, overall and by noise level."""
         device = next(module.parameters()).device
-        steps, thirds = self.diffusion.config.timesteps, len(NOISE_LEVELS)
-        sums: dict[str, list[float]] = {}
+        steps, found = self.diffusion.config.timesteps, []
         for index in range(self.config.validation_batches):
             phrases = self.held_back.batch(index + 1, self.config.batch_size)
-            for third, level in enumerate(NOISE_LEVELS):
-                draws = generator("validation", index, third)
-                spread = spread_timesteps(len(phrases), max(1, steps // thirds), draws)
-                timesteps = (spread + third * steps // thirds).clamp(max=steps - 1)
+            for level, draws, timesteps in noise_levels(index, len(phrases), steps):
                 known = torch.zeros(phrases.motion.shape, dtype=torch.bool)
-                batch = self._noised(phrases, timesteps, known, None, draws, augment=False)
+                batch = self._noised(phrases, timesteps, known, draws)
                 batch = to_device(batch, device)
                 with autocast(self.compute):
                     losses = self.training_step(module, batch)
-                for key, value in losses.items():
-                    sums.setdefault(key, []).append(value.item())
-                    if key == "loss":
-                        sums.setdefault(f"loss-{level}", []).append(value.item())
-        self.figures = {key: sum(values) / len(values) for key, values in sums.items()}
-        return self.figures
+                figures = {key: value.item() for key, value in losses.items()}
+                found.append({"loss": figures["loss"], f"loss-{level}": figures["loss"], **figures})
+        return means(found)
 
     # ------------------------------------------------------------ results
 

@@ -14,7 +14,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import torch
 from pydantic import Field
@@ -93,7 +92,6 @@ class AudioTowerTask(Task):
         bundle = ClipBundle.from_pretrained(config.clip)
         self.space = SharedSpace.beside(bundle, config.tower)
         dataset = open_phrases(config, "train", config.num_phrases, bodies=True)
-        self.fingerprint = dataset.fingerprint
         self.space.audio.set_statistics(*sound_statistics(dataset))
         self.train = _windows(config, dataset, step=1, copies=config.copies)
         self.motion = self.train.embed_bodies(self.space.embed_motion)  # N D
@@ -110,14 +108,10 @@ class AudioTowerTask(Task):
         # a copy: the space of the task gets the averaged weights
         tower = copy.deepcopy(self.space.audio)
         self.module = AudioTowerObjective(tower, config.temperature)
-        self.figures = {}
-
-    def identity(self) -> dict[str, Any]:
-        """A resumed run must have the same towers and see the same phrases."""
-        return {
+        self.identity = {
             "tower": self.space.config.model_dump(mode="json", by_alias=True),
             "text-tower": self.space.card.text_tower,
-            "data-hash": self.fingerprint,
+            "data-hash": dataset.fingerprint,
         }
 
     def batch(self, part: Part) -> SpaceBatch:
@@ -165,11 +159,11 @@ class AudioTowerTask(Task):
         audio = self.held_back.embed_sounds(module.tower, device)
         found = self.bench.measure(audio, self.held_back_motion)
         chance = self.bench.measure(audio, self.held_back_motion, shuffled=True)
-        self.figures = {name.replace("_", "-"): figure.value for name, figure in found.items()}
-        self.figures |= {
-            f"chance-{name.replace('_', '-')}": figure.value for name, figure in chance.items()
+        return {
+            prefix + name.replace("_", "-"): figure.value
+            for prefix, figures in (("", found), ("chance-", chance))
+            for name, figure in figures.items()
         }
-        return self.figures
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """Both towers: the folder that `memory build` reads."""
@@ -180,7 +174,7 @@ class AudioTowerTask(Task):
                 "name": folder.name,
                 "trained": True,
                 "max_seconds": self.config.max_frames / FPS,
-                "data": self.fingerprint,
+                "data": self.identity["data-hash"],
                 "training": {"steps": self.config.steps, "validation": self.figures},
             }
         )

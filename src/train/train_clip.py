@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import torch
 import torch.distributed
 from torch import Tensor, nn
@@ -23,7 +24,6 @@ from ..shared.data.captions.word_dropout import drop_words
 from ..shared.data.text_motion import TextMotionBatch
 from ..shared.errors import UsageError
 from ..shared.metrics.retrieval import BATCH, TOP, guo_retrieval
-from ..shared.model.checkpoint import ModelCard
 from ..shared.model.clip.core import MotionClip, clip_loss
 from ..shared.model.clip.pretrained import KIND, ClipBundle, load_text_tower, tower_hash
 from .launch import Stage
@@ -34,6 +34,7 @@ from .text_stages import (
     motion_rows,
     new_tokenizer,
     open_training_data,
+    trained_card,
     training_clips,
     validation_set,
 )
@@ -114,20 +115,18 @@ class ClipTask(Task):
             clip = MotionClip(self.network, encoder_config=tower.encoder_config())
             clip.text = tower
         nn.init.constant_(clip.logit_scale, -math.log(config.temperature))
-        self.text = clip.text
         self.learning_rates = encoder_rates(clip.text, "clip.text.", config.encoder_learning_rate)
         self.module = ClipObjective(clip)
-        self.figures = {}
+        self.identity = {
+            "network": self.network.model_dump(mode="json", by_alias=True),
+            "data-hash": self.data.manifest_hash,
+        }
+        if config.text is not None:
+            self.identity["tower-hash"] = tower_hash(clip.text)
 
     def _captions(self) -> list[str]:
         captions = self.data.all_captions("train")
         return [text for language in self.config.languages for text in captions.get(language, [])]
-
-    def identity(self) -> dict[str, Any]:
-        """A resumed run must have the same network, see the same clips and keep the same tower."""
-        network = self.network.model_dump(mode="json", by_alias=True)
-        kept = {} if self.config.text is None else {"tower-hash": tower_hash(self.text)}
-        return {"network": network, "data-hash": self.data.manifest_hash} | kept
 
     def batch(self, part: Part) -> ClipBatch:
         """Clips with shortened captions."""
@@ -168,28 +167,25 @@ class ClipTask(Task):
             motions.append(motion.cpu().float())
             captions += clips.captions
             groups += clips.group.tolist()
-        self.figures = {"loss": sum(losses) / len(losses)}
+        figures = {"loss": sum(losses) / len(losses)}
         if self.retrieves:
-            columns = [groups, captions]
-            found = _recalls(torch.cat(texts), torch.cat(motions), columns)
-            blind = torch.zeros(len(groups), 1)  # every distance a tie
-            guessed = _recalls(blind, blind, columns)
+            columns, blind = [groups, captions], np.zeros((len(groups), 1))  # every distance a tie
+            text, motion = torch.cat(texts).numpy(), torch.cat(motions).numpy()
+            found = guo_retrieval(text, motion, columns).mean(1).tolist()
+            guessed = guo_retrieval(blind, blind, columns).mean(1).tolist()
             for k, value, chance in zip(TOP, found, guessed, strict=True):
-                self.figures |= {f"r-at-{k}": value, f"chance-at-{k}": chance}
-        return self.figures
+                figures |= {f"r-at-{k}": value, f"chance-at-{k}": chance}
+        return figures
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """Both towers, tokenizer and statistics: the folder that train_generation reads."""
         assert isinstance(module, ClipObjective)
-        card = ModelCard(
-            kind=KIND,
-            name=folder.name,
-            trained=True,
-            network=self.network,
-            tags=self.data.tags,
-            languages=self.config.languages,
+        card = trained_card(
+            KIND,
+            self.config,
+            self.network,
+            self.data,
             max_seconds=self.config.max_frames / 30.0,
-            data=self.data.manifest_hash,
             training={"steps": self.config.steps, "validation": self.figures},
         )
         mean, std = (motion_rows(v, self.network) for v in (self.data.mean, self.data.std))
@@ -201,11 +197,6 @@ def with_text_sizes(network: NetworkConfig, tower: ClipConfig) -> NetworkConfig:
     text = {name for name in ClipConfig.model_fields if not name.startswith("motion_")}
     sizes = tower.model_dump(include=text)
     return network.model_copy(update={"clip": network.clip.model_copy(update=sizes)})
-
-
-def _recalls(text: Tensor, motion: Tensor, columns: list[Any]) -> tuple[float, ...]:
-    """R@1, 2, 3 within batches of 32."""
-    return tuple(guo_retrieval(text.numpy(), motion.numpy(), columns).mean(1).tolist())
 
 
 app = Stage(

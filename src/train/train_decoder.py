@@ -13,7 +13,7 @@ Letters: B batch, T frames.
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar, Self
+from typing import ClassVar, Self
 
 import torch
 from pydantic import Field, model_validator
@@ -180,20 +180,13 @@ class DecoderTask(PhraseTask):
             for index in range(ERROR_BATCHES)
         ]
         self.error = denoiser_error(self.model, batches, config.seed)
-        self.figures = {}
-
-    def identity(self) -> dict[str, Any]:
-        """A resumed run must have the same UNet and decoder and see the same phrases."""
+        self.frozen = (self.untrained,)
         assert self.source.weights is not None
-        return {
+        self.identity = {
             "network": self.model.config.model_dump(mode="json", by_alias=True),
             "audio-weights": self.source.weights.sha256,
             "data-hash": self.train.fingerprint,
         }
-
-    def to(self, device: torch.device) -> None:
-        """The untrained decoder, which validation needs, follows."""
-        self.untrained.to(device)
 
     # ------------------------------------------------------------ batches
 
@@ -216,11 +209,6 @@ class DecoderTask(PhraseTask):
 
     # ------------------------------------------------------------ learning
 
-    def training_step(self, module: nn.Module, batch: DecoderBatch) -> dict[str, Tensor]:
-        """The decoder's loss."""
-        losses: dict[str, Tensor] = module(batch)
-        return losses
-
     def validation(self, module: nn.Module) -> dict[str, float]:
         """Losses on held-back phrases with fixed noise and with none, beside the untrained's."""
         device = self.untrained.decoder.input_scale.device
@@ -235,7 +223,6 @@ class DecoderTask(PhraseTask):
                 figures = {f"{prefix}{key}": value for key, value in figures.items()}
                 figures[f"untrained-{prefix}loss"] = self.untrained(batch)["loss"]
                 add_shares(sums, figures, self.config.validation_batches)
-        self.figures = sums
         return sums
 
     # ------------------------------------------------------------ results

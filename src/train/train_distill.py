@@ -3,18 +3,17 @@
 motion-tools train distill init=starter [key=value ...]
 
 First the teacher samples, as `generate` has it sample, with guidance, and with known entries as in
-its own training (constraints.py). What it starts from and passes through, and where it ends, is
-kept in the output folder. Then the student, which begins with the teacher's weights, learns to go
-from each of these states to the end at once, by the text alone: the end of the deterministic path
-from noise (Luhman and Luhman 2021, knowledge distillation), and from the steps that it will visit
-on the way (consistency, Song et al. 2023, with targets that do not move).
+its own training (`draw_known`). What it starts from and passes through, and where it ends, is kept
+in the output folder. Then the student, which begins with the teacher's weights, learns to go from
+each of these states to the end at once, by the text alone: the end of the deterministic path from
+noise (Luhman and Luhman 2021, knowledge distillation), and from the steps that it will visit on the
+way (consistency, Song et al. 2023, with targets that do not move).
 
 Letters: B batch, T frames, R rows of a frame, D shared dimensions, N student steps.
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import torch
 from pydantic import Field
@@ -22,7 +21,13 @@ from safetensors import safe_open
 from safetensors.torch import save_file
 from torch import Tensor, nn
 
-from ..shared.config_schema import ConstraintShares, LossWeights, NetworkConfig, TrainConfig
+from ..shared.config_schema import (
+    PROVENANCES,
+    ConstraintShares,
+    LossWeights,
+    NetworkConfig,
+    TrainConfig,
+)
 from ..shared.data.text_motion import TextMotionBatch
 from ..shared.device import autocast, choose_compute
 from ..shared.errors import UsageError
@@ -33,10 +38,9 @@ from ..shared.model.generation.denoiser import MotionDenoiser
 from ..shared.model.generation.losses import GenerationLoss
 from ..shared.model.generation.motion_generator import TextToMotion, as_captured
 from ..shared.model.noise import sampling_timesteps
-from .constraints import draw_known
 from .launch import Stage
 from .run_log import announce
-from .task import Part, Task, generator, mix_seed, numpy_generator
+from .task import Part, Task, generator, means, mix_seed, numpy_generator, to_device
 from .text_stages import (
     as_features,
     network_of_model,
@@ -46,7 +50,7 @@ from .text_stages import (
     validation_set,
     z_scored_for,
 )
-from .train_generation import GuidedDenoiser
+from .train_generation import Conditions, GuidedDenoiser, draw_known
 
 PAIRS_FOLDER = "pairs"  # in the output folder: a resumed run reads it
 TOLD_EVERY = 20  # files of pairs
@@ -68,13 +72,14 @@ class TrainDistillConfig(TrainConfig):
 
 
 @dataclass(frozen=True)
-class Sampled:
+class Pairs:
     """B motions that the teacher sampled.
 
     Attributes:
         end: [B,T,R,6] z-scored, what came of it, known entries in it.
         mask: [B,T] bool; known: [B,T,R,6] bool, entries that it was told.
         place: [B,D] of the text; tag [B] long; drop [B] bool, rows that heard no text.
+        states: [B,N,T,R,6] that it was in at the student's steps; noise first.
     """
 
     end: Tensor
@@ -83,21 +88,16 @@ class Sampled:
     place: Tensor
     tag: Tensor
     drop: Tensor
-
-
-@dataclass(frozen=True)
-class Pairs(Sampled):
-    """With all states [B,N,T,R,6] that it was in at the student's steps; noise first."""
-
     states: Tensor
 
 
 @dataclass(frozen=True)
-class DistillBatch(Sampled):
-    """With one of the states of each, known entries in it: seen [B,T,R,6] at timesteps [B] long."""
+class DistillBatch(Conditions):
+    """One of the states of each, known entries in it, seen [B,T,R,6]; end and place as sampled."""
 
     seen: Tensor
-    timesteps: Tensor
+    end: Tensor
+    place: Tensor
 
 
 class DistillTask(Task):
@@ -113,13 +113,18 @@ class DistillTask(Task):
         self.train = training_set(config, self.data)
         self.held_back = validation_set(config, self.data)
         self.folder = Path(config.output) / PAIRS_FOLDER
+        self.identity = {
+            "teacher": self.teacher.card.content_hash,
+            "data-hash": self.data.manifest_hash,
+            "tower-hash": tower_hash(self.teacher.text),
+        }
         self._make_pairs()
         self.num_held_back = len(list(self.folder.glob("held-*.safetensors")))
         self.module: nn.Module = GuidedDenoiser(self._beginning())
         self.loss = GenerationLoss(
             config.losses, self.diffusion, self.teacher.mean, self.teacher.std
         )
-        self.figures: dict[str, float] = {}
+        self.frozen = (self.loss,)
 
     def _beginning(self) -> MotionDenoiser:
         """A copy of the teacher's denoiser, or of a student's that was taught before."""
@@ -149,18 +154,6 @@ class DistillTask(Task):
             )
         return own
 
-    def identity(self) -> dict[str, Any]:
-        """A resumed run must go on from the same teacher with the same clips."""
-        return {
-            "teacher": self.teacher.card.content_hash,
-            "data-hash": self.data.manifest_hash,
-            "tower-hash": tower_hash(self.teacher.text),
-        }
-
-    def to(self, device: torch.device) -> None:
-        """Frozen parts follow the module."""
-        self.loss.to(device)
-
     # ------------------------------------------------------------ what the teacher does
 
     def _make_pairs(self) -> None:
@@ -169,7 +162,7 @@ class DistillTask(Task):
         kept = {"seed", "teacher_steps", "student_steps", "batch_size", "condition_dropout",
                 "tag_dropout", "constraints", "min_frames", "max_frames", "balance",
                 "captured_share", "languages"}  # fmt: skip
-        made_of = {**self.identity(), **config.model_dump(mode="json", include=kept)}
+        made_of = {**self.identity, **config.model_dump(mode="json", include=kept)}
         made = {"made-of": f"{mix_seed(str(sorted(made_of.items()))):x}"}
         for number in range(config.pair_batches):
             file = self._file("train", number)
@@ -200,10 +193,8 @@ class DistillTask(Task):
         tags = teacher.card.tags
         index = [tags.index(r.tag) if r.tag in tags else len(tags) for r in clips.records]
         tag = torch.tensor(index).masked_fill(untagged, len(tags))
-        known = torch.zeros(clean.shape, dtype=torch.bool)
-        if self.network.generation.constraints:
-            rng = numpy_generator("known", *seed)
-            known = draw_known(clips.mask, clean.shape[2], config.constraints, rng)
+        shares = config.constraints if self.network.generation.constraints else None
+        known = draw_known(clips.mask, clean.shape[2], shares, numpy_generator("known", *seed))
         free = ~known.flatten(1).any(1)
         mask = clips.mask | free[:, None]  # no clip limits the length of what is told nothing
         place = encode_captions(teacher.text, teacher.tokenizer, clips.captions)
@@ -254,25 +245,23 @@ class DistillTask(Task):
 
     def _at(self, pairs: Pairs, chosen: Tensor) -> DistillBatch:
         """The states with these numbers [B]."""
-        seen = pairs.states[torch.arange(len(chosen)), chosen]
-        kept = {field.name: getattr(pairs, field.name) for field in fields(Sampled)}
-        return DistillBatch(**kept, seen=seen, timesteps=torch.tensor(self.steps)[chosen])
+        return DistillBatch(
+            timesteps=torch.tensor(self.steps)[chosen],
+            tag=pairs.tag,
+            mask=pairs.mask,
+            drop=pairs.drop,
+            known=pairs.known,
+            provenance=torch.full_like(pairs.tag, PROVENANCES.index("captured")),
+            seen=pairs.states[torch.arange(len(chosen)), chosen],
+            end=pairs.end,
+            place=pairs.place,
+        )
 
     # ------------------------------------------------------------ learning
 
     def training_step(self, module: nn.Module, batch: DistillBatch) -> dict[str, Tensor]:
         """The weighted losses of one batch."""
-        denoiser = self.teacher.denoiser
-        output = module(
-            batch.seen,
-            batch.timesteps,
-            as_features(batch.place),
-            batch.tag,
-            batch.mask,
-            batch.drop,
-            batch.known,
-            as_captured(denoiser, batch.tag),
-        ).float()
+        output = module(batch.seen, as_features(batch.place), batch).float()
         made = torch.where(batch.known, batch.end, output)  # sampling puts the known entries back
         rest = batch.seen, batch.seen, batch.timesteps, batch.mask  # noise says nothing of x_0
         losses: dict[str, Tensor] = self.loss(made, batch.end, *rest)
@@ -281,16 +270,14 @@ class DistillTask(Task):
     def validation(self, module: nn.Module) -> dict[str, float]:
         """Losses on held-back clips, one a step of the student."""
         device = next(module.parameters()).device
-        sums: dict[str, list[float]] = {}
+        found = []
         for number in range(self.num_held_back):
             pairs = _read(self._file("held", number))
             for place, step in enumerate(self.steps):
                 batch = self._at(pairs, torch.full((len(pairs.end),), place))
-                batch = DistillBatch(*(value.to(device) for value in vars(batch).values()))
-                loss = self.training_step(module, batch)["loss"].item()
-                sums.setdefault(f"loss-{step}", []).append(loss)
-        self.figures = {key: sum(values) / len(values) for key, values in sums.items()}
-        return self.figures
+                loss = self.training_step(module, to_device(batch, device))["loss"]
+                found.append({f"loss-{step}": loss.item()})
+        return means(found)
 
     # ------------------------------------------------------------ results
 

@@ -5,7 +5,6 @@ motion-tools train evaluator [key=value ...] [--resume]
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import torch
@@ -52,8 +51,8 @@ class PairSet:
     Args:
         data: prepared clips.
         split: which of them.
-        min_frames, max_frames: shorter clips are left out, of longer ones a window is taken.
-        languages: captions to draw from.
+        config: shorter clips than min-frames are left out, of longer ones than max-frames a window
+            is taken; languages of the captions to draw from.
         balance: 0 draws every clip alike, 1 every label group alike.
 
     Raises:
@@ -61,27 +60,19 @@ class PairSet:
     """
 
     def __init__(
-        self,
-        data: PreparedData,
-        split: str,
-        *,
-        min_frames: int,
-        max_frames: int,
-        languages: tuple[str, ...],
-        balance: float = 0.5,
+        self, data: PreparedData, split: str, config: TrainConfig, balance: float = 0.5
     ) -> None:
-        self.max_frames = max_frames
-        self.records = [r for r in data.records(split) if r.num_frames >= min_frames]
+        self.max_frames, self.languages = config.max_frames, config.languages
+        self.records = [r for r in data.records(split) if r.num_frames >= config.min_frames]
         spoken = [data.captions(record) for record in self.records]
-        usable = [any(texts.get(k) for k in languages) for texts in spoken]
+        usable = [any(texts.get(k) for k in self.languages) for texts in spoken]
         self.records = [r for r, ok in zip(self.records, usable, strict=True) if ok]
         self.captions = [texts for texts, ok in zip(spoken, usable, strict=True) if ok]
         if not self.records:
             raise UserError(
-                f"split {split!r} holds no clip of {min_frames} frames or more"
-                f" with captions in {', '.join(languages)}"
+                f"split {split!r} holds no clip of {config.min_frames} frames or more"
+                f" with captions in {', '.join(self.languages)}"
             )
-        self.languages = languages
         self.joints: list[Tensor] = []
         for start in range(0, len(self.records), CHUNK):  # kinematics need room: a part at a time
             some = [data.features(record).float() for record in self.records[start : start + CHUNK]]
@@ -147,31 +138,17 @@ class EvaluatorTask(Task):
     def __init__(self, config: TrainEvaluatorConfig) -> None:
         self.config = config
         self.data = open_data(config.data, Path(config.output).parent)
-        self.train = self._pairs("train", config.balance)
+        self.train = PairSet(self.data, "train", config, config.balance)
         # A folder of few takes keeps none for validation; training goes on without figures.
-        self.held_back = self._pairs("val", 1.0) if self.data.records("val") else None
+        held_back = self.data.records("val")
+        self.held_back = PairSet(self.data, "val", config, 1.0) if held_back else None
         self.retrieves = self.held_back is not None and can_retrieve(len(self.held_back.records))
         self.module = Evaluator(
             EvaluatorConfig(hidden_size=config.hidden_size, embed_dim=config.embed_dim)
         )
         assert isinstance(self.module, Evaluator)
         self.module.fit_statistics(self.train.frames())
-        self.figures = {}
-
-    def _pairs(self, split: str, balance: float) -> PairSet:
-        config = self.config
-        return PairSet(
-            self.data,
-            split,
-            min_frames=config.min_frames,
-            max_frames=config.max_frames,
-            languages=config.languages,
-            balance=balance,
-        )
-
-    def identity(self) -> dict[str, Any]:
-        """A resumed run must see the same clips."""
-        return {"data-hash": self.data.manifest_hash}
+        self.identity = {"data-hash": self.data.manifest_hash}
 
     def batch(self, part: Part) -> PairBatch:
         """A share of the step's batch; every part draws its own clips."""
@@ -206,10 +183,11 @@ class EvaluatorTask(Task):
             arrays = text.cpu().float().numpy(), motion.cpu().float().numpy()
             hits.append(guo_retrieval(*arrays, [group, pairs.captions]).mean(1))
         module.train()
+        figures = {"loss": float(np.mean(losses))}
         if self.retrieves:
             mean = np.mean(hits, axis=0)
-            self.figures = {f"r-at-{k}": float(mean[k - 1]) for k in TOP}
-        return {"loss": float(np.mean(losses)), **self.figures}
+            figures |= {f"r-at-{k}": float(mean[k - 1]) for k in TOP}
+        return figures
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """Write the evaluator with what it was trained on."""
@@ -218,7 +196,7 @@ class EvaluatorTask(Task):
             "data-hash": self.data.manifest_hash,
             "steps": self.config.steps,
             "seed": self.config.seed,
-            "validation": self.figures,
+            "validation": {key: value for key, value in self.figures.items() if key != "loss"},
             "groups": sorted({record.group for record in self.train.records}),
         }
         module.save_pretrained(folder, notes=notes)

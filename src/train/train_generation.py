@@ -8,6 +8,7 @@ of a step, it lets words be dropped, and it is the same after a resume.
 Letters: B batch, T frames, R rows of a frame, L tokens, S diffusion steps.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,58 +17,79 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from ..shared.config_schema import PROVENANCES, NetworkConfig, TrainGenerationConfig
+from ..shared.config_schema import (
+    PROVENANCES,
+    ConstraintShares,
+    NetworkConfig,
+    TrainGenerationConfig,
+)
 from ..shared.data.captions.word_dropout import drop_words
 from ..shared.data.text_motion import TextMotionBatch
 from ..shared.device import autocast, choose_compute
 from ..shared.errors import UsageError
-from ..shared.model.checkpoint import ModelCard
 from ..shared.model.clip.features import TextFeatures
 from ..shared.model.clip.pretrained import load_text_tower, tower_hash
 from ..shared.model.diffusion import GaussianDiffusion
 from ..shared.model.generation.denoiser import TAG_WEIGHT, MotionDenoiser
 from ..shared.model.generation.losses import GenerationLoss
 from ..shared.model.generation.motion_generator import KIND, TextToMotion
-from .constraints import draw_known
+from ..shared.motion.features import FORWARD, HEIGHT, LATERAL, LEFT_CONTACT, ROOT_ROW, YAW_RATE
+from ..shared.motion.skeleton import JOINT_INDEX, LIMBS
 from .launch import Stage
-from .task import Part, Task, generator, numpy_generator
+from .task import Part, Task, generator, means, numpy_generator, to_device
 from .text_stages import (
     fit_scope,
     fit_style_map,
     motion_rows,
     open_training_data,
+    trained_card,
     training_clips,
     validation_set,
     with_labels,
+    write_samples,
 )
 
 SAMPLE_SECONDS = 4.0
 NOISE_LEVELS = ("low", "middle", "high")  # thirds of the diffusion steps, in validation
+LONGEST_END = 45  # frames known at a start or an end
+ROOT_WAYS = (0.7, 0.15, 0.15)  # shares of both, heading alone, path alone
+MOST_FRAMES = 6  # frames known here and there
 
 
 @dataclass(frozen=True)
-class DenoiserBatch:
-    """Everything random is drawn already, on the CPU, so that it is the same on every device.
+class Conditions:
+    """What the denoiser is told beside the text.
 
     Attributes:
-        clean, noise: [B,T,R,6] z-scored; mask [B,T] bool.
-        timesteps, tag: [B] long.
+        timesteps, tag: [B] long; mask [B,T] bool, real frames.
         drop: [B] bool, rows that see no text.
-        input_ids, attention_mask: [B,L] captions.
         known: [B,T,R,6] bool, entries that the network is told; none if it takes no constraints.
         provenance: [B] long, index in PROVENANCES, its length where it is not told.
     """
 
-    clean: Tensor
-    noise: Tensor
-    mask: Tensor
     timesteps: Tensor
     tag: Tensor
+    mask: Tensor
     drop: Tensor
-    input_ids: Tensor
-    attention_mask: Tensor
     known: Tensor
     provenance: Tensor
+
+
+@dataclass(frozen=True)
+class NoisedBatch(Conditions):
+    """Everything random is drawn already, on the CPU, so that it is the same on every device:
+    clean and noise [B,T,R,6], z-scored."""
+
+    clean: Tensor
+    noise: Tensor
+
+
+@dataclass(frozen=True)
+class DenoiserBatch(NoisedBatch):
+    """With the captions: input_ids, attention_mask [B,L]."""
+
+    input_ids: Tensor
+    attention_mask: Tensor
 
 
 class GuidedDenoiser(nn.Module):
@@ -77,29 +99,36 @@ class GuidedDenoiser(nn.Module):
         super().__init__()
         self.denoiser = denoiser
 
-    def forward(
-        self,
-        noisy: Tensor,
-        timesteps: Tensor,
-        text: TextFeatures,
-        tag: Tensor,
-        mask: Tensor,
-        drop: Tensor,
-        known: Tensor,
-        provenance: Tensor,
-    ) -> Tensor:
-        """As MotionDenoiser.forward; rows where drop [B] is True see the null text."""
-        heard = self.denoiser.drop_text(self.denoiser.with_adapters(text), drop)
+    def forward(self, noisy: Tensor, text: TextFeatures, told: Conditions) -> Tensor:
+        """As MotionDenoiser.forward; rows where `drop` is True see the null text."""
+        heard = self.denoiser.drop_text(self.denoiser.with_adapters(text), told.drop)
         output: Tensor = self.denoiser(
             noisy,
-            timesteps,
+            told.timesteps,
             heard,
-            tag,
-            mask,
-            known=known if self.denoiser.known_proj is not None else None,
-            provenance=provenance if self.denoiser.provenance_embed is not None else None,
+            told.tag,
+            told.mask,
+            known=told.known if self.denoiser.known_proj is not None else None,
+            provenance=told.provenance if self.denoiser.provenance_embed is not None else None,
         )
         return output
+
+
+def denoising_losses(
+    module: nn.Module, text: TextFeatures, batch: NoisedBatch, loss: GenerationLoss
+) -> dict[str, Tensor]:
+    """The weighted losses of one noised batch.
+
+    Sampling puts the known entries back, so what is judged is the motion with them in it.
+    """
+    noisy = loss.diffusion.q_sample(batch.clean, batch.timesteps, batch.noise)
+    output = module(torch.where(batch.known, batch.clean, noisy), text, batch)
+    target = loss.diffusion.target(batch.clean, batch.noise, batch.timesteps)
+    output = torch.where(batch.known, target, output.float())
+    losses: dict[str, Tensor] = loss(
+        output, batch.clean, noisy, batch.noise, batch.timesteps, batch.mask
+    )
+    return losses
 
 
 def spread_timesteps(num: int, steps: int, draws: torch.Generator) -> Tensor:
@@ -109,6 +138,93 @@ def spread_timesteps(num: int, steps: int, draws: torch.Generator) -> Tensor:
     """
     places = torch.randperm(num, generator=draws) + torch.rand(1, generator=draws)
     return (places / num * steps).long().clamp(max=steps - 1)
+
+
+def noise_levels(index: int, num: int, steps: int) -> Iterator[tuple[str, torch.Generator, Tensor]]:
+    """Of validation batch `index`: a name, a generator and timesteps [num] for each noise level."""
+    thirds = len(NOISE_LEVELS)
+    for third, level in enumerate(NOISE_LEVELS):
+        draws = generator("validation", index, third)
+        spread = spread_timesteps(num, max(1, steps // thirds), draws)
+        yield level, draws, (spread + third * steps // thirds).clamp(max=steps - 1)
+
+
+# ---------------------------------------------------------------- known entries
+
+
+def draw_known(
+    mask: Tensor, rows: int, shares: ConstraintShares | None, rng: np.random.Generator | None
+) -> Tensor:
+    """Random masks [B, T, R, 6] bool for clips with real frames `mask` [B, T] bool.
+
+    One network learns every use of a constraint at once: a pinned path, feet that land when they
+    are to, windows that follow each other, gaps between two clips, joints done again. Without
+    shares or a generator nothing is known.
+    """
+    known = torch.zeros(*mask.shape, rows, 6, dtype=torch.bool)
+    if shares is None or rng is None:
+        return known
+    for row, length in zip(known, mask.sum(1).tolist(), strict=True):
+        if rng.random() >= shares.free:
+            _draw_clip(row[:length], shares, rng)
+    return known
+
+
+def _draw_clip(known: Tensor, shares: ConstraintShares, rng: np.random.Generator) -> None:
+    """Fill the mask [T, R, 6] of one clip."""
+    frames = len(known)
+    if rng.random() < shares.joints:
+        _draw_joints(known, rng)
+        return
+    if known.shape[1] > ROOT_ROW and rng.random() < shares.root:
+        _draw_root(known, rng)
+    if known.shape[1] > ROOT_ROW and rng.random() < shares.contacts:
+        known[_most(frames, rng), ROOT_ROW, LEFT_CONTACT:] = True
+    longest = max(1, min(LONGEST_END, frames // 2))
+    if rng.random() < shares.start:
+        known[: rng.integers(1, longest + 1)] = True
+    if rng.random() < shares.end:
+        known[frames - rng.integers(1, longest + 1) :] = True
+    if rng.random() < shares.frames:
+        known[torch.as_tensor(rng.choice(frames, size=rng.integers(1, MOST_FRAMES + 1)))] = True
+
+
+def _draw_joints(known: Tensor, rng: np.random.Generator) -> None:
+    """All but some limbs, or the whole body, during a span."""
+    span = _span(len(known), rng)
+    again = [name for name in LIMBS if rng.random() < 0.4]
+    known[:] = True
+    if not again:
+        known[span] = False
+    for limb in again:
+        known[span, [JOINT_INDEX[joint] for joint in LIMBS[limb]]] = False
+        if limb.endswith("leg"):
+            known[span, ROOT_ROW:, LEFT_CONTACT:] = False
+
+
+def _draw_root(known: Tensor, rng: np.random.Generator) -> None:
+    """The path and the heading, or one of them; at times the height and the pelvis' tilt."""
+    span = _most(len(known), rng)
+    ways = ([FORWARD, LATERAL, YAW_RATE], [YAW_RATE], [FORWARD, LATERAL])
+    channels = list(ways[rng.choice(len(ways), p=ROOT_WAYS)])
+    channels += [HEIGHT] if rng.random() < 0.6 else []
+    for channel in channels:
+        known[span, ROOT_ROW, channel] = True
+    if rng.random() < 0.25:
+        known[span, 0] = True  # the pelvis' tilt
+
+
+def _most(frames: int, rng: np.random.Generator) -> slice:
+    """Nearly always the whole clip."""
+    return slice(None) if rng.random() < 0.85 else _span(frames, rng)
+
+
+def _span(frames: int, rng: np.random.Generator) -> slice:
+    start, stop = sorted(rng.integers(0, frames + 1, size=2).tolist())
+    return slice(start, max(stop, start + 1))
+
+
+# ---------------------------------------------------------------- the task
 
 
 class GenerationTask(Task):
@@ -125,6 +241,7 @@ class GenerationTask(Task):
         self.mean = motion_rows(self.data.mean, network)
         self.std = motion_rows(self.data.std, network)
         self.num_tags = len(self.data.tags)
+        self.shares = config.constraints if network.generation.constraints else None
         self.data_mean, self.data_std = self.mean, self.std
         self.diffusion = GaussianDiffusion(network.generation.diffusion())
         denoiser = MotionDenoiser(network, self.num_tags)
@@ -133,7 +250,12 @@ class GenerationTask(Task):
         self.module: nn.Module = GuidedDenoiser(denoiser)
         self.loss = GenerationLoss(config.losses, self.diffusion, self.mean, self.std)
         self.compute = choose_compute(config.device, config.precision)
-        self.figures: dict[str, float] = {}
+        self.frozen = (self.tower, self.loss)
+        self.identity = {
+            "network": network.model_dump(mode="json", by_alias=True),
+            "data-hash": self.data.manifest_hash,
+            "tower-hash": tower_hash(self.tower),
+        }
 
     def _start_from(self, source: str, denoiser: MotionDenoiser) -> None:
         """Take over a trained denoiser and its z-scores; tags that both know keep their vector."""
@@ -161,19 +283,6 @@ class GenerationTask(Task):
         fresh = {name: torch.zeros_like(value) for name, value in denoiser.state_dict().items()}
         denoiser.load_state_dict({**fresh, **state, TAG_WEIGHT: tags})
         self.mean, self.std = trained.mean, trained.std
-
-    def identity(self) -> dict[str, Any]:
-        """A resumed run must have the same network and text tower and see the same clips."""
-        return {
-            "network": self.network.model_dump(mode="json", by_alias=True),
-            "data-hash": self.data.manifest_hash,
-            "tower-hash": tower_hash(self.tower),
-        }
-
-    def to(self, device: torch.device) -> None:
-        """Frozen parts follow the module."""
-        self.tower.to(device)
-        self.loss.to(device)  # the diffusion process with it
 
     # ------------------------------------------------------------ batches
 
@@ -209,12 +318,10 @@ class GenerationTask(Task):
         if self.config.init:
             clean = (clean * self.data_std + self.data_mean - self.mean) / self.std
         noise = torch.randn(clean.shape, generator=draws)
-        known = torch.zeros(clean.shape, dtype=torch.bool)
-        if rng is not None and self.network.generation.constraints:
-            known = draw_known(clips.mask, clean.shape[2], self.config.constraints, rng)
+        known = draw_known(clips.mask, clean.shape[2], self.shares, rng)
         words = self.tokenizer(captions)
         return DenoiserBatch(
-            clean, noise, clips.mask, timesteps, tag, drop, *words, known, provenance
+            timesteps, tag, clips.mask, drop, known, provenance, clean, noise, *words
         )
 
     # ------------------------------------------------------------ learning
@@ -223,54 +330,29 @@ class GenerationTask(Task):
         """The weighted losses of one noised batch."""
         with torch.no_grad(), autocast(self.compute):
             text = self.tower(batch.input_ids, batch.attention_mask)
-        noisy = self.diffusion.q_sample(batch.clean, batch.timesteps, batch.noise)
-        seen = torch.where(batch.known, batch.clean, noisy)
-        output = module(
-            seen,
-            batch.timesteps,
-            text,
-            batch.tag,
-            batch.mask,
-            batch.drop,
-            batch.known,
-            batch.provenance,
-        )
-        # Sampling puts the known entries back, so what is judged is the motion with them in it.
-        target = self.diffusion.target(batch.clean, batch.noise, batch.timesteps)
-        output = torch.where(batch.known, target, output.float())
-        losses: dict[str, Tensor] = self.loss(
-            output, batch.clean, noisy, batch.noise, batch.timesteps, batch.mask
-        )
-        return losses
+        return denoising_losses(module, text, batch, self.loss)
 
     def validation(self, module: nn.Module) -> dict[str, float]:
         """Losses on held-back clips at fixed steps and noise, overall and by noise level."""
         if self.held_back is None:
             return {}
-        steps, thirds = self.diffusion.config.timesteps, len(NOISE_LEVELS)
-        sums: dict[str, list[float]] = {}
+        steps, found = self.diffusion.config.timesteps, []
         batches = self.held_back.fixed_batches(
             self.config.batch_size, self.config.validation_batches
         )
         for index, clips in enumerate(batches):
             none = torch.full_like(clips.tag, self.num_tags)
             drop = torch.zeros(len(clips), dtype=torch.bool)
-            for third, level in enumerate(NOISE_LEVELS):
-                draws = generator("validation", index, third)
-                spread = spread_timesteps(len(clips), max(1, steps // thirds), draws)
-                timesteps = (spread + third * steps // thirds).clamp(max=steps - 1)
+            for level, draws, timesteps in noise_levels(index, len(clips), steps):
                 losses = self._losses(module, clips, timesteps, none, drop, draws, None)
-                for key, value in losses.items():
-                    sums.setdefault(key, []).append(value)
-                sums.setdefault(f"loss-{level}", []).append(losses["loss"])
-            if self.network.generation.constraints:
-                draws = generator("validation", index, thirds)
+                found.append({**losses, f"loss-{level}": losses["loss"]})
+            if self.shares is not None:
+                draws = generator("validation", index, len(NOISE_LEVELS))
                 timesteps = spread_timesteps(len(clips), steps, draws)
                 masks = numpy_generator("validation", index)
                 losses = self._losses(module, clips, timesteps, none, drop, draws, masks)
-                sums.setdefault("loss-constrained", []).append(losses["loss"])
-        self.figures = {key: sum(values) / len(values) for key, values in sums.items()}
-        return self.figures
+                found.append({"loss-constrained": losses["loss"]})
+        return means(found)
 
     def _losses(
         self,
@@ -285,22 +367,19 @@ class GenerationTask(Task):
         device = next(module.parameters()).device
         told = clips.provenance
         batch = self._noised(clips, clips.captions, timesteps, tag, drop, told, draws, rng)
-        batch = DenoiserBatch(*(value.to(device) for value in vars(batch).values()))
-        return {key: value.item() for key, value in self.training_step(module, batch).items()}
+        losses = self.training_step(module, to_device(batch, device))
+        return {key: value.item() for key, value in losses.items()}
 
     # ------------------------------------------------------------ results
 
     def _generator(self, module: nn.Module) -> TextToMotion:
         assert isinstance(module, GuidedDenoiser)
-        card = ModelCard(
-            kind=KIND,
-            name=Path(self.config.output).name,
-            trained=True,
-            network=self.network,
-            tags=self.data.tags,
-            languages=self.config.languages,
+        card = trained_card(
+            KIND,
+            self.config,
+            self.network,
+            self.data,
             max_seconds=self.config.max_frames / 30.0,
-            data=self.data.manifest_hash,
             training={"steps": self.config.steps, "validation": self.figures},
         )
         return TextToMotion(
@@ -315,15 +394,10 @@ class GenerationTask(Task):
 
     def export_samples(self, module: nn.Module, folder: Path) -> None:
         """The validation prompts as BVH, and side by side as HTML."""
-        from ..shared.formats.registry import write_motion, write_preview
-
         seconds = min(SAMPLE_SECONDS, self.config.max_frames / 30.0)
-        maker = self._generator(module)
-        motions = maker.generate(self.config.validation_prompts, seconds=seconds)
-        folder.mkdir(parents=True, exist_ok=True)
-        for number, motion in enumerate(motions, start=1):
-            write_motion(motion, folder / f"{number:02d}.bvh")
-        write_preview(motions, folder / "index.html")
+        prompts = self.config.validation_prompts
+        motions = self._generator(module).generate(prompts, seconds=seconds)
+        write_samples(motions, (f"{number + 1:02d}" for number in range(len(motions))), folder)
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """A folder that `TextToMotion.from_pretrained` and `generate --model` read."""

@@ -81,6 +81,12 @@ class MemoryTask(AudioTask):
         super().__init__(config, network)
         rates = {"memory.": config.learning_rate, "": config.base_learning_rate}
         self.learning_rates = {} if config.base_learning_rate == 0 else rates
+        assert self.source.weights is not None
+        self.identity |= {
+            "weights": self.source.weights.sha256,
+            "space": self.space.fingerprint,
+            "memory": self.index.about,
+        }
 
     def _start(self) -> AudioMotionModel:
         model = AudioMotionModel.from_pretrained(self.config.audio)
@@ -97,26 +103,16 @@ class MemoryTask(AudioTask):
         self.network = model.config
         return model
 
-    def identity(self) -> dict[str, Any]:
-        """A resumed run must start from the same weights, and see the same phrases and memory."""
-        assert self.source.weights is not None
-        return {
-            **super().identity(),
-            "weights": self.source.weights.sha256,
-            "space": self.space.fingerprint,
-            "memory": self.index.about,
-        }
-
     # ------------------------------------------------------------ batches
 
-    def _drawn_audio(self, phrases: PhraseBatch, draws: torch.Generator) -> AudioBatch:
-        batch = super()._drawn_audio(phrases, draws)
+    def _drawn(self, phrases: PhraseBatch, draws: torch.Generator) -> AudioBatch:
+        batch: AudioBatch = super()._drawn(phrases, draws)
         assert batch.memory is not None
         forgotten = torch.rand(len(phrases), generator=draws) < self.config.memory_dropout
         return replace(batch, memory=batch.memory.without(forgotten))
 
-    def _noised(self, phrases: PhraseBatch, *drawn: Any, **options: Any) -> AudioBatch:
-        batch = super()._noised(phrases, *drawn, **options)
+    def _noised(self, phrases: PhraseBatch, *drawn: Any) -> AudioBatch:
+        batch = super()._noised(phrases, *drawn)
         recent = known_frames(batch.clean, batch.known)
         return replace(batch, memory=replace(self.recall(phrases), recent=recent))
 
@@ -149,8 +145,7 @@ class MemoryTask(AudioTask):
         """As audio training's, with memory; figures without it stand beside."""
         without = super().validation(Forgetful(module))
         found = super().validation(module)
-        self.figures = found | {f"without-{key}": value for key, value in without.items()}
-        return self.figures
+        return found | {f"without-{key}": value for key, value in without.items()}
 
     def _sample(self, model: AudioMotionModel, item: PhraseItem) -> MotionTrajectory:
         """With memory."""

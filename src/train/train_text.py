@@ -35,7 +35,7 @@ from ..shared.data.captions.schema import Labels
 from ..shared.data.captions.word_dropout import drop_words, insert_babble
 from ..shared.errors import UserError
 from ..shared.io.files import sha256_file
-from ..shared.model.checkpoint import WEIGHTS_FILE, ModelCard, read_card, resolve_model
+from ..shared.model.checkpoint import WEIGHTS_FILE, read_card, resolve_model
 from ..shared.model.clip.core import (
     MotionClip,
     TextTower,
@@ -66,6 +66,7 @@ from .text_stages import (
     motion_rows,
     new_tokenizer,
     open_training_data,
+    trained_card,
     with_places,
 )
 
@@ -202,7 +203,10 @@ class TextTask(Task):
         self.rows: dict[tuple[bool, int, str], range] = {}  # of `means`: hand-written, group, code
         self.means = torch.zeros(0)  # z-scored
         self.z_scores: ZScores | None = None
-        self.figures: dict[str, float] = {}
+        self.identity = {
+            "data-hash": self.data.manifest_hash,
+            "clip-hash": config.clip and sha256_file(resolve_model(config.clip) / WEIGHTS_FILE),
+        }
 
     def _from_nothing(self, network: NetworkConfig) -> ClipBundle:
         """Two towers that know nothing, and a tokenizer of these captions."""
@@ -212,15 +216,7 @@ class TextTask(Task):
             keys = self._shared_keys(tokenizer)
             network = with_pairs(network, len(keys))
         mean, std = (motion_rows(v, network) for v in (self.data.mean, self.data.std))
-        card = ModelCard(
-            kind=KIND,
-            name=Path(self.config.output).name,
-            trained=True,
-            network=network,
-            tags=self.data.tags,
-            languages=self.config.languages,
-            data=self.data.manifest_hash,
-        )
+        card = trained_card(KIND, self.config, network, self.data)
         clip = MotionClip(network)
         if isinstance(clip.text.encoder, TokenPairEncoder):
             clip.text.encoder.keys = keys
@@ -309,14 +305,6 @@ class TextTask(Task):
             found.append(nearest.argmax(-1).mode().values)
         return places[torch.stack(found)]
 
-    def identity(self) -> dict[str, Any]:
-        """A resumed run must start from the same tower and see the same labels."""
-        return {
-            "data-hash": self.data.manifest_hash,
-            "clip-hash": self.config.clip
-            and sha256_file(resolve_model(self.config.clip) / WEIGHTS_FILE),
-        }
-
     def to(self, device: torch.device) -> None:
         """The places follow the module, and the frozen encoder, there now, reads the captions."""
         self.places = self.places.to(device)
@@ -401,7 +389,7 @@ class TextTask(Task):
         """Of captions that training did not read: how many land nearest to the right place."""
         module.eval()
         tower, places = self._trained(module)
-        self.figures = {}
+        figures = {}
         for language in self.config.languages:
             pairs = [
                 (t, i) for i, group in enumerate(self.held_back) for t in group.get(language, [])
@@ -411,10 +399,10 @@ class TextTask(Task):
             embeddings = encode_captions(tower, self.tokenizer, [text for text, _ in pairs])
             nearest = (embeddings @ places.T).argmax(-1)
             right = nearest == torch.tensor([index for _, index in pairs])
-            self.figures[f"right-{language}"] = right.float().mean().item()
-        self.figures["right"] = sum(self.figures.values()) / max(len(self.figures), 1)
+            figures[f"right-{language}"] = right.float().mean().item()
+        figures["right"] = sum(figures.values()) / max(len(figures), 1)
         module.train()
-        return self.figures
+        return figures
 
     def _trained(self, module: nn.Module) -> tuple[TextTower, Tensor]:
         """The tower, and the places [G,D] on the CPU."""

@@ -13,9 +13,9 @@ from tests.full_disk import full_disk
 def test_a_full_disk_is_one_line_and_keeps_the_checkpoint_before(tmp_path: Path) -> None:
     model = nn.Linear(30, 30)
     parts = {name: model.state_dict() for name in ("model", "ema", "optimizer")}
-    save_checkpoint(tmp_path, **parts, state={"step": 1}, keep=2)
+    save_checkpoint(tmp_path, parts, state={"step": 1}, keep=2)
     with full_disk(), pytest.raises(UserError) as caught:
-        save_checkpoint(tmp_path, **parts, state={"step": 2}, keep=2)
+        save_checkpoint(tmp_path, parts, state={"step": 2}, keep=2)
     assert str(caught.value) == (
         f"cannot write checkpoint {tmp_path / 'step-00000002'}: File too large"
         "; free space and run again with --resume"

@@ -246,8 +246,8 @@ def test_the_decoder_of_another_folder(settings: Settings, tmp_path: Path) -> No
     config = settings(f"decoder-checkpoint='{tmp_path / 'derived'}'")
     task = FinetuneE2eTask(config, network_of(config.checkpoint))
     assert isinstance(task.model.decoder, DerivedMotionDecoder)
-    assert task.identity()["network"]["decoder"]["decoder"] == "derived"
-    assert len(task.identity()["weights"]) == 2
+    assert task.identity["network"]["decoder"]["decoder"] == "derived"
+    assert len(task.identity["weights"]) == 2
     losses = task.module(task.batch(Part(1, 0, 1)))
     assert losses["velocity-coherence"] < 1e-9  # derived velocities always agree
 

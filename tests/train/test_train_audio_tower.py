@@ -58,7 +58,7 @@ def test_it_learns_and_leaves_a_space(phrases: Path, clip: Path, tmp_path: Path)
     assert task.figures["median-rank"] < task.figures["chance-median-rank"]
 
     space = SharedSpace.from_pretrained(tmp_path)
-    assert space.card.trained and space.card.data == task.fingerprint
+    assert space.card.trained and space.card.data == task.identity["data-hash"]
     assert space.card.max_seconds == 2.0
     motion = task.train.embed_bodies(space.embed_motion)
     assert torch.allclose(motion, task.motion, atol=1e-5), "the motion tower is as it was"

@@ -79,14 +79,15 @@ def test_batches_are_pure_functions_of_their_part(data: Path, tmp_path: Path) ->
 
 def test_batches_depend_on_nothing_but_their_generator(data: Path) -> None:
     clips = PreparedData.open(data)
-    pairs = PairSet(clips, "train", min_frames=16, max_frames=48, languages=("en",))
+    config = TrainEvaluatorConfig(min_frames=16, max_frames=48, languages=("en",))
+    pairs = PairSet(clips, "train", config)
     first, again = (pairs.batch(8, np.random.default_rng(5)) for _ in range(2))
     assert first.captions == again.captions and torch.equal(first.joints, again.joints)
     assert first.joints.shape[:2] == first.mask.shape and first.mask.shape[1] <= 48
     assert first.same.diagonal().all() and torch.equal(first.same, first.same.T)
     assert torch.isfinite(pairs.frames()).all()
     with pytest.raises(UserError, match="captions in xx"):
-        PairSet(clips, "train", min_frames=16, max_frames=48, languages=("xx",))
+        PairSet(clips, "train", config.model_copy(update={"languages": ("xx",)}))
 
 
 def test_contrastive_loss_of_one_positive_is_cross_entropy() -> None:

@@ -37,7 +37,7 @@ from src.shared.evaluation.suites.text import (
     scores,
 )
 from src.shared.motion.motion import Motion
-from src.train.train_evaluator import PairSet, contrastive_loss
+from src.train.train_evaluator import PairSet, TrainEvaluatorConfig, contrastive_loss
 
 SETTINGS = TextSettings(
     num_samples=96,
@@ -64,7 +64,8 @@ def held_out(data: PreparedData) -> HeldOut:
 def judge(data: PreparedData) -> Evaluator:
     """A judge after 60 steps: far above chance, far from good."""
     torch.manual_seed(0)
-    pairs = PairSet(data, "train", min_frames=16, max_frames=64, languages=("en",), balance=1.0)
+    config = TrainEvaluatorConfig(min_frames=16, max_frames=64, languages=("en",))
+    pairs = PairSet(data, "train", config, balance=1.0)
     model = Evaluator(EvaluatorConfig(hidden_size=48, num_buckets=1024, dropout=0.0))
     model.fit_statistics(pairs.frames())
     optimizer = torch.optim.AdamW(model.parameters(), 5e-3)
