@@ -1,7 +1,7 @@
 """`evaluate-…`: the suites of `evaluate` that have flags of their own, a command each."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+from typing import Annotated, Any, TypeVar
 
 import typer
 
@@ -9,9 +9,6 @@ from ..shared.errors import UsageError
 from . import options
 from .console import check_range, tell, told
 from .evaluate import MODEL, given, keep_and_show, load_generator, show_report
-
-if TYPE_CHECKING:
-    from ..shared.evaluation.suites.sanity import SanityEvaluation
 
 
 def check_report(out: Path | None) -> None:
@@ -318,6 +315,7 @@ def evaluate_sanity(
     options.check_pairs(data)
     options.check_folder("--output-dir", output_dir)
 
+    from ..shared.evaluation.report.plots import plot_trajectory
     from ..shared.evaluation.suites import sanity
 
     set_threads(threads)
@@ -330,17 +328,9 @@ def evaluate_sanity(
     )
     files = [output_dir / name for name in ("sanity.json", "sanity.md")]
     keep_and_show(result.report, *files, json=json)
-    draw_pictures(result, output_dir)
-
-
-def draw_pictures(result: "SanityEvaluation", folder: Path) -> None:
-    """bands.png, and the first motion as trajectory.png."""
-    from ..shared.evaluation.report.plots import plot_trajectory
-    from ..shared.evaluation.suites.sanity import plot_bands
-
-    plot_bands(result.motions, result.bands, folder / "bands.png")
+    sanity.plot_bands(result.motions, result.bands, output_dir / "bands.png")
     first = result.motions["generated"][0]
-    plot_trajectory(first, folder / "trajectory.png", title="generated, sample 1")
+    plot_trajectory(first, output_dir / "trajectory.png", title="generated, sample 1")
 
 
 # ---------------------------------------------------------------- selection

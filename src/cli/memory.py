@@ -10,7 +10,7 @@ from ..shared.environment import TEXT_MODEL
 from ..shared.errors import UsageError, printable
 from ..shared.io.storage import Place, place
 from . import options
-from .console import complain, guarded, print_json, tell, with_quiet
+from .console import complain, guarded, print_json, progress_bar, tell, with_quiet
 from .generate_request import refuse_with
 from .options import Command
 
@@ -82,7 +82,6 @@ def build(
     from ..shared.io.files import sole_writer
     from ..shared.memory.build import build_memory
     from ..shared.model.audio.shared_space import SharedSpace
-    from .console import progress_bar
 
     set_threads(threads)
     loaded = SharedSpace.from_pretrained(space)
@@ -187,7 +186,6 @@ def remember_figures(data: Place, table: Path | None, out: Place, *, json: bool)
     """
     from ..shared.io.files import sole_writer
     from ..shared.memory.build import build_figures, every_file, read_takes
-    from .console import progress_bar
 
     if not data.is_dir():
         raise UsageError(f"{data} is no folder; name one of motion files")

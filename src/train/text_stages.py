@@ -215,27 +215,21 @@ def with_places(tower: TextTower, places: Tensor, keys: Tensor | None = None) ->
     return placed.freeze()
 
 
-def network_of_model(init: str) -> NetworkConfig:
-    """The network of a trained text model; raises UserError when there is no such model."""
+def network_of_model(init: str, overrides: Sequence[str] = ()) -> NetworkConfig:
+    """The network of a trained text model that a stage goes on from.
+
+    Raises:
+        UserError: there is no such model.
+        UsageError: there are overrides, which change nothing of it.
+    """
+    if overrides:
+        raise UsageError(f"{overrides[0]}: the network is that of init; leave it out")
     card = read_card(resolve_model(init))
     if card.kind != KIND:
         raise UserError(
             f"init {init} is a {card.kind}; name a text model, see `motion-tools models`"
         )
     return card.network
-
-
-def own_network(
-    network_of: Callable[[str], NetworkConfig],
-) -> Callable[[Any, Sequence[str]], NetworkConfig]:
-    """For a Stage that goes on from `init`: that model's network, which no override changes."""
-
-    def network(config: Any, overrides: Sequence[str]) -> NetworkConfig:
-        if overrides:
-            raise UsageError(f"{overrides[0]}: the network is that of init; leave it out")
-        return network_of(config.init)
-
-    return network
 
 
 SCOPE_CAPTIONS = 20_000  # at most so many captions teach OutOfDomainDetector

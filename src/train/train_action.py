@@ -50,7 +50,6 @@ from .text_stages import (
     as_features,
     network_of_model,
     open_training_data,
-    own_network,
     training_set,
     with_places,
     write_samples,
@@ -510,14 +509,14 @@ def _extended(tower: TextTower, keys: Tensor, known: Tensor) -> tuple[TextTower,
     return wider, pad(rate, (0, 1))
 
 
-def network_of(init: str) -> NetworkConfig:
+def network_of(init: str, overrides: Sequence[str] = ()) -> NetworkConfig:
     """The network of a model that a new action can be added to.
 
     Raises:
         UserError: no such model, or of another kind.
         UsageError: its text tower has no places.
     """
-    network = network_of_model(init)
+    network = network_of_model(init, overrides)
     clip = network.clip
     if clip.text_model != PAIRS or not clip.text_places:
         raise UsageError(
@@ -532,7 +531,7 @@ app = Stage(
     ActionTask,
     "train_action",
     "Teach a trained text model a new action from a few clips; the old ones stay.",
-    network=own_network(network_of),
+    network=lambda settings, given: network_of(settings.init, given),
     flags={"init": "the model that learns"},
     example="--data data/mine --init starter --output runs/mine",
 ).app()

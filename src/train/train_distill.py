@@ -12,6 +12,7 @@ way (consistency, Song et al. 2023, with targets that do not move).
 Letters: B batch, T frames, R rows of a frame, D shared dimensions, N student steps.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -45,7 +46,6 @@ from .text_stages import (
     as_features,
     network_of_model,
     open_training_data,
-    own_network,
     training_set,
     validation_set,
     z_scored_for,
@@ -334,14 +334,14 @@ def _read(file: Path) -> Pairs:
     return Pairs(**{k: v.float() if v.dtype == torch.float16 else v for k, v in tensors.items()})
 
 
-def network_of(init: str) -> NetworkConfig:
+def network_of(init: str, overrides: Sequence[str] = ()) -> NetworkConfig:
     """The network of a model that can be distilled.
 
     Raises:
         UserError: no such model, or of another kind.
         UsageError: it hears the tokens of a text, or does not predict clean motion.
     """
-    network = network_of_model(init)
+    network = network_of_model(init, overrides)
     if (kind := network.generation.prediction_type) != "sample":
         raise UsageError(
             f"init {init} predicts {kind}, of which a single step from noise makes no motion; name"
@@ -360,7 +360,7 @@ app = Stage(
     DistillTask,
     "train_distill",
     "Teach a copy of a text model to sample in one or a few steps, without guidance.",
-    network=own_network(network_of),
+    network=lambda settings, given: network_of(settings.init, given),
     flags={"init": "the teacher"},
     example="--data data/mine --init starter --output runs/quick",
 ).app()

@@ -341,16 +341,14 @@ class GenerationTask(Task):
             self.config.batch_size, self.config.validation_batches
         )
         for index, clips in enumerate(batches):
-            none = torch.full_like(clips.tag, self.num_tags)
-            drop = torch.zeros(len(clips), dtype=torch.bool)
             for level, draws, timesteps in noise_levels(index, len(clips), steps):
-                losses = self._losses(module, clips, timesteps, none, drop, draws, None)
+                losses = self._losses(module, clips, timesteps, draws)
                 found.append({**losses, f"loss-{level}": losses["loss"]})
             if self.shares is not None:
                 draws = generator("validation", index, len(NOISE_LEVELS))
                 timesteps = spread_timesteps(len(clips), steps, draws)
                 masks = numpy_generator("validation", index)
-                losses = self._losses(module, clips, timesteps, none, drop, draws, masks)
+                losses = self._losses(module, clips, timesteps, draws, masks)
                 found.append({"loss-constrained": losses["loss"]})
         return means(found)
 
@@ -359,14 +357,14 @@ class GenerationTask(Task):
         module: nn.Module,
         clips: TextMotionBatch,
         timesteps: Tensor,
-        tag: Tensor,
-        drop: Tensor,
         draws: torch.Generator,
-        rng: np.random.Generator | None,
+        rng: np.random.Generator | None = None,
     ) -> dict[str, float]:
-        device = next(module.parameters()).device
-        told = clips.provenance
-        batch = self._noised(clips, clips.captions, timesteps, tag, drop, told, draws, rng)
+        """Of clips with their captions and without a tag."""
+        device, told = next(module.parameters()).device, clips.provenance
+        none = torch.full_like(clips.tag, self.num_tags)
+        drop = torch.zeros(len(clips), dtype=torch.bool)
+        batch = self._noised(clips, clips.captions, timesteps, none, drop, told, draws, rng)
         losses = self.training_step(module, to_device(batch, device))
         return {key: value.item() for key, value in losses.items()}
 
