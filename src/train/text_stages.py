@@ -327,7 +327,8 @@ def _warning(
 def _without_key_words(text: str, scope: OutOfDomainDetector, rng: np.random.Generator) -> str:
     """The text with made-up words for all that tell of an action."""
     found = text.casefold()
-    for word in sorted(set(words_of(text)) & scope.key_words.keys(), key=len, reverse=True):
+    told = set(words_of(text)) & scope.key_words.keys()
+    for word in sorted(sorted(told), key=len, reverse=True):  # not in the order of their hashes
         if ord(word[0]) >= 0x3000:
             other = "".join(map(chr, rng.integers(*IDEOGRAPHS, size=len(word))))
         else:

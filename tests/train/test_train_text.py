@@ -1,5 +1,8 @@
 """Hardening the text tower: the space stays, the tower lands on it, denoisers go on."""
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -208,3 +211,27 @@ def test_sentences_of_other_things_come_near_no_place(prepared: Path, tmp_path: 
     )
     assert near is not None and far is not None
     assert near.median() > far.median() + 0.1
+
+
+WITHOUT = """
+from types import SimpleNamespace
+import numpy as np
+from src.train.text_stages import _without_key_words
+scope = SimpleNamespace(key_words=dict.fromkeys("walk wave jump kick turn".split(), (0,)))
+print(_without_key_words("walk, wave, jump, kick and turn", scope, np.random.default_rng(0)))
+"""
+
+
+def test_made_up_words_do_not_depend_on_how_words_hash() -> None:
+    """What a detector of prompts learns, and so its file, is the same in every process."""
+    said = [
+        subprocess.run(
+            [sys.executable, "-c", WITHOUT],
+            env=os.environ | {"PYTHONHASHSEED": seed},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for seed in ("1", "2")
+    ]
+    assert said[0] == said[1] and "walk" not in said[0]
