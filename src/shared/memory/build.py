@@ -505,7 +505,10 @@ def build_figures(
     left_out: dict[str, str] = {}
     for done, row in enumerate(rows, start=1):
         try:
-            takes += made_takes() if row.file.name == MADE else [_take(row)]
+            found = [*made_takes()] if row.file.name == MADE else [_take(row)]
+            if not any(take.is_dance for take in found):
+                left_out[str(row.file)] = "fewer than five counts were found"
+            takes += found
         except UserError as error:
             left_out[str(row.file)] = str(error)
         progress(done, len(rows))
@@ -515,10 +518,7 @@ def build_figures(
 def _take(row: TakeRow) -> Take:
     with fetched(row.file) as file:
         motion = repeated(read_motion(file), row.repeat)
-    take = Take.of(motion, row.file.stem, row.kind, row.source, row.licence)
-    if not take.is_dance:
-        raise UserError("fewer than five counts were found")
-    return take
+    return Take.of(motion, row.file.stem, row.kind, row.source, row.licence)
 
 
 def repeated(motion: Motion, times: int) -> Motion:

@@ -40,7 +40,7 @@ def book():
 def scope(book) -> OutOfDomainDetector:
     captions, actions = [], []
     for labels in LABELS:
-        for texts in book.captions(labels, num=60, seed=0).values():
+        for texts in book.captions(labels, num=120, seed=0).values():
             captions += texts
             actions += [labels["action"]] * len(texts)
     names = sorted(set(actions))
