@@ -449,7 +449,8 @@ def along_path(
     if alone:
         timeline = Timeline((replace(timeline.passages[0], frames=len(path)),))
     if drawn.headings is None:
-        path = path.swaying(natural_sway(make_timeline(generator, timeline, sampling), fps))
+        free = make_timeline(generator, replace(timeline, parts=()), sampling)
+        path = path.swaying(natural_sway(free, fps))
     given = path.constraint()
     features = make_timeline(
         generator,

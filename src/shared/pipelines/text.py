@@ -45,7 +45,7 @@ from .path import DrawnPath, natural_gait, natural_sway, time_path
 from .ranking import ScoreTable, TextJudge, unranked
 from .sentence import Clause, Reading, clauses, goes_round, side_of, tidied
 from .stream import OVERLAP, WINDOW, Miss, Passage, stream_features
-from .timeline import Part, Timeline, add_parts
+from .timeline import SHORTEST, Part, Timeline, add_parts
 
 TURN_SPEED, TURN_REST = 75.0, 0.5  # degrees a second; seconds before and after a turn
 SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to be filled
@@ -323,12 +323,17 @@ class SentenceGenerator:
         names of its length gives way.
 
         Raises:
-            UserError: so many metres cannot be gone in their time, or as `stream_features`.
+            UserError: a text asks for more than its time can hold, or as `stream_features`.
         """
         parts, fps = list[Clause](), self.card.fps
         stretches = list[tuple[Passage, Constraint | None]]()
         for text, frames, tag in ((each.text, each.frames, each.tag) for each in timeline.passages):
             own = self.clauses(text)
+            if timeline.timed and len(own) > 1 and frames < len(own) * SHORTEST * fps:
+                raise UserError(
+                    f"{text!r} asks for {len(own)} things in {frames / fps:g} s; give it"
+                    f" {len(own) * SHORTEST:g} s or more"
+                )
             stops = [round(frames * number / len(own)) for number in range(len(own) + 1)]
             for part, (start, stop) in zip(own, pairwise(stops), strict=True):
                 exactly = stop - start if timeline.timed else None
@@ -414,9 +419,9 @@ class SentenceGenerator:
             given = self._led(passage, clause, sampling)
         elif clause.count > 1:
             once = round(float(np.clip(seconds / clause.count, *ONCE)) * fps)
+            frames = once * clause.count
             if exactly is not None:
-                once = math.ceil(exactly / clause.count)
-            frames = exactly or once * clause.count
+                frames, once = exactly, math.ceil(exactly / clause.count)
             passage = replace(passage, frames=frames, window=once + REPEATED_OVERLAP)
         if given is not None:
             return replace(passage, frames=len(given)), given

@@ -12,7 +12,7 @@ import { isPlain, SentenceReader } from "./sentence.js";
 import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
 const GOING = ["walk", "run", "crouch-walk"], CORNER = 90, CORNER_SECONDS = 3, TURNING = (20 * Math.PI) / 180;
-const MIN_FRAMES = 8, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
+const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
 
 export class Director {
   /** @param {Sampler} sampler @param {Scope} scope @param {object} settings of the model */
@@ -53,7 +53,8 @@ export class Director {
   async timeline(blocks, seed, options) {
     const parts = [], stretches = [];
     for (const { text, frames } of this.passages(blocks)) {
-      const own = this.reader.clauses(text), stop = (i) => round((frames * i) / own.length);
+      const own = this.reader.clauses(text), stop = (i) => round((frames * i) / own.length), least = own.length * SHORTEST;
+      if (own.length > 1 && frames < least * FPS) throw new Error(`“${text}” asks for ${own.length} things in ${(frames / FPS).toFixed(1)} seconds; give it ${least.toFixed(1)} or more.`);
       for (const [i, part] of own.entries()) stretches.push(await this.stretch(part, frames / FPS, seed, stop(i + 1) - stop(i)));
       parts.push(...own);
     }
@@ -158,7 +159,7 @@ export class Director {
       return led(pathConstraint(swaying(path, await this.sway(text, path.points.length, seed))));
     }
     if (count > 1) {
-      const once = exactly ? Math.ceil(exactly / count) : round(Math.min(Math.max(seconds / count, ONCE[0]), ONCE[1]) * FPS);
+      const once = exactly !== null ? Math.ceil(exactly / count) : round(Math.min(Math.max(seconds / count, ONCE[0]), ONCE[1]) * FPS);
       const frames = exactly ?? once * count;
       return { passage: { text, frames, afresh, window: once + REPEATED_OVERLAP, miss: this.miss(clause, frames) } };
     }

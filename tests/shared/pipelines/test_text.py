@@ -143,6 +143,8 @@ def test_texts_of_a_timeline_are_read_as_sentences_are():
     walk, turn, squats = made.frames(0, 90), made.frames(90, 210), made.frames(210, 331)
     assert np.linalg.norm(walk.root_position[-1, [0, 2]]) == pytest.approx(2.0, abs=0.1)
     assert turn_of(turn) == pytest.approx(90, abs=5) and measure(squats).squats == 2
+    with pytest.raises(UserError, match=r"asks for 2 things in 0\.3 s; give it 0\.4 s"):
+        sentences.timeline(Timeline((Passage(texts[1], 9),)), Sampling())
     with pytest.raises(UserError, match="too long for its time"):
         sentences.timeline(Timeline((Passage("a person walks 9 metres", 30),)), Sampling())
 
