@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
 
 ROOTS = ("on", "in-place")
-READABLE = (".bvh", ".amc", ".glb", ".vrma", ".npz", ".npy", ".csv")
 
 
 @dataclass(frozen=True)
@@ -45,8 +44,8 @@ def convert(
     format: Annotated[
         str | None,
         typer.Option(
-            help="Into a folder, with commas between: bvh, glb, usd, usda, usdc, npz, amass, csv,"
-            " html, png, gif, mp4."
+            help="Into a folder, with commas between: bvh, glb, usd, usda, usdc, vrma, npz, amass,"
+            " csv, html, png, gif, mp4."
         ),
     ] = None,
     fps: Annotated[float | None, typer.Option(help="Frames a second of OUT; those of IN.")] = None,
@@ -170,6 +169,8 @@ def plan(files: list[Place], format: str | None) -> Iterator[Job]:
 
 def found(sources: list[Place]) -> Iterator[tuple[Place, str]]:
     """Every file to read, and its path in the output folder without the ending."""
+    from ..shared.data.retarget.read_motion import ENDINGS
+
     for source in sources:
         if source.is_dir():
             if isinstance(source, Address):
@@ -177,9 +178,9 @@ def found(sources: list[Place]) -> Iterator[tuple[Place, str]]:
             else:
                 paths = sorted(source.rglob("*"))
                 names = [path.relative_to(source).as_posix() for path in paths]
-            inside = [name for name in names if PurePosixPath(name).suffix.lower() in READABLE]
+            inside = [name for name in names if PurePosixPath(name).suffix.lower() in ENDINGS]
             if not inside:
-                raise UserError(f"{source} holds no motion file; known are {', '.join(READABLE)}")
+                raise UserError(f"{source} holds no motion file; known are {', '.join(ENDINGS)}")
             for name in inside:
                 yield source / name, stem(name)
         else:

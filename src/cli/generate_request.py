@@ -136,8 +136,8 @@ class Request:
     format: Annotated[
         str | None,
         typer.Option(
-            help="With commas between: bvh, glb, npz, html for a body;"
-            " npz, csv, glb, html, png for the path of a song."
+            help="With commas between: bvh, glb, npz, html (unless given), usd, usda, usdc,"
+            " vrma, amass, csv, png, gif, mp4 for a body; npz, csv, glb, html, png for a path."
         ),
     ] = None
     out: Annotated[

@@ -136,7 +136,7 @@ PHYSICS: MetricFamily[MotionSample] = MetricFamily(
         Column("support_slide", "slide, support cm/s", 2, better="low"),
         Column("penetration", "sunk cm", 2, better="low"),
         Column("jerk", "jerk m/s³", 0),
-        Column("hand_jerk", "hand jerk m/s³", 0),
+        Column("hand_jerk", "wrist jerk m/s³", 0),
         Column("speed", "speed m/s", 2),
     ),
     "contact: speed of the ball of a foot over frames that the contact detector accepts, which"

@@ -142,7 +142,7 @@ FEET = MetricFamily(
         Column("jerk_per_speed", "jerk / speed 1/s², after", 0),
     ),
     "Before and after the clean-up of the feet; rows that have none show the same twice."
-    " *contact*: m/s of the ball of a foot while a detector that asks for a slow foot says that"
+    " *contact*: cm/s of the ball of a foot while a detector that asks for a slow foot says that"
     " it stands. *support*: the lower foot in every frame within 6 cm of its standing height,"
     " no condition on its speed, so neither a fast glide nor the clean-up's own idea of a"
     " contact escapes it. A frozen pose is perfect in all but *jerk / speed*, which it has not.",

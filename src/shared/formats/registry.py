@@ -29,6 +29,8 @@ def _lazy(module: str, function: str) -> Callable[..., Any]:
     return call
 
 
+# Of (motion, path), with `names=` those that are in `CLIP_EXPORTERS`, too. A new one wants a row in
+# docs/formats.md and its first bytes in the test.
 EXPORTERS: dict[str, Callable[..., Path]] = {
     "bvh": _lazy("writers.bvh", "write_bvh"),
     "glb": _lazy("writers.glb", "write_glb"),

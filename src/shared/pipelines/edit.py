@@ -342,7 +342,7 @@ def edited(
     Args:
         generator: trained.
         text: what the rest shows; None = nothing is said.
-        given: see `editing`.
+        given: what is known of it; see `Given`.
         sampling: how.
         tag: action label beside the text.
         foot_lock: None = the model's own.

@@ -224,7 +224,7 @@ FIGURES = (
     Figure("speed_error", "speed error m/s", 3, False, "outside"),
     Figure("turn_error", "turn error °", 1, False, "outside"),
     Figure("support_slide", "slide, support cm/s", 2, False, "akin"),
-    Figure("hand_jerk", "hand jerk m/s³", 0, False, "akin"),
+    Figure("hand_jerk", "wrist jerk m/s³", 0, False, "akin"),
 )
 
 

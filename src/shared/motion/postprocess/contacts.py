@@ -4,6 +4,8 @@ A body on a path that is not its own (a dancer pinned to a song's trajectory) sl
 held foot can make up for; where a leg ends, feet take steps in turn. Between two holds the
 correction follows a cubic Hermite curve (Kovar et al. 2002, "Footskate cleanup", §4).
 
+The studio has the same in `studio/src/body/contacts.js`: change both, then `npm run build` there.
+
 Letters: T frames, N frames of a curve.
 """
 
@@ -176,7 +178,7 @@ def plant_spans(
     for start, stop, side in _runs(balls, stands, fps, kept):
         planner.plant(start, stop, side)
     planner.step_on(len(balls))
-    return planner.found
+    return planner.found  # other times of holds belong here: before it they move the other foot
 
 
 class _Planner:
