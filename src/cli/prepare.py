@@ -83,7 +83,7 @@ def prepare(
     from ..shared.data.prepare import prepare as prepare_folder
     from ..shared.data.retarget.autodetection import axis_vector, unit_metres
     from ..shared.data.retarget.mapping import words
-    from ..shared.data.sources.folders import MotionFolder, Reading, Source, SyntheticSource
+    from ..shared.data.sources import MotionFolder, Reading, Source, SyntheticSource
     from ..shared.io.files import sole_writer
 
     for check, value in ((unit_metres, unit), (axis_vector, up)):

@@ -10,7 +10,7 @@ import pytest
 from src.shared.data.phrases.layout import parse_manifest, write_body, write_manifest
 from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
-from src.shared.data.sources.folders import SyntheticSource
+from src.shared.data.sources import SyntheticSource
 from src.shared.errors import UserError
 from src.shared.evaluation.judge.evaluator import Evaluator
 from src.shared.evaluation.report.pages import save_report

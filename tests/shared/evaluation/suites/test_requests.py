@@ -10,7 +10,7 @@ import pytest
 from src.shared.data.captions.requests import Request, load_requests
 from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
-from src.shared.data.sources.folders import SyntheticSource
+from src.shared.data.sources import SyntheticSource
 from src.shared.data.synthetic.clips import generate_clip, label_combinations, spec_for
 from src.shared.errors import UserError
 from src.shared.evaluation.report.tables import Grid

@@ -10,7 +10,7 @@ import pytest
 import torch
 
 from src.shared.data.prepare import prepare
-from src.shared.data.sources.folders import SyntheticSource
+from src.shared.data.sources import SyntheticSource
 from src.shared.evaluation.judge.evaluator import Evaluator, EvaluatorConfig
 from src.shared.evaluation.report.pages import save_report
 from src.shared.evaluation.report.tables import grids
