@@ -41,9 +41,9 @@ from ..engine import Bench, Progress, Row, Suite, run_suite
 from ..families_dance import DANCE_FAMILIES, MOMENTS
 from ..judge.evaluator import Evaluator
 from ..manifest import Parts, Sources, model_hashes, song_hashes
-from ..report.tables import Column, Grid, GridRow
 from ..samples import Bodies, Dance, DanceSample, held_still, untrained
 from ..stats import bootstrap_mean
+from ..tables import Column, Grid, GridRow
 from .alignment import alignment_grids, danced
 from .editing import EditContext, kept_table, path_table, transition_table
 from .songs import Piece, captured_dances, held_out_songs, real_dances, tracks

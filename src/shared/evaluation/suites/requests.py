@@ -37,9 +37,9 @@ from ..judge.actions import (
     same_action,
     shown,
 )
-from ..report.tables import Cell, Column, Grid, GridRow, Report, report_data
 from ..samples import frozen_pose, rows_of_each, spread_over_groups
 from ..stats import Estimate, bootstrap_mean, replicated, share_of
+from ..tables import Cell, Column, Grid, GridRow, Report, report_data
 from .text import errors_only
 from .yardstick import Asked, RequestSettings, Seen, Yardstick, answering
 

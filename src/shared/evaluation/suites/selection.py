@@ -43,9 +43,9 @@ from ...pipelines.text import PromptSampler
 from ..engine import Progress
 from ..judge.actions import check
 from ..judge.evaluator import Evaluator
-from ..report.tables import Column, Grid, GridRow, Report, report_data
 from ..samples import Clips, open_held_out, real_clips
 from ..stats import Estimate, bootstrap_mean, replicated
+from ..tables import Column, Grid, GridRow, Report, report_data
 from .songs import Piece, held_out_songs, open_split, phrases
 
 Role = Literal["outside", "akin", "judge"]
