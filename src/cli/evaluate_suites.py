@@ -178,7 +178,7 @@ def evaluate_performer(
         options.check_data(clips)
     options.check_folder("--out", out)
 
-    from ..shared.evaluation.judge.evaluator import Evaluator
+    from ..shared.evaluation.evaluator import Evaluator
     from ..shared.evaluation.pages import save_report
     from ..shared.evaluation.samples import open_held_out
     from ..shared.evaluation.suites import dance

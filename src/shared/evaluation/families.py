@@ -40,8 +40,8 @@ from ..metrics.rhythm import (
 )
 from ..metrics.sanity import MEASURES, SEVEN, UNITS, SanityChecker
 from ..motion.trajectory import MotionTrajectory
+from .actions import check
 from .engine import MetricFamily, Value
-from .judge.actions import check
 from .samples import Bodies, Dance, MotionSample, Trajectories
 from .tables import Column
 

@@ -23,7 +23,7 @@ from ...pipelines.stream import Passage
 from ...pipelines.text import SentenceGenerator
 from ...pipelines.timeline import Timeline
 from ..engine import Progress
-from ..judge.evaluator import Evaluator
+from ..evaluator import Evaluator
 from ..samples import Clips, HeldOut, held_still, real_clips, untrained
 from ..stats import bootstrap_columns, bootstrap_mean
 from ..tables import Cell, Column, Grid, GridRow

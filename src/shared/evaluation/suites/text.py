@@ -24,8 +24,8 @@ from ...metrics.retrieval import BATCH, normalised_score
 from ...motion.motion import Motion
 from .. import manifest
 from ..engine import Bench, Progress, Row, Suite, run_suite
+from ..evaluator import Evaluator, evaluator_folder
 from ..families import TEXT_FAMILIES, r_precision
-from ..judge.evaluator import Evaluator, evaluator_folder
 from ..manifest import Part, Parts, Sources
 from ..samples import (
     Clips,

@@ -12,7 +12,7 @@ from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
 from src.shared.data.sources import SyntheticSource
 from src.shared.errors import UserError
-from src.shared.evaluation.judge.evaluator import Evaluator
+from src.shared.evaluation.evaluator import Evaluator
 from src.shared.evaluation.pages import save_report
 from src.shared.evaluation.samples import HeldOut
 from src.shared.evaluation.suites.dance import (

@@ -17,7 +17,7 @@ from src.shared.data.prepare import open_data
 from src.shared.data.prepared import PreparedData
 from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.errors import UserError
-from src.shared.evaluation.judge.evaluator import Evaluator, EvaluatorConfig
+from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig
 from src.shared.evaluation.samples import HeldOut, Sampler
 from src.shared.evaluation.suites import control as control
 from src.shared.evaluation.suites.control import control_grid
