@@ -13,7 +13,7 @@ from torch import Tensor, nn
 from torch.nn.utils.rnn import pad_sequence
 
 from ..shared.config_schema import TrainConfig
-from ..shared.data.captions.word_dropout import drop_words
+from ..shared.data.captions.book import drop_words
 from ..shared.data.prepare import open_data
 from ..shared.data.prepared import PreparedData
 from ..shared.errors import UserError
