@@ -19,7 +19,7 @@ import torch
 
 from src.shared.data.phrases.dataset import MotionPhraseDataset, collate
 from src.shared.data.prepared import PreparedData
-from src.shared.evaluation.judge.evaluator import Evaluator, evaluator_folder
+from src.shared.evaluation.evaluator import Evaluator, evaluator_folder
 from src.shared.evaluation.samples import Clips, real_clips
 from src.shared.evaluation.stats import Estimate, bootstrap_mean, paired_bootstrap
 from src.shared.metrics.physical import mean_jerk

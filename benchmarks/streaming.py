@@ -30,7 +30,7 @@ ROWS = {"mel": 128, "chroma": 12, "mfcc": 20, "rms": 0, "spectral_centroid": 0, 
 def text_hour(folder: Path) -> None:
     """An hour of synthetic clips, prepared."""
     from src.shared.data.prepare import prepare
-    from src.shared.data.sources.folders import SyntheticSource
+    from src.shared.data.sources import SyntheticSource
 
     prepare([SyntheticSource(CLIPS)], folder, workers=1)
 

@@ -5,7 +5,7 @@ import signal
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from src.shared.data.sources.folders import RawClip, SyntheticSource
+from src.shared.data.sources import RawClip, SyntheticSource
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,7 @@ from pathlib import Path
 
 from src.cli import tools
 from src.shared.data import prepare as preparation
-from src.shared.data.sources.folders import SyntheticSource
+from src.shared.data.sources import SyntheticSource
 from src.shared.io.files import is_unfinished
 from src.shared.memory import build
 from src.shared.model.audio.shared_space import SharedSpace

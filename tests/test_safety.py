@@ -18,7 +18,7 @@ from src.shared.data.phrases.layout import StoredObject
 from src.shared.data.prepared import VERSION, PreparedData
 from src.shared.data.retarget.read_motion import read_motion
 from src.shared.errors import UsageError, UserError
-from src.shared.evaluation.report.pages import _pictures
+from src.shared.evaluation.pages import _pictures
 from src.shared.io.arrays import BadArray, load_array, load_arrays
 from src.shared.io.files import inside, load_json
 from src.shared.model.checkpoint import ModelCard, read_card, read_tensors, write_checkpoint

@@ -13,7 +13,7 @@ from . import options
 from .console import flag_of, print_json, tell, told
 
 if TYPE_CHECKING:
-    from ..shared.evaluation.report.tables import Report
+    from ..shared.evaluation.tables import Report
     from ..shared.model.audio.audio_motion_model import AudioMotionModel
     from ..shared.pipelines.song import SongGenerator
 
@@ -174,7 +174,7 @@ def run(model: str, request: Request, out: Path | None, suite: str | None = None
     with sole_writer(folder):
         report = (run_audio if audio else run_text)(model, request, folder)
 
-        from ..shared.evaluation.report.pages import save_report
+        from ..shared.evaluation.pages import save_report
 
         save_report(report, folder)
     tell(f"evaluate: {folder / 'report.html'}")
@@ -272,7 +272,7 @@ def show_report(report: "Report", *, json: bool) -> None:
 
     Whatever suite it is of.
     """
-    from ..shared.evaluation.report.tables import draw, heading, intervals_note, markdown, tables
+    from ..shared.evaluation.tables import draw, heading, intervals_note, markdown, tables
 
     if json:
         print_json(report)
@@ -287,7 +287,7 @@ def show_report(report: "Report", *, json: bool) -> None:
 
 def keep_and_show(report: "Report", *files: Path, json: bool) -> None:
     """The report in these files, Markdown where one ends so, and on stdout."""
-    from ..shared.evaluation.report.tables import markdown
+    from ..shared.evaluation.tables import markdown
     from ..shared.io.files import write_json, write_text
 
     for file in files:
@@ -311,7 +311,7 @@ def report(
     if not (folder / "report.json").is_file():
         raise UsageError(f"{folder} holds no report.json; name a folder that `evaluate` wrote")
 
-    from ..shared.evaluation.report.pages import render
+    from ..shared.evaluation.pages import render
 
     show_report(render(folder), json=json)
     tell(f"report: {folder / 'report.html'}")
@@ -356,7 +356,7 @@ def compare(
 
     from ..shared.evaluation.compare import Side
     from ..shared.evaluation.compare import compare as differences
-    from ..shared.evaluation.report.pages import save_report
+    from ..shared.evaluation.pages import save_report
 
     result = differences(Side(folders[0], row), Side(folders[1], other_row or row), seed=seed)
     save_report(result, out)
@@ -402,11 +402,11 @@ def plot(
     options.check_file("--out", picture)
 
     if file.suffix.lower() in (".json", ".jsonl"):
-        from ..shared.evaluation.report.plots import plot_losses, read_losses
+        from ..shared.evaluation.plots import plot_losses, read_losses
 
         plot_losses(read_losses(file), picture, title=str(file))
     else:
-        from ..shared.evaluation.report.plots import plot_trajectory
+        from ..shared.evaluation.plots import plot_trajectory
         from ..shared.formats.registry import read_trajectory
 
         plot_trajectory(read_trajectory(file), picture, title=str(file))

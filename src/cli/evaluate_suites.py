@@ -178,8 +178,8 @@ def evaluate_performer(
         options.check_data(clips)
     options.check_folder("--out", out)
 
-    from ..shared.evaluation.judge.evaluator import Evaluator
-    from ..shared.evaluation.report.pages import save_report
+    from ..shared.evaluation.evaluator import Evaluator
+    from ..shared.evaluation.pages import save_report
     from ..shared.evaluation.samples import open_held_out
     from ..shared.evaluation.suites import dance
     from ..shared.evaluation.suites.editing import EditContext, EditSettings
@@ -315,7 +315,7 @@ def evaluate_sanity(
     options.check_pairs(data)
     options.check_folder("--output-dir", output_dir)
 
-    from ..shared.evaluation.report.plots import plot_trajectory
+    from ..shared.evaluation.plots import plot_trajectory
     from ..shared.evaluation.suites import sanity
 
     set_threads(threads)

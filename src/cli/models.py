@@ -231,7 +231,7 @@ def calibrate(
     from ..shared.data.prepared import PreparedData
     from ..shared.data.text_motion import arm_actions, gestures
     from ..shared.device import set_threads
-    from ..shared.evaluation.judge.actions import action_reliability, recognizer_of
+    from ..shared.evaluation.actions import action_reliability, recognizer_of
     from ..shared.model.clip.out_of_domain import RELIABLE
     from ..shared.model.generation.motion_generator import TextToMotion
     from ..shared.pipelines.text import SentenceGenerator

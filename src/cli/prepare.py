@@ -1,4 +1,5 @@
-"""`prepare` and `prepare-audio`: motion capture, and music beside it, become training sets."""
+"""`prepare` and `prepare-audio`: motion capture, and music beside it, become training sets;
+`features`: what a network hears in a song."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -12,7 +13,10 @@ from . import options
 from .console import complain, print_json, progress_bar, tell
 
 if TYPE_CHECKING:
+    from ..shared.audio.song import Song
     from ..shared.data.prepared import PreparedData
+
+CHROMA = ("fast", "cqt")
 
 
 def prepare(
@@ -83,7 +87,7 @@ def prepare(
     from ..shared.data.prepare import prepare as prepare_folder
     from ..shared.data.retarget.autodetection import axis_vector, unit_metres
     from ..shared.data.retarget.mapping import words
-    from ..shared.data.sources.folders import MotionFolder, Reading, Source, SyntheticSource
+    from ..shared.data.sources import MotionFolder, Reading, Source, SyntheticSource
     from ..shared.io.files import sole_writer
 
     for check, value in ((unit_metres, unit), (axis_vector, up)):
@@ -257,3 +261,88 @@ def print_pairs(report: dict[str, Any], out: Place) -> None:
     if left_out := report["left_out"]:
         tell(f"{len(left_out)} phrases or songs were left out; {out / 'report.json'} says why")
     print(f"next: motion-tools train audio --data {out} --output runs/audio")
+
+
+def features(
+    song: Annotated[Path, typer.Argument(help="A wav, flac, ogg or mp3 file.")],
+    out: Annotated[Path, typer.Option(help="File for the arrays (.npz).")],
+    plot: Annotated[Path | None, typer.Option(help="A picture as well (.png).")] = None,
+    chroma: Annotated[str, typer.Option(help="fast; or cqt: librosa's own, many times slower.")] = (
+        "fast"
+    ),
+    meter: Annotated[int | None, typer.Option(help="Beats a bar; else 3 or 4 by ear.")] = None,
+    cache: Annotated[
+        bool, typer.Option("--cache/--no-cache", help="Remember songs by their content.")
+    ] = True,
+    cache_dir: Annotated[Path | None, typer.Option(help="Remember them in this folder.")] = None,
+    json: options.Json = False,
+) -> None:
+    """Extract 163 features, beats and bar phase of a song, 30 frames a second.
+
+    \b
+    Examples:
+      motion-tools features song.mp3 --out song.npz --plot song.png
+      motion-tools features waltz.ogg --meter 3 --out waltz.npz
+    """
+    if chroma not in CHROMA:
+        raise UsageError(f"--chroma {chroma} is unknown; choose from {', '.join(CHROMA)}")
+    check_suffix("--out", out, ".npz")
+    if plot is not None:
+        check_suffix("--plot", plot, ".png")
+    if cache_dir is not None:
+        options.check_folder("--cache-dir", cache_dir)
+
+    from ..shared.audio.song import analyse
+
+    keep = cache_dir if cache and cache_dir else cache
+    analysed = analyse(song, meter=meter, chroma=chroma, cache=keep)  # type: ignore[arg-type]
+    analysed.save(out)
+    if plot is not None:
+        from ..shared.formats.preview.charts import plot_features
+
+        plot_features(analysed.arrays(), plot, title=describe_song(song, analysed))
+    if json:
+        print_json(song_facts(song, out, plot, analysed))
+    else:
+        print(describe_song(song, analysed))
+        for path in filter(None, (out, plot)):
+            print(path)
+
+
+def check_suffix(flag: str, path: Path, suffix: str) -> None:
+    """Refuse an output that is a folder, has another suffix or cannot be written.
+
+    Raises:
+        UsageError: naming the flag.
+    """
+    if path.suffix.lower() != suffix or path.is_dir():
+        raise UsageError(f"{flag} {path} is no {suffix} file; name one")
+    options.check_file(flag, path)
+
+
+def describe_song(path: Path, song: "Song") -> str:
+    """One line about a song."""
+    beats = song.beats
+    rhythm = f"{beats.tempo:.1f} BPM, {len(beats.beat_times)} beats in bars of {beats.meter}"
+    if not beats.tempo:
+        rhythm = "no beat"
+    return f"{path.name}: {song.seconds:.2f} s, {song.num_frames} frames, {rhythm}"
+
+
+def song_facts(path: Path, out: Path, plot: Path | None, song: "Song") -> dict[str, Any]:
+    """The result for programs."""
+    beats = song.beats
+    return {
+        "song": str(path),
+        "sha256": song.sha256,
+        "seconds": song.seconds,
+        "frames": song.num_frames,
+        "tempo": beats.tempo,
+        "meter": beats.meter,
+        "beats": len(beats.beat_times),
+        "downbeats": len(beats.downbeat_times),
+        "confidence": beats.confidence,
+        "notes": list(song.notes),
+        "out": str(out),
+        "plot": str(plot) if plot else None,
+    }

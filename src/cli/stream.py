@@ -75,9 +75,8 @@ def stream(
     if chosen_runtime("auto", model, device) == "onnx":
         compute_without_torch()
     from ..shared.device import set_threads
-    from ..shared.formats.live import Frame, json_line, vmc_bundle
     from ..shared.model.diffusion import Sampling
-    from ..shared.pipelines.live import LiveBody, parse_address
+    from ..shared.pipelines.live import Frame, LiveBody, json_line, parse_address, vmc_bundle
     from ..shared.pipelines.motion_generator import MotionGenerator
 
     set_threads(threads)

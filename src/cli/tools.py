@@ -23,12 +23,11 @@ from .evaluate_suites import (
     evaluate_selection,
     evaluate_space,
 )
-from .features import features
 from .generate import generate
 from .memory import memory
 from .models import calibrate, export_onnx, models, studio
 from .options import Command, SuiteCommand
-from .prepare import prepare, prepare_audio
+from .prepare import features, prepare, prepare_audio
 from .shape_check import shape_check
 from .stream import stream
 

@@ -27,17 +27,21 @@ from ..shared.io.concurrency import prefetch
 from ..shared.io.files import write_json
 from .checkpoint import (
     Checkpoint,
+    asks_for_shards,
     latest_checkpoint,
     load_optimizer,
+    local,
     optimizer_tensors,
+    placed_as,
     refuse_to_overwrite,
     require_same_run,
     run_identity,
     save_checkpoint,
+    shard,
+    whole,
 )
 from .processes import Interrupted, InterruptGuard, answering
 from .run_log import VALIDATION, RunLog, announce
-from .sharding import is_asked_for, local, placed_as, shard, whole
 from .task import Part, Task, mix_seed, to_device
 
 
@@ -193,7 +197,7 @@ class Trainer(Generic[ConfigT]):
         refuse_to_overwrite(self.output, resume=resume)
         compute = choose_compute(config.device, config.precision)
         threads = set_threads(config.threads)
-        sharded = is_asked_for(config.fsdp_version)
+        sharded = asks_for_shards(config.fsdp_version)
         self.accelerator = make_accelerator(config, compute)
         processes = self.accelerator.num_processes
         announce(f"computing on {compute}; {threads} CPU threads; {processes} process(es)")

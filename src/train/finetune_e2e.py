@@ -31,7 +31,7 @@ from ..shared.device import autocast
 from ..shared.environment import DECODER_CHECKPOINT, DIFFUSION_CHECKPOINT
 from ..shared.io.files import write_json, write_text
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
-from ..shared.model.audio.losses import DecoderLoss, TemporalCoherenceLoss, total
+from ..shared.model.audio.decoder import DecoderLoss, TemporalCoherenceLoss, total
 from ..shared.model.diffusion import (
     DDIMSampler,
     GaussianDiffusion,

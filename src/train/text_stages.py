@@ -22,8 +22,7 @@ from safetensors.torch import save_file
 from torch import Tensor
 
 from ..shared.config_schema import ClipConfig, NetworkConfig, TrainConfig
-from ..shared.data.captions.book import packaged_book
-from ..shared.data.captions.word_dropout import insert_babble
+from ..shared.data.captions.book import insert_babble, packaged_book
 from ..shared.data.prepare import open_data
 from ..shared.data.prepared import ClipRecord, PreparedData
 from ..shared.data.streamed import StreamedData, StreamedSet

@@ -26,8 +26,7 @@ from torch import Tensor, nn
 from torch.nn.functional import cross_entropy, kl_div, normalize, pad
 
 from ..shared.config_schema import PAIRS, ConstraintShares, LossWeights, NetworkConfig, TrainConfig
-from ..shared.data.captions.book import packaged_book
-from ..shared.data.captions.word_dropout import insert_babble
+from ..shared.data.captions.book import insert_babble, packaged_book
 from ..shared.data.prepared import ClipRecord
 from ..shared.errors import UsageError, UserError
 from ..shared.model.clip.core import (

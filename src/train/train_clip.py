@@ -20,7 +20,7 @@ import torch.distributed
 from torch import Tensor, nn
 
 from ..shared.config_schema import PAIRS, ClipConfig, NetworkConfig, TrainClipConfig
-from ..shared.data.captions.word_dropout import drop_words
+from ..shared.data.captions.book import drop_words
 from ..shared.data.text_motion import TextMotionBatch
 from ..shared.errors import UsageError
 from ..shared.metrics.retrieval import BATCH, TOP, guo_retrieval

@@ -23,8 +23,13 @@ from ..shared.config_audio import AudioNetworkConfig, DecoderLossConfig
 from ..shared.data.phrases.dataset import PhraseBatch
 from ..shared.environment import DIFFUSION_CHECKPOINT
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
-from ..shared.model.audio.decoder import Decoder, create_motion_decoder, wrapped_phase
-from ..shared.model.audio.losses import DecoderLoss, total
+from ..shared.model.audio.decoder import (
+    Decoder,
+    DecoderLoss,
+    create_motion_decoder,
+    total,
+    wrapped_phase,
+)
 from ..shared.motion.trajectory import PHASE
 from ..shared.pipelines.song_sampler import SPARE
 from .audio_stages import (

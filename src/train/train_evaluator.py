@@ -13,11 +13,11 @@ from torch import Tensor, nn
 from torch.nn.utils.rnn import pad_sequence
 
 from ..shared.config_schema import TrainConfig
-from ..shared.data.captions.word_dropout import drop_words
+from ..shared.data.captions.book import drop_words
 from ..shared.data.prepare import open_data
 from ..shared.data.prepared import PreparedData
 from ..shared.errors import UserError
-from ..shared.evaluation.judge.evaluator import Evaluator, EvaluatorConfig, joint_features
+from ..shared.evaluation.evaluator import Evaluator, EvaluatorConfig, joint_features
 from ..shared.metrics.retrieval import BATCH, TOP, guo_retrieval
 from .launch import Stage
 from .task import Part, Task, mix_seed

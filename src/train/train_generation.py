@@ -23,7 +23,7 @@ from ..shared.config_schema import (
     NetworkConfig,
     TrainGenerationConfig,
 )
-from ..shared.data.captions.word_dropout import drop_words
+from ..shared.data.captions.book import drop_words
 from ..shared.data.text_motion import TextMotionBatch
 from ..shared.device import autocast, choose_compute
 from ..shared.errors import UsageError

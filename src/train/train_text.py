@@ -30,9 +30,8 @@ from torch import Tensor, nn
 from torch.nn.functional import cross_entropy, normalize
 
 from ..shared.config_schema import PAIRS, NetworkConfig, TrainTowerConfig
-from ..shared.data.captions.book import packaged_book
+from ..shared.data.captions.book import drop_words, insert_babble, packaged_book
 from ..shared.data.captions.schema import Labels
-from ..shared.data.captions.word_dropout import drop_words, insert_babble
 from ..shared.errors import UserError
 from ..shared.io.files import sha256_file
 from ..shared.model.checkpoint import WEIGHTS_FILE, read_card, resolve_model

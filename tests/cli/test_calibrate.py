@@ -8,8 +8,8 @@ from typer.testing import CliRunner
 
 from src.cli.tools import app
 from src.shared.data.prepare import prepare
-from src.shared.data.sources.folders import SyntheticSource
-from src.shared.evaluation.judge import actions
+from src.shared.data.sources import SyntheticSource
+from src.shared.evaluation import actions
 from src.shared.model.checkpoint import resolve_model
 from src.shared.model.clip.out_of_domain import OutOfDomainDetector
 

@@ -9,10 +9,10 @@ from typer.testing import CliRunner
 from src.cli.evaluate import Request
 from src.cli.tools import app
 from src.shared.errors import UserError
-from src.shared.evaluation.judge.evaluator import Evaluator
-from src.shared.evaluation.report.tables import report_data
+from src.shared.evaluation.evaluator import Evaluator
 from src.shared.evaluation.suites import text as harness
 from src.shared.evaluation.suites.text import TextSettings
+from src.shared.evaluation.tables import report_data
 from src.shared.model.clip.tokenizer import PromptTokenizer
 
 

@@ -7,8 +7,8 @@ import pytest
 from typer.testing import CliRunner
 
 from src.cli.tools import app
-from src.shared.evaluation.report.tables import report_data
 from src.shared.evaluation.suites import dance
+from src.shared.evaluation.tables import report_data
 
 
 @pytest.mark.parametrize(

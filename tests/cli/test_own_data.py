@@ -10,7 +10,7 @@ import pytest
 
 from src.shared.data.captions.book import CaptionBook
 from src.shared.data.synthetic.clips import generate_clip, spec_for
-from src.shared.evaluation.judge.actions import check
+from src.shared.evaluation.actions import check
 from src.shared.formats.arrays import read_npz
 from src.shared.formats.writers.bvh import write_bvh
 

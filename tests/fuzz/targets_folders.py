@@ -21,7 +21,7 @@ SOUND_ROWS: dict[str, tuple[int, ...]] = {
 
 def _write_prepared(folder: Path) -> None:
     from src.shared.data.prepare import prepare
-    from src.shared.data.sources.folders import SyntheticSource
+    from src.shared.data.sources import SyntheticSource
 
     prepare([SyntheticSource(8)], folder)
 

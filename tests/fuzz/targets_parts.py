@@ -31,7 +31,7 @@ def _write(folder: Path) -> None:
 
 
 def _read(path: Path) -> None:
-    from src.shared.evaluation.report.plots import read_losses
+    from src.shared.evaluation.plots import read_losses
     from src.shared.metrics.sanity import Bands
     from src.shared.model.clip.out_of_domain import OutOfDomainDetector
     from src.shared.model.clip.style_map import StyleMap

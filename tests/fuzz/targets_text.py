@@ -17,7 +17,7 @@ def _write_tables(folder: Path) -> None:
 def _read_table(path: Path) -> None:
     from src.shared.config_loader import load_network
     from src.shared.data.retarget.mapping import load_mappings
-    from src.shared.data.sources.folders import load_label_rules
+    from src.shared.data.sources import load_label_rules
 
     match path.stem:
         case "skeletons":
@@ -52,7 +52,7 @@ def _write_captions(folder: Path) -> None:
 
 
 def _read_captions(path: Path) -> None:
-    from src.shared.data.sources.caption_tables import match_captions, read_captions
+    from src.shared.data.captions.tables import match_captions, read_captions
 
     rows = read_captions(path)
     pieces = [piece for row in rows.values() for piece in row]

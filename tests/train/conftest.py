@@ -22,7 +22,7 @@ def held_back(monkeypatch: pytest.MonkeyPatch) -> None:
 def prepared(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A prepared folder of 120 synthetic clips and their mirror images."""
     from src.shared.data.prepare import prepare
-    from src.shared.data.sources.folders import SyntheticSource
+    from src.shared.data.sources import SyntheticSource
 
     folder = tmp_path_factory.mktemp("prepared") / "data"
     prepare([SyntheticSource(120)], folder, workers=1)

@@ -14,7 +14,7 @@ from tiny_audio_stage import ROOT, assert_close_runs
 from tiny_stage import clip_config, train_clip
 from two_processes import KINDS, runs
 
-from src.train.sharding import is_asked_for
+from src.train.checkpoint import asks_for_shards
 
 ONE = "gradient-accumulation=2"  # the parts of a step that two processes share
 PROGRAM = """
@@ -83,5 +83,5 @@ def test_ddp_and_fsdp2_are_one_process_with_the_whole_batch(
 def test_accelerates_own_configuration_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ACCELERATE_USE_FSDP", "true")
     monkeypatch.setenv("FSDP_VERSION", "2")
-    assert is_asked_for(None) and "ACCELERATE_USE_FSDP" not in os.environ
-    assert is_asked_for(2) and not is_asked_for(None)
+    assert asks_for_shards(None) and "ACCELERATE_USE_FSDP" not in os.environ
+    assert asks_for_shards(2) and not asks_for_shards(None)

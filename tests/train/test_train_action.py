@@ -17,7 +17,7 @@ from tiny_stage import (
 from src.shared.config_loader import load_train
 from src.shared.data.captions.book import packaged_book
 from src.shared.data.prepare import prepare
-from src.shared.data.sources.folders import MotionFolder
+from src.shared.data.sources import MotionFolder
 from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.errors import UsageError, UserError
 from src.shared.formats.writers.bvh import write_bvh

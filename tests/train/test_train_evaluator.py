@@ -9,7 +9,7 @@ import torch
 from src.shared.config_loader import load_train
 from src.shared.data.prepared import PreparedData
 from src.shared.errors import UserError
-from src.shared.evaluation.judge.evaluator import Evaluator
+from src.shared.evaluation.evaluator import Evaluator
 from src.train.task import Part
 from src.train.train_evaluator import (
     EvaluatorTask,

@@ -54,7 +54,7 @@ from .prepared import (
     group_of,
     orbit,
 )
-from .sources.folders import MotionFolder, Skipped, Source, SyntheticSource
+from .sources import MotionFolder, Skipped, Source, SyntheticSource
 
 CLIPS_PER_SHARD = 128
 TABLES = ("clips.jsonl", "captions.json", "statistics.safetensors")  # beside the shards

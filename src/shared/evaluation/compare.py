@@ -14,8 +14,8 @@ from ..errors import UserError
 from . import manifest
 from .engine import motion_values, part_name
 from .manifest import Part, Parts, read_json
-from .report.tables import Cell, Column, Grid, GridRow, grids, report_data
 from .stats import FEW, MIN_PAIRS, Difference, paired_bootstrap
+from .tables import Cell, Column, Grid, GridRow, grids, report_data
 
 FREE = ("model", "sampling", "statistics", "environment")  # what a comparison may be about
 NOTE = (

@@ -19,8 +19,8 @@ from scipy.stats import rankdata
 from ..errors import UserError
 from . import manifest
 from .manifest import Part, Parts, Sources
-from .report.tables import Column, Grid, GridRow, Report, plain, report_data
 from .stats import Estimate, bootstrap_mean, replicated, share_of
+from .tables import Column, Grid, GridRow, Report, plain, report_data
 
 Progress = Callable[[str], None]
 Value = float | np.ndarray

@@ -40,10 +40,10 @@ from ..metrics.rhythm import (
 )
 from ..metrics.sanity import MEASURES, SEVEN, UNITS, SanityChecker
 from ..motion.trajectory import MotionTrajectory
+from .actions import check
 from .engine import MetricFamily, Value
-from .judge.actions import check
-from .report.tables import Column
 from .samples import Bodies, Dance, MotionSample, Trajectories
+from .tables import Column
 
 JOINT_AXES = 16
 MIN_SAMPLE = 2  # motions that have a covariance

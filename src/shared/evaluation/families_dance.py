@@ -15,8 +15,8 @@ from ..motion.motion import Motion
 from ..pipelines.body import root_error
 from .engine import MetricFamily
 from .families import ABOVE, BODY_KINETICS, SCORES, beat_scores
-from .report.tables import Column
 from .samples import Bodies, Dance
+from .tables import Column
 
 MOMENTS = {"": body_beats, "limbs_": limb_beats, "landing_": landings}
 

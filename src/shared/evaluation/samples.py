@@ -234,7 +234,7 @@ def open_held_out(data: str, cache: Path, trained_groups: frozenset[str]) -> Hel
         splits = {name: prepared.records(f"test_{name}") for name in ("seen", "unseen")}
         return HeldOut(prepared, splits, f"test splits of {data}")
     from ..data.prepare import prepare
-    from ..data.sources.folders import SyntheticSource
+    from ..data.sources import SyntheticSource
     from ..io.files import sole_writer
 
     folder = cache / f"synthetic-test-{FRESH_CLIPS}"

@@ -3,25 +3,58 @@
 Windows are given out in short pieces just before they are due, so that a sentence is soon seen: it
 waits for the piece that is being given out, and for the frames that the foot lock looks ahead. The
 rest of the window, made for the sentence before, is dropped.
+
+Frames are told as lines of JSON, or by the VMC protocol over OSC (protocol.vmc.info, "Marionette to
+Performer"): one bundle a frame with the root, the bones by their Unity names, and the time. Unity
+is left-handed with +X to the right of who faces +Z; here +X is the left, so x changes its sign, and
+with it the turns about y and z.
 """
 
+import json
 import queue
+import struct
 import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+
 from ..errors import UsageError
-from ..formats.live import Frame
+from ..formats.rig import SCHEMES
 from ..model.diffusion import Sampling
 from ..motion.motion import Motion
+from ..motion.skeleton import canonical_skeleton
 from .motion_generator import MotionGenerator
 from .stream import DEFAULT_SAMPLING
 
 WINDOW = 0.5  # seconds after which another sentence may begin
 AHEAD = 1.0  # seconds made beyond them, to be gone on with while none comes
 WAITING = 5  # frames that are made before they are due
+_OSC_AT_ONCE = (1).to_bytes(8, "big")  # the time tag that means now
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """One moment of a body.
+
+    Attributes:
+        number: counted from 0.
+        seconds: from the first frame.
+        text: what it shows.
+        root: world position of the pelvis [3], metres.
+        quaternions: local rotations [22,4], w x y z; the pelvis' in the world.
+        contacts: left and right foot on the ground [2].
+    """
+
+    number: int
+    seconds: float
+    text: str
+    root: np.ndarray
+    quaternions: np.ndarray
+    contacts: np.ndarray
+
 
 Sink = Callable[[Frame], None]
 
@@ -182,3 +215,44 @@ def parse_address(text: str, port: int) -> tuple[str, int]:
     if not number.isdigit() or not 0 < int(number) < 65536:
         raise UsageError(f"{text!r} is no address; give HOST, PORT or HOST:PORT")
     return host or "127.0.0.1", int(number)
+
+
+def json_line(frame: Frame) -> str:
+    """One line, without its end."""
+    numbers = {
+        "root": frame.root.round(5).tolist(),
+        "rotations": frame.quaternions.round(6).tolist(),
+        "contacts": frame.contacts.round(3).tolist(),
+    }
+    head = {"frame": frame.number, "time": round(frame.seconds, 4), "text": frame.text}
+    return json.dumps(head | numbers, ensure_ascii=False)
+
+
+def vmc_bundle(frame: Frame) -> bytes:
+    """An OSC bundle: root at the origin, bones in their parents, the pelvis in the world."""
+    offsets = canonical_skeleton().offsets.copy()
+    offsets[0] = frame.root
+    messages = [_message("/VMC/Ext/Root/Pos", "root", *(0.0,) * 6, 1.0)]
+    for name, offset, turn in zip(SCHEMES["unity"], offsets, frame.quaternions, strict=True):
+        (x, y, z), (w, i, j, k) = offset.tolist(), turn.tolist()
+        messages.append(_message("/VMC/Ext/Bone/Pos", name, -x, y, z, i, -j, -k, w))
+    messages.append(_message("/VMC/Ext/OK", 1))
+    messages.append(_message("/VMC/Ext/T", float(frame.seconds)))
+    sized = (struct.pack(">i", len(message)) + message for message in messages)
+    return _padded(b"#bundle") + _OSC_AT_ONCE + b"".join(sized)
+
+
+def _message(address: str, *values: str | int | float) -> bytes:
+    kinds = "".join({str: "s", int: "i", float: "f"}[type(value)] for value in values)
+    parts = [_padded(address.encode()), _padded(f",{kinds}".encode())]
+    for value in values:
+        if isinstance(value, str):
+            parts.append(_padded(value.encode()))
+        else:
+            parts.append(struct.pack(">i" if isinstance(value, int) else ">f", value))
+    return b"".join(parts)
+
+
+def _padded(text: bytes) -> bytes:
+    """With a zero, and more up to a multiple of four."""
+    return text + b"\0" * (4 - len(text) % 4)

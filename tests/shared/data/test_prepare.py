@@ -14,7 +14,7 @@ from src.shared.data import prepare as prepare_module
 from src.shared.data.captions.language import mirror_labels
 from src.shared.data.prepare import fill_gaps, open_data, prepare
 from src.shared.data.prepared import PreparedData, assign_splits, group_of, orbit
-from src.shared.data.sources.folders import MotionFolder, SyntheticSource, load_label_rules
+from src.shared.data.sources import MotionFolder, SyntheticSource, load_label_rules
 from src.shared.data.synthetic.clips import generate_clip, sample_specs
 from src.shared.data.text_motion import TextMotionDataset
 from src.shared.errors import UsageError, UserError

@@ -9,7 +9,7 @@ import torch
 from src.shared.data import prepare as preparation
 from src.shared.data import streamed
 from src.shared.data.prepared import PreparedData
-from src.shared.data.sources.folders import SyntheticSource
+from src.shared.data.sources import SyntheticSource
 from src.shared.data.streamed import AHEAD, MIXED, StreamedData, StreamedSet
 from src.shared.errors import UserError
 from src.shared.io.storage import Address

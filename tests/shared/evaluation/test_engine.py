@@ -10,7 +10,7 @@ import pytest
 from src.shared.errors import UserError
 from src.shared.evaluation.engine import Bench, Row, estimate, motion_values, run_bench, worst_first
 from src.shared.evaluation.manifest import Parts
-from src.shared.evaluation.report.tables import Column, Grid
+from src.shared.evaluation.tables import Column, Grid
 from tests.shared.evaluation.toy_bench import NUM, Heights, toy_bench
 
 

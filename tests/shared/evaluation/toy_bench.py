@@ -5,9 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from src.shared.evaluation.engine import Bench, Row, Value
-from src.shared.evaluation.report.tables import Column
 from src.shared.evaluation.samples import Clips, MotionSample
 from src.shared.evaluation.suites.text import write_motion
+from src.shared.evaluation.tables import Column
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import NUM_JOINTS
 

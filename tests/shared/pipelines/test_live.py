@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from src.shared.errors import UsageError
-from src.shared.formats.live import Frame
 from src.shared.model.diffusion import Sampling
 from src.shared.model.generation.motion_generator import TextToMotion
-from src.shared.pipelines.live import AHEAD, LiveBody, parse_address
+from src.shared.pipelines.live import AHEAD, Frame, LiveBody, parse_address
 from src.shared.pipelines.motion_generator import MotionGenerator
 from tests.shared.model.conftest import tiny_generator
 

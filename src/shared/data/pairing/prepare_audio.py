@@ -38,11 +38,11 @@ from ...io.storage import Place, files_below
 from ...metrics.rhythm import motion_beats
 from ...motion.style import measure_style
 from ...motion.trajectory import STYLE, MotionTrajectory, encode_window
+from ..captions.tables import Piece
 from ..phrases.layout import PhraseRecord, features_path, trajectory_path, write_phrase
 from ..prepare import prepare
 from ..prepared import PreparedData
-from ..sources.caption_tables import Piece
-from ..sources.folders import MotionFolder
+from ..sources import MotionFolder
 from .clip_library import FPS, MARGIN, ClipLibrary, open_library
 from .music import Music, MusicSource, SongEntry
 from .pair import MIN_SCORE, PhrasePair, pair_phrase

@@ -21,10 +21,10 @@ from ...metrics.rhythm import (
     song_phase,
 )
 from ...motion.trajectory import FPS, MotionTrajectory
-from ..report.plots import new_figure, save_figure
-from ..report.tables import Column, Grid, GridRow
+from ..plots import new_figure, save_figure
 from ..samples import DanceSample, Moved
 from ..stats import FEW, Estimate, bootstrap_columns, bootstrap_mean
+from ..tables import Column, Grid, GridRow
 from .songs import Piece
 
 HELD_AGAINST = ("chance", "another song", "half a beat later")

@@ -34,8 +34,8 @@ from ...pipelines.song_sampler import SPARE, SongSampling, spans
 from ..engine import Bench, Progress, Row, Suite, run_suite
 from ..families import AUDIO_FAMILIES, beats_of
 from ..manifest import Part, Parts, Sources, model_hashes, song_hashes
-from ..report.tables import Column, Grid, GridRow
 from ..samples import Dance, DanceSample, Trajectories, untrained_audio_model
+from ..tables import Column, Grid, GridRow
 from .alignment import (
     alignment_grids,
     danced,

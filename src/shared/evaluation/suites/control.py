@@ -14,11 +14,11 @@ from typing import Any
 
 from ...data.captions.book import CaptionBook
 from ...metrics.measurements import Measurements, measure
-from ..judge.actions import CONTROL_TASKS, ControlTask
+from ..actions import CONTROL_TASKS, ControlTask
 from ..manifest import Part
-from ..report.tables import Column, Grid, GridRow
 from ..samples import Clips, Sampler, frozen_pose
 from ..stats import NOTHING, Estimate, share_of, success_rate
+from ..tables import Column, Grid, GridRow
 
 Labels = dict[str, str]
 Once = Callable[[str, Callable[[], Part]], Part]

@@ -38,12 +38,12 @@ from ...pipelines.song import SongCondition, SongGenerator, finished, own_noise
 from ...pipelines.song_sampler import SongSampling
 from ...pipelines.stream import OVERLAP, WINDOW, Passage, window_lengths
 from ..engine import Bench, Progress, Row, Suite, run_suite
+from ..evaluator import Evaluator
 from ..families_dance import DANCE_FAMILIES, MOMENTS
-from ..judge.evaluator import Evaluator
 from ..manifest import Parts, Sources, model_hashes, song_hashes
-from ..report.tables import Column, Grid, GridRow
 from ..samples import Bodies, Dance, DanceSample, held_still, untrained
 from ..stats import bootstrap_mean
+from ..tables import Column, Grid, GridRow
 from .alignment import alignment_grids, danced
 from .editing import EditContext, kept_table, path_table, transition_table
 from .songs import Piece, captured_dances, held_out_songs, real_dances, tracks

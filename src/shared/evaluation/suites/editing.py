@@ -23,10 +23,10 @@ from ...pipelines.stream import Passage
 from ...pipelines.text import SentenceGenerator
 from ...pipelines.timeline import Timeline
 from ..engine import Progress
-from ..judge.evaluator import Evaluator
-from ..report.tables import Cell, Column, Grid, GridRow
+from ..evaluator import Evaluator
 from ..samples import Clips, HeldOut, held_still, real_clips, untrained
 from ..stats import bootstrap_columns, bootstrap_mean
+from ..tables import Cell, Column, Grid, GridRow
 
 MIN_FRAMES, MAX_FRAMES = 90, 150  # of a clip that is edited
 RADIUS = 1.5  # metres of the curved paths

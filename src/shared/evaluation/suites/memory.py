@@ -31,9 +31,9 @@ from ...pipelines.song_memory import as_condition, bars_of_sound, bars_of_window
 from ...pipelines.song_sampler import SPARE, SongSampler, SongSampling
 from ..engine import Progress
 from ..families import BEAT_ALIGNMENT, TRAJECTORY_SANITY
-from ..report.tables import Column, Grid, GridRow, plain, report_data
 from ..samples import DanceSample
 from ..stats import MIN_PAIRS, bootstrap_mean, paired_bootstrap
+from ..tables import Column, Grid, GridRow, plain, report_data
 from .songs import Piece, dance_of, held_out_songs, open_split, song_of
 
 WITHOUT, WITH, RANDOM = "without", "with", "random"

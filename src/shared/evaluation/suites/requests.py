@@ -1,7 +1,7 @@
 """Does a text model do what people ask for in their own words, as captured motion would show it?
 
 Prompts are hand-written (`captions/requests.py`), real rows and references are captured clips
-alone. The judge (`judge/actions.py`) has seen no procedural clip of an action that a capture
+alone. The judge (`evaluation/actions.py`) has seen no procedural clip of an action that a capture
 covers.
 
 Letters: N motions, T frames, K joints, F features.
@@ -29,17 +29,17 @@ from ...metrics.kinetic import FeatureSpace, kinetic_features
 from ...metrics.measurements import at_rest, measure
 from ...metrics.physical import foot_jump, support_slide, worst_acceleration
 from ...motion.motion import Motion
-from ..engine import Progress
-from ..judge.actions import (
+from ..actions import (
     MIN_FRAMES,
     ActionJudge,
     Generator,
     same_action,
     shown,
 )
-from ..report.tables import Cell, Column, Grid, GridRow, Report, report_data
+from ..engine import Progress
 from ..samples import frozen_pose, rows_of_each, spread_over_groups
 from ..stats import Estimate, bootstrap_mean, replicated, share_of
+from ..tables import Cell, Column, Grid, GridRow, Report, report_data
 from .text import errors_only
 from .yardstick import Asked, RequestSettings, Seen, Yardstick, answering
 

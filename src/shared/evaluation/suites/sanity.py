@@ -22,10 +22,10 @@ from ...motion.trajectory import MotionTrajectory
 from ...pipelines.song import SongCondition, SongGenerator, finished
 from ...pipelines.song_sampler import SongSampling
 from ..engine import Progress
-from ..report.plots import new_figure, save_figure
-from ..report.tables import Column, Grid, GridRow, Report, number, report_data
+from ..plots import new_figure, save_figure
 from ..samples import untrained_audio_model
 from ..stats import success_rate
+from ..tables import Column, Grid, GridRow, Report, number, report_data
 from .songs import TEMPI, conditions_of_songs, open_split, phrases
 
 PASS_SHARE = 0.95  # of samples, all seven checks and the whole suite

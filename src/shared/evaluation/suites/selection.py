@@ -40,12 +40,12 @@ from ...pipelines.ranking import AudioJudge, TextJudge, load_tower, own_tower
 from ...pipelines.song import AudioCondition, SongGenerator
 from ...pipelines.song_sampler import SongSampling
 from ...pipelines.text import PromptSampler
+from ..actions import check
 from ..engine import Progress
-from ..judge.actions import check
-from ..judge.evaluator import Evaluator
-from ..report.tables import Column, Grid, GridRow, Report, report_data
+from ..evaluator import Evaluator
 from ..samples import Clips, open_held_out, real_clips
 from ..stats import Estimate, bootstrap_mean, replicated
+from ..tables import Column, Grid, GridRow, Report, report_data
 from .songs import Piece, held_out_songs, open_split, phrases
 
 Role = Literal["outside", "akin", "judge"]

@@ -26,9 +26,9 @@ from ...model.clip.core import TextTower
 from ...model.clip.tokenizer import PromptTokenizer
 from ...motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
 from ..engine import Progress
-from ..report.tables import Column, Grid, GridRow, report_data
 from ..samples import untrained_audio_tower, untrained_motion_tower
 from ..stats import Estimate
+from ..tables import Column, Grid, GridRow, report_data
 from .songs import song_of
 
 Embed = Callable[[Tensor, Tensor], Tensor]

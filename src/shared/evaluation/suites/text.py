@@ -24,10 +24,9 @@ from ...metrics.retrieval import BATCH, normalised_score
 from ...motion.motion import Motion
 from .. import manifest
 from ..engine import Bench, Progress, Row, Suite, run_suite
+from ..evaluator import Evaluator, evaluator_folder
 from ..families import TEXT_FAMILIES, r_precision
-from ..judge.evaluator import Evaluator, evaluator_folder
 from ..manifest import Part, Parts, Sources
-from ..report.tables import Column, Grid, GridRow, Report, plain
 from ..samples import (
     Clips,
     HeldOut,
@@ -40,6 +39,7 @@ from ..samples import (
     untrained,
 )
 from ..stats import bootstrap_mean
+from ..tables import Column, Grid, GridRow, Report, plain
 from .control import control_grid
 
 if TYPE_CHECKING:

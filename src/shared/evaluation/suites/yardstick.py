@@ -14,8 +14,7 @@ from ...errors import UserError
 from ...metrics.kinetic import FeatureSpace
 from ...metrics.physical import worst_acceleration
 from ...motion.motion import Motion
-from ..engine import Progress
-from ..judge.actions import (
+from ..actions import (
     MIN_FRAMES,
     ActionRecognizer,
     as_asked,
@@ -24,6 +23,7 @@ from ..judge.actions import (
     judged_by,
     shown,
 )
+from ..engine import Progress
 from ..samples import spread_over_groups
 from .text import LANGUAGES
 

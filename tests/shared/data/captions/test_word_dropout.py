@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.data.captions.word_dropout import drop_words, insert_babble
+from src.shared.data.captions.book import drop_words, insert_babble
 
 
 @given(st.text(min_size=1, max_size=60), st.floats(0, 0.99), st.integers(0, 1000))

@@ -19,7 +19,7 @@ from src.shared.data.pairing.prepare_audio import PairOptions, prepare_audio
 from src.shared.data.phrases.layout import decode_body, parse_manifest
 from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
-from src.shared.data.sources.folders import SyntheticSource
+from src.shared.data.sources import SyntheticSource
 from src.shared.io.files import sha256_file
 from src.shared.motion.features import ROOT_ROW, decode_features
 

@@ -20,7 +20,7 @@ from src.shared.data.pairing.prepare_audio import (
 from src.shared.data.phrases.layout import decode_features, decode_trajectory, parse_manifest
 from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
-from src.shared.data.sources.folders import RawClip
+from src.shared.data.sources import RawClip
 from src.shared.errors import UsageError, UserError
 from src.shared.io.files import sha256_file
 from src.shared.motion.motion import Motion

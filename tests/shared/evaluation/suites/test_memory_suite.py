@@ -13,7 +13,6 @@ from src.cli.evaluate_suites import numbers
 from src.cli.tools import app
 from src.shared.data.phrases.layout import parse_manifest
 from src.shared.errors import UsageError, UserError
-from src.shared.evaluation.report.tables import Column
 from src.shared.evaluation.suites.memory import (
     CHANCE,
     RANDOM,
@@ -33,6 +32,7 @@ from src.shared.evaluation.suites.memory import (
     over_songs,
     word,
 )
+from src.shared.evaluation.tables import Column
 from src.shared.memory.index import MemoryConfig
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.pipelines.song_sampler import SongSampling

@@ -10,12 +10,12 @@ import pytest
 from src.shared.data.captions.requests import Request, load_requests
 from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
-from src.shared.data.sources.folders import SyntheticSource
+from src.shared.data.sources import SyntheticSource
 from src.shared.data.synthetic.clips import generate_clip, label_combinations, spec_for
 from src.shared.errors import UserError
-from src.shared.evaluation.report.tables import Grid
 from src.shared.evaluation.suites.requests import evaluate_requests
 from src.shared.evaluation.suites.yardstick import RequestSettings
+from src.shared.evaluation.tables import Grid
 from src.shared.motion.motion import Motion
 
 SETTINGS = RequestSettings(wordings=1, languages=("en",), seconds=3.0, max_clips=60, min_matches=1)

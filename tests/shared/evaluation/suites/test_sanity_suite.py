@@ -8,7 +8,6 @@ import pytest
 import torch
 
 from src.shared.errors import UserError
-from src.shared.evaluation.report.tables import grids, markdown, printed
 from src.shared.evaluation.samples import untrained_audio_model
 from src.shared.evaluation.suites.sanity import (
     FREE,
@@ -19,6 +18,7 @@ from src.shared.evaluation.suites.sanity import (
     verdict,
 )
 from src.shared.evaluation.suites.songs import conditions_of_songs, open_split
+from src.shared.evaluation.tables import grids, markdown, printed
 from src.shared.metrics.sanity import Band, Bands, SanityChecker, frozen, sanity_row
 from src.shared.pipelines.song import SongGenerator
 from src.shared.pipelines.song_sampler import SongSampling

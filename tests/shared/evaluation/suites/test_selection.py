@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from src.shared.evaluation.report.tables import tables
 from src.shared.evaluation.stats import replicated
 from src.shared.evaluation.suites.selection import (
     Figure,
@@ -14,6 +13,7 @@ from src.shared.evaluation.suites.selection import (
     selection_report,
     sizes,
 )
+from src.shared.evaluation.tables import tables
 
 P, C, N = 400, 32, 8
 OUTSIDE = Figure("quality", "quality", 3, True, "outside")

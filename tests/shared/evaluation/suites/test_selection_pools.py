@@ -7,7 +7,7 @@ import pytest
 import torch
 
 from src.shared.data.synthetic.clips import generate_clip, spec_for
-from src.shared.evaluation.judge.evaluator import Evaluator, EvaluatorConfig
+from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig
 from src.shared.evaluation.samples import Clips
 from src.shared.evaluation.suites.selection import (
     FIGURES,

@@ -17,16 +17,7 @@ from src.shared.data.prepare import open_data
 from src.shared.data.prepared import PreparedData
 from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.errors import UserError
-from src.shared.evaluation.judge.evaluator import Evaluator, EvaluatorConfig
-from src.shared.evaluation.report.tables import (
-    Grid,
-    draw,
-    grids,
-    heading,
-    markdown,
-    printed,
-    tables,
-)
+from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig
 from src.shared.evaluation.samples import HeldOut, Sampler
 from src.shared.evaluation.suites import control as control
 from src.shared.evaluation.suites.control import control_grid
@@ -35,6 +26,15 @@ from src.shared.evaluation.suites.text import (
     TextSettings,
     evaluate_samplers,
     scores,
+)
+from src.shared.evaluation.tables import (
+    Grid,
+    draw,
+    grids,
+    heading,
+    markdown,
+    printed,
+    tables,
 )
 from src.shared.motion.motion import Motion
 from src.train.train_evaluator import PairSet, TrainEvaluatorConfig, contrastive_loss

@@ -10,11 +10,11 @@ import pytest
 import torch
 
 from src.shared.data.prepare import prepare
-from src.shared.data.sources.folders import SyntheticSource
-from src.shared.evaluation.judge.evaluator import Evaluator, EvaluatorConfig
-from src.shared.evaluation.report.pages import save_report
-from src.shared.evaluation.report.tables import grids
+from src.shared.data.sources import SyntheticSource
+from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig
+from src.shared.evaluation.pages import save_report
 from src.shared.evaluation.suites.text import TextSettings, evaluate_text
+from src.shared.evaluation.tables import grids
 from tests.shared.model.conftest import tiny_generator
 
 SETTINGS = TextSettings(

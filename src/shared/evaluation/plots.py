@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...errors import UserError
-from ...io.files import atomic_write, parse_json
-from ...metrics.sanity import SanityThresholds
-from ...motion.trajectory import MotionTrajectory
+from ..errors import UserError
+from ..io.files import atomic_write, parse_json
+from ..metrics.sanity import SanityThresholds
+from ..motion.trajectory import MotionTrajectory
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 
 from src.shared.errors import UserError
-from src.shared.evaluation.report.plots import plot_losses, plot_trajectory, read_losses
+from src.shared.evaluation.plots import plot_losses, plot_trajectory, read_losses
 from src.shared.io.files import write_json
 from src.train.run_log import Epoch
 from tests.shared.motion.trajectories import smooth_trajectory

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from src.shared.data.sources.caption_tables import Piece, Table, match_captions, read_captions
+from src.shared.data.captions.tables import Piece, Table, match_captions, read_captions
 from src.shared.errors import UserError
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from src.shared.data.prepared import ClipRecord
 from src.shared.data.synthetic.clips import generate_clip, spec_for
-from src.shared.evaluation.judge.actions import (
+from src.shared.evaluation.actions import (
     ActionJudge,
     ActionRecognizer,
     descriptor,

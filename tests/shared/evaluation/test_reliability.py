@@ -9,9 +9,9 @@ import pytest
 
 from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
-from src.shared.data.sources.folders import SyntheticSource
+from src.shared.data.sources import SyntheticSource
 from src.shared.data.synthetic.clips import generate_clip, spec_for
-from src.shared.evaluation.judge.actions import (
+from src.shared.evaluation.actions import (
     action_reliability,
     descriptor,
     examples,

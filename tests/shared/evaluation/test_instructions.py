@@ -12,7 +12,7 @@ from src.shared.data.synthetic.clips import (
     sample_specs,
     spec_for,
 )
-from src.shared.evaluation.judge.actions import (
+from src.shared.evaluation.actions import (
     CHECKS,
     CONTROL_TASKS,
     check,

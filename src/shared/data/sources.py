@@ -16,18 +16,18 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel, field_validator
 
-from ...config_schema import Provenance
-from ...errors import UsageError, UserError
-from ...formats.readers.acclaim import find_skeleton
-from ...formats.readers.bvh import check_head
-from ...io.storage import Address, Place, fetched, version_of
-from ...motion.motion import Motion
-from ..captions.schema import Labels
-from ..retarget.mapping import SkeletonMapping, load_mappings, load_table, words
-from ..retarget.read_motion import FOLDER_ENDINGS, fit, open_recording
-from ..retarget.to_canonical import on_floor
-from ..synthetic.clips import SyntheticSpec, generate_clip, sample_specs
-from .caption_tables import Piece, Table, match_captions, read_captions, without_ending
+from ..config_schema import Provenance
+from ..errors import UsageError, UserError
+from ..formats.readers.acclaim import find_skeleton
+from ..formats.readers.bvh import check_head
+from ..io.storage import Address, Place, fetched, version_of
+from ..motion.motion import Motion
+from .captions.schema import Labels
+from .captions.tables import Piece, Table, match_captions, read_captions, without_ending
+from .retarget.mapping import SkeletonMapping, load_mappings, load_table, words
+from .retarget.read_motion import FOLDER_ENDINGS, fit, open_recording
+from .retarget.to_canonical import on_floor
+from .synthetic.clips import SyntheticSpec, generate_clip, sample_specs
 
 
 class _Rule(BaseModel, frozen=True, extra="forbid"):

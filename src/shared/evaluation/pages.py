@@ -14,12 +14,12 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from ...errors import UserError
-from ...formats.arrays import read_npz, read_trajectory_npz
-from ...formats.preview.html import write_html, write_trajectory_html
-from ...formats.preview.trajectory import SongTrack
-from ...io.files import inside, write_json, write_text
-from ..manifest import read_json
+from ..errors import UserError
+from ..formats.arrays import read_npz, read_trajectory_npz
+from ..formats.preview.html import write_html, write_trajectory_html
+from ..formats.preview.trajectory import SongTrack
+from ..io.files import inside, write_json, write_text
+from .manifest import read_json
 from .tables import Cell, Column, Grid, grids, heading, intervals_note, markdown, number, printed
 
 REPORT = "report.json"

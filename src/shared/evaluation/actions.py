@@ -19,11 +19,11 @@ from typing import Protocol
 
 import numpy as np
 
-from ...data.prepared import ClipRecord, PreparedData
-from ...data.synthetic.clips import SPEED_METRES, SPEEDS
-from ...data.text_motion import comes_back, shorten
-from ...errors import UserError
-from ...metrics.measurements import (
+from ..data.prepared import ClipRecord, PreparedData
+from ..data.synthetic.clips import SPEED_METRES, SPEEDS
+from ..data.text_motion import comes_back, shorten
+from ..errors import UserError
+from ..metrics.measurements import (
     ACTIONS,
     CHECKS,
     Check,
@@ -34,14 +34,14 @@ from ...metrics.measurements import (
     measure,
     repetitions,
 )
-from ...metrics.physical import heading_of
-from ...model.clip.out_of_domain import TWINS
-from ...motion.features import decode_features
-from ...motion.motion import Motion
-from ...motion.skeleton import JOINT_INDEX
-from ...tensors import Tensor
-from ..engine import Progress
-from ..samples import choose_caption, rows_of_each, spread_over_groups
+from ..metrics.physical import heading_of
+from ..model.clip.out_of_domain import TWINS
+from ..motion.features import decode_features
+from ..motion.motion import Motion
+from ..motion.skeleton import JOINT_INDEX
+from ..tensors import Tensor
+from .engine import Progress
+from .samples import choose_caption, rows_of_each, spread_over_groups
 
 PARTS = 3  # beginning, middle, end: a wave is not a raise that stays up
 BANDS = ((0.3, 1.0), (1.0, 2.0), (2.0, 4.0), (4.0, 8.0))  # Hz

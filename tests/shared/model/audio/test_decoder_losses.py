@@ -7,7 +7,7 @@ import torch
 from torch import Tensor
 
 from src.shared.config_audio import DecoderLossConfig, TemporalLossConfig
-from src.shared.model.audio.losses import (
+from src.shared.model.audio.decoder import (
     DecoderLoss,
     TemporalCoherenceLoss,
     phase_backward,

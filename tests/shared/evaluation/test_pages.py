@@ -12,8 +12,9 @@ from src.shared.evaluation import manifest
 from src.shared.evaluation.compare import Side, compare, verdict
 from src.shared.evaluation.engine import run_bench
 from src.shared.evaluation.manifest import Parts, read_json
-from src.shared.evaluation.report.pages import render, save_report
-from src.shared.evaluation.report.tables import (
+from src.shared.evaluation.pages import render, save_report
+from src.shared.evaluation.stats import Difference
+from src.shared.evaluation.tables import (
     Column,
     Grid,
     Table,
@@ -21,7 +22,6 @@ from src.shared.evaluation.report.tables import (
     report_data,
     table_lines,
 )
-from src.shared.evaluation.stats import Difference
 from tests.shared.evaluation.toy_bench import toy_bench
 from tests.shared.formats.chromium_pipe import Browser, chromium
 

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
-from ..stats import Estimate
+from .stats import Estimate
 
 if TYPE_CHECKING:
     from rich.console import Console

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from src.shared.formats.live import Frame, json_line, vmc_bundle
 from src.shared.formats.rig import SCHEMES
 from src.shared.motion.skeleton import JOINT_NAMES, canonical_skeleton
+from src.shared.pipelines.live import Frame, json_line, vmc_bundle
 
 
 def frame(**changes: Any) -> Frame:

@@ -26,11 +26,11 @@ from safetensors.torch import load_file, save_file
 from torch import Tensor, nn
 from torch.nn.utils.rnn import pad_sequence
 
-from ...config_schema import Config
-from ...errors import UserError
-from ...io.files import atomic_write, load_json, sha256_file, write_json
-from ...metrics.retrieval import NUM_BUCKETS, caption_buckets
-from ...model.checkpoint import (
+from ..config_schema import Config
+from ..errors import UserError
+from ..io.files import atomic_write, load_json, sha256_file, write_json
+from ..metrics.retrieval import NUM_BUCKETS, caption_buckets
+from ..model.checkpoint import (
     PRETRAINED,
     WeightsInfo,
     check_weights,
@@ -38,10 +38,10 @@ from ...model.checkpoint import (
     of_another_version,
     weights_info,
 )
-from ...motion.features import FORWARD, HEIGHT, LATERAL, YAW_RATE, encode_features
-from ...motion.motion import Motion
-from ...motion.rotations import forward_kinematics, rotation_6d_to_matrix
-from ...motion.skeleton import NUM_JOINTS, canonical_skeleton
+from ..motion.features import FORWARD, HEIGHT, LATERAL, YAW_RATE, encode_features
+from ..motion.motion import Motion
+from ..motion.rotations import forward_kinematics, rotation_6d_to_matrix
+from ..motion.skeleton import NUM_JOINTS, canonical_skeleton
 
 FPS = 30.0
 NUM_FEATURES = 1 + 2 * 3 * (NUM_JOINTS - 1) + 3

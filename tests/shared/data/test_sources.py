@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from src.shared.data.sources.folders import MotionFolder, Reading, Skipped, distinct_names
+from src.shared.data.sources import MotionFolder, Reading, Skipped, distinct_names
 from src.shared.data.synthetic.clips import generate_clip, sample_specs
 from src.shared.errors import UsageError, UserError
 from src.shared.formats.registry import write_motion

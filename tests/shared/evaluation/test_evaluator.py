@@ -7,7 +7,7 @@ import pytest
 import torch
 
 from src.shared.errors import UserError
-from src.shared.evaluation.judge.evaluator import (
+from src.shared.evaluation.evaluator import (
     NUM_FEATURES,
     Evaluator,
     EvaluatorConfig,
