@@ -51,6 +51,13 @@ def test_every_profile_round_trips(profile: str) -> None:
     assert load_config(NetworkConfig, dump_config(network), "copy") == network
 
 
+@pytest.mark.parametrize("profile", ["default", "spark", "lightweight"])
+def test_what_is_predicted_as_it_is_has_no_limit(profile: str) -> None:
+    """Ruling 105: a pelvis that lies is 20 deviations from those that stand."""
+    generation = load_network(profile).generation
+    assert (generation.clip_sigma is None) == (generation.prediction_type == "sample")
+
+
 @pytest.mark.parametrize("model_class", [TrainClipConfig, TrainGenerationConfig])
 def test_training_files_load_and_round_trip(model_class: type[TrainConfig]) -> None:
     config = load_train(None, model_class)
@@ -69,7 +76,8 @@ def test_a_recipe_names_what_it_changes_of_its_profile(
     ]
     network = load_network(name, overrides=changes)
     assert network.generation.prediction_type == "sample"
-    told = {"prediction_type": load_network(name).generation.prediction_type}
+    before = load_network(name).generation
+    told = {name: getattr(before, name) for name in ("prediction_type", "clip_sigma")}
     generation = network.generation.model_copy(update=told)
     assert network.model_copy(update={"generation": generation}) == load_network(name)
 
