@@ -47,6 +47,7 @@ from .run_log import announce
 from .task import Part, Task, generator, numpy_generator
 from .text_stages import (
     as_features,
+    motion_rows,
     network_of_model,
     open_training_data,
     training_set,
@@ -268,8 +269,23 @@ class ActionTask(Task):
 
     def _adapted_network(self, network: NetworkConfig) -> NetworkConfig:
         ranks = (*network.generation.adapter_ranks, self.config.rank)
-        generation = network.generation.model_copy(update={"adapter_ranks": ranks})
+        update = {"adapter_ranks": ranks, "clip_sigma": self._clip_sigma(network)}
+        generation = network.generation.model_copy(update=update)
         return network.model_copy(update={"generation": generation, "clip": self.tower.config})
+
+    def _clip_sigma(self, network: NetworkConfig) -> float | None:
+        """That of the old network, which needs none if it predicts x0 (ruling 105): a body that
+        lies is far beyond it, and none is kept where the clips to be learned are."""
+        limit = network.generation.clip_sigma
+        if limit is None or network.generation.prediction_type != "sample":
+            return limit
+        mean, std = self.before.mean.cpu(), self.before.std.cpu()
+        for record in self.train.records:
+            rows = motion_rows(self.data.features(record), network)
+            if float(((rows - mean) / std).abs().max()) > limit:
+                announce(f"clip-sigma {limit:g} goes: {record.id} is further from the mean")
+                return None
+        return limit
 
     def _denoiser(self) -> MotionDenoiser:
         """A copy of the old one in which nothing but the new adapters can learn."""

@@ -143,6 +143,30 @@ def test_nothing_that_was_known_changes(model: Path, flops: Path, tmp_path: Path
     assert torch.equal(sampled(new, places[-1]), sampled(both, places[-1]))
 
 
+@pytest.mark.parametrize(
+    ("prediction", "limit", "kept"),
+    [("sample", 0.5, None), ("sample", 1e3, 1e3), ("epsilon", 0.5, 0.5), ("sample", None, None)],
+)
+def test_a_limit_goes_where_what_is_learned_is_beyond_it(
+    model: Path,
+    flops: Path,
+    tmp_path: Path,
+    prediction: str,
+    limit: float | None,
+    kept: float | None,
+) -> None:
+    """Ruling 105: whoever teaches the starter to lie down must get a body that lies."""
+    network = network_of(str(model))
+    told = {"prediction_type": prediction, "clip_sigma": limit}
+    generation = network.generation.model_copy(update=told)
+    network = network.model_copy(update={"generation": generation})
+    task = ActionTask(action_config(flops, model, tmp_path), network)
+    assert task.network.generation.clip_sigma == kept
+    task.save_pretrained(task.module, tmp_path)
+    saved = TextToMotion.from_pretrained(tmp_path, device="cpu")
+    assert saved.diffusion.config.clip_sigma == kept
+
+
 def test_a_known_action_is_learned_better_where_it_is(model: Path, tmp_path: Path) -> None:
     """The tower stays, and adapters open for that action alone."""
     data = prepared_clips(tmp_path, "bow", ["a person bows", "someone takes a bow"])
