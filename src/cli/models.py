@@ -229,7 +229,7 @@ def calibrate(
         )
 
     from ..shared.data.prepared import PreparedData
-    from ..shared.data.text_motion import arm_actions, gestures
+    from ..shared.data.text_motion import arm_actions, gestures, still_actions
     from ..shared.device import set_threads
     from ..shared.evaluation.actions import action_reliability, recognizer_of
     from ..shared.model.clip.out_of_domain import RELIABLE
@@ -245,7 +245,11 @@ def calibrate(
     judge = recognizer_of(clips, seed, told("calibrate"))
     checked = tuple(sorted(judge.necessary))
     generator.scope = replace(
-        generator.scope, gestures=gestures(clips), arms=arm_actions(clips), checked=checked
+        generator.scope,
+        gestures=gestures(clips),
+        arms=arm_actions(clips),
+        still=still_actions(clips),
+        checked=checked,
     )
     found = action_reliability(
         SentenceGenerator(generator),

@@ -31,6 +31,7 @@ from ..shared.data.text_motion import (
     TextMotionDataset,
     arm_actions,
     gestures,
+    still_actions,
 )
 from ..shared.errors import UsageError, UserError
 from ..shared.formats.registry import write_motion, write_preview
@@ -263,7 +264,9 @@ def fit_scope(
     actions = [action_of[text] for text in texts]
     pretrained = tower.config.text_model not in OWN
     scope = OutOfDomainDetector.fit(texts, actions, embeddings, pretrained_tower=pretrained)
-    scope = replace(scope, gestures=gestures(data), arms=arm_actions(data))
+    scope = replace(
+        scope, gestures=gestures(data), arms=arm_actions(data), still=still_actions(data)
+    )
     if len(set(scope.actions) - {""}) < 2:  # nothing to take one for another
         return scope
     return _calibrated(scope, texts, actions, languages, tower, tokenizer)

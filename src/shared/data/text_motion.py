@@ -15,7 +15,7 @@ import torch
 from torch import Tensor
 
 from ..config_schema import PROVENANCES
-from ..metrics.measurements import arms_alone, rests_in_place
+from ..metrics.measurements import arms_alone, rests_in_place, stays
 from ..motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, decode_features
 from ..motion.motion import Motion
 from .prepared import ClipRecord, PreparedData
@@ -293,6 +293,11 @@ def gestures(data: PreparedData) -> tuple[str, ...]:
 def arm_actions(data: PreparedData) -> tuple[str, ...]:
     """Actions that half of the training clips or more do with the arms alone."""
     return _actions_that(arms_alone, data, 0.5)
+
+
+def still_actions(data: PreparedData) -> tuple[str, ...]:
+    """Actions that end where they began in half of the training clips or more."""
+    return _actions_that(stays, data, 0.5)
 
 
 def _actions_that(

@@ -17,6 +17,7 @@ from ..motion.features import headings
 from ..motion.motion import Motion
 from ..motion.skeleton import JOINT_INDEX, REST_PELVIS_HEIGHT, canonical_skeleton
 from ..tensors import torch
+from .physical import heading_of
 
 Array = np.ndarray
 Pair = tuple[float, float]
@@ -33,6 +34,7 @@ AT_REST = 3  # frames at either end
 _TRUNK = [JOINT_INDEX[name] for name in ("spine1", "spine2", "spine3", "neck", "head")]
 STANDING = 0.92 * (REST_PELVIS_HEIGHT + float(_OFFSETS[_TRUNK, 1].sum()))  # metres, of the head
 IN_PLACE = 0.6  # metres that a body may sway and still stay where it is
+STEADY = 0.1, math.radians(15)  # metres and radians at the end from the beginning, at most
 
 
 def at_rest(motion: Motion) -> bool:
@@ -53,6 +55,14 @@ def arms_alone(motion: Motion) -> bool:
     feet = joints[:, [JOINT_INDEX["l_ankle"], JOINT_INDEX["r_ankle"]]]
     stands = np.ptp(feet, axis=0).max() < 0.2 and np.ptp(joints[:, JOINT_INDEX["head"], 1]) < 0.15
     return bool(stands) and bool(np.ptp(_hand_heights(motion), axis=0).max() > HAND_DOWN)
+
+
+def stays(motion: Motion) -> bool:
+    """Whether a body ends where it began, facing the same way, and never left its place."""
+    ground, ways = motion.root_position[:, [0, 2]].astype(np.float64), heading_of(motion)
+    apart, turned = STEADY
+    back = np.linalg.norm(ground[-1] - ground[0]) < apart and abs(ways[-1] - ways[0]) < turned
+    return bool(back) and bool(np.ptp(ground, axis=0).max() < IN_PLACE)
 
 
 def rests_in_place(motion: Motion) -> bool:

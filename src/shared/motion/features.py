@@ -54,10 +54,12 @@ def _unwrapped(angles: Tensor, spans: Sequence[slice]) -> Tensor:
     return torch.as_tensor(np.concatenate(whole), dtype=angles.dtype)
 
 
-def facing_kept(features: Tensor) -> Tensor:
-    """Features [T,23,6] without their mean yaw rate: who stands faces at the end as at first."""
+def without_drift(features: Tensor, columns: Sequence[int]) -> Tensor:
+    """Features [T,23,6] without the means of these columns of the root row: with YAW_RATE a body
+    faces at the end as at first, with FORWARD and LATERAL who does not turn ends where he began."""
     kept = features.clone()
-    kept[:, ROOT_ROW, YAW_RATE] -= features[:, ROOT_ROW, YAW_RATE].mean()
+    for column in columns:
+        kept[:, ROOT_ROW, column] -= features[:, ROOT_ROW, column].mean()
     return kept
 
 

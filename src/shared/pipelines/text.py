@@ -36,7 +36,14 @@ from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import Progress, TextToMotion
 from ..model.noise import TRIES, derived_seed, retry_seeds
-from ..motion.features import ROOT_ROW, YAW_RATE, decode_features, facing_kept
+from ..motion.features import (
+    FORWARD,
+    LATERAL,
+    ROOT_ROW,
+    YAW_RATE,
+    decode_features,
+    without_drift,
+)
 from ..motion.motion import Motion
 from ..motion.postprocess.whole import rest_to_rest
 from ..tensors import Tensor, torch
@@ -126,7 +133,7 @@ class SentenceGenerator:
                 sampler=sampler,
                 guidance_scale=scale,
                 foot_lock=foot_lock,
-                facing=[self._by_arms(prompts[index]) for index in rows],
+                steady=[self._steady(prompts[index]) for index in rows],
                 progress=lambda done, total: told(max(done, sum(map(len, made.values())))),
             )
             several = [found[at : at + num_samples] for at in range(0, len(found), num_samples)]
@@ -200,6 +207,14 @@ class SentenceGenerator:
         """Whether a text asks for what arms do while the feet stand: its motion faces one way."""
         scope = self.generator.scope
         return scope is not None and self._nearest(text) in scope.arms
+
+    def _steady(self, text: str, *, alone: bool = True) -> tuple[int, ...]:
+        """The columns of the root row that have no mean in a text's motion: who does not leave his
+        place ends where he began, unless something comes before; whose arms move faces one way."""
+        scope = self.generator.scope
+        if alone and scope is not None and self._nearest(text) in scope.still:
+            return FORWARD, LATERAL, YAW_RATE
+        return (YAW_RATE,) if self._by_arms(text) else ()
 
     def _rested(self, motion: Motion, *texts: str) -> Motion:
         """The motion from hanging arms to hanging arms, if one of the texts asks for a gesture."""
@@ -377,8 +392,9 @@ class SentenceGenerator:
                 rest = all_but(features, start, stop, joints)
                 features = fill_free(self.generator, part.meanwhile, rest, sampling)
         for start, stop, part in zip(starts, starts[1:], parts, strict=False):
-            if part.degrees is None and part.metres is None and self._by_arms(part.text):
-                features[start:stop] = facing_kept(features[start:stop])
+            if part.degrees is None and part.metres is None:
+                columns = self._steady(part.text, alone=len(parts) == 1)
+                features[start:stop] = without_drift(features[start:stop], columns)
         features = add_parts(self.generator, features, limbs, sampling)
         motion = self.generator.post_processor(features, None, foot_lock=foot_lock)
         motion = self._rested(motion, parts[0].text, parts[-1].text)

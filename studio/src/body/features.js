@@ -16,11 +16,13 @@ export const ORIGIN = { x: 0, z: 0, heading: 0 };
 export const framesOf = (features) => features.length / WIDTH;
 export const cut = (features, start, stop) => features.slice(start * WIDTH, stop * WIDTH);
 
-/** Frames from start to stop without their mean yaw rate, in place: who stands faces at the end as at first. */
-export function keepFacing(features, start = 0, stop = framesOf(features)) {
-  let sum = 0;
-  for (let t = start; t < stop; t++) sum += features[t * WIDTH + ROOT + YAW_RATE];
-  for (let t = start; t < stop; t++) features[t * WIDTH + ROOT + YAW_RATE] -= sum / (stop - start);
+/** Frames from start to stop lose the means of these columns of the root row, in place: see without_drift. */
+export function removeDrift(features, columns, start = 0, stop = framesOf(features)) {
+  for (const column of columns) {
+    let sum = 0;
+    for (let t = start; t < stop; t++) sum += features[t * WIDTH + ROOT + column];
+    for (let t = start; t < stop; t++) features[t * WIDTH + ROOT + column] -= sum / (stop - start);
+  }
 }
 
 export function joinArrays(parts, Kind = Float32Array) {

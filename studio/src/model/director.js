@@ -1,7 +1,7 @@
 // All that the page can ask for: a sentence, a timeline, a path, clips
 // (src/shared/pipelines/text.py, timeline.py, path.py, edit.py).
 
-import { decodeFeatures, framesOf, keepFacing, ROOT, WIDTH, YAW_RATE } from "../body/features.js";
+import { decodeFeatures, FORWARD, framesOf, LATERAL, removeDrift, ROOT, WIDTH, YAW_RATE } from "../body/features.js";
 import { round } from "../body/curves.js";
 import { ACTIONS, endsAtRest, measure, REPETITIONS, repetitions, sideCheck } from "../body/measurements.js";
 import { FPS } from "../body/skeleton.js";
@@ -89,7 +89,7 @@ export class Director {
     for (const trial of retrySeeds(seed)) {
       const guidance = (best === null ? 1 : INSISTING) * this.settings.guidance;
       const features = await this.sampler.sample(said, frames, trial, null, guidance);
-      if (this.byArms(said)) keepFacing(features);
+      removeDrift(features, this.steady(said));
       const motion = this.rested(postProcess(features, this.settings.post, { text: prompt }), said);
       options.told?.(frames);
       const does = this.does(said, motion);
@@ -133,8 +133,8 @@ export class Director {
         features = await fillFree(this.sampler, part.meanwhile, rest, seed);
       }
     for (const [i, part] of parts.entries())
-      if (part.degrees === null && part.metres === null && this.byArms(part.text))
-        keepFacing(features, starts[i], starts[i] + passages[i].frames);
+      if (part.degrees === null && part.metres === null)
+        removeDrift(features, this.steady(part.text, parts.length === 1), starts[i], starts[i] + passages[i].frames);
     const motion = postProcess(features, this.settings.post, { text });
     let rested = this.rested(motion, parts[0].text, parts[parts.length - 1].text);
     for (const [i, { count, text }] of parts.entries())
@@ -213,6 +213,12 @@ export class Director {
 
   byArms(text) {
     return this.scope.meta.arms.includes(this.nearest(text));
+  }
+
+  /** The columns of the root row that have no mean in a text's motion. */
+  steady(text, alone = true) {
+    if (alone && this.scope.meta.still?.includes(this.nearest(text))) return [FORWARD, LATERAL, YAW_RATE];
+    return this.byArms(text) ? [YAW_RATE] : [];
   }
 
   rested(motion, ...texts) {

@@ -8,13 +8,15 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation, Slerp
 
 from src.shared.motion.features import (
+    FORWARD,
+    LATERAL,
     ROOT_ROW,
     YAW_RATE,
     Place,
     decode_features,
     encode_features,
-    facing_kept,
     mirror_features,
+    without_drift,
 )
 from src.shared.motion.motion import Motion, in_place, resample_motion
 from src.shared.motion.postprocess.contacts import detect_contacts
@@ -189,7 +191,17 @@ def test_in_place_takes_the_travel_only() -> None:
 def test_who_stands_faces_at_the_end_as_at_first() -> None:
     features = torch.zeros(60, ROOT_ROW + 1, 6)
     features[:, ROOT_ROW, YAW_RATE] = torch.linspace(-1, 2, 60)
-    kept = facing_kept(features)
+    kept = without_drift(features, [YAW_RATE])
     assert features[:, ROOT_ROW, YAW_RATE].mean() == pytest.approx(0.5)
     assert kept[:, ROOT_ROW, YAW_RATE].mean() == pytest.approx(0, abs=1e-6)
     assert torch.equal(kept[:, :ROOT_ROW], features[:, :ROOT_ROW])
+
+
+def test_who_does_not_leave_his_place_ends_where_he_began() -> None:
+    features = torch.zeros(60, ROOT_ROW + 1, 6)
+    features[:, :ROOT_ROW, [0, 4]] = 1.0
+    features[:, ROOT_ROW, FORWARD] = torch.linspace(0, 0.4, 60)
+    features[:, ROOT_ROW, LATERAL] = 0.1
+    ground = decode_features(without_drift(features, [FORWARD, LATERAL])).root_position[:, [0, 2]]
+    assert np.allclose(ground[-1], ground[0], atol=0.01)
+    assert np.ptp(ground, axis=0).max() > 0.05

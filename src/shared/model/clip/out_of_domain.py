@@ -111,6 +111,7 @@ class OutOfDomainDetector:
         reliability: share of tries in which each action came out, where that was measured.
         gestures: actions done in place, from hanging arms to hanging arms.
         arms: actions done with the arms alone.
+        still: actions that end where they began, and face the same way.
         checked: actions that `metrics.measurements` tells, as captured clips bear out.
     """
 
@@ -130,6 +131,7 @@ class OutOfDomainDetector:
     reliability: Mapping[str, float] = field(default_factory=dict)
     gestures: tuple[str, ...] = ()
     arms: tuple[str, ...] = ()
+    still: tuple[str, ...] = ()
     checked: tuple[str, ...] = ()
 
     @classmethod

@@ -13,7 +13,7 @@ import numpy as np
 from ...config_schema import PROVENANCES
 from ...device import choose_device, idle_threads, sampling_threads
 from ...errors import UsageError, UserError
-from ...motion.features import facing_kept
+from ...motion.features import without_drift
 from ...motion.motion import Motion
 from ...motion.postprocess.whole import MotionPostProcessor
 from ...tensors import Tensor, torch
@@ -211,7 +211,7 @@ class TextToMotion:
         guidance_scale: float | None = None,
         foot_lock: bool | None = None,
         constraints: Sequence[Constraint | None] | None = None,
-        facing: Sequence[bool] | None = None,
+        steady: Sequence[Sequence[int]] | None = None,
         progress: Progress | None = None,
     ) -> list[Motion]:
         """Motions for the prompts, prompt-major: all samples of the first one come first.
@@ -230,7 +230,8 @@ class TextToMotion:
             guidance_scale: 1 = no guidance.
             foot_lock: hold standing feet in place.
             constraints: what is given of each prompt's motions, as long as they are.
-            facing: of which prompts the motions end as they face at first; None = of none.
+            steady: of each prompt's motions the columns of the root row that lose their mean,
+                see `without_drift`; None = none.
             progress: called after each batch.
 
         Raises:
@@ -253,10 +254,8 @@ class TextToMotion:
                 log.warning("%s", warning)
         texts = [prompt for prompt in prompts for _ in range(num_samples)]
         given = [each for each in constraints or [None] * len(prompts) for _ in range(num_samples)]
-        kept = [each for each in facing or [False] * len(prompts) for _ in range(num_samples)]
-        features = [
-            facing_kept(each) if held else each for each, held in zip(features, kept, strict=True)
-        ]
+        columns = [each for each in steady or [()] * len(prompts) for _ in range(num_samples)]
+        features = [*map(without_drift, features, columns)]
         return [
             self.post_processor(sample, each and each.known, text=text, foot_lock=foot_lock)
             for sample, text, each in zip(features, texts, given, strict=True)
