@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from src.shared.data.synthetic.clips import generate_clip, spec_for
-from src.shared.metrics.measurements import ACTIONS, measure, repetitions, side_check
+from src.shared.metrics.measurements import ACTIONS, measure, repetitions, side_check, stays
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import JOINT_INDEX, NUM_JOINTS, REST_PELVIS_HEIGHT
 
@@ -37,6 +37,21 @@ def test_repetitions_are_those_of_the_limb_or_of_both(action: str) -> None:
     assert repetitions(action, seen) == repetitions(action, seen, "left") == 2
     assert repetitions(action, seen, "right") == 0
     assert repetitions("walk", seen) is None
+
+
+@pytest.mark.parametrize(
+    ("labels", "still"),
+    [
+        ({"action": "wave", "side": "left", "speed": "normal"}, True),
+        ({"action": "squat", "count": "2", "speed": "normal"}, True),
+        ({"action": "turn", "direction": "left", "angle": "90"}, False),
+        ({"action": "walk", "direction": "forward", "speed": "normal"}, False),
+    ],
+)
+def test_who_stays_ends_where_he_began_and_faces_the_same_way(
+    labels: dict[str, str], still: bool
+) -> None:
+    assert stays(generate_clip(spec_for(labels, 0), seed=0)) is still
 
 
 def swordsman(*, degrees: float, apart: bool = False) -> Motion:

@@ -91,6 +91,21 @@ def test_a_gesture_faces_one_way_and_its_repetitions_are_told_apart():
         assert np.count_nonzero(np.diff(raised.astype(int)) == 1) == times, prompt
 
 
+def test_who_sits_does_not_glide():
+    generator = TextToMotion.from_pretrained("starter", device="cpu")
+    assert generator.scope is not None and "meditate" in generator.scope.still
+    prompts, lengths = ["she meditates", "she meditates"], [4.0, 9.0]  # one and two windows
+
+    def travelled() -> list[float]:
+        made = SentenceGenerator(generator).generate(prompts, seconds=lengths)
+        ends = [motion.root_position[[0, -1]][:, [0, 2]] for motion in made]
+        return [float(np.linalg.norm(last - first)) for first, last in ends]
+
+    assert max(travelled()) < 0.03
+    generator.scope = replace(generator.scope, still=())
+    assert min(travelled()) > 0.1
+
+
 def test_who_is_to_turn_turns():
     sentences = SentenceGenerator(TextToMotion.from_pretrained("starter", device="cpu"))
     prompts = [
