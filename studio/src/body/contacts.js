@@ -7,7 +7,7 @@ import { REST_FOOT_HEIGHT } from "./skeleton.js";
 
 const THRESHOLD = 0.5, MAX_CLAIM = 0.12, AROUND_SECONDS = 0.4, FLAT = 0.01;
 const MAX_SUPPORT = 0.08, MAX_VERTICAL = 0.5, FALL = -3.0, RUNNING = 2.0, PACE_SECONDS = 0.2;
-const MAX_GAP_SECONDS = 2 / 30, MIN_HOLD_SECONDS = 3 / 30, MIN_SWING_SECONDS = 8 / 30;
+const MAX_GAP_SECONDS = 2 / 30, MIN_PLANT_SECONDS = 3 / 30, MIN_SWING_SECONDS = 8 / 30;
 const SOONER_SECONDS = 12 / 30, BLEND_SECONDS = 9 / 30, STEP_SECONDS = 8 / 30;
 const LIFT = 0.1, SLOPE = 0.1, SOFT = 0.01, GIVE = 0.05, ROLL = 0.005, MAX_DRAG = 0.22;
 const MAX_SLOPE = 2.5, UNDER = [0, 0.5, 1], MAX_REACH = 0.9, SWING = 150;
@@ -17,14 +17,14 @@ export function footShifts(balls, hips, contacts, fps, kept) {
   const shifts = grounding(balls, kept, fps);
   const moved = balls.map((path, side) => path.map((point, t) => add(point, shifts[side][t])));
   const stands = standing(moved, hips, contacts, fps), runs = running(hips, fps);
-  const held = stands.map((row) => row.map((stands, t) => stands && runs[t]));
+  const planted = stands.map((row) => row.map((stands, t) => stands && runs[t]));
   const walking = stands.map((row) => row.map((stands, t) => stands && !runs[t]));
-  plantSpans(moved, hips, walking, fps, kept).forEach((holds, side) => {
-    const more = corrections(moved[side], holds, kept[side], fps);
+  plantSpans(moved, hips, walking, fps, kept).forEach((plants, side) => {
+    const more = corrections(moved[side], plants, kept[side], fps);
     shifts[side] = shifts[side].map((shift, t) => add(shift, more[t]));
-    for (const hold of holds) held[side].fill(true, hold.start, hold.stop);
+    for (const plant of plants) planted[side].fill(true, plant.start, plant.stop);
   });
-  return { shifts, held };
+  return { shifts, planted };
 }
 
 function grounding(balls, kept, fps) {
@@ -82,7 +82,7 @@ function contactRuns(contact, maxGap) {
 function plantSpans(balls, hips, stands, fps, kept) {
   const free = stands[0].map((_, t) => (stands[0][t] || stands[1][t]) && !kept[0][t] && !kept[1][t]);
   const planner = new Planner(balls, hips, free, fps, kept);
-  for (const [start, stop, side] of runsOf(balls, stands, fps, kept)) planner.plant(start, stop, side);
+  for (const [start, stop, side] of runsOf(balls, stands, fps, kept)) planner.stand(start, stop, side);
   planner.stepOn(balls[0].length, null);
   return planner.found;
 }
@@ -90,22 +90,22 @@ function plantSpans(balls, hips, stands, fps, kept) {
 class Planner {
   constructor(balls, hips, free, fps, kept) {
     Object.assign(this, { balls, hips, free, fps, kept, found: [[], []], until: 0, last: 0 });
-    this.shortest = Math.min(round(MIN_HOLD_SECONDS * fps), balls[0].length);
+    this.shortest = Math.min(round(MIN_PLANT_SECONDS * fps), balls[0].length);
     this.swing = round(MIN_SWING_SECONDS * fps);
     this.sooner = round(SOONER_SECONDS * fps);
   }
 
-  plant(start, stop, side) {
+  stand(start, stop, side) {
     this.stepOn(start, side);
     if (this.gap(start) && start - this.until <= this.sooner)
       start = Math.max(this.ready(side), Math.min(start, this.until));
-    this.hold(start, stop, side);
+    this.plant(start, stop, side);
   }
 
   stepOn(start, side) {
     while (this.gap(start) && (start - this.until > this.sooner || side === null || side === this.last)) {
       const before = this.until, between = 1 - this.last;
-      this.hold(this.ready(between), between === side ? start - this.swing : start, between);
+      this.plant(this.ready(between), between === side ? start - this.swing : start, between);
       if (this.until === before) break;
     }
   }
@@ -115,11 +115,11 @@ class Planner {
   }
 
   ready(side) {
-    const holds = this.found[side];
-    return Math.max(this.until, holds.length ? holds[holds.length - 1].stop + this.swing : 0);
+    const plants = this.found[side];
+    return Math.max(this.until, plants.length ? plants[plants.length - 1].stop + this.swing : 0);
   }
 
-  hold(start, stop, side) {
+  plant(start, stop, side) {
     const ball = this.balls[side], hip = this.hips[side];
     const fixed = [];
     for (let t = start; t < stop; t++) if (this.kept[side][t]) fixed.push(t - start);
@@ -227,24 +227,24 @@ function reached(point, hip, start, stop) {
 
 // ---------------------------------------------------------------- how far
 
-function corrections(ball, holds, keptLegs, fps) {
+function corrections(ball, plants, keptLegs, fps) {
   const frames = ball.length;
   let shift = ball.map(() => [0, 0, 0]);
   const known = [...keptLegs], lift = new Array(frames).fill(0);
-  for (const hold of holds) {
-    const path = ball.slice(hold.start, hold.stop);
-    const give = keptLegs.slice(hold.start, hold.stop).some(Boolean) ? null : giveOf(path, fps);
+  for (const plant of plants) {
+    const path = ball.slice(plant.start, plant.stop);
+    const give = keptLegs.slice(plant.start, plant.stop).some(Boolean) ? null : giveOf(path, fps);
     path.forEach((point, i) => {
-      const own = sub(hold.point, point);
+      const own = sub(plant.point, point);
       if (give) { own[0] += give[i][0]; own[2] += give[i][2]; }
       own[1] = clamp(point[1], REST_FOOT_HEIGHT, REST_FOOT_HEIGHT + ROLL) - point[1];
-      shift[hold.start + i] = own;
-      known[hold.start + i] = true;
+      shift[plant.start + i] = own;
+      known[plant.start + i] = true;
     });
   }
   keptLegs.forEach((kept, t) => { if (kept) shift[t] = [0, 0, 0]; });
-  for (let i = 1; i < holds.length; i++) {
-    const [before, after] = [holds[i - 1], holds[i]];
+  for (let i = 1; i < plants.length; i++) {
+    const [before, after] = [plants[i - 1], plants[i]];
     const number = after.start - before.stop;
     const height = Math.min(LIFT, SLOPE * norm(sub(after.point, before.point)));
     for (let t = 0; t < number; t++) lift[before.stop + t] = height * Math.sin((Math.PI * (t + 1)) / (number + 1)) ** 2;

@@ -32,11 +32,11 @@ export function lockFeet(motion, kept = null) {
   const balls = FEET.map(({ ball }) => poses.map(({ positions }) => positions[ball]));
   const hips = LEGS.map(([hip]) => poses.map(({ positions }) => positions[hip]));
   const claims = [0, 1].map((side) => Array.from({ length: frames }, (_, t) => motion.contacts[t * 2 + side]));
-  const { shifts, held } = footShifts(balls, hips, claims, motion.fps, kept ?? nothingKept(frames));
+  const { shifts, planted } = footShifts(balls, hips, claims, motion.fps, kept ?? nothingKept(frames));
   const quaternions = motion.quaternions.slice(), contacts = new Float32Array(frames * 2);
   for (const side of [0, 1])
     for (let t = 0; t < frames; t++) {
-      contacts[t * 2 + side] = kept?.[side][t] ? claims[side][t] : Number(held[side][t]);
+      contacts[t * 2 + side] = kept?.[side][t] ? claims[side][t] : Number(planted[side][t]);
       if (norm(shifts[side][t]) <= MIN_CORRECTION) continue;
       for (const [joint, q] of movedLeg(side, poses[t], shifts[side][t])) {
         const at = (t * JOINTS + joint) * 4;

@@ -1,7 +1,7 @@
 """Contacts: which feet stand, where, and how far each frame's foot is from there.
 
 A body on a path that is not its own (a dancer pinned to a song's trajectory) slides more than a
-held foot can make up for; where a leg ends, feet take steps in turn. Between two holds the
+planted foot can make up for; where a leg ends, feet take steps in turn. Between two plants the
 correction follows a cubic Hermite curve (Kovar et al. 2002, "Footskate cleanup", §4).
 
 The studio has the same in `studio/src/body/contacts.js`: change both, then `npm run build` there.
@@ -26,10 +26,13 @@ AROUND_SECONDS, FLAT = 0.4, 0.01  # in which a foot comes down; metres that are 
 MAX_SUPPORT = 0.08  # metres; a lower foot carries the body if none other does,
 MAX_VERTICAL = 0.5  # m/s, unless it rises or falls faster than this
 FALL = -3.0  # m/s² of the hips, below which the body flies
-RUNNING, PACE_SECONDS = 2.0, 0.2  # m/s of the hips from which on no foot is held; smoothing of them
+RUNNING, PACE_SECONDS = (
+    2.0,
+    0.2,
+)  # m/s of the hips from which on no foot is planted; smoothing of them
 MAX_GAP_SECONDS = 2 / 30  # a contact that breaks off for no longer than this goes on
-MIN_HOLD_SECONDS = 3 / 30  # a shorter contact is none
-MIN_SWING_SECONDS = 8 / 30  # that a foot has to get from one hold to the next
+MIN_PLANT_SECONDS = 3 / 30  # a shorter contact is none
+MIN_SWING_SECONDS = 8 / 30  # that a foot has to get from one plant to the next
 SOONER_SECONDS = 12 / 30  # a foot lands sooner by so much at most, else there is a step between
 BLEND_SECONDS = 9 / 30  # how long a correction fades in before, and out after, a contact
 STEP_SECONDS = 8 / 30  # of a step that was put in
@@ -37,11 +40,11 @@ LIFT, SLOPE = 0.1, 0.1  # metres that a foot is lifted on its way, at most and f
 SOFT = 0.01  # metres around which that lift sets in
 GIVE = 0.05  # m/s that a standing foot moves over the floor, on average, at most
 ROLL = 0.005  # metres that the ball of a standing foot may be above its standing height
-MAX_DRAG = 0.22  # metres that a held foot may be from where it was; further off it steps
-MAX_SLOPE = 2.5  # m/s at which a correction may start from a hold
+MAX_DRAG = 0.22  # metres that a planted foot may be from where it was; further off it steps
+MAX_SLOPE = 2.5  # m/s at which a correction may start from a plant
 UNDER = (0.0, 0.5, 1.0)  # shares of the way from where a foot was to below its hip
-SWING = 150.0  # m/s² with which a foot gets from one hold to the next, at most
-MAX_REACH = 0.9  # metres from the hip to the ball of a held foot, its heel up
+SWING = 150.0  # m/s² with which a foot gets from one plant to the next, at most
+MAX_REACH = 0.9  # metres from the hip to the ball of a planted foot, its heel up
 
 
 def detect_contacts(positions: np.ndarray, fps: float) -> np.ndarray:
@@ -98,8 +101,8 @@ def standing(balls: np.ndarray, hips: np.ndarray, contacts: np.ndarray, fps: flo
 
 
 def running(hips: np.ndarray, fps: float) -> np.ndarray:
-    """In which frames [T] feet are left alone, as the body runs: held, those of captured runs slide
-    more and leave the floor less (docs/experiments.md, section 44)."""
+    """In which frames [T] feet are left alone, as the body runs: planted, those of captured runs
+    slide more and leave the floor less (docs/experiments.md, section 44)."""
     if len(hips) < 2:
         return np.zeros(len(hips), dtype=bool)
     way = np.gradient(hips[..., [0, 2]].mean(1), axis=0) * fps
@@ -121,7 +124,7 @@ def contact_runs(contact: np.ndarray, max_gap: int) -> list[tuple[int, int]]:
 
 @dataclass(frozen=True, eq=False)
 class Plant:
-    """A foot that stands on `point` [3] in frames [start, stop)."""
+    """A foot that stands on `point` [3] in frames [start, stop): a footplant."""
 
     start: int
     stop: int
@@ -149,12 +152,12 @@ def foot_shifts(
     shifts = grounding(balls, kept, fps)
     balls = balls + shifts
     stands, runs = standing(balls, hips, contacts, fps), running(hips, fps)[:, None]
-    held = stands & runs
-    for side, holds in enumerate(plant_spans(balls, hips, stands & ~runs, fps, kept)):
-        shifts[:, side] += corrections(balls[:, side], holds, kept[:, side], fps)
-        for hold in holds:
-            held[hold.start : hold.stop, side] = True
-    return shifts, held
+    planted = stands & runs
+    for side, plants in enumerate(plant_spans(balls, hips, stands & ~runs, fps, kept)):
+        shifts[:, side] += corrections(balls[:, side], plants, kept[:, side], fps)
+        for plant in plants:
+            planted[plant.start : plant.stop, side] = True
+    return shifts, planted
 
 
 # ---------------------------------------------------------------- where
@@ -163,7 +166,7 @@ def foot_shifts(
 def plant_spans(
     balls: np.ndarray, hips: np.ndarray, stands: np.ndarray, fps: float, kept: np.ndarray
 ) -> tuple[list[Plant], list[Plant]]:
-    """The holds of the left and of the right foot, in order; where one foot must leave before the
+    """The plants of the left and of the right foot, in order; where one foot must leave before the
     other was to land, the other one lands sooner, or steps are put between.
 
     Args:
@@ -176,9 +179,9 @@ def plant_spans(
     free = np.asarray(stands.any(1) & ~kept.any(1))
     planner = _Planner(balls, hips, free, fps, kept)
     for start, stop, side in _runs(balls, stands, fps, kept):
-        planner.plant(start, stop, side)
+        planner.stand(start, stop, side)
     planner.step_on(len(balls))
-    return planner.found  # other times of holds belong here: before it they move the other foot
+    return planner.found  # other times of plants belong here: before it they move the other foot
 
 
 class _Planner:
@@ -188,24 +191,24 @@ class _Planner:
         self, balls: np.ndarray, hips: np.ndarray, free: np.ndarray, fps: float, kept: np.ndarray
     ) -> None:
         self.balls, self.hips, self.free, self.fps, self.kept = balls, hips, free, fps, kept
-        self.shortest = min(round(MIN_HOLD_SECONDS * fps), len(balls))
+        self.shortest = min(round(MIN_PLANT_SECONDS * fps), len(balls))
         self.swing, self.sooner = round(MIN_SWING_SECONDS * fps), round(SOONER_SECONDS * fps)
         self.found: tuple[list[Plant], list[Plant]] = ([], [])
         self.until, self.last = 0, 0  # some foot stands up to here; the foot that stood last
 
-    def plant(self, start: int, stop: int, side: int) -> None:
+    def stand(self, start: int, stop: int, side: int) -> None:
         """A foot is to stand in frames [start, stop)."""
         self.step_on(start, side)
         if self._gap(start) and start - self.until <= self.sooner:
             start = max(self._ready(side), min(start, self.until))
-        self._hold(start, stop, side)
+        self._plant(start, stop, side)
 
     def step_on(self, start: int, side: int | None = None) -> None:
         """Steps until `start`, when `side` is to land (None = nobody is), where nobody stands."""
         while self._gap(start) and (start - self.until > self.sooner or side in (None, self.last)):
             before, between = self.until, 1 - self.last
             end = start - self.swing if between == side else start
-            self._hold(self._ready(between), end, between)
+            self._plant(self._ready(between), end, between)
             if self.until == before:
                 break
 
@@ -218,7 +221,7 @@ class _Planner:
         before = self.found[side][-1].stop + self.swing if self.found[side] else 0
         return max(self.until, before)
 
-    def _hold(self, start: int, stop: int, side: int) -> None:
+    def _plant(self, start: int, stop: int, side: int) -> None:
         """Plant a foot as long as its leg reaches."""
         ball, hip = self.balls[:, side], self.hips[:, side]
         fixed = np.flatnonzero(self.kept[start:stop, side])
@@ -238,7 +241,7 @@ class _Planner:
 
     def _landing(self, point: np.ndarray, first: int, side: int) -> int:
         """When a foot that is to land in frame `first` does: it has to get there from its last
-        hold, and leaves that sooner if it can, else it lands later."""
+        plant, and leaves that sooner if it can, else it lands later."""
         if not self.found[side]:
             return first
         before = self.found[side][-1]
@@ -329,20 +332,20 @@ def _reached(point: np.ndarray, hip: np.ndarray, start: int, stop: int) -> tuple
 # ---------------------------------------------------------------- how far
 
 
-def corrections(ball: np.ndarray, holds: list[Plant], kept: np.ndarray, fps: float) -> np.ndarray:
+def corrections(ball: np.ndarray, plants: list[Plant], kept: np.ndarray, fps: float) -> np.ndarray:
     """Where the ball of a foot [T,3] has to move, [T,3] in metres; zero = nothing to do."""
     shift, known = np.zeros_like(ball), kept.copy()
     lift = np.zeros(len(ball))
-    for hold in holds:
-        own = hold.point - ball[hold.start : hold.stop]
-        if not kept[hold.start : hold.stop].any():  # there the foot stands where it was kept
-            own += _give(ball[hold.start : hold.stop], fps)
-        path = ball[hold.start : hold.stop, 1]
+    for plant in plants:
+        own = plant.point - ball[plant.start : plant.stop]
+        if not kept[plant.start : plant.stop].any():  # there the foot stands where it was kept
+            own += _give(ball[plant.start : plant.stop], fps)
+        path = ball[plant.start : plant.stop, 1]
         own[:, 1] = path.clip(REST_FOOT_HEIGHT, REST_FOOT_HEIGHT + ROLL) - path
-        shift[hold.start : hold.stop] = own
-        known[hold.start : hold.stop] = True
+        shift[plant.start : plant.stop] = own
+        known[plant.start : plant.stop] = True
     shift[kept] = 0
-    for before, after in pairwise(holds):
+    for before, after in pairwise(plants):
         rise = np.linspace(0, np.pi, after.start - before.stop + 2)[1:-1]
         way = np.linalg.norm(after.point - before.point)
         lift[before.stop : after.start] = min(LIFT, SLOPE * way) * np.sin(rise) ** 2
@@ -356,7 +359,8 @@ def corrections(ball: np.ndarray, holds: list[Plant], kept: np.ndarray, fps: flo
 
 
 def _give(path: np.ndarray, fps: float) -> np.ndarray:
-    """What a held ball keeps of its own way over the floor [N,3], no faster than GIVE on average.
+    """What a planted ball keeps of its own way over the floor [N,3], no faster than GIVE on the
+    average.
 
     A foot that rolls from heel to toe, or turns, moves a little; captured ones do (FIELD, foot
     slide), and a foot that does not looks nailed down.

@@ -1,9 +1,9 @@
 """Footskate clean-up: feet that touch the ground stay where they are, by inverse kinematics.
 
-While a foot stands its ball is held over one point of the floor, and not below it; the leg above
+While a foot stands its ball is planted over one point of the floor, and not below it; the leg above
 follows (`contacts.py` says when, where and how far). The foot keeps its world rotation, and the
-knee its direction. Where a leg is too short for a hold the heel rises about the ball, with the toes
-flat, before the foot gives way. Runs on the CPU in float64.
+knee its direction. Where a leg is too short for its plant the heel rises about the ball, with the
+toes flat, before the foot gives way. Runs on the CPU in float64.
 
 Letters: T frames, J joints, `...` any leading dimensions, mostly frames.
 """
@@ -43,14 +43,14 @@ def kept_legs(known: Tensor) -> np.ndarray:
 
 
 def lock_feet(motion: Motion, *, kept: np.ndarray | None = None) -> Motion:
-    """The motion with its standing feet held, which `contacts` then tells; legs that are `kept`
+    """The motion with its standing feet planted, which `contacts` then tells; legs that are `kept`
     [T,2] bool stay as they are."""
     quaternions = torch.as_tensor(motion.quaternions, dtype=torch.float64)
     offsets = torch.as_tensor(canonical_skeleton().offsets, dtype=torch.float64)
     root = torch.as_tensor(motion.root_position, dtype=torch.float64)
     positions, world = forward_kinematics(quaternion_to_matrix(quaternions), root, offsets, PARENTS)
     hips, balls = [leg[0] for leg in LEGS], [leg[-1] for leg in LEGS]
-    shifts, held = foot_shifts(
+    shifts, planted = foot_shifts(
         positions[:, balls].numpy(), positions[:, hips].numpy(), motion.contacts, motion.fps, kept
     )
     locked = motion.quaternions.copy()
@@ -63,7 +63,7 @@ def lock_feet(motion: Motion, *, kept: np.ndarray | None = None) -> Motion:
         before = quaternions[at[:, None], joints]
         sign = torch.where((solved * before).sum(-1, keepdim=True) < 0, -1.0, 1.0)
         locked[at[:, None], joints] = (solved * sign).float().numpy()
-    contacts = held.astype(np.float32)
+    contacts = planted.astype(np.float32)
     if kept is not None:
         contacts = np.where(kept, motion.contacts, contacts)
     return replace(motion, quaternions=locked, contacts=contacts)
@@ -129,7 +129,7 @@ def _smooth_legs(motion: Motion, seconds: float, kept: np.ndarray | None) -> Mot
 
 
 def ease_from_kept(loose: Motion, locked: Motion, kept: np.ndarray) -> Motion:
-    """Legs held little by little from where they are kept [T,2] bool: no foot jumps to its hold."""
+    """Legs planted little by little from where they are kept [T,2] bool: no foot jumps there."""
     quaternions = torch.as_tensor(locked.quaternions).clone()
     before = torch.as_tensor(loose.quaternions)
     for side, joints in enumerate(LEGS):

@@ -1,4 +1,4 @@
-"""When and where feet stand: runs, steps, reach, and curves between holds."""
+"""When and where feet stand: runs, steps, reach, and curves between plants."""
 
 import math
 
@@ -71,18 +71,18 @@ def test_a_dragged_foot_takes_steps_in_turn_with_the_other() -> None:
     balls, kept = np.stack((path, path), 1), np.zeros((120, 2), dtype=bool)
     left, right = plant_spans(balls, hips_over(balls), ~kept, FPS, kept)
     assert len(left) >= 3 and len(right) >= 3
-    held = np.zeros((120, 2), dtype=bool)
-    for side, holds in enumerate((left, right)):
-        for hold in holds:
-            held[hold.start : hold.stop, side] = True
-            reach = np.linalg.norm(hips_over(path)[hold.start : hold.stop] - hold.point, axis=1)
+    planted = np.zeros((120, 2), dtype=bool)
+    for side, plants in enumerate((left, right)):
+        for plant in plants:
+            planted[plant.start : plant.stop, side] = True
+            reach = np.linalg.norm(hips_over(path)[plant.start : plant.stop] - plant.point, axis=1)
             assert reach.max() <= MAX_REACH
-    assert held.any(1).all()  # one foot is always down
-    assert not held.all()
+    assert planted.any(1).all()  # one foot is always down
+    assert not planted.all()
     shift = corrections(path, left, kept[:, 0], FPS)
     moved = path + shift
-    for hold in left:
-        ground = moved[hold.start : hold.stop, [0, 2]]
+    for plant in left:
+        ground = moved[plant.start : plant.stop, [0, 2]]
         speed = np.linalg.norm(np.diff(ground, axis=0), axis=1) * FPS
         np.testing.assert_allclose(speed, GIVE, atol=1e-6)
     between = slice(left[0].stop, left[1].start)
@@ -90,7 +90,7 @@ def test_a_dragged_foot_takes_steps_in_turn_with_the_other() -> None:
 
 
 @pytest.mark.parametrize("stop", [30, 3])
-def test_a_foot_has_time_to_get_to_its_next_hold(stop: int) -> None:
+def test_a_foot_has_time_to_get_to_its_next_plant(stop: int) -> None:
     """Three frames after it stood it stands half a metre away: it leaves sooner, or lands later."""
     path = on_floor(60)
     path[stop + 3 :, 2] += 0.5
@@ -113,14 +113,14 @@ def test_a_body_too_fast_for_its_steps_takes_more_of_them() -> None:
     kept = np.zeros((120, 2), dtype=bool)
     hips = hips_over(balls)
     found = plant_spans(balls, hips, stands, FPS, kept)
-    held = np.zeros((120, 2), dtype=bool)
-    for side, holds in enumerate(found):
-        assert len(holds) >= 4
-        for hold in holds:
-            held[hold.start : hold.stop, side] = True
-            ways = hips[hold.start : hold.stop, side] - hold.point
+    planted = np.zeros((120, 2), dtype=bool)
+    for side, plants in enumerate(found):
+        assert len(plants) >= 4
+        for plant in plants:
+            planted[plant.start : plant.stop, side] = True
+            ways = hips[plant.start : plant.stop, side] - plant.point
             assert np.linalg.norm(ways, axis=1).max() <= MAX_REACH
-    assert held.any(1).mean() > 0.9
+    assert planted.any(1).mean() > 0.9
 
 
 def test_a_body_that_hovers_is_put_on_the_floor_and_a_jump_stays() -> None:
@@ -140,11 +140,11 @@ def test_a_kept_beginning_says_where_the_foot_stands_on() -> None:
     kept = np.arange(30) < 10
     balls = np.stack((path, path), 1)
     both = np.stack((kept, kept), 1)
-    shifts, held = foot_shifts(balls, hips_over(balls), np.ones((30, 2)), FPS, both)
+    shifts, planted = foot_shifts(balls, hips_over(balls), np.ones((30, 2)), FPS, both)
     assert np.abs(shifts[:10]).max() == 0.0
     moved = balls + shifts
     np.testing.assert_allclose(moved[10:, :, 2], path[9, 2], atol=1e-9)
-    assert held.all()
+    assert planted.all()
 
 
 @settings(deadline=None, max_examples=50)
@@ -191,8 +191,12 @@ def test_running_feet_are_left_alone_and_told_of(speed: float, left_alone: bool)
     hips[..., 1], hips[..., 2] = 0.85, speed * (way - way[20])[:, None]
     claims = np.zeros((40, 2))
     claims[17:24, 0] = 1.0
-    shifts, held = foot_shifts(balls, hips, claims, FPS)
+    shifts, planted = foot_shifts(balls, hips, claims, FPS)
     assert running(hips, FPS).all() == left_alone
-    stood = claims[:, 0] > 0  # a foot on the floor is told of, held or not
-    assert np.array_equal(held[:, 0] & stood, stood) if left_alone else (held[:, 0] & stood).any()
+    stood = claims[:, 0] > 0  # a foot on the floor is told of, planted or not
+    assert (
+        np.array_equal(planted[:, 0] & stood, stood)
+        if left_alone
+        else (planted[:, 0] & stood).any()
+    )
     assert (np.abs(shifts[..., 2]).max() == 0) == left_alone
