@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Make text-to-motion weights like the starter's: prepare, five trainings, and a calibration.
+"""Make text-to-motion weights like the starter's: prepare, trainings, and a calibration.
 
     python scripts/train_starter.py SOURCE ... [--captions FILE ...] [--free] [--work DIR] [--ship]
 
@@ -13,9 +13,11 @@ file names, all other words in src/configs.
 
 The text tower is taught from captions alone, twice: the first finds a place for each combination
 of labels, the second reads hand-written sentences, too, and sends each to such a place. The
-denoiser learns behind it, it is asked for every action so that it warns of those that it cannot
-do, and a motion tower learns to meet the text tower. Every stage resumes, and does nothing when it
-is finished. `--ship` writes int8 copies into src/shared/pretrained.
+denoiser learns behind it. What it has few clips of, or moves too little in, low-rank adapters learn
+once more, one after another, where the data has such clips. The result is asked for every action so
+that it warns of those that it cannot do, and a motion tower learns to meet the text tower. Every
+stage resumes, and does nothing when it is finished. `--ship` writes int8 copies into
+src/shared/pretrained.
 """
 
 import argparse
@@ -23,6 +25,8 @@ import json
 import signal
 import subprocess
 import sys
+from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -33,37 +37,70 @@ TEXT = ["batch-size=512", "learning-rate=1e-2", "ema-decay=0.99", "babble=0.3", 
 MOTION = ["min-frames=40", "max-frames=180"]
 DENOISER = [*MOTION, "batch-size=48", "learning-rate=1e-3", "warmup-steps=200", "ema-decay=0.998",
             "losses.position=1", "losses.foot-slide=0.1", "losses.root=0.5"]  # fmt: skip
+ADAPTER = ["rank=32", "batch-size=24", "warmup-steps=50", "ema-decay=0.99", "captured-share=1",
+           "balance=0.75", "min-frames=32", "max-frames=150",
+           *[word for word in DENOISER if word.startswith("losses")]]  # fmt: skip
+# What adapters learn (docs/experiments.md, sections 25, 33, 41, 44, 47): actions, styles, settings.
+ADAPTED = {
+    "few": (("bow", "call", "respond", "slash"), (), ("steps=1500",)),
+    "styled": (("walk",), ("angry", "childish", "chimpira", "giant", "happy", "musical",
+                           "not-confident", "proud", "sad"), ("steps=1000",)),
+    "run": (("run",), ("plain",), ("steps=500",)),
+    "walk": (("walk",), ("plain",), ("steps=400", "min-clips=20")),
+    "still": (("drink", "kneel", "meditate", "push-up", "sit", "zombie"), (), ("steps=4000",)),
+}  # fmt: skip
+LEAST_CLIPS = 2  # of an action, to be learned
 LICENCE = "CC BY-NC 4.0 (learned from the Bandai-Namco Research Motiondataset: non-commercial)"
 FREE_LICENCE = "free for any use (learned from CMU and synthetic clips)"
 DESCRIPTION = "text to body motion; Bandai-Namco, CMU and synthetic; en es fr de ja zh"
 FREE_DESCRIPTION = "text to body motion, free for any use; en es fr de ja zh"
 
 
-def stages(options: argparse.Namespace) -> list[list[str]]:
-    """The command of each stage, in order."""
+def stages(options: argparse.Namespace) -> Iterator[list[str]]:
+    """The command of each stage, in order; each is asked for when those before it are finished."""
     data, work = str(options.work / "data"), options.work
     synthetic = SYNTHETIC_FREE if options.free else SYNTHETIC_CLIPS
     places, text, starter = work / "places", work / "text", work / "starter"
     pairs = "network.clip.text-model=pairs"
 
-    def train(stage: str, output: Path, steps: int, *settings: str) -> list[str]:
+    def train(stage: str, output: Path, *settings: str) -> list[str]:
         shared = ["--data", data, "--output", str(output), "--resume"]
-        steps = max(1, round(steps * options.share))
-        own = [f"threads={options.threads}", f"steps={steps}", *settings]
+        own = [f"threads={options.threads}", *(scaled(word) for word in settings)]
         return ["-m", f"src.train.train_{stage}", *shared, *own]
 
-    return [
-        ["-m", "src.cli.tools", "prepare", *options.sources, *options.tables,
-         "--synthetic", str(synthetic), "--only-gaps", "--out", data],
-        train("text", places, 3000, *TEXT, "clip=null", pairs, "captions-per-group=60"),
-        train("text", text, 12000, *TEXT, f"clip={places}", "tower=pairs", "scale=30",
-              "choice-weight=2", "captions-per-group=150", "outside=0.12"),
-        train("generation", starter, options.steps, *DENOISER, f"clip={text}"),
-        ["-m", "src.cli.tools", "calibrate", "--model", str(starter), "--data", data,
-         "--threads", str(options.threads)],
-        train("clip", work / "clip", 450, *MOTION, f"text={text}", pairs, "batch-size=128"),
-        train("evaluator", work / "evaluator", 1500),
-    ]  # fmt: skip
+    def scaled(setting: str) -> str:
+        key, _, value = setting.partition("=")
+        return f"steps={max(1, round(int(value) * options.share))}" if key == "steps" else setting
+
+    yield ["-m", "src.cli.tools", "prepare", *options.sources, *options.tables,
+           "--synthetic", str(synthetic), "--only-gaps", "--out", data]  # fmt: skip
+    yield train("text", places, "steps=3000", *TEXT, "clip=null", pairs, "captions-per-group=60")
+    yield train("text", text, "steps=12000", *TEXT, f"clip={places}", "tower=pairs", "scale=30",
+                "choice-weight=2", "captions-per-group=150", "outside=0.12")  # fmt: skip
+    learned = list(adapters(work / "data"))
+    folders = [*(work / f"before-{name}" for name, _ in learned), starter]
+    yield train("generation", folders[0], f"steps={options.steps}", *DENOISER, f"clip={text}")
+    for (before, after), (_, settings) in zip(pairwise(folders), learned, strict=True):
+        yield train("action", after, f"init={before}", *ADAPTER, *settings)
+    yield ["-m", "src.cli.tools", "calibrate", "--model", str(starter), "--data", data,
+           "--threads", str(options.threads)]  # fmt: skip
+    yield train("clip", work / "clip", "steps=450", *MOTION, f"text={text}", pairs,
+                "batch-size=128")  # fmt: skip
+    yield train("evaluator", work / "evaluator", "steps=1500")
+
+
+def adapters(data: Path) -> Iterator[tuple[str, list[str]]]:
+    """Name and settings of each adapter that this data has captured or hand-made clips for."""
+    lines = (data / "clips.jsonl").read_text(encoding="utf-8").splitlines()
+    clips = [json.loads(line) for line in lines]
+    shown = [(clip["tag"], clip["labels"].get("style", "plain")) for clip in clips
+             if clip["split"] == "train" and clip["provenance"] != "procedural"]  # fmt: skip
+    for name, (actions, styles, settings) in ADAPTED.items():
+        there = [a for a in actions if sum(tag == a for tag, _ in shown) >= LEAST_CLIPS]
+        looks = [look for look in styles if any((a, look) in shown for a in there)]
+        if there and bool(looks) == bool(styles):
+            own = [f"styles=[{','.join(looks)}]"] if looks else []
+            yield name, [f"actions=[{','.join(there)}]", *own, *settings]
 
 
 def calibrated(arguments: list[str]) -> bool:

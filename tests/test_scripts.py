@@ -2,6 +2,7 @@
 
 import importlib
 import importlib.util
+import json
 import re
 import subprocess
 import sys
@@ -196,11 +197,17 @@ def test_a_release_is_numbered_and_dated(tmp_path: Path) -> None:
 
 
 def test_every_stage_of_the_recipe_knows_its_settings(tmp_path: Path) -> None:
-    """And each goes on from a folder that one before it writes."""
+    """And each goes on from a folder that one before it writes. Adapters learn what there is."""
     recipe = load("train_starter")
     given = SimpleNamespace(sources=["cmu"], tables=[], work=tmp_path, free=True, steps=4000,
                             share=0.001, threads=1)  # fmt: skip
-    written = set()
+    shown = [("bow", {}), ("bow", {}), ("slash", {}), ("walk", {"style": "sad"}), ("walk", {})]
+    (tmp_path / "data").mkdir()
+    with (tmp_path / "data" / "clips.jsonl").open("w", encoding="utf-8") as file:
+        for tag, labels in shown:
+            clip = {"tag": tag, "labels": labels, "split": "train", "provenance": "captured"}
+            file.write(json.dumps(clip) + "\n")
+    written, learned = set(), []
     for _, module, *words in recipe.stages(given):
         flags = dict(pairwise(words))
         if module == "src.cli.tools":
@@ -215,8 +222,12 @@ def test_every_stage_of_the_recipe_knows_its_settings(tmp_path: Path) -> None:
         assert 1 <= settings.steps <= 12
         before = (getattr(settings, name, None) for name in ("clip", "text"))
         assert {Path(folder) for folder in before if folder} <= written
+        if module.endswith("train_action"):
+            assert Path(settings.init) in written
+            learned.append((settings.actions, settings.styles))
         written.add(Path(flags["--output"]))
-    assert len(written) == 5 and {tmp_path / "starter", tmp_path / "evaluator"} <= written
+    assert learned == [(("bow",), ()), (("walk",), ("sad",)), (("walk",), ("plain",))]
+    assert len(written) == 8 and {tmp_path / "starter", tmp_path / "evaluator"} <= written
 
 
 def test_cmus_own_index_becomes_captions() -> None:
