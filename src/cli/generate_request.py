@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from ..shared.model.diffusion import Sampling
     from ..shared.pipelines.motion_generator import MotionGenerator
 
-DIRECTIONS = (  # what `generate` is told beside prompts
+# What `generate` is told beside prompts: any of it is `controlled`, one motion at a time.
+DIRECTIONS = (
     "start", "end", "keep", "edit", "joints", "begin", "until", "path", "timeline", "then", "loop"
 )  # fmt: skip
 

@@ -2,6 +2,7 @@
 
 import ast
 import inspect
+import re
 import sys
 from typing import Any
 
@@ -12,6 +13,7 @@ from typer.main import get_command
 from src.cli.evaluate import Request
 from src.cli.generate_request import Request as GenerateRequest
 from src.cli.tools import STAGES, app
+from src.shared.formats.registry import EXPORTERS
 
 FLAGS = {
     "generate": (
@@ -172,3 +174,11 @@ def test_every_field_of_a_request_is_read(request_of: Any, modules: list[str]) -
         if isinstance(node, ast.Attribute | ast.Constant)
     }
     assert not set(request_of.__dataclass_fields__) - read
+
+
+@pytest.mark.parametrize("command", ["generate", "convert"])
+def test_help_names_every_format(command: str) -> None:
+    """Typed by hand, for the table of writers imports too much for `--help`."""
+    options = {option.name: option for option in all_commands(app)[command].params}
+    named = set(re.findall(r"[a-z0-9]+", options["format"].help))
+    assert set(EXPORTERS) <= named

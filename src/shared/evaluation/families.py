@@ -129,6 +129,7 @@ FRECHET = MetricFamily(
     least=MIN_SAMPLE,
 )
 
+# Physical plausibility is two tables, this and CONTACT; of dances `GROUND` in families_dance.py.
 PHYSICS: MetricFamily[MotionSample] = MetricFamily(
     "physics",
     (
@@ -142,8 +143,8 @@ PHYSICS: MetricFamily[MotionSample] = MetricFamily(
     "contact: speed of the ball of a foot over frames that the contact detector accepts, which"
     " asks for a slow foot itself, so that a fast glide escapes it; support: of the lower foot"
     " in every frame within 6 cm of its standing height. sunk: lowest foot below its standing"
-    " height. jerk: third differences of joint positions. A frozen pose is best in the first"
-    " four: read them beside speed and the real row.",
+    " height. jerk: third differences of joint positions. A frozen pose is best in slide, sunk and"
+    " jerk: read them beside speed and the real row.",
     lambda sample, *_: sample.each("physics", physics),
 )
 

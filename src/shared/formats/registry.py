@@ -30,7 +30,7 @@ def _lazy(module: str, function: str) -> Callable[..., Any]:
 
 
 # Of (motion, path), with `names=` those that are in `CLIP_EXPORTERS`, too. A new one wants a row in
-# docs/formats.md and its first bytes in the test.
+# docs/formats.md, its first bytes in the test, and a place in the help of `generate` and `convert`.
 EXPORTERS: dict[str, Callable[..., Path]] = {
     "bvh": _lazy("writers.bvh", "write_bvh"),
     "glb": _lazy("writers.glb", "write_glb"),

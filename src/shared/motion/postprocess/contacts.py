@@ -169,6 +169,8 @@ def plant_spans(
     """The plants of the left and of the right foot, in order; where one foot must leave before the
     other was to land, the other one lands sooner, or steps are put between.
 
+    Who wants other times changes those found here: within `_Planner` each moves the next one, too.
+
     Args:
         balls: [T,2,3].
         hips: [T,2,3].
@@ -178,10 +180,10 @@ def plant_spans(
     """
     free = np.asarray(stands.any(1) & ~kept.any(1))
     planner = _Planner(balls, hips, free, fps, kept)
-    for start, stop, side in _runs(balls, stands, fps, kept):
+    for start, stop, side in _standing_spans(balls, stands, fps, kept):
         planner.stand(start, stop, side)
     planner.step_on(len(balls))
-    return planner.found  # other times of plants belong here: before it they move the other foot
+    return planner.found
 
 
 class _Planner:
@@ -257,7 +259,7 @@ class _Planner:
         return first
 
 
-def _runs(
+def _standing_spans(
     balls: np.ndarray, stands: np.ndarray, fps: float, kept: np.ndarray
 ) -> list[tuple[int, int, int]]:
     """First and past-the-last frame and side of each time that a foot stands, by their start."""
