@@ -17,7 +17,7 @@ Letters: B batch, T frames, R rows of a frame, P places, D shared dimensions.
 import copy
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import torch
@@ -28,6 +28,7 @@ from torch.nn.functional import cross_entropy, kl_div, normalize, pad
 from ..shared.config_schema import PAIRS, ConstraintShares, LossWeights, NetworkConfig, TrainConfig
 from ..shared.data.captions.book import insert_babble, packaged_book
 from ..shared.data.prepared import ClipRecord
+from ..shared.data.text_motion import arm_actions, gestures, still_actions
 from ..shared.errors import UsageError, UserError
 from ..shared.model.clip.core import (
     PLACE_SCALE,
@@ -35,6 +36,7 @@ from ..shared.model.clip.core import (
     TokenPairEncoder,
     shared_keys,
 )
+from ..shared.model.clip.out_of_domain import OutOfDomainDetector
 from ..shared.model.clip.pretrained import encode_captions, tower_hash
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.diffusion import GaussianDiffusion
@@ -358,19 +360,32 @@ class ActionTask(Task):
             + ("" if self.config.actions else f"; and {', '.join(self.actions)}"),
             "training": {**before.card.training, "actions": history},
         }
-        scope = before.scope
-        if scope is not None and not self.config.actions:
-            for action in self.actions:
-                texts = self._said(r for r in self.train.records if r.tag == action)
-                embeddings = encode_captions(self.tower, before.tokenizer, texts).numpy()
-                scope = scope.with_action(action, texts, embeddings)
         return before.with_denoiser(
             module.denoiser,
             text=self.tower,
             card=before.card.model_copy(update=update),
-            scope=scope,
+            scope=self._scope(),
             device=next(module.parameters()).device.type,
         )
+
+    def _scope(self) -> OutOfDomainDetector | None:
+        """What was known, with the new actions and how what was learned is done."""
+        scope, data, learned = self.before.scope, self.data, set(self.actions)
+        if scope is None:
+            return None
+
+        def done(known: Sequence[str], shown: Sequence[str]) -> tuple[str, ...]:
+            return tuple(sorted({*known} - learned | {*shown} & learned))
+
+        scope = replace(scope, still=done(scope.still, still_actions(data)))
+        if self.config.actions:
+            return scope
+        for action in self.actions:
+            texts = self._said(r for r in self.train.records if r.tag == action)
+            embeddings = encode_captions(self.tower, self.before.tokenizer, texts).numpy()
+            scope = scope.with_action(action, texts, embeddings)
+        arms, gesturing = done(scope.arms, arm_actions(data)), done(scope.gestures, gestures(data))
+        return replace(scope, arms=arms, gestures=gesturing)
 
     def export_samples(self, module: nn.Module, folder: Path) -> None:
         """One motion of each new action, as BVH and HTML."""

@@ -109,6 +109,8 @@ def test_a_new_action_has_a_place_and_the_old_ones_keep_theirs(
     assert new.scope is not None and old.scope is not None
     assert new.scope.actions == (*old.scope.actions, "flop")
     assert "flopping" in new.scope.key_words
+    for kind in ("gestures", "still"):  # the clips are bows
+        assert {*getattr(new.scope, kind)} == {*getattr(old.scope, kind), "flop"}
     assert new.generate(["a person flops"], seconds=1.0, steps=2, tags=["flop"])[0].num_frames == 30
     # and once more, on top of that: nothing is new any longer
     with pytest.raises(UserError, match=r"no action that .* does not know"):
