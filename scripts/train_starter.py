@@ -16,8 +16,8 @@ of labels, the second reads hand-written sentences, too, and sends each to such 
 denoiser learns behind it. What it has few clips of, or moves too little in, low-rank adapters learn
 once more, one after another, where the data has such clips. The result is asked for every action so
 that it warns of those that it cannot do, and a motion tower learns to meet the text tower. Every
-stage resumes, and does nothing when it is finished. `--ship` writes int8 copies into
-src/shared/pretrained.
+stage resumes, and does nothing when it is finished (a --work folder of before there were adapters
+cannot be gone on with). `--ship` writes int8 copies into src/shared/pretrained.
 """
 
 import argparse
@@ -25,12 +25,14 @@ import json
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 CLIPS = ROOT / "scripts" / "starter_clips.tsv"  # pieces and labels of the sources' takes
+BLOWS = ROOT / "scripts" / "blow_clips.tsv"  # one blow each, so that all fall at the same time
 SHIPPED = ROOT / "src" / "shared" / "pretrained"
 SYNTHETIC_CLIPS, SYNTHETIC_FREE = 3000, 4000  # before those that no gap needs are left out
 TEXT = ["batch-size=512", "learning-rate=1e-2", "ema-decay=0.99", "babble=0.3", "precision=no"]
@@ -40,14 +42,19 @@ DENOISER = [*MOTION, "batch-size=48", "learning-rate=1e-3", "warmup-steps=200", 
 ADAPTER = ["rank=32", "batch-size=24", "warmup-steps=50", "ema-decay=0.99", "captured-share=1",
            "balance=0.75", "min-frames=32", "max-frames=150",
            *[word for word in DENOISER if word.startswith("losses")]]  # fmt: skip
-# What adapters learn (docs/experiments.md, sections 25, 33, 41, 44, 47): actions, styles, settings.
+# What adapters learn (docs/experiments.md, sections 30, 33, 41, 44, 47, 48): prepared folder,
+# actions, styles, settings.
 ADAPTED = {
-    "few": (("bow", "call", "respond", "slash"), (), ("steps=1500",)),
-    "styled": (("walk",), ("angry", "childish", "chimpira", "giant", "happy", "musical",
-                           "not-confident", "proud", "sad"), ("steps=1000",)),
-    "run": (("run",), ("plain",), ("steps=500",)),
-    "walk": (("walk",), ("plain",), ("steps=400", "min-clips=20")),
-    "still": (("drink", "kneel", "meditate", "push-up", "sit", "zombie"), (), ("steps=4000",)),
+    "few": ("data", ("bow", "call", "respond"), (), ("steps=1500",)),
+    "blows": ("blows", ("kick", "slash"), (),
+              ("steps=3000", "max-frames=180", "batch-size=16", "ema-decay=0.998")),
+    "gestures": ("data", ("raise", "wave"), ("plain",), ("steps=900", "min-clips=6")),
+    "styled": ("data", ("walk",), ("angry", "childish", "chimpira", "giant", "happy", "musical",
+                                   "not-confident", "proud", "sad"), ("steps=1000",)),
+    "run": ("data", ("run",), ("plain",), ("steps=500",)),
+    "walk": ("data", ("walk",), ("plain",), ("steps=400", "min-clips=20")),
+    "still": ("data", ("drink", "kneel", "meditate", "push-up", "sit", "zombie"), (),
+              ("steps=4000",)),
 }  # fmt: skip
 LEAST_CLIPS = 2  # of an action, to be learned
 LICENCE = "CC BY-NC 4.0 (learned from the Bandai-Namco Research Motiondataset: non-commercial)"
@@ -63,8 +70,8 @@ def stages(options: argparse.Namespace) -> Iterator[list[str]]:
     places, text, starter = work / "places", work / "text", work / "starter"
     pairs = "network.clip.text-model=pairs"
 
-    def train(stage: str, output: Path, *settings: str) -> list[str]:
-        shared = ["--data", data, "--output", str(output), "--resume"]
+    def train(stage: str, output: Path, *settings: str, folder: str = "data") -> list[str]:
+        shared = ["--data", str(work / folder), "--output", str(output), "--resume"]
         own = [f"threads={options.threads}", *(scaled(word) for word in settings)]
         return ["-m", f"src.train.train_{stage}", *shared, *own]
 
@@ -77,11 +84,14 @@ def stages(options: argparse.Namespace) -> Iterator[list[str]]:
     yield train("text", places, "steps=3000", *TEXT, "clip=null", pairs, "captions-per-group=60")
     yield train("text", text, "steps=12000", *TEXT, f"clip={places}", "tower=pairs", "scale=30",
                 "choice-weight=2", "captions-per-group=150", "outside=0.12")  # fmt: skip
-    learned = list(adapters(work / "data"))
-    folders = [*(work / f"before-{name}" for name, _ in learned), starter]
+    if files := files_of_blows(options.sources):
+        yield ["-m", "src.cli.tools", "prepare", *files, "--captions", str(BLOWS),
+               "--out", str(work / "blows")]  # fmt: skip
+    learned = list(adapters(work))
+    folders = [*(work / f"before-{name}" for name, *_ in learned), starter]
     yield train("generation", folders[0], f"steps={options.steps}", *DENOISER, f"clip={text}")
-    for (before, after), (_, settings) in zip(pairwise(folders), learned, strict=True):
-        yield train("action", after, f"init={before}", *ADAPTER, *settings)
+    for (before, after), (_, folder, own) in zip(pairwise(folders), learned, strict=True):
+        yield train("action", after, f"init={before}", *ADAPTER, *own, folder=folder)
     yield ["-m", "src.cli.tools", "calibrate", "--model", str(starter), "--data", data,
            "--threads", str(options.threads)]  # fmt: skip
     yield train("clip", work / "clip", "steps=450", *MOTION, f"text={text}", pairs,
@@ -89,18 +99,37 @@ def stages(options: argparse.Namespace) -> Iterator[list[str]]:
     yield train("evaluator", work / "evaluator", "steps=1500")
 
 
-def adapters(data: Path) -> Iterator[tuple[str, list[str]]]:
-    """Name and settings of each adapter that this data has captured or hand-made clips for."""
-    lines = (data / "clips.jsonl").read_text(encoding="utf-8").splitlines()
-    clips = [json.loads(line) for line in lines]
-    shown = [(clip["tag"], clip["labels"].get("style", "plain")) for clip in clips
-             if clip["split"] == "train" and clip["provenance"] != "procedural"]  # fmt: skip
-    for name, (actions, styles, settings) in ADAPTED.items():
-        there = [a for a in actions if sum(tag == a for tag, _ in shown) >= LEAST_CLIPS]
-        looks = [look for look in styles if any((a, look) in shown for a in there)]
-        if there and bool(looks) == bool(styles):
-            own = [f"styles=[{','.join(looks)}]"] if looks else []
-            yield name, [f"actions=[{','.join(there)}]", *own, *settings]
+def files_of_blows(sources: Sequence[str]) -> list[str]:
+    """Those of the takes in blow_clips.tsv that are there, the first of each name."""
+    names = {line.partition("\t")[0] for line in BLOWS.read_text(encoding="utf-8").splitlines()}
+    files = (file for source in sources for file in sorted(Path(source).rglob("*.bvh")))
+    found = {file.stem: str(file) for file in reversed([*files]) if file.stem in names}
+    return sorted(found.values())
+
+
+def adapters(work: Path) -> Iterator[tuple[str, str, list[str]]]:
+    """Name, data and settings of each adapter that there are captured or hand-made clips for."""
+    for name, (folder, actions, styles, settings) in ADAPTED.items():
+        least = dict(setting.split("=") for setting in settings).get("min-clips", "1")
+        groups: dict[tuple[str, str, str], int] = Counter()
+        for line in lines_of(work / folder / "clips.jsonl"):
+            clip = json.loads(line)
+            if clip["split"] == "train" and clip["provenance"] != "procedural":
+                groups[clip["tag"], clip["labels"].get("style", "plain"), clip["group"]] += 1
+        shown: dict[tuple[str, str], int] = Counter()
+        for (action, look, _), number in groups.items():
+            shown[action, look if styles else ""] += number if number >= int(least) else 0
+        wanted = [(a, look) for a in actions for look in styles or ("",)]
+        there = [pair for pair in wanted if shown[pair] >= LEAST_CLIPS]
+        if there:
+            of, looks = (dict.fromkeys(column) for column in zip(*there, strict=True))
+            own = [f"styles=[{','.join(looks)}]"] if styles else []
+            yield name, folder, [f"actions=[{','.join(of)}]", *own, *settings]
+
+
+def lines_of(path: Path) -> list[str]:
+    """Of a text file, none where there is no such file."""
+    return path.read_text(encoding="utf-8").splitlines() if path.exists() else []
 
 
 def calibrated(arguments: list[str]) -> bool:

@@ -201,11 +201,13 @@ def test_every_stage_of_the_recipe_knows_its_settings(tmp_path: Path) -> None:
     recipe = load("train_starter")
     given = SimpleNamespace(sources=["cmu"], tables=[], work=tmp_path, free=True, steps=4000,
                             share=0.001, threads=1)  # fmt: skip
-    shown = [("bow", {}), ("bow", {}), ("slash", {}), ("walk", {"style": "sad"}), ("walk", {})]
+    shown = [("bow", {}), ("bow", {}), ("wave", {}), ("raise", {}), ("raise", {})]
+    shown += [("walk", {"style": "sad"})] * 2 + [("walk", {"style": "happy"})] + [("walk", {})] * 20
     (tmp_path / "data").mkdir()
     with (tmp_path / "data" / "clips.jsonl").open("w", encoding="utf-8") as file:
         for tag, labels in shown:
-            clip = {"tag": tag, "labels": labels, "split": "train", "provenance": "captured"}
+            clip = {"tag": tag, "labels": labels, "group": f"{tag}{labels}"}
+            clip |= {"split": "train", "provenance": "captured"}
             file.write(json.dumps(clip) + "\n")
     written, learned = set(), []
     for _, module, *words in recipe.stages(given):

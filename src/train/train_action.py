@@ -18,6 +18,7 @@ import copy
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 
 import torch
@@ -364,10 +365,11 @@ class ActionTask(Task):
             module.denoiser,
             text=self.tower,
             card=before.card.model_copy(update=update),
-            scope=self._scope(),
+            scope=self._scope,
             device=next(module.parameters()).device.type,
         )
 
+    @cached_property
     def _scope(self) -> OutOfDomainDetector | None:
         """What was known, with the new actions and how what was learned is done."""
         scope, data, learned = self.before.scope, self.data, set(self.actions)

@@ -26,10 +26,8 @@ AROUND_SECONDS, FLAT = 0.4, 0.01  # in which a foot comes down; metres that are 
 MAX_SUPPORT = 0.08  # metres; a lower foot carries the body if none other does,
 MAX_VERTICAL = 0.5  # m/s, unless it rises or falls faster than this
 FALL = -3.0  # m/s² of the hips, below which the body flies
-RUNNING, PACE_SECONDS = (
-    2.0,
-    0.2,
-)  # m/s of the hips from which on no foot is planted; smoothing of them
+# m/s of the hips from which on no foot is planted; smoothing of them.
+RUNNING, PACE_SECONDS = 2.0, 0.2
 MAX_GAP_SECONDS = 2 / 30  # a contact that breaks off for no longer than this goes on
 MIN_PLANT_SECONDS = 3 / 30  # a shorter contact is none
 MIN_SWING_SECONDS = 8 / 30  # that a foot has to get from one plant to the next

@@ -26,9 +26,7 @@ from .stitching import FADE, joined
 from .whole import MotionPostProcessor, clamp_velocity, smooth_features
 
 BLOCK, AHEAD, BEHIND = 15, 12, 24  # frames: locked at once, waited for, remembered
-JUMP = (
-    0.04  # metres: a foot that its plant moves farther in a block's first frame gets there slowly
-)
+JUMP = 0.04  # metres: a foot that a plant moves farther in a block's first frame gets there slowly
 
 Piece = tuple[Tensor, Tensor]  # features [t,R,6] and what is known of them, bool
 
