@@ -46,7 +46,7 @@ ADAPTER = ["rank=32", "batch-size=24", "warmup-steps=50", "ema-decay=0.99", "cap
 # actions, styles, settings.
 ADAPTED = {
     "few": ("data", ("bow", "call", "respond"), (), ("steps=1500",)),
-    "blows": ("blows", ("kick", "slash"), (),
+    "blows": ("blows", ("slash",), (),
               ("steps=3000", "max-frames=180", "batch-size=16", "ema-decay=0.998")),
     "gestures": ("data", ("raise", "wave"), ("plain",), ("steps=900", "min-clips=6")),
     "styled": ("data", ("walk",), ("angry", "childish", "chimpira", "giant", "happy", "musical",
