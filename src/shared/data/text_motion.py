@@ -296,24 +296,20 @@ def arm_actions(data: PreparedData) -> tuple[str, ...]:
 
 
 def still_actions(data: PreparedData) -> tuple[str, ...]:
-    """Actions that end where they began in half of the training clips or more; of the captured ones
-    where there are any, as captured motion is what is sampled: made-up kicks stay, real ones step.
-    """
-    return _actions_that(stays, data, 0.5, captured=True)
+    """Actions that end where they began in half of the training clips or more."""
+    return _actions_that(stays, data, 0.5)
 
 
 def _actions_that(
-    does: Callable[[Motion], bool], data: PreparedData, share: float, *, captured: bool = False
+    does: Callable[[Motion], bool], data: PreparedData, share: float
 ) -> tuple[str, ...]:
-    """Actions that do it in this share of their training clips (of the captured ones) or more."""
+    """Actions that do it in this share of their training clips or more."""
     clips: dict[str, list[ClipRecord]] = {}
     for record in data.records("train"):
         if record.tag and not record.mirrored and record.num_frames > 2 * _ENDS:
             clips.setdefault(record.tag, []).append(record)
     found = []
     for action, records in sorted(clips.items()):
-        if captured:
-            records = [r for r in records if r.provenance == "captured"] or records
         some = records[:: -(-len(records) // _GESTURE_CLIPS)]
         answers = [does(decode_features(data.features(record))) for record in some]
         found += [action] if sum(answers) >= share * len(answers) else []

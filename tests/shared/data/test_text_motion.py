@@ -1,17 +1,10 @@
 """Gestures stay whole when they are made shorter, and only where their motion allows it."""
 
-from pathlib import Path
-
 import pytest
 import torch
 from torch import Tensor
 
-from src.shared.data.prepare import prepare
-from src.shared.data.prepared import PreparedData
-from src.shared.data.sources import MotionFolder
-from src.shared.data.synthetic.clips import generate_clip, spec_for
-from src.shared.data.text_motion import comes_back, shorten, still_actions
-from src.shared.formats.writers.bvh import write_bvh
+from src.shared.data.text_motion import comes_back, shorten
 from src.shared.motion.features import FORWARD, ROOT_ROW
 
 
@@ -49,22 +42,3 @@ def test_nothing_is_joined_that_is_not_alike():
     torch.manual_seed(0)
     assert shorten(torch.randn(200, 23, 6), 120) is None
     assert shorten(wave(200, 5), 60) is None  # too little would be left
-
-
-def test_captured_clips_say_whether_an_action_stays(tmp_path: Path) -> None:
-    """Where there are any: made-up kicks stay where they are, real ones step."""
-    lines = ["clip,action,caption,provenance"]
-    for number, (made, provenance) in enumerate(
-        [({"action": "bow", "count": "1"}, "procedural")] * 3
-        + [({"action": "walk", "direction": "forward", "speed": "normal"}, "captured")]
-    ):
-        write_bvh(
-            generate_clip(spec_for(made, number), seed=number), tmp_path / "clips" / f"{number}.bvh"
-        )
-        lines.append(f"{number},kick,a person kicks,{provenance}")
-    for name, rows in {"made-up": lines[:-1], "all": lines}.items():
-        (tmp_path / f"{name}.csv").write_text("\n".join(rows))
-        source = MotionFolder.open(tmp_path / "clips", captions=[tmp_path / f"{name}.csv"])
-        prepare([source], tmp_path / name, workers=1)
-        data = PreparedData.open(str(tmp_path / name))
-        assert still_actions(data) == (("kick",) if name == "made-up" else ())
