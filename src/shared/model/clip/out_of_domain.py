@@ -50,9 +50,9 @@ TWINS = ({"wave", "bye"},)  # one gesture under two names
 RELIABLE = 0.5  # share of tries in which an action has to come out to be known
 SCALE, FIT_STEPS = 20.0, 60  # of the cosines in the classifier of actions; of its optimizer
 FALSE_ALARMS = 0.03  # share of the prompts it calibrates on that are understood, and doubted
-# Of the understood sentences kept from training; chosen on 844 sentences of a development set:
-# .05 of those that are understood are doubted then. It is in the weights of scope.json from
-# training on: for those that exist see `check`, and the studio's in scope.js.
+# Of the understood sentences kept from training; chosen on a development set, of whose understood
+# ones .07 are doubted then (benchmarks/reading.py). It is in the weights of scope.json from then
+# on: for those that exist see `check`, and the studio's in scope.js.
 FALSE_WARNINGS = 0.15
 NEWTON_STEPS, RIDGE = 30, 1e-2
 

@@ -1,0 +1,73 @@
+"""What is read of development sentences, and which of them are warned of; moves nothing.
+
+    python -m benchmarks.reading [--model starter] [--json FILE]
+
+A sentence is read if it is one clause and its nearest action is the one it asks for; a spin may be
+read as a turn, and waves and goodbyes are one gesture. None of the sentences is one of training or
+of `evaluate-requests`.
+"""
+
+import argparse
+import json
+from collections import defaultdict
+from pathlib import Path
+from typing import Any
+
+from src.shared.config_loader import load_yaml
+from src.shared.evaluation.actions import same_action
+from src.shared.model.clip.out_of_domain import TWINS
+from src.shared.model.generation.motion_generator import TextToMotion
+from src.shared.pipelines.text import SentenceGenerator
+
+SENTENCES = Path(__file__).with_name("development.yaml")
+
+
+def is_read(wanted: str, found: str | None) -> bool:
+    """Whether the action that was found will do."""
+    if found is None:
+        return False
+    alike = any({wanted, found} <= twins for twins in TWINS)
+    return alike or same_action(wanted, found) or (wanted, found) == ("spin", "turn")
+
+
+def figures(model: str) -> dict[str, Any]:
+    """Shares of sentences that are read, by language and action; and of those warned of."""
+    generator = TextToMotion.from_pretrained(model, device="cpu")
+    sentences = SentenceGenerator(generator)
+    entries = load_yaml(SENTENCES)
+    rows = [(entry, text) for entry in entries for text in entry["text"]]
+    warned = [line is not None for line in sentences.scope_warnings([text for _, text in rows])]
+    groups = defaultdict[str, list[bool]](list)
+    doubted: dict[bool, list[bool]] = {True: [], False: []}
+    for (entry, text), told in zip(rows, warned, strict=True):
+        first, *others = sentences.clauses(text)
+        reading = None if others else generator.read(first.text)
+        action = entry["labels"]["action"]
+        right = is_read(action, reading.nearest[0] if reading and reading.nearest else None)
+        for name in ("all", entry["language"], action):
+            groups[name].append(right)
+        doubted[right].append(told)
+    return {
+        "sentences": len(rows),
+        "read": {name: sum(each) / len(each) for name, each in groups.items()},
+        "warned-of": {
+            name: sum(each) / max(len(each), 1)
+            for name, each in (("read", doubted[True]), ("misread", doubted[False]))
+        },
+    }
+
+
+def main() -> None:
+    """Print them, or write them."""
+    parser = argparse.ArgumentParser(description=str(__doc__).splitlines()[0])
+    parser.add_argument("--model", default="starter")
+    parser.add_argument("--json", type=Path)
+    options = parser.parse_args()
+    found = json.dumps(figures(options.model), indent=1, ensure_ascii=False)
+    if options.json is not None:
+        options.json.write_text(found + "\n", encoding="utf-8")
+    print(found)
+
+
+if __name__ == "__main__":
+    main()
