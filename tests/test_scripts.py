@@ -203,18 +203,27 @@ def test_every_stage_of_the_recipe_knows_its_settings(tmp_path: Path) -> None:
                             share=0.001, threads=1)  # fmt: skip
     shown = [("bow", {}), ("bow", {}), ("wave", {}), ("raise", {}), ("raise", {})]
     shown += [("walk", {"style": "sad"})] * 2 + [("walk", {"style": "happy"})] + [("walk", {})] * 20
-    (tmp_path / "data").mkdir()
-    with (tmp_path / "data" / "clips.jsonl").open("w", encoding="utf-8") as file:
-        for tag, labels in shown:
-            clip = {"tag": tag, "labels": labels, "group": f"{tag}{labels}"}
-            clip |= {"split": "train", "provenance": "captured"}
-            file.write(json.dumps(clip) + "\n")
-    written, learned = set(), []
+    for folder, clips in {"data": shown, "blows": [("slash", {})] * 2}.items():
+        lines = [
+            json.dumps({"tag": tag, "labels": labels, "group": f"{tag}{labels}",
+                        "split": "train", "provenance": "captured"})
+            for tag, labels in clips
+        ]  # fmt: skip
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "clips.jsonl").write_text("\n".join(lines), encoding="utf-8")
+    take = tmp_path / "takes" / "dataset-1_slash_normal_001.bvh"
+    take.parent.mkdir()
+    take.touch()
+    given.sources.append(str(take.parent))
+    written, learned, prepared = set(), [], dict[Path, list[str]]()
     for _, module, *words in recipe.stages(given):
         flags = dict(pairwise(words))
         if module == "src.cli.tools":
             assert words[0] == "prepare" or Path(flags["--model"]) in written
+            if words[0] == "prepare":
+                prepared[Path(flags["--out"])] = words
             continue
+        assert Path(flags["--data"]) in prepared
         name = f"Train{module.rpartition('_')[2].title()}Config"
         stage = getattr(importlib.import_module(module), name)
         own, network = split_network_overrides([word for word in words if "=" in word])
@@ -228,8 +237,11 @@ def test_every_stage_of_the_recipe_knows_its_settings(tmp_path: Path) -> None:
             assert Path(settings.init) in written
             learned.append((settings.actions, settings.styles))
         written.add(Path(flags["--output"]))
-    assert learned == [(("bow",), ()), (("walk",), ("sad",)), (("walk",), ("plain",))]
-    assert len(written) == 8 and {tmp_path / "starter", tmp_path / "evaluator"} <= written
+    assert learned == [
+        (("bow",), ()), (("slash",), ()), (("walk",), ("sad",)), (("walk",), ("plain",))
+    ]  # fmt: skip
+    assert str(take) in prepared[tmp_path / "blows"]
+    assert len(written) == 9 and {tmp_path / "starter", tmp_path / "evaluator"} <= written
 
 
 def test_cmus_own_index_becomes_captions() -> None:
