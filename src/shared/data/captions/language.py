@@ -5,7 +5,6 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
-from itertools import product
 from typing import Any
 
 from .requests import requested
@@ -101,6 +100,7 @@ class CaptionLanguage:
             for name, action in content.actions.items()
         }
         self._plan = lru_cache(maxsize=4096)(self._make_plan)
+        self._verb = cache(content.verb)
         self._sentences = self._whole_sentences()
 
     # -------------------------------------------------------------- what callers ask for
@@ -221,13 +221,21 @@ class CaptionLanguage:
                 if phrase.forms is not None and form not in phrase.forms:
                     continue
                 said = _labels(framed).union(phrase.when)
-                for verb, rest in product(phrase.verbs, phrase.rest):
-                    words = self.content.verb(verb, form)
-                    slots = (framed, _slots(words), _slots(rest) - said)
-                    missing = _missing(slots, phrase, stated, worded)
-                    if words != "-" and missing is not None:
-                        pair = (parse(words), _sparing(rest, said))
-                        by_missing.setdefault(missing, []).extend([pair] * phrase.weight)
+                ends = [(_slots(rest) - said, _sparing(rest, said)) for rest in phrase.rest]
+                lacking: dict[frozenset[str], list[int | None]] = {}  # most verbs have no slots
+                for words in (self._verb(verb, form) for verb in phrase.verbs):
+                    if words == "-":
+                        continue
+                    own, start = _slots(words), parse(words)
+                    if own not in lacking:
+                        lacking[own] = [
+                            _missing((framed, own, slots), phrase, stated, worded)
+                            for slots, _ in ends
+                        ]
+                    for missing, (_, end) in zip(lacking[own], ends, strict=True):
+                        if missing is not None:
+                            fitting = by_missing.setdefault(missing, [])
+                            fitting += [(start, end)] * phrase.weight
             return by_missing
 
         for frame in self.content.frames:
