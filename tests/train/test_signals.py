@@ -11,7 +11,10 @@ from pathlib import Path
 
 import pytest
 import torch
+from click.testing import Result
 from safetensors.torch import load_file
+from tiny_task import STAGE
+from typer.testing import CliRunner
 
 from tests.shared.holder import held
 
@@ -52,6 +55,11 @@ def start(output: Path, *more: str, **extra: str) -> "subprocess.Popen[str]":
     )
 
 
+def here(output: Path, *more: str) -> Result:
+    """The same command in this process, where nothing is told of processes."""
+    return CliRunner().invoke(STAGE.app(), [*arguments(output), *more])
+
+
 def finish(output: Path, *more: str, **extra: str) -> str:
     process = start(output, *more, **extra)
     _, errors = process.communicate(timeout=120)
@@ -77,8 +85,16 @@ def assert_same_run(first: Path, second: Path) -> None:
         assert all(torch.equal(one[key], other[key]) for key in one), name
 
 
-def test_resume_after_kill_9_is_bitwise_the_same(tmp_path: Path) -> None:
-    finish(tmp_path / "whole")
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A run that nothing stops."""
+    output = tmp_path_factory.mktemp("runs") / "whole"
+    done = here(output)
+    assert done.exit_code == 0, done.output
+    return output
+
+
+def test_resume_after_kill_9_is_bitwise_the_same(whole: Path, tmp_path: Path) -> None:
     killed = start(tmp_path / "killed", TINY_SLEEP="0.05")
     wait_for_checkpoint(killed, tmp_path / "killed")
     killed.send_signal(signal.SIGKILL)
@@ -87,10 +103,10 @@ def test_resume_after_kill_9_is_bitwise_the_same(tmp_path: Path) -> None:
     assert not (tmp_path / "killed" / "finished.json").exists()
     errors = finish(tmp_path / "killed", "--resume")
     assert "resuming" in errors
-    assert_same_run(tmp_path / "whole", tmp_path / "killed")
+    assert_same_run(whole, tmp_path / "killed")
 
 
-def test_ctrl_c_saves_prints_the_command_and_exits_130(tmp_path: Path) -> None:
+def test_ctrl_c_saves_prints_the_command_and_exits_130(whole: Path, tmp_path: Path) -> None:
     process = start(tmp_path / "stopped", TINY_SLEEP="0.05")
     wait_for_checkpoint(process, tmp_path / "stopped")
     process.send_signal(signal.SIGINT)
@@ -100,24 +116,26 @@ def test_ctrl_c_saves_prints_the_command_and_exits_130(tmp_path: Path) -> None:
     command = shlex.split(errors.strip().splitlines()[-1].partition("continue with: ")[2])
     assert command[:3] == ["accelerate", "launch", "-m"] and command[-1] == "--resume"
     assert str(tmp_path / "stopped") in command
-    finish(tmp_path / "whole")
-    finish(tmp_path / "stopped", "--resume")
-    assert_same_run(tmp_path / "whole", tmp_path / "stopped")
+    done = here(tmp_path / "stopped", "--resume")
+    assert done.exit_code == 0 and "resuming" in done.stderr
+    assert_same_run(whole, tmp_path / "stopped")
 
 
 def test_a_mistake_is_one_line_and_exit_code_2(tmp_path: Path) -> None:
-    process = start(tmp_path / "wrong", "stepz=3")
-    _, errors = process.communicate(timeout=60)
-    assert process.returncode == 2
-    assert errors.strip().splitlines() == [
+    done = here(tmp_path / "wrong", "stepz=3")
+    assert done.exit_code == 2
+    assert done.output.strip().splitlines() == [
         "error: command line: unknown key stepz (value 3); the nearest valid key is steps"
     ]
 
 
-def test_several_processes_are_started_and_equal_one(tmp_path: Path) -> None:
+def test_several_processes_are_started_and_equal_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     errors = finish(tmp_path / "two", "--num-processes", "2", TINY_DROPOUT="0")
     assert "2 process(es)" in errors and "Warning" not in errors
-    finish(tmp_path / "one", "batch-size=8", TINY_DROPOUT="0")
+    monkeypatch.setenv("TINY_DROPOUT", "0")
+    assert here(tmp_path / "one", "batch-size=8").exit_code == 0
     for name in ("model", "ema"):
         two, one = final(tmp_path / "two", name), final(tmp_path / "one", name)
         assert all(torch.allclose(two[key], one[key], atol=1e-5) for key in one)
@@ -150,11 +168,10 @@ def test_several_processes_do_not_outlive_the_one_that_started_them(tmp_path: Pa
 def test_a_second_run_in_the_same_folder_is_refused(tmp_path: Path) -> None:
     output = tmp_path / "run"
     with held(output):
-        process = start(output)
-        _, errors = process.communicate(timeout=120)
-    assert process.returncode == 1
-    assert errors.startswith(f"error: another process is writing {output}; wait")
-    assert len(errors.splitlines()) == 1
+        done = here(output)
+    assert done.exit_code == 1
+    assert done.output.startswith(f"error: another process is writing {output}; wait")
+    assert len(done.output.splitlines()) == 1
 
 
 def _free_port() -> int:

@@ -87,8 +87,8 @@ def prepared_clips(folder: Path, action: str, captions: list[str], last: str = "
 
 
 def action_config(data: Path, init: Path | str, output: Path, *more: str) -> TrainActionConfig:
-    given = [*SETTINGS, f"data='{data}'", f"init='{init}'", f"output='{output}'", *more]
-    return load_train(None, TrainActionConfig, [*given, "tower-steps=120"])
+    given = [*SETTINGS, f"data='{data}'", f"init='{init}'", f"output='{output}'"]
+    return load_train(None, TrainActionConfig, [*given, "tower-steps=120", *more])
 
 
 def test_a_new_action_has_a_place_and_the_old_ones_keep_theirs(
@@ -120,7 +120,8 @@ def test_a_new_action_has_a_place_and_the_old_ones_keep_theirs(
 def test_nothing_that_was_known_changes(model: Path, flops: Path, tmp_path: Path) -> None:
     """Adapters are closed for texts that come out at the old places, to the last bit; and open for
     the new one, with a guidance that compares like with like. A second action leaves the first."""
-    first = action_config(flops, model, tmp_path / "first", "steps=4", "learning-rate=0.05")
+    short = ("learning-rate=0.05", "tower-steps=20")
+    first = action_config(flops, model, tmp_path / "first", "steps=4", *short)
     Trainer(first, lambda c: ActionTask(c, network_of(str(model))), command="again").train()
     old, new = (TextToMotion.from_pretrained(each, device="cpu") for each in (model, first.output))
     places = new.text.get_buffer("places")
@@ -137,7 +138,7 @@ def test_nothing_that_was_known_changes(model: Path, flops: Path, tmp_path: Path
         assert torch.equal(sampled(old, place), sampled(new, place))
     assert not torch.equal(sampled(old, places[-1]), sampled(new, places[-1]))
     slumps = prepared_clips(tmp_path / "slumps", "slump", ["a person slumps", "slumping down"])
-    second = action_config(slumps, first.output, tmp_path / "second", "steps=2", "rank=3")
+    second = action_config(slumps, first.output, tmp_path / "second", "steps=2", "rank=3", *short)
     network = network_of(str(first.output))
     Trainer(second, lambda c: ActionTask(c, network), command="again").train()
     both = TextToMotion.from_pretrained(second.output, device="cpu")
@@ -162,7 +163,7 @@ def test_a_limit_goes_where_what_is_learned_is_beyond_it(
     told = {"prediction_type": prediction, "clip_sigma": limit}
     generation = network.generation.model_copy(update=told)
     network = network.model_copy(update={"generation": generation})
-    task = ActionTask(action_config(flops, model, tmp_path), network)
+    task = ActionTask(action_config(flops, model, tmp_path, "tower-steps=1"), network)
     assert task.network.generation.clip_sigma == kept
     task.save_pretrained(task.module, tmp_path)
     saved = TextToMotion.from_pretrained(tmp_path, device="cpu")

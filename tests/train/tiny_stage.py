@@ -36,6 +36,7 @@ SETTINGS = [
     "validation-batches=1",
     "max-frames=48",
     "tensorboard=false",
+    "languages=[en,ja]",  # with spaces between words, and without
 ]
 
 

@@ -55,5 +55,7 @@ class TinyTask(Task):
         torch.save(module.state_dict(), folder / "weights.pt")
 
 
+STAGE = Stage(TrainConfig, TinyTask, "tests.train.tiny_task", "Train the tiny task.")
+
 if __name__ == "__main__":
-    Stage(TrainConfig, TinyTask, "tests.train.tiny_task", "Train the tiny task.").app()()
+    STAGE.app()()

@@ -7,6 +7,8 @@ from pathlib import Path
 from tiny_audio_stage import audio_config, train_audio
 from tiny_stage import generation_config, train_generation
 
+from src.train import text_stages
+
 Run = Callable[..., object]
 KINDS = {"audio": ("ddp", "fsdp"), "text": ("ddp", "fsdp")}
 EVERY = ("log-every=1", "save-every=2", "lr-schedule=constant", "validate-every=100")
@@ -30,6 +32,7 @@ def runs(circles: Path, prepared: Path, clip: Path) -> dict[str, Run]:
 
 def main(folder: Path, *data: Path) -> None:
     """Of each stage and kind a whole run, and one that goes on from one process."""
+    text_stages.CALIBRATING = 300
     for stage, train in runs(*data).items():
         for name in KINDS[stage]:
             kind = f"fsdp-version={2 if name == 'fsdp' else 'null'}"
