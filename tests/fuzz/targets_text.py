@@ -1,6 +1,7 @@
 """Readers of tables, captions and configurations."""
 
 import json
+import re
 from pathlib import Path
 
 from tests.fuzz.target import Target
@@ -29,10 +30,15 @@ def _read_table(path: Path) -> None:
 
 
 def _write_templates(folder: Path) -> None:
+    """Two languages with few of their actions: one that stands alone, one laid over its own."""
     from src.shared.config_loader import packaged_config
 
-    for name in ("en", "de"):
-        (folder / f"{name}.yaml").write_bytes(packaged_config(f"captions/{name}.yaml").read_bytes())
+    for name, extends in (("en", "nothing"), ("de", "packaged")):
+        text = packaged_config(f"captions/{name}.yaml").read_text("utf-8")
+        head, actions, rest = re.split(r"^(?=actions:|paraphrases:)", text, flags=re.M)
+        few = re.split(r"^(?=  \w)", actions, flags=re.M)
+        parts = (f"extends: {extends}\n", head, *few[:3], few[-1], rest)
+        (folder / f"{name}.yaml").write_text("".join(parts), "utf-8")
 
 
 def _read_templates(path: Path) -> None:
