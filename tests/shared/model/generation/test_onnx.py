@@ -45,7 +45,7 @@ def with_pairs(generator: TextToMotion) -> TextToMotion:
 @pytest.mark.parametrize(
     ("pairs", "settings"),
     [
-        (True, {"constraints": True, "adapter_ranks": (2, 3)}),
+        (True, {"constraints": True, "adapter_ranks": (2, 3), "num_layers": 1}),
         pytest.param(
             False,
             {"text_conditioning": "tokens", "provenance": True, "frames_per_token": 2},
