@@ -3,6 +3,7 @@
 PromptSampler keeps the best of N for each prompt.
 """
 
+import copy
 from dataclasses import replace
 from typing import Any
 
@@ -36,6 +37,17 @@ def sentences(generator: TextToMotion) -> SentenceGenerator:
     return SentenceGenerator(generator)
 
 
+@pytest.fixture(scope="module")
+def loaded() -> TextToMotion:
+    return TextToMotion.from_pretrained("starter", device="cpu")
+
+
+@pytest.fixture
+def starter(loaded: TextToMotion) -> TextToMotion:
+    """What ships, with a scope of its own to change."""
+    return copy.copy(loaded)
+
+
 def turn_of(motion: Motion) -> float:
     rate = encode_features(motion)[:-1, ROOT_ROW, YAW_RATE]  # the last frame repeats its neighbour
     return float(np.degrees(rate.sum() / motion.fps))
@@ -55,8 +67,8 @@ def test_clauses_follow_each_other(sentences: SentenceGenerator):
     assert motion.text == "a person walks, then jumps three times"
 
 
-def test_an_angle_and_a_length_are_kept():
-    sentences = SentenceGenerator(TextToMotion.from_pretrained("starter", device="cpu"))
+def test_an_angle_and_a_length_are_kept(starter: TextToMotion):
+    sentences = SentenceGenerator(starter)
     left, right, metres = sentences.generate(
         ["turn 90 degrees to the left", "turn 180° right", "walk three metres"], seconds=2.0
     )
@@ -66,19 +78,18 @@ def test_an_angle_and_a_length_are_kept():
     assert np.linalg.norm(way) == pytest.approx(3, abs=0.1)
 
 
-def test_a_gesture_begins_and_ends_with_hanging_arms():
-    generator = TextToMotion.from_pretrained("starter", device="cpu")
-    assert generator.scope is not None
-    generator.scope = replace(generator.scope, gestures=("wave",))
+def test_a_gesture_begins_and_ends_with_hanging_arms(starter: TextToMotion):
+    assert starter.scope is not None
+    starter.scope = replace(starter.scope, gestures=("wave",))
     prompts = ["a person waves with the right hand", "a person walks forward"]
-    wave, walk = SentenceGenerator(generator).generate(prompts, seconds=3.0)
-    _, same = generator.generate(prompts, seconds=3.0)
+    wave, walk = SentenceGenerator(starter).generate(prompts, seconds=3.0)
+    _, same = starter.generate(prompts, seconds=3.0)
     assert at_rest(wave)
     np.testing.assert_array_equal(walk.quaternions, same.quaternions)
 
 
-def test_a_gesture_faces_one_way_and_its_repetitions_are_told_apart():
-    sentences = SentenceGenerator(TextToMotion.from_pretrained("starter", device="cpu"))
+def test_a_gesture_faces_one_way_and_its_repetitions_are_told_apart(starter: TextToMotion):
+    sentences = SentenceGenerator(starter)
     prompts = [
         "a person waves",
         "walks two metres, then waves three times",
@@ -91,23 +102,22 @@ def test_a_gesture_faces_one_way_and_its_repetitions_are_told_apart():
         assert np.count_nonzero(np.diff(raised.astype(int)) == 1) == times, prompt
 
 
-def test_who_sits_does_not_glide():
-    generator = TextToMotion.from_pretrained("starter", device="cpu")
-    assert generator.scope is not None and "meditate" in generator.scope.still
+def test_who_sits_does_not_glide(starter: TextToMotion):
+    assert starter.scope is not None and "meditate" in starter.scope.still
     prompts, lengths = ["she meditates", "she meditates"], [4.0, 9.0]  # one and two windows
 
     def travelled() -> list[float]:
-        made = SentenceGenerator(generator).generate(prompts, seconds=lengths)
+        made = SentenceGenerator(starter).generate(prompts, seconds=lengths)
         ends = [motion.root_position[[0, -1]][:, [0, 2]] for motion in made]
         return [float(np.linalg.norm(last - first)) for first, last in ends]
 
     assert max(travelled()) < 0.03
-    generator.scope = replace(generator.scope, still=())
+    starter.scope = replace(starter.scope, still=())
     assert min(travelled()) > 0.1
 
 
-def test_who_is_to_turn_turns():
-    sentences = SentenceGenerator(TextToMotion.from_pretrained("starter", device="cpu"))
+def test_who_is_to_turn_turns(starter: TextToMotion):
+    sentences = SentenceGenerator(starter)
     prompts = [
         "a person turns around to the left",
         "a person spins",
@@ -122,8 +132,8 @@ def test_who_is_to_turn_turns():
     assert [spin.seconds for spin in spins] == [4.0, 4.0, 7.0, 7.0]
 
 
-def test_a_walk_turns_a_corner_or_goes_round():
-    sentences = SentenceGenerator(TextToMotion.from_pretrained("starter", device="cpu"))
+def test_a_walk_turns_a_corner_or_goes_round(starter: TextToMotion):
+    sentences = SentenceGenerator(starter)
     asked = {
         "a pedestrian takes a right at the corner": -90,
         "im Gehen nach links abbiegen": 90,
@@ -138,15 +148,15 @@ def test_a_walk_turns_a_corner_or_goes_round():
     assert abs(turn_of(limbs)) < 45 and abs(turn_of(straight)) < 45
 
 
-def test_a_pelvis_that_is_led_turns_with_its_legs():
-    sentences = SentenceGenerator(TextToMotion.from_pretrained("starter", device="cpu"))
+def test_a_pelvis_that_is_led_turns_with_its_legs(starter: TextToMotion):
+    sentences = SentenceGenerator(starter)
     for motion in sentences.generate(["a person walks four metres", "walks round the corner left"]):
         yaw = encode_features(motion)[15:-15, ROOT_ROW, YAW_RATE]
         assert 0.2 < float(np.std(np.asarray(yaw) - gaussian_filter1d(yaw, 12))) < 0.8
 
 
-def test_texts_of_a_timeline_are_read_as_sentences_are():
-    sentences = SentenceGenerator(TextToMotion.from_pretrained("starter", device="cpu"))
+def test_texts_of_a_timeline_are_read_as_sentences_are(starter: TextToMotion):
+    sentences = SentenceGenerator(starter)
     texts = ["a person walks two metres", "turns 90 degrees to the left, then squats twice"]
     free = sentences.timeline(Timeline.of(texts), Sampling(seed=1))
     (one,) = sentences.generate([", then ".join(texts)], seed=1)
@@ -164,8 +174,8 @@ def test_texts_of_a_timeline_are_read_as_sentences_are():
         sentences.timeline(Timeline((Passage("a person walks 9 metres", 30),)), Sampling())
 
 
-def test_a_greeting_and_thanks_say_nothing():
-    sentences = SentenceGenerator(TextToMotion.from_pretrained("starter", device="cpu"))
+def test_a_greeting_and_thanks_say_nothing(starter: TextToMotion):
+    sentences = SentenceGenerator(starter)
     polite, plain = "Bonjour, une femme saute, merci", "une femme saute"
     made, bare = (sentences.generate([prompt], seconds=2.0)[0] for prompt in (polite, plain))
     assert np.array_equal(made.quaternions, bare.quaternions)
@@ -174,26 +184,25 @@ def test_a_greeting_and_thanks_say_nothing():
 
 
 def test_what_kinematics_miss_is_sampled_again(
-    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+    starter: TextToMotion, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ):
-    generator = TextToMotion.from_pretrained("starter", device="cpu")
-    assert generator.scope is not None
-    generator.scope = replace(generator.scope, checked=("jump",))
+    assert starter.scope is not None
+    starter.scope = replace(starter.scope, checked=("jump",))
 
     scales: list[float | None] = []
-    sample = generator.generate
+    sample = starter.generate
 
     def listening(*given: Any, **options: Any) -> list[Motion]:
         scales.append(options["guidance_scale"])
         return sample(*given, **options)
 
-    monkeypatch.setattr(generator, "generate", listening)
+    monkeypatch.setattr(starter, "generate", listening)
 
     def made(check: Check) -> list[np.ndarray]:
         monkeypatch.setitem(ACTIONS, "jump", check)
         scales.clear()
         prompts = ["a person jumps", "a person walks forward"]
-        sentences = SentenceGenerator(generator)
+        sentences = SentenceGenerator(starter)
         found = sentences.generate(prompts, seconds=2.0)
         refused.append(measure(found[0]))
         lines = [sentences.missed(*pair) for pair in zip(prompts, found, strict=True)]
@@ -204,7 +213,7 @@ def test_what_kinematics_miss_is_sampled_again(
 
     refused: list[Measurements] = []
     first, never = made(lambda m: True), made(lambda m: False)
-    insisting = INSISTING * generator.network.generation.guidance_scale
+    insisting = INSISTING * starter.network.generation.guidance_scale
     assert scales == [None, *[insisting] * (TRIES - 1)]
     other = made(lambda m: m != refused[0])
     np.testing.assert_array_equal(never[0], first[0])  # where none will do the first one stays
@@ -212,21 +221,19 @@ def test_what_kinematics_miss_is_sampled_again(
     np.testing.assert_array_equal(other[1], first[1])
 
 
-def test_so_many_times_is_so_many_times():
-    generator = TextToMotion.from_pretrained("starter", device="cpu")
-    assert generator.scope is not None
-    generator.scope = replace(generator.scope, checked=("squat",))
-    sentences = SentenceGenerator(generator)
+def test_so_many_times_is_so_many_times(starter: TextToMotion):
+    assert starter.scope is not None
+    starter.scope = replace(starter.scope, checked=("squat",))
+    sentences = SentenceGenerator(starter)
     prompts = [f"a man squats {number} times" for number in ("two", "three", "four")]
     made = sentences.generate(prompts, seconds=4.0)
     assert [measure(motion).squats for motion in made] == [2, 3, 4]
 
 
-def test_an_arm_waves_while_the_body_walks():
-    generator = TextToMotion.from_pretrained("starter", device="cpu")
-    assert generator.scope is not None
-    generator.scope = replace(generator.scope, arms=("wave", "raise"))
-    sentences = SentenceGenerator(generator)
+def test_an_arm_waves_while_the_body_walks(starter: TextToMotion):
+    assert starter.scope is not None
+    starter.scope = replace(starter.scope, arms=("wave", "raise"))
+    sentences = SentenceGenerator(starter)
     prompts = ["walks forward", "walks forward while waving with the right hand"]
     walk, both = (sentences.generate([each], seconds=3.0)[0] for each in prompts)
     seen = measure(both)
