@@ -26,7 +26,7 @@ from src.shared.motion.motion import Motion
 @pytest.fixture(scope="module")
 def data(tmp_path_factory: pytest.TempPathFactory) -> PreparedData:
     folder = tmp_path_factory.mktemp("prepared")
-    prepare([SyntheticSource(240)], folder, workers=1)
+    prepare([SyntheticSource(140)], folder, workers=1)
     return PreparedData.open(folder)
 
 

@@ -26,7 +26,7 @@ CAPTURED = {"walk", "run", "wave", "squat", "bow", "kick", "raise", "clap"}
 def data(tmp_path_factory: pytest.TempPathFactory) -> PreparedData:
     """Synthetic clips, half of which pass for captured ones."""
     folder = tmp_path_factory.mktemp("prepared")
-    prepare([SyntheticSource(240)], folder, workers=1)
+    prepare([SyntheticSource(160)], folder, workers=1)
     prepared = PreparedData.open(folder)
     records = [
         replace(record, provenance="captured") if record.tag in CAPTURED and row % 4 < 2 else record
@@ -119,6 +119,6 @@ def test_every_action_the_judge_knows_has_a_row(tables: dict[str, Grid]) -> None
 
 
 def test_data_without_captured_clips_is_refused(tmp_path: Path) -> None:
-    prepare([SyntheticSource(60)], tmp_path, workers=1)
+    prepare([SyntheticSource(8)], tmp_path, workers=1)
     with pytest.raises(UserError, match="captured"):
         evaluate_requests(Puppet(), PreparedData.open(tmp_path), settings=SETTINGS)
