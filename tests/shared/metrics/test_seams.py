@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
+from scipy.stats import ks_2samp
 
 from src.shared.evaluation.suites.audio import seam_frames
-from src.shared.metrics.seams import Seamed, compare, jumps, measure, seam_report
+from src.shared.metrics.seams import Seamed, compare, distance, jumps, measure, seam_report
 from src.shared.motion.trajectory import PHASE, QUATERNION, MotionTrajectory
 
 T, WINDOW, OVERLAP = 480, 240, 30
@@ -108,3 +109,12 @@ def test_a_jump_elsewhere_is_not_the_seams_fault(songs: list[Seamed]) -> None:
 def test_a_song_of_one_window_has_nothing_to_report(songs: list[Seamed]) -> None:
     alone = Seamed(songs[0].trajectory, np.zeros(T, dtype=bool))
     assert seam_report([alone]) == {"songs": 0, "seams": 0}
+
+
+def test_the_distance_is_scipys() -> None:
+    rng = np.random.default_rng(0)
+    for size in (1, 2, 7, 50):
+        for shift in (0.0, 0.7, 9.0):
+            first, second = rng.normal(size=size).round(1), rng.normal(shift, size=60).round(1)
+            expected = ks_2samp(first, second, method="asymp").statistic
+            assert distance(first, second) == expected, (size, shift)
