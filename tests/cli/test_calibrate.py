@@ -28,7 +28,7 @@ def test_what_is_no_folder_of_ones_own_is_refused_before_the_work(
 def test_the_shares_stand_beside_the_weights(tmp_path: Path) -> None:
     model = tmp_path / "model"
     shutil.copytree(resolve_model("starter"), model)
-    prepare([SyntheticSource(40)], tmp_path / "data", workers=1)
+    prepare([SyntheticSource(16)], tmp_path / "data", workers=1)
     given = ["--model", str(model), "--data", str(tmp_path / "data"), "--tries", "1"]
     result = CliRunner().invoke(app, ["calibrate", *given, "--threads", "1", "--json"])
     assert result.exit_code == 0, result.output
