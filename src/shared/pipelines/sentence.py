@@ -2,198 +2,19 @@
 
     "walks three metres, then waves twice" -> Clause("walks", metres=3), Clause("waves", count=2)
 
-The words are those of src/configs/measures.yaml, all languages at once: a sentence need not say
-which one it is in. What a clause asks to be done is left to the text tower; how sure that is of it
-decides where no word does.
+The words are those of words.py. What a clause asks to be done is left to the text tower; how sure
+that is of it decides where no word does.
 """
 
 import math
 import re
 import unicodedata
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from functools import cache, reduce
-from itertools import groupby, pairwise
+from itertools import pairwise
 from typing import Any, NamedTuple
 
-from ..config_loader import load_yaml, packaged_config
-
-# ---------------------------------------------------------------- the words, as patterns
-
-MAX_COUNT = 20
-MOST = {"metres": 100.0, "degrees": 720.0, "seconds": 600.0}
-EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-"  # what no clause begins or ends with
-_CJK = "\u3040-\u30ff\u3400-\u9fff"
-# Classes without case: re would spell out every character of their ranges, seconds in all.
-CJK_SIGN = f"(?-i:[{_CJK}])"
-_LETTER, _SIGN = rf"(?-i:[^\W\d{_CJK}])", rf"(?-i:[^\W{_CJK}])"  # of words; or a digit
-_COMMAS = r"[,;、，；]"
-# Where a clause may end: not at the point of a number, the dash of a word.
-_STOPS = (
-    r"(?:[;!?:()。、，；！？：（）「」…—–]+|(?<!\d)[,.]|[,.](?!\d)"
-    r"|(?<=\s)[-/+&|](?=\s)|(?<!\S)\d[.)](?=\s))"
-)
-_ARROWS = r"\s*(?:[-=]*>+|[→➜➔⇒▶»])"
-_DIGITS = r"\d+(?:[.,]\d+)?"
-_STEP = r"(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?"  # before a number of a list
-_NUMBERED = re.compile(rf"(?<![^\s,;:.]){_STEP}(\d\d?)\s*[.):](?!\d)\s*", re.I)
-
-
-class Words:
-    """The patterns of all languages."""
-
-    def __init__(self, tables: Sequence[dict[str, Any]]) -> None:
-        def all_of(key: str) -> list[str]:
-            return [word for table in tables for word in table.get(key, [])]
-
-        numbers: dict[str, int] = {}
-        adverbs: dict[str, int] = {}
-        angles: dict[str, float] = {}
-        sides: dict[str, list[str]] = {}
-        for table in tables:
-            numbers |= {word: i for i, word in enumerate(table["numbers"], 1)}
-            numbers |= table["more_numbers"]
-            adverbs |= {word: i for i, word in enumerate(table.get("often", []), 1)}
-            angles |= table["angles"]
-            sides |= table.get("other", {})
-        self.numbers = {bare(word): value for word, value in numbers.items()}
-        self.adverbs = {bare(word): value for word, value in adverbs.items()}
-        self.angles = {bare(word): float(value) for word, value in angles.items()}
-        joints = all_of("and")
-        self.comma = re.compile(rf"\s*{_COMMAS}\s*")
-        self.joint = re.compile(rf"{_STOPS}|{_any(joints)}|{_any(all_of('next'))}", re.I)
-        then = rf"(?:{_any(all_of('then'))}|{_ARROWS})"
-        self.then = re.compile(rf"{_STOPS}?\s*{then}{_COMMAS}?", re.I)
-        self.earlier = re.compile(_any(all_of("earlier")) + _COMMAS + "?", re.I)
-        self.later = re.compile(_any(all_of("later")) + _COMMAS + "?", re.I)
-        self.meanwhile, self.throughout, self.before, self.after = (
-            re.compile(rf"{_COMMAS}?\s*{_any(all_of(key))}\s*", re.I)
-            for key in ("meanwhile", "throughout", "before", "after")
-        )
-        behind = rf"(?:{_STOPS}\s*(?:{_any(joints)}\s*)?|{_any(joints)}\s*)"
-        said = rf"{_STOPS}?\s*{_any(all_of('beforehand'))}|{behind}{_any(all_of('previously'))}"
-        self.beforehand = re.compile(rf"(?:{said}){_COMMAS}?", re.I)
-        self.greeting = re.compile(rf"^\s*{_any(all_of('greetings'))}\s*{_STOPS}\s*(?=\S)", re.I)
-        self.closing = re.compile(rf"\s*{_STOPS}\s*{_any(all_of('closings'))}\W*$", re.I)
-        cut = "|".join(re.escape(word[:-1]) for word in all_of("short"))
-        self.short = re.compile(rf"(?<!{_SIGN})(?:{cut})\.(?=\s+{_any(all_of('limbs'))})", re.I)
-        own = _any([*all_of("own"), *all_of("left"), *all_of("right")])
-        limbs = rf"(?:{own}\s*)*{_any(all_of('limbs'))}"
-        # But "coup de poing" neither names a fist nor is it a gerund.
-        self.sign = re.compile(rf"(?<!de )(?:{_any(all_of('with'))}|{limbs})", re.I)
-        self.limb = re.compile(rf"^{limbs}$", re.I)
-        self.manner = re.compile(rf"{_any(all_of('manner'))}$", re.I)
-        # "right at the corner", but "a right at the corner", "turns right at the corner"
-        apart = "".join(rf"(?<!(?<!{_LETTER}){word}\s)" for word in all_of("to_side"))
-        self.no_side = re.compile(apart + _any(all_of("no_side")), re.I)
-        self.left, self.right, self.round, self.corner = (
-            re.compile(_any(all_of(key)), re.I) for key in ("left", "right", "round", "corners")
-        )
-        self.other = re.compile(_any(sides), re.I)
-        self.others = {bare(word.partition("/")[0]): both for word, both in sides.items()}
-        self.angle = re.compile(_any(angles), re.I)
-        self.often = re.compile(_any(adverbs), re.I)
-        number = rf"(?P<number>{_DIGITS}|{_any(numbers)})"
-        ready = rf"(?:(?<![\w.,])|(?<={CJK_SIGN}))"
-        self.units = {
-            name: re.compile(rf"{_lead()}{ready}{number}[\s-]*{_any(all_of(name))}", re.I)
-            for name in ("degrees", "metres", "seconds")
-        }
-        others = rf"(?![\s-]*{_any(all_of('uncounted'))})"
-        times = rf"{_any(all_of('times'))}|(?:{_any(all_of('pieces'))}|[x×](?!\w)){others}"
-        self.times = re.compile(rf"{ready}(?:{number}\s*(?:{times})|[x×]\s*(?P<after>\d+))", re.I)
-        # A bare number counts what follows it; "one" is mostly somebody, "a" nothing at all.
-        several = [word for word, value in numbers.items() if value > 1]
-        counted = rf"(?:{others}(?=[\s-]+\w)|(?={_any(all_of('nouns'))}))"
-        self.bare = re.compile(rf"{ready}(?P<number>\d+|{_any(several)}){counted}", re.I)
-        heads = _any(joints + all_of("first"))
-        self.loose = re.compile(rf"^(?:{heads}\s*{_COMMAS}?\s*)+|\s+{_any(joints)}$", re.I)
-
-
-def _lead() -> str:
-    """Words before a measure that mean nothing without it."""
-    return r"(?:(?<!\w)(?:for|during|by|durante|por|pendant|de|für|um|von|about)\s+)?"
-
-
-def _any(words: Sequence[str] | dict[str, Any]) -> str:
-    """One of the words, whole where the writing parts words; never empty."""
-    longest_first = map(_whole, sorted(words, key=len, reverse=True))
-    ordered = sorted(longest_first, key=lambda parts: (parts[0], parts[2]))
-    alike = groupby(ordered, key=lambda parts: (parts[0], parts[2]))
-    runs = [f"{before}(?:{'|'.join(word for _, word, _ in run)}){after}"
-            for (before, after), run in alike]  # fmt: skip
-    return "(?:" + "|".join(runs) + ")" if runs else r"(?!)"
-
-
-def _whole(word: str) -> tuple[str, str, str]:
-    """A word's pattern, and what must stand before and behind it."""
-    stays, bar, word = word.rpartition("|")
-    word, slash, never = word.partition("/")
-    follows = f"(?![{never}])" if slash else ""
-    if bar:
-        before = f"(?<![{stays[1:]}])" if stays.startswith("^") else f"(?<={stays})"
-        return before, word, follows
-    pattern = "|".join(map(_loosely, _misspelt(word[:-1]) if word.endswith("~") else [word]))
-    if re.search(f"[{_CJK}°]", word):
-        return "", pattern, follows
-    return f"(?<!{_LETTER})", pattern, follows + ("" if word.endswith("'") else f"(?!{_SIGN})")
-
-
-def _loosely(word: str) -> str:
-    """The pattern of a word, whose accents may be missing."""
-    pattern = re.escape(word).replace(r"\ ", r"\s+").replace(r"\*", f"{_LETTER}+")
-    pattern = re.sub("[à-öø-ÿ]", lambda letter: f"[{letter[0]}{bare(letter[0])}]", pattern)
-    return pattern.replace("ß", "(?:ß|ss)").replace("'", "['’]")
-
-
-def _misspelt(word: str) -> list[str]:
-    """A word, and it with two letters swapped, one doubled or one left out; the first one stays."""
-    inner = range(1, len(word) - 1)
-    swapped = [word[:i] + word[i + 1] + word[i] + word[i + 2 :] for i in inner]
-    doubled = [word[:i] + word[i] + word[i:] for i in range(1, len(word))]
-    short = [word[:i] + word[i + 1 :] for i in inner] if len(word) > 4 else []
-    return [word, *swapped, *doubled, *short]
-
-
-def bare(word: str) -> str:
-    """A word without case and accents, its apostrophes straight."""
-    letters = unicodedata.normalize("NFD", word.casefold().replace("’", "'").replace("ı", "i"))
-    return "".join(letter for letter in letters if not unicodedata.combining(letter))
-
-
-@cache
-def _words() -> Words:
-    """Those of all languages, read once."""
-    return Words(list(load_yaml(packaged_config("measures.yaml")).values()))
-
-
-# ---------------------------------------------------------------- the same in a browser
-
-_WORD = r"\p{L}\p{N}_"  # what \w is here
-_JAVASCRIPT = (
-    (_LETTER, rf"(?![\p{{Nd}}{_CJK}])[{_WORD}]"),
-    (_SIGN, rf"(?![{_CJK}])[{_WORD}]"),
-    ("(?-i:", "(?:"),
-    ("(?P<", "(?<"),
-    (r"[\w", f"[{_WORD}"),
-    (r"\w", f"[{_WORD}]"),
-    (r"\W", f"[^{_WORD}]"),
-    (r"\d", r"\p{Nd}"),
-    (r"\-", "-"),
-)
-
-
-def javascript_patterns() -> dict[str, Any]:
-    """The patterns as JavaScript reads them, with the flags i and u, and what their words say."""
-    ours = _words()
-    said = {name: vars(ours)[name] for name in ("numbers", "adverbs", "angles", "others")}
-    alone = {name: each for name, each in vars(ours).items() if name not in {*said, "units"}}
-    found = {
-        name: reduce(lambda text, pair: text.replace(*pair), _JAVASCRIPT, each.pattern)
-        for name, each in (alone | ours.units).items()
-    }
-    return {"patterns": found, "most": MOST, "maxCount": MAX_COUNT} | said
-
+from .words import CJK_SIGN, EDGES, MAX_COUNT, MOST, NUMBERED, all_words, bare
 
 # ---------------------------------------------------------------- what they mean
 
@@ -280,23 +101,23 @@ def _plain(text: str) -> str:
 def tidied(sentence: str) -> str:
     """A sentence without greeting and thanks, with arrows for the numbers of a list; it itself
     where it has nothing of these."""
-    words, plain = _words(), _plain(sentence)
+    words, plain = all_words(), _plain(sentence)
     text = _plain(re.sub("([\u2460-\u2468])", r" \1) ", sentence))  # circled 1 to 9
     text = words.greeting.sub("", text)
     text = words.closing.sub("", text) or text
     text = words.short.sub(lambda cut: cut[0][:-1], text)
-    numbers = list(_NUMBERED.finditer(text))
+    numbers = list(NUMBERED.finditer(text))
     if len(numbers) > 1 and [int(each[1]) for each in numbers] == list(range(1, len(numbers) + 1)):
         lead = text[: numbers[0].start()].strip()
         if lead.endswith((":", "：")) or len(lead.split()) < 3:  # "please do the following:"
             text = text[numbers[0].end() :]
-        text = _NUMBERED.sub(" → ", text)
+        text = NUMBERED.sub(" → ", text)
     return sentence if text == plain else text
 
 
 def _ordered(text: str, read: Read) -> list[str]:
     """Parts that words of order part, first things first."""
-    words = _words()
+    words = all_words()
     found: tuple[str, str] | None = None
     if match := words.after.match(text):
         found = _subordinate(text[match.end() :], read)
@@ -327,8 +148,8 @@ def _ordered(text: str, read: Read) -> list[str]:
 def _begins_after(text: str, then: re.Match[str]) -> bool:
     """Whether a word of order is the first one of a longer phrase that says the opposite."""
     word = then[0].lstrip(EDGES)
-    after = _words().after.match(text, then.end() - len(word))
-    if after is None or _words().units["seconds"].match(text, after.end()):
+    after = all_words().after.match(text, then.end() - len(word))
+    if after is None or all_words().units["seconds"].match(text, after.end()):
         return False
     return len(after[0].rstrip()) > len(word.rstrip(EDGES))
 
@@ -336,7 +157,7 @@ def _begins_after(text: str, then: re.Match[str]) -> bool:
 def _subordinate(text: str, read: Read) -> tuple[str, str] | None:
     """A clause at the head of a sentence and the rest: parted at the comma that leaves two
     actions, else at the first one; where there is none, at such a blank."""
-    commas = [match.span() for match in _words().comma.finditer(text)]
+    commas = [match.span() for match in all_words().comma.finditer(text)]
     if not commas:
         return _best(text, _blanks(text), read)
     halves = _best(text, commas, read) or (text[: commas[0][0]], text[commas[0][1] :])
@@ -346,7 +167,7 @@ def _subordinate(text: str, read: Read) -> tuple[str, str] | None:
 def _around(left: str, right: str, read: Read) -> tuple[str, str]:
     """Clauses on both sides of a word of order; where it stands late in its own clause ("und winkt
     dann"), that begins at the conjunction or comma before it."""
-    borders = list(_words().joint.finditer(left))
+    borders = list(all_words().joint.finditer(left))
     own = left[borders[-1].end() :] if borders else ""
     if not own.strip(EDGES):
         return left, right
@@ -360,7 +181,7 @@ def _around(left: str, right: str, read: Read) -> tuple[str, str]:
 def _joined(text: str, read: Read) -> list[str]:
     """The text parted at stops and "and" into as many parts as tell of actions of their own; what
     does not, stays with what stands beside it."""
-    borders = [match.span() for match in _words().joint.finditer(text)]
+    borders = [match.span() for match in all_words().joint.finditer(text)]
     pieces = [
         (start, stop)
         for (_, start), (stop, _) in pairwise([(0, 0), *borders, (len(text), len(text))])
@@ -428,7 +249,7 @@ def _blanks(text: str) -> list[Span]:
 def _at_once(first: str, second: str, read: Read) -> Clause | None:
     """A clause and what the arms do meanwhile, if a word says so, a participle or "with" begins the
     second one, or one arm does the one and the other arm the other; else None."""
-    words = _words()
+    words = all_words()
     said = any(
         pattern.search(each)
         for each in (first, second)
@@ -444,7 +265,7 @@ def _at_once(first: str, second: str, read: Read) -> Clause | None:
 
 def _parted(text: str, read: Read) -> Clause | None:
     """A clause that tells of two things done at once, as `_at_once`."""
-    words = _words()
+    words = all_words()
     marks = [match.span() for match in words.meanwhile.finditer(text)]
     joints = [match.span() for match in words.joint.finditer(text)]
     signs = [(match.start(), match.start()) for match in words.sign.finditer(text)]
@@ -472,7 +293,7 @@ def _parted(text: str, read: Read) -> Clause | None:
 
 def _names_both(text: str) -> bool:
     """Whether a text names the left and the right, or one of them and the other one."""
-    words = _words()
+    words = all_words()
     said = words.no_side.sub(" ", text)
     return sum(bool(each.search(said)) for each in (words.left, words.right, words.other)) > 1
 
@@ -490,7 +311,7 @@ class _Pair:
 
 def _pair(left: str, right: str, read: Read, sure: float) -> _Pair | None:
     """Two halves as one clause; None where they are not two actions, or the arms do neither."""
-    words = _words()
+    words = all_words()
     halves = [
         _trimmed(words.meanwhile.sub(" ", words.throughout.sub(" ", half)))
         for half in (left, right)
@@ -515,14 +336,14 @@ def _sides(first: str, second: str) -> list[str]:
     """Those of two halves, of which one may say "the other"."""
     sides = [side_of(first), side_of(second)]
     for row, half in enumerate((first, second)):
-        if sides[row] == "both" and sides[1 - row] in _SIDES and _words().other.search(half):
+        if sides[row] == "both" and sides[1 - row] in _SIDES and all_words().other.search(half):
             sides[row] = "left" if sides[1 - row] == "right" else "right"
     return sides
 
 
 def _naming(half: str, side: str) -> str:
     """A half that names its side, where it said "the other"."""
-    words = _words()
+    words = all_words()
     if side not in _SIDES or side_of(half) == side:
         return half
     return words.other.sub(lambda said: words.others[bare(said[0])][side == "right"], half)
@@ -530,7 +351,7 @@ def _naming(half: str, side: str) -> str:
 
 def side_of(text: str) -> str:
     """left, right, or both where a text names neither or both."""
-    words = _words()
+    words = all_words()
     said = words.no_side.sub(" ", text)
     left, right = (bool(side.search(said)) for side in (words.left, words.right))
     return "both" if left == right else "left" if left else "right"
@@ -538,7 +359,7 @@ def side_of(text: str) -> str:
 
 def goes_round(text: str) -> bool:
     """Whether a text tells of a way in a circle."""
-    return bool(_words().round.search(text)) and not _words().corner.search(text)
+    return bool(all_words().round.search(text)) and not all_words().corner.search(text)
 
 
 # ---------------------------------------------------------------- measure
@@ -546,7 +367,7 @@ def goes_round(text: str) -> bool:
 
 def _measured(text: str) -> Clause:
     """A clause with its measures taken out."""
-    words, clause = _words(), Clause(text)
+    words, clause = all_words(), Clause(text)
     said = words.angle.sub(" ", text)  # a right angle is on no side
     side = side_of(said)
     for name, pattern in words.units.items():
@@ -573,7 +394,7 @@ def _measured(text: str) -> Clause:
 
 def _counted(clause: Clause) -> Clause:
     """Times, or a bare number before what is done: "twice", "3 times", "x4", "two jumps"."""
-    words = _words()
+    words = all_words()
     if match := words.often.search(clause.text):
         number = words.adverbs[bare(match[0])]
     elif match := words.times.search(clause.text) or words.bare.search(clause.text):
@@ -587,7 +408,7 @@ def _counted(clause: Clause) -> Clause:
 
 
 def _value(text: str) -> float:
-    number = _words().numbers.get(bare(text))
+    number = all_words().numbers.get(bare(text))
     return float(text.replace(",", ".")) if number is None else float(number)
 
 
@@ -596,4 +417,4 @@ def _without(text: str, match: re.Match[str]) -> str:
 
 
 def _trimmed(text: str) -> str:
-    return _words().loose.sub("", text.strip(EDGES)).strip(EDGES)
+    return all_words().loose.sub("", text.strip(EDGES)).strip(EDGES)

@@ -30,7 +30,7 @@ from ..model.generation.onnx_networks import ADAPTED_GRAPH, DENOISER_GRAPH
 from ..model.noise import NoiseSchedule, sampling_timesteps
 from ..motion.skeleton import JOINT_NAMES, LIMBS
 from ..pipelines.edit import GROUPS
-from ..pipelines.sentence import javascript_patterns
+from ..pipelines.words import javascript_patterns
 
 WASM, SCRIPT, TEMPLATE = "onnxruntime.wasm.gz", "studio.js", "studio.html"
 LICENCES = "licences.txt.gz"

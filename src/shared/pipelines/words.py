@@ -1,0 +1,188 @@
+"""The words by which a sentence says order and measure, as patterns.
+
+They are those of src/configs/measures.yaml, all languages at once: a sentence need not say which
+one it is in.
+"""
+
+import re
+import unicodedata
+from collections.abc import Sequence
+from functools import cache, reduce
+from itertools import groupby
+from typing import Any
+
+from ..config_loader import load_yaml, packaged_config
+
+MAX_COUNT = 20
+MOST = {"metres": 100.0, "degrees": 720.0, "seconds": 600.0}
+EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-"  # what no clause begins or ends with
+_CJK = "\u3040-\u30ff\u3400-\u9fff"
+# Classes without case: re would spell out every character of their ranges, seconds in all.
+CJK_SIGN = f"(?-i:[{_CJK}])"
+_LETTER, _SIGN = rf"(?-i:[^\W\d{_CJK}])", rf"(?-i:[^\W{_CJK}])"  # of words; or a digit
+_COMMAS = r"[,;、，；]"
+# Where a clause may end: not at the point of a number, the dash of a word.
+_STOPS = (
+    r"(?:[;!?:()。、，；！？：（）「」…—–]+|(?<!\d)[,.]|[,.](?!\d)"
+    r"|(?<=\s)[-/+&|](?=\s)|(?<!\S)\d[.)](?=\s))"
+)
+_ARROWS = r"\s*(?:[-=]*>+|[→➜➔⇒▶»])"
+_DIGITS = r"\d+(?:[.,]\d+)?"
+_STEP = r"(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?"  # before a number of a list
+NUMBERED = re.compile(rf"(?<![^\s,;:.]){_STEP}(\d\d?)\s*[.):](?!\d)\s*", re.I)
+
+
+class Words:
+    """The patterns of all languages."""
+
+    def __init__(self, tables: Sequence[dict[str, Any]]) -> None:
+        def all_of(key: str) -> list[str]:
+            return [word for table in tables for word in table.get(key, [])]
+
+        numbers: dict[str, int] = {}
+        adverbs: dict[str, int] = {}
+        angles: dict[str, float] = {}
+        sides: dict[str, list[str]] = {}
+        for table in tables:
+            numbers |= {word: i for i, word in enumerate(table["numbers"], 1)}
+            numbers |= table["more_numbers"]
+            adverbs |= {word: i for i, word in enumerate(table.get("often", []), 1)}
+            angles |= table["angles"]
+            sides |= table.get("other", {})
+        self.numbers = {bare(word): value for word, value in numbers.items()}
+        self.adverbs = {bare(word): value for word, value in adverbs.items()}
+        self.angles = {bare(word): float(value) for word, value in angles.items()}
+        joints = all_of("and")
+        self.comma = re.compile(rf"\s*{_COMMAS}\s*")
+        self.joint = re.compile(rf"{_STOPS}|{_any(joints)}|{_any(all_of('next'))}", re.I)
+        then = rf"(?:{_any(all_of('then'))}|{_ARROWS})"
+        self.then = re.compile(rf"{_STOPS}?\s*{then}{_COMMAS}?", re.I)
+        self.earlier = re.compile(_any(all_of("earlier")) + _COMMAS + "?", re.I)
+        self.later = re.compile(_any(all_of("later")) + _COMMAS + "?", re.I)
+        self.meanwhile, self.throughout, self.before, self.after = (
+            re.compile(rf"{_COMMAS}?\s*{_any(all_of(key))}\s*", re.I)
+            for key in ("meanwhile", "throughout", "before", "after")
+        )
+        behind = rf"(?:{_STOPS}\s*(?:{_any(joints)}\s*)?|{_any(joints)}\s*)"
+        said = rf"{_STOPS}?\s*{_any(all_of('beforehand'))}|{behind}{_any(all_of('previously'))}"
+        self.beforehand = re.compile(rf"(?:{said}){_COMMAS}?", re.I)
+        self.greeting = re.compile(rf"^\s*{_any(all_of('greetings'))}\s*{_STOPS}\s*(?=\S)", re.I)
+        self.closing = re.compile(rf"\s*{_STOPS}\s*{_any(all_of('closings'))}\W*$", re.I)
+        cut = "|".join(re.escape(word[:-1]) for word in all_of("short"))
+        self.short = re.compile(rf"(?<!{_SIGN})(?:{cut})\.(?=\s+{_any(all_of('limbs'))})", re.I)
+        own = _any([*all_of("own"), *all_of("left"), *all_of("right")])
+        limbs = rf"(?:{own}\s*)*{_any(all_of('limbs'))}"
+        # But "coup de poing" neither names a fist nor is it a gerund.
+        self.sign = re.compile(rf"(?<!de )(?:{_any(all_of('with'))}|{limbs})", re.I)
+        self.limb = re.compile(rf"^{limbs}$", re.I)
+        self.manner = re.compile(rf"{_any(all_of('manner'))}$", re.I)
+        # "right at the corner", but "a right at the corner", "turns right at the corner"
+        apart = "".join(rf"(?<!(?<!{_LETTER}){word}\s)" for word in all_of("to_side"))
+        self.no_side = re.compile(apart + _any(all_of("no_side")), re.I)
+        self.left, self.right, self.round, self.corner = (
+            re.compile(_any(all_of(key)), re.I) for key in ("left", "right", "round", "corners")
+        )
+        self.other = re.compile(_any(sides), re.I)
+        self.others = {bare(word.partition("/")[0]): both for word, both in sides.items()}
+        self.angle = re.compile(_any(angles), re.I)
+        self.often = re.compile(_any(adverbs), re.I)
+        number = rf"(?P<number>{_DIGITS}|{_any(numbers)})"
+        ready = rf"(?:(?<![\w.,])|(?<={CJK_SIGN}))"
+        self.units = {
+            name: re.compile(rf"{_lead()}{ready}{number}[\s-]*{_any(all_of(name))}", re.I)
+            for name in ("degrees", "metres", "seconds")
+        }
+        others = rf"(?![\s-]*{_any(all_of('uncounted'))})"
+        times = rf"{_any(all_of('times'))}|(?:{_any(all_of('pieces'))}|[x×](?!\w)){others}"
+        self.times = re.compile(rf"{ready}(?:{number}\s*(?:{times})|[x×]\s*(?P<after>\d+))", re.I)
+        # A bare number counts what follows it; "one" is mostly somebody, "a" nothing at all.
+        several = [word for word, value in numbers.items() if value > 1]
+        counted = rf"(?:{others}(?=[\s-]+\w)|(?={_any(all_of('nouns'))}))"
+        self.bare = re.compile(rf"{ready}(?P<number>\d+|{_any(several)}){counted}", re.I)
+        heads = _any(joints + all_of("first"))
+        self.loose = re.compile(rf"^(?:{heads}\s*{_COMMAS}?\s*)+|\s+{_any(joints)}$", re.I)
+
+
+def _lead() -> str:
+    """Words before a measure that mean nothing without it."""
+    return r"(?:(?<!\w)(?:for|during|by|durante|por|pendant|de|für|um|von|about)\s+)?"
+
+
+def _any(words: Sequence[str] | dict[str, Any]) -> str:
+    """One of the words, whole where the writing parts words; never empty."""
+    longest_first = map(_whole, sorted(words, key=len, reverse=True))
+    ordered = sorted(longest_first, key=lambda parts: (parts[0], parts[2]))
+    alike = groupby(ordered, key=lambda parts: (parts[0], parts[2]))
+    runs = [f"{before}(?:{'|'.join(word for _, word, _ in run)}){after}"
+            for (before, after), run in alike]  # fmt: skip
+    return "(?:" + "|".join(runs) + ")" if runs else r"(?!)"
+
+
+def _whole(word: str) -> tuple[str, str, str]:
+    """A word's pattern, and what must stand before and behind it."""
+    stays, bar, word = word.rpartition("|")
+    word, slash, never = word.partition("/")
+    follows = f"(?![{never}])" if slash else ""
+    if bar:
+        before = f"(?<![{stays[1:]}])" if stays.startswith("^") else f"(?<={stays})"
+        return before, word, follows
+    pattern = "|".join(map(_loosely, _misspelt(word[:-1]) if word.endswith("~") else [word]))
+    if re.search(f"[{_CJK}°]", word):
+        return "", pattern, follows
+    return f"(?<!{_LETTER})", pattern, follows + ("" if word.endswith("'") else f"(?!{_SIGN})")
+
+
+def _loosely(word: str) -> str:
+    """The pattern of a word, whose accents may be missing."""
+    pattern = re.escape(word).replace(r"\ ", r"\s+").replace(r"\*", f"{_LETTER}+")
+    pattern = re.sub("[à-öø-ÿ]", lambda letter: f"[{letter[0]}{bare(letter[0])}]", pattern)
+    return pattern.replace("ß", "(?:ß|ss)").replace("'", "['’]")
+
+
+def _misspelt(word: str) -> list[str]:
+    """A word, and it with two letters swapped, one doubled or one left out; the first one stays."""
+    inner = range(1, len(word) - 1)
+    swapped = [word[:i] + word[i + 1] + word[i] + word[i + 2 :] for i in inner]
+    doubled = [word[:i] + word[i] + word[i:] for i in range(1, len(word))]
+    short = [word[:i] + word[i + 1 :] for i in inner] if len(word) > 4 else []
+    return [word, *swapped, *doubled, *short]
+
+
+def bare(word: str) -> str:
+    """A word without case and accents, its apostrophes straight."""
+    letters = unicodedata.normalize("NFD", word.casefold().replace("’", "'").replace("ı", "i"))
+    return "".join(letter for letter in letters if not unicodedata.combining(letter))
+
+
+@cache
+def all_words() -> Words:
+    """Those of all languages, read once."""
+    return Words(list(load_yaml(packaged_config("measures.yaml")).values()))
+
+
+# ---------------------------------------------------------------- the same in a browser
+
+_WORD = r"\p{L}\p{N}_"  # what \w is here
+_JAVASCRIPT = (
+    (_LETTER, rf"(?![\p{{Nd}}{_CJK}])[{_WORD}]"),
+    (_SIGN, rf"(?![{_CJK}])[{_WORD}]"),
+    ("(?-i:", "(?:"),
+    ("(?P<", "(?<"),
+    (r"[\w", f"[{_WORD}"),
+    (r"\w", f"[{_WORD}]"),
+    (r"\W", f"[^{_WORD}]"),
+    (r"\d", r"\p{Nd}"),
+    (r"\-", "-"),
+)
+
+
+def javascript_patterns() -> dict[str, Any]:
+    """The patterns as JavaScript reads them, with the flags i and u, and what their words say."""
+    ours = all_words()
+    said = {name: vars(ours)[name] for name in ("numbers", "adverbs", "angles", "others")}
+    alone = {name: each for name, each in vars(ours).items() if name not in {*said, "units"}}
+    found = {
+        name: reduce(lambda text, pair: text.replace(*pair), _JAVASCRIPT, each.pattern)
+        for name, each in (alone | ours.units).items()
+    }
+    return {"patterns": found, "most": MOST, "maxCount": MAX_COUNT} | said
