@@ -13,7 +13,7 @@ from collections import defaultdict
 from pathlib import Path
 from typing import Any
 
-from src.shared.config_loader import load_yaml
+from src.shared.config_loader import parse_yaml
 from src.shared.evaluation.actions import same_action
 from src.shared.model.clip.out_of_domain import TWINS
 from src.shared.model.generation.motion_generator import TextToMotion
@@ -34,7 +34,7 @@ def figures(model: str) -> dict[str, Any]:
     """Shares of sentences that are read, by language and action; and of those warned of."""
     generator = TextToMotion.from_pretrained(model, device="cpu")
     sentences = SentenceGenerator(generator)
-    entries = load_yaml(SENTENCES)
+    entries = parse_yaml(SENTENCES.read_text(encoding="utf-8"), SENTENCES.name)
     rows = [(entry, text) for entry in entries for text in entry["text"]]
     warned = [line is not None for line in sentences.scope_warnings([text for _, text in rows])]
     groups = defaultdict[str, list[bool]](list)
