@@ -119,10 +119,13 @@ def _ordered(text: str, read: Read) -> list[str]:
     """Parts that words of order part, first things first."""
     words = all_words()
     found: tuple[str, str] | None = None
-    if match := words.after.match(text):
+    after = words.after.match(text)
+    if match := after or words.before.match(text):
         found = _subordinate(text[match.end() :], read)
-    elif (match := words.before.match(text)) and (parts := _subordinate(text[match.end() :], read)):
-        found = (parts[1], parts[0])
+        if found and not _is_time(text, match, found[0], read):
+            found = None
+    if found and not after:
+        found = found[::-1]
     for pattern, swapped in (
         (words.beforehand, True),
         (words.then, False),
@@ -135,6 +138,8 @@ def _ordered(text: str, read: Read) -> list[str]:
             left, right = text[: match.start()], text[match.end() :]
             if pattern is words.then and _begins_after(text, match):
                 continue  # "después" alone, not "después de haber saltado"
+            if pattern in (words.before, words.after) and not _is_time(text, match, right, read):
+                continue
             if pattern is words.then and match[0].lstrip()[:1].isalpha():
                 left, right = _around(left, right, read)
             if left.strip(EDGES) and right.strip(EDGES):
@@ -154,12 +159,20 @@ def _begins_after(text: str, then: re.Match[str]) -> bool:
     return len(after[0].rstrip()) > len(word.rstrip(EDGES))
 
 
+def _is_time(text: str, word: re.Match[str], right: str, read: Read) -> bool:
+    """Whether "before" or "after" says when; a noun behind it may be a place or a thing."""
+    if all_words().noun.match(text, word.start()) is None:
+        return True
+    noun = read(_measured(_trimmed(all_words().joint.split(right, maxsplit=1)[0])).text)
+    return noun.action is None or noun.certainty > SURE
+
+
 def _subordinate(text: str, read: Read) -> tuple[str, str] | None:
     """A clause at the head of a sentence and the rest: parted at the comma that leaves two
     actions, else at the first one; where there is none, at such a blank."""
     commas = [match.span() for match in all_words().comma.finditer(text)]
     if not commas:
-        return _best(text, _blanks(text), read)
+        return _best(text, _blanks(text), read, SURE_AT_ONCE)
     halves = _best(text, commas, read) or (text[: commas[0][0]], text[commas[0][1] :])
     return halves if all(half.strip(EDGES) for half in halves) else None
 
@@ -187,11 +200,14 @@ def _joined(text: str, read: Read) -> list[str]:
         for (_, start), (stop, _) in pairwise([(0, 0), *borders, (len(text), len(text))])
         if text[start:stop].strip(EDGES)
     ]
+    asides = [_is_aside(text[start:stop]) for start, stop in pieces]
     # The best ways up to a piece, one for each action and side of their last part.
     ways: list[dict[_Last, _Way]] = [{(None, "both"): _Way()}]
     for stop in range(1, len(pieces) + 1):
         here = {last: way._replace(passed=way.passed + 1) for last, way in ways[-1].items()}
         for start in range(max(0, stop - MOST_PIECES), stop):
+            if asides[start] and (start or stop == 1):
+                continue  # stays with what stands before it, or else behind it
             part = _trimmed(text[pieces[start][0] : pieces[stop - 1][1]])
             reading, side = read(_measured(part).text), side_of(part)
             last = reading.action, side
@@ -206,6 +222,12 @@ def _joined(text: str, read: Read) -> list[str]:
         ways.append(here)
     best = max(ways[-1].values(), key=_Way.rank).parts
     return list(best) if len(best) > 1 else [text]
+
+
+def _is_aside(piece: str) -> bool:
+    """Whether a piece names nothing but limbs and sides, or says what is not done."""
+    rest = all_words().aside.sub(" ", piece).strip(EDGES)
+    return not rest or bool(all_words().denied.match(rest))
 
 
 class _Way(NamedTuple):
@@ -227,9 +249,11 @@ def _differ(first: Reading, second: Reading, sure: float = SURE) -> bool:
     return min(first.certainty, second.certainty) > sure and first.action != second.action
 
 
-def _best(text: str, cuts: Iterable[Span], read: Read) -> tuple[str, str] | None:
+def _best(
+    text: str, cuts: Iterable[Span], read: Read, sure: float = SURE
+) -> tuple[str, str] | None:
     """The halves of a text that tell most surely of two actions, None where none do."""
-    best, sure = None, SURE
+    best = None
     for stop, start in cuts:
         left, right = _trimmed(text[:stop]), _trimmed(text[start:])
         first, second = (read(_measured(half).text) for half in (left, right))

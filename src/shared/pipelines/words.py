@@ -70,7 +70,12 @@ class Words:
         self.closing = re.compile(rf"\s*{_STOPS}\s*{_any(all_of('closings'))}\W*$", re.I)
         cut = "|".join(re.escape(word[:-1]) for word in all_of("short"))
         self.short = re.compile(rf"(?<!{_SIGN})(?:{cut})\.(?=\s+{_any(all_of('limbs'))})", re.I)
-        own = _any([*all_of("own"), *all_of("left"), *all_of("right")])
+        nouns = rf"{_any(all_of('prepositions'))}\s+{_any(all_of('own'))}"
+        self.noun = re.compile(rf"{_COMMAS}?\s*{nouns}", re.I)
+        owned = [*all_of("own"), *all_of("left"), *all_of("right")]
+        self.aside = re.compile(_any([*owned, *all_of("limbs"), *all_of("aside")]), re.I)
+        self.denied = re.compile(_any(all_of("denied")), re.I)
+        own = _any(owned)
         limbs = rf"(?:{own}\s*)*{_any(all_of('limbs'))}"
         # But "coup de poing" neither names a fist nor is it a gerund.
         self.sign = re.compile(rf"(?<!de )(?:{_any(all_of('with'))}|{limbs})", re.I)
@@ -110,7 +115,7 @@ def _lead() -> str:
 
 def _any(words: Sequence[str] | dict[str, Any]) -> str:
     """One of the words, whole where the writing parts words; never empty."""
-    longest_first = map(_whole, sorted(words, key=len, reverse=True))
+    longest_first = map(_whole, sorted(dict.fromkeys(words), key=len, reverse=True))
     ordered = sorted(longest_first, key=lambda parts: (parts[0], parts[2]))
     alike = groupby(ordered, key=lambda parts: (parts[0], parts[2]))
     runs = [f"{before}(?:{'|'.join(word for _, word, _ in run)}){after}"

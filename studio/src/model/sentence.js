@@ -85,13 +85,15 @@ export class SentenceReader {
 
   ordered(text) {
     const after = this.head.after.exec(text), before = after ? null : this.head.before.exec(text);
-    let found = null;
-    if (after) found = this.subordinate(text.slice(after[0].length));
-    else if (before) found = this.subordinate(text.slice(before[0].length))?.reverse();
+    const word = after ?? before;
+    let found = word && this.subordinate(text.slice(word[0].length));
+    if (found && !this.isTime(text, 0, found[0])) found = null;
+    if (before) found?.reverse();
     for (const [name, swapped] of [["beforehand", true], ["then", false], ["earlier", false], ["later", true], ["before", false], ["after", true]])
       for (const [start, stop] of found ? [] : spans(text, this.each[name])) {
         let left = text.slice(0, start), right = text.slice(stop);
         if (name === "then" && this.beginsAfter(text, start, stop)) continue;
+        if ((name === "before" || name === "after") && !this.isTime(text, start, right)) continue;
         if (name === "then" && /^\s*\p{L}/u.test(text.slice(start, stop))) [left, right] = this.around(left, right);
         if (!strip(left) || !strip(right)) continue;
         found = swapped ? [right, left] : [left, right];
@@ -109,9 +111,16 @@ export class SentenceReader {
     return after[0].trimEnd().length > stripEnd(word).length;
   }
 
+  /** Whether "before" or "after" says when; a noun behind it may be a place or a thing. */
+  isTime(text, start, right) {
+    if (!this.head.noun.test(text.slice(start))) return true;
+    const { action, certainty } = this.reading(this.trimmed(right.split(this.first.joint)[0]));
+    return action === null || certainty > SURE;
+  }
+
   subordinate(text) {
     const commas = spans(text, this.each.comma);
-    if (!commas.length) return this.best(text, spans(text, BLANKS));
+    if (!commas.length) return this.best(text, spans(text, BLANKS), SURE_AT_ONCE);
     const halves = this.best(text, commas) ?? [text.slice(0, commas[0][0]), text.slice(commas[0][1])];
     return halves.every((half) => strip(half)) ? halves : null;
   }
@@ -131,11 +140,13 @@ export class SentenceReader {
     const pieces = borders.slice(1)
       .map(([stop], i) => [borders[i][1], stop])
       .filter(([start, stop]) => strip(text.slice(start, stop)));
+    const asides = pieces.map((piece) => this.isAside(text.slice(...piece)));
     // The best ways up to a piece, one for each action and side of their last part.
     const ways = [new Map([["", { parts: [], passed: 0, certainty: 0, action: null, side: "both" }]])];
     for (let stop = 1; stop <= pieces.length; stop++) {
       const here = new Map([...ways[stop - 1]].map(([last, way]) => [last, { ...way, passed: way.passed + 1 }]));
       for (let start = Math.max(0, stop - MOST_PIECES); start < stop; start++) {
+        if (asides[start] && (start || stop === 1)) continue; // stays with what stands before it, or else behind it
         const part = this.trimmed(text.slice(pieces[start][0], pieces[stop - 1][1]));
         const { action, certainty } = this.reading(part), side = this.sideOf(part), last = `${action} ${side}`;
         const before = [...ways[start].values()].filter((way) => way.action !== action || opposite(way.side, side));
@@ -150,9 +161,15 @@ export class SentenceReader {
     return parts.length > 1 ? parts : [text];
   }
 
+  /** Whether a piece names nothing but limbs and sides, or says what is not done. */
+  isAside(piece) {
+    const rest = strip(piece.replace(this.each.aside, " "));
+    return !rest || this.head.denied.test(rest);
+  }
+
   /** The halves of a text that tell most surely of two actions, null where none do. */
-  best(text, cuts) {
-    let found = null, sure = SURE;
+  best(text, cuts, sure = SURE) {
+    let found = null;
     for (const [stop, start] of cuts) {
       const halves = [text.slice(0, stop), text.slice(start)].map((half) => this.trimmed(half));
       const [first, second] = halves.map((half) => this.reading(half));

@@ -93,6 +93,11 @@ def test_words_of_order_part_clauses(sentence: str, parts: list[str]):
         ("走两步鞠躬", ["走两步", "鞠躬"]),
         ("先走再跳", ["走", "跳"]),
         ("left up, right down", ["left up, right down"]),
+        ("waves, arms only, then bows", ["waves, arms only", "bows"]),
+        ("head down, he walks, bows", ["head down, he walks", "bows"]),
+        ("walks, not jumping", ["walks, not jumping"]),
+        ("jumps before the bow", ["jumps", "the bow"]),
+        ("nach der letzten Note verbeugt er sich", ["nach der letzten Note verbeugt er sich"]),
         ("walk slowly, sadly", ["walk slowly, sadly"]),
     ],
 )
@@ -178,6 +183,11 @@ def test_each_clause_has_its_own_measures():
 @pytest.mark.parametrize("sentence", ["walk 900 metres", "turn 5000 degrees", "jump 1000 times"])
 def test_what_nobody_means_is_left_to_the_words(sentence: str):
     assert clauses(sentence)[0].plain
+
+
+def test_words_that_two_languages_share_cost_no_time():
+    sentence = "walks, " + "un " * 60 + "x"  # each of them doubled the time
+    assert clauses(sentence, read) == [Clause(sentence)]
 
 
 @given(st.text(max_size=60))

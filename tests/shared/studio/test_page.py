@@ -35,8 +35,8 @@ from tests.shared.formats.pages import HOSTILE, Page
 BROWSER = pytest.mark.skipif(not chromium(), reason="no Chromium is installed")
 PROMPTS = {
     "en": "a person walks forward",
-    "es": "Hola, una persona salta, gracias",
-    "fr": "①une personne court ②elle saute",
+    "es": "Hola, una persona salta tras el autobús, gracias",
+    "fr": "①une personne court, tête basse ②elle saute",
     "de": "Hallo, eine Person rennt, davor winkt sie, danke!",
     "ja": "人が右手を振る",
     "zh": "一个人向左转弯走",

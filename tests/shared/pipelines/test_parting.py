@@ -1,0 +1,122 @@
+"""Sentences of two clauses, and single ones with words that tempt to part them, as `starter` reads
+them."""
+
+import pytest
+
+from src.shared.model.generation.motion_generator import TextToMotion
+from src.shared.pipelines.text import SentenceGenerator
+
+TWO = [
+    ("walks to the table and then sits down", ["walks to the table", "sits down"]),
+    ("waves before sitting down", ["waves", "sitting down"]),
+    ("after jumping twice, he claps", ["jumping", "he claps"]),
+    ("geht nach vorne und winkt dann", ["geht nach vorne", "winkt"]),
+    ("bevor er sich setzt winkt er", ["winkt er", "er sich setzt"]),
+    ("nachdem sie gesprungen ist, klatscht sie", ["sie gesprungen ist", "klatscht sie"]),
+    ("er kniet nieder, dann steht er auf", ["er kniet nieder", "steht er auf"]),
+    ("er dehnt sich und läuft danach los", ["er dehnt sich", "läuft los"]),
+    ("il marche puis il s'assoit", ["il marche", "il s'assoit"]),
+    ("elle salue de la main avant de s'asseoir", ["elle salue de la main", "s'asseoir"]),
+    ("après avoir sauté, il applaudit", ["sauté", "il applaudit"]),
+    ("il s'étire avant de courir", ["il s'étire", "courir"]),
+    ("camina hacia delante y luego saluda", ["camina hacia delante", "saluda"]),
+    ("saluda antes de sentarse", ["saluda", "sentarse"]),
+    ("después de saltar, aplaude", ["saltar", "aplaude"]),
+    ("前に歩いてから手を振る", ["前に歩いて", "手を振る"]),
+    ("座る前に手を振る", ["手を振る", "座る"]),
+    ("ジャンプした後に拍手する", ["ジャンプした", "拍手する"]),
+    ("ひざまずいて、それから立ち上がる", ["ひざまずいて", "立ち上がる"]),
+    ("走る前にストレッチをする", ["ストレッチをする", "走る"]),
+    ("向前走然后挥手", ["向前走", "挥手"]),
+    ("坐下之前挥手", ["挥手", "坐下"]),
+    ("跳完之后鼓掌", ["跳完", "鼓掌"]),
+    ("他跪下，站起来", ["他跪下", "站起来"]),
+    ("after a jump, she bows", ["a jump", "she bows"]),
+    ("she claps at the end of the dance", ["the dance", "she claps"]),
+    ("he runs, then looks after the children", ["he runs", "looks after the children"]),
+    ("before his bow, he waves", ["he waves", "his bow"]),
+    ("waves, left arm, then bows", ["waves, left arm", "bows"]),
+    ("sits, eyes closed, and waves", ["sits", "waves"]),
+    ("nach dem Sprung verbeugt er sich", ["Sprung", "verbeugt er sich"]),
+    ("er läuft und springt am Ende hoch", ["er läuft", "springt hoch"]),
+    ("après le saut, il salue", ["saut", "il salue"]),
+    ("il marche et à la fin il salue", ["il marche", "il salue"]),
+    ("tras el salto, saluda", ["el salto", "saluda"]),
+    ("camina y al final salta", ["camina", "salta"]),
+    ("después de la reverencia, aplaude", ["la reverencia", "aplaude"]),
+    ("ジャンプの後に拍手する", ["ジャンプの", "拍手する"]),
+    ("先に手を振って、次に走る", ["手を振って", "走る"]),
+    ("先鞠躬再挥手", ["鞠躬", "挥手"]),
+]  # fmt: skip
+
+ONE = [
+    "kicks hard, left leg only",
+    "runs after the bus",
+    "walks slowly, head down and arms hanging",
+    "waves with the left hand and the right hand",
+    "verbeugt sich vor der Königin",
+    "tritt kräftig zu, nur mit dem linken Bein",
+    "greift nach dem Glas",
+    "geht langsam nach Hause, den Kopf gesenkt",
+    "boxt in die Luft, erst links, rechts",
+    "s'incline devant la reine",
+    "donne un coup de pied, jambe gauche seulement",
+    "court après le bus",
+    "marche lentement, la tête basse",
+    "fait trois pas en avant",
+    "se inclina ante la reina",
+    "da una patada fuerte, solo con la pierna izquierda",
+    "corre tras el autobús",
+    "camina despacio, la cabeza baja y los brazos caídos",
+    "baila antes de la medianoche",
+    "王様の前でお辞儀する",
+    "強く蹴る、左足だけで",
+    "バスの後を追って走る",
+    "うつむいて、ゆっくり歩く",
+    "前に三歩進む",
+    "在国王面前鞠躬",
+    "用力踢腿，只用左腿",
+    "跟在公交车后面跑",
+    "低着头，慢慢地走",
+    "向后退三步",
+    "she claps at the end of the show",
+    "after the concert, she claps",
+    "jumps with both feet, knees bent",
+    "sneaks along the wall, not running",
+    "kneels upon the carpet",
+    "walks before them",
+    "nach dem Essen tanzt sie",
+    "winkt mit der rechten Hand, nur die rechte",
+    "tritt, linkes Bein",
+    "läuft am Ende der Straße",
+    "schleicht, ohne zu rennen",
+    "après le dîner, elle danse",
+    "applaudit à la fin du spectacle",
+    "coup de poing, main droite uniquement",
+    "s'accroupit, genoux pliés",
+    "aplaude al final del concierto",
+    "saluda, mano derecha",
+    "se inclina después del discurso",
+    "先生がお辞儀する",
+    "手を叩くところ",
+    "先生鞠躬",
+    "慢慢走，不要跑",
+    "往前走，不停地挥手",
+]
+
+
+@pytest.fixture(scope="module")
+def sentences() -> SentenceGenerator:
+    return SentenceGenerator(TextToMotion.from_pretrained("starter", device="cpu"))
+
+
+@pytest.mark.parametrize(("sentence", "parts"), TWO)
+def test_two_clauses_are_parted_in_order(
+    sentence: str, parts: list[str], sentences: SentenceGenerator
+):
+    assert [clause.text for clause in sentences.clauses(sentence)] == parts
+
+
+@pytest.mark.parametrize("sentence", ONE)
+def test_a_single_sentence_stays_whole(sentence: str, sentences: SentenceGenerator):
+    assert len(sentences.clauses(sentence)) == 1
