@@ -338,7 +338,7 @@ def told_of_song(
         "beats": len(song.beats.beat_times),
         "model": request.audio_model if request.pathed else None,
         **({"body-model": request.text_model} if dancing else {}),
-        "runtime": request.runtime or "torch",
+        "runtime": generator.text.runtime if dancing else generator.audio.runtime,
         "device": str(generator.text.device if dancing else generator.audio.device),
         "seed": request.seed,
         "memory": remembered,

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 ONNX_CARD = "onnx.json"
 OPSET = 18
+AUDIO_GRAPHS = ("condition.onnx", "unet.onnx", "decoder.onnx")
 TEXT_KIND, AUDIO_KIND = EXPORTED = "motion-generator", "audio-motion"  # models it is made of
 
 
@@ -83,7 +84,7 @@ class OnnxCard(Config):
         process: the diffusion.
     """
 
-    format_version: Literal[2] = 2
+    format_version: int
     kind: str
     name: str = ""
     description: str = ""
@@ -109,6 +110,7 @@ class TextOnnxCard(OnnxCard):
         max_seconds: of the longest clip it learned from; `min_frames` are needed.
     """
 
+    format_version: Literal[2] = 2
     kind: Literal["motion-generator"] = "motion-generator"
     mean: tuple[tuple[float, ...], ...]
     std: tuple[tuple[float, ...], ...]
@@ -125,13 +127,14 @@ class TextOnnxCard(OnnxCard):
 
 
 class AudioOnnxCard(OnnxCard):
-    """An export that makes paths from songs: unet.onnx and decoder.onnx.
+    """An export that makes paths from songs, with the graphs AUDIO_GRAPHS.
 
     Attributes:
         mean, std: statistics of the 25 rows: `x = z * std + mean` (ruling 13).
         null_condition: the 167 rows of "no audio", the same in every frame (ruling 14).
     """
 
+    format_version: Literal[3] = 3  # 2 asked for the condition at every step
     kind: Literal["audio-motion"] = "audio-motion"
     audio_network: AudioNetworkConfig
     mean: tuple[float, ...]

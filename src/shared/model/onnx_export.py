@@ -6,6 +6,7 @@ the same weights and the same result.
 
 import copy
 import hashlib
+import inspect
 import logging
 import shutil
 import warnings
@@ -26,7 +27,7 @@ from .noise import sampling_timesteps
 from .onnx_card import ONNX_CARD, OPSET, CardT, GraphInfo, ProcessInfo, ValueInfo
 
 EXAMPLE_FRAMES = 37  # no multiple of anything, so that no length is taken for a constant
-Shapes = Mapping[int, str]  # dimension -> name of its symbol
+Shapes = Mapping[int, Any]  # dimension -> its symbol: a name, or a `torch.export.Dim`
 ModuleT = TypeVar("ModuleT", bound=nn.Module)
 
 
@@ -55,12 +56,16 @@ def traced(
     outputs: Sequence[str],
 ) -> Any:
     """The graph of a module, an onnx `ModelProto` that holds its weights."""
+    shapes: list[Any] = [own for _, own in inputs.values()]
+    kinds = [each.kind for each in inspect.signature(module.forward).parameters.values()]
+    if inspect.Parameter.VAR_POSITIONAL in kinds:  # these are one argument, a tuple
+        shapes[len(kinds) - 1 :] = [tuple(shapes[len(kinds) - 1 :])]
     with torch.no_grad(), _quiet():
         program = torch.onnx.export(
             module,
             tuple(example for example, _ in inputs.values()),
             dynamo=True,
-            dynamic_shapes=tuple(shapes for _, shapes in inputs.values()),
+            dynamic_shapes=tuple(shapes),
             input_names=list(inputs),
             output_names=list(outputs),
             opset_version=OPSET,

@@ -58,7 +58,7 @@ class MotionGenerator:
             else what is shipped.
         device: auto, cuda, mps or cpu.
         runtime: torch; onnx, for models whose folders hold an export; or auto, which is onnx on a
-            CPU where onnxruntime is installed and the text model holds one, and torch for songs.
+            CPU where onnxruntime is installed and the model holds one, and hears no memory.
         memory: folder or address of `memory build`: of figures that are danced (None = the shipped
             ones), or of phrases, for an audio model that hears them.
         judge: folder of `train_clip` that holds candidates against their prompt; None = what
@@ -134,7 +134,8 @@ class MotionGenerator:
             memory = None
             if self._memory is not None and not is_figure_memory(self._memory):
                 memory = SongMemory.open(self._memory)
-            runtime = "torch" if self._runtime == "auto" else self._runtime
+            remembers = memory is not None and self._runtime == "auto"
+            runtime = "torch" if remembers else self._runtime  # an export hears no memory
             model = SongGenerator.from_pretrained(
                 model, device=self._device, runtime=runtime, memory=memory
             )

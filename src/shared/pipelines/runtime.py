@@ -8,6 +8,7 @@ from typing import Any, Protocol, Self
 
 import torch
 from torch import Tensor
+from torch.nn import functional as F
 
 from ..config_audio import AudioNetworkConfig
 from ..device import choose_compute, sampling_threads
@@ -19,7 +20,14 @@ from ..model.audio.decoder import Decoded
 from ..model.audio.unet import sampling_copy
 from ..model.checkpoint import resolve_model
 from ..model.diffusion import GaussianDiffusion, ModelFn, guided
-from ..model.onnx_card import AudioOnnxCard, open_graph, read_onnx_card, run
+from ..model.onnx_card import (
+    AUDIO_GRAPHS,
+    AudioOnnxCard,
+    chosen_runtime,
+    open_graph,
+    read_onnx_card,
+    run,
+)
 
 
 class Runtime(Protocol):
@@ -54,13 +62,17 @@ def load_runtime(name: str, model: str | Path, device: str = "auto") -> Runtime:
     """A trained model under a runtime.
 
     Args:
-        name: torch or onnx.
+        name: torch, onnx, or auto, see `chosen_runtime`; auto is torch, too, where
+            MOTIONGEN_DECODER_CHECKPOINT names another decoder, which an export has not.
         model: see `load_trained`; for onnx, a folder of `export-onnx`.
         device: auto, cuda, mps or cpu; onnx computes on the CPU.
 
     Raises:
         UserError: no such model, damaged, never trained, or a package is missing.
     """
+    if name == "auto":
+        other = variable(DECODER_CHECKPOINT)
+        name = "torch" if other else chosen_runtime(name, model, device)
     if name == "torch":
         return load_trained(model, device)
     loaded = OnnxRuntime.from_folder(model)
@@ -101,16 +113,17 @@ class OnnxRuntime:
 
     Args:
         card: of the export.
-        unet, decoder: its sessions; anything with onnxruntime's `run`.
+        condition, unet, decoder: its sessions; anything with onnxruntime's `run`.
     """
 
-    def __init__(self, card: AudioOnnxCard, unet: Any, decoder: Any) -> None:
+    def __init__(self, card: AudioOnnxCard, condition: Any, unet: Any, decoder: Any) -> None:
         self.card = card
         self.config = card.audio_network
         self.diffusion = GaussianDiffusion(self.config.diffusion)
         self.mean, self.std = torch.tensor(card.mean), torch.tensor(card.std)
         self._null = torch.tensor(card.null_condition)
-        self._unet, self._decoder = unet, decoder
+        self._condition, self._unet, self._decoder = condition, unet, decoder
+        self._prepared = [value.name for value in condition.get_outputs()]
 
     @classmethod
     def from_folder(cls, folder: str | Path) -> Self:
@@ -121,10 +134,7 @@ class OnnxRuntime:
         """
         folder, threads = resolve_model(folder), sampling_threads()
         card = read_onnx_card(folder, AudioOnnxCard)
-        unet, decoder = (
-            open_graph(folder, f"{name}.onnx", threads) for name in ("unet", "decoder")
-        )
-        return cls(card, unet, decoder)
+        return cls(card, *(open_graph(folder, name, threads) for name in AUDIO_GRAPHS))
 
     def normalise(self, raw: Tensor) -> Tensor:
         """See `Runtime`."""
@@ -140,8 +150,10 @@ class OnnxRuntime:
         assert memory is None, "an export hears no memory"
         scale = self.config.guidance_scale if guidance_scale is None else guidance_scale
         condition = with_phase_rows(condition)
-        null = self._null[:, None].expand_as(condition)
-        return guided(self._predict, condition, null, scale)
+        null = None
+        if scale != 1:
+            null = self._prepare(self._null[:, None].expand_as(condition))
+        return guided(self._predict, self._prepare(condition), null, scale)
 
     def decode(self, z: Tensor, start: Tensor | None = None) -> Decoded:
         """See `Runtime`."""
@@ -151,6 +163,12 @@ class OnnxRuntime:
         trajectory, phase = run(self._decoder, rows=rows, start=start)
         return Decoded(trajectory, phase)
 
-    def _predict(self, x: Tensor, t: Tensor, condition: Tensor) -> Tensor:
-        (prediction,) = run(self._unet, x=x, t=t, condition=condition)
-        return prediction
+    def _prepare(self, condition: Tensor) -> dict[str, Tensor]:
+        """What every step of a condition [B, 167, T] shares."""
+        return dict(zip(self._prepared, run(self._condition, condition=condition), strict=True))
+
+    def _predict(self, x: Tensor, t: Tensor, **prepared: Tensor) -> Tensor:
+        frames = x.shape[-1]
+        padded = F.pad(x, (0, -frames % self.config.unet.factors[-1]), mode="replicate")
+        (prediction,) = run(self._unet, x=padded, t=t, **prepared)
+        return prediction[..., :frames]

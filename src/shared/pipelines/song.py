@@ -132,6 +132,11 @@ class SongGenerator(Generic[ModelT]):
         bands = shipped_bands(name_or_folder)
         return cls(model, device=device, bands=bands, memory=memory)
 
+    @property
+    def runtime(self) -> str:
+        """What computes: torch or onnx."""
+        return "torch" if isinstance(self.model, AudioMotionModel) else "onnx"
+
     def sample(
         self,
         song: SongCondition,

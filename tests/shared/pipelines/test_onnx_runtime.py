@@ -16,10 +16,9 @@ from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.errors import UserError
 from src.shared.model import onnx_card
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.model.audio.onnx import DECODER_GRAPH, UNET_GRAPH
 from src.shared.model.checkpoint import WEIGHTS_FILE, ModelCard
+from src.shared.model.onnx_card import AUDIO_GRAPHS, AudioOnnxCard, read_onnx_card, run
 from src.shared.model.onnx_card import ONNX_CARD as CARD_FILE
-from src.shared.model.onnx_card import AudioOnnxCard, read_onnx_card, run
 from src.shared.pipelines.runtime import OnnxRuntime
 from src.shared.pipelines.song_sampler import SongSampler, SongSampling
 from tests.shared.model.audio.tiny_audio import awake, network_config, unet_config, walk
@@ -28,7 +27,6 @@ pytest.importorskip("onnxruntime")
 pytest.importorskip("onnxscript")
 
 invoke = CliRunner().invoke
-GRAPHS = (UNET_GRAPH, DECODER_GRAPH)
 LENGTHS = (8, 30, 100, 239, 240, 600)
 TOLERANCE = 1e-4
 COLUMNS = (
@@ -59,7 +57,7 @@ def exported(model: AudioMotionModel, folder: Path) -> OnnxRuntime:
     result = invoke(app, ["export-onnx", *arguments])
     assert result.exit_code == 0, result.output
     assert result.stdout.split() == [
-        str(folder / "onnx" / n) for n in (*GRAPHS, WEIGHTS_FILE, CARD_FILE)
+        str(folder / "onnx" / n) for n in (*AUDIO_GRAPHS, WEIGHTS_FILE, CARD_FILE)
     ]
     return OnnxRuntime.from_folder(folder / "onnx")
 
@@ -141,7 +139,7 @@ def test_same_seed_same_motion(model: AudioMotionModel, runtime: OnnxRuntime) ->
 
 def test_graphs_name_their_dimensions(home: Path, runtime: OnnxRuntime) -> None:
     shapes = {value.name: value.shape for value in runtime._unet.get_inputs()}
-    assert shapes["x"] == ["batch", 25, "frames"] and shapes["t"] == ["batch"]
+    assert shapes["x"] == ["batch", 25, "2*pieces"] and shapes["t"] == ["batch"]
     card = read_onnx_card(home / "onnx", AudioOnnxCard)
     assert card.trained and card.name == "tiny" and len(card.model) == 64
     assert len(card.mean) == 25 and len(card.null_condition) == 167
@@ -183,11 +181,11 @@ def test_damage_is_one_line(home: Path, runtime: OnnxRuntime, tmp_path: Path, da
     shutil.copytree(home / "onnx", folder)
     card = folder / CARD_FILE
     if damage == "graph":
-        (folder / GRAPHS[1]).write_bytes(b"cut")
+        (folder / AUDIO_GRAPHS[1]).write_bytes(b"cut")
     elif damage == "card":
         card.write_text("{")
     elif damage == "version":
-        card.write_text(card.read_text().replace('"format-version": 2', '"format-version": 1'))
+        card.write_text(card.read_text().replace('"format-version": 3', '"format-version": 2'))
     else:
         card.unlink()
     with pytest.raises(UserError, match="export") as caught:

@@ -1,28 +1,32 @@
 """UNet1D and decoder as ONNX graphs for any batch and any length of 8 frames or more.
 
-unet.onnx: x [B,25,T] float32 z-scores, t [B] int64, condition [B,167,T] float32 -> prediction
-[B,25,T]. decoder.onnx: rows [B,T,25] in raw units, start [B] (bar phase of the first frame, NaN =
-the decoder's guess) -> trajectory [B,T,25] and phase [B,T], unwrapped, in bars.
+condition.onnx: condition [B,167,T] float32 -> all that depends on it alone, made once a sample.
+unet.onnx: x [B,25,T'] float32 z-scores, T' the next multiple of the deepest downsampling, t [B]
+int64, and what condition.onnx gave, by its names -> prediction [B,25,T'].
+decoder.onnx: rows [B,T,25] in raw units, start [B] (bar phase of the first frame, NaN = the
+decoder's guess) -> trajectory [B,T,25] and phase [B,T], unwrapped, in bars.
 
 Letters: B batch, T frames, C channels.
 """
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import torch
 from torch import Tensor, nn
+from torch.export import Dim
 from torch.nn import functional as F
 
 from ...motion.trajectory import CHANNELS, PHASE
 from ..checkpoint import CARD_FILE, WEIGHTS_FILE, resolve_model
-from ..onnx_card import AudioOnnxCard
-from ..onnx_export import EXAMPLE_FRAMES, process_info, symbolic, traced, write_export
+from ..onnx_card import AUDIO_GRAPHS, AudioOnnxCard
+from ..onnx_export import EXAMPLE_FRAMES, Shapes, process_info, symbolic, traced, write_export
 from .audio_motion_model import AudioMotionModel
 from .conditioning import CONDITION_ROWS
 from .decoder import Decoder, wrapped_phase
-from .unet import Downsample, UNet1D
+from .unet import Downsample, Prepared, StageCondition, UNet1D
 
-UNET_GRAPH, DECODER_GRAPH = "unet.onnx", "decoder.onnx"
 FILES = (CARD_FILE, WEIGHTS_FILE, "README.md", "bands.json")
 
 
@@ -41,6 +45,49 @@ class SymbolicDownsample(Downsample):
     def forward(self, x: Tensor) -> Tensor:
         """[B, C, T] -> [B, C, T/2]."""
         return F.conv1d(F.pad(x, (1, 0)), self.conv.weight, self.conv.bias, stride=2)
+
+
+class ConditionGraph(nn.Module):
+    """What a network prepares of a condition, tensor by tensor."""
+
+    def __init__(self, unet: UNet1D) -> None:
+        super().__init__()
+        self.unet = unet
+
+    def forward(self, condition: Tensor) -> tuple[Tensor, ...]:
+        """Condition [B, 167, T] -> the values of `named_tensors`."""
+        return tuple(named_tensors(self.unet.prepare(condition)).values())
+
+
+def named_tensors(prepared: Prepared) -> dict[str, Tensor]:
+    """Modulations [B, 2C, T'/2^i] of each block, keys and values [B, H, T, d] of each attention."""
+    found: dict[str, Tensor] = {}
+    for number, stage in enumerate(prepared.stages):
+        films = enumerate(stage.film)
+        found |= {f"film.{number}.{block}": film for block, film in films if film is not None}
+        if stage.keys_values is not None:
+            found[f"key.{number}"], found[f"value.{number}"] = stage.keys_values
+    return found
+
+
+class StepGraph(nn.Module):
+    """A network that is given what ConditionGraph made, by these names."""
+
+    def __init__(self, unet: UNet1D, names: Sequence[str]) -> None:
+        super().__init__()
+        self.unet, self.names = unet, names
+
+    def forward(self, x: Tensor, t: Tensor, *tensors: Tensor) -> Tensor:
+        """x [B, 25, T'], t [B] and the named tensors -> prediction [B, 25, T']."""
+        named = dict(zip(self.names, tensors, strict=True))
+        stages = []
+        for number, stage in enumerate(self.unet.stages()):
+            films = [named.get(f"film.{number}.{block}") for block in range(len(stage.blocks))]
+            key, value = named.get(f"key.{number}"), named.get(f"value.{number}")
+            both = None if key is None or value is None else (key, value)
+            stages.append(StageCondition(tuple(films), both))
+        result: Tensor = self.unet(x, t, Prepared(tuple(stages)))
+        return result
 
 
 class DecoderGraph(nn.Module):
@@ -72,8 +119,39 @@ def symbolic_unet(unet: UNet1D) -> UNet1D:
     return twin
 
 
+def traced_unet(unet: UNet1D) -> tuple[Any, Any]:
+    """Both graphs of a network of `symbolic_unet`: of its condition, and of a step."""
+    batch, frames, pieces = Dim("batch"), Dim("frames"), Dim("pieces")
+    deepest = unet.factors[-1]
+    count = -(-EXAMPLE_FRAMES // deepest)  # frames at the deepest level
+    heard = torch.randn(2, CONDITION_ROWS, EXAMPLE_FRAMES)
+    with torch.no_grad():
+        tensors = named_tensors(unet.prepare(heard))
+
+    def many(length: int) -> Any:
+        return pieces if length == count else length // count * pieces
+
+    def shapes(name: str, tensor: Tensor) -> Shapes:
+        return {0: batch, 2: many(tensor.shape[2]) if name.startswith("film") else frames}
+
+    condition = traced(
+        ConditionGraph(unet), {"condition": (heard, {0: batch, 2: frames})}, tuple(tensors)
+    )
+    x = torch.randn(2, unet.config.in_channels, deepest * count)
+    step = traced(
+        StepGraph(unet, tuple(tensors)),
+        {
+            "x": (x, {0: batch, 2: many(x.shape[2])}),
+            "t": (torch.tensor([1, 2]), {0: batch}),
+            **{name: (tensor, shapes(name, tensor)) for name, tensor in tensors.items()},
+        },
+        ("prediction",),
+    )
+    return condition, step
+
+
 def export_audio(model: str | Path, folder: str | Path) -> AudioOnnxCard:
-    """Write a model folder with both graphs, and the card that vouches for them.
+    """Write a model folder with its graphs, and the card that vouches for them.
 
     Args:
         model: name of shipped weights, or a folder that training wrote.
@@ -84,20 +162,11 @@ def export_audio(model: str | Path, folder: str | Path) -> AudioOnnxCard:
     """
     source, folder = resolve_model(model), Path(folder)
     loaded = AudioMotionModel.from_pretrained(source)
-    frames, rows = EXAMPLE_FRAMES, len(loaded.mean)
-    unet = traced(
-        symbolic_unet(loaded.unet),
-        {
-            "x": (torch.randn(2, rows, frames), {0: "batch", 2: "frames"}),
-            "t": (torch.tensor([1, 2]), {0: "batch"}),
-            "condition": (torch.randn(2, CONDITION_ROWS, frames), {0: "batch", 2: "frames"}),
-        },
-        ("prediction",),
-    )
+    condition, unet = traced_unet(symbolic_unet(loaded.unet))
     decoder = traced(
         DecoderGraph(symbolic(loaded.decoder)),
         {
-            "rows": (torch.randn(2, frames, CHANNELS), {0: "batch", 1: "frames"}),
+            "rows": (torch.randn(2, EXAMPLE_FRAMES, CHANNELS), {0: "batch", 1: "frames"}),
             "start": (torch.rand(2), {0: "batch"}),
         },
         ("trajectory", "phase"),
@@ -107,7 +176,7 @@ def export_audio(model: str | Path, folder: str | Path) -> AudioOnnxCard:
         source,
         folder,
         FILES,
-        {UNET_GRAPH: unet, DECODER_GRAPH: decoder},
+        dict(zip(AUDIO_GRAPHS, (condition, unet, decoder), strict=True)),
         AudioOnnxCard,
         loaded.card,
         process=process_info(loaded.diffusion, loaded.config.guidance_scale),

@@ -184,6 +184,11 @@ class TextToMotion:
         self._encoded: dict[tuple[str, ...], TextFeatures] = {}
         self._told: set[str] = set()  # prompts whose warning the caller has
 
+    @property
+    def runtime(self) -> str:
+        """What computes: torch or onnx."""
+        return "torch" if hasattr(self.denoiser, "state_dict") else "onnx"
+
     def with_denoiser(self, denoiser: "MotionDenoiser", **changed: Any) -> "TextToMotion":
         """The same with another denoiser, and with other arguments of the class."""
         names = ("text", "tokenizer", "mean", "std", "card", "scope", "style_map")
