@@ -127,12 +127,13 @@ class MotionGenerator:
         """The audio model, with its memory."""
         from ..memory.figures import is_figure_memory
         from .song import SongGenerator
-        from .song_memory import SongMemory
 
         model: SongGenerator[Any] | str | Path = self._audio
         if not isinstance(model, SongGenerator):
             memory = None
             if self._memory is not None and not is_figure_memory(self._memory):
+                from .song_memory import SongMemory
+
                 memory = SongMemory.open(self._memory)
             remembers = memory is not None and self._runtime == "auto"
             runtime = "torch" if remembers else self._runtime  # an export hears no memory

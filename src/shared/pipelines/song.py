@@ -6,7 +6,7 @@ Letters: T frames, M beats.
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Generic, Self, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
 
 import numpy as np
 import torch
@@ -27,8 +27,10 @@ from ..motion.style import named_style, only_style_words
 from ..motion.trajectory import FPS, MotionTrajectory, unwrap_phase
 from .ranking import AudioJudge, ScoreTable, unranked
 from .runtime import Runtime, load_runtime
-from .song_memory import SongMemory, require_memory
 from .song_sampler import Progress, SongSampler, SongSampling
+
+if TYPE_CHECKING:
+    from .song_memory import SongMemory
 
 STYLE_MODEL = "starter"  # reads a style that is a sentence
 ModelT = TypeVar("ModelT", bound=Runtime)
@@ -103,9 +105,11 @@ class SongGenerator(Generic[ModelT]):
         *,
         device: str | None = None,
         bands: Bands | None = None,
-        memory: SongMemory | None = None,
+        memory: "SongMemory | None" = None,
     ) -> None:
         if memory is not None:
+            from .song_memory import require_memory
+
             require_memory(model.config, "this model")
         if isinstance(model, AudioMotionModel):
             model.to(choose_device(device or "auto")[0]).eval()
@@ -120,7 +124,7 @@ class SongGenerator(Generic[ModelT]):
         *,
         device: str | None = None,
         runtime: str = "torch",
-        memory: SongMemory | None = None,
+        memory: "SongMemory | None" = None,
     ) -> "SongGenerator[Any]":
         """By the name of shipped weights, or a folder that training or `export-onnx` wrote.
 
