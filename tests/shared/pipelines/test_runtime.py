@@ -57,6 +57,17 @@ def test_generator_and_runtime_load_alike(tmp_path: Path) -> None:
     assert isinstance(loaded, AudioMotionModel) and is_fast(loaded)
 
 
+def test_what_ships_is_sampled_by_onnxruntime_unless_another_decoder_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("onnxruntime")
+    assert SongGenerator.from_pretrained("starter-audio", runtime="auto").runtime == "onnx"
+    saved(tmp_path, trained=True)  # has no export
+    assert SongGenerator.from_pretrained(tmp_path, device="cpu", runtime="auto").runtime == "torch"
+    monkeypatch.setenv("MOTIONGEN_DECODER_CHECKPOINT", "starter-audio")
+    assert SongGenerator.from_pretrained("starter-audio", runtime="auto").runtime == "torch"
+
+
 def test_untrained_models_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     model = saved(tmp_path, trained=False)
     with pytest.raises(UserError, match="untrained"):
