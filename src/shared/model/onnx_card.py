@@ -84,8 +84,8 @@ class OnnxCard(Config):
         process: the diffusion.
     """
 
-    format_version: int
     kind: str
+    format_version: int
     name: str = ""
     description: str = ""
     licence: str = ""

@@ -135,10 +135,8 @@ class MotionGenerator:
                 from .song_memory import SongMemory
 
                 memory = SongMemory.open(self._memory)
-            remembers = memory is not None and self._runtime == "auto"
-            runtime = "torch" if remembers else self._runtime  # an export hears no memory
             model = SongGenerator.from_pretrained(
-                model, device=self._device, runtime=runtime, memory=memory
+                model, device=self._device, runtime=self._runtime, memory=memory
             )
         if self._path:
             model.post_processing = _changed(model.post_processing, self._path)

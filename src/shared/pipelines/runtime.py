@@ -3,6 +3,7 @@
 Letters: B samples, T frames.
 """
 
+import logging
 from pathlib import Path
 from typing import Any, Protocol, Self
 
@@ -18,16 +19,19 @@ from ..model.audio.audio_motion_model import AudioMotionModel, load_decoder
 from ..model.audio.conditioning import MemoryCondition, with_phase_rows
 from ..model.audio.decoder import Decoded
 from ..model.audio.unet import sampling_copy
-from ..model.checkpoint import resolve_model
+from ..model.checkpoint import read_card, resolve_model
 from ..model.diffusion import GaussianDiffusion, ModelFn, guided
 from ..model.onnx_card import (
     AUDIO_GRAPHS,
+    AUDIO_KIND,
     AudioOnnxCard,
     chosen_runtime,
     open_graph,
     read_onnx_card,
     run,
 )
+
+log = logging.getLogger(__name__)
 
 
 class Runtime(Protocol):
@@ -62,8 +66,8 @@ def load_runtime(name: str, model: str | Path, device: str = "auto") -> Runtime:
     """A trained model under a runtime.
 
     Args:
-        name: torch, onnx, or auto, see `chosen_runtime`; auto is torch, too, where
-            MOTIONGEN_DECODER_CHECKPOINT names another decoder, which an export has not.
+        name: torch, onnx, or auto: onnx where the device is a CPU, onnxruntime is installed and the
+            folder holds an export that fits, unless MOTIONGEN_DECODER_CHECKPOINT names a decoder.
         model: see `load_trained`; for onnx, a folder of `export-onnx`.
         device: auto, cuda, mps or cpu; onnx computes on the CPU.
 
@@ -71,13 +75,27 @@ def load_runtime(name: str, model: str | Path, device: str = "auto") -> Runtime:
         UserError: no such model, damaged, never trained, or a package is missing.
     """
     if name == "auto":
-        other = variable(DECODER_CHECKPOINT)
-        name = "torch" if other else chosen_runtime(name, model, device)
+        name = _chosen(model, device)
     if name == "torch":
         return load_trained(model, device)
     loaded = OnnxRuntime.from_folder(model)
     _require_training(loaded.card.trained, model)
     return loaded
+
+
+def _chosen(model: str | Path, device: str) -> str:
+    """What samples where nobody says: onnx needs an export that fits, of this kind."""
+    if variable(DECODER_CHECKPOINT) or chosen_runtime("auto", model, device) == "torch":
+        return "torch"
+    folder = resolve_model(model)
+    if read_card(folder).kind != AUDIO_KIND:
+        return "torch"  # which says so
+    try:
+        read_onnx_card(folder, AudioOnnxCard)
+    except UserError as error:
+        log.warning("%s; PyTorch samples until then", error)
+        return "torch"
+    return "onnx"
 
 
 def load_trained(model: str | Path, device: str = "auto") -> AudioMotionModel:
@@ -113,7 +131,7 @@ class OnnxRuntime:
 
     Args:
         card: of the export.
-        condition, unet, decoder: its sessions; anything with onnxruntime's `run`.
+        condition, unet, decoder: its sessions; anything with onnxruntime's `run` and `get_outputs`.
     """
 
     def __init__(self, card: AudioOnnxCard, condition: Any, unet: Any, decoder: Any) -> None:

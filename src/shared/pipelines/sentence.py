@@ -163,7 +163,7 @@ def _is_time(text: str, word: re.Match[str], right: str, read: Read) -> bool:
     """Whether "before" or "after" says when; a noun behind it may be a place or a thing."""
     if all_words().noun.match(text, word.start()) is None:
         return True
-    noun = read(_measured(_trimmed(all_words().joint.split(right, maxsplit=1)[0])).text)
+    noun = read(_measured(_trimmed(all_words().stop.split(right, maxsplit=1)[0])).text)
     return noun.action is None or noun.certainty > SURE
 
 
@@ -193,20 +193,25 @@ def _around(left: str, right: str, read: Read) -> tuple[str, str]:
 
 def _joined(text: str, read: Read) -> list[str]:
     """The text parted at stops and "and" into as many parts as tell of actions of their own; what
-    does not, stays with what stands beside it."""
+    does not, stays with what stands beside it, but for what is denied at the head ("don't run, …").
+    """
+    denial = all_words().denial.match(text)
+    if denial and text[denial.end() :].strip(EDGES):
+        text = text[denial.end() :]
     borders = [match.span() for match in all_words().joint.finditer(text)]
     pieces = [
         (start, stop)
         for (_, start), (stop, _) in pairwise([(0, 0), *borders, (len(text), len(text))])
         if text[start:stop].strip(EDGES)
     ]
-    asides = [_is_aside(text[start:stop]) for start, stop in pieces]
+    asides = [_is_aside(text[start:stop], first=not place)
+              for place, (start, stop) in enumerate(pieces)]  # fmt: skip
     # The best ways up to a piece, one for each action and side of their last part.
     ways: list[dict[_Last, _Way]] = [{(None, "both"): _Way()}]
     for stop in range(1, len(pieces) + 1):
         here = {last: way._replace(passed=way.passed + 1) for last, way in ways[-1].items()}
         for start in range(max(0, stop - MOST_PIECES), stop):
-            if asides[start] and (start or stop == 1):
+            if asides[start] and (start or all(asides[:stop])):
                 continue  # stays with what stands before it, or else behind it
             part = _trimmed(text[pieces[start][0] : pieces[stop - 1][1]])
             reading, side = read(_measured(part).text), side_of(part)
@@ -224,10 +229,11 @@ def _joined(text: str, read: Read) -> list[str]:
     return list(best) if len(best) > 1 else [text]
 
 
-def _is_aside(piece: str) -> bool:
-    """Whether a piece names nothing but limbs and sides, or says what is not done."""
+def _is_aside(piece: str, *, first: bool) -> bool:
+    """Whether a piece names nothing but limbs, sides and posture, or, behind another one, says
+    what is not done."""
     rest = all_words().aside.sub(" ", piece).strip(EDGES)
-    return not rest or bool(all_words().denied.match(rest))
+    return not rest or (not first and bool(all_words().lacking.match(rest)))
 
 
 class _Way(NamedTuple):

@@ -17,6 +17,7 @@ from ..audio.song import Song, analyse
 from ..config_audio import PostProcessConfig
 from ..data.phrases.layout import phase_rows
 from ..device import choose_device
+from ..errors import UserError
 from ..metrics.sanity import Bands
 from ..model.audio.audio_motion_model import AudioMotionModel
 from ..model.audio.conditioning import BEAT, CHROMA, CONDITION_ROWS, ENERGY, FEATURE_ROWS
@@ -128,10 +129,20 @@ class SongGenerator(Generic[ModelT]):
     ) -> "SongGenerator[Any]":
         """By the name of shipped weights, or a folder that training or `export-onnx` wrote.
 
+        Args:
+            name_or_folder: as of `resolve_model`.
+            device: auto, cuda, mps or cpu.
+            runtime: see `load_runtime`; auto is torch with a memory, which no export hears.
+            memory: see the class.
+
         Raises:
             UserError: no such model, another kind, damaged, or never trained; or it hears no
                 memory and one is given.
         """
+        if memory is not None:
+            if runtime == "onnx":
+                raise UserError(f"an export of {name_or_folder} hears no memory; use runtime torch")
+            runtime = "torch"
         model: Any = load_runtime(runtime, name_or_folder, device or "auto")
         bands = shipped_bands(name_or_folder)
         return cls(model, device=device, bands=bands, memory=memory)

@@ -54,7 +54,8 @@ class Words:
         self.angles = {bare(word): float(value) for word, value in angles.items()}
         joints = all_of("and")
         self.comma = re.compile(rf"\s*{_COMMAS}\s*")
-        self.joint = re.compile(rf"{_STOPS}|{_any(joints)}|{_any(all_of('next'))}", re.I)
+        self.stop = re.compile(rf"{_STOPS}|{_any(joints)}", re.I)
+        self.joint = re.compile(rf"{self.stop.pattern}|{_any(all_of('next'))}", re.I)
         then = rf"(?:{_any(all_of('then'))}|{_ARROWS})"
         self.then = re.compile(rf"{_STOPS}?\s*{then}{_COMMAS}?", re.I)
         self.earlier = re.compile(_any(all_of("earlier")) + _COMMAS + "?", re.I)
@@ -70,11 +71,13 @@ class Words:
         self.closing = re.compile(rf"\s*{_STOPS}\s*{_any(all_of('closings'))}\W*$", re.I)
         cut = "|".join(re.escape(word[:-1]) for word in all_of("short"))
         self.short = re.compile(rf"(?<!{_SIGN})(?:{cut})\.(?=\s+{_any(all_of('limbs'))})", re.I)
-        nouns = rf"{_any(all_of('prepositions'))}\s+{_any(all_of('own'))}"
+        nouns = rf"{_any(all_of('prepositions'))}\s*{_any(all_of('own'))}"
         self.noun = re.compile(rf"{_COMMAS}?\s*{nouns}", re.I)
         owned = [*all_of("own"), *all_of("left"), *all_of("right")]
         self.aside = re.compile(_any([*owned, *all_of("limbs"), *all_of("aside")]), re.I)
-        self.denied = re.compile(_any(all_of("denied")), re.I)
+        self.lacking = re.compile(_any(all_of("lacking")), re.I)
+        denial = rf"\s*{_any(all_of('denied'))}.*?(?:{_STOPS}|{_any(all_of('but'))})"
+        self.denial = re.compile(rf"(?:{denial})+", re.I)
         own = _any(owned)
         limbs = rf"(?:{own}\s*)*{_any(all_of('limbs'))}"
         # But "coup de poing" neither names a fist nor is it a gerund.

@@ -114,7 +114,7 @@ export class SentenceReader {
   /** Whether "before" or "after" says when; a noun behind it may be a place or a thing. */
   isTime(text, start, right) {
     if (!this.head.noun.test(text.slice(start))) return true;
-    const { action, certainty } = this.reading(this.trimmed(right.split(this.first.joint)[0]));
+    const { action, certainty } = this.reading(this.trimmed(right.split(this.first.stop)[0]));
     return action === null || certainty > SURE;
   }
 
@@ -136,17 +136,19 @@ export class SentenceReader {
   }
 
   joined(text) {
+    const denial = this.head.denial.exec(text)?.[0].length ?? 0;
+    if (strip(text.slice(denial))) text = text.slice(denial);
     const borders = [[0, 0], ...spans(text, this.each.joint), [text.length, text.length]];
     const pieces = borders.slice(1)
       .map(([stop], i) => [borders[i][1], stop])
       .filter(([start, stop]) => strip(text.slice(start, stop)));
-    const asides = pieces.map((piece) => this.isAside(text.slice(...piece)));
+    const asides = pieces.map((piece, place) => this.isAside(text.slice(...piece), !place));
     // The best ways up to a piece, one for each action and side of their last part.
     const ways = [new Map([["", { parts: [], passed: 0, certainty: 0, action: null, side: "both" }]])];
     for (let stop = 1; stop <= pieces.length; stop++) {
       const here = new Map([...ways[stop - 1]].map(([last, way]) => [last, { ...way, passed: way.passed + 1 }]));
       for (let start = Math.max(0, stop - MOST_PIECES); start < stop; start++) {
-        if (asides[start] && (start || stop === 1)) continue; // stays with what stands before it, or else behind it
+        if (asides[start] && (start || asides.slice(0, stop).every(Boolean))) continue; // stays with what stands before it, or else behind it
         const part = this.trimmed(text.slice(pieces[start][0], pieces[stop - 1][1]));
         const { action, certainty } = this.reading(part), side = this.sideOf(part), last = `${action} ${side}`;
         const before = [...ways[start].values()].filter((way) => way.action !== action || opposite(way.side, side));
@@ -161,10 +163,10 @@ export class SentenceReader {
     return parts.length > 1 ? parts : [text];
   }
 
-  /** Whether a piece names nothing but limbs and sides, or says what is not done. */
-  isAside(piece) {
+  /** Whether a piece names nothing but limbs, sides and posture, or, behind another one, says what is not done. */
+  isAside(piece, first) {
     const rest = strip(piece.replace(this.each.aside, " "));
-    return !rest || this.head.denied.test(rest);
+    return !rest || (!first && this.head.lacking.test(rest));
   }
 
   /** The halves of a text that tell most surely of two actions, null where none do. */

@@ -47,6 +47,15 @@ TWO = [
     ("ジャンプの後に拍手する", ["ジャンプの", "拍手する"]),
     ("先に手を振って、次に走る", ["手を振って", "走る"]),
     ("先鞠躬再挥手", ["鞠躬", "挥手"]),
+    ("after the last jump, he bows", ["the last jump", "he bows"]),
+    ("he bows after the second kick", ["the second kick", "he bows"]),
+    ("she claps after the next jump", ["the next jump", "she claps"]),
+    ("don't run but walk and wave", ["walk", "wave"]),
+    ("without a word he bows and waves", ["without a word he bows", "waves"]),
+    ("别跑，走，挥手", ["走", "挥手"]),
+    ("not running, no jumping, walk and wave", ["walk", "wave"]),
+    ("standing, he waves and bows", ["standing", "he waves", "bows"]),
+    ("不紧不慢地走，挥手", ["不紧不慢地走", "挥手"]),
 ]  # fmt: skip
 
 ONE = [
@@ -102,6 +111,15 @@ ONE = [
     "先生鞠躬",
     "慢慢走，不要跑",
     "往前走，不停地挥手",
+    "right hand, left hand, wave",
+]
+
+DENIED = [
+    ("don't run, walk", "walk"),
+    ("no walking, just running", "run"),
+    ("no corras, camina", "walk"),
+    ("nicht rennen, sondern springen", "jump"),
+    ("不要跑，走", "walk"),
 ]
 
 
@@ -120,3 +138,10 @@ def test_two_clauses_are_parted_in_order(
 @pytest.mark.parametrize("sentence", ONE)
 def test_a_single_sentence_stays_whole(sentence: str, sentences: SentenceGenerator):
     assert len(sentences.clauses(sentence)) == 1
+
+
+@pytest.mark.parametrize(("sentence", "action"), DENIED)
+def test_what_is_denied_is_not_asked_for(sentence: str, action: str, sentences: SentenceGenerator):
+    (clause,) = sentences.clauses(sentence)
+    found = sentences.generator.read(clause.text)
+    assert found is not None and found.nearest[0] == action

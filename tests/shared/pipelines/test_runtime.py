@@ -1,6 +1,7 @@
 """Models are loaded for sampling: trained ones only, and on a CPU in their faster form."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -66,6 +67,26 @@ def test_what_ships_is_sampled_by_onnxruntime_unless_another_decoder_is_named(
     assert SongGenerator.from_pretrained(tmp_path, device="cpu", runtime="auto").runtime == "torch"
     monkeypatch.setenv("MOTIONGEN_DECODER_CHECKPOINT", "starter-audio")
     assert SongGenerator.from_pretrained("starter-audio", runtime="auto").runtime == "torch"
+
+
+def test_an_export_that_does_not_fit_is_told_and_torch_samples(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    pytest.importorskip("onnxruntime")
+    saved(tmp_path, trained=True)
+    (tmp_path / "onnx.json").write_text('{"kind": "audio-motion", "format-version": 2}')
+    assert isinstance(load_runtime("auto", tmp_path, "cpu"), AudioMotionModel)
+    assert "export the model again; PyTorch samples until then" in caplog.text
+    with pytest.raises(UserError, match="export the model again"):
+        load_runtime("onnx", tmp_path, "cpu")
+    with pytest.raises(UserError, match="holds a motion-generator, not an audio-motion"):
+        load_runtime("auto", "starter", "cpu")
+
+
+def test_an_export_hears_no_memory(tmp_path: Path) -> None:
+    memory: Any = object()
+    with pytest.raises(UserError, match="hears no memory"):
+        SongGenerator.from_pretrained("starter-audio", runtime="onnx", memory=memory)
 
 
 def test_untrained_models_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
