@@ -148,9 +148,10 @@ def test_an_interrupted_run_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPa
         assert (tmp_path / "out" / name).read_bytes() == (tmp_path / "whole" / name).read_bytes()
 
 
-def test_workers_do_not_change_the_result(tmp_path: Path) -> None:
-    prepare([SyntheticSource(260)], tmp_path / "one", workers=1)
-    prepare([SyntheticSource(260)], tmp_path / "two", workers=2)
+def test_workers_do_not_change_the_result(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(prepare_module, "CLIPS_PER_SHARD", 4)
+    prepare([SyntheticSource(10)], tmp_path / "one", workers=1)
+    prepare([SyntheticSource(10)], tmp_path / "two", workers=2)
     one, two = (json.loads((tmp_path / n / "manifest.json").read_text()) for n in ("one", "two"))
     assert one == two and len(one["files"]) == 6
 
@@ -158,9 +159,9 @@ def test_workers_do_not_change_the_result(tmp_path: Path) -> None:
 def test_a_cluster_and_a_killed_worker_do_not_change_the_result(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, scheduler: str
 ) -> None:
-    monkeypatch.setattr(prepare_module, "CLIPS_PER_SHARD", 8)
+    monkeypatch.setattr(prepare_module, "CLIPS_PER_SHARD", 3)
     died = tmp_path / "died"
-    source = DeadlySource(60, deadly="synthetic-00021", died=died)
+    source = DeadlySource(24, deadly="synthetic-00010", died=died)
     prepare([source], tmp_path / "cluster", scheduler=scheduler)
     assert died.exists()
     prepare([source], tmp_path / "one", workers=1)
@@ -168,22 +169,25 @@ def test_a_cluster_and_a_killed_worker_do_not_change_the_result(
     assert cluster == one and len(one) == 5 + 2 * 8
 
 
-def test_a_bucket_holds_what_a_folder_does(tmp_path: Path, bucket: str) -> None:
+def test_a_bucket_holds_what_a_folder_does(
+    tmp_path: Path, bucket: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Read from a bucket and written to one, by two processes; then by one into a folder."""
+    monkeypatch.setattr(prepare_module, "CLIPS_PER_SHARD", 8)
     root = bvh_folder(tmp_path / "in")
     (root / "broken.bvh").write_text("HIERARCHY\nROOT x\n{")
     for path in root.iterdir():
         (place(bucket) / "in" / path.name).write_bytes(path.read_bytes())
     table = [root / "captions.csv"]
-    sources = [MotionFolder.open(place(f"{bucket}/in"), captions=table), SyntheticSource(140)]
+    sources = [MotionFolder.open(place(f"{bucket}/in"), captions=table), SyntheticSource(6)]
     out = place(f"{bucket}/out")
-    assert prepare(sources, out, workers=2)["clips"] == 146
+    assert prepare(sources, out, workers=2)["clips"] == 12
     prepare(sources, tmp_path / "out", workers=1)
     stored = {path.url.removeprefix(f"{out}/"): path.read_bytes() for path in out.iterdir()}
     assert stored == files_of(tmp_path / "out")
     assert f"{bucket}/in/broken.bvh" in json.loads(stored["report.json"])["skipped"][0]["reason"]
     data = PreparedData.open(out)
-    assert len(data.records()) == 2 * 146
+    assert len(data.records()) == 2 * 12
     assert torch.equal(
         data.features(data.records()[7]),
         PreparedData.open(tmp_path / "out").features(data.records()[7]),
@@ -193,8 +197,10 @@ def test_a_bucket_holds_what_a_folder_does(tmp_path: Path, bucket: str) -> None:
 def test_a_bucket_is_prepared_once(
     tmp_path: Path, bucket: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(prepare_module, "CLIPS_PER_SHARD", 8)
     source, out = SyntheticSource(6), place(f"{bucket}/out")
-    prepare([SyntheticSource(200)], out, workers=1)
+    prepare([SyntheticSource(10)], out, workers=1)
+    assert (out / "shards" / "00001.json").exists()
     prepare([source], out, workers=1)
     assert not (out / "shards" / "00001.json").exists(), "of the larger run"
     monkeypatch.setattr(prepare_module, "_make_shard", lambda job: pytest.fail("made again"))

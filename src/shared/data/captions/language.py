@@ -2,7 +2,6 @@
 
 import random
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
 from typing import Any
@@ -100,6 +99,7 @@ class CaptionLanguage:
             for name, action in content.actions.items()
         }
         self._plan = lru_cache(maxsize=4096)(self._make_plan)
+        self._wordings = lru_cache(maxsize=4096)(self._make_wordings)
         self._verb = cache(content.verb)
         self._sentences = self._whole_sentences()
 
@@ -121,8 +121,9 @@ class CaptionLanguage:
             if len(found) >= num:
                 break
             text = self._write(labels, plan, rng)
-            if normalised(text) not in requested(self.code):
-                found.setdefault(normalised(text), text)
+            said = normalised(text)
+            if said not in requested(self.code):
+                found.setdefault(said, text)
         return list(found.values())
 
     def sentences(self, labels: Labels) -> list[str]:
@@ -186,9 +187,10 @@ class CaptionLanguage:
         stated = frozenset(
             label for label in labels if label != "action" and self._says(name, label, labels)
         )
-        scored = list(self._wordings(name, labels, stated))
-        fewest = min(missing for _, missing in scored)
-        return tuple(wording for wording, missing in scored if missing == fewest)
+        worded = frozenset(slot for slot in self._slots[name] if self._entries(name, slot, labels))
+        phrases = self.content.actions[name].phrases
+        allowed = tuple(n for n, phrase in enumerate(phrases) if _allowed(phrase, labels))
+        return self._wordings(name, stated, worded, allowed or tuple(range(len(phrases))))
 
     def _says(self, action: str, label: str, labels: Labels) -> bool:
         """Whether any slot of this label has words for its value."""
@@ -206,45 +208,61 @@ class CaptionLanguage:
             return []
         return table.get(str(value)) or table.get(OTHER) or []
 
-    def _wordings(
-        self, action: str, labels: Labels, stated: frozenset[str]
-    ) -> Iterator[tuple[Wording, int]]:
+    def _make_wordings(
+        self,
+        action: str,
+        stated: frozenset[str],
+        worded: frozenset[str],
+        allowed: tuple[int, ...],
+    ) -> tuple[Wording, ...]:
+        """The fullest wordings; they depend on which slots have words, and not on the words."""
         table = self._slots[action]
-        worded = {name for name in table if self._entries(action, name, labels)}
-        phrases = self.content.actions[action].phrases
-        phrases = [phrase for phrase in phrases if _allowed(phrase, labels)] or phrases
+        phrases = [self.content.actions[action].phrases[number] for number in allowed]
 
         @cache  # many frames differ in their subject alone
-        def pairs_for(form: str, framed: frozenset[str]) -> dict[int, list[Pair]]:
-            by_missing: dict[int, list[Pair]] = {}
+        def pairs_for(form: str, framed: frozenset[str]) -> tuple[int, tuple[Pair, ...]] | None:
+            """How many labels the fullest pairs leave out, and the pairs."""
+            found: list[tuple[Sequence, list[Sequence], list[int | None], int]] = []
             for phrase in phrases:
                 if phrase.forms is not None and form not in phrase.forms:
                     continue
                 said = _labels(framed).union(phrase.when)
-                ends = [(_slots(rest) - said, _sparing(rest, said)) for rest in phrase.rest]
+                ends = [_sparing(rest, said) for rest in phrase.rest]
+                slots = [_slots(rest) - said for rest in phrase.rest]
                 lacking: dict[frozenset[str], list[int | None]] = {}  # most verbs have no slots
                 for words in (self._verb(verb, form) for verb in phrase.verbs):
                     if words == "-":
                         continue
-                    own, start = _slots(words), parse(words)
+                    own = _slots(words)
                     if own not in lacking:
                         lacking[own] = [
-                            _missing((framed, own, slots), phrase, stated, worded)
-                            for slots, _ in ends
+                            _missing((framed, own, each), phrase, stated, worded) for each in slots
                         ]
-                    for missing, (_, end) in zip(lacking[own], ends, strict=True):
-                        if missing is not None:
-                            fitting = by_missing.setdefault(missing, [])
-                            fitting += [(start, end)] * phrase.weight
-            return by_missing
+                    found.append((parse(words), ends, lacking[own], phrase.weight))
+            counts = {missing for *_, row, _ in found for missing in row if missing is not None}
+            if not counts:
+                return None
+            fewest = min(counts)
+            pairs: list[Pair] = []
+            for start, ends, row, weight in found:
+                for end, missing in zip(ends, row, strict=True):
+                    if missing == fewest:
+                        pairs += [(start, end)] * weight
+            return fewest, tuple(pairs)
 
-        for frame in self.content.frames:
-            for template in frame.text:
-                pairs = pairs_for(frame.form, _slots(template).intersection(table))
-                for missing, fitting in pairs.items():
-                    wording = Wording(frame, parse(template), tuple(fitting))
-                    for _ in range(frame.weight):
-                        yield wording, missing
+        scored = [
+            (frame, template, pairs)
+            for frame in self.content.frames
+            for template in frame.text
+            if (pairs := pairs_for(frame.form, _slots(template).intersection(table)))
+        ]
+        fewest = min(missing for *_, (missing, _) in scored)
+        return tuple(
+            wording
+            for frame, template, (missing, pairs) in scored
+            if missing == fewest
+            for wording in [Wording(frame, parse(template), pairs)] * frame.weight
+        )
 
     # -------------------------------------------------------------- writing
 
@@ -332,7 +350,10 @@ def _values(values: Any) -> list[str]:
 
 
 def _missing(
-    parts: tuple[frozenset[str], ...], phrase: Phrase, stated: frozenset[str], worded: set[str]
+    parts: tuple[frozenset[str], ...],
+    phrase: Phrase,
+    stated: frozenset[str],
+    worded: frozenset[str],
 ) -> int | None:
     """How many labels a wording with these slots leaves out; None if it would say one twice.
 

@@ -122,7 +122,7 @@ def tidy(text: str, spaces: bool) -> str:
 def normalised(text: str) -> str:
     """Letters and digits only, in small letters: what makes two captions the same."""
     folded = unicodedata.normalize("NFKC", text).casefold()
-    return "".join(character for character in folded if character.isalnum())
+    return "".join(filter(str.isalnum, folded))
 
 
 OTHER = "other"  # the key that stands for every action or value without an entry of its own
