@@ -23,7 +23,7 @@ from ..errors import UserError
 from ..io.arrays import BadArray, load_arrays, write_arrays
 from ..io.files import load_json, write_json
 from ..io.storage import Place, place
-from ..metrics.rhythm import body_beats, landings, motion_beats, rhythm
+from ..metrics.rhythm import body_beats, landings, motion_beats, rhythm_f
 from ..metrics.stage import HOVER_SECONDS, aloft, sliding, torn
 from ..motion.features import (
     HEIGHT,
@@ -344,7 +344,7 @@ class FigureMemory:
         for which, counts in zip(take, times, strict=True):
             start, stop = float(counts[0]), float(counts[-1])
             own = self._beats[which] + self.offsets[which] / FPS - start
-            found.append(rhythm(own, counts[::every] - start, stop - start).f)
+            found.append(rhythm_f(own, counts[::every] - start, stop - start))
         return np.array(found)
 
     @staticmethod

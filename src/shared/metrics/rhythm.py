@@ -241,16 +241,29 @@ def rhythm(motion: np.ndarray, music: np.ndarray, seconds: float) -> Rhythm:
     if not (np.isfinite(motion).all() and np.isfinite(music).all()):
         raise ValueError("beat times hold NaN or infinity")
     made, heard = _inside(motion, seconds), _inside(music, seconds)
-    forth = beat_alignment(made, music) if len(made) else 0.0
-    back = beat_alignment(heard, motion) if len(heard) else 0.0
+    forth, back, f = _both_ways(made, heard, motion, music)
     near = len(made) and len(music)
     return Rhythm(
         motion_to_music=forth,
         music_to_motion=back,
-        f=2 * forth * back / (forth + back) if forth + back else 0.0,
+        f=f,
         hits=hit_f_measure(heard, made),
         distance=float(np.median(distances(made, music))) if near else float("nan"),
     )
+
+
+def rhythm_f(motion: np.ndarray, music: np.ndarray, seconds: float) -> float:
+    """The F of `rhythm` alone, of times that are finite."""
+    return _both_ways(_inside(motion, seconds), _inside(music, seconds), motion, music)[-1]
+
+
+def _both_ways(
+    made: np.ndarray, heard: np.ndarray, motion: np.ndarray, music: np.ndarray
+) -> tuple[float, float, float]:
+    """Motion to music, music to motion, and F of both."""
+    forth = beat_alignment(made, music) if len(made) else 0.0
+    back = beat_alignment(heard, motion) if len(heard) else 0.0
+    return forth, back, 2 * forth * back / (forth + back) if forth + back else 0.0
 
 
 def hit_f_measure(reference: np.ndarray, estimate: np.ndarray) -> float:

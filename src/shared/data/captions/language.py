@@ -101,7 +101,6 @@ class CaptionLanguage:
         self._plan = lru_cache(maxsize=4096)(self._make_plan)
         self._wordings = lru_cache(maxsize=4096)(self._make_wordings)
         self._verb = cache(content.verb)
-        self._sentences = self._whole_sentences()
 
     # -------------------------------------------------------------- what callers ask for
 
@@ -310,7 +309,8 @@ class CaptionLanguage:
             result[name] = full
         return result
 
-    def _whole_sentences(self) -> Sentences:
+    @cached_property
+    def _sentences(self) -> Sentences:
         """The file's sentences by their labels, and their mirror images."""
         found: Sentences = {}
         for entry in self.content.sentences:

@@ -16,6 +16,7 @@ from src.shared.evaluation.evaluator import Evaluator
 from src.shared.evaluation.pages import save_report
 from src.shared.evaluation.samples import HeldOut
 from src.shared.evaluation.suites.dance import (
+    PROMPTS,
     DanceContext,
     DanceSettings,
     evaluate_performer,
@@ -32,8 +33,9 @@ from tests.shared.evaluation.tiny_pairs import tiny_model, write_pairs
 from tests.shared.model.conftest import tiny_generator
 
 SETTINGS = DanceSettings(
-    num_songs=2, song_seconds=6.0, replications=1, style_songs=1, edits=2, worst=1
-)
+    num_songs=2, song_seconds=6.0, replications=1, prompts=PROMPTS[:3], style_songs=1, edits=2,
+    worst=1,
+)  # fmt: skip
 
 
 def pairs_with_bodies(root: Path) -> str:
