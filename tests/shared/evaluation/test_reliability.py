@@ -12,6 +12,7 @@ from src.shared.data.prepared import PreparedData
 from src.shared.data.sources import SyntheticSource
 from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.evaluation.actions import (
+    ActionJudge,
     action_reliability,
     descriptor,
     examples,
@@ -72,9 +73,7 @@ def test_a_wave_that_comes_to_rest_in_time_is_no_raised_arm(data: PreparedData) 
     frames = 75
     train = [r for r in data.records("train") if r.tag in ("wave", "raise")]
     records, motions = examples(data, train, frames)
-    judge = recognizer_of(data).judge.fit(
-        np.stack([*map(descriptor, motions)]), [r.tag for r in records]
-    )
+    judge = ActionJudge.fit(np.stack([*map(descriptor, motions)]), [r.tag for r in records])
     long = [r for r in data.records("train") if r.tag == "wave" and r.num_frames > frames]
     whole = [rested(data.features(record), frames) for record in long]
     waves = [decode_features(values) for values in whole if values is not None]
