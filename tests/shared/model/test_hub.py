@@ -9,7 +9,9 @@ from pathlib import Path
 
 import pytest
 from huggingface_hub import ModelCard
+from typer.testing import CliRunner
 
+from src.cli.tools import app
 from src.shared.errors import UsageError, UserError
 from src.shared.model.checkpoint import PRETRAINED, resolve_model
 from src.shared.model.hub import TASKS, hub_name, model_files, parsed, render_card
@@ -177,9 +179,20 @@ def test_what_is_not_there_or_not_ours_to_see_is_told(
     )
     failed(tools("models", "push", model, REPO, "--licence", "mit", HF_TOKEN="x"), 1, "refused")
     failed(tools("models", "push", model, REPO, "--licence", "no-such"), 1, "license", "refused")
-    failed(tools("models", "push", model, REPO), 2, "--licence")
-    failed(tools("models", "push", model, "walks", "--licence", "mit"), 2, "'walks'", "user/model")
-    failed(tools("models", "pull", "lab/a--b"), 2, "'lab/a--b'")
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (("push", "MODEL", REPO), ("--licence",)),
+        (("push", "MODEL", "walks", "--licence", "mit"), ("'walks'", "user/model")),
+        (("pull", "lab/a--b"), ("'lab/a--b'",)),
+    ],
+)
+def test_wrong_usage(model: Path, words: tuple[str, ...], named: tuple[str, ...]):
+    given = [str(model) if word == "MODEL" else word for word in words]
+    result = CliRunner().invoke(app, ["models", *given])
+    failed(Done(given, result.exit_code, result.stdout, result.stderr), 2, *named)
 
 
 def test_names_that_are_paths_stay_paths(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
