@@ -195,9 +195,10 @@ def _joined(text: str, read: Read) -> list[str]:
     """The text parted at stops and "and" into as many parts as tell of actions of their own; what
     does not, stays with what stands beside it, but for what is denied at the head ("don't run, …").
     """
-    denial = all_words().denial.match(text)
-    if denial and text[denial.end() :].strip(EDGES):
-        text = text[denial.end() :]
+    if denial := all_words().denial.match(text):
+        rest = _trimmed(text[denial.end() :])
+        if read(_measured(rest).text).certainty > SURE:  # not in "don't move, please"
+            text = rest
     borders = [match.span() for match in all_words().joint.finditer(text)]
     pieces = [
         (start, stop)

@@ -136,8 +136,8 @@ export class SentenceReader {
   }
 
   joined(text) {
-    const denial = this.head.denial.exec(text)?.[0].length ?? 0;
-    if (strip(text.slice(denial))) text = text.slice(denial);
+    const denial = this.head.denial.exec(text), rest = denial && this.trimmed(text.slice(denial[0].length));
+    if (denial && this.reading(rest).certainty > SURE) text = rest; // not in "don't move, please"
     const borders = [[0, 0], ...spans(text, this.each.joint), [text.length, text.length]];
     const pieces = borders.slice(1)
       .map(([stop], i) => [borders[i][1], stop])

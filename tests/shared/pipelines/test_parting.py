@@ -120,6 +120,8 @@ DENIED = [
     ("no corras, camina", "walk"),
     ("nicht rennen, sondern springen", "jump"),
     ("不要跑，走", "walk"),
+    ("don't move, please", "stand"),
+    ("don't move, stand still", "stand"),
 ]
 
 
