@@ -77,9 +77,9 @@ def share_right(task: TextTask) -> float:
 def test_a_frozen_encoder_reads_each_caption_once_and_the_rest_learns(
     prepared: Path, tmp_path: Path, network: NetworkConfig, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    first = ["steps=200", "learning-rate=0.01", "encoder-learning-rate=0", "ema-decay=0.9"]
+    first = ["steps=400", "learning-rate=0.01", "encoder-learning-rate=0", "ema-decay=0.9"]
     task = learn(prepared, tmp_path / "text", network, *first)
-    assert share_right(task) > 5 / len(task.groups)  # of a random encoder's means
+    assert share_right(task) > 10 / len(task.groups)  # of a random encoder's means
     read = [texts for group in task.fresh + task.sentences for texts in group.values()]
     assert any(task.sentences) and len(task.means) == 2 * sum(map(len, read))
     assert (tmp_path / "text" / MEANS_FILE).is_file()

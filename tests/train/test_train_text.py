@@ -1,10 +1,8 @@
 """Hardening the text tower: the space stays, the tower lands on it, denoisers go on."""
 
-import io
 import os
 import subprocess
 import sys
-from contextlib import redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -243,14 +241,14 @@ print(_without_key_words("walk, wave, jump, kick and turn", scope, np.random.def
 
 def test_made_up_words_do_not_depend_on_how_words_hash() -> None:
     """What a detector of prompts learns, and so its file, is the same in every process."""
-    said = subprocess.run(
-        [sys.executable, "-c", WITHOUT],
-        env=os.environ | {"PYTHONHASHSEED": "1"},
-        capture_output=True,
-        text=True,
-        check=True,
-    ).stdout
-    here = io.StringIO()
-    with redirect_stdout(here):
-        exec(WITHOUT, {})
-    assert said == here.getvalue() and said.strip() and "walk" not in said
+    said = [
+        subprocess.run(
+            [sys.executable, "-c", WITHOUT],
+            env=os.environ | {"PYTHONHASHSEED": seed},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for seed in ("1", "2")
+    ]
+    assert said[0] == said[1] and said[0].strip() and "walk" not in said[0]
