@@ -138,9 +138,12 @@ def measure(songs: Sequence[Values]) -> np.ndarray:
 
 
 def distance(first: np.ndarray, second: np.ndarray) -> float:
-    """Kolmogorov–Smirnov: the largest difference of the shares of two samples up to a value."""
+    """Kolmogorov–Smirnov: the largest difference of the shares of two samples up to a value; NaN
+    where a sample holds one."""
     first, second = np.sort(first), np.sort(second)
     both = np.concatenate((first, second))
+    if np.isnan(both).any():
+        return float("nan")
     one, other = (
         np.searchsorted(values, both, side="right") / len(values) for values in (first, second)
     )

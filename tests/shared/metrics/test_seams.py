@@ -118,3 +118,4 @@ def test_the_distance_is_scipys() -> None:
             first, second = rng.normal(size=size).round(1), rng.normal(shift, size=60).round(1)
             expected = ks_2samp(first, second, method="asymp").statistic
             assert distance(first, second) == expected, (size, shift)
+    assert np.isnan(distance(np.array([0.0, np.nan]), second))
