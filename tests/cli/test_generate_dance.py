@@ -92,6 +92,7 @@ def test_who_asks_for_a_path_gets_one(folder: Path, tmp_path: Path, drawn: bool)
     (row,) = told["motions"]
     assert row["root-error"]["max-metres"] < 1e-3 and row["root-error"]["max-degrees"] < 0.1
     assert (told["model"] is None) == drawn and ("path" in told["timings"]) != drawn
+    assert told["runtime"] == told["body-runtime"] == "torch"  # neither folder holds an export
     motion = read_npz(Path(row["files"]["npz"]))
     if drawn:
         np.testing.assert_allclose(motion.root_position[-1, [0, 2]], [1, 2], atol=0.05)
