@@ -299,7 +299,9 @@ def shown(parts: Sequence[dict[str, str]], motion: Motion) -> bool:
 class Generator(Protocol):
     """What is asked of a model; `SentenceGenerator` is one."""
 
-    def generate(self, prompts: Sequence[str], *, seconds: float, seed: int) -> list[Motion]: ...
+    def generate(
+        self, prompts: Sequence[str], *, seconds: float | Sequence[float], seed: int
+    ) -> list[Motion]: ...
 
 
 def recognizer_of(

@@ -80,7 +80,7 @@ def evaluate_requests(
     Raises:
         UserError: the data holds too few captured clips, or the model is untrained.
     """
-    settings = settings or RequestSettings()
+    settings, floors = settings or RequestSettings(), floors or {}
     yardstick = Yardstick(data, settings, progress)
     requests = load_requests(settings.languages)
     plain = drawn([r for r in requests if r.section == "plain"], settings.wordings, settings.seed)
@@ -94,14 +94,20 @@ def evaluate_requests(
         made, few = make([r.text for r in plain]), plain[::FLOOR_SHARE]
         still = Seen.of([frozen_pose(motion) for motion in made.motions])
         rows = {"generated": Asked(plain, made), "frozen pose": Asked(plain, still)}
-        for name, floor in (floors or {}).items():
+        for name, floor in floors.items():
             progress(f"{len(few)} of them by {name}")
             rows[name] = Asked(few, make([r.text for r in few], floor))
+        progress("those that are compared with captured clips, as long as these are")
+        makers = {"generated": (model, plain), **{n: (each, few) for n, each in floors.items()}}
+        compared = {name: _as_long(yardstick, *each) for name, each in makers.items()}
+        if alike := compared["generated"]:
+            poses = Seen.of([frozen_pose(motion) for motion in alike.seen.motions])
+            compared["frozen pose"] = Asked(alike.requests, poses)
         progress("numbers, sides, styles and compositions")
         tables = [
             _obedience(yardstick, rows),
             _by_action(yardstick, rows["generated"]),
-            _realism(yardstick, rows),
+            _realism(yardstick, rows, compared),
             _exactness(yardstick, model, requests, make),
             _warnings(yardstick, model, requests, plain, made, make),
         ]
@@ -186,7 +192,19 @@ def _by_action(yardstick: Yardstick, asked: Asked) -> Grid:
     return Grid("actions", "Plain requests by action", columns, rows, note, head="action")
 
 
-def _realism(yardstick: Yardstick, rows: dict[str, Asked]) -> Grid:
+def _as_long(yardstick: Yardstick, by: Generator, asked: Sequence[Request]) -> Asked | None:
+    """Those of the requests that captured clips answer, each as long as one of these."""
+    told = [request for request in asked if yardstick.references(request.labels)]
+    seconds = yardstick.lengths([request.labels for request in told])
+    if not told:
+        return None
+    seed = yardstick.settings.seed
+    return Asked(told, Seen.of(by.generate([r.text for r in told], seconds=seconds, seed=seed)))
+
+
+def _realism(
+    yardstick: Yardstick, rows: dict[str, Asked], compared: dict[str, Asked | None]
+) -> Grid:
     """Distances from captured clips of the same actions, and what a body shows of itself."""
     real, held, judge = yardstick.real, yardstick.records, yardstick.judge
     moving = kinetic(real)
@@ -242,7 +260,9 @@ def _realism(yardstick: Yardstick, rows: dict[str, Asked]) -> Grid:
         own = [{**record.labels, "action": record.tag} for record in records]
         found[name] = row(seen, own, distances(asked, seen, records))
     for name, each in rows.items():
-        found[name] = row(each.seen, each.labels, distances(each.labels, each.seen))
+        alike = compared.get(name)
+        apart = distances(alike.labels, alike.seen) if alike else {}
+        found[name] = row(each.seen, each.labels, apart)
     matches = yardstick.settings.min_matches
     told = sum(bool(yardstick.references(w)) for w in asked)
     columns = (
@@ -256,9 +276,10 @@ def _realism(yardstick: Yardstick, rows: dict[str, Asked]) -> Grid:
     )
     note = (
         "FD: Fréchet distance in the axes along which the judge tells captured actions apart, in"
-        " deviations within an action; FID_k: of 66 kinetic features. Each motion stands against"
-        f" one held-out clip with the labels asked for, where {matches} or more have them (N"
-        f" {told}); mean of {DRAWS} draws. The first two rows answer the same requests with a clip"
+        " deviations within an action; FID_k: of 66 kinetic features. Where"
+        f" {matches} or more held-out clips have the labels asked for (N {told}), a motion is made"
+        f" anew, as long as one of these, and stands against one of them; mean of {DRAWS} draws."
+        " The first two rows answer the same requests with a clip"
         " of another take, and with a plain one that was trained on. *nearer to procedural*: the"
         " nearest clip of the same action is one that nobody recorded. *frames beyond captured*:"
         " worst joint's acceleration above the 99.9th percentile of captured runs. *walks that"

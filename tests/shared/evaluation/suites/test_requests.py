@@ -14,7 +14,7 @@ from src.shared.data.sources import SyntheticSource
 from src.shared.data.synthetic.clips import generate_clip, label_combinations, spec_for
 from src.shared.errors import UserError
 from src.shared.evaluation.suites.requests import evaluate_requests
-from src.shared.evaluation.suites.yardstick import RequestSettings
+from src.shared.evaluation.suites.yardstick import RequestSettings, Yardstick
 from src.shared.evaluation.tables import Grid
 from src.shared.motion.motion import Motion
 
@@ -40,13 +40,18 @@ class Puppet:
     """Shows what the labels of a request say, or those of another one."""
 
     def __init__(self, *, deaf: bool = False) -> None:
+        self.lengths: set[float] = set()  # asked for, seconds
         requests = load_requests(("en",))
         self.asked = {request.text: request for request in requests}
         others = [request for request in requests if request.action in CAPTURED]
         self.other = others[:: max(1, len(others) // 7)] if deaf else []
 
-    def generate(self, prompts: Sequence[str], *, seconds: float, seed: int) -> list[Motion]:
-        return [self._motion(prompt, row, seconds) for row, prompt in enumerate(prompts)]
+    def generate(
+        self, prompts: Sequence[str], *, seconds: float | Sequence[float], seed: int
+    ) -> list[Motion]:
+        long = seconds if isinstance(seconds, Sequence) else [seconds] * len(prompts)
+        self.lengths |= {*long}
+        return [self._motion(prompt, row, long[row]) for row, prompt in enumerate(prompts)]
 
     def _motion(self, prompt: str, row: int, seconds: float) -> Motion:
         request = self.asked.get(prompt, Request(prompt, "en", "plain", ({"action": "walk"},)))
@@ -67,10 +72,14 @@ class Puppet:
 
 
 @pytest.fixture(scope="module")
-def tables(data: PreparedData) -> dict[str, Grid]:
-    report = evaluate_requests(
-        Puppet(), data, floors={"deaf": Puppet(deaf=True)}, settings=SETTINGS
-    )
+def puppet() -> Puppet:
+    """The one that `tables` are of."""
+    return Puppet()
+
+
+@pytest.fixture(scope="module")
+def tables(data: PreparedData, puppet: Puppet) -> dict[str, Grid]:
+    report = evaluate_requests(puppet, data, floors={"deaf": Puppet(deaf=True)}, settings=SETTINGS)
     return {grid["name"]: Grid.from_dict(grid) for grid in report["tables"]}
 
 
@@ -92,6 +101,15 @@ def test_distances_grow_where_nothing_moves(tables: dict[str, Grid]) -> None:
         assert far > 2 * near
         assert far > realism.value("captured, looked up in training", column)
     assert 0 <= realism.value("generated", "procedural") <= 1
+
+
+def test_distances_compare_motions_of_the_lengths_of_captured_clips(
+    data: PreparedData, puppet: Puppet, tables: dict[str, Grid]
+) -> None:
+    yardstick = Yardstick(data, SETTINGS, lambda text: None)
+    theirs = {motion.seconds for motion in yardstick.real.motions}
+    others = puppet.lengths - {SETTINGS.seconds, 2.0, 4.0, 10.0, 30.0, 60.0}
+    assert others and others <= theirs
 
 
 def test_warnings_are_held_against_what_went_wrong(tables: dict[str, Grid]) -> None:
