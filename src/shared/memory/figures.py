@@ -16,7 +16,7 @@ from typing import Any, Self
 
 import numpy as np
 import torch
-from scipy.ndimage import gaussian_filter1d, percentile_filter
+from scipy.ndimage import percentile_filter
 from torch import Tensor
 
 from ..errors import UserError
@@ -34,6 +34,7 @@ from ..motion.features import (
     headings,
     integrate_root,
 )
+from ..motion.filters import smoothed
 from ..motion.motion import Motion, resample_motion
 from ..motion.postprocess.contacts import detect_contacts
 from ..motion.rotations import (
@@ -443,7 +444,7 @@ def on_floor(motion: Motion) -> Motion:
     low = motion.positions()[..., 1].min(1).astype(np.float64) - REST_FOOT_HEIGHT
     size = min(round(FLOOR_SECONDS * motion.fps), len(low))
     floor = percentile_filter(low, FLOOR_SHARE, size=size, mode="nearest")
-    floor = gaussian_filter1d(floor, FLOOR_SECONDS / 3 * motion.fps, mode="nearest")
+    floor = smoothed(floor, FLOOR_SECONDS / 3 * motion.fps)
     place = motion.root_position - floor[:, None] * np.array([0.0, 1.0, 0.0])
     moved = replace(motion, root_position=place.astype(np.float32))
     return replace(moved, contacts=detect_contacts(moved.positions(), motion.fps))
@@ -567,7 +568,9 @@ def _evidence(slow: np.ndarray, down: np.ndarray, motion: Motion) -> np.ndarray:
     evidence = np.zeros(frames + 1)
     np.add.at(evidence, np.rint(slow * GRID).astype(int).clip(0, frames), 1.0)
     np.add.at(evidence, np.rint(down * GRID).astype(int).clip(0, frames), LANDING)
-    evidence = gaussian_filter1d(evidence, WIDTH * GRID) * WIDTH * GRID * np.sqrt(2 * np.pi)
+    evidence = (
+        smoothed(evidence, WIDTH * GRID, mode="symmetric") * WIDTH * GRID * np.sqrt(2 * np.pi)
+    )
     return np.asarray(evidence)
 
 

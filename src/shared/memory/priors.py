@@ -16,10 +16,10 @@ T frames at 30 fps.
 """
 
 import numpy as np
-from scipy.ndimage import gaussian_filter1d
 from scipy.signal import find_peaks
 
 from ..metrics.rhythm import motion_beats
+from ..motion.filters import smoothed
 from ..motion.trajectory import ACCELERATION, FPS, POSITION, VELOCITY
 
 NUM_PRIORS = 4
@@ -71,7 +71,7 @@ def _level(measure: np.ndarray, half: float) -> np.ndarray:
 
 def _average(values: np.ndarray, seconds: float) -> np.ndarray:
     """Gaussian average over time of [T] or [T,C]; the ends are held."""
-    return np.asarray(gaussian_filter1d(values, seconds * FPS, axis=0, mode="nearest"))
+    return smoothed(values, seconds * FPS)
 
 
 def _rate(frames: np.ndarray, num_frames: int) -> np.ndarray:

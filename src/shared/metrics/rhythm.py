@@ -15,8 +15,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import gaussian_filter1d
 
+from ..motion.filters import smoothed
 from ..motion.motion import Motion
 from ..motion.skeleton import REST_FOOT_HEIGHT
 from .physical import BALLS
@@ -47,7 +47,7 @@ def smoothed_speed(points: np.ndarray, fps: float) -> np.ndarray:
     """Speed [T-1] in m/s of one point [T,3], or the mean over many [T,J,3]."""
     step = np.linalg.norm(np.diff(points.astype(np.float64), axis=0), axis=-1) * fps
     speed = step if step.ndim == 1 else step.mean(1)
-    return np.asarray(gaussian_filter1d(speed, SMOOTHING * fps)) if len(speed) else speed
+    return smoothed(speed, SMOOTHING * fps, mode="symmetric") if len(speed) else speed
 
 
 def motion_beats(points: np.ndarray, fps: float = 30.0) -> MotionBeats:
@@ -60,7 +60,7 @@ def motion_beats(points: np.ndarray, fps: float = 30.0) -> MotionBeats:
     speed = smoothed_speed(points, fps)
     if len(speed) < 3:
         return MotionBeats(np.zeros(0), speed)
-    low, high = np.percentile(speed - gaussian_filter1d(speed, TREND * fps), (5, 95))
+    low, high = np.percentile(speed - smoothed(speed, TREND * fps, mode="symmetric"), (5, 95))
     found, _ = find_peaks(
         -speed,
         prominence=max(PROMINENCE * (high - low), MIN_PROMINENCE),

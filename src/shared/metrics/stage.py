@@ -7,8 +7,8 @@ Letters: T frames, K joints, A principal axes.
 """
 
 import numpy as np
-from scipy.ndimage import gaussian_filter1d
 
+from ..motion.filters import smoothed
 from ..motion.motion import Motion
 from ..motion.postprocess.contacts import contact_runs
 from ..motion.rotations import turn_about_y
@@ -49,7 +49,7 @@ def stage(motion: Motion) -> dict[str, float]:
 
 
 def _smooth(values: np.ndarray, fps: float) -> np.ndarray:
-    return np.asarray(gaussian_filter1d(values, SWAY * fps, axis=0, mode="nearest"))
+    return smoothed(values, SWAY * fps)
 
 
 def backward_share(path: np.ndarray, heading: np.ndarray, fps: float) -> float:

@@ -17,10 +17,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import gaussian_filter1d
 
 from ..tensors import Tensor, torch
 from .features import FORWARD, HEIGHT, LATERAL, ROOT_ROW, YAW_RATE, heading_joints, integrate_root
+from .filters import smoothed
 from .rotations import (
     axis_angle_to_matrix,
     matrix_to_quaternion,
@@ -98,7 +98,7 @@ def carried(features: Tensor, manner: Manner, fps: float) -> Tensor:
         rotations[:, knee] = rotations[:, knee] @ _forward(2 * more)
         rotations[:, ankle] = _forward(-more) @ rotations[:, ankle]
     result[:, :NUM_JOINTS] = matrix_to_rotation_6d(rotations).float()
-    sinks = gaussian_filter1d(_lowest(rotations, features) - low, SETTLE * fps, mode="nearest")
+    sinks = smoothed(_lowest(rotations, features) - low, SETTLE * fps)
     result[:, ROOT_ROW, HEIGHT] -= torch.from_numpy(sinks).float()
     return result
 
@@ -130,7 +130,7 @@ def circling(root: Tensor, fps: float) -> Tensor:
     """Root rows [T,6] of a body that walks round where it would have walked off; see `steered`."""
     rows = root.double().clone()
     way = rows[:, [FORWARD, LATERAL]].numpy()
-    slow = gaussian_filter1d(way, STEADY * fps, axis=0, mode="nearest")
+    slow = smoothed(way, STEADY * fps)
     speed = np.linalg.norm(slow, axis=1)
     side = 1.0 if float(rows[:, YAW_RATE].sum()) >= 0 else -1.0
     bend = side * np.maximum(speed - STROLL, 0) / ROUND
@@ -159,7 +159,7 @@ def steered(root: Tensor, fps: float, *, pull: float = PULL) -> Tensor:
         pull: m/s at most.
     """
     rows = root.double().clone()
-    slow = gaussian_filter1d(rows[:, FORWARD].numpy(), SWAY * fps, mode="nearest")
+    slow = smoothed(rows[:, FORWARD].numpy(), SWAY * fps)
     rows[:, FORWARD] -= torch.from_numpy(BACKWARD * np.minimum(slow, 0.0))
     values, keep = rows.tolist(), math.exp(-1 / (LAG * fps))
     x = z = heading = near_x = near_z = sine = 0.0

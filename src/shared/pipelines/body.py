@@ -18,7 +18,6 @@ from itertools import accumulate
 
 import numpy as np
 import torch
-from scipy.ndimage import gaussian_filter1d
 from torch import Tensor
 
 from ..device import idle_threads
@@ -27,6 +26,7 @@ from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.features import LEFT_CONTACT, ROOT_ROW, Place
+from ..motion.filters import smoothed
 from ..motion.motion import Danced, Motion
 from ..motion.postprocess.stitching import blend_cuts
 from ..motion.rotations import (
@@ -115,7 +115,7 @@ def beats_beyond(beats: np.ndarray, seconds: float) -> np.ndarray:
 def _parity(trajectory: MotionTrajectory, number: np.ndarray) -> int:
     """0 if even steps are the left foot's, 1 if odd ones are, by how the pelvis sways."""
     path = trajectory.position.astype(np.float64)
-    sway = path - gaussian_filter1d(path, SWAY * trajectory.fps, axis=0, mode="nearest")
+    sway = path - smoothed(path, SWAY * trajectory.fps)
     local = turn_about_y(torch.from_numpy(sway), -torch.from_numpy(trajectory.heading))
     to_left = local[:, 0].numpy()
     even = number % 2 == 0

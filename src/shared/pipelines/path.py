@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.ndimage import gaussian_filter1d
 
 from ..config_loader import parse_yaml
 from ..errors import UserError
@@ -25,6 +24,7 @@ from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, Place
+from ..motion.filters import smoothed
 from ..motion.motion import Motion
 from ..motion.rotations import yaw_quaternion
 from ..motion.skeleton import REST_PELVIS_HEIGHT
@@ -301,7 +301,7 @@ def _rounded(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     before = 2 * dense[0] - dense[width:0:-1]
     after = 2 * dense[-1] - dense[-2 : -width - 2 : -1]
     longer = np.concatenate((before, dense, after))
-    smooth = gaussian_filter1d(longer, ROUNDING * (len(dense) - 1) / length, axis=0)
+    smooth = smoothed(longer, ROUNDING * (len(dense) - 1) / length, mode="symmetric")
     return smooth[width : width + len(dense)], at
 
 
@@ -310,7 +310,7 @@ def _moments(line: np.ndarray, speed: float) -> np.ndarray:
     steps = np.maximum(np.linalg.norm(np.diff(line, axis=0), axis=1), 1e-9)  # S-1
     angles = np.unwrap(np.arctan2(*np.diff(line, axis=0).T))
     bend = np.abs(np.gradient(angles)) / steps if len(steps) > 1 else np.zeros(1)
-    bend = gaussian_filter1d(bend, 5, mode="nearest")
+    bend = smoothed(bend, 5)
     limits = np.minimum(
         np.sqrt(MAX_SIDEWAYS / np.maximum(bend, 1e-6)), MAX_TURN / np.maximum(bend, 1e-6)
     )
@@ -362,10 +362,10 @@ def _tangents(points: np.ndarray, fps: float) -> np.ndarray:
 def _slow_turns(headings: np.ndarray, fps: float) -> np.ndarray:
     """Headings [T] that turn smoothly, and no faster than a body can."""
     width = TURN_SMOOTHING * fps
-    smooth = gaussian_filter1d(headings, width, mode="nearest")
+    smooth = smoothed(headings, width)
     while np.abs(np.diff(smooth)).max() * fps > FASTEST_TURN and width < len(headings):
         width *= 1.25
-        smooth = gaussian_filter1d(headings, width, mode="nearest")
+        smooth = smoothed(headings, width)
     return np.asarray(smooth)
 
 
@@ -506,5 +506,5 @@ def natural_sway(features: Tensor, fps: float) -> np.ndarray:
     """Radians a second [T], 0 in the mean, by which the heading of a body that nobody directs
     sways about its way with each step. Without it a led pelvis does not turn with its legs."""
     rate = features[:, ROOT_ROW, YAW_RATE].numpy()
-    sway = rate - gaussian_filter1d(rate, SWAY_SMOOTHING * fps, mode="nearest")
+    sway = rate - smoothed(rate, SWAY_SMOOTHING * fps)
     return np.asarray(sway - sway.mean())

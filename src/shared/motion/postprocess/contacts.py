@@ -14,8 +14,8 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
-from scipy.ndimage import gaussian_filter1d, maximum_filter1d, minimum_filter1d
 
+from ..filters import greatest, smoothed
 from ..skeleton import FOOT_JOINTS, REST_FOOT_HEIGHT
 
 MAX_HEIGHT = 0.06  # metres of the ball of the foot above its rest height
@@ -70,11 +70,11 @@ def grounding(balls: np.ndarray, kept: np.ndarray, fps: float) -> np.ndarray:
     half a second either way counts, so that steps and jumps stay; further off, nobody stands.
     """
     low = (balls[..., 1] - REST_FOOT_HEIGHT).min(1)
-    low = minimum_filter1d(low, 2 * round(AROUND_SECONDS * fps) + 1)
+    low = -greatest(-low, 2 * round(AROUND_SECONDS * fps) + 1)
     low = np.sign(low) * (np.abs(low) - FLAT).clip(min=0)
     low *= np.clip(2 - np.abs(low) / MAX_CLAIM, 0, 1)
-    free = 1.0 - maximum_filter1d(kept.astype(float), 2 * round(0.2 * fps) + 1, axis=0)
-    off = gaussian_filter1d(low[:, None] * free, 0.1 * fps, axis=0, mode="nearest")
+    free = 1.0 - greatest(kept.astype(float), 2 * round(0.2 * fps) + 1)
+    off = smoothed(low[:, None] * free, 0.1 * fps)
     found = np.zeros_like(balls)
     found[..., 1] = np.where(kept, 0.0, -off)
     return found
@@ -91,7 +91,7 @@ def standing(balls: np.ndarray, hips: np.ndarray, contacts: np.ndarray, fps: flo
     if len(balls) < 2:
         return np.asarray(claimed)
     vertical = np.abs(np.gradient(height, axis=0)) * fps
-    waist = gaussian_filter1d(hips[..., 1].mean(1), 0.05 * fps, mode="nearest")
+    waist = smoothed(hips[..., 1].mean(1), 0.05 * fps)
     flies = np.gradient(np.gradient(waist)) * fps**2 < FALL
     low = (height < MAX_SUPPORT) & (vertical < MAX_VERTICAL) & ~flies[:, None]
     lower = np.arange(2) == height.argmin(1)[:, None]
@@ -104,7 +104,7 @@ def running(hips: np.ndarray, fps: float) -> np.ndarray:
     if len(hips) < 2:
         return np.zeros(len(hips), dtype=bool)
     way = np.gradient(hips[..., [0, 2]].mean(1), axis=0) * fps
-    pace = gaussian_filter1d(np.hypot(*way.T), PACE_SECONDS * fps, mode="nearest")
+    pace = smoothed(np.hypot(*way.T), PACE_SECONDS * fps)
     return np.asarray(pace >= RUNNING)
 
 
@@ -281,7 +281,7 @@ def _steps(path: np.ndarray, start: int, fps: float, phase: float) -> list[tuple
     ground = path[:, [0, 2]]
     if np.linalg.norm(ground - ground.mean(0), axis=1).max() <= MAX_DRAG:
         return [(start, start + len(path))]
-    smooth = gaussian_filter1d(ground, 0.1 * fps, axis=0, mode="nearest")
+    smooth = smoothed(ground, 0.1 * fps)
     way = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(smooth, axis=0), axis=1))))
     step = round(STEP_SECONDS * fps)
     number = min(int(np.ceil(way[-1] / (2 * MAX_DRAG))), len(path) // (2 * step))
@@ -420,5 +420,5 @@ def _above_floor(height: np.ndarray, known: np.ndarray, fps: float) -> np.ndarra
     if not depth.any():
         return np.zeros_like(height)
     width = 2 * round(0.1 * fps) + 1
-    smooth = gaussian_filter1d(maximum_filter1d(depth, width), width / 6, mode="nearest")
+    smooth = smoothed(greatest(depth, width), width / 6)
     return np.where(known, 0.0, smooth)

@@ -11,9 +11,9 @@ Letters: T frames, J joints, `...` any leading dimensions, mostly frames.
 from dataclasses import replace
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt, gaussian_filter1d
 
 from ...tensors import F, Tensor, torch
+from ..filters import frames_away, smoothed
 from ..motion import Motion
 from ..rotations import (
     axis_turn,
@@ -121,7 +121,7 @@ def _smooth_legs(motion: Motion, seconds: float, kept: np.ndarray | None) -> Mot
     for side, joints in enumerate(LEGS):
         legs = torch.as_tensor(motion.quaternions[:, joints], dtype=torch.float64)
         rows = quaternion_continuous(legs, dim=0).numpy()  # T J 4
-        mean = gaussian_filter1d(rows, seconds * motion.fps, axis=0, mode="nearest")
+        mean = smoothed(rows, seconds * motion.fps)
         mean /= np.linalg.norm(mean, axis=-1, keepdims=True)
         free = np.ones(len(rows), dtype=bool) if kept is None else ~kept[:, side]
         smooth[np.ix_(free, np.array(joints))] = mean[free]
@@ -133,7 +133,7 @@ def ease_from_kept(loose: Motion, locked: Motion, kept: np.ndarray) -> Motion:
     quaternions = torch.as_tensor(locked.quaternions).clone()
     before = torch.as_tensor(loose.quaternions)
     for side, joints in enumerate(LEGS):
-        away = distance_transform_edt(~kept[:, side]) if kept[:, side].any() else np.inf
+        away = frames_away(kept[:, side]) if kept[:, side].any() else np.inf
         x = torch.as_tensor(np.minimum(away / EASE, 1.0), dtype=torch.float32)
         share = (x**2 * (3 - 2 * x)).expand(len(before))[:, None, None]
         quaternions[:, joints] = quaternion_slerp(before[:, joints], quaternions[:, joints], share)

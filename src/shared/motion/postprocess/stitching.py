@@ -9,10 +9,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy.ndimage import gaussian_filter1d
 
 from ...tensors import Tensor, torch
 from ..features import LEFT_CONTACT, ROOT_ROW, Place, headings
+from ..filters import smoothed
 from ..motion import Motion
 from ..rotations import (
     quaternion_continuous,
@@ -87,7 +87,7 @@ def blend_cuts(features: Tensor, cuts: Sequence[int]) -> Tensor:
     away = np.abs(np.arange(len(features))[:, None] + 0.5 - np.asarray(cuts)).min(1)
     share = np.where(away < 4 * REACH, np.exp(-0.5 * (away / REACH) ** 2), 0.0)
     rows = features.double().numpy()
-    mean = gaussian_filter1d(rows, BLUR, axis=0, mode="nearest")
+    mean = smoothed(rows, BLUR)
     soft = torch.from_numpy(rows + share[:, None, None] * (mean - rows)).to(features.dtype)
     soft[:, ROOT_ROW:, LEFT_CONTACT:] = features[:, ROOT_ROW:, LEFT_CONTACT:]
     return soft
