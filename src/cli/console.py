@@ -249,13 +249,13 @@ def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
     if is_quiet():
         yield lambda done, total: None
         return
+    if not sys.stderr.isatty():
+        yield lines(what)
+        return
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
     screen = Console(stderr=True)
-    if not screen.is_terminal:
-        yield lines(what)
-        return
     columns = (what, BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=screen, transient=True) as bar:
         task = bar.add_task(what, total=None)

@@ -83,7 +83,8 @@ def main(folder: Path) -> None:
             quaternions=np.concatenate([each.quaternions for each in motions]),
             root=np.concatenate([each.root_position for each in motions]),
         )
-    heavy = {"torch", "transformers", "librosa", "scipy.signal"} & sys.modules.keys()
+    heavy = {"torch", "transformers", "librosa", "rich", "scipy.ndimage", "scipy.signal"}
+    heavy &= sys.modules.keys()
     (folder / "imported.txt").write_text(" ".join(sorted(heavy)))
 
 
