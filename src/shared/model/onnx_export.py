@@ -177,19 +177,24 @@ def link_weights(model: Any, folder: Path) -> None:
     graph, outside, nodes = model.graph, dict[str, Any](), list[Any]()
     rest, inside = list(graph.node), list[Any]()
     for each in graph.initializer:
-        found = known.get(_digest(numpy_helper.to_array(each)))
-        if found is None:
+        value = numpy_helper.to_array(each)
+        lookups = [node for node in rest if each.name in node.input]
+        looked_up = all(_looks_up(node, each.name) for node in lookups)
+        name, turned = known.get(_digest(value), ("", False))
+        names = [name] if name else _slices(value, known) if looked_up else []
+        if not names:
             inside.append(each)
             continue
-        name, turned = found
-        lookups = [node for node in rest if each.name in node.input]
-        if not turned and all(_looks_up(node, each.name) for node in lookups):
+        if looked_up and not turned:
             for node in lookups:
                 at = rest.index(node)
-                rest[at : at + 1] = _stored(name, node.output[0], header, outside, node.input[1])
+                size = () if name else value.shape
+                rest[at : at + 1] = _stored(
+                    names, node.output[0], header, outside, node.input[1], size
+                )
             continue
         plain = f"{each.name}/turned" if turned else each.name
-        nodes += _stored(name, plain, header, outside)
+        nodes += _stored(names, plain, header, outside)
         if turned:
             nodes.append(helper.make_node("Transpose", [plain], [each.name]))
     graph.ClearField("initializer")
@@ -204,21 +209,36 @@ def _looks_up(node: Any, table: str) -> bool:
     return bool(node.op_type == "Gather" and node.input[0] == table and axis == 0)
 
 
+def _slices(table: np.ndarray, known: Mapping[str, tuple[str, bool]]) -> list[str]:
+    """The stored matrices that lie one upon another in a table, filled up with zeros; or none."""
+    if table.ndim != 3:
+        return []
+    names = []
+    for each in table:
+        sizes = [(h, each.shape[1]) for h in range(len(each), 0, -1) if not each[h:].any()]
+        sizes += [(len(each), w) for w in range(each.shape[1], 0, -1) if not each[:, w:].any()]
+        found = (known.get(_digest(each[:h, :w]), ("", True)) for h, w in sizes)
+        names.append(next((name for name, turned in found if not turned), ""))
+    return names if all(names) else []
+
+
 def _stored(
-    name: str,
+    names: Sequence[str],
     value: str,
     header: Mapping[str, Any],
     outside: dict[str, Any],
     rows: str | None = None,
+    table: tuple[int, ...] = (),
 ) -> list[Any]:
     """The nodes that make a value of a stored tensor, or of those rows of it that are looked up.
 
     Args:
-        name: of the tensor in its file.
+        names: of the tensor in its file, or of those that lie one upon another in a table.
         value: what it is called in the graph.
         header: of the file.
         outside: initializers by name, to which those that it needs are added.
         rows: the value that says which rows; None = all.
+        table: the shape of a table, up to which its tensors are filled with zeros.
     """
     from onnx import TensorProto, helper
 
@@ -226,33 +246,58 @@ def _stored(
              "I32": TensorProto.INT32, "I64": TensorProto.INT64}  # fmt: skip
     nodes = []
 
-    def made(stored: str, called: str, more: int = 0) -> None:
-        entry = header[stored]
-        plain = rows is None and entry["dtype"] not in ("F16", "I8")
-        source = called if plain else f"stored/{stored}"
-        tensor = TensorProto(name=source, data_type=types[entry["dtype"]])
-        tensor.dims.extend([*entry["shape"], *[1] * more])
+    def read(called: str, dtype: str, shape: Sequence[int], start: int, stop: int) -> str:
+        tensor = TensorProto(name=called, data_type=types[dtype])
+        tensor.dims.extend(shape)
         tensor.data_location = TensorProto.EXTERNAL
-        start, stop = entry["data_offsets"]
         where = {"location": WEIGHTS_FILE, "offset": start + header[_START], "length": stop - start}
         for key, each in where.items():
             tensor.external_data.add(key=key, value=str(each))
-        outside[source] = tensor
+        outside[called] = tensor
+        return called
+
+    def stacked(suffix: str, called: str, more: int) -> str:
+        parts = []
+        for name in names:
+            entry = header[name + suffix]
+            shape, spare = [1, *entry["shape"], *[1] * more], [0, 0, 0]
+            stored = f"stored/{name}{suffix}"
+            part = read(stored, entry["dtype"], shape, *entry["data_offsets"])
+            for axis in range(1, len(shape) - more):
+                spare[axis] = table[axis] - shape[axis]
+            if any(spare):
+                ends, filled = (f"{called}/{name}/{what}" for what in ("ends", "filled"))
+                outside[ends] = helper.make_tensor(ends, TensorProto.INT64, [6], [0, 0, 0, *spare])
+                nodes.append(helper.make_node("Pad", [part, ends], [filled]))
+                part = filled
+            parts.append(part)
+        nodes.append(helper.make_node("Concat", parts, [f"{called}/table"], axis=0))
+        return f"{called}/table"
+
+    def made(suffix: str, called: str, more: int = 0) -> None:
+        entries = [header[name + suffix] for name in names]
+        dtype, shape = entries[0]["dtype"], [*entries[0]["shape"], *[1] * more]
+        plain = rows is None and dtype not in ("F16", "I8")
+        if table:
+            source = stacked(suffix, called, more)
+        else:
+            own = called if plain else f"stored/{names[0]}{suffix}"
+            source = read(own, dtype, shape, *entries[0]["data_offsets"])
         if plain:
             return
         if rows is not None:
             nodes.append(helper.make_node("Gather", [source, rows], [f"{called}/rows"], axis=0))
             source = f"{called}/rows"
-        if entry["dtype"] in ("F16", "I8"):
+        if dtype in ("F16", "I8"):
             nodes.append(helper.make_node("Cast", [source], [called], to=TensorProto.FLOAT))
         else:
             nodes.append(helper.make_node("Identity", [source], [called]))
 
-    if (scale := name + INT8_SCALE) not in header:
-        made(name, value)
+    if names[0] + INT8_SCALE not in header:
+        made("", value)
     else:
-        made(name, f"{value}/rounded")
-        made(scale, f"{value}/scale", len(header[name]["shape"]) - 1)  # [R, 1, ...]
+        made("", f"{value}/rounded")
+        made(INT8_SCALE, f"{value}/scale", len(header[names[0]]["shape"]) - 1)  # [R, 1, ...]
         nodes.append(helper.make_node("Mul", [f"{value}/rounded", f"{value}/scale"], [value]))
     return nodes
 

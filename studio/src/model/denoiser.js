@@ -11,9 +11,7 @@ export class Denoiser {
     ort.env.wasm.numThreads = 1;
     ort.env.wasm.wasmBinary = parts.wasm.buffer;
     ort.env.logLevel = "error";
-    const denoiser = new Denoiser(parts);
-    await denoiser.session("graph");
-    return denoiser;
+    return new Denoiser(parts);
   }
 
   constructor(parts) {

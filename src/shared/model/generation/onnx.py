@@ -24,6 +24,7 @@ from ..clip.out_of_domain import META_FILE as SCOPE_FILE
 from ..clip.out_of_domain import TABLE_FILE
 from ..clip.style_map import STYLE_FILE
 from ..clip.tokenizer import META_FILE, MODEL_FILE, TOKENIZER_FOLDER
+from ..layers.transformer import AdaptedLinear
 from ..onnx_card import TextOnnxCard, TokenizerInfo
 from ..onnx_export import EXAMPLE_FRAMES, process_info, symbolic, traced, write_export
 from .constraint import MIN_FRAMES
@@ -55,6 +56,20 @@ class SymbolicPairs(TokenPairEncoder):
         return place
 
 
+class SymbolicAdapted(AdaptedLinear):
+    """Keeps its adapters in tables, of which a graph takes the rows that it needs."""
+
+    def kept(self) -> None:
+        """Fill the tables."""
+        for layer, name in enumerate(self.TABLES):
+            self.register_buffer(name, super().table(layer).detach())
+
+    TABLES = ("down", "up")
+
+    def table(self, layer: int) -> Tensor:
+        return self.get_buffer(self.TABLES[layer])
+
+
 class TextGraph(nn.Module):
     """A text tower that gives what its denoiser hears."""
 
@@ -84,7 +99,10 @@ class DenoiserGraph(nn.Module):
 
     def __init__(self, denoiser: MotionDenoiser, more: Sequence[str]) -> None:
         super().__init__()
-        self.denoiser, self.more = symbolic(denoiser), more
+        self.denoiser, self.more = symbolic(denoiser, {AdaptedLinear: SymbolicAdapted}), more
+        for part in self.denoiser.modules():
+            if isinstance(part, SymbolicAdapted) and part.adapters:
+                part.kept()
 
     def forward(
         self,

@@ -61,8 +61,7 @@ class OnnxDenoiser(nn.Module):
         self.shows_known, self.provenance_embed = card.shown, None
         self._pooled = torch.tensor(card.null_pooled)
         self._token = None if card.null_token is None else torch.tensor(card.null_token)
-        self._session = cache(lambda graph: open_graph(folder, graph, threads))
-        self._session(DENOISER_GRAPH)  # says now what it lacks
+        self._session = cache(lambda graph: open_graph(folder, graph, threads))  # as they are used
 
     def forward(
         self,

@@ -147,14 +147,17 @@ class AdaptedLinear(nn.Linear):
         if opened is None:
             return y
         # The weights of each sample's own adapter: as fast with twenty adapters as with one.
-        down = x.new_zeros(())  # [B, R, D]
-        up = x.new_zeros(())  # [B, out_dim, R]
-        for index, adapter in enumerate(self.adapters):
-            narrow, wide = (adapter.get_parameter(f"{layer}.weight") for layer in (0, 1))
-            share, spare = opened[:, index, None, None], self.rank - len(narrow)
-            down = down + share * pad(narrow, (0, 0, 0, spare))
-            up = up + share * pad(wide, (0, spare))
-        return y + x @ down.mT @ up.mT
+        own, share = opened.argmax(-1), opened.amax(-1)[:, None, None]
+        down, up = (self.table(layer).index_select(0, own) for layer in (0, 1))  # B R D, B D' R
+        return y + x @ down.mT * share @ up.mT
+
+    def table(self, layer: int) -> Tensor:
+        """The first or second map of every adapter, filled up with zeros to the largest rank."""
+        weights = [adapter.get_parameter(f"{layer}.weight") for adapter in self.adapters]
+        spare = [self.rank - each.shape[layer] for each in weights]
+        fills = [(0, 0, 0, each) if layer == 0 else (0, each) for each in spare]
+        return torch.stack([pad(w, fill) if any(fill) else w
+                            for w, fill in zip(weights, fills, strict=True)])  # fmt: skip
 
 
 class MultiHeadAttention(nn.Module):

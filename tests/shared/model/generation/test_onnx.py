@@ -19,6 +19,7 @@ from src.shared.model.generation.onnx import (
 )
 from src.shared.model.onnx_card import TextOnnxCard, open_graph, read_onnx_card
 
+onnx = pytest.importorskip("onnx")
 pytest.importorskip("onnxruntime")
 pytest.importorskip("onnxscript")
 
@@ -86,6 +87,10 @@ def test_graphs_compute_what_the_networks_do(
     graphs = {DENOISER_GRAPH: text}
     if settings.get("adapter_ranks"):
         graphs[ADAPTED_GRAPH] = generator.denoiser.with_adapters(text)
+        read = onnx.load(tmp_path / "onnx" / ADAPTED_GRAPH, load_external_data=False).graph
+        outside = {each.name for each in read.initializer if each.external_data}
+        adapters = [key for key in generator.denoiser.state_dict() if ".adapters." in key]
+        assert {f"stored/denoiser.{key}" for key in adapters} <= outside  # none lies in the graph
     assert card.graphs.keys() == {TEXT_GRAPH, *graphs}
     for (graph, heard), frames in product(graphs.items(), (8, 61)):
         session = open_graph(tmp_path / "onnx", graph, 1)
