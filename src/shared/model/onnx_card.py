@@ -206,6 +206,7 @@ def open_graph(folder: Path, name: str, threads: int) -> Any:
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = threads
     options.log_severity_level = 3  # errors
+    options.enable_mem_reuse = False  # what plans it is half of opening; buffers are freed anyhow
     try:
         return onnxruntime.InferenceSession(
             str(folder / name), options, providers=["CPUExecutionProvider"]

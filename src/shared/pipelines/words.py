@@ -17,9 +17,11 @@ MAX_COUNT = 20
 MOST = {"metres": 100.0, "degrees": 720.0, "seconds": 600.0}
 EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-"  # what no clause begins or ends with
 _CJK = "\u3040-\u30ff\u3400-\u9fff"
-# Classes without case: re would spell out every character of their ranges, seconds in all.
+# Classes without case and, but for the few of CJK_SIGN, without far ranges: re spells out every
+# character of a range, seconds in all.
 CJK_SIGN = f"(?-i:[{_CJK}])"
-_LETTER, _SIGN = rf"(?-i:[^\W\d{_CJK}])", rf"(?-i:[^\W{_CJK}])"  # of words; or a digit
+_LATIN = "_A-Za-zÀ-ÖØ-öø-ÿ"
+_LETTER, _SIGN = (f"(?-i:[{each}]|[œŒ])" for each in (_LATIN, f"{_LATIN}0-9"))  # or a digit
 _COMMAS = r"[,;、，；]"
 # Where a clause may end: not at the point of a number, the dash of a word.
 _STOPS = (
@@ -142,9 +144,9 @@ def _whole(word: str) -> tuple[str, str, str]:
 
 def _loosely(word: str) -> str:
     """The pattern of a word, whose accents may be missing."""
-    pattern = re.escape(word).replace(r"\ ", r"\s+").replace(r"\*", f"{_LETTER}+")
-    pattern = re.sub("[à-öø-ÿ]", lambda letter: f"[{letter[0]}{bare(letter[0])}]", pattern)
-    return pattern.replace("ß", "(?:ß|ss)").replace("'", "['’]")
+    pattern = re.sub("[à-öø-ÿ]", lambda each: f"[{each[0]}{bare(each[0])}]", re.escape(word))
+    pattern = pattern.replace("ß", "(?:ß|ss)").replace("'", "['’]").replace(r"\ ", r"\s+")
+    return pattern.replace(r"\*", f"{_LETTER}+")
 
 
 def _misspelt(word: str) -> list[str]:
@@ -172,8 +174,6 @@ def all_words() -> Words:
 
 _WORD = r"\p{L}\p{N}_"  # what \w is here
 _JAVASCRIPT = (
-    (_LETTER, rf"(?![\p{{Nd}}{_CJK}])[{_WORD}]"),
-    (_SIGN, rf"(?![{_CJK}])[{_WORD}]"),
     ("(?-i:", "(?:"),
     ("(?P<", "(?<"),
     (r"[\w", f"[{_WORD}"),
