@@ -187,14 +187,13 @@ def link_weights(model: Any, folder: Path) -> None:
             continue
         if looked_up and not turned:
             for node in lookups:
-                at = rest.index(node)
-                size = () if name else value.shape
-                rest[at : at + 1] = _stored(
-                    names, node.output[0], header, outside, node.input[1], size
+                at, found = rest.index(node), (node.output[0], header, outside, node.input[1])
+                rest[at : at + 1] = (
+                    _stored(name, *found) if name else _stored_table(names, *found, value.shape)
                 )
             continue
         plain = f"{each.name}/turned" if turned else each.name
-        nodes += _stored(names, plain, header, outside)
+        nodes += _stored(name, plain, header, outside)
         if turned:
             nodes.append(helper.make_node("Transpose", [plain], [each.name]))
     graph.ClearField("initializer")
@@ -223,82 +222,127 @@ def _slices(table: np.ndarray, known: Mapping[str, tuple[str, bool]]) -> list[st
 
 
 def _stored(
-    names: Sequence[str],
+    name: str,
     value: str,
     header: Mapping[str, Any],
     outside: dict[str, Any],
     rows: str | None = None,
-    table: tuple[int, ...] = (),
 ) -> list[Any]:
     """The nodes that make a value of a stored tensor, or of those rows of it that are looked up.
 
     Args:
-        names: of the tensor in its file, or of those that lie one upon another in a table.
+        name: of the tensor in its file.
         value: what it is called in the graph.
         header: of the file.
         outside: initializers by name, to which those that it needs are added.
         rows: the value that says which rows; None = all.
-        table: the shape of a table, up to which its tensors are filled with zeros.
     """
     from onnx import TensorProto, helper
 
-    types = {"F32": TensorProto.FLOAT, "F16": TensorProto.FLOAT16, "I8": TensorProto.INT8,
-             "I32": TensorProto.INT32, "I64": TensorProto.INT64}  # fmt: skip
     nodes = []
 
-    def read(called: str, dtype: str, shape: Sequence[int], start: int, stop: int) -> str:
-        tensor = TensorProto(name=called, data_type=types[dtype])
-        tensor.dims.extend(shape)
-        tensor.data_location = TensorProto.EXTERNAL
-        where = {"location": WEIGHTS_FILE, "offset": start + header[_START], "length": stop - start}
-        for key, each in where.items():
-            tensor.external_data.add(key=key, value=str(each))
-        outside[called] = tensor
-        return called
-
-    def stacked(suffix: str, called: str, more: int) -> str:
-        parts = []
-        for name in names:
-            entry = header[name + suffix]
-            shape, spare = [1, *entry["shape"], *[1] * more], [0, 0, 0]
-            stored = f"stored/{name}{suffix}"
-            part = read(stored, entry["dtype"], shape, *entry["data_offsets"])
-            for axis in range(1, len(shape) - more):
-                spare[axis] = table[axis] - shape[axis]
-            if any(spare):
-                ends, filled = (f"{called}/{name}/{what}" for what in ("ends", "filled"))
-                outside[ends] = helper.make_tensor(ends, TensorProto.INT64, [6], [0, 0, 0, *spare])
-                nodes.append(helper.make_node("Pad", [part, ends], [filled]))
-                part = filled
-            parts.append(part)
-        nodes.append(helper.make_node("Concat", parts, [f"{called}/table"], axis=0))
-        return f"{called}/table"
-
-    def made(suffix: str, called: str, more: int = 0) -> None:
-        entries = [header[name + suffix] for name in names]
-        dtype, shape = entries[0]["dtype"], [*entries[0]["shape"], *[1] * more]
-        plain = rows is None and dtype not in ("F16", "I8")
-        if table:
-            source = stacked(suffix, called, more)
-        else:
-            own = called if plain else f"stored/{names[0]}{suffix}"
-            source = read(own, dtype, shape, *entries[0]["data_offsets"])
+    def made(stored: str, called: str, more: int = 0) -> None:
+        entry = header[stored]
+        plain = rows is None and entry["dtype"] not in ("F16", "I8")
+        source = called if plain else f"stored/{stored}"
+        _read(stored, source, [*entry["shape"], *[1] * more], header, outside)
         if plain:
             return
         if rows is not None:
             nodes.append(helper.make_node("Gather", [source, rows], [f"{called}/rows"], axis=0))
             source = f"{called}/rows"
-        if dtype in ("F16", "I8"):
+        if entry["dtype"] in ("F16", "I8"):
             nodes.append(helper.make_node("Cast", [source], [called], to=TensorProto.FLOAT))
         else:
             nodes.append(helper.make_node("Identity", [source], [called]))
 
-    if names[0] + INT8_SCALE not in header:
-        made("", value)
+    if (scale := name + INT8_SCALE) not in header:
+        made(name, value)
     else:
-        made("", f"{value}/rounded")
-        made(INT8_SCALE, f"{value}/scale", len(header[names[0]]["shape"]) - 1)  # [R, 1, ...]
+        made(name, f"{value}/rounded")
+        made(scale, f"{value}/scale", len(header[name]["shape"]) - 1)  # [R, 1, ...]
         nodes.append(helper.make_node("Mul", [f"{value}/rounded", f"{value}/scale"], [value]))
+    return nodes
+
+
+def _read(
+    stored: str,
+    called: str,
+    shape: Sequence[int],
+    header: Mapping[str, Any],
+    outside: dict[str, Any],
+) -> str:
+    """Add an initializer that is read from the file of the weights; what it is called."""
+    from onnx import TensorProto
+
+    types = {"F32": TensorProto.FLOAT, "F16": TensorProto.FLOAT16, "I8": TensorProto.INT8,
+             "I32": TensorProto.INT32, "I64": TensorProto.INT64}  # fmt: skip
+    entry = header[stored]
+    tensor = TensorProto(name=called, data_type=types[entry["dtype"]])
+    tensor.dims.extend(shape)
+    tensor.data_location = TensorProto.EXTERNAL
+    start, stop = entry["data_offsets"]
+    where = {"location": WEIGHTS_FILE, "offset": start + header[_START], "length": stop - start}
+    for key, each in where.items():
+        tensor.external_data.add(key=key, value=str(each))
+    outside[called] = tensor
+    return called
+
+
+def _stored_table(
+    names: Sequence[str],
+    value: str,
+    header: Mapping[str, Any],
+    outside: dict[str, Any],
+    rows: str,
+    size: Sequence[int],
+) -> list[Any]:
+    """The nodes that look matrices up in a table of stored ones, filled up to one size.
+
+    Int8 stays int8 until it is looked up; where only some of them are, all become float32 on
+    loading. Arguments as of `_stored`, `size` being [A, H, W] of A names.
+    """
+    from onnx import TensorProto, helper
+
+    nodes = []
+    rounded = [name for name in names if name + INT8_SCALE in header]
+    kinds = {header[name]["dtype"] for name in names}
+
+    def node(kind: str, inputs: Sequence[str], called: str, **own: Any) -> str:
+        nodes.append(helper.make_node(kind, inputs, [called], **own))
+        return called
+
+    def looked_up(parts: Sequence[str], called: str) -> str:
+        table = node("Concat", parts, f"{called}/table", axis=0)
+        return node("Gather", [table, rows], f"{called}/rows", axis=0)
+
+    parts, scales = list[str](), list[str]()
+    for at, name in enumerate(names):
+        height, width = header[name]["shape"]
+        own, fill = f"{value}/{at}", [0, 0, 0, 0, size[1] - height, size[2] - width]
+        part = _read(name, f"stored/{name}", [1, height, width], header, outside)
+        scale = name + INT8_SCALE
+        if name in rounded:
+            scale = _read(scale, f"stored/{scale}", [1, height, 1], header, outside)
+        if len(kinds) > 1:
+            part = node("Cast", [part], f"{own}/float", to=TensorProto.FLOAT)
+            part = node("Mul", [part, scale], f"{own}/whole") if name in rounded else part
+        elif rounded and any(fill):
+            ends = f"{own}/scale/ends"
+            outside[ends] = helper.make_tensor(ends, TensorProto.INT64, [6], [*fill[:5], 0])
+            scale = node("Pad", [scale, ends], f"{own}/scale/filled")
+        if any(fill):
+            ends = f"{own}/ends"
+            outside[ends] = helper.make_tensor(ends, TensorProto.INT64, [6], fill)
+            part = node("Pad", [part, ends], f"{own}/filled")
+        parts.append(part)
+        scales.append(scale)
+    found = looked_up(parts, value)
+    if len(kinds) > 1 or not rounded:
+        node("Cast", [found], value, to=TensorProto.FLOAT)
+    else:
+        found = node("Cast", [found], f"{value}/rounded", to=TensorProto.FLOAT)
+        node("Mul", [found, looked_up(scales, f"{value}/scale")], value)
     return nodes
 
 

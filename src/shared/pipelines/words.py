@@ -17,11 +17,11 @@ MAX_COUNT = 20
 MOST = {"metres": 100.0, "degrees": 720.0, "seconds": 600.0}
 EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-"  # what no clause begins or ends with
 _CJK = "\u3040-\u30ff\u3400-\u9fff"
-# Classes without case and, but for the few of CJK_SIGN, without far ranges: re spells out every
-# character of a range, seconds in all.
+# Classes without case and, but for the few of CJK_SIGN, without wide ranges: re spells out every
+# character of a range, seconds in all; and makes a table of a class of three ranges beyond Latin-1.
 CJK_SIGN = f"(?-i:[{_CJK}])"
-_LATIN = "_A-Za-zÀ-ÖØ-öø-ÿ"
-_LETTER, _SIGN = (f"(?-i:[{each}]|[œŒ])" for each in (_LATIN, f"{_LATIN}0-9"))  # or a digit
+_LATIN, _MORE = "_A-Za-zÀ-ÖØ-öø-ÿ", "[Ā-ɏ\u1e00-\u1eff]"
+_LETTER, _SIGN = (f"(?-i:[{each}]|{_MORE})" for each in (_LATIN, f"{_LATIN}0-9"))  # or a digit
 _COMMAS = r"[,;、，；]"
 # Where a clause may end: not at the point of a number, the dash of a word.
 _STOPS = (

@@ -20,11 +20,14 @@ export class Denoiser {
     this.helper = null; // predicts as this one does, elsewhere and at the same time
   }
 
-  /** Of a graph: opened when it is first needed. */
+  /** Of a graph: opened when it is first needed, and again where that failed. */
   session(graph) {
     this.sessions[graph] ??= ort.InferenceSession.create(this.parts[graph], {
       externalData: [{ path: "model.safetensors", data: this.parts.weights }],
       graphOptimizationLevel: "extended", // "all" opens 0.1 s later and predicts no faster
+    }).catch((error) => {
+      delete this.sessions[graph];
+      throw error;
     });
     return this.sessions[graph];
   }
@@ -42,9 +45,15 @@ export class Denoiser {
   async predict(batch, step, texts, tag, shown, opened = null) {
     if (this.helper && batch.length > 1) {
       const half = batch.length >> 1;
-      const there = this.helper(batch.slice(half), step, texts.slice(half), tag, shown, opened);
+      const rest = [batch.slice(half), step, texts.slice(half), tag, shown, opened];
+      const there = this.helper(...rest).catch(() => null); // it may lack the memory
       const here = await this.predict(batch.slice(0, half), step, texts.slice(0, half), tag, shown, opened);
-      return [...here, ...(await there)];
+      let theirs = await there;
+      if (theirs === null) {
+        this.helper = null;
+        theirs = await this.predict(...rest);
+      }
+      return [...here, ...theirs];
     }
     const number = batch.length, size = batch[0].length, frames = size / 138;
     const all = (rows, Kind = Float32Array) => {

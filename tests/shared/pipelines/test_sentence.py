@@ -344,3 +344,8 @@ def test_a_way_round_is_told_from_a_corner(text: str, told: bool):
 )
 def test_order_is_told_in_other_ways(sentence: str, texts: list[str]):
     assert [clause.text for clause in clauses(sentence)] == texts
+
+
+@pytest.mark.parametrize("name", ["Uğur", "Łukasz", "Nguyễn", "Cœur", "nō"])
+def test_a_letter_of_another_language_ends_no_word(name: str) -> None:
+    assert clauses(f"{name} waves") == [Clause(f"{name} waves")]

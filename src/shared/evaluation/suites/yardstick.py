@@ -28,6 +28,9 @@ from ..samples import spread_over_groups
 from .text import LANGUAGES
 
 
+LENGTHS = 1 << 16  # of the draws of one seed, the one of lengths: no distance is of it
+
+
 @dataclass(frozen=True)
 class RequestSettings:
     """How much is measured; the report repeats it."""
@@ -170,7 +173,7 @@ class Yardstick:
     def lengths(self, labels: Sequence[dict[str, str]]) -> list[float]:
         """Seconds of one of the references of each, drawn: what moves for two seconds of four has
         half the kinetic energy of what is over after two. Raises ValueError where there is none."""
-        rng = np.random.default_rng(self.settings.seed)
+        rng = np.random.default_rng([self.settings.seed, LENGTHS])
         return [self.real.motions[rng.choice(self.references(w))].seconds for w in labels]
 
 
