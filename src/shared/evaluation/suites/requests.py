@@ -51,6 +51,7 @@ PIECES, HOP = (60, 120), 15  # frames: windows in which the parts of a compositi
 REAL = "captured, held out"  # name of the row
 LOOKED_UP = "captured, looked up in training"
 DRAWS = 20  # of the clips that a distance is held against
+LENGTH_DRAWS = 4  # of the lengths at which its motions are made
 
 
 class Model(Generator, Protocol):
@@ -100,9 +101,10 @@ def evaluate_requests(
         progress("those that are compared with captured clips, as long as these are")
         makers = {"generated": (model, plain), **{n: (each, few) for n, each in floors.items()}}
         compared = {name: _as_long(yardstick, *each) for name, each in makers.items()}
-        if alike := compared["generated"]:
-            poses = Seen.of([frozen_pose(motion) for motion in alike.seen.motions])
-            compared["frozen pose"] = Asked(alike.requests, poses)
+        compared["frozen pose"] = [
+            Asked(alike.requests, Seen.of([frozen_pose(motion) for motion in alike.seen.motions]))
+            for alike in compared["generated"]
+        ]
         progress("numbers, sides, styles and compositions")
         tables = [
             _obedience(yardstick, rows),
@@ -192,18 +194,20 @@ def _by_action(yardstick: Yardstick, asked: Asked) -> Grid:
     return Grid("actions", "Plain requests by action", columns, rows, note, head="action")
 
 
-def _as_long(yardstick: Yardstick, by: Generator, asked: Sequence[Request]) -> Asked | None:
-    """Those of the requests that captured clips answer, each as long as one of these."""
+def _as_long(yardstick: Yardstick, by: Generator, asked: Sequence[Request]) -> list[Asked]:
+    """Those of the requests that captured clips answer, each as long as one of these, some times
+    over with other lengths; none where no clips do."""
     told = [request for request in asked if yardstick.references(request.labels)]
-    seconds = yardstick.lengths([request.labels for request in told])
-    if not told:
-        return None
-    seed = yardstick.settings.seed
-    return Asked(told, Seen.of(by.generate([r.text for r in told], seconds=seconds, seed=seed)))
+    texts, labels = [r.text for r in told], [r.labels for r in told]
+    found, seed = list[Asked](), yardstick.settings.seed
+    for draw in range(LENGTH_DRAWS if told else 0):
+        seconds = yardstick.lengths(labels, draw)
+        found.append(Asked(told, Seen.of(by.generate(texts, seconds=seconds, seed=seed + draw))))
+    return found
 
 
 def _realism(
-    yardstick: Yardstick, rows: dict[str, Asked], compared: dict[str, Asked | None]
+    yardstick: Yardstick, rows: dict[str, Asked], compared: dict[str, list[Asked]]
 ) -> Grid:
     """Distances from captured clips of the same actions, and what a body shows of itself."""
     real, held, judge = yardstick.real, yardstick.records, yardstick.judge
@@ -212,11 +216,12 @@ def _realism(
     references = judge.embed(real.features), space(moving)
 
     def distances(
-        labels: Sequence[dict[str, str]], seen: Seen, records: Sequence[ClipRecord] = ()
+        labels: Sequence[dict[str, str]], sets: Sequence[Seen], records: Sequence[ClipRecord] = ()
     ) -> dict[str, Cell]:
         """Of a motion a request, or of a clip drawn from `records`, against a held-out clip each.
 
-        Averages over draws; a clip is not held against one of its own take.
+        Averages over draws, which take turns with the sets of motions; a clip is not held against
+        one of its own take.
         """
         own = [answering(w, records) if records else [row] for row, w in enumerate(labels)]
         pools = [pair for w, rows in zip(labels, own, strict=True)
@@ -224,8 +229,9 @@ def _realism(
         if len(pools) < 2:
             return {}
         used = sorted({row for _, rows in pools for row in rows})
-        place, seen = {row: at for at, row in enumerate(used)}, seen.rows(used)
-        points, found = (judge.embed(seen.features), space(kinetic(seen))), list[list[float]]()
+        place, sets = {row: at for at, row in enumerate(used)}, [s.rows(used) for s in sets]
+        turns = [(judge.embed(seen.features), space(kinetic(seen))) for seen in sets]
+        found = list[list[float]]()
         for draw in range(DRAWS):
             rng = np.random.default_rng([yardstick.settings.seed, draw])
             here, there = list[int](), list[int]()
@@ -235,7 +241,7 @@ def _realism(
                     take = held[there[-1]].take
                     candidates = [r for r in candidates if records[r].take != take] or candidates
                 here.append(place[int(rng.choice(candidates))])
-            pairs = zip(points, references, strict=True)
+            pairs = zip(turns[draw % len(turns)], references, strict=True)
             found.append([frechet_distance(a[here], b[there]) for a, b in pairs])
         names = "learned", "kinematic"
         return dict(zip(names, map(replicated, zip(*found, strict=True)), strict=True))
@@ -258,10 +264,10 @@ def _realism(
 
     for name, (seen, records) in clips.items():
         own = [{**record.labels, "action": record.tag} for record in records]
-        found[name] = row(seen, own, distances(asked, seen, records))
+        found[name] = row(seen, own, distances(asked, [seen], records))
     for name, each in rows.items():
-        alike = compared.get(name)
-        apart = distances(alike.labels, alike.seen) if alike else {}
+        alike = compared[name]
+        apart = distances(alike[0].labels, [one.seen for one in alike]) if alike else {}
         found[name] = row(each.seen, each.labels, apart)
     matches = yardstick.settings.min_matches
     told = sum(bool(yardstick.references(w)) for w in asked)
@@ -278,7 +284,8 @@ def _realism(
         "FD: Fréchet distance in the axes along which the judge tells captured actions apart, in"
         " deviations within an action; FID_k: of 66 kinetic features. Where"
         f" {matches} or more held-out clips have the labels asked for (N {told}), a motion is made"
-        f" anew, as long as one of these, and stands against one of them; mean of {DRAWS} draws."
+        f" anew, as long as one of these, {LENGTH_DRAWS} times over, and stands against one of"
+        f" them; mean of {DRAWS} draws."
         " The first two rows answer the same requests with a clip"
         " of another take, and with a plain one that was trained on. *nearer to procedural*: the"
         " nearest clip of the same action is one that nobody recorded. *frames beyond captured*:"

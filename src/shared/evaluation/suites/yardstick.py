@@ -27,7 +27,6 @@ from ..engine import Progress
 from ..samples import spread_over_groups
 from .text import LANGUAGES
 
-
 LENGTHS = 1 << 16  # of the draws of one seed, the one of lengths: no distance is of it
 
 
@@ -170,10 +169,10 @@ class Yardstick:
         found = answering(labels, self.records)
         return found if len(found) >= self.settings.min_matches else []
 
-    def lengths(self, labels: Sequence[dict[str, str]]) -> list[float]:
+    def lengths(self, labels: Sequence[dict[str, str]], draw: int) -> list[float]:
         """Seconds of one of the references of each, drawn: what moves for two seconds of four has
         half the kinetic energy of what is over after two. Raises ValueError where there is none."""
-        rng = np.random.default_rng([self.settings.seed, LENGTHS])
+        rng = np.random.default_rng([self.settings.seed, LENGTHS, draw])
         return [self.real.motions[rng.choice(self.references(w))].seconds for w in labels]
 
 
