@@ -57,6 +57,7 @@ ADAPTED = {
               ("steps=4000",)),
 }  # fmt: skip
 LEAST_CLIPS = 2  # of an action, to be learned
+TEXT_SHARE = 0.1  # least of a text tower's steps: with fewer no style has a place of its own
 LICENCE = "CC BY-NC 4.0 (learned from the Bandai-Namco Research Motiondataset: non-commercial)"
 FREE_LICENCE = "free for any use (learned from CMU and synthetic clips)"
 DESCRIPTION = "text to body motion; Bandai-Namco, CMU and synthetic; en es fr de ja zh"
@@ -72,12 +73,13 @@ def stages(options: argparse.Namespace) -> Iterator[list[str]]:
 
     def train(stage: str, output: Path, *settings: str, folder: str = "data") -> list[str]:
         shared = ["--data", str(work / folder), "--output", str(output), "--resume"]
-        own = [f"threads={options.threads}", *(scaled(word) for word in settings)]
+        share = max(options.share, TEXT_SHARE) if stage == "text" else options.share
+        own = [f"threads={options.threads}", *(scaled(word, share) for word in settings)]
         return ["-m", f"src.train.train_{stage}", *shared, *own]
 
-    def scaled(setting: str) -> str:
+    def scaled(setting: str, share: float) -> str:
         key, _, value = setting.partition("=")
-        return f"steps={max(1, round(int(value) * options.share))}" if key == "steps" else setting
+        return f"steps={max(1, round(int(value) * share))}" if key == "steps" else setting
 
     yield ["-m", "src.cli.tools", "prepare", *options.sources, *options.tables,
            "--synthetic", str(synthetic), "--only-gaps", "--out", data]  # fmt: skip
