@@ -13,11 +13,7 @@ REACH = 4.0  # deviations of a Gaussian that are summed
 
 
 def smoothed(
-    values: np.ndarray,
-    sigma: float,
-    *,
-    axis: int = 0,
-    mode: Literal["edge", "symmetric"] = "edge",
+    values: np.ndarray, sigma: float, *, mode: Literal["edge", "symmetric"] = "edge"
 ) -> np.ndarray:
     """Values [T, ...] by a Gaussian of `sigma` frames; at the ends as `np.pad` fills up by `mode`.
 
@@ -31,16 +27,15 @@ def smoothed(
     steps = np.arange(-radius, radius + 1)
     weights = np.exp(-0.5 / (sigma * sigma) * steps**2)
     weights /= weights.sum()
-    given = np.moveaxis(np.asarray(values), axis, 0)
-    length, rest = len(given), [(0, 0)] * (given.ndim - 1)
-    wide = np.pad(given.astype(np.float64), [(radius, radius), *rest], mode=mode)
+    length, rest = len(values), [(0, 0)] * (values.ndim - 1)
+    wide = np.pad(values.astype(np.float64), [(radius, radius), *rest], mode=mode)
     total = wide[radius : radius + length] * weights[radius]
     for step in range(radius, 0, -1):  # the furthest first, as scipy adds up
         before, after = radius - step, radius + step
         pair = wide[before : before + length] + wide[after : after + length]
         total += pair * weights[before]
-    kind = given.dtype if given.dtype.kind == "f" else np.float64
-    return np.moveaxis(total.astype(kind), 0, axis)
+    kind = values.dtype if values.dtype.kind == "f" else np.float64
+    return np.asarray(total, dtype=kind)
 
 
 def greatest(values: np.ndarray, size: int) -> np.ndarray:

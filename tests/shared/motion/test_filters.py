@@ -25,12 +25,6 @@ def test_smoothing_is_scipys(mode, theirs, frames, rest, sigma, kind, seed) -> N
     np.testing.assert_allclose(found, expected, rtol=1e-6, atol=1e-7)
 
 
-def test_smoothing_along_another_axis() -> None:
-    values = np.random.default_rng(0).standard_normal((4, 30))
-    expected = ndimage.gaussian_filter1d(values, 2.0, axis=1, mode="nearest")
-    np.testing.assert_allclose(smoothed(values, 2.0, axis=1), expected, rtol=1e-12)
-
-
 @given(frames=st.integers(1, 60), reach=st.integers(0, 12), seed=st.integers(0, 9))
 def test_the_greatest_nearby_is_scipys(frames: int, reach: int, seed: int) -> None:
     values = np.random.default_rng(seed).standard_normal((frames, 2))

@@ -25,7 +25,6 @@ from ...data.captions.requests import (
 )
 from ...data.prepared import ClipRecord, PreparedData
 from ...metrics.frechet import frechet_distance
-from ...metrics.kinetic import FeatureSpace, kinetic_features
 from ...metrics.measurements import at_rest, measure
 from ...metrics.physical import foot_jump, support_slide, worst_acceleration
 from ...motion.motion import Motion
@@ -206,50 +205,49 @@ def _as_long(yardstick: Yardstick, by: Generator, asked: Sequence[Request]) -> l
     return found
 
 
+def _distances(
+    yardstick: Yardstick,
+    labels: Sequence[dict[str, str]],
+    sets: Sequence[Seen],
+    records: Sequence[ClipRecord] = (),
+) -> dict[str, Cell]:
+    """Of a motion a request, or of a clip drawn from `records`, against a held-out clip each.
+
+    Averages over draws, which take turns with the sets of motions; a clip is not held against one
+    of its own take.
+    """
+    own = [answering(w, records) if records else [row] for row, w in enumerate(labels)]
+    pools = [pair for w, rows in zip(labels, own, strict=True)
+             if all(pair := (yardstick.references(w), rows))]  # fmt: skip
+    if len(pools) < 2:
+        return {}
+    used = sorted({row for _, rows in pools for row in rows})
+    place, sets = {row: at for at, row in enumerate(used)}, [seen.rows(used) for seen in sets]
+    turns, held = [yardstick.points(seen) for seen in sets], yardstick.records
+    found = list[list[float]]()
+    for draw in range(DRAWS):
+        rng = np.random.default_rng([yardstick.settings.seed, draw])
+        here, there = list[int](), list[int]()
+        for pool, candidates in pools:
+            there.append(int(rng.choice(pool)))
+            if records:
+                take = held[there[-1]].take
+                candidates = [r for r in candidates if records[r].take != take] or candidates
+            here.append(place[int(rng.choice(candidates))])
+        pairs = zip(turns[draw % len(turns)], yardstick.real_points, strict=True)
+        found.append([frechet_distance(a[here], b[there]) for a, b in pairs])
+    names = "learned", "kinematic"
+    return dict(zip(names, map(replicated, zip(*found, strict=True)), strict=True))
+
+
 def _realism(
     yardstick: Yardstick, rows: dict[str, Asked], compared: dict[str, list[Asked]]
 ) -> Grid:
     """Distances from captured clips of the same actions, and what a body shows of itself."""
-    real, held, judge = yardstick.real, yardstick.records, yardstick.judge
-    moving = kinetic(real)
-    space = FeatureSpace.fit(moving, np.arange(moving.shape[1]) % 3)
-    references = judge.embed(real.features), space(moving)
-
-    def distances(
-        labels: Sequence[dict[str, str]], sets: Sequence[Seen], records: Sequence[ClipRecord] = ()
-    ) -> dict[str, Cell]:
-        """Of a motion a request, or of a clip drawn from `records`, against a held-out clip each.
-
-        Averages over draws, which take turns with the sets of motions; a clip is not held against
-        one of its own take.
-        """
-        own = [answering(w, records) if records else [row] for row, w in enumerate(labels)]
-        pools = [pair for w, rows in zip(labels, own, strict=True)
-                 if all(pair := (yardstick.references(w), rows))]  # fmt: skip
-        if len(pools) < 2:
-            return {}
-        used = sorted({row for _, rows in pools for row in rows})
-        place, sets = {row: at for at, row in enumerate(used)}, [s.rows(used) for s in sets]
-        turns = [(judge.embed(seen.features), space(kinetic(seen))) for seen in sets]
-        found = list[list[float]]()
-        for draw in range(DRAWS):
-            rng = np.random.default_rng([yardstick.settings.seed, draw])
-            here, there = list[int](), list[int]()
-            for pool, candidates in pools:
-                there.append(int(rng.choice(pool)))
-                if records:
-                    take = held[there[-1]].take
-                    candidates = [r for r in candidates if records[r].take != take] or candidates
-                here.append(place[int(rng.choice(candidates))])
-            pairs = zip(turns[draw % len(turns)], references, strict=True)
-            found.append([frechet_distance(a[here], b[there]) for a, b in pairs])
-        names = "learned", "kinematic"
-        return dict(zip(names, map(replicated, zip(*found, strict=True)), strict=True))
-
     known = yardstick.known_records
     plain = [i for i, record in enumerate(known)
              if record.provenance == "captured" and "style" not in record.labels]  # fmt: skip
-    clips = {REAL: (real, held)}
+    clips = {REAL: (yardstick.real, yardstick.records)}
     if plain:
         clips[LOOKED_UP] = yardstick.known.rows(plain), [known[i] for i in plain]
     if yardstick.procedural is not None:
@@ -264,10 +262,12 @@ def _realism(
 
     for name, (seen, records) in clips.items():
         own = [{**record.labels, "action": record.tag} for record in records]
-        found[name] = row(seen, own, distances(asked, [seen], records))
+        found[name] = row(seen, own, _distances(yardstick, asked, [seen], records))
     for name, each in rows.items():
         alike = compared[name]
-        apart = distances(alike[0].labels, [one.seen for one in alike]) if alike else {}
+        apart = dict[str, Cell]()
+        if alike:
+            apart = _distances(yardstick, alike[0].labels, [one.seen for one in alike])
         found[name] = row(each.seen, each.labels, apart)
     matches = yardstick.settings.min_matches
     told = sum(bool(yardstick.references(w)) for w in asked)
@@ -492,11 +492,6 @@ def gaits(seen: Seen, labels: Sequence[dict[str, str]], top_run: float) -> dict[
         "slide": bootstrap_mean(slides),
         "turn": bootstrap_mean([abs(math.degrees(measure(m).yaw)) for m in bent]),
     }
-
-
-def kinetic(seen: Seen) -> np.ndarray:
-    """Kinetic features [N, 66]."""
-    return np.stack([kinetic_features(m.positions(), m.fps).reshape(-1) for m in seen.motions])
 
 
 def covers(request: Request, motion: Motion) -> bool:

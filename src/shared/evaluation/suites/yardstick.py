@@ -5,13 +5,14 @@ Letters: N motions, F features.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from ...data.captions.requests import Request
 from ...data.prepared import ClipRecord, PreparedData
 from ...errors import UserError
-from ...metrics.kinetic import FeatureSpace
+from ...metrics.kinetic import FeatureSpace, kinetic_features
 from ...metrics.physical import worst_acceleration
 from ...motion.motion import Motion
 from ..actions import (
@@ -164,6 +165,21 @@ class Yardstick:
             answers.append(float(made.min() < captured.min()) if both else np.nan)
         return np.array(answers)
 
+    def points(self, seen: Seen) -> tuple[np.ndarray, np.ndarray]:
+        """Where motions lie [N, axes] in the judge's axes and [N, 66] in kinetic features."""
+        return self.judge.embed(seen.features), self._moving(kinetic(seen))
+
+    @cached_property
+    def _moving(self) -> FeatureSpace:
+        """Kinetic features in deviations of the held-out clips."""
+        values = kinetic(self.real)
+        return FeatureSpace.fit(values, np.arange(values.shape[1]) % 3)
+
+    @cached_property
+    def real_points(self) -> tuple[np.ndarray, np.ndarray]:
+        """Where the held-out clips lie."""
+        return self.points(self.real)
+
     def references(self, labels: dict[str, str]) -> list[int]:
         """The held-out clips of what was asked for, none where there are hardly any."""
         found = answering(labels, self.records)
@@ -174,6 +190,11 @@ class Yardstick:
         half the kinetic energy of what is over after two. Raises ValueError where there is none."""
         rng = np.random.default_rng([self.settings.seed, LENGTHS, draw])
         return [self.real.motions[rng.choice(self.references(w))].seconds for w in labels]
+
+
+def kinetic(seen: Seen) -> np.ndarray:
+    """Kinetic features [N, 66]."""
+    return np.stack([kinetic_features(m.positions(), m.fps).reshape(-1) for m in seen.motions])
 
 
 def answering(labels: dict[str, str], records: Sequence[ClipRecord]) -> list[int]:

@@ -59,12 +59,12 @@ class SymbolicPairs(TokenPairEncoder):
 class SymbolicAdapted(AdaptedLinear):
     """Keeps its adapters in tables, of which a graph takes the rows that it needs."""
 
-    def kept(self) -> None:
+    TABLES = ("down", "up")
+
+    def keep(self) -> None:
         """Fill the tables."""
         for layer, name in enumerate(self.TABLES):
             self.register_buffer(name, super().table(layer).detach())
-
-    TABLES = ("down", "up")
 
     def table(self, layer: int) -> Tensor:
         return self.get_buffer(self.TABLES[layer])
@@ -102,7 +102,7 @@ class DenoiserGraph(nn.Module):
         self.denoiser, self.more = symbolic(denoiser, {AdaptedLinear: SymbolicAdapted}), more
         for part in self.denoiser.modules():
             if isinstance(part, SymbolicAdapted) and part.adapters:
-                part.kept()
+                part.keep()
 
     def forward(
         self,
