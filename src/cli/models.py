@@ -216,7 +216,8 @@ def calibrate(
 
     A judge fitted on the clips of DATA says what came out. `generate` and `evaluate-requests` warn
     from then on of prompts that ask for an action shown in less than half of the tries, and sample
-    again where kinematics that the clips bear out do not see the action.
+    again where kinematics that the clips bear out do not see the action. Stopped on the way, it
+    goes on where it was.
 
     \b
     Example:
@@ -232,6 +233,8 @@ def calibrate(
     from ..shared.data.text_motion import arm_actions, gestures, still_actions
     from ..shared.device import set_threads
     from ..shared.evaluation.actions import action_reliability, recognizer_of
+    from ..shared.io.files import sha256_file
+    from ..shared.model.checkpoint import WEIGHTS_FILE
     from ..shared.model.clip.out_of_domain import RELIABLE
     from ..shared.model.generation.motion_generator import TextToMotion
     from ..shared.pipelines.text import SentenceGenerator
@@ -244,6 +247,7 @@ def calibrate(
 
     judge = recognizer_of(clips, seed, told("calibrate"))
     checked = tuple(sorted(judge.necessary))
+    kept = model / f"calibration-{sha256_file(model / WEIGHTS_FILE)[:12]}.json"
     generator.scope = replace(
         generator.scope,
         gestures=gestures(clips),
@@ -257,9 +261,11 @@ def calibrate(
         judge,
         tries=tries,
         seed=seed,
+        kept=kept,
         progress=told("calibrate"),
     )
     replace(generator.scope, reliability=found).save_pretrained(model)
+    kept.unlink(missing_ok=True)
     if json:
         print_json({"model": str(model), "reliability": found})
     else:

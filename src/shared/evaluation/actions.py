@@ -10,11 +10,13 @@ of captured clips of other actions that are mistaken, stand beside every figure.
 Letters: N motions, T frames, K joints, F features, C classes.
 """
 
+import hashlib
 import math
 from collections import defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import cycle, islice, pairwise
+from pathlib import Path
 from typing import Protocol
 
 import numpy as np
@@ -23,6 +25,7 @@ from ..data.prepared import ClipRecord, PreparedData
 from ..data.synthetic.clips import SPEED_METRES, SPEEDS
 from ..data.text_motion import comes_back, shorten
 from ..errors import UserError
+from ..io.files import load_json, write_json
 from ..metrics.measurements import (
     ACTIONS,
     CHECKS,
@@ -330,12 +333,14 @@ def action_reliability(
     *,
     tries: int = 12,
     seed: int = 0,
+    kept: Path | None = None,
     progress: Progress = lambda text: None,
 ) -> dict[str, float]:
     """Share of `tries` in which each action of the training clips was shown.
 
     (successes + 1) / (tries + 2), the mean of the posterior under a uniform prior (Laplace): one
-    try tells little.
+    try tells little. What was found is kept in the file `kept` until all is, so that the next call
+    for the same sentences goes on there; whoever asks another model names another file.
     """
     train = _captioned(data)
     asked = []
@@ -343,16 +348,25 @@ def action_reliability(
         own = spread_over_groups([train[row] for row in rows], tries, seed)
         several = enumerate(islice(cycle(own), tries))
         asked += [(record, _caption(data, record, seed + number)) for number, record in several]
-    shares: dict[str, list[bool]] = defaultdict(list)
-    for at in range(0, len(asked), SENTENCES):
+    right: list[bool] = []
+    of = hashlib.sha256("\n".join([str(seed), *(text for _, text in asked)]).encode()).hexdigest()
+    if kept is not None and kept.exists():
+        before = load_json(kept)
+        right = before["right"] if before["of"] == of else []
+    for at in range(len(right), len(asked), SENTENCES):
         progress(f"{at} of {len(asked)} sentences")
         part = asked[at : at + SENTENCES]
         motions = model.generate([text for _, text in part], seconds=SECONDS, seed=seed + at)
         found = judge.judge(np.stack([*map(descriptor, motions)]))
         for (record, _), motion, action in zip(part, motions, found, strict=True):
             labels = {key: v for key, v in record.labels.items() if key not in MEASURES}
-            right = judge.shows(record.tag, action, motion) and shown([labels], motion)
-            shares[record.tag].append(right)
+            done = judge.shows(record.tag, action, motion) and shown([labels], motion)
+            right.append(bool(done))
+        if kept is not None:
+            write_json(kept, {"of": of, "right": right})
+    shares: dict[str, list[bool]] = defaultdict(list)
+    for (record, _), done in zip(asked, right, strict=True):
+        shares[record.tag].append(done)
     return {tag: (sum(done) + 1) / (len(done) + 2) for tag, done in shares.items()}
 
 

@@ -59,6 +59,30 @@ def test_what_never_comes_out_is_found(data: PreparedData) -> None:
     assert action_reliability(Puppet(data), data, judge, tries=6) == found
 
 
+def test_what_was_found_is_not_asked_again(data: PreparedData, tmp_path: Path) -> None:
+    judge, kept = recognizer_of(data), tmp_path / "kept.json"
+    whole = action_reliability(Puppet(data), data, judge, tries=4)
+
+    class Mortal(Puppet):
+        parts = 1
+
+        def generate(self, prompts: Sequence[str], *, seconds: float, seed: int) -> list[Motion]:
+            self.parts -= 1
+            if self.parts < 0:
+                raise KeyboardInterrupt
+            return super().generate(prompts, seconds=seconds, seed=seed)
+
+    with pytest.raises(KeyboardInterrupt):
+        action_reliability(Mortal(data), data, judge, tries=4, kept=kept)
+    told: list[str] = []
+    again = action_reliability(Puppet(data), data, judge, tries=4, kept=kept, progress=told.append)
+    assert again == whole and told[0].startswith("32 of ")
+    assert action_reliability(Mortal(data), data, judge, tries=4, kept=kept) == whole
+    told.clear()
+    action_reliability(Puppet(data), data, judge, tries=4, seed=1, kept=kept, progress=told.append)
+    assert told[0].startswith("0 of ")  # other sentences
+
+
 def test_without_actions_to_tell_apart_it_says_so(data: PreparedData, tmp_path: Path) -> None:
     from src.shared.errors import UserError
 
