@@ -21,7 +21,7 @@ from ..shared.model.audio.unet import UNet1D
 from ..shared.model.clip.core import MotionClip
 from ..shared.model.clip.features import TextFeatures
 from ..shared.model.generation.denoiser import MotionDenoiser
-from ..shared.motion.postprocess.whole import clamp_velocity, smooth_features
+from ..shared.motion.postprocess.whole import clamp_velocity, smooth_features, smoothing_weights
 from ..shared.motion.rotations import matrix_to_quaternion, rotation_6d_to_matrix
 
 BATCH, FRAMES, TOKENS, NUM_TAGS, FPS = 2, 40, 12, 5, 30.0
@@ -171,10 +171,10 @@ def denoiser_rows(config: NetworkConfig, rows: str) -> list[Row]:
 def post_processing_stages(table: Table, config: NetworkConfig, sample: Tensor, rows: str) -> None:
     """Smoothing, 6D -> matrix -> quaternion, velocity clamp; only smoothing unless C = 6."""
     settings = config.generation.post_processing
-    kernel, most = settings.smoothing_kernel, settings.max_velocity
-    smooth = smooth_features(sample, kernel)
+    weights, most = smoothing_weights(settings), settings.max_velocity
+    smooth = smooth_features(sample, weights)
     frame, turn, four = f"B x T x {rows} x C", "B x T x K x 3 x 3", "B x T x K x 4"
-    note = f"depthwise Conv1D, kernel {kernel}"
+    note = f"depthwise Conv1D, kernel {len(weights)}"
     stages = [(Row("", "smoothing", frame, frame, note), sample, smooth)]
     if config.generation.motion_channels == 6:
         rotations = smooth[:, :, : config.generation.num_bones]

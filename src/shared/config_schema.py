@@ -120,7 +120,8 @@ class DiffusionConfig(Config):
 class PostProcessingConfig(Config):
     """What happens to a sample before it becomes quaternions (TEXT, inference only)."""
 
-    smoothing_kernel: int = Field(3, ge=1)  # frames; odd; 1 = off
+    smoothing_kernel: int = Field(3, ge=1)  # frames of a binomial average; odd; 1 = off
+    smoothing_twicing: bool = True  # smooth what that took as well, and put it back
     max_velocity: float | None = Field(None, gt=0)  # rad/s per joint
     foot_lock: bool = False
 

@@ -28,6 +28,7 @@ from ..model.clip.tokenizer import META_FILE, MODEL_FILE, TOKENIZER_FOLDER
 from ..model.generation.motion_generator import KIND
 from ..model.generation.onnx_networks import ADAPTED_GRAPH, DENOISER_GRAPH
 from ..model.noise import NoiseSchedule, sampling_timesteps
+from ..motion.postprocess.whole import smoothing_weights
 from ..motion.skeleton import JOINT_NAMES, LIMBS
 from ..pipelines.edit import GROUPS
 from ..pipelines.words import javascript_patterns
@@ -145,7 +146,7 @@ def settings(folder: Path, card: ModelCard) -> dict[str, Any]:
         "clip": generation.clip_sigma,
         "prediction": generation.prediction_type,
         "post": {
-            "kernel": post.smoothing_kernel,
+            "smoothing": smoothing_weights(post),
             "maxVelocity": post.max_velocity,
             "footLock": post.foot_lock,
         },

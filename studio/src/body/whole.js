@@ -11,11 +11,10 @@ import {
 import { easeFromKept, keptLegs, lockCarriedFeet, lockFeet } from "./footskate.js";
 import { FPS, INDEX, JOINTS, pose } from "./skeleton.js";
 
-/** Binomial average over time of [T,R,C]; the ends repeat, contacts stay. */
-export function smoothFeatures(features, kernel) {
-  if (kernel === 1) return features;
-  const frames = framesOf(features), half = kernel >> 1, weights = [];
-  for (let k = 0, choose = 1; k < kernel; choose = (choose * (kernel - 1 - k)) / (k + 1), k++) weights.push(choose / 2 ** (kernel - 1));
+/** Average over time of [T,R,C]; the ends repeat, contacts stay. */
+export function smoothFeatures(features, weights) {
+  if (weights.length === 1) return features;
+  const frames = framesOf(features), half = weights.length >> 1;
   const smooth = features.slice();
   for (let t = 0; t < frames; t++)
     for (let c = 0; c < ROOT + LEFT_CONTACT; c++) {
@@ -52,7 +51,7 @@ function clampVelocity(quaternions, limit, fps) {
 
 /** All of it for a whole motion; `settings` are those of the model's post-processing. */
 export function postProcess(features, settings, { known = null, text = "", place = ORIGIN, carried = false } = {}) {
-  let smooth = smoothFeatures(features, settings.kernel);
+  let smooth = smoothFeatures(features, settings.smoothing);
   if (known) smooth = where(known, features, withoutHeading(where(known, features, smooth)));
   let motion = decodeFeatures(smooth, place, text);
   motion = { ...motion, quaternions: clampVelocity(motion.quaternions, settings.maxVelocity, FPS) };

@@ -7,6 +7,7 @@ every step. Roots are summed on the CPU in float64.
 Letters: T frames, R rows (bones, root track), C channels.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -34,8 +35,8 @@ Piece = tuple[Tensor, Tensor]  # features [t,R,6] and what is known of them, boo
 class Smoother:
     """Smooths all but the known entries; the last frames wait for their neighbours."""
 
-    def __init__(self, kernel_size: int) -> None:
-        self.kernel_size, self.reach = kernel_size, kernel_size // 2
+    def __init__(self, weights: Sequence[float]) -> None:
+        self.weights, self.reach = weights, len(weights) // 2
         self._raw: Tensor | None = None  # what waits, and `reach` frames before it
         self._known = torch.zeros(0)
         self._behind = 0  # of them, frames that were given back
@@ -56,7 +57,7 @@ class Smoother:
     def _settle(self, features: Tensor, known: Tensor, stop: int) -> Piece:
         smooth = features
         if len(features):
-            smooth = smooth_features(features, self.kernel_size)
+            smooth = smooth_features(features, self.weights)
             smooth = torch.where(known, features, smooth)
         start = self._behind
         stop = max(start, stop)
@@ -175,7 +176,7 @@ class StreamingPostProcessor:
         self, whole: MotionPostProcessor, *, place: Place = ORIGIN, foot_lock: bool | None = None
     ) -> None:
         config = whole.config
-        self._smoother = Smoother(config.smoothing_kernel)
+        self._smoother = Smoother(whole.weights)
         self._decoder = Decoder(config.max_velocity, whole.fps, place)
         locks = config.foot_lock if foot_lock is None else foot_lock
         self._lock = FootLock() if locks else None

@@ -32,25 +32,40 @@ from ..skeleton import JOINT_INDEX
 from .footskate import ease_from_kept, kept_legs, lock_carried_feet, lock_feet
 
 
-def smooth_features(features: Tensor, kernel_size: int) -> Tensor:
-    """Binomial average over time, [...,T,R,C] → the same; the ends repeat their last frame.
+def smoothing_weights(config: PostProcessingConfig) -> list[float]:
+    """The filter over time that a configuration asks for, an odd number of frames, [1] = none.
+
+    A binomial average B of `smoothing_kernel` frames. It takes a quarter of what happens at 5 Hz,
+    the steps of a run among it; with `smoothing_twicing` that is smoothed as well and put back,
+    2B − B² (Tukey, Exploratory Data Analysis, 1977: twicing). Of three frames these are
+    (−1, 4, 10, 4, −1)/16: nothing of the highest frequency is left, 94% of 5 Hz (Shapiro, Reviews
+    of Geophysics 8, 1970, order 2).
+    """
+    size = config.smoothing_kernel
+    once = np.array([math.comb(size - 1, k) for k in range(size)]) / 2 ** (size - 1)
+    if not config.smoothing_twicing:
+        return list(once.tolist())
+    twice = np.pad(2 * once, size // 2) - np.convolve(once, once)
+    return list(twice.tolist())
+
+
+def smooth_features(features: Tensor, weights: Sequence[float]) -> Tensor:
+    """Average over time, [...,T,R,C] → the same; the ends repeat their last frame.
 
     6D rows leave the sphere a little, which Gram–Schmidt mends. Contacts are left as they are:
     a foot is on the ground or not.
 
     Args:
         features: any number of leading dimensions; crop padding first.
-        kernel_size: frames, odd; 1 = off.
+        weights: of an odd number of frames, `smoothing_weights`.
     """
-    if kernel_size == 1:
+    size = len(weights)
+    if size == 1:
         return features
     frames, rows, channels = features.shape[-3:]
-    weights = features.new_tensor(
-        [math.comb(kernel_size - 1, k) / 2 ** (kernel_size - 1) for k in range(kernel_size)]
-    )
     series = features.reshape(-1, frames, rows * channels).swapaxes(1, 2)  # B R*C T
-    padded = F.pad(series, (kernel_size // 2, kernel_size // 2), mode="replicate")
-    depthwise = weights.expand(rows * channels, 1, kernel_size)
+    padded = F.pad(series, (size // 2, size // 2), mode="replicate")
+    depthwise = features.new_tensor(weights).expand(rows * channels, 1, size)
     smooth = F.conv1d(padded, depthwise, groups=rows * channels)
     smooth = smooth.swapaxes(1, 2).reshape(features.shape)
     if rows > ROOT_ROW:
@@ -90,6 +105,7 @@ class MotionPostProcessor(nn.Module):
     def __init__(self, config: PostProcessingConfig, fps: float = 30.0) -> None:
         super().__init__()
         self.config, self.fps = config, fps
+        self.weights = smoothing_weights(config)
 
     def forward(
         self,
@@ -112,7 +128,7 @@ class MotionPostProcessor(nn.Module):
             foot_lock: hold standing feet; None = as configured.
             carried: a path that is not the body's own is known.
         """
-        smooth = smooth_features(features, self.config.smoothing_kernel)
+        smooth = smooth_features(features, self.weights)
         if known is not None:
             known = known[:, : features.shape[1]]
             # Neither what was made of the pelvis nor an average has a heading of its own to add.

@@ -18,6 +18,7 @@ from src.shared.motion.postprocess.whole import (
     clamp_velocity,
     rest_to_rest,
     smooth_features,
+    smoothing_weights,
 )
 from src.shared.motion.rotations import (
     quaternion_conjugate,
@@ -45,42 +46,72 @@ def turn_rates(quaternions: torch.Tensor, fps: float) -> torch.Tensor:
     return quaternion_log(steps).norm(dim=-1) * fps
 
 
-@pytest.mark.parametrize(
-    ("size", "weights"), [(3, [1, 2, 1]), (5, [1, 4, 6, 4, 1]), (7, [1, 6, 15, 20, 15, 6, 1])]
-)
-def test_smoothing_equals_scipy(size: int, weights: list[int]) -> None:
+def weights_of(size: int, twicing: bool = False) -> list[float]:
+    return smoothing_weights(PostProcessingConfig(smoothing_kernel=size, smoothing_twicing=twicing))
+
+
+@pytest.mark.parametrize("size", [3, 5, 7])
+@pytest.mark.parametrize("twicing", [False, True])
+def test_smoothing_equals_scipy(size: int, twicing: bool) -> None:
+    """Twicing: what is taken is smoothed, too, and added, on a series without ends."""
+    binomial = {3: [1, 2, 1], 5: [1, 4, 6, 4, 1], 7: [1, 6, 15, 20, 15, 6, 1]}[size]
+    once = np.array(binomial) / 2.0 ** (size - 1)
     features = torch.randn(2, 20, 22, 6)
-    expected = convolve1d(
-        features.numpy(), np.array(weights) / sum(weights), axis=1, mode="nearest"
-    )
-    np.testing.assert_allclose(smooth_features(features, size).numpy(), expected, atol=1e-5)
+    smooth = smooth_features(features, weights_of(size, twicing)).numpy()
+
+    def average(values: np.ndarray) -> np.ndarray:
+        return convolve1d(values, once, axis=1, mode="nearest")
+
+    expected = average(features.numpy())
+    if twicing:
+        inner = slice(size - 1, 1 - size)
+        expected = (expected + average(features.numpy() - expected))[:, inner]
+        smooth = smooth[:, inner]
+    np.testing.assert_allclose(smooth, expected, atol=1e-5)
+
+
+def test_twicing_leaves_slow_motion_and_takes_the_fastest() -> None:
+    """Shapiro's filter of order 2: 1 − sin⁴(ω/2)."""
+    weights = weights_of(3, twicing=True)
+    np.testing.assert_allclose(weights, np.array([-1, 4, 10, 4, -1]) / 16)
+    time = torch.arange(60.0)
+    for turn in (np.pi, np.pi / 2, np.pi / 3):  # 15, 7.5, 5 Hz
+        wave = torch.cos(turn * time)[:, None, None].expand(60, 22, 6)
+        kept = smooth_features(wave, weights)[4:-4] / wave[4:-4]
+        expected = 1 - np.sin(turn / 2) ** 4
+        there = wave[4:-4].abs() > 0.1
+        torch.testing.assert_close(
+            kept[there], torch.full_like(kept[there], expected), rtol=0, atol=1e-4
+        )
 
 
 @pytest.mark.parametrize("shape", [(12, 22, 6), (12, 23, 6), (3, 12, 23, 6), (2, 1, 23, 6)])
 def test_smoothing_keeps_shape_constants_and_contacts(shape: tuple[int, ...]) -> None:
-    features = torch.randn(shape)
-    smooth = smooth_features(features, 5)
+    features, weights = torch.randn(shape), weights_of(5, twicing=True)
+    smooth, constant = smooth_features(features, weights), torch.full(shape, 0.7)
     assert smooth.shape == features.shape
-    torch.testing.assert_close(smooth_features(torch.full(shape, 0.7), 5), torch.full(shape, 0.7))
+    torch.testing.assert_close(smooth_features(constant, weights), constant)
     if shape[-2] == 23:
         assert torch.equal(smooth[..., 22, 4:], features[..., 22, 4:])
         if shape[-3] > 1:
             assert not torch.equal(smooth[..., 22, :4], features[..., 22, :4])
 
 
-def test_a_kernel_of_one_is_off() -> None:
+@pytest.mark.parametrize("twicing", [False, True])
+def test_a_kernel_of_one_is_off(twicing: bool) -> None:
     features = torch.randn(12, 23, 6)
-    assert smooth_features(features, 1) is features
+    assert smooth_features(features, weights_of(1, twicing)) is features
 
 
-def test_smoothing_takes_jitter_out() -> None:
+@pytest.mark.parametrize(("twicing", "left"), [(False, 0.4), (True, 0.6)])
+def test_smoothing_takes_jitter_out(twicing: bool, left: float) -> None:
     features = encode_features(some_motion())
     noisy = features + 0.05 * torch.randn(
         features.shape, generator=torch.Generator().manual_seed(0)
     )
     before = (noisy - features)[:, :22].square().mean()
-    after = (smooth_features(noisy, 5) - features)[:, :22].square().mean()
-    assert after < 0.4 * before
+    after = (smooth_features(noisy, weights_of(5, twicing)) - features)[:, :22].square().mean()
+    assert after < left * before
 
 
 def test_the_clamp_without_a_limit_is_off() -> None:
