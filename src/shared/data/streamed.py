@@ -31,7 +31,7 @@ from .prepared import ROWS, ClipRecord, PreparedData, checked, damaged, parse_re
 from .text_motion import CaptionedWindows, TextMotionBatch, WindowOptions, comes_back
 
 MIXED = 8  # shards whose clips are mixed
-AHEAD = 4  # more are kept, for batches that are made ahead
+AHEAD = 2  # more are kept, for batches that are made ahead
 SAMPLE = {"train": 8192, "val": 512}  # clips at most, of the kinds that training looks at whole
 _FRAME = ROWS[0] * ROWS[1] * 4  # bytes
 
