@@ -11,7 +11,7 @@ import { naturalGait, naturalSway, pathConstraint, swaying, timePath } from "./p
 import { isPlain, SentenceReader } from "./sentence.js";
 import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
-const GOING = ["walk", "run", "crouch-walk"], CORNER = 90, CORNER_SECONDS = 3, TURNING = (20 * Math.PI) / 180;
+const GOING = ["walk", "run", "crouch-walk"], CORNER = 90, CORNER_SECONDS = 2.3, TURNING = (20 * Math.PI) / 180;
 const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
 
 export class Director {
