@@ -233,9 +233,10 @@ def calibrate(
     from ..shared.data.text_motion import arm_actions, gestures, still_actions
     from ..shared.device import set_threads
     from ..shared.evaluation.actions import action_reliability, recognizer_of
+    from ..shared.evaluation.manifest import hash_names
     from ..shared.io.files import sha256_file
     from ..shared.model.checkpoint import WEIGHTS_FILE
-    from ..shared.model.clip.out_of_domain import RELIABLE
+    from ..shared.model.clip.out_of_domain import META_FILE, RELIABLE
     from ..shared.model.generation.motion_generator import TextToMotion
     from ..shared.pipelines.text import SentenceGenerator
 
@@ -247,7 +248,9 @@ def calibrate(
 
     judge = recognizer_of(clips, seed, told("calibrate"))
     checked = tuple(sorted(judge.necessary))
-    kept = model / f"calibration-{sha256_file(model / WEIGHTS_FILE)[:12]}.json"
+    parts = [sha256_file(model / name) for name in (WEIGHTS_FILE, "config.json", META_FILE)]
+    of = hash_names([f"{tries} {seed}", clips.manifest_hash, *parts])[:12]
+    kept = model / f".calibration-{of}.json"
     generator.scope = replace(
         generator.scope,
         gestures=gestures(clips),
@@ -265,7 +268,8 @@ def calibrate(
         progress=told("calibrate"),
     )
     replace(generator.scope, reliability=found).save_pretrained(model)
-    kept.unlink(missing_ok=True)
+    for done in model.glob(".calibration-*.json"):
+        done.unlink(missing_ok=True)
     if json:
         print_json({"model": str(model), "reliability": found})
     else:

@@ -32,6 +32,7 @@ def test_the_shares_stand_beside_the_weights(tmp_path: Path) -> None:
     given = ["--model", str(model), "--data", str(tmp_path / "data"), "--tries", "1"]
     result = CliRunner().invoke(app, ["calibrate", *given, "--threads", "1", "--json"])
     assert result.exit_code == 0, result.output
+    assert not list(model.glob("*calibration*"))
     found = OutOfDomainDetector.from_pretrained(model)
     assert found is not None and found.reliability
     assert set(found.reliability.values()) <= {1 / 3, 2 / 3}  # missed once, shown once

@@ -31,7 +31,7 @@ from .prepared import ROWS, ClipRecord, PreparedData, checked, damaged, parse_re
 from .text_motion import CaptionedWindows, TextMotionBatch, WindowOptions, comes_back
 
 MIXED = 8  # shards whose clips are mixed
-AHEAD = 2  # more are kept, for batches that are made ahead
+AHEAD = 2  # more are kept, for batches that are made ahead; and those that one batch walks through
 SAMPLE = {"train": 8192, "val": 512}  # clips at most, of the kinds that training looks at whole
 _FRAME = ROWS[0] * ROWS[1] * 4  # bytes
 
@@ -182,6 +182,7 @@ class StreamedSet(CaptionedWindows):
         cache = None if remote.local else ObjectCache(default_cache())
         self._store = PhraseStore(remote, cache)
         self._loaded: OrderedDict[int, _Loaded] = OrderedDict()
+        self._kept = MIXED + AHEAD
         self._lock = threading.Lock()
         self._plan = lru_cache(2)(self._plan_of)
         self._mix = lru_cache(MIXED + AHEAD)(self._mix_of)
@@ -236,6 +237,7 @@ class StreamedSet(CaptionedWindows):
         One length a step, spread evenly, and longer where a clip of the part is not to be cut.
         """
         first = ((step - 1) * count + rank) * size
+        self._kept = MIXED + AHEAD + size * len(self._counts) // self._total
         records = [self.at(place) for place in range(first, first + size)]
         shared = np.random.default_rng((self.seed, step))
         longest = int(shared.integers(self.min_frames, self.max_frames + 1))
@@ -249,7 +251,7 @@ class StreamedSet(CaptionedWindows):
         """A shard in memory; raises UserError where it is missing, damaged or out of reach."""
         with self._lock:
             if number not in self._loaded:
-                while len(self._loaded) >= MIXED + AHEAD:
+                while len(self._loaded) >= self._kept:
                     self._loaded.popitem(last=False)
                 self._loaded[number] = self._read(self.data.shards[number])
             self._loaded.move_to_end(number)

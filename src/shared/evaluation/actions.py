@@ -10,10 +10,10 @@ of captured clips of other actions that are mistaken, stand beside every figure.
 Letters: N motions, T frames, K joints, F features, C classes.
 """
 
-import hashlib
 import math
 from collections import defaultdict
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import cycle, islice, pairwise
 from pathlib import Path
@@ -339,8 +339,8 @@ def action_reliability(
     """Share of `tries` in which each action of the training clips was shown.
 
     (successes + 1) / (tries + 2), the mean of the posterior under a uniform prior (Laplace): one
-    try tells little. What was found is kept in the file `kept` until all is, so that the next call
-    for the same sentences goes on there; whoever asks another model names another file.
+    try tells little. What was found is kept in the file `kept`, so that the next call goes on
+    there; whoever asks another model, or by another judge, names another file.
     """
     train = _captioned(data)
     asked = []
@@ -348,11 +348,7 @@ def action_reliability(
         own = spread_over_groups([train[row] for row in rows], tries, seed)
         several = enumerate(islice(cycle(own), tries))
         asked += [(record, _caption(data, record, seed + number)) for number, record in several]
-    right: list[bool] = []
-    of = hashlib.sha256("\n".join([str(seed), *(text for _, text in asked)]).encode()).hexdigest()
-    if kept is not None and kept.exists():
-        before = load_json(kept)
-        right = before["right"] if before["of"] == of else []
+    right = _kept_before(kept, len(asked))
     for at in range(len(right), len(asked), SENTENCES):
         progress(f"{at} of {len(asked)} sentences")
         part = asked[at : at + SENTENCES]
@@ -363,11 +359,20 @@ def action_reliability(
             done = judge.shows(record.tag, action, motion) and shown([labels], motion)
             right.append(bool(done))
         if kept is not None:
-            write_json(kept, {"of": of, "right": right})
+            write_json(kept, right)
     shares: dict[str, list[bool]] = defaultdict(list)
     for (record, _), done in zip(asked, right, strict=True):
         shares[record.tag].append(done)
     return {tag: (sum(done) + 1) / (len(done) + 2) for tag, done in shares.items()}
+
+
+def _kept_before(kept: Path | None, most: int) -> list[bool]:
+    """What a file of `action_reliability` holds; nothing where it is of no use."""
+    with suppress(OSError, UserError, ValueError):
+        right = load_json(kept) if kept is not None else []
+        if isinstance(right, list) and len(right) <= most:
+            return right if all(isinstance(one, bool) for one in right) else []
+    return []
 
 
 def _captioned(data: PreparedData) -> list[ClipRecord]:

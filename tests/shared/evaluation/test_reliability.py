@@ -79,12 +79,14 @@ def test_what_was_found_is_not_asked_again(data: PreparedData, tmp_path: Path) -
     again = action_reliability(Puppet(data), data, judge, tries=4, kept=kept, progress=told.append)
     assert again == whole and told[0].startswith("32 of ")
     assert action_reliability(Mortal(data, 1), data, judge, tries=4, kept=kept) == whole
-    told.clear()
-    with pytest.raises(KeyboardInterrupt):
-        action_reliability(
-            Mortal(data, 0), data, judge, tries=4, seed=1, kept=kept, progress=told.append
-        )
-    assert told[0].startswith("0 of ")  # other sentences
+    for useless in ("{}", '["yes"]', "not JSON", json.dumps([True] * 9999)):
+        kept.write_text(useless)
+        told.clear()
+        with pytest.raises(KeyboardInterrupt):
+            action_reliability(
+                Mortal(data, 0), data, judge, tries=4, kept=kept, progress=told.append
+            )
+        assert told[0].startswith("0 of ")
 
 
 def test_without_actions_to_tell_apart_it_says_so(data: PreparedData, tmp_path: Path) -> None:
