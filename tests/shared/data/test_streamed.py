@@ -42,6 +42,18 @@ def test_every_clip_once_an_epoch_in_bounded_memory(folder: Path, data: Streamed
     assert len(data._loaded) <= MIXED + AHEAD < len(data.data.shards)
 
 
+def test_a_batch_of_several_shards_reads_each_once(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    data, read = StreamedSet(StreamedData(folder), seed=3), list[str]()
+    of = data._read
+    monkeypatch.setattr(data, "_read", lambda shard: read.append(shard.name) or of(shard))
+    size = 4 * len(data) // len(data.data.shards)  # four shards' clips, and a little less
+    for step in range(1, len(data) // size + 1):
+        data.batch(step, size)
+    assert len(read) == len(set(read)) > MIXED + AHEAD
+
+
 def test_neighbours_come_from_several_shards(data: StreamedSet) -> None:
     some = {data.at(place).shard for place in range(100, 116)}
     assert len(some) > MIXED // 2
