@@ -99,13 +99,14 @@ def _plain(text: str) -> str:
 
 
 def tidied(sentence: str) -> str:
-    """A sentence without greeting and thanks, with arrows for the numbers of a list; it itself
-    where it has nothing of these."""
+    """A sentence without greeting and thanks, with plain words for idioms and arrows for the
+    numbers of a list; it itself where it has nothing of these."""
     words, plain = all_words(), _plain(sentence)
     text = _plain(re.sub("([\u2460-\u2468])", r" \1) ", sentence))  # circled 1 to 9
     text = words.greeting.sub("", text)
     text = words.closing.sub("", text) or text
     text = words.short.sub(lambda cut: cut[0][:-1], text)
+    text = words.idiom.sub(lambda said: words.plainly[bare(_plain(said[0]))], text)
     numbers = list(NUMBERED.finditer(text))
     if len(numbers) > 1 and [int(each[1]) for each in numbers] == list(range(1, len(numbers) + 1)):
         lead = text[: numbers[0].start()].strip()

@@ -73,6 +73,10 @@ class Words:
         self.closing = re.compile(rf"\s*{_STOPS}\s*{_any(all_of('closings'))}\W*$", re.I)
         cut = "|".join(re.escape(word[:-1]) for word in all_of("short"))
         self.short = re.compile(rf"(?<!{_SIGN})(?:{cut})\.(?=\s+{_any(all_of('limbs'))})", re.I)
+        idioms = {said: plain for table in tables for plain, many in table.get("idioms", {}).items()
+                  for said in many}  # fmt: skip
+        self.idiom = re.compile(_any(idioms), re.I)
+        self.plainly = {bare(said): plain for said, plain in idioms.items()}
         nouns = rf"{_any(all_of('prepositions'))}\s*{_any(all_of('own'))}"
         self.noun = re.compile(rf"{_COMMAS}?\s*{nouns}", re.I)
         owned = [*all_of("own"), *all_of("left"), *all_of("right")]
@@ -187,7 +191,8 @@ _JAVASCRIPT = (
 def javascript_patterns() -> dict[str, Any]:
     """The patterns as JavaScript reads them, with the flags i and u, and what their words say."""
     ours = all_words()
-    said = {name: vars(ours)[name] for name in ("numbers", "adverbs", "angles", "others")}
+    tables = ("numbers", "adverbs", "angles", "others", "plainly")
+    said = {name: vars(ours)[name] for name in tables}
     alone = {name: each for name, each in vars(ours).items() if name not in {*said, "units"}}
     found = {
         name: reduce(lambda text, pair: text.replace(*pair), _JAVASCRIPT, each.pattern)

@@ -43,8 +43,8 @@ const best = (ways) => ways.reduce((found, way) => (asGood(found, way) ? found :
 export class SentenceReader {
   /** @param {object} measures patterns and words @param {function} read what a text alone asks for:
    *  { action, certainty, arms } */
-  constructor({ patterns, numbers, adverbs, angles, others, most, maxCount }, read) {
-    Object.assign(this, { numbers, adverbs, angles, others, most, maxCount, read });
+  constructor({ patterns, numbers, adverbs, angles, others, plainly, most, maxCount }, read) {
+    Object.assign(this, { numbers, adverbs, angles, others, plainly, most, maxCount, read });
     this.first = {}; this.each = {}; this.head = {};
     for (const [name, pattern] of Object.entries(patterns)) {
       this.first[name] = new RegExp(pattern, "iu");
@@ -66,7 +66,7 @@ export class SentenceReader {
     return real.length ? real : [plainClause(sentence)];
   }
 
-  /** Without greeting and thanks, with arrows for the numbers of a list; it itself where it has none. */
+  /** Without greeting and thanks, with plain words for idioms and arrows for the numbers of a list; it itself where it has none. */
   tidied(sentence) {
     const text = this.withoutManners(sentence);
     return text === plain(sentence) ? sentence : text;
@@ -76,6 +76,7 @@ export class SentenceReader {
     let text = plain(sentence.replace(/([\u2460-\u2468])/gu, " $1) "));
     text = text.replace(this.first.greeting, "");
     text = (text.replace(this.first.closing, "") || text).replace(this.each.short, (cut) => cut.slice(0, -1));
+    text = text.replace(this.each.idiom, (said) => this.plainly[bare(said)]);
     const numbers = [...text.matchAll(NUMBERED)], [first] = numbers;
     if (numbers.length < 2 || !numbers.every((each, i) => Number(each[1]) === i + 1)) return text;
     const lead = text.slice(0, first.index).trim();

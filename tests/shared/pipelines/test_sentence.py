@@ -346,6 +346,22 @@ def test_order_is_told_in_other_ways(sentence: str, texts: list[str]):
     assert [clause.text for clause in clauses(sentence)] == texts
 
 
+@pytest.mark.parametrize(
+    ("sentence", "texts"),
+    [
+        ("takes  a Run-up, then jumps", ["runs", "jumps"]),
+        ("toma carrerilla y luego salta", ["corre", "salta"]),
+        ("il prend son élan puis saute", ["il court", "saute"]),
+        ("Sie nimmt Anlauf, danach springt sie", ["Sie rennt los", "springt sie"]),
+        ("助走をつけてからジャンプする", ["走って", "ジャンプする"]),
+        ("先助跑，然后跳", ["跑", "跳"]),
+        ("Kannst du mir jemanden machen, der rennt?", ["der rennt"]),
+    ],
+)
+def test_idioms_are_read_as_plain_words(sentence: str, texts: list[str]):
+    assert [clause.text for clause in clauses(sentence)] == texts
+
+
 @pytest.mark.parametrize("name", ["Uğur", "Łukasz", "Nguyễn", "Cœur", "nō"])
 def test_a_letter_of_another_language_ends_no_word(name: str) -> None:
     assert clauses(f"{name} waves") == [Clause(f"{name} waves")]

@@ -37,7 +37,7 @@ PROMPTS = {
     "en": "a person walks forward",
     "es": "Hola, una persona salta tras el autobús, gracias",
     "fr": "①une personne court, tête basse ②elle saute",
-    "de": "Hallo, eine Person rennt, davor winkt sie, danke!",
+    "de": "Hallo, eine Person nimmt Anlauf, davor winkt sie, danke!",
     "ja": "人が右手を振る",
     "zh": "一个人向左转弯走",
 }
