@@ -7,7 +7,7 @@ import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import contextmanager
 from types import FrameType
 from typing import Any, TypeVar
 
@@ -57,9 +57,16 @@ def answered(number: int, answer: Any) -> Iterator[None]:
         signal.signal(number, before)
 
 
-def orderly_termination() -> AbstractContextManager[None]:
-    """Let SIGTERM end the program as an error would: workers end, half-written files go."""
-    return answered(signal.SIGTERM, _leave)
+@contextmanager
+def orderly_termination() -> Iterator[None]:
+    """Let SIGTERM end the program as an error would: workers end, half-written files go.
+    Ctrl-C does so anyhow, but in a finalizer."""
+    with answered(signal.SIGTERM, _leave):
+        if signal.getsignal(signal.SIGINT) is signal.default_int_handler:  # not ignored
+            with answered(signal.SIGINT, _leave):
+                yield
+        else:
+            yield
 
 
 def _leave(number: int, frame: FrameType | None) -> None:
@@ -67,6 +74,8 @@ def _leave(number: int, frame: FrameType | None) -> None:
         again = threading.Timer(LATER, os.kill, (os.getpid(), number))
         again.daemon = True
         again.start()
+    elif number == signal.SIGINT:
+        raise KeyboardInterrupt
     else:
         sys.exit(128 + number)
 

@@ -1,4 +1,4 @@
-"""SIGTERM ends a program as an error would: what has to be tidied up is."""
+"""SIGTERM ends a program as an error would, Ctrl-C everywhere: what has to be tidied up is."""
 
 import signal
 import subprocess
@@ -22,16 +22,18 @@ FINALIZING = """
 import os, signal
 class Left:
     def __del__(self):
-        os.kill(os.getpid(), signal.SIGTERM)
+        os.kill(os.getpid(), NUMBER)
         for _ in range(1000):
             pass
 """
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX signals")
-def test_sigterm_in_a_finalizer_is_not_lost() -> None:
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_a_signal_in_a_finalizer_is_not_lost(number: signal.Signals) -> None:
     program = PROGRAM.replace('print("started", flush=True)', "del left")
-    program = program.replace("\nwith", f"{FINALIZING}left = Left()\nwith", 1)
+    finalizing = FINALIZING.replace("NUMBER", str(int(number)))
+    program = program.replace("\nwith", f"{finalizing}left = Left()\nwith", 1)
     done = subprocess.run(
         [sys.executable, "-c", program],
         cwd=Path(__file__).parents[3],
@@ -39,7 +41,11 @@ def test_sigterm_in_a_finalizer_is_not_lost() -> None:
         text=True,
         timeout=60,
     )
-    assert (done.returncode, done.stdout, done.stderr) == (128 + signal.SIGTERM, "tidied\n", "")
+    assert done.stdout == "tidied\n" and "ignored" not in done.stderr
+    if number == signal.SIGTERM:
+        assert (done.returncode, done.stderr) == (128 + number, "")
+    else:
+        assert done.returncode == -number and done.stderr.endswith("\nKeyboardInterrupt\n")
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX signals")
