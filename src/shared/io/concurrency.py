@@ -1,5 +1,6 @@
 """Threads that work ahead, and signals answered for the length of a block."""
 
+import functools
 import os
 import signal
 import sys
@@ -70,14 +71,13 @@ def orderly_termination() -> Iterator[None]:
 
 
 def _leave(number: int, frame: FrameType | None) -> None:
-    if _is_finalizing(frame):  # where an exception ends nothing: once more, a little later
-        again = threading.Timer(LATER, os.kill, (os.getpid(), number))
-        again.daemon = True
-        again.start()
-    elif number == signal.SIGINT:
+    if _is_finalizing(frame):
+        _send_again(number)
+        return
+    sys.unraisablehook = functools.partial(_unraisable, number)
+    if number == signal.SIGINT:
         raise KeyboardInterrupt
-    else:
-        sys.exit(128 + number)
+    sys.exit(128 + number)
 
 
 def _is_finalizing(frame: FrameType | None) -> bool:
@@ -85,3 +85,17 @@ def _is_finalizing(frame: FrameType | None) -> bool:
     while frame is not None and frame.f_code.co_name != "__del__":
         frame = frame.f_back
     return frame is not None
+
+
+def _unraisable(number: int, error: "sys.UnraisableHookArgs") -> None:
+    """Finalizers of what is half built complain, which is no news once the program ends; a signal
+    that met a callback has ended nothing, and comes again."""
+    if error.exc_type in (KeyboardInterrupt, SystemExit):
+        _send_again(number)
+
+
+def _send_again(number: int) -> None:
+    """The signal once more, a little later: where it came an exception ends nothing."""
+    again = threading.Timer(LATER, os.kill, (os.getpid(), number))
+    again.daemon = True
+    again.start()

@@ -27,13 +27,42 @@ class Left:
             pass
 """
 
+CALLED_BACK = """
+import os, signal, weakref
+class Left:
+    pass
+def callback():
+    os.kill(os.getpid(), NUMBER)
+    for _ in range(1000):
+        pass
+"""
+
+HALF_BUILT = """
+import os, signal
+class Half:
+    def __init__(self):
+        os.kill(os.getpid(), NUMBER)
+        for _ in range(1000):
+            pass
+        self.file = None
+    def __del__(self):
+        self.file
+"""
+
+CASES = {
+    "finalizer": (FINALIZING + "left = Left()", "del left"),
+    "callback": (CALLED_BACK + "left = Left(); weakref.finalize(left, callback)", "del left"),
+    "half built": (HALF_BUILT, "Half()"),
+}
+
 
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX signals")
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
-def test_a_signal_in_a_finalizer_is_not_lost(number: signal.Signals) -> None:
-    program = PROGRAM.replace('print("started", flush=True)', "del left")
-    finalizing = FINALIZING.replace("NUMBER", str(int(number)))
-    program = program.replace("\nwith", f"{finalizing}left = Left()\nwith", 1)
+@pytest.mark.parametrize("case", CASES)
+def test_a_signal_ends_the_program_wherever_it_comes(case: str, number: signal.Signals) -> None:
+    made, done_with = CASES[case]
+    program = PROGRAM.replace('print("started", flush=True)', done_with)
+    program = program.replace("\nwith", f"{made.replace('NUMBER', str(int(number)))}\nwith", 1)
     done = subprocess.run(
         [sys.executable, "-c", program],
         cwd=Path(__file__).parents[3],
@@ -46,6 +75,7 @@ def test_a_signal_in_a_finalizer_is_not_lost(number: signal.Signals) -> None:
         assert (done.returncode, done.stderr) == (128 + number, "")
     else:
         assert done.returncode == -number and done.stderr.endswith("\nKeyboardInterrupt\n")
+        assert done.stderr.count("Error") == 0
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX signals")
