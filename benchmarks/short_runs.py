@@ -6,8 +6,9 @@ python -m benchmarks.short_runs audio --data PAIRS --models FOLDER,FOLDER [--num
 text: R@3 of motions for the captions of `num` held-back clips of seen combinations (the shipped
 judge, batches of 32), of the same motions under shuffled captions, and of the clips themselves;
 jerk of both. audio: the error of the motion that the network finds in noise (z-scores, squared,
-high and middle noise), hearing the window's own sound, another phrase's, or none: `num` windows of
-each held-back phrase, differences phrase by phrase.
+high and middle noise), hearing the window's own sound, that of seven other phrases, or none:
+`num` windows of each held-back phrase, differences phrase by phrase; and how often another phrase's
+sound fits worse than its own, which is half of the time if the network does not hear.
 """
 
 import argparse
@@ -30,6 +31,7 @@ from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.motion import Motion
 
 FPS = 30
+OTHERS = 7  # phrases whose sound is heard in place of a phrase's own
 
 
 def shown(found: Estimate) -> str:
@@ -70,19 +72,22 @@ def audio(data: str, models: list[str], num: int) -> Iterator[str]:
     for folder in models:
         model = AudioMotionModel.from_pretrained(folder).eval()
         found = np.concatenate([_errors(model, data, split, num) for split in ("val", "test")])
-        own, other, none = found.T
+        own, other, none, worse = found.T
         yield (
             f"{Path(folder).name}: own sound {shown(bootstrap_mean(own))}, another's"
             f" {shown(bootstrap_mean(other))}, none {shown(bootstrap_mean(none))};"
-            f" another's above own {shown(paired_bootstrap(own, other))}, N {len(own)} phrases"
+            f" another's above own {shown(paired_bootstrap(own, other))},"
+            f" another's fits worse {shown(bootstrap_mean(worse))}, by chance 0.5"
+            f"; N {len(own)} phrases"
         )
 
 
 def _errors(model: AudioMotionModel, data: str, split: str, num: int) -> np.ndarray:
-    """Mean over its windows of each phrase's errors [N, 3]: own sound, another phrase's, none."""
+    """Means over its windows of each phrase [N, 4]: errors with its own sound, other phrases' and
+    none, and the share of the others that fit worse."""
     phrases = MotionPhraseDataset(data, split=split, target_frames=model.config.window)
     steps, draws = model.diffusion.config.timesteps, torch.Generator().manual_seed(0)
-    sums = np.zeros((len(phrases), 3))
+    sums = np.zeros((len(phrases), 4))
     for window in range(num):
         items = [phrases.item(index, window) for index in range(len(phrases))]
         batch = collate([item for item in items if item is not None])
@@ -92,13 +97,16 @@ def _errors(model: AudioMotionModel, data: str, split: str, num: int) -> np.ndar
         timesteps = torch.randint(steps // 3, steps, (len(clean),), generator=draws)
         sound = with_phase_rows(batch.audio)
         for row in range(len(clean)):
-            heard = sound[[row, (row + 1) % len(sound), row]]
-            at, length = timesteps[row].expand(3), int(batch.mask[row].sum())
-            x_0, unknown = (each[row].expand(3, -1, -1) for each in (clean, noise))
+            others = [(row + step) % len(sound) for step in range(1, OTHERS + 1)]
+            heard = sound[[row, *others, row]]
+            at, length = timesteps[row].expand(len(heard)), int(batch.mask[row].sum())
+            x_0, unknown = (each[row].expand(len(heard), -1, -1) for each in (clean, noise))
             noisy = model.diffusion.q_sample(x_0, at, unknown)
-            output = model.unet(noisy, at, heard, torch.tensor([False, False, True]), None)
-            error = (model.diffusion.predict_x0(output, noisy, at) - x_0).square()
-            sums[row] += error[..., :length].mean((1, 2)).numpy()
+            silent = torch.arange(len(heard)) > OTHERS
+            output = model.unet(noisy, at, heard, silent, None)
+            errors = (model.diffusion.predict_x0(output, noisy, at) - x_0).square()
+            own, *rest, none = errors[..., :length].mean((1, 2)).tolist()
+            sums[row] += own, np.mean(rest), none, np.mean(np.array(rest) > own)
     return sums / num
 
 
