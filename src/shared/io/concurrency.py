@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 
 Key = TypeVar("Key")
 Value = TypeVar("Value")
-LATER = 0.01  # seconds
+LATER = 0.05  # seconds
 
 
 def prefetch(
@@ -81,8 +81,8 @@ def _leave(number: int, frame: FrameType | None) -> None:
 
 
 def _is_finalizing(frame: FrameType | None) -> bool:
-    """Whether a signal has interrupted a `__del__`, or what it calls."""
-    while frame is not None and frame.f_code.co_name != "__del__":
+    """Whether a signal has interrupted a `__del__`, `_unraisable`, or what they call."""
+    while frame is not None and frame.f_code.co_name not in ("__del__", _unraisable.__name__):
         frame = frame.f_back
     return frame is not None
 
