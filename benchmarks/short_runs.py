@@ -84,7 +84,7 @@ def audio(data: str, models: list[str], num: int) -> Iterator[str]:
 
 def _errors(model: AudioMotionModel, data: str, split: str, num: int) -> np.ndarray:
     """Means over its windows of each phrase [N, 4]: errors with its own sound, other phrases' and
-    none, and the share of the others that fit worse."""
+    none, and the share of the others that fit worse (alike: half)."""
     phrases = MotionPhraseDataset(data, split=split, target_frames=model.config.window)
     steps, draws = model.diffusion.config.timesteps, torch.Generator().manual_seed(0)
     sums = np.zeros((len(phrases), 4))
@@ -97,16 +97,17 @@ def _errors(model: AudioMotionModel, data: str, split: str, num: int) -> np.ndar
         timesteps = torch.randint(steps // 3, steps, (len(clean),), generator=draws)
         sound = with_phase_rows(batch.audio)
         for row in range(len(clean)):
-            others = [(row + step) % len(sound) for step in range(1, OTHERS + 1)]
+            others = [(row + step) % len(sound) for step in range(1, min(OTHERS + 1, len(sound)))]
             heard = sound[[row, *others, row]]
             at, length = timesteps[row].expand(len(heard)), int(batch.mask[row].sum())
             x_0, unknown = (each[row].expand(len(heard), -1, -1) for each in (clean, noise))
             noisy = model.diffusion.q_sample(x_0, at, unknown)
-            silent = torch.arange(len(heard)) > OTHERS
+            silent = torch.arange(len(heard)) > len(others)
             output = model.unet(noisy, at, heard, silent, None)
             errors = (model.diffusion.predict_x0(output, noisy, at) - x_0).square()
             own, *rest, none = errors[..., :length].mean((1, 2)).tolist()
-            sums[row] += own, np.mean(rest), none, np.mean(np.array(rest) > own)
+            worse = (1 + np.sign(np.array(rest) - own)) / 2  # alike: half
+            sums[row] += own, np.mean(rest), none, worse.mean()
     return sums / num
 
 

@@ -61,7 +61,7 @@ def answered(number: int, answer: Any) -> Iterator[None]:
 @contextmanager
 def orderly_termination() -> Iterator[None]:
     """Let SIGTERM end the program as an error would: workers end, half-written files go.
-    Ctrl-C does so anyhow, but in a finalizer."""
+    Ctrl-C does so anyhow, but in a finalizer or a callback of the interpreter's."""
     with answered(signal.SIGTERM, _leave):
         if signal.getsignal(signal.SIGINT) is signal.default_int_handler:  # not ignored
             with answered(signal.SIGINT, _leave):

@@ -18,51 +18,34 @@ with orderly_termination():
         print("tidied")
 """
 
-FINALIZING = """
-import os, signal
-class Left:
-    def __del__(self):
-        os.kill(os.getpid(), NUMBER)
-        for _ in range(1000):
-            pass
-"""
-
-CALLED_BACK = """
-import os, signal, weakref
-class Left:
-    pass
-def callback():
+INTERRUPTED = """
+import os, weakref
+def interrupted():
     os.kill(os.getpid(), NUMBER)
     for _ in range(1000):
         pass
-"""
-
-HALF_BUILT = """
-import os, signal
-class Half:
+class Finalized:
+    def __del__(self):
+        interrupted()
+class CalledBack:
     def __init__(self):
-        os.kill(os.getpid(), NUMBER)
-        for _ in range(1000):
-            pass
+        weakref.finalize(self, interrupted)
+class HalfBuilt:
+    def __init__(self):
+        interrupted()
         self.file = None
     def __del__(self):
         self.file
 """
 
-CASES = {
-    "finalizer": (FINALIZING + "left = Left()", "del left"),
-    "callback": (CALLED_BACK + "left = Left(); weakref.finalize(left, callback)", "del left"),
-    "half built": (HALF_BUILT, "Half()"),
-}
-
 
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX signals")
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("case", ["Finalized", "CalledBack", "HalfBuilt"])
 def test_a_signal_ends_the_program_wherever_it_comes(case: str, number: signal.Signals) -> None:
-    made, done_with = CASES[case]
-    program = PROGRAM.replace('print("started", flush=True)', done_with)
-    program = program.replace("\nwith", f"{made.replace('NUMBER', str(int(number)))}\nwith", 1)
+    program = PROGRAM.replace('print("started", flush=True)', f"{case}()")
+    classes = INTERRUPTED.replace("NUMBER", str(int(number)))
+    program = program.replace("\nwith", f"{classes}\nwith", 1)
     done = subprocess.run(
         [sys.executable, "-c", program],
         cwd=Path(__file__).parents[3],
