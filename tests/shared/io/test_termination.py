@@ -19,7 +19,8 @@ with orderly_termination():
 """
 
 INTERRUPTED = """
-import os, weakref
+import os, signal, weakref
+signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored where `&` began the tests
 def interrupted():
     os.kill(os.getpid(), NUMBER)
     for _ in range(1000):
