@@ -81,7 +81,7 @@ export class Scope {
     const all = [...words];
     if (all.some((word) => this.keyWords.has(word))) return true;
     if (all.every((word) => this.words.has(word)) && !all.every((word) => this.fillers.has(word))) return true;
-    const alike = all.filter((word) => [...this.keyWords.keys()].some((key) => sameStem(word, key)));
+    const alike = all.filter((word) => !this.fillers.has(word) && [...this.keyWords.keys()].some((key) => sameStem(word, key)));
     const near = all.filter((word) => this.words.has(word) || alike.includes(word));
     return alike.length > 0 && near.length >= MIN_SEEN * all.length;
   }

@@ -506,11 +506,12 @@ def _known(
     """Whether a word is a key word, or another form of one among mostly familiar words.
 
     Trained words alone will do as well, unless all are fillers: "waves" may tell of two actions
-    and is then a key word of neither.
+    and is then a key word of neither. A filler is a form of no key word: "person" is not one of
+    French "perso".
     """
     if not prompt.isdisjoint(key_words) or (prompt <= seen and not prompt <= fillers):
         return True
-    alike = {word for word in prompt if _alike(word, stems)}
+    alike = {word for word in prompt - fillers if _alike(word, stems)}
     return bool(alike) and len(prompt & seen | alike) >= MIN_SEEN * len(prompt)
 
 

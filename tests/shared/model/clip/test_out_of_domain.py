@@ -114,6 +114,13 @@ def test_other_forms_of_a_word_count_among_known_words(scope: OutOfDomainDetecto
     assert scope.check("a person walked", np.ones(9)).known
 
 
+def test_a_filler_is_no_form_of_a_key_word(scope: OutOfDomainDetector):
+    named = replace(scope, key_words={**scope.key_words, "perso": (0,)})
+    assert {"a", "person"} <= named.fillers
+    assert not named.familiar("a person")
+    assert named.familiar("the persos"), "an untrained word may be another form of it"
+
+
 def test_a_pretrained_tower_knows_synonyms(scope: OutOfDomainDetector):
     captions, actions = ["walks", "runs"] * 10, ["walk", "run"] * 10
     embeddings = np.tile(np.eye(2), (10, 1))
