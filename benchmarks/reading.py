@@ -4,7 +4,9 @@
 
 A sentence is read if it is one clause and its nearest action is the one it asks for; a spin may be
 read as a turn, and waves and goodbyes are one gesture. None of the sentences is one of training or
-of `evaluate-requests`.
+of `evaluate-requests`. Those of another hand (other_hand.tsv, by somebody who had seen neither) are
+read if they come apart as they are meant: sequences into their actions, in order (a turn may be a
+walked corner and a jog a run), two things at once into two, styled walks into one walk.
 """
 
 import argparse
@@ -20,6 +22,8 @@ from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.pipelines.text import SentenceGenerator
 
 SENTENCES = Path(__file__).with_name("development.yaml")
+OTHER_HAND = Path(__file__).with_name("other_hand.tsv")
+WILL_DO = {("turn", "walk"), ("jog", "run")}  # in a sequence: what it asks for, what is read
 
 
 def is_read(wanted: str, found: str | None) -> bool:
@@ -28,6 +32,26 @@ def is_read(wanted: str, found: str | None) -> bool:
         return False
     alike = any({wanted, found} <= twins for twins in TWINS)
     return alike or same_action(wanted, found) or (wanted, found) == ("spin", "turn")
+
+
+def of_another_hand(sentences: SentenceGenerator) -> dict[str, float]:
+    """Shares of other_hand.tsv that come apart as they are meant, by kind."""
+    groups = defaultdict[str, list[bool]](list)
+    for line in OTHER_HAND.read_text(encoding="utf-8").splitlines()[1:]:
+        kind, _, asks, text = line.split("\t")
+        if kind == "free":
+            continue
+        clauses = sentences.clauses(text)
+        readings = [sentences.generator.read(clause.text) for clause in clauses]
+        found = [each.nearest[0] if each and each.nearest else None for each in readings]
+        if kind == "two-sides":
+            groups[kind].append(len(clauses) == 1 and clauses[0].meanwhile != "")
+            continue
+        wanted = ["walk"] if kind == "styles" else [a.split(":")[0] for a in asks.split("+")]
+        each = zip(wanted, found, strict=False)
+        right = all(is_read(*pair) or pair in WILL_DO for pair in each)
+        groups[kind].append(right and len(wanted) == len(found))
+    return {kind: sum(each) / len(each) for kind, each in groups.items()}
 
 
 def figures(model: str) -> dict[str, Any]:
@@ -54,6 +78,7 @@ def figures(model: str) -> dict[str, Any]:
             name: sum(each) / max(len(each), 1)
             for name, each in (("read", doubted[True]), ("misread", doubted[False]))
         },
+        "of-another-hand": of_another_hand(sentences),
     }
 
 

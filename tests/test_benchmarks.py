@@ -25,3 +25,4 @@ def test_most_development_sentences_are_read() -> None:
     assert found["sentences"] == 702 and set(LANGUAGES) <= set(found["read"])
     assert found["read"]["all"] > 0.9
     assert found["warned-of"]["read"] < 0.1 < found["warned-of"]["misread"]
+    assert all(share > 0.75 for share in found["of-another-hand"].values())
