@@ -53,6 +53,7 @@ ADAPTED = {
                                    "not-confident", "proud", "sad"), ("steps=1000",)),
     "run": ("data", ("run",), ("plain",), ("steps=500",)),
     "walk": ("data", ("walk",), ("plain",), ("steps=400", "min-clips=20")),
+    "masculine": ("data", ("walk",), ("masculine",), ("steps=400", "rank=8")),
     "still": ("data", ("drink", "kneel", "meditate", "push-up", "sit", "zombie"), (),
               ("steps=4000",)),
 }  # fmt: skip

@@ -8,7 +8,8 @@ sent them before. Then low-rank adapters (Hu et al. 2022, LoRA) learn what is at
 are open for texts that come out there and closed for all others: of what the model knew, nothing
 changes. No clip that it was trained on is needed. With `actions=` it is known actions that are
 learned better, in adapters at the places that they have; with `styles=` those of their clips in
-these styles, at places where nothing else comes out, or, `styles=plain`, in none. With
+these styles, at places where nothing else comes out, or, `styles=plain`, in none. A style that was
+given the very place of plain clips (captured_places.py) moves aside. With
 `captured-share=1` the captured clips of an action that has some are all that is learned of it.
 
 Letters: B batch, T frames, R rows of a frame, P places, D shared dimensions.
@@ -77,6 +78,8 @@ LEAST_CLIPS = 2
 PLAIN = "plain"  # clips without a style
 SHARED = 0.1  # share of another combination's captions that makes a place theirs, too
 MOST = 0.5  # share of a combination's captions that have to agree on its place
+SAME = 1e-6  # in cosine, of two places that are one
+ASIDE = 0.3  # how far a style moves from where plain clips are, too
 
 
 class TrainActionConfig(TrainConfig):
@@ -221,15 +224,15 @@ class ActionTask(Task):
         Raises:
             UserError: none is left.
         """
-        before = self.before.text
+        before, keys = self.before.text, self.before.text.place_keys()
         places = before.get_buffer("places").float()
 
+        @torch.no_grad()
         def nearest(records: Iterable[ClipRecord]) -> dict[str, Tensor]:
             groups = {record.group: record for record in records}
             return {
                 group: (
-                    encode_captions(before, self.before.tokenizer, self._captions(record))
-                    @ places.T
+                    _pooled(before, self.before.tokenizer, self._captions(record)) @ keys.T
                 ).argmax(-1)
                 for group, record in groups.items()
             }
@@ -256,6 +259,9 @@ class ActionTask(Task):
             self.train = training_set(
                 self.config, self.data, lambda r: r.group in found and self._learns(r)
             )
+            places = aside(places, {at for group, at in found.items() if group not in plain})
+            keyed = before.config.text_place_keys
+            before = with_places(before, places, keys if keyed else None)
         return before, {group: places[place] for group, place in found.items()}
 
     def _captions(self, record: ClipRecord) -> list[str]:
@@ -300,7 +306,8 @@ class ActionTask(Task):
         adapter_of = torch.zeros(len(every)).long()
         known = len(self.before.text.get_buffer("places"))
         adapter_of[:known] = before.get("adapter_of", adapter_of[:known])
-        adapter_of[(every.float() @ torch.unique(self.places, dim=0).T).argmax(0)] = len(ranks)
+        near = every.float() @ torch.unique(self.places, dim=0).T  # [P, places learned]
+        adapter_of[(near > near.amax(0) - SAME).any(1)] = len(ranks)
         denoiser.load_state_dict(
             {
                 **denoiser.state_dict(),
@@ -411,6 +418,16 @@ def unshared(places: dict[str, int], others: Iterable[Tensor]) -> dict[str, int]
         for group, place in places.items()
         if all((each == place).float().mean() < SHARED for each in others)
     }
+
+
+def aside(places: Tensor, rows: Iterable[int]) -> Tensor:
+    """Unit places [P,D] where each of `rows` that another row equals has moved by ASIDE."""
+    moved = places.clone()
+    for row in rows:
+        if int((places == places[row]).all(-1).sum()) > 1:
+            way = normalize(torch.randn(places.shape[1], generator=generator("aside", row)), dim=0)
+            moved[row] = normalize(places[row] + ASIDE * way, dim=0)
+    return moved
 
 
 def old_captions(actions: Sequence[str], languages: Sequence[str]) -> list[str]:

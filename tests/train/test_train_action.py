@@ -32,6 +32,7 @@ from src.train.train_action import (
     KEPT,
     ActionTask,
     TrainActionConfig,
+    aside,
     network_of,
     old_captions,
     unshared,
@@ -218,6 +219,14 @@ def test_a_style_is_learned_better_where_nothing_else_comes_out(
         config = action_config(tmp_path / "both", model, tmp_path / "y", *given)
         with pytest.raises(error, match=told):
             ActionTask(config, network_of(str(model)))
+
+
+def test_a_style_moves_aside_from_where_plain_clips_are() -> None:
+    places = torch.eye(8)[[0, 1, 1, 2]]
+    moved = aside(places, {0, 2})
+    assert torch.equal(moved[[0, 1, 3]], places[[0, 1, 3]])
+    assert 0.8 < float(moved[2] @ places[2]) < 0.99
+    torch.testing.assert_close(moved.norm(dim=-1), torch.ones(4))
 
 
 def test_a_tower_taught_anew_opens_the_adapters(model: Path, tmp_path: Path) -> None:

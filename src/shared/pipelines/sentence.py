@@ -18,9 +18,9 @@ from .words import CJK_SIGN, EDGES, MAX_COUNT, MOST, NUMBERED, all_words, bare
 
 # ---------------------------------------------------------------- what they mean
 
-# How sure it must be what each part asks for where they are parted by a comma or "and"; by a word
-# that says "at once"; by a comma beside such a word; by a participle or "with" alone.
-SURE, SURE_AT_MARK, SURE_IF_SAID, SURE_AT_ONCE = 0.0, -14.0, -2.0, 1.0
+# How sure it must be what each part asks for where they are parted by a comma, "and", a participle
+# or "with"; by a word that says "at once"; by a comma beside such a word.
+SURE, SURE_AT_MARK, SURE_IF_SAID = 0.0, -14.0, -2.0
 MOST_PIECES = 8  # between commas, that may be one part
 
 
@@ -173,7 +173,7 @@ def _subordinate(text: str, read: Read) -> tuple[str, str] | None:
     actions, else at the first one; where there is none, at such a blank."""
     commas = [match.span() for match in all_words().comma.finditer(text)]
     if not commas:
-        return _best(text, _blanks(text), read, SURE_AT_ONCE)
+        return _best(text, _blanks(text), read)
     halves = _best(text, commas, read) or (text[: commas[0][0]], text[commas[0][1] :])
     return halves if all(half.strip(EDGES) for half in halves) else None
 
@@ -288,7 +288,7 @@ def _at_once(first: str, second: str, read: Read) -> Clause | None:
         for pattern in (words.meanwhile, words.throughout)
     )
     if pair := _pair(first, second, read, SURE_IF_SAID if said else SURE):
-        sign = pair.certainty > SURE_AT_ONCE and words.sign.match(second)
+        sign = pair.certainty > SURE and words.sign.match(second)
         manner = words.manner.search(first) and pair.clause.meanwhile == first
         if said or pair.one_arm_each or (not pair.arms_alone and (sign or manner)):
             return pair.clause
@@ -306,7 +306,7 @@ def _parted(text: str, read: Read) -> Clause | None:
     for cuts, sure, enough in (
         (marks, SURE_AT_MARK, SURE_AT_MARK),
         (joints, SURE_AT_MARK if each else SURE_IF_SAID, SURE_IF_SAID),
-        (signs + (_blanks(text) if said or each else []), SURE_AT_ONCE, SURE_AT_ONCE),
+        (signs + (_blanks(text) if said or each else []), SURE, SURE),
     ):
         found = [
             pair

@@ -2,7 +2,7 @@
 // with the model): clauses { text, count, degrees, metres, seconds, meanwhile, side }.
 
 const EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-";
-const SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, SURE_AT_ONCE = 1, MOST_PIECES = 8;
+const SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, MOST_PIECES = 8;
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
 const NUMBERED = /(?<![^\s,;:.])(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?(\p{Nd}\p{Nd}?)\s*[.):](?!\p{Nd})\s*/giu;
 const BLANKS = /\s+|(?<=[\u3040-\u30ff\u3400-\u9fff])(?=[\u3040-\u30ff\u3400-\u9fff])/gu;
@@ -121,7 +121,7 @@ export class SentenceReader {
 
   subordinate(text) {
     const commas = spans(text, this.each.comma);
-    if (!commas.length) return this.best(text, spans(text, BLANKS), SURE_AT_ONCE);
+    if (!commas.length) return this.best(text, spans(text, BLANKS));
     const halves = this.best(text, commas) ?? [text.slice(0, commas[0][0]), text.slice(commas[0][1])];
     return halves.every((half) => strip(half)) ? halves : null;
   }
@@ -185,7 +185,7 @@ export class SentenceReader {
     const said = [first, second].some((each) => this.first.meanwhile.test(each) || this.first.throughout.test(each));
     const pair = this.pair(first, second, said ? SURE_IF_SAID : SURE);
     if (!pair) return null;
-    const sign = pair.certainty > SURE_AT_ONCE && this.head.sign.test(second);
+    const sign = pair.certainty > SURE && this.head.sign.test(second);
     const manner = this.first.manner.test(first) && pair.clause.meanwhile === first;
     return said || pair.oneArmEach || (!pair.armsAlone && (sign || manner)) ? pair.clause : null;
   }
@@ -198,7 +198,7 @@ export class SentenceReader {
     for (const [cuts, sure, enough] of [
       [marks, SURE_AT_MARK, SURE_AT_MARK],
       [joints, each ? SURE_AT_MARK : SURE_IF_SAID, SURE_IF_SAID],
-      [last, SURE_AT_ONCE, SURE_AT_ONCE],
+      [last, SURE, SURE],
     ]) {
       let found = null;
       for (const [stop, start] of cuts) {

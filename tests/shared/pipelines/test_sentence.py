@@ -257,7 +257,6 @@ def test_what_the_arms_do_meanwhile(sentence: str, clause: Clause):
         "walks for a while",
         "turns left and walks right",
         "jumps while turning",
-        "walks with her hands about about about in the air",
         "waves with the left hand raised",
         "raises the left hand to the other person",
         "左边请走",

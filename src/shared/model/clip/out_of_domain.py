@@ -161,7 +161,7 @@ class OutOfDomainDetector:
             )
         names = tuple(sorted(set(actions)))
         labels = np.array([names.index(action) for action in actions])
-        means = _places(_unit(embeddings), labels)
+        means = _places(_unit(embeddings), labels, rivals=np.array(names)[labels] != "")
         cosines = (_unit(embeddings) @ means.T).max(axis=1)
 
         texts = [frozenset(words_of(caption)) for caption in captions]
@@ -382,11 +382,13 @@ def _unit(vectors: np.ndarray) -> np.ndarray:
     return unit
 
 
-def _places(embeddings: np.ndarray, labels: np.ndarray) -> np.ndarray:
+def _places(embeddings: np.ndarray, labels: np.ndarray, rivals: np.ndarray) -> np.ndarray:
     """Unit vectors [A, D] that tell the labels [N] of unit embeddings [N, D] apart.
 
     From the mean of each label on, the weights of a cosine classifier (softmax of SCALE times the
-    cosines), every label alike: between two means lies much that is said of neither.
+    cosines), every label alike: between two means lies much that is said of neither. Where rows are
+    no `rivals` [N], their label stays at its mean: captions of clips that nobody labelled may ask
+    for any of the others, which are not to make way for them.
     """
     import torch
     from torch.nn.functional import cross_entropy, normalize
@@ -394,13 +396,15 @@ def _places(embeddings: np.ndarray, labels: np.ndarray) -> np.ndarray:
     number = np.bincount(labels)
     means = [embeddings[labels == label].mean(axis=0) for label in range(len(number))]
     places = torch.tensor(_unit(np.stack(means)), dtype=torch.float32, requires_grad=True)
-    x, y = torch.as_tensor(embeddings, dtype=torch.float32), torch.as_tensor(labels)
+    x, y = torch.as_tensor(embeddings[rivals], dtype=torch.float32), torch.as_tensor(labels[rivals])
     share = torch.as_tensor(1.0 / number / len(number), dtype=torch.float32)
+    open_to = torch.full((len(number),), -math.inf)
+    open_to[np.unique(labels[rivals])] = 0.0
     optimizer = torch.optim.LBFGS([places], max_iter=FIT_STEPS, line_search_fn="strong_wolfe")
 
     def loss() -> torch.Tensor:
         optimizer.zero_grad()
-        logits = SCALE * x @ normalize(places, dim=-1).T
+        logits = SCALE * x @ normalize(places, dim=-1).T + open_to
         total = cross_entropy(logits, y, weight=share, reduction="sum")
         total.backward()  # type: ignore[no-untyped-call]
         return total

@@ -97,6 +97,22 @@ def test_clips_without_an_action_are_no_rival(scope: OutOfDomainDetector):
     assert first == cosines[1] and margin == pytest.approx(cosines[1] - cosines[2])
 
 
+def test_actions_do_not_make_way_for_clips_without_one():
+    """Captions of clips that nobody labelled tell of walks, too; walks stay where they were."""
+    rng = np.random.default_rng(0)
+    points = np.repeat(np.eye(3)[[0, 1]], 200, axis=0) + rng.normal(size=(400, 3)) * 0.1
+    labels = ["walk"] * 200 + ["stand"] * 200
+    texts = [f"he does {label}" for label in labels]
+    alone = OutOfDomainDetector.fit(texts, labels, points)
+    found = OutOfDomainDetector.fit(
+        [*texts, *["he is out and about"] * 200],
+        [*labels, *[""] * 200],
+        points[[*range(400), *range(200)]],
+    )
+    assert found.actions == ("", "stand", "walk")
+    np.testing.assert_allclose(found.means[1:], alone.means, atol=1e-3)
+
+
 def test_paraphrases_are_known_in_every_language(scope: OutOfDomainDetector, book):
     sentences = [
         text for labels in LABELS for texts in book.paraphrases(labels).values() for text in texts
