@@ -28,7 +28,7 @@ NO_MODEL = (
     " `models` lists"
 )
 INT8_SCALE = ".int8_scale"
-SMALLEST = 4096  # numbers; smaller tensors, biases and norms among them, stay as they are
+SMALLEST = 1024  # numbers; smaller tensors, biases and norms among them, stay as they are
 
 
 class WeightsInfo(Config):
