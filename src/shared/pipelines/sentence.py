@@ -257,11 +257,9 @@ def _differ(first: Reading, second: Reading, sure: float = SURE) -> bool:
     return min(first.certainty, second.certainty) > sure and first.action != second.action
 
 
-def _best(
-    text: str, cuts: Iterable[Span], read: Read, sure: float = SURE
-) -> tuple[str, str] | None:
+def _best(text: str, cuts: Iterable[Span], read: Read) -> tuple[str, str] | None:
     """The halves of a text that tell most surely of two actions, None where none do."""
-    best = None
+    best, sure = None, SURE
     for stop, start in cuts:
         left, right = _trimmed(text[:stop]), _trimmed(text[start:])
         first, second = (read(_measured(half).text) for half in (left, right))
@@ -288,7 +286,7 @@ def _at_once(first: str, second: str, read: Read) -> Clause | None:
         for pattern in (words.meanwhile, words.throughout)
     )
     if pair := _pair(first, second, read, SURE_IF_SAID if said else SURE):
-        sign = pair.certainty > SURE and words.sign.match(second)
+        sign = words.sign.match(second)
         manner = words.manner.search(first) and pair.clause.meanwhile == first
         if said or pair.one_arm_each or (not pair.arms_alone and (sign or manner)):
             return pair.clause

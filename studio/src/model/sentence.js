@@ -171,8 +171,8 @@ export class SentenceReader {
   }
 
   /** The halves of a text that tell most surely of two actions, null where none do. */
-  best(text, cuts, sure = SURE) {
-    let found = null;
+  best(text, cuts) {
+    let found = null, sure = SURE;
     for (const [stop, start] of cuts) {
       const halves = [text.slice(0, stop), text.slice(start)].map((half) => this.trimmed(half));
       const [first, second] = halves.map((half) => this.reading(half));
@@ -185,7 +185,7 @@ export class SentenceReader {
     const said = [first, second].some((each) => this.first.meanwhile.test(each) || this.first.throughout.test(each));
     const pair = this.pair(first, second, said ? SURE_IF_SAID : SURE);
     if (!pair) return null;
-    const sign = pair.certainty > SURE && this.head.sign.test(second);
+    const sign = this.head.sign.test(second);
     const manner = this.first.manner.test(first) && pair.clause.meanwhile === first;
     return said || pair.oneArmEach || (!pair.armsAlone && (sign || manner)) ? pair.clause : null;
   }

@@ -220,6 +220,10 @@ def test_any_text_has_a_clause(text: str):
         ("she claps as she walks", Clause("walks", meanwhile="she claps")),
         ("jumps clapping the whole time", Clause("jumps", meanwhile="clapping")),
         ("walks with both arms raised", Clause("walks", meanwhile="with both arms raised")),
+        (
+            "walks with her hands about about about in the air",
+            Clause("walks", meanwhile="with her hands about about about in the air"),
+        ),
         ("walks, both hands in the air", Clause("walks", meanwhile="both hands in the air")),
         ("la niña camina saludando", Clause("la niña camina", meanwhile="saludando")),
         ("elle marche en saluant", Clause("elle marche", meanwhile="en saluant")),
