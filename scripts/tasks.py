@@ -111,7 +111,7 @@ def benchmark(arguments: list[str]) -> int:
 
 
 def gpu_check(arguments: list[str]) -> int:
-    """Tests marked gpu, training steps by batch and an hour of `spark`, into docs/gpu*.md."""
+    """Tests marked gpu, training steps by batch and an hour of `spark`, into docs/gpu-*.md."""
     nothing = "gpu-check: no CUDA device here; nothing was checked"
     if not setup.has_nvidia_card():
         print(nothing, file=sys.stderr)
@@ -122,7 +122,7 @@ def gpu_check(arguments: list[str]) -> int:
         return 1
     steps = ("-m", "benchmarks.training_steps", "--device", "cuda", "--batches")
     batches = "16,32,64,128,256,512,1024,2048"
-    table = (*steps, batches, "--write", "docs/gpu.md", *arguments)
+    table = (*steps, batches, "--write", "docs/gpu-steps.md", *arguments)
     compiled = (*steps, "64,256", "--precisions", "bf16", "--compile", *arguments)
     data = "runs/gpu/data"
     prepare = ("-m", "src.cli.tools", "prepare", "--synthetic", "3000", "--out", data)

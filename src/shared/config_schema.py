@@ -264,6 +264,7 @@ class TrainConfig(Config):
     fsdp_version: Literal[2] | None = None  # shard weights and optimizer over processes; None: DDP
     num_workers: int = Field(0, ge=0)  # batches made ahead of time, in as many threads
     tensorboard: bool = True
+    cuda_graphs: bool = True  # on one GPU, of the steps that can be captured
     log_every: int = Field(20, ge=1)
     validate_every: int = Field(500, ge=1)
     validate_first: bool = False  # figures before the first step too

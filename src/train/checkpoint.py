@@ -174,6 +174,7 @@ MAY_CHANGE = frozenset(
         "num-workers",
         "fsdp-version",
         "tensorboard",
+        "cuda-graphs",
     }
 )
 # Their product may not change, each of them may: the same clips make a step.

@@ -40,6 +40,7 @@ from .checkpoint import (
     shard,
     whole,
 )
+from .graphs import GraphedPasses
 from .processes import Interrupted, InterruptGuard, answering
 from .run_log import VALIDATION, RunLog, announce
 from .task import Part, Task, mix_seed, to_device
@@ -219,6 +220,7 @@ class Trainer(Generic[ConfigT]):
             self.module, evaluation_mode=sharded and processes > 1
         )
         self.optimizer = self.accelerator.prepare_optimizer(optimizer)
+        self.graphed = self._graphs()
         self._sums: dict[str, Tensor] = {}
 
     # ------------------------------------------------------------ the loop
@@ -292,8 +294,7 @@ class Trainer(Generic[ConfigT]):
             torch.manual_seed(mix_seed("step", config.seed, step, part))
             batch = to_device(next(batches), accelerator.device)
             with accelerator.accumulate(self.wrapped):
-                metrics = self.task.training_step(self.wrapped, batch)
-                accelerator.backward(metrics["loss"])
+                metrics = self._passes(batch)
                 if accelerator.sync_gradients:
                     weights = self.module.parameters()
                     norm = accelerator.clip_grad_norm_(weights, config.gradient_clip)
@@ -302,6 +303,27 @@ class Trainer(Generic[ConfigT]):
             self._add(metrics)
         self._add({"grad-norm": whole(norm)})
         self.ema.update(step - 1)
+
+    def _graphs(self) -> GraphedPasses | None:
+        """On one GPU, for tasks whose steps can be captured, and unless `cuda-graphs` is off."""
+        config, accelerator = self.config, self.accelerator
+        alone = accelerator.num_processes == 1 and config.gradient_accumulation == 1
+        captured = self.task.can_be_captured and accelerator.scaler is None
+        if not (config.cuda_graphs and captured and alone and accelerator.device.type == "cuda"):
+            return None
+        return GraphedPasses(
+            self.module,
+            lambda batch: self.task.training_step(self.wrapped, batch),
+            accelerator.backward,
+        )
+
+    def _passes(self, batch: Any) -> dict[str, Tensor]:
+        """Figures of a batch on the device; its gradients are added to the weights'."""
+        if self.graphed is not None:
+            return self.graphed(self.task.padded(batch))
+        metrics = self.task.training_step(self.wrapped, batch)
+        self.accelerator.backward(metrics["loss"])
+        return metrics
 
     # ------------------------------------------------------------ figures
 

@@ -59,6 +59,7 @@ class Task(ABC):
         frozen: what belongs to the task but is not trained (towers, losses); it follows the module.
         learning_rates: from the beginning of weights' names to the rate of that part.
         figures: of the last validation; the trainer keeps them here.
+        can_be_captured: whether `training_step` reads nothing back from the device (graphs.py).
     """
 
     module: nn.Module
@@ -66,6 +67,7 @@ class Task(ABC):
     frozen: Sequence[nn.Module] = ()
     learning_rates: Mapping[str, float] = MappingProxyType({})
     figures: dict[str, float]
+    can_be_captured: bool = False
 
     def to(self, device: torch.device) -> None:
         """Move what belongs to the task but is not trained."""
@@ -75,6 +77,10 @@ class Task(ABC):
     @abstractmethod
     def batch(self, part: Part) -> Any:
         """Part of a step's batch, on the CPU: a pure function of its argument and the seed."""
+
+    def padded(self, batch: Any) -> Any:
+        """A batch with the same losses in one of few shapes, as each is captured once."""
+        return batch
 
     def training_step(self, module: nn.Module, batch: Any) -> dict[str, Tensor]:
         """Scalars of one part, among them `loss`; call `module` itself, never an attribute."""

@@ -106,6 +106,8 @@ class ActionBatch(NoisedBatch):
 class ActionTask(Task):
     """What the trainer needs to know (task.py)."""
 
+    can_be_captured = True
+
     def __init__(self, config: TrainActionConfig, network: NetworkConfig) -> None:
         self.config = config
         self.before = TextToMotion.from_pretrained(config.init, device="cpu")
@@ -343,6 +345,10 @@ class ActionTask(Task):
         )
 
     # ------------------------------------------------------------ learning
+
+    def padded(self, batch: ActionBatch) -> ActionBatch:
+        """With frames that are none."""
+        return batch.padded()
 
     def training_step(self, module: nn.Module, batch: ActionBatch) -> dict[str, Tensor]:
         """The weighted losses of one noised batch."""

@@ -9,13 +9,14 @@ Letters: B batch, T frames, R rows of a frame, L tokens, S diffusion steps.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 import torch
 from torch import Tensor, nn
+from torch.nn.functional import pad
 
 from ..shared.config_schema import (
     PROVENANCES,
@@ -54,6 +55,7 @@ NOISE_LEVELS = ("low", "middle", "high")  # thirds of the diffusion steps, in va
 LONGEST_END = 45  # frames known at a start or an end
 ROOT_WAYS = (0.7, 0.15, 0.15)  # shares of both, heading alone, path alone
 MOST_FRAMES = 6  # frames known here and there
+FRAMES, TOKENS = 30, 32  # a padded batch has a multiple of these
 
 
 @dataclass(frozen=True)
@@ -83,6 +85,16 @@ class NoisedBatch(Conditions):
     clean: Tensor
     noise: Tensor
 
+    def padded(self) -> Self:
+        """With frames that are none, up to a multiple of FRAMES."""
+        lacking = -self.mask.shape[1] % FRAMES
+        long = {name: getattr(self, name) for name in ("known", "clean", "noise")}
+        return replace(
+            self,
+            mask=pad(self.mask, (0, lacking)),
+            **{name: pad(value, (0, 0, 0, 0, 0, lacking)) for name, value in long.items()},
+        )
+
 
 @dataclass(frozen=True)
 class DenoiserBatch(NoisedBatch):
@@ -90,6 +102,13 @@ class DenoiserBatch(NoisedBatch):
 
     input_ids: Tensor
     attention_mask: Tensor
+
+    def padded(self) -> Self:
+        """With tokens that are none, too, up to a multiple of TOKENS."""
+        lacking = -self.input_ids.shape[1] % TOKENS
+        words = (pad(each, (0, lacking)) for each in (self.input_ids, self.attention_mask))
+        ids, mask = words
+        return replace(super().padded(), input_ids=ids, attention_mask=mask)
 
 
 class GuidedDenoiser(nn.Module):
@@ -230,6 +249,8 @@ def _span(frames: int, rng: np.random.Generator) -> slice:
 class GenerationTask(Task):
     """What the trainer needs to know (src/train/task.py)."""
 
+    can_be_captured = True
+
     def __init__(self, config: TrainGenerationConfig, network: NetworkConfig) -> None:
         self.config, self.network = config, network
         source = config.clip or config.init or "runs/clip"
@@ -325,6 +346,10 @@ class GenerationTask(Task):
         )
 
     # ------------------------------------------------------------ learning
+
+    def padded(self, batch: DenoiserBatch) -> DenoiserBatch:
+        """With frames and tokens that are none."""
+        return batch.padded()
 
     def training_step(self, module: nn.Module, batch: DenoiserBatch) -> dict[str, Tensor]:
         """The weighted losses of one noised batch."""

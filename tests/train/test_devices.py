@@ -44,7 +44,7 @@ def test_stages_train_in_bf16_and_go_on_elsewhere(
         train(whole, *here)
         (whole / "model.safetensors").unlink()
         (whole / "finished.json").unlink()
-        train(whole, *SETTINGS, "steps=6", resume=True)
+        train(whole, f"precision={precision}", *SETTINGS, "steps=6", resume=True)
         told = losses(whole)
         assert len(told) == 6 and all(map(math.isfinite, told)), stage
 

@@ -360,3 +360,14 @@ def test_a_gpu_follows_the_cpu_and_goes_on(tmp_path: Path, monkeypatch: pytest.M
         torch.allclose(value, final(tmp_path / "gpu")[name], atol=1e-3)
         for name, value in final(tmp_path / "cpu").items()
     )
+
+
+@pytest.mark.gpu
+@pytest.mark.skipif(not torch.cuda.is_available(), reason="no CUDA device")
+def test_captured_passes_learn_the_same(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TINY_DROPOUT", "0")
+    monkeypatch.setattr(TinyTask, "can_be_captured", True)
+    run(tmp_path / "graphs", device="cuda")
+    run(tmp_path / "kernels", device="cuda", cuda_graphs=False)
+    one, other = final(tmp_path / "graphs"), final(tmp_path / "kernels")
+    assert all(torch.allclose(value, other[name], atol=1e-6) for name, value in one.items())

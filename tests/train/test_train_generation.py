@@ -262,3 +262,17 @@ def test_short_clips(frames: int):
     real = torch.ones(64, frames, dtype=torch.bool)
     known = draw_known(real, 23, ConstraintShares(free=0), np.random.default_rng(0))
     assert known.shape == (64, frames, 23, 6) and known.any()
+
+
+def test_a_padded_batch_has_the_same_losses(prepared: Path, clip: Path, tmp_path: Path) -> None:
+    config = generation_config(prepared, clip, tmp_path, "losses.foot-slide=1", "losses.position=1")
+    task = GenerationTask(config, tiny_network())
+    batch = task.batch(Part(3, 0, 1))
+    padded = task.padded(batch)
+    assert padded.clean.shape[1] % 30 == 0 and padded.input_ids.shape[1] % 32 == 0
+    assert padded.clean.shape[1] >= batch.clean.shape[1]
+    with torch.no_grad():
+        one, other = (task.training_step(task.module.eval(), each) for each in (batch, padded))
+    assert {key: float(value) for key, value in other.items()} == pytest.approx(
+        {key: float(value) for key, value in one.items()}, rel=1e-4
+    )

@@ -45,11 +45,13 @@ class TinyTask(Task):
 
     def validation(self, module: nn.Module) -> dict[str, float]:
         inputs = torch.randn(64, 3, generator=generator("validation"))
-        return {"loss": float((module(inputs)[:, 0] - inputs @ WEIGHTS).square().mean())}
+        made = module(inputs.to(next(module.parameters()).device))[:, 0].cpu()
+        return {"loss": float((made - inputs @ WEIGHTS).square().mean())}
 
     def export_samples(self, module: nn.Module, folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
-        (folder / "sample.txt").write_text(str(module(torch.ones(1, 3))))
+        ones = torch.ones(1, 3, device=next(module.parameters()).device)
+        (folder / "sample.txt").write_text(str(module(ones)))
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         torch.save(module.state_dict(), folder / "weights.pt")

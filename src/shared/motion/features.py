@@ -7,6 +7,7 @@ left and right contact. Differences are forward (ruling 6); the last frame repea
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -109,16 +110,23 @@ def to_world(joints: Tensor, root: Tensor, fps: float) -> Tensor:
     of root rows [...,T,6] from the origin on."""
     path, heading = integrate_root(root, fps)  # [..., T, 3], [..., T]
     turned = (yaw_to_matrix(heading)[..., None, :, :] @ joints[..., None]).squeeze(-1)
-    ground = path * path.new_tensor([1.0, 0.0, 1.0])  # the height is in the joints already
+    x, height, z = torch.moveaxis(path, -1, 0)
+    ground = torch.stack((x, torch.zeros_like(height), z), -1)  # joints have their height
     return turned + ground[..., None, :]
+
+
+@cache
+def _rest_offsets(device: "torch.device") -> Tensor:
+    """Of the canonical skeleton [K,3], metres; sent to a device once."""
+    with torch.inference_mode(False):  # training may reuse what sampling asked for first
+        return torch.as_tensor(canonical_skeleton().offsets, device=device)
 
 
 def heading_joints(rotations: Tensor, height: Tensor) -> Tensor:
     """Joints [...,T,K,3] over the origin of local rotations [...,T,K,3,3] at pelvis heights
     [...,T], metres, in the heading frame."""
     pelvis = torch.stack((torch.zeros_like(height), height, torch.zeros_like(height)), -1)
-    offsets = torch.as_tensor(canonical_skeleton().offsets, device=height.device)
-    positions, _ = forward_kinematics(rotations, pelvis, offsets, PARENTS)
+    positions, _ = forward_kinematics(rotations, pelvis, _rest_offsets(height.device), PARENTS)
     return positions
 
 
@@ -139,8 +147,7 @@ def world_pose(features: Tensor, fps: float, place: Place = ORIGIN) -> tuple[Ten
 def world_joints(features: Tensor, fps: float) -> Tensor:
     """World joints [...,T,K,3] in metres of features [...,T,R,6]; differentiable."""
     local, path = world_pose(features, fps)
-    offsets = torch.as_tensor(canonical_skeleton().offsets, device=features.device)
-    return forward_kinematics(local, path, offsets, PARENTS)[0]
+    return forward_kinematics(local, path, _rest_offsets(features.device), PARENTS)[0]
 
 
 def decode_features(

@@ -208,15 +208,23 @@ def local_to_global(local: Tensor, parents: Sequence[int]) -> Tensor:
     world: list[Tensor] = [local[..., 0, :, :]] * len(parents)
     for level in _levels(tuple(parents))[1:]:
         above = torch.stack([world[parents[j]] for j in level], -3)
-        product = above @ local[..., level, :, :]
+        product = above @ torch.stack([local[..., j, :, :] for j in level], -3)
         for index, joint in enumerate(level):
             world[joint] = product[..., index, :, :]
     return torch.stack(world, -3)
 
 
+def _parents_of(world: Tensor, parents: Sequence[int]) -> Tensor:
+    """Of every joint but the root what stands at its parent: [...,K,3,3] → [...,K-1,3,3].
+
+    Here as above joints are stacked: an index would have to be sent to a GPU, which waits for it.
+    """
+    return torch.stack([world[..., parent, :, :] for parent in parents[1:]], -3)
+
+
 def global_to_local(world: Tensor, parents: Sequence[int]) -> Tensor:
     """World rotations [...,K,3,3] → local rotations [...,K,3,3]."""
-    above = world[..., list(parents[1:]), :, :]
+    above = _parents_of(world, parents)
     local = above.swapaxes(-1, -2) @ world[..., 1:, :, :]
     return torch.cat((world[..., :1, :, :], local), -3)
 
@@ -233,7 +241,7 @@ def forward_kinematics(
         parents: index of each joint's parent, -1 for the root; parents come first.
     """
     world = local_to_global(local, parents)
-    above = world[..., list(parents[1:]), :, :]
+    above = _parents_of(world, parents)
     bones = (above @ offsets[1:, :, None].to(world)).squeeze(-1)  # [...,K-1,3]
     positions: list[Tensor] = [root_position] * len(parents)
     for joint in range(1, len(parents)):

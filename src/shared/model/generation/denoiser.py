@@ -197,7 +197,8 @@ class MotionDenoiser(nn.Module):
         if not self.config.generation.adapter_ranks:
             return text
         opened = self.opened(text.pooled)
-        return replace(text, opened=opened) if opened.any() else text
+        unread = opened.is_cuda and torch.cuda.is_current_stream_capturing()
+        return replace(text, opened=opened) if unread or opened.any() else text
 
     def opened(self, pooled: Tensor) -> Tensor:
         """Which of the A adapters texts [B, D] open: [B, A] of zeros and ones."""

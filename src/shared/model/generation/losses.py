@@ -168,7 +168,8 @@ def foot_contact_loss(motions: Motions) -> Tensor:
 
 def foot_slide_loss(motions: Motions) -> Tensor:
     """Mean squared world speed (m/s)^2 of feet that truly stand (MDM, equation 4)."""
-    balls = motions.raw_predicted.joints[:, :, [ball for _, ball in FOOT_JOINTS]]  # [B, T, 2, 3]
+    joints = motions.raw_predicted.joints
+    balls = torch.stack([joints[:, :, ball] for _, ball in FOOT_JOINTS], 2)  # [B, T, 2, 3]
     root = motions.raw_predicted.features[:, :, ROOT_ROW]  # [B, T, 6]
     world = to_world(balls, root, motions.fps)  # [B, T, 2, 3]
     speed = (world[:, 1:] - world[:, :-1]) * motions.fps  # [B, T-1, 2, 3]

@@ -77,6 +77,7 @@ class RotaryEmbedding(nn.Module):
         self.frequencies: Tensor
         self.register_buffer("frequencies", MAX_PERIOD**-exponents, persistent=False)  # [d/2]
         self._cos: Tensor | None = None
+        self._former: list[Tensor | None] = []  # CUDA graphs may read them
         self._sin: Tensor | None = None
 
     def forward(self, heads: Tensor) -> Tensor:
@@ -89,6 +90,7 @@ class RotaryEmbedding(nn.Module):
     def _tables(self, length: int, device: torch.device) -> tuple[Tensor, Tensor]:
         frames = length * self.stride
         if self._cos is None or len(self._cos) < frames or self._cos.device != device:
+            self._former += [self._cos, self._sin]
             # Made outside inference mode: training may reuse a table that sampling made first.
             with torch.inference_mode(False), torch.no_grad():
                 positions = torch.arange(max(frames, 256), dtype=torch.float32, device=device)
