@@ -293,17 +293,17 @@ def _calibrated(
     wanted = [actions[row] for row in chosen] * 2
     right = [is_near == wish for is_near, wish in zip(nearest, wanted, strict=False)]
     scope = scope.calibrated(prompts, embeddings, right + [False] * len(empty))
-    return _warning(scope, languages, tower, tokenizer)
+    return fit_warnings(scope, languages, tower, tokenizer)
 
 
-def _warning(
+def fit_warnings(
     scope: OutOfDomainDetector,
     languages: tuple[str, ...],
     tower: TextTower,
     tokenizer: PromptTokenizer,
 ) -> OutOfDomainDetector:
-    """By the hand-written sentences that no tower trains on, of known actions and of others; as it
-    is behind a tower without places."""
+    """The scope, warning by the hand-written sentences that no tower trains on, of known actions
+    and of others; as it is behind a tower without places."""
     if not tower.config.text_places:
         return scope
     book = packaged_book()

@@ -51,6 +51,7 @@ from .run_log import announce
 from .task import Part, Task, generator, numpy_generator
 from .text_stages import (
     as_features,
+    fit_warnings,
     motion_rows,
     network_of_model,
     open_training_data,
@@ -400,7 +401,9 @@ class ActionTask(Task):
             embeddings = encode_captions(self.tower, self.before.tokenizer, texts).numpy()
             scope = scope.with_action(action, texts, embeddings)
         arms, gesturing = done(scope.arms, arm_actions(data)), done(scope.gestures, gestures(data))
-        return replace(scope, arms=arms, gestures=gesturing)
+        scope = replace(scope, arms=arms, gestures=gesturing)
+        before = self.before
+        return fit_warnings(scope, before.card.languages, self.tower, before.tokenizer)
 
     def export_samples(self, module: nn.Module, folder: Path) -> None:
         """One motion of each new action, as BVH and HTML."""
@@ -437,13 +440,23 @@ def aside(places: Tensor, rows: Iterable[int]) -> Tensor:
 
 
 def old_captions(actions: Sequence[str], languages: Sequence[str]) -> list[str]:
-    """Sentences that a tower is to send where it sent them before, whatever it makes of them."""
+    """Sentences that a tower is to send where it sent them before, whatever it makes of them:
+    captions, and what is written by hand of these actions."""
     book = packaged_book()
+    written = {
+        text
+        for language in map(book.language, languages)
+        for labels in map(dict, language.sentence_keys())
+        if labels.get("action") in actions
+        for text in language.sentences(labels)
+        if not book.kept_to_calibrate(text, language.code)
+    }
     combinations = [{"action": action} for action in actions]
     known = [*book.control_tasks(), *book.combinations()]
     combinations += [labels for labels in known if labels.get("action") in actions]
     return sorted(
-        {
+        written
+        | {
             text
             for labels in combinations
             for code, texts in book.captions(labels, num=OLD_CAPTIONS, seed=0).items()

@@ -294,3 +294,13 @@ def test_the_shipped_tower_learns_a_new_action_and_still_knows_what_it_knew() ->
     assert known(taught, scope, asked) > 0.9
     assert known(taught, scope, unseen) > known(tower, starter.scope, unseen) - 0.1
     assert known(taught, scope, strange) < 0.1
+
+
+def test_sentences_by_hand_of_known_actions_stay_but_those_that_calibrate() -> None:
+    book = packaged_book()
+    language = book.language("en")
+    written = set(language.sentences({"action": "squat"}))
+    kept = {text for text in written if book.kept_to_calibrate(text, "en")}
+    old = set(old_captions(["squat"], ["en"]))
+    assert kept and written - kept <= old
+    assert not kept & old - set(book.captions({"action": "squat"}, num=16, seed=0)["en"])
