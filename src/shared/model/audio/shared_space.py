@@ -237,10 +237,12 @@ class SharedSpace(nn.Module):
 
     # Folders
 
-    def save_pretrained(self, folder: str | Path, *, half: bool = False) -> None:
-        """Write card and weights, as float16 if asked; raises UserError when that fails."""
+    def save_pretrained(
+        self, folder: str | Path, *, half: bool = False, int8: bool = False
+    ) -> None:
+        """Write card and weights, as float16 or int8 if asked; raises UserError when that fails."""
         tensors = with_prefix(PREFIX, self.state_dict())
-        self.card = write_checkpoint(Path(folder), self.card, tensors, half=half)
+        self.card = write_checkpoint(Path(folder), self.card, tensors, half=half, int8=int8)
 
     @classmethod
     def from_pretrained(
