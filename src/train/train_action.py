@@ -440,29 +440,19 @@ def aside(places: Tensor, rows: Iterable[int]) -> Tensor:
 
 
 def old_captions(actions: Sequence[str], languages: Sequence[str]) -> list[str]:
-    """Sentences that a tower is to send where it sent them before, whatever it makes of them:
-    captions, and what is written by hand of these actions."""
+    """Sentences that a tower is to send where it sent them before, whatever it makes of them."""
     book = packaged_book()
-    written = {
-        text
-        for language in map(book.language, languages)
-        for labels in map(dict, language.sentence_keys())
-        if labels.get("action") in actions
-        for text in language.sentences(labels)
-        if not book.kept_to_calibrate(text, language.code)
-    }
     combinations = [{"action": action} for action in actions]
     known = [*book.control_tasks(), *book.combinations()]
     combinations += [labels for labels in known if labels.get("action") in actions]
     return sorted(
-        written
-        | {
+        {
             text
             for labels in combinations
             for code, texts in book.captions(labels, num=OLD_CAPTIONS, seed=0).items()
             if code in languages
             for text in texts
-        }
+        }.union(*(book.written(actions, code) for code in languages))
     )
 
 

@@ -152,6 +152,17 @@ class CaptionBook:
                 found += language.sentences(labels)
         return found
 
+    def written(self, actions: Collection[str], lang: str) -> set[str]:
+        """The hand-written training sentences of these actions, without those that calibrate."""
+        language = self.language(lang)
+        return {
+            text
+            for labels in map(dict, language.sentence_keys())
+            if labels.get("action") in actions
+            for text in language.sentences(labels)
+            if not self.kept_to_calibrate(text, lang)
+        }
+
     def mirror_text(self, text: str, lang: str) -> str:
         """Text of the mirrored motion: left and right exchanged in all their forms.
 
