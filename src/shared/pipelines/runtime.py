@@ -114,8 +114,7 @@ def load_trained(model: str | Path, device: str = "auto") -> AudioMotionModel:
     loaded = AudioMotionModel.from_pretrained(model, device=compute.device)
     _require_training(loaded.card.trained, model)
     if compute.device == "cpu":
-        low = torch.bfloat16 if compute.precision == "bf16" else None
-        loaded.unet = sampling_copy(loaded.unet, low)
+        loaded.unet = sampling_copy(loaded.unet)
     if decoder := variable(DECODER_CHECKPOINT):
         loaded.decoder = load_decoder(decoder).to(compute.device).eval()
     return loaded
