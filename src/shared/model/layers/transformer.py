@@ -77,8 +77,8 @@ class RotaryEmbedding(nn.Module):
         self.frequencies: Tensor
         self.register_buffer("frequencies", MAX_PERIOD**-exponents, persistent=False)  # [d/2]
         self._cos: Tensor | None = None
-        self._former: list[Tensor | None] = []  # CUDA graphs may read them
         self._sin: Tensor | None = None
+        self._former: list[Tensor | None] = []  # CUDA graphs may still read them
 
     def forward(self, heads: Tensor) -> Tensor:
         """[..., T, H, d] -> the same, rotated, in its own dtype; angles are float32 always."""
