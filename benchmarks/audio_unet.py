@@ -72,25 +72,22 @@ class Pair:
         self.literal: LiteralUNet = literal_twin(self.ours)
         self.x, self.audio = torch.randn(1, 25, FRAMES), torch.rand(1, FEATURE_ROWS, FRAMES)
         self.t = torch.tensor([500])
-        self.copies = {
-            False: sampling_copy(self.ours),
-            True: sampling_copy(self.ours, torch.bfloat16),
+        self.networks: dict[str, torch.nn.Module] = {
+            LITERAL: self.literal,
+            OURS: self.ours,
+            COPY: sampling_copy(self.ours),
         }
-
-    def networks(self, bf16: bool) -> dict[str, torch.nn.Module]:
-        """The candidates by name."""
-        return {LITERAL: self.literal, OURS: self.ours, COPY: self.copies[bf16]}
 
     def step(self, network: torch.nn.Module, bf16: bool) -> Callable[[], Tensor]:
         """One denoising step; ours with its condition prepared, as in sampling."""
-        with torch.no_grad(), autocast(bf16 and network is self.ours):
+        with torch.no_grad(), autocast(bf16):
             heard = self.audio
             if isinstance(network, UNet1D):
                 heard = network.prepare(self.audio)
 
         @torch.no_grad()
         def run() -> Tensor:
-            with autocast(bf16 and network not in self.copies.values()):
+            with autocast(bf16):
                 return network(self.x, self.t, heard)
 
         return run
@@ -100,7 +97,7 @@ class Pair:
 
         @torch.no_grad()
         def run() -> Tensor:
-            with autocast(bf16 and network not in self.copies.values()):
+            with autocast(bf16):
                 if not isinstance(network, UNet1D):
                     loop = LiteralDDIMSampler(self.model.diffusion, STEPS)
                     return loop.sample(network, self.x, self.audio)
@@ -129,7 +126,7 @@ def paired(pair: Pair, what: str, rounds: int) -> dict[str, Any]:
     runs = {
         f"{name}, {precision}": make(network, bf16)
         for precision, bf16 in (("fp32", False), ("bf16", True))
-        for name, network in pair.networks(bf16).items()
+        for name, network in pair.networks.items()
     }
     timings = in_turns(runs, rounds)
     outputs = {name: pair.step(*_candidate(pair, name))() for name in runs}
@@ -154,8 +151,7 @@ def paired(pair: Pair, what: str, rounds: int) -> dict[str, Any]:
 
 def _candidate(pair: Pair, name: str) -> tuple[torch.nn.Module, bool]:
     network, _, precision = name.rpartition(", ")
-    bf16 = precision == "bf16"
-    return pair.networks(bf16)[network], bf16
+    return pair.networks[network], precision == "bf16"
 
 
 def rivals(profile: str, rounds: int) -> dict[str, Any]:
@@ -164,8 +160,7 @@ def rivals(profile: str, rounds: int) -> dict[str, Any]:
     noise, audio = torch.randn(1, 25, FRAMES), torch.rand(1, CONDITION_ROWS, FRAMES)
     networks = {
         f"ours, {profile}, fp32": model.unet,
-        f"ours, {profile}, sampling copy, fp32": sampling_copy(model.unet),
-        f"ours, {profile}, sampling copy, bf16": sampling_copy(model.unet, torch.bfloat16),
+        f"ours, {profile}, sampling copy": sampling_copy(model.unet),
     }
     edge, unet1d = audio_rivals.edge_sized(FRAMES), audio_rivals.unet1d_model(FRAMES)
     size = sum(p.numel() for p in model.unet.parameters())
@@ -228,7 +223,7 @@ def tables(
 def inference(network: AudioNetworkConfig, device: str) -> dict[str, Callable[[], object]]:
     """4 s of motion in 5 to 50 DDIM steps; decoder and post-processing by themselves."""
     model = filled(AudioMotionModel(network)).to(device)
-    fast = sampling_copy(model.unet, torch.bfloat16)
+    fast = sampling_copy(model.unet)
     noise = torch.randn(1, 25, FRAMES, device=device)
     audio = torch.rand(1, CONDITION_ROWS, FRAMES, device=device)
 

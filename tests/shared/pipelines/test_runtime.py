@@ -33,21 +33,18 @@ def is_fast(model: AudioMotionModel) -> bool:
     return any(isinstance(module, MatrixConv1d) for module in model.unet.modules())
 
 
-@pytest.mark.parametrize("bf16, tolerance", [(False, 1e-4), (True, 0.3)])
-def test_the_faster_copy_makes_the_same_motion(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, bf16: bool, tolerance: float
+def test_the_faster_copy_makes_the_same_motion_where_bf16_is_native_too(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.delenv("ACCELERATE_MIXED_PRECISION", raising=False)
-    monkeypatch.setattr("src.shared.device._native_bf16", lambda device: (bf16, "said so"))
+    monkeypatch.setattr("src.shared.device._native_bf16", lambda device: (True, "said so"))
     model = saved(tmp_path, trained=True)
     loaded = load_trained(tmp_path, "cpu")
     assert is_fast(loaded) and not is_fast(model)
-    assert any(p.dtype == torch.bfloat16 for p in loaded.unet.parameters()) is bf16
     condition = torch.rand(167, 50)  # one window: a seam of a random network magnifies rounding
     wanted = SongSampler(model, SETTINGS).sample(condition)[0]
     found = SongSampler(loaded, SETTINGS).sample(condition)[0]
-    assert np.abs(wanted.position).max() > 5.0  # 0.3 is a few percent of it
-    np.testing.assert_allclose(found.position, wanted.position, atol=tolerance)
+    assert np.abs(wanted.position).max() > 5.0
+    np.testing.assert_allclose(found.position, wanted.position, atol=1e-4)
 
 
 def test_generator_and_runtime_load_alike(tmp_path: Path) -> None:

@@ -238,7 +238,6 @@ class Stage(nn.Module):
         super().__init__()
         self.factor = factor
         self.attention_after = attention_after
-        self.low: torch.dtype | None = None  # of a sampling copy whose weights are cast here
         self.blocks = nn.ModuleList(
             ResBlock(
                 before,
@@ -263,8 +262,6 @@ class Stage(nn.Module):
 
     def prepare(self, audio: Tensor | None, context: Tensor | None) -> StageCondition:
         """Audio for FiLM [B, E, T] at this rate, context [B, L, E]; None = not in use."""
-        if context is not None and self.low is not None:
-            context = context.to(self.low)
         film: list[Tensor | None] = [None] * len(self.blocks)
         if audio is not None:
             layers = [block.film for block in self.blocks]
@@ -276,13 +273,11 @@ class Stage(nn.Module):
 
     def forward(self, h: Tensor, time_emb: Tensor, condition: StageCondition) -> Tensor:
         """h [B, C, T], time [B, E] -> [B, C', T]."""
-        if self.low is not None:
-            h, time_emb = h.to(self.low), time_emb.to(self.low)
         for index, block in enumerate(self.blocks):
             h = block(h, time_emb, condition.film[index])
             if index == self.attention_after and self.attention is not None:
                 h = self.attention(h, condition.keys_values)
-        return h if self.low is None else h.float()
+        return h
 
 
 # ---------------------------------------------------------------- the network
@@ -514,8 +509,8 @@ class MatrixConv1d(nn.Module):
         self.bias = conv.bias
 
     def forward(self, x: Tensor) -> Tensor:
-        """[B, C, T] -> [B, C', T'] in the type of the weights."""
-        rows = x.to(self.weight.dtype).transpose(1, 2)  # [B, T, C]
+        """[B, C, T] -> [B, C', T']."""
+        rows = x.transpose(1, 2)  # [B, T, C]
         if self.kernel > 1:
             batch, _, channels = rows.shape
             rows = F.pad(rows, (0, 0, self.padding, self.padding)).contiguous()
@@ -529,18 +524,14 @@ class MatrixConv1d(nn.Module):
         return F.linear(rows.contiguous(), self.weight, self.bias).transpose(1, 2)
 
 
-def sampling_copy(unet: UNet1D, low: torch.dtype | None = None) -> UNet1D:
+def sampling_copy(unet: UNet1D) -> UNet1D:
     """The network again, for sampling on the CPU only: it neither trains nor is saved.
 
-    Deep levels hold most weights and few frames, which PyTorch's Conv1d on a CPU serves badly; as
-    low-precision matrix products the default profile's step takes 41 ms instead of 100 on one core.
-    Rounding errors of deep levels come out interpolated. Levels at and near the full rate stay as
-    they are: there rounding would jitter, and accelerations multiply a frame's jitter by 900.
+    Deep levels, from T/4 down, hold most weights and few frames, which PyTorch's Conv1d on a CPU
+    serves badly: there a convolution is one matrix product.
 
     Args:
         unet: on the CPU; left as it is.
-        low: type of the levels from T/4 down, torch.bfloat16 where the processor multiplies it;
-            None = float32.
     """
     fast = copy.deepcopy(unet).eval().requires_grad_(False)
     resamplers = zip(fast.factors[:-1], fast.downsample, fast.upsample, strict=True)
@@ -549,9 +540,6 @@ def sampling_copy(unet: UNet1D, low: torch.dtype | None = None) -> UNet1D:
     for factor, part in parts:
         if factor >= DEEP:
             _replace_convolutions(part)
-            part.to(low or torch.float32)
-            if isinstance(part, Stage):
-                part.low = low
     return fast
 
 

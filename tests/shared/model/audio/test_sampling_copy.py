@@ -26,10 +26,4 @@ def test_the_copy_gives_the_same(conditioning: str, frames: int) -> None:
     expected = model(x, t, condition)
     fast = sampling_copy(model)
     torch.testing.assert_close(fast(x, t, fast.prepare(condition)), expected, rtol=1e-4, atol=1e-4)
-    low = sampling_copy(model, torch.bfloat16)
-    out = low(x, t, low.prepare(condition))
-    assert out.dtype == torch.float32
-    assert (out - expected).std() < 0.02 * expected.std()
-    assert {stage.low for stage in low.stages() if stage.factor >= 4} == {torch.bfloat16}
-    assert {stage.low for stage in low.stages() if stage.factor < 4} == {None}
     torch.testing.assert_close(model(x, t, condition), expected)  # the original is left alone
