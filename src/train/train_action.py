@@ -36,9 +36,9 @@ from ..shared.model.clip.core import (
     PLACE_SCALE,
     TextTower,
     TokenPairEncoder,
-    shared_keys,
+    counted_keys,
 )
-from ..shared.model.clip.out_of_domain import OutOfDomainDetector
+from ..shared.model.clip.out_of_domain import OFTENER, OutOfDomainDetector
 from ..shared.model.clip.pretrained import encode_captions, tower_hash
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.diffusion import GaussianDiffusion
@@ -70,8 +70,8 @@ from .train_generation import (
 
 OLD_CAPTIONS = 16  # of each known action and language
 TOWER_BATCH = 256  # sentences: half of them new, a quarter each of what it knew and of neither
-TOWER_RATE = 5e-2  # of rows that are new
-OLD_ROW_RATE = 0.05  # times that, of those in sentences that it knew
+TOWER_RATE = 5e-2
+PULL = 2e-3  # of what a row has learned goes with each step: a word of one caption says little
 NEARNESS = 20.0  # weight of the cosines beside the choice: warnings go by how near a place lies
 BABBLE = 0.3  # share of new captions with made-up words in them
 KEPT = 0.15  # of where the tower sent new captions, which is near everything that it knew
@@ -191,7 +191,7 @@ class ActionTask(Task):
     def _taught_tower(self) -> tuple[TextTower, dict[str, Tensor]]:
         """The tower with a place for each new combination; and the place [D] of every group."""
         groups: dict[str, ClipRecord] = {r.group: r for r in self.train.records}
-        captions = {group: self._captions(record) for group, record in groups.items()}
+        captions = {group: self._asked(record) for group, record in groups.items()}
         before = self.before.text
         means = torch.stack(
             [
@@ -208,7 +208,7 @@ class ActionTask(Task):
             self.before.tokenizer,
             places,
             list(captions.values()),
-            old_captions(self.before.card.tags, self.config.languages),
+            self._known_captions,
             [
                 text
                 for code in self.config.languages
@@ -267,10 +267,19 @@ class ActionTask(Task):
             before = with_places(before, places, keys if keyed else None)
         return before, {group: places[place] for group, place in found.items()}
 
+    @cached_property
+    def _known_captions(self) -> list[str]:
+        return old_captions(self.before.card.tags, self.config.languages)
+
     def _captions(self, record: ClipRecord) -> list[str]:
         """Of every clip of its group, in every language."""
         records = self.data.records("train")
         return sorted({*self._said(r for r in records if r.group == record.group)})
+
+    def _asked(self, record: ClipRecord) -> list[str]:
+        """Those, and what else is written by hand of the same labels."""
+        written = (packaged_book().written(record.labels, c) for c in self.config.languages)
+        return sorted({*self._captions(record), *(text for texts in written for text in texts)})
 
     def _said(self, records: Iterable[ClipRecord]) -> list[str]:
         """The captions of these clips, one after another."""
@@ -396,10 +405,16 @@ class ActionTask(Task):
         scope = replace(scope, still=done(scope.still, still_actions(data)))
         if self.config.actions:
             return scope
-        for action in self.actions:
-            texts = self._said(r for r in self.train.records if r.tag == action)
+        groups = {record.group: record for record in self.train.records}.values()
+        said = {action: set[str]() for action in self.actions}
+        for record in groups:
+            said[record.tag].update(self._asked(record))
+        for action, own in said.items():
+            texts = sorted(own)
+            others = [text for each, of in said.items() if each != action for text in of]
             embeddings = encode_captions(self.tower, self.before.tokenizer, texts).numpy()
-            scope = scope.with_action(action, texts, embeddings)
+            others += self._known_captions
+            scope = scope.with_action(action, texts, embeddings, others)
         arms, gesturing = done(scope.arms, arm_actions(data)), done(scope.gestures, gestures(data))
         scope = replace(scope, arms=arms, gestures=gesturing)
         before = self.before
@@ -452,7 +467,7 @@ def old_captions(actions: Sequence[str], languages: Sequence[str]) -> list[str]:
             for code, texts in book.captions(labels, num=OLD_CAPTIONS, seed=0).items()
             if code in languages
             for text in texts
-        }.union(*(book.written(actions, code) for code in languages))
+        }.union(*(book.written_of(actions, code) for code in languages))
     )
 
 
@@ -475,7 +490,8 @@ def with_new_places(
 ) -> TextTower:
     """A tower of token pairs that sends `captions[i]` to `places[i]`, and all others as before.
 
-    The projection stays, and rows of tokens and pairs that known sentences have learn slowly.
+    The projection stays, and so do the rows of all tokens and pairs but those that tell the new
+    captions: a sentence without one of them is read as before.
 
     Args:
         tower: the old one; not changed.
@@ -491,12 +507,11 @@ def with_new_places(
     mine = set(own)
     old = [text for text in old if text not in mine]
     every = torch.cat([tower.place_keys(), places])  # [P + N, D]
-    student, rate = _extended(
-        tower, shared_keys([tokenizer(own)[0]], 1), shared_keys([tokenizer(old)[0]], 1)
-    )
+    student, learning = _extended(tower, tokenizer(own)[0], tokenizer(old)[0])
     student.requires_grad_(False).train()
     assert isinstance(student.encoder, TokenPairEncoder)
     rows = student.encoder.rows.weight.requires_grad_(True)
+    start = rows.detach().clone()
     others = [text for text in outside if text not in mine]
     near, far = range(len(old)), range(len(old), len(old) + len(others))
     pools = [(range(len(own)), 2), (near or far, 1), (far or near, 1)]
@@ -532,10 +547,9 @@ def with_new_places(
             loss = loss + NEARNESS * (1 - (pooled * aims).sum(-1)).mean()
             learner.zero_grad()
             loss.backward()  # type: ignore[no-untyped-call]
-            before = rows.detach().clone()
             learner.step()
             with torch.no_grad():
-                rows.copy_(before + rate[:, None] * (rows - before))
+                rows.copy_(start + (1 - PULL) * learning[:, None] * (rows - start))
     answers = torch.cat([tower.get_buffer("places").float(), places])  # [P + N, D]
     return with_places(student, answers, every if tower.config.text_place_keys else None)
 
@@ -549,22 +563,26 @@ def _pooled(tower: TextTower, tokenizer: PromptTokenizer, texts: Sequence[str]) 
     return normalize(tower.text_proj(mean), dim=-1)
 
 
-def _extended(tower: TextTower, keys: Tensor, known: Tensor) -> tuple[TextTower, Tensor]:
-    """A copy of the tower with a row for each of these keys that it does not know yet; how fast its
-    rows learn [rows]: none but those of these keys, and slowly where they are known ones, too."""
+def _extended(tower: TextTower, own: Tensor, old: Tensor) -> tuple[TextTower, Tensor]:
+    """A copy of the tower with a row for each key of the new captions (ids [N,L]) that it has none
+    for; and which of its rows tell them from the old ones [rows], as 0 and 1."""
     assert isinstance(tower.encoder, TokenPairEncoder)
     before = tower.encoder
-    fresh = keys[~torch.isin(keys, before.keys)]
+    keys, counts = counted_keys([own])
+    known, others = counted_keys([old])
+    at = torch.searchsorted(known, keys).clamp(max=len(known) - 1)
+    elsewhere = torch.where(known[at] == keys, others[at], 0) / len(old)
+    telling = keys[counts / len(own) >= OFTENER * elsewhere]
+    fresh = telling[~torch.isin(telling, before.keys)]
     every, order = torch.cat([before.keys, fresh]).sort()
     config = tower.config.model_copy(update={"text_pairs": len(every)})
     wider = TextTower(config, tower.embed_dim)
     state = copy.copy(tower.state_dict())
-    old = state["encoder.rows.weight"]  # [N + 1, H], the last one unknown
-    rows = torch.cat([old[:-1], torch.zeros(len(fresh), old.shape[1])])[order]
-    state |= {"encoder.keys": every, "encoder.rows.weight": torch.cat([rows, old[-1:]])}
+    rows = state["encoder.rows.weight"]  # [N + 1, H], the last one unknown
+    more = torch.cat([rows[:-1], torch.zeros(len(fresh), rows.shape[1])])[order]
+    state |= {"encoder.keys": every, "encoder.rows.weight": torch.cat([more, rows[-1:]])}
     wider.load_state_dict(state)
-    rate = torch.where(torch.isin(every, known), OLD_ROW_RATE, 1.0) * torch.isin(every, keys)
-    return wider, pad(rate, (0, 1))
+    return wider, pad(torch.isin(every, telling).float(), (0, 1))
 
 
 def network_of(init: str, overrides: Sequence[str] = ()) -> NetworkConfig:

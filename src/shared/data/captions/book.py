@@ -152,16 +152,16 @@ class CaptionBook:
                 found += language.sentences(labels)
         return found
 
-    def written(self, actions: Collection[str], lang: str) -> set[str]:
-        """The hand-written training sentences of these actions, without those that calibrate."""
-        language = self.language(lang)
-        return {
-            text
-            for labels in map(dict, language.sentence_keys())
-            if labels.get("action") in actions
-            for text in language.sentences(labels)
-            if not self.kept_to_calibrate(text, lang)
-        }
+    def written(self, labels: Labels, lang: str) -> list[str]:
+        """The hand-written training sentences of these labels, without those that calibrate."""
+        texts = self.language(lang).sentences(labels)
+        return [text for text in texts if not self.kept_to_calibrate(text, lang)]
+
+    def written_of(self, actions: Collection[str], lang: str) -> set[str]:
+        """Those of all labels of these actions."""
+        every = map(dict, self.language(lang).sentence_keys())
+        chosen = (labels for labels in every if labels.get("action") in actions)
+        return {text for labels in chosen for text in self.written(labels, lang)}
 
     def mirror_text(self, text: str, lang: str) -> str:
         """Text of the mirrored motion: left and right exchanged in all their forms.

@@ -44,12 +44,17 @@ def keys_of(input_ids: Tensor) -> Tensor:
     return torch.stack((tokens, pairs), -1)
 
 
-def shared_keys(batches: Iterable[Tensor], least: int) -> Tensor:
-    """The keys [N], ascending, that stand in at least so many of the texts."""
+def counted_keys(batches: Iterable[Tensor]) -> tuple[Tensor, Tensor]:
+    """The keys [N] of these texts, ascending; and in how many of them each stands [N]."""
     found = [torch.cat([torch.unique(keys_of(row[None])) for row in batch]) for batch in batches]
     keys, counts = torch.unique(torch.cat(found), return_counts=True)
-    shared: Tensor = keys[(counts >= least) & (keys > 0)]
-    return shared
+    return keys[keys > 0], counts[keys > 0]
+
+
+def shared_keys(batches: Iterable[Tensor], least: int) -> Tensor:
+    """The keys [N], ascending, that stand in at least so many of the texts."""
+    keys, counts = counted_keys(batches)
+    return keys[counts >= least]
 
 
 class TokenPairEncoder(nn.Module):

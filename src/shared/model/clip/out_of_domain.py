@@ -40,6 +40,10 @@ from ..checkpoint import of_another_version
 TABLE_FILE, META_FILE = "scope.safetensors", "scope.json"
 COVERAGES = (0.9, 0.95, 0.98, 0.99, 1.0)  # share of an action's captions its key words cover
 MAX_FALSE_ALARMS = 0.01  # share of held-out captions judged unknown
+OFTENER = (
+    20.0  # what tells of a new action is so many times as frequent in its captions as in others
+)
+COVERED = 0.98  # share of its captions that its key words cover, where they can
 HELD_OUT = 10  # every tenth caption calibrates
 MIN_TELLING = 0.5  # of log A, the evidence of a word that one action alone uses
 SAME_STEM = 0.65  # share of the longer word that two forms of one word begin alike
@@ -187,19 +191,35 @@ class OutOfDomainDetector:
             min_cosine=float(np.quantile(cosines, 0.01)) if pretrained_tower else None,
         )
 
-    def with_action(self, action: str, captions: Sequence[str], embeddings: np.ndarray) -> Self:
-        """The same scope, with an action more: its N captions and their embeddings [N, D].
+    def with_action(
+        self, action: str, captions: Sequence[str], embeddings: np.ndarray, others: Sequence[str]
+    ) -> Self:
+        """The same scope, with an action more.
 
-        Its key words are those that no action had before.
+        Args:
+            action: its name.
+            captions: N of it.
+            embeddings: [N, D] of them.
+            others: captions of all other actions; what is seldom in them tells of this one.
         """
-        words = frozenset[str]().union(*(words_of(caption) for caption in captions))
+        texts = [frozenset(words_of(caption)) for caption in captions]
+        here = Counter(word for text in texts for word in text)
+        there = Counter(word for caption in others for word in {*words_of(caption)} & here.keys())
+        share = {word: there[word] / max(len(others), 1) for word in here}
+        telling = {
+            word: math.log(2 / (1 + share[word] * len(texts) / number))
+            for word, number in here.items()
+            if number / len(texts) >= OFTENER * share[word]
+        }
+        key_words = dict(self.key_words)
+        for word, _ in sorted(_cover(texts, telling, COVERED)):
+            key_words[word] = (*key_words.get(word, ()), len(self.actions))
         place = _unit(embeddings.mean(axis=0))[None].astype(np.float32)
-        own = {word: (len(self.actions),) for word in sorted(words - self.words)}
         return replace(
             self,
             actions=(*self.actions, action),
-            key_words={**self.key_words, **own},
-            words=self.words | words,
+            key_words=key_words,
+            words=self.words.union(*texts),
             means=np.concatenate((self.means, place)),
         )
 
