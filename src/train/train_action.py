@@ -37,6 +37,7 @@ from ..shared.model.clip.core import (
     TextTower,
     TokenPairEncoder,
     counted_keys,
+    keys_of,
 )
 from ..shared.model.clip.out_of_domain import OFTENER, OutOfDomainDetector
 from ..shared.model.clip.pretrained import encode_captions, tower_hash
@@ -507,12 +508,22 @@ def with_new_places(
     mine = set(own)
     old = [text for text in old if text not in mine]
     every = torch.cat([tower.place_keys(), places])  # [P + N, D]
-    student, learning = _extended(tower, tokenizer(own)[0], tokenizer(old)[0])
-    student.requires_grad_(False).train()
+    telling = _telling(tokenizer(own)[0], tokenizer(old)[0])
+    student = _extended(tower, telling).requires_grad_(False).train()
     assert isinstance(student.encoder, TokenPairEncoder)
+    learning = pad(torch.isin(student.encoder.keys, telling).float(), (0, 1))  # [rows]
     rows = student.encoder.rows.weight.requires_grad_(True)
     start = rows.detach().clone()
     others = [text for text in outside if text not in mine]
+
+    def touched(texts: list[str]) -> list[str]:
+        """Those of whose rows any learns: all others are read as before whatever is learned."""
+        if not texts:
+            return []
+        hit = torch.isin(keys_of(tokenizer(texts)[0]), telling).flatten(1).any(1)
+        return [text for text, each in zip(texts, hit.tolist(), strict=True) if each]
+
+    old, others = touched(old) or old, touched(others) or others
     near, far = range(len(old)), range(len(old), len(old) + len(others))
     pools = [(range(len(own)), 2), (near or far, 1), (far or near, 1)]
     old += others
@@ -563,18 +574,21 @@ def _pooled(tower: TextTower, tokenizer: PromptTokenizer, texts: Sequence[str]) 
     return normalize(tower.text_proj(mean), dim=-1)
 
 
-def _extended(tower: TextTower, own: Tensor, old: Tensor) -> tuple[TextTower, Tensor]:
-    """A copy of the tower with a row for each key of the new captions (ids [N,L]) that it has none
-    for; and which of its rows tell them from the old ones [rows], as 0 and 1."""
-    assert isinstance(tower.encoder, TokenPairEncoder)
-    before = tower.encoder
+def _telling(own: Tensor, old: Tensor) -> Tensor:
+    """Keys that are OFTENER times as frequent in new captions (ids [N,L]) as in old ones [M,L]."""
     keys, counts = counted_keys([own])
     known, others = counted_keys([old])
     at = torch.searchsorted(known, keys).clamp(max=len(known) - 1)
     elsewhere = torch.where(known[at] == keys, others[at], 0) / len(old)
-    telling = keys[counts / len(own) >= OFTENER * elsewhere]
-    fresh = telling[~torch.isin(telling, before.keys)]
-    every, order = torch.cat([before.keys, fresh]).sort()
+    return keys[counts / len(own) >= OFTENER * elsewhere]
+
+
+def _extended(tower: TextTower, keys: Tensor) -> TextTower:
+    """A copy of the tower with a row for each of these keys that it has none for."""
+    assert isinstance(tower.encoder, TokenPairEncoder)
+    before = tower.encoder.keys
+    fresh = keys[~torch.isin(keys, before)]
+    every, order = torch.cat([before, fresh]).sort()
     config = tower.config.model_copy(update={"text_pairs": len(every)})
     wider = TextTower(config, tower.embed_dim)
     state = copy.copy(tower.state_dict())
@@ -582,7 +596,7 @@ def _extended(tower: TextTower, own: Tensor, old: Tensor) -> tuple[TextTower, Te
     more = torch.cat([rows[:-1], torch.zeros(len(fresh), rows.shape[1])])[order]
     state |= {"encoder.keys": every, "encoder.rows.weight": torch.cat([more, rows[-1:]])}
     wider.load_state_dict(state)
-    return wider, pad(torch.isin(every, telling).float(), (0, 1))
+    return wider
 
 
 def network_of(init: str, overrides: Sequence[str] = ()) -> NetworkConfig:
